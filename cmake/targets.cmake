@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# standpoint_library(NAME SOURCES... [PUBLIC libs...] [PRIVATE libs...]): one target per folder, includes written from the root.
+function(standpoint_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wno-missing-field-initializers)
+  if(STANDPOINT_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()
+
+function(standpoint_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(standpoint_${name} STATIC ${ARG_SOURCES})
+  target_include_directories(standpoint_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_link_libraries(standpoint_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  standpoint_warnings(standpoint_${name})
+endfunction()
+
+# standpoint_test(FOLDER SOURCES... [LIBS libs...]): one test program per folder, each TEST a ctest of its own name.
+function(standpoint_test folder)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
+  add_executable(test_${folder} ${ARG_SOURCES})
+  target_link_libraries(test_${folder} PRIVATE ${ARG_LIBS} GTest::gmock GTest::gtest_main)
+  target_compile_definitions(test_${folder} PRIVATE SOURCE_DIR="${PROJECT_SOURCE_DIR}" BINARY_DIR="${CMAKE_BINARY_DIR}")
+  standpoint_warnings(test_${folder})
+  gtest_discover_tests(test_${folder} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 120)
+endfunction()

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include <tl/expected.hpp>
+
+namespace standpoint {
+
+enum class ErrorKind {
+  usage,       // wrong option or argument: exit code 2
+  unusable,    // the input is not usable as it is: exit code 3
+  file_system, // cannot read, write, create, or the disk is full: exit code 4
+  cancelled,   // the user asked for it: exit code 130
+  internal,    // a defect of ours, or of a library: exit code 3
+};
+
+// `source` names file and place ("house.ifc #1234", "rtc360.json /range_noise_m", "job.json line 7").
+// `message` says what is wrong and, where there is one, the remedy.
+struct Error {
+  ErrorKind kind = ErrorKind::internal;
+  std::string message;
+  std::string source;
+};
+
+template <class T>
+using Result = tl::expected<T, Error>;
+
+inline tl::unexpected<Error> failure(ErrorKind kind, std::string message, std::string source = {}) {
+  return tl::unexpected<Error>(Error{kind, std::move(message), std::move(source)});
+}
+
+inline tl::unexpected<Error> failure(Error error) { return tl::unexpected<Error>(std::move(error)); }
+
+// "house.ifc #12: message"
+inline std::string describe(const Error& error) {
+  return error.source.empty() ? error.message : error.source + ": " + error.message;
+}
+
+}  // namespace standpoint

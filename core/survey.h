@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+namespace standpoint {
+
+// A rigid pose in double; world_from_scanner: x right-handed with Z up along the standing axis.
+struct Pose {
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  // w >= 0, |q| = 1
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();         // metres, local frame
+  Eigen::Vector3d operator*(const Eigen::Vector3d& p) const { return rotation * p + translation; }
+};
+
+// A pose as a function of time: constant for a tripod (one sample), interpolated between samples for what moves.
+struct Trajectory {
+  std::vector<double> time_s;   // ascending
+  std::vector<Pose> pose;       // same size, at least one
+};
+Pose at(const Trajectory& trajectory, double time_s);
+
+// What a scan left behind; the points themselves stay in the file.
+struct Scan {
+  std::string instrument;       // id
+  std::string file;             // as the user gave it
+  std::string format;           // "e57", "ptx"
+  std::vector<std::pair<std::string, std::string>> settings;
+  std::uint64_t seed = 0;
+  std::uint64_t pulses = 0;
+  std::uint64_t points = 0;
+  double instrument_seconds = 0;
+};
+
+struct Station {
+  std::string name;
+  double instrument_height_m = 0;   // tilting axis above the ground mark
+  Pose true_pose;                   // of the instrument's centre: what the simulation knows
+  std::optional<Pose> solved_pose;  // what the surveyor would know after registration
+  std::vector<Scan> scans;
+};
+
+enum class TargetKind { sphere, checkerboard };
+
+struct Target {
+  std::string name;
+  TargetKind kind = TargetKind::sphere;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();   // local frame
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  // of a checkerboard
+  double size_m = 0.145;                              // diameter or side
+};
+
+struct ControlPoint {
+  std::string name;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero(); // local frame
+  double sigma_m = 0;
+};
+
+// A surveying job: what the crew sets up and stores.
+struct Job {
+  std::string name;
+  std::vector<Station> stations;
+  std::vector<Target> targets;
+  std::vector<ControlPoint> control_points;
+};
+
+}  // namespace standpoint

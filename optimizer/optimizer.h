@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/environment.h"
+#include "core/progress.h"
+#include "core/report.h"
+#include "core/result.h"
+
+namespace standpoint {
+
+struct OptimizeOptions {
+  std::uint64_t budget = 0;        // placed triangles in all; 0 = only what costs nothing (planar regions merged)
+  double max_deviation_m = 0.015;  // no collapse may cost more, per product
+};
+
+struct ProductLoss {
+  std::uint64_t triangles_before = 0, triangles_after = 0;
+  double max_deviation_m = 0;      // sampled symmetric Hausdorff distance between the product before and after
+  double mean_deviation_m = 0;     // area-weighted, both directions
+};
+
+struct OptimizeResult {
+  Environment environment;         // same products, surfaces and spatial structure; lighter meshes
+  std::vector<ProductLoss> products;
+  ProductLoss all;
+  bool budget_reached = true;
+  std::uint64_t smallest_budget = 0;   // that keeps max_deviation_m, when the budget was not reached
+  Report report;
+};
+
+// Planar regions are merged without loss, then a global budget is shared by cost over all shapes. Deterministic.
+Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOptions& options, Progress& progress);
+
+struct CollideOptions {
+  double agent_radius_m = 0.3;
+  double agent_height_m = 1.8;
+};
+
+enum class CollisionShapeKind { box, convex, mesh };
+struct CollisionShape {
+  CollisionShapeKind kind = CollisionShapeKind::box;
+  std::uint32_t product = 0;
+  Mesh mesh;                       // of the shape in the local frame; convex for box and convex. Surface indices are 0.
+};
+
+struct ProductCollision {
+  std::uint32_t shapes = 0;
+  std::uint64_t triangles = 0;
+  double max_deviation_m = 0;      // of the shape from the product's surface
+};
+
+struct Door {
+  std::uint32_t product = 0;
+  bool floor = false;              // there is floor on both sides
+  bool passable = false;           // the agent's capsule passes both ways
+};
+
+struct CollideResult {
+  std::vector<CollisionShape> shapes;         // sorted by product; none for door leaves (doors stay open)
+  std::vector<ProductCollision> products;     // one per product of the environment
+  std::vector<Door> doors;
+  double walkable_area_m2 = 0;
+  Mesh walkable;                              // local frame, for display
+  Report report;                              // doors without a floor, doors that are blocked, shapes that fell back
+};
+
+Result<CollideResult> collide(const Environment& environment, const CollideOptions& options, Progress& progress);
+
+}  // namespace standpoint

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/points.h"
+#include "core/progress.h"
+#include "core/report.h"
+#include "core/result.h"
+
+namespace standpoint {
+
+struct ScanInfo {
+  ScanHeader header;
+  std::uint64_t points = 0;        // that the file holds
+};
+struct CloudInfo {
+  std::string format;
+  std::vector<ScanInfo> scans;
+  Report report;
+};
+
+struct CloudFormat {
+  const char* name;                // "e57"
+  const char* description;
+  const char* extension;           // ".e57"
+  bool many_scans;                 // one file holds several stations
+  Result<std::unique_ptr<PointSink>> (*writer)(const std::filesystem::path&);   // null when it cannot be written
+  // Streams every scan of a file to `sink` (begin, write…, end for each; not close). Null when it cannot be read.
+  Result<Report> (*read)(const std::filesystem::path&, PointSink& sink, Progress&);
+  Result<CloudInfo> (*info)(const std::filesystem::path&);
+};
+
+// The table of formats; a new one is one file and one line in formats.cpp.
+std::span<const CloudFormat> cloudFormats();
+const CloudFormat* cloudFormatFor(const std::filesystem::path& file);   // by extension; null when unknown
+
+// Writers create `file` + ".part" and rename it in close(), so a full disk or a crash leaves the old file as it was.
+
+// Copies all scans of IN to OUT; OUT's format must be writable. When OUT cannot hold many scans and IN has several, each
+// gets its own file: name-<station>.ext. Returns the files written.
+Result<std::vector<std::filesystem::path>> convertCloud(const std::filesystem::path& in, const std::filesystem::path& out,
+                                                        Report& report, Progress& progress);
+
+}  // namespace standpoint

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/environment.h"
+#include "core/georeference.h"
+#include "core/physical_material.h"
+#include "core/report.h"
+#include "core/survey.h"
+#include "materials/materials.h"
+#include "optimizer/optimizer.h"
+
+namespace standpoint {
+
+// What the optimizer did to reach the lighter environment.
+struct Lightening {
+  std::shared_ptr<const Environment> environment;
+  std::vector<ProductLoss> products;
+  ProductLoss all;
+  OptimizeOptions options;
+};
+
+struct MaterialChoice {
+  std::string rules_file;                       // empty = the default rules
+  std::vector<MaterialOverride> overrides;
+  MaterialResult result;
+};
+
+// The document is a value: every part is shared and immutable; two parts with the same pointer have not changed, so a
+// viewport or a ray engine rebuilds only what did. Parts that do not exist yet are null.
+struct Document {
+  std::string name;                                  // of the project
+  std::vector<std::string> sources;                  // the model files it came from
+  std::shared_ptr<const Environment> imported;       // as read from the model
+  std::shared_ptr<const Georeference> georeference;
+  std::shared_ptr<const Report> import_report;
+  std::shared_ptr<const Lightening> lightening;
+  std::shared_ptr<const CollideResult> collision;
+  std::shared_ptr<const MaterialChoice> materials;
+  std::shared_ptr<const Job> job;
+
+  // What is shown, walked in and scanned: the lighter environment where there is one.
+  const std::shared_ptr<const Environment>& environment() const {
+    return lightening ? lightening->environment : imported;
+  }
+  bool operator==(const Document&) const = default;
+};
+
+}  // namespace standpoint

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "project/document.h"
+
+namespace standpoint {
+
+// Undo is the previous value. One entry for each change, oldest first; the document's parts are shared, so an entry
+// costs what changed.
+class History {
+ public:
+  explicit History(Document initial = {}, std::string description = "New project");
+
+  const Document& current() const { return entries_[position_].document; }
+  // Drops what was undone, then adds. A change that changes nothing is not an entry.
+  void push(Document document, std::string description);
+  bool canUndo() const { return position_ > 0; }
+  bool canRedo() const { return position_ + 1 < entries_.size(); }
+  void undo();
+  void redo();
+  std::string undoDescription() const;   // of what undo() would take back; "" when there is nothing
+  std::string redoDescription() const;
+
+  // For the title's "modified" mark: is the current value the one that was saved?
+  void markSaved() { saved_ = position_; }
+  bool modified() const { return saved_ != position_; }
+
+ private:
+  struct Entry {
+    Document document;
+    std::string description;
+  };
+  std::vector<Entry> entries_;
+  std::size_t position_ = 0;
+  std::size_t saved_ = 0;
+};
+
+}  // namespace standpoint

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/progress.h"
+#include "core/report.h"
+#include "core/result.h"
+#include "project/document.h"
+
+namespace standpoint {
+
+enum class ParameterKind {
+  text,      // string
+  number,    // double, in Parameter::unit, within [minimum, maximum]
+  integer,   // whole number, within [minimum, maximum]
+  flag,      // true when given
+  choice,    // one of Parameter::choices
+  path,      // file or folder
+  triple,    // "E,N,H" or "X,Y,Z": array of three numbers
+  pairs,     // "key=value ...": array of strings
+  list,      // array of strings
+};
+
+// One option of a verb: the one truth for command line, help, job files, and the editor's widgets.
+struct Parameter {
+  const char* name;              // "max-deviation"; on the command line --max-deviation, in a job "max-deviation"
+  ParameterKind kind;
+  const char* help;
+  const char* unit = "";         // "m", "deg"
+  nlohmann::json standard = {};  // default; null = none
+  double minimum = -1e300, maximum = 1e300;
+  std::vector<const char*> choices = {};
+  bool positional = false;
+  bool required = false;
+};
+
+enum class VerbScope {
+  creates,   // makes a document (import): `project` is written
+  changes,   // document → document: the project is read, changed and written
+  reads,     // document → answer: the project is read
+  files,     // no document at all
+};
+
+// What a verb gives back. `answer` is what --json prints; `description` is the undo list's line ("Moved station S2 by 0.35 m").
+struct Outcome {
+  Document document;
+  nlohmann::json answer = nlohmann::json::object();
+  Report report;
+  std::string description;
+};
+
+// A verb never changes its argument: undo is the previous value.
+struct Verb {
+  const char* name;                          // "optimize"
+  const char* summary;
+  VerbScope scope;
+  std::vector<Parameter> parameters;         // without the project itself
+  Result<Outcome> (*run)(const Document&, const nlohmann::json& options, Progress&);
+};
+
+// The tables of verbs: this one and emulated-ui's; the doors join them.
+std::span<const Verb> verbs();
+const Verb* findVerb(std::span<const Verb> table, std::string_view name);
+
+// Fills in defaults and checks kinds, domains, unknown and missing options; errors name the option and what it may be.
+Result<nlohmann::json> checkOptions(const Verb& verb, const nlohmann::json& options);
+
+// checkOptions, then run. Every door goes through here.
+Result<Outcome> runVerb(const Verb& verb, const Document& document, const nlohmann::json& options, Progress& progress);
+
+// Where the program's own data lies: instruments, materials, rules, schemas, samples. STANDPOINT_DATA, else beside the
+// program's sources as built.
+std::filesystem::path dataFolder();
+
+}  // namespace standpoint

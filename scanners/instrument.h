@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/result.h"
+
+namespace standpoint {
+
+// A figure with its evidence, as every figure of an instrument file has it: "S59" (data sheet or paper), "derived",
+// "unsourced" (may be used, never claimed).
+struct Evidence {
+  std::string mark;
+  std::string source;
+};
+
+// A setting as the device offers it, in the device's own words: resolution = 3mm | 6mm | 12mm.
+struct SettingChoice {
+  std::string value;               // "12mm"
+  std::string label;               // "Low (12 mm @ 10 m)"
+  // What the choice changes: column/row counts, measurement rate, noise factor, passes, seconds (see the schema).
+  std::map<std::string, double> effects;
+};
+struct InstrumentSetting {
+  std::string key;                 // "resolution"
+  std::string label;
+  std::string unit;
+  std::vector<SettingChoice> choices;
+  std::string standard;            // default value
+};
+
+struct RangeNoise {
+  double range_m = 0;
+  double reflectivity = 0;
+  double sigma_m = 0;
+};
+
+// An instrument from scanners/instruments/<id>.json: data, no code.
+struct Instrument {
+  std::string id, maker, model;
+  std::string technology;          // "time_of_flight" or "phase_shift"
+  double wavelength_nm = 0;
+  double divergence_rad = 0;       // full angle, 1/e²
+  double exit_diameter_m = 0;      // 1/e²
+  double min_range_m = 0, max_range_m = 0;
+  double reference_reflectivity = 0;   // at which max_range_m holds
+  double min_elevation_rad = 0, max_elevation_rad = 0;
+  double angle_sigma_rad = 0;
+  double range_bias_m = 0, range_bias_ppm = 0;   // accuracy: systematic, drawn once per scan
+  std::vector<RangeNoise> range_noise;           // 1 σ on a plane
+  double trunnion_height_m = 0;    // of the tilting axis above the tripod plate
+  double tripod_height_m = 0;      // default height of the axis above the ground
+  double imaging_seconds = 0;
+  std::vector<InstrumentSetting> settings;
+  std::map<std::string, Evidence> evidence;      // by JSON pointer
+};
+
+Result<Instrument> readInstrument(const std::filesystem::path& file);
+// Every *.json of the folder, by id. An unknown key, a missing source or a figure out of its unit's range is an error
+// with file and JSON pointer.
+Result<std::vector<Instrument>> readInstruments(const std::filesystem::path& folder);
+
+using SettingValues = std::vector<std::pair<std::string, std::string>>;   // key, value, in the device's words
+
+// What a scan with these settings does: the grid, the time, the noise. Refused settings name what the device allows.
+struct ScanSettings {
+  SettingValues values;            // complete: defaults filled in, in the instrument's order
+  std::uint32_t columns = 0, rows = 0;
+  double azimuth_from_rad = 0, azimuth_to_rad = 0;
+  double elevation_from_rad = 0, elevation_to_rad = 0;
+  double noise_factor = 1;
+  int passes = 1;                  // 2 = double scan
+  bool imaging = false;
+  double scan_seconds = 0, imaging_seconds = 0;   // of the real instrument
+};
+Result<ScanSettings> resolveSettings(const Instrument& instrument, const SettingValues& values);
+
+}  // namespace standpoint

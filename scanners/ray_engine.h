@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "core/environment.h"
+#include "core/physical_material.h"
+#include "core/points.h"
+#include "core/progress.h"
+#include "core/result.h"
+#include "scanners/instrument.h"
+
+namespace standpoint {
+
+struct RayHit {
+  double range_m = 0;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // local frame
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   // geometric, unit, towards the ray's origin
+  std::uint32_t product = 0, surface = 0, instance = 0, triangle = 0;
+};
+
+// An Environment as rays see it (Embree 3, ROBUST, instanced meshes). Immutable after build; intersect is thread-safe.
+// The editor picks with it, too. Products that are not tangible are left out.
+class RayScene {
+ public:
+  static Result<std::shared_ptr<const RayScene>> build(std::shared_ptr<const Environment> environment, Progress& progress);
+  virtual ~RayScene() = default;
+  virtual std::optional<RayHit> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
+                                          double max_range_m) const = 0;
+  virtual const Environment& environment() const = 0;
+};
+
+struct ScanOptions {
+  std::uint64_t seed = 1;
+  bool ideal = false;              // no noise at all: the truth
+  int threads = 0;                 // 0 = all
+  std::uint32_t station_key = 0;   // random numbers belong to the station: a stable hash of its name
+};
+
+struct ScanCount {
+  std::uint64_t pulses = 0, returns = 0, points = 0;
+};
+
+// Scans from `local_from_scanner` (a function of time; one sample for a tripod) and streams the points to `sink`, which
+// has been begun with `header`. Blocks arrive in column order whatever the number of threads; the same arguments give
+// the same bytes. Received power: physics.md §2.1 (x = ρ_eq(θ)/R² · η_opt), detection §2.7, noise §3.
+Result<ScanCount> scan(const RayScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
+                       const ScanSettings& settings, const Trajectory& local_from_scanner, const ScanOptions& options,
+                       PointSink& sink, Progress& progress);
+
+}  // namespace standpoint
