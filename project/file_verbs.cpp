@@ -40,7 +40,7 @@ std::string lowerExtension(const fs::path& file) {
   return extension;
 }
 
-Result<void> exists(const fs::path& file) {
+Result<void> mustExist(const fs::path& file) {
   std::error_code error;
   if (!fs::exists(file, error)) return failure(ErrorKind::file_system, "there is no such file", file.string());
   return {};
@@ -63,7 +63,7 @@ Result<Outcome> runExport(const Document& document, const json& options, Progres
 
 Result<Outcome> runConvert(const Document& document, const json& options, Progress& progress) {
   const fs::path in = options.at("in").get<std::string>();
-  if (auto ok = exists(in); !ok) return failure(ok.error());
+  if (auto ok = mustExist(in); !ok) return failure(ok.error());
   progress.stage("Convert " + in.filename().string());
   Outcome outcome{document, json::object(), {}, {}};
   auto files = convertCloud(in, options.at("out").get<std::string>(), outcome.report, progress);
@@ -77,7 +77,7 @@ Result<Outcome> runConvert(const Document& document, const json& options, Progre
 
 Result<Outcome> runInfo(const Document& document, const json& options, Progress& progress) {
   const fs::path file = options.at("file").get<std::string>();
-  if (auto ok = exists(file); !ok) return failure(ok.error());
+  if (auto ok = mustExist(file); !ok) return failure(ok.error());
   progress.stage("Read " + file.filename().string());
   Outcome outcome{document, json::object(), {}, {}};
   if (const auto* format = cloudFormatFor(file); format != nullptr && format->info != nullptr) {
