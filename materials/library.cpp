@@ -23,7 +23,7 @@ struct Figure {
 constexpr Figure kFigures[] = {
     {"roughness_rad", &PhysicalMaterial::roughness_rad, 0, kHalfPi},
     {"gloss_slope", &PhysicalMaterial::gloss_slope, 0, 1},
-    {"index_of_refraction", &PhysicalMaterial::index_of_refraction, 1, 100},  // metals: an effective real index
+    {"index_of_refraction", &PhysicalMaterial::index_of_refraction, 1, 1000},  // metals: effective
     {"thickness_m", &PhysicalMaterial::thickness_m, 1e-5, 1},
 };
 

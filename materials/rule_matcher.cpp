@@ -70,13 +70,17 @@ bool RuleMatcher::knows(const std::string& material_name) {
   return std::any_of(all.begin(), all.end(), [](int glob) { return glob >= 0; });
 }
 
-// The surface's own name where a rule knows it; else the product's materials, and of layers the outer ones first:
-// what lies between them meets no beam.
+// The surface's own name where a rule knows it; else the product's materials, and of layers the outer ones first: what
+// lies between them meets no beam. A named surface of a product with several materials may be any of them ("Sash" of
+// "Glass, Sash"), so none is taken for it.
 std::string RuleMatcher::knownMaterialName(const Product& product, const Surface& surface) {
   if (knows(surface.name)) return surface.name;
-  if (!product.layers.empty())
+  if (!product.layers.empty()) {
     for (const auto* layer : {&product.layers.front(), &product.layers.back()})
       if (knows(layer->name)) return layer->name;
+  } else if (!surface.name.empty() && product.materials.size() > 1) {
+    return {};
+  }
   for (const auto& name : product.materials)
     if (knows(name)) return name;
   return {};
