@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/random.h"
 #include "optimizer/triangle_tree.h"
 
 namespace standpoint {
@@ -16,27 +15,8 @@ using Eigen::Vector3d;
 
 constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
 
-double areaOf(const Shape& s, const Triangle& t) {
-  return 0.5 * (s.positions[t[1]] - s.positions[t[0]]).cross(s.positions[t[2]] - s.positions[t[0]]).norm();
-}
-
-// One sample per equal share of the area, at a random place in its triangle.
-template <class Visit>
-void sampleByArea(const Shape& shape, std::uint32_t samples, const RandomKey& key, Visit visit) {
-  double total = 0;
-  for (const auto& t : shape.triangles) total += areaOf(shape, t);
-  if (!(total > 0)) return;
-  double walked = 0;
-  std::uint32_t done = 0;
-  for (std::uint32_t i = 0; i < shape.triangles.size(); ++i) {
-    const auto& t = shape.triangles[i];
-    walked += areaOf(shape, t);
-    for (; done < samples && (done + 0.5) * total <= walked * samples; ++done) {
-      const auto block = philox(key, done, 0, 0);
-      const double r = std::sqrt(uniform(block[0])), s = uniform(block[1]);
-      visit(i, (1 - r) * shape.positions[t[0]] + r * (1 - s) * shape.positions[t[1]] + r * s * shape.positions[t[2]]);
-    }
-  }
+double areaOf(std::span<const Vector3d> positions, const Triangle& t) {
+  return 0.5 * (positions[t[1]] - positions[t[0]]).cross(positions[t[2]] - positions[t[0]]).norm();
 }
 
 struct OneWay {
@@ -62,7 +42,7 @@ OneWay oneWay(const Shape& from, const Shape& to, const TriangleTree& tree, cons
     const auto hint = triangle < counterpart.size() ? counterpart[triangle] : kNone;
     return tree.squaredDistance(p, hint != kNone ? squaredDistance(p, to, hint) : std::numeric_limits<double>::infinity());
   };
-  sampleByArea(from, samples, key, [&](std::uint32_t triangle, const Vector3d& p) { result.add(nearest(triangle, p)); });
+  for (const auto& point : pointsByArea(from.positions, from.triangles, samples, key)) result.add(nearest(point.triangle, point.position));
   std::vector<bool> seen(from.positions.size(), false);
   for (std::uint32_t i = 0; i < from.triangles.size(); ++i)
     for (const auto v : from.triangles[i]) {
@@ -75,13 +55,33 @@ OneWay oneWay(const Shape& from, const Shape& to, const TriangleTree& tree, cons
 
 Deviation deviationOfDropped(const Shape& shape, std::uint32_t samples, const RandomKey& key) {
   OneWay way;
-  sampleByArea(shape, samples, key, [&](std::uint32_t, const Vector3d& p) { way.add(p.squaredNorm()); });
+  for (const auto& point : pointsByArea(shape.positions, shape.triangles, samples, key)) way.add(point.position.squaredNorm());
   for (const auto& t : shape.triangles)
     for (const auto v : t) way.max_squared = std::max(way.max_squared, shape.positions[v].squaredNorm());
   return {std::sqrt(way.max_squared), way.mean(), 0};
 }
 
 }  // namespace
+
+std::vector<SurfacePoint> pointsByArea(std::span<const Vector3d> positions, std::span<const Triangle> triangles, std::uint32_t count,
+                                       const RandomKey& key) {
+  std::vector<SurfacePoint> points;
+  double total = 0;
+  for (const auto& t : triangles) total += areaOf(positions, t);
+  if (!(total > 0)) return points;
+  points.reserve(count);
+  double walked = 0;
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    const auto& t = triangles[i];
+    walked += areaOf(positions, t);
+    while (points.size() < count && (static_cast<double>(points.size()) + 0.5) * total <= walked * count) {
+      const auto block = philox(key, static_cast<std::uint32_t>(points.size()), 0, 0);
+      const double r = std::sqrt(uniform(block[0])), s = uniform(block[1]);
+      points.push_back({i, (1 - r) * positions[t[0]] + r * (1 - s) * positions[t[1]] + r * s * positions[t[2]]});
+    }
+  }
+  return points;
+}
 
 Deviation measureDeviation(const Shape& before, const Shape& after, const std::vector<std::uint32_t>& image, std::uint32_t samples,
                            std::uint64_t seed) {
@@ -99,7 +99,7 @@ Deviation measureDeviation(const Shape& before, const Shape& after, const std::v
     result.max_m = std::sqrt(std::max(there.max_squared, back.max_squared));
     result.mean_m = 0.5 * (there.mean() + back.mean());
   }
-  for (const auto& t : before.triangles) result.area_m2 += areaOf(before, t);
+  for (const auto& t : before.triangles) result.area_m2 += areaOf(before.positions, t);
   return result;
 }
 

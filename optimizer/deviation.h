@@ -2,11 +2,22 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "core/random.h"
 #include "optimizer/shape.h"
 
 namespace standpoint {
+
+struct SurfacePoint {
+  std::uint32_t triangle = 0;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+};
+
+// One point per equal share of the area, at a random place in its triangle. The same key gives the same points.
+std::vector<SurfacePoint> pointsByArea(std::span<const Eigen::Vector3d> positions, std::span<const Triangle> triangles,
+                                       std::uint32_t count, const RandomKey& key);
 
 struct Deviation {
   double max_m = 0;   // sampled symmetric Hausdorff distance
