@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <random>
-#include <sstream>
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <array>
-#include <chrono>
-
 #include <gmock/gmock.h>
 
 #include "materials/colour.h"
