@@ -5,6 +5,7 @@
 #include <functional>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "core/result.h"
 
@@ -28,6 +29,10 @@ class Progress {
   // Error of kind `cancelled` once cancel() was called.
   Result<void> check() const;
 
+  // Called from the worker when a stage begins and whenever the whole has moved by another hundredth. Set it before the
+  // work starts.
+  void onChange(std::function<void()> watcher) { watcher_ = std::move(watcher); }
+
   double fraction() const { return fraction_.load(std::memory_order_relaxed); }
   std::string stageName() const;
 
@@ -38,6 +43,8 @@ class Progress {
   std::string name_;
   double from_ = 0;
   double to_ = 1;
+  int told_percent_ = -1;
+  std::function<void()> watcher_;
 };
 
 }  // namespace standpoint

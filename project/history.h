@@ -29,6 +29,7 @@ class History {
   bool modified() const { return saved_ != position_; }
 
  private:
+  static constexpr std::size_t kNeverSaved = static_cast<std::size_t>(-1);
   struct Entry {
     Document document;
     std::string description;

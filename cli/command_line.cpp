@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/command_line.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <map>
+#include <ostream>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "project/answers.h"
+#include "project/session.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+
+// What CLI11 fills in for one verb; turned into the JSON that a job file would have.
+struct Words {
+  const Verb* verb = nullptr;
+  CLI::App* app = nullptr;
+  std::string project;
+  std::map<std::string, std::vector<std::string>> values;   // by parameter
+  std::map<std::string, bool> flags;
+  bool print_json = false;
+  bool allow_loss = false;
+};
+
+std::string placeholder(const Parameter& p) {
+  switch (p.kind) {
+    case ParameterKind::number:
+    case ParameterKind::integer: return *p.unit != 0 ? p.unit : "N";
+    case ParameterKind::choice: return fmt::format("{}", fmt::join(p.choices, "|"));
+    case ParameterKind::triple: return "X,Y,Z";
+    case ParameterKind::pairs: return "KEY=VALUE ...";
+    case ParameterKind::path: return "PATH";
+    default: return "TEXT";
+  }
+}
+
+std::string helpOf(const Parameter& p) {
+  std::string help = p.help;
+  if (!p.standard.is_null()) help += fmt::format(" (default {})", p.standard.is_string() ? p.standard.get<std::string>() : p.standard.dump());
+  return help;
+}
+
+void describeVerb(Words& words) {
+  CLI::App& app = *words.app;
+  if (words.verb->scope == VerbScope::changes || words.verb->scope == VerbScope::reads)
+    app.add_option("project", words.project, "the project's folder")->required();
+  for (const auto& p : words.verb->parameters) {
+    if (p.kind == ParameterKind::flag) {
+      app.add_flag(fmt::format("--{}", p.name), words.flags[p.name], helpOf(p));
+      continue;
+    }
+    std::string names = p.positional ? std::string(p.name) : fmt::format("--{}", p.name);
+    if (std::string_view(p.name) == "output") names = "-o," + names;
+    auto* option = app.add_option(names, words.values[p.name], helpOf(p))->type_name(placeholder(p));
+    const bool many = p.kind == ParameterKind::list || p.kind == ParameterKind::pairs;
+    option->expected(1, many ? 1 << 20 : 1);
+    if (p.required) option->required();
+  }
+  app.add_flag("--json", words.print_json, "print one JSON object on standard output");
+  app.add_flag("--allow-loss", words.allow_loss, "exit with 0 even when something was lost");
+}
+
+Result<json> valueOf(const Parameter& p, const std::vector<std::string>& texts) {
+  switch (p.kind) {
+    case ParameterKind::list:
+    case ParameterKind::pairs: return json(texts);
+    case ParameterKind::triple: {
+      auto numbers = parseNumbers(texts.back());
+      if (!numbers) return failure(ErrorKind::usage, numbers.error().message, fmt::format("--{}", p.name));
+      return numbers;
+    }
+    case ParameterKind::number:
+    case ParameterKind::integer: {
+      const json number = json::parse(texts.back(), nullptr, false);
+      if (!number.is_number())
+        return failure(ErrorKind::usage, fmt::format("'{}' is not a number", texts.back()), fmt::format("--{}", p.name));
+      return number;
+    }
+    default: return json(texts.back());
+  }
+}
+
+Result<json> optionsFrom(const Words& words) {
+  json options = json::object();
+  if (!words.project.empty()) options["project"] = words.project;
+  for (const auto& p : words.verb->parameters) {
+    if (const auto flag = words.flags.find(p.name); flag != words.flags.end()) {
+      if (flag->second) options[p.name] = true;
+      continue;
+    }
+    const auto& texts = words.values.at(p.name);
+    if (texts.empty()) continue;
+    auto value = valueOf(p, texts);
+    if (!value) return value;
+    options[p.name] = *std::move(value);
+  }
+  return options;
+}
+
+// A bar on a terminal, redrawn ten times a second from its own thread; nothing otherwise.
+class Bar {
+ public:
+  Bar(const Streams& streams, const Progress& progress) : streams_(streams) {
+    if (!streams.bar) return;
+    thread_ = std::thread([this, &progress] {
+      while (!stop_.load()) {
+        const int done = static_cast<int>(progress.fraction() * 30);
+        streams_.err << fmt::format("\r\033[K[{:<30}] {:3.0f} % {}", std::string(static_cast<std::size_t>(done), '#'),
+                                    progress.fraction() * 100, progress.stageName())
+                     << std::flush;
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      }
+      streams_.err << "\r\033[K" << std::flush;
+    });
+  }
+  ~Bar() {
+    stop_.store(true);
+    if (thread_.joinable()) thread_.join();
+  }
+  Bar(const Bar&) = delete;
+  Bar& operator=(const Bar&) = delete;
+
+ private:
+  const Streams& streams_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+void printText(const Outcome& outcome, const Streams& streams) {
+  for (const auto& issue : outcome.report.issues)
+    streams.err << fmt::format("{}: {}{}{}\n", name(issue.severity), issue.source, issue.source.empty() ? "" : ": ", issue.message);
+  if (!outcome.description.empty()) streams.out << outcome.description << "\n";
+  for (const auto& [key, value] : outcome.answer.items())
+    if (value.is_primitive() && key != "seconds") streams.out << fmt::format("  {}: {}\n", key, value.dump());
+}
+
+int finish(const Words& words, const Result<Outcome>& outcome, const Streams& streams) {
+  if (!outcome) {
+    if (words.print_json)
+      streams.out << json{{"error", {{"message", outcome.error().message}, {"source", outcome.error().source}}}}.dump() << "\n";
+    streams.err << "standpoint " << words.verb->name << ": " << describe(outcome.error()) << "\n";
+    return exitCode(outcome.error().kind);
+  }
+  if (words.print_json) {
+    streams.out << outcome->answer.dump() << "\n";
+  } else {
+    printText(*outcome, streams);
+  }
+  streams.out.flush();
+  if (!streams.out) {
+    streams.err << "standpoint: cannot write the answer to standard output\n";
+    return kFileSystem;
+  }
+  return outcome->report.losses() > 0 && !words.allow_loss ? kLossOrUnusable : kDone;
+}
+
+}  // namespace
+
+int exitCode(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::usage: return kWrongUsage;
+    case ErrorKind::unusable:
+    case ErrorKind::internal: return kLossOrUnusable;
+    case ErrorKind::file_system: return kFileSystem;
+    case ErrorKind::cancelled: return kCancelled;
+  }
+  return kLossOrUnusable;
+}
+
+int runCommandLine(std::span<const Verb> table, const std::vector<std::string>& words, const Streams& streams,
+                   Progress& progress) {
+  CLI::App app("Standpoint turns a building model into an environment that a laser scanner can be rehearsed in.", "standpoint");
+  app.set_version_flag("--version", "standpoint " STANDPOINT_VERSION);
+  app.require_subcommand(1);
+  app.set_help_all_flag("--help-all", "help for every verb");
+  std::vector<Words> all(table.size());
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    all[i].verb = &table[i];
+    all[i].app = app.add_subcommand(table[i].name, table[i].summary);
+    describeVerb(all[i]);
+  }
+  std::string topic;
+  auto* help = app.add_subcommand("help", "Help for a verb");
+  help->add_option("verb", topic, "the verb");
+  app.footer("standpoint edit [PROJECT] opens the editor.");
+
+  try {
+    std::vector<std::string> reversed(words.rbegin(), words.rend());
+    app.parse(reversed);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e, streams.out, streams.err) == 0 ? kDone : kWrongUsage;
+  }
+  if (help->parsed()) {
+    const CLI::App* asked = topic.empty() ? &app : nullptr;
+    for (const auto& candidate : all)
+      if (topic == candidate.verb->name) asked = candidate.app;
+    if (asked == nullptr) {
+      streams.err << fmt::format("standpoint: there is no verb '{}'; `standpoint help` lists them\n", topic);
+      return kWrongUsage;
+    }
+    streams.out << asked->help();
+    return kDone;
+  }
+  for (auto& parsed : all) {
+    if (!parsed.app->parsed()) continue;
+    auto options = optionsFrom(parsed);
+    if (!options) return finish(parsed, failure(options.error()), streams);
+    Result<Outcome> outcome = failure(ErrorKind::internal, "not run");
+    {
+      const Bar bar(streams, progress);
+      outcome = runOnDisk(*parsed.verb, *options, progress);
+    }
+    return finish(parsed, outcome, streams);
+  }
+  return kWrongUsage;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include "cli/command_line.h"
+
+namespace {
+
+standpoint::Progress progress;
+
+extern "C" void cancelOnSignal(int) { progress.cancel(); }
+
+// The editor is a program of its own, the only one that links GL; it lies beside this one.
+int openEditor(char** arguments) {
+  std::error_code error;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  const auto editor = (self.parent_path() / "standpoint-editor").string();
+  arguments[0] = const_cast<char*>(editor.c_str());
+  execv(editor.c_str(), arguments);
+  std::cerr << "standpoint: cannot start " << editor << "; is it installed?\n";
+  return standpoint::kFileSystem;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  if (count > 1 && std::string(arguments[1]) == "edit") return openEditor(arguments + 1);
+  std::signal(SIGINT, cancelOnSignal);
+  std::signal(SIGTERM, cancelOnSignal);
+  const std::vector<std::string> words(arguments + 1, arguments + count);
+  return standpoint::runCommandLine(standpoint::verbs(), words, {std::cout, std::cerr, isatty(STDERR_FILENO) == 1}, progress);
+}

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/answers.h"
+
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+
+namespace standpoint {
+
+using nlohmann::json;
+
+json toJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+Eigen::Vector3d vectorFrom(const json& array) {
+  return {array.at(0).get<double>(), array.at(1).get<double>(), array.at(2).get<double>()};
+}
+
+json toJson(const Bounds& bounds_local, const Eigen::Vector3d& shift_m) {
+  if (bounds_local.empty()) return nullptr;
+  return {toJson(bounds_local.min + shift_m), toJson(bounds_local.max + shift_m)};
+}
+
+json toJson(const Report& report) {
+  json issues = json::array();
+  for (const auto& i : report.issues)
+    issues.push_back({{"severity", name(i.severity)}, {"source", i.source}, {"message", i.message}});
+  return issues;
+}
+
+json toJson(const Georeference& g) {
+  json object = {{"shift", toJson(g.shift_m)}, {"crs", g.crs.empty() ? json(nullptr) : json(g.crs)}};
+  if (g.map_from_file)
+    object["map_conversion"] = {{"eastings", g.map_from_file->eastings_m},
+                                {"northings", g.map_from_file->northings_m},
+                                {"height", g.map_from_file->orthogonal_height_m},
+                                {"abscissa", g.map_from_file->x_axis_abscissa},
+                                {"ordinate", g.map_from_file->x_axis_ordinate},
+                                {"scale", g.map_from_file->scale}};
+  if (g.site)
+    object["site"] = {{"latitude_deg", g.site->latitude_deg},
+                      {"longitude_deg", g.site->longitude_deg},
+                      {"elevation", g.site->elevation_m}};
+  if (g.true_north_rad) object["true_north_deg"] = *g.true_north_rad / kRadPerDeg;
+  return object;
+}
+
+Result<Georeference> georeferenceFrom(const json& object) {
+  try {
+    Georeference g;
+    g.shift_m = vectorFrom(object.at("shift"));
+    if (!object.at("crs").is_null()) g.crs = object.at("crs").get<std::string>();
+    if (object.contains("map_conversion")) {
+      const auto& c = object.at("map_conversion");
+      g.map_from_file = MapConversion{c.at("eastings"), c.at("northings"), c.at("height"),
+                                      c.at("abscissa"), c.at("ordinate"),  c.at("scale")};
+    }
+    if (object.contains("site")) {
+      const auto& s = object.at("site");
+      g.site = GeographicPosition{s.at("latitude_deg"), s.at("longitude_deg"), s.at("elevation")};
+    }
+    if (object.contains("true_north_deg")) g.true_north_rad = object.at("true_north_deg").get<double>() * kRadPerDeg;
+    return g;
+  } catch (const json::exception& e) {
+    return failure(ErrorKind::unusable, e.what(), "/georeference");
+  }
+}
+
+Result<json> parseNumbers(const std::string& text) {
+  json numbers = json::array();
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (at <= end) {
+    double value = 0;
+    const auto [next, error] = std::from_chars(at, end, value);
+    if (error != std::errc() || (next != end && *next != ','))
+      return failure(ErrorKind::usage, fmt::format("'{}' is not a list of numbers such as 1.5,2,0", text));
+    numbers.push_back(value);
+    if (next == end) break;
+    at = next + 1;
+  }
+  return numbers;
+}
+
+}  // namespace standpoint

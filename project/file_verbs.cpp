@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/file_verbs.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "importers/importers.h"
+#include "pointclouds/formats.h"
+#include "project/answers.h"
+#include "project/session.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+json scanInfo(const ScanInfo& scan) {
+  const auto& h = scan.header;
+  return {{"name", h.name},
+          {"guid", h.guid},
+          {"points", scan.points},
+          {"rows", h.rows},
+          {"columns", h.columns},
+          {"vendor", h.sensor_vendor},
+          {"model", h.sensor_model},
+          {"colour", h.has_colour},
+          {"labels", h.has_labels},
+          {"translation", toJson(h.file_from_scanner.translation)},
+          {"rotation", {h.file_from_scanner.rotation.w(), h.file_from_scanner.rotation.x(), h.file_from_scanner.rotation.y(),
+                        h.file_from_scanner.rotation.z()}}};
+}
+
+std::string lowerExtension(const fs::path& file) {
+  auto extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+Result<void> mustExist(const fs::path& file) {
+  std::error_code error;
+  if (!fs::exists(file, error)) return failure(ErrorKind::file_system, "there is no such file", file.string());
+  return {};
+}
+
+}  // namespace
+
+Result<Outcome> runExport(const Document& document, const json& options, Progress& progress) {
+  const fs::path file = options.at("output").get<std::string>();
+  progress.stage("Export " + file.filename().string());
+  const auto extension = lowerExtension(file);
+  const auto write = extension == ".glb" ? writeEnvironmentGlb : extension == ".obj" ? writeEnvironmentObj : nullptr;
+  if (write == nullptr)
+    return failure(ErrorKind::usage, fmt::format("'{}' cannot be written; there is .glb and .obj", extension), "--output");
+  if (auto ok = write(*document.environment(), *document.georeference, file, progress); !ok) return failure(ok.error());
+  Outcome outcome{document, {{"file", file.string()}, {"triangles", triangleCount(*document.environment())}}, {}, {}};
+  outcome.description = "Exported " + file.filename().string();
+  return outcome;
+}
+
+Result<Outcome> runConvert(const Document& document, const json& options, Progress& progress) {
+  const fs::path in = options.at("in").get<std::string>();
+  if (auto ok = mustExist(in); !ok) return failure(ok.error());
+  progress.stage("Convert " + in.filename().string());
+  Outcome outcome{document, json::object(), {}, {}};
+  auto files = convertCloud(in, options.at("out").get<std::string>(), outcome.report, progress);
+  if (!files) return failure(files.error());
+  json names = json::array();
+  for (const auto& f : *files) names.push_back(f.string());
+  outcome.answer["files"] = std::move(names);
+  outcome.description = "Converted " + in.filename().string();
+  return outcome;
+}
+
+Result<Outcome> runInfo(const Document& document, const json& options, Progress& progress) {
+  const fs::path file = options.at("file").get<std::string>();
+  if (auto ok = mustExist(file); !ok) return failure(ok.error());
+  progress.stage("Read " + file.filename().string());
+  Outcome outcome{document, json::object(), {}, {}};
+  if (const auto* format = cloudFormatFor(file); format != nullptr && format->info != nullptr) {
+    auto info = format->info(file);
+    if (!info) return failure(info.error());
+    json scans = json::array();
+    std::uint64_t points = 0;
+    for (const auto& s : info->scans) {
+      scans.push_back(scanInfo(s));
+      points += s.points;
+    }
+    outcome.answer = {{"format", info->format}, {"points", points}, {"scans", std::move(scans)}};
+    outcome.report = info->report;
+    return outcome;
+  }
+  auto model = importFile(file, {}, progress);
+  if (!model) return failure(model.error());
+  outcome.answer = {{"products", model->environment.products.size()},
+                    {"triangles", triangleCount(model->environment)},
+                    {"bounds", toJson(bounds(model->environment), model->georeference.shift_m)},
+                    {"georeference", toJson(model->georeference)}};
+  outcome.report = model->report;
+  return outcome;
+}
+
+Result<Outcome> runJob(const Document& document, const json& options, Progress& progress) {
+  const fs::path file = options.at("job").get<std::string>();
+  std::ifstream in(file);
+  if (!in) return failure(ErrorKind::file_system, "cannot read it", file.string());
+  json steps;
+  try {
+    steps = json::parse(in);
+  } catch (const json::parse_error& e) {
+    return failure(ErrorKind::unusable, e.what(), file.string());
+  }
+  if (!steps.is_array()) return failure(ErrorKind::unusable, "a job is a list of {\"verb\": …}", file.string());
+  Outcome outcome{document, json::object(), {}, {}};
+  json answers = json::array();
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const auto place = fmt::format("{} /{}", file.string(), i);
+    if (!steps[i].is_object() || !steps[i].contains("verb") || !steps[i]["verb"].is_string())
+      return failure(ErrorKind::unusable, "a step is an object with a \"verb\"", place);
+    const auto verb_name = steps[i]["verb"].get<std::string>();
+    const Verb* verb = findVerb(verbs(), verb_name);
+    if (verb == nullptr || verb_name == "run")
+      return failure(ErrorKind::unusable, fmt::format("there is no verb '{}' for a job", verb_name), place);
+    json step = steps[i];
+    step.erase("verb");
+    auto done = runOnDisk(*verb, step, progress);
+    if (!done) {
+      Error error = done.error();
+      error.source = place + (error.source.empty() ? "" : " " + error.source);
+      return failure(error);
+    }
+    for (auto issue : done->report.issues) {
+      issue.source = verb_name + " " + issue.source;
+      outcome.report.issues.push_back(std::move(issue));
+    }
+    json answer = std::move(done->answer);
+    answer["verb"] = verb_name;
+    answers.push_back(std::move(answer));
+  }
+  outcome.answer["steps"] = std::move(answers);
+  outcome.description = "Ran " + file.filename().string();
+  return outcome;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/model_verbs.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "project/answers.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+
+json toJson(const ProductLoss& loss, const std::string& lod) {
+  return {{"triangles_before", loss.triangles_before},
+          {"triangles_after", loss.triangles_after},
+          {"max_deviation_m", loss.max_deviation_m},
+          {"mean_deviation_m", loss.mean_deviation_m},
+          {"lod", lod}};
+}
+
+json identity(const Product& product) {
+  return {{"id", product.id}, {"global_id", product.global_id}, {"class", product.ifc_class}, {"name", product.name}};
+}
+
+json materialAnswer(const Environment& environment, const MaterialChoice& choice) {
+  const auto& report = choice.result.report;
+  json uses = json::array();
+  for (const auto& use : report.uses) {
+    json ids = json::array();
+    for (const auto p : use.products) ids.push_back(environment.products[p].id);
+    uses.push_back({{"material", use.material.empty() ? json(nullptr) : json(use.material)},
+                    {"area_m2", use.area_m2},
+                    {"products", std::move(ids)}});
+  }
+  json findings = json::array();
+  for (const auto& f : report.findings)
+    findings.push_back({{"severity", f.severity}, {"source", f.source}, {"message", f.message}});
+  return {{"coverage", report.coverage}, {"area_m2", report.area_m2}, {"materials", uses}, {"findings", findings}};
+}
+
+}  // namespace
+
+Result<Outcome> optimizeDocument(const Document& document, const OptimizeOptions& options, Progress& progress) {
+  progress.stage("Optimise");
+  auto result = optimize(*document.imported, options, progress);
+  if (!result) return failure(result.error());
+  Outcome outcome{document, json::object(), result->report, {}};
+  const std::string lod = options.budget == 0 ? "lossless" : fmt::format("budget {}", options.budget);
+  outcome.answer = toJson(result->all, lod);
+  outcome.answer["budget_reached"] = result->budget_reached;
+  if (!result->budget_reached) outcome.answer["smallest_budget"] = result->smallest_budget;
+  json rows = json::array();
+  for (std::size_t i = 0; i < result->products.size(); ++i) {
+    if (result->products[i].triangles_before == 0) continue;
+    json row = identity(document.imported->products[i]);
+    row.update(toJson(result->products[i], lod));
+    rows.push_back(std::move(row));
+  }
+  outcome.answer["products"] = std::move(rows);
+  outcome.description = fmt::format("Optimised {} to {} triangles, at most {:.1f} mm off", result->all.triangles_before,
+                                    result->all.triangles_after, result->all.max_deviation_m * 1000);
+  Lightening lightening{std::make_shared<const Environment>(std::move(result->environment)),
+                        std::move(result->products), result->all, options};
+  outcome.document.lightening = std::make_shared<const Lightening>(std::move(lightening));
+  outcome.document.collision.reset();  // it belonged to the old geometry
+  return outcome;
+}
+
+Result<Outcome> runOptimize(const Document& document, const json& options, Progress& progress) {
+  OptimizeOptions typed;
+  typed.budget = options.value("budget", std::uint64_t{0});
+  typed.max_deviation_m = options.at("max-deviation").get<double>();
+  return optimizeDocument(document, typed, progress);
+}
+
+Result<Outcome> collideDocument(const Document& document, const CollideOptions& options, Progress& progress) {
+  progress.stage("Collision shapes");
+  const auto& environment = *document.environment();
+  auto result = collide(environment, options, progress);
+  if (!result) return failure(result.error());
+  Outcome outcome{document, json::object(), result->report, {}};
+  json rows = json::array();
+  for (std::size_t i = 0; i < result->products.size(); ++i) {
+    const auto& c = result->products[i];
+    if (c.shapes == 0) continue;
+    json row = identity(environment.products[i]);
+    row["shapes"] = c.shapes;
+    row["triangles"] = c.triangles;
+    row["max_deviation_m"] = c.max_deviation_m;
+    rows.push_back(std::move(row));
+  }
+  json doors = json::array();
+  std::size_t passable = 0;
+  for (const auto& d : result->doors) {
+    json row = identity(environment.products[d.product]);
+    row["floor"] = d.floor;
+    row["passable"] = d.passable;
+    doors.push_back(std::move(row));
+    passable += d.passable ? 1 : 0;
+  }
+  outcome.answer = {{"products", std::move(rows)},
+                    {"shapes", result->shapes.size()},
+                    {"walkable_area_m2", result->walkable_area_m2},
+                    {"doors", std::move(doors)},
+                    {"doors_passable", passable}};
+  outcome.description = fmt::format("Made {} collision shapes; {:.1f} m² walkable, {} of {} doors passable",
+                                    result->shapes.size(), result->walkable_area_m2, passable, result->doors.size());
+  outcome.document.collision = std::make_shared<const CollideResult>(*std::move(result));
+  return outcome;
+}
+
+Result<Outcome> runCollide(const Document& document, const json& options, Progress& progress) {
+  CollideOptions typed;
+  typed.agent_radius_m = options.at("agent-radius").get<double>();
+  typed.agent_height_m = options.at("agent-height").get<double>();
+  return collideDocument(document, typed, progress);
+}
+
+Result<Outcome> assignDocumentMaterials(const Document& document, const std::string& rules_file,
+                                        const std::vector<MaterialOverride>& overrides, Progress& progress) {
+  progress.stage("Materials");
+  auto library = readMaterialLibrary(dataFolder() / "materials" / "library");
+  if (!library) return failure(library.error());
+  MaterialChoice choice;
+  if (document.materials) {
+    choice.rules_file = document.materials->rules_file;
+    choice.overrides = document.materials->overrides;
+  }
+  if (!rules_file.empty()) choice.rules_file = rules_file;
+  choice.overrides.insert(choice.overrides.end(), overrides.begin(), overrides.end());
+  const auto file = choice.rules_file.empty() ? dataFolder() / "materials" / "rules" / "default.json"
+                                              : std::filesystem::path(choice.rules_file);
+  auto rules = readAssignmentRules(file, *library);
+  if (!rules) return failure(rules.error());
+  auto result = assignMaterials(*document.environment(), *library, *rules, choice.overrides, progress);
+  if (!result) return failure(result.error());
+  choice.result = *std::move(result);
+  Outcome outcome{document, materialAnswer(*document.environment(), choice), {}, {}};
+  const double coverage = choice.result.report.coverage;
+  outcome.description = overrides.empty()
+                            ? fmt::format("Assigned materials to {:.1f} % of the area", coverage * 100)
+                            : fmt::format("Assigned {} to {}", overrides.back().material, overrides.back().selector);
+  outcome.document.materials = std::make_shared<const MaterialChoice>(std::move(choice));
+  return outcome;
+}
+
+Result<Outcome> runMaterials(const Document& document, const json& options, Progress& progress) {
+  std::vector<MaterialOverride> overrides;
+  for (const auto& pair : options.value("assign", json::array())) {
+    const auto text = pair.get<std::string>();
+    const auto equals = text.rfind('=');
+    overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  return assignDocumentMaterials(document, options.value("rules", ""), overrides, progress);
+}
+
+}  // namespace standpoint

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "project/verb.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+
+std::string domain(const Parameter& p) {
+  switch (p.kind) {
+    case ParameterKind::number:
+    case ParameterKind::integer: {
+      const char* what = p.kind == ParameterKind::integer ? "a whole number" : "a number";
+      const std::string unit = *p.unit != 0 ? fmt::format(" in {}", p.unit) : "";
+      if (p.minimum > -1e300 && p.maximum < 1e300)
+        return fmt::format("{}{} from {} to {}", what, unit, p.minimum, p.maximum);
+      if (p.minimum > -1e300) return fmt::format("{}{}, at least {}", what, unit, p.minimum);
+      return what + unit;
+    }
+    case ParameterKind::flag: return "true or false";
+    case ParameterKind::choice: return fmt::format("one of {}", fmt::join(p.choices, ", "));
+    case ParameterKind::triple: return fmt::format("three numbers{}", *p.unit != 0 ? fmt::format(" in {}", p.unit) : "");
+    case ParameterKind::pairs: return "a list of key=value";
+    case ParameterKind::list: return "a list of texts";
+    case ParameterKind::path: return "a path";
+    case ParameterKind::text: return "a text";
+  }
+  return {};
+}
+
+bool isListOfTexts(const json& value) {
+  return value.is_array() && std::all_of(value.begin(), value.end(), [](const json& v) { return v.is_string(); });
+}
+
+bool fits(const Parameter& p, const json& value) {
+  switch (p.kind) {
+    case ParameterKind::number:
+      return value.is_number() && value.get<double>() >= p.minimum && value.get<double>() <= p.maximum;
+    case ParameterKind::integer:
+      return value.is_number_integer() && value.get<double>() >= p.minimum && value.get<double>() <= p.maximum;
+    case ParameterKind::flag: return value.is_boolean();
+    case ParameterKind::choice:
+      return value.is_string() && std::any_of(p.choices.begin(), p.choices.end(),
+                                              [&](const char* c) { return value.get_ref<const std::string&>() == c; });
+    case ParameterKind::triple:
+      return value.is_array() && (value.size() == 3 || value.size() == 2) &&
+             std::all_of(value.begin(), value.end(), [](const json& v) { return v.is_number(); });
+    case ParameterKind::pairs:
+      return isListOfTexts(value) && std::all_of(value.begin(), value.end(), [](const json& v) {
+               return v.get_ref<const std::string&>().find('=') != std::string::npos;
+             });
+    case ParameterKind::list: return isListOfTexts(value);
+    case ParameterKind::path:
+    case ParameterKind::text: return value.is_string();
+  }
+  return false;
+}
+
+}  // namespace
+
+Result<json> checkOptions(const Verb& verb, const json& options) {
+  if (!options.is_object()) return failure(ErrorKind::usage, "options must be a JSON object", verb.name);
+  json complete = json::object();
+  for (const auto& [key, value] : options.items()) {
+    const auto found = std::find_if(verb.parameters.begin(), verb.parameters.end(),
+                                    [&](const Parameter& p) { return key == p.name; });
+    if (found == verb.parameters.end()) {
+      std::vector<const char*> names;
+      for (const auto& p : verb.parameters) names.push_back(p.name);
+      return failure(ErrorKind::usage, fmt::format("there is no option '{}'; there is {}", key, fmt::join(names, ", ")),
+                     verb.name);
+    }
+    if (!fits(*found, value))
+      return failure(ErrorKind::usage, fmt::format("'{}' must be {}, not {}", key, domain(*found), value.dump()),
+                     verb.name);
+    complete[key] = value;
+  }
+  for (const auto& p : verb.parameters) {
+    if (complete.contains(p.name)) continue;
+    if (p.required) return failure(ErrorKind::usage, fmt::format("'{}' is missing: {}", p.name, p.help), verb.name);
+    if (!p.standard.is_null()) complete[p.name] = p.standard;
+  }
+  return complete;
+}
+
+Result<Outcome> runVerb(const Verb& verb, const Document& document, const json& options, Progress& progress) {
+  auto complete = checkOptions(verb, options);
+  if (!complete) return failure(complete.error());
+  if ((verb.scope == VerbScope::changes || verb.scope == VerbScope::reads) && !document.imported)
+    return failure(ErrorKind::usage, "there is no model yet: import one first", verb.name);
+  try {
+    return verb.run(document, *complete, progress);
+  } catch (const std::bad_alloc&) {
+    return failure(ErrorKind::unusable, "not enough memory for this", verb.name);
+  } catch (const std::exception& e) {
+    return failure(ErrorKind::internal, fmt::format("unexpected: {}", e.what()), verb.name);
+  }
+}
+
+const Verb* findVerb(std::span<const Verb> table, std::string_view wanted) {
+  const auto found = std::find_if(table.begin(), table.end(), [&](const Verb& v) { return wanted == v.name; });
+  return found == table.end() ? nullptr : &*found;
+}
+
+}  // namespace standpoint

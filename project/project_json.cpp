@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/project_json.h"
+
+#include <fmt/format.h>
+
+#include "project/project_files.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+
+json poseToJson(const Pose& p) {
+  return {{"rotation", {p.rotation.w(), p.rotation.x(), p.rotation.y(), p.rotation.z()}}, {"translation", toJson(p.translation)}};
+}
+
+Pose poseFrom(const json& j) {
+  const auto& q = j.at("rotation");
+  return {Eigen::Quaterniond(q.at(0), q.at(1), q.at(2), q.at(3)), vectorFrom(j.at("translation"))};
+}
+
+json scanToJson(const Scan& s) {
+  return {{"instrument", s.instrument}, {"file", s.file}, {"format", s.format}, {"settings", s.settings}, {"seed", s.seed},
+          {"pulses", s.pulses}, {"points", s.points}, {"instrument_seconds", s.instrument_seconds}};
+}
+
+Scan scanFrom(const json& j) {
+  return {j.at("instrument"), j.at("file"), j.at("format"), j.at("settings"), j.at("seed"),
+          j.at("pulses"), j.at("points"), j.at("instrument_seconds")};
+}
+
+json jobToJson(const Job& job) {
+  json stations = json::array();
+  for (const auto& s : job.stations) {
+    json scans = json::array();
+    for (const auto& scan : s.scans) scans.push_back(scanToJson(scan));
+    json row = {{"name", s.name}, {"instrument_height_m", s.instrument_height_m}, {"true_pose", poseToJson(s.true_pose)},
+                {"scans", std::move(scans)}};
+    if (s.solved_pose) row["solved_pose"] = poseToJson(*s.solved_pose);
+    stations.push_back(std::move(row));
+  }
+  json targets = json::array();
+  for (const auto& t : job.targets)
+    targets.push_back({{"name", t.name}, {"kind", t.kind == TargetKind::sphere ? "sphere" : "checkerboard"},
+                       {"centre", toJson(t.centre)}, {"normal", toJson(t.normal)}, {"size_m", t.size_m}});
+  json controls = json::array();
+  for (const auto& c : job.control_points)
+    controls.push_back({{"name", c.name}, {"position", toJson(c.position)}, {"sigma_m", c.sigma_m}});
+  return {{"name", job.name}, {"stations", stations}, {"targets", targets}, {"control_points", controls}};
+}
+
+Job jobFrom(const json& j) {
+  Job job;
+  job.name = j.at("name");
+  for (const auto& s : j.at("stations")) {
+    Station station{s.at("name"), s.at("instrument_height_m"), poseFrom(s.at("true_pose")), {}, {}};
+    if (s.contains("solved_pose")) station.solved_pose = poseFrom(s.at("solved_pose"));
+    for (const auto& scan : s.at("scans")) station.scans.push_back(scanFrom(scan));
+    job.stations.push_back(std::move(station));
+  }
+  for (const auto& t : j.at("targets"))
+    job.targets.push_back({t.at("name"), t.at("kind") == "sphere" ? TargetKind::sphere : TargetKind::checkerboard,
+                           vectorFrom(t.at("centre")), vectorFrom(t.at("normal")), t.at("size_m")});
+  for (const auto& c : j.at("control_points"))
+    job.control_points.push_back({c.at("name"), vectorFrom(c.at("position")), c.at("sigma_m")});
+  return job;
+}
+
+json lossToJson(const ProductLoss& l) {
+  return {l.triangles_before, l.triangles_after, l.max_deviation_m, l.mean_deviation_m};
+}
+
+ProductLoss lossFrom(const json& j) { return {j.at(0), j.at(1), j.at(2), j.at(3)}; }
+
+json physicalToJson(const PhysicalMaterial& m) {
+  return {{"id", m.id}, {"label", m.label}, {"reflectance", m.reflectance}, {"roughness_rad", m.roughness_rad},
+          {"gloss_slope", m.gloss_slope}, {"index_of_refraction", m.index_of_refraction}, {"thickness_m", m.thickness_m},
+          {"transmittance", m.transmittance}, {"source", m.source}};
+}
+
+PhysicalMaterial physicalFrom(const json& j) {
+  return {j.at("id"), j.at("label"), j.at("reflectance"), j.at("roughness_rad"), j.at("gloss_slope"),
+          j.at("index_of_refraction"), j.at("thickness_m"), j.at("transmittance"), j.at("source")};
+}
+
+json materialsToJson(const MaterialChoice& choice) {
+  json overrides = json::array();
+  for (const auto& o : choice.overrides) overrides.push_back({{"selector", o.selector}, {"material", o.material}});
+  json materials = json::array();
+  for (const auto& m : choice.result.assignment.materials) materials.push_back(physicalToJson(m));
+  json surfaces = json::array();
+  for (const auto& s : choice.result.assignment.surfaces) surfaces.push_back({s.product, s.surface, s.material, s.reason});
+  const auto& report = choice.result.report;
+  json uses = json::array();
+  for (const auto& u : report.uses) uses.push_back({{"material", u.material}, {"area_m2", u.area_m2}, {"products", u.products}});
+  json findings = json::array();
+  for (const auto& f : report.findings) findings.push_back({f.severity, f.source, f.message});
+  return {{"rules_file", choice.rules_file}, {"overrides", overrides}, {"materials", materials}, {"surfaces", surfaces},
+          {"report", {{"coverage", report.coverage}, {"area_m2", report.area_m2}, {"uses", uses}, {"findings", findings}}}};
+}
+
+MaterialChoice materialsFrom(const json& j) {
+  MaterialChoice choice;
+  choice.rules_file = j.at("rules_file");
+  for (const auto& o : j.at("overrides")) choice.overrides.push_back({o.at("selector"), o.at("material")});
+  for (const auto& m : j.at("materials")) choice.result.assignment.materials.push_back(physicalFrom(m));
+  for (const auto& s : j.at("surfaces")) choice.result.assignment.surfaces.push_back({s.at(0), s.at(1), s.at(2), s.at(3)});
+  const auto& report = j.at("report");
+  choice.result.report.coverage = report.at("coverage");
+  choice.result.report.area_m2 = report.at("area_m2");
+  for (const auto& u : report.at("uses")) choice.result.report.uses.push_back({u.at("material"), u.at("area_m2"), u.at("products")});
+  for (const auto& f : report.at("findings")) choice.result.report.findings.push_back({f.at(0), f.at(1), f.at(2)});
+  return choice;
+}
+
+json collisionToJson(const CollideResult& c) {
+  json shapes = json::array();
+  for (const auto& s : c.shapes) shapes.push_back({static_cast<int>(s.kind), s.product});
+  json products = json::array();
+  for (const auto& p : c.products) products.push_back({p.shapes, p.triangles, p.max_deviation_m});
+  json doors = json::array();
+  for (const auto& d : c.doors) doors.push_back({d.product, d.floor, d.passable});
+  return {{"shapes", shapes}, {"products", products}, {"doors", doors}, {"walkable_area_m2", c.walkable_area_m2}};
+}
+
+Severity severityFrom(const std::string& text) {
+  return text == "loss" ? Severity::loss : text == "warning" ? Severity::warning : Severity::note;
+}
+
+}  // namespace
+
+json documentToJson(const Document& d) {
+  json project = {{"version", kProjectVersion}, {"sources", d.sources}, {"georeference", toJson(*d.georeference)},
+                  {"job", jobToJson(*d.job)}};
+  if (d.import_report) project["import_report"] = toJson(*d.import_report);
+  if (d.lightening) {
+    json losses = json::array();
+    for (const auto& l : d.lightening->products) losses.push_back(lossToJson(l));
+    project["lightening"] = {{"budget", d.lightening->options.budget}, {"max_deviation_m", d.lightening->options.max_deviation_m},
+                             {"all", lossToJson(d.lightening->all)}, {"products", losses}};
+  }
+  if (d.collision) project["collision"] = collisionToJson(*d.collision);
+  if (d.materials) project["materials"] = materialsToJson(*d.materials);
+  return project;
+}
+
+Document documentFrom(const json& project) {
+  Document d;
+  d.sources = project.at("sources").get<std::vector<std::string>>();
+  d.job = std::make_shared<const Job>(jobFrom(project.at("job")));
+  Report report;
+  if (project.contains("import_report"))
+    for (const auto& i : project.at("import_report"))
+      report.issues.push_back({severityFrom(i.at("severity")), i.at("source"), i.at("message")});
+  d.import_report = std::make_shared<const Report>(std::move(report));
+  if (project.contains("materials")) d.materials = std::make_shared<const MaterialChoice>(materialsFrom(project.at("materials")));
+  return d;
+}
+
+json recordsToJson(const Environment& environment) {
+  json products = json::array();
+  for (const auto& p : environment.products) {
+    json layers = json::array();
+    for (const auto& l : p.layers) layers.push_back({l.name, l.thickness_m});
+    json properties = json::array();
+    for (const auto& q : p.properties) properties.push_back({q.set, q.name, q.value});
+    products.push_back({{"id", p.id}, {"global_id", p.global_id}, {"class", p.ifc_class}, {"predefined_type", p.predefined_type},
+                        {"name", p.name}, {"storey", p.storey}, {"container", p.container}, {"whole", p.whole},
+                        {"tangible", p.tangible}, {"materials", p.materials}, {"layers", std::move(layers)},
+                        {"properties", std::move(properties)}});
+  }
+  json spatial = json::array();
+  for (const auto& n : environment.spatial)
+    spatial.push_back({{"id", n.id}, {"class", n.ifc_class}, {"name", n.name}, {"global_id", n.global_id},
+                       {"parent", n.parent}, {"elevation_m", n.elevation_m}});
+  return {{"products", std::move(products)}, {"spatial", std::move(spatial)}};
+}
+
+Environment recordsFrom(const json& records) {
+  Environment e;
+  for (const auto& j : records.at("products")) {
+    Product p{j.at("id"), j.at("global_id"), j.at("class"), j.at("predefined_type"), j.at("name"), j.at("storey"),
+              j.at("container"), j.at("whole"), j.at("tangible"), j.at("materials"), {}, {}};
+    for (const auto& l : j.at("layers")) p.layers.push_back({l.at(0), l.at(1)});
+    for (const auto& q : j.at("properties")) p.properties.push_back({q.at(0), q.at(1), q.at(2)});
+    e.products.push_back(std::move(p));
+  }
+  for (const auto& n : records.at("spatial"))
+    e.spatial.push_back({n.at("id"), n.at("class"), n.at("name"), n.at("global_id"), n.at("parent"), n.at("elevation_m")});
+  return e;
+}
+
+std::shared_ptr<const Lightening> lighteningFrom(const json& part, std::shared_ptr<const Environment> environment) {
+  Lightening l;
+  l.environment = std::move(environment);
+  l.options = {part.at("budget"), part.at("max_deviation_m")};
+  l.all = lossFrom(part.at("all"));
+  for (const auto& loss : part.at("products")) l.products.push_back(lossFrom(loss));
+  return std::make_shared<const Lightening>(std::move(l));
+}
+
+Environment collisionEnvironment(const CollideResult& collision) {
+  Environment e;
+  e.surfaces.resize(1);
+  for (const auto& s : collision.shapes) {
+    e.instances.push_back({static_cast<std::uint32_t>(e.meshes.size()), s.product, Eigen::Affine3d::Identity()});
+    e.meshes.push_back(std::make_shared<const Mesh>(s.mesh));
+  }
+  e.meshes.push_back(std::make_shared<const Mesh>(collision.walkable));
+  return e;
+}
+
+std::shared_ptr<const CollideResult> collisionFrom(const json& part, const Environment& shapes) {
+  CollideResult c;
+  const auto& rows = part.at("shapes");
+  for (std::size_t i = 0; i < rows.size() && i < shapes.meshes.size(); ++i)
+    c.shapes.push_back({static_cast<CollisionShapeKind>(rows[i].at(0).get<int>()), rows[i].at(1), *shapes.meshes[i]});
+  if (shapes.meshes.size() == rows.size() + 1) c.walkable = *shapes.meshes.back();
+  for (const auto& p : part.at("products")) c.products.push_back({p.at(0), p.at(1), p.at(2)});
+  for (const auto& d : part.at("doors")) c.doors.push_back({d.at(0), d.at(1), d.at(2)});
+  c.walkable_area_m2 = part.at("walkable_area_m2");
+  return std::make_shared<const CollideResult>(std::move(c));
+}
+
+std::string inconsistency(const Document& d) {
+  const auto products = d.imported->products.size();
+  const auto surfaces = d.imported->surfaces.size();
+  if (d.lightening && d.lightening->products.size() != products) return "/lightening has another number of products";
+  if (d.collision) {
+    if (d.collision->products.size() != products) return "/collision has another number of products";
+    for (const auto& s : d.collision->shapes)
+      if (s.product >= products) return "/collision names a product that is not there";
+    for (const auto& door : d.collision->doors)
+      if (door.product >= products) return "/collision/doors names a product that is not there";
+  }
+  if (d.materials) {
+    const auto count = static_cast<std::int32_t>(d.materials->result.assignment.materials.size());
+    for (const auto& s : d.materials->result.assignment.surfaces)
+      if (s.product >= products || s.surface >= surfaces || s.material >= count || s.material < -1)
+        return "/materials/surfaces has an index out of range";
+    for (const auto& use : d.materials->result.report.uses)
+      for (const auto p : use.products)
+        if (p >= products) return "/materials/report names a product that is not there";
+  }
+  return {};
+}
+
+}  // namespace standpoint

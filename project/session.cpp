@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/session.h"
+
+#include <chrono>
+
+#include "project/answers.h"
+#include "project/project_files.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+
+Result<std::filesystem::path> projectFolder(const Verb& verb, const json& options) {
+  const char* key = verb.scope == VerbScope::creates ? "output" : "project";
+  if (!options.contains(key) || !options[key].is_string() || options[key].get<std::string>().empty())
+    return failure(ErrorKind::usage, verb.scope == VerbScope::creates ? "say where the project goes: -o PROJECT"
+                                                                      : "name the project's folder", verb.name);
+  return std::filesystem::path(options[key].get<std::string>());
+}
+
+Result<Outcome> runOnProject(const Verb& verb, const json& options, Progress& progress) {
+  auto folder = projectFolder(verb, options);
+  if (!folder) return failure(folder.error());
+  json own = options;
+  own.erase("project");
+  // A wrong option is said before minutes are spent on reading.
+  if (auto checked = checkOptions(verb, own); !checked) return failure(checked.error());
+  std::error_code ignored;
+  if (verb.scope == VerbScope::creates && std::filesystem::exists(*folder, ignored) &&
+      !std::filesystem::is_empty(*folder, ignored) && !options.value("replace", false))
+    return failure(ErrorKind::usage, "there is something here already; choose another folder, or say --replace",
+                   folder->string());
+  Document document;
+  if (verb.scope != VerbScope::creates) {
+    auto loaded = loadProject(*folder, progress);
+    if (!loaded) return failure(loaded.error());
+    document = *std::move(loaded);
+  }
+  auto outcome = runVerb(verb, document, own, progress);
+  if (!outcome) return outcome;
+  if (verb.scope == VerbScope::creates) outcome->document.name = std::filesystem::absolute(*folder).filename().string();
+  if (verb.scope != VerbScope::reads && outcome->document != document)
+    if (auto saved = saveProject(outcome->document, *folder, progress); !saved) return failure(saved.error());
+  return outcome;
+}
+
+}  // namespace
+
+Result<Outcome> runOnDisk(const Verb& verb, const json& options, Progress& progress) {
+  const auto started = std::chrono::steady_clock::now();
+  auto outcome = verb.scope == VerbScope::files ? runVerb(verb, {}, options, progress) : runOnProject(verb, options, progress);
+  if (!outcome) return outcome;
+  outcome->answer["issues"] = toJson(outcome->report);
+  outcome->answer["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return outcome;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "project/verb.h"
+#include "scanners/instrument.h"
+#include "scanners/ray_engine.h"
+
+namespace standpoint {
+
+// Where a tripod of that height can stand at (x, y): upward faces below which the beam from above ends, with room for the
+// instrument. Heights of the floor in the local frame, ascending.
+std::vector<double> floorsAt(const RayScene& scene, double x_m, double y_m, double instrument_height_m);
+
+Result<Outcome> runStation(const Document& document, const nlohmann::json& options, Progress& progress);
+Result<Outcome> runTarget(const Document& document, const nlohmann::json& options, Progress& progress);
+
+// The environment that a scan sees: the document's, with the job's targets standing in it as products of their own
+// (class "Target") of stated reflectance.
+struct ScanWorld {
+  std::shared_ptr<const Environment> environment;
+  MaterialAssignment assignment;
+};
+ScanWorld scanWorld(const Document& document, const MaterialAssignment& assignment);
+
+Result<Outcome> runScan(const Document& document, const nlohmann::json& options, Progress& progress);
+
+}  // namespace standpoint

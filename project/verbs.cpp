@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdlib>
+
+#include "project/file_verbs.h"
+#include "project/import_verb.h"
+#include "project/model_verbs.h"
+#include "project/survey_verbs.h"
+#include "project/verb.h"
+
+namespace standpoint {
+
+namespace {
+
+using K = ParameterKind;
+using S = VerbScope;
+
+// The table: a new verb is a typed function in this folder and one entry here. Command line, help, job files and the
+// editor's forms follow from it.
+const std::vector<Verb>& table() {
+  static const std::vector<Verb> verbs = {
+      {"import", "Reads models (IFC, glTF, OBJ) into a new project", S::creates,
+       {{.name = "files", .kind = K::list, .help = "the model files", .positional = true, .required = true},
+        {.name = "output", .kind = K::path, .help = "folder of the new project"},
+        {.name = "replace", .kind = K::flag, .help = "replace what is in that folder"},
+        {.name = "shift", .kind = K::text, .help = "global shift: auto, none, or E,N,H", .unit = "m", .standard = "auto"},
+        {.name = "crs", .kind = K::text, .help = "coordinate reference system, as EPSG:n"},
+        {.name = "up", .kind = K::choice, .help = "which axis of the file points up (default: as the format says)", .choices = {"y", "z"}},
+        {.name = "unit", .kind = K::choice, .help = "unit of the file's coordinates (default: as the format says)", .choices = {"m", "cm", "mm", "in", "ft"}}},
+       runImport},
+      {"optimize", "Brings the model to a polygon budget and measures what that costs", S::changes,
+       {{.name = "budget", .kind = K::integer, .help = "placed triangles in all; 0 merges planar regions only", .minimum = 0, .maximum = 1e12},
+        {.name = "max-deviation", .kind = K::number, .help = "no surface may move further", .unit = "m", .standard = 0.015, .minimum = 0, .maximum = 1000}},
+       runOptimize},
+      {"collide", "Makes collision shapes, the walkable surface, and checks the doors", S::changes,
+       {{.name = "agent-radius", .kind = K::number, .help = "of whoever walks", .unit = "m", .standard = 0.3, .minimum = 0.05, .maximum = 2},
+        {.name = "agent-height", .kind = K::number, .help = "of whoever walks", .unit = "m", .standard = 1.8, .minimum = 0.3, .maximum = 5}},
+       runCollide},
+      {"materials", "Gives every surface a physical material and reports the share that has one", S::changes,
+       {{.name = "rules", .kind = K::path, .help = "file of assignment rules instead of the default ones"},
+        {.name = "assign", .kind = K::pairs, .help = "SELECTOR=MATERIAL; a selector is #id, a GlobalId, class:IfcWall, name:*glass*, storey:…, material:…"}},
+       runMaterials},
+      {"georeference", "Shows or sets where on Earth the model stands", S::changes,
+       {{.name = "crs", .kind = K::text, .help = "coordinate reference system, as EPSG:n"},
+        {.name = "origin", .kind = K::triple, .help = "map coordinates E,N,H of the model's origin", .unit = "m"},
+        {.name = "rotation-deg", .kind = K::number, .help = "from the map's east to the model's X axis, counter-clockwise", .unit = "deg", .minimum = -360, .maximum = 360}},
+       runGeoreference},
+      {"station", "Adds, moves, removes or lists stations; without --at or --on at the place that sees most", S::changes,
+       {{.name = "add", .kind = K::text, .help = "name of a new station"},
+        {.name = "move", .kind = K::text, .help = "name of the station to move"},
+        {.name = "remove", .kind = K::text, .help = "name of the station to remove"},
+        {.name = "at", .kind = K::triple, .help = "X,Y,Z of the instrument's centre, in the file's frame", .unit = "m"},
+        {.name = "on", .kind = K::triple, .help = "X,Y[,Z] of the floor, to which the tripod adds its height; without Z the lowest floor with room", .unit = "m"},
+        {.name = "height", .kind = K::number, .help = "of the instrument's centre above the floor", .unit = "m", .standard = 1.6, .minimum = 0.1, .maximum = 10},
+        {.name = "yaw-deg", .kind = K::number, .help = "of the instrument's X axis, counter-clockwise from the file's X", .unit = "deg", .standard = 0, .minimum = -360, .maximum = 360}},
+       runStation},
+      {"target", "Adds, removes or lists targets", S::changes,
+       {{.name = "add", .kind = K::text, .help = "name of a new target"},
+        {.name = "remove", .kind = K::text, .help = "name of the target to remove"},
+        {.name = "at", .kind = K::triple, .help = "X,Y,Z of its centre, in the file's frame", .unit = "m"},
+        {.name = "kind", .kind = K::choice, .help = "what it is", .standard = "sphere", .choices = {"sphere", "checkerboard"}},
+        {.name = "size", .kind = K::number, .help = "diameter or side", .unit = "m", .standard = 0.145, .minimum = 0.01, .maximum = 2},
+        {.name = "normal", .kind = K::triple, .help = "where a checkerboard faces"}},
+       runTarget},
+      {"scan", "Scans from the stations with an instrument into point-cloud files", S::changes,
+       {{.name = "stations", .kind = K::text, .help = "all, or names separated by commas", .standard = "all"},
+        {.name = "instrument", .kind = K::text, .help = "id of the instrument, such as leica-rtc360", .required = true},
+        {.name = "set", .kind = K::pairs, .help = "settings in the device's own words, such as resolution=12mm"},
+        {.name = "seed", .kind = K::integer, .help = "of the noise", .standard = 1, .minimum = 0, .maximum = 9007199254740991.0},
+        {.name = "ideal", .kind = K::flag, .help = "no noise at all: the truth"},
+        {.name = "threads", .kind = K::integer, .help = "0 = all; the result is the same", .standard = 0, .minimum = 0, .maximum = 1024},
+        {.name = "shard", .kind = K::text, .help = "i/n: only every n-th station from the i-th, for a batch on several machines"},
+        {.name = "output", .kind = K::path, .help = "a folder, or a file (.e57, .ptx); an E57 holds all stations", .required = true}},
+       runScan},
+      {"export", "Writes the model as glTF binary or OBJ", S::reads,
+       {{.name = "output", .kind = K::path, .help = "file to write (.glb, .obj)", .required = true}}, runExport},
+      {"convert", "Converts a point cloud", S::files,
+       {{.name = "in", .kind = K::path, .help = "cloud to read", .positional = true, .required = true},
+        {.name = "out", .kind = K::path, .help = "cloud to write", .positional = true, .required = true}},
+       runConvert},
+      {"info", "Tells what is in a point cloud or a model", S::files,
+       {{.name = "file", .kind = K::path, .help = "the file", .positional = true, .required = true}}, runInfo},
+      {"run", "Replays a job: a list of verbs with their options", S::files,
+       {{.name = "job", .kind = K::path, .help = "JSON file: [{\"verb\": …, option: value, …}, …]", .positional = true, .required = true}},
+       runJob},
+  };
+  return verbs;
+}
+
+}  // namespace
+
+std::span<const Verb> verbs() { return table(); }
+
+std::filesystem::path dataFolder() {
+  if (const char* folder = std::getenv("STANDPOINT_DATA")) return folder;
+  return STANDPOINT_SOURCE_FOLDER;
+}
+
+}  // namespace standpoint

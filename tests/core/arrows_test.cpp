@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The picture in docs/architecture.md, as a test: every include between folders goes the way the arrows point.
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Folders = std::set<std::string>;
+
+const Folders kSiblings = {"importers", "materials", "optimizer", "scanners", "pointclouds"};
+
+Folders with(Folders a, const Folders& b) {
+  a.insert(b.begin(), b.end());
+  return a;
+}
+
+const std::map<std::string, Folders>& allowed() {
+  static const Folders below_project = with({"core"}, kSiblings);
+  static const std::map<std::string, Folders> table = {
+      {"core", {}},
+      {"importers", {"core"}},
+      {"materials", {"core"}},
+      {"optimizer", {"core"}},
+      {"scanners", {"core"}},
+      {"pointclouds", {"core"}},
+      {"project", below_project},
+      {"emulated-ui", with(below_project, {"project"})},
+      {"editor", with(below_project, {"project", "emulated-ui"})},
+      {"cli", with(below_project, {"project", "emulated-ui"})},
+  };
+  return table;
+}
+
+template <class Visit>
+void eachInclude(const fs::path& folder, const std::regex& pattern, Visit visit) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const auto extension = entry.path().extension();
+    if (extension != ".h" && extension != ".cpp") continue;
+    std::ifstream in(entry.path());
+    std::smatch match;
+    for (std::string line; std::getline(in, line);)
+      if (std::regex_search(line, match, pattern)) visit(entry.path(), match[1].str());
+  }
+}
+
+TEST(Arrows, EveryIncludeBetweenFoldersIsInThePicture) {
+  const std::regex own(R"re(^\s*#\s*include\s*"([^"/]+)/)re");
+  int seen = 0;
+  for (const auto& [folder, may_see] : allowed())
+    eachInclude(fs::path(SOURCE_DIR) / folder, own, [&, &folder = folder, &may_see = may_see](const fs::path& file, const std::string& to) {
+      if (!allowed().contains(to)) return;
+      ++seen;
+      EXPECT_TRUE(to == folder || may_see.contains(to)) << file << " includes " << to;
+    });
+  EXPECT_GT(seen, 20);
+}
+
+TEST(Arrows, GraphicsLibrariesAreSeenOnlyWhereTheDesignSaysSo) {
+  const std::regex vtk(R"re(^\s*#\s*include\s*<((?:vtk|GL/|EGL/)[^>]*)>)re");
+  const std::regex imgui(R"re(^\s*#\s*include\s*[<"]((?:imgui|backends/imgui)[^>"]*)[>"])re");
+  for (const auto& [folder, unused] : allowed()) {
+    eachInclude(fs::path(SOURCE_DIR) / folder, vtk, [&](const fs::path& file, const std::string& header) {
+      EXPECT_NE(file.string().find("/editor/viewport/"), std::string::npos) << file << " includes " << header;
+    });
+    eachInclude(fs::path(SOURCE_DIR) / folder, imgui, [&, &folder = folder](const fs::path& file, const std::string& header) {
+      EXPECT_TRUE(folder == "editor" || folder == "emulated-ui") << file << " includes " << header;
+    });
+  }
+}
+
+}  // namespace

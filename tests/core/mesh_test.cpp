@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "core/environment.h"
+
+namespace standpoint {
+namespace {
+
+Mesh cube(float size) {
+  Mesh m;
+  for (int i = 0; i < 8; ++i)
+    m.positions.emplace_back(size * static_cast<float>(i & 1), size * static_cast<float>(i >> 1 & 1), size * static_cast<float>(i >> 2));
+  m.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                 {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  m.surface_of_triangle.assign(12, 0);
+  return m;
+}
+
+TEST(Mesh, OfACubeHasItsAreaAndVolumeAndIsClosed) {
+  const Mesh m = cube(2);
+  EXPECT_DOUBLE_EQ(area(m), 24);
+  EXPECT_DOUBLE_EQ(volume(m), 8);
+  EXPECT_TRUE(isClosed(m));
+}
+
+TEST(Mesh, WithAMissingTriangleIsOpen) {
+  Mesh m = cube(1);
+  m.triangles.pop_back();
+  m.surface_of_triangle.pop_back();
+  EXPECT_FALSE(isClosed(m));
+}
+
+TEST(Mesh, IsClosedEvenWhenEachTriangleHasItsOwnCorners) {
+  const Mesh shared = cube(1);
+  Mesh soup;
+  for (const auto& t : shared.triangles) {
+    const auto first = static_cast<std::uint32_t>(soup.positions.size());
+    for (const auto i : t) soup.positions.push_back(shared.positions[i]);
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  EXPECT_TRUE(isClosed(soup));
+}
+
+TEST(Mesh, IsSortedBySurfaceWithoutChangingTheOrderWithinOne) {
+  Mesh m = cube(1);
+  std::iota(m.surface_of_triangle.begin(), m.surface_of_triangle.end(), 0U);
+  for (auto& s : m.surface_of_triangle) s %= 3;
+  const auto original = m.triangles;
+  sortBySurface(m);
+  EXPECT_EQ(m.surface_of_triangle, (std::vector<std::uint32_t>{0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2}));
+  EXPECT_EQ(m.triangles[1], original[3]);
+  EXPECT_EQ(m.triangles[4], original[1]);
+  EXPECT_EQ(validate(m, 3), "");
+}
+
+TEST(Mesh, WithAnIndexOutOfRangeIsRefused) {
+  Mesh m = cube(1);
+  m.triangles[3][1] = 8;
+  EXPECT_NE(validate(m, 1), "");
+  EXPECT_NE(validate(cube(1), 0), "");
+}
+
+TEST(Bounds, CountOnlyTheCornersThatTrianglesUse) {
+  Mesh m = cube(1);
+  m.positions.emplace_back(100, 100, 100);
+  const Bounds b = bounds(m, Eigen::Affine3d(Eigen::Translation3d(5000000, 0, 0)));
+  EXPECT_EQ(b.min.x(), 5000000);
+  EXPECT_EQ(b.max.x(), 5000001);
+}
+
+TEST(Environment, RefusesInstancesOutOfOrder) {
+  Environment e;
+  e.surfaces.resize(1);
+  e.products.resize(2);
+  e.meshes.push_back(std::make_shared<const Mesh>(cube(1)));
+  e.instances = {{0, 1, Eigen::Affine3d::Identity()}, {0, 0, Eigen::Affine3d::Identity()}};
+  EXPECT_NE(validate(e), "");
+  std::swap(e.instances[0], e.instances[1]);
+  EXPECT_EQ(validate(e), "");
+  EXPECT_EQ(triangleCount(e), 24U);
+}
+
+}  // namespace
+}  // namespace standpoint
