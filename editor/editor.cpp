@@ -59,8 +59,10 @@ void Editor::derive() const {
   derived_from_ = environment();
   product_bounds_.clear();
   storeys_.clear();
+  triangles_ = 0;
   if (!derived_from_) return;
   product_bounds_ = productBounds(*derived_from_);
+  triangles_ = triangleCount(*derived_from_);
   storeys_ = storeyLevels(*derived_from_, shift_m().z());
 }
 
@@ -72,6 +74,11 @@ const std::vector<Bounds>& Editor::boundsOfProducts() const {
 const std::vector<StoreyLevel>& Editor::storeys() const {
   derive();
   return storeys_;
+}
+
+std::uint64_t Editor::triangles() const {
+  derive();
+  return triangles_;
 }
 
 Bounds Editor::visibleBounds() const {

@@ -74,6 +74,8 @@ struct Editor {
   bool fine_picture = false;               // the view stands still: smooth edges
   bool quit = false;                       // confirmed
 
+  float overlay_width = 0;                 // of the controls over the viewport, as drawn last
+
   float px(float points) const { return points * scale; }
   const std::shared_ptr<const Environment>& environment() const { return session.document().environment(); }
   // Local frame → the file's own, in which every number is shown.
@@ -89,6 +91,7 @@ struct Editor {
 
   const std::vector<Bounds>& boundsOfProducts() const;   // kept until the environment changes
   const std::vector<StoreyLevel>& storeys() const;
+  std::uint64_t triangles() const;          // placed
 
  private:
   void adoptDocument();
@@ -97,6 +100,7 @@ struct Editor {
   mutable std::shared_ptr<const Environment> derived_from_;
   mutable std::vector<Bounds> product_bounds_;
   mutable std::vector<StoreyLevel> storeys_;
+  mutable std::uint64_t triangles_ = 0;
   void derive() const;
 };
 

@@ -11,6 +11,7 @@
 #include "editor/model/log.h"
 #include "editor/model/option_form.h"
 #include "editor/model/outliner_rows.h"
+#include "project/geodesy.h"
 #include "scanners/instrument.h"
 
 namespace standpoint {
@@ -51,14 +52,16 @@ struct GeoreferencePanelState {
   std::array<double, 3> origin_m = {0, 0, 0};
   double rotation_deg = 0;
   const void* filled_from = nullptr;    // the georeference that the fields were filled from
+  const void* derived_from = nullptr;
+  Result<MapFactors> derived = MapFactors();
 };
 
 struct SurveyPanelState {
   int station = -1;                 // chosen, index into Job::stations
   int target = -1;
-  std::string rename;
   std::array<double, 3> move_to = {0, 0, 0};
   int move_of = -1;                 // station that `move_to` was filled from
+  Eigen::Vector3d move_from = Eigen::Vector3d::Zero();
 };
 
 struct ScanPanelState {

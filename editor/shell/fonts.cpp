@@ -6,7 +6,7 @@
 #include <string>
 
 #include <imgui.h>
-#include <misc/freetype/imgui_freetype.h>
+#include <imgui_freetype.h>
 
 #include "editor/editor.h"
 #include "editor/shell/theme.h"

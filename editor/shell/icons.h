@@ -9,6 +9,7 @@
 #define ICON_BUILDING "\xef\x83\xb7"
 #define ICON_CHECK "\xef\x80\x8c"
 #define ICON_CHECK_CIRCLE "\xef\x81\x98"
+#define ICON_CHEVRON_RIGHT "\xef\x84\x85"
 #define ICON_CIRCLE "\xef\x84\x91"
 #define ICON_CLOSE "\xef\x80\x8d"
 #define ICON_COMMAND "\xef\x84\xa0"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
-#include <misc/cpp/imgui_stdlib.h>
+#include <imgui_stdlib.h>
 
 #include "editor/editor.h"
 #include "editor/shell/actions.h"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 #include <imgui_internal.h>
-#include <misc/cpp/imgui_stdlib.h>
+#include <imgui_stdlib.h>
 
 #include "editor/editor.h"
 #include "editor/shell/icons.h"
