@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "materials/json_file.h"
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <vector>
+
+namespace standpoint {
+
+namespace {
+
+constexpr std::uintmax_t kLargestFile = 16U << 20U;  // the whole library shipped is 0.1 MB
+constexpr int kDeepest = 32;
+
+// nlohmann-json keeps the last of two equal keys; a figure given twice must not vanish, so keys are watched while parsing.
+class KeyWatch {
+ public:
+
+  bool operator()(int depth, nlohmann::json::parse_event_t event, const nlohmann::json& parsed) {
+    using Event = nlohmann::json::parse_event_t;
+    if (depth > kDeepest) wrong_ = "is nested deeper than " + std::to_string(kDeepest) + " levels";
+    if (!wrong_.empty()) return false;
+    if (event == Event::object_start) levels_.emplace_back();
+    if (event == Event::object_end) levels_.pop_back();
+    if (event == Event::key && !levels_.back().insert(parsed.get<std::string>()).second)
+      wrong_ = "has the key '" + parsed.get<std::string>() + "' twice in one object";
+    return wrong_.empty();
+  }
+  const std::string& wrong() const { return wrong_; }
+
+ private:
+  std::vector<std::set<std::string>> levels_;
+  std::string wrong_;
+};
+
+Result<std::string> readWhole(const std::filesystem::path& file) {
+  std::error_code code;
+  const auto size = std::filesystem::file_size(file, code);
+  if (code) return failure(ErrorKind::file_system, "cannot be read: " + code.message(), file.string());
+  if (size > kLargestFile) return failure(ErrorKind::unusable, "is larger than 16 MB", file.string());
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(size, '\0');
+  if (!stream.read(text.data(), static_cast<std::streamsize>(size)))
+    return failure(ErrorKind::file_system, "cannot be read", file.string());
+  return text;
+}
+
+}  // namespace
+
+JsonPlace JsonPlace::operator/(std::string_view key) const {
+  std::string escaped;  // RFC 6901
+  for (const char c : key) escaped += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return {file, pointer + '/' + escaped};
+}
+
+tl::unexpected<Error> JsonPlace::unusable(std::string message) const {
+  return failure(ErrorKind::unusable, std::move(message), pointer.empty() ? file : file + ' ' + pointer);
+}
+
+Result<nlohmann::json> readJsonArray(const std::filesystem::path& file) {
+  const auto text = readWhole(file);
+  if (!text) return failure(text.error());
+  const JsonPlace root{file.filename().string(), {}};
+  KeyWatch watch;
+  nlohmann::json result;
+  try {
+    result = nlohmann::json::parse(*text, [&](int depth, auto event, auto& parsed) { return watch(depth, event, parsed); });
+  } catch (const nlohmann::json::parse_error& error) {
+    const auto end = text->begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text->size()));
+    return failure(ErrorKind::unusable, "is not JSON: " + std::string(error.what()),
+                   root.file + " line " + std::to_string(1 + std::count(text->begin(), end, '\n')));
+  } catch (const nlohmann::json::exception& error) {
+    return root.unusable("is not JSON: " + std::string(error.what()));
+  }
+  if (!watch.wrong().empty()) return root.unusable(watch.wrong());
+  if (!result.is_array()) return root.unusable("must be a list");
+  return result;
+}
+
+Result<void> checkKeys(const nlohmann::json& value, const JsonPlace& at, std::initializer_list<std::string_view> known) {
+  if (!value.is_object()) return at.unusable("must be an object");
+  for (const auto& item : value.items())
+    if (std::find(known.begin(), known.end(), item.key()) == known.end()) {
+      std::string list;
+      for (const auto key : known) list += (list.empty() ? "" : ", ") + std::string(key);
+      return (at / item.key()).unusable("is not a known key; known are " + list);
+    }
+  return {};
+}
+
+Result<std::string> readText(const nlohmann::json& object, const JsonPlace& at, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end()) return (at / key).unusable("is missing");
+  if (!found->is_string()) return (at / key).unusable("must be a text");
+  auto text = found->get<std::string>();
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) return (at / key).unusable("is empty");
+  return text;
+}
+
+Result<double> readNumber(const nlohmann::json& value, const JsonPlace& at, double minimum, double maximum) {
+  if (!value.is_number()) return at.unusable("must be a number");
+  const auto number = value.get<double>();
+  if (!(number >= minimum && number <= maximum))
+    return at.unusable("is " + value.dump() + ", must lie between " + nlohmann::json(minimum).dump() + " and " +
+                       nlohmann::json(maximum).dump());
+  return number;
+}
+
+}  // namespace standpoint

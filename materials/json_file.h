@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+#include "core/result.h"
+
+namespace standpoint {
+
+// Where a value stands: the file's name and a JSON pointer, as errors print it ("wood.json /3/reflectance/0/1").
+struct JsonPlace {
+  std::string file;
+  std::string pointer;
+
+  JsonPlace operator/(std::string_view key) const;
+  JsonPlace operator/(std::size_t index) const { return {file, pointer + '/' + std::to_string(index)}; }
+  tl::unexpected<Error> unusable(std::string message) const;
+};
+
+// The whole file as one array. A file that is too large, syntax errors and a key given twice are errors with their place.
+Result<nlohmann::json> readJsonArray(const std::filesystem::path& file);
+
+Result<void> checkKeys(const nlohmann::json& value, const JsonPlace& at, std::initializer_list<std::string_view> known);
+Result<std::string> readText(const nlohmann::json& object, const JsonPlace& at, const char* key);
+Result<double> readNumber(const nlohmann::json& value, const JsonPlace& at, double minimum, double maximum);
+
+}  // namespace standpoint

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/progress.h"
+#include "optimizer/shape.h"
+
+namespace standpoint {
+
+// One step of a simplification: vertex `removed` joins `kept`, which moves to `position`. Where both are the same vertex,
+// it is the last step, with which all that is left vanishes.
+struct Collapse {
+  std::uint32_t kept = 0, removed = 0;
+  std::uint32_t triangles = 0;  // that vanish with it, of one copy of the shape
+  double cost = 0;              // m⁴ (area times squared distance) per triangle that vanishes; never falls along a log
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+};
+
+struct CollapseOptions {
+  double max_deviation_m = 0;  // a step that moves the surface further is not made
+  bool lossless = false;       // only steps that keep surface, borders, creases and the borders between surfaces
+};
+
+// A full simplification by quadric error, cheapest step first, of which any prefix is a valid simplification. A shape
+// without a limit ends with no triangle at all: small parts that cannot become simpler vanish at the price of their size.
+// Deterministic and serial; O(n log n), as no vertex may gather more than some hundred triangles. Stops when cancelled.
+std::vector<Collapse> recordCollapses(const Shape& shape, const CollapseOptions& options, const Progress& progress);
+
+// The shape after the first `steps` steps. Vertices that did not move keep their exact position.
+// `image`, when given, receives for each triangle of `shape` its index in the result, or the largest number if it vanished.
+Shape replay(const Shape& shape, const std::vector<Collapse>& log, std::size_t steps, std::vector<std::uint32_t>* image = nullptr);
+
+}  // namespace standpoint

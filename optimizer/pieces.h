@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "optimizer/optimizer.h"
+#include "optimizer/shape.h"
+
+namespace standpoint {
+
+// A solid that a body bumps into: convex unless its kind is `mesh`.
+struct Piece {
+  CollisionShapeKind kind = CollisionShapeKind::convex;
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<Triangle> triangles;  // outward
+};
+
+struct Pieces {
+  std::vector<Piece> pieces;
+  double max_deviation_m = 0;  // between the pieces' outer surface and the shape's, measured
+  bool fell_back = false;      // a part that is neither prismatic nor nearly convex stays a triangle mesh
+};
+
+// Connected part by part: boxes between the planes of its faces where these are square to each other, else prisms over a
+// convex partition of its section, else its convex hull where that deviates by at most max_deviation_m, else its triangles.
+Pieces collisionPieces(const Shape& shape, double max_deviation_m);
+
+// The three ways, each empty when it does not apply. `volume_m3` of the closed part tells whether nothing was lost.
+std::vector<Piece> boxPieces(const Shape& part, double volume_m3);
+std::vector<Piece> prismPieces(const Shape& part, double volume_m3);
+std::optional<Piece> hullPiece(const std::vector<Eigen::Vector3d>& points);
+
+// Directions of the faces (either sense), largest total area first, no two closer than half a degree.
+std::vector<Eigen::Vector3d> faceDirections(const Shape& part);
+
+double volumeOf(const std::vector<Eigen::Vector3d>& positions, const std::vector<Triangle>& triangles);
+
+// A convex prism over a counter-clockwise polygon, given by its corners at the bottom and at the top.
+Piece prism(const std::vector<Eigen::Vector3d>& bottom, const std::vector<Eigen::Vector3d>& top, CollisionShapeKind kind);
+
+// Sorted, values closer than `tolerance` to the one before joined.
+std::vector<double> distinct(std::vector<double> values, double tolerance);
+
+}  // namespace standpoint

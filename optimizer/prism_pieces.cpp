@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <queue>
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include "optimizer/pieces.h"
+
+namespace standpoint {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
+using FaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel, CGAL::Triangulation_face_base_with_info_2<int, Kernel>>;
+using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+                                                                 CGAL::Exact_predicates_tag>;
+
+constexpr double kFlat = 0.001;     // m; a face this flat along the axis is a cap
+constexpr double kUpright = 2e-3;   // sine of the largest angle between the axis and a side
+constexpr double kSnap = 1e-5;      // m; points of the section this near are one
+constexpr std::size_t kMostPieces = 100;
+constexpr std::size_t kMostDirections = 6;
+constexpr std::size_t kMostSegments = 4000;
+
+using Key = std::array<long long, 2>;
+using Polygon = std::vector<int>;
+
+struct Section {
+  std::vector<Vector2d> points;
+  std::vector<Polygon> polygons;  // convex, counter-clockwise
+};
+
+struct Frame {
+  Vector3d u, v, axis;
+  Vector2d flat(const Vector3d& p) const { return {u.dot(p), v.dot(p)}; }
+  Vector3d lifted(const Vector2d& p, double height) const { return u * p.x() + v * p.y() + axis * height; }
+};
+
+double cross(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
+  return (b - a).x() * (c - b).y() - (b - a).y() * (c - b).x();
+}
+
+// Heights of the caps, or nothing when a face is neither cap nor side.
+std::vector<double> levels(const Shape& part, const Vector3d& axis) {
+  std::vector<double> heights;
+  for (const auto& t : part.triangles) {
+    const auto &a = part.positions[t[0]], &b = part.positions[t[1]], &c = part.positions[t[2]];
+    const Vector3d normal = (b - a).cross(c - a);
+    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    const auto [low, high] = std::minmax({axis.dot(a), axis.dot(b), axis.dot(c)});
+    if (high - low <= kFlat) heights.push_back(0.5 * (low + high));
+    else if (normal.norm() > kFlat * longest && std::abs(normal.normalized().dot(axis)) > kUpright) return {};
+  }
+  return distinct(std::move(heights), kFlat);
+}
+
+// Where the sides cross the plane at `height`: segments between snapped points, each of which bounds the section.
+std::vector<std::pair<Key, Key>> slice(const Shape& part, const Frame& frame, double height) {
+  std::vector<std::pair<Key, Key>> segments;
+  for (const auto& t : part.triangles) {
+    std::vector<Key> ends;
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d &p = part.positions[t[k]], &q = part.positions[t[(k + 1) % 3]];
+      const double hp = frame.axis.dot(p) - height, hq = frame.axis.dot(q) - height;
+      if ((hp < 0) == (hq < 0)) continue;
+      const Vector2d at = frame.flat(p + (q - p) * (hp / (hp - hq)));
+      ends.push_back({std::llround(at.x() / kSnap), std::llround(at.y() / kSnap)});
+    }
+    if (ends.size() == 2 && ends[0] != ends[1]) segments.emplace_back(std::min(ends[0], ends[1]), std::max(ends[0], ends[1]));
+  }
+  std::sort(segments.begin(), segments.end());
+  std::vector<std::pair<Key, Key>> odd;  // two faces at one place bound nothing
+  for (const auto& segment : segments) {
+    if (!odd.empty() && odd.back() == segment) odd.pop_back();
+    else odd.push_back(segment);
+  }
+  return odd;
+}
+
+// Each face's number of borders between it and the outside; odd ones are solid.
+void countBorders(Triangulation& triangulation) {
+  for (const auto face : triangulation.all_face_handles()) face->info() = -1;
+  std::deque<Triangulation::Face_handle> near{triangulation.infinite_face()};
+  near.front()->info() = 0;
+  while (!near.empty()) {
+    const auto face = near.front();
+    near.pop_front();
+    for (int k = 0; k < 3; ++k) {
+      const auto next = face->neighbor(k);
+      if (next->info() >= 0) continue;
+      const bool border = triangulation.is_constrained({face, k});
+      next->info() = face->info() + (border ? 1 : 0);
+      if (border) near.push_back(next);
+      else near.push_front(next);
+    }
+  }
+}
+
+// Joins two convex polygons along the edge a-b that they share; empty when the result would not be convex.
+Polygon joined(const std::vector<Vector2d>& points, Polygon p, Polygon q, int a, int b) {
+  std::rotate(p.begin(), std::find(p.begin(), p.end(), b), p.end());  // p: b ... a (the edge a-b closes it)
+  std::rotate(q.begin(), std::find(q.begin(), q.end(), a), q.end());  // q: a ... b
+  p.insert(p.end(), q.begin() + 1, q.end() - 1);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const auto &x = points[p[i]], &y = points[p[(i + 1) % p.size()]], &z = points[p[(i + 2) % p.size()]];
+    if (cross(x, y, z) < -1e-4 * (y - x).norm() * (z - y).norm() * std::min(1.0, (y - x).norm() + (z - y).norm())) return {};
+  }
+  return p;
+}
+
+// Hertel and Mehlhorn (1983): drop diagonals, longest first, while what they part stays convex.
+std::vector<Polygon> convexPartition(const std::vector<Vector2d>& points, std::vector<Polygon> polygons) {
+  struct Diagonal {
+    double length;
+    int a, b;
+    std::size_t left, right;
+  };
+  std::map<std::pair<int, int>, std::size_t> side;
+  for (std::size_t i = 0; i < polygons.size(); ++i)
+    for (int k = 0; k < 3; ++k) side[{polygons[i][k], polygons[i][(k + 1) % 3]}] = i;
+  std::vector<Diagonal> diagonals;
+  for (const auto& [edge, left] : side)
+    if (edge.first < edge.second)
+      if (const auto other = side.find({edge.second, edge.first}); other != side.end())
+        diagonals.push_back({(points[edge.first] - points[edge.second]).norm(), edge.first, edge.second, left, other->second});
+  std::stable_sort(diagonals.begin(), diagonals.end(), [](const Diagonal& x, const Diagonal& y) { return x.length > y.length; });
+  std::vector<std::size_t> now(polygons.size());
+  for (std::size_t i = 0; i < now.size(); ++i) now[i] = i;
+  const auto find = [&](std::size_t i) {
+    while (now[i] != i) i = now[i];
+    return i;
+  };
+  for (const auto& d : diagonals) {
+    const auto left = find(d.left), right = find(d.right);
+    if (left == right) continue;
+    auto whole = joined(points, polygons[left], polygons[right], d.a, d.b);
+    if (whole.empty()) continue;
+    polygons[left] = std::move(whole);
+    polygons[right].clear();
+    now[right] = left;
+  }
+  std::erase_if(polygons, [](const Polygon& p) { return p.empty(); });
+  return polygons;
+}
+
+Section section(const Shape& part, const Frame& frame, double height) {
+  const auto segments = slice(part, frame, height);
+  if (segments.size() > kMostSegments) return {};
+  Triangulation triangulation;
+  const auto point = [](const Key& key) { return Kernel::Point_2(static_cast<double>(key[0]) * kSnap, static_cast<double>(key[1]) * kSnap); };
+  for (const auto& [a, b] : segments) triangulation.insert_constraint(point(a), point(b));
+  Section result;
+  if (triangulation.dimension() < 2) return result;
+  countBorders(triangulation);
+  for (const auto vertex : triangulation.finite_vertex_handles()) {
+    vertex->info() = static_cast<int>(result.points.size());
+    result.points.emplace_back(vertex->point().x(), vertex->point().y());
+  }
+  for (const auto face : triangulation.finite_face_handles())
+    if (face->info() % 2 == 1) result.polygons.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+  result.polygons = convexPartition(result.points, std::move(result.polygons));
+  return result;
+}
+
+Piece lift(const Section& section, const Polygon& polygon, const Frame& frame, double low, double high) {
+  std::vector<Vector3d> bottom, top;
+  std::vector<Vector2d> corners;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const auto &x = section.points[polygon[(i + polygon.size() - 1) % polygon.size()]], &y = section.points[polygon[i]], &z = section.points[polygon[(i + 1) % polygon.size()]];
+    if (std::abs(cross(x, y, z)) <= 1e-4 * (z - x).norm() * std::min((y - x).norm(), (z - y).norm())) continue;  // on a line
+    bottom.push_back(frame.lifted(y, low));
+    top.push_back(frame.lifted(y, high));
+    corners.push_back(y);
+  }
+  if (corners.size() < 3) return {};
+  bool square = corners.size() == 4;
+  for (std::size_t i = 0; square && i < 4; ++i) {
+    const Vector2d a = corners[(i + 1) % 4] - corners[i], b = corners[(i + 2) % 4] - corners[(i + 1) % 4];
+    square = std::abs(a.dot(b)) < 1e-3 * a.norm() * b.norm();
+  }
+  return prism(bottom, top, square ? CollisionShapeKind::box : CollisionShapeKind::convex);
+}
+
+std::vector<Piece> prismsAlong(const Shape& part, const Vector3d& axis, double volume_m3) {
+  const auto heights = levels(part, axis);
+  if (heights.size() < 2) return {};
+  const Frame frame{axis.unitOrthogonal(), axis.cross(axis.unitOrthogonal()), axis};
+  std::vector<Piece> result;
+  double sum = 0;
+  for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
+    const auto cut = section(part, frame, 0.5 * (heights[i] + heights[i + 1]));
+    for (const auto& polygon : cut.polygons) {
+      auto piece = lift(cut, polygon, frame, heights[i], heights[i + 1]);
+      if (piece.triangles.empty()) continue;
+      sum += volumeOf(piece.positions, piece.triangles);
+      result.push_back(std::move(piece));
+      if (result.size() > kMostPieces) return {};
+    }
+  }
+  return std::abs(sum - std::abs(volume_m3)) <= 0.01 * std::abs(volume_m3) ? result : std::vector<Piece>{};
+}
+
+}  // namespace
+
+std::vector<Piece> prismPieces(const Shape& part, double volume_m3) {
+  std::vector<Piece> best;
+  auto directions = faceDirections(part);
+  directions.resize(std::min(directions.size(), kMostDirections));
+  for (const auto& axis : directions) {
+    try {
+      auto pieces = prismsAlong(part, axis, volume_m3);
+      if (!pieces.empty() && (best.empty() || pieces.size() < best.size())) best = std::move(pieces);
+    } catch (const std::exception&) {
+      // CGAL refuses sections that cross themselves beyond repair; such a part is not prismatic along this axis.
+    }
+  }
+  return best;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "optimizer/shape.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+namespace standpoint {
+
+namespace {
+
+constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
+
+// For each position the first one at the same place.
+std::vector<std::uint32_t> firstAtPlace(const std::vector<Eigen::Vector3f>& positions) {
+  std::vector<std::uint32_t> order(positions.size());
+  std::iota(order.begin(), order.end(), 0U);
+  const auto key = [&](std::uint32_t i) { return std::tuple(positions[i].x(), positions[i].y(), positions[i].z()); };
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
+  std::vector<std::uint32_t> first(positions.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    first[order[i]] = i > 0 && key(order[i - 1]) == key(order[i]) ? first[order[i - 1]] : order[i];
+  return first;
+}
+
+// Keeps the first of triangles that are equal up to rotation and have the same surface.
+void removeRepetitions(Shape& shape) {
+  const auto turned = [&](std::uint32_t i) {
+    auto t = shape.triangles[i];
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    return std::tuple(t, shape.surface_of_triangle[i]);
+  };
+  std::vector<std::uint32_t> order(shape.triangles.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return turned(a) < turned(b); });
+  std::vector<bool> again(order.size(), false);
+  for (std::size_t i = 1; i < order.size(); ++i) again[order[i]] = turned(order[i - 1]) == turned(order[i]);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (again[i]) continue;
+    shape.triangles[kept] = shape.triangles[i];
+    shape.surface_of_triangle[kept++] = shape.surface_of_triangle[i];
+  }
+  shape.triangles.resize(kept);
+  shape.surface_of_triangle.resize(kept);
+}
+
+}  // namespace
+
+double Shape::rounding() const {
+  // Half a unit in the last place of each coordinate, as seen from a plane through three such points.
+  return 2 * std::numeric_limits<float>::epsilon() * (centre.cwiseAbs() + half_size).maxCoeff();
+}
+
+Shape weld(const Mesh& mesh) {
+  Shape shape;
+  const auto first = firstAtPlace(mesh.positions);
+  std::vector<std::uint32_t> index(mesh.positions.size(), kNone);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    Triangle t{};
+    for (int k = 0; k < 3; ++k) t[k] = first[mesh.triangles[i][k]];
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    for (auto& corner : t) {
+      if (index[corner] == kNone) {
+        index[corner] = static_cast<std::uint32_t>(shape.positions.size());
+        shape.positions.emplace_back(mesh.positions[corner].cast<double>());
+      }
+      corner = index[corner];
+    }
+    shape.triangles.push_back(t);
+    shape.surface_of_triangle.push_back(mesh.surface_of_triangle[i]);
+  }
+  removeRepetitions(shape);
+  if (shape.positions.empty()) return shape;
+  Eigen::Vector3d low = shape.positions[0], high = low;
+  for (const auto& p : shape.positions) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  shape.centre = 0.5 * (low + high);
+  shape.half_size = 0.5 * (high - low);
+  for (auto& p : shape.positions) p -= shape.centre;
+  return shape;
+}
+
+Mesh meshOf(const Shape& shape) {
+  Mesh mesh;
+  std::vector<std::uint32_t> index(shape.positions.size(), kNone);
+  mesh.triangles.reserve(shape.triangles.size());
+  for (auto t : shape.triangles) {
+    for (auto& corner : t) {
+      if (index[corner] == kNone) {
+        index[corner] = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.emplace_back((shape.positions[corner] + shape.centre).cast<float>());
+      }
+      corner = index[corner];
+    }
+    mesh.triangles.push_back(t);
+  }
+  mesh.surface_of_triangle = shape.surface_of_triangle;
+  sortBySurface(mesh);
+  return mesh;
+}
+
+}  // namespace standpoint

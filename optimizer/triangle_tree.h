@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/mesh.h"
+
+namespace standpoint {
+
+// The point of triangle abc that is nearest to p (Ericson, Real-Time Collision Detection, 5.1.5: by Voronoi regions).
+Eigen::Vector3d closestPoint(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+
+// A bounding-volume hierarchy over triangles, for distances and for "which triangles are near this box".
+// It keeps references: positions and triangles must outlive it.
+class TriangleTree {
+ public:
+  TriangleTree(std::span<const Eigen::Vector3d> positions, std::span<const Triangle> triangles);
+
+  // Squared distance from p to the nearest triangle, or `bound` when nothing is nearer than that.
+  double squaredDistance(const Eigen::Vector3d& p, double bound = std::numeric_limits<double>::infinity()) const;
+
+  // Calls visit(triangle index) for each triangle whose box meets [low, high]; stops when visit returns false.
+  template <class Visit>
+  void inBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high, Visit visit) const {
+    if (nodes_.empty()) return;
+    std::uint32_t stack[64];
+    int top = 0;
+    stack[top++] = 0;
+    while (top > 0) {
+      const Node& node = nodes_[stack[--top]];
+      if ((node.low.array() > high.array()).any() || (node.high.array() < low.array()).any()) continue;
+      if (node.count > 0) {
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+          if (meetsBox(order_[i], low, high) && !visit(order_[i])) return;
+      } else {
+        stack[top++] = node.first;
+        stack[top++] = node.first + 1;
+      }
+    }
+  }
+
+ private:
+  struct Node {
+    Eigen::Vector3d low, high;
+    std::uint32_t first = 0;  // of the children, or of the leaf's triangles in order_
+    std::uint32_t count = 0;  // 0: inner node
+  };
+  bool meetsBox(std::uint32_t triangle, const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
+  void fit(Node& node) const;
+
+  std::span<const Eigen::Vector3d> positions_;
+  std::span<const Triangle> triangles_;
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> order_;
+};
+
+}  // namespace standpoint

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "optimizer/walkable.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <memory>
+
+#include <recastnavigation/Recast.h>
+
+namespace standpoint {
+
+namespace {
+
+constexpr double kMostColumns = 4e6;
+constexpr double kMostLevels = 8000;  // Recast keeps heights in 13 bits
+
+using Heightfield = std::unique_ptr<rcHeightfield, decltype(&rcFreeHeightField)>;
+using CompactHeightfield = std::unique_ptr<rcCompactHeightfield, decltype(&rcFreeCompactHeightfield)>;
+
+// Recast is Y-up: (x, y, z) here is (x, z, -y) there.
+struct Grid {
+  float low[3], high[3];
+  float cell = 0, level = 0;
+  int width = 0, depth = 0;
+};
+
+Grid gridOver(const std::vector<CollisionShape>& shapes, const CollideOptions& options) {
+  Bounds box;
+  for (const auto& shape : shapes)
+    for (const auto& p : shape.mesh.positions) box.extend(p.cast<double>());
+  Grid grid;
+  if (box.empty()) return grid;
+  const Eigen::Vector3d size = box.max - box.min + Eigen::Vector3d::Constant(0.5);
+  const double cell = std::max(options.agent_radius_m / 10, std::sqrt(size.x() * size.y() / kMostColumns));
+  const double level = std::max(cell / 2, (size.z() + options.agent_height_m) / kMostLevels);
+  grid.cell = static_cast<float>(cell);
+  grid.level = static_cast<float>(level);
+  const Eigen::Vector3d low(box.min.x(), box.min.z(), -box.max.y()), high(box.max.x(), box.max.z(), -box.min.y());
+  for (int k = 0; k < 3; ++k) {
+    grid.low[k] = static_cast<float>(low[k] - 0.2);
+    grid.high[k] = static_cast<float>(high[k] + 0.2 + (k == 1 ? options.agent_height_m : 0));
+  }
+  rcCalcGridSize(grid.low, grid.high, grid.cell, &grid.width, &grid.depth);
+  return grid;
+}
+
+struct Soup {
+  std::vector<float> corners;
+  std::vector<int> triangles;
+  std::vector<unsigned char> areas;
+};
+
+Soup soupOf(const Mesh& mesh, rcContext& context) {
+  Soup soup;
+  for (const auto& p : mesh.positions) soup.corners.insert(soup.corners.end(), {p.x(), p.z(), -p.y()});
+  for (const auto& t : mesh.triangles)
+    for (const auto v : t) soup.triangles.push_back(static_cast<int>(v));
+  soup.areas.assign(mesh.triangles.size(), RC_NULL_AREA);
+  rcMarkWalkableTriangles(&context, static_cast<float>(kSteepestSlopeDeg), soup.corners.data(), static_cast<int>(mesh.positions.size()),
+                          soup.triangles.data(), static_cast<int>(mesh.triangles.size()), soup.areas.data());
+  return soup;
+}
+
+bool addTriangles(const Soup& soup, rcHeightfield& field, int climb, rcContext& context) {
+  return rcRasterizeTriangles(&context, soup.corners.data(), static_cast<int>(soup.corners.size() / 3), soup.triangles.data(), soup.areas.data(),
+                              static_cast<int>(soup.areas.size()), field, climb);
+}
+
+// Nobody stands inside of a wall: what is between the lowest and the highest voxel of a column is solid.
+bool addSolid(const Soup& soup, rcHeightfield& field, const Grid& grid, int climb, rcContext& context) {
+  int from[2] = {std::numeric_limits<int>::max(), std::numeric_limits<int>::max()}, to[2] = {0, 0};
+  for (std::size_t i = 0; i < soup.corners.size(); i += 3)
+    for (int k = 0; k < 2; ++k) {
+      const int at = static_cast<int>((soup.corners[i + 2 * static_cast<std::size_t>(k)] - grid.low[2 * k]) / grid.cell);
+      from[k] = std::min(from[k], at - 1);
+      to[k] = std::max(to[k], at + 2);
+    }
+  const float low[3] = {grid.low[0] + static_cast<float>(from[0]) * grid.cell, grid.low[1], grid.low[2] + static_cast<float>(from[1]) * grid.cell};
+  const float high[3] = {grid.low[0] + static_cast<float>(to[0]) * grid.cell, grid.high[1], grid.low[2] + static_cast<float>(to[1]) * grid.cell};
+  const Heightfield own(rcAllocHeightfield(), rcFreeHeightField);
+  if (!own || !rcCreateHeightfield(&context, *own, to[0] - from[0], to[1] - from[1], low, high, grid.cell, grid.level)) return false;
+  if (!addTriangles(soup, *own, climb, context)) return false;
+  for (int z = 0; z < own->height; ++z)
+    for (int x = 0; x < own->width; ++x) {
+      const rcSpan* span = own->spans[z * own->width + x];
+      const int fx = x + from[0], fz = z + from[1];
+      if (span == nullptr || fx < 0 || fz < 0 || fx >= field.width || fz >= field.height) continue;
+      const auto bottom = static_cast<unsigned short>(span->smin);
+      while (span->next != nullptr) span = span->next;
+      if (!rcAddSpan(&context, field, fx, fz, bottom, static_cast<unsigned short>(span->smax), static_cast<unsigned char>(span->area), climb)) return false;
+    }
+  return true;
+}
+
+// Clears islands on which the agent has no room, and returns the number of spans that stay.
+std::size_t removeIslands(rcCompactHeightfield& field, double smallest_spans) {
+  std::vector<char> seen(static_cast<std::size_t>(field.spanCount), 0);
+  std::vector<std::array<int, 3>> island;  // x, z, span
+  std::size_t kept = 0;
+  for (int z = 0; z < field.height; ++z)
+    for (int x = 0; x < field.width; ++x) {
+      const auto& cell = field.cells[z * field.width + x];
+      for (int i = static_cast<int>(cell.index); i < static_cast<int>(cell.index + cell.count); ++i) {
+        if (seen[i] || field.areas[i] == RC_NULL_AREA) continue;
+        island.assign(1, {x, z, i});
+        seen[i] = 1;
+        for (std::size_t at = 0; at < island.size(); ++at) {
+          const auto [ix, iz, ii] = island[at];
+          for (int direction = 0; direction < 4; ++direction) {
+            const int layer = rcGetCon(field.spans[ii], direction);
+            if (layer == RC_NOT_CONNECTED) continue;
+            const int nx = ix + rcGetDirOffsetX(direction), nz = iz + rcGetDirOffsetY(direction);
+            const int ni = static_cast<int>(field.cells[nz * field.width + nx].index) + layer;
+            if (seen[ni] || field.areas[ni] == RC_NULL_AREA) continue;
+            seen[ni] = 1;
+            island.push_back({nx, nz, ni});
+          }
+        }
+        if (static_cast<double>(island.size()) >= smallest_spans) kept += island.size();
+        else
+          for (const auto& member : island) field.areas[member[2]] = RC_NULL_AREA;
+      }
+    }
+  return kept;
+}
+
+struct Rectangle {
+  int x0 = 0, x1 = 0, z0 = 0, z1 = 0;
+  int level = 0;
+};
+
+// Runs of cells of equal height along one row.
+std::vector<Rectangle> runs(const rcCompactHeightfield& field, int z) {
+  std::vector<Rectangle> done, growing;  // one per level under way
+  for (int x = 0; x < field.width; ++x) {
+    const auto& cell = field.cells[z * field.width + x];
+    for (std::uint32_t i = cell.index, end = cell.index + cell.count; i < end; ++i) {
+      if (field.areas[i] == RC_NULL_AREA) continue;
+      const int level = field.spans[i].y;
+      const auto run = std::find_if(growing.begin(), growing.end(), [&](const Rectangle& r) { return r.level == level && r.x1 == x; });
+      if (run != growing.end()) ++run->x1;
+      else growing.push_back({x, x + 1, z, z + 1, level});
+    }
+    std::copy_if(growing.begin(), growing.end(), std::back_inserter(done), [&](const Rectangle& r) { return r.x1 <= x; });
+    std::erase_if(growing, [&](const Rectangle& r) { return r.x1 <= x; });
+  }
+  done.insert(done.end(), growing.begin(), growing.end());
+  return done;
+}
+
+// Equal runs of neighbouring rows joined.
+std::vector<Rectangle> rectangles(const rcCompactHeightfield& field) {
+  std::vector<Rectangle> done;
+  std::map<std::array<int, 3>, Rectangle> open;
+  for (int z = 0; z < field.height; ++z) {
+    std::map<std::array<int, 3>, Rectangle> next;
+    for (auto run : runs(field, z)) {
+      const std::array<int, 3> key{run.x0, run.x1, run.level};
+      if (const auto before = open.find(key); before != open.end()) {
+        run.z0 = before->second.z0;
+        open.erase(before);
+      }
+      next.emplace(key, run);
+    }
+    for (const auto& [key, rectangle] : open) done.push_back(rectangle);
+    open = std::move(next);
+  }
+  for (const auto& [key, rectangle] : open) done.push_back(rectangle);
+  return done;
+}
+
+Mesh meshOf(const rcCompactHeightfield& field) {
+  Mesh mesh;
+  for (const auto& r : rectangles(field)) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const float height = field.bmin[1] + static_cast<float>(r.level) * field.ch;
+    const auto corner = [&](int x, int z) {
+      mesh.positions.emplace_back(field.bmin[0] + static_cast<float>(x) * field.cs, -(field.bmin[2] + static_cast<float>(z) * field.cs), height);
+    };
+    corner(r.x0, r.z1), corner(r.x1, r.z1), corner(r.x1, r.z0), corner(r.x0, r.z0);
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangles.push_back({first, first + 2, first + 3});
+  }
+  mesh.surface_of_triangle.assign(mesh.triangles.size(), 0);
+  return mesh;
+}
+
+}  // namespace
+
+Result<Walkable> walkableSurface(const std::vector<CollisionShape>& shapes, const CollideOptions& options, Progress& progress) {
+  Walkable result;
+  const Grid grid = gridOver(shapes, options);
+  if (grid.width == 0) return result;
+  result.cell_m = grid.cell;
+  const auto full = [] { return failure(ErrorKind::unusable, "not enough memory for the walkable surface", "collide"); };
+  rcContext context(false);
+  const int climb = static_cast<int>(std::floor(kStepHeight / grid.level + 1e-3));
+  const int height = static_cast<int>(std::ceil(options.agent_height_m / grid.level - 1e-3));
+  const Heightfield field(rcAllocHeightfield(), rcFreeHeightField);
+  if (!field || !rcCreateHeightfield(&context, *field, grid.width, grid.depth, grid.low, grid.high, grid.cell, grid.level)) return full();
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (auto going = progress.check(); !going) return failure(going.error());
+    progress.advance(0.7 * static_cast<double>(i) / static_cast<double>(shapes.size()));
+    const Soup soup = soupOf(shapes[i].mesh, context);
+    const bool solid = shapes[i].kind != CollisionShapeKind::mesh;
+    if (!(solid ? addSolid(soup, *field, grid, climb, context) : addTriangles(soup, *field, climb, context))) return full();
+  }
+  rcFilterLowHangingWalkableObstacles(&context, climb, *field);
+  rcFilterLedgeSpans(&context, height, climb, *field);
+  rcFilterWalkableLowHeightSpans(&context, height, *field);
+  const CompactHeightfield compact(rcAllocCompactHeightfield(), rcFreeCompactHeightfield);
+  if (!compact || !rcBuildCompactHeightfield(&context, height, climb, *field, *compact)) return full();
+  if (!rcErodeWalkableArea(&context, std::min(127, static_cast<int>(std::ceil(options.agent_radius_m / grid.cell - 1e-3))), *compact)) return full();
+  const double cell_area = static_cast<double>(grid.cell) * grid.cell;
+  result.area_m2 = static_cast<double>(removeIslands(*compact, 4 * options.agent_radius_m * options.agent_radius_m / cell_area)) * cell_area;
+  result.mesh = meshOf(*compact);
+  return result;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "materials/materials.h"
+
+namespace standpoint {
+
+inline std::filesystem::path sharedFolder() {
+  const char* given = std::getenv("STANDPOINT_SHARED");
+  return given ? std::filesystem::path(given) : std::filesystem::path(SOURCE_DIR "/../shared");
+}
+
+inline const std::vector<PhysicalMaterial>& shippedLibrary() {
+  static const auto library = readMaterialLibrary(SOURCE_DIR "/materials/library").value();
+  return library;
+}
+
+inline const std::vector<AssignmentRule>& shippedRules() {
+  static const auto rules = readAssignmentRules(SOURCE_DIR "/materials/rules/default.json", shippedLibrary()).value();
+  return rules;
+}
+
+inline const PhysicalMaterial* findMaterial(const std::string& id) {
+  for (const auto& material : shippedLibrary())
+    if (material.id == id) return &material;
+  return nullptr;
+}
+
+// A folder of its own for the test, removed at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    path_ = std::filesystem::path(BINARY_DIR) / (std::string("materials_") + test->test_suite_name() + test->name());
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// Squares of side 1 in the plane z = 0, one for each surface, in the surfaces' order.
+inline std::shared_ptr<const Mesh> unitSquares(std::vector<std::uint32_t> surfaces) {
+  auto mesh = std::make_shared<Mesh>();
+  for (const auto surface : surfaces) {
+    const auto first = static_cast<std::uint32_t>(mesh->positions.size());
+    for (const auto& [x, y] : {std::pair{0.F, 0.F}, {1.F, 0.F}, {1.F, 1.F}, {0.F, 1.F}}) mesh->positions.emplace_back(x, y, 0.F);
+    mesh->triangles.push_back({first, first + 1, first + 2});
+    mesh->triangles.push_back({first, first + 2, first + 3});
+    mesh->surface_of_triangle.insert(mesh->surface_of_triangle.end(), 2, surface);
+  }
+  sortBySurface(*mesh);
+  return mesh;
+}
+
+// Builds an environment piece by piece; each product gets the mesh of one instance.
+struct Builder {
+  Environment environment;
+
+  std::uint32_t surface(const std::string& name, Colour colour = {}) {
+    environment.surfaces.push_back({name, colour, {}, {}, {}});
+    return static_cast<std::uint32_t>(environment.surfaces.size() - 1);
+  }
+  Product& product(const std::string& ifc_class, const std::string& name, std::vector<std::uint32_t> surfaces,
+                   const Eigen::Affine3d& world_from_mesh = Eigen::Affine3d::Identity()) {
+    const auto index = static_cast<std::uint32_t>(environment.products.size());
+    environment.products.emplace_back();
+    auto& product = environment.products.back();
+    product.id = "#" + std::to_string(100 + index);
+    product.ifc_class = ifc_class;
+    product.name = name;
+    environment.meshes.push_back(unitSquares(std::move(surfaces)));
+    environment.instances.push_back({static_cast<std::uint32_t>(environment.meshes.size() - 1), index, world_from_mesh});
+    return product;
+  }
+  MaterialResult assign(const std::vector<AssignmentRule>& rules = shippedRules(),
+                        const std::vector<MaterialOverride>& overrides = {}) const {
+    Progress progress;
+    EXPECT_EQ(validate(environment), "");
+    return assignMaterials(environment, shippedLibrary(), rules, overrides, progress).value();
+  }
+};
+
+inline std::string materialId(const MaterialResult& result, std::uint32_t product, std::uint32_t surface) {
+  const auto index = materialOf(result.assignment, product, surface);
+  return index < 0 ? "" : result.assignment.materials[static_cast<std::size_t>(index)].id;
+}
+
+}  // namespace standpoint

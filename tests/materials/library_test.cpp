@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <sstream>
+
+#include "tests/materials/fixtures.h"
+
+namespace standpoint {
+namespace {
+
+double normalReflectance(double index) {
+  return index > 0 ? std::pow((index - 1) / (index + 1), 2) : 0;
+}
+
+// A slab at normal incidence, all internal reflections summed without coherence (physics.md §4.6).
+struct Slab {
+  double transmittance, reflectance;
+};
+Slab slab(double n, double k, double thickness_m, double wavelength_nm) {
+  const double r = normalReflectance(n);
+  const double t = std::exp(-4 * std::numbers::pi * k * thickness_m / (wavelength_nm * 1e-9));
+  const double both = 1 - r * r * t * t;
+  return {(1 - r) * (1 - r) * t / both, r + (1 - r) * (1 - r) * r * t * t / both};
+}
+
+struct Row {
+  double reflectance;
+  std::string source, note;
+};
+using Table = std::map<std::string, std::map<double, Row>>;
+
+Table readTable(const std::filesystem::path& file) {
+  Table table;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    std::vector<std::string> cells;
+    std::istringstream cell_stream(line);
+    for (std::string cell; std::getline(cell_stream, cell, '\t');) cells.push_back(cell);
+    if (line.starts_with('#') || cells.size() != 5 || cells[0] == "material" || cells[2] == "NA") continue;
+    table[cells[0]][std::stod(cells[1])] = {std::stod(cells[2]), cells[3], cells[4]};
+  }
+  return table;
+}
+
+std::string sourceOf(const PhysicalMaterial& material, const std::string& figure) {
+  for (const auto& source : material.source)
+    if (source.starts_with(figure + ": ")) return source.substr(figure.size() + 2);
+  return {};
+}
+
+TEST(Library, HoldsOnlyWhatASurfaceCanDo) {
+  ASSERT_GE(shippedLibrary().size(), 60U);
+  for (const auto& material : shippedLibrary()) {
+    SCOPED_TRACE(material.id);
+    const double specular = normalReflectance(material.index_of_refraction);
+    ASSERT_FALSE(material.reflectance.empty());
+    for (const auto& [wavelength, diffuse] : material.reflectance) {
+      EXPECT_GE(diffuse, 0);
+      EXPECT_LE(diffuse + specular, 1);
+    }
+    for (const auto& [wavelength, through] : material.transmittance) {
+      // A pane of this index sends back at least the first face, at most both faces without absorption.
+      const double diffuse = atWavelength(material.reflectance, wavelength);
+      EXPECT_GT(through, 0);
+      EXPECT_LE(through + specular + diffuse, 1);
+    }
+  }
+}
+
+TEST(Library, CoversTheWavelengthsOfTerrestrialScanners) {
+  for (const auto& material : shippedLibrary()) {
+    EXPECT_LE(material.reflectance.front().first, 532) << material.id;
+    EXPECT_GE(material.reflectance.back().first, 1550) << material.id;
+  }
+}
+
+TEST(Library, TakesNothingFromTheCampaignWhoseFilesMayNotBeShipped) {
+  for (const auto& material : shippedLibrary())
+    for (const auto& source : material.source) EXPECT_EQ(source.find("KLUM"), std::string::npos) << material.id;
+}
+
+TEST(Library, NamesASourceOrSaysUnsourcedForEveryFigure) {
+  for (const auto& material : shippedLibrary()) {
+    SCOPED_TRACE(material.id);
+    EXPECT_FALSE(sourceOf(material, "reflectance").empty());
+    EXPECT_EQ(sourceOf(material, "roughness_rad").empty(), material.roughness_rad == 0);
+    EXPECT_EQ(sourceOf(material, "gloss_slope").empty(), material.gloss_slope == 0);
+    EXPECT_EQ(sourceOf(material, "index_of_refraction").empty(), material.index_of_refraction == 0);
+    EXPECT_EQ(sourceOf(material, "transmittance").empty(), material.transmittance.empty());
+  }
+}
+
+// What the table says, less the specular part that a glossy finish's total holds.
+void expectFiguresOf(const PhysicalMaterial& material, const std::map<double, Row>& rows, double taken_off) {
+  ASSERT_EQ(material.reflectance.size(), rows.size());
+  for (const auto& [wavelength, diffuse] : material.reflectance)
+    EXPECT_NEAR(diffuse, std::max(0.0, rows.at(wavelength).reflectance - taken_off), 1e-4) << material.id << " " << wavelength;
+}
+
+TEST(Library, SaysWhatTheReferenceTableSays) {
+  const auto file = sharedFolder() / "reference" / "materials.tsv";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the reference table is not at hand";
+  const auto table = readTable(file);
+  std::size_t compared = 0;
+  for (const auto& material : shippedLibrary()) {
+    const auto source = sourceOf(material, "reflectance");
+    const auto proxy = source.find("proxy, figures of ");
+    if (proxy == std::string::npos && !source.starts_with("measured")) continue;
+    const auto begin = proxy + 18;
+    const auto id = proxy == std::string::npos ? material.id : source.substr(begin, source.find(' ', begin) - begin);
+    ASSERT_TRUE(table.contains(id)) << material.id;
+    const bool whole = material.index_of_refraction > 0 && source.find("diffuse part: less") != std::string::npos;
+    expectFiguresOf(material, table.at(id), whole ? normalReflectance(material.index_of_refraction) : 0);
+    ++compared;
+  }
+  EXPECT_GE(compared, 90U);
+}
+
+TEST(Library, GivesMetalsTheNormalReflectanceOfTheirOpticalConstants) {
+  const auto file = sharedFolder() / "reference" / "materials.tsv";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the reference table is not at hand";
+  const auto table = readTable(file);
+  for (const auto& [id, row] : {std::pair{"aluminium_polished", "aluminium_polished"},
+                                std::pair{"stainless_austenitic_polished", "stainless_austenitic_polished"},
+                                std::pair{"stainless_brushed", "stainless_austenitic_polished"},
+                                std::pair{"chromium_polished", "chromium_polished"},
+                                std::pair{"copper_polished", "copper_polished"},
+                                std::pair{"brass_70_30_polished", "brass_70_30_polished"},
+                                std::pair{"steel_polished", "iron_polished"}}) {
+    ASSERT_NE(findMaterial(id), nullptr) << id;
+    EXPECT_NEAR(normalReflectance(findMaterial(id)->index_of_refraction), table.at(row).at(905).reflectance, 2e-4) << id;
+  }
+}
+
+// V7 of physics.md §7: the formula that the panes below are held against.
+TEST(Panes, OfLosslessGlassReflectTwoFaces) {
+  const auto lossless = slab(1.52, 0, 0.004, 905);
+  EXPECT_NEAR(lossless.reflectance, 0.0817, 1e-4);
+  EXPECT_NEAR(lossless.transmittance, 0.9183, 1e-4);
+}
+
+// V8: clear float 4 mm at 905 nm, n and k by Rubin 1985; then the other wavelengths and thicknesses.
+TEST(Panes, OfClearFloatTransmitWhatTheirOpticalConstantsSay) {
+  EXPECT_NEAR(atWavelength(findMaterial("glass_float_clear_4mm")->transmittance, 905), 0.745, 2e-3);
+  struct Constants {
+    double wavelength_nm, n, k;
+  };
+  for (const auto& [wavelength, n, k] : {Constants{532, 1.5261, 1.81e-7}, Constants{660, 1.5207, 9.11e-7},
+                                         Constants{785, 1.5175, 2.28e-6}, Constants{830, 1.5166, 2.89e-6},
+                                         Constants{905, 1.5152, 3.77e-6}, Constants{1064, 1.5129, 4.92e-6},
+                                         Constants{1550, 1.5070, 3.95e-6}})
+    for (const int mm : {4, 6, 10}) {
+      const auto* pane = findMaterial("glass_float_clear_" + std::to_string(mm) + "mm");
+      ASSERT_NE(pane, nullptr);
+      EXPECT_NEAR(atWavelength(pane->transmittance, wavelength), slab(n, k, mm / 1000.0, wavelength).transmittance, 1e-3)
+          << pane->id << " " << wavelength;
+    }
+  EXPECT_NEAR(slab(1.5152, 3.77e-6, 0.004, 905).reflectance, 0.067, 2e-3);
+}
+
+TEST(Panes, InADoubleGlazingLetThroughWhatBothDo) {
+  const auto* unit = findMaterial("glass_double_clear_4mm");
+  ASSERT_NE(unit, nullptr);
+  const auto one = slab(1.5129, 4.92e-6, 0.004, 1064);
+  const double both = one.transmittance * one.transmittance / (1 - one.reflectance * one.reflectance);
+  EXPECT_NEAR(atWavelength(unit->transmittance, 1064), both, 1e-3);
+  EXPECT_NEAR(std::pow(atWavelength(unit->transmittance, 1064), 2), 0.285, 3e-3);  // physics.md §4.6: IGU .285
+}
+
+TEST(Library, KeepsTheTrapsOfTheWavelengths) {
+  const auto at = [](const char* id, double wavelength) { return atWavelength(findMaterial(id)->reflectance, wavelength); };
+  EXPECT_LE(at("snow_medium", 1550), 0.03);                                            // V17
+  EXPECT_NEAR(at("brick_red_bare", 1550) / at("brick_red_bare", 660), 2.76, 0.05);     // red brick brightens
+  EXPECT_LT(at("leaf_tree_broad_and_needle", 1550), 0.6 * at("leaf_tree_broad_and_needle", 1064));
+  EXPECT_GT(at("fabric_nylon_black_coated", 1550), 4 * at("fabric_nylon_black_coated", 532));
+  EXPECT_LT(at("paint_gloss_black_on_aluminium", 905), 0.01);                          // its DHR is its gloss
+}
+
+TEST(Library, ComesSortedByIdWithoutRepetition) {
+  const auto& library = shippedLibrary();
+  for (std::size_t i = 1; i < library.size(); ++i) EXPECT_LT(library[i - 1].id, library[i].id);
+}
+
+}  // namespace
+}  // namespace standpoint

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <cstring>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "optimizer/optimizer.h"
+#include "tests/optimizer/models.h"
+
+namespace standpoint {
+namespace {
+
+using Eigen::Affine3d;
+using Eigen::AngleAxisd;
+using Eigen::Translation3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+CollideResult collided(const Environment& environment, const CollideOptions& options = {}) {
+  Progress progress;
+  auto result = collide(environment, options, progress);
+  EXPECT_TRUE(result) << describe(result.error());
+  EXPECT_EQ(result->products.size(), environment.products.size());
+  for (const auto& shape : result->shapes) EXPECT_EQ(validate(shape.mesh, 1), "");
+  return std::move(*result);
+}
+
+Affine3d at(double x, double y, double z) { return Affine3d(Translation3d(x, y, z)); }
+
+// A wall under a roof line in the xz plane, with rectangular holes, pushed along y: cells between all x and z of corners
+// and holes, each with the faces that no other solid cell covers, so that no triangulator is needed and it is closed.
+Mesh extruded(const std::vector<Vector2d>& roof, const std::vector<std::array<double, 4>>& holes, double depth) {
+  std::vector<double> xs, zs{0};
+  for (const auto& p : roof) xs.push_back(p.x());
+  for (const auto& h : holes) {
+    xs.insert(xs.end(), {h[0], h[2]});
+    zs.insert(zs.end(), {h[1], h[3]});
+  }
+  for (auto* values : {&xs, &zs}) {
+    std::sort(values->begin(), values->end());
+    values->erase(std::unique(values->begin(), values->end()), values->end());
+  }
+  const int columns = static_cast<int>(xs.size()) - 1, rows = static_cast<int>(zs.size());
+  const auto height = [&](int row, double x) {
+    if (row < rows) return zs[static_cast<std::size_t>(row)];
+    std::size_t i = 0;
+    while (x > roof[i + 1].x()) ++i;
+    return roof[i].y() + (roof[i + 1].y() - roof[i].y()) * (x - roof[i].x()) / (roof[i + 1].x() - roof[i].x());
+  };
+  const auto solid = [&](int i, int j) {
+    if (i < 0 || i >= columns || j < 0 || j >= rows) return false;
+    const double x = 0.5 * (xs[i] + xs[i + 1]), z = 0.5 * (height(j, x) + height(j + 1, x));
+    return std::none_of(holes.begin(), holes.end(), [&](const auto& h) { return h[0] < x && x < h[2] && h[1] < z && z < h[3]; });
+  };
+  Mesh mesh;
+  const auto quad = [&](const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const auto* p : {&a, &b, &c, &d}) mesh.positions.emplace_back(p->cast<float>());
+    mesh.triangles.insert(mesh.triangles.end(), {{first, first + 1, first + 2}, {first, first + 2, first + 3}});
+    mesh.surface_of_triangle.insert(mesh.surface_of_triangle.end(), {0, 0});
+  };
+  for (int i = 0; i < columns; ++i)
+    for (int j = 0; j < rows; ++j) {
+      if (!solid(i, j)) continue;
+      const double x0 = xs[i], x1 = xs[i + 1];
+      const Vector3d a(x0, 0, height(j, x0)), b(x1, 0, height(j, x1)), c(x1, 0, height(j + 1, x1)), d(x0, 0, height(j + 1, x0)), y(0, depth, 0);
+      quad(a, b, c, d);
+      quad(d + y, c + y, b + y, a + y);
+      if (!solid(i, j + 1)) quad(d, c, c + y, d + y);
+      if (!solid(i, j - 1)) quad(b, a, a + y, b + y);
+      if (!solid(i - 1, j)) quad(a, d, d + y, a + y);
+      if (!solid(i + 1, j)) quad(c, b, b + y, c + y);
+    }
+  return mesh;
+}
+
+// A wall along x with a doorway of 0.9 x 2.1 m in its middle.
+Mesh wallWithDoorway(double length, double height = 2.8, double thickness = 0.2) {
+  const double x = length / 2;
+  return extruded({{0, height}, {length, height}}, {{x - 0.45, 0, x + 0.45, 2.1}}, thickness);
+}
+
+// Two rooms of 4 x 5 m side by side, a door between them.
+Environment twoRooms(bool doorway, bool floor_behind = true) {
+  Environment e;
+  models::add(e, models::box({4.1, 5, 0.2}, 1), "IfcSlab", at(0, 0, -0.2));
+  if (floor_behind) models::add(e, models::box({4.1, 5, 0.2}, 1), "IfcSlab", at(4.1, 0, -0.2));
+  models::add(e, models::box({8.2, 0.2, 2.8}, 1), "IfcWall", at(0, -0.2, 0));
+  models::add(e, models::box({8.2, 0.2, 2.8}, 1), "IfcWall", at(0, 5, 0));
+  models::add(e, models::box({0.2, 5.4, 2.8}, 1), "IfcWall", at(-0.2, -0.2, 0));
+  models::add(e, models::box({0.2, 5.4, 2.8}, 1), "IfcWall", at(8.2, -0.2, 0));
+  const Affine3d middle = Translation3d(4.2, 0, 0) * AngleAxisd(EIGEN_PI / 2, Vector3d::UnitZ());
+  models::add(e, doorway ? wallWithDoorway(5) : models::box({5, 0.2, 2.8}, 1), "IfcWall", middle);
+  models::add(e, models::box({0.06, 0.9, 2.1}, 1), "IfcDoor", at(4.07, 2.05, 0));
+  return e;
+}
+
+TEST(Wall, WithADoorwayBecomesThreeBoxesAndKeepsItsVolume) {
+  Environment e;
+  const auto wall = wallWithDoorway(5);
+  models::add(e, wall, "IfcWall", Translation3d(30, 20, 3) * Affine3d(AngleAxisd(0.4, Vector3d::UnitZ())));
+  const auto result = collided(e);
+  ASSERT_EQ(result.shapes.size(), 3);
+  double sum = 0;
+  for (const auto& shape : result.shapes) {
+    EXPECT_EQ(shape.kind, CollisionShapeKind::box);
+    EXPECT_TRUE(isClosed(shape.mesh));
+    sum += volume(shape.mesh);
+  }
+  EXPECT_NEAR(sum, 0.2 * (5 * 2.8 - 0.9 * 2.1), 1e-3);
+  EXPECT_LT(result.products[0].max_deviation_m, 1e-3);
+}
+
+TEST(Wall, WithAGableAndWindowsBecomesFewConvexPieces) {
+  Environment e;
+  models::add(e, extruded({{0, 3}, {4, 6}, {8, 3}}, {{1, 1, 2, 2.2}, {5, 1, 6.2, 2.2}}, 0.3), "IfcWall");
+  const auto result = collided(e);
+  EXPECT_LE(result.shapes.size(), 2 + 3 * 2);
+  double sum = 0;
+  for (const auto& shape : result.shapes) {
+    EXPECT_NE(shape.kind, CollisionShapeKind::mesh);
+    EXPECT_GT(volume(shape.mesh), 0);
+    sum += volume(shape.mesh);
+  }
+  EXPECT_NEAR(sum, 0.3 * (8 * 3 + 8 * 3 / 2.0 - 1.2 - 1.2 * 1.2), 1e-2);
+  EXPECT_LT(result.products[0].max_deviation_m, 2e-3);
+}
+
+TEST(RoundColumn, IsItsConvexHullAndATorusItsTriangles) {
+  Environment e;
+  models::add(e, models::cylinder(0.3, 3, 24, 6), "IfcColumn");
+  models::add(e, models::torus(2, 0.4, 24, 12), "", at(10, 0, 0));
+  const auto result = collided(e);
+  ASSERT_EQ(result.shapes.size(), 2);
+  EXPECT_EQ(result.shapes[0].kind, CollisionShapeKind::convex);
+  EXPECT_NEAR(volume(result.shapes[0].mesh) / volume(*e.meshes[0]), 1, 1e-4);
+  EXPECT_EQ(result.shapes[1].kind, CollisionShapeKind::mesh);
+  EXPECT_THAT(result.report.issues, testing::Contains(testing::Field(&Issue::source, "#2")));
+}
+
+TEST(Door, BetweenTwoRoomsIsPassableAndJoinsThem) {
+  const auto result = collided(twoRooms(true));
+  ASSERT_EQ(result.doors.size(), 1);
+  EXPECT_TRUE(result.doors[0].floor);
+  EXPECT_TRUE(result.doors[0].passable);
+  // The agent's axis keeps its radius from the walls: two rooms of (4 - 0.6) x (5 - 0.6) m, and the doorway's strip.
+  const double rooms = 2 * 3.4 * 4.4, doorway = (0.2 + 0.6) * (0.9 - 0.6);
+  EXPECT_NEAR(result.walkable_area_m2, rooms + doorway, 2 * (2 * (3.4 + 4.4)) * 0.06);
+  EXPECT_NEAR(area(result.walkable), result.walkable_area_m2, 1e-3 * result.walkable_area_m2);
+  EXPECT_EQ(validate(result.walkable, 1), "");
+  for (const auto& shape : result.shapes) EXPECT_NE(shape.product, 7);  // the door stands open
+}
+
+TEST(Door, InAWallWithoutADoorwayIsBlocked) {
+  const auto result = collided(twoRooms(false));
+  ASSERT_EQ(result.doors.size(), 1);
+  EXPECT_FALSE(result.doors[0].passable);
+  EXPECT_TRUE(result.doors[0].floor);
+  EXPECT_THAT(result.report.issues, testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("blocked by IfcWall #7"))));
+}
+
+TEST(Door, IsTooNarrowForAWideAgent) {
+  EXPECT_TRUE(collided(twoRooms(true), {0.44, 1.8}).doors[0].passable);
+  EXPECT_FALSE(collided(twoRooms(true), {0.46, 1.8}).doors[0].passable);
+  EXPECT_TRUE(collided(twoRooms(true), {0.3, 2.05}).doors[0].passable);
+  EXPECT_FALSE(collided(twoRooms(true), {0.3, 2.15}).doors[0].passable);
+}
+
+TEST(Door, WithoutAFloorBehindItIsReported) {
+  const auto result = collided(twoRooms(true, false));
+  ASSERT_EQ(result.doors.size(), 1);
+  EXPECT_FALSE(result.doors[0].floor);
+  EXPECT_THAT(result.report.issues, testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("no floor"))));
+}
+
+TEST(Stair, OfSeventeenByTwentyEightCentimetresIsWalkable) {
+  Environment e;
+  const int steps = 16;
+  models::add(e, models::box({3, 1.2, 0.2}, 1), "IfcSlab", at(-3, 0, -0.2));
+  Mesh stair;
+  for (int i = 0; i < steps; ++i) models::append(stair, models::box({0.28, 1.2, 0.17 * (i + 1)}, 1), at(0.28 * i, 0, 0));
+  models::add(e, stair, "IfcStairFlight");
+  models::add(e, models::box({3, 1.2, 0.2}, 1), "IfcSlab", at(0.28 * steps, 0, 0.17 * steps - 0.2));
+  const auto result = collided(e);
+  // One strip from the lower landing to the upper one, a radius and a cell away from its rim.
+  const double length = 6 + 0.28 * steps;
+  EXPECT_NEAR(result.walkable_area_m2, (length - 0.6) * 0.6, 0.15 * length * 0.6);
+  for (int i = 1; i + 1 < steps; ++i) {  // something to stand on over each tread; the last is level with the landing
+    bool found = false;
+    for (const auto& t : result.walkable.triangles) {
+      const Vector3d c = (result.walkable.positions[t[0]] + result.walkable.positions[t[1]] + result.walkable.positions[t[2]]).cast<double>() / 3;
+      found |= c.x() > 0.28 * i && c.x() < 0.28 * (i + 1) && std::abs(c.z() - 0.17 * (i + 1)) < 0.06;
+    }
+    EXPECT_TRUE(found) << "tread " << i;
+  }
+}
+
+TEST(Stair, OfFortyCentimetreStepsIsNot) {
+  Environment e;
+  for (int i = 0; i < 6; ++i) models::add(e, models::box({0.28, 1.2, 0.4 * (i + 1)}, 1), "IfcStairFlight", at(0.28 * i, 0, 0));
+  EXPECT_EQ(collided(e).walkable_area_m2, 0);
+}
+
+TEST(Walkability, LeavesOutWhatIsLowAndWhatIsNotThere) {
+  Environment e;
+  models::add(e, models::box({4, 4, 0.2}, 1), "IfcSlab", at(0, 0, -0.2));
+  models::add(e, models::box({4, 4, 0.2}, 1), "IfcSlab", at(0, 0, 1.5));  // too low to stand under
+  models::add(e, models::box({4, 4, 3}, 1), "IfcSpace", at(0, 0, 1.7));
+  e.products[2].tangible = false;
+  const auto result = collided(e);
+  EXPECT_NEAR(result.walkable_area_m2, 3.4 * 3.4, 4 * 3.4 * 0.07);  // only on top
+  EXPECT_EQ(result.products[2].shapes, 0);
+}
+
+TEST(Collision, GivesTheSameForAnyNumberOfThreads) {
+  std::string first;
+  for (const std::size_t threads : {1, 2, 7}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const auto result = collided(twoRooms(true));
+    std::string now;
+    for (const auto& shape : result.shapes)
+      now.append(reinterpret_cast<const char*>(shape.mesh.positions.data()), shape.mesh.positions.size() * sizeof(Eigen::Vector3f));
+    now.append(reinterpret_cast<const char*>(result.walkable.positions.data()), result.walkable.positions.size() * sizeof(Eigen::Vector3f));
+    if (first.empty()) first = now;
+    EXPECT_TRUE(first == now) << threads << " threads";
+  }
+}
+
+TEST(Collision, SurvivesEmptyFlatAndMirroredInput) {
+  EXPECT_EQ(collided(Environment{}).walkable_area_m2, 0);
+  Environment e;
+  models::add(e, Mesh{});
+  models::add(e, models::plateWithHole(4, 3, 1, 0.5));
+  models::add(e, Mesh{}, "IfcDoor");
+  Affine3d mirror = Affine3d::Identity();
+  mirror.linear()(0, 0) = -1;
+  models::add(e, wallWithDoorway(3), "IfcWall", mirror);
+  const auto result = collided(e);
+  EXPECT_EQ(result.doors.size(), 1);
+  EXPECT_THAT(result.report.issues, testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("no geometry"))));
+  for (const auto& shape : result.shapes)
+    EXPECT_TRUE(shape.product != 3 || volume(shape.mesh) > 0);
+}
+
+TEST(Collision, CanBeCancelledAndRefusesNonsense) {
+  Progress progress;
+  EXPECT_EQ(collide(twoRooms(true), {0, 1.8}, progress).error().kind, ErrorKind::usage);
+  EXPECT_EQ(collide(twoRooms(true), {0.3, 0.1}, progress).error().kind, ErrorKind::usage);
+  progress.cancel();
+  EXPECT_EQ(collide(twoRooms(true), {}, progress).error().kind, ErrorKind::cancelled);
+}
+
+}  // namespace
+}  // namespace standpoint

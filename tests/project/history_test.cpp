@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "project/history.h"
+#include "tests/project/support.h"
+
+namespace standpoint {
+namespace {
+
+Document named(const std::string& name) {
+  Document d;
+  d.name = name;
+  return d;
+}
+
+TEST(History, GoesBackAndForthThroughTheValues) {
+  History h(named("a"));
+  h.push(named("b"), "became b");
+  h.push(named("c"), "became c");
+  EXPECT_EQ(h.undoDescription(), "became c");
+  h.undo();
+  EXPECT_EQ(h.current().name, "b");
+  EXPECT_EQ(h.redoDescription(), "became c");
+  h.undo();
+  EXPECT_FALSE(h.canUndo());
+  h.undo();
+  EXPECT_EQ(h.current().name, "a");
+  h.redo();
+  h.redo();
+  h.redo();
+  EXPECT_EQ(h.current().name, "c");
+}
+
+TEST(History, DropsWhatWasUndoneWhenSomethingNewHappens) {
+  History h(named("a"));
+  h.push(named("b"), "b");
+  h.undo();
+  h.push(named("c"), "c");
+  EXPECT_FALSE(h.canRedo());
+  EXPECT_EQ(h.current().name, "c");
+}
+
+TEST(History, DoesNotRememberAChangeThatChangedNothing) {
+  History h(named("a"));
+  h.push(named("a"), "nothing");
+  EXPECT_FALSE(h.canUndo());
+}
+
+TEST(History, KnowsWhetherTheCurrentValueIsTheSavedOne) {
+  History h(named("a"));
+  h.push(named("b"), "b");
+  h.markSaved();
+  EXPECT_FALSE(h.modified());
+  h.undo();
+  EXPECT_TRUE(h.modified());
+  h.redo();
+  EXPECT_FALSE(h.modified());
+  h.undo();
+  h.push(named("c"), "c");
+  EXPECT_TRUE(h.modified()) << "the saved value is gone from the history";
+}
+
+}  // namespace
+}  // namespace standpoint

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "tests/project/support.h"
+
+namespace standpoint {
+namespace {
+
+TEST(VerbTable, HasUniqueNamesSummariesAndHelpForEveryOption) {
+  std::set<std::string> names;
+  for (const auto& v : verbs()) {
+    EXPECT_TRUE(names.insert(v.name).second) << v.name;
+    EXPECT_GT(std::string(v.summary).size(), 10U) << v.name;
+    ASSERT_NE(v.run, nullptr) << v.name;
+    std::set<std::string> options;
+    for (const auto& p : v.parameters) {
+      EXPECT_TRUE(options.insert(p.name).second) << v.name << " " << p.name;
+      EXPECT_GT(std::string(p.help).size(), 3U) << v.name << " " << p.name;
+      if (p.kind == ParameterKind::choice) EXPECT_FALSE(p.choices.empty()) << v.name << " " << p.name;
+    }
+  }
+}
+
+TEST(VerbTable, AcceptsItsOwnDefaults) {
+  for (const auto& v : verbs())
+    for (const auto& p : v.parameters) {
+      if (p.standard.is_null()) continue;
+      nlohmann::json options = {{p.name, p.standard}};
+      for (const auto& q : v.parameters)
+        if (q.required) options[q.name] = q.kind == ParameterKind::list ? nlohmann::json::array({"x"}) : nlohmann::json("x");
+      EXPECT_TRUE(checkOptions(v, options)) << v.name << " " << p.name;
+    }
+}
+
+TEST(Options, ThatDoNotExistAreNamedWithThoseThatDo) {
+  const auto bad = run("optimize", twoStoreyDocument(), {{"bugdet", 100}});
+  ASSERT_FALSE(bad);
+  EXPECT_EQ(bad.error().kind, ErrorKind::usage);
+  EXPECT_NE(bad.error().message.find("bugdet"), std::string::npos);
+  EXPECT_NE(bad.error().message.find("budget"), std::string::npos);
+}
+
+TEST(Options, OutsideTheirDomainAreRefusedWithTheDomain) {
+  for (const nlohmann::json& options : {nlohmann::json{{"max-deviation", -1}}, nlohmann::json{{"max-deviation", "2"}},
+                                        nlohmann::json{{"budget", 2.5}}, nlohmann::json{{"budget", nullptr}}}) {
+    const auto bad = run("optimize", twoStoreyDocument(), options);
+    ASSERT_FALSE(bad) << options;
+    EXPECT_EQ(bad.error().kind, ErrorKind::usage) << options;
+  }
+  EXPECT_FALSE(run("target", twoStoreyDocument(), {{"add", "T"}, {"at", {1, 2, 3}}, {"kind", "cube"}}));
+}
+
+TEST(Verbs, ThatNeedAModelSayThatThereIsNone) {
+  for (const auto& v : verbs()) {
+    if (v.scope != VerbScope::changes && v.scope != VerbScope::reads) continue;
+    nlohmann::json options = nlohmann::json::object();
+    for (const auto& q : v.parameters)
+      if (q.required) options[q.name] = "x";
+    const auto bad = run(v.name, Document{}, options);
+    ASSERT_FALSE(bad) << v.name;
+    EXPECT_NE(bad.error().message.find("import"), std::string::npos) << v.name;
+  }
+}
+
+}  // namespace
+}  // namespace standpoint

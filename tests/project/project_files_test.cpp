@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <csignal>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include "project/project_files.h"
+#include "tests/project/support.h"
+
+namespace standpoint {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string textOf(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+
+void expectSameGeometry(const Environment& a, const Environment& b) {
+  ASSERT_EQ(a.meshes.size(), b.meshes.size());
+  for (std::size_t i = 0; i < a.meshes.size(); ++i) {
+    EXPECT_EQ(a.meshes[i]->positions, b.meshes[i]->positions) << i;
+    EXPECT_EQ(a.meshes[i]->triangles, b.meshes[i]->triangles) << i;
+    EXPECT_EQ(a.meshes[i]->surface_of_triangle, b.meshes[i]->surface_of_triangle) << i;
+  }
+  ASSERT_EQ(a.instances.size(), b.instances.size());
+  for (std::size_t i = 0; i < a.instances.size(); ++i) {
+    EXPECT_EQ(a.instances[i].mesh, b.instances[i].mesh);
+    EXPECT_EQ(a.instances[i].product, b.instances[i].product);
+    EXPECT_EQ(a.instances[i].world_from_mesh.matrix(), b.instances[i].world_from_mesh.matrix());
+  }
+  EXPECT_EQ(a.surfaces, b.surfaces);
+}
+
+Document fullDocument() {
+  Document d = twoStoreyDocument();
+  auto e = std::make_shared<Environment>(*d.imported);
+  e->instances[3].world_from_mesh.rotate(Eigen::AngleAxisd(0.1234567890123, Eigen::Vector3d::UnitZ()));
+  e->products[1].properties = {{"Pset_WallCommon", "FireRating", "F30 \"a\" \xC3\xA4"}};
+  e->products[1].layers = {{"Plaster", 0.015}};
+  d.imported = e;
+  Georeference g = *d.georeference;
+  g.crs = "EPSG:25832";
+  g.map_from_file = MapConversion{0.1, 1e7 / 3, 2, 0.6, 0.8, 1.0000001};
+  g.site = GeographicPosition{48.1, 11.5, 510};
+  g.true_north_rad = 0.25;
+  d.georeference = std::make_shared<const Georeference>(g);
+  return run("station", d, {{"add", "S1"}, {"at", {500002.1, 5600002, 1.6}}, {"yaw-deg", 33.3}})->document;
+}
+
+TEST(Project, ComesBackFromTheDiskAsItWas) {
+  const TemporaryFolder folder;
+  Progress progress;
+  const Document d = fullDocument();
+  ASSERT_TRUE(saveProject(d, folder.path() / "p", progress));
+  const auto back = loadProject(folder.path() / "p", progress);
+  ASSERT_TRUE(back) << describe(back.error());
+  expectSameGeometry(*d.imported, *back->imported);
+  EXPECT_EQ(back->imported->products[1].properties[0].value, "F30 \"a\" \xC3\xA4");
+  EXPECT_EQ(back->imported->products[1].layers[0].thickness_m, 0.015);
+  EXPECT_EQ(back->georeference->shift_m, d.georeference->shift_m);
+  EXPECT_EQ(back->georeference->map_from_file->northings_m, 1e7 / 3);
+  EXPECT_EQ(*back->georeference->true_north_rad, 0.25);
+  EXPECT_EQ(back->job->stations[0].true_pose.rotation.coeffs(), d.job->stations[0].true_pose.rotation.coeffs());
+  EXPECT_EQ(back->name, "p");
+}
+
+TEST(Project, SavedTwiceHasTheSameFiles) {
+  const TemporaryFolder folder;
+  Progress progress;
+  const Document d = fullDocument();
+  ASSERT_TRUE(saveProject(d, folder.path(), progress));
+  std::vector<std::string> first;
+  for (const auto& f : fs::recursive_directory_iterator(folder.path())) first.push_back(f.path().string());
+  ASSERT_TRUE(saveProject(*loadProject(folder.path(), progress), folder.path(), progress));
+  std::vector<std::string> second;
+  for (const auto& f : fs::recursive_directory_iterator(folder.path())) second.push_back(f.path().string());
+  std::sort(first.begin(), first.end());
+  std::sort(second.begin(), second.end());
+  EXPECT_EQ(first, second);
+}
+
+// A full disk, by the limit on the size of a file: writing fails in the middle with EFBIG.
+TEST(Project, IsAsItWasBeforeWhenTheDiskIsFull) {
+  const TemporaryFolder folder;
+  Progress progress;
+  Document d = fullDocument();
+  ASSERT_TRUE(saveProject(d, folder.path(), progress));
+  const auto before = textOf(folder.path() / "project.json");
+
+  auto bigger = std::make_shared<Environment>(*d.imported);
+  bigger->products[0].name = std::string(5000, 'x');
+  d.imported = bigger;
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  getrlimit(RLIMIT_FSIZE, &limit);
+  const rlimit small{1500, limit.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  const auto saved = saveProject(d, folder.path(), progress);
+  setrlimit(RLIMIT_FSIZE, &limit);
+
+  ASSERT_FALSE(saved);
+  EXPECT_EQ(saved.error().kind, ErrorKind::file_system);
+  EXPECT_EQ(textOf(folder.path() / "project.json"), before);
+  EXPECT_TRUE(loadProject(folder.path(), progress));
+}
+
+TEST(Project, FromANewerProgramIsRefusedWithARemedy) {
+  const TemporaryFolder folder;
+  Progress progress;
+  ASSERT_TRUE(saveProject(fullDocument(), folder.path(), progress));
+  auto text = textOf(folder.path() / "project.json");
+  const auto at = text.find("\"version\": 1");
+  ASSERT_NE(at, std::string::npos);
+  write(folder.path() / "project.json", text.replace(at, 12, "\"version\": 9"));
+  const auto back = loadProject(folder.path(), progress);
+  ASSERT_FALSE(back);
+  EXPECT_EQ(back.error().kind, ErrorKind::unusable);
+  EXPECT_NE(back.error().message.find("newer"), std::string::npos);
+  EXPECT_NE(back.error().source.find("/version"), std::string::npos);
+}
+
+TEST(Project, ThatIsNotThereIsAFileSystemErrorWithARemedy) {
+  Progress progress;
+  const auto back = loadProject("/nonexistent/project", progress);
+  ASSERT_FALSE(back);
+  EXPECT_EQ(back.error().kind, ErrorKind::file_system);
+  EXPECT_NE(back.error().message.find("standpoint import"), std::string::npos);
+}
+
+TEST(Project, DamagedAnywhereIsAnErrorAndNeverACrash) {
+  const TemporaryFolder folder;
+  Progress progress;
+  ASSERT_TRUE(saveProject(fullDocument(), folder.path(), progress));
+  const auto whole = textOf(folder.path() / "project.json");
+  for (std::size_t cut = 0; cut < whole.size(); cut += whole.size() / 60 + 1) {
+    write(folder.path() / "project.json", whole.substr(0, cut));
+    EXPECT_FALSE(loadProject(folder.path(), progress)) << cut;
+  }
+  for (std::size_t at = 0; at < whole.size(); at += whole.size() / 200 + 1) {
+    auto mutated = whole;
+    mutated[at] = mutated[at] == '1' ? '9' : '1';
+    write(folder.path() / "project.json", mutated);
+    (void)loadProject(folder.path(), progress);
+  }
+  write(folder.path() / "project.json", whole);
+  for (const auto& part : fs::directory_iterator(folder.path() / "geometry")) {
+    const auto content = textOf(part.path());
+    write(part.path(), content.substr(0, content.size() / 2));
+    EXPECT_FALSE(loadProject(folder.path(), progress)) << part.path();
+    write(part.path(), content);
+  }
+  EXPECT_TRUE(loadProject(folder.path(), progress));
+}
+
+}  // namespace
+}  // namespace standpoint

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "pointclouds/formats.h"
+#include "project/project_files.h"
+#include "tests/project/support.h"
+
+namespace standpoint {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+std::string bytes(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+Document twoStations() {
+  Document d = twoStoreyDocument();
+  d = run("station", d, {{"add", "S1"}, {"at", {500002.5, 5600002, 1.6}}})->document;
+  return run("station", d, {{"add", "S2"}, {"at", {500003.0, 5600001.5, 4.6}}})->document;
+}
+
+json scanOptions(const fs::path& output) {
+  return {{"instrument", "leica-rtc360"}, {"set", {"resolution=12mm"}}, {"seed", 5}, {"output", output.string()}};
+}
+
+TEST(Scan, OfTwoStationsGivesOneE57WithBoth) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "two.e57";
+  const auto outcome = run("scan", twoStations(), scanOptions(file));
+  ASSERT_TRUE(outcome) << describe(outcome.error());
+  ASSERT_EQ(outcome->answer["stations"].size(), 2U);
+  const auto info = cloudFormatFor(file)->info(file);
+  ASSERT_TRUE(info) << describe(info.error());
+  ASSERT_EQ(info->scans.size(), 2U);
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(info->scans[i].points, outcome->answer["stations"][i]["points"].get<std::uint64_t>());
+  EXPECT_EQ(info->scans[0].header.file_from_scanner.translation, Eigen::Vector3d(500002.5, 5600002, 1.6))
+      << "the global shift comes back to the last bit";
+  EXPECT_EQ(outcome->document.job->stations[1].scans.size(), 1U);
+}
+
+TEST(Scan, HasTheSameBytesFromMemoryAndFromTheSavedProjectAndOnAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  Progress progress;
+  const Document d = twoStations();
+  ASSERT_TRUE(run("scan", d, scanOptions(folder.path() / "memory.e57")));
+  ASSERT_TRUE(saveProject(d, folder.path() / "p", progress));
+  auto options = scanOptions(folder.path() / "disk.e57");
+  options["threads"] = 3;
+  ASSERT_TRUE(run("scan", *loadProject(folder.path() / "p", progress), options));
+  EXPECT_TRUE(bytes(folder.path() / "memory.e57") == bytes(folder.path() / "disk.e57"));
+}
+
+TEST(Scan, InShardsGivesTheSameFilesAsTheWhole) {
+  const TemporaryFolder folder;
+  const Document d = twoStations();
+  ASSERT_TRUE(run("scan", d, scanOptions(folder.path() / "whole.ptx")));
+  for (const char* shard : {"1/2", "2/2"}) {
+    auto options = scanOptions(folder.path() / "part");
+    options["shard"] = shard;
+    ASSERT_TRUE(run("scan", d, options));
+  }
+  EXPECT_TRUE(fs::exists(folder.path() / "whole-S1.ptx"));
+  EXPECT_TRUE(fs::exists(folder.path() / "part" / "S1.e57"));
+  EXPECT_TRUE(fs::exists(folder.path() / "part" / "S2.e57"));
+}
+
+TEST(Scan, SaysWhatIsWrongWithItsOptions) {
+  const TemporaryFolder folder;
+  const Document d = twoStations();
+  const auto with = [&](const char* key, const json& value) {
+    auto options = scanOptions(folder.path() / "x.e57");
+    options[key] = value;
+    const auto outcome = run("scan", d, options);
+    EXPECT_FALSE(outcome) << key;
+    return outcome ? std::string() : describe(outcome.error());
+  };
+  EXPECT_NE(with("instrument", "leica-rtc999").find("leica-rtc360"), std::string::npos);
+  EXPECT_NE(with("set", {"resolution=5mm"}).find("12mm"), std::string::npos);
+  EXPECT_NE(with("stations", "S1,S7").find("S7"), std::string::npos);
+  EXPECT_NE(with("output", (folder.path() / "x.xyz9").string()).find(".e57"), std::string::npos);
+  EXPECT_NE(with("shard", "3/2").find("i/n"), std::string::npos);
+  EXPECT_NE(with("output", "/nonexistent/folder/x.e57").find("/nonexistent/folder"), std::string::npos);
+  EXPECT_FALSE(run("scan", twoStoreyDocument(), scanOptions(folder.path() / "x.e57"))) << "no station";
+  EXPECT_TRUE(fs::is_empty(folder.path())) << "a refused scan leaves no file";
+}
+
+TEST(Scan, SeesTheTargetsThatStandInTheRoom) {
+  const TemporaryFolder folder;
+  Document d = run("target", twoStations(), {{"add", "T1"}, {"at", {500001.0, 5600001, 1.2}}})->document;
+  auto options = scanOptions(folder.path() / "t.e57");
+  options["stations"] = "S1";
+  ASSERT_TRUE(run("scan", d, options));
+  const auto info = cloudFormatFor("t.e57")->info(folder.path() / "t.e57");
+  ASSERT_TRUE(info);
+  const auto& products = info->scans[0].header.products;
+  EXPECT_TRUE(std::any_of(products.begin(), products.end(), [](const auto& p) { return p.name == "T1"; }));
+}
+
+}  // namespace
+}  // namespace standpoint

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "tests/project/support.h"
+
+namespace standpoint {
+namespace {
+
+using nlohmann::json;
+
+TEST(Station, OnAFloorStandsItsHeightAboveTheLowestFloorWithRoom) {
+  const auto s = run("station", twoStoreyDocument(), {{"add", "S1"}, {"on", {500002, 5600002}}, {"height", 1.7}});
+  ASSERT_TRUE(s) << describe(s.error());
+  EXPECT_NEAR(s->answer["placed"]["at"][2].get<double>(), 1.7, 1e-5);
+  EXPECT_EQ(s->description, "Added station S1");
+}
+
+TEST(Station, OnTheUpperFloorIsMeantByItsHeight) {
+  const auto s = run("station", twoStoreyDocument(), {{"add", "S1"}, {"on", {500002, 5600002, 3.1}}});
+  ASSERT_TRUE(s) << describe(s.error());
+  EXPECT_NEAR(s->answer["placed"]["at"][2].get<double>(), 4.6, 1e-5);
+}
+
+TEST(Station, AtAPointIsTheInstrumentsCentreInTheFilesFrame) {
+  const auto s = run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500002.25, 5600001.5, 1.25}}});
+  ASSERT_TRUE(s) << describe(s.error());
+  EXPECT_EQ(s->answer["placed"]["at"], json({500002.25, 5600001.5, 1.25}));
+  EXPECT_EQ(s->document.job->stations[0].true_pose.translation, Eigen::Vector3d(2.25, 1.5, 1.25));
+}
+
+TEST(Station, IsRefusedWhereTheInstrumentDoesNotFit) {
+  const Document d = twoStoreyDocument();
+  const auto in_table = run("station", d, {{"add", "S1"}, {"at", {500004.05, 5600003, 0.7}}});
+  ASSERT_FALSE(in_table);
+  EXPECT_EQ(in_table.error().kind, ErrorKind::unusable);
+  EXPECT_NE(in_table.error().message.find("table"), std::string::npos);
+  EXPECT_FALSE(run("station", d, {{"add", "S1"}, {"on", {600000, 5600002}}})) << "no floor there";
+  EXPECT_FALSE(run("station", d, {{"add", "S1"}, {"on", {500002, 5600002, 1.5}}})) << "no floor at that height";
+  EXPECT_FALSE(run("station", d, {{"add", "S1"}, {"on", {500002, 5600002}}, {"height", 9.0}})) << "no head-room";
+  EXPECT_FALSE(run("station", d, {{"add", "a/b"}, {"on", {500002, 5600002}}})) << "its name becomes a file's";
+}
+
+TEST(Station, PlacesItselfWhereItSeesMostAndApartFromTheOthers) {
+  const auto first = run("station", twoStoreyDocument(), {{"add", "S1"}});
+  ASSERT_TRUE(first) << describe(first.error());
+  const auto second = run("station", first->document, {{"add", "S2"}});
+  ASSERT_TRUE(second) << describe(second.error());
+  const auto& stations = second->document.job->stations;
+  EXPECT_GE((stations[0].true_pose.translation - stations[1].true_pose.translation).norm(), 2.5);
+}
+
+TEST(Station, MovesAndIsRemovedAndItsNameIsUnique) {
+  const Document d = run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500002, 5600002, 1.5}}})->document;
+  EXPECT_FALSE(run("station", d, {{"add", "S1"}, {"at", {500003, 5600002, 1.5}}}));
+  const auto moved = run("station", d, {{"move", "S1"}, {"at", {500002.35, 5600002, 1.5}}});
+  ASSERT_TRUE(moved);
+  EXPECT_EQ(moved->description, "Moved station S1 by 0.35 m");
+  EXPECT_EQ(d.job->stations[0].true_pose.translation.x(), 2) << "the old value is untouched";
+  EXPECT_TRUE(run("station", moved->document, {{"remove", "S1"}})->document.job->stations.empty());
+  const auto missing = run("station", d, {{"remove", "S9"}});
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().message.find("S1"), std::string::npos) << "says which stations there are";
+}
+
+TEST(Target, IsAddedListedAndRemoved) {
+  const auto t = run("target", twoStoreyDocument(), {{"add", "T1"}, {"at", {500001, 5600001, 1}}});
+  ASSERT_TRUE(t);
+  EXPECT_EQ(t->answer["targets"].size(), 1U);
+  EXPECT_FALSE(run("target", t->document, {{"add", "T1"}, {"at", {500001, 5600001, 1}}}));
+  EXPECT_TRUE(run("target", t->document, {{"remove", "T1"}})->document.job->targets.empty());
+}
+
+}  // namespace
+}  // namespace standpoint
