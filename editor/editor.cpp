@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/editor.h"
+
+namespace standpoint {
+
+Editor::Editor(std::vector<Verb> verbs, std::function<void()> wake_up)
+    : session(std::move(verbs), wake_up), wake(std::move(wake_up)) {}
+
+Eigen::Vector3d Editor::shift_m() const {
+  const auto& georeference = session.document().georeference;
+  return georeference ? georeference->shift_m : Eigen::Vector3d::Zero();
+}
+
+void Editor::update() {
+  session.poll();
+  if (session.revision() == seen_revision_) return;
+  seen_revision_ = session.revision();
+  adoptDocument();
+}
+
+void Editor::adoptDocument() {
+  const auto& document = session.document();
+  picker.follow(document.environment(), wake);
+  if (document.imported == imported_) return;
+  imported_ = document.imported;
+  selection.clear();
+  visibility.reset(imported_ ? imported_->products.size() : 0);
+  visibility.cut_height_m.reset();
+  view.tool = Tool::select;
+  view.measured_from.reset();
+  view.measured_to.reset();
+  view.hover.reset();
+  panels.outliner = OutlinerPanelState();
+  if (imported_) panels.outliner.tree = Outliner(*imported_);
+  if (imported_) look(view.camera, StandardView::corner);
+  view.frame_wanted = imported_ != nullptr;
+}
+
+ViewState Editor::viewState() const {
+  const auto& document = session.document();
+  ViewState state;
+  state.environment = document.environment();
+  state.materials = document.materials;
+  if (view.walkable || view.shapes) state.collision = document.collision;
+  state.hidden = visibility.shared();
+  state.selected = selection.shared();
+  state.cut_height_m = visibility.cut_height_m;
+  state.colour = view.colour;
+  state.edges = view.edges;
+  state.grid = view.grid;
+  state.walkable = view.walkable && document.collision;
+  state.shapes = view.shapes && document.collision;
+  state.camera = view.camera;
+  return state;
+}
+
+void Editor::derive() const {
+  if (derived_from_ == environment()) return;
+  derived_from_ = environment();
+  product_bounds_.clear();
+  storeys_.clear();
+  triangles_ = 0;
+  if (!derived_from_) return;
+  product_bounds_ = productBounds(*derived_from_);
+  triangles_ = triangleCount(*derived_from_);
+  storeys_ = storeyLevels(*derived_from_, shift_m().z());
+}
+
+const std::vector<Bounds>& Editor::boundsOfProducts() const {
+  derive();
+  return product_bounds_;
+}
+
+const std::vector<StoreyLevel>& Editor::storeys() const {
+  derive();
+  return storeys_;
+}
+
+std::uint64_t Editor::triangles() const {
+  derive();
+  return triangles_;
+}
+
+Bounds Editor::visibleBounds() const {
+  Bounds all;
+  const auto& each = boundsOfProducts();
+  for (std::uint32_t p = 0; p < each.size(); ++p)
+    if (!visibility.hidden(p) && environment()->products[p].tangible && !each[p].empty()) all.extend(each[p]);
+  if (visibility.cut_height_m && !all.empty())
+    all.max.z() = std::max(all.min.z(), std::min(all.max.z(), *visibility.cut_height_m));
+  return all;
+}
+
+Bounds Editor::selectionBounds() const {
+  Bounds all;
+  const auto& each = boundsOfProducts();
+  for (const auto p : selection.products())
+    if (p < each.size() && !each[p].empty()) all.extend(each[p]);
+  return all;
+}
+
+void Editor::frameSelection() {
+  Bounds wanted = selectionBounds();
+  if (wanted.empty()) wanted = visibleBounds();
+  frame(view.camera, wanted, view.size.x() / std::max(view.size.y(), 1.0));
+}
+
+void Editor::select(std::uint32_t product, bool reveal) {
+  selection.set(product);
+  if (!reveal) return;
+  panels.outliner.tree.reveal(product);
+  panels.outliner.scroll_to = static_cast<std::int64_t>(product);
+}
+
+}  // namespace standpoint

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "editor/model/camera.h"
+#include "editor/model/picker.h"
+#include "editor/model/selection.h"
+#include "editor/model/session.h"
+#include "editor/model/settings.h"
+#include "editor/model/view_state.h"
+#include "editor/model/visibility.h"
+#include "editor/panels/panel_states.h"
+#include "editor/shell/dialog_states.h"
+
+struct ImFont;
+
+namespace standpoint {
+
+struct Fonts {
+  ImFont* text = nullptr;
+  ImFont* bold = nullptr;
+  ImFont* small = nullptr;
+  ImFont* mono = nullptr;
+  ImFont* huge = nullptr;    // icons of empty panels
+};
+
+// What the next click in the viewport does.
+enum class Tool { select, placeStation, placeTarget, measure };
+
+struct ViewportState {
+  Camera camera;
+  ColourMode colour = ColourMode::model;
+  bool edges = true, grid = true, walkable = false, shapes = false, labels = true;
+  Tool tool = Tool::select;
+  std::optional<RayHit> hover;             // under the pointer
+  Eigen::Vector3d pivot = Eigen::Vector3d::Zero();
+  double pivot_depth_m = 1;
+  Eigen::Vector2d size = {800, 600};       // of the picture, in interface points
+  std::optional<Eigen::Vector3d> measured_from, measured_to;
+  bool dragging = false;
+  bool dragged = false;
+  bool frame_wanted = false;
+};
+
+// Everything the interface works on. The panels get it whole; what belongs to one panel only is in `panels`.
+struct Editor {
+  Editor(std::vector<Verb> verbs, std::function<void()> wake_up);
+
+  Session session;
+  Settings settings;
+  Selection selection;
+  Visibility visibility;
+  ViewportState view;
+  Picker picker;
+  PanelStates panels;
+  DialogStates dialogs;
+  Workspace workspace = Workspace::model;
+  std::array<std::string, 3> wanted_tab;   // by Area: the panel to bring to the front in the next frame
+
+  Fonts fonts;
+  float scale = 1;                         // pixels per point
+  SceneView* scene = nullptr;              // null: the viewport stays empty
+  std::function<void()> wake;
+  std::function<void(Editor&)> draw_instrument;    // the emulated device; empty: this build has none
+  std::function<void(const std::string&)> on_title;
+  bool fine_picture = false;               // the view stands still: smooth edges
+  bool quit = false;                       // confirmed
+
+  float overlay_width = 0;                 // of the controls over the viewport, as drawn last
+
+  float px(float points) const { return points * scale; }
+  const std::shared_ptr<const Environment>& environment() const { return session.document().environment(); }
+  // Local frame → the file's own, in which every number is shown.
+  Eigen::Vector3d shift_m() const;
+
+  // To be called once a frame before drawing: results of tasks, and what follows from another document.
+  void update();
+  ViewState viewState() const;
+  Bounds visibleBounds() const;
+  Bounds selectionBounds() const;
+  void frameSelection();                   // everything when nothing is selected
+  void select(std::uint32_t product, bool reveal);
+
+  const std::vector<Bounds>& boundsOfProducts() const;   // kept until the environment changes
+  const std::vector<StoreyLevel>& storeys() const;
+  std::uint64_t triangles() const;          // placed
+
+ private:
+  void adoptDocument();
+  std::shared_ptr<const Environment> imported_;   // whose products selection and visibility speak of
+  std::uint64_t seen_revision_ = ~0ULL;
+  mutable std::shared_ptr<const Environment> derived_from_;
+  mutable std::vector<Bounds> product_bounds_;
+  mutable std::vector<StoreyLevel> storeys_;
+  mutable std::uint64_t triangles_ = 0;
+  void derive() const;
+};
+
+}  // namespace standpoint

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "editor/editor.h"
+#include "editor/pictures.h"
+#include "editor/shell/actions.h"
+#include "editor/viewport/offscreen.h"
+#include "editor/viewport/window.h"
+
+namespace {
+
+using namespace standpoint;
+
+constexpr const char* kUsage =
+    "standpoint-editor [PROJECT or MODEL]\n"
+    "standpoint-editor --pictures OUTDIR [--size 1280x800] [--scale 1] PROJECT or MODEL\n"
+    "  --pictures  draws the editor without a display and saves what it shows as PNG files\n";
+
+struct Arguments {
+  std::string project, pictures;
+  int width = 1280, height = 800;
+  float scale = 1;
+  bool help = false;
+};
+
+Result<Arguments> parse(const std::vector<std::string>& words) {
+  Arguments result;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto& word = words[i];
+    const bool takes_value = word == "--pictures" || word == "--size" || word == "--scale";
+    if (takes_value && i + 1 >= words.size()) return failure(ErrorKind::usage, "a value is missing", word);
+    if (word == "--help" || word == "-h") {
+      result.help = true;
+    } else if (word == "--pictures") {
+      result.pictures = words[++i];
+    } else if (word == "--size") {
+      const bool read = std::sscanf(words[++i].c_str(), "%dx%d", &result.width, &result.height) == 2;
+      if (!read || result.width < 640 || result.height < 400 || result.width > 8192 || result.height > 8192)
+        return failure(ErrorKind::usage, fmt::format("'{}' is not WIDTHxHEIGHT from 640x400 to 8192x8192", words[i]), word);
+    } else if (word == "--scale") {
+      result.scale = std::strtof(words[++i].c_str(), nullptr);
+      if (!(result.scale >= 0.5F && result.scale <= 4)) return failure(ErrorKind::usage, fmt::format("'{}' is not a number from 0.5 to 4", words[i]), word);
+    } else if (!word.empty() && word[0] == '-') {
+      return failure(ErrorKind::usage, fmt::format("there is no option '{}'\n{}", word, kUsage));
+    } else {
+      result.project = word;
+    }
+  }
+  if (!result.pictures.empty() && result.project.empty()) return failure(ErrorKind::usage, "--pictures needs a project or a model");
+  return result;
+}
+
+std::vector<Verb> allVerbs() { return {verbs().begin(), verbs().end()}; }
+
+int fail(const Error& error) {
+  std::cerr << "standpoint-editor: " << describe(error) << '\n';
+  switch (error.kind) {
+    case ErrorKind::usage: return 2;
+    case ErrorKind::file_system: return 4;
+    case ErrorKind::cancelled: return 130;
+    default: return 3;
+  }
+}
+
+int makePictures(const Arguments& arguments) {
+  auto offscreen = Offscreen::create(arguments.width, arguments.height, arguments.scale);
+  if (!offscreen) return fail(offscreen.error());
+  Editor editor(allVerbs(), [] {});
+  openPath(editor, arguments.project);
+  editor.session.wait();
+  if (!editor.session.errors().empty()) return fail(editor.session.errors().front().error);
+  (*offscreen)->adopt(editor);
+  auto written = drawPictures(editor, **offscreen, arguments.pictures);
+  if (!written) return fail(written.error());
+  for (const auto& file : *written) std::cout << file.string() << '\n';
+  return 0;
+}
+
+int openWindow(const Arguments& arguments) {
+  Editor editor(allVerbs(), wakeWindow);
+  editor.settings = readSettings(settingsFile());
+  editor.dialogs.recovery = findRecoveryCopies(recoveryRoot());
+  if (!arguments.project.empty()) openPath(editor, arguments.project);
+  const auto shown = runWindow(editor, arguments.width, arguments.height);
+  if (auto written = writeSettings(editor.settings, settingsFile()); !written) std::cerr << describe(written.error()) << '\n';
+  return shown ? 0 : fail(shown.error());
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  const auto arguments = parse({words + 1, words + count});
+  if (!arguments) return fail(arguments.error());
+  if (arguments->help) {
+    std::cout << kUsage;
+    return 0;
+  }
+  return arguments->pictures.empty() ? openWindow(*arguments) : makePictures(*arguments);
+}

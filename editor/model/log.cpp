@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/model/log.h"
+
+#include <algorithm>
+#include <cctype>
+#include <ctime>
+
+namespace standpoint {
+
+namespace {
+
+bool containsText(const std::string& text, const std::string& part) {
+  const auto same = [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+  };
+  return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
+}
+
+}  // namespace
+
+bool passes(const LogEntry& entry, const LogFilter& filter) {
+  switch (entry.level) {
+    case LogLevel::note:
+    case LogLevel::done:
+      if (!filter.notes) return false;
+      break;
+    case LogLevel::warning:
+      if (!filter.warnings) return false;
+      break;
+    case LogLevel::loss:
+    case LogLevel::error:
+      if (!filter.losses) return false;
+      break;
+  }
+  return filter.text.empty() || containsText(entry.source + " " + entry.message, filter.text);
+}
+
+LogLevel levelOf(Severity severity) {
+  switch (severity) {
+    case Severity::note: return LogLevel::note;
+    case Severity::warning: return LogLevel::warning;
+    case Severity::loss: return LogLevel::loss;
+  }
+  return LogLevel::note;
+}
+
+std::optional<std::uint32_t> productOf(const Environment& environment, const std::string& source) {
+  if (source.empty()) return std::nullopt;
+  const auto space = source.find_last_of(' ');
+  const std::string last = space == std::string::npos ? source : source.substr(space + 1);
+  for (std::uint32_t i = 0; i < environment.products.size(); ++i)
+    if (const auto& id = environment.products[i].id; !id.empty() && (id == source || id == last)) return i;
+  return std::nullopt;
+}
+
+std::string timeOfDay() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char text[16];
+  std::strftime(text, sizeof text, "%H:%M:%S", &local);
+  return text;
+}
+
+}  // namespace standpoint

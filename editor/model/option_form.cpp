@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/model/option_form.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <sstream>
+
+#include <fmt/format.h>
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+
+json linesOf(const std::string& text) {
+  json lines = json::array();
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    const auto first = line.find_first_not_of(" \t\r");
+    if (first == std::string::npos) continue;
+    lines.push_back(line.substr(first, line.find_last_not_of(" \t\r") - first + 1));
+  }
+  return lines;
+}
+
+void fillField(OptionField& field, const json& value) {
+  if (value.is_string()) field.text = value.get<std::string>();
+  if (value.is_number()) field.number = value.get<double>();
+  if (value.is_boolean()) field.flag = value.get<bool>();
+  if (value.is_array() && field.parameter->kind == ParameterKind::triple)
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, value.size()); ++i) field.triple[i] = value[i].get<double>();
+  if (value.is_array() && field.parameter->kind != ParameterKind::triple) {
+    field.text.clear();
+    for (const auto& item : value) field.text += item.get<std::string>() + "\n";
+  }
+}
+
+json valueOf(const OptionField& field) {
+  switch (field.parameter->kind) {
+    case ParameterKind::number: return field.number;
+    case ParameterKind::integer: return static_cast<std::int64_t>(std::llround(field.number));
+    case ParameterKind::flag: return field.flag;
+    case ParameterKind::triple: return field.triple;
+    case ParameterKind::pairs:
+    case ParameterKind::list: return linesOf(field.text);
+    case ParameterKind::text:
+    case ParameterKind::choice:
+    case ParameterKind::path: return field.text;
+  }
+  return nullptr;
+}
+
+bool isText(ParameterKind kind) {
+  return kind == ParameterKind::text || kind == ParameterKind::path || kind == ParameterKind::choice ||
+         kind == ParameterKind::list || kind == ParameterKind::pairs;
+}
+
+std::string problemOf(const OptionField& field) {
+  const auto& p = *field.parameter;
+  const std::string name = readableOption(p.name);
+  if (p.required && isText(p.kind) && field.text.empty()) return name + " is missing";
+  if (!field.given) return {};
+  const bool numeric = p.kind == ParameterKind::number || p.kind == ParameterKind::integer;
+  if (numeric && (field.number < p.minimum || field.number > p.maximum))
+    return fmt::format("{} must be from {} to {} {}", name, p.minimum, p.maximum, p.unit);
+  if (p.kind == ParameterKind::pairs)
+    for (const auto& line : linesOf(field.text))
+      if (line.get_ref<const std::string&>().find('=') == std::string::npos)
+        return fmt::format("{}: '{}' is not key=value", name, line.get<std::string>());
+  return {};
+}
+
+}  // namespace
+
+std::string readableOption(const char* name) {
+  std::string result = name;
+  std::replace(result.begin(), result.end(), '-', ' ');
+  if (!result.empty()) result[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(result[0])));
+  return result;
+}
+
+OptionForm::OptionForm(const Verb& verb) {
+  for (const auto& parameter : verb.parameters) {
+    OptionField field;
+    field.parameter = &parameter;
+    field.given = parameter.required || !parameter.standard.is_null();
+    if (!parameter.standard.is_null())
+      fillField(field, parameter.standard);
+    else if (parameter.kind == ParameterKind::choice && !parameter.choices.empty())
+      field.text = parameter.choices.front();
+    else if (parameter.minimum > 0)
+      field.number = parameter.minimum;
+    fields_.push_back(std::move(field));
+  }
+}
+
+OptionField* OptionForm::find(const char* name) {
+  const auto found = std::find_if(fields_.begin(), fields_.end(),
+                                  [&](const OptionField& f) { return std::strcmp(f.parameter->name, name) == 0; });
+  return found == fields_.end() ? nullptr : &*found;
+}
+
+void OptionForm::fill(const json& options) {
+  for (const auto& [key, value] : options.items())
+    if (auto* field = find(key.c_str())) {
+      fillField(*field, value);
+      field->given = true;
+    }
+}
+
+json OptionForm::options() const {
+  json result = json::object();
+  for (const auto& field : fields_) {
+    if (!field.given) continue;
+    if (isText(field.parameter->kind) && field.text.empty()) continue;
+    if (field.parameter->kind == ParameterKind::flag && !field.flag) continue;
+    result[field.parameter->name] = valueOf(field);
+  }
+  return result;
+}
+
+std::string OptionForm::problem() const {
+  for (const auto& field : fields_)
+    if (auto wrong = problemOf(field); !wrong.empty()) return wrong;
+  return {};
+}
+
+}  // namespace standpoint

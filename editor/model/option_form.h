@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "project/verb.h"
+
+namespace standpoint {
+
+// What a user has filled in for the options of a verb: one field per parameter, generated from the verb's own table.
+struct OptionField {
+  const Parameter* parameter = nullptr;
+  bool given = false;                    // an optional one that is not given is not sent
+  std::string text;                      // text, path, choice; list and pairs: one item per line
+  double number = 0;                     // number, integer
+  bool flag = false;
+  std::array<double, 3> triple = {0, 0, 0};
+};
+
+class OptionForm {
+ public:
+  OptionForm() = default;
+  explicit OptionForm(const Verb& verb);   // filled with the defaults
+
+  std::vector<OptionField>& fields() { return fields_; }
+  OptionField* find(const char* name);
+  void fill(const nlohmann::json& options);   // sets what it names, leaves the rest
+  nlohmann::json options() const;
+  // "" when it can be run, else the first thing that is missing or wrong.
+  std::string problem() const;
+
+ private:
+  std::vector<OptionField> fields_;
+};
+
+// "max-deviation" → "Max deviation"
+std::string readableOption(const char* name);
+
+}  // namespace standpoint

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/model/picker.h"
+
+#include <utility>
+
+namespace standpoint {
+
+namespace {
+
+constexpr double kFar_m = 1e6;
+constexpr int kMostHidden = 512;   // surfaces that a ray passes through before it gives up
+constexpr double kStep_m = 1e-4;
+
+bool shown(const RayHit& hit, const ViewState& view) {
+  if (view.cut_height_m && hit.position.z() > *view.cut_height_m) return false;
+  return !view.hidden || hit.product >= view.hidden->size() || (*view.hidden)[hit.product] == 0;
+}
+
+}  // namespace
+
+Picker::~Picker() { stop(); }
+
+void Picker::stop() {
+  if (progress_) progress_->cancel();
+  if (builder_.joinable()) builder_.join();
+}
+
+void Picker::wait() {
+  if (builder_.joinable()) builder_.join();
+}
+
+void Picker::follow(const std::shared_ptr<const Environment>& environment, const std::function<void()>& wake) {
+  if (environment == environment_) return;
+  stop();
+  ready_.store(false, std::memory_order_release);
+  scene_.reset();
+  environment_ = environment;
+  if (!environment_) return;
+  progress_ = std::make_unique<Progress>();
+  builder_ = std::thread([this, environment, wake] {
+    auto scene = RayScene::build(environment, *progress_);
+    if (scene) {
+      scene_ = std::move(*scene);
+      ready_.store(true, std::memory_order_release);
+    }
+    if (wake) wake();
+  });
+}
+
+std::optional<RayHit> Picker::pick(const ViewRay& ray, const ViewState& view) const {
+  if (!ready() || view.environment != environment_) return std::nullopt;
+  double travelled = 0;
+  for (int i = 0; i < kMostHidden; ++i) {
+    auto hit = scene_->intersect(ray.origin + ray.direction * travelled, ray.direction, kFar_m);
+    if (!hit) return std::nullopt;
+    hit->range_m += travelled;
+    if (shown(*hit, view)) return hit;
+    travelled = hit->range_m + kStep_m;
+  }
+  return std::nullopt;
+}
+
+bool Picker::sees(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const ViewState& view) const {
+  const double distance = (to - from).norm();
+  if (distance < kStep_m) return true;
+  const auto hit = pick({from, (to - from) / distance}, view);
+  return !hit || hit->range_m > distance - 0.01;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "core/progress.h"
+#include "editor/model/camera.h"
+#include "editor/model/view_state.h"
+#include "scanners/ray_engine.h"
+
+namespace standpoint {
+
+// Picks with the rays that the scanners use, so that what is clicked is what a beam would meet. The scene is built
+// beside the interface; until it is ready nothing can be picked.
+class Picker {
+ public:
+  Picker() = default;
+  ~Picker();
+  Picker(const Picker&) = delete;
+  Picker& operator=(const Picker&) = delete;
+
+  // Builds anew when the environment is another one. `wake` is called from the builder when it is done.
+  void follow(const std::shared_ptr<const Environment>& environment, const std::function<void()>& wake);
+  bool ready() const { return ready_.load(std::memory_order_acquire); }
+  void wait();
+
+  // The first visible surface: what is hidden or cut away lets the ray through.
+  std::optional<RayHit> pick(const ViewRay& ray, const ViewState& view) const;
+  // Is there nothing visible between the two points?
+  bool sees(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const ViewState& view) const;
+
+ private:
+  void stop();
+
+  std::shared_ptr<const Environment> environment_;
+  std::shared_ptr<const RayScene> scene_;
+  std::unique_ptr<Progress> progress_;
+  std::thread builder_;
+  std::atomic<bool> ready_{false};
+};
+
+}  // namespace standpoint

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/model/session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "project/project_files.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+constexpr std::size_t kRememberedTasks = 200;
+
+std::filesystem::path folderOf(const json& options) { return options.at("folder").get<std::string>(); }
+
+Result<Outcome> runSave(const Document& document, const json& options, Progress& progress) {
+  auto saved = saveProject(document, folderOf(options), progress);
+  if (!saved) return failure(saved.error());
+  Outcome outcome;
+  outcome.document = document;
+  outcome.description = fmt::format("Saved {}", folderOf(options).string());
+  return outcome;
+}
+
+Result<Outcome> runOpen(const Document&, const json& options, Progress& progress) {
+  auto document = loadProject(folderOf(options), progress);
+  if (!document) return failure(document.error());
+  Outcome outcome;
+  outcome.document = std::move(*document);
+  outcome.description = fmt::format("Opened {}", folderOf(options).string());
+  return outcome;
+}
+
+// Saving, opening and keeping a recovery copy run as tasks like every verb; only the editor has a use for them.
+std::vector<Verb> fileVerbs() {
+  const std::vector<Parameter> folder = {
+      {.name = "folder", .kind = ParameterKind::path, .help = "Folder of the project", .positional = true, .required = true}};
+  auto with_owner = folder;
+  with_owner.push_back({.name = "saved-in", .kind = ParameterKind::text, .help = "Folder of the project that it is a copy of"});
+  return {{"save-project", "Save the project", VerbScope::reads, folder, runSave},
+          {"save-recovery", "Keep a recovery copy", VerbScope::reads, folder, runSave},
+          {"open-project", "Open a project", VerbScope::creates, folder, runOpen},
+          {"open-recovery", "Open a recovery copy", VerbScope::creates, with_owner, runOpen}};
+}
+
+bool writesDocument(const Verb& verb) { return verb.scope == VerbScope::creates || verb.scope == VerbScope::changes; }
+
+// While one of these runs, the document stays as it is.
+bool holdsDocument(const Verb& verb) { return writesDocument(verb) || std::string_view(verb.name) == "save-project"; }
+
+}  // namespace
+
+Session::Session(std::vector<Verb> table, std::function<void()> wake) : verbs_(std::move(table)), wake_(std::move(wake)) {
+  for (auto& verb : fileVerbs()) verbs_.push_back(std::move(verb));
+}
+
+Session::~Session() {
+  for (auto& task : running_) task->progress().cancel();
+}
+
+std::string Session::name() const {
+  if (!folder_.empty()) return folder_.filename().string();
+  return document().name.empty() ? "New project" : document().name;
+}
+
+std::string Session::whyNot(std::string_view name) const {
+  const Verb* wanted = verb(name);
+  if (wanted == nullptr) return fmt::format("This build has no '{}'", name);
+  const bool needs_model = wanted->scope == VerbScope::changes || wanted->scope == VerbScope::reads;
+  if (needs_model && !document().imported) return "There is no model yet: import one first (Ctrl+I)";
+  if (!holdsDocument(*wanted)) return {};
+  for (const auto& task : running_)
+    if (holdsDocument(task->verb())) return fmt::format("Wait until '{}' is done, or cancel it", task->title());
+  return {};
+}
+
+std::string Session::whyNotUndo() const {
+  if (!history_.canUndo()) return "There is nothing to undo";
+  for (const auto& task : running_)
+    if (holdsDocument(task->verb())) return fmt::format("Wait until '{}' is done, or cancel it", task->title());
+  return {};
+}
+
+std::string Session::whyNotRedo() const {
+  if (!history_.canRedo()) return "There is nothing to redo";
+  for (const auto& task : running_)
+    if (holdsDocument(task->verb())) return fmt::format("Wait until '{}' is done, or cancel it", task->title());
+  return {};
+}
+
+std::string Session::whyNotSave() const { return whyNot("save-project"); }
+
+bool Session::launch(const Verb& wanted, json options, std::string title) {
+  if (title.empty()) title = wanted.summary;
+  running_.push_back(std::make_unique<Task>(std::move(title), wanted, document(), std::move(options), wake_));
+  return true;
+}
+
+bool Session::start(std::string_view name, json options, std::string title) {
+  if (!whyNot(name).empty()) return false;
+  return launch(*verb(name), std::move(options), std::move(title));
+}
+
+bool Session::save(const std::filesystem::path& folder) {
+  return start("save-project", {{"folder", folder.string()}}, "Save " + folder.filename().string());
+}
+
+bool Session::open(const std::filesystem::path& folder) {
+  return start("open-project", {{"folder", folder.string()}}, "Open " + folder.filename().string());
+}
+
+bool Session::saveRecovery(const std::filesystem::path& folder) {
+  return start("save-recovery", {{"folder", folder.string()}});
+}
+
+bool Session::recover(const RecoveryCopy& copy) {
+  return start("open-recovery", {{"folder", copy.project.string()}, {"saved-in", copy.saved_in}}, "Recover " + copy.name);
+}
+
+void Session::clear() {
+  history_ = History();
+  folder_.clear();
+  ++revision_;
+}
+
+void Session::undo() {
+  if (!whyNotUndo().empty()) return;
+  say(LogLevel::note, "", "Undone: " + history_.undoDescription());
+  history_.undo();
+  ++revision_;
+}
+
+void Session::redo() {
+  if (!whyNotRedo().empty()) return;
+  say(LogLevel::note, "", "Redone: " + history_.redoDescription());
+  history_.redo();
+  ++revision_;
+}
+
+bool Session::poll() {
+  bool any = false;
+  for (std::size_t i = 0; i < running_.size();) {
+    if (!running_[i]->done()) {
+      ++i;
+      continue;
+    }
+    const auto task = std::move(running_[i]);
+    running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(i));
+    takeResult(*task);
+    any = true;
+  }
+  return any;
+}
+
+void Session::wait() {
+  while (!running_.empty())
+    if (!poll()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+void Session::takeResult(Task& task) {
+  auto result = task.take();
+  if (result)
+    succeed(task, std::move(*result));
+  else
+    fail(task, result.error());
+  if (finished_.size() > kRememberedTasks) finished_.pop_back();
+}
+
+void Session::succeed(Task& task, Outcome outcome) {
+  const std::string_view verb_name = task.verb().name;
+  if (verb_name == "save-recovery") return;
+  const std::string text = outcome.description.empty() ? task.title() : outcome.description;
+  finished_.push_front({task.title(), task.verb().name, true, false, text, timeOfDay(), task.seconds(), std::move(outcome.answer)});
+  for (const auto& issue : outcome.report.issues) say(levelOf(issue.severity), issue.source, issue.message);
+  say(LogLevel::done, "", text);
+  if (verb_name == "save-project") {
+    folder_ = folderOf(task.options());
+    history_.markSaved();
+  } else if (verb_name == "open-project") {
+    history_ = History(std::move(outcome.document), text);
+    folder_ = folderOf(task.options());
+    ++revision_;
+  } else if (verb_name == "open-recovery") {
+    history_ = History();   // an empty saved value below it: what was recovered counts as unsaved
+    history_.push(std::move(outcome.document), text);
+    folder_ = task.options().at("saved-in").get<std::string>();
+    removeRecovery(folderOf(task.options()).parent_path());
+    ++revision_;
+  } else if (writesDocument(task.verb())) {
+    if (task.verb().scope == VerbScope::creates) folder_.clear();
+    history_.push(std::move(outcome.document), text);
+    ++revision_;
+  }
+}
+
+void Session::fail(const Task& task, const Error& error) {
+  const bool cancelled = error.kind == ErrorKind::cancelled;
+  finished_.push_front({task.title(), task.verb().name, false, cancelled, cancelled ? "Cancelled" : describe(error), timeOfDay(),
+                        task.seconds(), nlohmann::json::object()});
+  if (cancelled) {
+    say(LogLevel::note, "", task.title() + " was cancelled");
+    return;
+  }
+  say(LogLevel::error, error.source, error.message);
+  errors_.push_back({task.title(), error});
+}
+
+const FinishedTask* Session::lastOf(std::string_view name) const {
+  const auto found = std::find_if(finished_.begin(), finished_.end(), [&](const FinishedTask& t) { return t.ok && t.verb == name; });
+  return found == finished_.end() ? nullptr : &*found;
+}
+
+void Session::say(LogLevel level, std::string source, std::string message) {
+  log_.push_back({level, timeOfDay(), std::move(source), std::move(message)});
+}
+
+}  // namespace standpoint

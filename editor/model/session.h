@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "editor/model/log.h"
+#include "editor/model/recovery.h"
+#include "project/history.h"
+#include "project/task.h"
+#include "project/verb.h"
+
+namespace standpoint {
+
+struct FinishedTask {
+  std::string title, verb;
+  bool ok = false;
+  bool cancelled = false;
+  std::string text;            // what was done, or what went wrong
+  std::string time;
+  double seconds = 0;
+  nlohmann::json answer;
+};
+
+struct ShownError {
+  std::string title;   // "Import could not be done"
+  Error error;
+};
+
+// One open project: its history, what runs on it, and what was said about it. Knows neither ImGui nor a window.
+// Everything that changes the document is a verb that runs as a task on a snapshot; poll() brings its result in.
+class Session {
+ public:
+  Session(std::vector<Verb> table, std::function<void()> wake);
+  ~Session();
+
+  const Document& document() const { return history_.current(); }
+  const History& history() const { return history_; }
+  std::span<const Verb> verbs() const { return verbs_; }
+  const Verb* verb(std::string_view name) const { return findVerb(verbs_, name); }
+
+  // "" when a verb may start now, else the reason to show.
+  std::string whyNot(std::string_view verb) const;
+  std::string whyNotUndo() const;
+  std::string whyNotRedo() const;
+  std::string whyNotSave() const;
+
+  // Starts a verb; false when whyNot() says why not. `title` is what the list of tasks shows.
+  bool start(std::string_view verb, nlohmann::json options, std::string title = {});
+  bool save(const std::filesystem::path& folder);
+  bool open(const std::filesystem::path& folder);
+  bool saveRecovery(const std::filesystem::path& folder);
+  bool recover(const RecoveryCopy& copy);   // opens it as unsaved work of the project it is a copy of
+  void clear();   // a new, empty project
+  void undo();
+  void redo();
+
+  // Takes the results of what has finished; true when there were any. Call once a frame.
+  bool poll();
+  void wait();   // until nothing runs
+
+  const std::vector<std::unique_ptr<Task>>& running() const { return running_; }
+  const std::deque<FinishedTask>& finished() const { return finished_; }   // newest first
+  const FinishedTask* lastOf(std::string_view verb) const;                 // that went well
+  const std::vector<LogEntry>& log() const { return log_; }
+  void clearLog() { log_.clear(); }
+  void say(LogLevel level, std::string source, std::string message);
+  std::deque<ShownError>& errors() { return errors_; }                     // not yet read by the user, oldest first
+
+  const std::filesystem::path& folder() const { return folder_; }          // empty until saved or opened
+  std::string name() const;
+  bool modified() const { return history_.modified(); }
+  // Rises with every change of the document, for what is derived from it.
+  std::uint64_t revision() const { return revision_; }
+
+ private:
+  bool launch(const Verb& verb, nlohmann::json options, std::string title);
+  void takeResult(Task& task);
+  void succeed(Task& task, Outcome outcome);
+  void fail(const Task& task, const Error& error);
+
+  std::vector<Verb> verbs_;
+  std::function<void()> wake_;
+  History history_;
+  std::filesystem::path folder_;
+  std::vector<std::unique_ptr<Task>> running_;
+  std::deque<FinishedTask> finished_;
+  std::vector<LogEntry> log_;
+  std::deque<ShownError> errors_;
+  std::uint64_t revision_ = 0;
+};
+
+}  // namespace standpoint

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/model/settings.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+constexpr std::size_t kRecent = 12;
+
+std::filesystem::path baseFolder(const char* variable, const char* fallback) {
+  if (const char* set = std::getenv(variable); set != nullptr && *set != 0) return set;
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != 0) return std::filesystem::path(home) / fallback;
+  return std::filesystem::temp_directory_path();
+}
+
+template <class T>
+void read(const json& object, const char* key, T& value, T low, T high) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_number()) return;
+  value = std::clamp(found->get<T>(), low, high);
+}
+
+}  // namespace
+
+void Settings::remember(const std::filesystem::path& path) {
+  const auto text = std::filesystem::absolute(path).lexically_normal().string();
+  recent.erase(std::remove(recent.begin(), recent.end(), text), recent.end());
+  recent.insert(recent.begin(), text);
+  if (recent.size() > kRecent) recent.resize(kRecent);
+}
+
+json toJson(const Settings& settings) {
+  json areas = json::array();
+  for (const auto& a : settings.areas) areas.push_back({{"left", a.left}, {"right", a.right}, {"bottom", a.bottom}});
+  return {{"recent", settings.recent},
+          {"areas", std::move(areas)},
+          {"last_folder", settings.last_folder},
+          {"user_scale", settings.user_scale},
+          {"recovery_minutes", settings.recovery_minutes}};
+}
+
+Settings settingsFrom(const json& object) {
+  Settings result;
+  if (!object.is_object()) return result;
+  if (const auto recent = object.find("recent"); recent != object.end() && recent->is_array())
+    for (const auto& r : *recent)
+      if (r.is_string() && result.recent.size() < kRecent) result.recent.push_back(r.get<std::string>());
+  if (const auto areas = object.find("areas"); areas != object.end() && areas->is_array())
+    for (std::size_t i = 0; i < std::min(areas->size(), result.areas.size()); ++i) {
+      read((*areas)[i], "left", result.areas[i].left, 160.0F, 900.0F);
+      read((*areas)[i], "right", result.areas[i].right, 200.0F, 1200.0F);
+      read((*areas)[i], "bottom", result.areas[i].bottom, 80.0F, 700.0F);
+    }
+  if (const auto folder = object.find("last_folder"); folder != object.end() && folder->is_string())
+    result.last_folder = folder->get<std::string>();
+  read(object, "user_scale", result.user_scale, 0.75, 2.0);
+  read(object, "recovery_minutes", result.recovery_minutes, 0, 60);
+  return result;
+}
+
+std::filesystem::path settingsFile() { return baseFolder("XDG_CONFIG_HOME", ".config") / "standpoint" / "editor.json"; }
+
+std::filesystem::path recoveryRoot() { return baseFolder("XDG_STATE_HOME", ".local/state") / "standpoint" / "recovery"; }
+
+Settings readSettings(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) return {};
+  return settingsFrom(json::parse(in, nullptr, false));
+}
+
+Result<void> writeSettings(const Settings& settings, const std::filesystem::path& file) {
+  std::error_code error;
+  std::filesystem::create_directories(file.parent_path(), error);
+  const auto part = file.string() + ".part";
+  std::ofstream out(part);
+  out << toJson(settings).dump(2) << '\n';
+  out.close();
+  if (!out) return failure(ErrorKind::file_system, "the editor's settings cannot be written", part);
+  std::filesystem::rename(part, file, error);
+  if (error) return failure(ErrorKind::file_system, error.message(), file.string());
+  return {};
+}
+
+}  // namespace standpoint

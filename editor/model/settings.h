@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/result.h"
+
+namespace standpoint {
+
+enum class Workspace { model, materials, survey, instrument };
+constexpr int kWorkspaces = 4;
+
+// Widths and heights of the areas in points (pixels at scale 1).
+struct AreaSizes {
+  float left = 280, right = 330, bottom = 190;
+  bool operator==(const AreaSizes&) const = default;
+};
+
+// What the editor remembers from one start to the next.
+struct Settings {
+  std::vector<std::string> recent;        // projects and models, newest first
+  std::array<AreaSizes, kWorkspaces> areas = {AreaSizes{}, AreaSizes{}, AreaSizes{}, AreaSizes{240, 620, 150}};
+  std::string last_folder;                // of the file dialog
+  double user_scale = 1;                  // on top of the monitor's
+  int recovery_minutes = 3;               // 0 = keep no recovery copy
+  bool operator==(const Settings&) const = default;
+
+  void remember(const std::filesystem::path& path);
+};
+
+nlohmann::json toJson(const Settings& settings);
+// What is missing or makes no sense keeps its default: a settings file must never keep the editor from starting.
+Settings settingsFrom(const nlohmann::json& object);
+
+std::filesystem::path settingsFile();     // XDG_CONFIG_HOME/standpoint/editor.json
+std::filesystem::path recoveryRoot();     // XDG_STATE_HOME/standpoint/recovery
+Settings readSettings(const std::filesystem::path& file);
+Result<void> writeSettings(const Settings& settings, const std::filesystem::path& file);
+
+}  // namespace standpoint

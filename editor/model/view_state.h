@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/environment.h"
+#include "editor/model/camera.h"
+#include "editor/model/visibility.h"
+#include "optimizer/optimizer.h"
+#include "project/document.h"
+
+namespace standpoint {
+
+enum class ColourMode { model, material, reflectance };
+
+// All that a picture of the scene depends on, as a value: equal states give the same picture, so whoever draws compares
+// and redraws only when something differs. Parts of the document are compared by pointer.
+struct ViewState {
+  std::shared_ptr<const Environment> environment;
+  std::shared_ptr<const MaterialChoice> materials;
+  std::shared_ptr<const CollideResult> collision;
+  std::shared_ptr<const HiddenProducts> hidden;
+  std::shared_ptr<const std::vector<std::uint32_t>> selected;
+  std::optional<double> cut_height_m;
+  ColourMode colour = ColourMode::model;
+  bool edges = true;
+  bool grid = true;
+  bool walkable = false;
+  bool shapes = false;        // collision shapes instead of the model
+  Camera camera;
+  bool operator==(const ViewState&) const = default;
+};
+
+// Where the picture of a scene comes from. The panels know only this; editor/viewport has the one that draws.
+class SceneView {
+ public:
+  virtual ~SceneView() = default;
+  // A texture that holds the picture of `state`, for Dear ImGui's AddImage with v from 1 to 0; 0 when there is none.
+  // `fine` asks for smooth edges: it costs a multiple, so it is for a view that stands still.
+  virtual std::uint64_t texture(const ViewState& state, int width_px, int height_px, bool fine) = 0;
+};
+
+// The colour that stands for a physical material; nullptr = nothing assigned.
+Colour materialColour(const char* material_id);
+constexpr double kReflectanceWavelength_nm = 1550;   // what most of the emulated scanners emit
+
+}  // namespace standpoint

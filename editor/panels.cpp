@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/panels.h"
+
+#include <array>
+
+#include "editor/panels/panels_list.h"
+#include "editor/shell/icons.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr Area L = Area::left, R = Area::right, B = Area::bottom, N = Area::none;
+
+//                                                                       Model Materials Survey Instrument
+const std::array kPanels = {
+    Panel{"materials", "Materials", ICON_PAINT, {N, L, N, N}, drawMaterialsPanel},
+    Panel{"survey", "Survey", ICON_STATION, {N, N, L, L}, drawSurveyPanel},
+    Panel{"outliner", "Outliner", ICON_LIST, {L, L, L, N}, drawOutlinerPanel},
+    Panel{"scan", "Scan", ICON_PLAY, {N, N, R, N}, drawScanPanel},
+    Panel{"instrument", "Instrument", ICON_TABLET, {N, N, N, R}, drawInstrumentPanel},
+    Panel{"inspector", "Inspector", ICON_INFO, {R, R, R, N}, drawInspectorPanel},
+    Panel{"optimise", "Optimise", ICON_COMPRESS, {R, N, N, N}, drawOptimisePanel},
+    Panel{"collision", "Collision", ICON_WALK, {R, N, N, N}, drawCollisionPanel},
+    Panel{"georeference", "Place", ICON_GLOBE, {R, N, N, N}, drawGeoreferencePanel},
+    Panel{"log", "Log", ICON_LOG, {B, B, B, B}, drawLogPanel},
+    Panel{"tasks", "Tasks", ICON_TASKS, {B, B, B, B}, drawTasksPanel},
+};
+
+}  // namespace
+
+std::span<const Panel> panels() { return kPanels; }
+
+}  // namespace standpoint

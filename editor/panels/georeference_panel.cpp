@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "core/units.h"
+#include "editor/editor.h"
+#include "editor/panels/panels_list.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/theme.h"
+#include "editor/shell/widgets.h"
+#include "project/geodesy.h"
+
+namespace standpoint {
+
+namespace {
+
+std::string triple(const Eigen::Vector3d& v) { return fmt::format("{:.3f}  {:.3f}  {:.3f}", v.x(), v.y(), v.z()); }
+
+double rotationDeg(const MapConversion& m) { return std::atan2(m.x_axis_ordinate, m.x_axis_abscissa) / kRadPerDeg; }
+
+void drawStated(const Georeference& g) {
+  if (!ui::beginProperties("stated", 0.42F)) return;
+  ui::property("Global shift", triple(g.shift_m) + " m");
+  ui::property("CRS", g.crs.empty() ? "unknown" : g.crs);
+  if (g.map_from_file) {
+    ui::property("Origin on the map", fmt::format("{:.3f}  {:.3f}  {:.3f}", g.map_from_file->eastings_m, g.map_from_file->northings_m,
+                                                  g.map_from_file->orthogonal_height_m));
+    ui::property("Rotation", fmt::format("{:.5f}°", rotationDeg(*g.map_from_file)));
+    if (g.map_from_file->scale != 1) ui::property("Scale", fmt::format("{:.8f}", g.map_from_file->scale));
+  }
+  if (g.site) ui::property("Site in the file", fmt::format("{:.6f}°  {:.6f}°", g.site->latitude_deg, g.site->longitude_deg));
+  if (g.true_north_rad) ui::property("True north", fmt::format("{:.3f}° clockwise from +Y", *g.true_north_rad / kRadPerDeg));
+  ui::endProperties();
+}
+
+void drawUtm(double latitude_deg, double longitude_deg) {
+  const auto u = utm(latitude_deg, longitude_deg);
+  ui::property("UTM", fmt::format("{}{}  {:.3f}  {:.3f}", u.zone, u.north ? "N" : "S", u.easting_m, u.northing_m));
+  ui::property("Convergence, UTM", fmt::format("{:.6f}°", u.convergence_deg));
+  ui::property("Scale, UTM", fmt::format("{:.8f}", u.scale));
+}
+
+// What follows from the CRS; computed anew only for another georeference.
+void drawDerived(Editor& editor, const Georeference& g) {
+  if (!g.map_from_file || g.crs.empty()) {
+    if (g.site && ui::beginProperties("site", 0.42F)) {
+      drawUtm(g.site->latitude_deg, g.site->longitude_deg);
+      ui::endProperties();
+    }
+    return;
+  }
+  auto& state = editor.panels.georeference;
+  if (state.derived_from != &g) {
+    state.derived_from = &g;
+    state.derived = geographic(g.crs, mapFromFile(*g.map_from_file, g.shift_m));
+  }
+  ui::heading(editor, "On Earth");
+  if (!state.derived) {
+    ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
+    ImGui::SameLine();
+    ui::wrapped(describe(state.derived.error()));
+    return;
+  }
+  if (!ui::beginProperties("derived", 0.42F)) return;
+  const auto& at = state.derived->geographic;
+  ui::property("Latitude", fmt::format("{:.8f}°", at.latitude_deg));
+  ui::property("Longitude", fmt::format("{:.8f}°", at.longitude_deg));
+  ui::property("Convergence, CRS", fmt::format("{:.6f}°", state.derived->grid_convergence_deg));
+  ui::property("Scale, CRS", fmt::format("{:.8f}", state.derived->scale_factor));
+  drawUtm(at.latitude_deg, at.longitude_deg);
+  ui::endProperties();
+}
+
+void fill(GeoreferencePanelState& state, const Georeference& g) {
+  if (state.filled_from == &g) return;
+  state.filled_from = &g;
+  state.crs = g.crs;
+  if (!g.map_from_file) return;
+  state.origin_m = {g.map_from_file->eastings_m, g.map_from_file->northings_m, g.map_from_file->orthogonal_height_m};
+  state.rotation_deg = rotationDeg(*g.map_from_file);
+}
+
+void drawForm(Editor& editor) {
+  auto& state = editor.panels.georeference;
+  ui::heading(editor, "Set");
+  if (ui::beginProperties("form", 0.42F)) {
+    ui::propertyLabel("CRS");
+    ImGui::InputTextWithHint("###crs", "EPSG:25832", &state.crs);
+    ui::propertyLabel("Origin on the map");
+    static constexpr const char* kAxes[] = {"E %.3f", "N %.3f", "H %.3f"};
+    for (std::size_t i = 0; i < 3; ++i) {
+      ImGui::SetNextItemWidth(-FLT_MIN);
+      ImGui::InputDouble(fmt::format("###origin{}", i).c_str(), &state.origin_m[i], 0, 0, kAxes[i]);
+    }
+    ui::propertyLabel("Rotation");
+    ImGui::InputDouble("###rotation", &state.rotation_deg, 0, 0, "%.6f°");
+    ui::endProperties();
+  }
+  if (!ui::primaryButton(ICON_GLOBE "  Set the place###georeference", editor.session.whyNot("georeference"), {-FLT_MIN, 0})) return;
+  nlohmann::json options = {{"origin", state.origin_m}, {"rotation-deg", state.rotation_deg}};
+  if (!state.crs.empty()) options["crs"] = state.crs;
+  editor.session.start("georeference", std::move(options), "Set the place of the model");
+}
+
+}  // namespace
+
+void drawGeoreferencePanel(Editor& editor) {
+  const auto& georeference = editor.session.document().georeference;
+  if (!georeference) {
+    ui::emptyState(editor, ICON_GLOBE, "No place yet", "Where a model stands on Earth is read when it is imported.");
+    return;
+  }
+  fill(editor.panels.georeference, *georeference);
+  drawStated(*georeference);
+  drawDerived(editor, *georeference);
+  drawForm(editor);
+}
+
+}  // namespace standpoint

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "editor/editor.h"
+#include "editor/panels/panels_list.h"
+#include "editor/shell/actions.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/theme.h"
+#include "editor/shell/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+std::string triple(const Eigen::Vector3d& v) { return fmt::format("{:.3f}  {:.3f}  {:.3f}", v.x(), v.y(), v.z()); }
+
+void drawIdentity(const Editor& editor, const Product& product) {
+  if (!ui::beginProperties("identity", 0.32F)) return;
+  ui::property("Class", product.ifc_class.empty() ? "Object" : product.ifc_class);
+  if (!product.predefined_type.empty()) ui::property("Type", product.predefined_type);
+  ui::property("Id", product.id);
+  if (!product.global_id.empty()) ui::property("GlobalId", product.global_id);
+  if (!product.storey.empty()) ui::property("Storey", product.storey);
+  if (product.whole >= 0) ui::property("Part of", productLabel(editor.environment()->products[static_cast<std::size_t>(product.whole)]));
+  ui::endProperties();
+}
+
+std::uint64_t trianglesOf(const Environment& environment, std::uint32_t product) {
+  std::uint64_t count = 0;
+  for (const auto& i : environment.instances)
+    if (i.product == product) count += environment.meshes[i.mesh]->triangles.size();
+  return count;
+}
+
+void drawGeometry(Editor& editor, std::uint32_t index) {
+  ui::heading(editor, "Geometry");
+  const auto& environment = *editor.environment();
+  const auto& bounds_of = editor.boundsOfProducts()[index];
+  if (!ui::beginProperties("geometry", 0.32F)) return;
+  ui::property("Triangles", groupedDigits(trianglesOf(environment, index)));
+  if (!bounds_of.empty()) {
+    ui::property("Size", triple(bounds_of.max - bounds_of.min) + " m");
+    ui::property("From", triple(bounds_of.min + editor.shift_m()));
+    ui::property("To", triple(bounds_of.max + editor.shift_m()));
+  }
+  if (const auto& light = editor.session.document().lightening; light && index < light->products.size()) {
+    const auto& loss = light->products[index];
+    ui::property("Before", fmt::format("{} triangles", groupedDigits(loss.triangles_before)));
+    ui::property("Deviation", fmt::format("at most {:.1f} mm, mean {:.2f} mm", loss.max_deviation_m * 1000, loss.mean_deviation_m * 1000));
+  }
+  ui::endProperties();
+}
+
+void drawLayers(const Editor& editor, const Product& product) {
+  if (product.layers.empty() && product.materials.empty()) return;
+  ui::heading(editor, "Materials of the model");
+  if (!ui::beginProperties("layers", 0.68F)) return;
+  for (const auto& layer : product.layers)
+    ui::property(layer.name.empty() ? "Layer" : layer.name.c_str(), fmt::format("{:.0f} mm", layer.thickness_m * 1000));
+  if (product.layers.empty())
+    for (const auto& name : product.materials) ui::property(name.c_str(), " ");
+  ui::endProperties();
+}
+
+// The physical materials that a product's surfaces have, each once.
+std::vector<std::pair<std::int32_t, std::string>> materialsOf(const MaterialAssignment& assignment, std::uint32_t product) {
+  std::vector<std::pair<std::int32_t, std::string>> found;
+  for (const auto& s : assignment.surfaces)
+    if (s.product == product && std::none_of(found.begin(), found.end(), [&](const auto& f) { return f.first == s.material; }))
+      found.emplace_back(s.material, s.reason);
+  return found;
+}
+
+// "#12" where the model's ids are numbers, else the GlobalId: what the verb's selectors understand.
+std::string selectorOf(const Product& product) { return product.id.rfind('#', 0) == 0 || product.global_id.empty() ? product.id : product.global_id; }
+
+void assign(Editor& editor, const PhysicalMaterial& material) {
+  nlohmann::json pairs = nlohmann::json::array();
+  for (const auto p : editor.selection.products())
+    pairs.push_back(selectorOf(editor.environment()->products[p]) + "=" + material.id);
+  const auto count = editor.selection.products().size();
+  editor.session.start("materials", {{"assign", std::move(pairs)}},
+                       fmt::format("Assign {} to {}", material.label, count == 1 ? "1 product" : fmt::format("{} products", count)));
+}
+
+void drawAssign(Editor& editor, const std::string& current) {
+  const auto why = editor.session.whyNot("materials");
+  ImGui::BeginDisabled(!why.empty());
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  const bool open = ImGui::BeginCombo("###assign", current.c_str(), ImGuiComboFlags_HeightLargest);
+  ImGui::EndDisabled();
+  ui::tooltip(why);
+  if (!open) return;
+  const auto& catalogue = readCatalogue(editor.panels.catalogue);
+  auto& filter = editor.panels.inspector.material_filter;
+  if (ImGui::IsWindowAppearing()) {
+    filter.clear();
+    ImGui::SetKeyboardFocusHere();
+  }
+  ui::searchField("material-filter", "Brick, glass, steel …", filter);
+  ImGui::BeginChild("materials", {editor.px(300), editor.px(260)});
+  for (const auto& material : catalogue.materials) {
+    Product searched;
+    searched.name = material.label + " " + material.id;
+    if (!matchesFilter(searched, filter)) continue;
+    ui::swatch(editor, materialColour(material.id.c_str()));
+    ImGui::SameLine();
+    if (ImGui::Selectable((material.label + "###" + material.id).c_str())) {
+      assign(editor, material);
+      ImGui::CloseCurrentPopup();
+    }
+  }
+  if (catalogue.materials.empty()) ui::wrapped(catalogue.problem.empty() ? "The library of materials is empty." : catalogue.problem);
+  ImGui::EndChild();
+  ImGui::EndCombo();
+}
+
+void drawPhysics(const PhysicalMaterial& m) {
+  if (!ui::beginProperties(m.id.c_str(), 0.52F)) return;
+  for (const double wavelength : {905.0, 1064.0, 1550.0})
+    ui::property(fmt::format("Reflectance {:.0f} nm", wavelength).c_str(), fmt::format("{:.0f} %", atWavelength(m.reflectance, wavelength) * 100));
+  if (m.roughness_rad > 0) ui::property("Roughness σ", fmt::format("{:.2f} rad", m.roughness_rad));
+  if (m.index_of_refraction > 0) ui::property("Index of refraction", fmt::format("{:.2f}", m.index_of_refraction));
+  if (!m.transmittance.empty()) ui::property("Transmittance 1550 nm", fmt::format("{:.0f} %", atWavelength(m.transmittance, 1550) * 100));
+  ui::endProperties();
+}
+
+void drawPhysicalMaterial(Editor& editor, std::uint32_t index) {
+  ui::heading(editor, "Physical material");
+  const auto& choice = editor.session.document().materials;
+  if (!choice) {
+    drawAssign(editor, "Nothing assigned yet");
+    return;
+  }
+  const auto& assignment = choice->result.assignment;
+  const auto found = materialsOf(assignment, index);
+  std::string current = "Unassigned";
+  if (found.size() == 1 && found[0].first >= 0) current = assignment.materials[static_cast<std::size_t>(found[0].first)].label;
+  if (found.size() > 1) current = fmt::format("{} materials", found.size());
+  drawAssign(editor, current);
+  for (const auto& [material, reason] : found) {
+    if (material < 0) {
+      ImGui::TextColored(colour(tone::kUnassigned), "%s  No rule fits", ICON_WARNING);
+      continue;
+    }
+    const auto& m = assignment.materials[static_cast<std::size_t>(material)];
+    ui::swatch(editor, materialColour(m.id.c_str()));
+    ImGui::SameLine();
+    ui::wrapped(m.label);
+    if (!reason.empty()) ui::tooltip("Because of: " + reason);
+    drawPhysics(m);
+  }
+}
+
+void drawProperties(Editor& editor, const Product& product) {
+  if (product.properties.empty()) return;
+  ui::heading(editor, "Properties");
+  auto& filter = editor.panels.inspector.property_filter;
+  if (product.properties.size() > 12) ui::searchField("property-filter", "Property", filter);
+  std::vector<std::string> order;
+  std::map<std::string, std::vector<const Property*>> sets;
+  for (const auto& p : product.properties) {
+    Product searched;
+    searched.name = p.name + " " + p.value + " " + p.set;
+    if (!matchesFilter(searched, filter)) continue;
+    if (sets.find(p.set) == sets.end()) order.push_back(p.set);
+    sets[p.set].push_back(&p);
+  }
+  for (const auto& set : order) {
+    const std::string title = set.empty() ? "Attributes" : set;
+    if (!ImGui::TreeNodeEx((title + "###set-" + set).c_str(), ImGuiTreeNodeFlags_DefaultOpen | ImGuiTreeNodeFlags_SpanAvailWidth |
+                                                                   ImGuiTreeNodeFlags_NoTreePushOnOpen))
+      continue;
+    if (!ui::beginProperties(set.c_str(), 0.48F)) continue;
+    for (const auto* p : sets[set]) ui::property(p->name.c_str(), p->value);
+    ui::endProperties();
+  }
+}
+
+void drawMany(Editor& editor) {
+  const auto& products = editor.selection.products();
+  ui::heading(editor, fmt::format("{} products", products.size()).c_str());
+  std::map<std::string, int> classes;
+  std::uint64_t triangles = 0;
+  std::vector<std::uint8_t> chosen(editor.environment()->products.size(), 0);
+  for (const auto p : products) {
+    ++classes[readableClass(editor.environment()->products[p].ifc_class)];
+    chosen[p] = 1;
+  }
+  for (const auto& i : editor.environment()->instances)
+    if (chosen[i.product] != 0) triangles += editor.environment()->meshes[i.mesh]->triangles.size();
+  if (ui::beginProperties("many", 0.6F)) {
+    for (const auto& [name, count] : classes) ui::property(name.c_str(), std::to_string(count));
+    ui::property("Triangles", groupedDigits(triangles));
+    const auto all = editor.selectionBounds();
+    if (!all.empty()) ui::property("Size", triple(all.max - all.min) + " m");
+    ui::endProperties();
+  }
+  ui::heading(editor, "Physical material");
+  drawAssign(editor, "Assign to all …");
+}
+
+}  // namespace
+
+void drawInspectorPanel(Editor& editor) {
+  const auto& environment = editor.environment();
+  if (!environment || editor.selection.empty() || editor.selection.primary() >= environment->products.size()) {
+    ui::emptyState(editor, ICON_POINTER, "Nothing selected", "Click something in the view or in the outliner to see what it is, what it is made of, and how it reflects.");
+    return;
+  }
+  if (editor.selection.products().size() > 1) {
+    drawMany(editor);
+    return;
+  }
+  const auto index = editor.selection.primary();
+  const auto& product = environment->products[index];
+  if (editor.fonts.bold != nullptr) ImGui::PushFont(editor.fonts.bold);
+  ui::wrapped(productLabel(product));
+  if (editor.fonts.bold != nullptr) ImGui::PopFont();
+  drawIdentity(editor, product);
+  drawPhysicalMaterial(editor, index);
+  drawGeometry(editor, index);
+  drawLayers(editor, product);
+  drawProperties(editor, product);
+}
+
+}  // namespace standpoint

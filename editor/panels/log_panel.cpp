@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "editor/editor.h"
+#include "editor/panels/panels_list.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/theme.h"
+#include "editor/shell/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+struct Look {
+  const char* icon;
+  ImU32 tone;
+};
+
+Look lookOf(LogLevel level) {
+  switch (level) {
+    case LogLevel::note: return {ICON_INFO, tone::kDim};
+    case LogLevel::done: return {ICON_CHECK, tone::kGood};
+    case LogLevel::warning: return {ICON_WARNING, tone::kWarning};
+    case LogLevel::loss: return {ICON_WARNING, tone::kBad};
+    case LogLevel::error: return {ICON_BAN, tone::kBad};
+  }
+  return {ICON_INFO, tone::kDim};
+}
+
+void filterButton(Editor& editor, const char* icon, const char* name, std::size_t count, ImU32 tone, bool& shown) {
+  ImGui::PushStyleColor(ImGuiCol_Button, shown ? ImVec4(1, 1, 1, 0.07F) : ImVec4(0, 0, 0, 0));
+  ImGui::PushStyleColor(ImGuiCol_Text, shown && count > 0 ? colour(tone) : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  if (ImGui::Button(fmt::format("{}  {}###log-{}", icon, groupedDigits(count), name).c_str())) shown = !shown;
+  ImGui::PopStyleColor(2);
+  ui::tooltip(fmt::format("{} {}", shown ? "Hide" : "Show", name));
+  ImGui::SameLine(0, editor.px(4));
+}
+
+void drawHead(Editor& editor) {
+  auto& filter = editor.panels.log.filter;
+  std::size_t notes = 0, warnings = 0, losses = 0;
+  for (const auto& e : editor.session.log()) {
+    notes += e.level == LogLevel::note || e.level == LogLevel::done ? 1 : 0;
+    warnings += e.level == LogLevel::warning ? 1 : 0;
+    losses += e.level == LogLevel::loss || e.level == LogLevel::error ? 1 : 0;
+  }
+  filterButton(editor, ICON_BAN, "losses and errors", losses, tone::kBad, filter.losses);
+  filterButton(editor, ICON_WARNING, "warnings", warnings, tone::kWarning, filter.warnings);
+  filterButton(editor, ICON_INFO, "notes", notes, tone::kDim, filter.notes);
+  const float clear = ImGui::GetFrameHeight() + editor.px(8);
+  ImGui::SameLine(std::max(ImGui::GetCursorPosX(), ImGui::GetContentRegionMax().x - editor.px(230) - clear));
+  ImGui::BeginChild("log-search", {editor.px(230), ImGui::GetFrameHeight()});
+  ui::searchField("log-filter", "Text or source", filter.text);
+  ImGui::EndChild();
+  ImGui::SameLine();
+  if (ui::iconButton(ICON_TRASH "###log-clear", "Empty the log")) editor.session.clearLog();
+}
+
+void drawEntry(Editor& editor, const LogEntry& entry, int i) {
+  const Look look = lookOf(entry.level);
+  ImGui::PushID(i);
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextColored(colour(look.tone), "%s", look.icon);
+  ImGui::TableNextColumn();
+  ui::dimText(entry.time);
+  ImGui::TableNextColumn();
+  if (!entry.source.empty()) {
+    const auto product = editor.environment() ? productOf(*editor.environment(), entry.source) : std::nullopt;
+    if (product) {
+      ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.50F, 0.73F, 1, 1));
+      if (ImGui::Selectable(entry.source.c_str())) {
+        editor.select(*product, true);
+        editor.frameSelection();
+      }
+      ImGui::PopStyleColor();
+      ui::tooltip("Select it");
+    } else {
+      ui::fitted(entry.source, ImGui::GetContentRegionAvail().x);
+    }
+  }
+  ImGui::TableNextColumn();
+  ui::fitted(entry.message, ImGui::GetContentRegionAvail().x);
+  ImGui::PopID();
+}
+
+}  // namespace
+
+void drawLogPanel(Editor& editor) {
+  drawHead(editor);
+  const auto& log = editor.session.log();
+  std::vector<int> shown;
+  for (int i = 0; i < static_cast<int>(log.size()); ++i)
+    if (passes(log[static_cast<std::size_t>(i)], editor.panels.log.filter)) shown.push_back(i);
+  if (!ImGui::BeginTable("entries", 4, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;
+  ImGui::TableSetupColumn("level", ImGuiTableColumnFlags_WidthFixed, editor.px(18));
+  ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthFixed, editor.px(62));
+  ImGui::TableSetupColumn("source", ImGuiTableColumnFlags_WidthFixed, editor.px(120));
+  ImGui::TableSetupColumn("message", ImGuiTableColumnFlags_WidthStretch);
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(shown.size()));
+  while (clipper.Step())
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+      const int entry = shown[static_cast<std::size_t>(i)];
+      drawEntry(editor, log[static_cast<std::size_t>(entry)], entry);
+    }
+  auto& seen = editor.panels.log.seen;
+  if (log.size() > seen) ImGui::SetScrollY(ImGui::GetScrollMaxY() + ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(log.size() - seen));
+  seen = log.size();
+  ImGui::EndTable();
+}
+
+}  // namespace standpoint

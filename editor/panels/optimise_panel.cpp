@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "editor/editor.h"
+#include "editor/panels/panels_list.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/theme.h"
+#include "editor/shell/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+void drawResult(Editor& editor, const Lightening& light) {
+  ui::heading(editor, "Result");
+  const auto& all = light.all;
+  const double share = all.triangles_before > 0 ? static_cast<double>(all.triangles_after) / static_cast<double>(all.triangles_before) : 1;
+  ui::meter(editor, share, tone::kAccent);
+  if (ui::beginProperties("result", 0.5F)) {
+    ui::property("Triangles before", groupedDigits(all.triangles_before));
+    ui::property("Triangles now", fmt::format("{}  ({:.1f} %)", groupedDigits(all.triangles_after), share * 100));
+    ui::property("Largest deviation", fmt::format("{:.2f} mm", all.max_deviation_m * 1000));
+    ui::property("Mean deviation", fmt::format("{:.3f} mm", all.mean_deviation_m * 1000));
+    ui::endProperties();
+  }
+  if (light.options.budget > 0 && all.triangles_after > light.options.budget)
+    ImGui::TextColored(colour(tone::kWarning), "%s  The budget cannot be kept with this deviation", ICON_WARNING);
+}
+
+// What lost most, so that one can look at it.
+void drawWorst(Editor& editor, const Lightening& light) {
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t p = 0; p < light.products.size(); ++p)
+    if (light.products[p].max_deviation_m > 0) order.push_back(p);
+  if (order.empty()) return;
+  const auto shown = std::min<std::size_t>(order.size(), 50);
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(shown), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return light.products[a].max_deviation_m > light.products[b].max_deviation_m;
+  });
+  ui::heading(editor, "Largest deviations");
+  if (!ImGui::BeginTable("worst", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;
+  ImGui::TableSetupScrollFreeze(0, 1);
+  ImGui::TableSetupColumn("Product", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("mm", ImGuiTableColumnFlags_WidthFixed, editor.px(44));
+  ImGui::TableSetupColumn("Triangles", ImGuiTableColumnFlags_WidthFixed, editor.px(96));
+  ImGui::TableHeadersRow();
+  for (std::size_t i = 0; i < shown; ++i) {
+    const auto& loss = light.products[order[i]];
+    ImGui::PushID(static_cast<int>(i));
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    if (ImGui::Selectable("###worst", editor.selection.contains(order[i]), ImGuiSelectableFlags_SpanAllColumns)) {
+      editor.select(order[i], true);
+      editor.frameSelection();
+    }
+    ImGui::SameLine(0, 0);
+    ui::fitted(productLabel(editor.environment()->products[order[i]]), ImGui::GetContentRegionAvail().x);
+    ImGui::TableNextColumn();
+    ui::textRightAligned(fmt::format("{:.1f}", loss.max_deviation_m * 1000));
+    ImGui::TableNextColumn();
+    ui::textRightAligned(fmt::format("{} → {}", groupedDigits(loss.triangles_before), groupedDigits(loss.triangles_after)));
+    ImGui::PopID();
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace
+
+void drawOptimisePanel(Editor& editor) {
+  const auto& document = editor.session.document();
+  if (!document.imported) {
+    ui::emptyState(editor, ICON_COMPRESS, "Nothing to optimise", "Import a model first.");
+    return;
+  }
+  auto& state = editor.panels.optimise;
+  const auto before = triangleCount(*document.imported);
+  ui::dimText(fmt::format("The model as imported has {} triangles.", groupedDigits(before)));
+  ui::gap(editor, 2);
+  ImGui::Checkbox("Only what costs nothing", &state.only_lossless);
+  ui::tooltip("Merges planar regions: no surface moves");
+  const auto budget = static_cast<std::uint64_t>(std::llround(state.budget_share * static_cast<double>(before)));
+  ImGui::BeginDisabled(state.only_lossless);
+  if (ui::beginProperties("options", 0.42F)) {
+    ui::propertyLabel("Budget");
+    auto percent = static_cast<float>(state.budget_share * 100);
+    if (ImGui::SliderFloat("###budget", &percent, 1, 100, fmt::format("%.0f %%  =  {}", groupedDigits(budget)).c_str(), ImGuiSliderFlags_AlwaysClamp))
+      state.budget_share = percent / 100;
+    ui::propertyLabel("Deviation at most");
+    auto deviation = static_cast<float>(state.max_deviation_mm);
+    if (ImGui::SliderFloat("###deviation", &deviation, 0.5F, 100, "%.1f mm", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
+      state.max_deviation_mm = deviation;
+    ui::endProperties();
+  }
+  ImGui::EndDisabled();
+  if (ui::primaryButton(ICON_COMPRESS "  Optimise###optimise", editor.session.whyNot("optimize"), {-FLT_MIN, 0}))
+    editor.session.start("optimize", {{"budget", state.only_lossless ? 0 : std::max<std::uint64_t>(1, budget)}, {"max-deviation", state.max_deviation_mm / 1000}},
+                         "Optimise the model");
+  if (!document.lightening) return;
+  drawResult(editor, *document.lightening);
+  drawWorst(editor, *document.lightening);
+}
+
+}  // namespace standpoint

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "editor/editor.h"
+#include "editor/panels/panels_list.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/theme.h"
+#include "editor/shell/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+const char* iconOf(const Editor& editor, const Outliner::Node& node) {
+  if (node.kind == OutlinerRow::Kind::group) return ICON_FOLDER;
+  if (node.kind == OutlinerRow::Kind::product) return ICON_CUBE;
+  const auto& ifc_class = editor.environment()->spatial[node.index].ifc_class;
+  if (ifc_class == "IfcSite") return ICON_SITE;
+  if (ifc_class == "IfcBuilding") return ICON_BUILDING;
+  if (ifc_class == "IfcBuildingStorey") return ICON_STOREY;
+  if (ifc_class == "IfcSpace") return ICON_HOME;
+  return ICON_GLOBE;
+}
+
+void choose(Editor& editor, const std::vector<OutlinerRow>& rows, int index) {
+  auto& state = editor.panels.outliner;
+  const auto node = rows[static_cast<std::size_t>(index)].node;
+  const auto below = state.tree.productsBelow(node);
+  const auto& io = ImGui::GetIO();
+  if (io.KeyShift && state.anchor < rows.size()) {
+    std::vector<std::uint32_t> chosen;
+    const auto [low, high] = std::minmax(static_cast<int>(state.anchor), index);
+    for (int i = low; i <= high; ++i) {
+      const auto more = state.tree.productsBelow(rows[static_cast<std::size_t>(i)].node);
+      chosen.insert(chosen.end(), more.begin(), more.end());
+    }
+    editor.selection.set(std::move(chosen));
+    return;
+  }
+  state.anchor = static_cast<std::uint32_t>(index);
+  if (io.KeyCtrl && below.size() == 1)
+    editor.selection.toggle(below.front());
+  else if (io.KeyCtrl) {
+    auto chosen = editor.selection.products();
+    chosen.insert(chosen.end(), below.begin(), below.end());
+    editor.selection.set(std::move(chosen));
+  } else {
+    editor.selection.set(below);
+  }
+}
+
+void drawEye(Editor& editor, const std::vector<std::uint32_t>& below, float x) {
+  const bool any_shown = std::any_of(below.begin(), below.end(), [&](std::uint32_t p) { return !editor.visibility.hidden(p); });
+  ImGui::SameLine(x);
+  ImGui::PushStyleColor(ImGuiCol_Text, any_shown ? ImVec4(0.52F, 0.55F, 0.61F, 1) : colour(tone::kWarning));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(editor.px(3), 0));
+  if (ui::iconButton(any_shown ? ICON_EYE "###eye" : ICON_EYE_OFF "###eye", any_shown ? "Hide" : "Show")) editor.visibility.show(below, !any_shown);
+  ImGui::PopStyleVar();
+  ImGui::PopStyleColor();
+}
+
+void drawRow(Editor& editor, const std::vector<OutlinerRow>& rows, int index) {
+  auto& state = editor.panels.outliner;
+  const OutlinerRow row = rows[static_cast<std::size_t>(index)];
+  const auto& node = state.tree.node(row.node);
+  const bool product = row.kind == OutlinerRow::Kind::product;
+  const bool chosen = product && editor.selection.contains(node.index);
+  const float left = ImGui::GetCursorPosX(), right = left + ImGui::GetContentRegionAvail().x;
+  const float indent = editor.px(13) * static_cast<float>(row.depth);
+  ImGui::PushID(static_cast<int>(row.node));
+  if (ImGui::Selectable("###row", chosen, ImGuiSelectableFlags_AllowItemOverlap | ImGuiSelectableFlags_AllowDoubleClick, {0, editor.px(19)})) {
+    const bool on_arrow = ImGui::GetIO().MousePos.x < ImGui::GetWindowPos().x + left + indent + editor.px(16);
+    if (row.expandable && (on_arrow || ImGui::IsMouseDoubleClicked(0)))
+      state.tree.expand(row.node, !row.expanded);
+    else
+      choose(editor, rows, index);
+    if (product && ImGui::IsMouseDoubleClicked(0)) editor.frameSelection();
+  }
+  const bool hovered = ImGui::IsItemHovered();
+  ImGui::SetItemAllowOverlap();
+  ImGui::SameLine(left + indent);
+  if (row.expandable) ui::dimText(row.expanded ? ICON_ARROW_DOWN : ICON_CHEVRON_RIGHT);
+  ImGui::SameLine(left + indent + editor.px(15));
+  const bool hidden = product && editor.visibility.hidden(node.index);
+  ImGui::PushStyleColor(ImGuiCol_Text, product ? ImVec4(0.45F, 0.62F, 0.85F, 1) : ImVec4(0.62F, 0.66F, 0.73F, 1));
+  ImGui::TextUnformatted(iconOf(editor, node));
+  ImGui::PopStyleColor();
+  ImGui::SameLine(left + indent + editor.px(37));
+  const std::string count = product ? std::string() : std::to_string(node.products);
+  const float count_width = count.empty() ? 0 : ImGui::CalcTextSize(count.c_str()).x + editor.px(8);
+  const float eye = editor.px(24);
+  ImGui::BeginDisabled(hidden);
+  ui::fitted(node.label, right - ImGui::GetCursorPosX() - count_width - eye);
+  ImGui::EndDisabled();
+  if (!count.empty()) {
+    ImGui::SameLine(right - eye - count_width);
+    ui::dimText(count);
+  }
+  const bool some_hidden = hidden || (!product && editor.visibility.anyHidden());
+  if (hovered || some_hidden) {
+    const auto below = state.tree.productsBelow(row.node);
+    const bool show_eye = hovered || std::any_of(below.begin(), below.end(), [&](std::uint32_t p) { return editor.visibility.hidden(p); });
+    if (show_eye) drawEye(editor, below, right - eye);
+  }
+  ImGui::PopID();
+}
+
+void scrollTo(Editor& editor, const std::vector<OutlinerRow>& rows, float row_height) {
+  auto& state = editor.panels.outliner;
+  if (state.scroll_to < 0) return;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].kind == OutlinerRow::Kind::product && state.tree.node(rows[i].node).index == static_cast<std::uint32_t>(state.scroll_to)) {
+      const float y = static_cast<float>(i) * row_height, height = ImGui::GetWindowHeight();
+      if (y < ImGui::GetScrollY() || y + row_height > ImGui::GetScrollY() + height) ImGui::SetScrollY(std::max(0.0F, y - height * 0.4F));
+    }
+  state.scroll_to = -1;
+}
+
+}  // namespace
+
+void drawOutlinerPanel(Editor& editor) {
+  const auto& environment = editor.environment();
+  if (!environment) {
+    ui::emptyState(editor, ICON_LIST, "Nothing to list", "The building's structure appears here once a model is imported.");
+    return;
+  }
+  auto& state = editor.panels.outliner;
+  ui::searchField("outliner-filter", "Name, class, id, material", state.filter);
+  const auto rows = state.tree.rows(*environment, state.filter);
+  if (rows.empty()) {
+    ui::emptyState(editor, ICON_SEARCH, "Nothing fits", "No product has all these words in its name, class, id, storey or materials.");
+    return;
+  }
+  ImGui::BeginChild("rows");
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(editor.px(4), editor.px(1)));
+  const float row_height = editor.px(19) + editor.px(1);
+  scrollTo(editor, rows, row_height);
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(rows.size()), row_height);
+  while (clipper.Step())
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) drawRow(editor, rows, i);
+  ImGui::PopStyleVar();
+  ImGui::EndChild();
+}
+
+}  // namespace standpoint

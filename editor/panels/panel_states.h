@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/physical_material.h"
+#include "editor/model/log.h"
+#include "editor/model/option_form.h"
+#include "editor/model/outliner_rows.h"
+#include "project/geodesy.h"
+#include "scanners/instrument.h"
+
+namespace standpoint {
+
+// What each panel remembers between two frames: plain values without ImGui and GL.
+
+struct OutlinerPanelState {
+  Outliner tree;
+  std::string filter;
+  std::int64_t scroll_to = -1;      // product to bring into view
+  std::uint32_t anchor = 0;         // row where a Shift-selection starts
+};
+
+struct InspectorPanelState {
+  std::string material_filter;
+  std::string property_filter;
+};
+
+struct MaterialsPanelState {
+  std::string filter;
+  std::string chosen;               // material id; "" with chosen_unassigned
+  bool chosen_unassigned = false;
+};
+
+struct OptimisePanelState {
+  double budget_share = 0.25;       // of the imported model's triangles
+  bool only_lossless = false;
+  double max_deviation_mm = 15;
+};
+
+struct CollisionPanelState {
+  double agent_radius_m = 0.3;
+  double agent_height_m = 1.8;
+};
+
+struct GeoreferencePanelState {
+  std::string crs;
+  std::array<double, 3> origin_m = {0, 0, 0};
+  double rotation_deg = 0;
+  const void* filled_from = nullptr;    // the georeference that the fields were filled from
+  const void* derived_from = nullptr;
+  Result<MapFactors> derived = MapFactors();
+};
+
+struct SurveyPanelState {
+  int station = -1;                 // chosen, index into Job::stations
+  int target = -1;
+  std::array<double, 3> move_to = {0, 0, 0};
+  int move_of = -1;                 // station that `move_to` was filled from
+  Eigen::Vector3d move_from = Eigen::Vector3d::Zero();
+};
+
+struct ScanPanelState {
+  std::string instrument;           // id
+  std::vector<std::pair<std::string, std::string>> settings;   // key, value
+  bool all_stations = true;
+  int format = 0;
+  std::int64_t seed = 1;
+  bool ideal = false;
+  std::string folder;
+};
+
+struct LogPanelState {
+  LogFilter filter;
+  std::size_t seen = 0;             // entries when it was drawn last: new ones scroll into view
+};
+
+// Read once from the program's data folder.
+struct Catalogue {
+  bool read = false;
+  std::vector<PhysicalMaterial> materials;
+  std::vector<Instrument> instruments;
+  std::string problem;              // why something could not be read
+};
+
+struct PanelStates {
+  OutlinerPanelState outliner;
+  InspectorPanelState inspector;
+  MaterialsPanelState materials;
+  OptimisePanelState optimise;
+  CollisionPanelState collision;
+  GeoreferencePanelState georeference;
+  SurveyPanelState survey;
+  ScanPanelState scan;
+  LogPanelState log;
+  Catalogue catalogue;
+};
+
+const Catalogue& readCatalogue(Catalogue& catalogue);
+
+}  // namespace standpoint

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace standpoint {
+
+struct Editor;
+
+void drawCollisionPanel(Editor& editor);
+void drawGeoreferencePanel(Editor& editor);
+void drawInspectorPanel(Editor& editor);
+void drawInstrumentPanel(Editor& editor);
+void drawLogPanel(Editor& editor);
+void drawMaterialsPanel(Editor& editor);
+void drawOptimisePanel(Editor& editor);
+void drawOutlinerPanel(Editor& editor);
+void drawScanPanel(Editor& editor);
+void drawSurveyPanel(Editor& editor);
+void drawTasksPanel(Editor& editor);
+
+}  // namespace standpoint

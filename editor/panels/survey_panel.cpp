@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "editor/editor.h"
+#include "editor/panels/panels_list.h"
+#include "editor/shell/actions.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/theme.h"
+#include "editor/shell/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+void lookAt(Editor& editor, const Eigen::Vector3d& place) {
+  Bounds around;
+  around.extend(place - Eigen::Vector3d(3, 3, 2));
+  around.extend(place + Eigen::Vector3d(3, 3, 2));
+  frame(editor.view.camera, around, editor.view.size.x() / std::max(editor.view.size.y(), 1.0));
+}
+
+void remove(Editor& editor, const char* verb, const std::string& name) {
+  editor.session.start(verb, {{"remove", name}}, fmt::format("Remove {} {}", verb, name));
+}
+
+void chooseStation(Editor& editor, int i) {
+  editor.panels.survey.station = i;
+  editor.panels.survey.target = -1;
+}
+
+void drawStationRow(Editor& editor, const Station& station, int i) {
+  auto& state = editor.panels.survey;
+  ImGui::PushID(i);
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  if (ImGui::Selectable("###station", state.station == i, ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap | ImGuiSelectableFlags_AllowDoubleClick)) {
+    chooseStation(editor, i);
+    if (ImGui::IsMouseDoubleClicked(0)) lookAt(editor, station.true_pose.translation);
+  }
+  ImGui::SameLine(0, 0);
+  ImGui::TextColored(colour(tone::kStation), "%s", ICON_STATION);
+  ImGui::SameLine();
+  ui::fitted(station.name, ImGui::GetContentRegionAvail().x);
+  const Eigen::Vector3d p = station.true_pose.translation + editor.shift_m();
+  ImGui::TableNextColumn();
+  ui::textRightAligned(fmt::format("{:.2f}", p.x()));
+  ImGui::TableNextColumn();
+  ui::textRightAligned(fmt::format("{:.2f}", p.y()));
+  ImGui::TableNextColumn();
+  ui::textRightAligned(fmt::format("{:.2f}", p.z()));
+  ImGui::TableNextColumn();
+  ui::textRightAligned(station.scans.empty() ? "–" : std::to_string(station.scans.size()));
+  ImGui::PopID();
+}
+
+void drawStations(Editor& editor, const Job& job) {
+  ui::heading(editor, fmt::format("Stations  {}", job.stations.size()).c_str());
+  if (job.stations.empty()) {
+    ui::dimText("None yet. Press the button, then click on the floor.");
+    return;
+  }
+  const float height = std::min(editor.px(26) + ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(job.stations.size()), editor.px(260));
+  if (!ImGui::BeginTable("stations", 5, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg, {0, height})) return;
+  ImGui::TableSetupScrollFreeze(0, 1);
+  ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch);
+  for (const char* axis : {"X", "Y", "Z"}) ImGui::TableSetupColumn(axis, ImGuiTableColumnFlags_WidthFixed, editor.px(48));
+  ImGui::TableSetupColumn("Scans", ImGuiTableColumnFlags_WidthFixed, editor.px(38));
+  ImGui::TableHeadersRow();
+  for (int i = 0; i < static_cast<int>(job.stations.size()); ++i) drawStationRow(editor, job.stations[static_cast<std::size_t>(i)], i);
+  ImGui::EndTable();
+}
+
+void fillMove(Editor& editor, const Station& station) {
+  auto& state = editor.panels.survey;
+  if (state.move_of == state.station && state.move_from == station.true_pose.translation) return;
+  state.move_of = state.station;
+  state.move_from = station.true_pose.translation;
+  const Eigen::Vector3d p = station.true_pose.translation + editor.shift_m();
+  state.move_to = {p.x(), p.y(), p.z()};
+}
+
+void drawChosenStation(Editor& editor, const Station& station) {
+  auto& state = editor.panels.survey;
+  fillMove(editor, station);
+  ui::heading(editor, station.name.c_str());
+  const auto why = editor.session.whyNot("station");
+  ui::dimText(fmt::format("Instrument {:.3f} m above the floor. Its centre:", station.instrument_height_m));
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  ImGui::InputScalarN("###move-to", ImGuiDataType_Double, state.move_to.data(), 3, nullptr, nullptr, "%.3f");
+  const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
+  if (ui::button(ICON_MOVE "  Move###move-station", why, {width, 0}, "To these coordinates"))
+    editor.session.start("station", {{"move", station.name}, {"at", state.move_to}, {"height", station.instrument_height_m}}, "Move station " + station.name);
+  ImGui::SameLine();
+  if (ui::button(ICON_CROSSHAIRS "  Look###look-station", {}, {width, 0}, "Bring it into view")) lookAt(editor, station.true_pose.translation);
+  ImGui::SameLine();
+  if (ui::button(ICON_TRASH "  Remove###remove-station", why, {width, 0})) remove(editor, "station", station.name);
+  for (const auto& scan : station.scans) {
+    ImGui::TextColored(colour(tone::kGood), "%s", ICON_CHECK);
+    ImGui::SameLine();
+    ui::fitted(fmt::format("{}   {} points   {}", scan.instrument, groupedDigits(scan.points), std::filesystem::path(scan.file).filename().string()),
+               ImGui::GetContentRegionAvail().x);
+  }
+}
+
+void drawTargets(Editor& editor, const Job& job) {
+  auto& state = editor.panels.survey;
+  ui::heading(editor, fmt::format("Targets  {}", job.targets.size()).c_str());
+  for (int i = 0; i < static_cast<int>(job.targets.size()); ++i) {
+    const auto& target = job.targets[static_cast<std::size_t>(i)];
+    ImGui::PushID(i);
+    const float button = ImGui::GetFrameHeight();
+    if (ImGui::Selectable("###target", state.target == i, ImGuiSelectableFlags_AllowItemOverlap, {ImGui::GetContentRegionAvail().x - button, 0})) {
+      state.target = i;
+      state.station = -1;
+      lookAt(editor, target.centre);
+    }
+    ImGui::SameLine(editor.px(10));
+    ImGui::TextColored(colour(tone::kGood), "%s", ICON_TARGET);
+    ImGui::SameLine();
+    const Eigen::Vector3d p = target.centre + editor.shift_m();
+    ui::fitted(fmt::format("{}   {}   {:.2f}  {:.2f}  {:.2f}", target.name, target.kind == TargetKind::sphere ? "sphere" : "checkerboard", p.x(), p.y(), p.z()),
+               ImGui::GetContentRegionAvail().x - button - editor.px(4));
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - button);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(editor.px(4), 0));
+    if (ui::iconButton(ICON_TRASH "###remove-target", "Remove", editor.session.whyNot("target"))) remove(editor, "target", target.name);
+    ImGui::PopStyleVar();
+    ImGui::PopID();
+  }
+  if (job.targets.empty()) ui::dimText("None.");
+}
+
+}  // namespace
+
+void drawSurveyPanel(Editor& editor) {
+  const auto& job = editor.session.document().job;
+  if (!editor.environment() || !job) {
+    ui::emptyState(editor, ICON_STATION, "No survey yet", "Import a model, then set up stations on its floors.");
+    return;
+  }
+  const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+  const auto why = editor.session.whyNot("station");
+  if (ui::primaryButton(ICON_STATION "  Add station###add-station", why, {width, 0})) invoke(editor, "add-station");
+  ImGui::SameLine();
+  if (ui::button(ICON_TARGET "  Add target###add-target", why, {width, 0}, "Then click where it shall be")) invoke(editor, "add-target");
+  drawStations(editor, *job);
+  auto& state = editor.panels.survey;
+  if (state.station >= static_cast<int>(job->stations.size())) state.station = -1;
+  if (state.station >= 0) drawChosenStation(editor, job->stations[static_cast<std::size_t>(state.station)]);
+  drawTargets(editor, *job);
+}
+
+}  // namespace standpoint

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "editor/editor.h"
+#include "editor/panels/panels_list.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/theme.h"
+#include "editor/shell/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+std::string duration(double seconds) {
+  if (seconds < 60) return fmt::format("{:.1f} s", seconds);
+  return fmt::format("{}:{:02} min", static_cast<int>(seconds) / 60, static_cast<int>(seconds) % 60);
+}
+
+void drawRunning(Editor& editor, Task& task, int i) {
+  auto& progress = task.progress();
+  ImGui::PushID(i);
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextColored(colour(tone::kAccent), "%s", ICON_REFRESH);
+  ImGui::TableNextColumn();
+  ui::fitted(task.title(), ImGui::GetContentRegionAvail().x);
+  ImGui::TableNextColumn();
+  const auto stage = progress.stageName();
+  const std::string text = fmt::format("{}  {:.0f} %", stage, progress.fraction() * 100);
+  ImGui::ProgressBar(static_cast<float>(progress.fraction()), {ImGui::GetContentRegionAvail().x - editor.px(76), 0}, text.c_str());
+  ImGui::SameLine();
+  if (ui::button("Cancel", progress.cancelled() ? "It stops at the next safe place" : "", {editor.px(66), 0})) progress.cancel();
+  ImGui::TableNextColumn();
+  ui::dimText(duration(task.seconds()));
+  ImGui::PopID();
+}
+
+void drawFinished(const FinishedTask& task) {
+  const char* icon = task.ok ? ICON_CHECK : task.cancelled ? ICON_STOP : ICON_BAN;
+  const ImU32 tone = task.ok ? tone::kGood : task.cancelled ? tone::kDim : tone::kBad;
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextColored(colour(tone), "%s", icon);
+  ImGui::TableNextColumn();
+  ui::fitted(task.title, ImGui::GetContentRegionAvail().x);
+  ImGui::TableNextColumn();
+  ui::fitted(task.text, ImGui::GetContentRegionAvail().x);
+  ImGui::TableNextColumn();
+  ui::dimText(duration(task.seconds));
+}
+
+}  // namespace
+
+void drawTasksPanel(Editor& editor) {
+  if (editor.session.running().empty() && editor.session.finished().empty()) {
+    ui::dimText("Nothing was run yet. What takes longer than a moment appears here, with its progress and a button to stop it.");
+    return;
+  }
+  if (!ImGui::BeginTable("tasks", 4, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;
+  ImGui::TableSetupColumn("state", ImGuiTableColumnFlags_WidthFixed, editor.px(18));
+  ImGui::TableSetupColumn("title", ImGuiTableColumnFlags_WidthStretch, 0.34F);
+  ImGui::TableSetupColumn("result", ImGuiTableColumnFlags_WidthStretch, 0.66F);
+  ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthFixed, editor.px(70));
+  int i = 0;
+  for (const auto& task : editor.session.running()) drawRunning(editor, *task, i++);
+  for (const auto& task : editor.session.finished()) drawFinished(task);
+  ImGui::EndTable();
+}
+
+}  // namespace standpoint

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/pictures.h"
+
+#include <algorithm>
+#include <array>
+
+#include "editor/shell/actions.h"
+
+namespace standpoint {
+
+namespace {
+
+struct Picture {
+  const char* name;
+  void (*prepare)(Editor&);
+};
+
+void reset(Editor& editor) {
+  editor.selection.clear();
+  editor.visibility.showAll();
+  editor.visibility.cut_height_m.reset();
+  editor.view.colour = ColourMode::model;
+  editor.view.walkable = false;
+  editor.view.tool = Tool::select;
+  editor.view.camera.orthographic = false;
+  look(editor.view.camera, StandardView::corner);
+  editor.view.frame_wanted = true;
+}
+
+// Of the products with geometry the one with most to tell.
+std::int64_t richestProduct(const Editor& editor) {
+  const auto& environment = *editor.environment();
+  std::int64_t best = -1;
+  for (std::uint32_t p = 0; p < environment.products.size(); ++p) {
+    const auto& product = environment.products[p];
+    if (!product.tangible || editor.boundsOfProducts()[p].empty()) continue;
+    if (best < 0 || product.properties.size() + 20 * product.layers.size() >
+                        environment.products[static_cast<std::size_t>(best)].properties.size() + 20 * environment.products[static_cast<std::size_t>(best)].layers.size())
+      best = p;
+  }
+  return best;
+}
+
+// Into the lowest storey that is not below the ground.
+void cutIntoStorey(Editor& editor) {
+  const auto bounds = editor.visibleBounds();
+  double height = (bounds.min.z() + bounds.max.z()) / 2;
+  for (const auto& level : editor.storeys())
+    if (level.elevation_m > bounds.min.z() - 0.5) {
+      height = level.elevation_m + 1.6;
+      break;
+    }
+  editor.visibility.cut_height_m = height;
+  editor.view.camera.elevation_rad = 0.95;
+  editor.view.frame_wanted = true;
+}
+
+void overview(Editor& editor) { editor.workspace = Workspace::model; }
+
+void inspect(Editor& editor) {
+  editor.workspace = Workspace::model;
+  if (const auto product = richestProduct(editor); product >= 0) editor.select(static_cast<std::uint32_t>(product), true);
+}
+
+void materials(Editor& editor) {
+  editor.workspace = Workspace::materials;
+  if (!editor.session.document().materials) {
+    editor.session.start("materials", nlohmann::json::object());
+    editor.session.wait();
+  }
+  editor.view.colour = ColourMode::material;
+}
+
+void survey(Editor& editor) {
+  editor.workspace = Workspace::survey;
+  cutIntoStorey(editor);
+  if (const auto& job = editor.session.document().job; job && !job->stations.empty()) editor.panels.survey.station = 0;
+}
+
+void instrument(Editor& editor) {
+  editor.workspace = Workspace::instrument;
+  cutIntoStorey(editor);
+}
+
+void palette(Editor& editor) {
+  editor.workspace = Workspace::model;
+  invoke(editor, "palette");
+}
+
+constexpr std::array kPictures = {Picture{"1-overview", overview},     Picture{"2-inspector", inspect}, Picture{"3-materials", materials},
+                                  Picture{"4-survey", survey},         Picture{"5-instrument", instrument}, Picture{"6-palette", palette}};
+
+}  // namespace
+
+Result<std::vector<std::filesystem::path>> drawPictures(Editor& editor, Offscreen& offscreen, const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return failure(ErrorKind::file_system, error.message(), folder.string());
+  editor.update();
+  editor.picker.wait();
+  std::vector<std::filesystem::path> written;
+  for (const auto& picture : kPictures) {
+    reset(editor);
+    picture.prepare(editor);
+    const auto file = folder / (std::string(picture.name) + ".png");
+    if (auto saved = offscreen.picture(editor, file); !saved) return failure(saved.error());
+    written.push_back(file);
+  }
+  return written;
+}
+
+}  // namespace standpoint

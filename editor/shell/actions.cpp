@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/shell/actions.h"
+
+#include <array>
+#include <cstring>
+
+#include <imgui.h>
+
+#include "editor/editor.h"
+#include "editor/shell/dialogs.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+std::string whyNoModel(const Editor& e) { return e.environment() ? "" : "There is no model yet: import one first (Ctrl+I)"; }
+std::string whyNoSelection(const Editor& e) { return e.selection.empty() ? "Select something first" : ""; }
+std::string whyNoCollision(const Editor& e) {
+  return e.session.document().collision ? "" : "Compute the collision shapes first (panel Collision)";
+}
+
+void newProject(Editor& e) {
+  whenSaved(e, [&e] { e.session.clear(); });
+}
+void openProject(Editor& e) {
+  whenSaved(e, [&e] { askForProject(e); });
+}
+void importModel(Editor& e) {
+  whenSaved(e, [&e] { askForModel(e); });
+}
+void save(Editor& e) {
+  if (e.session.folder().empty())
+    askWhereToSave(e);
+  else
+    e.session.save(e.session.folder());
+}
+void quit(Editor& e) {
+  whenSaved(e, [&e] { e.quit = true; });
+}
+void selectAll(Editor& e) {
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t p = 0; p < e.environment()->products.size(); ++p)
+    if (e.environment()->products[p].tangible && !e.visibility.hidden(p)) all.push_back(p);
+  e.selection.set(std::move(all));
+}
+void escape(Editor& e) {
+  if (e.view.tool != Tool::select) {
+    e.view.tool = Tool::select;
+    e.view.measured_from.reset();
+    e.view.measured_to.reset();
+  } else {
+    e.selection.clear();
+  }
+}
+void lookFrom(Editor& e, StandardView view) {
+  look(e.view.camera, view);
+  e.view.camera.orthographic = view != StandardView::corner;
+  frame(e.view.camera, e.visibleBounds(), e.view.size.x() / std::max(e.view.size.y(), 1.0));
+}
+void showWorkspace(Editor& e, Workspace w) { e.workspace = w; }
+
+std::string whySaveNot(const Editor& e) { return e.session.whyNotSave(); }
+std::string whyUndoNot(const Editor& e) { return e.session.whyNotUndo(); }
+std::string whyRedoNot(const Editor& e) { return e.session.whyNotRedo(); }
+std::string whyImportNot(const Editor& e) { return e.session.whyNot("import"); }
+std::string whyOpenNot(const Editor& e) { return e.session.whyNot("open-project"); }
+std::string whyExportNot(const Editor& e) { return e.session.whyNot("export"); }
+std::string whyStationNot(const Editor& e) { return e.session.whyNot("station"); }
+std::string whyTargetNot(const Editor& e) { return e.session.whyNot("target"); }
+std::string whyScanNot(const Editor& e) { return e.session.whyNot("scan"); }
+
+const std::array kActions = {
+    Action{"new", "New project", ICON_FILE_NEW, {'N', true}, newProject, whyOpenNot},
+    Action{"open", "Open project…", ICON_FOLDER_OPEN, {'O', true}, openProject, whyOpenNot},
+    Action{"import", "Import model…", ICON_IMPORT, {'I', true}, importModel, whyImportNot},
+    Action{"save", "Save", ICON_SAVE, {'S', true}, save, whySaveNot},
+    Action{"save-as", "Save as…", "", {'S', true, true}, askWhereToSave, whySaveNot},
+    Action{"export", "Export…", ICON_EXPORT, {'E', true}, askForExport, whyExportNot},
+    Action{"quit", "Quit", "", {'Q', true}, quit, nullptr},
+    Action{"undo", "Undo", ICON_UNDO, {'Z', true}, [](Editor& e) { e.session.undo(); }, whyUndoNot},
+    Action{"redo", "Redo", ICON_REDO, {'Y', true}, [](Editor& e) { e.session.redo(); }, whyRedoNot},
+    Action{"select-all", "Select all", "", {'A', true}, selectAll, whyNoModel},
+    Action{"select-none", "Select nothing, leave the tool", "", {kKeyEscape}, escape, nullptr},
+    Action{"frame", "Frame selection", ICON_EXPAND, {'F'}, [](Editor& e) { e.frameSelection(); }, whyNoModel},
+    Action{"view-front", "View from the front", "", {'1'}, [](Editor& e) { lookFrom(e, StandardView::front); }, whyNoModel},
+    Action{"view-back", "View from the back", "", {'1', true}, [](Editor& e) { lookFrom(e, StandardView::back); }, whyNoModel},
+    Action{"view-right", "View from the right", "", {'3'}, [](Editor& e) { lookFrom(e, StandardView::right); }, whyNoModel},
+    Action{"view-left", "View from the left", "", {'3', true}, [](Editor& e) { lookFrom(e, StandardView::left); }, whyNoModel},
+    Action{"view-top", "View from above", "", {'7'}, [](Editor& e) { lookFrom(e, StandardView::top); }, whyNoModel},
+    Action{"view-corner", "View from the corner", ICON_HOME, {'0'}, [](Editor& e) { lookFrom(e, StandardView::corner); }, whyNoModel},
+    Action{"view-parallel", "Parallel projection", "", {'5'},
+           [](Editor& e) { e.view.camera.orthographic = !e.view.camera.orthographic; }, nullptr},
+    Action{"hide", "Hide selection", ICON_EYE_OFF, {'H'},
+           [](Editor& e) { e.visibility.show(e.selection.products(), false); e.selection.clear(); }, whyNoSelection},
+    Action{"isolate", "Show only the selection", ICON_CROSSHAIRS, {'H', false, true},
+           [](Editor& e) { e.visibility.isolate(e.selection.products()); }, whyNoSelection},
+    Action{"show-all", "Show everything", ICON_EYE, {'H', true},
+           [](Editor& e) { e.visibility.showAll(); e.visibility.cut_height_m.reset(); }, whyNoModel},
+    Action{"edges", "Edges", "", {'L'}, [](Editor& e) { e.view.edges = !e.view.edges; }, nullptr},
+    Action{"grid", "Ground grid", "", {'G'}, [](Editor& e) { e.view.grid = !e.view.grid; }, nullptr},
+    Action{"labels", "Labels", "", {}, [](Editor& e) { e.view.labels = !e.view.labels; }, nullptr},
+    Action{"walkable", "Walkable area", ICON_WALK, {}, [](Editor& e) { e.view.walkable = !e.view.walkable; }, whyNoCollision},
+    Action{"shapes", "Collision shapes", ICON_CUBES, {}, [](Editor& e) { e.view.shapes = !e.view.shapes; }, whyNoCollision},
+    Action{"colour-model", "Colours of the model", "", {}, [](Editor& e) { e.view.colour = ColourMode::model; }, nullptr},
+    Action{"colour-material", "Colours by physical material", "", {},
+           [](Editor& e) { e.view.colour = ColourMode::material; }, whyNoModel},
+    Action{"colour-reflectance", "Reflectance at 1550 nm", "", {},
+           [](Editor& e) { e.view.colour = ColourMode::reflectance; }, whyNoModel},
+    Action{"add-station", "Add station by a click on the floor", ICON_STATION, {'T'},
+           [](Editor& e) { e.view.tool = Tool::placeStation; showWorkspace(e, Workspace::survey); }, whyStationNot},
+    Action{"add-target", "Add target by a click", ICON_TARGET, {},
+           [](Editor& e) { e.view.tool = Tool::placeTarget; showWorkspace(e, Workspace::survey); }, whyTargetNot},
+    Action{"measure", "Measure a distance", ICON_MEASURE, {'M'}, [](Editor& e) { e.view.tool = Tool::measure; }, whyNoModel},
+    Action{"scan", "Scan…", ICON_PLAY, {'R', true},
+           [](Editor& e) { showWorkspace(e, Workspace::survey); e.wanted_tab[1] = "scan"; }, whyScanNot},
+    Action{"workspace-model", "Workspace Model", ICON_CUBE, {}, [](Editor& e) { showWorkspace(e, Workspace::model); }, nullptr},
+    Action{"workspace-materials", "Workspace Materials", ICON_PAINT, {},
+           [](Editor& e) { showWorkspace(e, Workspace::materials); }, nullptr},
+    Action{"workspace-survey", "Workspace Survey", ICON_STATION, {}, [](Editor& e) { showWorkspace(e, Workspace::survey); }, nullptr},
+    Action{"workspace-instrument", "Workspace Instrument", ICON_TABLET, {},
+           [](Editor& e) { showWorkspace(e, Workspace::instrument); }, nullptr},
+    Action{"palette", "Command palette", ICON_COMMAND, {'P', true}, openPalette, nullptr},
+    Action{"shortcuts", "Keyboard and mouse", ICON_KEYBOARD, {kKeyF1}, [](Editor& e) { e.dialogs.shortcuts = true; }, nullptr},
+    Action{"preferences", "Preferences…", ICON_SLIDERS, {}, [](Editor& e) { e.dialogs.preferences = true; }, nullptr},
+    Action{"about", "About Standpoint", ICON_INFO, {}, [](Editor& e) { e.dialogs.about = true; }, nullptr},
+};
+
+}  // namespace
+
+std::span<const Action> actions() { return kActions; }
+
+const Action* findAction(const char* id) {
+  for (const auto& action : kActions)
+    if (std::strcmp(action.id, id) == 0) return &action;
+  return nullptr;
+}
+
+std::string whyNot(const Action& action, const Editor& editor) {
+  return action.why_not != nullptr ? action.why_not(editor) : std::string();
+}
+
+bool invoke(Editor& editor, const char* id) {
+  const Action* action = findAction(id);
+  if (action == nullptr || !whyNot(*action, editor).empty()) return false;
+  action->run(editor);
+  return true;
+}
+
+std::string shortcutText(const Shortcut& s) {
+  if (s.key == 0) return {};
+  std::string text = std::string(s.ctrl ? "Ctrl+" : "") + (s.shift ? "Shift+" : "");
+  if (s.key == kKeyEscape) return text + "Esc";
+  if (s.key == kKeyDelete) return text + "Del";
+  if (s.key == kKeyF1) return text + "F1";
+  return text + static_cast<char>(s.key);
+}
+
+void runShortcuts(Editor& editor) {
+  const auto& io = ImGui::GetIO();
+  if (io.WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
+  for (const auto& action : kActions) {
+    const auto& s = action.shortcut;
+    if (s.key != 0 && s.ctrl == io.KeyCtrl && s.shift == io.KeyShift && ImGui::IsKeyPressed(s.key, false)) {
+      invoke(editor, action.id);
+      return;
+    }
+  }
+}
+
+void actionMenuItem(Editor& editor, const char* id) {
+  const Action& action = *findAction(id);
+  const auto why = whyNot(action, editor);
+  std::string title = action.title;
+  if (std::strcmp(id, "undo") == 0 && why.empty()) title += ": " + editor.session.history().undoDescription();
+  if (std::strcmp(id, "redo") == 0 && why.empty()) title += ": " + editor.session.history().redoDescription();
+  const std::string icon = *action.icon != 0 ? std::string(action.icon) + "  " : "      ";
+  if (ImGui::MenuItem((icon + title + "###" + id).c_str(), shortcutText(action.shortcut).c_str(), false, why.empty()))
+    action.run(editor);
+  ui::tooltip(why);
+}
+
+void actionToolButton(Editor& editor, const char* id) {
+  const Action& action = *findAction(id);
+  std::string tip = action.title;
+  if (const auto keys = shortcutText(action.shortcut); !keys.empty()) tip += "  (" + keys + ")";
+  if (ui::iconButton((std::string(action.icon) + "###tool_" + id).c_str(), tip.c_str(), whyNot(action, editor)))
+    action.run(editor);
+  ImGui::SameLine();
+}
+
+void openVerbForm(Editor& editor, const char* verb) {
+  const Verb* found = editor.session.verb(verb);
+  if (found == nullptr) return;
+  editor.dialogs.verb = {true, verb, OptionForm(*found)};
+}
+
+void whenSaved(Editor& editor, std::function<void()> then) {
+  if (!editor.session.modified()) {
+    then();
+    return;
+  }
+  editor.dialogs.unsaved = true;
+  editor.dialogs.after_unsaved = std::move(then);
+}
+
+void openPath(Editor& editor, const std::string& path) {
+  whenSaved(editor, [&editor, path] {
+    std::filesystem::path wanted = path;
+    if (wanted.filename() == "project.json") wanted = wanted.parent_path();
+    std::error_code ignored;
+    const bool folder = std::filesystem::is_directory(wanted, ignored);
+    const bool started = folder ? editor.session.open(wanted)
+                                : editor.session.start("import", {{"files", {wanted.string()}}}, "Import " + wanted.filename().string());
+    if (started) editor.settings.remember(wanted);
+  });
+}
+
+}  // namespace standpoint

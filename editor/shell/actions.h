@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+
+namespace standpoint {
+
+struct Editor;
+
+// Keys are GLFW's numbers: letters and digits are their ASCII capitals.
+constexpr int kKeyEscape = 256, kKeyDelete = 261, kKeyF1 = 290;
+
+struct Shortcut {
+  int key = 0;         // 0 = none
+  bool ctrl = false, shift = false;
+};
+
+// What can be done by menu, toolbar, key or palette; one table, so that they cannot disagree.
+struct Action {
+  const char* id;
+  const char* title;
+  const char* icon;
+  Shortcut shortcut;
+  void (*run)(Editor&);
+  std::string (*why_not)(const Editor&);   // null = always possible; else "" or the reason
+};
+
+std::span<const Action> actions();
+const Action* findAction(const char* id);
+std::string whyNot(const Action& action, const Editor& editor);
+bool invoke(Editor& editor, const char* id);
+std::string shortcutText(const Shortcut& shortcut);   // "Ctrl+Shift+S"
+
+// Runs what a pressed key stands for; not while a text is being typed or a dialog is open.
+void runShortcuts(Editor& editor);
+void actionMenuItem(Editor& editor, const char* id);
+void actionToolButton(Editor& editor, const char* id);
+
+// Opens the form of a verb, generated from its parameters.
+void openVerbForm(Editor& editor, const char* verb);
+// Asks about unsaved changes first, when there are any.
+void whenSaved(Editor& editor, std::function<void()> then);
+// A file or folder by what it is: a project is opened, a model imported.
+void openPath(Editor& editor, const std::string& path);
+
+}  // namespace standpoint

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "editor/model/file_list.h"
+#include "editor/model/option_form.h"
+#include "editor/model/recovery.h"
+
+namespace standpoint {
+
+struct FileDialogState {
+  enum class Purpose { openFile, openFolder, saveFile, saveFolder };
+  bool open = false;
+  Purpose purpose = Purpose::openFile;
+  std::string title, accept;                // "Import a model", "Import"
+  std::filesystem::path folder;
+  std::string folder_text;                  // the editable path line
+  std::string name;                         // chosen or typed
+  std::vector<std::string> extensions;
+  FileOrder order = FileOrder::name;
+  bool descending = false;
+  FileListing listing;
+  bool stale = true;                        // the folder must be read again
+  bool confirm_overwrite = false;
+  std::function<void(const std::filesystem::path&)> done;
+};
+
+struct VerbDialogState {
+  bool open = false;
+  std::string verb;
+  OptionForm form;
+};
+
+struct PaletteState {
+  bool open = false;
+  std::string query;
+  int chosen = 0;
+};
+
+struct DialogStates {
+  FileDialogState file;
+  VerbDialogState verb;
+  PaletteState palette;
+  bool shortcuts = false;
+  bool about = false;
+  bool preferences = false;
+  bool unsaved = false;
+  std::function<void()> after_unsaved;      // what the user was about to do
+  std::function<void()> after_save;         // once the save that the prompt started has gone well
+  std::vector<RecoveryCopy> recovery;       // found at the start, offered one by one
+};
+
+}  // namespace standpoint

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "editor/shell/dialog_states.h"
+
+namespace standpoint {
+
+struct Editor;
+
+void openPalette(Editor& editor);
+void askForProject(Editor& editor);
+void askForModel(Editor& editor);
+void askForExport(Editor& editor);
+void askWhereToSave(Editor& editor);
+// A file browser of our own; `done` gets what was chosen.
+void askForFile(Editor& editor, FileDialogState::Purpose purpose, std::string title, std::string accept,
+                std::vector<std::string> extensions, std::string name, std::function<void(const std::filesystem::path&)> done);
+
+// Draw what is open. Each is called once a frame.
+void drawFileDialog(Editor& editor);
+void drawVerbDialog(Editor& editor);
+void drawPalette(Editor& editor);
+void drawMessages(Editor& editor);   // errors, unsaved changes, recovery, shortcuts, preferences, about
+
+// The widgets of a verb's options.
+void drawOptionForm(Editor& editor, OptionForm& form);
+
+}  // namespace standpoint

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <ctime>
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "editor/editor.h"
+#include "editor/shell/actions.h"
+#include "editor/shell/dialogs.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/theme.h"
+#include "editor/shell/widgets.h"
+#include "importers/importers.h"
+
+namespace standpoint {
+
+namespace {
+
+using Purpose = FileDialogState::Purpose;
+constexpr const char* kTitle = "###file-dialog";
+
+void enter(FileDialogState& state, const std::filesystem::path& folder) {
+  state.folder = folder;
+  state.folder_text = folder.string();
+  state.stale = true;
+  state.confirm_overwrite = false;
+  if (state.purpose == Purpose::openFile) state.name.clear();
+}
+
+
+bool forWriting(const FileDialogState& s) { return s.purpose == Purpose::saveFile || s.purpose == Purpose::saveFolder; }
+
+std::filesystem::path chosenPath(const FileDialogState& state) {
+  if (state.name.empty()) return state.folder;
+  return state.folder / state.name;
+}
+
+std::string whyNotAccept(const FileDialogState& state) {
+  const auto path = chosenPath(state);
+  std::error_code ignored;
+  switch (state.purpose) {
+    case Purpose::openFile:
+      if (state.name.empty()) return "Choose a file";
+      return std::filesystem::is_regular_file(path, ignored) ? "" : "There is no such file";
+    case Purpose::openFolder: return isProjectFolder(path) ? "" : "Choose the folder of a project: it holds project.json";
+    case Purpose::saveFile:
+    case Purpose::saveFolder:
+      if (state.name.empty()) return "Give it a name";
+      return state.name.find('/') == std::string::npos ? "" : "A name has no '/'";
+  }
+  return {};
+}
+
+bool wouldOverwrite(const FileDialogState& state) {
+  std::error_code ignored;
+  return forWriting(state) && std::filesystem::exists(chosenPath(state), ignored);
+}
+
+void accept(Editor& editor) {
+  auto& state = editor.dialogs.file;
+  if (!whyNotAccept(state).empty()) return;
+  if (wouldOverwrite(state) && !state.confirm_overwrite) {
+    state.confirm_overwrite = true;
+    return;
+  }
+  const auto path = chosenPath(state);
+  editor.settings.last_folder = state.folder.string();
+  state.open = false;
+  ImGui::CloseCurrentPopup();
+  if (state.done) state.done(path);
+}
+
+std::filesystem::path homeFolder() {
+  const char* home = std::getenv("HOME");
+  return home != nullptr && *home != 0 ? home : "/";
+}
+
+void drawPathLine(FileDialogState& state) {
+  if (ui::iconButton(ICON_ARROW_UP "###up", "To the folder above") && state.folder.has_parent_path())
+    enter(state, state.folder.parent_path());
+  ImGui::SameLine();
+  if (ui::iconButton(ICON_HOME "###home", "Home folder")) enter(state, homeFolder());
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (ImGui::InputText("###folder", &state.folder_text, ImGuiInputTextFlags_EnterReturnsTrue)) {
+    const std::filesystem::path typed = state.folder_text;
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(typed, ignored) && state.purpose == Purpose::openFile) {
+      enter(state, typed.parent_path());
+      state.name = typed.filename().string();
+    } else {
+      enter(state, typed);
+    }
+  }
+}
+
+std::string dateText(std::filesystem::file_time_type time) {
+  const auto system = std::chrono::time_point_cast<std::chrono::system_clock::duration>(
+      time - std::filesystem::file_time_type::clock::now() + std::chrono::system_clock::now());
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(system);
+  std::tm local{};
+  localtime_r(&seconds, &local);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M", &local);
+  return text;
+}
+
+void drawRow(Editor& editor, const FileRow& row) {
+  auto& state = editor.dialogs.file;
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  const char* icon = row.project ? ICON_BUILDING : row.folder ? ICON_FOLDER : ICON_FILE;
+  const auto flags = ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups;
+  const bool pressed = ImGui::Selectable(fmt::format("{}  {}###{}", icon, row.name, row.name).c_str(), state.name == row.name, flags);
+  const bool twice = pressed && ImGui::IsMouseDoubleClicked(0);
+  const bool takes_folder = state.purpose == Purpose::openFolder && row.project;
+  if (pressed && (!row.folder || takes_folder)) {
+    state.name = row.name;
+    state.confirm_overwrite = false;
+  }
+  if (twice && row.folder && !takes_folder) enter(state, state.folder / row.name);
+  ImGui::TableNextColumn();
+  if (!row.folder) ui::textRightAligned(readableSize(row.bytes));
+  if (row.project) ui::dimText("project");
+  ImGui::TableNextColumn();
+  ui::dimText(dateText(row.changed));
+  if (twice && (!row.folder || takes_folder)) accept(editor);
+}
+
+void drawRows(Editor& editor, float height) {
+  auto& state = editor.dialogs.file;
+  const auto flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_Sortable | ImGuiTableFlags_BordersOuter;
+  if (!ImGui::BeginTable("files", 3, flags, {0, height})) return;
+  ImGui::TableSetupScrollFreeze(0, 1);
+  ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("Size", ImGuiTableColumnFlags_WidthFixed, editor.px(80));
+  ImGui::TableSetupColumn("Changed", ImGuiTableColumnFlags_WidthFixed, editor.px(125));
+  ImGui::TableHeadersRow();
+  if (auto* sort = ImGui::TableGetSortSpecs(); sort != nullptr && sort->SpecsDirty && sort->SpecsCount > 0) {
+    state.order = static_cast<FileOrder>(sort->Specs->ColumnIndex);
+    state.descending = sort->Specs->SortDirection == ImGuiSortDirection_Descending;
+    state.stale = true;
+    sort->SpecsDirty = false;
+  }
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(state.listing.rows.size()));
+  while (clipper.Step())
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd && state.open && !state.stale; ++i)
+      drawRow(editor, FileRow(state.listing.rows[static_cast<std::size_t>(i)]));
+  if (!state.listing.problem.empty()) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextColored(colour(tone::kWarning), "%s  %s", ICON_WARNING, state.listing.problem.c_str());
+  }
+  ImGui::EndTable();
+}
+
+void drawFooter(Editor& editor) {
+  auto& state = editor.dialogs.file;
+  const float button = editor.px(110);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("Name");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 2 * (button + ImGui::GetStyle().ItemSpacing.x));
+  const bool entered = ImGui::InputText("###name", &state.name, ImGuiInputTextFlags_EnterReturnsTrue);
+  if (ImGui::IsItemEdited()) state.confirm_overwrite = false;
+  ImGui::SameLine();
+  const std::string label = state.confirm_overwrite ? "Replace it" : state.accept;
+  const auto why = whyNotAccept(state);
+  if (ui::primaryButton((label + "###accept").c_str(), why, {button, 0}) || (entered && why.empty())) accept(editor);
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel", {button, 0}) && state.open) {
+    state.open = false;
+    ImGui::CloseCurrentPopup();
+  }
+  if (state.confirm_overwrite && state.open)
+    ImGui::TextColored(colour(tone::kWarning), "%s  '%s' exists already. Press again to replace it.", ICON_WARNING, state.name.c_str());
+}
+
+std::vector<std::string> modelExtensions() {
+  std::vector<std::string> all;
+  for (const auto& importer : importers())
+    for (const char* extension : importer.extensions) all.emplace_back(extension);
+  return all;
+}
+
+}  // namespace
+
+void askForFile(Editor& editor, Purpose purpose, std::string title, std::string accept_label, std::vector<std::string> extensions,
+                std::string name, std::function<void(const std::filesystem::path&)> done) {
+  auto& state = editor.dialogs.file;
+  const FileOrder order = state.order;
+  state = FileDialogState();
+  state.open = true;
+  state.purpose = purpose;
+  state.title = std::move(title);
+  state.accept = std::move(accept_label);
+  state.extensions = std::move(extensions);
+  state.order = order;
+  state.done = std::move(done);
+  std::error_code ignored;
+  std::filesystem::path start = editor.settings.last_folder;
+  if (start.empty() || !std::filesystem::is_directory(start, ignored)) start = std::filesystem::current_path(ignored);
+  enter(state, start);
+  state.name = std::move(name);
+}
+
+void askForProject(Editor& editor) {
+  askForFile(editor, Purpose::openFolder, "Open a project", "Open", {".none"}, "",
+             [&editor](const std::filesystem::path& folder) {
+               if (editor.session.open(folder)) editor.settings.remember(folder);
+             });
+}
+
+void askForModel(Editor& editor) {
+  askForFile(editor, Purpose::openFile, "Import a model", "Import", modelExtensions(), "",
+             [&editor](const std::filesystem::path& file) {
+               const auto title = "Import " + file.filename().string();
+               if (editor.session.start("import", {{"files", {file.string()}}}, title)) editor.settings.remember(file);
+             });
+}
+
+void askForExport(Editor& editor) {
+  openVerbForm(editor, "export");
+}
+
+void askWhereToSave(Editor& editor) {
+  const auto& folder = editor.session.folder();
+  askForFile(editor, Purpose::saveFolder, "Save the project as a folder", "Save", {".none"},
+             folder.empty() ? editor.session.name() : folder.filename().string(), [&editor](const std::filesystem::path& chosen) {
+               if (editor.session.save(chosen)) editor.settings.remember(chosen);
+             });
+}
+
+void drawFileDialog(Editor& editor) {
+  auto& state = editor.dialogs.file;
+  const std::string title = state.title + kTitle;
+  if (state.open && !ImGui::IsPopupOpen(title.c_str())) ImGui::OpenPopup(title.c_str());
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowSize({std::min(editor.px(760), display.x * 0.95F), std::min(editor.px(520), display.y * 0.95F)}, ImGuiCond_Appearing);
+  ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Appearing, {0.5F, 0.5F});
+  if (!ImGui::BeginPopupModal(title.c_str(), nullptr, ImGuiWindowFlags_NoSavedSettings)) return;
+  if (state.stale) {
+    state.listing = listFolder(state.folder, state.extensions, state.order, state.descending);
+    state.stale = false;
+  }
+  drawPathLine(state);
+  const float footer = ImGui::GetFrameHeightWithSpacing() + (state.confirm_overwrite ? ImGui::GetTextLineHeightWithSpacing() : 0);
+  drawRows(editor, ImGui::GetContentRegionAvail().y - footer - ImGui::GetStyle().ItemSpacing.y);
+  if (state.open) drawFooter(editor);
+  if (!state.open) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+}
+
+}  // namespace standpoint

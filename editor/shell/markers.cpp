@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "editor/editor.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/overlay.h"
+#include "editor/shell/theme.h"
+#include "editor/shell/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+ImU32 faded(ImU32 packed, float alpha) {
+  ImVec4 c = colour(packed);
+  c.w *= alpha;
+  return ImGui::ColorConvertFloat4ToU32(c);
+}
+
+class Pen {
+ public:
+  Pen(const Editor& editor, ImVec2 origin) : editor_(editor), origin_(origin), list_(*ImGui::GetWindowDrawList()) {}
+
+  std::optional<ImVec2> at(const Eigen::Vector3d& p) const {
+    const auto pixel = project(editor_.view.camera, p, editor_.view.size);
+    if (!pixel) return std::nullopt;
+    return ImVec2(origin_.x + static_cast<float>(pixel->x()), origin_.y + static_cast<float>(pixel->y()));
+  }
+  void line(const Eigen::Vector3d& a, const Eigen::Vector3d& b, ImU32 tone, float width) const {
+    const auto from = at(a), to = at(b);
+    if (from && to) list_.AddLine(*from, *to, tone, width * editor_.scale);
+  }
+  void label(ImVec2 p, const std::string& text, ImU32 tone) const {
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    const float pad = 4 * editor_.scale;
+    const ImVec2 corner(p.x - size.x / 2 - pad, p.y - size.y - 14 * editor_.scale);
+    list_.AddRectFilled(corner, {corner.x + size.x + 2 * pad, corner.y + size.y + pad}, tone::kOverlay, pad);
+    list_.AddText({corner.x + pad, corner.y + pad / 2}, tone, text.c_str());
+  }
+  void circle(ImVec2 p, float radius, ImU32 fill, ImU32 rim) const {
+    list_.AddCircleFilled(p, radius * editor_.scale, fill);
+    list_.AddCircle(p, radius * editor_.scale, rim, 0, 1.5F * editor_.scale);
+  }
+
+ private:
+  const Editor& editor_;
+  ImVec2 origin_;
+  ImDrawList& list_;
+};
+
+// Three legs from below the instrument to the floor, as wide as a real tripod.
+void drawTripod(const Pen& pen, const Eigen::Vector3d& centre, double height_m, ImU32 tone, float width) {
+  const Eigen::Vector3d head = centre - Eigen::Vector3d(0, 0, std::min(0.2, height_m * 0.3));
+  for (int leg = 0; leg < 3; ++leg) {
+    const double azimuth = leg * 2 * std::numbers::pi / 3 + 0.4;
+    const Eigen::Vector3d foot = centre + Eigen::Vector3d(std::cos(azimuth) * 0.38 * height_m, std::sin(azimuth) * 0.38 * height_m, -height_m);
+    pen.line(head, foot, tone, width);
+  }
+  pen.line(head, centre, tone, width + 1);
+}
+
+void drawStations(Editor& editor, const Pen& pen, const ViewState& state) {
+  const auto& job = editor.session.document().job;
+  if (!job) return;
+  for (std::size_t i = 0; i < job->stations.size(); ++i) {
+    const auto& station = job->stations[i];
+    const Eigen::Vector3d centre = station.true_pose.translation;
+    const auto place = pen.at(centre);
+    if (!place) continue;
+    const bool seen = editor.picker.sees(editor.view.camera.eye(), centre, state);
+    const bool chosen = editor.panels.survey.station == static_cast<int>(i);
+    const float strength = seen ? 1.0F : 0.45F;
+    const ImU32 tone = faded(chosen ? tone::kAccent : tone::kStation, strength);
+    drawTripod(pen, centre, station.instrument_height_m, tone, seen ? 2.0F : 1.2F);
+    pen.circle(*place, chosen ? 6 : 5, faded(IM_COL32(20, 22, 26, 255), strength), tone);
+    if (!station.scans.empty()) pen.circle(*place, 2, tone, tone);
+    if (editor.view.labels) pen.label(*place, station.name, faded(tone::kText, strength));
+  }
+}
+
+void drawTargets(Editor& editor, const Pen& pen, const ViewState& state) {
+  const auto& job = editor.session.document().job;
+  if (!job) return;
+  for (std::size_t i = 0; i < job->targets.size(); ++i) {
+    const auto& target = job->targets[i];
+    const auto place = pen.at(target.centre);
+    if (!place) continue;
+    const bool seen = editor.picker.sees(editor.view.camera.eye(), target.centre, state);
+    const bool chosen = editor.panels.survey.target == static_cast<int>(i);
+    const ImU32 tone = faded(chosen ? tone::kAccent : tone::kGood, seen ? 1.0F : 0.45F);
+    pen.circle(*place, 5, faded(IM_COL32(245, 245, 245, 255), seen ? 0.9F : 0.35F), tone);
+    if (editor.view.labels) pen.label(*place, target.name, faded(tone::kText, seen ? 1.0F : 0.45F));
+  }
+}
+
+void drawMeasure(Editor& editor, const Pen& pen) {
+  const auto& view = editor.view;
+  if (view.tool != Tool::measure || !view.measured_from) return;
+  const auto from = pen.at(*view.measured_from);
+  std::optional<Eigen::Vector3d> end = view.measured_to;
+  if (!end && view.hover) end = view.hover->position;
+  if (from) pen.circle(*from, 4, tone::kAccent, tone::kText);
+  if (!end) return;
+  pen.line(*view.measured_from, *end, tone::kAccent, 2);
+  const Eigen::Vector3d d = *end - *view.measured_from;
+  const auto to = pen.at(*end);
+  if (!to) return;
+  pen.circle(*to, 4, tone::kAccent, tone::kText);
+  pen.label(*to, fmt::format("{:.3f} m   (Δ {:.3f}  {:.3f}  {:.3f})", d.norm(), d.x(), d.y(), d.z()), tone::kText);
+}
+
+void drawPreview(Editor& editor, const Pen& pen) {
+  const auto& view = editor.view;
+  if (!view.hover) return;
+  if (view.tool == Tool::placeStation) {
+    constexpr double kHeight_m = 1.6;
+    const bool flat = view.hover->normal.z() > 0.7;
+    const ImU32 tone = faded(flat ? tone::kStation : tone::kBad, 0.8F);
+    const Eigen::Vector3d centre = view.hover->position + Eigen::Vector3d(0, 0, kHeight_m);
+    drawTripod(pen, centre, kHeight_m, tone, 2);
+    if (const auto place = pen.at(centre)) pen.circle(*place, 5, IM_COL32(20, 22, 26, 200), tone);
+  }
+  if (view.tool == Tool::placeTarget)
+    if (const auto place = pen.at(view.hover->position + view.hover->normal * 0.0725)) pen.circle(*place, 5, IM_COL32(245, 245, 245, 200), tone::kGood);
+}
+
+}  // namespace
+
+void drawMarkers(Editor& editor, ImVec2 origin) {
+  const Pen pen(editor, origin);
+  const ViewState state = editor.viewState();
+  auto& list = *ImGui::GetWindowDrawList();
+  list.PushClipRect(origin, {origin.x + static_cast<float>(editor.view.size.x()), origin.y + static_cast<float>(editor.view.size.y())}, true);
+  drawStations(editor, pen, state);
+  drawTargets(editor, pen, state);
+  drawMeasure(editor, pen);
+  drawPreview(editor, pen);
+  list.PopClipRect();
+}
+
+}  // namespace standpoint

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "editor/editor.h"
+#include "editor/shell/actions.h"
+#include "editor/shell/dialogs.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/theme.h"
+#include "editor/shell/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+// A centred modal that is open as long as `wanted`; false when there is nothing to draw.
+bool beginModal(const Editor& editor, const char* title, bool wanted, float width) {
+  if (wanted && !ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({display.x / 2, display.y * 0.42F}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSize({std::min(editor.px(width), display.x * 0.95F), 0});
+  const auto flags = ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove;
+  if (!ImGui::BeginPopupModal(title, nullptr, flags)) return false;
+  if (wanted) return true;
+  ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+  return false;
+}
+
+bool escapePressed() { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false); }
+
+const char* remedy(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::usage: return "Change what was filled in and try again.";
+    case ErrorKind::unusable: return "Nothing was changed. Repair the file, or leave out what is named above.";
+    case ErrorKind::file_system: return "Nothing was changed. Check that the place exists, may be written to, and has room.";
+    case ErrorKind::internal: return "Nothing was changed. This is a defect of the program: please report it with the file.";
+    case ErrorKind::cancelled: return "";
+  }
+  return "";
+}
+
+void drawError(Editor& editor) {
+  auto& errors = editor.session.errors();
+  if (!beginModal(editor, "That did not work###error", !errors.empty(), 520)) return;
+  const ShownError shown = errors.front();
+  ImGui::TextColored(colour(tone::kBad), "%s", ICON_WARNING);
+  ImGui::SameLine();
+  if (editor.fonts.bold != nullptr) ImGui::PushFont(editor.fonts.bold);
+  ui::wrapped(shown.title);
+  if (editor.fonts.bold != nullptr) ImGui::PopFont();
+  ui::gap(editor, 2);
+  ui::wrapped(shown.error.message);
+  if (!shown.error.source.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ui::wrapped("in " + shown.error.source);
+    ImGui::PopStyleColor();
+  }
+  ui::gap(editor, 2);
+  ui::wrapped(remedy(shown.error.kind));
+  ui::gap(editor, 6);
+  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || escapePressed()) {
+    errors.pop_front();
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Copy text")) ImGui::SetClipboardText((shown.title + "\n" + describe(shown.error)).c_str());
+  if (errors.size() > 1) {
+    ImGui::SameLine();
+    ui::dimText(fmt::format("{} more", errors.size() - 1));
+  }
+  ImGui::EndPopup();
+}
+
+void leave(Editor& editor) {
+  editor.dialogs.unsaved = false;
+  ImGui::CloseCurrentPopup();
+  if (auto then = std::exchange(editor.dialogs.after_unsaved, nullptr)) then();
+}
+
+void drawUnsaved(Editor& editor) {
+  if (!beginModal(editor, "Unsaved changes###unsaved", editor.dialogs.unsaved, 460)) return;
+  ui::wrapped(fmt::format("'{}' has changes that are not saved. The last one: {}.", editor.session.name(),
+                          editor.session.history().undoDescription()));
+  ui::gap(editor, 6);
+  const auto why = editor.session.whyNotSave();
+  if (ui::primaryButton("Save###save", why, {editor.px(110), 0})) {
+    editor.dialogs.unsaved = false;
+    ImGui::CloseCurrentPopup();
+    editor.dialogs.after_save = std::exchange(editor.dialogs.after_unsaved, nullptr);
+    invoke(editor, "save");
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Do not save", {editor.px(110), 0})) leave(editor);
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel", {editor.px(110), 0}) || escapePressed()) {
+    editor.dialogs.unsaved = false;
+    editor.dialogs.after_unsaved = nullptr;
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
+}
+
+// What waited for a save goes on when the project is saved, and is forgotten when the save was given up.
+void continueAfterSave(Editor& editor) {
+  auto& dialogs = editor.dialogs;
+  if (!dialogs.after_save || dialogs.file.open || !editor.session.running().empty()) return;
+  auto then = std::exchange(dialogs.after_save, nullptr);
+  if (!editor.session.modified()) then();
+}
+
+void drawRecovery(Editor& editor) {
+  auto& copies = editor.dialogs.recovery;
+  if (!beginModal(editor, "Unsaved work was found###recovery", !copies.empty(), 500)) return;
+  const RecoveryCopy copy = copies.front();
+  ui::wrapped(fmt::format("The editor did not end in the usual way. There is a copy of '{}'.", copy.name));
+  if (!copy.saved_in.empty()) ui::dimText("Saved in " + copy.saved_in);
+  ui::gap(editor, 6);
+  const auto close = [&] {
+    copies.erase(copies.begin());
+    ImGui::CloseCurrentPopup();
+  };
+  if (ui::primaryButton("Open the copy###open", editor.session.whyNot("open-project"), {editor.px(140), 0})) {
+    editor.session.recover(copy);
+    close();
+  } else if (ImGui::SameLine(), ImGui::Button("Decide later", {editor.px(120), 0})) {
+    close();
+  } else if (ImGui::SameLine(), ImGui::Button("Delete the copy", {editor.px(140), 0})) {
+    removeRecovery(copy.folder);
+    close();
+  }
+  ImGui::EndPopup();
+}
+
+struct Hint {
+  const char* keys;
+  const char* meaning;
+};
+constexpr std::array kMouse = {
+    Hint{"Click", "Select; with Ctrl add or remove"},
+    Hint{"Double click", "Frame what is under the pointer"},
+    Hint{"Left drag", "Turn around the point under the pointer"},
+    Hint{"Middle or right drag, Shift+left", "Move sideways"},
+    Hint{"Wheel", "Closer or farther, towards the pointer"},
+    Hint{"Right click", "Menu of what is under the pointer"},
+};
+
+void hintRow(const char* keys, const char* meaning) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(keys);
+  ImGui::TableNextColumn();
+  ui::dimText(meaning);
+}
+
+void drawShortcuts(Editor& editor) {
+  if (!beginModal(editor, "Keyboard and mouse###shortcuts", editor.dialogs.shortcuts, 560)) return;
+  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg,
+                        {0, std::min(editor.px(480), ImGui::GetIO().DisplaySize.y * 0.6F)})) {
+    ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, editor.px(230));
+    ImGui::TableSetupColumn("meaning", ImGuiTableColumnFlags_WidthStretch);
+    for (const auto& hint : kMouse) hintRow(hint.keys, hint.meaning);
+    for (const auto& action : actions())
+      if (action.shortcut.key != 0) hintRow(shortcutText(action.shortcut).c_str(), action.title);
+    ImGui::EndTable();
+  }
+  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || escapePressed()) editor.dialogs.shortcuts = false;
+  ImGui::EndPopup();
+}
+
+void drawPreferences(Editor& editor) {
+  if (!beginModal(editor, "Preferences###preferences", editor.dialogs.preferences, 460)) return;
+  if (ui::beginProperties("preferences", 0.5F)) {
+    ui::propertyLabel("Size of the interface");
+    static constexpr std::array kSizes = {0.75, 0.9, 1.0, 1.1, 1.25, 1.5, 2.0};
+    if (ImGui::BeginCombo("###scale", fmt::format("{:.0f} %", editor.settings.user_scale * 100).c_str())) {
+      for (const double size : kSizes)
+        if (ImGui::Selectable(fmt::format("{:.0f} %", size * 100).c_str(), editor.settings.user_scale == size))
+          editor.settings.user_scale = size;
+      ImGui::EndCombo();
+    }
+    ui::propertyLabel("Recovery copy every");
+    ImGui::SliderInt("###recovery", &editor.settings.recovery_minutes, 0, 30,
+                     editor.settings.recovery_minutes == 0 ? "never" : "%d min");
+    ui::endProperties();
+  }
+  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || escapePressed()) editor.dialogs.preferences = false;
+  ImGui::EndPopup();
+}
+
+void drawAbout(Editor& editor) {
+  if (!beginModal(editor, "About Standpoint###about", editor.dialogs.about, 440)) return;
+  ui::wrapped("Standpoint turns a building model into an environment in which terrestrial laser scanning can be rehearsed.");
+  ui::gap(editor);
+  ui::dimText("Free software under the GNU General Public License, version 3 or later.");
+  ui::gap(editor, 6);
+  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || escapePressed()) editor.dialogs.about = false;
+  ImGui::EndPopup();
+}
+
+}  // namespace
+
+void drawVerbDialog(Editor& editor) {
+  auto& state = editor.dialogs.verb;
+  const Verb* verb = editor.session.verb(state.verb);
+  const std::string title = std::string(verb != nullptr ? verb->summary : "") + "###verb-dialog";
+  if (!beginModal(editor, title.c_str(), state.open && verb != nullptr, 560)) return;
+  ImGui::BeginChild("form", {0, std::min(editor.px(420), ImGui::GetIO().DisplaySize.y * 0.6F)});
+  drawOptionForm(editor, state.form);
+  ImGui::EndChild();
+  std::string why = editor.session.whyNot(state.verb);
+  if (why.empty()) why = state.form.problem();
+  if (ui::primaryButton("Run###run", why, {editor.px(110), 0})) {
+    editor.session.start(state.verb, state.form.options());
+    state.open = false;
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel", {editor.px(110), 0}) || escapePressed()) state.open = false;
+  ImGui::EndPopup();
+}
+
+void drawMessages(Editor& editor) {
+  continueAfterSave(editor);
+  drawRecovery(editor);
+  drawUnsaved(editor);
+  drawShortcuts(editor);
+  drawPreferences(editor);
+  drawAbout(editor);
+  drawError(editor);
+}
+
+}  // namespace standpoint

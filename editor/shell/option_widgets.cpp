@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "editor/editor.h"
+#include "editor/shell/actions.h"
+#include "editor/shell/dialogs.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+void drawNumber(OptionField& field) {
+  const auto& p = *field.parameter;
+  const bool whole = p.kind == ParameterKind::integer;
+  const std::string format = whole ? "%.0f" : "%.4g";
+  if (ImGui::InputDouble("###value", &field.number, whole ? 1 : 0, 0, format.c_str()))
+    field.number = std::clamp(whole ? std::round(field.number) : field.number, p.minimum, p.maximum);
+}
+
+void drawChoice(OptionField& field) {
+  if (!ImGui::BeginCombo("###value", field.text.c_str())) return;
+  for (const char* choice : field.parameter->choices)
+    if (ImGui::Selectable(choice, field.text == choice)) field.text = choice;
+  ImGui::EndCombo();
+}
+
+void drawPath(Editor& editor, OptionField& field) {
+  const float browse = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x;
+  ImGui::SetNextItemWidth(-browse);
+  ImGui::InputText("###value", &field.text);
+  ImGui::SameLine();
+  if (!ui::iconButton(ICON_FOLDER_OPEN "###browse", "Choose…")) return;
+  const std::string name = field.parameter->name;
+  // The form gives way to the browser and comes back with what was chosen.
+  editor.dialogs.verb.open = false;
+  const bool written = name == "o" || name == "output";
+  const auto purpose = written ? FileDialogState::Purpose::saveFile : FileDialogState::Purpose::openFile;
+  askForFile(editor, purpose, readableOption(field.parameter->name), "Choose", {},
+             std::filesystem::path(field.text).filename().string(), [&editor, name](const std::filesystem::path& chosen) {
+               if (auto* again = editor.dialogs.verb.form.find(name.c_str())) again->text = chosen.string(), again->given = true;
+               editor.dialogs.verb.open = true;
+             });
+}
+
+void drawValue(Editor& editor, OptionField& field) {
+  switch (field.parameter->kind) {
+    case ParameterKind::text: ImGui::InputText("###value", &field.text); break;
+    case ParameterKind::number:
+    case ParameterKind::integer: drawNumber(field); break;
+    case ParameterKind::flag: ImGui::Checkbox("###value", &field.flag); break;
+    case ParameterKind::choice: drawChoice(field); break;
+    case ParameterKind::path: drawPath(editor, field); break;
+    case ParameterKind::triple:
+      ImGui::InputScalarN("###value", ImGuiDataType_Double, field.triple.data(), 3, nullptr, nullptr, "%.3f");
+      break;
+    case ParameterKind::pairs:
+    case ParameterKind::list:
+      ImGui::InputTextMultiline("###value", &field.text, {-FLT_MIN, ImGui::GetTextLineHeight() * 3.4F});
+      ui::tooltip(field.parameter->kind == ParameterKind::pairs ? "key=value, one per line" : "One per line");
+      break;
+  }
+}
+
+}  // namespace
+
+void drawOptionForm(Editor& editor, OptionForm& form) {
+  if (!ui::beginProperties("options", 0.34F)) return;
+  for (auto& field : form.fields()) {
+    const auto& p = *field.parameter;
+    ImGui::PushID(p.name);
+    const std::string unit = *p.unit != 0 ? fmt::format("  [{}]", p.unit) : "";
+    ui::propertyLabel((readableOption(p.name) + unit).c_str());
+    const bool optional = !p.required && p.standard.is_null() && p.kind != ParameterKind::flag;
+    if (optional) {
+      ImGui::Checkbox("###given", &field.given);
+      ui::tooltip("Not ticked: left to the program");
+      ImGui::SameLine();
+      ImGui::SetNextItemWidth(-FLT_MIN);
+    }
+    if (p.kind == ParameterKind::flag) field.given = true;
+    ImGui::BeginDisabled(!field.given);
+    drawValue(editor, field);
+    ImGui::EndDisabled();
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    if (editor.fonts.small != nullptr) ImGui::PushFont(editor.fonts.small);
+    ui::wrapped(p.help);
+    if (editor.fonts.small != nullptr) ImGui::PopFont();
+    ImGui::PopStyleColor();
+    ImGui::PopID();
+  }
+  ui::endProperties();
+}
+
+}  // namespace standpoint

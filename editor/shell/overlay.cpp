@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/shell/overlay.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "editor/editor.h"
+#include "editor/shell/actions.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/theme.h"
+#include "editor/shell/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr float kMargin = 10;
+constexpr float kAxesRadius = 34;
+
+ImVec2 axesCentre(const Editor& editor, ImVec2 origin, ImVec2 size) {
+  const float inset = editor.px(kMargin + kAxesRadius + 8);
+  return {origin.x + size.x - inset, origin.y + inset};
+}
+
+const char* colourName(ColourMode mode) {
+  switch (mode) {
+    case ColourMode::model: return "Model colours";
+    case ColourMode::material: return "Physical materials";
+    case ColourMode::reflectance: return "Reflectance 1550 nm";
+  }
+  return "";
+}
+
+void colourChip(Editor& editor) {
+  ImGui::SetNextItemWidth(editor.px(168));
+  if (!ImGui::BeginCombo("###colour", fmt::format("{}  {}", ICON_PAINT, colourName(editor.view.colour)).c_str())) return;
+  for (const auto mode : {ColourMode::model, ColourMode::material, ColourMode::reflectance})
+    if (ImGui::Selectable(colourName(mode), editor.view.colour == mode)) editor.view.colour = mode;
+  ImGui::EndCombo();
+}
+
+std::string storeyName(const Editor& editor, const StoreyLevel& level) {
+  const auto& node = editor.environment()->spatial[static_cast<std::size_t>(level.node)];
+  return node.name.empty() ? "Storey" : node.name;
+}
+
+// A storey is looked into from 1.2 m above its floor: above tables and sills, below lintels.
+constexpr double kCutAboveFloor_m = 1.2;
+
+void cutChip(Editor& editor) {
+  auto& cut = editor.visibility.cut_height_m;
+  const double shift = editor.shift_m().z();
+  const std::string label = cut ? fmt::format("{}  Cut at {:.2f} m", ICON_CUT, *cut + shift) : std::string(ICON_CUT) + "  No cut";
+  ImGui::SetNextItemWidth(editor.px(150));
+  if (ImGui::BeginCombo("###cut", label.c_str(), ImGuiComboFlags_HeightLarge)) {
+    if (ImGui::Selectable("No cut", !cut)) cut.reset();
+    const auto& storeys = editor.storeys();
+    for (std::size_t i = storeys.size(); i-- > 0;) {
+      const double height = storeys[i].elevation_m + kCutAboveFloor_m;
+      if (ImGui::Selectable(fmt::format("Into {}   {:+.2f} m###storey{}", storeyName(editor, storeys[i]), storeys[i].elevation_m + shift, i).c_str(),
+                            cut && std::abs(*cut - height) < 1e-6))
+        cut = height;
+    }
+    if (storeys.empty()) {
+      const Bounds all = editor.visibleBounds();
+      if (!all.empty() && ImGui::Selectable("Half way up")) cut = (all.min.z() + all.max.z()) / 2;
+    }
+    ImGui::EndCombo();
+  }
+  if (!cut) return;
+  ImGui::SameLine();
+  auto height = static_cast<float>(*cut + shift);
+  ImGui::SetNextItemWidth(editor.px(90));
+  if (ImGui::DragFloat("###cut-height", &height, 0.02F, 0, 0, "%.2f m")) cut = height - shift;
+  ui::tooltip("Drag to move the cut");
+}
+
+void toggle(Editor& editor, const char* icon, const char* id, bool lit) {
+  const auto& action = *findAction(id);
+  if (ui::iconButton(fmt::format("{}###view_{}", icon, id).c_str(), action.title, whyNot(action, editor), lit)) action.run(editor);
+  ImGui::SameLine(0, editor.px(2));
+}
+
+void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
+  const char* hint = nullptr;
+  switch (editor.view.tool) {
+    case Tool::placeStation: hint = "Click on the floor to set up a station.   Esc to leave"; break;
+    case Tool::placeTarget: hint = "Click where a target shall be.   Esc to leave"; break;
+    case Tool::measure: hint = "Click two points.   Esc to leave"; break;
+    case Tool::select: break;
+  }
+  if (editor.environment() && !editor.picker.ready() && hint != nullptr) hint = "One moment: the model is being prepared for picking";
+  if (hint == nullptr) return;
+  const ImVec2 text = ImGui::CalcTextSize(hint);
+  const float pad = editor.px(8);
+  const ImVec2 at(origin.x + (size.x - text.x) / 2, origin.y + size.y - text.y - editor.px(26));
+  auto& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled({at.x - pad, at.y - pad / 2}, {at.x + text.x + pad, at.y + text.y + pad / 2}, IM_COL32(38, 84, 148, 235), pad / 2);
+  list.AddText(at, IM_COL32(255, 255, 255, 255), hint);
+}
+
+struct Axis {
+  Eigen::Vector3d direction;
+  ImU32 tone;
+  const char* name;
+  StandardView view;
+};
+
+void lookAlong(Editor& editor, StandardView view) {
+  look(editor.view.camera, view);
+  editor.view.camera.orthographic = true;
+  frame(editor.view.camera, editor.visibleBounds(), editor.view.size.x() / std::max(editor.view.size.y(), 1.0));
+}
+
+// Six balls on the axes, the far ones first; a click looks along the axis.
+void drawAxes(Editor& editor, ImVec2 origin, ImVec2 size) {
+  const std::array axes = {Axis{Eigen::Vector3d::UnitX(), IM_COL32(226, 88, 88, 255), "X", StandardView::right},
+                           Axis{-Eigen::Vector3d::UnitX(), IM_COL32(226, 88, 88, 255), "", StandardView::left},
+                           Axis{Eigen::Vector3d::UnitY(), IM_COL32(118, 190, 92, 255), "Y", StandardView::back},
+                           Axis{-Eigen::Vector3d::UnitY(), IM_COL32(118, 190, 92, 255), "", StandardView::front},
+                           Axis{Eigen::Vector3d::UnitZ(), IM_COL32(84, 146, 240, 255), "Z", StandardView::top},
+                           Axis{-Eigen::Vector3d::UnitZ(), IM_COL32(84, 146, 240, 255), "", StandardView::bottom}};
+  const Camera& camera = editor.view.camera;
+  const Eigen::Vector3d right = camera.right(), up = camera.up(), forward = camera.forward();
+  const ImVec2 centre = axesCentre(editor, origin, size);
+  std::array<int, 6> order = {0, 1, 2, 3, 4, 5};
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return axes[static_cast<std::size_t>(a)].direction.dot(forward) > axes[static_cast<std::size_t>(b)].direction.dot(forward);
+  });
+  auto& list = *ImGui::GetWindowDrawList();
+  const float reach = editor.px(kAxesRadius - 8), ball = editor.px(8);
+  for (const int i : order) {
+    const Axis& axis = axes[static_cast<std::size_t>(i)];
+    const ImVec2 p(centre.x + static_cast<float>(axis.direction.dot(right)) * reach, centre.y - static_cast<float>(axis.direction.dot(up)) * reach);
+    const bool named = *axis.name != 0;
+    ImVec4 fill = colour(axis.tone);
+    fill.w = named ? 1 : 0.28F;
+    if (named) list.AddLine(centre, p, axis.tone, editor.px(2));
+    list.AddCircleFilled(p, named ? ball : ball * 0.8F, ImGui::ColorConvertFloat4ToU32(fill));
+    const ImVec2 text = ImGui::CalcTextSize(axis.name);
+    if (named) list.AddText({p.x - text.x / 2, p.y - text.y / 2}, IM_COL32(20, 22, 26, 255), axis.name);
+    ImGui::SetCursorScreenPos({p.x - ball, p.y - ball});
+    if (ImGui::InvisibleButton(fmt::format("###axis{}", i).c_str(), {2 * ball, 2 * ball})) lookAlong(editor, axis.view);
+  }
+}
+
+void drawReflectanceLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
+  if (editor.view.colour != ColourMode::reflectance) return;
+  auto& list = *ImGui::GetWindowDrawList();
+  const float width = editor.px(160), height = editor.px(8), x = origin.x + editor.px(kMargin), y = origin.y + size.y - editor.px(38);
+  list.AddRectFilledMultiColor({x, y}, {x + width, y + height}, IM_COL32(20, 20, 20, 255), IM_COL32(245, 245, 245, 255), IM_COL32(245, 245, 245, 255),
+                               IM_COL32(20, 20, 20, 255));
+  list.AddText({x, y + height + editor.px(2)}, tone::kDim, "0");
+  const char* most = "100 %";
+  list.AddText({x + width - ImGui::CalcTextSize(most).x, y + height + editor.px(2)}, tone::kDim, most);
+}
+
+}  // namespace
+
+bool overOverlay(const Editor& editor, ImVec2 origin, ImVec2 size) {
+  const ImVec2 p = ImGui::GetIO().MousePos, c = axesCentre(editor, origin, size);
+  if (std::hypot(p.x - c.x, p.y - c.y) < editor.px(kAxesRadius)) return true;
+  const float bar_height = editor.px(kMargin) + ImGui::GetFrameHeight();
+  return p.y < origin.y + bar_height && p.x < origin.x + editor.px(kMargin) + editor.overlay_width;
+}
+
+void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
+  ImGui::SetCursorScreenPos({origin.x + editor.px(kMargin), origin.y + editor.px(kMargin)});
+  ImGui::PushStyleColor(ImGuiCol_FrameBg, tone::kOverlay);
+  ImGui::BeginGroup();
+  colourChip(editor);
+  ImGui::SameLine();
+  cutChip(editor);
+  ImGui::SameLine();
+  toggle(editor, ICON_CUBE, "edges", editor.view.edges);
+  toggle(editor, ICON_GRID, "grid", editor.view.grid);
+  toggle(editor, ICON_WALK, "walkable", editor.view.walkable);
+  toggle(editor, ICON_CUBES, "shapes", editor.view.shapes);
+  toggle(editor, ICON_EYE, "show-all", false);
+  ImGui::EndGroup();
+  editor.overlay_width = ImGui::GetItemRectSize().x;
+  ImGui::PopStyleColor();
+  drawAxes(editor, origin, size);
+  drawReflectanceLegend(editor, origin, size);
+  drawToolHint(editor, origin, size);
+}
+
+}  // namespace standpoint

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "editor/editor.h"
+#include "editor/panels.h"
+#include "editor/shell/actions.h"
+#include "editor/shell/dialogs.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/theme.h"
+#include "editor/shell/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+struct Entry {
+  std::string id, icon, title, detail, why;
+  std::function<void()> run;
+};
+
+std::string lower(std::string text) {
+  for (auto& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+bool matches(const Entry& entry, const std::string& query) {
+  const std::string all = lower(entry.title + " " + entry.detail);
+  std::istringstream words(lower(query));
+  for (std::string word; words >> word;)
+    if (all.find(word) == std::string::npos) return false;
+  return true;
+}
+
+bool ownToEditor(const Verb& verb) {
+  const std::string_view name = verb.name;
+  return name == "save-project" || name == "open-project" || name == "save-recovery" || name == "open-recovery";
+}
+
+std::vector<Entry> entries(Editor& editor) {
+  std::vector<Entry> all;
+  for (const auto& action : actions())
+    all.push_back({action.id, action.icon, action.title, shortcutText(action.shortcut), whyNot(action, editor),
+                   [&editor, &action] { action.run(editor); }});
+  for (const auto& verb : editor.session.verbs())
+    if (!ownToEditor(verb))
+      all.push_back({std::string("verb-") + verb.name, ICON_GEAR, verb.summary, verb.name, editor.session.whyNot(verb.name),
+                     [&editor, &verb] { openVerbForm(editor, verb.name); }});
+  for (const auto& recent : editor.settings.recent)
+    all.push_back({"recent-" + recent, ICON_HISTORY, "Open " + std::filesystem::path(recent).filename().string(), recent,
+                   editor.session.whyNot("open-project"), [&editor, recent] { openPath(editor, recent); }});
+  return all;
+}
+
+void drawEntry(Editor& editor, const Entry& entry, bool chosen, bool& done) {
+  const auto flags = entry.why.empty() ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
+  const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  const bool pressed = ImGui::Selectable(("###palette-" + entry.id).c_str(), chosen, flags, {0, editor.px(22)});
+  if (chosen && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
+  ui::tooltip(entry.why);
+  ImGui::SameLine(editor.px(16));
+  ImGui::BeginDisabled(!entry.why.empty());
+  ImGui::TextDisabled("%s", entry.icon.c_str());
+  ImGui::SameLine(editor.px(44));
+  ImGui::TextUnformatted(entry.title.c_str());
+  ImGui::EndDisabled();
+  const float width = std::min(ImGui::CalcTextSize(entry.detail.c_str()).x, editor.px(220));
+  ImGui::SameLine(right - width);
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ui::fitted(entry.detail, width);
+  ImGui::PopStyleColor();
+  if (!pressed) return;
+  done = true;
+  entry.run();
+}
+
+}  // namespace
+
+void openPalette(Editor& editor) { editor.dialogs.palette = {true, "", 0}; }
+
+void drawPalette(Editor& editor) {
+  auto& state = editor.dialogs.palette;
+  constexpr const char* kId = "###palette";
+  if (state.open && !ImGui::IsPopupOpen(kId)) ImGui::OpenPopup(kId);
+  const float width = std::min(editor.px(600), ImGui::GetIO().DisplaySize.x * 0.9F);
+  ImGui::SetNextWindowPos({ImGui::GetIO().DisplaySize.x / 2, editor.px(80)}, ImGuiCond_Always, {0.5F, 0});
+  ImGui::SetNextWindowSize({width, 0});
+  if (!ImGui::BeginPopup(kId, ImGuiWindowFlags_NoMove)) {
+    state.open = false;
+    return;
+  }
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (ImGui::InputTextWithHint("###query", "What do you want to do?", &state.query)) state.chosen = 0;
+  const bool enter = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+  std::vector<Entry> shown;
+  for (auto& entry : entries(editor))
+    if (matches(entry, state.query)) shown.push_back(std::move(entry));
+  const int last = std::max(0, static_cast<int>(shown.size()) - 1);
+  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_DownArrow))) ++state.chosen;
+  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_UpArrow))) --state.chosen;
+  state.chosen = std::clamp(state.chosen, 0, last);
+  bool done = false;
+  ImGui::BeginChild("list", {0, editor.px(340)});
+  for (int i = 0; i < static_cast<int>(shown.size()); ++i) {
+    const auto& entry = shown[static_cast<std::size_t>(i)];
+    drawEntry(editor, entry, i == state.chosen, done);
+    if (i == state.chosen && !ImGui::IsItemVisible()) ImGui::SetScrollHereY();
+    if (i == state.chosen && enter && entry.why.empty()) {
+      done = true;
+      entry.run();
+    }
+  }
+  if (shown.empty()) ui::dimText("Nothing is called so.");
+  ImGui::EndChild();
+  if (done) {
+    state.open = false;
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
+}
+
+}  // namespace standpoint

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/shell/shell.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include "editor/editor.h"
+#include "editor/panels.h"
+#include "editor/shell/actions.h"
+#include "editor/shell/dialogs.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/theme.h"
+#include "editor/shell/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+struct WorkspaceTab {
+  Workspace workspace;
+  const char* action;
+  const char* title;
+};
+constexpr std::array kWorkspaceTabs = {
+    WorkspaceTab{Workspace::model, "workspace-model", "Model"},
+    WorkspaceTab{Workspace::materials, "workspace-materials", "Materials"},
+    WorkspaceTab{Workspace::survey, "workspace-survey", "Survey"},
+    WorkspaceTab{Workspace::instrument, "workspace-instrument", "Instrument"},
+};
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNavFocus;
+
+struct Box {
+  float x = 0, y = 0, w = 0, h = 0;
+};
+
+void beginFixed(const char* id, const Box& box, ImVec2 padding, ImU32 background) {
+  ImGui::SetNextWindowPos({box.x, box.y});
+  ImGui::SetNextWindowSize({std::max(box.w, 1.0F), std::max(box.h, 1.0F)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0F);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, background);
+  ImGui::Begin(id, nullptr, kFixed);
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar(4);
+}
+
+void items(Editor& editor, std::initializer_list<const char*> ids) {
+  for (const char* id : ids) {
+    if (*id == 0)
+      ImGui::Separator();
+    else
+      actionMenuItem(editor, id);
+  }
+}
+
+void recentMenu(Editor& editor) {
+  if (!ImGui::BeginMenu((std::string(ICON_HISTORY) + "  Open recent###recent").c_str(), !editor.settings.recent.empty())) return;
+  const auto recent = editor.settings.recent;
+  for (const auto& path : recent) {
+    const auto shown = std::filesystem::path(path).filename().string();
+    if (ImGui::MenuItem((shown + "###" + path).c_str(), nullptr, false, editor.session.whyNot("open-project").empty()))
+      openPath(editor, path);
+    ui::tooltip(path);
+  }
+  ImGui::EndMenu();
+}
+
+void runMenu(Editor& editor) {
+  items(editor, {"add-station", "add-target", "scan", ""});
+  for (const auto& verb : editor.session.verbs()) {
+    const std::string_view name = verb.name;
+    if (name.ends_with("-project") || name.ends_with("-recovery")) continue;
+    const auto why = editor.session.whyNot(verb.name);
+    if (ImGui::MenuItem(fmt::format("      {}…###run-{}", readableOption(verb.name), verb.name).c_str(), nullptr, false, why.empty()))
+      openVerbForm(editor, verb.name);
+    ui::tooltip(why.empty() ? verb.summary : why);
+  }
+}
+
+void viewMenu(Editor& editor) {
+  items(editor, {"frame", "view-corner", "view-front", "view-back", "view-right", "view-left", "view-top", "view-parallel", "",
+                 "hide", "isolate", "show-all", "", "edges", "grid", "labels", "walkable", "shapes", "", "colour-model",
+                 "colour-material", "colour-reflectance", "", "workspace-model", "workspace-materials", "workspace-survey",
+                 "workspace-instrument"});
+}
+
+void drawMenuBar(Editor& editor) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0F);
+  const bool open = ImGui::BeginMainMenuBar();
+  ImGui::PopStyleVar();
+  if (!open) return;
+  if (ImGui::BeginMenu("File")) {
+    items(editor, {"new", "open"});
+    recentMenu(editor);
+    items(editor, {"import", "", "save", "save-as", "export", "", "preferences", "quit"});
+    ImGui::EndMenu();
+  }
+  if (ImGui::BeginMenu("Edit")) {
+    items(editor, {"undo", "redo", "", "select-all", "select-none", "", "measure"});
+    ImGui::EndMenu();
+  }
+  if (ImGui::BeginMenu("View")) {
+    viewMenu(editor);
+    ImGui::EndMenu();
+  }
+  if (ImGui::BeginMenu("Run")) {
+    runMenu(editor);
+    ImGui::EndMenu();
+  }
+  if (ImGui::BeginMenu("Help")) {
+    items(editor, {"shortcuts", "palette", "", "about"});
+    ImGui::EndMenu();
+  }
+  const std::string title = editor.session.name() + (editor.session.modified() ? "  •" : "");
+  const float width = ImGui::CalcTextSize(title.c_str()).x;
+  ImGui::SameLine(ImGui::GetWindowWidth() - width - editor.px(14));
+  ImGui::TextDisabled("%s", title.c_str());
+  ImGui::EndMainMenuBar();
+}
+
+void toolGap(const Editor& editor) {
+  ImGui::SameLine(0, editor.px(8));
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float h = ImGui::GetFrameHeight();
+  ImGui::GetWindowDrawList()->AddLine({at.x, at.y + h * 0.2F}, {at.x, at.y + h * 0.8F}, tone::kLine, editor.px(1));
+  ImGui::SameLine(0, editor.px(9));
+}
+
+void drawWorkspaceTabs(Editor& editor) {
+  for (const auto& tab : kWorkspaceTabs) {
+    const bool chosen = editor.workspace == tab.workspace;
+    ImGui::PushStyleColor(ImGuiCol_Button, chosen ? ImVec4(0.25F, 0.56F, 0.97F, 0.26F) : ImVec4(0, 0, 0, 0));
+    ImGui::PushStyleColor(ImGuiCol_Text, chosen ? ImVec4(0.62F, 0.79F, 1, 1) : ImVec4(0.72F, 0.75F, 0.80F, 1));
+    const std::string label = fmt::format("{}  {}###{}", findAction(tab.action)->icon, tab.title, tab.action);
+    if (ImGui::Button(label.c_str())) editor.workspace = tab.workspace;
+    ImGui::PopStyleColor(2);
+    ImGui::SameLine(0, editor.px(2));
+  }
+}
+
+void drawToolbar(Editor& editor, const Box& box) {
+  beginFixed("###toolbar", box, {editor.px(8), editor.px(6)}, IM_COL32(35, 39, 46, 255));
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(editor.px(2), 0));
+  for (const char* id : {"open", "import", "save"}) actionToolButton(editor, id);
+  toolGap(editor);
+  for (const char* id : {"undo", "redo"}) actionToolButton(editor, id);
+  toolGap(editor);
+  drawWorkspaceTabs(editor);
+  toolGap(editor);
+  for (const char* id : {"add-station", "add-target", "measure"}) actionToolButton(editor, id);
+  const float right = editor.px(96) + editor.px(36);
+  ImGui::SameLine(box.w - right - editor.px(8));
+  if (ui::primaryButton(ICON_PLAY "  Scan###tool_scan", editor.session.whyNot("scan"), {editor.px(96), 0})) invoke(editor, "scan");
+  ImGui::SameLine(0, editor.px(4));
+  actionToolButton(editor, "palette");
+  ImGui::PopStyleVar();
+  ImGui::End();
+}
+
+void drawPanelTabs(Editor& editor, Area area, const char* id) {
+  auto& wanted = editor.wanted_tab[static_cast<std::size_t>(area)];
+  const auto workspace = static_cast<std::size_t>(editor.workspace);
+  ImGui::PushID(static_cast<int>(workspace));
+  if (ImGui::BeginTabBar(id, ImGuiTabBarFlags_FittingPolicyScroll | ImGuiTabBarFlags_NoTabListScrollingButtons)) {
+    for (const auto& panel : panels()) {
+      if (panel.area[workspace] != area) continue;
+      const auto flags = wanted == panel.id ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
+      if (!ImGui::BeginTabItem(fmt::format("{}  {}###{}", panel.icon, panel.title, panel.id).c_str(), nullptr, flags)) continue;
+      ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(editor.px(10), editor.px(6)));
+      ImGui::BeginChild(panel.id, {0, 0}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+      ImGui::PopStyleVar();
+      panel.draw(editor);
+      ImGui::EndChild();
+      ImGui::EndTabItem();
+    }
+    ImGui::EndTabBar();
+  }
+  ImGui::PopID();
+  wanted.clear();
+}
+
+bool anyPanel(const Editor& editor, Area area) {
+  return std::any_of(panels().begin(), panels().end(),
+                     [&](const Panel& p) { return p.area[static_cast<std::size_t>(editor.workspace)] == area; });
+}
+
+void splitter(Editor& editor, const char* id, const Box& box, ImGuiAxis axis, float sign, float& size, float smallest, float largest) {
+  ImGui::SetCursorScreenPos({box.x, box.y});
+  ImGui::InvisibleButton(id, {std::max(box.w, 1.0F), std::max(box.h, 1.0F)});
+  const bool active = ImGui::IsItemActive();
+  if (active) size = std::clamp(size + sign * ImGui::GetIO().MouseDelta[axis] / editor.scale, smallest, largest);
+  if (!active && !ImGui::IsItemHovered()) return;
+  ImGui::SetMouseCursor(axis == ImGuiAxis_X ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+  ImGui::GetWindowDrawList()->AddRectFilled({box.x, box.y}, {box.x + box.w, box.y + box.h}, tone::kAccent);
+}
+
+struct Layout {
+  Box left, right, bottom, middle, all;
+};
+
+// What the areas get: the viewport keeps at least a third of the window.
+Layout layOut(const Editor& editor, const Box& all) {
+  const auto& sizes = editor.settings.areas[static_cast<std::size_t>(editor.workspace)];
+  Layout l;
+  l.all = all;
+  const float gap = editor.px(3);
+  float left = anyPanel(editor, Area::left) ? editor.px(sizes.left) : 0;
+  float right = anyPanel(editor, Area::right) ? editor.px(sizes.right) : 0;
+  if (const float most = all.w * 0.67F; left + right > most) {
+    const float share = most / (left + right);
+    left *= share;
+    right *= share;
+  }
+  const float bottom = anyPanel(editor, Area::bottom) ? std::min(editor.px(sizes.bottom), all.h * 0.6F) : 0;
+  l.left = {all.x, all.y, left, all.h};
+  l.right = {all.x + all.w - right, all.y, right, all.h};
+  const float x = all.x + left + (left > 0 ? gap : 0);
+  const float w = all.w - left - right - (left > 0 ? gap : 0) - (right > 0 ? gap : 0);
+  l.middle = {x, all.y, w, all.h - bottom - (bottom > 0 ? gap : 0)};
+  l.bottom = {x, all.y + all.h - bottom, w, bottom};
+  return l;
+}
+
+void drawSplitters(Editor& editor, const Layout& l) {
+  auto& sizes = editor.settings.areas[static_cast<std::size_t>(editor.workspace)];
+  const float gap = editor.px(3);
+  beginFixed("###splitters", l.all, {0, 0}, IM_COL32(22, 24, 29, 255));
+  if (l.left.w > 0)
+    splitter(editor, "###split-left", {l.left.x + l.left.w, l.all.y, gap, l.all.h}, ImGuiAxis_X, 1, sizes.left, 160, 900);
+  if (l.right.w > 0)
+    splitter(editor, "###split-right", {l.right.x - gap, l.all.y, gap, l.all.h}, ImGuiAxis_X, -1, sizes.right, 200, 1200);
+  if (l.bottom.h > 0)
+    splitter(editor, "###split-bottom", {l.middle.x, l.bottom.y - gap, l.middle.w, gap}, ImGuiAxis_Y, -1, sizes.bottom, 80, 700);
+  ImGui::End();
+}
+
+void drawArea(Editor& editor, const char* id, const Box& box, Area area) {
+  if (box.w <= 0 || box.h <= 0) return;
+  beginFixed(id, box, {0, editor.px(3)}, IM_COL32(31, 35, 41, 255));
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, IM_COL32(35, 39, 46, 255));
+  drawPanelTabs(editor, area, id);
+  ImGui::PopStyleColor();
+  ImGui::End();
+}
+
+std::string hoverText(const Editor& editor) {
+  const auto& hover = editor.view.hover;
+  if (!hover || !editor.environment() || hover->product >= editor.environment()->products.size()) return {};
+  const auto& product = editor.environment()->products[hover->product];
+  const Eigen::Vector3d p = hover->position + editor.shift_m();
+  return fmt::format("{}   {}   {:.3f}  {:.3f}  {:.3f} m", readableClass(product.ifc_class), productLabel(product), p.x(), p.y(), p.z());
+}
+
+void drawRunningTask(Editor& editor) {
+  const auto& running = editor.session.running();
+  const Task* shown = nullptr;
+  for (const auto& task : running)
+    if (std::strcmp(task->verb().name, "save-recovery") != 0) shown = task.get();
+  if (shown == nullptr) return;
+  auto& progress = const_cast<Task*>(shown)->progress();
+  const std::string text = fmt::format("{}   {:.0f} %", shown->title(), progress.fraction() * 100);
+  const float bar = editor.px(160), cancel = editor.px(64);
+  const float width = ImGui::CalcTextSize(text.c_str()).x + bar + cancel + editor.px(30);
+  ImGui::SameLine(std::max(0.0F, ImGui::GetWindowWidth() - width - editor.px(10)));
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::SameLine();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::SetCursorScreenPos({at.x, at.y + (ImGui::GetFrameHeight() - editor.px(6)) / 2});
+  ImGui::PushClipRect(at, {at.x + bar, at.y + editor.px(40)}, true);
+  ImGui::BeginGroup();
+  ImGui::ProgressBar(static_cast<float>(progress.fraction()), {bar, editor.px(6)}, "");
+  ImGui::EndGroup();
+  ImGui::PopClipRect();
+  ImGui::SetCursorScreenPos({at.x + bar + editor.px(10), at.y});
+  if (ui::button("Cancel###cancel-task", progress.cancelled() ? "It stops at the next safe place" : "", {cancel, 0})) progress.cancel();
+}
+
+void drawStatusBar(Editor& editor, const Box& box) {
+  beginFixed("###status", box, {editor.px(10), editor.px(2)}, IM_COL32(26, 29, 34, 255));
+  ImGui::AlignTextToFramePadding();
+  const auto hover = hoverText(editor);
+  if (!hover.empty()) {
+    ImGui::TextUnformatted(hover.c_str());
+  } else if (const auto& environment = editor.environment()) {
+    std::string text = fmt::format("{} products   {} triangles", groupedDigits(environment->products.size()),
+                                   groupedDigits(editor.triangles()));
+    if (!editor.selection.empty()) text += fmt::format("   {} selected", editor.selection.products().size());
+    if (editor.visibility.anyHidden()) text += fmt::format("   {} hidden", editor.visibility.hiddenCount());
+    ui::dimText(text);
+  } else {
+    ui::dimText("No model");
+  }
+  drawRunningTask(editor);
+  ImGui::End();
+}
+
+}  // namespace
+
+void drawShell(Editor& editor) {
+  editor.update();
+  runShortcuts(editor);
+  drawMenuBar(editor);
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const float menu = ImGui::GetFrameHeight(), tools = ImGui::GetFrameHeight() + editor.px(12), status = ImGui::GetFrameHeight() + editor.px(4);
+  drawToolbar(editor, {0, menu, display.x, tools});
+  const Layout l = layOut(editor, {0, menu + tools, display.x, display.y - menu - tools - status});
+  drawSplitters(editor, l);
+  drawArea(editor, "###left", l.left, Area::left);
+  drawArea(editor, "###right", l.right, Area::right);
+  drawArea(editor, "###bottom", l.bottom, Area::bottom);
+  beginFixed("###viewport", l.middle, {0, 0}, IM_COL32(35, 39, 46, 255));
+  drawViewport(editor);
+  ImGui::End();
+  drawStatusBar(editor, {0, display.y - status, display.x, status});
+  drawFileDialog(editor);
+  drawVerbDialog(editor);
+  drawPalette(editor);
+  drawMessages(editor);
+}
+
+}  // namespace standpoint

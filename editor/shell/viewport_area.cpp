@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "editor/editor.h"
+#include "editor/shell/actions.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/overlay.h"
+#include "editor/shell/shell.h"
+#include "editor/shell/theme.h"
+#include "editor/shell/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr float kClickSlack_px = 4;
+
+Eigen::Vector2d pointer(ImVec2 origin) {
+  const ImVec2 p = ImGui::GetIO().MousePos;
+  return {p.x - origin.x, p.y - origin.y};
+}
+
+// The point that a drag turns around: what is under the pointer, else the camera's target.
+void startDrag(Editor& editor) {
+  auto& view = editor.view;
+  view.dragging = true;
+  view.dragged = false;
+  view.pivot = view.hover ? view.hover->position : view.camera.target;
+  view.pivot_depth_m = std::max(0.1, (view.pivot - view.camera.eye()).dot(view.camera.forward()));
+}
+
+void continueDrag(Editor& editor) {
+  auto& view = editor.view;
+  const auto& io = ImGui::GetIO();
+  const ImVec2 total0 = ImGui::GetMouseDragDelta(0, 0), total1 = ImGui::GetMouseDragDelta(1, 0), total2 = ImGui::GetMouseDragDelta(2, 0);
+  const float moved = std::max({std::hypot(total0.x, total0.y), std::hypot(total1.x, total1.y), std::hypot(total2.x, total2.y)});
+  if (moved > kClickSlack_px * editor.scale) view.dragged = true;
+  if (!view.dragged || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) return;
+  const Eigen::Vector2d drag(io.MouseDelta.x, io.MouseDelta.y);
+  if (io.MouseDown[0] && !io.KeyShift)
+    orbit(view.camera, drag / editor.scale, view.pivot);
+  else
+    pan(view.camera, drag, view.size, view.pivot_depth_m);
+}
+
+std::string nextName(const char* prefix, const std::vector<std::string>& taken) {
+  for (int i = 1;; ++i)
+    if (const auto name = fmt::format("{}{}", prefix, i); std::find(taken.begin(), taken.end(), name) == taken.end()) return name;
+}
+
+void placeStation(Editor& editor, const RayHit& hit) {
+  std::vector<std::string> names;
+  if (const auto& job = editor.session.document().job)
+    for (const auto& s : job->stations) names.push_back(s.name);
+  const auto name = nextName("S", names);
+  const Eigen::Vector3d p = hit.position + editor.shift_m();
+  editor.session.start("station", {{"add", name}, {"on", {p.x(), p.y(), p.z()}}}, "Add station " + name);
+}
+
+void placeTarget(Editor& editor, const RayHit& hit) {
+  std::vector<std::string> names;
+  if (const auto& job = editor.session.document().job)
+    for (const auto& t : job->targets) names.push_back(t.name);
+  const auto name = nextName("T", names);
+  constexpr double kRadius_m = 0.0725;   // of the standard sphere: it touches what was clicked
+  const Eigen::Vector3d p = hit.position + hit.normal * kRadius_m + editor.shift_m();
+  editor.session.start("target", {{"add", name}, {"at", {p.x(), p.y(), p.z()}}}, "Add target " + name);
+}
+
+void measure(Editor& editor, const RayHit& hit) {
+  auto& view = editor.view;
+  if (!view.measured_from || view.measured_to) {
+    view.measured_from = hit.position;
+    view.measured_to.reset();
+  } else {
+    view.measured_to = hit.position;
+  }
+}
+
+void click(Editor& editor) {
+  const auto& hit = editor.view.hover;
+  const bool add = ImGui::GetIO().KeyCtrl;
+  switch (editor.view.tool) {
+    case Tool::placeStation:
+      if (hit) placeStation(editor, *hit);
+      return;
+    case Tool::placeTarget:
+      if (hit) placeTarget(editor, *hit);
+      return;
+    case Tool::measure:
+      if (hit) measure(editor, *hit);
+      return;
+    case Tool::select: break;
+  }
+  if (hit && add)
+    editor.selection.toggle(hit->product);
+  else if (hit)
+    editor.select(hit->product, true);
+  else if (!add)
+    editor.selection.clear();
+}
+
+void contextMenu(Editor& editor) {
+  if (!ImGui::BeginPopup("###viewport-menu")) return;
+  const auto& hit = editor.view.hover;
+  if (!editor.selection.empty() && editor.environment() && editor.selection.primary() < editor.environment()->products.size())
+    ui::dimText(productLabel(editor.environment()->products[editor.selection.primary()]));
+  for (const char* id : {"frame", "hide", "isolate", "show-all"}) actionMenuItem(editor, id);
+  ImGui::Separator();
+  const auto why = hit ? editor.session.whyNot("station") : "There is nothing under the pointer";
+  if (ImGui::MenuItem(ICON_STATION "  Set up a station here###station-here", nullptr, false, why.empty())) placeStation(editor, *hit);
+  ui::tooltip(why);
+  if (ImGui::MenuItem(ICON_TARGET "  Put a target here###target-here", nullptr, false, why.empty())) placeTarget(editor, *hit);
+  ImGui::EndPopup();
+}
+
+void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
+  auto& view = editor.view;
+  const auto& io = ImGui::GetIO();
+  if (!view.dragging && !ImGui::IsPopupOpen("###viewport-menu")) {
+    view.hover.reset();
+    if (hovered) view.hover = editor.picker.pick(rayThrough(view.camera, pointer(origin), view.size), editor.viewState());
+  }
+  if (hovered && !view.dragging && (ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2))) startDrag(editor);
+  if (view.dragging) continueDrag(editor);
+  if (view.dragging && !view.dragged && ImGui::IsMouseReleased(0)) click(editor);
+  if (view.dragging && !view.dragged && ImGui::IsMouseReleased(1)) {
+    if (view.hover && !editor.selection.contains(view.hover->product)) editor.select(view.hover->product, true);
+    ImGui::OpenPopup("###viewport-menu");
+  }
+  if (hovered && ImGui::IsMouseDoubleClicked(0) && view.tool == Tool::select) editor.frameSelection();
+  if (view.dragging && !io.MouseDown[0] && !io.MouseDown[1] && !io.MouseDown[2]) view.dragging = false;
+  if (hovered && io.MouseWheel != 0) {
+    const auto ray = rayThrough(view.camera, pointer(origin), view.size);
+    const Eigen::Vector3d on_target_plane =
+        ray.origin + ray.direction * ((view.camera.target - ray.origin).dot(view.camera.forward()) / ray.direction.dot(view.camera.forward()));
+    zoom(view.camera, io.MouseWheel, view.hover ? view.hover->position : on_target_plane);
+  }
+}
+
+void drawWelcome(Editor& editor, ImVec2 origin, ImVec2 size) {
+  const float width = std::min(editor.px(420), size.x * 0.9F);
+  ImGui::SetCursorScreenPos({origin.x + (size.x - width) / 2, origin.y + size.y * 0.26F});
+  ImGui::BeginChild("welcome", {width, editor.px(330)}, false, ImGuiWindowFlags_NoBackground);
+  ui::emptyState(editor, ICON_CUBE, "No model yet", "Import an IFC, glTF or OBJ file, or drop one here. A project is a folder: open it, or drop it, too.");
+  const float button = editor.px(150);
+  ImGui::SetCursorPosX((width - 2 * button - editor.px(8)) / 2);
+  if (ui::primaryButton(ICON_IMPORT "  Import model…###welcome-import", editor.session.whyNot("import"), {button, editor.px(30)}))
+    invoke(editor, "import");
+  ImGui::SameLine();
+  if (ui::button(ICON_FOLDER_OPEN "  Open project…###welcome-open", editor.session.whyNot("open-project"), {button, editor.px(30)}))
+    invoke(editor, "open");
+  ui::gap(editor, 8);
+  const auto recent = editor.settings.recent;
+  for (std::size_t i = 0; i < std::min<std::size_t>(recent.size(), 5); ++i) {
+    const std::filesystem::path path = recent[i];
+    if (ImGui::Selectable(fmt::format("{}  {}###recent{}", ICON_HISTORY, path.filename().string(), i).c_str())) openPath(editor, recent[i]);
+    ui::tooltip(recent[i]);
+  }
+  ImGui::EndChild();
+}
+
+}  // namespace
+
+void drawViewport(Editor& editor) {
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const ImVec2 size = ImGui::GetContentRegionAvail();
+  if (size.x < 8 || size.y < 8) return;
+  auto& view = editor.view;
+  view.size = {size.x, size.y};
+  if (view.frame_wanted) {
+    frame(view.camera, editor.visibleBounds(), size.x / size.y);
+    view.frame_wanted = false;
+  }
+  const float pixels = ImGui::GetIO().DisplayFramebufferScale.x > 0 ? ImGui::GetIO().DisplayFramebufferScale.x : 1;
+  const std::uint64_t texture = editor.scene == nullptr ? 0
+                                                        : editor.scene->texture(editor.viewState(), static_cast<int>(size.x * pixels),
+                                                                                static_cast<int>(size.y * pixels), editor.fine_picture);
+  auto& list = *ImGui::GetWindowDrawList();
+  if (texture != 0)
+    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), origin, {origin.x + size.x, origin.y + size.y}, {0, 1}, {1, 0});
+  if (!editor.environment()) {
+    drawWelcome(editor, origin, size);
+    return;
+  }
+  ImGui::SetCursorScreenPos(origin);
+  ImGui::InvisibleButton("###scene", size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+  ImGui::SetItemAllowOverlap();
+  const bool hovered = ImGui::IsItemHovered() && !overOverlay(editor, origin, size);
+  handleMouse(editor, origin, hovered);
+  drawMarkers(editor, origin);
+  drawOverlay(editor, origin, size);
+  contextMenu(editor);
+}
+
+}  // namespace standpoint

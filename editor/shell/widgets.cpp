@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/shell/widgets.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui_internal.h>
+#include <imgui_stdlib.h>
+
+#include "editor/editor.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/theme.h"
+
+namespace standpoint {
+
+namespace ui {
+
+void tooltip(const std::string& text) {
+  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1.0F);   // also inside a disabled block
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+  ImGui::PopStyleVar();
+}
+
+bool button(const char* label, const std::string& why, ImVec2 size, const char* tip) {
+  ImGui::BeginDisabled(!why.empty());
+  const bool pressed = ImGui::Button(label, size);
+  ImGui::EndDisabled();
+  tooltip(why.empty() && tip != nullptr ? tip : why);
+  return pressed;
+}
+
+bool primaryButton(const char* label, const std::string& why, ImVec2 size) {
+  ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.17F, 0.41F, 0.74F, 1));
+  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImVec4(0.22F, 0.48F, 0.84F, 1));
+  ImGui::PushStyleColor(ImGuiCol_ButtonActive, ImVec4(0.14F, 0.36F, 0.66F, 1));
+  const bool pressed = button(label, why, size);
+  ImGui::PopStyleColor(3);
+  return pressed;
+}
+
+bool iconButton(const char* label, const char* tip, const std::string& why, bool lit) {
+  ImGui::PushStyleColor(ImGuiCol_Button, lit ? ImVec4(0.25F, 0.56F, 0.97F, 0.30F) : ImVec4(0, 0, 0, 0));
+  ImGui::BeginDisabled(!why.empty());
+  const bool pressed = ImGui::Button(label);
+  ImGui::EndDisabled();
+  ImGui::PopStyleColor();
+  tooltip(why.empty() ? std::string(tip) : std::string(tip) + "\n" + why);
+  return pressed;
+}
+
+void heading(const Editor& editor, const char* text) {
+  ImGui::Dummy({0, editor.px(3)});
+  if (editor.fonts.bold != nullptr) ImGui::PushFont(editor.fonts.bold);
+  ImGui::TextUnformatted(text);
+  if (editor.fonts.bold != nullptr) ImGui::PopFont();
+}
+
+void dimText(const std::string& text) { ImGui::TextDisabled("%s", text.c_str()); }
+
+void wrapped(const std::string& text) {
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+}
+
+void gap(const Editor& editor, float points) { ImGui::Dummy({0, editor.px(points)}); }
+
+void emptyState(const Editor& editor, const char* icon, const char* title, const char* text) {
+  const float width = ImGui::GetContentRegionAvail().x;
+  const float left = ImGui::GetCursorPosX();
+  const auto centred = [&](const char* line) {
+    const float own = ImGui::CalcTextSize(line).x;
+    ImGui::SetCursorPosX(left + std::max(0.0F, (width - own) / 2));
+  };
+  ImGui::Dummy({0, std::min(editor.px(28), ImGui::GetContentRegionAvail().y * 0.12F)});
+  if (editor.fonts.huge != nullptr) ImGui::PushFont(editor.fonts.huge);
+  centred(icon);
+  ImGui::TextColored({0.33F, 0.37F, 0.43F, 1}, "%s", icon);
+  if (editor.fonts.huge != nullptr) ImGui::PopFont();
+  centred(title);
+  ImGui::TextUnformatted(title);
+  const float inset = std::min(width * 0.08F, editor.px(40));
+  ImGui::SetCursorPosX(left + inset);
+  ImGui::PushTextWrapPos(left + width - inset);
+  ImGui::TextDisabled("%s", text);
+  ImGui::PopTextWrapPos();
+  gap(editor, 6);
+}
+
+bool beginProperties(const char* id, float label_share) {
+  if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_NoPadOuterX)) return false;
+  ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthStretch, label_share);
+  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 1 - label_share);
+  return true;
+}
+
+void propertyLabel(const char* label) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::AlignTextToFramePadding();
+  fitted(std::string(label), ImGui::GetContentRegionAvail().x);
+  ImGui::TableNextColumn();
+  ImGui::SetNextItemWidth(-FLT_MIN);
+}
+
+void property(const char* label, const std::string& value) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  fitted(label, ImGui::GetContentRegionAvail().x);
+  ImGui::PopStyleColor();
+  ImGui::TableNextColumn();
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(value.empty() ? "–" : value.c_str());
+  ImGui::PopTextWrapPos();
+  if (!value.empty() && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) ImGui::SetClipboardText(value.c_str());
+}
+
+void endProperties() { ImGui::EndTable(); }
+
+void meter(const Editor& editor, double fraction, ImU32 fill, float height_points) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = editor.px(height_points);
+  auto& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(at, {at.x + width, at.y + height}, IM_COL32(27, 30, 36, 255), height / 2);
+  const float filled = width * static_cast<float>(std::clamp(fraction, 0.0, 1.0));
+  if (filled > height / 2) list.AddRectFilled(at, {at.x + filled, at.y + height}, fill, height / 2);
+  ImGui::Dummy({width, height});
+}
+
+void swatch(const Editor& editor, const Colour& shown) {
+  const float size = ImGui::GetTextLineHeight() - editor.px(3);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float top = at.y + (ImGui::GetTextLineHeight() - size) / 2;
+  ImGui::GetWindowDrawList()->AddRectFilled({at.x, top}, {at.x + size, top + size},
+                                            ImGui::ColorConvertFloat4ToU32({shown.r, shown.g, shown.b, 1}), editor.px(3));
+  ImGui::Dummy({size, ImGui::GetTextLineHeight()});
+}
+
+bool searchField(const char* id, const char* hint, std::string& text) {
+  ImGui::PushID(id);
+  const float clear_width = text.empty() ? 0 : ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x / 2;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - clear_width);
+  bool changed = ImGui::InputTextWithHint("###search", fmt::format("{}  {}", ICON_SEARCH, hint).c_str(), &text);
+  if (clear_width > 0) {
+    ImGui::SameLine(0, ImGui::GetStyle().ItemSpacing.x / 2);
+    if (iconButton(ICON_CLOSE "###clear", "Clear the search")) {
+      text.clear();
+      changed = true;
+    }
+  }
+  ImGui::PopID();
+  return changed;
+}
+
+void textRightAligned(const std::string& text) {
+  const float free = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+  if (free > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + free);
+  ImGui::TextUnformatted(text.c_str());
+}
+
+void fitted(const std::string& text, float width) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) {
+    ImGui::TextUnformatted(text.c_str());
+    return;
+  }
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float height = ImGui::GetTextLineHeight();
+  ImGui::Dummy({std::max(width, 1.0F), height});
+  ImGui::RenderTextEllipsis(ImGui::GetWindowDrawList(), at, {at.x + width, at.y + height + 2}, at.x + width, at.x + width,
+                            text.c_str(), nullptr, nullptr);
+  tooltip(text);
+}
+
+}  // namespace ui
+
+std::string groupedDigits(std::uint64_t number) {
+  std::string text = std::to_string(number);
+  for (auto i = static_cast<std::ptrdiff_t>(text.size()) - 3; i > 0; i -= 3) text.insert(static_cast<std::size_t>(i), " ");
+  return text;
+}
+
+std::string metres(double value, int decimals) { return fmt::format("{:.{}f} m", value, decimals); }
+
+}  // namespace standpoint

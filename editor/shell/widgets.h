@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include <imgui.h>
+
+#include "core/environment.h"
+
+namespace standpoint {
+
+struct Editor;
+
+// The few widgets that all panels are made of, so that they look and behave alike.
+namespace ui {
+
+// A button that says why it cannot be pressed. `why` empty = it can.
+bool button(const char* label, const std::string& why = {}, ImVec2 size = {0, 0}, const char* tooltip = nullptr);
+// The one button of a panel that does what the panel is for.
+bool primaryButton(const char* label, const std::string& why = {}, ImVec2 size = {0, 0});
+// An icon without a frame, for rows and bars.
+bool iconButton(const char* label, const char* tooltip, const std::string& why = {}, bool lit = false);
+void tooltip(const std::string& text);   // of the last item, also when it is disabled
+
+void heading(const Editor& editor, const char* text);
+void dimText(const std::string& text);
+void wrapped(const std::string& text);
+// An empty panel: what would be here, and how to get it.
+void emptyState(const Editor& editor, const char* icon, const char* title, const char* text);
+void gap(const Editor& editor, float points = 4);
+
+// Rows of label and value with aligned columns. Values can be selected by a double click: it copies them.
+bool beginProperties(const char* id, float label_share = 0.40F);
+void property(const char* label, const std::string& value);
+void propertyLabel(const char* label);   // then draw a widget in the value's column
+void endProperties();
+
+void meter(const Editor& editor, double fraction, ImU32 tone, float height_points = 6);
+void swatch(const Editor& editor, const Colour& colour);
+bool searchField(const char* id, const char* hint, std::string& text);
+void textRightAligned(const std::string& text);
+// Cuts the text with … to what fits; the tooltip then has all of it.
+void fitted(const std::string& text, float width);
+
+}  // namespace ui
+
+std::string groupedDigits(std::uint64_t number);      // 12 345 678
+std::string metres(double value, int decimals = 3);   // "1.250 m"
+
+}  // namespace standpoint

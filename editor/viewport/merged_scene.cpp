@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/viewport/merged_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace standpoint {
+
+namespace {
+
+constexpr double kSharp_rad = 0.5;   // 29°: a cylinder of 12 or more sides has no lines along it
+
+std::uint8_t byte(float value) { return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * 255)); }
+Rgba rgba(const Colour& c) { return {byte(c.r), byte(c.g), byte(c.b), byte(c.a)}; }
+
+bool visible(const ViewState& state, std::uint32_t product) {
+  if (!state.environment->products[product].tangible) return false;
+  return !state.hidden || product >= state.hidden->size() || (*state.hidden)[product] == 0;
+}
+
+void appendPositions(std::vector<float>& out, const Mesh& mesh, const Eigen::Affine3d& placed) {
+  for (const auto& p : mesh.positions) {
+    const Eigen::Vector3f world = (placed * p.cast<double>()).cast<float>();
+    out.insert(out.end(), {world.x(), world.y(), world.z()});
+  }
+}
+
+void appendTriangle(MergedTriangles& out, const Triangle& t, std::int64_t offset, bool mirrored, Rgba colour) {
+  out.corners.insert(out.corners.end(), {offset + t[0], offset + (mirrored ? t[2] : t[1]), offset + (mirrored ? t[1] : t[2])});
+  out.colours.push_back(colour);
+}
+
+std::int64_t pointCount(const MergedTriangles& out) { return static_cast<std::int64_t>(out.positions.size() / 3); }
+
+Colour physicalColour(const MaterialAssignment& assignment, std::int32_t material, ColourMode mode) {
+  if (material < 0) return materialColour(nullptr);
+  const auto& m = assignment.materials[static_cast<std::size_t>(material)];
+  const float alpha = m.transmittance.empty() ? 1.0F : 0.35F;
+  if (mode == ColourMode::reflectance) {
+    const auto grey = static_cast<float>(std::clamp(atWavelength(m.reflectance, kReflectanceWavelength_nm), 0.03, 1.0));
+    return {grey, grey, grey, alpha};
+  }
+  Colour c = materialColour(m.id.c_str());
+  c.a = alpha;
+  return c;
+}
+
+class Painter {
+ public:
+  explicit Painter(const ViewState& state) : state_(state) {}
+
+  Rgba of(std::uint32_t product, std::uint32_t surface) const {
+    if (state_.colour != ColourMode::model) {
+      if (!state_.materials) return rgba(materialColour(nullptr));
+      const auto& assignment = state_.materials->result.assignment;
+      return rgba(physicalColour(assignment, materialOf(assignment, product, surface), state_.colour));
+    }
+    Colour c = state_.environment->surfaces[surface].colour;
+    if (c.a < 1) c.a = std::clamp(c.a, 0.15F, 0.85F);   // glass stays to be seen
+    return rgba(c);
+  }
+
+ private:
+  const ViewState& state_;
+};
+
+}  // namespace
+
+MergedScene mergeVisible(const ViewState& state) {
+  MergedScene scene;
+  const Painter painter(state);
+  for (const auto& instance : state.environment->instances) {
+    if (!visible(state, instance.product)) continue;
+    const Mesh& mesh = *state.environment->meshes[instance.mesh];
+    const bool mirrored = instance.world_from_mesh.linear().determinant() < 0;
+    std::int64_t opaque_offset = -1, transparent_offset = -1;
+    std::uint32_t surface = ~0U;
+    Rgba colour{};
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (mesh.surface_of_triangle[t] != surface) colour = painter.of(instance.product, surface = mesh.surface_of_triangle[t]);
+      MergedTriangles& out = colour[3] == 255 ? scene.opaque : scene.transparent;
+      std::int64_t& offset = colour[3] == 255 ? opaque_offset : transparent_offset;
+      if (offset < 0) {
+        offset = pointCount(out);
+        appendPositions(out.positions, mesh, instance.world_from_mesh);
+      }
+      appendTriangle(out, mesh.triangles[t], offset, mirrored, colour);
+    }
+  }
+  return scene;
+}
+
+MergedTriangles mergeProducts(const Environment& environment, const std::vector<std::uint32_t>& products, Rgba colour) {
+  MergedTriangles out;
+  for (const auto& instance : environment.instances) {
+    if (!std::binary_search(products.begin(), products.end(), instance.product)) continue;
+    const Mesh& mesh = *environment.meshes[instance.mesh];
+    const auto offset = pointCount(out);
+    appendPositions(out.positions, mesh, instance.world_from_mesh);
+    for (const auto& t : mesh.triangles) appendTriangle(out, t, offset, false, colour);
+  }
+  return out;
+}
+
+MergedTriangles mergeShapes(const CollideResult& collision) {
+  static constexpr std::array<Rgba, 3> kColours = {Rgba{116, 170, 222, 255}, Rgba{134, 196, 148, 255}, Rgba{222, 178, 110, 255}};
+  MergedTriangles out;
+  for (const auto& shape : collision.shapes) {
+    const auto offset = pointCount(out);
+    appendPositions(out.positions, shape.mesh, Eigen::Affine3d::Identity());
+    for (const auto& t : shape.mesh.triangles) appendTriangle(out, t, offset, false, kColours[static_cast<std::size_t>(shape.kind)]);
+  }
+  return out;
+}
+
+MergedTriangles mergeMesh(const Mesh& mesh, Rgba colour, float lift_m) {
+  MergedTriangles out;
+  appendPositions(out.positions, mesh, Eigen::Affine3d(Eigen::Translation3d(0, 0, lift_m)));
+  for (const auto& t : mesh.triangles) appendTriangle(out, t, 0, false, colour);
+  return out;
+}
+
+const std::vector<EdgeLine>& EdgeCache::edgesOf(const std::shared_ptr<const Mesh>& mesh) {
+  auto& entry = entries_[mesh.get()];
+  if (entry.mesh.lock() != mesh) entry = {mesh, featureEdges(*mesh, kSharp_rad)};
+  return entry.lines;
+}
+
+MergedLines EdgeCache::edges(const ViewState& state, const std::vector<std::uint32_t>* only, std::uint64_t most) {
+  std::erase_if(entries_, [](const auto& e) { return e.second.mesh.expired(); });
+  MergedLines out;
+  if (only == nullptr && triangleCount(*state.environment) > most) return out;
+  for (const auto& instance : state.environment->instances) {
+    if (!visible(state, instance.product)) continue;
+    if (only != nullptr && !std::binary_search(only->begin(), only->end(), instance.product)) continue;
+    const auto& mesh = state.environment->meshes[instance.mesh];
+    std::map<std::uint32_t, std::int64_t> placed;
+    const auto place = [&](std::uint32_t corner) {
+      const auto [entry, fresh] = placed.try_emplace(corner, static_cast<std::int64_t>(out.positions.size() / 3));
+      if (fresh) {
+        const Eigen::Vector3f p = (instance.world_from_mesh * mesh->positions[corner].cast<double>()).cast<float>();
+        out.positions.insert(out.positions.end(), {p.x(), p.y(), p.z()});
+      }
+      return entry->second;
+    };
+    for (const auto& line : edgesOf(mesh)) {
+      out.ends.push_back(place(line[0]));
+      out.ends.push_back(place(line[1]));
+    }
+  }
+  return out;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "editor/model/view_state.h"
+#include "editor/viewport/feature_edges.h"
+
+namespace standpoint {
+
+using Rgba = std::array<std::uint8_t, 4>;
+
+// Plain arrays, ready to be handed to the graphics library: one mesh of all placed triangles, whatever they belong to.
+// Ten thousand small actors are twenty times slower to draw than one merged mesh.
+struct MergedTriangles {
+  std::vector<float> positions;          // x, y, z
+  std::vector<std::int64_t> corners;     // three per triangle
+  std::vector<Rgba> colours;             // one per triangle
+};
+struct MergedLines {
+  std::vector<float> positions;
+  std::vector<std::int64_t> ends;        // two per line
+};
+
+struct MergedScene {
+  MergedTriangles opaque, transparent;
+};
+
+MergedScene mergeVisible(const ViewState& state);
+MergedTriangles mergeProducts(const Environment& environment, const std::vector<std::uint32_t>& products, Rgba colour);
+MergedTriangles mergeShapes(const CollideResult& collision);
+MergedTriangles mergeMesh(const Mesh& mesh, Rgba colour, float lift_m);
+
+// Feature edges of meshes, kept as long as the mesh is.
+class EdgeCache {
+ public:
+  // Of the visible products; `only` restricts them (sorted). Empty above `most` triangles: there the lines would be a
+  // grey fog and take long.
+  MergedLines edges(const ViewState& state, const std::vector<std::uint32_t>* only, std::uint64_t most);
+
+ private:
+  const std::vector<EdgeLine>& edgesOf(const std::shared_ptr<const Mesh>& mesh);
+  struct Entry {
+    std::weak_ptr<const Mesh> mesh;
+    std::vector<EdgeLine> lines;
+  };
+  std::map<const Mesh*, Entry> entries_;
+};
+
+}  // namespace standpoint

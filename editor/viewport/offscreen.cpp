@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/viewport/offscreen.h"
+
+#include <vtk_glew.h>
+
+#include <vector>
+
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+#include <stb/stb_image_write.h>
+
+#include "editor/shell/shell.h"
+#include "editor/shell/theme.h"
+#include "editor/viewport/vtk_scene_view.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr int kFramesUntilStill = 6;   // layouts settle within two or three; popups take one more
+
+struct EglContext {
+  EGLDisplay display = EGL_NO_DISPLAY;
+  EGLContext context = EGL_NO_CONTEXT;
+
+  ~EglContext() {
+    if (display == EGL_NO_DISPLAY) return;
+    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
+    eglTerminate(display);
+  }
+
+  // "" when a context is current, else what failed.
+  const char* make() {
+    const auto platform = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
+    if (platform == nullptr) return "EGL cannot make a display without a window";
+    display = platform(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE) return "EGL has no surfaceless display";
+    if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) return "EGL has no OpenGL";
+    const EGLint config_wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+    EGLConfig config = nullptr;
+    EGLint found = 0;
+    eglChooseConfig(display, config_wanted, &config, 1, &found);
+    const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 2, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                             EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+    context = eglCreateContext(display, found > 0 ? config : nullptr, EGL_NO_CONTEXT, wanted);
+    if (context == EGL_NO_CONTEXT) return "OpenGL 3.2 is not available";
+    return eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_TRUE ? "" : "the OpenGL context cannot be used";
+  }
+};
+
+class EglOffscreen : public Offscreen {
+ public:
+  EglOffscreen(std::unique_ptr<EglContext> egl, int width, int height, float scale)
+      : egl_(std::move(egl)), width_(width), height_(height), scale_(scale) {
+    ImGui::CreateContext();
+    auto& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.ConfigInputTextCursorBlink = false;
+    io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
+    io.DeltaTime = 1.0F / 30;
+    io.MousePos = {-1, -1};
+    applyTheme(scale);
+    fonts_ = buildFonts(scale);
+    scene_ = makeVtkSceneView();
+    scene_->texture(ViewState(), 8, 8, false);   // loads the OpenGL functions
+    ImGui_ImplOpenGL3_Init("#version 150");
+    makeTarget();
+  }
+  ~EglOffscreen() override {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui::DestroyContext();
+    glDeleteFramebuffers(1, &framebuffer_);
+    glDeleteTextures(1, &texture_);
+    scene_.reset();
+  }
+  EglOffscreen(const EglOffscreen&) = delete;
+  EglOffscreen& operator=(const EglOffscreen&) = delete;
+
+  void adopt(Editor& editor) override {
+    editor.fonts = fonts_;
+    editor.scale = scale_;
+    editor.scene = scene_.get();
+    editor.fine_picture = true;
+  }
+
+  Result<void> picture(Editor& editor, const std::filesystem::path& png) override {
+    for (int i = 0; i < kFramesUntilStill; ++i) {
+      ImGui_ImplOpenGL3_NewFrame();
+      ImGui::NewFrame();
+      drawShell(editor);
+      ImGui::Render();
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+    glViewport(0, 0, width_, height_);
+    glClearColor(0.1F, 0.1F, 0.1F, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    std::vector<unsigned char> pixels(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 3);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
+    stbi_flip_vertically_on_write(1);
+    if (stbi_write_png(png.c_str(), width_, height_, 3, pixels.data(), width_ * 3) == 0)
+      return failure(ErrorKind::file_system, "the picture cannot be written", png.string());
+    return {};
+  }
+
+ private:
+  void makeTarget() {
+    glGenTextures(1, &texture_);
+    glBindTexture(GL_TEXTURE_2D, texture_);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width_, height_, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+    glGenFramebuffers(1, &framebuffer_);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_, 0);
+  }
+
+  std::unique_ptr<EglContext> egl_;
+  int width_, height_;
+  float scale_;
+  Fonts fonts_;
+  std::unique_ptr<SceneView> scene_;
+  GLuint texture_ = 0, framebuffer_ = 0;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Offscreen>> Offscreen::create(int width, int height, float scale) {
+  auto egl = std::make_unique<EglContext>();
+  if (const char* failed = egl->make(); *failed != 0)
+    return failure(ErrorKind::unusable, std::string(failed) + "; is a Mesa driver (libgl1-mesa-dri) installed?", "EGL");
+  return std::make_unique<EglOffscreen>(std::move(egl), width, height, scale);
+}
+
+}  // namespace standpoint

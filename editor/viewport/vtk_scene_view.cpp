@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/viewport/vtk_scene_view.h"
+
+#include <vtk_glew.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <string_view>
+
+#include <vtkActor.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkFloatArray.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkIdTypeArray.h>
+#include <vtkLight.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOpenGLFramebufferObject.h>
+#include <vtkPlane.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkTextureObject.h>
+#include <vtkUnsignedCharArray.h>
+
+#include "core/units.h"
+#include "editor/viewport/merged_scene.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr std::uint64_t kMostEdges = 1500000;
+constexpr int kFineSamples = 8;
+
+// Debian's GLEW speaks GLX only: without an X display glewInit() says "no GLX display" (4) though every entry point was
+// loaded, so both answers are good.
+class ForeignContextWindow : public vtkGenericOpenGLRenderWindow {
+ public:
+  static ForeignContextWindow* New();
+  vtkTypeMacro(ForeignContextWindow, vtkGenericOpenGLRenderWindow);
+  void OpenGLInitContext() override {
+    ContextCreationTime.Modified();
+    if (Initialized) return;
+    constexpr GLenum kNoGlxDisplay = 4;
+    const GLenum answer = glewInit();
+    GlewInitValid = answer == GLEW_OK || answer == kNoGlxDisplay;
+    Initialized = GlewInitValid;
+  }
+};
+vtkStandardNewMacro(ForeignContextWindow);
+
+vtkSmartPointer<vtkPoints> pointsOf(const std::vector<float>& positions) {
+  vtkNew<vtkFloatArray> array;
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(positions.size() / 3));
+  if (!positions.empty()) std::memcpy(array->GetPointer(0), positions.data(), positions.size() * sizeof(float));
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetData(array);
+  return points;
+}
+
+vtkSmartPointer<vtkCellArray> cellsOf(const std::vector<std::int64_t>& indices, vtkIdType size) {
+  vtkNew<vtkTypeInt64Array> array;
+  array->SetNumberOfTuples(static_cast<vtkIdType>(indices.size()));
+  if (!indices.empty()) std::memcpy(array->GetPointer(0), indices.data(), indices.size() * sizeof(std::int64_t));
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->SetData(size, array);
+  return cells;
+}
+
+vtkSmartPointer<vtkUnsignedCharArray> coloursOf(const std::vector<Rgba>& colours) {
+  auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  array->SetNumberOfComponents(4);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(colours.size()));
+  if (!colours.empty()) std::memcpy(array->GetPointer(0), colours.data(), colours.size() * sizeof(Rgba));
+  return array;
+}
+
+// One drawn thing: an actor whose geometry is replaced when it changes.
+struct Layer {
+  vtkNew<vtkPolyDataMapper> mapper;
+  vtkNew<vtkActor> actor;
+
+  void show(const MergedTriangles& triangles) {
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(pointsOf(triangles.positions));
+    data->SetPolys(cellsOf(triangles.corners, 3));
+    data->GetCellData()->SetScalars(coloursOf(triangles.colours));
+    set(data, triangles.colours.empty());
+  }
+  void show(const MergedLines& lines) {
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(pointsOf(lines.positions));
+    data->SetLines(cellsOf(lines.ends, 2));
+    set(data, lines.ends.empty());
+  }
+  void set(vtkPolyData* data, bool empty) {
+    mapper->SetInputData(data);
+    actor->SetMapper(mapper);
+    actor->SetVisibility(empty ? 0 : 1);
+  }
+  void hide() { actor->SetVisibility(0); }
+};
+
+// Squares of 1 m and, where the model is large, of 10 m; they fade towards the rim.
+vtkSmartPointer<vtkPolyData> groundGrid(const Bounds& bounds) {
+  const double reach = std::max(4.0, 0.9 * std::hypot(bounds.max.x() - bounds.min.x(), bounds.max.y() - bounds.min.y()));
+  const double step = std::pow(10.0, std::max(0.0, std::floor(std::log10(reach / 8))));
+  const Eigen::Vector3d centre = (bounds.min + bounds.max) / 2;
+  const double cx = std::round(centre.x() / step) * step, cy = std::round(centre.y() / step) * step, z = bounds.min.z() - 0.02;
+  const int lines = static_cast<int>(std::ceil(reach / step));
+  constexpr int kParts = 40;   // of a line, so that each can have its own strength
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetNumberOfComponents(4);
+  for (int axis = 0; axis < 2; ++axis)
+    for (int i = -lines; i <= lines; ++i)
+      for (int part = 0; part <= kParts; ++part) {
+        const double across = i * step, along = (2.0 * part / kParts - 1) * lines * step;
+        const double x = axis == 0 ? across : along, y = axis == 0 ? along : across;
+        const auto id = points->InsertNextPoint(cx + x, cy + y, z);
+        const double fade = std::clamp(1 - std::hypot(x, y) / (lines * step), 0.0, 1.0);
+        const auto absolute = std::lround(((axis == 0 ? cx : cy) + across) / step);
+        const double strength = absolute % 10 == 0 ? 150 : 70;
+        const unsigned char rgba[4] = {150, 162, 180, static_cast<unsigned char>(strength * fade)};
+        colours->InsertNextTypedTuple(rgba);
+        if (part == 0) continue;
+        const vtkIdType ends[2] = {id - 1, id};
+        cells->InsertNextCell(2, ends);
+      }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetLines(cells);
+  data->GetPointData()->SetScalars(colours);
+  return data;
+}
+
+class VtkSceneView : public SceneView {
+ public:
+  VtkSceneView() {
+    setUpWindow();
+    setUpLights();
+    setUpLayers();
+  }
+  ~VtkSceneView() override { window_->Finalize(); }
+  VtkSceneView(const VtkSceneView&) = delete;
+  VtkSceneView& operator=(const VtkSceneView&) = delete;
+
+  std::uint64_t texture(const ViewState& state, int width, int height, bool fine) override {
+    const int w = std::max(width, 8), h = std::max(height, 8);
+    const bool resized = window_->GetSize()[0] != w || window_->GetSize()[1] != h;
+    if (resized) window_->SetSize(w, h);
+    const bool changed = !drawn_ || !(*drawn_ == state);
+    // A picture that was made fine stays so until something changes.
+    if (changed || resized || (fine && !fine_)) {
+      update(state);
+      fine_ = fine;
+      window_->SetMultiSamples(fine ? kFineSamples : 0);
+      window_->Render();
+      drawn_ = state;
+    }
+    auto* buffer = window_->GetDisplayFramebuffer();
+    auto* colour = buffer != nullptr ? buffer->GetColorAttachmentAsTextureObject(0) : nullptr;
+    return colour != nullptr ? colour->GetHandle() : 0;
+  }
+
+ private:
+  void setUpWindow() {
+    window_->SetOwnContext(0);
+    window_->SetMapped(1);
+    window_->SetReadyForRendering(true);
+    window_->SetIsDirect(1);
+    window_->SetSupportsOpenGL(1);
+    window_->SetIsCurrent(true);
+    window_->SetFrameBlitModeToNoBlit();   // the picture is taken from the display framebuffer's texture
+    window_->SetMultiSamples(0);
+    window_->SetSize(8, 8);
+    window_->AddRenderer(renderer_);
+    renderer_->GradientBackgroundOn();     // also gives the texture an alpha of 1
+    renderer_->SetBackground(0.118, 0.129, 0.149);
+    renderer_->SetBackground2(0.267, 0.298, 0.345);
+    renderer_->SetAutomaticLightCreation(0);
+  }
+
+  // A low sun from the camera's left, the sky from above, and a little from below so that no face is black.
+  void setUpLights() {
+    addLight(VTK_LIGHT_TYPE_CAMERA_LIGHT, {-0.6, 0.5, 1.0}, {1.0, 0.985, 0.95}, 0.62);
+    addLight(VTK_LIGHT_TYPE_SCENE_LIGHT, {0.25, -0.4, 1.0}, {0.92, 0.96, 1.0}, 0.42);
+    addLight(VTK_LIGHT_TYPE_SCENE_LIGHT, {-0.5, 0.6, -0.4}, {0.85, 0.9, 1.0}, 0.16);
+  }
+
+  void addLight(int type, std::array<double, 3> position, std::array<double, 3> colour, double intensity) {
+    vtkNew<vtkLight> light;
+    light->SetLightType(type);
+    light->SetPosition(position[0], position[1], position[2]);
+    light->SetFocalPoint(0, 0, 0);
+    light->SetColor(colour.data());
+    light->SetIntensity(intensity);
+    light->SetPositional(0);
+    renderer_->AddLight(light);
+  }
+
+  void setUpSurface(Layer& layer, double offset) {
+    auto* property = layer.actor->GetProperty();
+    property->SetInterpolationToFlat();
+    property->SetAmbient(0.22);
+    property->SetDiffuse(0.80);
+    property->SetSpecular(0);
+    layer.mapper->SetScalarModeToUseCellData();
+    layer.mapper->SetColorModeToDirectScalars();
+    layer.mapper->SetResolveCoincidentTopologyToPolygonOffset();
+    layer.mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(offset, offset);
+    renderer_->AddActor(layer.actor);
+  }
+
+  void setUpLines(Layer& layer, std::array<double, 3> colour, double opacity, double width) {
+    auto* property = layer.actor->GetProperty();
+    property->SetLighting(false);
+    property->SetColor(colour.data());
+    property->SetOpacity(opacity);
+    property->SetLineWidth(static_cast<float>(width));
+    renderer_->AddActor(layer.actor);
+  }
+
+  void setUpLayers() {
+    setUpSurface(opaque_, 1);
+    setUpSurface(transparent_, 1);
+    transparent_.actor->ForceTranslucentOn();
+    setUpSurface(shapes_, 1);
+    setUpSurface(selected_, -1);
+    selected_.actor->ForceTranslucentOn();
+    selected_.actor->GetProperty()->SetAmbient(0.5);
+    setUpSurface(walkable_, -1);
+    walkable_.actor->ForceTranslucentOn();
+    walkable_.actor->GetProperty()->SetAmbient(0.8);
+    setUpLines(edges_, {0.07, 0.08, 0.10}, 0.55, 1);
+    setUpLines(outline_, {0.42, 0.71, 1.0}, 1, 2);
+    setUpLines(grid_, {0.6, 0.6, 0.6}, 1, 1);
+    grid_.actor->ForceTranslucentOn();
+    for (Layer* layer : {&opaque_, &transparent_, &shapes_, &selected_, &walkable_, &edges_, &outline_, &grid_}) layer->hide();
+  }
+
+  void update(const ViewState& state) {
+    const ViewState* last = drawn_ ? &*drawn_ : nullptr;
+    const bool environment = last == nullptr || last->environment != state.environment;
+    const bool shown = environment || last->hidden != state.hidden || last->shapes != state.shapes;
+    if (environment) bounds_ = state.environment ? bounds(*state.environment) : Bounds();
+    if (shown || last->materials != state.materials || last->colour != state.colour) updateSurfaces(state);
+    if (shown || last->edges != state.edges) updateEdges(state);
+    if (shown || last->selected != state.selected) updateSelection(state);
+    if (last == nullptr || last->collision != state.collision || last->walkable != state.walkable || last->shapes != state.shapes) updateCollision(state);
+    if (environment || last->grid != state.grid) updateGrid(state);
+    updateCut(state);
+    updateCamera(state.camera);
+  }
+
+  void updateSurfaces(const ViewState& state) {
+    opaque_.hide();
+    transparent_.hide();
+    if (!state.environment || state.shapes) return;
+    const auto merged = mergeVisible(state);
+    opaque_.show(merged.opaque);
+    transparent_.show(merged.transparent);
+  }
+
+  void updateEdges(const ViewState& state) {
+    edges_.hide();
+    if (state.environment && state.edges && !state.shapes) edges_.show(edge_cache_.edges(state, nullptr, kMostEdges));
+  }
+
+  void updateSelection(const ViewState& state) {
+    selected_.hide();
+    outline_.hide();
+    if (!state.environment || !state.selected || state.selected->empty()) return;
+    selected_.show(mergeProducts(*state.environment, *state.selected, {64, 144, 247, 110}));
+    outline_.show(edge_cache_.edges(state, state.selected.get(), kMostEdges));
+  }
+
+  void updateCollision(const ViewState& state) {
+    shapes_.hide();
+    walkable_.hide();
+    if (!state.collision) return;
+    if (state.shapes) shapes_.show(mergeShapes(*state.collision));
+    if (state.walkable) walkable_.show(mergeMesh(state.collision->walkable, {72, 200, 130, 120}, 0.03F));
+  }
+
+  void updateGrid(const ViewState& state) {
+    grid_.hide();
+    if (!state.grid || !state.environment || bounds_.empty()) return;
+    grid_.mapper->SetColorModeToDirectScalars();
+    grid_.set(groundGrid(bounds_), false);
+  }
+
+  void updateCut(const ViewState& state) {
+    for (Layer* layer : {&opaque_, &transparent_, &shapes_, &selected_, &walkable_, &edges_, &outline_}) {
+      layer->mapper->RemoveAllClippingPlanes();
+      if (!state.cut_height_m) continue;
+      vtkNew<vtkPlane> plane;
+      plane->SetOrigin(0, 0, *state.cut_height_m);
+      plane->SetNormal(0, 0, -1);
+      layer->mapper->AddClippingPlane(plane);
+    }
+  }
+
+  void updateCamera(const Camera& camera) {
+    auto* vtk = renderer_->GetActiveCamera();
+    const Eigen::Vector3d eye = camera.eye(), up = camera.up();
+    vtk->SetPosition(eye.x(), eye.y(), eye.z());
+    vtk->SetFocalPoint(camera.target.x(), camera.target.y(), camera.target.z());
+    vtk->SetViewUp(up.x(), up.y(), up.z());
+    vtk->SetViewAngle(camera.view_angle_rad / kRadPerDeg);
+    vtk->SetParallelProjection(camera.orthographic ? 1 : 0);
+    vtk->SetParallelScale(camera.heightAtTarget_m() / 2);
+    if (bounds_.empty()) {
+      vtk->SetClippingRange(0.1, 1000);
+      return;
+    }
+    const Eigen::Vector3d centre = (bounds_.min + bounds_.max) / 2;
+    const double radius = bounds_.diagonal() + 10;   // the grid reaches farther than the model
+    const double depth = (centre - eye).dot(camera.forward());
+    const double farthest = std::max(depth + 1.6 * radius, 1.0);
+    const double nearest = camera.orthographic ? depth - 1.6 * radius : std::max(depth - 1.6 * radius, std::max(0.02, farthest / 20000));
+    vtk->SetClippingRange(nearest, farthest);
+  }
+
+  vtkNew<ForeignContextWindow> window_;
+  vtkNew<vtkRenderer> renderer_;
+  Layer opaque_, transparent_, shapes_, selected_, walkable_, edges_, outline_, grid_;
+  EdgeCache edge_cache_;
+  Bounds bounds_;
+  std::optional<ViewState> drawn_;
+  bool fine_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<SceneView> makeVtkSceneView() { return std::make_unique<VtkSceneView>(); }
+
+}  // namespace standpoint

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/viewport/window.h"
+
+#include <vtk_glew.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include "editor/model/input_queue.h"
+#include "editor/shell/actions.h"
+#include "editor/shell/shell.h"
+#include "editor/shell/theme.h"
+#include "editor/viewport/vtk_scene_view.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr int kFramesAfterInput = 3;       // hovering and layouts settle one frame late
+constexpr double kStill_s = 0.25;          // without input the picture is made fine
+std::atomic<bool> window_open{false};
+
+constexpr std::pair<int, int> kKeyMap[] = {
+    {ImGuiKey_Tab, GLFW_KEY_TAB},       {ImGuiKey_LeftArrow, GLFW_KEY_LEFT}, {ImGuiKey_RightArrow, GLFW_KEY_RIGHT}, {ImGuiKey_UpArrow, GLFW_KEY_UP},
+    {ImGuiKey_DownArrow, GLFW_KEY_DOWN}, {ImGuiKey_PageUp, GLFW_KEY_PAGE_UP}, {ImGuiKey_PageDown, GLFW_KEY_PAGE_DOWN}, {ImGuiKey_Home, GLFW_KEY_HOME},
+    {ImGuiKey_End, GLFW_KEY_END},       {ImGuiKey_Insert, GLFW_KEY_INSERT},  {ImGuiKey_Delete, GLFW_KEY_DELETE},    {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
+    {ImGuiKey_Space, GLFW_KEY_SPACE},   {ImGuiKey_Enter, GLFW_KEY_ENTER},    {ImGuiKey_Escape, GLFW_KEY_ESCAPE},    {ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER},
+    {ImGuiKey_A, GLFW_KEY_A},           {ImGuiKey_C, GLFW_KEY_C},            {ImGuiKey_V, GLFW_KEY_V},              {ImGuiKey_X, GLFW_KEY_X},
+    {ImGuiKey_Y, GLFW_KEY_Y},           {ImGuiKey_Z, GLFW_KEY_Z}};
+
+class Window {
+ public:
+  Window(Editor& editor, GLFWwindow* handle) : editor_(editor), handle_(handle) {
+    ImGui::CreateContext();
+    auto& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.BackendFlags |= ImGuiBackendFlags_HasMouseCursors;
+    for (const auto& [key, glfw] : kKeyMap) io.KeyMap[key] = glfw;
+    io.ClipboardUserData = handle_;
+    io.SetClipboardTextFn = [](void* window, const char* text) { glfwSetClipboardString(static_cast<GLFWwindow*>(window), text); };
+    io.GetClipboardTextFn = [](void* window) { return glfwGetClipboardString(static_cast<GLFWwindow*>(window)); };
+    listen();
+    scene_ = makeVtkSceneView();
+    scene_->texture(ViewState(), 8, 8, false);   // loads the OpenGL functions
+    editor_.scene = scene_.get();
+    ImGui_ImplOpenGL3_Init("#version 150");
+    makeCursors();
+    rescale();
+  }
+  ~Window() {
+    for (auto* cursor : cursors_)
+      if (cursor != nullptr) glfwDestroyCursor(cursor);
+    editor_.scene = nullptr;
+    scene_.reset();
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui::DestroyContext();
+  }
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  void run() {
+    while (!editor_.quit) {
+      waitForWork();
+      if (glfwWindowShouldClose(handle_) != 0) {
+        glfwSetWindowShouldClose(handle_, GLFW_FALSE);
+        invoke(editor_, "quit");
+        frames_wanted_ = kFramesAfterInput;
+      }
+      keepRecoveryCopy();
+      drawFrame();
+    }
+  }
+
+ private:
+  static Window& of(GLFWwindow* handle) { return *static_cast<Window*>(glfwGetWindowUserPointer(handle)); }
+
+  void push(const InputEvent& event) {
+    input_.push(event);
+    last_input_s_ = glfwGetTime();
+  }
+
+  void listen() {
+    glfwSetWindowUserPointer(handle_, this);
+    using Kind = InputEvent::Kind;
+    glfwSetCursorPosCallback(handle_, [](GLFWwindow* w, double x, double y) { of(w).push({Kind::move, x, y}); });
+    glfwSetMouseButtonCallback(handle_, [](GLFWwindow* w, int button, int action, int modifiers) {
+      double x = 0, y = 0;
+      glfwGetCursorPos(w, &x, &y);
+      of(w).push({Kind::button, x, y, button, action == GLFW_PRESS, modifiers});
+    });
+    glfwSetScrollCallback(handle_, [](GLFWwindow* w, double x, double y) { of(w).push({Kind::scroll, x, y}); });
+    glfwSetKeyCallback(handle_, [](GLFWwindow* w, int key, int, int action, int modifiers) {
+      if (key >= 0 && action != GLFW_REPEAT) of(w).push({Kind::key, 0, 0, key, action == GLFW_PRESS, modifiers});
+    });
+    glfwSetCharCallback(handle_, [](GLFWwindow* w, unsigned code) { of(w).push({Kind::character, 0, 0, static_cast<int>(code)}); });
+    glfwSetWindowFocusCallback(handle_, [](GLFWwindow* w, int focused) { of(w).focus_lost_ = of(w).focus_lost_ || focused == 0; });
+    glfwSetDropCallback(handle_, [](GLFWwindow* w, int count, const char** paths) {
+      if (count > 0) openPath(of(w).editor_, paths[0]);
+      of(w).frames_wanted_ = kFramesAfterInput;
+    });
+    glfwSetFramebufferSizeCallback(handle_, [](GLFWwindow* w, int, int) { of(w).frames_wanted_ = kFramesAfterInput; });
+    glfwSetWindowContentScaleCallback(handle_, [](GLFWwindow* w, float, float) { of(w).frames_wanted_ = kFramesAfterInput; });
+    glfwSetWindowRefreshCallback(handle_, [](GLFWwindow* w) { of(w).frames_wanted_ = kFramesAfterInput; });
+  }
+
+  void makeCursors() {
+    cursors_[ImGuiMouseCursor_Arrow] = glfwCreateStandardCursor(GLFW_ARROW_CURSOR);
+    cursors_[ImGuiMouseCursor_TextInput] = glfwCreateStandardCursor(GLFW_IBEAM_CURSOR);
+    cursors_[ImGuiMouseCursor_ResizeNS] = glfwCreateStandardCursor(GLFW_VRESIZE_CURSOR);
+    cursors_[ImGuiMouseCursor_ResizeEW] = glfwCreateStandardCursor(GLFW_HRESIZE_CURSOR);
+    cursors_[ImGuiMouseCursor_Hand] = glfwCreateStandardCursor(GLFW_HAND_CURSOR);
+  }
+
+  // Nothing is drawn while nothing happens. Tasks and the ray scene wake us; a blinking text cursor and the moment when
+  // the picture may be made fine need a clock.
+  void waitForWork() {
+    glfwPollEvents();
+    if (input_.pending() || frames_wanted_ > 0) return;
+    if (ImGui::GetIO().WantTextInput) {
+      glfwWaitEventsTimeout(0.4);
+    } else if (!editor_.fine_picture) {
+      glfwWaitEventsTimeout(std::max(0.01, last_input_s_ + kStill_s - glfwGetTime()));
+      editor_.fine_picture = !input_.pending() && glfwGetTime() - last_input_s_ >= kStill_s;
+    } else if (editor_.settings.recovery_minutes > 0 && editor_.session.modified()) {
+      glfwWaitEventsTimeout(editor_.settings.recovery_minutes * 60.0);
+    } else {
+      glfwWaitEvents();
+    }
+    frames_wanted_ = std::max(frames_wanted_, 1);
+  }
+
+  void takeInput() {
+    auto& io = ImGui::GetIO();
+    if (focus_lost_) {
+      std::memset(io.KeysDown, 0, sizeof io.KeysDown);
+      io.KeyCtrl = io.KeyShift = io.KeyAlt = io.KeySuper = false;
+      focus_lost_ = false;
+    }
+    const auto events = input_.takeFrame();
+    if (!events.empty()) {
+      frames_wanted_ = kFramesAfterInput;
+      editor_.fine_picture = false;
+    }
+    for (const auto& e : events) apply(io, e);
+  }
+
+  static void apply(ImGuiIO& io, const InputEvent& e) {
+    switch (e.kind) {
+      case InputEvent::Kind::move: io.MousePos = {static_cast<float>(e.x), static_cast<float>(e.y)}; break;
+      case InputEvent::Kind::button:
+        io.MousePos = {static_cast<float>(e.x), static_cast<float>(e.y)};
+        if (e.code >= 0 && e.code < 5) io.MouseDown[e.code] = e.down;
+        break;
+      case InputEvent::Kind::scroll:
+        io.MouseWheelH += static_cast<float>(e.x);
+        io.MouseWheel += static_cast<float>(e.y);
+        break;
+      case InputEvent::Kind::key:
+        if (e.code < 512) io.KeysDown[e.code] = e.down;
+        break;
+      case InputEvent::Kind::character: io.AddInputCharacter(static_cast<unsigned>(e.code)); break;
+    }
+    const auto down = [&](int left, int right) { return io.KeysDown[left] || io.KeysDown[right]; };
+    io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
+    io.KeyShift = down(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
+    io.KeyAlt = down(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT);
+    io.KeySuper = down(GLFW_KEY_LEFT_SUPER, GLFW_KEY_RIGHT_SUPER);
+  }
+
+  // Fonts are made for the exact size, so another monitor or another preference builds them anew.
+  void rescale() {
+    float x = 1, y = 1;
+    glfwGetWindowContentScale(handle_, &x, &y);
+    const float wanted = std::max(x, 0.5F) * static_cast<float>(editor_.settings.user_scale);
+    if (wanted == built_scale_) return;
+    built_scale_ = editor_.scale = wanted;
+    applyTheme(wanted);
+    editor_.fonts = buildFonts(wanted);
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+    frames_wanted_ = kFramesAfterInput;
+  }
+
+  void drawFrame() {
+    int window_w = 0, window_h = 0, w = 0, h = 0;
+    glfwGetWindowSize(handle_, &window_w, &window_h);
+    glfwGetFramebufferSize(handle_, &w, &h);
+    if (frames_wanted_ > 0) --frames_wanted_;
+    if (w <= 0 || h <= 0) return;   // minimised
+    auto& io = ImGui::GetIO();
+    io.DisplaySize = {static_cast<float>(window_w), static_cast<float>(window_h)};
+    io.DisplayFramebufferScale = {static_cast<float>(w) / static_cast<float>(window_w), static_cast<float>(h) / static_cast<float>(window_h)};
+    const double now = glfwGetTime();
+    io.DeltaTime = static_cast<float>(std::clamp(now - last_frame_s_, 1e-4, 0.2));
+    last_frame_s_ = now;
+    takeInput();
+    rescale();
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui::NewFrame();
+    drawShell(editor_);
+    ImGui::Render();
+    glViewport(0, 0, w, h);
+    glClearColor(0.09F, 0.10F, 0.11F, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    glfwSwapBuffers(handle_);
+    showCursor();
+    showTitle();
+  }
+
+  void showCursor() {
+    const auto wanted = ImGui::GetMouseCursor();
+    auto* cursor = wanted >= 0 && wanted < ImGuiMouseCursor_COUNT ? cursors_[wanted] : nullptr;
+    glfwSetCursor(handle_, cursor != nullptr ? cursor : cursors_[ImGuiMouseCursor_Arrow]);
+  }
+
+  void showTitle() {
+    const std::string title = editor_.session.name() + (editor_.session.modified() ? " •" : "") + " – Standpoint";
+    if (title == title_) return;
+    title_ = title;
+    glfwSetWindowTitle(handle_, title.c_str());
+  }
+
+  void keepRecoveryCopy() {
+    const auto& session = editor_.session;
+    const int minutes = editor_.settings.recovery_minutes;
+    const double now = glfwGetTime();
+    if (minutes == 0 || !session.modified() || kept_revision_ == session.revision() || now - last_kept_s_ < minutes * 60.0) return;
+    const auto folder = recoveryFolder(recoveryRoot(), getpid());
+    if (!writeRecoveryOwner(folder, session.name(), session.folder().string())) return;
+    if (!editor_.session.saveRecovery(folder / "copy")) return;
+    last_kept_s_ = now;
+    kept_revision_ = session.revision();
+  }
+
+  Editor& editor_;
+  GLFWwindow* handle_;
+  InputQueue input_;
+  std::unique_ptr<SceneView> scene_;
+  GLFWcursor* cursors_[ImGuiMouseCursor_COUNT] = {};
+  int frames_wanted_ = kFramesAfterInput;
+  double last_input_s_ = 0, last_frame_s_ = 0, last_kept_s_ = 0;
+  std::uint64_t kept_revision_ = 0;
+  float built_scale_ = 0;
+  bool focus_lost_ = false;
+  std::string title_;
+};
+
+}  // namespace
+
+void wakeWindow() {
+  if (window_open.load()) glfwPostEmptyEvent();
+}
+
+Result<void> runWindow(Editor& editor, int width, int height) {
+  static std::string last_glfw_error;
+  glfwSetErrorCallback([](int, const char* text) { last_glfw_error = text; });
+  if (glfwInit() == GLFW_FALSE)
+    return failure(ErrorKind::unusable, last_glfw_error + "; without a display use --pictures OUTDIR PROJECT", "window");
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 2);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  GLFWwindow* handle = glfwCreateWindow(width, height, "Standpoint", nullptr, nullptr);
+  if (handle == nullptr) {
+    glfwTerminate();
+    return failure(ErrorKind::unusable, last_glfw_error + "; the editor needs OpenGL 3.2", "window");
+  }
+  glfwSetWindowSizeLimits(handle, 800, 500, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  glfwMakeContextCurrent(handle);
+  glfwSwapInterval(1);
+  window_open.store(true);
+  {
+    Window window(editor, handle);
+    window.run();
+  }
+  editor.session.wait();   // a task that still runs may wake a window that is about to go
+  window_open.store(false);
+  glfwDestroyWindow(handle);
+  glfwTerminate();
+  removeRecovery(recoveryFolder(recoveryRoot(), getpid()));
+  return {};
+}
+
+}  // namespace standpoint
