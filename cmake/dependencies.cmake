@@ -20,7 +20,6 @@ find_package(CLI11 REQUIRED)
 find_package(CGAL REQUIRED)
 pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
 target_link_libraries(PkgConfig::IMGUI INTERFACE Freetype::Freetype)  # imgui.pc forgets it
-find_package(CGAL REQUIRED)
 pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet)
 find_library(RECAST NAMES Recast REQUIRED)  # ships no configuration of its own
 find_library(GEOGRAPHICLIB NAMES GeographicLib Geographic REQUIRED)
