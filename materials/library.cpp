@@ -57,7 +57,8 @@ Result<void> readSources(const nlohmann::json& entry, const JsonPlace& at, Physi
   for (const auto& item : sources->items())
     if (item.key() == "id" || item.key() == "label" || item.key() == "source" || !entry.contains(item.key()))
       return (here / item.key()).unusable("is the source of a figure that the entry does not have");
-  for (const char* key : {"reflectance", "roughness_rad", "gloss_slope", "index_of_refraction", "thickness_m", "transmittance"}) {
+  for (const char* key :
+       {"reflectance", "roughness_rad", "gloss_slope", "index_of_refraction", "thickness_m", "transmittance"}) {
     if (!entry.contains(key)) continue;
     auto text = readText(*sources, here, key);
     if (!text) return failure(text.error());
@@ -102,8 +103,9 @@ Result<std::string> readId(const nlohmann::json& entry, const JsonPlace& at) {
 
 Result<PhysicalMaterial> readEntry(const nlohmann::json& entry, const JsonPlace& at) {
   PhysicalMaterial material;
-  if (auto checked = checkKeys(entry, at, {"id", "label", "reflectance", "roughness_rad", "gloss_slope",
-                                           "index_of_refraction", "thickness_m", "transmittance", "source"});
+  if (auto checked = checkKeys(entry, at,
+                               {"id", "label", "reflectance", "roughness_rad", "gloss_slope", "index_of_refraction",
+                                "thickness_m", "transmittance", "source"});
       !checked)
     return failure(checked.error());
   const auto id = readId(entry, at);
