@@ -118,7 +118,11 @@ class Assigner {
  public:
   Assigner(const Environment& environment, const std::vector<PhysicalMaterial>& library,
            const std::vector<AssignmentRule>& rules, const std::vector<MaterialOverride>& overrides)
-      : environment_(environment), library_(library), rules_(rules), overrides_(overrides), matcher_(rules),
+      : environment_(environment),
+        library_(library),
+        rules_(rules),
+        overrides_(overrides),
+        matcher_(rules),
         table_(environment, overrides) {
     for (std::size_t i = 0; i < library.size(); ++i) by_id_.emplace(library[i].id, static_cast<std::int32_t>(i));
   }
@@ -126,7 +130,8 @@ class Assigner {
   Result<void> checkIds() const {
     for (std::size_t i = 0; i < rules_.size(); ++i)
       if (!by_id_.contains(rules_[i].assign))
-        return failure(ErrorKind::usage, "'" + rules_[i].assign + "' is not in the library", "rule /" + std::to_string(i));
+        return failure(ErrorKind::usage, "'" + rules_[i].assign + "' is not in the library",
+                       "rule /" + std::to_string(i));
     for (const auto& o : overrides_)
       if (!by_id_.contains(o.material))
         return failure(ErrorKind::usage, "'" + o.material + "' is not in the library of materials", o.selector);
@@ -158,7 +163,8 @@ class Assigner {
                      [](const MaterialUse& a, const MaterialUse& b) { return a.area_m2 > b.area_m2; });
     for (std::size_t i = 0; i < overrides_.size(); ++i)
       if (!table_.selects(i))
-        result.report.findings.push_back({"warning", overrides_[i].selector, "the selector means no surface of this model"});
+        result.report.findings.push_back(
+            {"warning", overrides_[i].selector, "the selector means no surface of this model"});
     for (auto& finding : findings_.findings(environment_)) result.report.findings.push_back(std::move(finding));
     keepUsed(result.assignment);
     return result;
@@ -178,14 +184,16 @@ class Assigner {
     const auto& surface = environment_.surfaces[pair.surface];
     const auto decision = matcher_.decide(product, surface);
     if (decision.rule < 0) {
-      findings_.add({true, "no rule fits " + surfaceText(pair) + " of", product.ifc_class, ""}, pair.product, pair.area_m2);
+      findings_.add({true, "no rule fits " + surfaceText(pair) + " of", product.ifc_class, ""}, pair.product,
+                    pair.area_m2);
       return;
     }
     const auto& rule = rules_[static_cast<std::size_t>(decision.rule)];
     result.material = by_id_.at(rule.assign);
     result.reason = matcher_.reason(decision, product);
-    if (!rule.colour.empty()) result.reason += (result.reason.find(':') == std::string::npos ? ": " : ", ") +
-                                               std::string("colour ") + std::string(colourBand(surface.colour));
+    if (!rule.colour.empty())
+      result.reason += (result.reason.find(':') == std::string::npos ? ": " : ", ") + std::string("colour ") +
+                       std::string(colourBand(surface.colour));
     if (decision.generic)
       findings_.add({false, "only class and colour decided for " + surfaceText(pair) + " of", product.ifc_class,
                      ": " + rule.assign + ", " + result.reason},
@@ -210,17 +218,20 @@ class Assigner {
     const auto& ifc_class = environment_.products[pair.product].ifc_class;
     has_pane_ = has_pane_ || transmits(material);
     if (isTransparent(colour) && !transmits(material))
-      findings_.add({true, "transparent " + surfaceText(pair) + " of", ifc_class, " has the opaque material " + material.id},
-                    pair.product, pair.area_m2);
+      findings_.add(
+          {true, "transparent " + surfaceText(pair) + " of", ifc_class, " has the opaque material " + material.id},
+          pair.product, pair.area_m2);
     if (!isTransparent(colour) && colour != Colour{} && transmits(material))
-      findings_.add({true, "opaque " + surfaceText(pair) + " of", ifc_class, " has the transparent material " + material.id},
-                    pair.product, pair.area_m2);
+      findings_.add(
+          {true, "opaque " + surfaceText(pair) + " of", ifc_class, " has the transparent material " + material.id},
+          pair.product, pair.area_m2);
   }
 
   // A window whose file knows no pane of its own would stop every beam.
   void closeProduct() {
     if (product_ && !has_pane_ && environment_.products[*product_].ifc_class.starts_with("IfcWindow"))
-      findings_.add({true, "no surface is of glass in", environment_.products[*product_].ifc_class, ""}, *product_, product_m2_);
+      findings_.add({true, "no surface is of glass in", environment_.products[*product_].ifc_class, ""}, *product_,
+                    product_m2_);
     has_pane_ = false;
     product_m2_ = 0;
     product_.reset();
@@ -229,7 +240,8 @@ class Assigner {
   void keepUsed(MaterialAssignment& assignment) {
     std::map<std::string, std::int32_t> used;
     for (const auto& surface : assigned_)
-      if (surface.material >= 0) used.emplace(library_[static_cast<std::size_t>(surface.material)].id, surface.material);
+      if (surface.material >= 0)
+        used.emplace(library_[static_cast<std::size_t>(surface.material)].id, surface.material);
     std::vector<std::int32_t> new_index(library_.size(), -1);
     for (const auto& [id, index] : used) {
       new_index[static_cast<std::size_t>(index)] = static_cast<std::int32_t>(assignment.materials.size());

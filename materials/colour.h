@@ -8,7 +8,7 @@
 
 namespace standpoint {
 
-constexpr std::array<std::string_view, 12> kColourBands = {"transparent", "white", "grey",  "black", "red",  "brown",
+constexpr std::array<std::string_view, 12> kColourBands = {"transparent", "white", "grey",   "black", "red",  "brown",
                                                            "orange",      "beige", "yellow", "green", "blue", "violet"};
 
 // A pane drawn with some tint still counts as transparent; viewers draw 20 % as barely so.

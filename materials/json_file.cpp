@@ -13,10 +13,10 @@ namespace {
 constexpr std::uintmax_t kLargestFile = 16U << 20U;  // the whole library shipped is 0.1 MB
 constexpr int kDeepest = 32;
 
-// nlohmann-json keeps the last of two equal keys; a figure given twice must not vanish, so keys are watched while parsing.
+// nlohmann-json keeps the last of two equal keys; a figure given twice must not vanish, so keys are watched while
+// parsing.
 class KeyWatch {
  public:
-
   bool operator()(int depth, nlohmann::json::parse_event_t event, const nlohmann::json& parsed) {
     using Event = nlohmann::json::parse_event_t;
     if (depth > kDeepest) wrong_ = "is nested deeper than " + std::to_string(kDeepest) + " levels";
@@ -65,7 +65,8 @@ Result<nlohmann::json> readJsonArray(const std::filesystem::path& file) {
   KeyWatch watch;
   nlohmann::json result;
   try {
-    result = nlohmann::json::parse(*text, [&](int depth, auto event, auto& parsed) { return watch(depth, event, parsed); });
+    result =
+        nlohmann::json::parse(*text, [&](int depth, auto event, auto& parsed) { return watch(depth, event, parsed); });
   } catch (const nlohmann::json::parse_error& error) {
     const auto end = text->begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text->size()));
     return failure(ErrorKind::unusable, "is not JSON: " + std::string(error.what()),
@@ -78,7 +79,8 @@ Result<nlohmann::json> readJsonArray(const std::filesystem::path& file) {
   return result;
 }
 
-Result<void> checkKeys(const nlohmann::json& value, const JsonPlace& at, std::initializer_list<std::string_view> known) {
+Result<void> checkKeys(const nlohmann::json& value, const JsonPlace& at,
+                       std::initializer_list<std::string_view> known) {
   if (!value.is_object()) return at.unusable("must be an object");
   for (const auto& item : value.items())
     if (std::find(known.begin(), known.end(), item.key()) == known.end()) {

@@ -22,7 +22,8 @@ struct JsonPlace {
   tl::unexpected<Error> unusable(std::string message) const;
 };
 
-// The whole file as one array. A file that is too large, syntax errors and a key given twice are errors with their place.
+// The whole file as one array. A file that is too large, syntax errors and a key given twice are errors with their
+// place.
 Result<nlohmann::json> readJsonArray(const std::filesystem::path& file);
 
 Result<void> checkKeys(const nlohmann::json& value, const JsonPlace& at, std::initializer_list<std::string_view> known);

@@ -57,7 +57,8 @@ Result<void> readSources(const nlohmann::json& entry, const JsonPlace& at, Physi
   for (const auto& item : sources->items())
     if (item.key() == "id" || item.key() == "label" || item.key() == "source" || !entry.contains(item.key()))
       return (here / item.key()).unusable("is the source of a figure that the entry does not have");
-  for (const char* key : {"reflectance", "roughness_rad", "gloss_slope", "index_of_refraction", "thickness_m", "transmittance"}) {
+  for (const char* key :
+       {"reflectance", "roughness_rad", "gloss_slope", "index_of_refraction", "thickness_m", "transmittance"}) {
     if (!entry.contains(key)) continue;
     auto text = readText(*sources, here, key);
     if (!text) return failure(text.error());
@@ -76,7 +77,9 @@ Result<void> checkEnergy(const PhysicalMaterial& material, const JsonPlace& at) 
   }
   for (std::size_t i = 0; i < material.transmittance.size(); ++i) {
     const auto [wavelength, through] = material.transmittance[i];
-    if (through + specular + atWavelength(material.reflectance, wavelength) > 1 + kRounding)
+    // Both faces of a pane reflect r(1 + T) without absorption and less with it, so no real pane is refused.
+    const double back = specular * (1 + through) + atWavelength(material.reflectance, wavelength);
+    if (through + back > 1 + kRounding)
       return (at / "transmittance" / i).unusable("transmitted and reflected part together exceed 1");
   }
   return {};
@@ -102,8 +105,9 @@ Result<std::string> readId(const nlohmann::json& entry, const JsonPlace& at) {
 
 Result<PhysicalMaterial> readEntry(const nlohmann::json& entry, const JsonPlace& at) {
   PhysicalMaterial material;
-  if (auto checked = checkKeys(entry, at, {"id", "label", "reflectance", "roughness_rad", "gloss_slope",
-                                           "index_of_refraction", "thickness_m", "transmittance", "source"});
+  if (auto checked = checkKeys(entry, at,
+                               {"id", "label", "reflectance", "roughness_rad", "gloss_slope", "index_of_refraction",
+                                "thickness_m", "transmittance", "source"});
       !checked)
     return failure(checked.error());
   const auto id = readId(entry, at);

@@ -22,7 +22,7 @@ class Pattern {
   const std::string& glob(int index) const { return globs_[static_cast<std::size_t>(index)]; }
 
  private:
-  std::vector<std::string> globs_;   // as written
+  std::vector<std::string> globs_;  // as written
   std::vector<std::string> folded_;
 };
 

@@ -15,8 +15,8 @@ constexpr int kNoPattern = -2;
 
 RuleMatcher::RuleMatcher(std::span<const AssignmentRule> rules) {
   for (const auto& rule : rules)
-    rules_.push_back({Pattern(rule.ifc_class), Pattern(rule.material), Pattern(rule.name), Pattern(rule.colour),
-                      rule.hidden});
+    rules_.push_back(
+        {Pattern(rule.ifc_class), Pattern(rule.material), Pattern(rule.name), Pattern(rule.colour), rule.hidden});
 }
 
 const RuleMatcher::Fits& RuleMatcher::fits(Memo& memo, Field field, const std::string& text) {
@@ -25,9 +25,9 @@ const RuleMatcher::Fits& RuleMatcher::fits(Memo& memo, Field field, const std::s
   const auto plain = folded(text);
   for (const auto& rule : rules_) {
     const auto& pattern = rule.*field;
-    place->second.push_back(pattern.empty()                       ? kNoPattern
+    place->second.push_back(pattern.empty()                     ? kNoPattern
                             : field == &RulePatterns::ifc_class ? fitClass(pattern, text)
-                                                                  : pattern.fit(plain));
+                                                                : pattern.fit(plain));
   }
   return place->second;
 }

@@ -21,9 +21,9 @@ class RuleMatcher {
   explicit RuleMatcher(std::span<const AssignmentRule> rules);
 
   struct Decision {
-    std::int32_t rule = -1;   // -1: none fits
-    std::string text;         // the material's name that the rules were asked with; "" when no rule knows any name
-    bool generic = false;     // only class or colour decided
+    std::int32_t rule = -1;  // -1: none fits
+    std::string text;        // the material's name that the rules were asked with; "" when no rule knows any name
+    bool generic = false;    // only class or colour decided
   };
   Decision decide(const Product& product, const Surface& surface);
 

@@ -38,10 +38,9 @@ Result<AssignmentRule> readRule(const nlohmann::json& entry, const JsonPlace& at
   if (auto checked = checkKeys(entry, at, {"ifc_class", "material", "name", "colour", "assign", "hidden"}); !checked)
     return failure(checked.error());
   AssignmentRule rule;
-  for (const auto& [key, field] : {std::pair{"ifc_class", &AssignmentRule::ifc_class},
-                                   std::pair{"material", &AssignmentRule::material},
-                                   std::pair{"name", &AssignmentRule::name},
-                                   std::pair{"colour", &AssignmentRule::colour}}) {
+  for (const auto& [key, field] :
+       {std::pair{"ifc_class", &AssignmentRule::ifc_class}, std::pair{"material", &AssignmentRule::material},
+        std::pair{"name", &AssignmentRule::name}, std::pair{"colour", &AssignmentRule::colour}}) {
     if (!entry.contains(key)) continue;
     auto globs = readText(entry, at, key);
     if (!globs) return failure(globs.error());

@@ -12,7 +12,7 @@ namespace standpoint {
 namespace {
 
 struct Selector {
-  std::string_view kind;   // "class", …; empty: an id or a GlobalId
+  std::string_view kind;  // "class", …; empty: an id or a GlobalId
   std::string_view value;
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <chrono>
-
 #include <gmock/gmock.h>
 
 #include "tests/materials/fixtures.h"
@@ -26,12 +25,12 @@ TEST(Coverage, IsTheShareOfPlacedArea) {
   Builder b;
   const auto known = b.surface("Beton");
   const auto other = b.surface("Unobtainium");
-  b.product("IfcWall", "A", {known, other});                                                     // 1 + 1
-  b.product("IfcWall", "B", {known}, Eigen::Affine3d(Eigen::Scaling(2.0, 3.0, 1.0)));            // 6, uneven
-  b.product("IfcWall", "C", {other}, Eigen::Affine3d(Eigen::Scaling(-2.0)));                     // 4, mirrored
+  b.product("IfcWall", "A", {known, other});                                           // 1 + 1
+  b.product("IfcWall", "B", {known}, Eigen::Affine3d(Eigen::Scaling(2.0, 3.0, 1.0)));  // 6, uneven
+  b.product("IfcWall", "C", {other}, Eigen::Affine3d(Eigen::Scaling(-2.0)));           // 4, mirrored
   Eigen::Affine3d turned(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()));
   turned.pretranslate(Eigen::Vector3d(1000, -2000, 30));
-  b.product("IfcWall", "D", {known}, turned);                                                    // 1
+  b.product("IfcWall", "D", {known}, turned);  // 1
   const auto result = b.assign(kConcreteOnly);
   EXPECT_NEAR(result.report.area_m2, 13, 1e-9);
   EXPECT_NEAR(result.report.coverage, 8.0 / 13, 1e-9);
@@ -93,8 +92,9 @@ TEST(Findings, SayWhatNothingFitsOnceForEachCause) {
   for (int i = 0; i < 3; ++i) b.product("IfcChimney", "Schlot", {odd});
   const auto result = b.assign(kConcreteOnly);
   ASSERT_EQ(result.report.findings.size(), 1U);
-  EXPECT_THAT(result.report.findings[0],
-              finding("warning", "#100", "no rule fits surface 'Unobtainium' of IfcChimney 'Schlot' and 2 more (3.00 m²)"));
+  EXPECT_THAT(
+      result.report.findings[0],
+      finding("warning", "#100", "no rule fits surface 'Unobtainium' of IfcChimney 'Schlot' and 2 more (3.00 m²)"));
 }
 
 TEST(Findings, NoteWhatOnlyClassOrColourDecided) {
@@ -103,7 +103,8 @@ TEST(Findings, NoteWhatOnlyClassOrColourDecided) {
   b.product("IfcWall", "V", {b.surface("Beton")});
   const auto result = b.assign();
   ASSERT_EQ(result.report.findings.size(), 1U);
-  EXPECT_THAT(result.report.findings[0], finding("note", "#100", "only class and colour decided for surface 'Style 17' of IfcWall 'W'"));
+  EXPECT_THAT(result.report.findings[0],
+              finding("note", "#100", "only class and colour decided for surface 'Style 17' of IfcWall 'W'"));
   EXPECT_THAT(result.report.findings[0].message, HasSubstr("plaster_render"));
 }
 
@@ -111,7 +112,7 @@ TEST(Findings, NameContradictionsOfTransparency) {
   Builder b;
   b.product("IfcWall", "", {b.surface("Beton", {0.5F, 0.5F, 0.5F, 0.3F})});
   b.product("IfcWall", "", {b.surface("Glas", {0.2F, 0.3F, 0.9F, 1})});
-  b.product("IfcWall", "", {b.surface("Glas")});                              // the file gives no colour: no contradiction
+  b.product("IfcWall", "", {b.surface("Glas")});  // the file gives no colour: no contradiction
   b.product("IfcWall", "", {b.surface("Glas", {0.2F, 0.3F, 0.9F, 0.3F})});
   const auto findings = b.assign().report.findings;
   EXPECT_THAT(findings, Contains(finding("warning", "#100", "transparent surface 'Beton'")));
@@ -125,7 +126,8 @@ TEST(Findings, NameWindowsWithoutAPane) {
   b.product("IfcWindow", "blind", {frame});
   b.product("IfcWindow", "seeing", {frame, b.surface("Glas", {0.5F, 0.7F, 0.9F, 0.2F})});
   b.product("IfcWindow", "blind too", {frame});
-  EXPECT_THAT(b.assign().report.findings, ElementsAre(finding("warning", "#100", "no surface is of glass in IfcWindow 'blind' and 1 more")));
+  EXPECT_THAT(b.assign().report.findings,
+              ElementsAre(finding("warning", "#100", "no surface is of glass in IfcWindow 'blind' and 1 more")));
 }
 
 TEST(Overrides, WinOverRulesAndLaterOverEarlier) {
@@ -151,7 +153,8 @@ TEST(Overrides, WinOverRulesAndLaterOverEarlier) {
 TEST(Overrides, ThatMeanNothingAreNamed) {
   Builder b;
   b.product("IfcWall", "", {b.surface("Beton")});
-  const auto result = b.assign(shippedRules(), {{"class:IfcRoof", "bark"}, {"material:*zink*", "bark"}, {"colour:red", "bark"}});
+  const auto result =
+      b.assign(shippedRules(), {{"class:IfcRoof", "bark"}, {"material:*zink*", "bark"}, {"colour:red", "bark"}});
   EXPECT_THAT(result.report.findings, ElementsAre(finding("warning", "class:IfcRoof", "means no surface"),
                                                   finding("warning", "material:*zink*", "means no surface"),
                                                   finding("warning", "colour:red", "means no surface")));
@@ -161,7 +164,8 @@ TEST(Overrides, WithAnUnknownMaterialAreRefused) {
   Builder b;
   b.product("IfcWall", "", {b.surface("Beton")});
   Progress progress;
-  const auto result = assignMaterials(b.environment, shippedLibrary(), shippedRules(), {{"#100", "adamantium"}}, progress);
+  const auto result =
+      assignMaterials(b.environment, shippedLibrary(), shippedRules(), {{"#100", "adamantium"}}, progress);
   ASSERT_FALSE(result.has_value());
   EXPECT_EQ(result.error().kind, ErrorKind::usage);
   EXPECT_EQ(result.error().source, "#100");
@@ -178,12 +182,14 @@ TEST(Assignment, StopsWhenCancelled) {
   EXPECT_EQ(result.error().kind, ErrorKind::cancelled);
 }
 
-// The bound is ten times what it takes, so it fails on a change of order, not on a busy machine.
+// The whole test took 0.04 to 0.17 s on two busy cores; the bound is for a change of order, not for a busy machine.
 TEST(Assignment, OfTenThousandProductsIsQuick) {
   Builder b;
-  for (int i = 0; i < 40; ++i) b.surface(i % 3 == 0 ? "Beton " + std::to_string(i) : "Style " + std::to_string(i), {0.1F, 0.5F, 0.2F, 1});
+  for (int i = 0; i < 40; ++i)
+    b.surface(i % 3 == 0 ? "Beton " + std::to_string(i) : "Style " + std::to_string(i), {0.1F, 0.5F, 0.2F, 1});
   for (std::uint32_t i = 0; i < 10'000; ++i)
-    b.product(i % 2 == 0 ? "IfcWall" : "IfcBuildingElementProxy", "Element " + std::to_string(i), {i % 40, (i + 7) % 40});
+    b.product(i % 2 == 0 ? "IfcWall" : "IfcBuildingElementProxy", "Element " + std::to_string(i),
+              {i % 40, (i + 7) % 40});
   const auto start = std::chrono::steady_clock::now();
   const auto result = b.assign();
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <random>
-
 #include <gmock/gmock.h>
+#include <random>
 
 #include "tests/materials/fixtures.h"
 
@@ -57,10 +56,14 @@ INSTANTIATE_TEST_SUITE_P(
         BadEntry{"noPair", "[532, 0.3]", "[532]", "stone.json /1/reflectance/0", "[wavelength_nm, share]"},
         BadEntry{"emptySpectrum", "[[532, 0.3], [905, 0.4]]", "[]", "stone.json /1/reflectance", "list"},
         BadEntry{"roughnessInDegrees", "0.2", "20", "stone.json /1/roughness_rad", "20"},
-        BadEntry{"noSource", "\"roughness_rad\": \"unsourced\"", "\"reflectance2\": \"x\"", "stone.json /1/source/reflectance2", "figure"},
-        BadEntry{"missingSource", ", \"roughness_rad\": \"unsourced\"", "", "stone.json /1/source/roughness_rad", "missing"},
-        BadEntry{"sourceOfNothing", "\"roughness_rad\": 0.2,", "", "stone.json /1/source/roughness_rad", "does not have"},
-        BadEntry{"noSources", ", \"roughness_rad\": \"unsourced\"}}", "}, \"source2\": 1}", "stone.json /1/source2", "not a known key"},
+        BadEntry{"noSource", "\"roughness_rad\": \"unsourced\"", "\"reflectance2\": \"x\"",
+                 "stone.json /1/source/reflectance2", "figure"},
+        BadEntry{"missingSource", ", \"roughness_rad\": \"unsourced\"", "", "stone.json /1/source/roughness_rad",
+                 "missing"},
+        BadEntry{"sourceOfNothing", "\"roughness_rad\": 0.2,", "", "stone.json /1/source/roughness_rad",
+                 "does not have"},
+        BadEntry{"noSources", ", \"roughness_rad\": \"unsourced\"}}", "}, \"source2\": 1}", "stone.json /1/source2",
+                 "not a known key"},
         BadEntry{"moreThanAll", "\"roughness_rad\": 0.2, \"source\": {",
                  "\"roughness_rad\": 0.2, \"index_of_refraction\": 30, \"source\": {\"index_of_refraction\": \"x\", ",
                  "stone.json /1/reflectance/0", "exceed"},
@@ -70,7 +73,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadEntry{"thickWithoutTransmittance", "\"roughness_rad\": 0.2, \"source\": {",
                  "\"roughness_rad\": 0.2, \"thickness_m\": 0.01, \"source\": {\"thickness_m\": \"x\", ",
                  "stone.json /1/thickness_m", "needs transmittance"},
-        BadEntry{"keyTwice", "\"label\": \"Stone\"", "\"label\": \"Stone\", \"label\": \"Rock\"", "stone.json", "'label' twice"},
+        BadEntry{"keyTwice", "\"label\": \"Stone\"", "\"label\": \"Stone\", \"label\": \"Rock\"", "stone.json",
+                 "'label' twice"},
         BadEntry{"noObject", kGood.c_str(), "7", "stone.json /1", "object"},
         BadEntry{"cutShort", "\"source\"", "\"sou", "stone.json line 4", "not JSON"}),
     [](const auto& each) { return std::string(each.param.name); });

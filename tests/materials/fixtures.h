@@ -63,7 +63,8 @@ inline std::shared_ptr<const Mesh> unitSquares(std::vector<std::uint32_t> surfac
   auto mesh = std::make_shared<Mesh>();
   for (const auto surface : surfaces) {
     const auto first = static_cast<std::uint32_t>(mesh->positions.size());
-    for (const auto& [x, y] : {std::pair{0.F, 0.F}, {1.F, 0.F}, {1.F, 1.F}, {0.F, 1.F}}) mesh->positions.emplace_back(x, y, 0.F);
+    for (const auto& [x, y] : {std::pair{0.F, 0.F}, {1.F, 0.F}, {1.F, 1.F}, {0.F, 1.F}})
+      mesh->positions.emplace_back(x, y, 0.F);
     mesh->triangles.push_back({first, first + 1, first + 2});
     mesh->triangles.push_back({first, first + 2, first + 3});
     mesh->surface_of_triangle.insert(mesh->surface_of_triangle.end(), 2, surface);
@@ -89,7 +90,8 @@ struct Builder {
     product.ifc_class = ifc_class;
     product.name = name;
     environment.meshes.push_back(unitSquares(std::move(surfaces)));
-    environment.instances.push_back({static_cast<std::uint32_t>(environment.meshes.size() - 1), index, world_from_mesh});
+    environment.instances.push_back(
+        {static_cast<std::uint32_t>(environment.meshes.size() - 1), index, world_from_mesh});
     return product;
   }
   MaterialResult assign(const std::vector<AssignmentRule>& rules = shippedRules(),

@@ -9,7 +9,8 @@ namespace standpoint {
 namespace {
 
 // What the shipped rules make of one square of a product of some class.
-std::string assigned(const std::string& surface_name, const std::string& ifc_class = "IfcBuildingElementProxy", Colour colour = {}) {
+std::string assigned(const std::string& surface_name, const std::string& ifc_class = "IfcBuildingElementProxy",
+                     Colour colour = {}) {
   Builder b;
   b.product(ifc_class, "", {b.surface(surface_name, colour)});
   return materialId(b.assign(), 0, 0);
@@ -28,54 +29,71 @@ INSTANTIATE_TEST_SUITE_P(
     OfRealFiles, Names,
     testing::Values(
         // English
-        NamedMaterial{"Brick, Common", "brick_red_bare"}, NamedMaterial{"Masonry - Concrete Block", "concrete_cinderblock"},
-        NamedMaterial{"Masonry - Grout", "concrete_construction"}, NamedMaterial{"Concrete, Sand/Cement Screed", "screed_cement"},
+        NamedMaterial{"Brick, Common", "brick_red_bare"},
+        NamedMaterial{"Masonry - Concrete Block", "concrete_cinderblock"},
+        NamedMaterial{"Masonry - Grout", "concrete_construction"},
+        NamedMaterial{"Concrete, Sand/Cement Screed", "screed_cement"},
         NamedMaterial{"Concrete - Cast-in-Place Concrete - 35 MPa", "concrete_construction"},
-        NamedMaterial{"Structural Concrete", "concrete_construction"}, NamedMaterial{"Gypsum Wall Board", "gypsum_board_painted"},
-        NamedMaterial{"Plaster - Gypsum", "plaster_gypsum"}, NamedMaterial{"Glass", "glass_float_clear_6mm"},
-        NamedMaterial{"Walls:-:glass brick", "glass_double_clear_4mm"}, NamedMaterial{"Fiberglass Batt", "insulation_board"},
-        NamedMaterial{"Metal - Paint Finish - Grey", "paint_grey"}, NamedMaterial{"Steel, Chrome Plated", "chromium_polished"},
-        NamedMaterial{"metal_steel-galvanized", "steel_galvanised_weathered_b"}, NamedMaterial{"A992 Wide Flange Steel: fu=65  fy=50", "steel_mill_scale"},
-        NamedMaterial{"Wood - Sheathing - plywood", "wood_panel"}, NamedMaterial{"Softwood, Lumber", "wood_pine_sanded"},
-        NamedMaterial{"Mahogany", "wood_hardwood"}, NamedMaterial{"Wood - Flooring", "wood_varnished"},
-        NamedMaterial{"Roofing - EPDM Membrane", "rubber_black_roof"}, NamedMaterial{"Roof-Tile French Red", "roof_tile_clay_red"},
+        NamedMaterial{"Structural Concrete", "concrete_construction"},
+        NamedMaterial{"Gypsum Wall Board", "gypsum_board_painted"}, NamedMaterial{"Plaster - Gypsum", "plaster_gypsum"},
+        NamedMaterial{"Glass", "glass_float_clear_6mm"}, NamedMaterial{"Walls:-:glass brick", "glass_double_clear_4mm"},
+        NamedMaterial{"Fiberglass Batt", "insulation_board"},
+        NamedMaterial{"Metal - Paint Finish - Grey", "paint_grey"},
+        NamedMaterial{"Steel, Chrome Plated", "chromium_polished"},
+        NamedMaterial{"metal_steel-galvanized", "steel_galvanised_weathered_b"},
+        NamedMaterial{"A992 Wide Flange Steel: fu=65  fy=50", "steel_mill_scale"},
+        NamedMaterial{"Wood - Sheathing - plywood", "wood_panel"},
+        NamedMaterial{"Softwood, Lumber", "wood_pine_sanded"}, NamedMaterial{"Mahogany", "wood_hardwood"},
+        NamedMaterial{"Wood - Flooring", "wood_varnished"},
+        NamedMaterial{"Roofing - EPDM Membrane", "rubber_black_roof"},
+        NamedMaterial{"Roof-Tile French Red", "roof_tile_clay_red"},
         NamedMaterial{"Textile - White", "fabric_cotton_white"}, NamedMaterial{"Ceramic Tile", "tile_glazed_white"},
         NamedMaterial{"Site - Grass", "grass_green_rye"}, NamedMaterial{"bulk-material_topsoil_generic", "soil_all"},
         NamedMaterial{"Arcade sandstone", "sandstone_grey"}, NamedMaterial{"stone_granite_masonry", "granite_grey"},
         NamedMaterial{"Vapor Retarder", "rubber_black"}, NamedMaterial{"Carpet", "carpet"},
         // German
-        NamedMaterial{"Kalksandstein", "sand_lime_brick"}, NamedMaterial{"Leichtbeton 102890359", "concrete_cinderblock"},
+        NamedMaterial{"Kalksandstein", "sand_lime_brick"},
+        NamedMaterial{"Leichtbeton 102890359", "concrete_cinderblock"},
         NamedMaterial{"Stahlbeton 65690", "concrete_construction"}, NamedMaterial{"Ziegel", "brick_red_bare"},
-        NamedMaterial{"Mauerwerk - Betonblock", "concrete_cinderblock"}, NamedMaterial{"Gipskarton", "gypsum_board_painted"},
-        NamedMaterial{"Metall-Ständerwerk", "steel_galvanised_weathered_b"}, NamedMaterial{"Metall - Baustahl S235", "steel_mill_scale"},
-        NamedMaterial{"Unterlagsboden", "screed_cement"}, NamedMaterial{"Farbe, weiß", "paint_white"},
-        NamedMaterial{"WÄRMEDÄMMUNG", "insulation_board"}, NamedMaterial{"Holz Esche", "wood_hardwood"},
-        NamedMaterial{"Verputz, weiß", "plaster_render"}, NamedMaterial{"tin_PVC - Lichtgrau", "pvc_grey"},
+        NamedMaterial{"Mauerwerk - Betonblock", "concrete_cinderblock"},
+        NamedMaterial{"Gipskarton", "gypsum_board_painted"},
+        NamedMaterial{"Metall-Ständerwerk", "steel_galvanised_weathered_b"},
+        NamedMaterial{"Metall - Baustahl S235", "steel_mill_scale"}, NamedMaterial{"Unterlagsboden", "screed_cement"},
+        NamedMaterial{"Farbe, weiß", "paint_white"}, NamedMaterial{"WÄRMEDÄMMUNG", "insulation_board"},
+        NamedMaterial{"Holz Esche", "wood_hardwood"}, NamedMaterial{"Verputz, weiß", "plaster_render"},
+        NamedMaterial{"tin_PVC - Lichtgrau", "pvc_grey"},
         // Dutch
-        NamedMaterial{"03 Metselwerk - kalkzandsteen C", "sand_lime_brick"}, NamedMaterial{"03 mw-baksteen - geel (liggend)", "brick_yellow"},
-        NamedMaterial{"02 Beton gewapend - prefab", "concrete_bridge_smooth"}, NamedMaterial{"isolatie_vloer", "insulation_board"},
-        NamedMaterial{"01 Hout - hardhout", "wood_hardwood"}, NamedMaterial{"cementdekvloer", "screed_cement"},
-        NamedMaterial{"gipsplaat", "gypsum_board_painted"}, NamedMaterial{"05 Staal C", "steel_mill_scale"},
-        NamedMaterial{"dampremmende_folie", "rubber_black"}, NamedMaterial{"dak_zink", "zinc_weathered"},
-        NamedMaterial{"Ytong Separatie Paneel G4/600", "concrete_aerated"},
+        NamedMaterial{"03 Metselwerk - kalkzandsteen C", "sand_lime_brick"},
+        NamedMaterial{"03 mw-baksteen - geel (liggend)", "brick_yellow"},
+        NamedMaterial{"02 Beton gewapend - prefab", "concrete_bridge_smooth"},
+        NamedMaterial{"isolatie_vloer", "insulation_board"}, NamedMaterial{"01 Hout - hardhout", "wood_hardwood"},
+        NamedMaterial{"cementdekvloer", "screed_cement"}, NamedMaterial{"gipsplaat", "gypsum_board_painted"},
+        NamedMaterial{"05 Staal C", "steel_mill_scale"}, NamedMaterial{"dampremmende_folie", "rubber_black"},
+        NamedMaterial{"dak_zink", "zinc_weathered"}, NamedMaterial{"Ytong Separatie Paneel G4/600", "concrete_aerated"},
         // French, Italian, Spanish, Norwegian, Russian, Japanese, Chinese
-        NamedMaterial{"Struct. - Béton Mur Porteur #", "concrete_construction"}, NamedMaterial{"Cloison - Stratifié", "laminate_white"},
-        NamedMaterial{"Etanchéité - Pare pluie", "rubber_black"}, NamedMaterial{"Plaque de plâtre", "gypsum_board_painted"},
-        NamedMaterial{"Marbre blanc", "marble_white_weathered"}, NamedMaterial{"Calcestruzzo armato", "concrete_construction"},
+        NamedMaterial{"Struct. - Béton Mur Porteur #", "concrete_construction"},
+        NamedMaterial{"Cloison - Stratifié", "laminate_white"},
+        NamedMaterial{"Etanchéité - Pare pluie", "rubber_black"},
+        NamedMaterial{"Plaque de plâtre", "gypsum_board_painted"},
+        NamedMaterial{"Marbre blanc", "marble_white_weathered"},
+        NamedMaterial{"Calcestruzzo armato", "concrete_construction"},
         NamedMaterial{"Muratura in mattoni", "brick_red_bare"}, NamedMaterial{"Acero inoxidable", "stainless_brushed"},
         NamedMaterial{"Ladrillo cerámico", "brick_red_bare"}, NamedMaterial{"Stål - S355", "steel_mill_scale"},
-        NamedMaterial{"Dobbelfals Liggende Kledning - RØD", "wood_pine_weathered"}, NamedMaterial{"Betong Plasstøpt - B35", "concrete_construction"},
+        NamedMaterial{"Dobbelfals Liggende Kledning - RØD", "wood_pine_weathered"},
+        NamedMaterial{"Betong Plasstøpt - B35", "concrete_construction"},
         NamedMaterial{"Stender/Isolasjon", "insulation_board"}, NamedMaterial{"Железобетон", "concrete_construction"},
         NamedMaterial{"Деревянный пол", "wood_varnished"}, NamedMaterial{"コンクリート-構造2", "concrete_construction"},
-        NamedMaterial{"ガラス - 透明", "glass_float_clear_6mm"}, NamedMaterial{"メタル-ステンレス", "stainless_brushed"},
-        NamedMaterial{"玻璃", "glass_float_clear_6mm"}));
+        NamedMaterial{"ガラス - 透明", "glass_float_clear_6mm"},
+        NamedMaterial{"メタル-ステンレス", "stainless_brushed"}, NamedMaterial{"玻璃", "glass_float_clear_6mm"}));
 
 // Words that hold the name of another material.
 INSTANTIATE_TEST_SUITE_P(ThatMislead, Names,
-                         testing::Values(NamedMaterial{"Douglas", "wood_pine_sanded"}, NamedMaterial{"Küchenelement", ""},
-                                         NamedMaterial{"Speicher", ""}, NamedMaterial{"Plattenspeicher", ""}, NamedMaterial{"Street", ""},
+                         testing::Values(NamedMaterial{"Douglas", "wood_pine_sanded"},
+                                         NamedMaterial{"Küchenelement", ""}, NamedMaterial{"Speicher", ""},
+                                         NamedMaterial{"Plattenspeicher", ""}, NamedMaterial{"Street", ""},
                                          NamedMaterial{"Air Space", ""}, NamedMaterial{"Glaswolle", "insulation_board"},
-                                         NamedMaterial{"Default Wall", ""}, NamedMaterial{"Plexiglas", "pmma_clear_4mm"}));
+                                         NamedMaterial{"Default Wall", ""},
+                                         NamedMaterial{"Plexiglas", "pmma_clear_4mm"}));
 
 TEST(Classes, DecideWhereTheNameSaysNothing) {
   EXPECT_EQ(assigned("Default Wall", "IfcWallStandardCase"), "plaster_render");
@@ -105,10 +123,11 @@ TEST(Colours, HaveTheNamesThatPeopleGiveThem) {
     float r, g, b;
     const char* band;
   };
-  for (const auto& [r, g, b, band] : {Sample{1, 1, 1, "white"}, Sample{0.5F, 0.5F, 0.5F, "grey"}, Sample{0.05F, 0.05F, 0.05F, "black"},
-                                      Sample{0.8F, 0.1F, 0.1F, "red"}, Sample{0.45F, 0.26F, 0.1F, "brown"}, Sample{1, 0.55F, 0, "orange"},
-                                      Sample{0.96F, 0.87F, 0.7F, "beige"}, Sample{1, 0.95F, 0.1F, "yellow"}, Sample{0.1F, 0.6F, 0.2F, "green"},
-                                      Sample{0.1F, 0.2F, 0.8F, "blue"}, Sample{0.5F, 0.1F, 0.7F, "violet"}})
+  for (const auto& [r, g, b, band] :
+       {Sample{1, 1, 1, "white"}, Sample{0.5F, 0.5F, 0.5F, "grey"}, Sample{0.05F, 0.05F, 0.05F, "black"},
+        Sample{0.8F, 0.1F, 0.1F, "red"}, Sample{0.45F, 0.26F, 0.1F, "brown"}, Sample{1, 0.55F, 0, "orange"},
+        Sample{0.96F, 0.87F, 0.7F, "beige"}, Sample{1, 0.95F, 0.1F, "yellow"}, Sample{0.1F, 0.6F, 0.2F, "green"},
+        Sample{0.1F, 0.2F, 0.8F, "blue"}, Sample{0.5F, 0.1F, 0.7F, "violet"}})
     EXPECT_EQ(colourBand({r, g, b, 1}), band);
   EXPECT_EQ(colourBand({1, 1, 1, 0.5F}), "transparent");
   EXPECT_EQ(colourBand(Colour{}), "");
@@ -140,9 +159,12 @@ TEST(Patterns, TakeBrokenTextAndHugeNamesInTheirStride) {
 TEST(Rules, FirstOneThatFitsDecides) {
   Builder b;
   b.product("IfcWall", "Garage", {b.surface("Beton")});
-  EXPECT_EQ(materialId(b.assign({{"IfcWall", "", "", "", "bark"}, {"", "*beton*", "", "", "concrete_construction"}}), 0, 0), "bark");
-  EXPECT_EQ(materialId(b.assign({{"IfcSlab", "", "", "", "bark"}, {"", "*beton*", "", "", "concrete_construction"}}), 0, 0),
-            "concrete_construction");
+  EXPECT_EQ(
+      materialId(b.assign({{"IfcWall", "", "", "", "bark"}, {"", "*beton*", "", "", "concrete_construction"}}), 0, 0),
+      "bark");
+  EXPECT_EQ(
+      materialId(b.assign({{"IfcSlab", "", "", "", "bark"}, {"", "*beton*", "", "", "concrete_construction"}}), 0, 0),
+      "concrete_construction");
   EXPECT_EQ(materialId(b.assign({{"IfcWall", "*beton*", "*haus*", "", "bark"}}), 0, 0), "");
   EXPECT_EQ(materialId(b.assign({{"IfcWall", "*beton*", "*garage*", "", "bark"}}), 0, 0), "bark");
 }

@@ -57,7 +57,8 @@ TEST_F(Selectors, MeanSurfacesByNameAndElseByTheProductsMaterial) {
 }
 
 TEST_F(Selectors, MeanNothingWhenEmptyOrUnknown) {
-  for (const char* selector : {"", "class:", "name:", "material:", "colour:red", "#", ":"}) EXPECT_THAT((*this)(selector), IsEmpty()) << selector;
+  for (const char* selector : {"", "class:", "name:", "material:", "colour:red", "#", ":"})
+    EXPECT_THAT((*this)(selector), IsEmpty()) << selector;
 }
 
 }  // namespace
