@@ -201,7 +201,7 @@ void ColumnTracer::emit(std::uint32_t first_row, PointBlock& block) {
     x[count] = static_cast<float>(point.x());
     y[count] = static_cast<float>(point.y());
     z[count] = static_cast<float>(point.z());
-    intensity[count] = storedIntensity(plan_.instrument, packet_.signal.log2_x[k]);
+    intensity[count] = packet_.signal.intensity[k];
     product[count] = target.product;
     material[count] = target.material;
     const auto& colour = plan_.colours[target.surface];

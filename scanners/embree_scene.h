@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -70,6 +71,10 @@ class EmbreeScene final : public RayScene {
 };
 
 // The range at which the ray meets the facet's plane, or `fallback_m` when the plane is seen edge-on or degenerate.
-double rangeOnPlane(const Facet& facet, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double fallback_m);
+inline double rangeOnPlane(const Facet& facet, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double fallback_m) {
+  const double range = (facet.offset - facet.normal.dot(origin)) / facet.normal.dot(direction);
+  // Edge-on, the plane says nothing; Embree's own range is good to about 1e-6 of the distances involved.
+  return std::abs(range - fallback_m) <= 1e-3 + 1e-4 * fallback_m ? range : fallback_m;
+}
 
 }  // namespace standpoint

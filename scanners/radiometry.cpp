@@ -59,14 +59,6 @@ double detectionThreshold(const Instrument& instrument) {
   return instrument.reference_reflectivity / (instrument.max_range_m * instrument.max_range_m);
 }
 
-float storedIntensity(const Instrument& instrument, float log2_x) {
-  const auto low = static_cast<float>(instrument.intensity_low_db);
-  const auto high = static_cast<float>(instrument.intensity_high_db);
-  const float share = std::clamp((3.0102999566398120F * log2_x - low) / (high - low), 0.0F, 1.0F);
-  const auto steps = static_cast<float>(instrument.intensity_levels - 1);
-  return static_cast<float>(static_cast<std::int32_t>(share * steps + 0.5F)) / steps;
-}
-
 SlabPower slab(double index, double inner_transmittance_at_normal, double cosine) {
   const double cosine_inside = std::sqrt(1 - (1 - cosine * cosine) / (index * index));
   const double t = std::pow(inner_transmittance_at_normal, 1 / cosine_inside);

@@ -51,9 +51,6 @@ inline float nearRangeFactor(const Instrument& instrument, float range_m) {
 // x_min = ρ_ref / R_max² of the data sheet (§2.7).
 double detectionThreshold(const Instrument& instrument);
 
-// The intensity that is stored: 10 lg x between the instrument's limits as 0..1, in its levels. Raw: it falls with range.
-float storedIntensity(const Instrument& instrument, float log2_x);
-
 // A slab in air, both polarisations averaged, all inner reflections added (§4.6).
 struct SlabPower {
   double reflected = 0, transmitted = 1;

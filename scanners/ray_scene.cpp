@@ -190,12 +190,6 @@ Facet EmbreeScene::facet(std::uint64_t number) const {
   return facet;
 }
 
-double rangeOnPlane(const Facet& facet, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double fallback_m) {
-  const double range = (facet.offset - facet.normal.dot(origin)) / facet.normal.dot(direction);
-  // Edge-on, the plane says nothing; Embree's own range is good to about 1e-6 of the distances involved.
-  return std::abs(range - fallback_m) <= 1e-3 + 1e-4 * fallback_m ? range : fallback_m;
-}
-
 std::optional<RayHit> EmbreeScene::intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
                                              double max_range_m) const {
   const NearestHit hit = nearest(origin, direction_unit, 0, max_range_m);

@@ -22,7 +22,15 @@ STANDPOINT_INLINE void power(SignalLanes& lanes, float near_range, int exponent)
     const float near = 1 / (1 + blur[k]);
     const float x = lanes.equivalent[k] * lanes.gain[k] * near / (lanes.range_m[k] * lanes.range_m[k]);
     lanes.x[k] = x > 1e-30F ? x : 1e-30F;
-    lanes.log2_x[k] = portable::log2(lanes.x[k]);
+  }
+}
+
+STANDPOINT_INLINE void store(SignalLanes& lanes, float low_db, float high_db, float steps) {
+  for (int k = 0; k < kSignalLanes; ++k) {
+    const float share = (3.0102999566398120F * portable::log2(lanes.x[k]) - low_db) / (high_db - low_db);
+    const float least = share < 0 ? 0 : share;
+    const float clipped = least > 1 ? 1 : least;
+    lanes.intensity[k] = static_cast<float>(static_cast<std::int32_t>(clipped * steps + 0.5F)) / steps;
   }
 }
 
@@ -44,17 +52,25 @@ STANDPOINT_INLINE void noise(SignalLanes& lanes, const RangeNoiseLaw::Curve* cur
   }
 }
 
-STANDPOINT_CLONES void receiveLanes(SignalLanes& lanes, float near_range, int exponent, const RangeNoiseLaw::Curve* curves,
-                                    int count) {
-  power(lanes, near_range, exponent);
-  noise(lanes, curves, count);
+// The instrument's figures as the lanes need them.
+struct Receiver {
+  float near_range, low_db, high_db, steps;
+  int exponent, curve_count;
+  const RangeNoiseLaw::Curve* curves;
+};
+
+STANDPOINT_CLONES void receiveLanes(SignalLanes& lanes, const Receiver& receiver) {
+  power(lanes, receiver.near_range, receiver.exponent);
+  store(lanes, receiver.low_db, receiver.high_db, receiver.steps);
+  noise(lanes, receiver.curves, receiver.curve_count);
 }
 
 }  // namespace
 
 void receive(SignalLanes& lanes, const Instrument& instrument, const RangeNoiseLaw& law) {
-  receiveLanes(lanes, static_cast<float>(instrument.near_range_m), instrument.near_range_power, law.curves().data(),
-               static_cast<int>(law.curves().size()));
+  receiveLanes(lanes, {static_cast<float>(instrument.near_range_m), static_cast<float>(instrument.intensity_low_db),
+                       static_cast<float>(instrument.intensity_high_db), static_cast<float>(instrument.intensity_levels - 1),
+                       instrument.near_range_power, static_cast<int>(law.curves().size()), law.curves().data()});
 }
 
 }  // namespace standpoint

@@ -13,7 +13,7 @@ struct SignalLanes {
   float equivalent[kSignalLanes];   // in: ρ_eq(θ)
   float gain[kSignalLanes];         // in: two-way transmittance of what lies between
   float x[kSignalLanes];            // out
-  float log2_x[kSignalLanes];       // out
+  float intensity[kSignalLanes];    // out: 10 lg x between the instrument's limits as 0..1, in its levels; raw: falls with range
   float sigma_m[kSignalLanes];      // out
 };
 
