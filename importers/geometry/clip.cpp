@@ -74,6 +74,10 @@ void chainsOf(const Loop& loop, const std::vector<double>& along, const Cutter& 
     const bool before = kept(i + n - 1), after = kept(i);
     return before != after || (before && cutter.side(loop[(i + n - 1) % n]) < 0 && cutter.side(loop[(i + 1) % n]) < 0);
   };
+  // A corner that touches the line from above must become a corner of the edge that is cut beside it, if there is one.
+  for (std::size_t i = 0; i < n; ++i) {
+    if (cutter.side(loop[i]) == 0 && !kept(i + n - 1) && !kept(i)) chains.push_back({{loop[i]}});
+  }
   std::size_t start = 0;
   while (start < n && !breaks(start)) ++start;
   if (start == n) {

@@ -90,14 +90,14 @@ bool delaunayOf(const Flat& flat, const EdgeList& edges, std::vector<Triangle>& 
   try {
     Delaunay delaunay;
     std::vector<Delaunay::Vertex_handle> vertices(flat.points.size());
-    Delaunay::Face_handle hint;
+    Delaunay::Vertex_handle last;
     const auto vertex = [&](std::uint32_t i) {
       if (vertices[i] != Delaunay::Vertex_handle()) return vertices[i];
       const std::size_t count = delaunay.number_of_vertices();
+      const Delaunay::Face_handle hint = last == Delaunay::Vertex_handle() ? Delaunay::Face_handle() : last->face();
       vertices[i] = delaunay.insert({flat.points[i].x(), flat.points[i].y()}, hint);
       if (delaunay.number_of_vertices() > count) vertices[i]->info() = flat.index[i];
-      hint = vertices[i]->face();
-      return vertices[i];
+      return last = vertices[i];
     };
     for (const auto& [a, b] : edges) {
       const auto from = vertex(a), to = vertex(b);

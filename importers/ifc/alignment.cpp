@@ -10,15 +10,13 @@
 namespace standpoint::ifc {
 namespace {
 
-struct Station {
-  Eigen::Vector3d point, tangent;
-};
-
 // Distances along an alignment count in its plan, so that a slope does not stretch them.
 double planLength(const Eigen::Vector3d& step) {
   const double plan = step.head<2>().norm();
   return plan > 1e-9 ? plan : step.norm();
 }
+
+}  // namespace
 
 Station stationAt(const Path& path, double distance) {
   double at = 0;
@@ -32,16 +30,21 @@ Station stationAt(const Path& path, double distance) {
   return {p.front(), Eigen::Vector3d::UnitX()};
 }
 
-struct Offsets {
-  double along = 0, lateral = 0, vertical = 0, longitudinal = 0;
-};
+std::vector<double> distancesBetween(const Path& path, double from_m, double to_m) {
+  std::vector<double> inner;
+  double at = 0;
+  for (std::size_t i = 1; i < path.points.size(); ++i) {
+    at += planLength(path.points[i] - path.points[i - 1]);
+    if (at > from_m + 1e-6 && at < to_m - 1e-6) inner.push_back(at);
+  }
+  return inner;
+}
 
-Offsets offsets(const Entity& expression, const Scope& scope) {
+Offsets offsetsAt(const Entity& position, const Scope& scope) {
+  const Entity expression = position.is("IFCAXIS2PLACEMENTLINEAR") ? position.ref(0) : position;
   const auto m = [&](std::size_t i) { return scope.metres(expression[i].number(0)); };
   return {m(0), m(1), m(2), m(3)};
 }
-
-}  // namespace
 
 Result<Eigen::Isometry3d> placeAlong(const Entity& position, const Path& directrix, Scope& scope) {
   Entity expression = position;
@@ -49,7 +52,7 @@ Result<Eigen::Isometry3d> placeAlong(const Entity& position, const Path& directr
   if (!expression.is("IFCPOINTBYDISTANCEEXPRESSION") && !expression.is("IFCDISTANCEEXPRESSION"))
     return fail(position, "a position along a curve of this kind is not supported");
   if (directrix.points.size() < 2) return fail(position, "the curve has no length");
-  const Offsets o = offsets(expression, scope);
+  const Offsets o = offsetsAt(position, scope);
   const Station s = stationAt(directrix, o.along);
   Eigen::Vector3d forward = s.tangent;
   const Eigen::Vector3d left = Eigen::Vector3d::UnitZ().cross(forward).normalized();
@@ -78,7 +81,5 @@ Result<Eigen::Isometry3d> linearPlacement(const Entity& placement, Scope& scope)
     if (const Entity e = placement.ref(i); e.is("IFCAXIS2PLACEMENT3D")) return axisPlacement(e, scope);
   return fail(placement, "a linear placement of this kind is not supported: its products stand at the origin of their parent");
 }
-
-Result<Path> gradientCurve(const Entity& entity, Scope&) { return fail(entity, "alignment curves are not supported"); }
 
 }  // namespace standpoint::ifc

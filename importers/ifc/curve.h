@@ -49,6 +49,7 @@ Result<Path> trimmedCurve(const Entity&, Scope&);
 Result<Path> bSplineCurve(const Entity&, Scope&);
 Result<Path> offsetCurve(const Entity&, Scope&);
 Result<Path> surfaceCurve(const Entity&, Scope&);
+Result<Path> alignmentPlan(const Entity&, Scope&);      // a composite curve of IfcCurveSegments
 Result<Path> gradientCurve(const Entity&, Scope&);
 
 }  // namespace standpoint::ifc

@@ -26,7 +26,7 @@ void orientToNeighbours(std::vector<Path>& segments) {
 Result<Path> compositeCurve(const Entity& entity, Scope& scope) {
   std::vector<Path> segments;
   for (const Entity& segment : entity.refs(0)) {
-    if (segment.is("IFCCURVESEGMENT")) return gradientCurve(entity, scope);
+    if (segment.is("IFCCURVESEGMENT")) return alignmentPlan(entity, scope);
     auto part = curve(segment.ref(2), scope);
     if (!part) return part;
     if (part->closed) part->points.push_back(part->points.front());

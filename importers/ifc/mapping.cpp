@@ -8,6 +8,7 @@
 #include "importers/ifc/curve.h"
 #include "importers/ifc/profile.h"
 #include "importers/ifc/solid.h"
+#include "importers/ifc/surfaces.h"
 
 namespace standpoint::ifc {
 namespace {
@@ -15,6 +16,8 @@ namespace {
 constexpr Mapping solid(const char* name, Result<geometry::PolyMesh> (*f)(const Entity&, Scope&)) { return {name, f}; }
 constexpr Mapping curved(const char* name, Result<Path> (*f)(const Entity&, Scope&)) { return {name, nullptr, f}; }
 constexpr Mapping area(const char* name, Result<Regions> (*f)(const Entity&, Scope&)) { return {name, nullptr, nullptr, f}; }
+
+constexpr Mapping bent(const char* name, Result<SurfacePtr> (*f)(const Entity&, Scope&)) { return {name, nullptr, nullptr, nullptr, f}; }
 
 constexpr std::array kMappings{
     solid("IFCEXTRUDEDAREASOLID", extrudedAreaSolid),
@@ -67,6 +70,7 @@ constexpr std::array kMappings{
     curved("IFCSEAMCURVE", surfaceCurve),
     curved("IFCINTERSECTIONCURVE", surfaceCurve),
     curved("IFCGRADIENTCURVE", gradientCurve),
+    curved("IFCSEGMENTEDREFERENCECURVE", gradientCurve),
 
     area("IFCRECTANGLEPROFILEDEF", rectangleProfile),
     area("IFCROUNDEDRECTANGLEPROFILEDEF", roundedRectangleProfile),
@@ -88,6 +92,15 @@ constexpr std::array kMappings{
     area("IFCCOMPOSITEPROFILEDEF", compositeProfile),
     area("IFCDERIVEDPROFILEDEF", derivedProfile),
     area("IFCMIRROREDPROFILEDEF", derivedProfile),
+
+    bent("IFCPLANE", planeSurface),
+    bent("IFCCYLINDRICALSURFACE", cylindricalSurface),
+    bent("IFCSPHERICALSURFACE", sphericalSurface),
+    bent("IFCTOROIDALSURFACE", toroidalSurface),
+    bent("IFCBSPLINESURFACEWITHKNOTS", bSplineSurface),
+    bent("IFCRATIONALBSPLINESURFACEWITHKNOTS", bSplineSurface),
+    bent("IFCSURFACEOFLINEAREXTRUSION", surfaceOfLinearExtrusion),
+    bent("IFCSURFACEOFREVOLUTION", surfaceOfRevolution),
 };
 
 const Mapping* mappingOf(const Entity& entity, const Scope& scope) {

@@ -18,7 +18,6 @@ struct Path {                      // a curve as points in metres; of 2D curves 
 };
 using Regions = std::vector<geometry::Region2>;
 
-// An unbounded half of space: keeps n·p <= d as its material.
 struct Mapping {
   const char* entity;              // upper case
   Result<geometry::PolyMesh> (*item)(const Entity&, Scope&) = nullptr;

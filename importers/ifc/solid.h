@@ -26,8 +26,5 @@ Result<geometry::PolyMesh> rightCircularCylinder(const Entity&, Scope&);
 Result<geometry::PolyMesh> sphereSolid(const Entity&, Scope&);
 Result<geometry::PolyMesh> csgSolid(const Entity&, Scope&);
 Result<geometry::PolyMesh> booleanResult(const Entity&, Scope&);
-Result<geometry::PolyMesh> geometricSet(const Entity&, Scope&);
-Result<geometry::PolyMesh> surfaceItem(const Entity&, Scope&);
-Result<geometry::PolyMesh> notASurface(const Entity&, Scope&);
 
 }  // namespace standpoint::ifc

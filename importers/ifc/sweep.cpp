@@ -125,21 +125,68 @@ Result<geometry::PolyMesh> sectionedSpine(const Entity& entity, Scope& scope) {
   return sections(entity, entity.refs(1), frames, scope);
 }
 
+namespace {
+
+bool alike(const geometry::Region2& a, const geometry::Region2& b) {
+  if (a.outer.size() != b.outer.size() || a.holes.size() != b.holes.size()) return false;
+  for (std::size_t h = 0; h < a.holes.size(); ++h)
+    if (a.holes[h].size() != b.holes[h].size()) return false;
+  return true;
+}
+
+geometry::Region2 blend(const geometry::Region2& a, const geometry::Region2& b, double t) {
+  geometry::Region2 mid = a;
+  const auto mix = [t](geometry::Loop2& to, const geometry::Loop2& other) { for (std::size_t i = 0; i < to.size(); ++i) to[i] += (other[i] - to[i]) * t; };
+  mix(mid.outer, b.outer);
+  for (std::size_t h = 0; h < mid.holes.size(); ++h) mix(mid.holes[h], b.holes[h]);
+  return mid;
+}
+
+// The plane of a section stands upright across the directrix: x to the left, y up.
+Eigen::Isometry3d upright(const Station& s) {
+  const Eigen::Vector3d forward = Eigen::Vector3d(s.tangent.x(), s.tangent.y(), 0).normalized();
+  Eigen::Isometry3d f = Eigen::Isometry3d::Identity();
+  f.linear() << Eigen::Vector3d::UnitZ().cross(forward), Eigen::Vector3d::UnitZ(), forward;
+  f.translation() = s.point;
+  return f;
+}
+
+}  // namespace
+
+// Between two stated sections the solid follows every bend of its directrix.
 Result<geometry::PolyMesh> sectionedSolidHorizontal(const Entity& entity, Scope& scope) {
   const auto directrix = curve(entity.ref(0), scope);
   if (!directrix) return failure(directrix.error());
+  const auto positions = entity.refs(2), profiles = entity.refs(1);
+  if (positions.size() != profiles.size() || positions.size() < 2) return fail(entity, "cross sections and their positions do not match");
+  std::vector<geometry::Region2> regions;
   std::vector<Eigen::Isometry3d> frames;
-  for (const Entity& position : entity.refs(2)) {
-    const auto placed = placeAlong(position, *directrix, scope);
-    if (!placed) return failure(placed.error());
-    // A profile's x runs to the left of the directrix and its y up; its plane's normal then points backward.
-    Eigen::Isometry3d f = *placed;
-    f.linear().col(0) = placed->linear().col(1);
-    f.linear().col(1) = placed->linear().col(2);
-    f.linear().col(2) = placed->linear().col(0);
-    frames.push_back(f);
+  double last = 0;
+  Offsets last_offsets;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    auto region = profile(profiles[i], scope);
+    if (!region) return failure(region.error());
+    const Offsets here = offsetsAt(positions[i], scope);
+    const geometry::Region2 next = std::move(region->front());
+    if (i > 0) {
+      if (!alike(regions.back(), next)) return fail(entity, "the cross sections have different numbers of points");
+      const geometry::Region2 from = regions.back();
+      for (const double d : distancesBetween(*directrix, last, here.along)) {
+        const double t = (d - last) / (here.along - last);
+        regions.push_back(blend(from, next, t));
+        frames.push_back(upright(stationAt(*directrix, d)) * Eigen::Translation3d(last_offsets.lateral + (here.lateral - last_offsets.lateral) * t,
+                                                                                 last_offsets.vertical + (here.vertical - last_offsets.vertical) * t, 0));
+        if (!scope.spend(next.outer.size())) return fail(entity, "too many points");
+      }
+    }
+    regions.push_back(next);
+    frames.push_back(upright(stationAt(*directrix, here.along)) * Eigen::Translation3d(here.lateral, here.vertical, 0));
+    last = here.along;
+    last_offsets = here;
   }
-  return sections(entity, entity.refs(1), frames, scope);
+  auto mesh = geometry::loft(regions, frames, false);
+  if (mesh) geometry::orientOutward(*mesh);
+  return mesh;
 }
 
 }  // namespace standpoint::ifc

@@ -71,7 +71,7 @@ TEST(Clip, AcrossAHoleGivesTwoCapsAndAlongItACapWithAHole) {
   expectClip(tube(), Vector3d::UnitX(), 1, 12);
   expectClip(tube(), Vector3d::UnitX(), 3, 24);
   expectClip(tube(), Vector3d::UnitZ(), 1, 12);
-  const auto slanting = clip(tube(), Vector3d(0, 0.6, 0.8), 0.8 * 1 + 0.6 * 2);
+  const auto slanting = clip(tube(), Vector3d(0, 0.28, 0.96), 0.96 * 1 + 0.28 * 2);
   ASSERT_TRUE(slanting.has_value());
   EXPECT_NEAR(volume(*slanting), 12, 1e-9);  // the plane halves at z = 1 in the middle
   EXPECT_TRUE(isClosed(*slanting));
