@@ -14,9 +14,15 @@ struct Bid {
   bool operator<(const Bid& o) const { return std::tie(o.cost, o.bidder) < std::tie(cost, bidder); }
 };
 
-Bid nextBid(const std::vector<Bidder>& bidders, std::uint32_t i, std::size_t step) {
-  const double scale_squared = bidders[i].scale * bidders[i].scale;
-  return {(*bidders[i].log)[step].cost * scale_squared * scale_squared, i};
+Bid nextBid(const std::vector<Bidder>& bidders, std::uint32_t i, std::size_t level) {
+  const double scale = bidders[i].scale;
+  return {(*bidders[i].levels)[level].cost * scale * scale * scale, i};
+}
+
+// Triangles that all copies save by going on to a level.
+std::uint64_t saving(const Bidder& bidder, std::size_t level) {
+  const auto before = level == 0 ? bidder.triangles : (*bidder.levels)[level - 1].triangles;
+  return (before - (*bidder.levels)[level].triangles) * bidder.copies;
 }
 
 }  // namespace
@@ -35,7 +41,7 @@ std::vector<std::size_t> shareBudget(const std::vector<Bidder>& bidders, std::ui
     std::pop_heap(heap.begin(), heap.end());
     const auto i = heap.back().bidder;
     heap.pop_back();
-    total -= (*bidders[i].log)[taken[i]].triangles * bidders[i].copies;
+    total -= saving(bidders[i], taken[i]);
     order.push_back(i);
     if (++taken[i] < bidders[i].limit) {
       heap.push_back(nextBid(bidders, i, taken[i]));
@@ -46,7 +52,7 @@ std::vector<std::size_t> shareBudget(const std::vector<Bidder>& bidders, std::ui
   for (std::size_t k = order.size(); k-- > 0 && total < budget;) {
     const auto i = order[k];
     if (settled[i]) continue;
-    const auto gain = (*bidders[i].log)[taken[i] - 1].triangles * bidders[i].copies;
+    const auto gain = saving(bidders[i], taken[i] - 1);
     settled[i] = total + gain > budget;
     if (settled[i]) continue;
     total += gain;

@@ -298,16 +298,8 @@ void Collapser::pushAround(std::uint32_t v) {
 
 // The last step of all: whatever is left goes at once.
 void Collapser::vanish(std::vector<Collapse>& log) const {
-  std::uint32_t count = 0;
-  double surface = 0;
-  for (const auto& t : triangles_) {
-    if (t[0] == kNone) continue;
-    ++count;
-    surface += (positions_[t[1]] - positions_[t[0]]).cross(positions_[t[2]] - positions_[t[0]]).norm() / 2;
-  }
-  if (count == 0) return;
-  const double cost = std::max(log.empty() ? 0 : log.back().cost, surface * diagonal_ * diagonal_ / 4 / count);
-  log.push_back({0, 0, count, cost, Vector3d::Zero()});
+  const auto count = std::count_if(triangles_.begin(), triangles_.end(), [](const Triangle& t) { return t[0] != kNone; });
+  if (count > 0) log.push_back({0, 0, static_cast<std::uint32_t>(count), Vector3d::Zero()});
 }
 
 std::vector<Collapse> Collapser::run(const Progress& progress) {
@@ -335,7 +327,7 @@ std::vector<Collapse> Collapser::run(const Progress& progress) {
     }
     apply(c.a, c.b, p);
     deviation_m_[c.a] = static_cast<float>(deviation);
-    log.push_back({c.a, c.b, e.vanishing, std::max(log.empty() ? 0 : log.back().cost, cost / e.vanishing), p});
+    log.push_back({c.a, c.b, e.vanishing, p});
     pushAround(c.a);
   }
   if (!options_.lossless && options_.max_deviation_m >= diagonal_ / 2) vanish(log);

@@ -16,7 +16,6 @@ namespace standpoint {
 struct Collapse {
   std::uint32_t kept = 0, removed = 0;
   std::uint32_t triangles = 0;  // that vanish with it, of one copy of the shape
-  double cost = 0;              // m⁴ (area times squared distance) per triangle that vanishes; never falls along a log
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 

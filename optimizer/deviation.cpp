@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "optimizer/triangle_tree.h"
-
 namespace standpoint {
 
 namespace {
@@ -35,14 +33,14 @@ double squaredDistance(const Vector3d& p, const Shape& s, std::uint32_t triangle
   return (closestPoint(p, s.positions[t[0]], s.positions[t[1]], s.positions[t[2]]) - p).squaredNorm();
 }
 
-OneWay oneWay(const Shape& from, const Shape& to, const TriangleTree& tree, const std::vector<std::uint32_t>& counterpart,
-              std::uint32_t samples, const RandomKey& key) {
+OneWay oneWay(const Shape& from, const std::vector<SurfacePoint>& points, const Shape& to, const TriangleTree& tree,
+              const std::vector<std::uint32_t>& counterpart) {
   OneWay result;
   const auto nearest = [&](std::uint32_t triangle, const Vector3d& p) {
     const auto hint = triangle < counterpart.size() ? counterpart[triangle] : kNone;
     return tree.squaredDistance(p, hint != kNone ? squaredDistance(p, to, hint) : std::numeric_limits<double>::infinity());
   };
-  for (const auto& point : pointsByArea(from.positions, from.triangles, samples, key)) result.add(nearest(point.triangle, point.position));
+  for (const auto& point : points) result.add(nearest(point.triangle, point.position));
   std::vector<bool> seen(from.positions.size(), false);
   for (std::uint32_t i = 0; i < from.triangles.size(); ++i)
     for (const auto v : from.triangles[i]) {
@@ -53,9 +51,9 @@ OneWay oneWay(const Shape& from, const Shape& to, const TriangleTree& tree, cons
   return result;
 }
 
-Deviation deviationOfDropped(const Shape& shape, std::uint32_t samples, const RandomKey& key) {
+Deviation deviationOfDropped(const Shape& shape, const std::vector<SurfacePoint>& points) {
   OneWay way;
-  for (const auto& point : pointsByArea(shape.positions, shape.triangles, samples, key)) way.add(point.position.squaredNorm());
+  for (const auto& point : points) way.add(point.position.squaredNorm());
   for (const auto& t : shape.triangles)
     for (const auto v : t) way.max_squared = std::max(way.max_squared, shape.positions[v].squaredNorm());
   return {std::sqrt(way.max_squared), way.mean(), 0};
@@ -83,23 +81,28 @@ std::vector<SurfacePoint> pointsByArea(std::span<const Vector3d> positions, std:
   return points;
 }
 
-Deviation measureDeviation(const Shape& before, const Shape& after, const std::vector<std::uint32_t>& image, std::uint32_t samples,
-                           std::uint64_t seed) {
+DeviationMeter::DeviationMeter(const Shape& before, std::uint32_t samples, std::uint64_t seed)
+    : before_(before), samples_(samples), seed_(seed), tree_(before.positions, before.triangles),
+      points_(pointsByArea(before.positions, before.triangles, samples, {seed, 0})) {
+  for (const auto& t : before.triangles) area_m2_ += areaOf(before.positions, t);
+}
+
+Deviation DeviationMeter::of(const Shape& after, const std::vector<std::uint32_t>& image) const {
   Deviation result;
-  if (before.triangles.empty()) return result;
+  if (before_.triangles.empty()) return result;
   if (after.triangles.empty()) {
-    result = deviationOfDropped(before, samples, {seed, 0});
+    result = deviationOfDropped(before_, points_);
   } else {
     std::vector<std::uint32_t> origin(after.triangles.size(), kNone);
     for (std::uint32_t i = 0; i < image.size(); ++i)
       if (image[i] != kNone) origin[image[i]] = i;
-    const TriangleTree tree_before(before.positions, before.triangles), tree_after(after.positions, after.triangles);
-    const OneWay there = oneWay(before, after, tree_after, image, samples, {seed, 0});
-    const OneWay back = oneWay(after, before, tree_before, origin, samples, {seed, 1});
+    const TriangleTree tree(after.positions, after.triangles);
+    const OneWay there = oneWay(before_, points_, after, tree, image);
+    const OneWay back = oneWay(after, pointsByArea(after.positions, after.triangles, samples_, {seed_, 1}), before_, tree_, origin);
     result.max_m = std::sqrt(std::max(there.max_squared, back.max_squared));
     result.mean_m = 0.5 * (there.mean() + back.mean());
   }
-  for (const auto& t : before.triangles) result.area_m2 += areaOf(before.positions, t);
+  result.area_m2 = area_m2_;
   return result;
 }
 

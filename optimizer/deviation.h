@@ -7,6 +7,7 @@
 
 #include "core/random.h"
 #include "optimizer/shape.h"
+#include "optimizer/triangle_tree.h"
 
 namespace standpoint {
 
@@ -25,10 +26,23 @@ struct Deviation {
   double area_m2 = 0; // of the shape before
 };
 
-// Measures how far two shapes with the same centre are apart: `samples` points spread by area on each, and every vertex
-// for the maximum, each against the other's nearest triangle. An empty `after` counts as its centre: a dropped shape.
-// `image` is replay()'s: it only makes the search faster.
-Deviation measureDeviation(const Shape& before, const Shape& after, const std::vector<std::uint32_t>& image, std::uint32_t samples,
-                           std::uint64_t seed);
+// Measures how far shapes are from the one that they were made of: points spread by area on each, and every vertex for the
+// maximum, each against the other's nearest triangle. An empty shape counts as the centre: it was dropped.
+// Keeps a reference to `before`.
+class DeviationMeter {
+ public:
+  DeviationMeter(const Shape& before, std::uint32_t samples, std::uint64_t seed);
+
+  // `image` is replay()'s, or empty: it only makes the search faster. `after` has the same centre.
+  Deviation of(const Shape& after, const std::vector<std::uint32_t>& image = {}) const;
+
+ private:
+  const Shape& before_;
+  std::uint32_t samples_;
+  std::uint64_t seed_;
+  double area_m2_ = 0;
+  TriangleTree tree_;
+  std::vector<SurfacePoint> points_;
+};
 
 }  // namespace standpoint

@@ -11,8 +11,8 @@
 #include <tbb/parallel_for.h>
 
 #include "optimizer/budget.h"
-#include "optimizer/collapse.h"
 #include "optimizer/deviation.h"
+#include "optimizer/levels.h"
 #include "optimizer/shape.h"
 
 namespace standpoint {
@@ -25,7 +25,7 @@ constexpr double kFewestSamples = 100, kMostSamples = 50'000;  // of one mesh
 // What one mesh, shared by its copies, goes through.
 struct Work {
   Shape shape, lighter;
-  std::vector<Collapse> log;
+  ShapeLevels levels;
   std::size_t limit = 0, taken = 0;
   std::uint64_t copies = 0;
   double scale = 0;      // of the largest copy: deviations are measured in its metres
@@ -84,19 +84,19 @@ std::vector<Work> prepare(const Environment& environment) {
   return works;
 }
 
-void measure(Work& work, std::size_t steps, std::uint64_t seed) {
+void measure(Work& work, const DeviationMeter& meter, std::size_t taken) {
   std::vector<std::uint32_t> image;
-  work.lighter = replay(work.shape, work.log, steps, &image);
-  work.deviation = measureDeviation(work.shape, work.lighter, image, work.samples, seed);
+  work.lighter = atLevel(work.shape, work.levels, taken, image);
+  work.deviation = meter.of(work.lighter, image);
 }
 
-// The most steps whose measured deviation stays within the limit. The log was made with a bound on each step's effect,
+// The simplest level whose measured deviation stays within the limit. The log was made with a bound on each step's effect,
 // so that this is rarely needed; what counts is the measurement.
-void shrinkToDeviation(Work& work, double max_deviation_m, std::uint64_t seed) {
+void shrinkToDeviation(Work& work, const DeviationMeter& meter, double max_deviation_m) {
   std::size_t good = 0, bad = work.taken;
   while (bad - good > 1) {
     const std::size_t middle = good + (bad - good) / 2;
-    measure(work, middle, seed);
+    measure(work, meter, middle);
     (work.maxDeviation() <= max_deviation_m ? good : bad) = middle;
   }
   work.limit = good;
@@ -106,7 +106,7 @@ void shrinkToDeviation(Work& work, double max_deviation_m, std::uint64_t seed) {
 void share(std::vector<Work>& works, std::uint64_t budget) {
   std::vector<Bidder> bidders(works.size());
   for (std::size_t i = 0; i < works.size(); ++i)
-    bidders[i] = {&works[i].log, works[i].limit, works[i].shape.triangles.size(), works[i].copies, works[i].scale};
+    bidders[i] = {&works[i].levels.levels, works[i].limit, works[i].shape.triangles.size(), works[i].copies, works[i].scale};
   const auto taken = shareBudget(bidders, budget);
   for (std::size_t i = 0; i < works.size(); ++i) {
     if (taken[i] != works[i].taken) works[i].measured = false;
@@ -116,10 +116,10 @@ void share(std::vector<Work>& works, std::uint64_t budget) {
 
 Result<void> simplify(std::vector<Work>& works, const OptimizeOptions& options, bool lossless, Progress& progress) {
   progress.stage("Simplify", 0, 0.6);
-  forEachLargestFirst(works, progress, [&](Work& work, std::uint32_t) {
+  forEachLargestFirst(works, progress, [&](Work& work, std::uint32_t mesh) {
     if (work.copies == 0 || !(work.scale > 0)) return;
-    work.log = recordCollapses(work.shape, {options.max_deviation_m / work.scale, lossless}, progress);
-    work.limit = work.log.size();
+    work.levels = makeLevels(work.shape, {options.max_deviation_m / work.scale, lossless}, mesh, progress);
+    work.limit = work.levels.levels.size();
   });
   progress.stage("Measure", 0.6, 1);
   for (bool settled = false; !settled;) {
@@ -127,9 +127,10 @@ Result<void> simplify(std::vector<Work>& works, const OptimizeOptions& options, 
     share(works, lossless ? 0 : options.budget);
     forEachLargestFirst(works, progress, [&](Work& work, std::uint32_t mesh) {
       if (work.measured) return;
-      measure(work, work.taken, mesh);
+      const DeviationMeter meter(work.shape, work.samples, mesh);
+      measure(work, meter, work.taken);
       work.measured = true;
-      if (!lossless && work.taken > 0 && work.maxDeviation() > options.max_deviation_m) shrinkToDeviation(work, options.max_deviation_m, mesh);
+      if (!lossless && work.taken > 0 && work.maxDeviation() > options.max_deviation_m) shrinkToDeviation(work, meter, options.max_deviation_m);
     });
     settled = std::all_of(works.begin(), works.end(), [](const Work& work) { return work.measured; });
   }
