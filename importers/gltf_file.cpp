@@ -126,6 +126,8 @@ void GltfFile::parse(std::span<const std::uint8_t> bytes) {
   const std::string version = text(asset, "version");
   if (version.empty()) return fail("/asset/version", "is missing: not a glTF 2.0 file");
   if (!version.starts_with("2.")) return fail("/asset/version", "is " + version + ", only glTF 2 is read");
+  const std::string least = text(asset, "minVersion");
+  if (!least.empty() && least != "2.0") return fail("/asset/minVersion", "is " + least + ", glTF 2.0 is read");
 }
 
 std::vector<std::uint8_t> GltfFile::readAll(const std::filesystem::path& file, const std::string& place,

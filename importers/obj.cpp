@@ -8,7 +8,6 @@
 #include <istream>
 #include <map>
 #include <set>
-#include <sstream>
 
 #define TINYOBJLOADER_IMPLEMENTATION
 #define TINYOBJLOADER_USE_DOUBLE
@@ -47,10 +46,16 @@ std::string_view afterFirstWord(std::string_view statement) {
   return start == std::string_view::npos ? std::string_view{} : statement.substr(start);
 }
 
+// Split at spaces, but not at "\\ ".
 std::vector<std::string> words(std::string_view text) {
-  std::istringstream stream{std::string(text)};
-  std::vector<std::string> result;
-  for (std::string word; stream >> word;) result.push_back(word);
+  std::vector<std::string> result(1);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool escaped = text[i] == '\\' && i + 1 < text.size() && text[i + 1] == ' ';
+    const bool space = text[i] == ' ' || text[i] == '\t';
+    if (escaped) result.back() += text[++i];
+    else if (!space) result.back() += text[i];
+    else if (!result.back().empty()) result.emplace_back();
+  }
   return result;
 }
 
@@ -220,7 +225,7 @@ class ObjReader {
     const std::string whole(names);
     if (loadMaterialFile(whole)) return;
     for (const auto& name : words(names))
-      if (name == whole || !loadMaterialFile(name))
+      if (!name.empty() && (name == whole || !loadMaterialFile(name)))
         report.warn("line " + std::to_string(lines_->line()), "material file '" + name + "' is missing; its materials keep their names only");
   }
 

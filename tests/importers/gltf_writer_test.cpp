@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <bit>
+#include <numbers>
+
+#include "core/random.h"
+#include "tests/importers/mesh_files.h"
+
+namespace standpoint::test {
+namespace {
+
+Mesh randomMesh(std::uint32_t seed, std::size_t vertices, std::size_t triangles, std::uint32_t surfaces) {
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < vertices; ++i) {
+    const auto r = philox({seed, 0}, i, 0, 0);
+    mesh.positions.emplace_back(static_cast<float>(uniform(r[0]) - 0.5), static_cast<float>(uniform(r[1]) * 1e-30),
+                                static_cast<float>(uniform(r[2]) * 1e6));
+  }
+  for (std::uint32_t i = 0; i < triangles; ++i) {
+    const auto r = philox({seed, 1}, i, 0, 0);
+    const auto n = static_cast<std::uint32_t>(vertices);
+    mesh.triangles.push_back({r[0] % n, r[1] % n, r[2] % n});
+    mesh.surface_of_triangle.push_back(r[3] % surfaces);
+  }
+  sortBySurface(mesh);
+  return mesh;
+}
+
+Instance instance(std::uint32_t mesh, std::uint32_t product, const Eigen::Matrix3d& linear, const Eigen::Vector3d& translation) {
+  Instance result{mesh, product, Eigen::Affine3d::Identity()};
+  result.world_from_mesh.linear() = linear;
+  result.world_from_mesh.translation() = translation;
+  return result;
+}
+
+Environment everything() {
+  Environment e;
+  e.surfaces = {{"Brick", {0.1F, 0.7F, 1.0F / 3, 1}, "#12", {}, {}},
+                {"", {0, 0, 0, 0.3F}, "", 0.2F, {}},
+                {"Gl\xC3\xA4s \"x\"", {0.123456789F, 1, 0.5F, 0.1F}, "#9", 1.0F, 0.0F}};
+  e.meshes = {std::make_shared<Mesh>(randomMesh(1, 50, 80, 3)), std::make_shared<Mesh>(),
+              std::make_shared<Mesh>(randomMesh(2, 7, 0, 3)), std::make_shared<Mesh>(randomMesh(3, 9, 4, 1))};
+  e.products.resize(4);
+  e.products[0].name = "wall";
+  Eigen::Matrix3d shear, mirror = Eigen::Vector3d(-1, 1, 1).asDiagonal();
+  shear << 1, 0.3, 0, 0, 1.7, 0.1, 0, 0, 0.2;
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const Eigen::Vector3d t(std::numbers::pi, -1.0 / 3, 1234.5678901234567);
+  e.instances = {instance(0, 0, turn, t),       instance(0, 0, turn * shear, -t), instance(3, 1, mirror, t / 7),
+                 instance(1, 1, turn, t),       instance(2, 3, shear, t),         instance(0, 3, Eigen::Matrix3d::Identity(), {0, 0, 0}),
+                 instance(3, 3, Eigen::Vector3d(1, 1, 0).asDiagonal(), t)};
+  return e;
+}
+
+void expectSame(const Environment& a, const Environment& b) {
+  EXPECT_EQ(a.surfaces, b.surfaces);
+  ASSERT_EQ(a.meshes.size(), b.meshes.size());
+  for (std::size_t i = 0; i < a.meshes.size(); ++i) {
+    EXPECT_EQ(bytesOf(a.meshes[i]->positions), bytesOf(b.meshes[i]->positions)) << i;
+    EXPECT_EQ(a.meshes[i]->triangles, b.meshes[i]->triangles) << i;
+    EXPECT_EQ(a.meshes[i]->surface_of_triangle, b.meshes[i]->surface_of_triangle) << i;
+  }
+  ASSERT_EQ(a.instances.size(), b.instances.size());
+  for (std::size_t i = 0; i < a.instances.size(); ++i) {
+    EXPECT_EQ(a.instances[i].mesh, b.instances[i].mesh);
+    EXPECT_EQ(a.instances[i].product, b.instances[i].product);
+    for (int k = 0; k < 16; ++k)
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(a.instances[i].world_from_mesh.matrix().data()[k]),
+                std::bit_cast<std::uint64_t>(b.instances[i].world_from_mesh.matrix().data()[k]));
+  }
+  EXPECT_EQ(a.products.size(), b.products.size());
+}
+
+Environment throughGlb(const Environment& e, const Georeference& g, const std::filesystem::path& file) {
+  Progress progress;
+  const auto written = writeEnvironmentGlb(e, g, file, progress);
+  EXPECT_TRUE(written) << describe(written.error());
+  auto back = readEnvironmentGlb(file, progress);
+  EXPECT_TRUE(back) << describe(back.error());
+  return back.value_or(Environment{});
+}
+
+TEST(GltfWriter, RoundTripKeepsEveryBit) {
+  const auto e = everything();
+  ASSERT_EQ(validate(e), "");
+  expectSame(e, throughGlb(e, {}, scratch() / "a.glb"));
+}
+
+TEST(GltfWriter, RoundTripOfNothingIsNothing) { expectSame({}, throughGlb({}, {}, scratch() / "empty.glb")); }
+
+TEST(GltfWriter, SameEnvironmentGivesTheSameBytes) {
+  const auto folder = scratch();
+  throughGlb(everything(), {}, folder / "a.glb");
+  throughGlb(everything(), {}, folder / "b.glb");
+  EXPECT_EQ(readBytes(folder / "a.glb"), readBytes(folder / "b.glb"));
+}
+
+// What another program's reader must see: the same places, Y up, which our importer turns back.
+TEST(GltfWriter, ImporterSeesTheSamePlacesAndRestoresTheGeoreference) {
+  const auto e = everything();
+  Georeference g;
+  g.shift_m = {691234, 5336789, 512};
+  g.crs = "EPSG:25832";
+  g.map_from_file = MapConversion{0.1, 5e6 + 1.0 / 3, 7, 0.3, -0.7, 0.9996};
+  g.true_north_rad = 0.1;
+  const auto file = scratch() / "a.glb";
+  throughGlb(e, g, file);
+  const auto model = import(file);
+  ASSERT_TRUE(model) << describe(model.error());
+  EXPECT_EQ(model->georeference.shift_m, g.shift_m);
+  EXPECT_EQ(model->georeference.crs, g.crs);
+  EXPECT_EQ(model->georeference.map_from_file->northings_m, g.map_from_file->northings_m);
+  EXPECT_EQ(model->georeference.true_north_rad, g.true_north_rad);
+  EXPECT_EQ(triangleCount(model->environment), triangleCount(e));
+  const auto a = bounds(e), b = bounds(model->environment);
+  EXPECT_LT((a.min - b.min).norm() + (a.max - b.max).norm(), 1e-6);   // of a box of 1000 km
+  EXPECT_EQ(model->environment.products.at(0).name, "wall");
+  const auto moved = import(file, {.shift = ShiftMode::none});
+  ASSERT_TRUE(moved);
+  EXPECT_EQ(moved->georeference.shift_m, Eigen::Vector3d::Zero());
+  EXPECT_LT((bounds(moved->environment).min - b.min - g.shift_m).norm(), 1e-6);
+}
+
+TEST(GltfWriter, ProgressCancelStopsTheWriting) {
+  Progress progress;
+  progress.cancel();
+  const auto written = writeEnvironmentGlb(everything(), {}, scratch() / "a.glb", progress);
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().kind, ErrorKind::cancelled);
+}
+
+TEST(GltfWriter, FolderThatDoesNotExistIsAFileSystemError) {
+  Progress progress;
+  const auto written = writeEnvironmentGlb(everything(), {}, scratch() / "no/such/a.glb", progress);
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().kind, ErrorKind::file_system);
+}
+
+TEST(GltfReader, ForeignGlbIsNotAnEnvironmentOfOurs) {
+  Progress progress;
+  const auto file = write(scratch() / "a.glb", glb(R"({"asset":{"version":"2.0"}})", ""));
+  const auto back = readEnvironmentGlb(file, progress);
+  ASSERT_FALSE(back);
+  EXPECT_THAT(describe(back.error()), ::testing::HasSubstr("/asset/extras/standpoint/meshes"));
+}
+
+}  // namespace
+}  // namespace standpoint::test
