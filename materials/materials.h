@@ -20,10 +20,11 @@ Result<std::vector<PhysicalMaterial>> readMaterialLibrary(const std::filesystem:
 // separated by `|`. The first rule that fits decides.
 struct AssignmentRule {
   std::string ifc_class;      // of the product: "IfcWindow*"
-  std::string material;       // of the surface or, where it has no name, of the product: "*beton*|*concrete*"
+  std::string material;       // of the surface or, where no rule knows its name, of the product: "*beton*|*concrete*"
   std::string name;           // of the product
   std::string colour;         // named band of the surface's colour: transparent, white, grey, black, red, brown, green, blue, …
   std::string assign;         // PhysicalMaterial::id
+  bool hidden = false;        // such a material lies inside (insulation, studs): where a product has others, they are seen
 };
 Result<std::vector<AssignmentRule>> readAssignmentRules(const std::filesystem::path& file,
                                                         const std::vector<PhysicalMaterial>& library);

@@ -2,7 +2,6 @@
 #include "materials/rule_matcher.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "materials/colour.h"
 
@@ -12,43 +11,12 @@ namespace {
 
 constexpr int kNoPattern = -2;
 
-// Hue 0..360, saturation and value 0..1 (Smith 1978).
-struct Hsv {
-  float hue, saturation, value;
-};
-
-Hsv hsv(const Colour& c) {
-  const float high = std::max({c.r, c.g, c.b});
-  const float range = high - std::min({c.r, c.g, c.b});
-  if (range <= 0) return {0, 0, high};
-  const float sextant = high == c.r   ? (c.g - c.b) / range
-                        : high == c.g ? 2 + (c.b - c.r) / range
-                                      : 4 + (c.r - c.g) / range;
-  return {sextant < 0 ? 60 * sextant + 360 : 60 * sextant, range / high, high};
-}
-
-std::string_view hueBand(const Hsv& c) {
-  if (c.hue < 18 || c.hue >= 340) return c.value < 0.35F ? "brown" : "red";
-  if (c.hue < 48) return c.saturation < 0.45F && c.value > 0.6F ? "beige" : c.value < 0.75F ? "brown" : "orange";
-  if (c.hue < 70) return c.saturation < 0.45F && c.value > 0.6F ? "beige" : "yellow";
-  return c.hue < 170 ? "green" : c.hue < 260 ? "blue" : "violet";
-}
-
 }  // namespace
-
-// The default colour means that the file says none: no band, so no colour rule decides on it.
-std::string_view colourBand(const Colour& colour) {
-  if (colour == Colour{}) return "";
-  if (isTransparent(colour)) return "transparent";
-  const auto c = hsv(colour);
-  if (c.value < 0.15F) return "black";
-  if (c.saturation < 0.12F) return c.value > 0.85F ? "white" : "grey";
-  return hueBand(c);
-}
 
 RuleMatcher::RuleMatcher(std::span<const AssignmentRule> rules) {
   for (const auto& rule : rules)
-    rules_.push_back({Pattern(rule.ifc_class), Pattern(rule.material), Pattern(rule.name), Pattern(rule.colour)});
+    rules_.push_back({Pattern(rule.ifc_class), Pattern(rule.material), Pattern(rule.name), Pattern(rule.colour),
+                      rule.hidden});
 }
 
 const RuleMatcher::Fits& RuleMatcher::fits(Memo& memo, Field field, const std::string& text) {
@@ -64,25 +32,26 @@ const RuleMatcher::Fits& RuleMatcher::fits(Memo& memo, Field field, const std::s
   return place->second;
 }
 
-bool RuleMatcher::knows(const std::string& material_name) {
-  if (material_name.empty()) return false;
+RuleMatcher::Known RuleMatcher::known(const std::string& material_name) {
+  if (material_name.empty()) return Known::no;
   const auto& all = fits(materials_, &RulePatterns::material, material_name);
-  return std::any_of(all.begin(), all.end(), [](int glob) { return glob >= 0; });
+  const auto first = std::find_if(all.begin(), all.end(), [](int glob) { return glob >= 0; });
+  if (first == all.end()) return Known::no;
+  return rules_[static_cast<std::size_t>(first - all.begin())].hidden ? Known::hidden : Known::visible;
 }
 
 // The surface's own name where a rule knows it; else the product's materials, and of layers the outer ones first: what
-// lies between them meets no beam. A named surface of a product with several materials may be any of them ("Sash" of
-// "Glass, Sash"), so none is taken for it.
+// lies between them meets no beam. Several materials that are no layers may each be anywhere ("Glass, Sash" of a
+// window), so none of them is taken for a surface.
 std::string RuleMatcher::knownMaterialName(const Product& product, const Surface& surface) {
-  if (knows(surface.name)) return surface.name;
-  if (!product.layers.empty()) {
-    for (const auto* layer : {&product.layers.front(), &product.layers.back()})
-      if (knows(layer->name)) return layer->name;
-  } else if (!surface.name.empty() && product.materials.size() > 1) {
-    return {};
-  }
-  for (const auto& name : product.materials)
-    if (knows(name)) return name;
+  std::vector<const std::string*> candidates{&surface.name};
+  if (!product.layers.empty())
+    for (const auto* layer : {&product.layers.front(), &product.layers.back()}) candidates.push_back(&layer->name);
+  if (!product.layers.empty() || product.materials.size() == 1)
+    for (const auto& name : product.materials) candidates.push_back(&name);
+  for (const auto wanted : {Known::visible, Known::hidden})
+    for (const auto* name : candidates)
+      if (known(*name) == wanted) return *name;
   return {};
 }
 

@@ -33,13 +33,16 @@ class RuleMatcher {
  private:
   struct RulePatterns {
     Pattern ifc_class, material, name, colour;
+    bool hidden;
   };
   using Field = Pattern RulePatterns::*;
   using Fits = std::vector<int>;  // per rule: the glob that fits, -1 when none, kNoPattern when the rule does not ask
   using Memo = std::map<std::string, Fits, std::less<>>;
 
   const Fits& fits(Memo& memo, Field field, const std::string& text);
-  bool knows(const std::string& material_name);
+  // By the first rule that asks for a material and fits the name.
+  enum class Known { no, hidden, visible };
+  Known known(const std::string& material_name);
   std::string knownMaterialName(const Product& product, const Surface& surface);
 
   std::vector<RulePatterns> rules_;

@@ -35,7 +35,7 @@ Result<void> checkColours(const std::string& globs, const JsonPlace& at) {
 }
 
 Result<AssignmentRule> readRule(const nlohmann::json& entry, const JsonPlace& at, const std::set<std::string>& ids) {
-  if (auto checked = checkKeys(entry, at, {"ifc_class", "material", "name", "colour", "assign"}); !checked)
+  if (auto checked = checkKeys(entry, at, {"ifc_class", "material", "name", "colour", "assign", "hidden"}); !checked)
     return failure(checked.error());
   AssignmentRule rule;
   for (const auto& [key, field] : {std::pair{"ifc_class", &AssignmentRule::ifc_class},
@@ -55,6 +55,11 @@ Result<AssignmentRule> readRule(const nlohmann::json& entry, const JsonPlace& at
   if (!assign) return failure(assign.error());
   if (!ids.contains(*assign)) return (at / "assign").unusable("'" + *assign + "' is not in the library");
   rule.assign = std::move(*assign);
+  if (const auto hidden = entry.find("hidden"); hidden != entry.end()) {
+    if (!hidden->is_boolean()) return (at / "hidden").unusable("must be true or false");
+    if (rule.material.empty()) return (at / "hidden").unusable("needs a pattern for the material");
+    rule.hidden = hidden->get<bool>();
+  }
   return rule;
 }
 

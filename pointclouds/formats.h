@@ -25,12 +25,20 @@ struct CloudInfo {
   Report report;
 };
 
+// A PointSink that writes a file. Needs what core/points.h promises: coordinates are finite, indices lie in the grid of the
+// header and labels in its tables; anything else is an error. A header with rows == 0 or columns == 0 has no grid, and
+// the row and column of its points are not used; intensity_min == intensity_max says that there is no intensity.
+class CloudWriter : public PointSink {
+ public:
+  virtual const Report& report() const = 0;   // what the format could not hold; complete after close()
+};
+
 struct CloudFormat {
   const char* name;                // "e57"
   const char* description;
   const char* extension;           // ".e57"
   bool many_scans;                 // one file holds several stations
-  Result<std::unique_ptr<PointSink>> (*writer)(const std::filesystem::path&);   // null when it cannot be written
+  Result<std::unique_ptr<CloudWriter>> (*writer)(const std::filesystem::path&);   // null when it cannot be written
   // Streams every scan of a file to `sink` (begin, write…, end for each; not close). Null when it cannot be read.
   Result<Report> (*read)(const std::filesystem::path&, PointSink& sink, Progress&);
   Result<CloudInfo> (*info)(const std::filesystem::path&);

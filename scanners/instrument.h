@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -29,7 +30,8 @@ struct InstrumentSetting {
   std::string key;                 // "resolution"
   std::string label;
   std::string unit;
-  std::vector<SettingChoice> choices;
+  std::vector<SettingChoice> choices;      // empty: a number from minimum to maximum
+  double minimum = 0, maximum = 0;
   std::string standard;            // default value
 };
 
@@ -49,9 +51,18 @@ struct Instrument {
   double min_range_m = 0, max_range_m = 0;
   double reference_reflectivity = 0;   // at which max_range_m holds
   double min_elevation_rad = 0, max_elevation_rad = 0;
-  double angle_sigma_rad = 0;
+  double angle_sigma_rad = 0;      // accuracy of an angle: systematic part and jitter together
+  double angle_jitter_rad = 0;     // the part that differs from pulse to pulse
   double range_bias_m = 0, range_bias_ppm = 0;   // accuracy: systematic, drawn once per scan
   std::vector<RangeNoise> range_noise;           // 1 σ on a plane
+  double near_range_m = 0;         // η_opt = 1 / (1 + (near_range / R)^power), physics.md §2.2; 0 = none
+  int near_range_power = 2;
+  double detection_softness = 0;   // σ of the detection threshold as a share of it, §2.7
+  double intensity_low_db = 0, intensity_high_db = 0;   // 10 lg x that is stored as 0 and as 1
+  int intensity_levels = 0;        // quantisation of the stored intensity
+  double mirror_max_hz = 0;        // 0 = no published limit
+  double column_factor = 1;        // share of measured columns that the device adds beyond the grid (overlap)
+  double overhead_s = 0;           // spin-up and saving, part of scan_seconds
   double trunnion_height_m = 0;    // of the tilting axis above the tripod plate
   double tripod_height_m = 0;      // default height of the axis above the ground
   double imaging_seconds = 0;
@@ -66,7 +77,7 @@ Result<std::vector<Instrument>> readInstruments(const std::filesystem::path& fol
 
 using SettingValues = std::vector<std::pair<std::string, std::string>>;   // key, value, in the device's words
 
-// What a scan with these settings does: the grid, the time, the noise. Refused settings name what the device allows.
+// What a scan with these settings does: the grid (azimuth clockwise from +X of the scanner's frame),  the time, the noise. Refused settings name what the device allows.
 struct ScanSettings {
   SettingValues values;            // complete: defaults filled in, in the instrument's order
   std::uint32_t columns = 0, rows = 0;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <random>
-#include <sstream>
 
 #include <gmock/gmock.h>
 
@@ -129,6 +128,8 @@ TEST(BadRules, AreRefusedWithTheirPlace) {
         BadRule{R"({"material": "", "assign": "bark"})", "r.json /1/material", "empty"},
         BadRule{R"({"material": 3, "assign": "bark"})", "r.json /1/material", "text"},
         BadRule{R"({"colour": "red|mauve", "assign": "bark"})", "r.json /1/colour", "'mauve' is no colour"},
+        BadRule{R"({"material": "x", "assign": "bark", "hidden": 1})", "r.json /1/hidden", "true or false"},
+        BadRule{R"({"ifc_class": "x", "assign": "bark", "hidden": true})", "r.json /1/hidden", "needs a pattern"},
         BadRule{R"({"class": "IfcWall", "assign": "bark"})", "r.json /1/class", "not a known key"}}) {
     const auto rules = readAssignmentRules(folder.write("r.json", good + text + "]"), shippedLibrary());
     ASSERT_FALSE(rules.has_value()) << text;

@@ -178,6 +178,20 @@ TEST(Library, KeepsTheTrapsOfTheWavelengths) {
   EXPECT_LT(at("paint_gloss_black_on_aluminium", 905), 0.01);                          // its DHR is its gloss
 }
 
+// The page's table is written by hand or script; it must not fall behind the library.
+TEST(Library, IsTheTableOfItsPage) {
+  std::ifstream stream(SOURCE_DIR "/docs/materials.md");
+  const std::string page{std::istreambuf_iterator<char>(stream), {}};
+  for (const auto& material : shippedLibrary()) {
+    std::ostringstream row;
+    row.setf(std::ios::fixed);
+    row.precision(3);
+    row << "| `" << material.id << "` | " << material.label;
+    for (const double wavelength : {532, 905, 1550}) row << " | " << atWavelength(material.reflectance, wavelength);
+    EXPECT_NE(page.find(row.str() + " |"), std::string::npos) << row.str();
+  }
+}
+
 TEST(Library, ComesSortedByIdWithoutRepetition) {
   const auto& library = shippedLibrary();
   for (std::size_t i = 1; i < library.size(); ++i) EXPECT_LT(library[i - 1].id, library[i].id);

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <array>
-#include <chrono>
-
 #include <gmock/gmock.h>
 
 #include "materials/colour.h"
@@ -159,13 +156,19 @@ TEST(Rules, AskTheProductsMaterialsWhereTheSurfaceSaysNothing) {
   auto& layered = b.product("IfcWall", "", {nameless});
   layered.materials = {"Luft", "Isolatie", "Gipskarton"};
   layered.layers = {{"Gipskarton", 0.0125}, {"Isolatie", 0.1}, {"Ziegel", 0.2}};
+  auto& stud = b.product("IfcCovering", "", {nameless});
+  stud.materials = {"Metal - Stud Layer", "Plasterboard"};
+  stud.layers = {{"Metal - Stud Layer", 0.05}, {"Plasterboard", 0.0125}};
+  b.product("IfcCovering", "", {nameless}).materials = {"Isolatie"};
   auto& parts = b.product("IfcWindow", "", {b.surface("Sash")});
   parts.materials = {"Glass", "Sash"};
   const auto result = b.assign();
   EXPECT_EQ(materialId(result, 0, nameless), "brick_red_bare");
   EXPECT_EQ(materialId(result, 1, odd), "brick_red_bare");
   EXPECT_EQ(materialId(result, 2, nameless), "gypsum_board_painted");  // an outer layer, not what lies between
-  EXPECT_EQ(materialId(result, 3, 2), "paint_white");                  // the sash is not of glass
+  EXPECT_EQ(materialId(result, 3, nameless), "gypsum_board_painted");  // studs stand behind it
+  EXPECT_EQ(materialId(result, 4, nameless), "insulation_board");      // unless there is nothing else
+  EXPECT_EQ(materialId(result, 5, 2), "paint_white");                  // the sash is not of glass
 }
 
 TEST(Rules, TellWhichOneDecided) {

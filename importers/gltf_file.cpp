@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "importers/gltf_file.h"
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+
+namespace standpoint {
+
+namespace {
+
+constexpr std::uint32_t kGlbMagic = 0x46546C67;
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
+constexpr std::uint32_t kBinaryChunk = 0x004E4942;
+constexpr std::size_t kLargest = 0xFFFFFFFFU;   // GLB lengths are 32 bit; no honest count is larger
+
+std::uint32_t word(std::span<const std::uint8_t> bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  std::memcpy(&value, bytes.data() + at, 4);
+  return value;
+}
+
+int base64Digit(char c) {
+  if (c >= 'A' && c <= 'Z') return c - 'A';
+  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+  if (c >= '0' && c <= '9') return c - '0' + 52;
+  if (c == '+' || c == '-') return 62;
+  if (c == '/' || c == '_') return 63;
+  return -1;
+}
+
+std::optional<std::vector<std::uint8_t>> fromBase64(std::string_view text) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(text.size() / 4 * 3);
+  std::uint32_t bits = 0;
+  int have = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    const int digit = base64Digit(c);
+    if (digit < 0) return std::nullopt;
+    bits = bits << 6U | static_cast<std::uint32_t>(digit);
+    have += 6;
+    if (have < 8) continue;
+    have -= 8;
+    bytes.push_back(static_cast<std::uint8_t>(bits >> static_cast<unsigned>(have)));
+  }
+  return bytes;
+}
+
+int hexDigit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+std::string percentDecoded(std::string_view text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool escape = text[i] == '%' && i + 2 < text.size() && hexDigit(text[i + 1]) >= 0 && hexDigit(text[i + 2]) >= 0;
+    result += escape ? static_cast<char>(hexDigit(text[i + 1]) * 16 + hexDigit(text[i + 2])) : text[i];
+    if (escape) i += 2;
+  }
+  return result;
+}
+
+}  // namespace
+
+const nlohmann::json& memberOf(const nlohmann::json& object, const char* key) {
+  static const nlohmann::json kNothing;
+  if (!object.is_object()) return kNothing;
+  const auto found = object.find(key);
+  return found == object.end() ? kNothing : *found;
+}
+
+void GltfFile::fail(const std::string& place, std::string message, ErrorKind kind) {
+  if (error_) return;
+  std::string source = path_.filename().string();
+  if (!place.empty()) source += " " + place;
+  error_ = Error{kind, std::move(message), std::move(source)};
+}
+
+void GltfFile::load() {
+  const auto bytes = readAll(path_, "", kLargest);
+  if (failed()) return;
+  allowance_ = (std::size_t{256} << 20U) + 64 * bytes.size();
+  const bool binary = bytes.size() >= 4 && word(bytes, 0) == kGlbMagic;
+  if (binary) {
+    splitBinary(bytes);
+  } else {
+    parse(bytes);
+    for (std::size_t i = 0; !failed() && i < count("buffers"); ++i) loadBuffer(i, {});
+  }
+}
+
+void GltfFile::splitBinary(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() < 20) return fail("byte 0", "a GLB needs a header of 12 bytes and a JSON chunk; the file is cut off");
+  if (word(bytes, 4) != 2) return fail("byte 4", "GLB version " + std::to_string(word(bytes, 4)) + ", only 2 is read");
+  if (word(bytes, 8) > bytes.size())
+    return fail("byte 8", "the header states " + std::to_string(word(bytes, 8)) + " bytes, the file has " +
+                              std::to_string(bytes.size()) + ": it is cut off");
+  const std::size_t total = word(bytes, 8);
+  std::span<const std::uint8_t> binary;
+  std::size_t at = 12;
+  for (int chunk = 0; at + 8 <= total; ++chunk) {
+    const std::size_t length = word(bytes, at);
+    const std::uint32_t kind = word(bytes, at + 4);
+    if (length > total - at - 8) return fail("byte " + std::to_string(at), "a chunk reaches beyond the end of the file");
+    const auto content = bytes.subspan(at + 8, length);
+    if (chunk == 0 && kind != kJsonChunk) return fail("byte 12", "the first chunk is not JSON");
+    if (chunk == 0) parse(content);
+    if (kind == kBinaryChunk && binary.empty()) binary = content;
+    at += 8 + length;
+  }
+  for (std::size_t i = 0; !failed() && i < count("buffers"); ++i) loadBuffer(i, binary);
+}
+
+void GltfFile::parse(std::span<const std::uint8_t> bytes) {
+  try {
+    json_ = nlohmann::json::parse(bytes.begin(), bytes.end());
+  } catch (const nlohmann::json::parse_error& e) {
+    return fail("byte " + std::to_string(e.byte), "not JSON: " + std::string(e.what()));
+  }
+  if (!json_.is_object()) return fail("byte 0", "the JSON is not an object");
+  const auto& asset = memberOf(json_, "asset");
+  const std::string version = text(asset, "version");
+  if (version.empty()) return fail("/asset/version", "is missing: not a glTF 2.0 file");
+  if (!version.starts_with("2.")) return fail("/asset/version", "is " + version + ", only glTF 2 is read");
+}
+
+std::vector<std::uint8_t> GltfFile::readAll(const std::filesystem::path& file, const std::string& place,
+                                            std::size_t at_most) {
+  std::error_code code;
+  const auto size = std::filesystem::file_size(file, code);
+  if (code) return fail(place, "cannot read " + file.string() + ": " + code.message(), ErrorKind::file_system), std::vector<std::uint8_t>{};
+  std::vector<std::uint8_t> bytes(std::min<std::size_t>(size, at_most));
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!stream) fail(place, "cannot read " + file.string(), ErrorKind::file_system);
+  return bytes;
+}
+
+std::vector<std::uint8_t> GltfFile::fromUri(const std::string& uri, const std::string& place, std::size_t size) {
+  if (uri.starts_with("data:")) {
+    const auto comma = uri.find(";base64,");
+    auto bytes = comma == std::string::npos ? std::nullopt : fromBase64(std::string_view(uri).substr(comma + 8));
+    if (!bytes) fail(place + "/uri", "is a data URI that is not base64");
+    return bytes.value_or(std::vector<std::uint8_t>{});
+  }
+  const std::filesystem::path relative = percentDecoded(uri);
+  if (uri.find("://") != std::string::npos || relative.is_absolute()) {
+    fail(place + "/uri", "'" + uri.substr(0, 80) + "' does not lie beside the file");
+    return {};
+  }
+  const auto file = path_.parent_path() / relative;
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(file, code)) {
+    fail(place + "/uri", "'" + uri.substr(0, 80) + "' does not exist");
+    return {};
+  }
+  return readAll(file, place, size);
+}
+
+void GltfFile::loadBuffer(std::size_t index, std::span<const std::uint8_t> binary_chunk) {
+  const std::string place = "/buffers/" + std::to_string(index);
+  const auto& json = element("buffers", index, place);
+  const std::size_t size = natural(json, "byteLength", 0, place);
+  buffers_.emplace_back();
+  auto& buffer = buffers_.back();
+  const std::string uri = text(json, "uri");
+  if (!uri.empty()) {
+    buffer = fromUri(uri, place, size);
+  } else if (index == 0 && !binary_chunk.empty()) {
+    buffer.assign(binary_chunk.begin(), binary_chunk.begin() + static_cast<std::ptrdiff_t>(std::min(size, binary_chunk.size())));
+  } else {
+    return;   // no data: allowed for the fallback of EXT_meshopt_compression; slice() refuses any other use
+  }
+  allowance_ += 64 * buffer.size();
+  if (buffer.size() < size)
+    return fail(place, "states " + std::to_string(size) + " bytes but has " + std::to_string(buffer.size()));
+  buffer.resize(size);
+}
+
+std::size_t GltfFile::natural(const nlohmann::json& object, const char* key, std::size_t fallback, const std::string& place) {
+  const auto& value = memberOf(object, key);
+  if (value.is_null()) return fallback;
+  if (value.is_number_unsigned() && value.get<std::uint64_t>() <= kLargest) return value.get<std::size_t>();
+  if (value.is_number_float() && value.get<double>() >= 0 && value.get<double>() <= static_cast<double>(kLargest) &&
+      value.get<double>() == static_cast<double>(static_cast<std::size_t>(value.get<double>())))
+    return static_cast<std::size_t>(value.get<double>());   // "12.0", which some exporters write
+  fail(place + "/" + key, "is not a whole number from 0 to 4294967295");
+  return fallback;
+}
+
+std::optional<std::size_t> GltfFile::index(const nlohmann::json& object, const char* key, const std::string& place) {
+  if (memberOf(object, key).is_null()) return std::nullopt;
+  const auto value = natural(object, key, 0, place);
+  return failed() ? std::nullopt : std::optional(value);
+}
+
+std::vector<double> GltfFile::numbers(const nlohmann::json& object, const char* key, std::size_t count,
+                                      const std::string& place) {
+  const auto& value = memberOf(object, key);
+  if (value.is_null()) return {};
+  std::vector<double> result;
+  if (value.is_array())
+    for (const auto& x : value)
+      if (x.is_number()) result.push_back(x.get<double>());
+  if (result.size() != count || !value.is_array() || value.size() != count) {
+    fail(place + "/" + key, "is not " + std::to_string(count) + " numbers");
+    return {};
+  }
+  return result;
+}
+
+std::string GltfFile::text(const nlohmann::json& object, const char* key) const {
+  const auto& value = memberOf(object, key);
+  return value.is_string() ? value.get<std::string>() : std::string();
+}
+
+std::size_t GltfFile::count(const char* array) const {
+  const auto& value = memberOf(json_, array);
+  return value.is_array() ? value.size() : 0;
+}
+
+const nlohmann::json& GltfFile::element(const char* array, std::size_t index, const std::string& asked_by) {
+  static const nlohmann::json kNothing = nlohmann::json::object();
+  if (index >= count(array)) {
+    fail(asked_by, "refers to /" + std::string(array) + "/" + std::to_string(index) + ", which does not exist");
+    return kNothing;
+  }
+  const auto& value = json_.at(array)[index];
+  if (!value.is_object()) fail("/" + std::string(array) + "/" + std::to_string(index), "is not an object");
+  return value.is_object() ? value : kNothing;
+}
+
+bool GltfFile::spend(std::size_t bytes, const std::string& place) {
+  if (bytes > allowance_ - spent_) {
+    fail(place, "unpacks to more than 64 times the size of the file");
+    return false;
+  }
+  spent_ += bytes;
+  return true;
+}
+
+}  // namespace standpoint

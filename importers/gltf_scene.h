@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+
+#include <Eigen/Geometry>
+
+#include "importers/gltf_file.h"
+
+namespace standpoint {
+
+struct GltfNode {
+  std::size_t index = 0;
+  std::string place;                                                // "/nodes/7"
+  const nlohmann::json* json = nullptr;
+  Eigen::Affine3d world_from_node = Eigen::Affine3d::Identity();    // glTF's world, Y up
+};
+
+// Visits the nodes of the default scene (of all root nodes where the file has no scene), parents first, in the file's
+// order. A node that is reached twice is a fault: node hierarchies are trees.
+void walkScene(GltfFile& file, const std::function<void(const GltfNode&)>& visit);
+
+// EXT_mesh_gpu_instancing: the places of a node's mesh in the node's own frame; one identity where it has none.
+std::vector<Eigen::Affine3d> instancesOf(GltfFile& file, const GltfNode& node);
+
+}  // namespace standpoint

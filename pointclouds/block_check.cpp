@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pointclouds/block_check.h"
+
+#include <bit>
+#include <string>
+
+namespace standpoint {
+namespace {
+
+bool allFinite(const std::vector<float>& values) {
+  bool finite = true;
+  for (const float v : values) finite &= (std::bit_cast<std::uint32_t>(v) & 0x7F800000u) != 0x7F800000u;
+  return finite;
+}
+
+std::uint32_t largest(const std::vector<std::uint32_t>& values) {
+  std::uint32_t most = 0;
+  for (const std::uint32_t v : values) most = std::max(most, v);
+  return most;
+}
+
+template <class T>
+bool sizedAs(const std::vector<T>& column, std::size_t wanted) {
+  return column.size() == wanted;
+}
+
+bool columnsFit(const ScanHeader& header, const PointBlock& b) {
+  const std::size_t n = b.size(), colours = header.has_colour ? n : 0, labels = header.has_labels ? n : 0;
+  return sizedAs(b.y_m, n) && sizedAs(b.z_m, n) && sizedAs(b.intensity, n) && sizedAs(b.row, n) &&
+         sizedAs(b.column, n) && sizedAs(b.red, colours) && sizedAs(b.green, colours) && sizedAs(b.blue, colours) &&
+         sizedAs(b.product, labels) && sizedAs(b.material, labels);
+}
+
+tl::unexpected<Error> broken(const ScanHeader& header, const std::string& what) {
+  return failure(ErrorKind::internal, what, "scan " + header.name);
+}
+
+}  // namespace
+
+Result<BlockExtent> checkBlock(const ScanHeader& header, const PointBlock& block) {
+  if (!columnsFit(header, block)) return broken(header, "a block's columns are not of one size, or not those of the header");
+  BlockExtent extent;
+  const std::array<const std::vector<float>*, 3> axes = {&block.x_m, &block.y_m, &block.z_m};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!allFinite(*axes[axis])) return broken(header, "a coordinate is not finite");
+    const auto [low, high] = std::minmax_element(axes[axis]->begin(), axes[axis]->end());
+    extent.low[axis] = *low;
+    extent.high[axis] = *high;
+  }
+  if (!allFinite(block.intensity)) return broken(header, "an intensity is not finite");
+  if (hasGrid(header)) {
+    extent.row = largest(block.row);
+    extent.column = largest(block.column);
+    if (extent.row >= header.rows || extent.column >= header.columns)
+      return broken(header, "row " + std::to_string(extent.row) + " or column " + std::to_string(extent.column) +
+                                " lies outside the grid of " + std::to_string(header.rows) + " rows and " +
+                                std::to_string(header.columns) + " columns");
+  }
+  if (header.has_labels &&
+      (largest(block.product) >= header.products.size() || largest(block.material) >= header.materials.size()))
+    return broken(header, "a label lies outside the header's table");
+  return extent;
+}
+
+}  // namespace standpoint

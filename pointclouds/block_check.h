@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "core/points.h"
+
+namespace standpoint {
+
+// Bounds of points, indices and labels of one block, for a writer that must know that they are what the header says.
+struct BlockExtent {
+  std::array<float, 3> low{}, high{};
+  std::uint32_t row = 0, column = 0;   // largest
+};
+
+// The block is not empty. An error says what in it breaks the promises of ScanHeader and PointBlock.
+Result<BlockExtent> checkBlock(const ScanHeader& header, const PointBlock& block);
+
+inline bool hasGrid(const ScanHeader& header) { return header.rows > 0 && header.columns > 0; }
+inline bool hasIntensity(const ScanHeader& header) { return header.intensity_max > header.intensity_min; }
+
+}  // namespace standpoint

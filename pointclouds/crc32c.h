@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace standpoint {
+
+// CRC-32C (Castagnoli, RFC 3720 appendix B.4): by the processor's instruction where it has one, else by table.
+std::uint32_t crc32c(std::span<const std::uint8_t> bytes);
+
+// The same number on any processor.
+std::uint32_t crc32cByTable(std::span<const std::uint8_t> bytes);
+
+}  // namespace standpoint

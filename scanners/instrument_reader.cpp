@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "core/units.h"
+#include "scanners/instrument.h"
+
+namespace standpoint {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::uintmax_t kLargestFile = 1U << 20U;
+
+// An object of the file, with what has been read of it: what has not is an unknown key.
+struct Group {
+  const Json* object = nullptr;
+  std::string pointer;
+  std::string source;   // of its figures that state none themselves
+  std::string note{};
+  std::set<std::string> seen{};
+};
+
+struct Domain {
+  double low, high;
+  double scale = 1;     // from the file's unit to ours
+};
+
+// Reads an instrument with one sticky error, the first; after it every answer is a harmless default.
+class Reader {
+ public:
+  Reader(std::string file, const Json& document) : file_(std::move(file)), document_(document) {}
+
+  Result<Instrument> read() {
+    Group root = open(document_, "");
+    instrument_.id = text(root, "id");
+    instrument_.maker = text(root, "maker");
+    instrument_.model = text(root, "model");
+    readSources(root);
+    instrument_.technology = technology(root);
+    readOptics(root);
+    readAngles(root);
+    readSignal(root);
+    readNoise(root);
+    readSettings(root);
+    close(root);
+    if (!error_) checkWhole();
+    if (error_) return failure(*error_);
+    return std::move(instrument_);
+  }
+
+ private:
+  void fail(const std::string& pointer, std::string message) {
+    if (!error_) error_ = Error{ErrorKind::unusable, std::move(message), file_ + " " + (pointer.empty() ? "/" : pointer)};
+  }
+
+  Group open(const Json& value, std::string pointer) {
+    static const Json kEmpty = Json::object();
+    Group group{&value, std::move(pointer), {}};
+    if (!value.is_object()) {
+      fail(group.pointer, "must be an object");
+      group.object = &kEmpty;
+    }
+    if (group.object->contains("source")) group.source = text(group, "source");
+    if (group.object->contains("note")) group.note = text(group, "note");
+    return group;
+  }
+
+  Group child(Group& parent, const std::string& key) { return open(member(parent, key), parent.pointer + "/" + key); }
+
+  void close(const Group& group) {
+    for (const auto& item : group.object->items())
+      if (!group.seen.contains(item.key())) fail(group.pointer + "/" + item.key(), "unknown key");
+  }
+
+  const Json& member(Group& group, const std::string& key) {
+    static const Json kEmpty = Json::object();
+    group.seen.insert(key);
+    const auto found = group.object->find(key);
+    if (found != group.object->end()) return *found;
+    fail(group.pointer + "/" + key, "is missing");
+    return kEmpty;
+  }
+
+  std::string text(Group& group, const std::string& key) {
+    const Json& value = member(group, key);
+    if (value.is_string()) return value.get<std::string>();
+    fail(group.pointer + "/" + key, "must be a text");
+    return {};
+  }
+
+  // Every key must be in the file's table of sources; "derived" and "unsourced" stand for themselves.
+  void cite(const std::string& pointer, const std::string& mark, const std::string& note) {
+    if (mark.empty()) return fail(pointer, "has no source");
+    std::istringstream keys(mark);
+    std::string key, cited;
+    while (keys >> key) {
+      const auto found = sources_.find(key);
+      if (found == sources_.end() && key != "derived" && key != "unsourced")
+        return fail(pointer, "source \"" + key + "\" is not in /sources");
+      if (!cited.empty()) cited += "; ";
+      cited += found == sources_.end() ? key : found->second;
+    }
+    instrument_.evidence[pointer] = {mark, note.empty() ? cited : cited + " (" + note + ")"};
+  }
+
+  double checked(const std::string& pointer, const Json& value, const Domain& domain) {
+    const double number = value.is_number() ? value.get<double>() : std::nan("");
+    if (!std::isfinite(number)) {
+      fail(pointer, "must be a number");
+      return domain.low * domain.scale;
+    }
+    if (number < domain.low || number > domain.high) {
+      std::ostringstream message;
+      message << number << " is out of range: from " << domain.low << " to " << domain.high;
+      fail(pointer, message.str());
+    }
+    return number * domain.scale;
+  }
+
+  // A figure: a number with its group's source, or {value, source, note} with its own.
+  double figure(Group& group, const std::string& key, const Domain& domain) {
+    const Json& value = member(group, key);
+    const std::string pointer = group.pointer + "/" + key;
+    if (error_) return domain.low * domain.scale;
+    if (!value.is_object()) {
+      cite(pointer, group.source, group.note);
+      return checked(pointer, value, domain);
+    }
+    Group own = open(value, pointer);
+    cite(pointer, own.source, own.note);
+    const double number = checked(pointer + "/value", member(own, "value"), domain);
+    close(own);
+    return number;
+  }
+
+  void readSources(Group& root) {
+    Group group = child(root, "sources");
+    for (const auto& item : group.object->items()) sources_[item.key()] = text(group, item.key());
+  }
+
+  std::string technology(Group& root) {
+    Group group = child(root, "technology");
+    cite(group.pointer, group.source, group.note);
+    std::string value = text(group, "value");
+    if (value != "time_of_flight" && value != "phase_shift")
+      fail(group.pointer + "/value", "must be \"time_of_flight\" or \"phase_shift\"");
+    close(group);
+    return value;
+  }
+
+  void readOptics(Group& root) {
+    Group beam = child(root, "beam");
+    instrument_.wavelength_nm = figure(beam, "wavelength_nm", {200, 3000});
+    instrument_.divergence_rad = figure(beam, "divergence_mrad", {0.001, 100, 1e-3});
+    instrument_.exit_diameter_m = figure(beam, "exit_diameter_mm", {0.1, 1000, 1e-3});
+    close(beam);
+    Group range = child(root, "range");
+    instrument_.min_range_m = figure(range, "min_m", {0, 100});
+    instrument_.max_range_m = figure(range, "max_m", {1, 10000});
+    instrument_.reference_reflectivity = figure(range, "reference_reflectivity", {0.001, 1});
+    instrument_.range_bias_m = figure(range, "bias_mm", {0, 1000, 1e-3});
+    instrument_.range_bias_ppm = figure(range, "bias_ppm", {0, 10000});
+    close(range);
+  }
+
+  void readAngles(Group& root) {
+    Group angles = child(root, "angles");
+    instrument_.min_elevation_rad = figure(angles, "min_elevation_deg", {-90, 90, kRadPerDeg});
+    instrument_.max_elevation_rad = figure(angles, "max_elevation_deg", {-90, 90, kRadPerDeg});
+    instrument_.angle_sigma_rad = figure(angles, "accuracy_arcsec", {0, 3600, kRadPerArcsec});
+    instrument_.angle_jitter_rad = figure(angles, "jitter_arcsec", {0, 3600, kRadPerArcsec});
+    close(angles);
+    Group mirror = child(root, "mirror");
+    instrument_.mirror_max_hz = figure(mirror, "max_hz", {0, 10000});
+    instrument_.column_factor = figure(mirror, "column_factor", {1, 2});
+    instrument_.overhead_s = figure(mirror, "overhead_s", {0, 3600});
+    close(mirror);
+  }
+
+  void readSignal(Group& root) {
+    Group signal = child(root, "signal");
+    instrument_.near_range_m = figure(signal, "near_range_m", {0, 100});
+    instrument_.near_range_power = static_cast<int>(figure(signal, "near_range_power", {1, 6}));
+    instrument_.detection_softness = figure(signal, "detection_softness", {0, 1});
+    instrument_.intensity_low_db = figure(signal, "intensity_low_db", {-200, 100});
+    instrument_.intensity_high_db = figure(signal, "intensity_high_db", {-200, 100});
+    instrument_.intensity_levels = static_cast<int>(figure(signal, "intensity_levels", {2, 65536}));
+    close(signal);
+    Group stand = child(root, "stand");
+    instrument_.trunnion_height_m = figure(stand, "trunnion_height_m", {0, 2});
+    instrument_.tripod_height_m = figure(stand, "tripod_height_m", {0.1, 10});
+    close(stand);
+    Group imaging = child(root, "imaging");
+    instrument_.imaging_seconds = figure(imaging, "seconds", {0, 3600});
+    close(imaging);
+  }
+
+  void readNoise(Group& root) {
+    const Json& list = member(root, "range_noise");
+    if (!list.is_array() || list.empty() || list.size() > 100) return fail("/range_noise", "must be a list of 1 to 100 entries");
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      Group entry = open(list[i], "/range_noise/" + std::to_string(i));
+      RangeNoise noise;
+      noise.range_m = figure(entry, "range_m", {0.1, 10000});
+      noise.reflectivity = figure(entry, "reflectivity", {0.001, 1});
+      noise.sigma_m = figure(entry, "sigma_mm", {0.001, 1000, 1e-3});
+      close(entry);
+      for (const auto& other : instrument_.range_noise)
+        if (other.range_m == noise.range_m && other.reflectivity == noise.reflectivity)
+          fail(entry.pointer, "repeats an entry of the same range and reflectivity");
+      instrument_.range_noise.push_back(noise);
+    }
+  }
+
+  void readSettings(Group& root) {
+    const Json& list = member(root, "settings");
+    if (!list.is_array() || list.empty() || list.size() > 100) return fail("/settings", "must be a list of 1 to 100 entries");
+    for (std::size_t i = 0; i < list.size() && !error_; ++i)
+      readSetting(open(list[i], "/settings/" + std::to_string(i)));
+  }
+
+  void readSetting(Group group) {
+    InstrumentSetting setting;
+    setting.key = text(group, "key");
+    setting.label = text(group, "label");
+    setting.unit = text(group, "unit");
+    setting.standard = text(group, "standard");
+    cite(group.pointer, group.source, group.note);
+    for (const auto& other : instrument_.settings)
+      if (other.key == setting.key) fail(group.pointer + "/key", "\"" + setting.key + "\" is there twice");
+    if (group.object->contains("choices")) readChoices(group, setting);
+    else readNumber(group, setting);
+    close(group);
+    instrument_.settings.push_back(std::move(setting));
+  }
+
+  void readNumber(Group& group, InstrumentSetting& setting) {
+    static const std::set<std::string> kKnown = {"horizontal_from", "horizontal_to", "vertical_from", "vertical_to"};
+    if (!kKnown.contains(setting.key)) return fail(group.pointer + "/key", "only the edges of an area are numbers; a setting needs choices");
+    setting.minimum = figure(group, "minimum", {-360, 360});
+    setting.maximum = figure(group, "maximum", {-360, 360});
+    const Json standard = Json::parse(setting.standard, nullptr, false);
+    if (!error_) checked(group.pointer + "/standard", standard, {setting.minimum, setting.maximum});
+  }
+
+  void readChoices(Group& group, InstrumentSetting& setting) {
+    const Json& list = member(group, "choices");
+    const std::string pointer = group.pointer + "/choices";
+    if (!list.is_array() || list.empty() || list.size() > 100) return fail(pointer, "must be a list of 1 to 100 entries");
+    bool has_standard = false;
+    for (std::size_t i = 0; i < list.size() && !error_; ++i) {
+      Group entry = open(list[i], pointer + "/" + std::to_string(i));
+      if (entry.source.empty()) entry.source = group.source;
+      if (entry.note.empty()) entry.note = group.note;
+      setting.choices.push_back(readChoice(entry));
+      has_standard = has_standard || setting.choices.back().value == setting.standard;
+      for (std::size_t k = 0; k < i; ++k)
+        if (setting.choices[k].value == setting.choices[i].value) fail(entry.pointer + "/value", "is there twice");
+    }
+    if (!has_standard) fail(group.pointer + "/standard", "is none of the choices");
+  }
+
+  SettingChoice readChoice(Group& entry) {
+    static const std::map<std::string, Domain> kEffects = {
+        {"columns", {2, 1e6}},      {"rows", {1, 1e6}},   {"scan_seconds", {0.01, 1e5}}, {"rate_hz", {1, 1e9}},
+        {"noise_factor", {0.01, 100}}, {"passes", {1, 16}},  {"imaging", {0, 1}},           {"imaging_seconds", {0, 1e4}},
+        {"area", {0, 1}}};
+    SettingChoice choice;
+    choice.value = text(entry, "value");
+    choice.label = text(entry, "label");
+    for (const auto& item : entry.object->items()) {
+      const auto effect = kEffects.find(item.key());
+      if (effect != kEffects.end()) choice.effects[item.key()] = figure(entry, item.key(), effect->second);
+    }
+    close(entry);
+    return choice;
+  }
+
+  void checkWhole() {
+    if (instrument_.min_elevation_rad >= instrument_.max_elevation_rad)
+      fail("/angles/max_elevation_deg", "must be above min_elevation_deg");
+    if (instrument_.min_range_m >= instrument_.max_range_m) fail("/range/max_m", "must be above min_m");
+    if (instrument_.intensity_low_db >= instrument_.intensity_high_db)
+      fail("/signal/intensity_high_db", "must be above intensity_low_db");
+    if (instrument_.angle_jitter_rad > instrument_.angle_sigma_rad)
+      fail("/angles/jitter_arcsec", "must not be above accuracy_arcsec, of which it is a part");
+    if (!error_)
+      if (const auto standard = resolveSettings(instrument_, {}); !standard)
+        fail("/settings", "the standard values are not a valid scan: " + standard.error().message);
+  }
+
+  std::string file_;
+  const Json& document_;
+  Instrument instrument_;
+  std::map<std::string, std::string> sources_;
+  std::optional<Error> error_;
+};
+
+}  // namespace
+
+Result<Instrument> readInstrument(const std::filesystem::path& file) {
+  const std::string name = file.filename().string();
+  std::error_code code;
+  const auto size = std::filesystem::file_size(file, code);
+  std::ifstream stream(file, std::ios::binary);
+  if (code || !stream) return failure(ErrorKind::file_system, "cannot be read", file.string());
+  if (size > kLargestFile) return failure(ErrorKind::unusable, "is larger than an instrument file can be (1 MiB)", name);
+  const std::string content{std::istreambuf_iterator<char>(stream), {}};
+  try {
+    const Json document = Json::parse(content);
+    auto instrument = Reader(name, document).read();
+    if (instrument && instrument->id != file.stem().string())
+      return failure(ErrorKind::unusable, "must be the file's name, \"" + file.stem().string() + "\"", name + " /id");
+    return instrument;
+  } catch (const Json::exception& exception) {
+    return failure(ErrorKind::unusable, exception.what(), name);
+  }
+}
+
+Result<std::vector<Instrument>> readInstruments(const std::filesystem::path& folder) {
+  std::error_code code;
+  std::vector<std::filesystem::path> files;
+  for (std::filesystem::directory_iterator entry(folder, code), last; !code && entry != last; entry.increment(code))
+    if (entry->path().extension() == ".json" && entry->path().filename() != "schema.json") files.push_back(entry->path());
+  if (code) return failure(ErrorKind::file_system, "cannot be listed: " + code.message(), folder.string());
+  std::sort(files.begin(), files.end());
+  std::vector<Instrument> instruments;
+  for (const auto& file : files) {
+    auto instrument = readInstrument(file);
+    if (!instrument) return failure(instrument.error());
+    instruments.push_back(std::move(*instrument));
+  }
+  return instruments;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+// Elementary functions from IEEE operations alone: a C library may pick other code on another processor and so other
+// last bits, these cannot. They vectorise. Compiled without contraction (CMakeLists.txt).
+namespace standpoint::portable {
+
+#define STANDPOINT_INLINE inline __attribute__((always_inline))
+
+// log2 of a positive normal number, relative error below 3e-7 of max(1, |log2|).
+STANDPOINT_INLINE float log2(float x) {
+  std::uint32_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  const std::uint32_t from_root_half = bits - 0x3F3504F3U;   // of sqrt(1/2)
+  const auto exponent = static_cast<float>(static_cast<std::int32_t>(from_root_half) >> 23);
+  const std::uint32_t mantissa_bits = (from_root_half & 0x007FFFFFU) + 0x3F3504F3U;
+  float mantissa;
+  std::memcpy(&mantissa, &mantissa_bits, sizeof mantissa);
+  const float s = (mantissa - 1) / (mantissa + 1);           // ln m = 2 artanh s, |s| < 0.172
+  const float q = s * s;
+  const float artanh = s * (1 + q * (1.0F / 3 + q * (1.0F / 5 + q * (1.0F / 7 + q * (1.0F / 9)))));
+  return exponent + 2.885390081777927F * artanh;             // 2 / ln 2
+}
+
+// sin and cos of 2πu for u in [0, 1], absolute error below 4e-7.
+STANDPOINT_INLINE void sinCosTurn(float u, float& sine, float& cosine) {
+  const auto quarter = static_cast<std::int32_t>(u * 4 + 0.5F);
+  const float x = 6.283185307179586F * (u - 0.25F * static_cast<float>(quarter));
+  const float q = x * x;
+  const float s = x * (1 - q / 6 * (1 - q / 20 * (1 - q / 42 * (1 - q / 72))));
+  const float c = 1 - q / 2 * (1 - q / 12 * (1 - q / 30 * (1 - q / 56)));
+  const bool odd = (quarter & 1) != 0;
+  const float sine_of_turn = odd ? c : s;
+  const float cosine_of_turn = odd ? s : c;
+  sine = (quarter & 2) != 0 ? -sine_of_turn : sine_of_turn;
+  cosine = ((quarter + 1) & 2) != 0 ? -cosine_of_turn : cosine_of_turn;
+}
+
+// e^x for x in [-60, 0], relative error below 1e-12.
+inline double expNegative(double x) {
+  // Halved six times the argument is below 1 in size, where twelve terms of the series are enough; squared back again.
+  const double y = x / 64;
+  double term = 1, sum = 1;
+  for (int k = 1; k < 16; ++k) sum += term *= y / k;
+  for (int k = 0; k < 6; ++k) sum *= sum;
+  return sum;
+}
+
+}  // namespace standpoint::portable

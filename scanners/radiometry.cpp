@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scanners/radiometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "scanners/portable_math.h"
+
+namespace standpoint {
+
+namespace {
+
+// The beam's own divergence and the receiver's opening blur a sharper lobe than this.
+constexpr double kSharpestSlope = 0.005;
+// Float glass, physics.md §1.4: at most 0.01.
+constexpr double kPaneSlope = 0.01;
+
+double linear(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }
+
+}  // namespace
+
+Optics opticsOf(const PhysicalMaterial& material, double wavelength_nm) {
+  Optics optics;
+  optics.diffuse = static_cast<float>(std::clamp(atWavelength(material.reflectance, wavelength_nm), 0.0, 1.0));
+  const double variance = material.roughness_rad * material.roughness_rad;
+  optics.oren_a = static_cast<float>(1 - 0.5 * variance / (variance + 0.33));
+  optics.oren_b = static_cast<float>(0.45 * variance / (variance + 0.09));
+  optics.transparent = material.thickness_m > 0 && !material.transmittance.empty() && material.index_of_refraction > 1;
+  const double slope = material.gloss_slope > 0 ? material.gloss_slope : optics.transparent ? kPaneSlope : 0;
+  if (slope > 0 && material.index_of_refraction > 1) {
+    const double root = (material.index_of_refraction - 1) / (material.index_of_refraction + 1);
+    optics.lobe_slope = static_cast<float>(std::max(slope, kSharpestSlope));
+    optics.glint = static_cast<float>(root * root) / (4 * optics.lobe_slope * optics.lobe_slope);
+  }
+  if (optics.transparent) {
+    optics.index = material.index_of_refraction;
+    optics.thickness_m = material.thickness_m;
+    optics.inner_transmittance = innerTransmittance(optics.index, atWavelength(material.transmittance, wavelength_nm));
+  }
+  return optics;
+}
+
+Optics opticsOf(const Colour& colour) {
+  Optics optics;
+  const double luminance = 0.2126 * linear(colour.r) + 0.7152 * linear(colour.g) + 0.0722 * linear(colour.b);
+  optics.diffuse = static_cast<float>(std::clamp(luminance, 0.05, 0.95));
+  return optics;
+}
+
+float glossEquivalent(const Optics& optics, float cosine) {
+  const float square = cosine * cosine;
+  const float exponent = (1 - square) / (square * optics.lobe_slope * optics.lobe_slope);   // tan²θ / m²
+  if (!(exponent < 40)) return 0;
+  return optics.glint * static_cast<float>(portable::expNegative(-exponent)) / (square * square * cosine);
+}
+
+double detectionThreshold(const Instrument& instrument) {
+  return instrument.reference_reflectivity / (instrument.max_range_m * instrument.max_range_m);
+}
+
+float storedIntensity(const Instrument& instrument, float log2_x) {
+  const auto low = static_cast<float>(instrument.intensity_low_db);
+  const auto high = static_cast<float>(instrument.intensity_high_db);
+  const float share = std::clamp((3.0102999566398120F * log2_x - low) / (high - low), 0.0F, 1.0F);
+  const auto steps = static_cast<float>(instrument.intensity_levels - 1);
+  return static_cast<float>(static_cast<std::int32_t>(share * steps + 0.5F)) / steps;
+}
+
+SlabPower slab(double index, double inner_transmittance_at_normal, double cosine) {
+  const double cosine_inside = std::sqrt(1 - (1 - cosine * cosine) / (index * index));
+  const double t = std::pow(inner_transmittance_at_normal, 1 / cosine_inside);
+  SlabPower sum{0, 0};
+  const double across = (cosine - index * cosine_inside) / (cosine + index * cosine_inside);
+  const double along = (index * cosine - cosine_inside) / (index * cosine + cosine_inside);
+  for (const double amplitude : {across, along}) {
+    const double r = amplitude * amplitude;
+    const double transmitted = (1 - r) * (1 - r) * t / (1 - r * r * t * t);
+    sum.transmitted += transmitted / 2;
+    sum.reflected += (r + r * transmitted * t) / 2;
+  }
+  return sum;
+}
+
+double innerTransmittance(double index, double transmittance) {
+  const double root = (index - 1) / (index + 1);
+  const double r = root * root;
+  // transmittance · (1 - r² t²) = (1 - r)² t, a quadratic in t whose positive root is at most 1 for a possible pane.
+  const double a = transmittance * r * r;
+  const double b = (1 - r) * (1 - r);
+  return std::clamp(2 * transmittance / (b + std::sqrt(b * b + 4 * a * transmittance)), 0.0, 1.0);
+}
+
+RangeNoiseLaw::RangeNoiseLaw(const Instrument& instrument) {
+  std::map<double, std::vector<RangeNoise>> by_reflectivity;
+  for (const auto& figure : instrument.range_noise) by_reflectivity[figure.reflectivity].push_back(figure);
+  for (const auto& [reflectivity, figures] : by_reflectivity) {
+    // Least squares of σ² over q = 1/x², neither part negative.
+    double n = 0, sum_q = 0, sum_v = 0, sum_qq = 0, sum_qv = 0;
+    for (const auto& figure : figures) {
+      const double x = reflectivity / (figure.range_m * figure.range_m) *
+                       static_cast<double>(nearRangeFactor(instrument, static_cast<float>(figure.range_m)));
+      const double q = 1 / (x * x);
+      const double v = figure.sigma_m * figure.sigma_m;
+      n += 1, sum_q += q, sum_v += v, sum_qq += q * q, sum_qv += q * v;
+    }
+    double slope = n > 1 ? (n * sum_qv - sum_q * sum_v) / (n * sum_qq - sum_q * sum_q) : sum_v / (2 * sum_q);
+    slope = std::max(0.0, slope);
+    double floor = (sum_v - slope * sum_q) / n;
+    if (floor < 0) floor = 0, slope = sum_qv / sum_qq;
+    curves_.push_back({portable::log2(static_cast<float>(reflectivity)), static_cast<float>(floor), static_cast<float>(slope)});
+  }
+}
+
+double RangeNoiseLaw::sigma(double x, double lambert_equivalent) const {
+  const auto of = [&](const Curve& curve) { return std::sqrt(curve.floor_m2 + curve.slope_m2 / (x * x)); };
+  double sigma = of(curves_.front());
+  const double place = std::log2(lambert_equivalent);
+  for (std::size_t i = 1; i < curves_.size(); ++i) {
+    const double from = curves_[i - 1].log2_reflectivity;
+    const double share = std::clamp((place - from) / (curves_[i].log2_reflectivity - from), 0.0, 1.0);
+    sigma += share * (of(curves_[i]) - sigma);
+  }
+  return sigma;
+}
+
+}  // namespace standpoint

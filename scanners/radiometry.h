@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/environment.h"
+#include "core/physical_material.h"
+#include "scanners/instrument.h"
+
+namespace standpoint {
+
+// Received power throughout: x, in units of a white Lambert target at 1 m seen head-on (physics.md §2.1).
+
+// A material at the instrument's wavelength.
+struct Optics {
+  float diffuse = 0;             // Lambert-equivalent reflectance at normal incidence
+  float oren_a = 1, oren_b = 0;  // Oren–Nayar 1994, monostatic: ρ (A cos θ + B sin² θ)
+  float glint = 0;               // F0 / 4m²: height of the Beckmann lobe; 0 = no lobe
+  float lobe_slope = 0;          // m
+  bool transparent = false;
+  double index = 1;              // n of a pane
+  double inner_transmittance = 1;  // of one way through its body at normal incidence
+  double thickness_m = 0;
+};
+
+Optics opticsOf(const PhysicalMaterial& material, double wavelength_nm);
+
+// A surface to which nothing is assigned: Lambert, with the luminance of its colour (Rec. 709 weights on linear sRGB)
+// between 5 and 95 %. A colour says nothing of 1550 nm; it keeps unlike surfaces apart, no more.
+Optics opticsOf(const Colour& colour);
+
+// ρ_eq(θ) = π f_r cos θ; the lobe is a separate, rare term.
+inline float diffuseEquivalent(const Optics& optics, float cosine) {
+  return optics.diffuse * (optics.oren_a * cosine + optics.oren_b * (1 - cosine * cosine));
+}
+float glossEquivalent(const Optics& optics, float cosine);
+inline float lambertEquivalent(const Optics& optics, float cosine) {
+  const float diffuse = diffuseEquivalent(optics, cosine);
+  return optics.glint > 0 ? diffuse + glossEquivalent(optics, cosine) : diffuse;
+}
+
+// η_opt(R) of the instrument.
+inline float nearRangeFactor(const Instrument& instrument, float range_m) {
+  const float ratio = static_cast<float>(instrument.near_range_m) / range_m;
+  float power = 1;
+  for (int k = 0; k < instrument.near_range_power; ++k) power *= ratio;
+  return 1 / (1 + power);
+}
+
+// x_min = ρ_ref / R_max² of the data sheet (§2.7).
+double detectionThreshold(const Instrument& instrument);
+
+// The intensity that is stored: 10 lg x between the instrument's limits as 0..1, in its levels. Raw: it falls with range.
+float storedIntensity(const Instrument& instrument, float log2_x);
+
+// A slab in air, both polarisations averaged, all inner reflections added (§4.6).
+struct SlabPower {
+  double reflected = 0, transmitted = 1;
+};
+SlabPower slab(double index, double inner_transmittance_at_normal, double cosine);
+// The one-way inner transmittance that makes the whole slab transmit `transmittance` at normal incidence.
+double innerTransmittance(double index, double transmittance);
+
+// White range noise over (range, reflectivity): for each tabulated reflectivity σ² = σ0² + (k/x)² (§3.1) is fitted to the
+// sheet's figures, exactly where there are one or two; between reflectivities σ is linear in log ρ_eq. A single figure
+// cannot give two numbers: half of its variance is taken as σ0².
+class RangeNoiseLaw {
+ public:
+  struct Curve {
+    float log2_reflectivity = 0;
+    float floor_m2 = 0;      // σ0²
+    float slope_m2 = 0;      // k²
+  };
+  explicit RangeNoiseLaw(const Instrument& instrument);
+  const std::vector<Curve>& curves() const { return curves_; }
+  double sigma(double x, double lambert_equivalent) const;
+
+ private:
+  std::vector<Curve> curves_;
+};
+
+}  // namespace standpoint

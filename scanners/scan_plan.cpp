@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scanners/scan_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scanners/pulse_noise.h"
+
+namespace standpoint {
+
+namespace {
+
+std::uint8_t byte(float share) { return static_cast<std::uint8_t>(std::clamp(share, 0.0F, 1.0F) * 255 + 0.5F); }
+
+ScanBias drawBias(const Instrument& instrument, const ScanOptions& options) {
+  if (options.ideal) return {};
+  PulseNoise draw;
+  pulseNoise({options.seed, options.station_key}, 0, 0, NoiseChannel::scan, draw);
+  const double systematic = std::sqrt(instrument.angle_sigma_rad * instrument.angle_sigma_rad -
+                                      instrument.angle_jitter_rad * instrument.angle_jitter_rad);
+  return {instrument.range_bias_m * static_cast<double>(draw.range[0]),
+          1 + 1e-6 * instrument.range_bias_ppm * static_cast<double>(draw.detection[0]),
+          systematic * static_cast<double>(draw.lateral[0]), systematic * static_cast<double>(draw.elevation[0])};
+}
+
+}  // namespace
+
+PulseClock::PulseClock(const Instrument& instrument, const ScanSettings& settings)
+    : half_((settings.columns + 1) / 2),
+      turn_s_((settings.scan_seconds / settings.passes - instrument.overhead_s) / half_) {}
+
+double PulseClock::time_s(std::uint32_t column, double elevation_rad) const {
+  constexpr double kQuarter = std::numbers::pi / 2;
+  const double mirror = behind(column) ? 3 * kQuarter - elevation_rad : kQuarter + elevation_rad;
+  const std::uint32_t turn = behind(column) ? column - half_ : column;
+  return (turn + mirror / (2 * std::numbers::pi)) * turn_s_;
+}
+
+double ScanPlan::azimuth_rad(std::uint32_t column) const {
+  return settings.azimuth_from_rad + column * (settings.azimuth_to_rad - settings.azimuth_from_rad) / settings.columns;
+}
+
+// In the middle of its row, so that no two columns share the zenith.
+double ScanPlan::elevation_rad(std::uint32_t row) const {
+  return settings.elevation_from_rad + (row + 0.5) * (settings.elevation_to_rad - settings.elevation_from_rad) / settings.rows;
+}
+
+ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignment_, const Instrument& instrument_,
+                   const ScanSettings& settings_, const Trajectory& trajectory_, const ScanOptions& options_)
+    : scene(scene_),
+      assignment(assignment_),
+      instrument(instrument_),
+      settings(settings_),
+      trajectory(trajectory_),
+      options(options_),
+      clock(instrument_, settings_),
+      bias(drawBias(instrument_, options_)),
+      noise_law(instrument_) {
+  const double average = 1 / std::sqrt(static_cast<double>(settings.passes));
+  noise_scale = options.ideal ? 0 : settings.noise_factor * average;
+  jitter_rad = options.ideal ? 0 : instrument.angle_jitter_rad * average;
+  threshold = detectionThreshold(instrument);
+  softness = options.ideal ? 0 : threshold * instrument.detection_softness;
+  for (std::uint32_t row = 0; row < settings.rows; ++row) {
+    sine.push_back(std::sin(elevation_rad(row)));
+    cosine.push_back(std::cos(elevation_rad(row)));
+  }
+  for (const auto& material : assignment.materials) optics.push_back(opticsOf(material, instrument.wavelength_nm));
+  for (const auto& surface : scene.environment().surfaces) {
+    optics.push_back(opticsOf(surface.colour));
+    colours.push_back({byte(surface.colour.r), byte(surface.colour.g), byte(surface.colour.b)});
+  }
+}
+
+}  // namespace standpoint

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/physical_material.h"
+#include "core/survey.h"
+#include "scanners/embree_scene.h"
+#include "scanners/radiometry.h"
+#include "scanners/ray_engine.h"
+
+namespace standpoint {
+
+// When the pulses of a grid are sent. The head turns half round while the mirror turns on: one turn of the mirror is a
+// column in front, upwards, and then its opposite behind, downwards. Time 0 is the first turn, after the spin-up.
+class PulseClock {
+ public:
+  PulseClock(const Instrument& instrument, const ScanSettings& settings);
+  double time_s(std::uint32_t column, double elevation_rad) const;
+  bool behind(std::uint32_t column) const { return column >= half_; }
+
+ private:
+  std::uint32_t half_ = 1;
+  double turn_s_ = 0;
+};
+
+// Systematic errors: one draw of each for a scan (physics.md §3.3), so that range and angle accuracies of the sheet hold
+// over many scans. Collimation and index change sign in the second face.
+struct ScanBias {
+  double range_m = 0, scale = 1;
+  double collimation_rad = 0, index_rad = 0;
+};
+
+// Everything that all pulses of a scan share; immutable while it runs.
+struct ScanPlan {
+  const EmbreeScene& scene;
+  const MaterialAssignment& assignment;
+  const Instrument& instrument;
+  const ScanSettings& settings;
+  const Trajectory& trajectory;
+  ScanOptions options;
+  PulseClock clock;
+  ScanBias bias;
+  RangeNoiseLaw noise_law;
+  double noise_scale = 0;          // noise_factor / √passes; 0 = ideal
+  double jitter_rad = 0;
+  double threshold = 0;            // x_min
+  double softness = 0;             // σ of the threshold, absolute
+  std::vector<double> sine, cosine;          // of each row's elevation
+  std::vector<Optics> optics;                // materials, then surfaces without one
+  std::vector<std::array<std::uint8_t, 3>> colours;   // sRGB of each surface: what the camera sees, unshaded
+
+  ScanPlan(const EmbreeScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
+           const ScanSettings& settings, const Trajectory& trajectory, const ScanOptions& options);
+
+  double azimuth_rad(std::uint32_t column) const;
+  double elevation_rad(std::uint32_t row) const;
+  bool moves() const { return trajectory.pose.size() > 1; }
+  std::uint32_t unassignedLabel() const { return static_cast<std::uint32_t>(assignment.materials.size()); }
+};
+
+}  // namespace standpoint

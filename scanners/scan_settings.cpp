@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "core/units.h"
+#include "scanners/instrument.h"
+
+namespace standpoint {
+
+namespace {
+
+std::string list(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+std::string allowed(const InstrumentSetting& setting) {
+  if (setting.choices.empty()) {
+    const auto number = [](double value) { return std::to_string(static_cast<int>(value)); };
+    return "a number from " + number(setting.minimum) + " to " + number(setting.maximum) + " " + setting.unit;
+  }
+  std::vector<std::string> words;
+  for (const auto& choice : setting.choices) words.push_back(choice.value);
+  return list(words);
+}
+
+const SettingChoice* choiceOf(const InstrumentSetting& setting, const std::string& value) {
+  const auto found = std::find_if(setting.choices.begin(), setting.choices.end(), [&](const auto& c) { return c.value == value; });
+  return found == setting.choices.end() ? nullptr : &*found;
+}
+
+std::optional<double> number(const std::string& text) {
+  double value = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+Result<SettingValues> complete(const Instrument& instrument, const SettingValues& values) {
+  SettingValues result;
+  for (const auto& setting : instrument.settings) result.emplace_back(setting.key, setting.standard);
+  std::vector<bool> given(result.size(), false);
+  for (const auto& [key, value] : values) {
+    const auto found = std::find_if(instrument.settings.begin(), instrument.settings.end(), [&](const auto& s) { return s.key == key; });
+    if (found == instrument.settings.end()) {
+      std::vector<std::string> keys;
+      for (const auto& setting : instrument.settings) keys.push_back(setting.key);
+      return failure(ErrorKind::usage, "the " + instrument.model + " has no such setting; it has " + list(keys), key);
+    }
+    const auto index = static_cast<std::size_t>(found - instrument.settings.begin());
+    if (given[index]) return failure(ErrorKind::usage, "is given twice", key);
+    given[index] = true;
+    const auto angle = number(value);
+    const bool fits = found->choices.empty() ? angle && *angle >= found->minimum && *angle <= found->maximum
+                                             : choiceOf(*found, value) != nullptr;
+    if (!fits) return failure(ErrorKind::usage, "\"" + value + "\" is not allowed; the " + instrument.model + " takes " + allowed(*found), key);
+    result[index].second = value;
+  }
+  return result;
+}
+
+struct Effects {
+  double columns = 0, rows = 0, seconds = 0, rate_hz = 0, noise_factor = 1, passes = 1, imaging = 0, imaging_seconds = 0;
+  bool area = true;
+};
+
+Effects gather(const Instrument& instrument, const SettingValues& values) {
+  Effects sum;
+  sum.imaging_seconds = instrument.imaging_seconds;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const SettingChoice* choice = choiceOf(instrument.settings[i], values[i].second);
+    if (choice == nullptr) continue;
+    for (const auto& [key, value] : choice->effects) {
+      if (key == "columns") sum.columns = value;
+      if (key == "rows") sum.rows = value;
+      if (key == "scan_seconds") sum.seconds = value;
+      if (key == "rate_hz") sum.rate_hz = value;
+      if (key == "noise_factor") sum.noise_factor *= value;
+      if (key == "passes") sum.passes *= value;
+      if (key == "imaging") sum.imaging = value;
+      if (key == "imaging_seconds") sum.imaging_seconds = value;
+      if (key == "area") sum.area = value > 0;
+    }
+  }
+  return sum;
+}
+
+// The mirror turns once for two columns, the front one and the back one, so a rate and a grid make a turning speed.
+Result<void> checkMirror(const Instrument& instrument, const SettingValues& values, const Effects& effects) {
+  if (instrument.mirror_max_hz <= 0 || effects.rate_hz <= 0 || effects.rate_hz / effects.columns <= instrument.mirror_max_hz) return {};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    std::vector<std::string> words;
+    bool decides = false;
+    for (const auto& choice : instrument.settings[i].choices) {
+      const auto rate = choice.effects.find("rate_hz");
+      if (rate == choice.effects.end()) continue;
+      decides = true;
+      if (rate->second / effects.columns <= instrument.mirror_max_hz) words.push_back(choice.value);
+    }
+    if (decides)
+      return failure(ErrorKind::usage, "\"" + values[i].second + "\" is not allowed at this resolution, for the mirror would exceed " +
+                     std::to_string(static_cast<int>(instrument.mirror_max_hz)) + " Hz; allowed here: " + list(words), values[i].first);
+  }
+  return failure(ErrorKind::usage, "the mirror would turn too fast", "settings");
+}
+
+struct Area {
+  double horizontal_from = 0, horizontal_to = 360, vertical_from = 0, vertical_to = 0;   // degrees
+};
+
+Result<Area> areaOf(const Instrument& instrument, const SettingValues& values, bool allowed_here) {
+  Area area;
+  area.vertical_from = instrument.min_elevation_rad / kRadPerDeg;
+  area.vertical_to = instrument.max_elevation_rad / kRadPerDeg;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto& [key, value] = values[i];
+    if (!instrument.settings[i].choices.empty()) continue;
+    const double angle = *number(value);
+    if (!allowed_here && angle != *number(instrument.settings[i].standard))
+      return failure(ErrorKind::usage, "an edge belongs to an area: choose that field of view as well", key);
+    if (key == "horizontal_from") area.horizontal_from = angle;
+    if (key == "horizontal_to") area.horizontal_to = angle;
+    if (key == "vertical_from") area.vertical_from = angle;
+    if (key == "vertical_to") area.vertical_to = angle;
+  }
+  if (area.horizontal_to <= area.horizontal_from) area.horizontal_to += 360;   // an area across the zero direction
+  if (area.vertical_to <= area.vertical_from) return failure(ErrorKind::usage, "must be above vertical_from", "vertical_to");
+  return area;
+}
+
+}  // namespace
+
+Result<ScanSettings> resolveSettings(const Instrument& instrument, const SettingValues& values) {
+  auto filled = complete(instrument, values);
+  if (!filled) return failure(filled.error());
+  const Effects effects = gather(instrument, *filled);
+  if (effects.columns < 2) return failure(ErrorKind::unusable, "no choice states the columns", instrument.id + " /settings");
+  if (auto turns = checkMirror(instrument, *filled, effects); !turns) return failure(turns.error());
+  auto area = areaOf(instrument, *filled, effects.area);
+  if (!area) return failure(area.error());
+
+  const double full = (instrument.max_elevation_rad - instrument.min_elevation_rad) / kRadPerDeg;
+  const double share = (area->horizontal_to - area->horizontal_from) / 360;
+  const double rows = effects.rows > 0 ? effects.rows : effects.columns * full / 360;
+  const double mirror_hz = effects.rate_hz / effects.columns;
+  const double turning = effects.seconds > 0 ? effects.seconds - instrument.overhead_s
+                         : mirror_hz > 0     ? effects.columns / 2 * instrument.column_factor / mirror_hz
+                                             : 0;
+  if (turning <= 0) return failure(ErrorKind::unusable, "no choice states the time or the rate", instrument.id + " /settings");
+
+  ScanSettings settings;
+  settings.values = std::move(*filled);
+  settings.columns = static_cast<std::uint32_t>(std::max(1.0, std::round(effects.columns * share)));
+  settings.rows = static_cast<std::uint32_t>(std::max(1.0, std::round(rows * (area->vertical_to - area->vertical_from) / full)));
+  settings.azimuth_from_rad = area->horizontal_from * kRadPerDeg;
+  settings.azimuth_to_rad = area->horizontal_to * kRadPerDeg;
+  settings.elevation_from_rad = area->vertical_from * kRadPerDeg;
+  settings.elevation_to_rad = area->vertical_to * kRadPerDeg;
+  settings.noise_factor = effects.noise_factor;
+  settings.passes = static_cast<int>(effects.passes);
+  settings.imaging = effects.imaging > 0;
+  settings.scan_seconds = (instrument.overhead_s + turning * share) * effects.passes;
+  settings.imaging_seconds = settings.imaging ? effects.imaging_seconds : 0;
+  return settings;
+}
+
+}  // namespace standpoint
