@@ -49,10 +49,10 @@ std::vector<Entry> entries(Editor& editor) {
                    [&editor, &action] { action.run(editor); }});
   for (const auto& verb : editor.session.verbs())
     if (!ownToEditor(verb))
-      all.push_back({std::string("verb-") + verb.name, ICON_GEAR, verb.summary, verb.name, editor.session.whyNot(verb.name),
+      all.push_back({fmt::format("verb-{}", verb.name), ICON_GEAR, verb.summary, verb.name, editor.session.whyNot(verb.name),
                      [&editor, &verb] { openVerbForm(editor, verb.name); }});
   for (const auto& recent : editor.settings.recent)
-    all.push_back({"recent-" + recent, ICON_HISTORY, "Open " + std::filesystem::path(recent).filename().string(), recent,
+    all.push_back({fmt::format("recent-{}", recent), ICON_HISTORY, "Open " + std::filesystem::path(recent).filename().string(), recent,
                    editor.session.whyNot("open-project"), [&editor, recent] { openPath(editor, recent); }});
   return all;
 }

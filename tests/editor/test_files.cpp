@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fstream>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "editor/model/file_list.h"
+#include "editor/model/recovery.h"
+#include "editor/model/settings.h"
+
+namespace standpoint {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Folder : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    root = fs::path(BINARY_DIR) / "test_editor_files" / ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::remove_all(root);
+    fs::create_directories(root);
+  }
+  void write(const fs::path& file, const std::string& text = "x") {
+    fs::create_directories((root / file).parent_path());
+    std::ofstream(root / file) << text;
+  }
+  fs::path root;
+};
+
+TEST_F(Folder, ListsFoldersFirstThenFilesOfTheWantedKinds) {
+  write("b.ifc", "12345");
+  write("A.IFC");
+  write("c.txt");
+  write(".hidden.ifc");
+  write("zoo/project.json", "{}");
+  const std::vector<std::string> kinds = {".ifc"};
+  const auto listing = listFolder(root, kinds, FileOrder::name, false);
+  ASSERT_EQ(listing.rows.size(), 3U);
+  EXPECT_EQ(listing.rows[0].name, "zoo");
+  EXPECT_TRUE(listing.rows[0].project);
+  EXPECT_EQ(listing.rows[1].name, "A.IFC");
+  EXPECT_EQ(listing.rows[2].bytes, 5U);
+  const auto by_size = listFolder(root, kinds, FileOrder::size, true);
+  EXPECT_EQ(by_size.rows[1].name, "b.ifc");
+}
+
+TEST_F(Folder, SaysWhyItCannotBeRead) {
+  const auto listing = listFolder(root / "nowhere", {}, FileOrder::name, false);
+  EXPECT_TRUE(listing.rows.empty());
+  EXPECT_FALSE(listing.problem.empty());
+}
+
+TEST_F(Folder, KeepsSettingsFromOneStartToTheNext) {
+  Settings settings;
+  settings.remember("/models/house.ifc");
+  settings.remember("/models/school.ifc");
+  settings.remember("/models/house.ifc");
+  settings.areas[1].left = 444;
+  settings.user_scale = 1.25;
+  ASSERT_TRUE(writeSettings(settings, root / "deep" / "editor.json"));
+  EXPECT_EQ(readSettings(root / "deep" / "editor.json"), settings);
+  EXPECT_EQ(settings.recent, (std::vector<std::string>{"/models/house.ifc", "/models/school.ifc"}));
+}
+
+TEST_F(Folder, StartsWithDefaultsWhenTheSettingsAreBroken) {
+  for (const char* text : {"", "{", "[1,2]", "{\"areas\": [{\"left\": \"wide\"}], \"user_scale\": 1e99, \"recent\": [7]}"}) {
+    write("editor.json", text);
+    const auto settings = readSettings(root / "editor.json");
+    EXPECT_EQ(settings.areas, Settings().areas) << text;
+    EXPECT_LE(settings.user_scale, 2) << text;
+    EXPECT_TRUE(settings.recent.empty()) << text;
+  }
+}
+
+TEST_F(Folder, OffersOnlyTheCopiesOfProcessesThatAreGone) {
+  constexpr long kGone = 4194305;   // above the largest process id that Linux gives
+  const auto gone = recoveryFolder(root, kGone), alive = recoveryFolder(root, getpid());
+  ASSERT_TRUE(writeRecoveryOwner(gone, "school", "/projects/school"));
+  ASSERT_TRUE(writeRecoveryOwner(alive, "house", ""));
+  write(fs::path(std::to_string(kGone)) / "copy" / "project.json", "{}");
+  write(fs::path(std::to_string(getpid())) / "copy" / "project.json", "{}");
+  write("readme/copy/project.json", "{}");
+  const auto copies = findRecoveryCopies(root);
+  ASSERT_EQ(copies.size(), 1U);
+  EXPECT_EQ(copies[0].name, "school");
+  EXPECT_EQ(copies[0].saved_in, "/projects/school");
+  removeRecovery(copies[0].folder);
+  EXPECT_TRUE(findRecoveryCopies(root).empty());
+}
+
+TEST(ReadableSize, HasThreeDigitsOrSo) {
+  EXPECT_EQ(readableSize(12), "12 B");
+  EXPECT_EQ(readableSize(2400000), "2.4 MB");
+}
+
+}  // namespace
+}  // namespace standpoint

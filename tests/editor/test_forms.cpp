@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "editor/model/option_form.h"
+#include "project/verb.h"
+
+namespace standpoint {
+namespace {
+
+using nlohmann::json;
+
+TEST(OptionForm, OfEveryVerbGivesOptionsThatTheVerbAccepts) {
+  for (const auto& verb : verbs()) {
+    OptionForm form(verb);
+    for (auto& field : form.fields())   // what must be given is given
+      if (field.parameter->required && field.text.empty()) field.text = "x";
+    EXPECT_EQ(form.problem(), "") << verb.name;
+    const auto checked = checkOptions(verb, form.options());
+    EXPECT_TRUE(checked) << verb.name << ": " << (checked ? "" : describe(checked.error()));
+  }
+}
+
+TEST(OptionForm, StartsWithTheDefaultsAndLeavesOutWhatIsOptional) {
+  const Verb& optimize = *findVerb(verbs(), "optimize");
+  OptionForm form(optimize);
+  EXPECT_EQ(form.options(), (json{{"max-deviation", 0.015}}));
+  form.find("budget")->given = true;
+  form.find("budget")->number = 2000;
+  EXPECT_EQ(form.options()["budget"], 2000);
+  EXPECT_TRUE(form.options()["budget"].is_number_integer());
+}
+
+TEST(OptionForm, SplitsLinesIntoAListAndRefusesPairsWithoutEqualsSign) {
+  OptionForm form(*findVerb(verbs(), "materials"));
+  auto& assign = *form.find("assign");
+  assign.given = true;
+  assign.text = " class:IfcWall=brick \n\nname:*glas*=glass\n";
+  EXPECT_EQ(form.options()["assign"], (json{"class:IfcWall=brick", "name:*glas*=glass"}));
+  EXPECT_EQ(form.problem(), "");
+  assign.text = "class:IfcWall";
+  EXPECT_NE(form.problem().find("class:IfcWall"), std::string::npos);
+}
+
+TEST(OptionForm, NamesWhatIsMissing) {
+  const OptionForm form(*findVerb(verbs(), "export"));
+  EXPECT_EQ(form.problem(), "Output is missing");
+}
+
+TEST(OptionForm, TakesWhatAJobFileSaysAndGivesItBack) {
+  const json options = {{"add", "S7"}, {"on", {1.5, 2.5, 0.0}}, {"height", 1.8}, {"yaw-deg", 90.0}};
+  OptionForm form(*findVerb(verbs(), "station"));
+  form.fill(options);
+  EXPECT_EQ(form.options(), options);
+}
+
+}  // namespace
+}  // namespace standpoint

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "demo_verbs.h"
+#include "editor/panels.h"
+#include "editor/shell/actions.h"
+#include "item_probe.h"
+
+namespace standpoint {
+namespace {
+
+constexpr int kEscape = 256, kEnter = 257;
+
+class Gui : public ::testing::Test {
+ protected:
+  void open() {
+    ASSERT_TRUE(editor.session.start("demo", nlohmann::json::object()));
+    gui.settle();
+    editor.session.wait();
+  }
+  std::uint32_t productNamed(const std::string& name) const {
+    for (std::uint32_t p = 0; p < editor.environment()->products.size(); ++p)
+      if (editor.environment()->products[p].name == name) return p;
+    return ~0U;
+  }
+  ImVec2 screenOf(const Eigen::Vector3d& point) {
+    const auto pixel = project(editor.view.camera, point, editor.view.size);
+    const auto* window = ImGui::FindWindowByName("###viewport");
+    return {window->Pos.x + static_cast<float>(pixel->x()), window->Pos.y + static_cast<float>(pixel->y())};
+  }
+  Editor editor{verbsWithDemo(), [] {}};
+  GuiDriver gui{editor};
+};
+
+TEST_F(Gui, ShowsEveryPanelInSomeWorkspace) {
+  open();
+  std::set<std::string> seen;
+  for (int w = 0; w < kWorkspaces; ++w) {
+    editor.workspace = static_cast<Workspace>(w);
+    gui.frames(2);
+    for (const auto& panel : panels())
+      if (gui.find(std::string("###") + panel.id) != nullptr) seen.insert(panel.id);
+  }
+  EXPECT_EQ(seen.size(), panels().size());
+}
+
+TEST_F(Gui, SelectsInTheOutlinerAndShowsItInTheInspector) {
+  open();
+  editor.panels.outliner.filter = "Wall east OG";
+  gui.frames(2);
+  const auto wall = productNamed("Wall east OG");
+  const GuiItem* row = nullptr;
+  for (const auto& item : itemProbe().items)
+    if (item.label == "###row") row = &item;   // the last one is the product
+  ASSERT_NE(row, nullptr);
+  gui.moveTo(row->rect.GetCenter());
+  gui.press();
+  EXPECT_EQ(editor.selection.products(), std::vector<std::uint32_t>{wall});
+}
+
+TEST_F(Gui, SelectsWhatIsClickedInTheView) {
+  open();
+  if (!editor.picker.ready()) GTEST_SKIP() << "no ray scene";
+  gui.moveTo(screenOf({5, 4, 6.3}));
+  ASSERT_TRUE(editor.view.hover);
+  EXPECT_EQ(editor.view.hover->product, productNamed("Roof"));
+  gui.press();
+  EXPECT_EQ(editor.selection.products(), std::vector<std::uint32_t>{productNamed("Roof")});
+  gui.key('H');
+  EXPECT_TRUE(editor.visibility.hidden(productNamed("Roof")));
+  gui.moveTo(screenOf({5, 4, 6.3}));
+  ASSERT_TRUE(editor.view.hover);
+  EXPECT_NE(editor.view.hover->product, productNamed("Roof")) << "what is hidden lets the pointer through";
+}
+
+TEST_F(Gui, ADragTurnsTheViewAndSelectsNothing) {
+  open();
+  const auto before = editor.view.camera;
+  gui.moveTo(screenOf({5, 4, 6.3}));
+  ImGui::GetIO().MouseDown[0] = true;
+  gui.frame();
+  for (int i = 1; i <= 5; ++i) {
+    ImGui::GetIO().MousePos.x += 12;
+    gui.frame();
+  }
+  ImGui::GetIO().MouseDown[0] = false;
+  gui.frames(2);
+  EXPECT_NE(editor.view.camera.azimuth_rad, before.azimuth_rad);
+  EXPECT_TRUE(editor.selection.empty());
+}
+
+TEST_F(Gui, SetsUpAStationWhereTheFloorIsClickedAndUndoesIt) {
+  open();
+  if (!editor.picker.ready()) GTEST_SKIP() << "no ray scene";
+  editor.visibility.cut_height_m = 1.5;
+  invoke(editor, "add-station");
+  look(editor.view.camera, StandardView::top);
+  editor.view.frame_wanted = true;
+  gui.frames(3);
+  gui.moveTo(screenOf({1.2, 6, 0}));
+  ASSERT_TRUE(editor.view.hover);
+  gui.press();
+  gui.settle();
+  ASSERT_TRUE(editor.session.errors().empty()) << describe(editor.session.errors().front().error);
+  ASSERT_EQ(editor.session.document().job->stations.size(), 3U);
+  const auto& station = editor.session.document().job->stations.back();
+  EXPECT_EQ(station.name, "S3");
+  EXPECT_NEAR(station.true_pose.translation.x(), 1.2, 0.05);
+  EXPECT_NEAR(station.true_pose.translation.z(), 1.6, 0.01);
+  gui.key('Z', true);
+  EXPECT_EQ(editor.session.document().job->stations.size(), 2U);
+}
+
+TEST_F(Gui, AssignsAMaterialThroughTheVerb) {
+  open();
+  const auto& library = readCatalogue(editor.panels.catalogue).materials;
+  if (library.empty()) GTEST_SKIP() << editor.panels.catalogue.problem;
+  const auto table = productNamed("Table EG");
+  editor.select(table, true);
+  gui.frames(3);
+  ASSERT_TRUE(gui.click("###assign"));
+  gui.frames(2);
+  const std::string label = "###" + library.front().id;
+  ASSERT_TRUE(gui.click(label));
+  gui.settle();
+  ASSERT_TRUE(editor.session.errors().empty()) << describe(editor.session.errors().front().error);
+  ASSERT_TRUE(editor.session.document().materials);
+  const auto& assignment = editor.session.document().materials->result.assignment;
+  const auto material = materialOf(assignment, table, 3);
+  ASSERT_GE(material, 0);
+  EXPECT_EQ(assignment.materials[static_cast<std::size_t>(material)].id, library.front().id);
+}
+
+TEST_F(Gui, FindsAnActionInThePaletteByWords) {
+  open();
+  gui.key('P', true);
+  gui.frames(2);
+  EXPECT_TRUE(editor.dialogs.palette.open);
+  gui.type("above view");
+  gui.key(kEnter);
+  EXPECT_FALSE(editor.dialogs.palette.open);
+  EXPECT_TRUE(editor.view.camera.forward().isApprox(-Eigen::Vector3d::UnitZ(), 1e-9));
+}
+
+TEST_F(Gui, AsksBeforeUnsavedChangesAreLost) {
+  open();
+  gui.key('N', true);
+  gui.frames(3);
+  EXPECT_TRUE(editor.dialogs.unsaved);
+  EXPECT_TRUE(editor.environment());
+  ASSERT_TRUE(gui.click("Do not save"));
+  gui.frames(2);
+  EXPECT_FALSE(editor.environment());
+}
+
+TEST_F(Gui, ShowsAnErrorUntilItIsClosed) {
+  editor.session.open("/no/such/project");
+  gui.settle();
+  ASSERT_EQ(editor.session.errors().size(), 1U);
+  ASSERT_TRUE(gui.click("###close"));
+  EXPECT_TRUE(editor.session.errors().empty());
+}
+
+TEST_F(Gui, TypingDoesNotTriggerShortcuts) {
+  open();
+  const auto* search = gui.find("###search");
+  ASSERT_NE(search, nullptr);
+  gui.moveTo(search->rect.GetCenter());
+  gui.press();
+  const auto before = editor.view.camera;
+  gui.key('7');
+  EXPECT_EQ(editor.view.camera, before);
+}
+
+TEST_F(Gui, DrawsATreeOfThousandsInAMoment) {
+  open();
+  editor.panels.outliner.tree.expandAll(true);
+  gui.frames(2);
+  EXPECT_LT(itemProbe().items.size(), 400U) << "rows that are not seen are not drawn";
+}
+
+void closeEverything(Editor& editor, GuiDriver& gui) {
+  editor.dialogs = DialogStates();
+  editor.quit = false;
+  gui.frames(2);
+  for (int i = 0; i < 3; ++i) gui.key(kEscape);
+  gui.settle();
+  editor.session.errors().clear();
+  gui.frames(2);
+}
+
+// Every item that can be reached in one workspace, pressed one after the other.
+void pressEverything(Editor& editor, GuiDriver& gui, int& pressed) {
+  std::set<ImGuiID> done;
+  const auto dialogs_folder = std::filesystem::path(BINARY_DIR) / "test_editor_gui";
+  std::filesystem::create_directories(dialogs_folder);
+  editor.settings.last_folder = dialogs_folder.string();
+  while (true) {
+    ImGuiID next = 0;
+    for (const auto& item : itemProbe().items)
+      if (!item.disabled && done.insert(item.id).second) {
+        next = item.id;
+        break;
+      }
+    if (next == 0) return;
+    gui.activate(next);
+    gui.frames(2);
+    ++pressed;
+    if (editor.environment()) {
+      ASSERT_EQ(validate(*editor.environment()), "") << itemProbe().labels[next];
+    }
+    closeEverything(editor, gui);
+  }
+}
+
+TEST_F(Gui, SurvivesEveryItemBeingPressedOnAnEmptyProject) {
+  int pressed = 0;
+  for (int w = 0; w < kWorkspaces; ++w) {
+    editor.workspace = static_cast<Workspace>(w);
+    gui.frames(2);
+    pressEverything(editor, gui, pressed);
+  }
+  EXPECT_GT(pressed, 40);
+}
+
+TEST_F(Gui, SurvivesEveryItemBeingPressedOnADocument) {
+  open();
+  int pressed = 0;
+  for (const auto& panel : panels()) {
+    for (int w = 0; w < kWorkspaces; ++w) {
+      if (panel.area[static_cast<std::size_t>(w)] == Area::none) continue;
+      if (!editor.environment()) open();
+      editor.workspace = static_cast<Workspace>(w);
+      editor.wanted_tab[static_cast<std::size_t>(panel.area[static_cast<std::size_t>(w)])] = panel.id;
+      editor.select(productNamed("Wall east OG"), true);
+      gui.frames(3);
+      pressEverything(editor, gui, pressed);
+      break;
+    }
+  }
+  EXPECT_GT(pressed, 200);
+}
+
+TEST_F(Gui, RunsEveryActionWithAndWithoutADocument) {
+  for (const bool with_document : {false, true}) {
+    for (const auto& action : actions()) {
+      if (with_document && !editor.environment()) open();
+      invoke(editor, action.id);
+      gui.frames(3);
+      closeEverything(editor, gui);
+    }
+  }
+}
+
+TEST_F(Gui, OpensTheFormOfEveryVerb) {
+  open();
+  for (const auto& verb : editor.session.verbs()) {
+    openVerbForm(editor, verb.name);
+    gui.frames(3);
+    EXPECT_NE(gui.find("###run"), nullptr) << verb.name;
+    for (const auto& parameter : verb.parameters) {
+      const bool drawn = std::any_of(itemProbe().items.begin(), itemProbe().items.end(), [](const GuiItem& i) { return i.label.find("###value") != std::string::npos; });
+      EXPECT_TRUE(drawn) << verb.name << " " << parameter.name;
+    }
+    closeEverything(editor, gui);
+  }
+}
+
+}  // namespace
+}  // namespace standpoint

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "editor/model/input_queue.h"
+
+namespace standpoint {
+namespace {
+
+using Kind = InputEvent::Kind;
+
+InputEvent keyEvent(int code, bool down) { return {Kind::key, 0, 0, code, down}; }
+InputEvent buttonEvent(bool down, double x = 0) { return {Kind::button, x, 0, 0, down}; }
+
+TEST(InputQueue, ShowsAQuickKeyDownInOneFrameAndUpInTheNext) {
+  InputQueue queue;
+  queue.push(keyEvent('F', true));
+  queue.push(keyEvent('F', false));
+  auto first = queue.takeFrame();
+  ASSERT_EQ(first.size(), 1U);
+  EXPECT_TRUE(first[0].down);
+  auto second = queue.takeFrame();
+  ASSERT_EQ(second.size(), 1U);
+  EXPECT_FALSE(second[0].down);
+  EXPECT_FALSE(queue.pending());
+}
+
+TEST(InputQueue, NeverLosesAClickOfADoubleClick) {
+  InputQueue queue;
+  for (const bool down : {true, false, true, false}) queue.push(buttonEvent(down));
+  int presses = 0, frames = 0;
+  for (; queue.pending(); ++frames)
+    for (const auto& e : queue.takeFrame()) presses += e.down ? 1 : 0;
+  EXPECT_EQ(presses, 2);
+  EXPECT_EQ(frames, 4);
+}
+
+TEST(InputQueue, CoalescesMovesButKeepsTheOneBeforeAClick) {
+  InputQueue queue;
+  for (int x = 0; x < 100; ++x) queue.push({Kind::move, double(x), 0});
+  queue.push(buttonEvent(true, 99));
+  queue.push({Kind::move, 500, 0});
+  const auto first = queue.takeFrame();
+  ASSERT_EQ(first.size(), 2U);
+  EXPECT_EQ(first[0].x, 99);
+  EXPECT_EQ(first[1].kind, Kind::button);
+  EXPECT_EQ(queue.takeFrame().at(0).x, 500);
+}
+
+TEST(InputQueue, LetsDifferentKeysPassTogether) {
+  InputQueue queue;
+  queue.push(keyEvent(341, true));   // left control
+  queue.push(keyEvent('Z', true));
+  EXPECT_EQ(queue.takeFrame().size(), 2U);
+}
+
+TEST(InputQueue, KeepsTypedTextInOrder) {
+  InputQueue queue;
+  for (const char c : std::string("wall")) queue.push({Kind::character, 0, 0, c});
+  std::string typed;
+  while (queue.pending())
+    for (const auto& e : queue.takeFrame()) typed += static_cast<char>(e.code);
+  EXPECT_EQ(typed, "wall");
+}
+
+}  // namespace
+}  // namespace standpoint

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "demo_document.h"
+#include "editor/model/log.h"
+#include "editor/model/outliner_rows.h"
+#include "editor/model/selection.h"
+#include "editor/model/visibility.h"
+
+namespace standpoint {
+namespace {
+
+std::vector<std::string> labels(const Outliner& tree, const std::vector<OutlinerRow>& rows) {
+  std::vector<std::string> result;
+  for (const auto& row : rows) result.push_back(tree.node(row.node).label);
+  return result;
+}
+
+std::uint32_t productNamed(const Environment& environment, const std::string& name) {
+  for (std::uint32_t p = 0; p < environment.products.size(); ++p)
+    if (environment.products[p].name == name) return p;
+  return ~0U;
+}
+
+class DemoHouse : public ::testing::Test {
+ protected:
+  Document document = demoHouse();
+  const Environment& environment = *document.imported;
+  Outliner tree{environment};
+};
+
+TEST_F(DemoHouse, IsAValidEnvironment) {
+  EXPECT_EQ(validate(environment), "");
+  EXPECT_EQ(environment.products.size(), kDemoProducts);
+}
+
+TEST_F(DemoHouse, OpensDownToItsStoreys) {
+  const auto shown = labels(tree, tree.rows(environment, ""));
+  EXPECT_EQ(shown, (std::vector<std::string>{"Demo house", "Plot", "House", "Ground floor", "Upper floor", "Site"}));
+}
+
+TEST_F(DemoHouse, CountsEveryProductOnce) {
+  EXPECT_EQ(tree.node(tree.rows(environment, "").front().node).products, environment.products.size());
+}
+
+TEST_F(DemoHouse, RevealsAProductByOpeningWhatLiesAboveIt) {
+  const auto wall = productNamed(environment, "Wall east OG");
+  tree.reveal(wall);
+  const auto rows = tree.rows(environment, "");
+  const auto found = std::count_if(rows.begin(), rows.end(), [&](const OutlinerRow& r) {
+    return r.kind == OutlinerRow::Kind::product && tree.node(r.node).index == wall;
+  });
+  EXPECT_EQ(found, 1);
+}
+
+TEST_F(DemoHouse, FiltersByWordsInAnyOrderAndKeepsTheAncestors) {
+  const auto shown = labels(tree, tree.rows(environment, "OG window"));
+  EXPECT_EQ(shown, (std::vector<std::string>{"Demo house", "Plot", "House", "Upper floor", "Window", "Window north OG", "Window south OG"}));
+  EXPECT_TRUE(tree.rows(environment, "no such thing").empty());
+}
+
+TEST_F(DemoHouse, FindsProductsByIdClassAndMaterial) {
+  EXPECT_TRUE(matchesFilter(environment.products[2], "#102"));
+  EXPECT_TRUE(matchesFilter(environment.products[2], "ifcwallstandardcase brick"));
+  EXPECT_FALSE(matchesFilter(environment.products[2], "glass"));
+}
+
+TEST_F(DemoHouse, KnowsItsStoreysInTheLocalFrame) {
+  const auto storeys = storeyLevels(environment, document.georeference->shift_m.z());
+  ASSERT_EQ(storeys.size(), 2U);
+  EXPECT_DOUBLE_EQ(storeys[0].elevation_m, 0);
+  EXPECT_DOUBLE_EQ(storeys[1].elevation_m, 3);
+}
+
+TEST_F(DemoHouse, TakesStoreyHeightsFromTheGeometryWhenTheFileHasNone) {
+  Environment flat = environment;
+  for (auto& node : flat.spatial) node.elevation_m = 0;
+  const auto storeys = storeyLevels(flat, 0);
+  ASSERT_EQ(storeys.size(), 2U);
+  EXPECT_LT(storeys[0].elevation_m + 1, storeys[1].elevation_m);
+}
+
+TEST(Outliner, OfAModelWithoutStructureIsOneListOfProducts) {
+  Environment environment;
+  environment.products.resize(3);
+  for (int i = 0; i < 3; ++i) environment.products[static_cast<std::size_t>(i)].id = "/nodes/" + std::to_string(i);
+  const Outliner tree(environment);
+  EXPECT_EQ(tree.rows(environment, "").size(), 4U);   // the group and its three
+}
+
+TEST(Outliner, ReadsClassNamesAloud) {
+  EXPECT_EQ(readableClass("IfcWallStandardCase"), "Wall standard case");
+  EXPECT_EQ(readableClass(""), "Object");
+}
+
+TEST(Selection, KeepsItsOrderAndItsLastChoice) {
+  Selection selection;
+  selection.set(std::vector<std::uint32_t>{7, 3, 7});
+  EXPECT_EQ(selection.products(), (std::vector<std::uint32_t>{3, 7}));
+  EXPECT_EQ(selection.primary(), 7U);
+  selection.toggle(5);
+  EXPECT_EQ(selection.primary(), 5U);
+  selection.toggle(5);
+  EXPECT_FALSE(selection.contains(5));
+  EXPECT_TRUE(selection.contains(selection.primary()));
+}
+
+TEST(Selection, IsTheSameValueUntilItChanges) {
+  Selection selection;
+  selection.set(4);
+  const auto before = selection.shared();
+  selection.set(4);
+  EXPECT_EQ(selection.shared(), before);
+  selection.set(5);
+  EXPECT_NE(selection.shared(), before);
+}
+
+TEST(Visibility, HidesIsolatesAndShowsAll) {
+  Visibility visibility;
+  visibility.reset(5);
+  visibility.show(std::vector<std::uint32_t>{1, 3}, false);
+  EXPECT_EQ(visibility.hiddenCount(), 2U);
+  visibility.isolate(std::vector<std::uint32_t>{1});
+  EXPECT_FALSE(visibility.hidden(1));
+  EXPECT_EQ(visibility.hiddenCount(), 4U);
+  visibility.showAll();
+  EXPECT_FALSE(visibility.anyHidden());
+  EXPECT_FALSE(visibility.hidden(99));
+}
+
+TEST_F(DemoHouse, FindsTheProductThatALogEntryNames) {
+  EXPECT_EQ(productOf(environment, "#104"), 4U);
+  EXPECT_EQ(productOf(environment, "demo.ifc #104"), 4U);
+  EXPECT_FALSE(productOf(environment, "line 7"));
+  EXPECT_FALSE(productOf(environment, ""));
+}
+
+TEST(Log, FiltersBySeverityAndText) {
+  const LogEntry warning{LogLevel::warning, "10:00:00", "#5", "not planar"};
+  EXPECT_TRUE(passes(warning, {}));
+  EXPECT_FALSE(passes(warning, {true, false, true, ""}));
+  EXPECT_TRUE(passes(warning, {true, true, true, "PLANAR"}));
+  EXPECT_FALSE(passes(warning, {true, true, true, "glass"}));
+}
+
+}  // namespace
+}  // namespace standpoint

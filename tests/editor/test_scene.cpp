@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "demo_document.h"
+#include "editor/viewport/feature_edges.h"
+#include "editor/viewport/merged_scene.h"
+
+namespace standpoint {
+namespace {
+
+// A cube whose faces do not share vertices, as glTF has them.
+Mesh looseCube() {
+  Mesh mesh;
+  static constexpr int kCorner[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (const auto& face : kCorner) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const int c : face) mesh.positions.emplace_back(c & 1, c >> 1 & 1, c >> 2 & 1);
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangles.push_back({first, first + 2, first + 3});
+    mesh.surface_of_triangle.insert(mesh.surface_of_triangle.end(), 2, 0);
+  }
+  return mesh;
+}
+
+TEST(FeatureEdges, OfACubeAreItsTwelveEdgesWithoutTheDiagonals) { EXPECT_EQ(featureEdges(looseCube(), 0.5).size(), 12U); }
+
+TEST(FeatureEdges, OfASheetAreItsRim) {
+  Mesh sheet;
+  sheet.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
+  sheet.surface_of_triangle = {0, 0};
+  EXPECT_EQ(featureEdges(sheet, 0.5).size(), 4U);
+}
+
+TEST(FeatureEdges, OfNothingAreNone) { EXPECT_TRUE(featureEdges(Mesh(), 0.5).empty()); }
+
+ViewState demoState(const Document& document) {
+  ViewState state;
+  state.environment = document.imported;
+  return state;
+}
+
+TEST(MergedScene, HasEveryTangibleTriangleOnceAndGlassApart) {
+  const auto document = demoHouse();
+  const auto merged = mergeVisible(demoState(document));
+  std::size_t tangible = 0, glass = 0;
+  for (const auto& i : document.imported->instances) {
+    const auto& mesh = *document.imported->meshes[i.mesh];
+    if (!document.imported->products[i.product].tangible) continue;
+    tangible += mesh.triangles.size();
+    glass += static_cast<std::size_t>(std::count(mesh.surface_of_triangle.begin(), mesh.surface_of_triangle.end(), 2U));
+  }
+  EXPECT_EQ(merged.opaque.colours.size() + merged.transparent.colours.size(), tangible);
+  EXPECT_EQ(merged.transparent.colours.size(), glass);
+  EXPECT_EQ(merged.opaque.corners.size(), 3 * merged.opaque.colours.size());
+  const auto points = static_cast<std::int64_t>(merged.opaque.positions.size() / 3);
+  EXPECT_TRUE(std::all_of(merged.opaque.corners.begin(), merged.opaque.corners.end(), [&](std::int64_t c) { return c >= 0 && c < points; }));
+}
+
+TEST(MergedScene, LeavesOutWhatIsHidden) {
+  const auto document = demoHouse();
+  auto state = demoState(document);
+  state.hidden = std::make_shared<const HiddenProducts>(document.imported->products.size(), std::uint8_t{1});
+  const auto merged = mergeVisible(state);
+  EXPECT_TRUE(merged.opaque.colours.empty());
+  EXPECT_TRUE(merged.transparent.colours.empty());
+}
+
+TEST(MergedScene, PaintsWhatHasNoMaterialInAColourThatNoMaterialHas) {
+  const auto document = demoHouse();
+  auto state = demoState(document);
+  state.colour = ColourMode::material;
+  const auto merged = mergeVisible(state);
+  ASSERT_FALSE(merged.opaque.colours.empty());
+  EXPECT_EQ(merged.opaque.colours.front(), merged.opaque.colours.back());
+  const auto pink = materialColour(nullptr);
+  for (const char* id : {"brick_red_bare", "glass_float", "concrete", "plaster_white", "steel"}) {
+    const auto c = materialColour(id);
+    EXPECT_GT(std::abs(c.r - pink.r) + std::abs(c.g - pink.g) + std::abs(c.b - pink.b), 0.3F) << id;
+  }
+}
+
+TEST(EdgeCache, PlacesTheEdgesOfEveryInstance) {
+  Document document = demoHouse();
+  EdgeCache cache;
+  const std::vector<std::uint32_t> column = {9};
+  const auto lines = cache.edges(demoState(document), &column, 1000);
+  EXPECT_EQ(document.imported->products[9].ifc_class, "IfcColumn");
+  EXPECT_EQ(lines.ends.size(), 24U);
+}
+
+}  // namespace
+}  // namespace standpoint

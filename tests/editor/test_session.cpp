@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "demo_verbs.h"
+#include "editor/model/session.h"
+
+namespace standpoint {
+namespace {
+
+using nlohmann::json;
+
+std::atomic<bool> released{false};
+
+// Three verbs that a test can steer: one that changes, one that waits until it is let go, one that fails.
+std::vector<Verb> steeredVerbs() {
+  auto table = verbsWithDemo();
+  table.push_back({"rename", "Rename", VerbScope::changes, {{.name = "to", .kind = ParameterKind::text, .help = "", .required = true}},
+                   [](const Document& d, const json& options, Progress&) -> Result<Outcome> {
+                     Outcome outcome{d};
+                     outcome.document.name = options.at("to").get<std::string>();
+                     outcome.description = "Renamed to " + outcome.document.name;
+                     return outcome;
+                   }});
+  table.push_back({"wait", "Wait", VerbScope::changes, {}, [](const Document& d, const json&, Progress& progress) -> Result<Outcome> {
+                     while (!released) {
+                       if (auto checked = progress.check(); !checked) return failure(checked.error());
+                       std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                     }
+                     return Outcome{d};
+                   }});
+  table.push_back({"break", "Break", VerbScope::changes, {}, [](const Document&, const json&, Progress&) -> Result<Outcome> {
+                     return failure(ErrorKind::unusable, "it is broken", "house.ifc #12");
+                   }});
+  return table;
+}
+
+class DemoSession : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    released = false;
+    ASSERT_TRUE(session.start("demo", json::object()));
+    session.wait();
+  }
+  Session session{steeredVerbs(), [] {}};
+};
+
+TEST(Session, WithoutAModelSaysWhatToDoFirst) {
+  const Session session(steeredVerbs(), [] {});
+  EXPECT_EQ(session.whyNot("demo"), "");
+  EXPECT_NE(session.whyNot("rename").find("import"), std::string::npos);
+  EXPECT_NE(session.whyNot("no-such-verb"), "");
+  EXPECT_FALSE(session.modified());
+}
+
+TEST_F(DemoSession, BringsTheResultOfAVerbInAndUndoesIt) {
+  EXPECT_TRUE(session.modified());
+  ASSERT_TRUE(session.start("rename", {{"to", "castle"}}));
+  EXPECT_EQ(session.document().name, "demo house") << "the document changes when the task is done";
+  session.wait();
+  EXPECT_EQ(session.document().name, "castle");
+  EXPECT_EQ(session.history().undoDescription(), "Renamed to castle");
+  session.undo();
+  EXPECT_EQ(session.document().name, "demo house");
+  session.redo();
+  EXPECT_EQ(session.document().name, "castle");
+}
+
+TEST_F(DemoSession, RunsOneChangingTaskAtATime) {
+  ASSERT_TRUE(session.start("wait", json::object(), "Wait a while"));
+  EXPECT_FALSE(session.start("rename", {{"to", "castle"}}));
+  EXPECT_NE(session.whyNot("rename").find("Wait a while"), std::string::npos);
+  EXPECT_NE(session.whyNotUndo(), "") << "an undo now would be overwritten";
+  EXPECT_EQ(session.whyNot("export"), "") << "reading is free";
+  released = true;
+  session.wait();
+  EXPECT_EQ(session.whyNot("rename"), "");
+}
+
+TEST_F(DemoSession, LeavesTheDocumentAloneWhenATaskIsCancelled) {
+  const auto before = session.document();
+  ASSERT_TRUE(session.start("wait", json::object()));
+  session.running().front()->progress().cancel();
+  session.wait();
+  EXPECT_EQ(session.document(), before);
+  EXPECT_TRUE(session.finished().front().cancelled);
+  EXPECT_TRUE(session.errors().empty()) << "a cancel is no error to be shown";
+}
+
+TEST_F(DemoSession, ShowsAnErrorWithItsPlace) {
+  ASSERT_TRUE(session.start("break", json::object(), "Break it"));
+  session.wait();
+  ASSERT_EQ(session.errors().size(), 1U);
+  EXPECT_EQ(session.errors().front().title, "Break it");
+  EXPECT_EQ(session.errors().front().error.source, "house.ifc #12");
+  EXPECT_EQ(session.log().back().level, LogLevel::error);
+}
+
+TEST_F(DemoSession, LogsWhatWasLost) {
+  const auto losses = std::count_if(session.log().begin(), session.log().end(), [](const LogEntry& e) { return e.level == LogLevel::loss; });
+  EXPECT_EQ(losses, 1);
+}
+
+TEST_F(DemoSession, SavesOpensAndRecovers) {
+  const auto root = std::filesystem::path(BINARY_DIR) / "test_editor_session";
+  std::filesystem::remove_all(root);
+  ASSERT_TRUE(session.save(root / "house"));
+  session.wait();
+  ASSERT_TRUE(session.errors().empty()) << describe(session.errors().front().error);
+  EXPECT_FALSE(session.modified());
+  EXPECT_EQ(session.folder(), root / "house");
+  session.start("rename", {{"to", "castle"}});
+  session.wait();
+  EXPECT_TRUE(session.modified());
+  ASSERT_TRUE(session.saveRecovery(root / "recovery" / "copy"));
+  session.wait();
+  EXPECT_TRUE(session.modified()) << "a recovery copy is not a save";
+
+  Session other(steeredVerbs(), [] {});
+  ASSERT_TRUE(other.open(root / "house"));
+  other.wait();
+  EXPECT_EQ(other.document().name, "demo house");
+  EXPECT_FALSE(other.modified());
+  EXPECT_EQ(other.document().imported->products.size(), session.document().imported->products.size());
+
+  ASSERT_TRUE(other.recover({root / "recovery", root / "recovery" / "copy", "castle", (root / "house").string()}));
+  other.wait();
+  EXPECT_EQ(other.document().name, "castle");
+  EXPECT_TRUE(other.modified());
+  EXPECT_EQ(other.folder(), root / "house");
+  EXPECT_FALSE(std::filesystem::exists(root / "recovery"));
+}
+
+TEST_F(DemoSession, KeepsWhatIsOpenWhenAnotherProjectCannotBeRead) {
+  ASSERT_TRUE(session.open("/no/such/project"));
+  session.wait();
+  EXPECT_EQ(session.errors().size(), 1U);
+  EXPECT_EQ(session.document().name, "demo house");
+}
+
+}  // namespace
+}  // namespace standpoint
