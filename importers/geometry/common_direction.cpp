@@ -24,8 +24,16 @@ std::vector<FaceFacts> factsOf(const PolyMesh& mesh) {
   return facts;
 }
 
-// Every corner of a face that lies across the direction is at one height; the others run along it.
+double areaWithoutHoles(const PolyMesh& mesh, const Face& face, double outer_area) {
+  for (const auto& hole : face.holes) outer_area -= areaVector(mesh.points, hole).norm();
+  return outer_area;
+}
+
+// Every corner of a face that lies across the direction is at one height; the others run along it. The volume under the
+// caps must be the volume of the body: a surface that lacks a wall or a cap is no prism, and its sections would be wrong.
 bool isPrismatic(const PolyMesh& mesh, const Eigen::Vector3d& direction) {
+  double under_caps = 0, whole_area = 0;
+  Eigen::Vector3d unbalanced = Eigen::Vector3d::Zero();
   for (const Face& face : mesh.faces) {
     const Eigen::Vector3d v = areaVector(mesh.points, face.outer);
     const double length = v.norm();
@@ -41,8 +49,13 @@ bool isPrismatic(const PolyMesh& mesh, const Eigen::Vector3d& direction) {
     const bool across = high - low <= kSnap_m && std::abs(cosine) > 0.5;
     const bool along = std::abs(cosine) * extent <= kSnap_m;
     if (!across && !along) return false;
+    const double own_area = areaWithoutHoles(mesh, face, length);
+    whole_area += own_area;
+    unbalanced += v * (own_area / length);
+    if (across) under_caps += std::copysign(own_area, cosine) * direction.dot(first - mesh.points[0]);
   }
-  return true;
+  const double tolerance = 1e-9 + 3 * kSnap_m * whole_area;
+  return unbalanced.norm() <= 1e-9 + 1e-5 * whole_area && std::abs(under_caps - volume(mesh)) <= tolerance;
 }
 
 std::size_t levelCount(const PolyMesh& first, std::span<const PolyMesh> others, const std::vector<bool>& fits,

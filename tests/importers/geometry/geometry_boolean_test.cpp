@@ -220,6 +220,50 @@ TEST(Booleans, ReportBodiesThatAreNotSolids) {
   EXPECT_FALSE(subtract(tool, std::span(&broken, 1)).has_value());
 }
 
+TEST(Subtraction, ByCarveCarriesTags) {
+  PolyMesh wall = box(kWall), tool = boxAt({0, 0, 0}, {0.5, 2, 0.5});
+  transform(tool, Eigen::Affine3d(Eigen::Translation3d(5, -0.85, 1) * Eigen::AngleAxisd(0.3, Vector3d(1, 0, 1).normalized())));
+  for (std::uint32_t f = 0; f < wall.faces.size(); ++f) wall.faces[f].tag = 10 + f;
+  setTag(tool, 2);
+  const auto result = combineWithCarve(wall, tool, Operation::difference);
+  ASSERT_TRUE(result.has_value());
+  std::vector<int> count(20, 0);
+  for (const Face& face : result->faces) ++count.at(face.tag);
+  EXPECT_EQ(count[2], 4);
+  for (std::uint32_t f = 0; f < 6; ++f) EXPECT_GE(count[10 + f], 1);
+}
+
+TEST(Subtraction, FromASurfaceThatLacksFacesIsNotDoneInThePlane) {
+  const PolyMesh tool = boxAt({2, -0.1, 1}, {1, 0.5, 1});
+  for (std::size_t missing = 0; missing < 6; ++missing) {
+    PolyMesh wall = box(kWall);
+    wall.faces.erase(wall.faces.begin() + static_cast<std::ptrdiff_t>(missing));
+    EXPECT_FALSE(subtract(wall, std::span(&tool, 1)).has_value()) << missing;
+  }
+  PolyMesh duct = box(kWall);  // two opposite faces missing: the area vectors still add up to nothing
+  duct.faces.erase(duct.faces.begin() + 1), duct.faces.erase(duct.faces.begin() + 2);
+  EXPECT_FALSE(subtract(duct, std::span(&tool, 1)).has_value());
+}
+
+// Bent boxes: faces that are not planar, bodies that pass through themselves. Any answer is good that comes in time, is
+// finite and, when it claims to be a solid, has a volume that fits.
+TEST(Booleans, OfBentAndSelfCrossingBodiesEndInAnAnswer) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int i = 0; i < 200; ++i) {
+    PolyMesh a = box({1, 1, 1}), b = boxAt({0.2, 0.3, -0.5}, {0.5, 0.5, 1.2});
+    for (PolyMesh* mesh : {&a, &b}) {
+      const double by = i % 4 == 0 ? 2.0 : i % 4 == 1 ? 1e-3 : i % 4 == 2 ? 1e-6 : 1e-9;
+      for (int k = 0; k < 2; ++k) mesh->points[random() % 8] += by * Vector3d(uniform(random), uniform(random), uniform(random));
+    }
+    for (const auto& result : {subtract(a, std::span(&b, 1)), intersect(a, b), unite(a, b)}) {
+      if (!result) continue;
+      for (const Vector3d& p : result->points) EXPECT_TRUE(p.allFinite());
+      EXPECT_LE(volume(*result), (std::abs(volume(a)) + std::abs(volume(b))) * 1.01 + 1e-5);
+    }
+  }
+}
+
 double totalArea(const std::vector<Region2>& regions) {
   double sum = 0;
   for (const Region2& region : regions) sum += area(region);
