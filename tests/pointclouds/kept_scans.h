@@ -48,6 +48,7 @@ inline std::string bytesOf(const std::filesystem::path& file) {
 }
 
 inline void putBytes(const std::filesystem::path& file, const std::string& bytes) {
+  std::filesystem::remove(file);   // some file systems wait for the disk when a file is cut to nothing and refilled
   std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
