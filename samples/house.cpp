@@ -9,6 +9,7 @@ namespace {
 
 // Heights relative to a storey's finished floor; a storey is 2.80 m.
 constexpr double kSlabBottom_m = -0.275, kOakBottom_m = -0.015, kCeiling_m = 2.51, kStorey_m = 2.8;
+constexpr double kAtticSlab_m = 0.2;   // between the upper walls, which end flush with it
 constexpr double kSlopeOfRoof = 0.8;
 constexpr double kDoor_m = 2.1;
 
@@ -17,8 +18,8 @@ using Kind = Hole::Kind;
 std::vector<P2> plan(double x0, double y0, double x1, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
 
 // South and north go from corner to corner, west and east stand between them.
-void externalWalls(Building& house, const std::vector<std::vector<Hole>>& holes) {
-  const double base = kSlabBottom_m, height = kStorey_m;
+void externalWalls(Building& house, double height, const std::vector<std::vector<Hole>>& holes) {
+  const double base = kSlabBottom_m;
   house.wall({"South wall", {0, 0}, {1, 0}, 10, base, height, true, holes[0]});
   house.wall({"North wall", {10, 8}, {-1, 0}, 10, base, height, true, holes[1]});
   house.wall({"West wall", {0, 7.65}, {0, -1}, 7.3, base, height, true, holes[2]});
@@ -77,7 +78,7 @@ void galleryRailing(Building& house) {
 
 FurnitureTypes groundFloor(Building& house) {
   house.storey("Ground floor", 0);
-  externalWalls(house, {{{Kind::window, "Terrace window", 1.5, 0, 2.4, 2.2}, {Kind::door, "Front door", 7.0, 0, 1.0, kDoor_m}},
+  externalWalls(house, kStorey_m, {{{Kind::window, "Terrace window", 1.5, 0, 2.4, 2.2}, {Kind::door, "Front door", 7.0, 0, 1.0, kDoor_m}},
                         {{Kind::window, "Kitchen window north", 5.4, 1.15, 2.0, 1.05}},
                         {{Kind::window, "Living room window", 4.25, 0.9, 2.0, 1.3}, {Kind::window, "Kitchen window west", 1.05, 0.9, 1.2, 1.3}},
                         {{Kind::window, "Utility window", 5.95, 1.2, 0.8, 1.0}}});
@@ -98,7 +99,7 @@ FurnitureTypes groundFloor(Building& house) {
 
 void upperFloor(Building& house, const FurnitureTypes& types) {
   house.storey("Upper floor", kStorey_m);
-  externalWalls(house, {{{Kind::window, "South bedroom window", 1.5, 0.9, 2.0, 1.3}, {Kind::window, "Bathroom window", 7.2, 1.2, 0.8, 1.0}},
+  externalWalls(house, kStorey_m + kAtticSlab_m, {{{Kind::window, "South bedroom window", 1.5, 0.9, 2.0, 1.3}, {Kind::window, "Bathroom window", 7.2, 1.2, 0.8, 1.0}},
                         {{Kind::window, "North bedroom window", 6.3, 0.9, 1.5, 1.3}, {Kind::window, "Gallery window north", 1.5, 0.9, 1.5, 1.3}},
                         {{Kind::window, "South bedroom window west", 4.75, 0.9, 1.5, 1.3},
                          {Kind::window, "North bedroom window west", 0.75, 0.9, 1.5, 1.3}},
@@ -160,8 +161,8 @@ int furnishedHouse(IfcText& ifc, int site_placement, P3 origin, P2 x) {
   const auto types = groundFloor(house);
   upperFloor(house, types);
   house.storey("Attic", 2 * kStorey_m);
-  house.plate("IFCSLAB", ".FLOOR.", "Attic slab", plan(0, 0, 10, 8), kSlabBottom_m, 0.2, paint::kConcrete);
-  gableRoof(house, 10, 8, kSlabBottom_m + 0.2);
+  house.plate("IFCSLAB", ".FLOOR.", "Attic slab", plan(0.35, 0.35, 9.65, 7.65), kSlabBottom_m, kAtticSlab_m, paint::kConcrete);
+  gableRoof(house, 10, 8, kSlabBottom_m + kAtticSlab_m);
   house.close();
   return house.id();
 }
