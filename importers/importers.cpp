@@ -2,34 +2,63 @@
 #include "importers/importers.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
-#include <fstream>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <string>
 #include <string_view>
-
-#include "importers/gltf.h"
-#include "importers/obj.h"
 
 namespace standpoint {
 
+extern const Importer kIfcImporter;
+extern const Importer kGltfImporter;
+extern const Importer kObjImporter;
+
 namespace {
 
-// What the first bytes say; empty when they say nothing.
-std::string_view nameByContent(std::string_view head) {
-  if (head.starts_with("ISO-10303-21")) return "ifc";
-  if (head.starts_with("glTF")) return "gltf";
-  return {};
+struct Magic {
+  std::string_view bytes;
+  const char* importer;
+};
+// The first bytes after a byte-order mark and white space.
+constexpr std::array kMagics{Magic{"ISO-10303-21", "ifc"}, Magic{"PK\x03\x04", "ifc"}, Magic{"\x1F\x8B", "ifc"}, Magic{"glTF", "gltf"}, Magic{"{", "gltf"}};
+
+std::string firstBytes(const std::filesystem::path& file) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"), &std::fclose);
+  std::string head(256, '\0');
+  head.resize(in ? std::fread(head.data(), 1, head.size(), in.get()) : 0);
+  if (head.starts_with("\xEF\xBB\xBF")) head.erase(0, 3);
+  head.erase(0, std::min(head.find_first_not_of(" \t\r\n"), head.size()));
+  return head;
 }
 
-std::string lowerExtension(const std::filesystem::path& file) {
-  auto extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  return extension;
+const Importer* named(std::string_view name) {
+  const auto all = importers();
+  const auto it = std::find_if(all.begin(), all.end(), [&](const Importer& i) { return i.name == name; });
+  return it == all.end() ? nullptr : &*it;
+}
+
+const Importer* byContent(const std::string& head) {
+  for (const Magic& magic : kMagics)
+    if (head.starts_with(magic.bytes)) return named(magic.importer);
+  return nullptr;
+}
+
+const Importer* byExtension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const Importer& i : importers())
+    if (std::find(i.extensions.begin(), i.extensions.end(), extension) != i.extensions.end()) return &i;
+  return nullptr;
 }
 
 }  // namespace
 
 std::span<const Importer> importers() {
-  static const Importer kImporters[] = {
+  static const std::array kImporters{
+      kIfcImporter,
       kGltfImporter,
       kObjImporter,
   };
@@ -37,26 +66,22 @@ std::span<const Importer> importers() {
 }
 
 Result<ImportedModel> importFile(const std::filesystem::path& file, const ImportOptions& options, Progress& progress) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string head(64, '\0');
-  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
-  if (!stream.is_open() || stream.bad() || std::filesystem::is_directory(file))
-    return failure(ErrorKind::file_system, "cannot be read", file.string());
-  const auto name = nameByContent(head);
-  const auto extension = lowerExtension(file);
-  for (const auto& importer : importers()) {
-    const bool fits = std::find(importer.extensions.begin(), importer.extensions.end(), extension) != importer.extensions.end();
-    if (name.empty() ? fits : name == importer.name) return importer.read(file, options, progress);
-  }
-  return failure(ErrorKind::unusable, "no importer knows this kind of file", file.string());
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(file, code))
+    return failure(ErrorKind::file_system, code ? code.message() : "is not a file that can be read", file.string());
+  const Importer* importer = byContent(firstBytes(file));
+  if (!importer) importer = byExtension(file);
+  if (!importer) return failure(ErrorKind::unusable, "no importer knows this format: IFC, glTF and OBJ are read", file.string());
+  return importer->read(file, options, progress);
 }
 
 Eigen::Vector3d chooseShift(const ImportOptions& options, const Bounds& bounds_file_m) {
   constexpr double kNear_m = 2000;
   if (options.shift == ShiftMode::given) return options.given_shift_m.array().round();
   if (options.shift == ShiftMode::none || bounds_file_m.empty()) return Eigen::Vector3d::Zero();
-  if (bounds_file_m.min.cwiseAbs().cwiseMax(bounds_file_m.max.cwiseAbs()).maxCoeff() < kNear_m) return Eigen::Vector3d::Zero();
-  return (0.5 * (bounds_file_m.min + bounds_file_m.max)).array().round();
+  const double far = std::max(bounds_file_m.min.cwiseAbs().maxCoeff(), bounds_file_m.max.cwiseAbs().maxCoeff());
+  if (far < kNear_m) return Eigen::Vector3d::Zero();
+  return ((bounds_file_m.min + bounds_file_m.max) / 2).array().round();
 }
 
 }  // namespace standpoint

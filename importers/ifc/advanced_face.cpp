@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Faces on curved surfaces: the bounds are brought into the surface's parameters, triangulated there, and the triangles
+// split along edges that leave the surface. An edge is split by a rule that only looks at its ends, so neighbours agree;
+// edges of the bounds are never split, because the next face shares them.
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include "importers/ifc/curve.h"
+#include "importers/ifc/faceted.h"
+
+namespace standpoint::ifc {
+namespace {
+
+using Uv = Eigen::Vector2d;
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+struct Patch {
+  std::vector<Uv> uv;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Triangle> triangles;
+  std::map<Edge, bool> is_bound;
+};
+
+Edge edge(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+struct UvLoop {
+  std::vector<Uv> uv;
+  std::vector<Eigen::Vector3d> points;
+  Uv drift = Uv::Zero();     // how far it is from closing: a whole period where it runs around
+};
+
+UvLoop toParameters(const std::vector<Eigen::Vector3d>& points, const ParametricSurface& surface) {
+  UvLoop loop;
+  Uv near = surface.low().x() < surface.high().x() ? Uv((surface.low() + surface.high()) / 2) : Uv(Uv::Zero());
+  for (const auto& p : points) {
+    near = surface.parameters(p, near);
+    loop.uv.push_back(near);
+    loop.points.push_back(p);
+  }
+  if (!loop.uv.empty()) loop.drift = surface.parameters(points.front(), near) - loop.uv.front();
+  return loop;
+}
+
+double area2(const std::vector<Uv>& loop) {
+  double sum = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Uv &a = loop[i], &b = loop[(i + 1) % loop.size()];
+    sum += a.x() * b.y() - a.y() * b.x();
+  }
+  return sum / 2;
+}
+
+// A tube's side may be bounded by two rings without a seam: both are opened and joined to one outline.
+bool joinRings(std::vector<UvLoop>& loops) {
+  std::vector<std::size_t> rings;
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    if (loops[i].drift.norm() > 1) rings.push_back(i);
+  if (rings.empty()) return true;
+  if (rings.size() != 2) return false;
+  UvLoop a = loops[rings[0]], b = loops[rings[1]];
+  if (a.drift.dot(b.drift) > 0) {
+    std::reverse(b.uv.begin() + 1, b.uv.end());
+    std::reverse(b.points.begin() + 1, b.points.end());
+    for (auto it = b.uv.begin() + 1; it != b.uv.end(); ++it) *it -= b.drift;
+    b.drift = -b.drift;
+  }
+  // b runs the other way; it starts over the end of a.
+  std::size_t start = 0;
+  const Uv end = a.uv.front() + a.drift;
+  const double period = a.drift.norm();
+  const auto apart = [&](const Uv& x) {
+    const double d = std::abs(std::remainder((x - end).dot(a.drift) / period, period));
+    return d;
+  };
+  for (std::size_t i = 1; i < b.uv.size(); ++i)
+    if (apart(b.uv[i]) < apart(b.uv[start])) start = i;
+  UvLoop joined = a;
+  joined.uv.push_back(end);
+  joined.points.push_back(a.points.front());
+  Uv offset = Uv::Zero();
+  offset = a.drift / period * (std::round((end - b.uv[start]).dot(a.drift) / (period * period)) * period);
+  for (std::size_t k = 0; k <= b.uv.size(); ++k) {
+    const std::size_t i = (start + k) % b.uv.size();
+    joined.uv.push_back(b.uv[i] + offset + (start + k >= b.uv.size() ? b.drift : Uv(Uv::Zero())));
+    joined.points.push_back(b.points[i]);
+  }
+  joined.drift.setZero();
+  loops.erase(loops.begin() + static_cast<std::ptrdiff_t>(rings[1]));
+  loops[rings[0]] = std::move(joined);
+  return true;
+}
+
+// Triangulates in the parameters, stretched to about the lengths they have in space.
+bool triangulateLoops(const std::vector<UvLoop>& loops, const ParametricSurface& surface, Patch& patch) {
+  geometry::Face face;
+  for (const UvLoop& loop : loops) {
+    std::vector<std::uint32_t> indices;
+    for (std::size_t i = 0; i < loop.uv.size(); ++i) {
+      indices.push_back(static_cast<std::uint32_t>(patch.uv.size()));
+      patch.uv.push_back(loop.uv[i]);
+      patch.points.push_back(loop.points[i]);
+    }
+    for (std::size_t i = 0; i < indices.size(); ++i) patch.is_bound[edge(indices[i], indices[(i + 1) % indices.size()])] = true;
+    (face.outer.empty() ? face.outer : face.holes.emplace_back()) = std::move(indices);
+  }
+  const Uv middle = loops[0].uv[0], h(1e-3, 1e-3);
+  const double su = (surface.at(middle + Uv(h.x(), 0)) - surface.at(middle)).norm() / h.x(), sv = (surface.at(middle + Uv(0, h.y())) - surface.at(middle)).norm() / h.y();
+  std::vector<Eigen::Vector3d> flat;
+  for (const Uv& p : patch.uv) flat.emplace_back(p.x() * (su > 1e-9 ? su : 1), p.y() * (sv > 1e-9 ? sv : 1), 0);
+  return geometry::triangulate(flat, face, patch.triangles) && !patch.triangles.empty();
+}
+
+bool leaves(const Patch& patch, const ParametricSurface& surface, std::uint32_t a, std::uint32_t b, double tolerance) {
+  for (const double t : {0.5, 0.25, 0.75}) {
+    const Eigen::Vector3d on_surface = surface.at(patch.uv[a] + (patch.uv[b] - patch.uv[a]) * t);
+    if ((patch.points[a] + (patch.points[b] - patch.points[a]) * t - on_surface).norm() > tolerance) return true;
+  }
+  return false;
+}
+
+// One round of splitting; false when nothing was left to split.
+bool split(Patch& patch, const ParametricSurface& surface, double tolerance) {
+  std::map<Edge, std::uint32_t> middle;
+  for (const Triangle& t : patch.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const Edge e = edge(t[k], t[(k + 1) % 3]);
+      if (patch.is_bound.contains(e) || middle.contains(e) || !leaves(patch, surface, e.first, e.second, tolerance)) continue;
+      middle[e] = static_cast<std::uint32_t>(patch.uv.size());
+      patch.uv.push_back((patch.uv[e.first] + patch.uv[e.second]) / 2);
+      patch.points.push_back(surface.at(patch.uv.back()));
+    }
+  if (middle.empty()) return false;
+  std::vector<Triangle> next;
+  for (const Triangle& t : patch.triangles) {
+    // The outline of the triangle with its new middles, as a fan that starts at a middle.
+    std::vector<std::uint32_t> ring;
+    std::size_t start = 0;
+    for (int k = 0; k < 3; ++k) {
+      ring.push_back(t[k]);
+      if (const auto it = middle.find(edge(t[k], t[(k + 1) % 3])); it != middle.end()) start = ring.size(), ring.push_back(it->second);
+    }
+    for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+      const Triangle part{ring[start % ring.size()], ring[(start + i) % ring.size()], ring[(start + i + 1) % ring.size()]};
+      next.push_back(part);
+    }
+  }
+  patch.triangles = std::move(next);
+  return true;
+}
+
+}  // namespace
+
+Result<void> appendCurvedFace(geometry::PolyMesh& mesh, const Entity& face, Scope& scope) {
+  const auto surface_result = surface(face.ref(1), scope);
+  if (!surface_result) return failure(surface_result.error());
+  const ParametricSurface& on = **surface_result;
+  std::vector<UvLoop> loops;
+  for (const Entity& bound : face.refs(0)) {
+    const auto points = loopPoints(bound.ref(0), scope);
+    if (!points) return failure(points.error());
+    if (points->size() >= 3) loops.push_back(toParameters(*points, on));
+  }
+  if (loops.empty()) return fail(face, "the face has no bound that encloses an area");
+  if (!joinRings(loops)) return fail(face, "a face whose bound runs around its surface is not supported here");
+  std::stable_sort(loops.begin(), loops.end(), [](const UvLoop& a, const UvLoop& b) { return std::abs(area2(a.uv)) > std::abs(area2(b.uv)); });
+  Patch patch;
+  if (!triangulateLoops(loops, on, patch)) return fail(face, "the face could not be triangulated");
+  constexpr std::size_t kMostTriangles = 20000;
+  for (int round = 0; round < 10 && patch.triangles.size() < kMostTriangles; ++round)
+    if (!split(patch, on, scope.model.tessellation.chord_error_m)) break;
+  if (!scope.spend(patch.points.size())) return fail(face, "too many points");
+  const auto base = static_cast<std::uint32_t>(mesh.points.size());
+  mesh.points.insert(mesh.points.end(), patch.points.begin(), patch.points.end());
+  const bool turned = face[2].symbol() == "F";
+  for (const Triangle& t : patch.triangles) {
+    geometry::Face f;
+    f.outer = {base + t[0], base + t[1], base + t[2]};
+    if (turned) std::swap(f.outer[1], f.outer[2]);
+    mesh.faces.push_back(std::move(f));
+  }
+  return {};
+}
+
+}  // namespace standpoint::ifc

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "importers/ifc/body.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <map>
+#include <string>
+
+#include <tbb/parallel_for.h>
+
+#include "importers/ifc/entities.h"
+#include "importers/ifc/opening.h"
+#include "importers/ifc/placement.h"
+#include "importers/ifc/representation.h"
+
+namespace standpoint::ifc {
+namespace {
+
+// What is known of a product before any geometry is computed.
+struct Plan {
+  Eigen::Isometry3d placement = Eigen::Isometry3d::Identity();
+  std::vector<Part> parts;
+  std::vector<Id> openings;
+};
+
+// One representation's items: evaluated once, used by everybody who maps it.
+struct Shared {
+  Id representation = 0;
+  bool cut = false;                        // somebody needs its items for Booleans
+  bool whole = false;                      // somebody needs it as it is
+  Items items;
+  std::shared_ptr<const Body> body;
+};
+
+bool isSubtraction(const Entity& e) {
+  return e.is("IFCOPENINGELEMENT") || e.is("IFCOPENINGSTANDARDCASE") || e.is("IFCVOIDINGFEATURE") || e.is("IFCEARTHWORKSCUT") ||
+         e.typeName().ends_with("EDGEFEATURE");
+}
+
+// Its own openings, and those of the wholes it is a part of: a voided wall may be made of parts that carry the body.
+std::vector<Id> openingsOf(const Entity& product, const Relations& relations, const StepFile& file) {
+  std::vector<Id> all;
+  Entity at = product;
+  for (int steps = 0; at && steps < 16; ++steps) {
+    const auto& own = relations.openingsOf(at);
+    all.insert(all.end(), own.begin(), own.end());
+    at = file.entity(relations.wholeOf(at));
+  }
+  return all;
+}
+
+class Builder {
+ public:
+  Builder(const std::vector<Entity>& products, const Relations& relations, const Model& model, Progress& progress)
+      : products_(products), relations_(relations), model_(model), progress_(progress), placements_(model) {}
+
+  Result<Bodies> run() {
+    progress_.stage("Placements", 0.2, 0.25);
+    for (const Entity& e : products_) plans_.push_back(plan(e));
+    if (auto go = progress_.check(); !go) return failure(go.error());
+    chooseShared();
+    if (auto go = evaluate(); !go) return failure(go.error());
+    if (auto go = cutOpenings(); !go) return failure(go.error());
+    collect();
+    return std::move(result_);
+  }
+
+ private:
+  Plan plan(const Entity& e) {
+    Plan p;
+    if (const Entity placement = e.ref(5)) p.placement = placements_.world(placement, result_.report);
+    const Entity shape = e.ref(6);
+    Scope scope(model_);
+    auto parts = shape ? partsOfShape(shape, scope) : Result<std::vector<Part>>(std::vector<Part>());
+    if (!shape && relations_.partsOf(e).empty() && e.ref(5)) {
+      parts = partsOfType(model_.file.entity(relations_.typeOf(e)), scope);
+      if (parts && !parts->empty()) result_.report.warn(e.place(), "has no representation of its own; its type's is used");
+    }
+    if (parts) p.parts = std::move(*parts);
+    else result_.report.lose(e.place(), "has no geometry: " + describe(parts.error()));
+    result_.report.append(scope.report);
+    if (!isSubtraction(e) && !p.parts.empty()) p.openings = openingsOf(e, relations_, model_.file);
+    return p;
+  }
+
+  Shared& shared(Id representation) {
+    const auto [it, is_new] = index_.try_emplace(representation, shared_.size());
+    if (is_new) shared_.push_back({representation});
+    return shared_[it->second];
+  }
+
+  // Openings are no bodies of their own: they are evaluated for who they cut.
+  void chooseShared() {
+    for (std::size_t i = 0; i < plans_.size(); ++i) {
+      if (isSubtraction(products_[i])) continue;
+      for (const Part& part : plans_[i].parts) (plans_[i].openings.empty() ? shared(part.representation).whole : shared(part.representation).cut) = true;
+      for (const Id id : plans_[i].openings) {
+        const auto [tool, is_new] = tools_.try_emplace(id);
+        if (is_new)
+          if (const Entity opening = model_.file.entity(id)) tool->second = plan(opening);
+        for (const Part& part : tool->second.parts) shared(part.representation).cut = true;
+      }
+    }
+  }
+
+  // In parallel, each into its own slot; reports are joined in the order of the slots.
+  Result<void> evaluate() {
+    progress_.stage("Geometry", 0.25, 0.8);
+    std::atomic<std::size_t> done = 0;
+    tbb::parallel_for(std::size_t{0}, shared_.size(), [&](std::size_t i) {
+      if (progress_.cancelled()) return;
+      Shared& s = shared_[i];
+      s.items = itemsOf(model_.file.entity(s.representation), model_);
+      if (s.whole) s.body = triangulated(s.items.meshes, s.items.report, s.representation);
+      if (!s.cut) s.items.meshes = {};
+      progress_.advance(static_cast<double>(++done) / static_cast<double>(shared_.size()));
+    });
+    for (const Shared& s : shared_) result_.report.append(s.items.report);
+    return progress_.check();
+  }
+
+  std::shared_ptr<const Body> triangulated(const std::vector<geometry::PolyMesh>& meshes, Report& report, Id place) const;
+
+  std::vector<geometry::PolyMesh> toolsFor(const Plan& host) {
+    std::vector<geometry::PolyMesh> tools;
+    const Eigen::Affine3d to_host(host.placement.inverse());
+    for (const Id id : host.openings) {
+      const Plan& tool = tools_.at(id);
+      for (const Part& part : tool.parts)
+        for (geometry::PolyMesh mesh : shared_[index_.at(part.representation)].items.meshes) {
+          geometry::transform(mesh, to_host * Eigen::Affine3d(tool.placement) * part.product_from_items);
+          tools.push_back(std::move(mesh));
+        }
+    }
+    return tools;
+  }
+
+  void cutOne(std::size_t i, Report& report) {
+    const Plan& host = plans_[i];
+    const std::vector<geometry::PolyMesh> tools = toolsFor(host);
+    for (const Part& part : host.parts) {
+      std::vector<geometry::PolyMesh> meshes = shared_[index_.at(part.representation)].items.meshes;
+      for (auto& mesh : meshes) {
+        geometry::transform(mesh, part.product_from_items);
+        cutAway(mesh, tools, products_[i], report);
+      }
+      if (auto body = triangulated(meshes, report, products_[i].id()))
+        cut_[i].push_back({std::move(body), Eigen::Affine3d(host.placement), part.style});
+    }
+  }
+
+  Result<void> cutOpenings() {
+    progress_.stage("Openings", 0.8, 0.95);
+    cut_.resize(products_.size());
+    std::vector<std::size_t> hosts;
+    for (std::size_t i = 0; i < plans_.size(); ++i)
+      if (!plans_[i].openings.empty()) hosts.push_back(i);
+    std::vector<Report> reports(hosts.size());
+    std::atomic<std::size_t> done = 0;
+    tbb::parallel_for(std::size_t{0}, hosts.size(), [&](std::size_t k) {
+      if (progress_.cancelled()) return;
+      try {
+        cutOne(hosts[k], reports[k]);
+      } catch (const std::exception& problem) {
+        reports[k].lose(products_[hosts[k]].place(), std::string("has no geometry: ") + problem.what());
+      }
+      progress_.advance(static_cast<double>(++done) / static_cast<double>(hosts.size()));
+    });
+    for (const Report& r : reports) result_.report.append(r);
+    return progress_.check();
+  }
+
+  void collect() {
+    result_.of_product.resize(products_.size());
+    for (std::size_t i = 0; i < plans_.size(); ++i) {
+      if (isSubtraction(products_[i])) continue;
+      auto& bodies = result_.of_product[i];
+      if (!plans_[i].openings.empty()) bodies = std::move(cut_[i]);
+      else
+        for (const Part& part : plans_[i].parts)
+          if (const auto& body = shared_[index_.at(part.representation)].body)
+            bodies.push_back({body, Eigen::Affine3d(plans_[i].placement) * part.product_from_items, part.style});
+      tellMissing(i, bodies.empty());
+    }
+  }
+
+  void tellMissing(std::size_t i, bool empty) {
+    const Entity& e = products_[i];
+    if (!empty || !e.ref(6)) return;
+    const EntityName* name = entityName(e.typeName());
+    const std::string what = schemaSpelling(e.typeName()) + " " + e[0].text();
+    if (name && (name->kind == EntityKind::intangible || name->kind == EntityKind::space)) return;
+    if (plans_[i].parts.empty()) result_.report.warn(e.place(), what + " has a representation but none with a body");
+    else result_.report.lose(e.place(), what + " gave no geometry");
+  }
+
+  const std::vector<Entity>& products_;
+  const Relations& relations_;
+  const Model& model_;
+  Progress& progress_;
+  Placements placements_;
+  std::vector<Plan> plans_;
+  std::map<Id, std::size_t> index_;        // representation → place in shared_
+  std::vector<Shared> shared_;
+  std::map<Id, Plan> tools_;               // openings
+  std::vector<std::vector<PlacedBody>> cut_;
+  Bodies result_;
+};
+
+// A float has a step of 8 µm at 100 m: beyond that the mesh gets an origin of its own.
+Eigen::Vector3d localOrigin(const Bounds& bounds) {
+  constexpr double kNear_m = 100;
+  const double far = std::max(bounds.min.cwiseAbs().maxCoeff(), bounds.max.cwiseAbs().maxCoeff());
+  if (far <= kNear_m) return Eigen::Vector3d::Zero();
+  return ((bounds.min + bounds.max) / 2).array().round().matrix();
+}
+
+bool isFinite(const Eigen::Vector3d& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() < 1e15; }
+
+std::shared_ptr<const Body> Builder::triangulated(const std::vector<geometry::PolyMesh>& meshes, Report& report, Id place) const {
+  auto body = std::make_shared<Body>();
+  std::vector<geometry::TriangulatedMesh> parts;
+  std::size_t failed = 0, infinite = 0;
+  for (const auto& mesh : meshes) {
+    parts.push_back(geometry::triangulate(mesh));
+    failed += parts.back().failed_faces;
+    for (const auto& t : parts.back().triangles)
+      for (const std::uint32_t i : t)
+        if (isFinite(parts.back().points[i])) body->bounds.extend(parts.back().points[i]);
+  }
+  if (!body->bounds.empty()) body->origin = localOrigin(body->bounds);
+  for (const auto& part : parts) {
+    const auto base = static_cast<std::uint32_t>(body->positions.size());
+    for (const auto& p : part.points) body->positions.push_back(isFinite(p) ? Eigen::Vector3f((p - body->origin).cast<float>()) : Eigen::Vector3f(Eigen::Vector3f::Zero()));
+    for (std::size_t t = 0; t < part.triangles.size(); ++t) {
+      const Triangle& tri = part.triangles[t];
+      if (!isFinite(part.points[tri[0]]) || !isFinite(part.points[tri[1]]) || !isFinite(part.points[tri[2]])) { ++infinite; continue; }
+      body->triangles.push_back({base + tri[0], base + tri[1], base + tri[2]});
+      body->tags.push_back(part.tag_of_triangle[t]);
+    }
+  }
+  const std::string where = "#" + std::to_string(place);
+  if (failed > 0) report.lose(where, std::to_string(failed) + " faces could not be triangulated");
+  if (infinite > 0) report.lose(where, std::to_string(infinite) + " triangles have coordinates that are no finite numbers");
+  return body->triangles.empty() ? nullptr : body;
+}
+
+}  // namespace
+
+Result<Bodies> buildBodies(const std::vector<Entity>& products, const Relations& relations, const Model& model, Progress& progress) {
+  return Builder(products, relations, model, progress).run();
+}
+
+}  // namespace standpoint::ifc

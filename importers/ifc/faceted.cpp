@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "importers/ifc/faceted.h"
+
+#include <algorithm>
+
+#include "importers/ifc/curve.h"
+#include "importers/ifc/placement.h"
+#include "importers/ifc/solid.h"
+
+namespace standpoint::ifc {
+namespace {
+
+// Shells share their points by entity: one lookup instead of a search by coordinates.
+class PointPool {
+ public:
+  PointPool(geometry::PolyMesh& mesh, const Scope& scope) : mesh_(mesh), scope_(scope) {}
+  std::uint32_t index(const Entity& point) {
+    const auto [it, is_new] = index_of_.try_emplace(point.id(), static_cast<std::uint32_t>(mesh_.points.size()));
+    if (is_new) mesh_.points.push_back(cartesianPoint(point, scope_));
+    return it->second;
+  }
+  std::uint32_t add(const Eigen::Vector3d& p) {
+    mesh_.points.push_back(p);
+    return static_cast<std::uint32_t>(mesh_.points.size() - 1);
+  }
+
+ private:
+  geometry::PolyMesh& mesh_;
+  const Scope& scope_;
+  std::unordered_map<Id, std::uint32_t> index_of_;   // for look-up only
+};
+
+void dropRepeated(std::vector<std::uint32_t>& loop) {
+  loop.erase(std::unique(loop.begin(), loop.end()), loop.end());
+  while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
+}
+
+Result<std::vector<std::uint32_t>> boundLoop(const Entity& bound, PointPool& pool, Scope& scope) {
+  const Entity loop = bound.ref(0);
+  std::vector<std::uint32_t> indices;
+  if (loop.is("IFCPOLYLOOP")) {
+    const Value points = loop[0];
+    for (const Value v : points)
+      if (const Entity p = loop.follow(v)) indices.push_back(pool.index(p));
+  } else {
+    const auto points = loopPoints(loop, scope);
+    if (!points) return failure(points.error());
+    for (const auto& p : *points) indices.push_back(pool.add(p));
+  }
+  dropRepeated(indices);
+  if (bound[1].symbol() == "F") std::reverse(indices.begin(), indices.end());
+  if (!scope.spend(indices.size() + 1)) return fail(bound, "too many points");
+  return indices;
+}
+
+double loopArea(const geometry::PolyMesh& mesh, const std::vector<std::uint32_t>& loop) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+    sum += (mesh.points[loop[i]] - mesh.points[loop[0]]).cross(mesh.points[loop[i + 1]] - mesh.points[loop[0]]);
+  return sum.norm() / 2;
+}
+
+Result<void> appendFace(geometry::PolyMesh& mesh, const Entity& face, PointPool& pool, Scope& scope) {
+  std::vector<std::vector<std::uint32_t>> loops;
+  std::size_t outer = 0;
+  bool named = false;
+  for (const Entity& bound : face.refs(0)) {
+    auto loop = boundLoop(bound, pool, scope);
+    if (!loop) return failure(loop.error());
+    if (loop->size() < 3) continue;
+    if (bound.is("IFCFACEOUTERBOUND") && !named) outer = loops.size(), named = true;
+    loops.push_back(std::move(*loop));
+  }
+  if (loops.empty()) return {};   // a face without area is no loss
+  if (!named)
+    for (std::size_t i = 1; i < loops.size(); ++i)
+      if (loopArea(mesh, loops[i]) > loopArea(mesh, loops[outer])) outer = i;
+  std::swap(loops[0], loops[outer]);
+  geometry::Face f;
+  f.outer = std::move(loops[0]);
+  f.holes.assign(std::make_move_iterator(loops.begin() + 1), std::make_move_iterator(loops.end()));
+  if (face.is("IFCADVANCEDFACE") || face.is("IFCFACESURFACE"))
+    if (face[2].symbol() == "F") {
+      std::reverse(f.outer.begin(), f.outer.end());
+      for (auto& hole : f.holes) std::reverse(hole.begin(), hole.end());
+    }
+  mesh.faces.push_back(std::move(f));
+  return {};
+}
+
+bool isCurved(const Entity& face) {
+  if (!face.is("IFCADVANCEDFACE") && !face.is("IFCFACESURFACE")) return false;
+  const Entity surface_entity = face.ref(1);
+  return surface_entity && !surface_entity.is("IFCPLANE");
+}
+
+}  // namespace
+
+Result<void> appendShell(geometry::PolyMesh& mesh, const Entity& shell, Scope& scope) {
+  if (!shell) return failure(ErrorKind::unusable, "a shell is missing", shell.place());
+  PointPool pool(mesh, scope);
+  std::size_t failed = 0;
+  std::string why;
+  const Value faces = shell[0];
+  for (const Value v : faces) {
+    const Entity face = shell.follow(v);
+    if (!face) continue;
+    const auto done = isCurved(face) ? appendCurvedFace(mesh, face, scope) : appendFace(mesh, face, pool, scope);
+    if (!done && failed++ == 0) why = describe(done.error());
+  }
+  if (failed > 0) scope.report.lose(shell.place(), std::to_string(failed) + " faces were left out; the first: " + why);
+  return {};
+}
+
+Result<geometry::PolyMesh> facetedBrep(const Entity& entity, Scope& scope) {
+  geometry::PolyMesh mesh;
+  if (auto done = appendShell(mesh, entity.ref(0), scope); !done) return failure(done.error());
+  geometry::orientOutward(mesh);
+  if (entity.typeName().ends_with("WITHVOIDS"))
+    for (const Entity& shell : entity.refs(1)) {
+      geometry::PolyMesh cavity;
+      if (auto done = appendShell(cavity, shell, scope); !done) return failure(done.error());
+      geometry::orientOutward(cavity);
+      for (auto& face : cavity.faces) {
+        std::reverse(face.outer.begin(), face.outer.end());
+        for (auto& hole : face.holes) std::reverse(hole.begin(), hole.end());
+      }
+      geometry::append(mesh, cavity);
+    }
+  if (mesh.faces.empty()) return fail(entity, "the shell has no usable face");
+  return mesh;
+}
+
+Result<geometry::PolyMesh> surfaceModel(const Entity& entity, Scope& scope) {
+  geometry::PolyMesh mesh;
+  for (const Entity& shell : entity.refs(0)) {
+    geometry::PolyMesh part;
+    if (auto done = appendShell(part, shell, scope); !done) return failure(done.error());
+    geometry::orientOutward(part);
+    geometry::append(mesh, part);
+  }
+  if (mesh.faces.empty()) return fail(entity, "the surface model has no usable face");
+  return mesh;
+}
+
+Result<geometry::PolyMesh> faceSetItem(const Entity& entity, Scope& scope) {
+  geometry::PolyMesh mesh;
+  if (auto done = appendShell(mesh, entity, scope); !done) return failure(done.error());
+  geometry::orientOutward(mesh);
+  if (mesh.faces.empty()) return fail(entity, "the shell has no usable face");
+  return mesh;
+}
+
+}  // namespace standpoint::ifc

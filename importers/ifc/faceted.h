@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+
+#include "importers/ifc/mapping.h"
+
+namespace standpoint::ifc {
+
+// Adds the faces of an IfcConnectedFaceSet (shell), plane polygons as well as faces on curved surfaces.
+Result<void> appendShell(geometry::PolyMesh& mesh, const Entity& shell, Scope& scope);
+
+// The faces of an advanced shell whose surface is curved (advanced_face.cpp).
+Result<void> appendCurvedFace(geometry::PolyMesh& mesh, const Entity& face, Scope& scope);
+
+// The corner points of an IfcPolyLoop or IfcEdgeLoop, along its curves.
+Result<std::vector<Eigen::Vector3d>> loopPoints(const Entity& loop, Scope& scope);
+
+}  // namespace standpoint::ifc

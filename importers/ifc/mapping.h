@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The table from entity names to functions. A new entity is a function in a file of its own and a line in mapping.cpp.
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "importers/ifc/model.h"
+#include "importers/ifc/surface.h"
+
+namespace standpoint::ifc {
+
+struct Path {                      // a curve as points in metres; of 2D curves z is 0
+  std::vector<Eigen::Vector3d> points;
+  bool closed = false;             // then the first point is not repeated
+};
+using Regions = std::vector<geometry::Region2>;
+
+struct Mapping {
+  const char* entity;              // upper case
+  Result<geometry::PolyMesh> (*item)(const Entity&, Scope&) = nullptr;
+  Result<Path> (*curve)(const Entity&, Scope&) = nullptr;
+  Result<Regions> (*profile)(const Entity&, Scope&) = nullptr;
+  Result<SurfacePtr> (*surface)(const Entity&, Scope&) = nullptr;
+};
+
+// By Record::type of that file.
+std::vector<const Mapping*> mappingOfTypes(const StepFile& file);
+
+// The guarded calls through the table; an entity that the table lacks is an error that names it.
+Result<geometry::PolyMesh> item(const Entity& entity, Scope& scope);
+Result<Path> curve(const Entity& entity, Scope& scope);
+Result<Regions> profile(const Entity& entity, Scope& scope);
+Result<SurfacePtr> surface(const Entity& entity, Scope& scope);
+
+}  // namespace standpoint::ifc

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "core/report.h"
+#include "core/result.h"
+#include "importers/geometry/kernel.h"
+#include "importers/ifc/step_file.h"
+#include "importers/ifc/units.h"
+
+namespace standpoint::ifc {
+
+struct Mapping;
+
+// What every mapping reads: the file, its units, how fine curves become. Shared by all threads, never written after the start.
+struct Model {
+  const StepFile& file;
+  Units units;
+  geometry::Tessellation tessellation;
+  std::vector<const Mapping*> mapping_of_type;     // by Record::type; nullptr: the table does not know it
+  std::vector<Id> style_of_item;                   // by position of the item's record; 0: none of its own
+  std::map<Id, Id> colour_map_of_face_set;
+};
+
+// One product's (or one shared representation's) work: its issues, and the guards against input that nests or multiplies.
+struct Scope {
+  explicit Scope(const Model& m) : model(m) {}
+  const Model& model;
+  Report report;
+  int depth = 0;
+  std::size_t spent = 0;                           // points and calls so far
+
+  double metres(double file_length) const { return file_length * model.units.length_m; }
+  bool spend(std::size_t amount) { return (spent += amount) <= kMost; }
+  static constexpr std::size_t kMost = 20'000'000;
+  static constexpr int kDeepest = 100;
+};
+
+inline tl::unexpected<Error> fail(const Entity& entity, std::string message) {
+  return failure(ErrorKind::unusable, std::move(message), entity.place());
+}
+
+}  // namespace standpoint::ifc

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "importers/ifc/product.h"
+
+#include <algorithm>
+#include <map>
+
+#include "importers/ifc/entities.h"
+#include "importers/ifc/placement.h"
+#include "importers/ifc/properties.h"
+
+namespace standpoint::ifc {
+namespace {
+
+// A class that no schema we know has is a product when it is placed and shaped like one.
+bool looksLikeProduct(const Entity& e) {
+  const auto a = e.first<7>();
+  return a[0].isText() && (e.follow(a[5]).typeName().ends_with("PLACEMENT") || e.follow(a[6]).is("IFCPRODUCTDEFINITIONSHAPE"));
+}
+
+bool isProduct(const Entity& e, const EntityName* name) {
+  if (!name) return looksLikeProduct(e);
+  switch (name->kind) {
+    case EntityKind::product: case EntityKind::intangible: case EntityKind::space: return true;
+    case EntityKind::spatial: return static_cast<bool>(e.ref(6));
+    default: return false;
+  }
+}
+
+std::string predefinedType(const Entity& e, const EntityName* name) {
+  if (!name || name->predefined_type < 0) return {};
+  const std::string type(e[static_cast<std::size_t>(name->predefined_type)].symbol());
+  // In IFC2X3 the place of a proxy's or storey's type holds its composition.
+  return type == "ELEMENT" || type == "COMPLEX" || type == "PARTIAL" || type == "INTERNAL" || type == "EXTERNAL" || type == "T" || type == "F" ? std::string() : type;
+}
+
+bool isSpatial(const EntityName* name) {
+  return name && (name->kind == EntityKind::spatial || name->kind == EntityKind::space || name->kind == EntityKind::project);
+}
+
+}  // namespace
+
+std::vector<Entity> productEntities(const StepFile& file) {
+  std::vector<const EntityName*> names;
+  std::vector<char> rooted;
+  for (const std::string& type : file.typeNames()) {
+    names.push_back(entityName(type));
+    rooted.push_back(names.back() || type.starts_with("IFC"));
+  }
+  std::vector<Entity> found;
+  for (std::size_t i = 0; i < file.records().size(); ++i) {
+    const Entity e = file.at(i);
+    const EntityName* name = names[e.type()];
+    if (name && name->kind == EntityKind::other) continue;
+    if (isProduct(e, name)) found.push_back(e);
+  }
+  return found;
+}
+
+Product describeProduct(const Entity& e, const Relations& relations, const Model& model) {
+  Product p;
+  const EntityName* name = entityName(e.typeName());
+  const auto a = e.first<5>();
+  p.id = e.place();
+  p.global_id = a[0].text();
+  p.ifc_class = schemaSpelling(e.typeName());
+  p.predefined_type = predefinedType(e, name);
+  p.name = a[2].text();
+  p.tangible = !name || name->kind == EntityKind::product || name->kind == EntityKind::spatial;
+  ProductMaterials materials = materialsOf(e, relations, model);
+  p.materials = std::move(materials.names);
+  p.layers = std::move(materials.layers);
+  p.properties = propertiesOf(e, relations, model);
+  return p;
+}
+
+namespace {
+
+// Metres above the file's origin: the placement's height, or the stated elevation where the placement has none.
+double elevation(const Entity& storey, Placements& placements, const Model& model) {
+  const Entity placement = storey.ref(5);
+  const double stated = storey[9].number(0) * model.units.length_m;
+  if (!placement) return stated;
+  Report ignored;   // the products' pass reports placements
+  const double z = placements.world(placement, ignored).translation().z();
+  const double parent = placements.world(placement.ref(0), ignored).translation().z();
+  return std::abs(z - parent) > 1e-9 ? z : parent + stated;
+}
+
+}  // namespace
+
+std::vector<SpatialNode> spatialTree(const Model& model, const Relations& relations, Report& report) {
+  const StepFile& file = model.file;
+  std::map<Id, std::vector<Id>> children;
+  std::vector<Id> roots, all;
+  for (std::size_t i = 0; i < file.records().size(); ++i) {
+    const Entity e = file.at(i);
+    if (!isSpatial(entityName(e.typeName()))) continue;
+    all.push_back(e.id());
+    const Entity parent = file.entity(relations.wholeOf(e));
+    if (parent && isSpatial(entityName(parent.typeName())) && !(parent == e)) children[parent.id()].push_back(e.id());
+    else roots.push_back(e.id());
+  }
+  std::vector<SpatialNode> nodes;
+  std::map<Id, std::int32_t> index;
+  Placements placements(model);
+  const auto visit = [&](Id root) {
+    std::vector<std::pair<Id, std::int32_t>> open{{root, -1}};
+    while (!open.empty()) {
+      const auto [id, parent] = open.back();
+      open.pop_back();
+      if (!index.emplace(id, static_cast<std::int32_t>(nodes.size())).second) continue;
+      const Entity e = file.entity(id);
+      const auto self = static_cast<std::int32_t>(nodes.size());
+      const auto a = e.first<3>();
+      nodes.push_back({e.place(), schemaSpelling(e.typeName()), a[2].text(), a[0].text(), parent, 0});
+      if (e.is("IFCBUILDINGSTOREY")) nodes.back().elevation_m = elevation(e, placements, model);
+      const auto& list = children[id];
+      for (auto child = list.rbegin(); child != list.rend(); ++child) open.emplace_back(*child, self);
+    }
+  };
+  for (const Id root : roots) visit(root);
+  for (const Id id : all)
+    if (!index.contains(id)) {
+      report.warn("#" + std::to_string(id), "the spatial structure refers to itself in a circle; it is cut here");
+      visit(id);
+    }
+  return nodes;
+}
+
+void linkProducts(std::vector<Product>& products, const std::vector<Entity>& entities, const std::vector<SpatialNode>& spatial,
+                  const Relations& relations, const StepFile& file) {
+  std::map<Id, std::int32_t> product_of, node_of;
+  for (std::size_t i = 0; i < entities.size(); ++i) product_of.emplace(entities[i].id(), static_cast<std::int32_t>(i));
+  for (std::size_t i = 0; i < spatial.size(); ++i) node_of.emplace(static_cast<Id>(std::stoul(spatial[i].id.substr(1))), static_cast<std::int32_t>(i));
+  const auto find = [](const std::map<Id, std::int32_t>& map, Id id) {
+    const auto it = map.find(id);
+    return it == map.end() ? -1 : it->second;
+  };
+  for (std::size_t i = 0; i < products.size(); ++i) {
+    Product& p = products[i];
+    const Id whole = relations.wholeOf(entities[i]);
+    if (const std::int32_t w = find(product_of, whole); w != static_cast<std::int32_t>(i)) p.whole = w;
+    // Upwards until somebody stands in the spatial structure; a bound because input may run in circles.
+    Entity at = entities[i];
+    for (int steps = 0; at && p.container < 0 && steps < 64; ++steps) {
+      p.container = find(node_of, relations.containerOf(at));
+      if (p.container < 0) p.container = find(node_of, relations.wholeOf(at));
+      const Id host = relations.hostOf(at);
+      at = file.entity(relations.wholeOf(at) ? relations.wholeOf(at) : host);
+    }
+    for (std::int32_t n = p.container; n >= 0 && p.storey.empty(); n = spatial[static_cast<std::size_t>(n)].parent)
+      if (spatial[static_cast<std::size_t>(n)].ifc_class == "IfcBuildingStorey") p.storey = spatial[static_cast<std::size_t>(n)].name;
+  }
+}
+
+}  // namespace standpoint::ifc

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Representation items with a volume or a surface. Each returns its faces in metres, in the frame of the representation.
+
+#include "importers/ifc/mapping.h"
+
+namespace standpoint::ifc {
+
+Result<geometry::PolyMesh> extrudedAreaSolid(const Entity&, Scope&);
+Result<geometry::PolyMesh> extrudedAreaSolidTapered(const Entity&, Scope&);
+Result<geometry::PolyMesh> revolvedAreaSolid(const Entity&, Scope&);
+Result<geometry::PolyMesh> sweptDiskSolid(const Entity&, Scope&);
+Result<geometry::PolyMesh> curveSweptAreaSolid(const Entity&, Scope&);
+Result<geometry::PolyMesh> sectionedSolidHorizontal(const Entity&, Scope&);
+Result<geometry::PolyMesh> sectionedSpine(const Entity&, Scope&);
+Result<geometry::PolyMesh> facetedBrep(const Entity&, Scope&);
+Result<geometry::PolyMesh> surfaceModel(const Entity&, Scope&);
+Result<geometry::PolyMesh> faceSetItem(const Entity&, Scope&);
+Result<geometry::PolyMesh> triangulatedFaceSet(const Entity&, Scope&);
+Result<geometry::PolyMesh> polygonalFaceSet(const Entity&, Scope&);
+Result<geometry::PolyMesh> block(const Entity&, Scope&);
+Result<geometry::PolyMesh> rectangularPyramid(const Entity&, Scope&);
+Result<geometry::PolyMesh> rightCircularCone(const Entity&, Scope&);
+Result<geometry::PolyMesh> rightCircularCylinder(const Entity&, Scope&);
+Result<geometry::PolyMesh> sphereSolid(const Entity&, Scope&);
+Result<geometry::PolyMesh> csgSolid(const Entity&, Scope&);
+Result<geometry::PolyMesh> booleanResult(const Entity&, Scope&);
+
+}  // namespace standpoint::ifc

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "importers/ifc/style.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace standpoint::ifc {
+namespace {
+
+std::uint32_t byteOf(double share) { return static_cast<std::uint32_t>(std::lround(std::clamp(share, 0.0, 1.0) * 255)); }
+
+// 24 bits of colour and 5 of opacity above kFirstColour: two map entries of one colour are one surface.
+std::uint32_t packColour(double r, double g, double b, double opacity) {
+  const auto opaque = static_cast<std::uint32_t>(std::lround(std::clamp(opacity, 0.0, 1.0) * 31));
+  return kFirstColour | opaque << 24 | byteOf(r) << 16 | byteOf(g) << 8 | byteOf(b);
+}
+
+Colour unpackColour(std::uint32_t tag) {
+  const auto share = [&](int shift) { return static_cast<float>((tag >> shift) & 255U) / 255.0F; };
+  return {share(16), share(8), share(0), static_cast<float>((tag >> 24) & 31U) / 31.0F};
+}
+
+Id firstSurfaceStyle(const Entity& from, std::size_t list_index, int depth) {
+  for (const Entity& e : from.refs(list_index)) {
+    if (e.is("IFCSURFACESTYLE")) return e.id();
+    if (e.is("IFCPRESENTATIONSTYLEASSIGNMENT") && depth < 4)   // IFC2X3, and IFC4 files of exporters that kept it
+      if (const Id found = firstSurfaceStyle(e, 0, depth + 1)) return found;
+  }
+  return 0;
+}
+
+}  // namespace
+
+Id surfaceStyleOf(const Entity& styled_item) { return firstSurfaceStyle(styled_item, 1, 0); }
+
+std::vector<Id> stylesOfItems(const StepFile& file) {
+  std::vector<Id> styles(file.records().size(), 0);
+  for (const Entity& styled : file.all("IFCSTYLEDITEM")) {
+    const Entity item = styled.ref(0);
+    if (!item) continue;
+    Id& style = styles[file.indexOf(item)];
+    if (style == 0) style = surfaceStyleOf(styled);
+  }
+  return styles;
+}
+
+std::optional<Style> styleOfTag(const StepFile& file, std::uint32_t tag) {
+  if (tag >= kFirstColour) return Style{"", unpackColour(tag)};
+  const Entity e = file.entity(tag);
+  if (!e.is("IFCSURFACESTYLE")) return {};
+  Style style{e[0].text(), {}};
+  for (const Entity& shading : e.refs(2)) {
+    if (!shading.is("IFCSURFACESTYLERENDERING") && !shading.is("IFCSURFACESTYLESHADING")) continue;
+    const Entity rgb = shading.ref(0);
+    style.colour = {static_cast<float>(std::clamp(rgb[1].number(0.7), 0.0, 1.0)), static_cast<float>(std::clamp(rgb[2].number(0.7), 0.0, 1.0)),
+                    static_cast<float>(std::clamp(rgb[3].number(0.7), 0.0, 1.0)), static_cast<float>(1 - std::clamp(shading[1].number(0), 0.0, 1.0))};
+  }
+  return style;
+}
+
+std::map<Id, Id> colourMaps(const StepFile& file) {
+  std::map<Id, Id> maps;
+  for (const Entity& map : file.all("IFCINDEXEDCOLOURMAP")) maps.emplace(map[0].reference(), map.id());
+  return maps;
+}
+
+FaceColours::FaceColours(const Entity& face_set, const Model& model) {
+  const auto known = model.colour_map_of_face_set.find(face_set.id());
+  if (known == model.colour_map_of_face_set.end()) return;
+  const Entity map = model.file.entity(known->second);
+  std::vector<std::uint32_t> colours;
+  const double opacity = map[1].number(1);
+  const Value list = map.ref(2)[0];
+  for (const Value rgb : list) {
+    double c[3] = {0.7, 0.7, 0.7};
+    int i = 0;
+    for (const Value v : rgb)
+      if (i < 3) c[i++] = v.number(0.7);
+    colours.push_back(packColour(c[0], c[1], c[2], opacity));
+  }
+  const Value indices = map[3];
+  for (const Value v : indices) {
+    const auto i = v.integer();
+    tags_.push_back(i >= 1 && i <= static_cast<std::int64_t>(colours.size()) ? colours[static_cast<std::size_t>(i - 1)] : kNoStyle);
+  }
+}
+
+}  // namespace standpoint::ifc

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/environment.h"
+#include "importers/ifc/model.h"
+
+namespace standpoint::ifc {
+
+struct Style {
+  std::string name;
+  Colour colour;
+};
+
+// A face's tag is the id of the style it has; faces of an indexed colour map have tags from kFirstColour on.
+constexpr std::uint32_t kNoStyle = 0;
+constexpr std::uint32_t kFirstColour = 0xC0000000U;
+
+// For each record the IfcSurfaceStyle (its id) that an IfcStyledItem gives it.
+std::vector<Id> stylesOfItems(const StepFile& file);
+// IfcTessellatedFaceSet → IfcIndexedColourMap.
+std::map<Id, Id> colourMaps(const StepFile& file);
+// The first surface style of an IfcStyledItem; 0 when it has none.
+Id surfaceStyleOf(const Entity& styled_item);
+// Of a tag; nothing when it is no style.
+std::optional<Style> styleOfTag(const StepFile& file, std::uint32_t tag);
+
+// The tags of a tessellated face set's faces, from its IfcIndexedColourMap: 24 bits of colour, 5 of opacity.
+class FaceColours {
+ public:
+  FaceColours(const Entity& face_set, const Model& model);
+  std::uint32_t tag(std::size_t face) const { return face < tags_.size() ? tags_[face] : kNoStyle; }
+
+ private:
+  std::vector<std::uint32_t> tags_;
+};
+
+}  // namespace standpoint::ifc

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "importers/ifc/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "importers/ifc/bspline.h"
+#include "importers/ifc/curve.h"
+#include "importers/ifc/mapping.h"
+#include "importers/ifc/placement.h"
+#include "importers/ifc/surfaces.h"
+
+namespace standpoint::ifc {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+double nearTurn(double angle, double near) { return angle + kTurn * std::round((near - angle) / kTurn); }
+
+class Plane : public ParametricSurface {
+ public:
+  explicit Plane(const Eigen::Isometry3d& f) : frame_(f), inverse_(f.inverse()) {}
+  Eigen::Vector3d at(const Eigen::Vector2d& uv) const override { return frame_ * Eigen::Vector3d(uv.x(), uv.y(), 0); }
+  Eigen::Vector2d parameters(const Eigen::Vector3d& p, const Eigen::Vector2d&) const override { return (inverse_ * p).head<2>(); }
+
+ private:
+  Eigen::Isometry3d frame_, inverse_;
+};
+
+// Cylinder, sphere and torus: around the z axis of the frame with u; v is height, latitude, or the angle in the tube.
+class Round : public ParametricSurface {
+ public:
+  enum class Kind { cylinder, sphere, torus };
+  Round(Kind kind, const Eigen::Isometry3d& f, double major, double minor) : kind_(kind), frame_(f), inverse_(f.inverse()), major_(major), minor_(minor) {}
+
+  Eigen::Vector3d at(const Eigen::Vector2d& uv) const override {
+    const double tube = kind_ == Kind::cylinder ? 0 : minor_;
+    const double r = major_ + tube * std::cos(uv.y()), z = kind_ == Kind::cylinder ? uv.y() : tube * std::sin(uv.y());
+    return frame_ * Eigen::Vector3d(r * std::cos(uv.x()), r * std::sin(uv.x()), z);
+  }
+  Eigen::Vector2d parameters(const Eigen::Vector3d& p, const Eigen::Vector2d& near) const override {
+    const Eigen::Vector3d q = inverse_ * p;
+    const double r = q.head<2>().norm();
+    const double u = r > 1e-9 ? nearTurn(std::atan2(q.y(), q.x()), near.x()) : near.x();
+    if (kind_ == Kind::cylinder) return {u, q.z()};
+    const double v = std::atan2(q.z(), r - major_);
+    return {u, kind_ == Kind::torus ? nearTurn(v, near.y()) : v};
+  }
+  Eigen::Vector2d period() const override { return {kTurn, kind_ == Kind::torus ? kTurn : 0}; }
+
+ private:
+  Kind kind_;
+  Eigen::Isometry3d frame_, inverse_;
+  double major_, minor_;
+};
+
+// Any surface that can only be evaluated: its parameters are searched, from a grid and then by Gauss and Newton.
+class Searched : public ParametricSurface {
+ public:
+  Eigen::Vector2d parameters(const Eigen::Vector3d& p, const Eigen::Vector2d& near) const override {
+    Eigen::Vector2d best = refine(p, clamp(near));
+    if ((at(best) - p).norm() < 1e-5) return best;
+    constexpr int kSteps = 16;
+    for (int i = 0; i <= kSteps; ++i)
+      for (int j = 0; j <= kSteps; ++j) {
+        const Eigen::Vector2d uv = low() + (high() - low()).cwiseProduct(Eigen::Vector2d(i, j) / kSteps);
+        if ((at(uv) - p).squaredNorm() < (at(best) - p).squaredNorm()) best = uv;
+      }
+    return refine(p, best);
+  }
+
+ private:
+  Eigen::Vector2d clamp(const Eigen::Vector2d& uv) const { return uv.cwiseMax(low()).cwiseMin(high()); }
+
+  Eigen::Vector2d refine(const Eigen::Vector3d& p, Eigen::Vector2d uv) const {
+    for (int i = 0; i < 20; ++i) {
+      const Eigen::Vector2d h = (high() - low()) * 1e-5;
+      const Eigen::Vector3d here = at(uv);
+      const double su = uv.x() + h.x() > high().x() ? -1 : 1, sv = uv.y() + h.y() > high().y() ? -1 : 1;
+      const Eigen::Vector3d du = (at({uv.x() + su * h.x(), uv.y()}) - here) / (su * h.x()), dv = (at({uv.x(), uv.y() + sv * h.y()}) - here) / (sv * h.y());
+      const double a = du.dot(du), b = du.dot(dv), c = dv.dot(dv), det = a * c - b * b;
+      if (!(std::abs(det) > 1e-30)) return uv;
+      const Eigen::Vector3d r = p - here;
+      const Eigen::Vector2d step((c * du.dot(r) - b * dv.dot(r)) / det, (a * dv.dot(r) - b * du.dot(r)) / det);
+      const Eigen::Vector2d next = clamp(uv + step);
+      if ((next - uv).cwiseQuotient(high() - low()).norm() < 1e-9) return next;
+      uv = next;
+    }
+    return uv;
+  }
+};
+
+class Spline : public Searched {
+ public:
+  explicit Spline(SplineSurface s) : spline_(std::move(s)) {}
+  Eigen::Vector3d at(const Eigen::Vector2d& uv) const override { return spline_.at(uv.x(), uv.y()); }
+  Eigen::Vector2d low() const override { return {spline_.u.from(), spline_.v.from()}; }
+  Eigen::Vector2d high() const override { return {spline_.u.to(), spline_.v.to()}; }
+
+ private:
+  SplineSurface spline_;
+};
+
+// A curve moved along a direction or turned around an axis; u runs along the curve by its length.
+class Swept : public Searched {
+ public:
+  Swept(Path path, const Eigen::Isometry3d& frame, const Eigen::Vector3d& along, double depth) : path_(std::move(path)), frame_(frame), along_(along), end_(depth) { measure(); }
+  Swept(Path path, const Eigen::Isometry3d& frame, const Axis& axis) : path_(std::move(path)), frame_(frame), axis_(axis), turns_(true), end_(kTurn) { measure(); }
+
+  Eigen::Vector3d at(const Eigen::Vector2d& uv) const override {
+    const auto it = std::upper_bound(lengths_.begin(), lengths_.end(), uv.x());
+    const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(it - lengths_.begin(), 1, static_cast<std::ptrdiff_t>(lengths_.size()) - 1));
+    const double t = (uv.x() - lengths_[i - 1]) / (lengths_[i] - lengths_[i - 1]);
+    const Eigen::Vector3d p = path_.points[i - 1] + t * (path_.points[i] - path_.points[i - 1]);
+    if (!turns_) return frame_ * (p + along_ * uv.y());
+    return frame_ * (axis_.point + Eigen::AngleAxisd(uv.y(), axis_.direction) * (p - axis_.point));
+  }
+  Eigen::Vector2d low() const override { return {0, turns_ ? 0 : -std::abs(end_)}; }
+  Eigen::Vector2d high() const override { return {lengths_.back(), std::abs(end_)}; }
+
+ private:
+  void measure() {
+    if (path_.closed) path_.points.push_back(path_.points.front());
+    lengths_.push_back(0);
+    for (std::size_t i = 1; i < path_.points.size(); ++i) lengths_.push_back(lengths_.back() + (path_.points[i] - path_.points[i - 1]).norm());
+  }
+  Path path_;
+  Eigen::Isometry3d frame_;
+  Axis axis_;
+  Eigen::Vector3d along_ = Eigen::Vector3d::UnitZ();
+  bool turns_ = false;
+  double end_;
+  std::vector<double> lengths_;
+};
+
+SurfacePtr round(Round::Kind kind, const Entity& e, double major, double minor, const Scope& s) {
+  return std::make_shared<Round>(kind, axisPlacement(e.ref(0), s), major, minor);
+}
+
+}  // namespace
+
+Result<SurfacePtr> planeSurface(const Entity& e, Scope& s) { return std::make_shared<Plane>(axisPlacement(e.ref(0), s)); }
+
+Result<SurfacePtr> cylindricalSurface(const Entity& e, Scope& s) {
+  const double r = s.metres(e[1].number(0));
+  if (!(r > 0)) return fail(e, "the radius is not positive");
+  return round(Round::Kind::cylinder, e, r, 0, s);
+}
+
+Result<SurfacePtr> sphericalSurface(const Entity& e, Scope& s) {
+  const double r = s.metres(e[1].number(0));
+  if (!(r > 0)) return fail(e, "the radius is not positive");
+  return round(Round::Kind::sphere, e, 0, r, s);
+}
+
+Result<SurfacePtr> toroidalSurface(const Entity& e, Scope& s) {
+  const double major = s.metres(e[1].number(0)), minor = s.metres(e[2].number(0));
+  if (!(major > 0 && minor > 0)) return fail(e, "a radius is not positive");
+  return round(Round::Kind::torus, e, major, minor, s);
+}
+
+Result<SurfacePtr> bSplineSurface(const Entity& e, Scope& s) {
+  SplineSurface spline;
+  const Value rows = e[2], weights = e[12];
+  const bool rational = e.typeName().starts_with("IFCRATIONAL");
+  auto weight_row = weights.begin();
+  for (const Value row : rows) {
+    std::vector<Eigen::Vector4d> line;
+    const Value weight_list = rational && weight_row != weights.end() ? *weight_row : Value();
+    auto w = weight_list.begin();
+    for (const Value v : row) {
+      const Eigen::Vector3d p = cartesianPoint(e.follow(v), s);
+      double weight = 1;
+      if (w != weight_list.end()) weight = (*w).number(1), ++w;
+      line.push_back(Eigen::Vector4d(p.x(), p.y(), p.z(), 1) * (weight > 0 ? weight : 1));
+    }
+    if (rational && weight_row != weights.end()) ++weight_row;
+    if (!spline.control.empty() && line.size() != spline.control[0].size()) return fail(e, "the rows of control points differ in length");
+    if (!s.spend(line.size())) return fail(e, "too many points");
+    spline.control.push_back(std::move(line));
+  }
+  const auto degree = [&](std::size_t i) { return static_cast<int>(std::clamp<std::int64_t>(e[i].integer(1), 0, 100)); };
+  if (spline.control.empty()) return fail(e, "there are no control points");
+  spline.u = knotVector(degree(0), spline.control.size(), e[7], e[9]);
+  spline.v = knotVector(degree(1), spline.control[0].size(), e[8], e[10]);
+  if (spline.u.knots.empty() || spline.v.knots.empty()) return fail(e, "the degree does not fit the number of control points");
+  return std::make_shared<Spline>(std::move(spline));
+}
+
+Result<SurfacePtr> surfaceOfLinearExtrusion(const Entity& e, Scope& s) {
+  auto path = profileCurve(e.ref(0), s);
+  if (!path) return failure(path.error());
+  if (path->points.size() < 2) return fail(e, "the swept curve has no length");
+  // Faces on it may reach beyond the stated depth, so the search gets room.
+  const double depth = std::max(std::abs(s.metres(e[3].number(1))), 1e-6) * 100;
+  return std::make_shared<Swept>(std::move(*path), axisPlacement(e.ref(1), s), direction(e.ref(2), Eigen::Vector3d::UnitZ()), depth);
+}
+
+Result<SurfacePtr> surfaceOfRevolution(const Entity& e, Scope& s) {
+  auto path = profileCurve(e.ref(0), s);
+  if (!path) return failure(path.error());
+  if (path->points.size() < 2) return fail(e, "the swept curve has no length");
+  return std::make_shared<Swept>(std::move(*path), axisPlacement(e.ref(1), s), axis1Placement(e.ref(2), s));
+}
+
+}  // namespace standpoint::ifc

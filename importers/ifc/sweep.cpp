@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Profiles along curves: swept disks, fixed-reference and surface-curve sweeps, sectioned solids.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "importers/ifc/alignment.h"
+#include "importers/ifc/curve.h"
+#include "importers/ifc/placement.h"
+#include "importers/ifc/solid.h"
+
+namespace standpoint::ifc {
+namespace {
+
+// Replaces each corner of a polyline by an arc of that radius, as far as its legs allow.
+Path filleted(const Path& path, double radius, const Scope& scope) {
+  Path round;
+  const auto& p = path.points;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (i == 0 || i + 1 == p.size()) { appendPoint(round, p[i]); continue; }
+    const Eigen::Vector3d u = (p[i - 1] - p[i]).normalized(), v = (p[i + 1] - p[i]).normalized();
+    const double half = std::acos(std::clamp(u.dot(v), -1.0, 1.0)) / 2;
+    const double room = std::min((p[i - 1] - p[i]).norm(), (p[i + 1] - p[i]).norm());
+    const double reach = radius / std::tan(half);
+    if (half > std::numbers::pi / 2 - 1e-4 || half < 1e-3 || reach > room) { appendPoint(round, p[i]); continue; }
+    const Eigen::Vector3d centre = p[i] + (u + v).normalized() * (radius / std::sin(half));
+    const Eigen::Vector3d a = p[i] + u * reach, b = p[i] + v * reach;
+    const Eigen::Vector3d middle = centre + (p[i] - centre).normalized() * radius;
+    for (const auto& q : arcThrough(a, middle, b, scope).points) appendPoint(round, q);
+  }
+  return round;
+}
+
+geometry::Region2 stretched(const geometry::Region2& region, const Eigen::Vector2d& along, double factor) {
+  geometry::Region2 s = region;
+  const auto move = [&](geometry::Loop2& loop) { for (auto& q : loop) q += along * (q.dot(along) * (factor - 1)); };
+  move(s.outer);
+  for (auto& hole : s.holes) move(hole);
+  return s;
+}
+
+// The profile at each point of the path, mitred; `reference(i, tangent)` is where its x axis points to.
+template <class Reference>
+Result<geometry::PolyMesh> along(const geometry::Region2& region, const Path& path, const Reference& reference) {
+  std::vector<geometry::Region2> profiles;
+  std::vector<Eigen::Isometry3d> frames;
+  const auto& p = path.points;
+  const std::size_t n = p.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool first = i == 0 && !path.closed, last = i + 1 == n && !path.closed;
+    const Eigen::Vector3d in = first ? p[1] - p[0] : p[i] - p[(i + n - 1) % n];
+    const Eigen::Vector3d out = last ? in : p[(i + 1) % n] - p[i];
+    const Eigen::Vector3d t0 = in.normalized(), t1 = out.normalized();
+    Eigen::Vector3d tangent = t0 + t1;
+    tangent = tangent.norm() > 1e-3 ? Eigen::Vector3d(tangent.normalized()) : t1;
+    const Eigen::Isometry3d f = frame(p[i], tangent, reference(tangent));
+    const double factor = std::min(1 / std::max(tangent.dot(t0), 0.1), 10.0);
+    const Eigen::Vector3d bend = f.linear().transpose() * (t1 - t0);
+    profiles.push_back(factor > 1 + 1e-9 && bend.head<2>().norm() > 1e-9 ? stretched(region, bend.head<2>().normalized(), factor) : region);
+    frames.push_back(f);
+  }
+  return geometry::loft(profiles, frames, path.closed);
+}
+
+}  // namespace
+
+Result<geometry::PolyMesh> sweptDiskSolid(const Entity& entity, Scope& scope) {
+  const double radius = scope.metres(entity[1].number(0));
+  double inner = scope.metres(entity[2].number(0));
+  if (!(radius > 0)) return fail(entity, "the radius of the disk is missing or not positive");
+  if (!(inner > 0 && inner < radius)) inner = 0;
+  auto path = trimmedDirectrix(entity.ref(0), entity[3], entity[4], scope);
+  if (!path) return failure(path.error());
+  if (entity.is("IFCSWEPTDISKSOLIDPOLYGONAL") && entity[5].number(0) > 0) *path = filleted(*path, scope.metres(entity[5].number(0)), scope);
+  if (!scope.spend(path->points.size() * 16)) return fail(entity, "too many points");
+  return geometry::sweepDisk(path->points, path->closed, radius, inner, scope.model.tessellation);
+}
+
+Result<geometry::PolyMesh> curveSweptAreaSolid(const Entity& entity, Scope& scope) {
+  const auto regions = profile(entity.ref(0), scope);
+  if (!regions) return failure(regions.error());
+  const auto path = trimmedDirectrix(entity.ref(2), entity[3], entity[4], scope);
+  if (!path) return failure(path.error());
+  const Entity reference = entity.ref(5);
+  Eigen::Vector3d x = Eigen::Vector3d::UnitX();
+  if (reference.is("IFCDIRECTION")) x = direction(reference, x);
+  else if (reference.is("IFCPLANE")) x = axisPlacement(reference.ref(0), scope).linear().col(2);
+  else if (reference.is("IFCSURFACEOFLINEAREXTRUSION")) x = direction(reference.ref(2), Eigen::Vector3d::UnitZ());
+  else return fail(entity, "a reference surface of this kind (" + std::string(reference.typeName()) + ") is not supported");
+  geometry::PolyMesh mesh;
+  for (const auto& region : *regions) {
+    if (!scope.spend(path->points.size() * region.outer.size())) return fail(entity, "too many points");
+    auto part = reference.is("IFCSURFACEOFLINEAREXTRUSION")
+                    ? along(region, *path, [&](const Eigen::Vector3d& t) { return Eigen::Vector3d(t.cross(x)); })
+                    : along(region, *path, [&](const Eigen::Vector3d&) { return x; });
+    if (!part) return part;
+    geometry::append(mesh, *part);
+  }
+  geometry::orientOutward(mesh);
+  geometry::transform(mesh, Eigen::Affine3d(axisPlacement(entity.ref(1), scope)));
+  return mesh;
+}
+
+namespace {
+
+Result<geometry::PolyMesh> sections(const Entity& entity, const std::vector<Entity>& profiles, const std::vector<Eigen::Isometry3d>& frames, Scope& scope) {
+  std::vector<geometry::Region2> regions;
+  for (const Entity& p : profiles) {
+    auto r = profile(p, scope);
+    if (!r) return failure(r.error());
+    if (!scope.spend(r->front().outer.size())) return fail(entity, "too many points");
+    regions.push_back(std::move(r->front()));
+  }
+  if (regions.size() != frames.size() || regions.size() < 2) return fail(entity, "cross sections and their positions do not match");
+  auto mesh = geometry::loft(regions, frames, false);
+  if (mesh) geometry::orientOutward(*mesh);
+  return mesh;
+}
+
+}  // namespace
+
+Result<geometry::PolyMesh> sectionedSpine(const Entity& entity, Scope& scope) {
+  std::vector<Eigen::Isometry3d> frames;
+  for (const Entity& position : entity.refs(2)) frames.push_back(axisPlacement(position, scope));
+  return sections(entity, entity.refs(1), frames, scope);
+}
+
+namespace {
+
+bool alike(const geometry::Region2& a, const geometry::Region2& b) {
+  if (a.outer.size() != b.outer.size() || a.holes.size() != b.holes.size()) return false;
+  for (std::size_t h = 0; h < a.holes.size(); ++h)
+    if (a.holes[h].size() != b.holes[h].size()) return false;
+  return true;
+}
+
+geometry::Region2 blend(const geometry::Region2& a, const geometry::Region2& b, double t) {
+  geometry::Region2 mid = a;
+  const auto mix = [t](geometry::Loop2& to, const geometry::Loop2& other) { for (std::size_t i = 0; i < to.size(); ++i) to[i] += (other[i] - to[i]) * t; };
+  mix(mid.outer, b.outer);
+  for (std::size_t h = 0; h < mid.holes.size(); ++h) mix(mid.holes[h], b.holes[h]);
+  return mid;
+}
+
+// The plane of a section stands upright across the directrix: x to the left, y up.
+Eigen::Isometry3d upright(const Station& s) {
+  const Eigen::Vector3d forward = Eigen::Vector3d(s.tangent.x(), s.tangent.y(), 0).normalized();
+  Eigen::Isometry3d f = Eigen::Isometry3d::Identity();
+  f.linear() << Eigen::Vector3d::UnitZ().cross(forward), Eigen::Vector3d::UnitZ(), forward;
+  f.translation() = s.point;
+  return f;
+}
+
+}  // namespace
+
+// Between two stated sections the solid follows every bend of its directrix.
+Result<geometry::PolyMesh> sectionedSolidHorizontal(const Entity& entity, Scope& scope) {
+  const auto directrix = curve(entity.ref(0), scope);
+  if (!directrix) return failure(directrix.error());
+  const auto positions = entity.refs(2), profiles = entity.refs(1);
+  if (positions.size() != profiles.size() || positions.size() < 2) return fail(entity, "cross sections and their positions do not match");
+  std::vector<geometry::Region2> regions;
+  std::vector<Eigen::Isometry3d> frames;
+  double last = 0;
+  Offsets last_offsets;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    auto region = profile(profiles[i], scope);
+    if (!region) return failure(region.error());
+    const Offsets here = offsetsAt(positions[i], scope);
+    const geometry::Region2 next = std::move(region->front());
+    if (i > 0) {
+      if (!alike(regions.back(), next)) return fail(entity, "the cross sections have different numbers of points");
+      const geometry::Region2 from = regions.back();
+      for (const double d : distancesBetween(*directrix, last, here.along)) {
+        const double t = (d - last) / (here.along - last);
+        regions.push_back(blend(from, next, t));
+        frames.push_back(upright(stationAt(*directrix, d)) * Eigen::Translation3d(last_offsets.lateral + (here.lateral - last_offsets.lateral) * t,
+                                                                                 last_offsets.vertical + (here.vertical - last_offsets.vertical) * t, 0));
+        if (!scope.spend(next.outer.size())) return fail(entity, "too many points");
+      }
+    }
+    regions.push_back(next);
+    frames.push_back(upright(stationAt(*directrix, here.along)) * Eigen::Translation3d(here.lateral, here.vertical, 0));
+    last = here.along;
+    last_offsets = here;
+  }
+  auto mesh = geometry::loft(regions, frames, false);
+  if (mesh) geometry::orientOutward(*mesh);
+  return mesh;
+}
+
+}  // namespace standpoint::ifc
