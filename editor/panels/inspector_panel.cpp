@@ -20,7 +20,7 @@ namespace {
 std::string triple(const Eigen::Vector3d& v) { return fmt::format("{:.3f}  {:.3f}  {:.3f}", v.x(), v.y(), v.z()); }
 
 void drawIdentity(const Editor& editor, const Product& product) {
-  if (!ui::beginProperties("identity", 0.32F)) return;
+  if (!ui::beginProperties("identity", 0.25F)) return;
   ui::property("Class", product.ifc_class.empty() ? "Object" : product.ifc_class);
   if (!product.predefined_type.empty()) ui::property("Type", product.predefined_type);
   ui::property("Id", product.id);
@@ -41,7 +41,7 @@ void drawGeometry(Editor& editor, std::uint32_t index) {
   ui::heading(editor, "Geometry");
   const auto& environment = *editor.environment();
   const auto& bounds_of = editor.boundsOfProducts()[index];
-  if (!ui::beginProperties("geometry", 0.32F)) return;
+  if (!ui::beginProperties("geometry", 0.25F)) return;
   ui::property("Triangles", groupedDigits(trianglesOf(environment, index)));
   if (!bounds_of.empty()) {
     ui::property("Size", triple(bounds_of.max - bounds_of.min) + " m");

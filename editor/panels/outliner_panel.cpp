@@ -83,12 +83,12 @@ void drawRow(Editor& editor, const std::vector<OutlinerRow>& rows, int index) {
   ImGui::SetItemAllowOverlap();
   ImGui::SameLine(left + indent);
   if (row.expandable) ui::dimText(row.expanded ? ICON_ARROW_DOWN : ICON_CHEVRON_RIGHT);
-  ImGui::SameLine(left + indent + editor.px(15));
+  ImGui::SameLine(left + indent + editor.px(17));
   const bool hidden = product && editor.visibility.hidden(node.index);
   ImGui::PushStyleColor(ImGuiCol_Text, product ? ImVec4(0.45F, 0.62F, 0.85F, 1) : ImVec4(0.62F, 0.66F, 0.73F, 1));
   ImGui::TextUnformatted(iconOf(editor, node));
   ImGui::PopStyleColor();
-  ImGui::SameLine(left + indent + editor.px(37));
+  ImGui::SameLine(left + indent + editor.px(39));
   const std::string count = product ? std::string() : std::to_string(node.products);
   const float count_width = count.empty() ? 0 : ImGui::CalcTextSize(count.c_str()).x + editor.px(8);
   const float eye = editor.px(24);

@@ -122,7 +122,7 @@ void drawMenuBar(Editor& editor) {
   }
   const std::string title = editor.session.name() + (editor.session.modified() ? "  •" : "");
   const float width = ImGui::CalcTextSize(title.c_str()).x;
-  ImGui::SameLine(ImGui::GetWindowWidth() - width - editor.px(14));
+  ImGui::SameLine(ImGui::GetWindowWidth() - width - editor.px(22));
   ImGui::TextDisabled("%s", title.c_str());
   ImGui::EndMainMenuBar();
 }
@@ -132,7 +132,8 @@ void toolGap(const Editor& editor) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float h = ImGui::GetFrameHeight();
   ImGui::GetWindowDrawList()->AddLine({at.x, at.y + h * 0.2F}, {at.x, at.y + h * 0.8F}, tone::kLine, editor.px(1));
-  ImGui::SameLine(0, editor.px(9));
+  ImGui::Dummy({editor.px(1), h});
+  ImGui::SameLine(0, editor.px(8));
 }
 
 void drawWorkspaceTabs(Editor& editor) {
@@ -166,15 +167,25 @@ void drawToolbar(Editor& editor, const Box& box) {
   ImGui::End();
 }
 
+// Icons stay only where all titles have room beside them.
+bool roomForIcons(const Editor& editor, Area area) {
+  float width = 0;
+  for (const auto& panel : panels())
+    if (panel.area[static_cast<std::size_t>(editor.workspace)] == area)
+      width += ImGui::CalcTextSize(panel.title).x + editor.px(26) + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetStyle().ItemInnerSpacing.x;
+  return width <= ImGui::GetContentRegionAvail().x;
+}
+
 void drawPanelTabs(Editor& editor, Area area, const char* id) {
   auto& wanted = editor.wanted_tab[static_cast<std::size_t>(area)];
   const auto workspace = static_cast<std::size_t>(editor.workspace);
+  const bool icons = roomForIcons(editor, area);
   ImGui::PushID(static_cast<int>(workspace));
-  if (ImGui::BeginTabBar(id, ImGuiTabBarFlags_FittingPolicyScroll | ImGuiTabBarFlags_NoTabListScrollingButtons)) {
+  if (ImGui::BeginTabBar(id, ImGuiTabBarFlags_FittingPolicyResizeDown)) {
     for (const auto& panel : panels()) {
       if (panel.area[workspace] != area) continue;
       const auto flags = wanted == panel.id ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
-      if (!ImGui::BeginTabItem(fmt::format("{}  {}###{}", panel.icon, panel.title, panel.id).c_str(), nullptr, flags)) continue;
+      if (!ImGui::BeginTabItem(fmt::format("{}{}{}###{}", icons ? panel.icon : "", icons ? "  " : "", panel.title, panel.id).c_str(), nullptr, flags)) continue;
       ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(editor.px(10), editor.px(6)));
       ImGui::BeginChild(panel.id, {0, 0}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
       ImGui::PopStyleVar();
@@ -314,13 +325,13 @@ void drawShell(Editor& editor) {
   const float menu = ImGui::GetFrameHeight(), tools = ImGui::GetFrameHeight() + editor.px(12), status = ImGui::GetFrameHeight() + editor.px(4);
   drawToolbar(editor, {0, menu, display.x, tools});
   const Layout l = layOut(editor, {0, menu + tools, display.x, display.y - menu - tools - status});
-  drawSplitters(editor, l);
   drawArea(editor, "###left", l.left, Area::left);
   drawArea(editor, "###right", l.right, Area::right);
   drawArea(editor, "###bottom", l.bottom, Area::bottom);
   beginFixed("###viewport", l.middle, {0, 0}, IM_COL32(35, 39, 46, 255));
   drawViewport(editor);
   ImGui::End();
+  drawSplitters(editor, l);   // last: windows that keep their place lie behind those made before them
   drawStatusBar(editor, {0, display.y - status, display.x, status});
   drawFileDialog(editor);
   drawVerbDialog(editor);

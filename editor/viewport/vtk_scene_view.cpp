@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include <vtkActor.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -28,6 +27,8 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
+#include <vtkTranslucentPass.h>
+#include <vtkRenderStepsPass.h>
 #include <vtkTextureObject.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -190,13 +191,23 @@ class VtkSceneView : public SceneView {
     renderer_->SetBackground(0.118, 0.129, 0.149);
     renderer_->SetBackground2(0.267, 0.298, 0.345);
     renderer_->SetAutomaticLightCreation(0);
+    setUpPasses();
+  }
+
+  // Plain blending into the same depth buffer: the renderer's own order-independent pass copies the depth first, which
+  // fails for a multisampled framebuffer, and then everything translucent shines through walls.
+  void setUpPasses() {
+    vtkNew<vtkRenderStepsPass> steps;
+    vtkNew<vtkTranslucentPass> translucent;
+    steps->SetTranslucentPass(translucent);
+    renderer_->SetPass(steps);
   }
 
   // A low sun from the camera's left, the sky from above, and a little from below so that no face is black.
   void setUpLights() {
-    addLight(VTK_LIGHT_TYPE_CAMERA_LIGHT, {-0.6, 0.5, 1.0}, {1.0, 0.985, 0.95}, 0.62);
-    addLight(VTK_LIGHT_TYPE_SCENE_LIGHT, {0.25, -0.4, 1.0}, {0.92, 0.96, 1.0}, 0.42);
-    addLight(VTK_LIGHT_TYPE_SCENE_LIGHT, {-0.5, 0.6, -0.4}, {0.85, 0.9, 1.0}, 0.16);
+    addLight(VTK_LIGHT_TYPE_CAMERA_LIGHT, {-0.45, 0.35, 1.0}, {1.0, 0.985, 0.95}, 0.58);
+    addLight(VTK_LIGHT_TYPE_SCENE_LIGHT, {0.35, -0.3, 1.0}, {0.94, 0.97, 1.0}, 0.40);
+    addLight(VTK_LIGHT_TYPE_SCENE_LIGHT, {0.8, 0.5, -0.3}, {0.85, 0.9, 1.0}, 0.14);
   }
 
   void addLight(int type, std::array<double, 3> position, std::array<double, 3> colour, double intensity) {
@@ -213,8 +224,8 @@ class VtkSceneView : public SceneView {
   void setUpSurface(Layer& layer, double offset) {
     auto* property = layer.actor->GetProperty();
     property->SetInterpolationToFlat();
-    property->SetAmbient(0.22);
-    property->SetDiffuse(0.80);
+    property->SetAmbient(0.34);
+    property->SetDiffuse(0.78);
     property->SetSpecular(0);
     layer.mapper->SetScalarModeToUseCellData();
     layer.mapper->SetColorModeToDirectScalars();
@@ -233,6 +244,8 @@ class VtkSceneView : public SceneView {
   }
 
   void setUpLayers() {
+    setUpLines(grid_, {0.6, 0.6, 0.6}, 1, 1);   // what is translucent is blended in this order
+    grid_.actor->ForceTranslucentOn();
     setUpSurface(opaque_, 1);
     setUpSurface(transparent_, 1);
     transparent_.actor->ForceTranslucentOn();
@@ -245,8 +258,6 @@ class VtkSceneView : public SceneView {
     walkable_.actor->GetProperty()->SetAmbient(0.8);
     setUpLines(edges_, {0.07, 0.08, 0.10}, 0.55, 1);
     setUpLines(outline_, {0.42, 0.71, 1.0}, 1, 2);
-    setUpLines(grid_, {0.6, 0.6, 0.6}, 1, 1);
-    grid_.actor->ForceTranslucentOn();
     for (Layer* layer : {&opaque_, &transparent_, &shapes_, &selected_, &walkable_, &edges_, &outline_, &grid_}) layer->hide();
   }
 

@@ -85,9 +85,9 @@ TEST(MergedScene, PaintsWhatHasNoMaterialInAColourThatNoMaterialHas) {
 TEST(EdgeCache, PlacesTheEdgesOfEveryInstance) {
   Document document = demoHouse();
   EdgeCache cache;
-  const std::vector<std::uint32_t> column = {9};
+  const std::vector<std::uint32_t> column = {10};
   const auto lines = cache.edges(demoState(document), &column, 1000);
-  EXPECT_EQ(document.imported->products[9].ifc_class, "IfcColumn");
+  EXPECT_EQ(document.imported->products[10].ifc_class, "IfcColumn");
   EXPECT_EQ(lines.ends.size(), 24U);
 }
 
