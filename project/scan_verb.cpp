@@ -150,6 +150,7 @@ ScanHeader headerOf(const Document& document, const ScanWorld& world, const Stat
     if (const auto crs = findCrs(g.crs)) h.coordinate_metadata = crs->wkt;
   for (const auto& p : world.environment->products) h.products.push_back({p.id, p.global_id, p.ifc_class, p.name});
   for (const auto& m : world.assignment.materials) h.materials.push_back(m.id);
+  h.materials.emplace_back("unassigned");  // the label of a point whose surface has no material
   return h;
 }
 
