@@ -18,6 +18,7 @@ find_package(meshoptimizer REQUIRED)
 find_package(draco REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(CGAL REQUIRED)
+find_library(CARVE NAMES carve REQUIRED)
 pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
 target_link_libraries(PkgConfig::IMGUI INTERFACE Freetype::Freetype)  # imgui.pc forgets it
 pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet)

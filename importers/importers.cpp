@@ -16,6 +16,8 @@
 namespace standpoint {
 
 extern const Importer kIfcImporter;
+extern const Importer kGltfImporter;
+extern const Importer kObjImporter;
 
 namespace {
 

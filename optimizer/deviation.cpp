@@ -34,13 +34,14 @@ double squaredDistance(const Vector3d& p, const Shape& s, std::uint32_t triangle
 }
 
 OneWay oneWay(const Shape& from, const std::vector<SurfacePoint>& points, const Shape& to, const TriangleTree& tree,
-              const std::vector<std::uint32_t>& counterpart) {
+              const std::vector<std::uint32_t>& counterpart, bool vertices) {
   OneWay result;
   const auto nearest = [&](std::uint32_t triangle, const Vector3d& p) {
     const auto hint = triangle < counterpart.size() ? counterpart[triangle] : kNone;
     return tree.squaredDistance(p, hint != kNone ? squaredDistance(p, to, hint) : std::numeric_limits<double>::infinity());
   };
   for (const auto& point : points) result.add(nearest(point.triangle, point.position));
+  if (!vertices) return result;
   std::vector<bool> seen(from.positions.size(), false);
   for (std::uint32_t i = 0; i < from.triangles.size(); ++i)
     for (const auto v : from.triangles[i]) {
@@ -87,7 +88,9 @@ DeviationMeter::DeviationMeter(const Shape& before, std::uint32_t samples, std::
   for (const auto& t : before.triangles) area_m2_ += areaOf(before.positions, t);
 }
 
-Deviation DeviationMeter::of(const Shape& after, const std::vector<std::uint32_t>& image) const {
+Deviation DeviationMeter::of(const Shape& after, const std::vector<std::uint32_t>& image) const { return measure(after, image, true); }
+
+Deviation DeviationMeter::measure(const Shape& after, const std::vector<std::uint32_t>& image, bool vertices) const {
   Deviation result;
   if (before_.triangles.empty()) return result;
   if (after.triangles.empty()) {
@@ -97,8 +100,8 @@ Deviation DeviationMeter::of(const Shape& after, const std::vector<std::uint32_t
     for (std::uint32_t i = 0; i < image.size(); ++i)
       if (image[i] != kNone) origin[image[i]] = i;
     const TriangleTree tree(after.positions, after.triangles);
-    const OneWay there = oneWay(before_, points_, after, tree, image);
-    const OneWay back = oneWay(after, pointsByArea(after.positions, after.triangles, samples_, {seed_, 1}), before_, tree_, origin);
+    const OneWay there = oneWay(before_, points_, after, tree, image, vertices);
+    const OneWay back = oneWay(after, pointsByArea(after.positions, after.triangles, samples_, {seed_, 1}), before_, tree_, origin, vertices);
     result.max_m = std::sqrt(std::max(there.max_squared, back.max_squared));
     result.mean_m = 0.5 * (there.mean() + back.mean());
   }

@@ -35,8 +35,13 @@ class DeviationMeter {
 
   // `image` is replay()'s, or empty: it only makes the search faster. `after` has the same centre.
   Deviation of(const Shape& after, const std::vector<std::uint32_t>& image = {}) const;
+  // Without a look at the vertices: the mean alone.
+  double meanOf(const Shape& after, const std::vector<std::uint32_t>& image) const { return measure(after, image, false).mean_m; }
+  double area_m2() const { return area_m2_; }
 
  private:
+  Deviation measure(const Shape& after, const std::vector<std::uint32_t>& image, bool vertices) const;
+
   const Shape& before_;
   std::uint32_t samples_;
   std::uint64_t seed_;

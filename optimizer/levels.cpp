@@ -97,8 +97,8 @@ std::vector<Point> measure(const Shape& shape, const ShapeLevels& made, double m
     left -= made.log[i].triangles;
     if (left > next && i + 1 < made.log.size()) continue;
     if (progress.cancelled()) return points;
-    const auto deviation = meter.of(replay(shape, made.log, i + 1, &image), image);
-    points.push_back({left, deviation.mean_m * deviation.area_m2, i + 1});
+    const double mean_m = meter.meanOf(replay(shape, made.log, i + 1, &image), image);
+    points.push_back({left, mean_m * meter.area_m2(), i + 1});
     next = target(left);
   }
   for (std::size_t i = 0; i < made.stand_ins.size(); ++i) {

@@ -13,13 +13,14 @@
 #include "optimizer/budget.h"
 #include "optimizer/deviation.h"
 #include "optimizer/levels.h"
+#include "optimizer/scene_deviation.h"
 #include "optimizer/shape.h"
 
 namespace standpoint {
 
 namespace {
 
-constexpr double kSamples = 300'000;  // on all placed surfaces, each way
+constexpr std::uint32_t kSamples = 100'000;  // on all placed surfaces, each way
 constexpr double kFewestSamples = 100, kMostSamples = 50'000;  // of one mesh
 
 // What one mesh, shared by its copies, goes through.
@@ -121,7 +122,7 @@ Result<void> simplify(std::vector<Work>& works, const OptimizeOptions& options, 
     work.levels = makeLevels(work.shape, {options.max_deviation_m / work.scale, lossless}, mesh, progress);
     work.limit = work.levels.levels.size();
   });
-  progress.stage("Measure", 0.6, 1);
+  progress.stage("Measure", 0.6, 0.9);
   for (bool settled = false; !settled;) {
     if (auto going = progress.check(); !going) return going;
     share(works, lossless ? 0 : options.budget);
@@ -204,6 +205,13 @@ Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOp
   auto works = prepare(environment);
   if (auto done = simplify(works, options, lossless, progress); !done) return failure(done.error());
   auto result = assemble(environment, works);
+  progress.stage("Measure the whole", 0.9, 1);
+  if (result.all.triangles_after > 0) {  // of an empty one the products' own figures, to their centres, are all there is
+    const auto whole = sceneDeviation(environment, result.environment, kSamples, progress);
+    result.all.max_deviation_m = whole.max_m;
+    result.all.mean_deviation_m = whole.mean_m;
+  }
+  if (auto going = progress.check(); !going) return failure(going.error());
   if (options.budget > 0 && result.all.triangles_after > options.budget) {
     result.budget_reached = false;
     result.smallest_budget = result.all.triangles_after;

@@ -26,7 +26,7 @@ struct ProductLoss {
 struct OptimizeResult {
   Environment environment;         // same products, surfaces and spatial structure; lighter meshes
   std::vector<ProductLoss> products;
-  ProductLoss all;
+  ProductLoss all;                 // the whole against the whole: what is gone counts with its distance from what is left
   bool budget_reached = true;
   std::uint64_t smallest_budget = 0;   // that keeps max_deviation_m, when the budget was not reached
   Report report;

@@ -10,10 +10,6 @@ namespace {
 
 constexpr std::uint32_t kLeaf = 4;
 
-double squaredDistanceToBox(const Eigen::Vector3d& p, const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-  return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
-}
-
 }  // namespace
 
 Eigen::Vector3d closestPoint(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
@@ -85,32 +81,10 @@ bool TriangleTree::meetsBox(std::uint32_t triangle, const Eigen::Vector3d& low, 
 }
 
 double TriangleTree::squaredDistance(const Eigen::Vector3d& p, double bound) const {
-  if (nodes_.empty()) return bound;
-  struct Entry {
-    double distance;
-    std::uint32_t node;
-  };
-  Entry stack[64];
-  int top = 0;
-  stack[top++] = {squaredDistanceToBox(p, nodes_[0].low, nodes_[0].high), 0};
-  while (top > 0) {
-    const Entry entry = stack[--top];
-    if (entry.distance >= bound) continue;
-    const Node& node = nodes_[entry.node];
-    if (node.count > 0) {
-      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-        const auto& t = triangles_[order_[i]];
-        bound = std::min(bound, (closestPoint(p, positions_[t[0]], positions_[t[1]], positions_[t[2]]) - p).squaredNorm());
-      }
-      continue;
-    }
-    Entry left{squaredDistanceToBox(p, nodes_[node.first].low, nodes_[node.first].high), node.first};
-    Entry right{squaredDistanceToBox(p, nodes_[node.first + 1].low, nodes_[node.first + 1].high), node.first + 1};
-    if (left.distance < right.distance) std::swap(left, right);
-    stack[top++] = left;
-    stack[top++] = right;  // the nearer one is looked at first
-  }
-  return bound;
+  return nearest(p, bound, [&](std::uint32_t i, double) {
+    const auto& t = triangles_[i];
+    return (closestPoint(p, positions_[t[0]], positions_[t[1]], positions_[t[2]]) - p).squaredNorm();
+  });
 }
 
 }  // namespace standpoint

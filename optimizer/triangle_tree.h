@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -23,6 +25,34 @@ class TriangleTree {
 
   // Squared distance from p to the nearest triangle, or `bound` when nothing is nearer than that.
   double squaredDistance(const Eigen::Vector3d& p, double bound = std::numeric_limits<double>::infinity()) const;
+
+  // The same for whatever the triangles stand for: squared(triangle, bound) is asked for those whose box is nearer than bound.
+  template <class Squared>
+  double nearest(const Eigen::Vector3d& p, double bound, Squared squared) const {
+    if (nodes_.empty()) return bound;
+    struct Entry {
+      double distance;
+      std::uint32_t node;
+    };
+    const auto to_box = [&](const Node& node) { return (node.low - p).cwiseMax(p - node.high).cwiseMax(0.0).squaredNorm(); };
+    Entry stack[64];
+    int top = 0;
+    stack[top++] = {to_box(nodes_[0]), 0};
+    while (top > 0) {
+      const Entry entry = stack[--top];
+      if (entry.distance >= bound) continue;
+      const Node& node = nodes_[entry.node];
+      if (node.count > 0) {
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) bound = std::min(bound, squared(order_[i], bound));
+        continue;
+      }
+      Entry left{to_box(nodes_[node.first]), node.first}, right{to_box(nodes_[node.first + 1]), node.first + 1};
+      if (left.distance < right.distance) std::swap(left, right);
+      stack[top++] = left;
+      stack[top++] = right;  // the nearer one is looked at first
+    }
+    return bound;
+  }
 
   // Calls visit(triangle index) for each triangle whose box meets [low, high]; stops when visit returns false.
   template <class Visit>

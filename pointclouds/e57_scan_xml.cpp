@@ -25,7 +25,8 @@ void appendVector(XmlWriter& xml, const char* name, const WrittenVector& vector)
 void appendPose(XmlWriter& xml, const Pose& pose) {
   // E2807 8.4.9: |q| within 10 * 2^-53 of 1 and w not negative; long double keeps the norm's rounding out of it.
   using Quaternion = Eigen::Quaternion<long double>;
-  Quaternion q = pose.rotation.cast<long double>().normalized();
+  Quaternion q = pose.rotation.cast<long double>();
+  if (std::abs(q.norm() - 1) > 0x5p-53L) q.normalize();   // else as it is: a pose comes back to the last bit
   if (q.w() < 0) q.coeffs() = -q.coeffs();
   xml.open("pose", kStructure);
   xml.open("rotation", kStructure);

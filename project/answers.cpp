@@ -29,7 +29,7 @@ json toJson(const Report& report) {
   return issues;
 }
 
-json toJson(const Georeference& g) {
+json georeferenceToJson(const Georeference& g) {
   json object = {{"shift", toJson(g.shift_m)}, {"crs", g.crs.empty() ? json(nullptr) : json(g.crs)}};
   if (g.map_from_file)
     object["map_conversion"] = {{"eastings", g.map_from_file->eastings_m},

@@ -16,7 +16,7 @@ nlohmann::json toJson(const Eigen::Vector3d& v);
 Eigen::Vector3d vectorFrom(const nlohmann::json& array);             // of three numbers
 nlohmann::json toJson(const Bounds& bounds_local, const Eigen::Vector3d& shift_m);   // file frame; null when empty
 nlohmann::json toJson(const Report& report);
-nlohmann::json toJson(const Georeference& georeference);
+nlohmann::json georeferenceToJson(const Georeference& georeference);
 Result<Georeference> georeferenceFrom(const nlohmann::json& object);
 
 // "1,2,3" → three numbers, "1,2" → two; anything else is an error that says so.

@@ -98,7 +98,7 @@ Result<Outcome> runInfo(const Document& document, const json& options, Progress&
   outcome.answer = {{"products", model->environment.products.size()},
                     {"triangles", triangleCount(model->environment)},
                     {"bounds", toJson(bounds(model->environment), model->georeference.shift_m)},
-                    {"georeference", toJson(model->georeference)}};
+                    {"georeference", georeferenceToJson(model->georeference)}};
   outcome.report = model->report;
   return outcome;
 }

@@ -79,7 +79,7 @@ Result<Outcome> runGeoreference(const Document& document, const json& options, P
     c.x_axis_ordinate = std::sin(angle);
     g.map_from_file = c;
   }
-  Outcome outcome{document, toJson(g), {}, {}};
+  Outcome outcome{document, georeferenceToJson(g), {}, {}};
   for (const char* key : {"geographic", "utm", "grid_convergence_deg", "scale_factor"}) outcome.answer[key] = nullptr;
   if (auto done = locate(document, g, outcome.answer, outcome.report); !done) return failure(done.error());
   if (options.contains("crs") || options.contains("origin") || options.contains("rotation-deg")) {

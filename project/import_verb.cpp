@@ -155,7 +155,7 @@ Result<Outcome> importModels(const Document& document, const std::vector<std::fi
   outcome.answer = {{"products", productRows(environment, georeference.shift_m)},
                     {"triangles", triangleCount(environment)},
                     {"bounds", toJson(bounds(environment), georeference.shift_m)},
-                    {"georeference", toJson(georeference)}};
+                    {"georeference", georeferenceToJson(georeference)}};
   outcome.description = fmt::format("Imported {}: {} products, {} triangles", files.front().filename().string(),
                                     environment.products.size(), triangleCount(environment));
   outcome.document.imported = std::make_shared<const Environment>(std::move(environment));

@@ -131,7 +131,7 @@ Severity severityFrom(const std::string& text) {
 }  // namespace
 
 json documentToJson(const Document& d) {
-  json project = {{"version", kProjectVersion}, {"sources", d.sources}, {"georeference", toJson(*d.georeference)},
+  json project = {{"version", kProjectVersion}, {"sources", d.sources}, {"georeference", georeferenceToJson(*d.georeference)},
                   {"job", jobToJson(*d.job)}};
   if (d.import_report) project["import_report"] = toJson(*d.import_report);
   if (d.lightening) {

@@ -20,7 +20,7 @@ constexpr std::uint64_t kNoFacet = ~std::uint64_t{0};
 // A triangle where it stands: the plane n·p = offset in double, so that a range does not suffer from the float BVH.
 // The number of a facet is placement << 32 | triangle; a placement is an instance that beams can meet.
 struct Facet {
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   // unit; counter-clockwise side. Zero for a degenerate triangle
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   // unit, of either side; zero for a degenerate triangle
   double offset = 0;
   std::uint32_t product = 0, surface = 0, instance = 0, triangle = 0;
 };

@@ -77,7 +77,9 @@ Result<std::vector<Instrument>> readInstruments(const std::filesystem::path& fol
 
 using SettingValues = std::vector<std::pair<std::string, std::string>>;   // key, value, in the device's words
 
-// What a scan with these settings does: the grid (azimuth clockwise from +X of the scanner's frame),  the time, the noise. Refused settings name what the device allows.
+// What a scan with these settings does: the grid, the time, the noise. Refused settings name what the device allows.
+// Column j looks along azimuth_from + j · step, clockwise from +X of the scanner's frame; row i along the middle of the
+// i-th of `rows` equal steps from elevation_from up to elevation_to.
 struct ScanSettings {
   SettingValues values;            // complete: defaults filled in, in the instrument's order
   std::uint32_t columns = 0, rows = 0;

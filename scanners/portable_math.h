@@ -42,10 +42,10 @@ STANDPOINT_INLINE void sinCosTurn(float u, float& sine, float& cosine) {
 
 // e^x for x in [-60, 0], relative error below 1e-12.
 inline double expNegative(double x) {
-  // Halved six times the argument is below 1 in size, where twelve terms of the series are enough; squared back again.
+  // Halved six times the argument is below 1 in size, where eighteen terms of the series are enough; squared back again.
   const double y = x / 64;
   double term = 1, sum = 1;
-  for (int k = 1; k < 16; ++k) sum += term *= y / k;
+  for (int k = 1; k < 19; ++k) sum += term *= y / k;
   for (int k = 0; k < 6; ++k) sum *= sum;
   return sum;
 }

@@ -47,7 +47,8 @@ struct ScanCount {
 
 // Scans from `local_from_scanner` (a function of time; one sample for a tripod) and streams the points to `sink`, which
 // has been begun with `header`. Blocks arrive in column order whatever the number of threads; the same arguments give
-// the same bytes. Received power: physics.md §2.1 (x = ρ_eq(θ)/R² · η_opt), detection §2.7, noise §3.
+// the same bytes. Points carry labels always (material = materials.size() where none is assigned) and colour when the
+// settings take images. Of a scanner that moves, points are in the frame it had at time 0. Received power: physics.md §2.1 (x = ρ_eq(θ)/R² · η_opt), detection §2.7, noise §3.
 Result<ScanCount> scan(const RayScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
                        const ScanSettings& settings, const Trajectory& local_from_scanner, const ScanOptions& options,
                        PointSink& sink, Progress& progress);

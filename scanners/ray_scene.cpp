@@ -182,8 +182,7 @@ Facet EmbreeScene::facet(std::uint64_t number) const {
   const Eigen::Vector3d a = corner(0);
   const Eigen::Vector3d normal = (corner(1) - a).cross(corner(2) - a);
   const double length = normal.norm();
-  const double turned = instance.world_from_mesh.linear().determinant() < 0 ? -1 : 1;   // a mirrored mesh is seen from inside
-  facet.normal = length > 0 ? Eigen::Vector3d(normal * (turned / length)) : Eigen::Vector3d::Zero();
+  facet.normal = length > 0 ? Eigen::Vector3d(normal / length) : Eigen::Vector3d::Zero();
   facet.offset = facet.normal.dot(a);
   facet.product = instance.product;
   facet.surface = mesh.surface_of_triangle[facet.triangle];

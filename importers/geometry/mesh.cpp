@@ -19,8 +19,12 @@ void forEachEdge(const Face& face, Visit visit) {
   for (const auto& hole : face.holes) loop(hole);
 }
 
+// Spanned from the corners' mean, so that a loop that is not quite planar has one volume, whichever way it runs.
 double loopVolume(const PolyMesh& mesh, const std::vector<std::uint32_t>& loop, const Eigen::Vector3d& origin) {
-  return loop.empty() ? 0.0 : areaVector(mesh.points, loop).dot(mesh.points[loop[0]] - origin) / 3.0;
+  if (loop.empty()) return 0.0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::uint32_t i : loop) sum += mesh.points[i] - origin;
+  return areaVector(mesh.points, loop).dot(sum) / (3.0 * static_cast<double>(loop.size()));
 }
 
 double faceVolume(const PolyMesh& mesh, const Face& face, const Eigen::Vector3d& origin) {

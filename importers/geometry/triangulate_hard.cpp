@@ -23,6 +23,8 @@ using Tds = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 using Delaunay =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Tds, CGAL::No_constraint_intersection_requiring_constructions_tag>;
 
+constexpr std::size_t kMaxQuestions = 2'000'000'000;  // groups times points: some seconds
+
 using EdgeList = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 struct Flat {
@@ -56,33 +58,48 @@ bool isInside(const Flat& flat, const Eigen::Vector2d& p) {
   return winding > 0;
 }
 
-// Faces that no constraint parts are all in or all out: one question per group, asked in the middle of its largest face.
-void emitInside(Delaunay& delaunay, const Flat& flat, std::vector<Triangle>& triangles) {
-  for (auto f : delaunay.finite_face_handles()) f->info() = 0;
+using Faces = std::vector<Delaunay::Face_handle>;
+
+// All faces, the infinite ones too, that can be reached without crossing a constraint; marks them as seen.
+Faces reach(Delaunay::Face_handle seed) {
+  Faces group{seed};
+  seed->info() = 1;
+  for (std::size_t next = 0; next < group.size(); ++next) {
+    const auto f = group[next];
+    for (int i = 0; i < 3; ++i) {
+      const auto other = f->neighbor(i);
+      if (other->info() != 0 || f->is_constrained(i)) continue;
+      other->info() = 1;
+      group.push_back(other);
+    }
+  }
+  return group;
+}
+
+double doubledArea(Delaunay::Face_handle f) {
+  const auto &a = f->vertex(0)->point(), &b = f->vertex(1)->point(), &c = f->vertex(2)->point();
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+// A group of faces that no constraint parts is all in or all out: one question each, asked in the middle of its largest
+// face. False when a hostile number of groups would take minutes.
+bool emitInside(Delaunay& delaunay, const Flat& flat, std::vector<Triangle>& triangles) {
+  for (auto f : delaunay.all_face_handles()) f->info() = 0;
+  reach(delaunay.infinite_face());
+  std::size_t questions = 0;
   for (auto seed : delaunay.finite_face_handles()) {
     if (seed->info() != 0) continue;
-    std::vector<Delaunay::Face_handle> group{seed};
-    seed->info() = 1;
-    for (std::size_t next = 0; next < group.size(); ++next) {
-      const auto f = group[next];
-      for (int i = 0; i < 3; ++i) {
-        const auto other = f->neighbor(i);
-        if (delaunay.is_infinite(other) || other->info() != 0 || f->is_constrained(i)) continue;
-        other->info() = 1;
-        group.push_back(other);
-      }
-    }
-    const auto doubled = [](Delaunay::Face_handle f) {
-      const auto &a = f->vertex(0)->point(), &b = f->vertex(1)->point(), &c = f->vertex(2)->point();
-      return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-    };
-    const auto largest = *std::max_element(group.begin(), group.end(), [&](auto f, auto g) { return doubled(f) < doubled(g); });
+    if (++questions * flat.points.size() > kMaxQuestions) return false;
+    const Faces group = reach(seed);
+    const auto largest = *std::max_element(group.begin(), group.end(),
+                                           [](auto f, auto g) { return doubledArea(f) < doubledArea(g); });
     const auto middle = CGAL::centroid(delaunay.triangle(largest));
     if (!isInside(flat, {middle.x(), middle.y()})) continue;
     for (const auto& f : group) {
       triangles.push_back({f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()});
     }
   }
+  return true;
 }
 
 bool delaunayOf(const Flat& flat, const EdgeList& edges, std::vector<Triangle>& triangles) {
@@ -103,7 +120,10 @@ bool delaunayOf(const Flat& flat, const EdgeList& edges, std::vector<Triangle>& 
       const auto from = vertex(a), to = vertex(b);
       if (from != to) delaunay.insert_constraint(from, to);
     }
-    emitInside(delaunay, flat, triangles);
+    if (delaunay.dimension() < 2 || !emitInside(delaunay, flat, triangles)) {
+      triangles.resize(before);
+      return false;
+    }
   } catch (const std::exception&) {
     triangles.resize(before);
     return false;

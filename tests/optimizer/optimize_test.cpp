@@ -172,7 +172,8 @@ TEST(Deviation, StatedIsWhatExhaustiveSearchFinds) {
     const auto& after = *result.environment.meshes[0];
     const double max_m = std::max(models::farthest(before, after, 3000), models::farthest(after, before, 3000));
     const double mean_m = 0.5 * (models::meanDistance(before, after, 3000) + models::meanDistance(after, before, 3000));
-    EXPECT_NEAR(result.all.max_deviation_m / max_m, 1, 0.05);
+    EXPECT_GE(result.all.max_deviation_m, 0.999 * max_m);  // it looks at more points
+    EXPECT_LE(result.all.max_deviation_m, 1.15 * max_m);
     EXPECT_NEAR(result.all.mean_deviation_m / mean_m, 1, 0.05);
     EXPECT_LT(mean_m, 0.012);
   }

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include "importers/geometry/boolean_ways.h"
+#include "importers/geometry/kernel.h"
+#include "importers/geometry/polygon.h"
+
+namespace standpoint::geometry {
+namespace {
+
+constexpr std::size_t kMaxFaces = 100000;
+
+// What a correct result's volume must lie between.
+struct VolumeRange {
+  double low, high;
+  bool holds(double v) const {
+    const double slack = 1e-6 + 1e-3 * std::abs(high);
+    return v >= low - slack && v <= high + slack;
+  }
+};
+
+Result<PolyMesh> checked(Result<PolyMesh> result, const VolumeRange& range, const char* way) {
+  if (!result) return result;
+  if (!isFinite(*result)) return failure(ErrorKind::unusable, std::string(way) + ": a point is not a number");
+  const double v = volume(*result);
+  if (range.holds(v)) return result;
+  return failure(ErrorKind::unusable, std::string(way) + ": the result's volume " + std::to_string(v) + " m3 is not between " +
+                                          std::to_string(range.low) + " and " + std::to_string(range.high));
+}
+
+std::optional<Error> unusable(const PolyMesh& mesh) {
+  if (!isFinite(mesh)) return Error{ErrorKind::unusable, "Boolean: a coordinate or index is not usable", {}};
+  if (mesh.faces.size() > kMaxFaces) return Error{ErrorKind::unusable, "Boolean: a body has too many faces", {}};
+  return std::nullopt;
+}
+
+PolyMesh outward(const PolyMesh& mesh) {
+  PolyMesh result = mesh;
+  if (volume(result) < 0) flip(result);
+  return result;
+}
+
+Error joined(const std::vector<Error>& errors) {
+  Error all{ErrorKind::unusable, "no way worked", {}};
+  for (const Error& error : errors) all.message += "; " + error.message;
+  return all;
+}
+
+// The tools that share a direction with the host, in the plane. What is left for the other ways stays in `tools`.
+PolyMesh subtractPrisms(PolyMesh host, std::vector<PolyMesh>& tools, std::vector<Error>& errors) {
+  const std::optional<CommonDirection> common = commonDirection(host, tools);
+  if (!common) {
+    errors.push_back({ErrorKind::unusable, "in the plane: no common direction", {}});
+    return host;
+  }
+  std::vector<PolyMesh> flat, rest;
+  double tool_volume = 0;
+  for (std::size_t i = 0; i < tools.size(); ++i) {
+    if (common->fits[i]) tool_volume += volume(tools[i]);
+    (common->fits[i] ? flat : rest).push_back(tools[i]);
+  }
+  const double before = volume(host);
+  Result<PolyMesh> result = checked(combinePrisms(host, flat, common->direction, Operation::difference),
+                                    {std::max(0.0, before - tool_volume), before}, "in the plane");
+  if (!result) {
+    errors.push_back(result.error());
+    return host;
+  }
+  tools = std::move(rest);
+  return std::move(*result);
+}
+
+// One by one while it works; a failure leaves that tool and those after it in `tools`.
+PolyMesh subtractWithCarve(PolyMesh host, std::vector<PolyMesh>& tools, std::vector<Error>& errors) {
+  std::size_t done = 0;
+  for (; done < tools.size(); ++done) {
+    const double before = volume(host);
+    Result<PolyMesh> result = checked(combineWithCarve(host, tools[done], Operation::difference),
+                                      {std::max(0.0, before - volume(tools[done])), before}, "carve");
+    if (!result) {
+      errors.push_back(result.error());
+      break;
+    }
+    host = std::move(*result);
+  }
+  tools.erase(tools.begin(), tools.begin() + static_cast<std::ptrdiff_t>(done));
+  return host;
+}
+
+Result<PolyMesh> combineTwo(const PolyMesh& a, const PolyMesh& b, Operation operation, const VolumeRange& range) {
+  const std::span<const PolyMesh> second(&b, 1);
+  std::vector<Error> errors;
+  const auto keep = [&](Result<PolyMesh> result, const char* way) {
+    result = checked(std::move(result), range, way);
+    if (!result) errors.push_back(result.error());
+    return result;
+  };
+  if (const auto common = commonDirection(a, second)) {
+    if (auto result = keep(combinePrisms(a, second, common->direction, operation), "in the plane")) return result;
+  }
+  if (auto result = keep(combineWithCarve(a, b, operation), "carve")) return result;
+  if (auto result = keep(combineWithCgal(a, second, operation), "CGAL")) return result;
+  return failure(joined(errors));
+}
+
+}  // namespace
+
+Result<PolyMesh> subtract(const PolyMesh& host, std::span<const PolyMesh> tools) {
+  if (auto error = unusable(host)) return failure(*error);
+  PolyMesh body = outward(host);
+  const Bounds3 bounds(body.points);
+  std::vector<PolyMesh> left;
+  for (const PolyMesh& tool : tools) {
+    if (auto error = unusable(tool)) return failure(*error);
+    if (!tool.faces.empty() && bounds.overlaps(Bounds3(tool.points), kSnap_m)) left.push_back(outward(tool));
+  }
+  if (left.empty() || body.faces.empty()) return host;
+  std::vector<Error> errors;
+  body = subtractPrisms(std::move(body), left, errors);
+  if (!left.empty()) body = subtractWithCarve(std::move(body), left, errors);
+  if (left.empty()) return body;
+  double tool_volume = 0;
+  for (const PolyMesh& tool : left) tool_volume += volume(tool);
+  const double before = volume(body);
+  Result<PolyMesh> result = checked(combineWithCgal(body, left, Operation::difference),
+                                    {std::max(0.0, before - tool_volume), before}, "CGAL");
+  if (result) return result;
+  errors.push_back(result.error());
+  return failure(joined(errors));
+}
+
+Result<PolyMesh> intersect(const PolyMesh& a, const PolyMesh& b) {
+  for (const PolyMesh* mesh : {&a, &b}) {
+    if (auto error = unusable(*mesh)) return failure(*error);
+  }
+  if (a.faces.empty() || b.faces.empty() || !Bounds3(a.points).overlaps(Bounds3(b.points), kSnap_m)) return PolyMesh{};
+  const PolyMesh first = outward(a), second = outward(b);
+  return combineTwo(first, second, Operation::intersection, {0.0, std::min(volume(first), volume(second))});
+}
+
+Result<PolyMesh> unite(const PolyMesh& a, const PolyMesh& b) {
+  for (const PolyMesh* mesh : {&a, &b}) {
+    if (auto error = unusable(*mesh)) return failure(*error);
+  }
+  if (a.faces.empty() || b.faces.empty()) return a.faces.empty() ? b : a;
+  const PolyMesh first = outward(a), second = outward(b);
+  const double va = volume(first), vb = volume(second);
+  return combineTwo(first, second, Operation::unite, {std::max(va, vb), va + vb});
+}
+
+}  // namespace standpoint::geometry

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/environment.h"
+#include "core/progress.h"
+#include "optimizer/deviation.h"
+
+namespace standpoint {
+
+// How far two environments are apart as a whole, whichever product a surface belongs to: sampled by area both ways, the maximum also at
+// the vertices. What
+// was dropped counts with its distance from what is left. `after` has the meshes of `before` at the same places, the same
+// pointer where nothing changed.
+Deviation sceneDeviation(const Environment& before, const Environment& after, std::uint32_t samples, const Progress& progress);
+
+}  // namespace standpoint

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pointclouds/formats.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+#include "pointclouds/e57.h"
+#include "pointclouds/ply.h"
+#include "pointclouds/ptx.h"
+
+namespace standpoint {
+namespace {
+
+std::string lowered(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+// A station's name as a part of a file's name.
+std::string asFileName(const std::string& name) {
+  std::string text;
+  for (const char c : name) text += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '_';
+  return text;
+}
+
+// Passes scans on to one file, or each to a file of its own.
+class Distributor final : public PointSink {
+ public:
+  Distributor(const CloudFormat& format, std::filesystem::path out, bool one_each)
+      : format_(format), out_(std::move(out)), one_each_(one_each) {}
+
+  Result<void> open(const std::filesystem::path& file) {
+    auto writer = format_.writer(file);
+    if (!writer) return failure(writer.error());
+    writer_ = std::move(*writer);
+    pending_ = file;
+    return {};
+  }
+  Result<void> begin(const ScanHeader& header) override {
+    if (one_each_)
+      if (auto opened = open(fileFor(header.name)); !opened) return opened;
+    return writer_->begin(header);
+  }
+  Result<void> write(const PointBlock& block) override { return writer_->write(block); }
+  Result<void> end() override {
+    auto ended = writer_->end();
+    return ended && one_each_ ? finish() : ended;
+  }
+  Result<void> close() override { return one_each_ ? Result<void>{} : finish(); }
+
+  std::vector<std::filesystem::path> files;
+  Report report;
+
+ private:
+  std::filesystem::path fileFor(const std::string& station) const {
+    const std::string stem = out_.stem().string() + "-" + asFileName(station);
+    std::filesystem::path file = out_.parent_path() / (stem + out_.extension().string());
+    for (int i = 2; std::find(files.begin(), files.end(), file) != files.end(); ++i)
+      file = out_.parent_path() / (stem + "-" + std::to_string(i) + out_.extension().string());
+    return file;
+  }
+  Result<void> finish() {
+    auto closed = writer_->close();
+    if (!closed) return closed;
+    report.append(writer_->report());
+    files.push_back(pending_);
+    return {};
+  }
+  const CloudFormat& format_;
+  std::filesystem::path out_, pending_;
+  bool one_each_;
+  std::unique_ptr<CloudWriter> writer_;
+};
+
+Result<const CloudFormat*> known(const std::filesystem::path& file) {
+  if (const CloudFormat* format = cloudFormatFor(file)) return format;
+  std::string extensions;
+  for (const CloudFormat& format : cloudFormats()) extensions += std::string(" ") + format.extension;
+  return failure(ErrorKind::usage, "no point-cloud format has this extension; known are" + extensions, file.string());
+}
+
+}  // namespace
+
+std::span<const CloudFormat> cloudFormats() {
+  static const std::array formats = {kE57, kPtx, kPly};
+  return formats;
+}
+
+const CloudFormat* cloudFormatFor(const std::filesystem::path& file) {
+  const std::string extension = lowered(file.extension().string());
+  for (const CloudFormat& format : cloudFormats())
+    if (extension == format.extension) return &format;
+  return nullptr;
+}
+
+Result<std::vector<std::filesystem::path>> convertCloud(const std::filesystem::path& in, const std::filesystem::path& out,
+                                                        Report& report, Progress& progress) {
+  const auto from = known(in), to = known(out);
+  if (!from) return failure(from.error());
+  if (!to) return failure(to.error());
+  if (!(*from)->read) return failure(ErrorKind::usage, std::string((*from)->name) + " files are only written", in.string());
+  if (!(*to)->writer) return failure(ErrorKind::usage, std::string((*to)->name) + " files are only read", out.string());
+  bool one_each = false;
+  if (!(*to)->many_scans) {
+    const auto info = (*from)->info(in);
+    if (!info) return failure(info.error());
+    one_each = info->scans.size() > 1;
+  }
+  Distributor distributor(**to, out, one_each);
+  if (!one_each)
+    if (auto opened = distributor.open(out); !opened) return failure(opened.error());
+  const auto lost = (*from)->read(in, distributor, progress);
+  if (!lost) return failure(lost.error());
+  if (auto closed = distributor.close(); !closed) return failure(closed.error());
+  report.append(*lost);
+  report.append(distributor.report);
+  return distributor.files;
+}
+
+}  // namespace standpoint

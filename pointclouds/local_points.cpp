@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pointclouds/local_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "pointclouds/number_text.h"
+
+namespace standpoint {
+namespace {
+
+constexpr double kFarthest_m = 1000;        // a float there is good to 0.03 mm
+constexpr double kWorthListing_m = 1e-6;
+constexpr double kLoss_m = 1e-5;
+
+bool usable(const FoundPoints& p, std::size_t i) {
+  constexpr double kMost = std::numeric_limits<float>::max();
+  return std::abs(p.x[i]) <= kMost && std::abs(p.y[i]) <= kMost && std::abs(p.z[i]) <= kMost &&
+         std::isfinite(p.columns.intensity[i]);
+}
+
+template <class T>
+void keepWhere(std::vector<T>& values, const std::vector<bool>& kept) {
+  if (values.empty()) return;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    if (kept[i]) values[n++] = values[i];
+  values.resize(n);
+}
+
+// How many were dropped.
+std::uint64_t dropUnusable(FoundPoints& p) {
+  std::vector<bool> kept(p.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = usable(p, i);
+  const auto dropped = static_cast<std::uint64_t>(std::count(kept.begin(), kept.end(), false));
+  if (dropped == 0) return 0;
+  for (auto* c : {&p.x, &p.y, &p.z}) keepWhere(*c, kept);
+  keepWhere(p.columns.intensity, kept);
+  for (auto* c : {&p.columns.row, &p.columns.column, &p.columns.product, &p.columns.material}) keepWhere(*c, kept);
+  for (auto* c : {&p.columns.red, &p.columns.green, &p.columns.blue}) keepWhere(*c, kept);
+  return dropped;
+}
+
+double toFloats(const std::vector<double>& from, double move, std::vector<float>& to) {
+  double worst = 0;
+  to.resize(from.size());
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const double local = from[i] - move;
+    to[i] = static_cast<float>(local);
+    worst = std::max(worst, std::abs(local - to[i]));
+  }
+  return worst;
+}
+
+}  // namespace
+
+void FoundPoints::clear() {
+  for (auto* c : {&x, &y, &z}) c->clear();
+  columns.clear();
+}
+
+LocalPoints::LocalPoints(PointSink& sink, ScanHeader header, bool moves_frame)
+    : sink_(sink), header_(std::move(header)), moves_frame_(moves_frame) {}
+
+Result<void> LocalPoints::begin(const FoundPoints* first) {
+  begun_ = true;
+  if (first && moves_frame_) {
+    const Eigen::Vector3d point(first->x[0], first->y[0], first->z[0]);
+    if (point.cwiseAbs().maxCoeff() > kFarthest_m) move_ = point.array().round();
+    if (!move_.isZero()) header_.file_from_scanner.translation = header_.file_from_scanner * move_;
+  }
+  return sink_.begin(header_);
+}
+
+Result<void> LocalPoints::write(FoundPoints& points) {
+  not_finite_ += dropUnusable(points);
+  if (points.size() > 0) {
+    if (!begun_)
+      if (auto begun = begin(&points); !begun) return begun;
+    PointBlock& block = points.columns;
+    for (const double worst : {toFloats(points.x, move_.x(), block.x_m), toFloats(points.y, move_.y(), block.y_m),
+                               toFloats(points.z, move_.z(), block.z_m)})
+      worst_rounding_m_ = std::max(worst_rounding_m_, worst);
+    if (auto written = sink_.write(block); !written) return written;
+  }
+  points.clear();
+  return {};
+}
+
+Result<void> LocalPoints::finish(Report& report) {
+  if (!begun_)
+    if (auto begun = begin(nullptr); !begun) return begun;
+  if (not_finite_ > 0) report.lose(header_.name, std::to_string(not_finite_) + " points are not finite numbers");
+  if (!move_.isZero())
+    report.note(header_.name, "coordinates are far from the scanner's origin: the pose moved by " + numberText(move_.x()) +
+                                  ", " + numberText(move_.y()) + ", " + numberText(move_.z()) + " m");
+  const std::string rounding = "coordinates became single floats, moved by up to " + numberText(worst_rounding_m_) + " m";
+  if (worst_rounding_m_ > kLoss_m) report.lose(header_.name, rounding);
+  else if (worst_rounding_m_ > kWorthListing_m) report.note(header_.name, rounding);
+  return sink_.end();
+}
+
+}  // namespace standpoint

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstring>
+#include <optional>
+
+#include "pointclouds/block_check.h"
+#include "pointclouds/file_access.h"
+#include "pointclouds/ply.h"
+
+namespace standpoint {
+
+const CloudFormat kPly = {"ply", "PLY: one cloud in the file's frame, with labels as scalars", ".ply", false,
+                          ply::createWriter, nullptr, nullptr};
+
+namespace ply {
+namespace {
+
+// A comment is one line of printable text.
+std::string commentText(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  return text;
+}
+
+class Writer final : public CloudWriter {
+ public:
+  explicit Writer(PartFile file) : file_(std::move(file)) {}
+  Result<void> begin(const ScanHeader& header) override;
+  Result<void> write(const PointBlock& block) override;
+  Result<void> end() override;
+  Result<void> close() override;
+  const Report& report() const override { return report_; }
+
+ private:
+  std::string headerText() const;
+  template <class T>
+  void put(T value) {
+    const std::size_t at = bytes_.size();
+    bytes_.resize(at + sizeof value);
+    std::memcpy(bytes_.data() + at, &value, sizeof value);
+  }
+  void putPoint(const PointBlock& block, std::size_t i);
+
+  PartFile file_;
+  Report report_;
+  std::optional<ScanHeader> header_;
+  bool ended_ = false;
+  std::uint64_t points_ = 0;
+  std::vector<std::uint8_t> bytes_;
+};
+
+// Always as long: the number of points is known last.
+std::string Writer::headerText() const {
+  const std::string digits = std::to_string(points_);
+  std::string text = "ply\nformat binary_little_endian 1.0\ncomment " + commentText(header_->name) + "\n";
+  if (header_->has_labels) {
+    for (std::size_t i = 0; i < header_->materials.size(); ++i)
+      text += "comment label " + std::to_string(i) + " " + commentText(header_->materials[i]) + "\n";
+    for (std::size_t i = 0; i < header_->products.size(); ++i) {
+      const LabelledProduct& p = header_->products[i];
+      text += "comment product " + std::to_string(i) + " " + commentText(p.id + " " + p.global_id + " " + p.ifc_class + " " + p.name) + "\n";
+    }
+  }
+  text += "element vertex " + std::string(20 - digits.size(), '0') + digits + "\n";
+  text += "property double x\nproperty double y\nproperty double z\n";
+  if (hasIntensity(*header_)) text += "property float scalar_Intensity\n";
+  if (header_->has_colour) text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  if (header_->has_labels) text += "property int scalar_Label\nproperty int scalar_Product\n";
+  if (hasGrid(*header_)) text += "property int scalar_Row\nproperty int scalar_Column\n";
+  return text + "end_header\n";
+}
+
+Result<void> Writer::begin(const ScanHeader& header) {
+  if (header_) return failure(ErrorKind::internal, "a PLY file holds one scan", file_.file().string());
+  header_ = header;
+  if (!header.coordinate_metadata.empty()) report_.warn(header.name, "PLY has no place for the coordinate reference system");
+  const std::string text = headerText();
+  return file_.append({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+void Writer::putPoint(const PointBlock& b, std::size_t i) {
+  const Eigen::Vector3d p = header_->file_from_scanner * Eigen::Vector3d(b.x_m[i], b.y_m[i], b.z_m[i]);
+  for (int axis = 0; axis < 3; ++axis) put(p[axis]);
+  if (hasIntensity(*header_)) put(b.intensity[i]);
+  if (header_->has_colour) put(b.red[i]), put(b.green[i]), put(b.blue[i]);
+  if (header_->has_labels) put(static_cast<std::int32_t>(b.material[i])), put(static_cast<std::int32_t>(b.product[i]));
+  if (hasGrid(*header_)) put(static_cast<std::int32_t>(b.row[i])), put(static_cast<std::int32_t>(b.column[i]));
+}
+
+Result<void> Writer::write(const PointBlock& block) {
+  if (!header_ || ended_) return failure(ErrorKind::internal, "points outside a scan", file_.file().string());
+  if (block.size() == 0) return {};
+  if (const auto extent = checkBlock(*header_, block); !extent) return failure(extent.error());
+  bytes_.clear();
+  for (std::size_t i = 0; i < block.size(); ++i) putPoint(block, i);
+  points_ += block.size();
+  return file_.append(bytes_);
+}
+
+Result<void> Writer::end() {
+  if (!header_ || ended_) return failure(ErrorKind::internal, "a scan ends that did not begin", file_.file().string());
+  ended_ = true;
+  const std::string text = headerText();
+  return file_.overwrite(0, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+Result<void> Writer::close() {
+  if (!ended_) return failure(ErrorKind::unusable, "there is no whole scan to write", file_.file().string());
+  return file_.commit();
+}
+
+}  // namespace
+
+Result<std::unique_ptr<CloudWriter>> createWriter(const std::filesystem::path& file) {
+  auto part = PartFile::create(file);
+  if (!part) return failure(part.error());
+  return std::make_unique<Writer>(std::move(*part));
+}
+
+}  // namespace ply
+}  // namespace standpoint

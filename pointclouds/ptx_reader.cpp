@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/SVD>
+
+#include "pointclouds/line_reader.h"
+#include "pointclouds/local_points.h"
+#include "pointclouds/number_text.h"
+#include "pointclouds/ptx.h"
+
+namespace standpoint {
+
+const CloudFormat kPtx = {"ptx", "Leica PTX: text, whole grids with poses", ".ptx", true, ptx::createWriter, ptx::read,
+                          ptx::info};
+
+namespace ptx {
+namespace {
+
+constexpr std::size_t kChunk = 65536;
+constexpr std::uint64_t kShortestCell = 4;   // bytes of a line; a grid that the file has no room for is refused at once
+constexpr double kLargestSide = 1 << 30;
+
+// Blank-separated numbers of a line; nothing when one of them is none, or when there are more than fit.
+struct Numbers {
+  std::array<double, 8> value{};
+  std::size_t count = 0;
+};
+
+std::optional<Numbers> numbersOf(std::string_view line) {
+  Numbers numbers;
+  for (line = trimmed(line); !line.empty(); line = trimmed(line)) {
+    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
+    const auto value = numberFrom<double>(line.substr(0, end));
+    if (!value || numbers.count == numbers.value.size()) return std::nullopt;
+    numbers.value[numbers.count++] = *value;
+    line.remove_prefix(end);
+  }
+  return numbers;
+}
+
+// What stands above a scan's cells.
+struct Frame {
+  std::uint32_t columns = 0, rows = 0;
+  Pose pose;
+  std::optional<Eigen::Matrix3d> stretch;               // applied to the points when it is no rotation
+};
+
+class Reader {
+ public:
+  Reader(InputFile file, PointSink& sink, Progress& progress) : lines_(std::move(file)), sink_(sink), progress_(progress) {}
+  Result<Report> read();
+
+ private:
+  tl::unexpected<Error> broken(const std::string& what) const { return failure(ErrorKind::unusable, what, lines_.place()); }
+  Result<std::optional<std::string_view>> firstLine();
+  Result<Numbers> headerLine(std::size_t count);
+  Result<Frame> readFrame(std::string_view columns);
+  void setPose(const Eigen::Matrix4d& matrix, Frame& frame);
+  Result<void> readScan(const Frame& frame);
+  Result<void> readCells(const Frame& frame, LocalPoints& local, Numbers cell);
+  Result<void> takeCell(const Numbers& cell, const Frame& frame, FoundPoints& to);
+  Result<Numbers> cellLine();
+
+  LineReader lines_;
+  PointSink& sink_;
+  Progress& progress_;
+  Report report_;
+  std::size_t scans_ = 0;
+  std::string scan_name_;
+  bool has_colour_ = false;
+  std::uint64_t colours_lost_ = 0, colours_missing_ = 0, indices_ = 0;
+};
+
+// Blank lines between scans and at the end are forgiven.
+Result<std::optional<std::string_view>> Reader::firstLine() {
+  for (;;) {
+    const auto line = lines_.next();
+    if (!line || !*line || !trimmed(**line).empty()) return line;
+  }
+}
+
+Result<Numbers> Reader::headerLine(std::size_t count) {
+  const auto line = lines_.next();
+  if (!line) return failure(line.error());
+  if (!*line) return broken("the file ends inside a scan's header");
+  const auto numbers = numbersOf(**line);
+  if (!numbers || numbers->count != count) return broken("a PTX header has " + std::to_string(count) + " numbers here");
+  for (std::size_t i = 0; i < count; ++i)
+    if (!std::isfinite(numbers->value[i])) return broken("a number of the header is not finite");
+  return *numbers;
+}
+
+void Reader::setPose(const Eigen::Matrix4d& matrix, Frame& frame) {
+  // PTX multiplies row vectors from the left.
+  const Eigen::Matrix3d linear = matrix.topLeftCorner<3, 3>().transpose();
+  frame.pose.translation = matrix.row(3).head<3>();
+  const double skew = (linear * linear.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(skew < 1e-3) || linear.determinant() < 0) {
+    frame.stretch = linear;
+    report_.warn(lines_.place(), "the matrix is no rotation: it is applied to the points, the pose keeps the position");
+    return;
+  }
+  if (skew > 1e-9) report_.note(lines_.place(), "the matrix is a rotation to " + numberText(static_cast<float>(skew)) + " only: the nearest one is taken");
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Matrix3d nearest = skew > 1e-9 ? Eigen::Matrix3d(svd.matrixU() * svd.matrixV().transpose()) : linear;
+  frame.pose.rotation = Eigen::Quaterniond(nearest).normalized();
+  if (frame.pose.rotation.w() < 0) frame.pose.rotation.coeffs() *= -1;
+}
+
+Result<Frame> Reader::readFrame(std::string_view columns_line) {
+  const auto columns = numbersOf(columns_line);
+  if (!columns || columns->count != 1) return broken("a PTX scan begins with its number of columns");
+  const auto rows = headerLine(1);
+  if (!rows) return failure(rows.error());
+  const auto side = [](double n) { return n >= 0 && n <= kLargestSide && n == std::floor(n); };
+  if (!side(columns->value[0]) || !side(rows->value[0])) return broken("columns and rows are no counts");
+  Frame frame{static_cast<std::uint32_t>(columns->value[0]), static_cast<std::uint32_t>(rows->value[0])};
+  if (std::uint64_t{frame.columns} * frame.rows > lines_.left() / kShortestCell)
+    return broken("the file is too short for " + std::to_string(frame.columns) + " columns of " + std::to_string(frame.rows) + " rows");
+  for (int i = 0; i < 4; ++i)   // position and axes in the scanner's own survey: the matrix says what they mean for the file
+    if (const auto axis = headerLine(3); !axis) return failure(axis.error());
+  Eigen::Matrix4d matrix;
+  for (int i = 0; i < 4; ++i) {
+    const auto row = headerLine(4);
+    if (!row) return failure(row.error());
+    for (int k = 0; k < 4; ++k) matrix(i, k) = row->value[static_cast<std::size_t>(k)];
+  }
+  setPose(matrix, frame);
+  return frame;
+}
+
+Result<Numbers> Reader::cellLine() {
+  const auto line = lines_.next();
+  if (!line) return failure(line.error());
+  if (!*line) return broken("the file ends inside a scan: it is truncated");
+  const auto numbers = numbersOf(**line);
+  if (!numbers || (numbers->count != 4 && numbers->count != 7)) return broken("a PTX point has 4 or 7 numbers: x y z intensity [red green blue]");
+  return *numbers;
+}
+
+Result<void> Reader::takeCell(const Numbers& cell, const Frame& frame, FoundPoints& to) {
+  const std::uint64_t index = indices_++;
+  const auto& v = cell.value;
+  if (v[0] == 0 && v[1] == 0 && v[2] == 0) return {};   // nothing came back
+  const Eigen::Vector3d raw(v[0], v[1], v[2]);
+  const Eigen::Vector3d point = frame.stretch ? Eigen::Vector3d(*frame.stretch * raw) : raw;
+  to.x.push_back(point.x());
+  to.y.push_back(point.y());
+  to.z.push_back(point.z());
+  PointBlock& block = to.columns;
+  block.intensity.push_back(static_cast<float>(v[3]));
+  block.row.push_back(static_cast<std::uint32_t>(index % frame.rows));
+  block.column.push_back(static_cast<std::uint32_t>(index / frame.rows));
+  const bool coloured = cell.count == 7;
+  if (!has_colour_) {
+    colours_lost_ += coloured;
+    return {};
+  }
+  colours_missing_ += !coloured;
+  std::vector<std::uint8_t>* const colours[3] = {&block.red, &block.green, &block.blue};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double value = coloured ? v[4 + k] : 0;
+    if (!(value >= 0 && value <= 255)) return broken("a colour lies outside 0 to 255");
+    colours[k]->push_back(static_cast<std::uint8_t>(std::lround(value)));
+  }
+  return {};
+}
+
+Result<void> Reader::readCells(const Frame& frame, LocalPoints& local, Numbers cell) {
+  const std::uint64_t cells = std::uint64_t{frame.columns} * frame.rows;
+  FoundPoints found;
+  for (indices_ = 0;;) {
+    if (auto taken = takeCell(cell, frame, found); !taken) return taken;
+    if (found.size() == kChunk || indices_ == cells || indices_ % kChunk == 0) {
+      if (auto written = local.write(found); !written) return written;
+      progress_.advance(lines_.share());
+      if (auto going = progress_.check(); !going) return going;
+    }
+    if (indices_ == cells) return {};
+    auto next = cellLine();
+    if (!next) return failure(next.error());
+    cell = *next;
+  }
+}
+
+Result<void> Reader::readScan(const Frame& frame) {
+  ScanHeader header;
+  header.name = scan_name_;
+  header.rows = frame.rows;
+  header.columns = frame.columns;
+  header.file_from_scanner = frame.pose;
+  const bool any = frame.rows > 0 && frame.columns > 0;
+  Numbers first;
+  if (any) {
+    auto line = cellLine();
+    if (!line) return failure(line.error());
+    first = *line;
+  }
+  header.has_colour = has_colour_ = first.count == 7;
+  colours_lost_ = colours_missing_ = 0;
+  LocalPoints local(sink_, header, true);
+  if (any)
+    if (auto read = readCells(frame, local, first); !read) return read;
+  if (colours_lost_ > 0) report_.lose(scan_name_, std::to_string(colours_lost_) + " points have a colour though the first cell has none");
+  if (colours_missing_ > 0) report_.warn(scan_name_, std::to_string(colours_missing_) + " points have no colour: black stands for it");
+  return local.finish(report_);
+}
+
+Result<Report> Reader::read() {
+  progress_.stage("Reading " + lines_.name());
+  for (;;) {
+    const auto line = firstLine();
+    if (!line) return failure(line.error());
+    if (!*line) break;
+    const auto frame = readFrame(**line);
+    if (!frame) return failure(frame.error());
+    scan_name_ = "Scan " + std::to_string(++scans_);
+    if (auto scan = readScan(*frame); !scan) return failure(scan.error());
+  }
+  if (scans_ == 0) return broken("the file holds no scan");
+  return report_;
+}
+
+// Counts what a reader passes on.
+class Counter final : public PointSink {
+ public:
+  std::vector<ScanInfo> scans;
+  Result<void> begin(const ScanHeader& header) override { return scans.push_back({header, 0}), Result<void>{}; }
+  Result<void> write(const PointBlock& block) override { return scans.back().points += block.size(), Result<void>{}; }
+  Result<void> end() override { return {}; }
+  Result<void> close() override { return {}; }
+};
+
+}  // namespace
+
+Result<Report> read(const std::filesystem::path& file, PointSink& sink, Progress& progress) {
+  auto input = InputFile::open(file);
+  if (!input) return failure(input.error());
+  return Reader(std::move(*input), sink, progress).read();
+}
+
+Result<CloudInfo> info(const std::filesystem::path& file) {
+  Counter counter;
+  Progress progress;
+  auto report = read(file, counter, progress);
+  if (!report) return failure(report.error());
+  return CloudInfo{kPtx.name, std::move(counter.scans), std::move(*report)};
+}
+
+}  // namespace ptx
+}  // namespace standpoint

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pointclouds/statistics.h"
+#include "project/answers.h"
+#include "project/file_verbs.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+
+json toJson(const Distribution& d) {
+  return {{"samples", d.samples}, {"mean", d.mean}, {"sigma", d.sigma}, {"p5", d.p5}, {"median", d.median}, {"p95", d.p95}};
+}
+
+json toJson(const CloudStatistics& s) {
+  json materials = json::array();
+  for (const auto& m : s.materials)
+    materials.push_back({{"material", m.material}, {"points", m.points}, {"mean", m.mean}, {"sigma", m.sigma}});
+  return {{"scans", s.scans},
+          {"points", s.points},
+          {"bounds", {standpoint::toJson(s.low), standpoint::toJson(s.high)}},
+          {"plane_noise_m", toJson(s.plane_noise_m)},
+          {"roughness_m", toJson(s.roughness_m)},
+          {"intensity", toJson(s.intensity)},
+          {"materials", std::move(materials)},
+          {"occupied_cells", s.occupied_cells}};
+}
+
+}  // namespace
+
+Result<Outcome> runCompare(const Document& document, const json& options, Progress& progress) {
+  progress.stage("Compare");
+  auto comparison = compareClouds(options.at("a").get<std::string>(), options.at("b").get<std::string>(), {}, progress);
+  if (!comparison) return failure(comparison.error());
+  Outcome outcome{document, json::object(), comparison->report, {}};
+  outcome.answer = {{"a", toJson(comparison->a)},
+                    {"b", toJson(comparison->b)},
+                    {"a_covered_by_b", comparison->a_covered_by_b},
+                    {"b_covered_by_a", comparison->b_covered_by_a}};
+  outcome.description = "Compared two clouds";
+  return outcome;
+}
+
+}  // namespace standpoint

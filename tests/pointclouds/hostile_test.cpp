@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstring>
+#include <functional>
+
+#include "pointclouds/crc32c.h"
+#include "pointclouds/e57.h"
+#include "pointclouds/ptx.h"
+#include "tests/pointclouds/kept_scans.h"
+#include "tests/pointclouds/made_up_scan.h"
+
+namespace standpoint {
+namespace {
+
+using testing::KeptScans;
+using testing::madeUpHeader;
+using testing::TemporaryFolder;
+using testing::writeScan;
+
+std::string smallFile(const std::filesystem::path& file) {
+  auto writer = cloudFormatFor(file)->writer(file);
+  const auto done = writeScan(**writer, madeUpHeader({12, 9, true, file.extension() == ".e57", "S"})).and_then([&] { return (*writer)->close(); });
+  EXPECT_TRUE(done.has_value()) << describe(done.error());
+  return testing::bytesOf(file);
+}
+
+// So that a mutation reaches what lies behind the checksums.
+void seal(std::string& file) {
+  for (std::size_t page = 0; page + 1024 <= file.size(); page += 1024) {
+    const std::uint32_t c = crc32c({reinterpret_cast<const std::uint8_t*>(file.data()) + page, 1020});
+    for (int i = 0; i < 4; ++i) file[page + 1020 + static_cast<std::size_t>(i)] = static_cast<char>(c >> (24 - 8 * i));
+  }
+}
+
+void mutate(std::string& bytes, std::uint32_t round) {
+  const auto r = philox({99, 0}, round, 0, 0);
+  for (std::uint32_t k = 0; k <= r[0] % 4; ++k) {
+    const auto q = philox({99, 1}, round, k, 0);
+    const std::size_t at = q[0] % bytes.size();
+    constexpr char kEdges[] = {0, 1, 127, static_cast<char>(128), static_cast<char>(255), '0', '9', '-', 'e', '<', '"', '\n'};
+    bytes[at] = q[1] % 2 ? static_cast<char>(q[2]) : kEdges[q[2] % sizeof kEdges];
+  }
+}
+
+// An answer, whichever: points that the file can hold, or an error with a place. Crashes show in any build, wrong
+// memory and arithmetic in the one with sanitizers.
+void expectAnAnswer(const std::filesystem::path& file) {
+  KeptScans kept;
+  const auto read = readAll(file, kept);
+  EXPECT_TRUE(read || !read.error().source.empty()) << read.error().message;
+  const auto told = cloudFormatFor(file)->info(file);
+  EXPECT_TRUE(told || !told.error().source.empty()) << told.error().message;
+}
+
+TEST(HostileE57, IsAnsweredWhateverByteChanged) {
+  const TemporaryFolder folder;
+  const std::string good = smallFile(folder / "good.e57");
+  for (std::uint32_t round = 0; round < 4000; ++round) {
+    std::string bad = good;
+    mutate(bad, round);
+    if (round % 8 != 0) seal(bad);
+    testing::putBytes(folder / "bad.e57", bad);
+    expectAnAnswer(folder / "bad.e57");
+  }
+}
+
+TEST(HostilePtx, IsAnsweredWhateverByteChanged) {
+  const TemporaryFolder folder;
+  const std::string good = smallFile(folder / "good.ptx");
+  for (std::uint32_t round = 0; round < 4000; ++round) {
+    std::string bad = good;
+    mutate(bad, round);
+    testing::putBytes(folder / "bad.ptx", bad);
+    expectAnAnswer(folder / "bad.ptx");
+  }
+}
+
+TEST(HostileClouds, CutAnywhereAreErrorsWithAPlace) {
+  const TemporaryFolder folder;
+  for (const char* name : {"s.e57", "s.ptx"}) {
+    const std::string good = smallFile(folder / name);
+    // Nobody can tell that the last number of a text has lost a digit, or the last point its colour.
+    const std::size_t end = std::string(name).ends_with("ptx") ? good.rfind('\n', good.size() - 2) : good.size();
+    for (std::size_t size = 0; size < end; size += 1 + size / 20) {
+      testing::putBytes(folder / name, good.substr(0, size));
+      KeptScans kept;
+      const auto read = readAll(folder / name, kept);
+      ASSERT_FALSE(read.has_value()) << name << " cut to " << size;
+      EXPECT_EQ(read.error().kind, ErrorKind::unusable);
+      EXPECT_THAT(read.error().source, ::testing::StartsWith(name));
+    }
+  }
+}
+
+TEST(HostileE57, WithAWrongChecksumNamesThePage) {
+  const TemporaryFolder folder;
+  std::string bytes = smallFile(folder / "s.e57");
+  bytes[1024 + 17] = static_cast<char>(bytes[1024 + 17] ^ 4);
+  testing::putBytes(folder / "s.e57", bytes);
+  KeptScans kept;
+  const auto read = readAll(folder / "s.e57", kept);
+  ASSERT_FALSE(read.has_value());
+  EXPECT_THAT(describe(read.error()), ::testing::AllOf(::testing::HasSubstr("s.e57 page 1"), ::testing::HasSubstr("checksum")));
+}
+
+// Replaces text in the XML, which must keep its length, and mends the checksums.
+void edit(const std::filesystem::path& file, const std::string& from, const std::string& to) {
+  std::string bytes = testing::bytesOf(file);
+  ASSERT_EQ(from.size(), to.size());
+  std::size_t hits = 0;
+  // The text may straddle a checksum: this looks at the payload alone.
+  std::string payload;
+  for (std::size_t page = 0; page < bytes.size(); page += 1024) payload += bytes.substr(page, 1020);
+  for (std::size_t at = payload.find(from); at != std::string::npos; at = payload.find(from, at + 1), ++hits) payload.replace(at, to.size(), to);
+  ASSERT_GT(hits, 0u) << from;
+  for (std::size_t page = 0; page < bytes.size(); page += 1024) bytes.replace(page, 1020, payload.substr(page / 1024 * 1020, 1020));
+  seal(bytes);
+  testing::putBytes(file, bytes);
+}
+
+struct Edit {
+  const char *from, *to, *says;
+};
+
+TEST(HostileE57, ThatClaimsTooMuchIsRefusedAtOnce) {
+  const TemporaryFolder folder;
+  const Edit edits[] = {{"fileOffset=\"48\"", "fileOffset=\"99\"", "no CompressedVector"},
+                        {"<e57Root", "<e57Rood", "XML"},
+                        {"recordCount=", "recordQount=", "missing"},
+                        {"cartesianX", "cartesianQ", "neither cartesian nor spherical"},
+                        {"precision=\"single\"/>\n<cartesianY", "precision=\"double\"/>\n<cartesianY", "section ends after"}};
+  for (const Edit& e : edits) {
+    smallFile(folder / "s.e57");
+    edit(folder / "s.e57", e.from, e.to);
+    KeptScans kept;
+    const auto read = readAll(folder / "s.e57", kept);
+    ASSERT_FALSE(read.has_value()) << e.from;
+    EXPECT_THAT(read.error().message, ::testing::HasSubstr(e.says)) << e.from;
+  }
+}
+
+TEST(HostilePtx, WithAGridLargerThanTheFileIsRefusedAtOnce) {
+  const TemporaryFolder folder;
+  testing::putBytes(folder / "huge.ptx", "1000000000\n1000000000\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n1 2 3 0.5\n");
+  KeptScans kept;
+  const auto read = readAll(folder / "huge.ptx", kept);
+  ASSERT_FALSE(read.has_value());
+  EXPECT_THAT(describe(read.error()), ::testing::HasSubstr("huge.ptx line 2"));
+  EXPECT_TRUE(kept.scans.empty());
+}
+
+TEST(HostilePtx, NamesTheLineThatIsNoPoint) {
+  const TemporaryFolder folder;
+  std::string text = smallFile(folder / "s.ptx");
+  std::size_t at = 0;
+  for (int line = 1; line < 40; ++line) at = text.find('\n', at) + 1;
+  text.replace(at, 3, "x y");
+  testing::putBytes(folder / "s.ptx", text);
+  KeptScans kept;
+  const auto read = readAll(folder / "s.ptx", kept);
+  ASSERT_FALSE(read.has_value());
+  EXPECT_EQ(read.error().source, "s.ptx line 40");
+}
+
+}  // namespace
+}  // namespace standpoint

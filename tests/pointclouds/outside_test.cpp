@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <cstdio>
+#include <memory>
+
+#include "tests/pointclouds/kept_scans.h"
+#include "tests/pointclouds/made_up_scan.h"
+
+namespace standpoint {
+namespace {
+
+using testing::madeUpHeader;
+using testing::ScanKind;
+using testing::TemporaryFolder;
+using testing::writeScan;
+
+std::string output(const std::string& command) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(::popen((command + " 2>&1").c_str(), "r"), ::pclose);
+  std::string text;
+  std::array<char, 4096> piece;
+  while (const std::size_t n = std::fread(piece.data(), 1, piece.size(), pipe.get())) text.append(piece.data(), n);
+  return text;
+}
+
+bool installed(const std::string& program) { return !output("command -v " + program).empty(); }
+
+std::uint64_t write(const std::filesystem::path& file, const std::vector<ScanKind>& kinds) {
+  auto writer = cloudFormatFor(file)->writer(file);
+  std::uint64_t points = 0;
+  for (const ScanKind& kind : kinds) {
+    const ScanHeader header = madeUpHeader(kind);
+    EXPECT_TRUE(writeScan(**writer, header).has_value());
+    PointBlock block;
+    for (std::uint32_t c = 0; c < header.columns; ++c) testing::appendColumn(block, header, c);
+    points += block.size();
+  }
+  EXPECT_TRUE((*writer)->close().has_value());
+  return points;
+}
+
+const std::vector<std::vector<ScanKind>> kFiles = {
+    {{}},
+    {{100, 50, true, true, "A"}, {70, 40, false, false, "B"}, {33, 20, true, false, "C"}},
+    {{1, 0, true, true, "no points"}},
+    {{1, 1, true, true, "one point or none"}},
+    {{1, 300, false, true, "one row"}},
+    {{300, 1, true, false, "one column"}},
+    {{2000, 1150, true, true, "two million"}}};
+
+// The standard's own rules, checked by a program that shares no code with this one.
+TEST(OutsideReaders, OfTheStandardFindNothingWrongInOurE57) {
+  const auto source = testing::sharedFolder() / "oracles" / "e57_lint.cpp";
+  if (!std::filesystem::exists(source)) GTEST_SKIP() << "e57_lint is not here";
+  const TemporaryFolder folder;
+  const std::string lint = (folder / "e57_lint").string();
+  output("g++ -O1 -std=c++17 -w " + source.string() + " -lxerces-c -o " + lint);
+  if (!std::filesystem::exists(lint)) GTEST_SKIP() << "e57_lint needs libxerces-c-dev";
+  for (const auto& kinds : kFiles) {
+    write(folder / "s.e57", kinds);
+    EXPECT_THAT(output(lint + " " + (folder / "s.e57").string()), ::testing::HasSubstr("PASS errors=0 warnings=0")) << kinds[0].name;
+  }
+}
+
+TEST(OutsideReaders, OfPtxFindNothingWrongInOurs) {
+  const auto check = testing::sharedFolder() / "oracles" / "ptx_check.mjs";
+  if (!std::filesystem::exists(check) || !installed("node")) GTEST_SKIP() << "ptx_check or node is not here";
+  const TemporaryFolder folder;
+  for (const std::size_t i : {0, 1, 4, 5}) {
+    write(folder / "s.ptx", kFiles[i]);
+    EXPECT_THAT(output("node " + check.string() + " " + (folder / "s.ptx").string()), ::testing::HasSubstr("PASS errors=0"));
+  }
+}
+
+// CloudCompare tells how many points each cloud of the file has.
+TEST(OutsideReaders, CloudCompareFindsThePointsOfOurPtxAndPly) {
+  if (!installed("CloudCompare")) GTEST_SKIP() << "CloudCompare is not installed";
+  const TemporaryFolder folder;
+  const auto look = [&](const std::string& name) {
+    return output("QT_QPA_PLATFORM=offscreen HOME=" + folder.path.string() + " timeout 60 CloudCompare -SILENT -O " + (folder / name).string());
+  };
+  const std::vector<ScanKind> scans = {{100, 50, true, false, "A"}, {70, 40, false, false, "B"}};
+  for (const ScanKind& kind : scans) {
+    const std::string points = std::to_string(write(folder / (kind.name + ".ptx"), {kind}));
+    write(folder / (kind.name + ".ply"), {kind});
+    EXPECT_THAT(look(kind.name + ".ptx"), ::testing::HasSubstr("with " + points + " points"));
+    EXPECT_THAT(look(kind.name + ".ply"), ::testing::HasSubstr("with " + points + " points"));
+  }
+  write(folder / "both.ptx", scans);
+  EXPECT_THAT(look("both.ptx"), ::testing::HasSubstr("with " + std::to_string(write(folder / "A.ptx", {scans[0]})) + " points"));
+
+  // Without a grid the number of points stands in a header of fixed width.
+  ScanHeader header = madeUpHeader({10, 10, true, false, "S"});
+  PointBlock points;
+  for (std::uint32_t c = 0; c < 10; ++c) testing::appendColumn(points, header, c);
+  header.rows = header.columns = 0;
+  auto writer = cloudFormatFor("s.ptx")->writer(folder / "s.ptx");
+  ASSERT_OK(writer);
+  ASSERT_OK((*writer)->begin(header));
+  ASSERT_OK((*writer)->write(points));
+  ASSERT_OK((*writer)->end());
+  ASSERT_OK((*writer)->close());
+  EXPECT_THAT(look("s.ptx"), ::testing::HasSubstr("with " + std::to_string(points.size()) + " points"));
+}
+
+}  // namespace
+}  // namespace standpoint

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <tuple>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/units.h"
+#include "tests/scanners/scenes.h"
+
+namespace standpoint {
+namespace {
+
+using ::testing::HasSubstr;
+
+ScanSettings resolved(const std::string& id, const SettingValues& values) {
+  auto settings = resolveSettings(testing::instrument(id), values);
+  if (!settings) throw std::runtime_error(describe(settings.error()));
+  return *settings;
+}
+
+Error refused(const std::string& id, const SettingValues& values) {
+  auto settings = resolveSettings(testing::instrument(id), values);
+  if (settings) throw std::runtime_error("was not refused");
+  return settings.error();
+}
+
+TEST(Rtc360, HasTheGridsAndTimesOfItsMenu) {
+  for (const auto& [resolution, columns, rows, seconds] :
+       {std::tuple{"12mm", 5084U, 2083U, 26.0}, std::tuple{"6mm", 10167U, 4166U, 51.0}, std::tuple{"3mm", 20334U, 8333U, 102.0}})
+    for (const bool twice : {false, true}) {
+      const auto settings = resolved("leica-rtc360", {{"resolution", resolution}, {"double_scan", twice ? "on" : "off"}});
+      EXPECT_EQ(settings.columns, columns);
+      EXPECT_EQ(settings.rows, rows);
+      EXPECT_DOUBLE_EQ(settings.scan_seconds, twice ? 2 * seconds : seconds);
+      EXPECT_DOUBLE_EQ(settings.imaging_seconds, 60);
+      EXPECT_EQ(settings.passes, twice ? 2 : 1);
+    }
+}
+
+TEST(Rtc360, ScansATargetAreaOnlyWhenThatFieldOfViewIsChosen) {
+  const auto area = resolved("leica-rtc360", {{"field_of_view", "target_area"}, {"horizontal_from", "350"}, {"horizontal_to", "10"},
+                                              {"vertical_from", "-15"}, {"vertical_to", "15"}, {"resolution", "6mm"}});
+  EXPECT_EQ(area.columns, 565U);   // 10167 · 20/360
+  EXPECT_EQ(area.rows, 833U);      // 4166 · 30/150
+  EXPECT_NEAR(area.scan_seconds, 51.0 / 18, 1e-9);
+  EXPECT_THAT(refused("leica-rtc360", {{"horizontal_to", "90"}}).message, HasSubstr("field of view"));
+}
+
+// instruments.md §1.4: seconds by resolution and quality, 0 = greyed out, because the mirror would exceed 97 Hz.
+TEST(FocusS350, ReproducesTheTableOfItsDisplayWithinASecond) {
+  struct Row {
+    const char* resolution;
+    std::uint32_t columns, rows;
+    int seconds[4];
+  };
+  const Row table[] = {{"1/1", 40960, 17067, {923, 1788, 3519, 6981}}, {"1/2", 20480, 8533, {274, 490, 923, 1788}},
+                       {"1/4", 10240, 4267, {112, 166, 274, 490}},     {"1/5", 8192, 3413, {0, 127, 196, 335}},
+                       {"1/8", 5120, 2133, {0, 85, 112, 166}},         {"1/10", 4096, 1707, {0, 0, 92, 127}},
+                       {"1/16", 2560, 1067, {0, 0, 71, 85}},           {"1/20", 2048, 853, {0, 0, 0, 75}},
+                       {"1/32", 1280, 533, {0, 0, 0, 64}}};
+  for (const auto& row : table)
+    for (int q = 0; q < 4; ++q) {
+      const SettingValues values = {{"resolution", row.resolution}, {"quality", std::to_string(q + 1) + "x"}};
+      if (row.seconds[q] == 0) {
+        const Error error = refused("faro-focus-s350", values);
+        EXPECT_EQ(error.kind, ErrorKind::usage);
+        EXPECT_THAT(error.message, HasSubstr("4x"));
+        continue;
+      }
+      const auto settings = resolved("faro-focus-s350", values);
+      EXPECT_EQ(settings.columns, row.columns);
+      EXPECT_EQ(settings.rows, row.rows);
+      EXPECT_NEAR(settings.scan_seconds, row.seconds[q], 1) << row.resolution << " " << q + 1 << "x";
+    }
+}
+
+TEST(FocusS350, FallsInNoiseByTheRootOfTwoWithEachQuality) {
+  for (int q = 1; q < 4; ++q) {
+    const auto low = resolved("faro-focus-s350", {{"quality", std::to_string(q) + "x"}});
+    const auto high = resolved("faro-focus-s350", {{"quality", std::to_string(q + 1) + "x"}});
+    EXPECT_NEAR(low.noise_factor / high.noise_factor, std::sqrt(2.0), 1e-12);
+  }
+}
+
+TEST(TrimbleX7, HasTheDurationsAndPointsOfItsModes) {
+  for (const auto& [duration, seconds, million] : {std::tuple{"2min", 120.0, 12.8}, std::tuple{"4min", 240.0, 19.1},
+                                                   std::tuple{"7min", 420.0, 43.0}, std::tuple{"15min", 900.0, 96.6}}) {
+    const auto settings = resolved("trimble-x7", {{"mode", "standard"}, {"duration", duration}, {"images", "quality"}});
+    EXPECT_NEAR(1e-6 * settings.columns * settings.rows, million, 0.06);
+    EXPECT_DOUBLE_EQ(settings.scan_seconds, seconds);
+    EXPECT_DOUBLE_EQ(settings.imaging_seconds, 120);
+  }
+}
+
+TEST(Settings, AreRefusedWithWhatIsAllowed) {
+  EXPECT_THAT(refused("leica-rtc360", {{"resolution", "1mm"}}).message, HasSubstr("12mm, 6mm, 3mm"));
+  EXPECT_THAT(refused("leica-rtc360", {{"quality", "3x"}}).message, HasSubstr("resolution, double_scan"));
+  EXPECT_THAT(refused("leica-rtc360", {{"images", "on"}, {"images", "off"}}).message, HasSubstr("twice"));
+  EXPECT_THAT(refused("faro-focus-s350", {{"vertical_from", "-75"}}).message, HasSubstr("from -60 to 90"));
+  EXPECT_THAT(refused("faro-focus-s350", {{"vertical_from", "nan"}}).message, HasSubstr("not allowed"));
+  EXPECT_EQ(refused("faro-focus-s350", {{"vertical_from", "30"}, {"vertical_to", "10"}}).source, "vertical_to");
+}
+
+TEST(Settings, AreCompletedInTheOrderOfTheInstrument) {
+  const auto settings = resolved("leica-rtc360", {{"double_scan", "on"}, {"resolution", "3mm"}});
+  EXPECT_EQ(settings.values.front(), (std::pair<std::string, std::string>{"resolution", "3mm"}));
+  EXPECT_EQ(settings.values.size(), testing::instrument("leica-rtc360").settings.size());
+}
+
+TEST(Instruments, EachHaveASourceForEveryFigure) {
+  const auto all = testing::instruments();
+  ASSERT_GE(all.size(), 3U);
+  for (const auto& instrument : all) {
+    EXPECT_GT(instrument.evidence.size(), 25U) << instrument.id;
+    for (const auto& [pointer, evidence] : instrument.evidence) {
+      EXPECT_FALSE(evidence.mark.empty()) << instrument.id << " " << pointer;
+      EXPECT_FALSE(evidence.source.empty()) << instrument.id << " " << pointer;
+    }
+  }
+  EXPECT_EQ(testing::instrument("leica-rtc360").evidence.at("/range/min_m").mark, "S59");
+  EXPECT_EQ(testing::instrument("leica-rtc360").evidence.at("/beam/wavelength_nm").mark, "unsourced");
+}
+
+// Reads the RTC360 with one piece of its text exchanged.
+class ChangedInstrument : public ::testing::Test {
+ protected:
+  Error errorOf(const std::string& from, const std::string& to) {
+    std::ifstream stream(SOURCE_DIR "/scanners/instruments/leica-rtc360.json");
+    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    const auto place = text.find(from);
+    EXPECT_NE(place, std::string::npos) << from;
+    text.replace(place, from.size(), to);
+    const auto folder = std::filesystem::path(::testing::TempDir()) /
+                        ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "leica-rtc360.json") << text;
+    const auto read = readInstruments(folder);
+    std::filesystem::remove_all(folder);
+    return read ? Error{ErrorKind::internal, "accepted", ""} : read.error();
+  }
+};
+
+TEST_F(ChangedInstrument, WithAnUnknownKeyIsRefusedWithItsPlace) {
+  EXPECT_EQ(errorOf("\"min_m\"", "\"colour\": 1, \"min_m\"").source, "leica-rtc360.json /range/colour");
+  EXPECT_EQ(errorOf("\"scan_seconds\": 26", "\"scan_second\": 26").source, "leica-rtc360.json /settings/0/choices/0/scan_second");
+}
+
+TEST_F(ChangedInstrument, WithAMissingFigureOrSourceIsRefusedWithItsPlace) {
+  EXPECT_EQ(errorOf("\"divergence_mrad\": 0.5,", "").source, "leica-rtc360.json /beam/divergence_mrad");
+  EXPECT_EQ(errorOf("{ \"value\": 0.5, \"source\": \"S59\" }", "{ \"value\": 0.5 }").source, "leica-rtc360.json /range/min_m");
+  EXPECT_EQ(errorOf("{ \"value\": 0.5, \"source\": \"S59\" }", "0.5").source, "leica-rtc360.json /range/min_m");
+  EXPECT_THAT(errorOf("{ \"value\": 0.5, \"source\": \"S59\" }", "{ \"value\": 0.5, \"source\": \"S99\" }").message, HasSubstr("S99"));
+}
+
+TEST_F(ChangedInstrument, WithAValueOutOfRangeIsRefusedWithItsPlace) {
+  EXPECT_EQ(errorOf("\"wavelength_nm\": 1550", "\"wavelength_nm\": 15500").source, "leica-rtc360.json /beam/wavelength_nm");
+  EXPECT_EQ(errorOf("\"wavelength_nm\": 1550", "\"wavelength_nm\": \"1550\"").source, "leica-rtc360.json /beam/wavelength_nm");
+  EXPECT_EQ(errorOf("\"columns\": 5084", "\"columns\": 5e9").source, "leica-rtc360.json /settings/0/choices/0/columns");
+  EXPECT_EQ(errorOf("\"standard\": \"6mm\"", "\"standard\": \"7mm\"").source, "leica-rtc360.json /settings/0/standard");
+  EXPECT_EQ(errorOf("\"id\": \"leica-rtc360\"", "\"id\": \"leica\"").source, "leica-rtc360.json /id");
+}
+
+TEST_F(ChangedInstrument, CutAnywhereIsAnError) {
+  std::ifstream stream(SOURCE_DIR "/scanners/instruments/leica-rtc360.json");
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  for (std::size_t from = 0; from < text.size() - 10; from += 97)
+    EXPECT_NE(errorOf(text.substr(from), "").message, "accepted") << from;
+}
+
+}  // namespace
+}  // namespace standpoint

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "core/units.h"
+#include "scanners/radiometry.h"
+#include "tests/scanners/scenes.h"
+
+namespace standpoint {
+namespace {
+
+using namespace testing;
+
+Eigen::Vector3d point(const PointBlock& points, std::size_t i) { return {points.x_m[i], points.y_m[i], points.z_m[i]}; }
+
+// RMS of the residuals about the best-fit plane.
+double planeResidual(const PointBlock& points) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) mean += point(points, i);
+  mean /= static_cast<double>(points.size());
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) moments += (point(points, i) - mean) * (point(points, i) - mean).transpose();
+  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments).eigenvalues()[0] / static_cast<double>(points.size()));
+}
+
+// A wall across +X at a distance, large enough for a window of ±2°.
+SceneBuilder wallAt(double distance) {
+  SceneBuilder scene;
+  scene.quad({distance, -0.2 * distance, -0.2 * distance}, {0, 0.4 * distance, 0}, {0, 0, 0.4 * distance});
+  return scene;
+}
+
+ScanSettings straightAhead(const Instrument& instrument, std::uint32_t points = 200) {
+  return window(instrument, -1, 1, -1, 1, points, points);
+}
+
+TEST(PlaneNoise, IsTheFigureOfEverySheet) {
+  for (const auto& sheet : instruments()) {
+    const auto instrument = withoutBias(sheet);
+    for (const auto& figure : instrument.range_noise) {
+      const auto scene = wallAt(figure.range_m);
+      const auto result = scanned(*scene.build(), allOf(*scene.environment(), figure.reflectivity), instrument, straightAhead(instrument), {});
+      ASSERT_EQ(result.points.size(), 40000U) << instrument.id << " " << figure.range_m;
+      EXPECT_NEAR(planeResidual(result.points) / figure.sigma_m, 1, 0.05) << instrument.id << " " << figure.range_m << " m";
+    }
+  }
+}
+
+TEST(PlaneNoise, FallsByTheRootOfTwoInADoubleScan) {
+  const auto instrument = withoutBias(testing::instrument("leica-rtc360"));
+  const auto scene = wallAt(20);
+  auto settings = straightAhead(instrument);
+  const auto single = scanned(*scene.build(), allOf(*scene.environment(), 0.85), instrument, settings, {});
+  settings.passes = 2;
+  const auto twice = scanned(*scene.build(), allOf(*scene.environment(), 0.85), instrument, settings, {});
+  EXPECT_NEAR(planeResidual(single.points) / planeResidual(twice.points), std::sqrt(2.0), 0.03);
+}
+
+TEST(PlaneNoise, IsNoneInAnIdealScan) {
+  const auto scene = wallAt(20);
+  const auto instrument = testing::instrument("trimble-x7");
+  const auto result = scanned(*scene.build(), allOf(*scene.environment(), 0.5), instrument, straightAhead(instrument), {1, true});
+  EXPECT_LT(planeResidual(result.points), 1e-6);
+}
+
+// A plane at 60° returns half the power of one seen head-on; across the plane its range noise shows by the cosine.
+TEST(Incidence, RaisesTheNoiseThroughThePower) {
+  const auto instrument = withoutBias(testing::instrument("trimble-x7"));
+  Instrument still = instrument;
+  still.angle_jitter_rad = still.angle_sigma_rad = 0;
+  SceneBuilder scene;
+  const double lean = 60 * kRadPerDeg;
+  const Eigen::Vector3d along(std::sin(lean), 0, std::cos(lean));
+  scene.quad(Eigen::Vector3d(30, -3, 0) - 3 * along, {0, 6, 0}, 6 * along);
+  const auto settings = window(still, -0.2, 0.2, -0.2, 0.2, 200, 200);
+  const auto result = scanned(*scene.build(), allOf(*scene.environment(), 0.8), still, settings, {});
+  ASSERT_EQ(result.points.size(), 40000U);
+  // One figure on the sheet: σ² = σs²/2 + σs²/2 · (x_sheet / x)², here with x = x_sheet / 2.
+  const double along_beam = 0.0025 * std::sqrt(0.5 + 0.5 * 4);
+  EXPECT_NEAR(planeResidual(result.points) / (along_beam * std::cos(lean)), 1, 0.03);
+}
+
+double farthest(const PointBlock& points) {
+  double range = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) range = std::max(range, point(points, i).norm());
+  return range;
+}
+
+// V3: R_max(ρ) = R_spec √(ρ/ρ_spec), for a wall that recedes along a corridor of targets.
+TEST(MaximumRange, FollowsTheRootOfTheReflectivity) {
+  for (auto instrument : instruments()) {
+    instrument.near_range_m = 0;
+    for (const double reflectivity : {0.2, 0.1}) {
+      const double limit = instrument.max_range_m * std::sqrt(reflectivity / instrument.reference_reflectivity);
+      if (instrument.id == "leica-rtc360") {
+        EXPECT_NEAR(limit, reflectivity == 0.2 ? 61.3 : 43.3, 0.05);
+      }
+      for (const double share : {0.99, 1.01}) {
+        const auto scene = wallAt(share * limit);
+        const auto settings = window(instrument, -0.05, 0.05, -0.05, 0.05, 20, 20);
+        const auto result = scanned(*scene.build(), allOf(*scene.environment(), reflectivity), instrument, settings, {1, true});
+        EXPECT_EQ(result.points.size(), share < 1 ? 400U : 0U) << instrument.id << " " << reflectivity;
+      }
+    }
+  }
+}
+
+TEST(MaximumRange, FadesRatherThanStops) {
+  auto instrument = testing::instrument("leica-rtc360");
+  instrument.near_range_m = 0;
+  const double limit = instrument.max_range_m * std::sqrt(0.2 / instrument.reference_reflectivity);
+  const auto share = [&](double range) {
+    const auto scene = wallAt(range);
+    return scanned(*scene.build(), allOf(*scene.environment(), 0.2), instrument, straightAhead(instrument, 100), {}).points.size() / 10000.0;
+  };
+  // P_d = ½ erfc((x_min - x) / √2 σ), σ = 0.1 x_min.
+  for (const double relative : {0.95, 1.0, 1.05})
+    EXPECT_NEAR(share(relative * limit), 0.5 * std::erfc((1 - 1 / (relative * relative)) / (std::sqrt(2.0) * 0.1)), 0.02) << relative;
+}
+
+// V4: on level ground cos θ = h/R, so R³ = h R0² ρ/ρ0: 9.86 m where the reflectivity alone would promise 24.5 m.
+TEST(MaximumRange, OnTheGroundIsCutByIncidence) {
+  auto instrument = testing::instrument("leica-rtc360");
+  instrument.max_range_m = 60;
+  instrument.near_range_m = 0;
+  SceneBuilder scene;
+  scene.quad({-60, -60, -1.6}, {120, 0, 0}, {0, 120, 0});
+  const auto settings = window(instrument, 0, 360, -60, 0, 60, 6000);
+  const auto result = scanned(*scene.build(), allOf(*scene.environment(), 0.15), instrument, settings, {1, true});
+  EXPECT_NEAR(farthest(result.points), 9.86, 0.02 * 9.86);
+}
+
+TEST(MinimumRange, IsKept) {
+  for (const auto& instrument : instruments())
+    for (const double share : {0.95, 1.05}) {
+      const auto scene = wallAt(share * instrument.min_range_m);
+      const auto settings = window(instrument, -0.5, 0.5, -0.5, 0.5, 10, 10);
+      EXPECT_EQ(scanned(*scene.build(), allOf(*scene.environment(), 0.5), instrument, settings, {1, true}).points.size(), share > 1 ? 100U : 0U);
+    }
+}
+
+// V2 as it is stored: 6.02 dB for twice the range.
+TEST(Intensity, IsTheLogarithmOfThePower) {
+  for (auto instrument : instruments()) {
+    instrument.near_range_m = 0;
+    const auto at = [&](double range, double reflectivity) {
+      const auto scene = wallAt(range);
+      const auto settings = window(instrument, 0, 0.01, 0, 0.01, 1, 1);
+      const auto result = scanned(*scene.build(), allOf(*scene.environment(), reflectivity), instrument, settings, {1, true});
+      return instrument.intensity_low_db + static_cast<double>(result.points.intensity.at(0)) * (instrument.intensity_high_db - instrument.intensity_low_db);
+    };
+    const double step = (instrument.intensity_high_db - instrument.intensity_low_db) / (instrument.intensity_levels - 1);
+    EXPECT_NEAR(at(10, 0.5), 10 * std::log10(0.005), step) << instrument.id;
+    EXPECT_NEAR(at(10, 0.5) - at(20, 0.5), 6.0206, step) << instrument.id;
+    EXPECT_NEAR(at(10, 0.5) - at(10, 0.25), 3.0103, step) << instrument.id;
+  }
+}
+
+TEST(Sphere, HasItsRadiusAndCentreInEveryInstrument) {
+  for (const auto& sheet : instruments()) {
+    const auto instrument = withoutBias(sheet);
+    SceneBuilder scene;
+    scene.sphere({8, 0, 0}, 0.0725, 90);
+    const auto settings = window(instrument, -0.6, 0.6, -0.6, 0.6, 120, 120);
+    const auto result = scanned(*scene.build(), allOf(*scene.environment(), 0.8), instrument, settings, {});
+    // Of the points with incidence below 60°, physics.md §6: |p - c| = r.
+    double sum = 0;
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < result.points.size(); ++i) {
+      const Eigen::Vector3d p = point(result.points, i);
+      if (std::hypot(p.y(), p.z()) > 0.0725 * std::sin(std::numbers::pi / 3)) continue;
+      sum += (p - Eigen::Vector3d(8, 0, 0)).norm() - 0.0725;
+      ++n;
+    }
+    ASSERT_GT(n, 4000U) << instrument.id;
+    EXPECT_NEAR(sum / n, 0, 1e-4 + 3 * 0.003 / std::sqrt(n)) << instrument.id;
+  }
+}
+
+TEST(StepEdge, IsSharpAndKeepsBothSides) {
+  for (const auto& sheet : instruments()) {
+    const auto instrument = withoutBias(sheet);
+    SceneBuilder scene;
+    const auto front = scene.quad({10, 0, -2}, {0, 2, 0}, {0, 0, 4});
+    const auto back = scene.quad({10.5, -2, -2}, {0, 4, 0}, {0, 0, 4});
+    const auto result = scanned(*scene.build(), allOf(*scene.environment(), 0.8), instrument, window(instrument, -2, 2, -2, 2, 200, 200), {});
+    for (std::size_t i = 0; i < result.points.size(); ++i) {
+      // Clockwise: the first columns look to +Y, where the step stands forward.
+      const auto expected = result.points.column[i] < 100 ? front : result.points.column[i] > 100 ? back : result.points.product[i];
+      ASSERT_EQ(result.points.product[i], expected) << instrument.id;
+      ASSERT_NEAR(result.points.x_m[i], expected == front ? 10 : 10.5, 0.02);
+    }
+    EXPECT_EQ(result.points.size(), 40000U);
+  }
+}
+
+// V13: over many scans, range accuracy and angles make the 3D accuracy of the sheet.
+TEST(Accuracy, OverManyScansIsThatOfTheSheet) {
+  const auto instrument = testing::instrument("trimble-x7");
+  for (const auto& [range, expected] : {std::pair{10.0, 2.46e-3}, {20.0, 3.51e-3}, {40.0, 6.10e-3}}) {
+    const auto scene = wallAt(range);
+    const auto rays = scene.build();
+    const auto assignment = allOf(*scene.environment(), 0.8);
+    auto settings = window(instrument, 0, 0.001, -0.0005, 0.0005, 1, 1);
+    settings.noise_factor = 1e-6;                        // accuracy is apart from noise
+    double sum = 0;
+    constexpr int kScans = 4000;
+    for (int k = 0; k < kScans; ++k) {
+      ScanOptions options;
+      options.station_key = static_cast<std::uint32_t>(k);
+      options.threads = 1;
+      const auto result = scanned(*rays, assignment, instrument, settings, options);
+      sum += (point(result.points, 0) - Eigen::Vector3d(range, 0, 0)).squaredNorm();
+    }
+    EXPECT_NEAR(std::sqrt(sum / kScans) / expected, 1, 0.03) << range;
+  }
+}
+
+PhysicalMaterial clearGlass() {
+  PhysicalMaterial glass = lambert(0.001);
+  glass.id = "glass";
+  glass.index_of_refraction = 1.507;
+  glass.gloss_slope = 0.01;
+  glass.thickness_m = 0.004;
+  glass.transmittance = {{1550, 0.81}};
+  return glass;
+}
+
+struct Window {
+  SceneBuilder scene;
+  MaterialAssignment assignment;
+  std::uint32_t pane = 0, wall = 0;
+};
+
+// A pane at 5 m turned by `lean` about the vertical, as a solid or a sheet, and a wall at 8 m.
+Window glazed(bool solid, double lean) {
+  Window window;
+  const Eigen::Vector3d across(std::sin(lean), std::cos(lean), 0), through(std::cos(lean), -std::sin(lean), 0);
+  if (solid) {
+    window.pane = window.scene.box({0, -2, -2}, {0.004, 2, 2}, false);
+    auto& mesh = const_cast<Mesh&>(*window.scene.environment()->meshes[0]);
+    for (auto& p : mesh.positions)
+      p = (Eigen::Vector3d(5, 0, 0) + p.x() * through + p.y() * across + p.z() * Eigen::Vector3d::UnitZ()).cast<float>();
+  } else {
+    window.pane = window.scene.quad(Eigen::Vector3d(5, 0, -2) - 2 * across, 4 * across, {0, 0, 4});
+  }
+  window.wall = window.scene.quad({8, -3, -3}, {0, 6, 0}, {0, 0, 6});
+  window.assignment.materials = {lambert(0.6), clearGlass()};
+  window.assignment.surfaces = {{window.pane, 0, 1, "test"}, {window.wall, 0, 0, "test"}};
+  return window;
+}
+
+double decibels(const Instrument& instrument, float intensity) {
+  return instrument.intensity_low_db + static_cast<double>(intensity) * (instrument.intensity_high_db - instrument.intensity_low_db);
+}
+
+TEST(Glass, LetsTheBeamThroughTwiceAndDelaysIt) {
+  Instrument instrument = testing::instrument("leica-rtc360");
+  instrument.near_range_m = 0;
+  for (const bool solid : {true, false}) {
+    const auto window = glazed(solid, 30 * kRadPerDeg);
+    const auto result = scanned(*window.scene.build(), window.assignment, instrument, testing::window(instrument, -0.5, 0.5, -0.5, 0.5, 20, 20), {1, true});
+    ASSERT_EQ(result.points.size(), 400U);
+    const double transmitted = slab(1.507, innerTransmittance(1.507, 0.81), std::cos(30 * kRadPerDeg)).transmitted;
+    for (std::size_t i = 0; i < result.points.size(); ++i) {
+      ASSERT_EQ(result.points.product[i], window.wall);
+      ASSERT_NEAR(point(result.points, i).x(), 8 + 0.507 * 0.004, 2e-5);
+      ASSERT_NEAR(decibels(instrument, result.points.intensity[i]), 10 * std::log10(0.6 / 64 * transmitted * transmitted), 0.03) << solid;
+    }
+  }
+}
+
+TEST(Glass, SeenHeadOnGlintsInsteadOfLettingThrough) {
+  const Instrument instrument = testing::instrument("leica-rtc360");
+  const auto window = glazed(true, 0);
+  const auto result = scanned(*window.scene.build(), window.assignment, instrument, testing::window(instrument, -4, 4, -0.05, 0.05, 160, 1), {1, true});
+  for (std::size_t i = 0; i < result.points.size(); ++i) {
+    const double off_normal = std::abs(-4 + result.points.column[i] * 0.05);
+    if (off_normal < 0.8) {
+      ASSERT_EQ(result.points.product[i], window.pane) << off_normal;
+    }
+    if (off_normal > 2.2) {
+      ASSERT_EQ(result.points.product[i], window.wall) << off_normal;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace standpoint

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "core/units.h"
+#include "tests/scanners/scenes.h"
+
+namespace standpoint {
+namespace {
+
+using namespace testing;
+
+const Eigen::Vector3d kLow(-4, -3, -1.7), kHigh(5, 6, 1.6);
+
+SceneBuilder room() {
+  SceneBuilder scene;
+  scene.box(kLow, kHigh, true);
+  scene.box({2, 1, -1.7}, {2.5, 1.5, 0.4}, false, scene.surface(0.3F));
+  return scene;
+}
+
+ScanSettings dome(const Instrument& instrument, std::uint32_t columns, std::uint32_t rows) {
+  return window(instrument, 0, 360, instrument.min_elevation_rad / kRadPerDeg, instrument.max_elevation_rad / kRadPerDeg, columns, rows);
+}
+
+bool same(const PointBlock& a, const PointBlock& b) {
+  return a.x_m == b.x_m && a.y_m == b.y_m && a.z_m == b.z_m && a.intensity == b.intensity && a.row == b.row &&
+         a.column == b.column && a.red == b.red && a.product == b.product && a.material == b.material;
+}
+
+// Distance from the origin to the walls of the room along a direction.
+double distanceInside(const Eigen::Vector3d& direction) {
+  double nearest = 1e9;
+  for (int axis = 0; axis < 3; ++axis)
+    if (direction[axis] != 0) nearest = std::min(nearest, (direction[axis] > 0 ? kHigh[axis] : kLow[axis]) / direction[axis]);
+  return nearest;
+}
+
+TEST(IdealScan, OfABoxRoomHasItsDistances) {
+  SceneBuilder scene;
+  scene.box(kLow, kHigh, true);
+  const auto rays = scene.build();
+  for (const auto& instrument : instruments()) {
+    const auto settings = dome(instrument, 360, 150);
+    const auto result = scanned(*rays, allOf(*scene.environment(), 0.5), instrument, settings, {1, true});
+    EXPECT_EQ(result.count.pulses, 360U * 150U);
+    ASSERT_EQ(result.points.size(), 360U * 150U) << instrument.id;
+    double worst = 0;
+    for (std::size_t i = 0; i < result.points.size(); ++i) {
+      const double azimuth = result.points.column[i] * 2 * std::numbers::pi / 360;
+      const double span = instrument.max_elevation_rad - instrument.min_elevation_rad;
+      const double elevation = instrument.min_elevation_rad + (result.points.row[i] + 0.5) * span / 150;
+      // Clockwise from +X, rows rising with elevation.
+      const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth), -std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+      const Eigen::Vector3d point(result.points.x_m[i], result.points.y_m[i], result.points.z_m[i]);
+      worst = std::max(worst, (point - distanceInside(direction) * direction).norm());
+    }
+    EXPECT_LT(worst, 1e-6) << instrument.id;   // the points are floats
+  }
+}
+
+TEST(Scan, LeavesTheConeBelowBlind) {
+  SceneBuilder scene;
+  scene.quad({-50, -50, -1.7}, {100, 0, 0}, {0, 100, 0});
+  const auto rays = scene.build();
+  for (const auto& instrument : instruments()) {
+    const auto result = scanned(*rays, allOf(*scene.environment(), 0.8), instrument, dome(instrument, 200, 1500), {1, true});
+    double nearest = 1e9;
+    for (std::size_t i = 0; i < result.points.size(); ++i) nearest = std::min(nearest, std::hypot(double(result.points.x_m[i]), double(result.points.y_m[i])));
+    EXPECT_NEAR(nearest, 1.7 / std::tan(-instrument.min_elevation_rad), 0.003) << instrument.id;
+  }
+}
+
+TEST(Scan, IsTheSameOnOneTwoAndSevenThreads) {
+  const auto scene = room();
+  const auto rays = scene.build();
+  for (const auto& instrument : instruments()) {
+    auto settings = dome(instrument, 700, 500);
+    settings.imaging = true;
+    const auto assignment = allOf(*scene.environment(), 0.5);
+    const auto one = scanned(*rays, assignment, instrument, settings, {7, false, 1, 3});
+    EXPECT_GT(one.points.size(), 300000U);
+    for (const int threads : {2, 7}) EXPECT_TRUE(same(one.points, scanned(*rays, assignment, instrument, settings, {7, false, threads, 3}).points));
+    EXPECT_FALSE(same(one.points, scanned(*rays, assignment, instrument, settings, {8, false, 2, 3}).points));
+    EXPECT_FALSE(same(one.points, scanned(*rays, assignment, instrument, settings, {7, false, 2, 4}).points));
+  }
+}
+
+TEST(Scan, OfARebuiltSceneIsTheSame) {
+  const auto scene = room();
+  const auto instrument = testing::instrument("trimble-x7");
+  const auto assignment = allOf(*scene.environment(), 0.5);
+  const auto first = scanned(*scene.build(), assignment, instrument, dome(instrument, 300, 200), {});
+  EXPECT_TRUE(same(first.points, scanned(*scene.build(), assignment, instrument, dome(instrument, 300, 200), {}).points));
+}
+
+// A pulse owns its random numbers: what happens to its neighbours does not change it.
+TEST(Scan, OfOnePulseDoesNotDependOnTheOthers) {
+  const auto full = room();
+  SceneBuilder empty;
+  empty.box(kLow, kHigh, true);
+  const auto instrument = testing::instrument("leica-rtc360");
+  const auto settings = dome(instrument, 120, 83);
+  const auto with = scanned(*full.build(), allOf(*full.environment(), 0.5), instrument, settings, {});
+  const auto without = scanned(*empty.build(), allOf(*empty.environment(), 0.5), instrument, settings, {});
+  std::map<std::pair<std::uint32_t, std::uint32_t>, float> x;
+  for (std::size_t i = 0; i < without.points.size(); ++i) x[{without.points.column[i], without.points.row[i]}] = without.points.x_m[i];
+  std::size_t walls = 0;
+  for (std::size_t i = 0; i < with.points.size(); ++i)
+    if (with.points.product[i] == 0) {
+      ++walls;
+      ASSERT_EQ(with.points.x_m[i], (x[{with.points.column[i], with.points.row[i]}]));
+    }
+  EXPECT_GT(walls, 8000U);
+}
+
+TEST(Scan, LabelsProductMaterialAndColour) {
+  const auto scene = room();
+  const auto instrument = testing::instrument("leica-rtc360");
+  auto settings = dome(instrument, 200, 150);
+  settings.imaging = true;
+  MaterialAssignment assignment = allOf(*scene.environment(), 0.5);
+  std::erase_if(assignment.surfaces, [](const auto& s) { return s.product == 1; });
+  const auto result = scanned(*scene.build(), assignment, instrument, settings, {});
+  std::size_t posts = 0;
+  for (std::size_t i = 0; i < result.points.size(); ++i) {
+    const bool post = result.points.product[i] == 1;
+    posts += post ? 1 : 0;
+    ASSERT_EQ(result.points.material[i], post ? 1U : 0U);      // 1 = the number of materials: not assigned
+    ASSERT_EQ(result.points.red[i], post ? 77 : 204);
+  }
+  EXPECT_GT(posts, 100U);
+  settings.imaging = false;
+  EXPECT_TRUE(scanned(*scene.build(), assignment, instrument, settings, {}).points.red.empty());
+}
+
+TEST(Scan, OfATiltedScannerIsInItsOwnFrame) {
+  SceneBuilder scene;
+  scene.box(kLow, kHigh, true);
+  const auto instrument = testing::instrument("faro-focus-s350");
+  const Pose pose{Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, 3).normalized())), {0.5, 1, 0.2}};
+  const auto result = scanned(*scene.build(), allOf(*scene.environment(), 0.5), instrument, dome(instrument, 90, 70), {1, true}, pose);
+  ASSERT_EQ(result.points.size(), 90U * 70U);
+  for (std::size_t i = 0; i < result.points.size(); ++i) {
+    const Eigen::Vector3d p = pose * Eigen::Vector3d(result.points.x_m[i], result.points.y_m[i], result.points.z_m[i]);
+    const double off = std::min((p - kLow).cwiseAbs().minCoeff(), (kHigh - p).cwiseAbs().minCoeff());
+    ASSERT_LT(off, 2e-6);
+  }
+}
+
+// A scanner that rolls along a hall still sees its walls flat: the pose belongs to the time of the pulse.
+TEST(Scan, OfAMovingScannerIsSetRightByItsTrajectory) {
+  SceneBuilder scene;
+  scene.box(kLow, kHigh, true);
+  const auto instrument = testing::instrument("leica-rtc360");
+  const auto settings = dome(instrument, 300, 150);
+  const Pose end{Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ())), {1.5, -0.5, 0.1}};
+  const Trajectory path{{0, settings.scan_seconds}, {Pose{}, end}};
+  PointsKept sink;
+  Progress progress;
+  ASSERT_TRUE(scan(*scene.build(), allOf(*scene.environment(), 0.5), instrument, settings, path, {1, true}, sink, progress));
+  ASSERT_EQ(sink.all.size(), 300U * 150U);
+  double differs = 0;
+  const auto still = scanned(*scene.build(), allOf(*scene.environment(), 0.5), instrument, settings, {1, true});
+  for (std::size_t i = 0; i < sink.all.size(); ++i) {
+    const Eigen::Vector3d p(sink.all.x_m[i], sink.all.y_m[i], sink.all.z_m[i]);
+    ASSERT_LT(std::min((p - kLow).cwiseAbs().minCoeff(), (kHigh - p).cwiseAbs().minCoeff()), 2e-6);
+    differs = std::max(differs, std::abs(double(sink.all.x_m[i]) - double(still.points.x_m[i])));
+  }
+  EXPECT_GT(differs, 1);
+}
+
+TEST(Scan, HandsOnBoundedBlocksInOrderOfColumns) {
+  const auto scene = room();
+  const auto instrument = testing::instrument("leica-rtc360");
+  PointsKept sink;
+  Progress progress;
+  const auto settings = dome(instrument, 2000, 400);
+  ASSERT_TRUE(scan(*scene.build(), {}, instrument, settings, {{0}, {Pose{}}}, {}, sink, progress));
+  EXPECT_LE(sink.largest_block, 1U << 16U);
+  for (std::size_t i = 1; i < sink.all.size(); ++i)
+    ASSERT_TRUE(std::pair(sink.all.column[i - 1], sink.all.row[i - 1]) < std::pair(sink.all.column[i], sink.all.row[i]));
+  EXPECT_DOUBLE_EQ(progress.fraction(), 1);
+}
+
+class FullDisk final : public PointSink {
+ public:
+  Result<void> begin(const ScanHeader&) override { return {}; }
+  Result<void> write(const PointBlock&) override { return ++blocks < 3 ? Result<void>{} : failure(ErrorKind::file_system, "disk full", "x.e57"); }
+  Result<void> end() override { return {}; }
+  Result<void> close() override { return {}; }
+  int blocks = 0;
+};
+
+TEST(Scan, StopsAtTheFirstErrorOfItsSink) {
+  const auto scene = room();
+  const auto instrument = testing::instrument("leica-rtc360");
+  FullDisk sink;
+  Progress progress;
+  const auto count = scan(*scene.build(), {}, instrument, dome(instrument, 4000, 400), {{0}, {Pose{}}}, {}, sink, progress);
+  ASSERT_FALSE(count);
+  EXPECT_EQ(count.error().kind, ErrorKind::file_system);
+  EXPECT_EQ(sink.blocks, 3);
+}
+
+TEST(Scan, StopsSoonWhenCancelled) {
+  const auto scene = room();
+  const auto instrument = testing::instrument("leica-rtc360");
+  const auto rays = scene.build();
+  const auto settings = *resolveSettings(instrument, {{"resolution", "3mm"}});
+  FullDisk sink;
+  sink.blocks = -1000000;
+  Progress progress;
+  std::chrono::steady_clock::time_point asked;
+  std::thread user([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    asked = std::chrono::steady_clock::now();
+    progress.cancel();
+  });
+  const auto count = scan(*rays, {}, instrument, settings, {{0}, {Pose{}}}, {}, sink, progress);
+  const auto answered = std::chrono::steady_clock::now();
+  user.join();
+  ASSERT_FALSE(count);
+  EXPECT_EQ(count.error().kind, ErrorKind::cancelled);
+  EXPECT_LT(std::chrono::duration<double>(answered - asked).count(), 0.2);
+}
+
+TEST(Scan, RefusesATrajectoryThatIsNone) {
+  const auto scene = room();
+  const auto rays = scene.build();
+  const auto instrument = testing::instrument("leica-rtc360");
+  Pose nowhere;
+  nowhere.translation.x() = std::nan("");
+  for (const Trajectory& path : {Trajectory{}, Trajectory{{0, 1}, {Pose{}}}, Trajectory{{1, 0}, {Pose{}, Pose{}}}, Trajectory{{0}, {nowhere}}}) {
+    PointsKept sink;
+    Progress progress;
+    EXPECT_EQ(scan(*rays, {}, instrument, dome(instrument, 10, 10), path, {}, sink, progress).error().kind, ErrorKind::usage);
+  }
+}
+
+}  // namespace
+}  // namespace standpoint
