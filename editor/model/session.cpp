@@ -59,9 +59,7 @@ Session::Session(std::vector<Verb> table, std::function<void()> wake) : verbs_(s
   for (auto& verb : fileVerbs()) verbs_.push_back(std::move(verb));
 }
 
-Session::~Session() {
-  for (auto& task : running_) task->progress().cancel();
-}
+Session::~Session() { cancelAll(); }
 
 std::string Session::name() const {
   if (!folder_.empty()) return folder_.filename().string();
@@ -73,25 +71,20 @@ std::string Session::whyNot(std::string_view name) const {
   if (wanted == nullptr) return fmt::format("This build has no '{}'", name);
   const bool needs_model = wanted->scope == VerbScope::changes || wanted->scope == VerbScope::reads;
   if (needs_model && !document().imported) return "There is no model yet: import one first (Ctrl+I)";
-  if (!holdsDocument(*wanted)) return {};
+  return holdsDocument(*wanted) ? whyHeld() : std::string();
+}
+
+std::string Session::whyHeld() const {
   for (const auto& task : running_)
     if (holdsDocument(task->verb())) return fmt::format("Wait until '{}' is done, or cancel it", task->title());
   return {};
 }
 
-std::string Session::whyNotUndo() const {
-  if (!history_.canUndo()) return "There is nothing to undo";
-  for (const auto& task : running_)
-    if (holdsDocument(task->verb())) return fmt::format("Wait until '{}' is done, or cancel it", task->title());
-  return {};
-}
+std::string Session::whyNotUndo() const { return history_.canUndo() ? whyHeld() : "There is nothing to undo"; }
 
-std::string Session::whyNotRedo() const {
-  if (!history_.canRedo()) return "There is nothing to redo";
-  for (const auto& task : running_)
-    if (holdsDocument(task->verb())) return fmt::format("Wait until '{}' is done, or cancel it", task->title());
-  return {};
-}
+std::string Session::whyNotRedo() const { return history_.canRedo() ? whyHeld() : "There is nothing to redo"; }
+
+std::string Session::whyNotAdopt() const { return whyHeld(); }
 
 std::string Session::whyNotSave() const { return whyNot("save-project"); }
 
@@ -160,6 +153,19 @@ bool Session::poll() {
 void Session::wait() {
   while (!running_.empty())
     if (!poll()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+void Session::cancelAll() {
+  for (auto& task : running_) task->progress().cancel();
+}
+
+bool Session::adopt(Outcome outcome) {
+  if (!whyNotAdopt().empty()) return false;
+  for (const auto& issue : outcome.report.issues) say(levelOf(issue.severity), issue.source, issue.message);
+  say(LogLevel::done, "", outcome.description);
+  history_.push(std::move(outcome.document), outcome.description);
+  ++revision_;
+  return true;
 }
 
 void Session::takeResult(Task& task) {

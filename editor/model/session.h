@@ -50,6 +50,7 @@ class Session {
   std::string whyNotUndo() const;
   std::string whyNotRedo() const;
   std::string whyNotSave() const;
+  std::string whyNotAdopt() const;
 
   // Starts a verb; false when whyNot() says why not. `title` is what the list of tasks shows.
   bool start(std::string_view verb, nlohmann::json options, std::string title = {});
@@ -64,6 +65,9 @@ class Session {
   // Takes the results of what has finished; true when there were any. Call once a frame.
   bool poll();
   void wait();   // until nothing runs
+  void cancelAll();
+  // Takes in what ran elsewhere on the current document (an emulated instrument's scan); false when whyNotAdopt() says why not.
+  bool adopt(Outcome outcome);
 
   const std::vector<std::unique_ptr<Task>>& running() const { return running_; }
   const std::deque<FinishedTask>& finished() const { return finished_; }   // newest first
@@ -80,6 +84,7 @@ class Session {
   std::uint64_t revision() const { return revision_; }
 
  private:
+  std::string whyHeld() const;   // by a task; "" when it is free
   bool launch(const Verb& verb, nlohmann::json options, std::string title);
   void takeResult(Task& task);
   void succeed(Task& task, Outcome outcome);

@@ -17,7 +17,7 @@ constexpr int kWorkspaces = 4;
 
 // Widths and heights of the areas in points (pixels at scale 1).
 struct AreaSizes {
-  float left = 280, right = 330, bottom = 190;
+  float left = 280, right = 340, bottom = 190;
   bool operator==(const AreaSizes&) const = default;
 };
 

@@ -35,8 +35,8 @@ const char* colourName(ColourMode mode) {
 }
 
 void colourChip(Editor& editor) {
-  ImGui::SetNextItemWidth(editor.px(168));
-  if (!ImGui::BeginCombo("###colour", fmt::format("{}  {}", ICON_PAINT, colourName(editor.view.colour)).c_str())) return;
+  ImGui::SetNextItemWidth(editor.px(166));
+  if (!ImGui::BeginCombo("###colour", fmt::format("{}  {}", ICON_PAINT, colourName(editor.view.colour)).c_str(), ImGuiComboFlags_NoArrowButton)) return;
   for (const auto mode : {ColourMode::model, ColourMode::material, ColourMode::reflectance})
     if (ImGui::Selectable(colourName(mode), editor.view.colour == mode)) editor.view.colour = mode;
   ImGui::EndCombo();
@@ -54,8 +54,8 @@ void cutChip(Editor& editor) {
   auto& cut = editor.visibility.cut_height_m;
   const double shift = editor.shift_m().z();
   const std::string label = cut ? fmt::format("{}  Cut at {:.2f} m", ICON_CUT, *cut + shift) : std::string(ICON_CUT) + "  No cut";
-  ImGui::SetNextItemWidth(editor.px(150));
-  if (ImGui::BeginCombo("###cut", label.c_str(), ImGuiComboFlags_HeightLarge)) {
+  ImGui::SetNextItemWidth(editor.px(128));
+  if (ImGui::BeginCombo("###cut", label.c_str(), ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton)) {
     if (ImGui::Selectable("No cut", !cut)) cut.reset();
     const auto& storeys = editor.storeys();
     for (std::size_t i = storeys.size(); i-- > 0;) {

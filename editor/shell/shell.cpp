@@ -273,11 +273,11 @@ std::string hoverText(const Editor& editor) {
 
 void drawRunningTask(Editor& editor) {
   const auto& running = editor.session.running();
-  const Task* shown = nullptr;
+  Task* shown = nullptr;
   for (const auto& task : running)
     if (std::strcmp(task->verb().name, "save-recovery") != 0) shown = task.get();
   if (shown == nullptr) return;
-  auto& progress = const_cast<Task*>(shown)->progress();
+  auto& progress = shown->progress();
   const std::string text = fmt::format("{}   {:.0f} %", shown->title(), progress.fraction() * 100);
   const float bar = editor.px(160), cancel = editor.px(64);
   const float width = ImGui::CalcTextSize(text.c_str()).x + bar + cancel + editor.px(30);
@@ -287,11 +287,7 @@ void drawRunningTask(Editor& editor) {
   ImGui::SameLine();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::SetCursorScreenPos({at.x, at.y + (ImGui::GetFrameHeight() - editor.px(6)) / 2});
-  ImGui::PushClipRect(at, {at.x + bar, at.y + editor.px(40)}, true);
-  ImGui::BeginGroup();
-  ImGui::ProgressBar(static_cast<float>(progress.fraction()), {bar, editor.px(6)}, "");
-  ImGui::EndGroup();
-  ImGui::PopClipRect();
+  ui::meter(editor, progress.fraction(), tone::kAccent, bar);
   ImGui::SetCursorScreenPos({at.x + bar + editor.px(10), at.y});
   if (ui::button("Cancel###cancel-task", progress.cancelled() ? "It stops at the next safe place" : "", {cancel, 0})) progress.cancel();
 }

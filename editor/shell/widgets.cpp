@@ -124,9 +124,9 @@ void property(const char* label, const std::string& value) {
 
 void endProperties() { ImGui::EndTable(); }
 
-void meter(const Editor& editor, double fraction, ImU32 fill, float height_points) {
+void meter(const Editor& editor, double fraction, ImU32 fill, float wanted_width) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x, height = editor.px(height_points);
+  const float width = wanted_width > 0 ? wanted_width : ImGui::GetContentRegionAvail().x, height = editor.px(6);
   auto& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(at, {at.x + width, at.y + height}, IM_COL32(27, 30, 36, 255), height / 2);
   const float filled = width * static_cast<float>(std::clamp(fraction, 0.0, 1.0));

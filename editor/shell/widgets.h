@@ -35,7 +35,7 @@ void property(const char* label, const std::string& value);
 void propertyLabel(const char* label);   // then draw a widget in the value's column
 void endProperties();
 
-void meter(const Editor& editor, double fraction, ImU32 tone, float height_points = 6);
+void meter(const Editor& editor, double fraction, ImU32 tone, float width = 0);   // 0 = all there is
 void swatch(const Editor& editor, const Colour& colour);
 bool searchField(const char* id, const char* hint, std::string& text);
 void textRightAligned(const std::string& text);

@@ -123,7 +123,11 @@ class Window {
   void waitForWork() {
     glfwPollEvents();
     if (input_.pending() || frames_wanted_ > 0) return;
-    if (ImGui::GetIO().WantTextInput) {
+    const auto& io = ImGui::GetIO();
+    const bool key_held = std::any_of(std::begin(io.KeysDown), std::end(io.KeysDown), [](bool down) { return down; });
+    if (key_held) {
+      glfwWaitEventsTimeout(1.0 / 30);   // Dear ImGui repeats held keys itself, once a frame
+    } else if (io.WantTextInput) {
       glfwWaitEventsTimeout(0.4);
     } else if (!editor_.fine_picture) {
       glfwWaitEventsTimeout(std::max(0.01, last_input_s_ + kStill_s - glfwGetTime()));
@@ -282,7 +286,8 @@ Result<void> runWindow(Editor& editor, int width, int height) {
     Window window(editor, handle);
     window.run();
   }
-  editor.session.wait();   // a task that still runs may wake a window that is about to go
+  editor.session.cancelAll();   // a task that still runs may wake a window that is about to go
+  editor.session.wait();
   window_open.store(false);
   glfwDestroyWindow(handle);
   glfwTerminate();
