@@ -209,7 +209,8 @@ int runCommandLine(std::span<const Verb> table, const std::vector<std::string>& 
       streams.err << fmt::format("standpoint: there is no verb '{}'; `standpoint help` lists them\n", topic);
       return kWrongUsage;
     }
-    streams.out << asked->help();
+    // App::help() would answer with the help of the subcommand that was parsed: this one.
+    streams.out << asked->get_formatter()->make_help(asked, asked == &app ? "standpoint" : "standpoint " + topic, CLI::AppFormatMode::Normal);
     return kDone;
   }
   for (auto& parsed : all) {
