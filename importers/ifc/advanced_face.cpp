@@ -51,6 +51,18 @@ double area2(const std::vector<Uv>& loop) {
   return sum / 2;
 }
 
+// Within a hundredth of their size, for files round their points.
+bool liesOn(const std::vector<UvLoop>& loops, const ParametricSurface& surface) {
+  Eigen::AlignedBox3d box;
+  double off = 0;
+  for (const UvLoop& loop : loops)
+    for (std::size_t i = 0; i < loop.uv.size(); ++i) {
+      box.extend(loop.points[i]);
+      off = std::max(off, (surface.at(loop.uv[i]) - loop.points[i]).norm());
+    }
+  return off <= 1e-3 + 0.01 * box.diagonal().norm();
+}
+
 // A tube's side may be bounded by two rings without a seam: both are opened and joined to one outline.
 bool joinRings(std::vector<UvLoop>& loops, double period) {
   if (!(period > 0)) return true;
@@ -158,7 +170,8 @@ Result<void> appendCurvedFace(geometry::PolyMesh& mesh, const Entity& face, Scop
     if (!points) return failure(points.error());
     if (points->size() >= 3) loops.push_back(toParameters(*points, on));
   }
-  if (loops.empty()) return fail(face, "the face has no bound that encloses an area");
+  if (loops.empty()) return {};   // a face without area is no loss
+  if (!liesOn(loops, on)) return fail(face, "the bounds of the face do not lie on its surface");
   if (!joinRings(loops, on.period().maxCoeff())) return fail(face, "a face whose bound runs around its surface is not supported here");
   std::stable_sort(loops.begin(), loops.end(), [](const UvLoop& a, const UvLoop& b) { return std::abs(area2(a.uv)) > std::abs(area2(b.uv)); });
   Patch patch;

@@ -94,7 +94,24 @@ bool isCurved(const Entity& face) {
   return surface_entity && !surface_entity.is("IFCPLANE");
 }
 
+void flip(geometry::PolyMesh& mesh) {
+  for (auto& face : mesh.faces) {
+    std::reverse(face.outer.begin(), face.outer.end());
+    for (auto& hole : face.holes) std::reverse(hole.begin(), hole.end());
+  }
+}
+
 }  // namespace
+
+void orient(geometry::PolyMesh& shell) {
+  geometry::PolyMesh oriented = shell;
+  geometry::orientOutward(oriented);
+  if (oriented.faces.size() < shell.faces.size() && geometry::isClosed(shell) && !geometry::isClosed(oriented)) {
+    if (geometry::volume(shell) < 0) flip(shell);
+  } else {
+    shell = std::move(oriented);
+  }
+}
 
 Result<void> appendShell(geometry::PolyMesh& mesh, const Entity& shell, Scope& scope) {
   if (!shell) return failure(ErrorKind::unusable, "a shell is missing", shell.place());
@@ -115,16 +132,13 @@ Result<void> appendShell(geometry::PolyMesh& mesh, const Entity& shell, Scope& s
 Result<geometry::PolyMesh> facetedBrep(const Entity& entity, Scope& scope) {
   geometry::PolyMesh mesh;
   if (auto done = appendShell(mesh, entity.ref(0), scope); !done) return failure(done.error());
-  geometry::orientOutward(mesh);
+  orient(mesh);
   if (entity.typeName().ends_with("WITHVOIDS"))
     for (const Entity& shell : entity.refs(1)) {
       geometry::PolyMesh cavity;
       if (auto done = appendShell(cavity, shell, scope); !done) return failure(done.error());
-      geometry::orientOutward(cavity);
-      for (auto& face : cavity.faces) {
-        std::reverse(face.outer.begin(), face.outer.end());
-        for (auto& hole : face.holes) std::reverse(hole.begin(), hole.end());
-      }
+      orient(cavity);
+      flip(cavity);
       geometry::append(mesh, cavity);
     }
   if (mesh.faces.empty()) return fail(entity, "the shell has no usable face");
@@ -136,7 +150,7 @@ Result<geometry::PolyMesh> surfaceModel(const Entity& entity, Scope& scope) {
   for (const Entity& shell : entity.refs(0)) {
     geometry::PolyMesh part;
     if (auto done = appendShell(part, shell, scope); !done) return failure(done.error());
-    geometry::orientOutward(part);
+    orient(part);
     geometry::append(mesh, part);
   }
   if (mesh.faces.empty()) return fail(entity, "the surface model has no usable face");
@@ -146,7 +160,7 @@ Result<geometry::PolyMesh> surfaceModel(const Entity& entity, Scope& scope) {
 Result<geometry::PolyMesh> faceSetItem(const Entity& entity, Scope& scope) {
   geometry::PolyMesh mesh;
   if (auto done = appendShell(mesh, entity, scope); !done) return failure(done.error());
-  geometry::orientOutward(mesh);
+  orient(mesh);
   if (mesh.faces.empty()) return fail(entity, "the shell has no usable face");
   return mesh;
 }

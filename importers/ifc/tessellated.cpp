@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "importers/ifc/curve.h"
+#include "importers/ifc/faceted.h"
 #include "importers/ifc/solid.h"
 #include "importers/ifc/style.h"
 
@@ -35,7 +36,7 @@ class Indices {
 Result<geometry::PolyMesh> finished(const Entity& entity, geometry::PolyMesh mesh, std::size_t bad, Scope& scope) {
   if (bad > 0) scope.report.lose(entity.place(), std::to_string(bad) + " faces refer to points that the list does not have");
   if (mesh.faces.empty()) return fail(entity, "the face set has no usable face");
-  geometry::orientOutward(mesh);
+  orient(mesh);
   return mesh;
 }
 
