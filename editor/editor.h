@@ -85,6 +85,7 @@ struct Editor {
   void update();
   ViewState viewState() const;
   Bounds visibleBounds() const;
+  Bounds buildingBounds() const;           // what is visible without the terrain around it
   Bounds selectionBounds() const;
   void frameSelection();                   // everything when nothing is selected
   void select(std::uint32_t product, bool reveal);
@@ -95,6 +96,7 @@ struct Editor {
 
  private:
   void adoptDocument();
+  Bounds boundsOfVisible(bool with_terrain) const;
   std::shared_ptr<const Environment> imported_;   // whose products selection and visibility speak of
   std::uint64_t seen_revision_ = ~0ULL;
   mutable std::shared_ptr<const Environment> derived_from_;
