@@ -25,7 +25,8 @@ struct Words {
   const Verb* verb = nullptr;
   CLI::App* app = nullptr;
   std::string project;
-  std::map<std::string, std::vector<std::string>> values;   // by parameter
+  std::map<std::string, std::string> values;                // by parameter
+  std::map<std::string, std::vector<std::string>> lists;
   std::map<std::string, bool> flags;
   bool print_json = false;
   bool allow_loss = false;
@@ -60,32 +61,30 @@ void describeVerb(Words& words) {
     }
     std::string names = p.positional ? std::string(p.name) : fmt::format("--{}", p.name);
     if (std::string_view(p.name) == "output") names = "-o," + names;
-    auto* option = app.add_option(names, words.values[p.name], helpOf(p))->type_name(placeholder(p));
     const bool many = p.kind == ParameterKind::list || p.kind == ParameterKind::pairs;
-    option->expected(1, many ? 1 << 20 : 1);
+    auto* option = many ? app.add_option(names, words.lists[p.name], helpOf(p)) : app.add_option(names, words.values[p.name], helpOf(p));
+    option->type_name(placeholder(p));
     if (p.required) option->required();
   }
   app.add_flag("--json", words.print_json, "print one JSON object on standard output");
   app.add_flag("--allow-loss", words.allow_loss, "exit with 0 even when something was lost");
 }
 
-Result<json> valueOf(const Parameter& p, const std::vector<std::string>& texts) {
+Result<json> valueOf(const Parameter& p, const std::string& text) {
   switch (p.kind) {
-    case ParameterKind::list:
-    case ParameterKind::pairs: return json(texts);
     case ParameterKind::triple: {
-      auto numbers = parseNumbers(texts.back());
+      auto numbers = parseNumbers(text);
       if (!numbers) return failure(ErrorKind::usage, numbers.error().message, fmt::format("--{}", p.name));
       return numbers;
     }
     case ParameterKind::number:
     case ParameterKind::integer: {
-      const json number = json::parse(texts.back(), nullptr, false);
+      const json number = json::parse(text, nullptr, false);
       if (!number.is_number())
-        return failure(ErrorKind::usage, fmt::format("'{}' is not a number", texts.back()), fmt::format("--{}", p.name));
+        return failure(ErrorKind::usage, fmt::format("'{}' is not a number", text), fmt::format("--{}", p.name));
       return number;
     }
-    default: return json(texts.back());
+    default: return json(text);
   }
 }
 
@@ -97,9 +96,12 @@ Result<json> optionsFrom(const Words& words) {
       if (flag->second) options[p.name] = true;
       continue;
     }
-    const auto& texts = words.values.at(p.name);
-    if (texts.empty()) continue;
-    auto value = valueOf(p, texts);
+    if (const auto list = words.lists.find(p.name); list != words.lists.end()) {
+      if (!list->second.empty()) options[p.name] = list->second;
+      continue;
+    }
+    if (words.app->count(p.positional ? std::string(p.name) : fmt::format("--{}", p.name)) == 0) continue;
+    auto value = valueOf(p, words.values.at(p.name));
     if (!value) return value;
     options[p.name] = *std::move(value);
   }
@@ -207,7 +209,8 @@ int runCommandLine(std::span<const Verb> table, const std::vector<std::string>& 
       streams.err << fmt::format("standpoint: there is no verb '{}'; `standpoint help` lists them\n", topic);
       return kWrongUsage;
     }
-    streams.out << asked->help();
+    // App::help() would answer with the help of the subcommand that was parsed: this one.
+    streams.out << asked->get_formatter()->make_help(asked, asked == &app ? "standpoint" : "standpoint " + topic, CLI::AppFormatMode::Normal);
     return kDone;
   }
   for (auto& parsed : all) {

@@ -11,8 +11,19 @@ Eigen::Vector3d Editor::shift_m() const {
   return georeference ? georeference->shift_m : Eigen::Vector3d::Zero();
 }
 
+void Editor::showCloud(const std::filesystem::path& file) {
+  cloud_.reset();
+  if (!file.empty()) cloud_loader_.start(file, shift_m(), wake);
+}
+
 void Editor::update() {
   session.poll();
+  if (auto read = cloud_loader_.take()) {
+    if (*read)
+      cloud_ = std::make_shared<const Cloud>(**std::move(read));
+    else if (read->error().kind != ErrorKind::cancelled)
+      session.errors().push_back({"The scan cannot be shown", read->error()});
+  }
   if (session.revision() == seen_revision_) return;
   seen_revision_ = session.revision();
   adoptDocument();
@@ -26,6 +37,7 @@ void Editor::adoptDocument() {
   selection.clear();
   visibility.reset(imported_ ? imported_->products.size() : 0);
   visibility.cut_height_m.reset();
+  cloud_.reset();
   view.tool = Tool::select;
   view.measured_from.reset();
   view.measured_to.reset();
@@ -50,6 +62,7 @@ ViewState Editor::viewState() const {
   state.grid = view.grid;
   state.walkable = view.walkable && document.collision;
   state.shapes = view.shapes && document.collision;
+  state.cloud = cloud_;
   state.camera = view.camera;
   return state;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "editor/model/camera.h"
+#include "editor/model/cloud.h"
 #include "editor/model/picker.h"
 #include "editor/model/selection.h"
 #include "editor/model/session.h"
@@ -84,6 +85,10 @@ struct Editor {
   // To be called once a frame before drawing: results of tasks, and what follows from another document.
   void update();
   ViewState viewState() const;
+  // Shows a scan's points instead of the model, once they are read; an empty path goes back to the model.
+  void showCloud(const std::filesystem::path& file);
+  const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
+  bool readingCloud() const { return cloud_loader_.busy(); }
   Bounds visibleBounds() const;
   Bounds buildingBounds() const;           // what is visible without the terrain around it
   Bounds selectionBounds() const;
@@ -97,6 +102,8 @@ struct Editor {
  private:
   void adoptDocument();
   Bounds boundsOfVisible(bool with_terrain) const;
+  CloudLoader cloud_loader_;
+  std::shared_ptr<const Cloud> cloud_;
   std::shared_ptr<const Environment> imported_;   // whose products selection and visibility speak of
   std::uint64_t seen_revision_ = ~0ULL;
   mutable std::shared_ptr<const Environment> derived_from_;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "editor/editor.h"
+#include "editor/instrument.h"
 #include "editor/pictures.h"
 #include "editor/shell/actions.h"
 #include "editor/viewport/offscreen.h"
@@ -73,6 +74,7 @@ int makePictures(const Arguments& arguments) {
   auto offscreen = Offscreen::create(arguments.width, arguments.height, arguments.scale);
   if (!offscreen) return fail(offscreen.error());
   Editor editor(allVerbs(), [] {});
+  attachInstrument(editor);
   openPath(editor, arguments.project);
   editor.session.wait();
   if (!editor.session.errors().empty()) return fail(editor.session.errors().front().error);
@@ -85,6 +87,7 @@ int makePictures(const Arguments& arguments) {
 
 int openWindow(const Arguments& arguments) {
   Editor editor(allVerbs(), wakeWindow);
+  attachInstrument(editor);
   editor.settings = readSettings(settingsFile());
   editor.dialogs.recovery = findRecoveryCopies(recoveryRoot());
   if (!arguments.project.empty()) openPath(editor, arguments.project);

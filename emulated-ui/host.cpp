@@ -31,6 +31,19 @@ std::vector<StoredScan> storedScans(const Document& document, const std::string&
   return stored;
 }
 
+namespace {
+
+// Adds a scan to a station of the document as it is now.
+Document withScan(Document document, const std::string& station_name, const Scan& scan) {
+  Job job = *document.job;
+  for (auto& station : job.stations)
+    if (station.name == station_name) station.scans.push_back(scan);
+  document.job = std::make_shared<const Job>(std::move(job));
+  return document;
+}
+
+}  // namespace
+
 InstrumentHost::InstrumentHost(const EmulatedInstrument& emulated, std::unique_ptr<Menu> menu, const Document& document,
                                std::function<void()> wake)
     : emulated_(emulated), menu_(std::move(menu)), wake_(std::move(wake)) {
@@ -66,10 +79,12 @@ void InstrumentHost::collect() {
   const auto& row = outcome->answer.at("stations").at(0);
   menu_->scanDone({request_.job, request_.setup, request_.station, request_.settings, file_.string(),
                    row.at("points").get<std::uint64_t>(), row.at("instrument_seconds").get<double>()});
-  finished_ = *std::move(outcome);
+  for (const auto& station : outcome->document.job->stations)
+    if (station.name == request_.station) finished_ = station.scans.back();
 }
 
-std::optional<Outcome> InstrumentHost::update(const Document& document, const fs::path& scans_folder, double seconds) {
+std::optional<Outcome> InstrumentHost::update(const Document& document, const fs::path& scans_folder, double seconds,
+                                              bool may_store) {
   if (const auto request = menu_->takeRequest()) start(*request, document, scans_folder);
   if (menu_->takeCancel()) {
     if (task_) task_->progress().cancel();
@@ -81,10 +96,12 @@ std::optional<Outcome> InstrumentHost::update(const Document& document, const fs
   }
   collect();
   menu_->tick(seconds * time_factor);
-  if (!menu_->takeStored() || !finished_) return std::nullopt;
-  finished_->description = fmt::format("Scanned setup {} of '{}' at {} with {}", request_.setup, request_.job,
-                                       request_.station, emulated_.device);
-  return std::exchange(finished_, std::nullopt);
+  if (!may_store || !menu_->takeStored() || !finished_) return std::nullopt;
+  Outcome outcome{withScan(document, request_.station, *finished_), nlohmann::json::object(), {}, {}};
+  outcome.description = fmt::format("Scanned setup {} of '{}' at {} with {}", request_.setup, request_.job,
+                                    request_.station, emulated_.device);
+  finished_.reset();
+  return outcome;
 }
 
 }  // namespace standpoint

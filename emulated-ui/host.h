@@ -32,8 +32,11 @@ class InstrumentHost {
   std::uint64_t seed = 1;
 
   // Call once per frame. `seconds` since the last call; `scans_folder` empty while the project has no folder.
-  // Gives the changed document, with the undo line, when a setup has been stored.
-  std::optional<Outcome> update(const Document& document, const std::filesystem::path& scans_folder, double seconds);
+  // Gives `document` with the setup in it, and the undo line, when the instrument has stored one; whatever else was done
+  // to the document while the instrument was scanning stays. `may_store` false: something else is changing the document
+  // just now, so a finished setup waits.
+  std::optional<Outcome> update(const Document& document, const std::filesystem::path& scans_folder, double seconds,
+                                bool may_store = true);
 
   // The simulation that runs behind the instrument's screen; null when none does.
   Task* task() { return task_.get(); }
@@ -49,7 +52,7 @@ class InstrumentHost {
   std::unique_ptr<Task> task_;
   ScanRequest request_;
   std::filesystem::path file_;
-  std::optional<Outcome> finished_;   // waits for the instrument to store it
+  std::optional<Scan> finished_;      // waits for the instrument to store it
 };
 
 }  // namespace standpoint

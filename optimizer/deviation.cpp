@@ -57,7 +57,7 @@ Deviation deviationOfDropped(const Shape& shape, const std::vector<SurfacePoint>
   for (const auto& point : points) way.add(point.position.squaredNorm());
   for (const auto& t : shape.triangles)
     for (const auto v : t) way.max_squared = std::max(way.max_squared, shape.positions[v].squaredNorm());
-  return {std::sqrt(way.max_squared), way.mean(), 0};
+  return {.max_m = std::sqrt(way.max_squared), .mean_m = way.mean()};
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -35,9 +36,19 @@ class DeviationMeter {
 
   // `image` is replay()'s, or empty: it only makes the search faster. `after` has the same centre.
   Deviation of(const Shape& after, const std::vector<std::uint32_t>& image = {}) const;
-  // Without a look at the vertices: the mean alone.
-  double meanOf(const Shape& after, const std::vector<std::uint32_t>& image) const { return measure(after, image, false).mean_m; }
-  double area_m2() const { return area_m2_; }
+  // Without a look at the vertices.
+  Deviation roughlyOf(const Shape& after, const std::vector<std::uint32_t>& image) const { return measure(after, image, false); }
+  // How far `after` reaches out of the shape before, where `counts` says that it matters.
+  template <class Counts>
+  double reachOf(const Shape& after, Counts counts) const {
+    double farthest = 0;
+    for (const auto& point : pointsByArea(after.positions, after.triangles, samples_, {seed_, 1})) {
+      if (!counts(point.position)) continue;
+      const double distance = std::sqrt(tree_.squaredDistance(point.position));
+      if (distance > farthest && tree_.isOutside(point.position)) farthest = distance;
+    }
+    return farthest;
+  }
 
  private:
   Deviation measure(const Shape& after, const std::vector<std::uint32_t>& image, bool vertices) const;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "optimizer/pieces.h"
@@ -18,12 +19,17 @@ constexpr std::uint32_t kSamples = 256;
 constexpr std::uint32_t kMostMeasured = 50'000;  // triangles; a larger form is not measured, as its tree would cost more than its log
 constexpr double kFineSpacing = 0.8, kCoarseSpacing = 0.5;  // of the triangle counts at which is measured
 constexpr std::uint32_t kFineBelow = 5000;
+// A form that reaches further than this out of the shape, at the height of the knees, closes a doorway, of which half is
+// 0.3 m or more. A window may be closed: it begins higher, and its frame is a product of its own.
+constexpr double kMostFilled = 0.25, kKneeLow = 0.3, kKneeHigh = 0.8;  // m
+constexpr double kDoorway = 1.8;  // m; a shape that is lower has no room for one
 
 struct Point {
   std::uint32_t triangles = 0;
   double loss = 0;  // m³
   std::uint32_t collapses = 0;
   std::int32_t stand_in = -1;
+  std::uint32_t refused = 0;  // forms of the same log that were refused before it
 };
 
 // Rows: the largest face direction, the largest square to it, and their cross product.
@@ -86,24 +92,55 @@ std::vector<Shape> standIns(const Shape& shape) {
   return result;
 }
 
-std::vector<Point> measure(const Shape& shape, const ShapeLevels& made, double max_deviation_m, std::uint64_t seed, const Progress& progress) {
+// Tells forms that close a doorway.
+class DoorwayGuard {
+ public:
+  DoorwayGuard(const Shape& shape, const DeviationMeter& meter, const Placement& placement) : meter_(meter), up_(placement.up), scale_(placement.scale) {
+    double high = -std::numeric_limits<double>::infinity();
+    low_ = -high;
+    for (const auto& p : shape.positions) {
+      low_ = std::min(low_, up_.dot(p));
+      high = std::max(high, up_.dot(p));
+    }
+    has_room_ = (high - low_) * scale_ >= kDoorway;
+  }
+  bool refuses(const Shape& form) const {
+    const auto at_knees = [&](const Vector3d& p) {
+      const double height = (up_.dot(p) - low_) * scale_;
+      return height > kKneeLow && height < kKneeHigh;
+    };
+    return has_room_ && meter_.reachOf(form, at_knees) * scale_ > kMostFilled;
+  }
+
+ private:
+  const DeviationMeter& meter_;
+  Vector3d up_;
+  double scale_, low_ = 0;
+  bool has_room_ = false;
+};
+
+std::vector<Point> measure(const Shape& shape, const ShapeLevels& made, double max_deviation_m, const Placement& placement, std::uint64_t seed, const Progress& progress) {
   auto left = static_cast<std::uint32_t>(shape.triangles.size());
   std::vector<Point> points{{left}};
   const DeviationMeter meter(shape, kSamples, seed);
   const auto target = [](std::uint32_t count) { return static_cast<std::uint32_t>(count * (count <= kFineBelow ? kFineSpacing : kCoarseSpacing)); };
   std::uint32_t next = std::min(target(left), kMostMeasured);
   std::vector<std::uint32_t> image;
+  std::uint32_t refused = 0;
+  const DoorwayGuard guard(shape, meter, placement);
   for (std::uint32_t i = 0; i < made.log.size(); ++i) {
     left -= made.log[i].triangles;
     if (left > next && i + 1 < made.log.size()) continue;
     if (progress.cancelled()) return points;
-    const double mean_m = meter.meanOf(replay(shape, made.log, i + 1, &image), image);
-    points.push_back({left, mean_m * meter.area_m2(), i + 1});
+    const Shape form = replay(shape, made.log, i + 1, &image);
+    const auto deviation = meter.roughlyOf(form, image);
+    if (guard.refuses(form)) ++refused;
+    else points.push_back({left, deviation.mean_m * deviation.area_m2, i + 1, -1, refused});
     next = target(left);
   }
   for (std::size_t i = 0; i < made.stand_ins.size(); ++i) {
     const auto deviation = meter.of(made.stand_ins[i]);
-    if (deviation.max_m > max_deviation_m) continue;
+    if (deviation.max_m > max_deviation_m || guard.refuses(made.stand_ins[i])) continue;
     points.push_back({static_cast<std::uint32_t>(made.stand_ins[i].triangles.size()), deviation.mean_m * deviation.area_m2, 0, static_cast<std::int32_t>(i)});
   }
   return points;
@@ -124,7 +161,7 @@ std::vector<Point> lowerHull(std::vector<Point> points) {
 
 }  // namespace
 
-ShapeLevels makeLevels(const Shape& shape, const CollapseOptions& options, std::uint64_t seed, const Progress& progress) {
+ShapeLevels makeLevels(const Shape& shape, const CollapseOptions& options, const Placement& placement, std::uint64_t seed, const Progress& progress) {
   ShapeLevels made;
   if (shape.triangles.empty()) return made;
   made.log = recordCollapses(shape, options, progress);
@@ -136,11 +173,12 @@ ShapeLevels makeLevels(const Shape& shape, const CollapseOptions& options, std::
     hull.push_back({left, 0, static_cast<std::uint32_t>(made.log.size())});
   } else {
     made.stand_ins = standIns(shape);
-    hull = lowerHull(measure(shape, made, options.max_deviation_m, seed, progress));
+    hull = lowerHull(measure(shape, made, options.max_deviation_m, placement, seed, progress));
   }
   for (std::size_t i = 0; i + 1 < hull.size(); ++i) {
     const double cost = std::max(0.0, slope(hull[i], hull[i + 1]));
-    if (hull[i].stand_in < 0 && hull[i + 1].stand_in < 0) {  // each step between the two is a level, too
+    const bool steps = hull[i].stand_in < 0 && hull[i + 1].stand_in < 0 && hull[i].refused == hull[i + 1].refused;
+    if (steps) {  // each between the two is a level, too
       auto left = hull[i].triangles;
       for (auto k = hull[i].collapses; k < hull[i + 1].collapses; ++k) {
         left -= made.log[k].triangles;

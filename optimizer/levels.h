@@ -25,9 +25,16 @@ struct ShapeLevels {
   std::vector<Level> levels;
 };
 
+// How the shape's largest copy stands.
+struct Placement {
+  double scale = 1;
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  // in the shape's own frame
+};
+
 // Without loss every step of the log is a level that costs nothing. Else the deviation is measured at a few of the steps,
 // so that shapes compete by what one would see and not by their quadrics, which overrate thin and underrate folded parts.
-ShapeLevels makeLevels(const Shape& shape, const CollapseOptions& options, std::uint64_t seed, const Progress& progress);
+// Forms that close a doorway are left out.
+ShapeLevels makeLevels(const Shape& shape, const CollapseOptions& options, const Placement& placement, std::uint64_t seed, const Progress& progress);
 
 // `levels` of them taken; 0 is the shape itself. `image` as for replay().
 Shape atLevel(const Shape& shape, const ShapeLevels& levels, std::size_t taken, std::vector<std::uint32_t>& image);

@@ -31,6 +31,7 @@ struct Work {
   std::uint64_t copies = 0;
   double scale = 0;      // of the largest copy: deviations are measured in its metres
   double placed_area_m2 = 0;
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  // of the first copy, in the mesh's frame
   std::uint32_t samples = 0;
   Deviation deviation;   // in the mesh's own frame
   bool measured = false;
@@ -69,7 +70,8 @@ std::vector<Work> prepare(const Environment& environment) {
   std::vector<Work> works(environment.meshes.size());
   for (const auto& instance : environment.instances) {
     Work& work = works[instance.mesh];
-    ++work.copies;
+    const Eigen::Vector3d up = instance.world_from_mesh.linear().transpose() * Eigen::Vector3d::UnitZ();
+    if (work.copies++ == 0 && up.norm() > 0) work.up = up.normalized();
     work.scale = std::max(work.scale, largestStretch(instance.world_from_mesh));
     const double stretch = meanStretch(instance.world_from_mesh);
     work.placed_area_m2 += stretch * stretch;
@@ -119,7 +121,7 @@ Result<void> simplify(std::vector<Work>& works, const OptimizeOptions& options, 
   progress.stage("Simplify", 0, 0.6);
   forEachLargestFirst(works, progress, [&](Work& work, std::uint32_t mesh) {
     if (work.copies == 0 || !(work.scale > 0)) return;
-    work.levels = makeLevels(work.shape, {options.max_deviation_m / work.scale, lossless}, mesh, progress);
+    work.levels = makeLevels(work.shape, {options.max_deviation_m / work.scale, lossless}, {work.scale, work.up}, mesh, progress);
     work.limit = work.levels.levels.size();
   });
   progress.stage("Measure", 0.6, 0.9);

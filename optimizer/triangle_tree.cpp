@@ -80,6 +80,17 @@ bool TriangleTree::meetsBox(std::uint32_t triangle, const Eigen::Vector3d& low, 
   return (a.cwiseMin(b).cwiseMin(c).array() <= high.array()).all() && (a.cwiseMax(b).cwiseMax(c).array() >= low.array()).all();
 }
 
+bool TriangleTree::isOutside(const Eigen::Vector3d& p) const {
+  double side = 0;
+  nearest(p, std::numeric_limits<double>::infinity(), [&](std::uint32_t i, double bound) {
+    const auto &a = positions_[triangles_[i][0]], &b = positions_[triangles_[i][1]], &c = positions_[triangles_[i][2]];
+    const Eigen::Vector3d away = p - closestPoint(p, a, b, c);
+    if (away.squaredNorm() < bound) side = away.dot((b - a).cross(c - a));
+    return away.squaredNorm();
+  });
+  return side > 0;
+}
+
 double TriangleTree::squaredDistance(const Eigen::Vector3d& p, double bound) const {
   return nearest(p, bound, [&](std::uint32_t i, double) {
     const auto& t = triangles_[i];

@@ -26,7 +26,10 @@ class TriangleTree {
   // Squared distance from p to the nearest triangle, or `bound` when nothing is nearer than that.
   double squaredDistance(const Eigen::Vector3d& p, double bound = std::numeric_limits<double>::infinity()) const;
 
-  // The same for whatever the triangles stand for: squared(triangle, bound) is asked for those whose box is nearer than bound.
+  // Whether p is on the side of its nearest triangle that the triangle faces.
+  bool isOutside(const Eigen::Vector3d& p) const;
+
+  // The same distance for whatever the triangles stand for: squared(triangle, bound) is asked for those whose box is nearer than bound.
   template <class Squared>
   double nearest(const Eigen::Vector3d& p, double bound, Squared squared) const {
     if (nodes_.empty()) return bound;

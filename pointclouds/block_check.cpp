@@ -2,6 +2,7 @@
 #include "pointclouds/block_check.h"
 
 #include <bit>
+#include <cmath>
 #include <string>
 
 namespace standpoint {
@@ -37,8 +38,20 @@ tl::unexpected<Error> broken(const ScanHeader& header, const std::string& what) 
 
 }  // namespace
 
+Result<void> checkHeader(const ScanHeader& header) {
+  const Pose& pose = header.file_from_scanner;
+  const bool pose_known =
+      pose.translation.allFinite() && pose.rotation.coeffs().allFinite() && pose.rotation.norm() > 0;
+  if (!pose_known) return broken(header, "the pose is no rotation and translation");
+  for (const double v :
+       {header.intensity_min, header.intensity_max, header.acquisition_start_gps_s, header.acquisition_seconds})
+    if (!std::isfinite(v)) return broken(header, "an intensity limit or a time is not finite");
+  return {};
+}
+
 Result<BlockExtent> checkBlock(const ScanHeader& header, const PointBlock& block) {
-  if (!columnsFit(header, block)) return broken(header, "a block's columns are not of one size, or not those of the header");
+  if (!columnsFit(header, block))
+    return broken(header, "a block's columns are not of one size, or not those of the header");
   BlockExtent extent;
   const std::array<const std::vector<float>*, 3> axes = {&block.x_m, &block.y_m, &block.z_m};
   for (std::size_t axis = 0; axis < 3; ++axis) {

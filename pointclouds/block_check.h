@@ -11,8 +11,11 @@ namespace standpoint {
 // Bounds of points, indices and labels of one block, for a writer that must know that they are what the header says.
 struct BlockExtent {
   std::array<float, 3> low{}, high{};
-  std::uint32_t row = 0, column = 0;   // largest
+  std::uint32_t row = 0, column = 0;  // largest
 };
+
+// Pose, limits and times are numbers.
+Result<void> checkHeader(const ScanHeader& header);
 
 // The block is not empty. An error says what in it breaks the promises of ScanHeader and PointBlock.
 Result<BlockExtent> checkBlock(const ScanHeader& header, const PointBlock& block);

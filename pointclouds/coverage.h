@@ -8,7 +8,7 @@
 
 namespace standpoint {
 
-std::uint64_t mixed(std::uint64_t x);   // a hash of one number (splitmix64's finisher)
+std::uint64_t mixed(std::uint64_t x);  // a hash of one number (splitmix64's finisher)
 
 using Cell = Eigen::Matrix<std::int64_t, 3, 1>;
 Cell cellAt(const Eigen::Vector3d& point, double cell_m);
@@ -20,7 +20,7 @@ class Coverage {
  public:
   explicit Coverage(std::size_t most_cells = std::size_t{1} << 22) : most_cells_(most_cells) {}
   void add(std::uint64_t cell_hash);
-  void settle();   // before the members below
+  void settle();  // before the members below
   std::uint64_t cells() const { return static_cast<std::uint64_t>(hashes_.size()) << halvings_; }
   // The share of this one's cells that `other` has too.
   double sharedWith(const Coverage& other) const;
@@ -30,8 +30,8 @@ class Coverage {
   bool sampled(std::uint64_t hash, unsigned halvings) const { return halvings == 0 || hash >> (64 - halvings) == 0; }
   std::size_t most_cells_;
   unsigned halvings_ = 0;
-  std::uint64_t last_ = 0;               // neighbours in a scan mostly share a cell
-  std::vector<std::uint64_t> hashes_;    // sorted and distinct after settle()
+  std::uint64_t last_ = 0;             // neighbours in a scan mostly share a cell
+  std::vector<std::uint64_t> hashes_;  // sorted and distinct after settle()
 };
 
 }  // namespace standpoint

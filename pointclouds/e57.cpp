@@ -6,8 +6,13 @@
 
 namespace standpoint {
 
-const CloudFormat kE57 = {"e57", "ASTM E57: structured scans with poses, intensity, colour and labels", ".e57", true,
-                          e57::createWriter, e57::read, e57::info};
+const CloudFormat kE57 = {"e57",
+                          "ASTM E57: structured scans with poses, intensity, colour and labels",
+                          ".e57",
+                          true,
+                          e57::createWriter,
+                          e57::read,
+                          e57::info};
 
 namespace e57 {
 namespace {

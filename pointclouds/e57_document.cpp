@@ -11,7 +11,7 @@
 namespace standpoint::e57 {
 namespace {
 
-constexpr std::uint64_t kLongestXml = std::uint64_t{256} << 20;   // the parsed tree takes some ten times as much
+constexpr std::uint64_t kLongestXml = std::uint64_t{64} << 20;  // the parsed tree takes some ten times as much
 
 struct XmlPlace {
   std::uint64_t logical = 0, length = 0;
@@ -23,18 +23,21 @@ Result<XmlPlace> readHeader(PagedReader& file) {
   if (auto read = file.read(0, header); !read) return failure(read.error());
   if (std::memcmp(header.data(), "ASTM-E57", 8) != 0) return failure(ErrorKind::unusable, "is not an E57 file", source);
   if (load<std::uint32_t>(header.data() + 8) != 1)
-    return failure(ErrorKind::unusable, "E57 version " + std::to_string(load<std::uint32_t>(header.data() + 8)) +
-                                            " is not known, only 1", source);
+    return failure(ErrorKind::unusable,
+                   "E57 version " + std::to_string(load<std::uint32_t>(header.data() + 8)) + " is not known, only 1",
+                   source);
   if (load<std::uint64_t>(header.data() + 40) != kPageBytes)
     return failure(ErrorKind::unusable, "pages are not 1024 bytes long", source);
   const auto length = load<std::uint64_t>(header.data() + 16);
   if (length > file.physicalSize())
-    return failure(ErrorKind::unusable, "the file is truncated: " + std::to_string(file.physicalSize()) + " of " +
-                                            std::to_string(length) + " bytes", source);
+    return failure(
+        ErrorKind::unusable,
+        "the file is truncated: " + std::to_string(file.physicalSize()) + " of " + std::to_string(length) + " bytes",
+        source);
   const auto offset = load<std::uint64_t>(header.data() + 24), xml_length = load<std::uint64_t>(header.data() + 32);
   if (offset >= file.physicalSize() || offset % kPageBytes >= kPayloadBytes ||
       xml_length > file.logicalSize() - logicalFrom(offset) || xml_length > kLongestXml)
-    return failure(ErrorKind::unusable, "the XML section lies outside the file or is larger than 256 MiB", source);
+    return failure(ErrorKind::unusable, "the XML section lies outside the file or is larger than 64 MiB", source);
   return XmlPlace{logicalFrom(offset), xml_length};
 }
 

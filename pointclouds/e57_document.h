@@ -16,7 +16,8 @@ struct Document {
 };
 Result<Document> openDocument(const std::filesystem::path& path);
 
-// Value of an Integer, ScaledInteger or Float element; an empty one is 0 (E2807 8.3.1), a missing or garbled one `otherwise`.
+// Value of an Integer, ScaledInteger or Float element; an empty one is 0 (E2807 8.3.1), a missing or garbled one
+// `otherwise`.
 double real(const Element* element, double otherwise);
 std::string text(const Element& parent, std::string_view name);
 

@@ -12,11 +12,16 @@ void appendEscaped(std::string& text, std::string_view value) {
   constexpr char kHex[] = "0123456789abcdef";
   for (const char c : value) {
     const auto byte = static_cast<unsigned char>(c);
-    if (c == '\t') text += "\\t";
-    else if (c == '\n') text += "\\n";
-    else if (c == '\\') text += "\\\\";
-    else if (byte < 0x20) text.append("\\x").append(1, kHex[byte >> 4]).append(1, kHex[byte & 15]);
-    else text += c;
+    if (c == '\t')
+      text += "\\t";
+    else if (c == '\n')
+      text += "\\n";
+    else if (c == '\\')
+      text += "\\\\";
+    else if (byte < 0x20)
+      text.append("\\x").append(1, kHex[byte >> 4]).append(1, kHex[byte & 15]);
+    else
+      text += c;
   }
 }
 
@@ -29,13 +34,16 @@ std::string unescaped(std::string_view text) {
     }
     const char kind = text[++i];
     unsigned byte = 0;
-    if (kind == 't') value += '\t';
-    else if (kind == 'n') value += '\n';
+    if (kind == 't')
+      value += '\t';
+    else if (kind == 'n')
+      value += '\n';
     else if (kind == 'x' && i + 2 < text.size() &&
              std::from_chars(text.data() + i + 1, text.data() + i + 3, byte, 16).ptr == text.data() + i + 3) {
       value += static_cast<char>(byte);
       i += 2;
-    } else value += kind;
+    } else
+      value += kind;
   }
   return value;
 }
@@ -51,7 +59,7 @@ std::vector<std::string_view> split(std::string_view text, char at) {
 
 std::vector<std::string_view> lines(std::string_view text) {
   auto all = split(text, '\n');
-  all.pop_back();   // each line ends with a line feed
+  all.pop_back();  // each line ends with a line feed
   return all;
 }
 

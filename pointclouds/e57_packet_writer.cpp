@@ -60,7 +60,7 @@ void PacketWriter::putBits(Stream& s, std::uint32_t value, unsigned bits) {
 }
 
 void PacketWriter::put(std::size_t stream, std::span<const std::uint32_t> values) {
-  Stream s = streams_[stream];   // a copy: the compiler may keep it in registers
+  Stream s = streams_[stream];  // a copy: the compiler may keep it in registers
   for (const std::uint32_t value : values) putBits(s, value, s.bits);
   streams_[stream] = s;
 }
@@ -87,13 +87,13 @@ Result<void> PacketWriter::emit(PagedWriter& out) {
     for (; s.waiting_bits > 0; s.waiting >>= 8, s.waiting_bits -= std::min(s.waiting_bits, 8u))
       bytes[s.start + s.bytes++] = static_cast<std::uint8_t>(s.waiting);
     store(bytes + 6 + 2 * i, static_cast<std::uint16_t>(s.bytes));
-    std::memmove(bytes + end, bytes + s.start, s.bytes);   // only the last packet has gaps to close
+    std::memmove(bytes + end, bytes + s.start, s.bytes);  // only the last packet has gaps to close
     end += std::exchange(s.bytes, 0);
     s.waiting = 0;
   }
   const std::size_t length = roundedUpTo4(end);
   std::memset(bytes + end, 0, length - end);
-  store<std::uint16_t>(bytes, 1);   // a data packet without flags
+  store<std::uint16_t>(bytes, 1);  // a data packet without flags
   store(bytes + 2, static_cast<std::uint16_t>(length - 1));
   store(bytes + 4, static_cast<std::uint16_t>(streams_.size()));
   pending_ = 0;
@@ -107,7 +107,7 @@ Result<void> PacketWriter::finish(PagedWriter& out) {
     if (auto emitted = emit(out); !emitted) return emitted;
   const std::uint64_t first_packet = physicalFrom(section_ + kSectionHeader);
   const std::uint64_t index_packet = physicalFrom(out.logicalSize());
-  std::array<std::uint8_t, 32> index{};   // one entry: record 0 is in the first packet
+  std::array<std::uint8_t, 32> index{};  // one entry: record 0 is in the first packet
   store(index.data() + 2, static_cast<std::uint16_t>(index.size() - 1));
   store<std::uint16_t>(index.data() + 4, 1);
   store(index.data() + 24, first_packet);

@@ -33,14 +33,14 @@ class PacketWriter {
   Result<void> finish(PagedWriter& out);
 
   std::uint64_t records() const { return records_; }
-  std::uint64_t physicalOffset() const { return physicalFrom(section_); }   // of the section, for the XML
+  std::uint64_t physicalOffset() const { return physicalFrom(section_); }  // of the section, for the XML
 
  private:
   struct Stream {
     unsigned bits = 0;
-    std::size_t start = 0;       // in packet_
-    std::size_t bytes = 0;       // filled so far
-    std::uint64_t waiting = 0;   // bits that do not fill 32 yet
+    std::size_t start = 0;      // in packet_
+    std::size_t bytes = 0;      // filled so far
+    std::uint64_t waiting = 0;  // bits that do not fill 32 yet
     unsigned waiting_bits = 0;
   };
   void putBits(Stream& stream, std::uint32_t value, unsigned bits);
@@ -50,7 +50,7 @@ class PacketWriter {
   std::vector<std::uint8_t> packet_;
   std::size_t capacity_ = 0, pending_ = 0;
   std::uint64_t records_ = 0;
-  std::uint64_t section_ = 0;    // logical offsets
+  std::uint64_t section_ = 0;  // logical offsets
   bool any_packet_ = false;
 };
 

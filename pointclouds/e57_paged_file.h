@@ -36,8 +36,8 @@ class PagedWriter {
  private:
   Result<void> flush();
   PartFile file_;
-  std::vector<std::uint8_t> pages_;   // physical layout; checksums are filled in by flush()
-  std::uint64_t first_page_ = 0;      // of pages_
+  std::vector<std::uint8_t> pages_;  // physical layout; checksums are filled in by flush()
+  std::uint64_t first_page_ = 0;     // of pages_
   std::uint64_t logical_size_ = 0;
 };
 

@@ -21,14 +21,16 @@ Pose readPose(const Element& scan, const std::string& source, Report& report) {
   const Element* const t = childOf(pose, "translation");
   if (pose && (!q || !t)) report.warn(source, "the pose is not whole: the missing half is taken as none");
   Pose result;
-  if (q) result.rotation = {real(q->child("w"), 1), real(q->child("x"), 0), real(q->child("y"), 0), real(q->child("z"), 0)};
+  if (q)
+    result.rotation = {real(q->child("w"), 1), real(q->child("x"), 0), real(q->child("y"), 0), real(q->child("z"), 0)};
   if (t) result.translation = {real(t->child("x"), 0), real(t->child("y"), 0), real(t->child("z"), 0)};
   const double norm = result.rotation.norm();
   if (!(norm > 1e-9) || !std::isfinite(norm)) {
     report.warn(source, "the pose's quaternion has no length: no rotation is taken");
     result.rotation.setIdentity();
   } else if (std::abs(norm - 1) > 1e-15) {
-    if (std::abs(norm - 1) > 1e-6) report.warn(source, "the pose's quaternion has length " + numberText(norm) + ", not 1");
+    if (std::abs(norm - 1) > 1e-6)
+      report.warn(source, "the pose's quaternion has length " + numberText(norm) + ", not 1");
     result.rotation.normalize();
   }
   if (result.rotation.w() < 0) result.rotation.coeffs() *= -1;
@@ -38,7 +40,8 @@ Pose readPose(const Element& scan, const std::string& source, Report& report) {
 // The declared limits, else those of the prototype, else `standard`.
 std::pair<double, double> limits(const Element* element, const std::string& name, const StoredField& field,
                                  std::pair<double, double> standard) {
-  const double least = real(childOf(element, name + "Minimum"), NAN), most = real(childOf(element, name + "Maximum"), NAN);
+  const double least = real(childOf(element, name + "Minimum"), NAN),
+               most = real(childOf(element, name + "Maximum"), NAN);
   if (least < most) return {least, most};
   if (field.least < field.most) return {field.least, field.most};
   return standard;
@@ -56,13 +59,14 @@ void readLimits(const Element& scan, const std::vector<StoredField>& fields, Sca
     const auto field = fieldNamed(fields, colours[i]);
     header.has_colour &= field.has_value();
     if (field)
-      std::tie(plan.colour_least[i], plan.colour_most[i]) = limits(scan.child("colorLimits"), colours[i], fields[*field], {0, 255});
+      std::tie(plan.colour_least[i], plan.colour_most[i]) =
+          limits(scan.child("colorLimits"), colours[i], fields[*field], {0, 255});
   }
 }
 
 void readGrid(const Element& scan, const std::vector<StoredField>& fields, ScanPlan& plan, Report& report) {
   if (!fieldNamed(fields, "rowIndex") || !fieldNamed(fields, "columnIndex")) {
-    plan.has_index_bounds = true;   // there is no grid to be measured
+    plan.has_index_bounds = true;  // there is no grid to be measured
     return;
   }
   const Element* const bounds = scan.child("indexBounds");
@@ -108,10 +112,22 @@ void readLabels(const Element& root, const Element& scan, const std::vector<Stor
 double time(const Element& scan, const char* name) { return real(childOf(scan.child(name), "dateTimeValue"), 0); }
 
 void listUnread(const std::vector<StoredField>& fields, const ScanPlan& plan, Report& report) {
-  constexpr std::string_view kRead[] = {
-      "cartesianX", "cartesianY", "cartesianZ", "sphericalRange", "sphericalAzimuth", "sphericalElevation", "intensity",
-      "colorRed", "colorGreen", "colorBlue", "rowIndex", "columnIndex", "cartesianInvalidState", "sphericalInvalidState",
-      "isIntensityInvalid", "isColorInvalid"};
+  constexpr std::string_view kRead[] = {"cartesianX",
+                                        "cartesianY",
+                                        "cartesianZ",
+                                        "sphericalRange",
+                                        "sphericalAzimuth",
+                                        "sphericalElevation",
+                                        "intensity",
+                                        "colorRed",
+                                        "colorGreen",
+                                        "colorBlue",
+                                        "rowIndex",
+                                        "columnIndex",
+                                        "cartesianInvalidState",
+                                        "sphericalInvalidState",
+                                        "isIntensityInvalid",
+                                        "isColorInvalid"};
   std::string unread;
   for (const auto& field : fields)
     if (std::find(std::begin(kRead), std::end(kRead), field.name) == std::end(kRead) &&

@@ -35,7 +35,8 @@ Roles rolesOf(const std::vector<StoredField>& fields, const ScanPlan& plan) {
     r.colour_invalid = at("isColorInvalid");
   }
   if (hasGrid(plan.header)) r.row = at("rowIndex"), r.column = at("columnIndex");
-  if (plan.header.has_labels) r.product = at(plan.label_prefix + "product"), r.material = at(plan.label_prefix + "material");
+  if (plan.header.has_labels)
+    r.product = at(plan.label_prefix + "product"), r.material = at(plan.label_prefix + "material");
   r.cartesian_state = at("cartesianInvalidState");
   r.spherical_state = at("sphericalInvalidState");
   r.intensity_invalid = at("isIntensityInvalid");
@@ -43,8 +44,9 @@ Roles rolesOf(const std::vector<StoredField>& fields, const ScanPlan& plan) {
 }
 
 void want(VectorReader& reader, const Roles& r) {
-  for (const Place& place : {r.x, r.y, r.z, r.intensity, r.colour[0], r.colour[1], r.colour[2], r.row, r.column, r.product,
-                             r.material, r.cartesian_state, r.spherical_state, r.intensity_invalid, r.colour_invalid})
+  for (const Place& place :
+       {r.x, r.y, r.z, r.intensity, r.colour[0], r.colour[1], r.colour[2], r.row, r.column, r.product, r.material,
+        r.cartesian_state, r.spherical_state, r.intensity_invalid, r.colour_invalid})
     if (place) reader.want(*place);
 }
 
@@ -61,10 +63,11 @@ Result<void> measureGrid(PagedReader& file, const Element& points, ScanPlan& pla
     if (!n) return failure(n.error());
     if (*n == 0) break;
     for (int side = 0; side < 2; ++side)
-      for (const double v : columns[*at[side]]) least[side] = std::min(least[side], v), most[side] = std::max(most[side], v);
+      for (const double v : columns[*at[side]])
+        least[side] = std::min(least[side], v), most[side] = std::max(most[side], v);
   }
   constexpr double kLargestSide = 1 << 30;
-  if (!(most[0] - least[0] < kLargestSide && most[1] - least[1] < kLargestSide)) return {};   // no grid
+  if (!(most[0] - least[0] < kLargestSide && most[1] - least[1] < kLargestSide)) return {};  // no grid
   plan.first_row = least[0];
   plan.first_column = least[1];
   plan.header.rows = static_cast<std::uint32_t>(most[0] - least[0]) + 1;
@@ -109,9 +112,11 @@ void ScanReading::takeColour(const Columns& from, std::size_t i, PointBlock& to)
   tally_.no_colour += invalid;
   std::vector<std::uint8_t>* const colours[3] = {&to.red, &to.green, &to.blue};
   for (int k = 0; k < 3; ++k) {
-    const double share = (from[*roles_.colour[k]][i] - plan_.colour_least[k]) / (plan_.colour_most[k] - plan_.colour_least[k]);
+    const double share =
+        (from[*roles_.colour[k]][i] - plan_.colour_least[k]) / (plan_.colour_most[k] - plan_.colour_least[k]);
     // Written so that a NaN becomes 0.
-    colours[k]->push_back(!invalid && share > 0 ? static_cast<std::uint8_t>(std::lround(std::min(share, 1.0) * 255)) : 0);
+    colours[k]->push_back(!invalid && share > 0 ? static_cast<std::uint8_t>(std::lround(std::min(share, 1.0) * 255))
+                                                : 0);
   }
 }
 
@@ -145,10 +150,14 @@ Result<void> ScanReading::take(const Columns& from, std::size_t records, FoundPo
 
 void list(const Tally& tally, const std::string& source, Report& report) {
   const auto count = [](std::uint64_t n) { return std::to_string(n); };
-  if (tally.invalid > 0) report.note(source, count(tally.invalid) + " points that the file marks as invalid are left out");
-  if (tally.no_intensity > 0) report.note(source, count(tally.no_intensity) + " intensities are marked as invalid: 0 stands for them");
-  if (tally.no_colour > 0) report.note(source, count(tally.no_colour) + " colours are marked as invalid: black stands for them");
-  if (tally.outside_grid > 0) report.lose(source, count(tally.outside_grid) + " points lie outside the file's indexBounds");
+  if (tally.invalid > 0)
+    report.note(source, count(tally.invalid) + " points that the file marks as invalid are left out");
+  if (tally.no_intensity > 0)
+    report.note(source, count(tally.no_intensity) + " intensities are marked as invalid: 0 stands for them");
+  if (tally.no_colour > 0)
+    report.note(source, count(tally.no_colour) + " colours are marked as invalid: black stands for them");
+  if (tally.outside_grid > 0)
+    report.lose(source, count(tally.outside_grid) + " points lie outside the file's indexBounds");
 }
 
 }  // namespace
@@ -163,7 +172,9 @@ Result<void> readScan(PagedReader& file, const Element& points, ScanPlan plan, P
   if (!roles.x || !roles.y || !roles.z)
     return failure(ErrorKind::unusable, "the points have neither cartesian nor spherical coordinates", plan.source);
   want(*reader, roles);
-  const auto single = [&](const Place& place) { return reader->fields()[*place].kind == StoredField::Kind::single_float; };
+  const auto single = [&](const Place& place) {
+    return reader->fields()[*place].kind == StoredField::Kind::single_float;
+  };
   LocalPoints local(sink, plan.header, roles.spherical || !single(roles.x) || !single(roles.y) || !single(roles.z));
   ScanReading reading(plan, roles);
   Columns columns;

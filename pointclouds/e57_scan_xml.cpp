@@ -18,7 +18,7 @@ void appendVector(XmlWriter& xml, const char* name, const WrittenVector& vector)
   xml.open("prototype", kStructure);
   for (const Field& field : vector.fields) xml.leaf(field.name, field.attributes);
   xml.close("prototype");
-  xml.leaf("codecs", "type=\"Vector\" allowHeterogeneousChildren=\"1\"");   // none: everything is bitPack
+  xml.leaf("codecs", "type=\"Vector\" allowHeterogeneousChildren=\"1\"");  // none: everything is bitPack
   xml.close(name);
 }
 
@@ -26,7 +26,7 @@ void appendPose(XmlWriter& xml, const Pose& pose) {
   // E2807 8.4.9: |q| within 10 * 2^-53 of 1 and w not negative; long double keeps the norm's rounding out of it.
   using Quaternion = Eigen::Quaternion<long double>;
   Quaternion q = pose.rotation.cast<long double>();
-  if (std::abs(q.norm() - 1) > 0x5p-53L) q.normalize();   // else as it is: a pose comes back to the last bit
+  if (std::abs(q.norm() - 1) > 0x5p-53L) q.normalize();  // else as it is: a pose comes back to the last bit
   if (q.w() < 0) q.coeffs() = -q.coeffs();
   xml.open("pose", kStructure);
   xml.open("rotation", kStructure);
@@ -85,7 +85,7 @@ void appendSensor(XmlWriter& xml, const ScanHeader& header) {
   optional("sensorVendor", header.sensor_vendor);
   optional("sensorModel", header.sensor_model);
   optional("sensorSerialNumber", header.sensor_serial);
-  if (header.acquisition_start_gps_s <= 0) return;   // unknown
+  if (header.acquisition_start_gps_s <= 0) return;  // unknown
   appendTime(xml, "acquisitionStart", header.acquisition_start_gps_s);
   appendTime(xml, "acquisitionEnd", header.acquisition_start_gps_s + header.acquisition_seconds);
 }

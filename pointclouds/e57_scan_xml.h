@@ -30,10 +30,10 @@ struct WrittenVector {
 struct WrittenScan {
   ScanHeader header;
   std::string guid;
-  std::array<double, 3> low{}, high{};              // of the points, in the scanner's frame
+  std::array<double, 3> low{}, high{};  // of the points, in the scanner's frame
   std::uint32_t largest_row = 0, largest_column = 0;
   WrittenVector points;
-  std::optional<WrittenVector> lines;               // groupingByLine
+  std::optional<WrittenVector> lines;  // groupingByLine
   std::optional<std::size_t> label_table;
 };
 

@@ -16,9 +16,9 @@ namespace standpoint::e57 {
 namespace {
 
 constexpr std::uint64_t kMostRecordsAtOnce = 65536;
-constexpr std::size_t kBehind = 16;                       // bytes that a word read at the end may touch
+constexpr std::size_t kBehind = 16;  // bytes that a word read at the end may touch
 constexpr std::size_t kLongestStream = std::size_t{64} << 20;
-constexpr std::uint64_t kMostConstantRecords = 1 << 20;   // a field without bits costs a hostile file nothing
+constexpr std::uint64_t kMostConstantRecords = 1 << 20;  // a field without bits costs a hostile file nothing
 
 using Kind = StoredField::Kind;
 
@@ -39,7 +39,8 @@ Result<StoredField> integerFrom(const Element& e, const std::string& source) {
   const auto most = attributeOr<std::int64_t>(e, "maximum", Limits::max());
   if (!least || !most || *least > *most) return badField(source, e, "minimum and maximum are no range of integers");
   StoredField field{.name = e.name, .kind = Kind::integer, .minimum = *least};
-  field.bits = static_cast<unsigned>(std::bit_width(static_cast<std::uint64_t>(*most) - static_cast<std::uint64_t>(*least)));
+  field.bits =
+      static_cast<unsigned>(std::bit_width(static_cast<std::uint64_t>(*most) - static_cast<std::uint64_t>(*least)));
   if (e.attribute("type") == "ScaledInteger") {
     const auto scale = attributeOr<double>(e, "scale", 1), offset = attributeOr<double>(e, "offset", 0);
     if (!scale || !offset || !std::isfinite(*scale) || !std::isfinite(*offset))
@@ -60,7 +61,8 @@ Result<StoredField> fieldFrom(const Element& e, const std::string& source) {
   if (type == "String") return StoredField{.name = e.name, .kind = Kind::text};
   if (type != "Float") return badField(source, e, "is neither Integer, ScaledInteger, Float nor String");
   const bool single = e.attribute("precision") == "single";
-  StoredField field{.name = e.name, .kind = single ? Kind::single_float : Kind::double_float, .bits = single ? 32u : 64u};
+  StoredField field{
+      .name = e.name, .kind = single ? Kind::single_float : Kind::double_float, .bits = single ? 32u : 64u};
   const auto least = attributeOr<double>(e, "minimum", 0), most = attributeOr<double>(e, "maximum", 0);
   if (least && most && *least < *most) field.least = *least, field.most = *most;
   return field;
@@ -98,7 +100,8 @@ Result<VectorReader> VectorReader::open(PagedReader& file, const Element& vector
   reader.records_ = *records;
   const std::uint64_t most = bits == 0 ? kMostConstantRecords : file.logicalSize() * 8 / bits;
   if (*records > most)
-    return failure(ErrorKind::unusable, "the file is too short for " + std::to_string(*records) + " points", reader.source_);
+    return failure(ErrorKind::unusable, "the file is too short for " + std::to_string(*records) + " points",
+                   reader.source_);
   // An empty vector may point anywhere: real files do.
   if (*records > 0)
     if (auto opened = reader.openSection(*offset); !opened) return failure(opened.error());
@@ -134,7 +137,7 @@ Result<void> VectorReader::readPacket() {
     if (auto read = file_->read(cursor_, packet_); !read) return read;
     if (auto taken = takeStreams(packet_); !taken) return taken;
   }
-  cursor_ += length;   // index and ignored packets carry no points
+  cursor_ += length;  // index and ignored packets carry no points
   return {};
 }
 
@@ -145,7 +148,8 @@ Result<void> VectorReader::takeStreams(const std::vector<std::uint8_t>& packet) 
   const auto constant = [](const StoredField& f) { return f.kind != Kind::text && f.bits == 0; };
   const auto constants = static_cast<std::size_t>(std::count_if(fields_.begin(), fields_.end(), constant));
   if (count != fields_.size() && count != fields_.size() - constants)
-    return broken("a packet has " + std::to_string(count) + " streams for " + std::to_string(fields_.size()) + " fields");
+    return broken("a packet has " + std::to_string(count) + " streams for " + std::to_string(fields_.size()) +
+                  " fields");
   std::size_t at = 6 + 2 * count, stream = 0;
   if (at > packet.size()) return broken("a data packet is too short");
   for (std::size_t f = 0; f < fields_.size(); ++f) {
@@ -155,7 +159,8 @@ Result<void> VectorReader::takeStreams(const std::vector<std::uint8_t>& packet) 
     if (Stream& s = streams_[f]; s.wanted) {
       if (s.filled > kLongestStream) return broken("the streams of the fields are of very unequal length");
       s.bytes.resize(s.filled + n + kBehind);
-      std::copy_n(packet.begin() + static_cast<std::ptrdiff_t>(at), n, s.bytes.begin() + static_cast<std::ptrdiff_t>(s.filled));
+      std::copy_n(packet.begin() + static_cast<std::ptrdiff_t>(at), n,
+                  s.bytes.begin() + static_cast<std::ptrdiff_t>(s.filled));
       s.filled += n;
     }
     at += n;
@@ -166,7 +171,8 @@ Result<void> VectorReader::takeStreams(const std::vector<std::uint8_t>& packet) 
 std::uint64_t VectorReader::available() const {
   std::uint64_t n = std::min(records_ - done_, kMostRecordsAtOnce);
   for (std::size_t f = 0; f < fields_.size(); ++f)
-    if (streams_[f].wanted && fields_[f].bits > 0) n = std::min(n, (streams_[f].filled * 8 - streams_[f].bit) / fields_[f].bits);
+    if (streams_[f].wanted && fields_[f].bits > 0)
+      n = std::min(n, (streams_[f].filled * 8 - streams_[f].bit) / fields_[f].bits);
   return n;
 }
 
@@ -188,8 +194,9 @@ void VectorReader::decode(std::size_t field, std::size_t records, std::vector<do
     }
   s.bit += std::uint64_t{records} * f.bits;
   const std::size_t used = s.bit / 8;
-  if (used * 2 < s.filled) return;   // moved rarely, so that a stream far ahead of the others costs no time
-  std::copy(s.bytes.begin() + static_cast<std::ptrdiff_t>(used), s.bytes.begin() + static_cast<std::ptrdiff_t>(s.filled), s.bytes.begin());
+  if (used * 2 < s.filled) return;  // moved rarely, so that a stream far ahead of the others costs no time
+  std::copy(s.bytes.begin() + static_cast<std::ptrdiff_t>(used),
+            s.bytes.begin() + static_cast<std::ptrdiff_t>(s.filled), s.bytes.begin());
   s.filled -= used;
   s.bit -= used * 8;
 }

@@ -15,10 +15,10 @@ struct StoredField {
   enum class Kind { single_float, double_float, integer, text };
   std::string name;
   Kind kind = Kind::double_float;
-  unsigned bits = 64;              // 0 when minimum == maximum; meaningless for text
+  unsigned bits = 64;  // 0 when minimum == maximum; meaningless for text
   std::int64_t minimum = 0;
   double scale = 1, offset = 0;
-  double least = 0, most = 0;      // declared values, scaled; equal when the prototype declares none
+  double least = 0, most = 0;  // declared values, scaled; equal when the prototype declares none
 };
 
 // Decodes a CompressedVector (E2807 9.3) record by record, in pieces of bounded size.
@@ -36,9 +36,9 @@ class VectorReader {
  private:
   struct Stream {
     bool wanted = false;
-    std::vector<std::uint8_t> bytes;   // with room behind for a whole word
+    std::vector<std::uint8_t> bytes;  // with room behind for a whole word
     std::size_t filled = 0;
-    std::uint64_t bit = 0;             // where the next record starts
+    std::uint64_t bit = 0;  // where the next record starts
   };
   VectorReader(PagedReader& file, std::string source) : file_(&file), source_(std::move(source)) {}
   Result<void> openSection(std::uint64_t physical);
@@ -54,7 +54,7 @@ class VectorReader {
   std::vector<Stream> streams_;
   std::vector<std::uint8_t> packet_;
   std::uint64_t records_ = 0, done_ = 0;
-  std::uint64_t cursor_ = 0, section_end_ = 0;   // logical
+  std::uint64_t cursor_ = 0, section_end_ = 0;  // logical
 };
 
 }  // namespace standpoint::e57

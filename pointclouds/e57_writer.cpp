@@ -126,6 +126,7 @@ std::size_t Writer::labelTable(const ScanHeader& header) {
 
 Result<void> Writer::begin(const ScanHeader& header) {
   if (open_) return failure(ErrorKind::internal, "a scan begins before the last one has ended", header.name);
+  if (auto checked = checkHeader(header); !checked) return checked;
   WrittenScan scan;
   scan.header = header;
   scan.guid = uniqueGuid(header);
@@ -134,7 +135,8 @@ Result<void> Writer::begin(const ScanHeader& header) {
   if (header.name.empty()) scan.header.name = "Scan " + std::to_string(guids_.size());
   scan.points.fields = pointFields(header);
   if (header.has_labels) scan.label_table = labelTable(header);
-  if (coordinate_metadata_.empty()) coordinate_metadata_ = header.coordinate_metadata;
+  if (coordinate_metadata_.empty())
+    coordinate_metadata_ = header.coordinate_metadata;
   else if (!header.coordinate_metadata.empty() && header.coordinate_metadata != coordinate_metadata_)
     report_.lose(scan.header.name, "its coordinate reference system differs from the file's, of which E57 has one");
   if (header.acquisition_start_gps_s > 0)
@@ -166,7 +168,7 @@ Result<void> Writer::putRecords(const PointBlock& b) {
   const ScanHeader& header = open_->scan.header;
   for (std::size_t from = 0; from < b.size();) {
     const std::size_t n = std::min(packets.room(), b.size() - from);
-    std::size_t stream = 0;   // in the order of pointFields()
+    std::size_t stream = 0;  // in the order of pointFields()
     const auto put = [&](const auto& column) { packets.put(stream++, std::span(column).subspan(from, n)); };
     put(b.x_m), put(b.y_m), put(b.z_m);
     if (hasIntensity(header)) put(b.intensity);
@@ -230,7 +232,7 @@ std::string Writer::document() const {
   xml.open("data3D", vector);
   xml.append(scans_.text());
   xml.close("data3D");
-  xml.leaf("images2D", vector);   // readers refuse a file without it
+  xml.leaf("images2D", vector);  // readers refuse a file without it
   if (!label_tables_.empty()) {
     xml.open(prefix + ":labelTables", vector);
     for (const auto& [products, materials] : label_tables_) {
@@ -249,7 +251,8 @@ Result<void> Writer::close() {
   if (open_) return failure(ErrorKind::internal, "the file is closed inside a scan", out_.file().string());
   const std::string xml = document();
   const std::uint64_t xml_offset = physicalFrom(out_.logicalSize());
-  if (auto written = out_.append({reinterpret_cast<const std::uint8_t*>(xml.data()), xml.size()}); !written) return written;
+  if (auto written = out_.append({reinterpret_cast<const std::uint8_t*>(xml.data()), xml.size()}); !written)
+    return written;
   std::array<std::uint8_t, kFileHeader> header{};
   std::copy_n("ASTM-E57", 8, header.begin());
   store<std::uint32_t>(header.data() + 8, 1);

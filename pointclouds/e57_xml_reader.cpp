@@ -27,8 +27,10 @@ void onStart(void* data, const XML_Char* name, const XML_Char** attributes) {
   element->name = name;
   for (; *attributes; attributes += 2) element->attributes[attributes[0]] = attributes[1];
   Element* const opened = element.get();
-  if (b.open.empty()) b.root = std::move(element);
-  else b.open.back()->children.push_back(std::move(element));
+  if (b.open.empty())
+    b.root = std::move(element);
+  else
+    b.open.back()->children.push_back(std::move(element));
   b.open.push_back(opened);
 }
 

@@ -18,7 +18,7 @@ std::size_t sequenceLength(std::string_view text) {
   if (a >= 0xC2 && a <= 0xDF) return continues(1) ? 2 : 0;
   if (a >= 0xE0 && a <= 0xEF) {
     if (!continues(1) || !continues(2) || (a == 0xE0 && b < 0xA0) || (a == 0xED && b > 0x9F)) return 0;
-    return a == 0xEF && b == 0xBF && byte(2) >= 0xBE ? 0 : 3;   // U+FFFE and U+FFFF are no XML characters
+    return a == 0xEF && b == 0xBF && byte(2) >= 0xBE ? 0 : 3;  // U+FFFE and U+FFFF are no XML characters
   }
   if (a >= 0xF0 && a <= 0xF4)
     return continues(1) && continues(2) && continues(3) && !(a == 0xF0 && b < 0x90) && !(a == 0xF4 && b > 0x8F) ? 4 : 0;
@@ -70,7 +70,7 @@ void XmlWriter::integer(std::string_view name, std::int64_t value) {
 
 void XmlWriter::real(std::string_view name, double value) {
   text_.append("<").append(name).append(" type=\"Float\">");
-  appendNumber(text_, std::isfinite(value) ? value + 0.0 : 0.0);   // -0 + 0 = 0
+  appendNumber(text_, std::isfinite(value) ? value + 0.0 : 0.0);  // -0 + 0 = 0
   text_.append("</").append(name).append(">\n");
 }
 

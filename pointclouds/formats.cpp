@@ -95,12 +95,14 @@ const CloudFormat* cloudFormatFor(const std::filesystem::path& file) {
   return nullptr;
 }
 
-Result<std::vector<std::filesystem::path>> convertCloud(const std::filesystem::path& in, const std::filesystem::path& out,
-                                                        Report& report, Progress& progress) {
+Result<std::vector<std::filesystem::path>> convertCloud(const std::filesystem::path& in,
+                                                        const std::filesystem::path& out, Report& report,
+                                                        Progress& progress) {
   const auto from = known(in), to = known(out);
   if (!from) return failure(from.error());
   if (!to) return failure(to.error());
-  if (!(*from)->read) return failure(ErrorKind::usage, std::string((*from)->name) + " files are only written", in.string());
+  if (!(*from)->read)
+    return failure(ErrorKind::usage, std::string((*from)->name) + " files are only written", in.string());
   if (!(*to)->writer) return failure(ErrorKind::usage, std::string((*to)->name) + " files are only read", out.string());
   bool one_each = false;
   if (!(*to)->many_scans) {

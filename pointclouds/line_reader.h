@@ -18,9 +18,9 @@ class LineReader {
   // Without its line end; nothing at the end of the file. The view holds until the next call. A line of 4 KiB or more
   // is an error: no such text is a point.
   Result<std::optional<std::string_view>> next();
-  std::uint64_t line() const { return line_; }             // number of the last line, from 1
-  std::uint64_t left() const { return file_.size() - std::min(file_.size(), at_ - (text_.size() - from_)); }   // bytes
-  double share() const;                                    // of the file that was read
+  std::uint64_t line() const { return line_; }  // number of the last line, from 1
+  std::uint64_t left() const { return file_.size() - std::min(file_.size(), at_ - (text_.size() - from_)); }  // bytes
+  double share() const;  // of the file that was read
   std::string place() const { return file_.name() + " line " + std::to_string(line_); }
   std::string name() const { return file_.name(); }
 
@@ -28,8 +28,8 @@ class LineReader {
   Result<bool> more();
   InputFile file_;
   std::string text_;
-  std::size_t from_ = 0;      // in text_
-  std::uint64_t at_ = 0;      // in the file, where text_ ends
+  std::size_t from_ = 0;  // in text_
+  std::uint64_t at_ = 0;  // in the file, where text_ ends
   std::uint64_t line_ = 0;
 };
 

@@ -11,7 +11,7 @@
 namespace standpoint {
 namespace {
 
-constexpr double kFarthest_m = 1000;        // a float there is good to 0.03 mm
+constexpr double kFarthest_m = 1000;  // a float there is good to 0.03 mm
 constexpr double kWorthListing_m = 1e-6;
 constexpr double kLoss_m = 1e-5;
 
@@ -94,11 +94,15 @@ Result<void> LocalPoints::finish(Report& report) {
     if (auto begun = begin(nullptr); !begun) return begun;
   if (not_finite_ > 0) report.lose(header_.name, std::to_string(not_finite_) + " points are not finite numbers");
   if (!move_.isZero())
-    report.note(header_.name, "coordinates are far from the scanner's origin: the pose moved by " + numberText(move_.x()) +
-                                  ", " + numberText(move_.y()) + ", " + numberText(move_.z()) + " m");
-  const std::string rounding = "coordinates became single floats, moved by up to " + numberText(worst_rounding_m_) + " m";
-  if (worst_rounding_m_ > kLoss_m) report.lose(header_.name, rounding);
-  else if (worst_rounding_m_ > kWorthListing_m) report.note(header_.name, rounding);
+    report.note(header_.name, "coordinates are far from the scanner's origin: the pose moved by " +
+                                  numberText(move_.x()) + ", " + numberText(move_.y()) + ", " + numberText(move_.z()) +
+                                  " m");
+  const std::string rounding =
+      "coordinates became single floats, moved by up to " + numberText(worst_rounding_m_) + " m";
+  if (worst_rounding_m_ > kLoss_m)
+    report.lose(header_.name, rounding);
+  else if (worst_rounding_m_ > kWorthListing_m)
+    report.note(header_.name, rounding);
   return sink_.end();
 }
 

@@ -14,7 +14,7 @@ namespace standpoint {
 // What a reader found, before the coordinates become floats.
 struct FoundPoints {
   std::vector<double> x, y, z;
-  PointBlock columns;             // all but the coordinates
+  PointBlock columns;  // all but the coordinates
   std::size_t size() const { return x.size(); }
   void clear();
 };
@@ -25,7 +25,7 @@ class LocalPoints {
  public:
   // `moves_frame`: whether the file's coordinates are finer than a float at all.
   LocalPoints(PointSink& sink, ScanHeader header, bool moves_frame);
-  Result<void> write(FoundPoints& points);   // drops points that are not finite; clears `points`
+  Result<void> write(FoundPoints& points);  // drops points that are not finite; clears `points`
   Result<void> finish(Report& report);
 
  private:

@@ -13,7 +13,7 @@ constexpr std::uint64_t kFilterBits = 1 << 22;
 
 struct Plane {
   Eigen::Vector3d point, normal;
-  Eigen::Vector3d spread;      // standard deviations, ascending: across the plane first
+  Eigen::Vector3d spread;  // standard deviations, ascending: across the plane first
   double largest_residual = 0;
   std::size_t points = 0;
 };
@@ -35,7 +35,8 @@ std::optional<Plane> fitPlane(const Neighbourhood& at, std::size_t fewest, Chose
   plane.spread = (solver.eigenvalues().cwiseMax(0) / std::max(1.0, static_cast<double>(plane.points) - 3)).cwiseSqrt();
   for (const auto& n : at.neighbours)
     if (chosen(n))
-      plane.largest_residual = std::max(plane.largest_residual, std::abs(plane.normal.dot(n.from_centre.cast<double>() - plane.point)));
+      plane.largest_residual =
+          std::max(plane.largest_residual, std::abs(plane.normal.dot(n.from_centre.cast<double>() - plane.point)));
   return plane;
 }
 
@@ -85,7 +86,7 @@ void NeighbourSink::offer(Neighbourhood& to, const Eigen::Vector3d& point) {
   if (to.neighbours.size() < kMostNeighbours) {
     to.neighbours.push_back(neighbour);
   } else if (const std::uint64_t place = mixed(index_) % to.seen; place < kMostNeighbours) {
-    to.neighbours[place] = neighbour;   // reservoir sampling (Vitter 1985, algorithm R)
+    to.neighbours[place] = neighbour;  // reservoir sampling (Vitter 1985, algorithm R)
   }
 }
 
@@ -94,7 +95,8 @@ Result<void> NeighbourSink::write(const PointBlock& block) {
     const Eigen::Vector3d point = pose_ * Eigen::Vector3d(block.x_m[i], block.y_m[i], block.z_m[i]);
     const std::uint64_t cell = hashOf(cellAt(point, radius_m_));
     if (!any_[cell % kFilterBits]) continue;
-    auto entry = std::lower_bound(entries_.begin(), entries_.end(), cell, [](const Entry& e, std::uint64_t c) { return e.cell < c; });
+    auto entry = std::lower_bound(entries_.begin(), entries_.end(), cell,
+                                  [](const Entry& e, std::uint64_t c) { return e.cell < c; });
     for (; entry != entries_.end() && entry->cell == cell; ++entry) offer(all_[entry->neighbourhood], point);
   }
   return {};

@@ -11,16 +11,16 @@ namespace standpoint {
 
 // A point of the cloud and what lies around it.
 struct Neighbourhood {
-  std::uint64_t index = 0;                          // of the point, in the order of the file
+  std::uint64_t index = 0;  // of the point, in the order of the file
   std::uint32_t scan = 0;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero(); // file frame
-  Eigen::Vector3d beam = Eigen::Vector3d::Zero();   // unit, from the scanner
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // file frame
+  Eigen::Vector3d beam = Eigen::Vector3d::Zero();    // unit, from the scanner
   double intensity = 0;
   struct Neighbour {
     Eigen::Vector3f from_centre;
     bool same_scan;
   };
-  std::vector<Neighbour> neighbours;                // without the point itself; at most kMostNeighbours, drawn evenly
+  std::vector<Neighbour> neighbours;  // without the point itself; at most kMostNeighbours, drawn evenly
   std::uint64_t seen = 0;
 };
 inline constexpr std::size_t kMostNeighbours = 512;
@@ -48,8 +48,8 @@ class NeighbourSink final : public PointSink {
   void offer(Neighbourhood& to, const Eigen::Vector3d& point);
   std::vector<Neighbourhood>& all_;
   double radius_m_;
-  std::vector<Entry> entries_;      // sorted by cell
-  std::vector<bool> any_;           // by the low bits of a cell's hash: rules most points out at once
+  std::vector<Entry> entries_;  // sorted by cell
+  std::vector<bool> any_;       // by the low bits of a cell's hash: rules most points out at once
   Pose pose_;
   std::uint32_t scan_ = 0;
   std::uint64_t index_ = 0;

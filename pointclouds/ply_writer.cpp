@@ -8,8 +8,9 @@
 
 namespace standpoint {
 
-const CloudFormat kPly = {"ply", "PLY: one cloud in the file's frame, with labels as scalars", ".ply", false,
-                          ply::createWriter, nullptr, nullptr};
+const CloudFormat kPly = {
+    "ply",  "PLY: one cloud in the file's frame, with labels as scalars", ".ply", false, ply::createWriter, nullptr,
+    nullptr};
 
 namespace ply {
 namespace {
@@ -57,7 +58,8 @@ std::string Writer::headerText() const {
       text += "comment label " + std::to_string(i) + " " + commentText(header_->materials[i]) + "\n";
     for (std::size_t i = 0; i < header_->products.size(); ++i) {
       const LabelledProduct& p = header_->products[i];
-      text += "comment product " + std::to_string(i) + " " + commentText(p.id + " " + p.global_id + " " + p.ifc_class + " " + p.name) + "\n";
+      text += "comment product " + std::to_string(i) + " " +
+              commentText(p.id + " " + p.global_id + " " + p.ifc_class + " " + p.name) + "\n";
     }
   }
   text += "element vertex " + std::string(20 - digits.size(), '0') + digits + "\n";
@@ -71,8 +73,10 @@ std::string Writer::headerText() const {
 
 Result<void> Writer::begin(const ScanHeader& header) {
   if (header_) return failure(ErrorKind::internal, "a PLY file holds one scan", file_.file().string());
+  if (auto checked = checkHeader(header); !checked) return checked;
   header_ = header;
-  if (!header.coordinate_metadata.empty()) report_.warn(header.name, "PLY has no place for the coordinate reference system");
+  if (!header.coordinate_metadata.empty())
+    report_.warn(header.name, "PLY has no place for the coordinate reference system");
   const std::string text = headerText();
   return file_.append({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }

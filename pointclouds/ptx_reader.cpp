@@ -12,14 +12,14 @@
 
 namespace standpoint {
 
-const CloudFormat kPtx = {"ptx", "Leica PTX: text, whole grids with poses", ".ptx", true, ptx::createWriter, ptx::read,
-                          ptx::info};
+const CloudFormat kPtx = {
+    "ptx", "Leica PTX: text, whole grids with poses", ".ptx", true, ptx::createWriter, ptx::read, ptx::info};
 
 namespace ptx {
 namespace {
 
 constexpr std::size_t kChunk = 65536;
-constexpr std::uint64_t kShortestCell = 4;   // bytes of a line; a grid that the file has no room for is refused at once
+constexpr std::uint64_t kShortestCell = 4;  // bytes of a line; a grid that the file has no room for is refused at once
 constexpr double kLargestSide = 1 << 30;
 
 // Blank-separated numbers of a line; nothing when one of them is none, or when there are more than fit.
@@ -44,16 +44,19 @@ std::optional<Numbers> numbersOf(std::string_view line) {
 struct Frame {
   std::uint32_t columns = 0, rows = 0;
   Pose pose;
-  std::optional<Eigen::Matrix3d> stretch;               // applied to the points when it is no rotation
+  std::optional<Eigen::Matrix3d> stretch;  // applied to the points when it is no rotation
 };
 
 class Reader {
  public:
-  Reader(InputFile file, PointSink& sink, Progress& progress) : lines_(std::move(file)), sink_(sink), progress_(progress) {}
+  Reader(InputFile file, PointSink& sink, Progress& progress)
+      : lines_(std::move(file)), sink_(sink), progress_(progress) {}
   Result<Report> read();
 
  private:
-  tl::unexpected<Error> broken(const std::string& what) const { return failure(ErrorKind::unusable, what, lines_.place()); }
+  tl::unexpected<Error> broken(const std::string& what) const {
+    return failure(ErrorKind::unusable, what, lines_.place());
+  }
   Result<std::optional<std::string_view>> firstLine();
   Result<Numbers> headerLine(std::size_t count);
   Result<Frame> readFrame(std::string_view columns);
@@ -102,7 +105,9 @@ void Reader::setPose(const Eigen::Matrix4d& matrix, Frame& frame) {
     report_.warn(lines_.place(), "the matrix is no rotation: it is applied to the points, the pose keeps the position");
     return;
   }
-  if (skew > 1e-9) report_.note(lines_.place(), "the matrix is a rotation to " + numberText(static_cast<float>(skew)) + " only: the nearest one is taken");
+  if (skew > 1e-9)
+    report_.note(lines_.place(), "the matrix is a rotation to " + numberText(static_cast<float>(skew)) +
+                                     " only: the nearest one is taken");
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Matrix3d nearest = skew > 1e-9 ? Eigen::Matrix3d(svd.matrixU() * svd.matrixV().transpose()) : linear;
   frame.pose.rotation = Eigen::Quaterniond(nearest).normalized();
@@ -118,8 +123,10 @@ Result<Frame> Reader::readFrame(std::string_view columns_line) {
   if (!side(columns->value[0]) || !side(rows->value[0])) return broken("columns and rows are no counts");
   Frame frame{static_cast<std::uint32_t>(columns->value[0]), static_cast<std::uint32_t>(rows->value[0])};
   if (std::uint64_t{frame.columns} * frame.rows > lines_.left() / kShortestCell)
-    return broken("the file is too short for " + std::to_string(frame.columns) + " columns of " + std::to_string(frame.rows) + " rows");
-  for (int i = 0; i < 4; ++i)   // position and axes in the scanner's own survey: the matrix says what they mean for the file
+    return broken("the file is too short for " + std::to_string(frame.columns) + " columns of " +
+                  std::to_string(frame.rows) + " rows");
+  for (int i = 0; i < 4;
+       ++i)  // position and axes in the scanner's own survey: the matrix says what they mean for the file
     if (const auto axis = headerLine(3); !axis) return failure(axis.error());
   Eigen::Matrix4d matrix;
   for (int i = 0; i < 4; ++i) {
@@ -136,14 +143,15 @@ Result<Numbers> Reader::cellLine() {
   if (!line) return failure(line.error());
   if (!*line) return broken("the file ends inside a scan: it is truncated");
   const auto numbers = numbersOf(**line);
-  if (!numbers || (numbers->count != 4 && numbers->count != 7)) return broken("a PTX point has 4 or 7 numbers: x y z intensity [red green blue]");
+  if (!numbers || (numbers->count != 4 && numbers->count != 7))
+    return broken("a PTX point has 4 or 7 numbers: x y z intensity [red green blue]");
   return *numbers;
 }
 
 Result<void> Reader::takeCell(const Numbers& cell, const Frame& frame, FoundPoints& to) {
   const std::uint64_t index = indices_++;
   const auto& v = cell.value;
-  if (v[0] == 0 && v[1] == 0 && v[2] == 0) return {};   // nothing came back
+  if (v[0] == 0 && v[1] == 0 && v[2] == 0) return {};  // nothing came back
   const Eigen::Vector3d raw(v[0], v[1], v[2]);
   const Eigen::Vector3d point = frame.stretch ? Eigen::Vector3d(*frame.stretch * raw) : raw;
   to.x.push_back(point.x());
@@ -203,8 +211,10 @@ Result<void> Reader::readScan(const Frame& frame) {
   LocalPoints local(sink_, header, true);
   if (any)
     if (auto read = readCells(frame, local, first); !read) return read;
-  if (colours_lost_ > 0) report_.lose(scan_name_, std::to_string(colours_lost_) + " points have a colour though the first cell has none");
-  if (colours_missing_ > 0) report_.warn(scan_name_, std::to_string(colours_missing_) + " points have no colour: black stands for it");
+  if (colours_lost_ > 0)
+    report_.lose(scan_name_, std::to_string(colours_lost_) + " points have a colour though the first cell has none");
+  if (colours_missing_ > 0)
+    report_.warn(scan_name_, std::to_string(colours_missing_) + " points have no colour: black stands for it");
   return local.finish(report_);
 }
 

@@ -12,7 +12,8 @@ namespace standpoint::ptx {
 namespace {
 
 constexpr std::size_t kBuffered = 1 << 20;
-constexpr std::uint64_t kMostCells = std::uint64_t{1} << 32;   // 70 GB of missing points; beyond is a damaged header
+constexpr std::uint64_t kMostCells = std::uint64_t{1} << 32;  // ten times the largest instrument's grid
+constexpr std::uint64_t kManyCells = std::uint64_t{1} << 28;  // a damaged header must not fill the disk
 
 std::span<const std::uint8_t> bytesOf(const std::string& text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
@@ -21,7 +22,7 @@ std::span<const std::uint8_t> bytesOf(const std::string& text) {
 void appendRow(std::string& text, const Eigen::Vector3d& v, const char* rest) {
   for (int i = 0; i < 3; ++i) {
     if (i > 0) text += ' ';
-    appendNumber(text, v[i] + 0.0);   // no "-0"
+    appendNumber(text, v[i] + 0.0);  // no "-0"
   }
   text += rest;
 }
@@ -51,31 +52,36 @@ class Writer final : public CloudWriter {
   Report report_;
   std::string text_;
   std::optional<ScanHeader> header_;
-  std::uint64_t start_ = 0;        // of the scan, in the file
-  std::uint64_t next_cell_ = 0;    // how many lines the scan has
-  std::uint64_t crowded_ = 0;      // points that found their cell taken
-  std::uint64_t clamped_ = 0;      // intensities outside the sensor's range
+  std::uint64_t start_ = 0;      // of the scan, in the file
+  std::uint64_t next_cell_ = 0;  // how many lines the scan has
+  std::uint64_t points_ = 0;
+  std::uint64_t crowded_ = 0;  // points that found their cell taken
+  std::uint64_t clamped_ = 0;  // intensities outside the sensor's range
 };
 
 void Writer::appendHeader() {
-  if (hasGrid(*header_)) text_ += std::to_string(header_->columns) + "\n" + std::to_string(header_->rows) + "\n";
-  else text_ += countLine(0) + "1\n";
+  if (hasGrid(*header_))
+    text_ += std::to_string(header_->columns) + "\n" + std::to_string(header_->rows) + "\n";
+  else
+    text_ += countLine(0) + "1\n";
   const Eigen::Matrix3d rotation = header_->file_from_scanner.rotation.normalized().toRotationMatrix();
   const Eigen::Vector3d& position = header_->file_from_scanner.translation;
   appendRow(text_, position, "\n");
   for (int axis = 0; axis < 3; ++axis) appendRow(text_, rotation.col(axis), "\n");
-  for (int axis = 0; axis < 3; ++axis) appendRow(text_, rotation.col(axis), " 0\n");   // for row vectors
+  for (int axis = 0; axis < 3; ++axis) appendRow(text_, rotation.col(axis), " 0\n");  // for row vectors
   appendRow(text_, position, " 1\n");
 }
 
 Result<void> Writer::begin(const ScanHeader& header) {
   if (header_) return failure(ErrorKind::internal, "a scan begins before the last one has ended", header.name);
+  if (auto checked = checkHeader(header); !checked) return checked;
   if (std::uint64_t{header.rows} * header.columns > kMostCells)
-    return failure(ErrorKind::unusable, "the grid has more cells than a PTX file can sensibly hold", "scan " + header.name);
+    return failure(ErrorKind::unusable, "the grid has more cells than a PTX file can sensibly hold",
+                   "scan " + header.name);
   if (auto flushed = flushFrom(0); !flushed) return flushed;
   start_ = file_.size();
   header_ = header;
-  next_cell_ = crowded_ = clamped_ = 0;
+  next_cell_ = points_ = crowded_ = clamped_ = 0;
   appendHeader();
   if (header.has_labels) report_.warn(header.name, "PTX has no place for product and material labels");
   if (!header.coordinate_metadata.empty())
@@ -91,6 +97,9 @@ Result<void> Writer::flushFrom(std::size_t enough) {
 }
 
 Result<void> Writer::fillTo(std::uint64_t cell) {
+  if (cell > kManyCells && points_ < cell / 1000)
+    return failure(ErrorKind::unusable, "the grid is all but empty: PTX would hold gigabytes of missing points",
+                   "scan " + header_->name);
   const char* missing = header_->has_colour ? "0 0 0 0.5 0 0 0\n" : "0 0 0 0.5\n";
   for (; next_cell_ < cell; ++next_cell_) {
     text_ += missing;
@@ -134,6 +143,7 @@ Result<void> Writer::write(const PointBlock& block) {
                          std::to_string(block.row[i]));
     if (auto filled = fillTo(cell); !filled) return filled;
     appendPoint(block, i);
+    ++points_;
     ++next_cell_;
     if (auto flushed = flushFrom(kBuffered); !flushed) return flushed;
   }
@@ -150,7 +160,8 @@ Result<void> Writer::end() {
   if (crowded_ > 0)
     report_.lose(header_->name, std::to_string(crowded_) + " further returns of a pulse: a PTX cell holds one point");
   if (clamped_ > 0)
-    report_.lose(header_->name, std::to_string(clamped_) + " intensities lay outside the sensor's range and were clamped");
+    report_.lose(header_->name,
+                 std::to_string(clamped_) + " intensities lay outside the sensor's range and were clamped");
   header_.reset();
   return {};
 }

@@ -48,7 +48,7 @@ class SurveySink final : public PointSink {
   Result<void> close() override { return {}; }
 
   CloudStatistics statistics() const;
-  std::vector<Neighbourhood> samples() const;   // in the order of the file
+  std::vector<Neighbourhood> samples() const;  // in the order of the file
   Coverage coverage;
 
  private:
@@ -58,7 +58,7 @@ class SurveySink final : public PointSink {
   ScanHeader header_;
   Moments intensity_;
   std::map<std::string, Moments> materials_;
-  std::vector<Moments*> material_of_;          // by the scan's label
+  std::vector<Moments*> material_of_;  // by the scan's label
   // A heap with the largest hash on top: those with the smallest hashes stay.
   std::vector<std::pair<std::uint64_t, Neighbourhood>> chosen_;
 };
@@ -131,8 +131,10 @@ struct Measured {
 Result<Measured> measure(const std::filesystem::path& file, const StatisticsOptions& options, Report& report,
                          Progress& progress) {
   const CloudFormat* const format = cloudFormatFor(file);
-  if (!format || !format->read) return failure(ErrorKind::usage, "no readable point-cloud format has this extension", file.string());
-  if (!(options.radius_m > 0) || !(options.cell_m > 0)) return failure(ErrorKind::usage, "radius and cell must be positive", file.string());
+  if (!format || !format->read)
+    return failure(ErrorKind::usage, "no readable point-cloud format has this extension", file.string());
+  if (!(options.radius_m > 0) || !(options.cell_m > 0))
+    return failure(ErrorKind::usage, "radius and cell must be positive", file.string());
   SurveySink survey(options);
   const auto read = format->read(file, survey, progress);
   if (!read) return failure(read.error());
@@ -155,8 +157,8 @@ Result<Measured> measure(const std::filesystem::path& file, const StatisticsOpti
 
 }  // namespace
 
-Result<CloudStatistics> measureCloud(const std::filesystem::path& file, const StatisticsOptions& options, Report& report,
-                                     Progress& progress) {
+Result<CloudStatistics> measureCloud(const std::filesystem::path& file, const StatisticsOptions& options,
+                                     Report& report, Progress& progress) {
   auto measured = measure(file, options, report, progress);
   if (!measured) return failure(measured.error());
   return std::move(measured->statistics);

@@ -203,6 +203,7 @@ std::shared_ptr<const Lightening> lighteningFrom(const json& part, std::shared_p
 Environment collisionEnvironment(const CollideResult& collision) {
   Environment e;
   e.surfaces.resize(1);
+  e.products.resize(collision.products.size());
   for (const auto& s : collision.shapes) {
     e.instances.push_back({static_cast<std::uint32_t>(e.meshes.size()), s.product, Eigen::Affine3d::Identity()});
     e.meshes.push_back(std::make_shared<const Mesh>(s.mesh));

@@ -150,6 +150,7 @@ ScanHeader headerOf(const Document& document, const ScanWorld& world, const Stat
     if (const auto crs = findCrs(g.crs)) h.coordinate_metadata = crs->wkt;
   for (const auto& p : world.environment->products) h.products.push_back({p.id, p.global_id, p.ifc_class, p.name});
   for (const auto& m : world.assignment.materials) h.materials.push_back(m.id);
+  h.materials.emplace_back("unassigned");  // the label of a point whose surface has no material
   return h;
 }
 
@@ -237,7 +238,7 @@ Result<Outcome> runScan(const Document& document, const json& options, Progress&
 
   Job job = *document.job;
   json rows = json::array();
-  std::unique_ptr<PointSink> sink;
+  std::unique_ptr<CloudWriter> sink;
   const double each = 1.0 / static_cast<double>(std::max<std::size_t>(1, request->stations.size()));
   for (std::size_t k = 0; k < request->stations.size(); ++k) {
     const auto started = std::chrono::steady_clock::now();
@@ -255,6 +256,7 @@ Result<Outcome> runScan(const Document& document, const json& options, Progress&
     if (!count) return failure(count.error());
     if (!request->one_file || k + 1 == request->stations.size()) {
       if (auto ok = sink->close(); !ok) return failure(ok.error());
+      outcome.report.append(sink->report());
       sink.reset();
     }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();

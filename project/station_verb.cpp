@@ -110,12 +110,27 @@ std::vector<Eigen::Vector3d> placesToTry(const Document& document, const RayScen
   return places;
 }
 
-// Where nothing was said: the place that sees most, at least 2.5 m from every station that is there already.
-Result<Eigen::Vector3d> bestPlace(const Document& document, const RayScene& scene, double height) {
+// Points round the model, on its lowest height: for models without a floor (a roof, a set of frames, a mast).
+std::vector<Eigen::Vector3d> placesAround(const RayScene& scene) {
+  constexpr double kAway_m = 3;
+  const Bounds b = bounds(scene.environment());
+  const Eigen::Vector3d centre = (b.min + b.max) / 2;
+  std::vector<Eigen::Vector3d> places;
+  for (int k = 0; k < 16; ++k) {
+    const double azimuth = k * std::numbers::pi / 8;
+    places.emplace_back(centre.x() + ((b.max.x() - b.min.x()) / 2 + kAway_m) * std::cos(azimuth),
+                        centre.y() + ((b.max.y() - b.min.y()) / 2 + kAway_m) * std::sin(azimuth), b.min.z());
+  }
+  return places;
+}
+
+// Of the places the one that sees most, at least 2.5 m from every station that is there already.
+std::optional<Eigen::Vector3d> bestOf(const std::vector<Eigen::Vector3d>& floors, const Document& document,
+                                      const RayScene& scene, double height) {
   constexpr double kApart_m = 2.5;
   double best = -1;
-  Eigen::Vector3d chosen;
-  for (const auto& floor : placesToTry(document, scene, height)) {
+  std::optional<Eigen::Vector3d> chosen;
+  for (const auto& floor : floors) {
     const Eigen::Vector3d centre = floor + Eigen::Vector3d(0, 0, height);
     const bool apart = std::all_of(document.job->stations.begin(), document.job->stations.end(), [&](const Station& s) {
       return (s.true_pose.translation - centre).norm() >= kApart_m;
@@ -126,9 +141,17 @@ Result<Eigen::Vector3d> bestPlace(const Document& document, const RayScene& scen
       chosen = centre;
     }
   }
-  if (best < 0)
-    return failure(ErrorKind::unusable, "no free place was found for the tripod; say where with --at X,Y,Z or --on X,Y[,Z]");
   return chosen;
+}
+
+// Where nothing was said.
+Result<Eigen::Vector3d> bestPlace(const Document& document, const RayScene& scene, double height, Report& report) {
+  if (const auto chosen = bestOf(placesToTry(document, scene, height), document, scene, height)) return *chosen;
+  if (const auto beside = bestOf(placesAround(scene), document, scene, height)) {
+    report.warn("station", "the model has no free floor for it: the tripod stands beside the model, on its lowest height");
+    return *beside;
+  }
+  return failure(ErrorKind::unusable, "no free place was found for the tripod; say where with --at X,Y,Z or --on X,Y[,Z]");
 }
 
 // The instrument's centre in the local frame, from --at or --on.
@@ -158,13 +181,14 @@ Result<Eigen::Vector3d> centreFrom(const RayScene& scene, const Georeference& g,
   return Eigen::Vector3d(x, y, nearest + height);
 }
 
-Result<Station> place(const Document& document, const std::string& name, const json& options, Progress& progress) {
+Result<Station> place(const Document& document, const std::string& name, const json& options, Report& report,
+                      Progress& progress) {
   if (options.contains("at") && options.contains("on"))
     return failure(ErrorKind::usage, "say where with either --at X,Y,Z (the instrument's centre) or --on X,Y[,Z] (the floor)");
   auto scene = RayScene::build(document.environment(), progress);
   if (!scene) return failure(scene.error());
   const bool anywhere = !options.contains("at") && !options.contains("on");
-  auto centre = anywhere ? bestPlace(document, **scene, options.at("height").get<double>())
+  auto centre = anywhere ? bestPlace(document, **scene, options.at("height").get<double>(), report)
                          : centreFrom(**scene, *document.georeference, options);
   if (!centre) return failure(centre.error());
   if (auto why = whyNotAt(**scene, *centre))
@@ -215,7 +239,7 @@ Result<Outcome> runStation(const Document& document, const json& options, Progre
       return failure(ErrorKind::usage, fmt::format("'{}' cannot be a station's name: no comma or slash, please", name));
     if (find(job, name) != job.stations.end())
       return failure(ErrorKind::usage, fmt::format("there is a station '{}' already; use --move, or another name", name));
-    auto station = place(document, name, options, progress);
+    auto station = place(document, name, options, outcome.report, progress);
     if (!station) return failure(station.error());
     outcome.answer["placed"] = stationRow(*station, g);
     outcome.description = "Added station " + name;
@@ -224,7 +248,7 @@ Result<Outcome> runStation(const Document& document, const json& options, Progre
     const auto name = options["move"].get<std::string>();
     const auto at = find(job, name);
     if (at == job.stations.end()) return noStation(job, name);
-    auto station = place(document, name, options, progress);
+    auto station = place(document, name, options, outcome.report, progress);
     if (!station) return failure(station.error());
     const double distance = (station->true_pose.translation - at->true_pose.translation).norm();
     station->scans = at->scans;

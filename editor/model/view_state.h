@@ -8,6 +8,7 @@
 
 #include "core/environment.h"
 #include "editor/model/camera.h"
+#include "editor/model/cloud.h"
 #include "editor/model/visibility.h"
 #include "optimizer/optimizer.h"
 #include "project/document.h"
@@ -30,6 +31,7 @@ struct ViewState {
   bool grid = true;
   bool walkable = false;
   bool shapes = false;        // collision shapes instead of the model
+  std::shared_ptr<const Cloud> cloud;   // a scan instead of the model; null: none
   Camera camera;
   bool operator==(const ViewState&) const = default;
 };

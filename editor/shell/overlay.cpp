@@ -84,6 +84,24 @@ void toggle(Editor& editor, const char* icon, const char* id, bool lit) {
   ImGui::SameLine(0, editor.px(2));
 }
 
+// What is shown instead of the model, and the way back.
+void cloudChip(Editor& editor) {
+  if (editor.readingCloud()) {
+    ImGui::SameLine();
+    ImGui::TextUnformatted("Reading the scan …");
+    return;
+  }
+  if (!editor.cloud()) return;
+  const auto& cloud = *editor.cloud();
+  ImGui::SameLine();
+  if (ImGui::Button(fmt::format("{}  Back to the model###cloud", ICON_CUBE).c_str())) {
+    editor.showCloud({});
+    return;
+  }
+  ui::tooltip(fmt::format("{}: {} of {} points are shown", cloud.file.filename().string(), groupedDigits(cloud.colours.size()),
+                          groupedDigits(cloud.points_in_file)));
+}
+
 void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
   const char* hint = nullptr;
   switch (editor.view.tool) {
@@ -174,6 +192,7 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   colourChip(editor);
   ImGui::SameLine();
   cutChip(editor);
+  cloudChip(editor);
   ImGui::SameLine();
   toggle(editor, ICON_CUBE, "edges", editor.view.edges);
   toggle(editor, ICON_GRID, "grid", editor.view.grid);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <optional>
 #include <string_view>
 
@@ -103,6 +104,22 @@ struct Layer {
     data->SetPoints(pointsOf(lines.positions));
     data->SetLines(cellsOf(lines.ends, 2));
     set(data, lines.ends.empty());
+  }
+  void show(const Cloud& cloud) {
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(pointsOf(cloud.positions));
+    vtkNew<vtkTypeInt64Array> indices;
+    indices->SetNumberOfTuples(static_cast<vtkIdType>(cloud.colours.size()));
+    std::iota(indices->GetPointer(0), indices->GetPointer(0) + cloud.colours.size(), std::int64_t{0});
+    vtkNew<vtkCellArray> cells;
+    cells->SetData(1, indices);
+    data->SetVerts(cells);
+    vtkNew<vtkUnsignedCharArray> colours;
+    colours->SetNumberOfComponents(4);
+    colours->SetNumberOfTuples(static_cast<vtkIdType>(cloud.colours.size()));
+    if (!cloud.colours.empty()) std::memcpy(colours->GetPointer(0), cloud.colours.data(), 4 * cloud.colours.size());
+    data->GetPointData()->SetScalars(colours);
+    set(data, cloud.colours.empty());
   }
   void set(vtkPolyData* data, bool empty) {
     mapper->SetInputData(data);
@@ -243,6 +260,14 @@ class VtkSceneView : public SceneView {
     renderer_->AddActor(layer.actor);
   }
 
+  void setUpPoints(Layer& layer) {
+    layer.actor->GetProperty()->SetLighting(false);
+    layer.actor->GetProperty()->SetPointSize(2);
+    layer.mapper->SetScalarModeToUsePointData();
+    layer.mapper->SetColorModeToDirectScalars();
+    renderer_->AddActor(layer.actor);
+  }
+
   void setUpLayers() {
     setUpLines(grid_, {0.6, 0.6, 0.6}, 1, 1);   // what is translucent is blended in this order
     grid_.actor->ForceTranslucentOn();
@@ -258,19 +283,21 @@ class VtkSceneView : public SceneView {
     walkable_.actor->GetProperty()->SetAmbient(0.8);
     setUpLines(edges_, {0.07, 0.08, 0.10}, 0.55, 1);
     setUpLines(outline_, {0.42, 0.71, 1.0}, 1, 2);
-    for (Layer* layer : {&opaque_, &transparent_, &shapes_, &selected_, &walkable_, &edges_, &outline_, &grid_}) layer->hide();
+    setUpPoints(cloud_);
+    for (Layer* layer : {&opaque_, &transparent_, &shapes_, &selected_, &walkable_, &edges_, &outline_, &grid_, &cloud_}) layer->hide();
   }
 
   void update(const ViewState& state) {
     const ViewState* last = drawn_ ? &*drawn_ : nullptr;
     const bool environment = last == nullptr || last->environment != state.environment;
-    const bool shown = environment || last->hidden != state.hidden || last->shapes != state.shapes;
+    const bool shown = environment || last->hidden != state.hidden || last->shapes != state.shapes || last->cloud != state.cloud;
     if (environment) bounds_ = state.environment ? bounds(*state.environment) : Bounds();
     if (shown || last->materials != state.materials || last->colour != state.colour) updateSurfaces(state);
     if (shown || last->edges != state.edges) updateEdges(state);
     if (shown || last->selected != state.selected) updateSelection(state);
     if (last == nullptr || last->collision != state.collision || last->walkable != state.walkable || last->shapes != state.shapes) updateCollision(state);
     if (environment || last->grid != state.grid) updateGrid(state);
+    if (last == nullptr || last->cloud != state.cloud) updateCloud(state);
     updateCut(state);
     updateCamera(state.camera);
   }
@@ -278,7 +305,7 @@ class VtkSceneView : public SceneView {
   void updateSurfaces(const ViewState& state) {
     opaque_.hide();
     transparent_.hide();
-    if (!state.environment || state.shapes) return;
+    if (!state.environment || state.shapes || state.cloud) return;
     const auto merged = mergeVisible(state);
     opaque_.show(merged.opaque);
     transparent_.show(merged.transparent);
@@ -286,7 +313,7 @@ class VtkSceneView : public SceneView {
 
   void updateEdges(const ViewState& state) {
     edges_.hide();
-    if (state.environment && state.edges && !state.shapes) edges_.show(edge_cache_.edges(state, nullptr, kMostEdges));
+    if (state.environment && state.edges && !state.shapes && !state.cloud) edges_.show(edge_cache_.edges(state, nullptr, kMostEdges));
   }
 
   void updateSelection(const ViewState& state) {
@@ -305,6 +332,11 @@ class VtkSceneView : public SceneView {
     if (state.walkable) walkable_.show(mergeMesh(state.collision->walkable, {72, 200, 130, 120}, 0.03F));
   }
 
+  void updateCloud(const ViewState& state) {
+    cloud_.hide();
+    if (state.cloud) cloud_.show(*state.cloud);
+  }
+
   void updateGrid(const ViewState& state) {
     grid_.hide();
     if (!state.grid || !state.environment || bounds_.empty()) return;
@@ -313,7 +345,7 @@ class VtkSceneView : public SceneView {
   }
 
   void updateCut(const ViewState& state) {
-    for (Layer* layer : {&opaque_, &transparent_, &shapes_, &selected_, &walkable_, &edges_, &outline_}) {
+    for (Layer* layer : {&opaque_, &transparent_, &shapes_, &selected_, &walkable_, &edges_, &outline_, &cloud_}) {
       layer->mapper->RemoveAllClippingPlanes();
       if (!state.cut_height_m) continue;
       vtkNew<vtkPlane> plane;
@@ -351,7 +383,7 @@ class VtkSceneView : public SceneView {
 
   vtkNew<ForeignContextWindow> window_;
   vtkNew<vtkRenderer> renderer_;
-  Layer opaque_, transparent_, shapes_, selected_, walkable_, edges_, outline_, grid_;
+  Layer opaque_, transparent_, shapes_, selected_, walkable_, edges_, outline_, grid_, cloud_;
   EdgeCache edge_cache_;
   Bounds bounds_;
   std::optional<ViewState> drawn_;

@@ -52,10 +52,11 @@ double area2(const std::vector<Uv>& loop) {
 }
 
 // A tube's side may be bounded by two rings without a seam: both are opened and joined to one outline.
-bool joinRings(std::vector<UvLoop>& loops) {
+bool joinRings(std::vector<UvLoop>& loops, double period) {
+  if (!(period > 0)) return true;
   std::vector<std::size_t> rings;
   for (std::size_t i = 0; i < loops.size(); ++i)
-    if (loops[i].drift.norm() > 1) rings.push_back(i);
+    if (loops[i].drift.norm() > 0.5 * period) rings.push_back(i);
   if (rings.empty()) return true;
   if (rings.size() != 2) return false;
   UvLoop a = loops[rings[0]], b = loops[rings[1]];
@@ -68,18 +69,14 @@ bool joinRings(std::vector<UvLoop>& loops) {
   // b runs the other way; it starts over the end of a.
   std::size_t start = 0;
   const Uv end = a.uv.front() + a.drift;
-  const double period = a.drift.norm();
-  const auto apart = [&](const Uv& x) {
-    const double d = std::abs(std::remainder((x - end).dot(a.drift) / period, period));
-    return d;
-  };
+  const double turn = a.drift.norm();
+  const auto apart = [&](const Uv& x) { return std::abs(std::remainder((x - end).dot(a.drift) / turn, turn)); };
   for (std::size_t i = 1; i < b.uv.size(); ++i)
     if (apart(b.uv[i]) < apart(b.uv[start])) start = i;
   UvLoop joined = a;
   joined.uv.push_back(end);
   joined.points.push_back(a.points.front());
-  Uv offset = Uv::Zero();
-  offset = a.drift / period * (std::round((end - b.uv[start]).dot(a.drift) / (period * period)) * period);
+  const Uv offset = a.drift * std::round((end - b.uv[start]).dot(a.drift) / (turn * turn));
   for (std::size_t k = 0; k <= b.uv.size(); ++k) {
     const std::size_t i = (start + k) % b.uv.size();
     joined.uv.push_back(b.uv[i] + offset + (start + k >= b.uv.size() ? b.drift : Uv(Uv::Zero())));
@@ -162,7 +159,7 @@ Result<void> appendCurvedFace(geometry::PolyMesh& mesh, const Entity& face, Scop
     if (points->size() >= 3) loops.push_back(toParameters(*points, on));
   }
   if (loops.empty()) return fail(face, "the face has no bound that encloses an area");
-  if (!joinRings(loops)) return fail(face, "a face whose bound runs around its surface is not supported here");
+  if (!joinRings(loops, on.period().maxCoeff())) return fail(face, "a face whose bound runs around its surface is not supported here");
   std::stable_sort(loops.begin(), loops.end(), [](const UvLoop& a, const UvLoop& b) { return std::abs(area2(a.uv)) > std::abs(area2(b.uv)); });
   Patch patch;
   if (!triangulateLoops(loops, on, patch)) return fail(face, "the face could not be triangulated");

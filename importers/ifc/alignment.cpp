@@ -79,7 +79,7 @@ Result<Eigen::Isometry3d> linearPlacement(const Entity& placement, Scope& scope)
   }
   for (std::size_t i = 1; i < 6; ++i)
     if (const Entity e = placement.ref(i); e.is("IFCAXIS2PLACEMENT3D")) return axisPlacement(e, scope);
-  return fail(placement, "a linear placement of this kind is not supported: its products stand at the origin of their parent");
+  return fail(placement, "a linear placement of this kind is not supported");
 }
 
 }  // namespace standpoint::ifc

@@ -88,7 +88,6 @@ double segmentMeasure(const Value& value, const Entity& parent, const Scope& sco
   if (value.typeName() != "IFCPARAMETERVALUE") return scope.metres(x);
   if (parent.is("IFCCIRCLE")) return x * scope.model.units.angle_rad * scope.metres(parent[1].number(0));
   if (parent.is("IFCLINE")) return x * scope.metres(parent.ref(1)[1].number(1));
-  if (parent.is("IFCCLOTHOID")) return x * std::abs(scope.metres(parent[1].number(0)));
   return scope.metres(x);
 }
 
@@ -131,10 +130,7 @@ Result<Path> alignmentPlan(const Entity& entity, Scope& scope) { return segments
 Result<Path> gradientCurve(const Entity& entity, Scope& scope) {
   const auto plan = curve(entity.ref(2), scope);
   if (!plan) return plan;
-  if (entity.is("IFCSEGMENTEDREFERENCECURVE")) {
-    scope.report.warn(entity.place(), "the cant of the alignment is not followed");
-    return plan;
-  }
+  if (entity.is("IFCSEGMENTEDREFERENCECURVE")) return plan;   // its cant is not followed, which the importer says once
   const auto gradient = segmentsPath(entity, scope);
   if (!gradient) return gradient;
   // Every corner of either curve becomes a point: distance along the plan → height.

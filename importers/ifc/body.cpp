@@ -218,31 +218,44 @@ Eigen::Vector3d localOrigin(const Bounds& bounds) {
 
 bool isFinite(const Eigen::Vector3d& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() < 1e15; }
 
-std::shared_ptr<const Body> Builder::triangulated(const std::vector<geometry::PolyMesh>& meshes, Report& report, Id place) const {
-  auto body = std::make_shared<Body>();
-  std::vector<geometry::TriangulatedMesh> parts;
-  std::size_t failed = 0, infinite = 0;
-  for (const auto& mesh : meshes) {
-    parts.push_back(geometry::triangulate(mesh));
-    failed += parts.back().failed_faces;
-    for (const auto& t : parts.back().triangles)
-      for (const std::uint32_t i : t)
-        if (isFinite(parts.back().points[i])) body->bounds.extend(parts.back().points[i]);
-  }
-  if (!body->bounds.empty()) body->origin = localOrigin(body->bounds);
-  for (const auto& part : parts) {
-    const auto base = static_cast<std::uint32_t>(body->positions.size());
-    for (const auto& p : part.points) body->positions.push_back(isFinite(p) ? Eigen::Vector3f((p - body->origin).cast<float>()) : Eigen::Vector3f(Eigen::Vector3f::Zero()));
-    for (std::size_t t = 0; t < part.triangles.size(); ++t) {
-      const Triangle& tri = part.triangles[t];
-      if (!isFinite(part.points[tri[0]]) || !isFinite(part.points[tri[1]]) || !isFinite(part.points[tri[2]])) { ++infinite; continue; }
-      body->triangles.push_back({base + tri[0], base + tri[1], base + tri[2]});
-      body->tags.push_back(part.tag_of_triangle[t]);
+struct Problems {
+  std::size_t fanned = 0, infinite = 0;
+};
+
+// An outline that crosses itself has no inside; a fan over it keeps something there for a beam to meet.
+void fan(const geometry::Face& face, std::vector<Triangle>& triangles) {
+  for (std::size_t i = 1; i + 1 < face.outer.size(); ++i) triangles.push_back({face.outer[0], face.outer[i], face.outer[i + 1]});
+}
+
+void appendMesh(Body& body, const geometry::PolyMesh& mesh, Problems& problems) {
+  const auto base = static_cast<std::uint32_t>(body.positions.size());
+  for (const auto& p : mesh.points) body.positions.push_back(isFinite(p) ? Eigen::Vector3f((p - body.origin).cast<float>()) : Eigen::Vector3f(Eigen::Vector3f::Zero()));
+  std::vector<Triangle> triangles;
+  for (const geometry::Face& face : mesh.faces) {
+    triangles.clear();
+    const bool finite = std::all_of(face.outer.begin(), face.outer.end(), [&](std::uint32_t i) { return isFinite(mesh.points[i]); });
+    if (!finite) { ++problems.infinite; continue; }
+    if (face.outer.size() == 3 && face.holes.empty()) triangles.push_back({face.outer[0], face.outer[1], face.outer[2]});
+    else if (!geometry::triangulate(mesh.points, face, triangles)) ++problems.fanned, triangles.clear(), fan(face, triangles);
+    for (const Triangle& t : triangles) {
+      body.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+      body.tags.push_back(face.tag);
     }
   }
+}
+
+std::shared_ptr<const Body> Builder::triangulated(const std::vector<geometry::PolyMesh>& meshes, Report& report, Id place) const {
+  auto body = std::make_shared<Body>();
+  for (const auto& mesh : meshes)
+    for (const auto& face : mesh.faces)
+      for (const std::uint32_t i : face.outer)
+        if (isFinite(mesh.points[i])) body->bounds.extend(mesh.points[i]);
+  if (!body->bounds.empty()) body->origin = localOrigin(body->bounds);
+  Problems problems;
+  for (const auto& mesh : meshes) appendMesh(*body, mesh, problems);
   const std::string where = "#" + std::to_string(place);
-  if (failed > 0) report.lose(where, std::to_string(failed) + " faces could not be triangulated");
-  if (infinite > 0) report.lose(where, std::to_string(infinite) + " triangles have coordinates that are no finite numbers");
+  if (problems.fanned > 0) report.warn(where, std::to_string(problems.fanned) + " faces cross themselves and are drawn as fans");
+  if (problems.infinite > 0) report.lose(where, std::to_string(problems.infinite) + " faces have coordinates that are no finite numbers");
   return body->triangles.empty() ? nullptr : body;
 }
 

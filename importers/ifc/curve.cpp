@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "importers/ifc/placement.h"
 
@@ -147,32 +148,50 @@ Result<Path> indexedPolyCurve(const Entity& entity, Scope& scope) {
 
 Result<Path> surfaceCurve(const Entity& entity, Scope& scope) { return curve(entity.ref(0), scope); }
 
-Result<Path> trimmedDirectrix(const Entity& directrix, const Value& start, const Value& end, Scope& scope) {
-  auto path = curve(directrix, scope);
-  if (!path || path->closed || (!start.present() && !end.present())) return path;
-  if (directrix.is("IFCTRIMMEDCURVE") || directrix.is("IFCCIRCLE")) return path;   // its trims say it already
-  const double whole = length(*path);
-  if (directrix.is("IFCLINE")) {
-    const double unit = whole;   // one parameter is one vector long
-    const Eigen::Vector3d from = path->points.front(), along = (path->points.back() - from) / std::max(whole, 1e-12);
-    return Path{{from + along * unit * start.number(0), from + along * unit * end.number(1)}, false};
-  }
-  if (!directrix.is("IFCPOLYLINE") && !directrix.is("IFCINDEXEDPOLYCURVE")) return path;
-  // A polyline's parameter is the number of its point.
-  const auto& p = path->points;
+namespace {
+
+// A polyline's parameter is the number of its point.
+Path polylinePortion(const Path& path, double t0, double t1) {
+  const auto& p = path.points;
   const auto at = [&](double t) {
     const double clamped = std::clamp(t, 0.0, static_cast<double>(p.size() - 1));
     const auto i = std::min(static_cast<std::size_t>(clamped), p.size() - 2);
     return Eigen::Vector3d(p[i] + (p[i + 1] - p[i]) * (clamped - static_cast<double>(i)));
   };
-  const double t0 = start.number(0), t1 = end.number(static_cast<double>(p.size() - 1));
-  if (t1 <= t0) return path;
   Path part;
   appendPoint(part, at(t0));
   for (std::size_t i = 0; i < p.size(); ++i)
     if (static_cast<double>(i) > t0 && static_cast<double>(i) < t1) appendPoint(part, p[i]);
   appendPoint(part, at(t1));
-  return part.points.size() >= 2 ? part : *path;
+  return part.points.size() >= 2 ? part : path;
+}
+
+}  // namespace
+
+Result<Path> trimmedDirectrix(const Entity& directrix, const Value& start, const Value& end, Scope& scope) {
+  const double t0 = start.number(0);
+  if (directrix.is("IFCCIRCLE") || directrix.is("IFCELLIPSE")) {
+    const double from = t0 * scope.model.units.angle_rad, sweep = end.number(0) * scope.model.units.angle_rad - from;
+    if (const auto c = conic(directrix, scope); c && sweep > 1e-9 && sweep < 2 * std::numbers::pi - 1e-9) return arc(*c, from, sweep, scope);
+  }
+  auto path = curve(directrix, scope);
+  if (!path || path->closed || (!start.present() && !end.present())) return path;
+  const double whole = length(*path);
+  const bool by_length = start.typeName() == "IFCLENGTHMEASURE" || end.typeName() == "IFCLENGTHMEASURE" || directrix.is("IFCGRADIENTCURVE");
+  if (by_length) {
+    Path part = portion(*path, scope.metres(t0), end.present() ? scope.metres(end.number(0)) : whole);
+    return part.points.size() >= 2 ? part : *path;
+  }
+  if (directrix.is("IFCLINE")) {   // one parameter is one vector long
+    const Eigen::Vector3d from = path->points.front(), along = path->points.back() - from;
+    return Path{{from + along * t0, from + along * end.number(1)}, false};
+  }
+  if (!directrix.is("IFCPOLYLINE") && !directrix.is("IFCINDEXEDPOLYCURVE")) return path;   // of others the trims repeat what the curve says
+  const auto last = static_cast<double>(path->points.size() - 1);
+  const double t1 = end.number(last);
+  // Many exporters write 0 … 1 for the whole of any curve, which is what they draw, too.
+  const bool normalised = t0 == 0 && t1 == 1;
+  return t1 > t0 && !normalised ? polylinePortion(*path, t0, t1) : *path;
 }
 
 }  // namespace standpoint::ifc

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <numbers>
 
 #include "importers/ifc/curve.h"
 #include "importers/ifc/faceted.h"
@@ -57,6 +58,7 @@ Result<Path> edgePath(const Entity& edge, Scope& scope) {
     path.points.back() = to;
   } else {
     auto whole = curve(basis, scope);
+    if (!whole && (from - to).norm() < 1e-6) return Path{{from}, false};   // an edge without length, at a pole
     if (!whole) return whole;
     if ((from - to).norm() < 1e-6) {
       if (whole->closed) whole->points.push_back(whole->points.front());

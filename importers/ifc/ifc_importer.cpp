@@ -108,7 +108,8 @@ Result<ImportedModel> readIfc(const std::filesystem::path& path, const ImportOpt
   if (!file) return failure(file.error());
   if (auto go = progress.check(); !go) return failure(go.error());
   const Model model{*file, readUnits(*file, result.report), {options.chord_error_m, options.max_segment_angle_rad}, mappingOfTypes(*file),
-                    stylesOfItems(*file), colourMaps(*file)};
+                    stylesOfItems(*file), colourMaps(*file), newCurveCache()};
+  for (const Entity& cant : file->all("IFCSEGMENTEDREFERENCECURVE")) result.report.warn(cant.place(), "the cant of the alignment is not followed");
   const Relations relations(*file);
   const std::vector<Entity> entities = productEntities(*file);
   auto bodies = buildBodies(entities, relations, model, progress);

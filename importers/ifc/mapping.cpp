@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <mutex>
 #include <string_view>
 
 #include "importers/ifc/curve.h"
@@ -11,6 +13,12 @@
 #include "importers/ifc/surfaces.h"
 
 namespace standpoint::ifc {
+
+struct CurveCache {
+  std::mutex mutex;
+  std::map<Id, Result<Path>> paths;
+};
+
 namespace {
 
 constexpr Mapping solid(const char* name, Result<geometry::PolyMesh> (*f)(const Entity&, Scope&)) { return {name, f}; }
@@ -136,9 +144,19 @@ Result<geometry::PolyMesh> item(const Entity& e, Scope& s) {
   return guarded(m ? m->item : nullptr, e, s, "solid or surface");
 }
 
+std::shared_ptr<CurveCache> newCurveCache() { return std::make_shared<CurveCache>(); }
+
 Result<Path> curve(const Entity& e, Scope& s) {
   const Mapping* m = mappingOf(e, s);
-  return guarded(m ? m->curve : nullptr, e, s, "curve");
+  if (!m || m->curve != gradientCurve) return guarded(m ? m->curve : nullptr, e, s, "curve");
+  CurveCache& cache = *s.model.curves;
+  {
+    const std::lock_guard lock(cache.mutex);
+    if (const auto known = cache.paths.find(e.id()); known != cache.paths.end()) return known->second;
+  }
+  auto path = guarded(m->curve, e, s, "curve");   // by two threads at once, perhaps: both find the same
+  const std::lock_guard lock(cache.mutex);
+  return cache.paths.emplace(e.id(), std::move(path)).first->second;
 }
 
 Result<Regions> profile(const Entity& e, Scope& s) {

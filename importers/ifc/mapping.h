@@ -26,6 +26,8 @@ struct Mapping {
   Result<SurfacePtr> (*surface)(const Entity&, Scope&) = nullptr;
 };
 
+std::shared_ptr<CurveCache> newCurveCache();
+
 // By Record::type of that file.
 std::vector<const Mapping*> mappingOfTypes(const StepFile& file);
 

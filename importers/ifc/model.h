@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 namespace standpoint::ifc {
 
 struct Mapping;
+struct CurveCache;
 
 // What every mapping reads: the file, its units, how fine curves become. Shared by all threads, never written after the start.
 struct Model {
@@ -25,6 +27,7 @@ struct Model {
   std::vector<const Mapping*> mapping_of_type;     // by Record::type; nullptr: the table does not know it
   std::vector<Id> style_of_item;                   // by position of the item's record; 0: none of its own
   std::map<Id, Id> colour_map_of_face_set;
+  std::shared_ptr<CurveCache> curves;              // alignments: long, and shared by everything that stands along them
 };
 
 // One product's (or one shared representation's) work: its issues, and the guards against input that nests or multiplies.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "importers/ifc/alignment.h"
+#include "importers/ifc/grid.h"
 
 namespace standpoint::ifc {
 namespace {
@@ -84,12 +85,12 @@ Eigen::Affine3d transformationOperator(const Entity& e, const Scope& scope) {
 Eigen::Isometry3d Placements::own(const Entity& placement, Report& report) const {
   Scope scope(model_);
   if (placement.is("IFCLOCALPLACEMENT")) return axisPlacement(placement.ref(1), scope);
-  if (placement.is("IFCLINEARPLACEMENT")) {
-    if (auto along = linearPlacement(placement, scope)) return *along;
-    else report.lose(along.error().source, along.error().message);
-  } else {
-    report.lose(placement.place(), std::string(placement.typeName()) + " is not supported: its products stand at the origin of their parent");
-  }
+  if (!placement.is("IFCLINEARPLACEMENT") && !placement.is("IFCGRIDPLACEMENT"))
+    return report.lose(placement.place(), std::string(placement.typeName()) + " is not supported: its products stand at the origin of their parent"),
+           Eigen::Isometry3d::Identity();
+  const auto found = placement.is("IFCGRIDPLACEMENT") ? gridPlacement(placement, scope) : linearPlacement(placement, scope);
+  if (found) return *found;
+  report.lose(found.error().source, found.error().message + "; what stands there is put at the origin of its parent");
   return Eigen::Isometry3d::Identity();
 }
 

@@ -26,14 +26,16 @@ bool hasBody(const Entity& representation, const Model& model, int depth) {
   return false;
 }
 
-// Smaller is better. What only stands for the body (its axis, its box, its plan) is never taken for it.
+// Smaller is better. What only stands for the body (the room it needs, its box) is never taken for it; a solid that some
+// exporter files under "Axis" is taken when there is nothing else.
 int rank(const Entity& representation) {
   const std::string id = representation[1].text();
-  constexpr std::array kNever{"Axis", "FootPrint", "Box", "Plan", "Annotation", "Profile", "Reference", "Clearance", "CoG", "Lighting", "SurveyPoints"};
+  constexpr std::array kNever{"Box", "Annotation", "Reference", "Clearance", "CoG", "Lighting", "SurveyPoints"};
+  constexpr std::array kLast{"Axis", "FootPrint", "Plan", "Profile"};
   if (id == "Body") return 0;
   if (id == "Facetation" || id == "Tessellation" || id == "Mesh" || id == "Body-FallBack") return 1;
   if (std::find(kNever.begin(), kNever.end(), id) != kNever.end()) return 9;
-  return 2;
+  return std::find(kLast.begin(), kLast.end(), id) != kLast.end() ? 3 : 2;
 }
 
 Entity bestOf(const std::vector<Entity>& representations, const Model& model) {

@@ -38,9 +38,20 @@ const char* skipSpace(const char* p, const char* end) {
   return p;
 }
 
-const char* skipQuoted(const char* p, const char* end) {  // at the quote; a doubled quote reads as two strings in a row
-  const void* close = p + 1 < end ? std::memchr(p + 1, *p, static_cast<std::size_t>(end - p - 1)) : nullptr;
-  return close ? static_cast<const char*>(close) + 1 : end;
+// At the quote; a doubled quote reads as two strings in a row. Some writers of Japanese text escape bytes as \S\c even
+// where c is the quote itself, without doubling it: such a quote does not end the string.
+const char* skipQuoted(const char* p, const char* end) {
+  const char* const begin = p;
+  const char quote = *p;
+  while (++p < end) {
+    p = static_cast<const char*>(std::memchr(p, quote, static_cast<std::size_t>(end - p)));
+    if (!p) return end;
+    const bool escaped = p - begin > 3 && p[-1] == '\\' && p[-2] == 'S' && p[-3] == '\\';
+    if (!escaped) return p + 1;
+    const bool doubled = p + 2 < end && p[1] == quote && p[2] != ',' && p[2] != ')';
+    if (doubled) ++p;
+  }
+  return end;
 }
 
 // Up to the comma or parenthesis that ends the value, or to the end of the record.

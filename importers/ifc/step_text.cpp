@@ -79,7 +79,7 @@ std::size_t appendEscape(std::string& out, std::string_view s, std::size_t at) {
   const std::string_view rest = s.substr(at);
   if (rest.starts_with("\\\\")) return out += '\\', at + 2;
   if (rest.starts_with("\\S\\") && rest.size() > 3)
-    return appendUtf8(out, (static_cast<unsigned char>(rest[3]) & 0x7FU) + 0x80U), at + 4;
+    return appendUtf8(out, (static_cast<unsigned char>(rest[3]) & 0x7FU) + 0x80U), at + (rest.substr(3, 2) == "''" ? 5 : 4);
   if (rest.starts_with("\\X2\\")) return appendWide(out, s, at + 4, 4);
   if (rest.starts_with("\\X4\\")) return appendWide(out, s, at + 4, 8);
   if (rest.starts_with("\\X\\"))

@@ -93,45 +93,107 @@ class Searched : public ParametricSurface {
 
 class Spline : public Searched {
  public:
-  explicit Spline(SplineSurface s) : spline_(std::move(s)) {}
-  Eigen::Vector3d at(const Eigen::Vector2d& uv) const override { return spline_.at(uv.x(), uv.y()); }
+  explicit Spline(SplineSurface s) : spline_(std::move(s)) {
+    const Eigen::Vector2d middle = (low() + high()) / 2;
+    if ((spline_.at(low().x(), middle.y()) - spline_.at(high().x(), middle.y())).norm() < 1e-6) period_.x() = high().x() - low().x();
+    if ((spline_.at(middle.x(), low().y()) - spline_.at(middle.x(), high().y())).norm() < 1e-6) period_.y() = high().y() - low().y();
+  }
+  Eigen::Vector3d at(const Eigen::Vector2d& uv) const override { return spline_.at(wrapped(uv.x(), 0), wrapped(uv.y(), 1)); }
+  Eigen::Vector2d parameters(const Eigen::Vector3d& p, const Eigen::Vector2d& near) const override {
+    Eigen::Vector2d uv = Searched::parameters(p, {wrapped(near.x(), 0), wrapped(near.y(), 1)});
+    for (int k = 0; k < 2; ++k)
+      if (period_[k] > 0) uv[k] += period_[k] * std::round((near[k] - uv[k]) / period_[k]);
+    return uv;
+  }
   Eigen::Vector2d low() const override { return {spline_.u.from(), spline_.v.from()}; }
   Eigen::Vector2d high() const override { return {spline_.u.to(), spline_.v.to()}; }
+  Eigen::Vector2d period() const override { return period_; }
 
  private:
+  double wrapped(double t, int k) const {
+    if (!(period_[k] > 0) || (t >= low()[k] && t <= high()[k])) return t;
+    return t - period_[k] * std::floor((t - low()[k]) / period_[k]);
+  }
   SplineSurface spline_;
+  Eigen::Vector2d period_ = Eigen::Vector2d::Zero();
 };
 
-// A curve moved along a direction or turned around an axis; u runs along the curve by its length.
-class Swept : public Searched {
+// A polyline by its length; finds the nearest place after a projection.
+class Profile {
  public:
-  Swept(Path path, const Eigen::Isometry3d& frame, const Eigen::Vector3d& along, double depth) : path_(std::move(path)), frame_(frame), along_(along), end_(depth) { measure(); }
-  Swept(Path path, const Eigen::Isometry3d& frame, const Axis& axis) : path_(std::move(path)), frame_(frame), axis_(axis), turns_(true), end_(kTurn) { measure(); }
-
-  Eigen::Vector3d at(const Eigen::Vector2d& uv) const override {
-    const auto it = std::upper_bound(lengths_.begin(), lengths_.end(), uv.x());
-    const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(it - lengths_.begin(), 1, static_cast<std::ptrdiff_t>(lengths_.size()) - 1));
-    const double t = (uv.x() - lengths_[i - 1]) / (lengths_[i] - lengths_[i - 1]);
-    const Eigen::Vector3d p = path_.points[i - 1] + t * (path_.points[i] - path_.points[i - 1]);
-    if (!turns_) return frame_ * (p + along_ * uv.y());
-    return frame_ * (axis_.point + Eigen::AngleAxisd(uv.y(), axis_.direction) * (p - axis_.point));
+  explicit Profile(Path path) : points_(std::move(path.points)) {
+    if (path.closed) points_.push_back(points_.front());
+    lengths_.push_back(0);
+    for (std::size_t i = 1; i < points_.size(); ++i) lengths_.push_back(lengths_.back() + (points_[i] - points_[i - 1]).norm());
   }
-  Eigen::Vector2d low() const override { return {0, turns_ ? 0 : -std::abs(end_)}; }
-  Eigen::Vector2d high() const override { return {lengths_.back(), std::abs(end_)}; }
+  double length() const { return lengths_.back(); }
+  const std::vector<Eigen::Vector3d>& points() const { return points_; }
+  Eigen::Vector3d at(double u) const {
+    const auto it = std::upper_bound(lengths_.begin(), lengths_.end(), u);
+    const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(it - lengths_.begin(), 1, static_cast<std::ptrdiff_t>(lengths_.size()) - 1));
+    return points_[i - 1] + (u - lengths_[i - 1]) / (lengths_[i] - lengths_[i - 1]) * (points_[i] - points_[i - 1]);
+  }
+  // The ends may be overrun in a straight line: faces reach a little beyond the curve they were made from.
+  double nearest(const Eigen::Vector3d& p, const Eigen::Matrix3d& flatten) const {
+    double best = 0, off = 1e300;
+    for (std::size_t i = 1; i < points_.size(); ++i) {
+      const Eigen::Vector3d a = flatten * (p - points_[i - 1]), d = flatten * (points_[i] - points_[i - 1]);
+      double t = d.squaredNorm() > 0 ? a.dot(d) / d.squaredNorm() : 0;
+      t = std::clamp(t, i == 1 ? -1e9 : 0.0, i + 1 == points_.size() ? 1e9 : 1.0);
+      if (const double r = (a - t * d).squaredNorm(); r < off) off = r, best = lengths_[i - 1] + t * (lengths_[i] - lengths_[i - 1]);
+    }
+    return best;
+  }
 
  private:
-  void measure() {
-    if (path_.closed) path_.points.push_back(path_.points.front());
-    lengths_.push_back(0);
-    for (std::size_t i = 1; i < path_.points.size(); ++i) lengths_.push_back(lengths_.back() + (path_.points[i] - path_.points[i - 1]).norm());
-  }
-  Path path_;
-  Eigen::Isometry3d frame_;
-  Axis axis_;
-  Eigen::Vector3d along_ = Eigen::Vector3d::UnitZ();
-  bool turns_ = false;
-  double end_;
+  std::vector<Eigen::Vector3d> points_;
   std::vector<double> lengths_;
+};
+
+class Extruded : public ParametricSurface {
+ public:
+  Extruded(Path path, const Eigen::Isometry3d& frame, const Eigen::Vector3d& along)
+      : profile_(std::move(path)), frame_(frame), inverse_(frame.inverse()), along_(along) {}
+  Eigen::Vector3d at(const Eigen::Vector2d& uv) const override { return frame_ * (profile_.at(uv.x()) + along_ * uv.y()); }
+  Eigen::Vector2d parameters(const Eigen::Vector3d& p, const Eigen::Vector2d&) const override {
+    const Eigen::Vector3d q = inverse_ * p;
+    const double u = profile_.nearest(q, Eigen::Matrix3d::Identity() - along_ * along_.transpose());
+    return {u, (q - profile_.at(u)).dot(along_)};
+  }
+
+ private:
+  Profile profile_;
+  Eigen::Isometry3d frame_, inverse_;
+  Eigen::Vector3d along_;
+};
+
+// v is the angle from the plane of the profile, u runs along the profile.
+class Revolved : public ParametricSurface {
+ public:
+  Revolved(Path path, const Eigen::Isometry3d& frame, const Axis& axis)
+      : profile_(std::move(path)), frame_(frame), inverse_(frame.inverse()), axis_(axis) {
+    for (const auto& p : profile_.points())
+      if (const Eigen::Vector3d r = radial(p); r.norm() > reference_.norm()) reference_ = r;
+  }
+  Eigen::Vector3d at(const Eigen::Vector2d& uv) const override { return frame_ * turned(profile_.at(uv.x()), uv.y()); }
+  Eigen::Vector2d parameters(const Eigen::Vector3d& p, const Eigen::Vector2d& near) const override {
+    const Eigen::Vector3d q = inverse_ * p, r = radial(q);
+    double v = near.y();
+    if (r.norm() > 1e-9) v = nearTurn(std::atan2(reference_.cross(r).dot(axis_.direction), reference_.dot(r)), near.y());
+    return {profile_.nearest(turned(q, -v), Eigen::Matrix3d::Identity()), v};
+  }
+  Eigen::Vector2d period() const override { return {0, kTurn}; }
+
+ private:
+  Eigen::Vector3d radial(const Eigen::Vector3d& p) const {
+    const Eigen::Vector3d d = p - axis_.point;
+    return d - d.dot(axis_.direction) * axis_.direction;
+  }
+  Eigen::Vector3d turned(const Eigen::Vector3d& p, double angle) const { return axis_.point + Eigen::AngleAxisd(angle, axis_.direction) * (p - axis_.point); }
+  Profile profile_;
+  Eigen::Isometry3d frame_, inverse_;
+  Axis axis_;
+  Eigen::Vector3d reference_ = Eigen::Vector3d::Zero();
 };
 
 SurfacePtr round(Round::Kind kind, const Entity& e, double major, double minor, const Scope& s) {
@@ -188,20 +250,26 @@ Result<SurfacePtr> bSplineSurface(const Entity& e, Scope& s) {
   return std::make_shared<Spline>(std::move(spline));
 }
 
-Result<SurfacePtr> surfaceOfLinearExtrusion(const Entity& e, Scope& s) {
+namespace {
+
+Result<Path> sweptCurve(const Entity& e, Scope& s) {
   auto path = profileCurve(e.ref(0), s);
+  if (path && path->points.size() < 2) return fail(e, "the swept curve has no length");
+  return path;
+}
+
+}  // namespace
+
+Result<SurfacePtr> surfaceOfLinearExtrusion(const Entity& e, Scope& s) {
+  auto path = sweptCurve(e, s);
   if (!path) return failure(path.error());
-  if (path->points.size() < 2) return fail(e, "the swept curve has no length");
-  // Faces on it may reach beyond the stated depth, so the search gets room.
-  const double depth = std::max(std::abs(s.metres(e[3].number(1))), 1e-6) * 100;
-  return std::make_shared<Swept>(std::move(*path), axisPlacement(e.ref(1), s), direction(e.ref(2), Eigen::Vector3d::UnitZ()), depth);
+  return std::make_shared<Extruded>(std::move(*path), axisPlacement(e.ref(1), s), direction(e.ref(2), Eigen::Vector3d::UnitZ()));
 }
 
 Result<SurfacePtr> surfaceOfRevolution(const Entity& e, Scope& s) {
-  auto path = profileCurve(e.ref(0), s);
+  auto path = sweptCurve(e, s);
   if (!path) return failure(path.error());
-  if (path->points.size() < 2) return fail(e, "the swept curve has no length");
-  return std::make_shared<Swept>(std::move(*path), axisPlacement(e.ref(1), s), axis1Placement(e.ref(2), s));
+  return std::make_shared<Revolved>(std::move(*path), axisPlacement(e.ref(1), s), axis1Placement(e.ref(2), s));
 }
 
 }  // namespace standpoint::ifc

@@ -15,7 +15,6 @@ class ParametricSurface {
   virtual Eigen::Vector3d at(const Eigen::Vector2d& uv) const = 0;
   // The parameters of a point on it (or near it); `near` chooses among several turns and starts a search.
   virtual Eigen::Vector2d parameters(const Eigen::Vector3d& point, const Eigen::Vector2d& near) const = 0;
-  virtual bool isPlane() const { return false; }
   virtual Eigen::Vector2d period() const { return Eigen::Vector2d::Zero(); }   // 0: does not close
   // Ends of the parameters where the surface has them (lo.x > hi.x: unbounded).
   virtual Eigen::Vector2d low() const { return Eigen::Vector2d::Constant(1); }

@@ -85,7 +85,7 @@ Result<geometry::PolyMesh> curveSweptAreaSolid(const Entity& entity, Scope& scop
   Eigen::Vector3d x = Eigen::Vector3d::UnitX();
   if (reference.is("IFCDIRECTION")) x = direction(reference, x);
   else if (reference.is("IFCPLANE")) x = axisPlacement(reference.ref(0), scope).linear().col(2);
-  else if (reference.is("IFCSURFACEOFLINEAREXTRUSION")) x = direction(reference.ref(2), Eigen::Vector3d::UnitZ());
+  else if (reference.is("IFCSURFACEOFLINEAREXTRUSION")) x = axisPlacement(reference.ref(1), scope).linear() * direction(reference.ref(2), Eigen::Vector3d::UnitZ());
   else return fail(entity, "a reference surface of this kind (" + std::string(reference.typeName()) + ") is not supported");
   geometry::PolyMesh mesh;
   for (const auto& region : *regions) {

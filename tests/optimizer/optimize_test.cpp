@@ -166,6 +166,29 @@ TEST(Budget, OfThousandsOfTinyProductsDropsSomeAndSaysWhich) {
   EXPECT_EQ(result.environment.instances.size(), environment.instances.size() - gone);
 }
 
+TEST(Budget, IsNotSavedByClosingADoorway) {
+  Environment environment;
+  Mesh wall;  // of three boxes: two piers and the lintel over a doorway of 0.9 x 2.1 m
+  models::append(wall, models::box({2, 0.2, 2.8}, 1));
+  models::append(wall, models::box({2, 0.2, 2.8}, 1), Affine3d(Translation3d(2.9, 0, 0)));
+  models::append(wall, models::box({0.9, 0.2, 0.7}, 1), Affine3d(Translation3d(2, 0, 2.1)));
+  models::add(environment, wall, "IfcWall");
+  for (int i = 0; i < 40; ++i) models::add(environment, models::sphere(0.1, 12, 16), "IfcFurniture", Affine3d(Translation3d(0.5 * i, 5, 0)));
+  const auto result = optimized(environment, 350, 10);
+  EXPECT_TRUE(result.budget_reached);
+  ASSERT_GT(result.products[0].triangles_after, 0);
+  const Vector3d middle(2.45, 0.1, 1);
+  for (const auto& t : result.environment.meshes[0]->triangles) {
+    Vector3d corner[3];
+    for (int k = 0; k < 3; ++k) corner[k] = result.environment.meshes[0]->positions[t[k]].cast<double>();
+    for (int k = 0; k < 1000; ++k) {  // no point of any triangle stands in the middle of the doorway
+      const double u = (k % 32) / 31.0, v = (k / 32) / 31.0;
+      if (u + v > 1) continue;
+      EXPECT_GT((corner[0] + u * (corner[1] - corner[0]) + v * (corner[2] - corner[0]) - middle).norm(), 0.2);
+    }
+  }
+}
+
 TEST(Deviation, StatedIsWhatExhaustiveSearchFinds) {
   for (const auto& before : {models::sphere(1, 24, 32), models::torus(1, 0.4, 36, 18)}) {
     const auto result = optimized(only(before), before.triangles.size() / 6, 1);
@@ -251,7 +274,7 @@ TEST(Simplification, SurvivesDegenerateInput) {
 TEST(Simplification, OfAFanWithAHugeHubEndsSoon) {
   Mesh fan;
   fan.positions.emplace_back(0, 0, 0);
-  const std::uint32_t n = 30000;
+  const std::uint32_t n = 8000;
   for (std::uint32_t i = 0; i < n; ++i)
     fan.positions.emplace_back(std::cos(6.2831853 * i / n), std::sin(6.2831853 * i / n), 0.01 * std::cos(0.1 * i));
   for (std::uint32_t i = 0; i < n; ++i) {

@@ -68,8 +68,9 @@ TEST_F(RealClouds, PumpLiesWithinTheBoundsThatItsFileStates) {
   EXPECT_NEAR(*z1, 1.843003, 2e-6);
   EXPECT_EQ(*std::max_element(points.row.begin(), points.row.end()), 1073u);
   std::vector<float> intensity = points.intensity;
-  std::nth_element(intensity.begin(), intensity.begin() + static_cast<std::ptrdiff_t>(intensity.size() / 2), intensity.end());
-  EXPECT_NEAR(intensity[intensity.size() / 2], 0.474, 0.0005);   // measured with another reader
+  std::nth_element(intensity.begin(), intensity.begin() + static_cast<std::ptrdiff_t>(intensity.size() / 2),
+                   intensity.end());
+  EXPECT_NEAR(intensity[intensity.size() / 2], 0.474, 0.0005);  // measured with another reader
 }
 
 TEST_F(RealClouds, BunnyIsTheSameStoredAsDoublesAndAsScaledIntegers) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "pointclouds/crc32c.h"
+
 #include <cstring>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "pointclouds/crc32c.h"
 
 namespace standpoint {
 namespace {
@@ -15,7 +16,7 @@ std::span<const std::uint8_t> text(const char* t) { return {reinterpret_cast<con
 TEST(Crc32c, GivesTheNumbersOfRfc3720) {
   EXPECT_EQ(crc32c(std::vector<std::uint8_t>(32, 0)), 0x8A9136AAu);
   EXPECT_EQ(crc32c(std::vector<std::uint8_t>(32, 0xFF)), 0x62A8AB43u);
-  EXPECT_EQ(crc32c(text("123456789")), 0xE3069283u);   // the check value of the Castagnoli polynomial
+  EXPECT_EQ(crc32c(text("123456789")), 0xE3069283u);  // the check value of the Castagnoli polynomial
 }
 
 TEST(Crc32c, IsTheSameByInstructionAndByTable) {

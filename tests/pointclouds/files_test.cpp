@@ -69,7 +69,7 @@ TEST_P(Writers, AbandonedLeaveNothingBehind) {
     auto writer = GetParam().writer(file);
     ASSERT_OK(writer);
     ASSERT_OK((*writer)->begin(madeUpHeader({})));
-    EXPECT_EQ(filesIn(folder).size(), 1u);   // the .part file
+    EXPECT_EQ(filesIn(folder).size(), 1u);  // the .part file
   }
   EXPECT_TRUE(filesIn(folder).empty());
 }
@@ -118,7 +118,8 @@ TEST(ConvertCloud, OfE57ToPtxAndBackKeepsPointsAndPoses) {
     EXPECT_EQ(after.scans[i].points.x_m, before.scans[i].points.x_m);
     EXPECT_EQ(after.scans[i].points.row, before.scans[i].points.row);
     EXPECT_EQ(after.scans[i].points.red, before.scans[i].points.red);
-    EXPECT_EQ(after.scans[i].header.file_from_scanner.translation, before.scans[i].header.file_from_scanner.translation);
+    EXPECT_EQ(after.scans[i].header.file_from_scanner.translation,
+              before.scans[i].header.file_from_scanner.translation);
   }
 }
 

@@ -18,7 +18,9 @@ using testing::writeScan;
 
 std::string smallFile(const std::filesystem::path& file) {
   auto writer = cloudFormatFor(file)->writer(file);
-  const auto done = writeScan(**writer, madeUpHeader({12, 9, true, file.extension() == ".e57", "S"})).and_then([&] { return (*writer)->close(); });
+  const auto done = writeScan(**writer, madeUpHeader({12, 9, true, file.extension() == ".e57", "S"})).and_then([&] {
+    return (*writer)->close();
+  });
   EXPECT_TRUE(done.has_value()) << describe(done.error());
   return testing::bytesOf(file);
 }
@@ -36,7 +38,8 @@ void mutate(std::string& bytes, std::uint32_t round) {
   for (std::uint32_t k = 0; k <= r[0] % 4; ++k) {
     const auto q = philox({99, 1}, round, k, 0);
     const std::size_t at = q[0] % bytes.size();
-    constexpr char kEdges[] = {0, 1, 127, static_cast<char>(128), static_cast<char>(255), '0', '9', '-', 'e', '<', '"', '\n'};
+    constexpr char kEdges[] = {0,   1,   127, static_cast<char>(128), static_cast<char>(255), '0', '9', '-', 'e',
+                               '<', '"', '\n'};
     bytes[at] = q[1] % 2 ? static_cast<char>(q[2]) : kEdges[q[2] % sizeof kEdges];
   }
 }
@@ -99,7 +102,8 @@ TEST(HostileE57, WithAWrongChecksumNamesThePage) {
   KeptScans kept;
   const auto read = readAll(folder / "s.e57", kept);
   ASSERT_FALSE(read.has_value());
-  EXPECT_THAT(describe(read.error()), ::testing::AllOf(::testing::HasSubstr("s.e57 page 1"), ::testing::HasSubstr("checksum")));
+  EXPECT_THAT(describe(read.error()),
+              ::testing::AllOf(::testing::HasSubstr("s.e57 page 1"), ::testing::HasSubstr("checksum")));
 }
 
 // Replaces text in the XML, which must keep its length, and mends the checksums.
@@ -110,9 +114,11 @@ void edit(const std::filesystem::path& file, const std::string& from, const std:
   // The text may straddle a checksum: this looks at the payload alone.
   std::string payload;
   for (std::size_t page = 0; page < bytes.size(); page += 1024) payload += bytes.substr(page, 1020);
-  for (std::size_t at = payload.find(from); at != std::string::npos; at = payload.find(from, at + 1), ++hits) payload.replace(at, to.size(), to);
+  for (std::size_t at = payload.find(from); at != std::string::npos; at = payload.find(from, at + 1), ++hits)
+    payload.replace(at, to.size(), to);
   ASSERT_GT(hits, 0u) << from;
-  for (std::size_t page = 0; page < bytes.size(); page += 1024) bytes.replace(page, 1020, payload.substr(page / 1024 * 1020, 1020));
+  for (std::size_t page = 0; page < bytes.size(); page += 1024)
+    bytes.replace(page, 1020, payload.substr(page / 1024 * 1020, 1020));
   seal(bytes);
   testing::putBytes(file, bytes);
 }
@@ -123,11 +129,12 @@ struct Edit {
 
 TEST(HostileE57, ThatClaimsTooMuchIsRefusedAtOnce) {
   const TemporaryFolder folder;
-  const Edit edits[] = {{"fileOffset=\"48\"", "fileOffset=\"99\"", "no CompressedVector"},
-                        {"<e57Root", "<e57Rood", "XML"},
-                        {"recordCount=", "recordQount=", "missing"},
-                        {"cartesianX", "cartesianQ", "neither cartesian nor spherical"},
-                        {"precision=\"single\"/>\n<cartesianY", "precision=\"double\"/>\n<cartesianY", "section ends after"}};
+  const Edit edits[] = {
+      {"fileOffset=\"48\"", "fileOffset=\"99\"", "no CompressedVector"},
+      {"<e57Root", "<e57Rood", "XML"},
+      {"recordCount=", "recordQount=", "missing"},
+      {"cartesianX", "cartesianQ", "neither cartesian nor spherical"},
+      {"precision=\"single\"/>\n<cartesianY", "precision=\"double\"/>\n<cartesianY", "section ends after"}};
   for (const Edit& e : edits) {
     smallFile(folder / "s.e57");
     edit(folder / "s.e57", e.from, e.to);
@@ -140,7 +147,9 @@ TEST(HostileE57, ThatClaimsTooMuchIsRefusedAtOnce) {
 
 TEST(HostilePtx, WithAGridLargerThanTheFileIsRefusedAtOnce) {
   const TemporaryFolder folder;
-  testing::putBytes(folder / "huge.ptx", "1000000000\n1000000000\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n1 2 3 0.5\n");
+  testing::putBytes(
+      folder / "huge.ptx",
+      "1000000000\n1000000000\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n1 2 3 0.5\n");
   KeptScans kept;
   const auto read = readAll(folder / "huge.ptx", kept);
   ASSERT_FALSE(read.has_value());

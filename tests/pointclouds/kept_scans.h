@@ -2,11 +2,10 @@
 #pragma once
 
 #include <fstream>
+#include <gmock/gmock.h>
 #include <iterator>
 #include <string>
 #include <vector>
-
-#include <gmock/gmock.h>
 
 #include "core/points.h"
 #include "pointclouds/formats.h"
@@ -48,20 +47,21 @@ inline std::string bytesOf(const std::filesystem::path& file) {
 }
 
 inline void putBytes(const std::filesystem::path& file, const std::string& bytes) {
-  std::filesystem::remove(file);   // some file systems wait for the disk when a file is cut to nothing and refilled
+  std::filesystem::remove(file);  // some file systems wait for the disk when a file is cut to nothing and refilled
   std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
 inline std::string said(const Report& report) {
   std::string text;
-  for (const Issue& issue : report.issues) text += std::string(name(issue.severity)) + " " + issue.source + ": " + issue.message + "\n";
+  for (const Issue& issue : report.issues)
+    text += std::string(name(issue.severity)) + " " + issue.source + ": " + issue.message + "\n";
   return text;
 }
 
 }  // namespace standpoint::testing
 
-#define ASSERT_OK(expression)                                       \
-  do {                                                              \
-    const auto& ok_result = (expression);                           \
+#define ASSERT_OK(expression)                                          \
+  do {                                                                 \
+    const auto& ok_result = (expression);                              \
     ASSERT_TRUE(ok_result.has_value()) << describe(ok_result.error()); \
   } while (false)

@@ -54,7 +54,9 @@ inline ScanHeader madeUpHeader(const ScanKind& kind) {
   header.acquisition_start_gps_s = 1400000000.25;
   header.acquisition_seconds = 61.5;
   if (kind.labels) {
-    header.products = {{"#12", "0abc$_", "IfcWall", "wall\twith a tab"}, {"#13", "", "IfcDoor", "Tür\n2 \\ \x01"}, {"3", "x", "y", ""}};
+    header.products = {{"#12", "0abc$_", "IfcWall", "wall\twith a tab"},
+                       {"#13", "", "IfcDoor", "Tür\n2 \\ \x01"},
+                       {"3", "x", "y", ""}};
     header.materials = {"concrete", "glass", "", "steel", "wood"};
   }
   return header;

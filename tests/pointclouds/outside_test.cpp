@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 
 #include "tests/pointclouds/kept_scans.h"
@@ -57,7 +59,24 @@ TEST(OutsideReaders, OfTheStandardFindNothingWrongInOurE57) {
   if (!std::filesystem::exists(lint)) GTEST_SKIP() << "e57_lint needs libxerces-c-dev";
   for (const auto& kinds : kFiles) {
     write(folder / "s.e57", kinds);
-    EXPECT_THAT(output(lint + " " + (folder / "s.e57").string()), ::testing::HasSubstr("PASS errors=0 warnings=0")) << kinds[0].name;
+    EXPECT_THAT(output(lint + " " + (folder / "s.e57").string()), ::testing::HasSubstr("PASS errors=0 warnings=0"))
+        << kinds[0].name;
+  }
+}
+
+// STANDPOINT_WEB_E57 names a folder with e57_web.mjs and the npm package web-e57, which is another reader's code.
+TEST(OutsideReaders, WebE57FindsThePointsOfOurE57) {
+  const char* const web = std::getenv("STANDPOINT_WEB_E57");
+  if (!web || !installed("node")) GTEST_SKIP() << "web-e57 or node is not here";
+  const TemporaryFolder folder;
+  for (std::size_t i = 0; i + 1 < kFiles.size(); ++i) {
+    const std::uint64_t points = write(folder / "s.e57", kFiles[i]);
+    std::filesystem::remove(folder / "s.xyz");
+    output("node " + std::string(web) + "/e57_web.mjs " + (folder / "s.e57").string() + " XYZ " +
+           (folder / "s.xyz").string());
+    ASSERT_TRUE(std::filesystem::exists(folder / "s.xyz")) << kFiles[i][0].name;
+    const std::string text = testing::bytesOf(folder / "s.xyz");
+    EXPECT_EQ(static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n')), points) << kFiles[i][0].name;
   }
 }
 
@@ -67,7 +86,8 @@ TEST(OutsideReaders, OfPtxFindNothingWrongInOurs) {
   const TemporaryFolder folder;
   for (const std::size_t i : {0, 1, 4, 5}) {
     write(folder / "s.ptx", kFiles[i]);
-    EXPECT_THAT(output("node " + check.string() + " " + (folder / "s.ptx").string()), ::testing::HasSubstr("PASS errors=0"));
+    EXPECT_THAT(output("node " + check.string() + " " + (folder / "s.ptx").string()),
+                ::testing::HasSubstr("PASS errors=0"));
   }
 }
 
@@ -76,7 +96,8 @@ TEST(OutsideReaders, CloudCompareFindsThePointsOfOurPtxAndPly) {
   if (!installed("CloudCompare")) GTEST_SKIP() << "CloudCompare is not installed";
   const TemporaryFolder folder;
   const auto look = [&](const std::string& name) {
-    return output("QT_QPA_PLATFORM=offscreen HOME=" + folder.path.string() + " timeout 60 CloudCompare -SILENT -O " + (folder / name).string());
+    return output("QT_QPA_PLATFORM=offscreen HOME=" + folder.path.string() + " timeout 60 CloudCompare -SILENT -O " +
+                  (folder / name).string());
   };
   const std::vector<ScanKind> scans = {{100, 50, true, false, "A"}, {70, 40, false, false, "B"}};
   for (const ScanKind& kind : scans) {
@@ -86,7 +107,8 @@ TEST(OutsideReaders, CloudCompareFindsThePointsOfOurPtxAndPly) {
     EXPECT_THAT(look(kind.name + ".ply"), ::testing::HasSubstr("with " + points + " points"));
   }
   write(folder / "both.ptx", scans);
-  EXPECT_THAT(look("both.ptx"), ::testing::HasSubstr("with " + std::to_string(write(folder / "A.ptx", {scans[0]})) + " points"));
+  EXPECT_THAT(look("both.ptx"),
+              ::testing::HasSubstr("with " + std::to_string(write(folder / "A.ptx", {scans[0]})) + " points"));
 
   // Without a grid the number of points stands in a header of fixed width.
   ScanHeader header = madeUpHeader({10, 10, true, false, "S"});

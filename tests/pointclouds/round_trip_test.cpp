@@ -71,7 +71,8 @@ void expectSameHeader(const ScanHeader& a, const ScanHeader& b) {
   EXPECT_EQ(a.coordinate_metadata, b.coordinate_metadata);
 }
 
-void writeFile(const std::filesystem::path& file, const std::vector<ScanHeader>& headers, std::uint32_t columns_per_block = 3) {
+void writeFile(const std::filesystem::path& file, const std::vector<ScanHeader>& headers,
+               std::uint32_t columns_per_block = 3) {
   auto writer = cloudFormatFor(file)->writer(file);
   ASSERT_OK(writer);
   for (const ScanHeader& header : headers) ASSERT_OK(writeScan(**writer, header, columns_per_block));
@@ -80,7 +81,8 @@ void writeFile(const std::filesystem::path& file, const std::vector<ScanHeader>&
 
 TEST(E57, ReturnsThreeScansBitForBit) {
   const TemporaryFolder folder;
-  std::vector<ScanHeader> headers = {madeUpHeader({100, 50, true, true, "A"}), madeUpHeader({70, 40, false, false, "B ü"}),
+  std::vector<ScanHeader> headers = {madeUpHeader({100, 50, true, true, "A"}),
+                                     madeUpHeader({70, 40, false, false, "B ü"}),
                                      madeUpHeader({90, 30, false, true, "C"})};
   for (auto& header : headers) header.coordinate_metadata = "PROJCRS[\"made up\"]";
   headers[2].intensity_min = -3.5;
@@ -109,7 +111,8 @@ TEST(E57, HasTheSameBytesHoweverThePointsAreSplitIntoBlocks) {
   EXPECT_EQ(testing::bytesOf(folder / "a.e57"), testing::bytesOf(folder / "b.e57"));
 }
 
-// A packet of this layout holds some 2,500 records: sizes on both sides of one and of two packets, and of 8 and 32 records.
+// A packet of this layout holds some 2,500 records: sizes on both sides of one and of two packets, and of 8 and 32
+// records.
 TEST(E57, HoldsAnyNumberOfPointsAroundPacketsAndWords) {
   const TemporaryFolder folder;
   ScanHeader header = madeUpHeader({1, 8000, true, true, "S"});
@@ -146,7 +149,8 @@ TEST(E57, KeepsAPoseToTheLastBit) {
     ScanHeader header = madeUpHeader({3, 3, false, false, "S" + std::to_string(i)});
     header.file_from_scanner.translation = {extremes[i], -extremes[i], std::nextafter(extremes[i], 1e9)};
     const double t = static_cast<double>(i);
-    header.file_from_scanner.rotation = Eigen::Quaterniond(std::cos(t / 3), 0.3 * std::sin(t), -std::sin(t / 3), 1e-9 * t).normalized();
+    header.file_from_scanner.rotation =
+        Eigen::Quaterniond(std::cos(t / 3), 0.3 * std::sin(t), -std::sin(t / 3), 1e-9 * t).normalized();
     headers.push_back(header);
   }
   headers[0].file_from_scanner.rotation = Eigen::Quaterniond(0, 1, 0, 0);
@@ -207,10 +211,21 @@ TEST(E57, RefusesPointsThatBreakThePromisesOfTheHeader) {
   }
 }
 
+TEST(CloudWriters, RefuseAHeaderWithoutAPose) {
+  const TemporaryFolder folder;
+  for (auto& format : cloudFormats()) {
+    ScanHeader header = madeUpHeader({});
+    header.file_from_scanner.translation.y() = NAN;
+    auto writer = format.writer(folder / (std::string("bad") + format.extension));
+    ASSERT_OK(writer);
+    EXPECT_FALSE((*writer)->begin(header).has_value()) << format.name;
+  }
+}
+
 TEST(Ptx, ReturnsWhatATextOfTheGridCanHold) {
   const TemporaryFolder folder;
-  std::vector<ScanHeader> headers = {madeUpHeader({100, 50, true, false, "A"}), madeUpHeader({70, 40, false, false, "B"}),
-                                     madeUpHeader({1, 1, true, false, "C"})};
+  std::vector<ScanHeader> headers = {madeUpHeader({100, 50, true, false, "A"}),
+                                     madeUpHeader({70, 40, false, false, "B"}), madeUpHeader({1, 1, true, false, "C"})};
   writeFile(folder / "three.ptx", headers);
   KeptScans kept;
   ASSERT_OK(readAll(folder / "three.ptx", kept));
@@ -244,6 +259,22 @@ TEST(Ptx, CountsTheReturnsThatShareACell) {
   KeptScans kept;
   ASSERT_OK(readAll(folder / "s.ptx", kept));
   EXPECT_THAT(kept.scans.at(0).points.row, ::testing::ElementsAre(0u, 2u));
+}
+
+TEST(Ptx, DoesNotFillTheDiskWithAGridThatIsAllButEmpty) {
+  const TemporaryFolder folder;
+  ScanHeader header = madeUpHeader({4, 4, false, false, "S"});
+  header.rows = header.columns = 60000;
+  PointBlock point;
+  point.x_m = point.y_m = point.z_m = {1.f};
+  point.intensity = {0.5f};
+  point.row = point.column = {59999};
+  auto writer = ptx::createWriter(folder / "s.ptx");
+  ASSERT_OK(writer);
+  ASSERT_OK((*writer)->begin(header));
+  const auto written = (*writer)->write(point);
+  ASSERT_FALSE(written.has_value());
+  EXPECT_EQ(written.error().kind, ErrorKind::unusable);
 }
 
 TEST(Ptx, OfAScanWithoutAGridIsOneRow) {

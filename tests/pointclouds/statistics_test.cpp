@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "pointclouds/statistics.h"
+
 #include <cmath>
 
 #include "pointclouds/coverage.h"
 #include "pointclouds/e57.h"
-#include "pointclouds/statistics.h"
 #include "tests/pointclouds/kept_scans.h"
 #include "tests/pointclouds/made_up_scan.h"
 
@@ -13,9 +14,9 @@ namespace {
 using testing::TemporaryFolder;
 
 struct Wall {
-  double sigma_m = 0.00203;        // along the beam
-  double distance_m = 5;           // x of the wall, seen from the origin of the scanner's frame
-  double yaw_rad = 0;              // the wall turned about the vertical
+  double sigma_m = 0.00203;  // along the beam
+  double distance_m = 5;     // x of the wall, seen from the origin of the scanner's frame
+  double yaw_rad = 0;        // the wall turned about the vertical
   double width_m = 1.5, spacing_m = 0.01;
   std::uint32_t station = 1;
 };
@@ -80,11 +81,12 @@ TEST(Statistics, MeasureNoiseAlongTheBeamAtASlant) {
 
 TEST(Statistics, KeepTheNoiseOfEachScanApartFromTheirMisfit) {
   const TemporaryFolder folder;
-  writeWall(folder / "two.e57", {{.sigma_m = 0.001, .station = 1}, {.sigma_m = 0.001, .distance_m = 5.01, .station = 2}});
+  writeWall(folder / "two.e57",
+            {{.sigma_m = 0.001, .station = 1}, {.sigma_m = 0.001, .distance_m = 5.01, .station = 2}});
   const CloudStatistics s = measured(folder / "two.e57");
   EXPECT_EQ(s.scans, 2u);
   EXPECT_NEAR(s.plane_noise_m.median, 0.001, 0.05 * 0.001);
-  EXPECT_NEAR(s.roughness_m.mean, 0.005, 0.0005);   // half the centimetre between the two walls
+  EXPECT_NEAR(s.roughness_m.mean, 0.005, 0.0005);  // half the centimetre between the two walls
 }
 
 TEST(Statistics, GiveIntensityByMaterial) {
@@ -131,7 +133,7 @@ TEST(Coverage, EstimatesWhatItHasNoRoomFor) {
     for (auto* c : {&small, &large}) c->add(mixed(i % 100000));
   small.settle(), large.settle();
   EXPECT_EQ(large.cells(), 100000u);
-  EXPECT_NEAR(static_cast<double>(small.cells()), 100000, 10000);   // sqrt(1 / 500) is 4 %
+  EXPECT_NEAR(static_cast<double>(small.cells()), 100000, 10000);  // sqrt(1 / 500) is 4 %
   EXPECT_DOUBLE_EQ(small.sharedWith(large), 1);
 }
 

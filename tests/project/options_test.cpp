@@ -18,7 +18,7 @@ TEST(VerbTable, HasUniqueNamesSummariesAndHelpForEveryOption) {
     for (const auto& p : v.parameters) {
       EXPECT_TRUE(options.insert(p.name).second) << v.name << " " << p.name;
       EXPECT_GT(std::string(p.help).size(), 3U) << v.name << " " << p.name;
-      if (p.kind == ParameterKind::choice) EXPECT_FALSE(p.choices.empty()) << v.name << " " << p.name;
+      EXPECT_EQ(p.kind == ParameterKind::choice, !p.choices.empty()) << v.name << " " << p.name;
     }
   }
 }

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace standpoint {
+
+struct Editor;
+
+// Gives the editor its emulated device: the panel that draws it, its clock, and the way its scans take into the document.
+void attachInstrument(Editor& editor);
+
+}  // namespace standpoint

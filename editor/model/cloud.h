@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/progress.h"
+#include "core/result.h"
+
+namespace standpoint {
+
+// A point cloud as it is shown over the model: an even sample of the file's points, in the local frame.
+struct Cloud {
+  std::filesystem::path file;
+  std::vector<float> positions;                           // x, y, z
+  std::vector<std::array<std::uint8_t, 4>> colours;       // the scan's own, or its intensity as grey
+  std::uint64_t points_in_file = 0;
+};
+
+// Every k-th point, so that at most `most` are kept; memory does not grow with the file.
+Result<Cloud> sampleCloud(const std::filesystem::path& file, const Eigen::Vector3d& shift_m, std::uint64_t most,
+                          Progress& progress);
+
+// Reads a cloud in the background.
+class CloudLoader {
+ public:
+  ~CloudLoader();
+  void start(const std::filesystem::path& file, const Eigen::Vector3d& shift_m, std::function<void()> wake);
+  bool busy() const { return worker_.joinable() && !done_.load(); }
+  // What the last start brought; once.
+  std::optional<Result<Cloud>> take();
+
+ private:
+  void stop();
+  std::unique_ptr<Progress> progress_;
+  std::thread worker_;
+  std::atomic<bool> done_{false};
+  Result<Cloud> result_ = failure(ErrorKind::internal, "not read");
+};
+
+}  // namespace standpoint
