@@ -94,11 +94,21 @@ std::uint64_t Editor::triangles() const {
   return triangles_;
 }
 
-Bounds Editor::visibleBounds() const {
+Bounds Editor::visibleBounds() const { return boundsOfVisible(true); }
+
+Bounds Editor::buildingBounds() const {
+  const Bounds building = boundsOfVisible(false);
+  return building.empty() ? visibleBounds() : building;
+}
+
+Bounds Editor::boundsOfVisible(bool with_terrain) const {
   Bounds all;
   const auto& each = boundsOfProducts();
-  for (std::uint32_t p = 0; p < each.size(); ++p)
-    if (!visibility.hidden(p) && environment()->products[p].tangible && !each[p].empty()) all.extend(each[p]);
+  for (std::uint32_t p = 0; p < each.size(); ++p) {
+    const auto& product = environment()->products[p];
+    const bool terrain = product.ifc_class == "IfcSite" || product.ifc_class == "IfcGeographicElement";
+    if (!visibility.hidden(p) && product.tangible && !each[p].empty() && (with_terrain || !terrain)) all.extend(each[p]);
+  }
   if (visibility.cut_height_m && !all.empty())
     all.max.z() = std::max(all.min.z(), std::min(all.max.z(), *visibility.cut_height_m));
   return all;
@@ -114,7 +124,7 @@ Bounds Editor::selectionBounds() const {
 
 void Editor::frameSelection() {
   Bounds wanted = selectionBounds();
-  if (wanted.empty()) wanted = visibleBounds();
+  if (wanted.empty()) wanted = buildingBounds();
   frame(view.camera, wanted, view.size.x() / std::max(view.size.y(), 1.0));
 }
 

@@ -90,6 +90,7 @@ struct Editor {
   const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
   bool readingCloud() const { return cloud_loader_.busy(); }
   Bounds visibleBounds() const;
+  Bounds buildingBounds() const;           // what is visible without the terrain around it
   Bounds selectionBounds() const;
   void frameSelection();                   // everything when nothing is selected
   void select(std::uint32_t product, bool reveal);
@@ -100,6 +101,7 @@ struct Editor {
 
  private:
   void adoptDocument();
+  Bounds boundsOfVisible(bool with_terrain) const;
   CloudLoader cloud_loader_;
   std::shared_ptr<const Cloud> cloud_;
   std::shared_ptr<const Environment> imported_;   // whose products selection and visibility speak of

@@ -43,7 +43,7 @@ std::int64_t richestProduct(const Editor& editor) {
 
 // Into the lowest storey that is not below the ground.
 void cutIntoStorey(Editor& editor) {
-  const auto bounds = editor.visibleBounds();
+  const auto bounds = editor.buildingBounds();
   double height = (bounds.min.z() + bounds.max.z()) / 2;
   for (const auto& level : editor.storeys())
     if (level.elevation_m > bounds.min.z() - 0.5) {

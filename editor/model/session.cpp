@@ -41,6 +41,7 @@ std::vector<Verb> fileVerbs() {
   const std::vector<Parameter> folder = {
       {.name = "folder", .kind = ParameterKind::path, .help = "Folder of the project", .positional = true, .required = true}};
   auto with_owner = folder;
+  with_owner.push_back({.name = "name", .kind = ParameterKind::text, .help = "of the project"});
   with_owner.push_back({.name = "saved-in", .kind = ParameterKind::text, .help = "Folder of the project that it is a copy of"});
   return {{"save-project", "Save the project", VerbScope::reads, folder, runSave},
           {"save-recovery", "Keep a recovery copy", VerbScope::reads, folder, runSave},
@@ -112,7 +113,7 @@ bool Session::saveRecovery(const std::filesystem::path& folder) {
 }
 
 bool Session::recover(const RecoveryCopy& copy) {
-  return start("open-recovery", {{"folder", copy.project.string()}, {"saved-in", copy.saved_in}}, "Recover " + copy.name);
+  return start("open-recovery", {{"folder", copy.project.string()}, {"name", copy.name}, {"saved-in", copy.saved_in}}, "Recover " + copy.name);
 }
 
 void Session::clear() {
@@ -193,6 +194,7 @@ void Session::succeed(Task& task, Outcome outcome) {
     ++revision_;
   } else if (verb_name == "open-recovery") {
     history_ = History();   // an empty saved value below it: what was recovered counts as unsaved
+    outcome.document.name = task.options().at("name").get<std::string>();   // it was loaded as the copy's folder
     history_.push(std::move(outcome.document), text);
     folder_ = task.options().at("saved-in").get<std::string>();
     removeRecovery(folderOf(task.options()).parent_path());

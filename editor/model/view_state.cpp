@@ -16,14 +16,16 @@ float channel(double hue, double lightness, double chroma, double offset) {
 
 }  // namespace
 
-Colour materialColour(const char* material_id) {
-  if (material_id == nullptr) return {0.93F, 0.26F, 0.60F, 1};   // nothing else in the picture is pink
-  const auto hash = stableHash(material_id);
+Colour materialColour(const PhysicalMaterial* material) {
+  if (material == nullptr) return {0.93F, 0.26F, 0.60F, 1};   // nothing else in the picture is pink
+  const double red = atWavelength(material->reflectance, 660), green = atWavelength(material->reflectance, 532);
+  const double blue = green - 0.8 * (red - green);   // the libraries begin in the green
+  const auto shown = [](double reflectance) { return std::sqrt(std::fmax(0.01, std::fmin(reflectance, 1.0))); };
   // Hues leave out the pink of "unassigned".
-  const double hue = static_cast<double>(hash % 1009) / 1009 * 0.82;
-  const double lightness = 0.48 + static_cast<double>(hash / 1009 % 97) / 97 * 0.22;
-  const double chroma = 0.10 + static_cast<double>(hash / 97873 % 89) / 89 * 0.14;
-  return {channel(hue, lightness, chroma, 0), channel(hue, lightness, chroma, 8), channel(hue, lightness, chroma, 4), 1};
+  const double hue = static_cast<double>(stableHash(material->id.c_str()) % 1009) / 1009 * 0.82;
+  const auto mixed = [](double own, float tint) { return static_cast<float>(0.78 * own + 0.22 * tint); };
+  return {mixed(shown(red), channel(hue, 0.5, 0.3, 0)), mixed(shown(green), channel(hue, 0.5, 0.3, 8)),
+          mixed(shown(blue), channel(hue, 0.5, 0.3, 4)), 1};
 }
 
 }  // namespace standpoint

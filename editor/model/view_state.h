@@ -45,8 +45,9 @@ class SceneView {
   virtual std::uint64_t texture(const ViewState& state, int width_px, int height_px, bool fine) = 0;
 };
 
-// The colour that stands for a physical material; nullptr = nothing assigned.
-Colour materialColour(const char* material_id);
+// The colour that stands for a physical material: about what it looks like by its reflectance in the visible, with a tint
+// of its own to tell it from others that look the same. nullptr = nothing assigned.
+Colour materialColour(const PhysicalMaterial* material);
 constexpr double kReflectanceWavelength_nm = 1550;   // what most of the emulated scanners emit
 
 }  // namespace standpoint

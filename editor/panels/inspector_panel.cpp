@@ -89,13 +89,12 @@ void assign(Editor& editor, const PhysicalMaterial& material) {
 }
 
 void drawAssign(Editor& editor, const std::string& current) {
-  const auto why = editor.session.whyNot("materials");
-  ImGui::BeginDisabled(!why.empty());
+  if (const auto why = editor.session.whyNot("materials"); !why.empty()) {
+    ui::button((current + "###assign").c_str(), why, {-FLT_MIN, 0});
+    return;
+  }
   ImGui::SetNextItemWidth(-FLT_MIN);
-  const bool open = ImGui::BeginCombo("###assign", current.c_str(), ImGuiComboFlags_HeightLargest);
-  ImGui::EndDisabled();
-  ui::tooltip(why);
-  if (!open) return;
+  if (!ImGui::BeginCombo("###assign", current.c_str(), ImGuiComboFlags_HeightLargest)) return;
   const auto& catalogue = readCatalogue(editor.panels.catalogue);
   auto& filter = editor.panels.inspector.material_filter;
   if (ImGui::IsWindowAppearing()) {
@@ -108,7 +107,7 @@ void drawAssign(Editor& editor, const std::string& current) {
     Product searched;
     searched.name = material.label + " " + material.id;
     if (!matchesFilter(searched, filter)) continue;
-    ui::swatch(editor, materialColour(material.id.c_str()));
+    ui::swatch(editor, materialColour(&material));
     ImGui::SameLine();
     if (ImGui::Selectable((material.label + "###" + material.id).c_str())) {
       assign(editor, material);
@@ -149,7 +148,7 @@ void drawPhysicalMaterial(Editor& editor, std::uint32_t index) {
       continue;
     }
     const auto& m = assignment.materials[static_cast<std::size_t>(material)];
-    ui::swatch(editor, materialColour(m.id.c_str()));
+    ui::swatch(editor, materialColour(&m));
     ImGui::SameLine();
     ui::wrapped(m.label);
     if (!reason.empty()) ui::tooltip("Because of: " + reason);

@@ -58,7 +58,7 @@ void drawUse(Editor& editor, const MaterialResult& result, const MaterialUse& us
   }
   if (material != nullptr && !material->source.empty()) ui::tooltip(fmt::format("{}\n{}", material->id, material->source.front()));
   ImGui::SameLine(0, 0);
-  ui::swatch(editor, materialColour(unassigned ? nullptr : use.material.c_str()));
+  ui::swatch(editor, materialColour(material));
   ImGui::SameLine();
   if (unassigned) ImGui::PushStyleColor(ImGuiCol_Text, tone::kUnassigned);
   ui::fitted(label, ImGui::GetContentRegionAvail().x);

@@ -47,11 +47,7 @@ void drawStationRow(Editor& editor, const Station& station, int i) {
   ui::fitted(station.name, ImGui::GetContentRegionAvail().x);
   const Eigen::Vector3d p = station.true_pose.translation + editor.shift_m();
   ImGui::TableNextColumn();
-  ui::textRightAligned(fmt::format("{:.2f}", p.x()));
-  ImGui::TableNextColumn();
-  ui::textRightAligned(fmt::format("{:.2f}", p.y()));
-  ImGui::TableNextColumn();
-  ui::textRightAligned(fmt::format("{:.2f}", p.z()));
+  ui::fitted(fmt::format("{:.1f}  {:.1f}  {:.1f}", p.x(), p.y(), p.z()), ImGui::GetContentRegionAvail().x);
   ImGui::TableNextColumn();
   ui::textRightAligned(station.scans.empty() ? "–" : std::to_string(station.scans.size()));
   ImGui::PopID();
@@ -64,10 +60,10 @@ void drawStations(Editor& editor, const Job& job) {
     return;
   }
   const float height = std::min(editor.px(26) + ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(job.stations.size()), editor.px(260));
-  if (!ImGui::BeginTable("stations", 5, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg, {0, height})) return;
+  if (!ImGui::BeginTable("stations", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg, {0, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch);
-  for (const char* axis : {"X", "Y", "Z"}) ImGui::TableSetupColumn(axis, ImGuiTableColumnFlags_WidthFixed, editor.px(48));
+  ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch, 0.34F);
+  ImGui::TableSetupColumn("X  Y  Z", ImGuiTableColumnFlags_WidthStretch, 0.66F);
   ImGui::TableSetupColumn("Scans", ImGuiTableColumnFlags_WidthFixed, editor.px(38));
   ImGui::TableHeadersRow();
   for (int i = 0; i < static_cast<int>(job.stations.size()); ++i) drawStationRow(editor, job.stations[static_cast<std::size_t>(i)], i);
@@ -88,9 +84,15 @@ void drawChosenStation(Editor& editor, const Station& station) {
   fillMove(editor, station);
   ui::heading(editor, station.name.c_str());
   const auto why = editor.session.whyNot("station");
-  ui::dimText(fmt::format("Instrument {:.3f} m above the floor. Its centre:", station.instrument_height_m));
-  ImGui::SetNextItemWidth(-FLT_MIN);
-  ImGui::InputScalarN("###move-to", ImGuiDataType_Double, state.move_to.data(), 3, nullptr, nullptr, "%.3f");
+  if (ui::beginProperties("move", 0.3F)) {
+    static constexpr const char* kAxes[] = {"X", "Y", "Z"};
+    for (std::size_t i = 0; i < 3; ++i) {
+      ui::propertyLabel(kAxes[i]);
+      ImGui::InputDouble(fmt::format("###move{}", i).c_str(), &state.move_to[i], 0, 0, "%.3f m");
+    }
+    ui::property("Above floor", metres(station.instrument_height_m));
+    ui::endProperties();
+  }
   const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
   if (ui::button(ICON_MOVE "  Move###move-station", why, {width, 0}, "To these coordinates"))
     editor.session.start("station", {{"move", station.name}, {"at", state.move_to}, {"height", station.instrument_height_m}}, "Move station " + station.name);

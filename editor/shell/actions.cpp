@@ -57,9 +57,29 @@ void escape(Editor& e) {
 void lookFrom(Editor& e, StandardView view) {
   look(e.view.camera, view);
   e.view.camera.orthographic = view != StandardView::corner;
-  frame(e.view.camera, e.visibleBounds(), e.view.size.x() / std::max(e.view.size.y(), 1.0));
+  frame(e.view.camera, e.buildingBounds(), e.view.size.x() / std::max(e.view.size.y(), 1.0));
 }
 void showWorkspace(Editor& e, Workspace w) { e.workspace = w; }
+
+// The verb and the name of what the survey panel has chosen.
+std::pair<const char*, std::string> chosenInSurvey(const Editor& e) {
+  const auto& job = e.session.document().job;
+  const auto& state = e.panels.survey;
+  if (job && state.station >= 0 && state.station < static_cast<int>(job->stations.size()))
+    return {"station", job->stations[static_cast<std::size_t>(state.station)].name};
+  if (job && state.target >= 0 && state.target < static_cast<int>(job->targets.size()))
+    return {"target", job->targets[static_cast<std::size_t>(state.target)].name};
+  return {"station", ""};
+}
+void removeChosen(Editor& e) {
+  const auto [verb, name] = chosenInSurvey(e);
+  e.session.start(verb, {{"remove", name}}, std::string("Remove ") + verb + " " + name);
+}
+std::string whyRemoveNot(const Editor& e) {
+  const auto [verb, name] = chosenInSurvey(e);
+  if (auto why = e.session.whyNot(verb); !why.empty()) return why;
+  return name.empty() ? "Choose a station or target in the panel Survey first" : "";
+}
 
 std::string whySaveNot(const Editor& e) { return e.session.whyNotSave(); }
 std::string whyUndoNot(const Editor& e) { return e.session.whyNotUndo(); }
@@ -112,6 +132,7 @@ const std::array kActions = {
            [](Editor& e) { e.view.tool = Tool::placeStation; showWorkspace(e, Workspace::survey); }, whyStationNot},
     Action{"add-target", "Add target by a click", ICON_TARGET, {},
            [](Editor& e) { e.view.tool = Tool::placeTarget; showWorkspace(e, Workspace::survey); }, whyTargetNot},
+    Action{"remove", "Remove the chosen station or target", ICON_TRASH, {kKeyDelete}, removeChosen, whyRemoveNot},
     Action{"measure", "Measure a distance", ICON_MEASURE, {'M'}, [](Editor& e) { e.view.tool = Tool::measure; }, whyNoModel},
     Action{"scan", "Scan…", ICON_PLAY, {'R', true},
            [](Editor& e) { showWorkspace(e, Workspace::survey); e.wanted_tab[1] = "scan"; }, whyScanNot},

@@ -22,7 +22,7 @@ constexpr float kAxesRadius = 34;
 
 ImVec2 axesCentre(const Editor& editor, ImVec2 origin, ImVec2 size) {
   const float inset = editor.px(kMargin + kAxesRadius + 8);
-  return {origin.x + size.x - inset, origin.y + inset};
+  return {origin.x + size.x - inset, origin.y + inset + ImGui::GetFrameHeight()};
 }
 
 const char* colourName(ColourMode mode) {
@@ -130,7 +130,7 @@ struct Axis {
 void lookAlong(Editor& editor, StandardView view) {
   look(editor.view.camera, view);
   editor.view.camera.orthographic = true;
-  frame(editor.view.camera, editor.visibleBounds(), editor.view.size.x() / std::max(editor.view.size.y(), 1.0));
+  frame(editor.view.camera, editor.buildingBounds(), editor.view.size.x() / std::max(editor.view.size.y(), 1.0));
 }
 
 // Six balls on the axes, the far ones first; a click looks along the axis.

@@ -59,10 +59,9 @@ std::vector<Entry> entries(Editor& editor) {
 
 void drawEntry(Editor& editor, const Entry& entry, bool chosen, bool& done) {
   const auto flags = entry.why.empty() ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
-  const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
+  const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - editor.px(8);
   ImGui::SetNextItemWidth(-FLT_MIN);
   const bool pressed = ImGui::Selectable(("###palette-" + entry.id).c_str(), chosen, flags, {0, editor.px(22)});
-  if (chosen && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
   ui::tooltip(entry.why);
   ImGui::SameLine(editor.px(16));
   ImGui::BeginDisabled(!entry.why.empty());
@@ -103,15 +102,16 @@ void drawPalette(Editor& editor) {
   for (auto& entry : entries(editor))
     if (matches(entry, state.query)) shown.push_back(std::move(entry));
   const int last = std::max(0, static_cast<int>(shown.size()) - 1);
-  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_DownArrow))) ++state.chosen;
-  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_UpArrow))) --state.chosen;
+  const int step = (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_DownArrow)) ? 1 : 0) - (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_UpArrow)) ? 1 : 0);
+  const bool moved = step != 0;
+  state.chosen += step;
   state.chosen = std::clamp(state.chosen, 0, last);
   bool done = false;
   ImGui::BeginChild("list", {0, editor.px(340)});
   for (int i = 0; i < static_cast<int>(shown.size()); ++i) {
     const auto& entry = shown[static_cast<std::size_t>(i)];
     drawEntry(editor, entry, i == state.chosen, done);
-    if (i == state.chosen && !ImGui::IsItemVisible()) ImGui::SetScrollHereY();
+    if (i == state.chosen && moved) ImGui::SetScrollHereY();
     if (i == state.chosen && enter && entry.why.empty()) {
       done = true;
       entry.run();

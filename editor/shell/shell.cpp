@@ -105,7 +105,7 @@ void drawMenuBar(Editor& editor) {
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu("Edit")) {
-    items(editor, {"undo", "redo", "", "select-all", "select-none", "", "measure"});
+    items(editor, {"undo", "redo", "", "select-all", "select-none", "", "remove", "", "measure"});
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu("View")) {
@@ -218,7 +218,7 @@ struct Layout {
   Box left, right, bottom, middle, all;
 };
 
-// What the areas get: the viewport keeps at least a third of the window.
+// What the areas get: the viewport keeps at least two fifths of the width.
 Layout layOut(const Editor& editor, const Box& all) {
   const auto& sizes = editor.settings.areas[static_cast<std::size_t>(editor.workspace)];
   Layout l;
@@ -226,7 +226,7 @@ Layout layOut(const Editor& editor, const Box& all) {
   const float gap = editor.px(3);
   float left = anyPanel(editor, Area::left) ? editor.px(sizes.left) : 0;
   float right = anyPanel(editor, Area::right) ? editor.px(sizes.right) : 0;
-  if (const float most = all.w * 0.67F; left + right > most) {
+  if (const float most = all.w * 0.6F; left + right > most) {
     const float share = most / (left + right);
     left *= share;
     right *= share;

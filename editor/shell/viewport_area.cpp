@@ -147,7 +147,7 @@ void drawWelcome(Editor& editor, ImVec2 origin, ImVec2 size) {
   ImGui::SetCursorScreenPos({origin.x + (size.x - width) / 2, origin.y + size.y * 0.26F});
   ImGui::BeginChild("welcome", {width, editor.px(330)}, false, ImGuiWindowFlags_NoBackground);
   ui::emptyState(editor, ICON_CUBE, "No model yet", "Import an IFC, glTF or OBJ file, or drop one here. A project is a folder: open it, or drop it, too.");
-  const float button = editor.px(150);
+  const float button = std::min(editor.px(150), (width - editor.px(8)) / 2);
   ImGui::SetCursorPosX((width - 2 * button - editor.px(8)) / 2);
   if (ui::primaryButton(ICON_IMPORT "  Import model…###welcome-import", editor.session.whyNot("import"), {button, editor.px(30)}))
     invoke(editor, "import");
@@ -173,7 +173,7 @@ void drawViewport(Editor& editor) {
   auto& view = editor.view;
   view.size = {size.x, size.y};
   if (view.frame_wanted) {
-    frame(view.camera, editor.visibleBounds(), size.x / size.y);
+    frame(view.camera, editor.buildingBounds(), size.x / size.y);
     view.frame_wanted = false;
   }
   const float pixels = ImGui::GetIO().DisplayFramebufferScale.x > 0 ? ImGui::GetIO().DisplayFramebufferScale.x : 1;

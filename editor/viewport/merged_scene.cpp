@@ -40,7 +40,7 @@ Colour physicalColour(const MaterialAssignment& assignment, std::int32_t materia
     const auto grey = static_cast<float>(std::clamp(atWavelength(m.reflectance, kReflectanceWavelength_nm), 0.03, 1.0));
     return {grey, grey, grey, alpha};
   }
-  Colour c = materialColour(m.id.c_str());
+  Colour c = materialColour(&m);
   c.a = alpha;
   return c;
 }

@@ -369,11 +369,16 @@ class VtkSceneView : public SceneView {
       return;
     }
     const Eigen::Vector3d centre = (bounds_.min + bounds_.max) / 2;
-    const double radius = bounds_.diagonal() + 10;   // the grid reaches farther than the model
+    const double reach = 2 * bounds_.diagonal() + 10;   // the grid reaches farther than the model
     const double depth = (centre - eye).dot(camera.forward());
-    const double farthest = std::max(depth + 1.6 * radius, 1.0);
-    const double nearest = camera.orthographic ? depth - 1.6 * radius : std::max(depth - 1.6 * radius, std::max(0.02, farthest / 20000));
-    vtk->SetClippingRange(nearest, farthest);
+    if (camera.orthographic) {
+      vtk->SetClippingRange(depth - reach, depth + reach);
+      return;
+    }
+    // As far away as the model allows: how finely depths can be told apart hangs on the nearest one.
+    const Eigen::Vector3d outside = (eye - bounds_.max).cwiseMax(bounds_.min - eye).cwiseMax(0.0);
+    const double nearest = std::max(0.04, 0.5 * outside.norm());
+    vtk->SetClippingRange(nearest, std::max(depth + reach, 10 * nearest));
   }
 
   vtkNew<ForeignContextWindow> window_;

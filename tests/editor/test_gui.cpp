@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <functional>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -192,7 +193,7 @@ void closeEverything(Editor& editor, GuiDriver& gui) {
 }
 
 // Every item that can be reached in one workspace, pressed one after the other.
-void pressEverything(Editor& editor, GuiDriver& gui, int& pressed) {
+void pressEverything(Editor& editor, GuiDriver& gui, const std::function<void()>& restore, int& pressed) {
   std::set<ImGuiID> done;
   const auto dialogs_folder = std::filesystem::path(BINARY_DIR) / "test_editor_gui";
   std::filesystem::create_directories(dialogs_folder);
@@ -212,15 +213,18 @@ void pressEverything(Editor& editor, GuiDriver& gui, int& pressed) {
       ASSERT_EQ(validate(*editor.environment()), "") << itemProbe().labels[next];
     }
     closeEverything(editor, gui);
+    restore();
+    gui.frames(2);
   }
 }
 
 TEST_F(Gui, SurvivesEveryItemBeingPressedOnAnEmptyProject) {
   int pressed = 0;
   for (int w = 0; w < kWorkspaces; ++w) {
-    editor.workspace = static_cast<Workspace>(w);
+    const auto restore = [&] { editor.workspace = static_cast<Workspace>(w); };
+    restore();
     gui.frames(2);
-    pressEverything(editor, gui, pressed);
+    pressEverything(editor, gui, restore, pressed);
   }
   EXPECT_GT(pressed, 40);
 }
@@ -231,12 +235,16 @@ TEST_F(Gui, SurvivesEveryItemBeingPressedOnADocument) {
   for (const auto& panel : panels()) {
     for (int w = 0; w < kWorkspaces; ++w) {
       if (panel.area[static_cast<std::size_t>(w)] == Area::none) continue;
-      if (!editor.environment()) open();
-      editor.workspace = static_cast<Workspace>(w);
-      editor.wanted_tab[static_cast<std::size_t>(panel.area[static_cast<std::size_t>(w)])] = panel.id;
-      editor.select(productNamed("Wall east OG"), true);
+      const auto restore = [&] {
+        if (!editor.environment()) open();
+        editor.workspace = static_cast<Workspace>(w);
+        editor.wanted_tab[static_cast<std::size_t>(panel.area[static_cast<std::size_t>(w)])] = panel.id;
+        editor.select(productNamed("Wall east OG"), true);
+        editor.panels.survey.station = 0;
+      };
+      restore();
       gui.frames(3);
-      pressEverything(editor, gui, pressed);
+      pressEverything(editor, gui, restore, pressed);
       break;
     }
   }

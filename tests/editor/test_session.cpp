@@ -122,7 +122,7 @@ TEST_F(DemoSession, SavesOpensAndRecovers) {
   Session other(steeredVerbs(), [] {});
   ASSERT_TRUE(other.open(root / "house"));
   other.wait();
-  EXPECT_EQ(other.document().name, "demo house");
+  EXPECT_EQ(other.document().name, "house") << "a project is called like its folder";
   EXPECT_FALSE(other.modified());
   EXPECT_EQ(other.document().imported->products.size(), session.document().imported->products.size());
 
