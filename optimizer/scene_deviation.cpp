@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kMostVertices = 1'000'000;  // that are looked at for the maximum, each way
+constexpr std::size_t kMostCorners = 3'000'000;  // that are looked at for the maximum, each way
 
 // Trees over the meshes, and one over the instances' boxes, so that a mesh with a thousand copies is held once.
 class Scene {
@@ -25,8 +25,12 @@ class Scene {
   std::size_t instances() const { return instances_.size(); }
   double area(std::size_t instance) const { return instances_[instance].area; }
   std::vector<Vector3d> points(std::size_t instance, std::uint32_t count) const;
-  std::size_t vertices(std::size_t instance) const { return instances_[instance].solid->positions.size(); }
-  Vector3d vertex(std::size_t instance, std::size_t i) const { return instances_[instance].world_from_solid * instances_[instance].solid->positions[i]; }
+  // Corners of triangles, one after the other: a position that no triangle uses is no part of the surface.
+  std::size_t corners(std::size_t instance) const { return 3 * instances_[instance].solid->triangles->size(); }
+  Vector3d corner(std::size_t instance, std::size_t i) const {
+    const Solid& solid = *instances_[instance].solid;
+    return instances_[instance].world_from_solid * solid.positions[(*solid.triangles)[i / 3][i % 3]];
+  }
 
  private:
   struct Solid {  // a mesh, or a copy of one that is distorted
@@ -121,9 +125,9 @@ OneWay oneWay(const Scene& from, const Scene& to, const std::vector<bool>& uncha
     counts[i] = until - given;
     given = until;
   }
-  std::size_t vertices = 0;
-  for (std::size_t i = 0; i < from.instances(); ++i) vertices += unchanged[i] ? 0 : from.vertices(i);
-  const std::size_t stride = 1 + vertices / kMostVertices;
+  std::size_t corners = 0;
+  for (std::size_t i = 0; i < from.instances(); ++i) corners += unchanged[i] ? 0 : from.corners(i);
+  const std::size_t stride = 1 + corners / kMostCorners;
   std::vector<OneWay> parts(from.instances());
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {  // each into its own slot, summed in order below
     if (progress.cancelled()) return;
@@ -138,8 +142,8 @@ OneWay oneWay(const Scene& from, const Scene& to, const std::vector<bool>& uncha
       parts[i].sum += std::sqrt(squared);
       ++parts[i].count;
     }
-    for (std::size_t k = 0; k < from.vertices(i); k += stride)
-      if (const double squared = to.squaredDistance(from.vertex(i, k)); std::isfinite(squared)) parts[i].max_squared = std::max(parts[i].max_squared, squared);
+    for (std::size_t k = 0; k < from.corners(i); k += stride)
+      if (const double squared = to.squaredDistance(from.corner(i, k)); std::isfinite(squared)) parts[i].max_squared = std::max(parts[i].max_squared, squared);
   });
   OneWay result;
   for (const auto& part : parts) {
