@@ -17,7 +17,7 @@ TEST(Crs, IsFoundByItsCodeWithOrWithoutTheAuthority) {
 }
 
 TEST(Crs, ThatNobodyKnowsIsAUsageErrorWithARemedy) {
-  for (const char* code : {"EPSG:999999", "", "nonsense", "EPSG:8901"}) {
+  for (const char* code : {"EPSG:999999", "", "nonsense"}) {
     const auto crs = findCrs(code);
     ASSERT_FALSE(crs) << code;
     EXPECT_EQ(crs.error().kind, ErrorKind::usage);

@@ -36,7 +36,7 @@ TEST(Station, IsRefusedWhereTheInstrumentDoesNotFit) {
   EXPECT_NE(in_table.error().message.find("table"), std::string::npos);
   EXPECT_FALSE(run("station", d, {{"add", "S1"}, {"on", {600000, 5600002}}})) << "no floor there";
   EXPECT_FALSE(run("station", d, {{"add", "S1"}, {"on", {500002, 5600002, 1.5}}})) << "no floor at that height";
-  EXPECT_FALSE(run("station", d, {{"add", "S1"}, {"on", {500002, 5600002}}, {"height", 9.0}})) << "no head-room";
+  EXPECT_FALSE(run("station", d, {{"add", "S1"}, {"on", {500002, 5600002, 0}}, {"height", 2.9}})) << "no head-room";
   EXPECT_FALSE(run("station", d, {{"add", "a/b"}, {"on", {500002, 5600002}}})) << "its name becomes a file's";
 }
 
