@@ -63,10 +63,12 @@ class InstrumentPanel {
     adoptProject(editor);
     if (!host_) return ui::emptyState(editor, ICON_TABLET, "The device cannot start", problem_.c_str());
     drawControls(editor);
+    advance(editor);   // before drawing: the last state of a clock that then stops is on the screen
     drawMenu(host_->menu(), kLeicaSkin, ImGui::GetContentRegionAvail().x, ImGui::GetContentRegionAvail().y - editor.px(44), refused_);
     ImGui::Dummy({0, editor.px(2)});
     ui::dimText(refused_.empty() ? "Screens are ours; not affiliated with Leica Geosystems." : refused_);
-    advance(editor);
+    was_busy_ = host_->busy();
+    ticker_.run(was_busy_);
   }
 
  private:
@@ -125,8 +127,6 @@ class InstrumentPanel {
     const bool may_store = editor.session.whyNotAdopt().empty();
     if (auto stored = host_->update(editor.session.document(), scans, seconds, may_store)) editor.session.adopt(*std::move(stored));
     if (const auto view = host_->menu().takeView()) editor.showCloud(view->file);
-    was_busy_ = host_->busy();
-    ticker_.run(was_busy_);
   }
 
   Ticker ticker_;

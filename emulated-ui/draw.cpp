@@ -53,7 +53,8 @@ class Display {
       case WidgetKind::button: tile(w, false); break;
       case WidgetKind::key: key(w); break;
       case WidgetKind::choice: choice(w); break;
-      case WidgetKind::text: text(w); break;
+      case WidgetKind::text: text(w, 0); break;
+      case WidgetKind::number: text(w, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CharsDecimal); break;
       case WidgetKind::list: rows(w); break;
       case WidgetKind::progress: progress(w); break;
       case WidgetKind::message: message(w); break;
@@ -126,7 +127,7 @@ class Display {
     ImGui::PopID();
   }
 
-  void text(const Widget& w) {
+  void text(const Widget& w, ImGuiInputTextFlags flags) {
     ImGui::SetCursorPosX(unit_);
     ImGui::PushStyleColor(ImGuiCol_Text, skin_.dim);
     ImGui::TextUnformatted(w.label.c_str());
@@ -135,7 +136,7 @@ class Display {
     ImGui::SetNextItemWidth(ImGui::GetWindowWidth() - 2 * unit_);
     ImGui::PushStyleColor(ImGuiCol_FrameBg, skin_.tile);
     std::string entry = w.value;
-    if (ImGui::InputText(("###" + w.id).c_str(), &entry)) press = Press{w.id, entry};
+    if (ImGui::InputText(("###" + w.id).c_str(), &entry, flags)) press = Press{w.id, entry};
     ImGui::PopStyleColor();
   }
 
@@ -154,8 +155,11 @@ class Display {
     ImGui::SetCursorPosX(unit_);
     ImGui::PushStyleColor(ImGuiCol_PlotHistogram, skin_.accent);
     ImGui::PushStyleColor(ImGuiCol_FrameBg, skin_.tile_hover);
-    ImGui::ProgressBar(std::strtof(w.value.c_str(), nullptr) / 100, {ImGui::GetWindowWidth() - 2 * unit_, 1.6F * unit_}, (w.value + " %").c_str());
+    ImGui::ProgressBar(std::strtof(w.value.c_str(), nullptr) / 100, {ImGui::GetWindowWidth() - 2 * unit_, 0.8F * unit_}, "");
     ImGui::PopStyleColor(2);
+    const std::string text = w.value + " %";
+    ImGui::SetCursorPosX(ImGui::GetWindowWidth() - unit_ - ImGui::CalcTextSize(text.c_str()).x);
+    ImGui::TextUnformatted(text.c_str());
   }
 
   void message(const Widget& w) {

@@ -22,6 +22,7 @@ enum class WidgetKind {
   key,       // the one that starts or stops the laser: drawn large
   choice,    // one of options; act with the option's text
   text,      // an entry field; act with the new text
+  number,    // an entry field that is taken over when it is confirmed; act with the number as text
   list,      // rows to open; act with the row's number as text
   progress,  // value is the percentage as text
   message,   // a dialogue's text; the buttons that follow belong to it

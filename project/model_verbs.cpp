@@ -65,7 +65,6 @@ Result<Outcome> optimizeDocument(const Document& document, const OptimizeOptions
   Lightening lightening{std::make_shared<const Environment>(std::move(result->environment)),
                         std::move(result->products), result->all, options};
   outcome.document.lightening = std::make_shared<const Lightening>(std::move(lightening));
-  outcome.document.collision.reset();  // it belonged to the old geometry
   return outcome;
 }
 
@@ -78,7 +77,8 @@ Result<Outcome> runOptimize(const Document& document, const json& options, Progr
 
 Result<Outcome> collideDocument(const Document& document, const CollideOptions& options, Progress& progress) {
   progress.stage("Collision shapes");
-  const auto& environment = *document.environment();
+  // From the model as it came: walls that are still prisms give few convex pieces, and no doorway has been simplified.
+  const auto& environment = *document.imported;
   auto result = collide(environment, options, progress);
   if (!result) return failure(result.error());
   Outcome outcome{document, json::object(), result->report, {}};

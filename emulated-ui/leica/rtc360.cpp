@@ -67,6 +67,11 @@ class Rtc360 : public Menu {
   const DeviceJob* openJob() const {
     return state_.job >= 0 && state_.job < static_cast<int>(state_.jobs.size()) ? &state_.jobs[state_.job] : nullptr;
   }
+  std::string valueOf(const std::string& setting) const {
+    for (const auto& [key, value] : state_.settings)
+      if (key == setting) return value;
+    return {};
+  }
   int nextSetup() const;
   std::string whyNoScan() const;
   double phaseSeconds() const;
@@ -214,8 +219,9 @@ void Rtc360::addHome(Screen& s) const {
   s.widgets.push_back(widget("next_setup", WidgetKind::readout, std::to_string(nextSetup())));
   s.widgets.push_back(widget("station", WidgetKind::readout, state_.station.empty() ? "–" : state_.station));
   std::vector<std::string> words;
-  for (const auto& [key, value] : state_.settings)
-    if (value != "off") words.push_back(value == "on" ? label_(key) : value);
+  for (const auto& setting : instrument_.settings)
+    if (const auto value = valueOf(setting.key); !setting.choices.empty() && value != "off" && value != "full_dome")
+      words.push_back(value == "on" ? label_(setting.key) : value == "target_area" ? label_(value) : value);
   s.widgets.push_back(widget("settings", WidgetKind::button, fmt::format("{}", fmt::join(words, ", "))));
   const auto e = expected();
   s.widgets.push_back(widget("expected_time", WidgetKind::readout, clock(e.scan_seconds + e.imaging_seconds)));
@@ -229,12 +235,12 @@ void Rtc360::addHome(Screen& s) const {
 
 void Rtc360::addSettings(Screen& s) const {
   for (const auto& setting : instrument_.settings) {
-    Widget w = widget(setting.key, WidgetKind::choice);
+    const auto value = valueOf(setting.key);
+    if (setting.choices.empty() && valueOf("field_of_view") != "target_area") continue;  // limits of the area
+    Widget w = widget(setting.key, setting.choices.empty() ? WidgetKind::number : WidgetKind::choice, setting.choices.empty() ? value : "");
     if (w.label == setting.key) w.label = setting.label;
-    for (const auto& [key, value] : state_.settings)
-      if (key == setting.key)
-        for (const auto& choice : setting.choices)
-          if (choice.value == value) w.value = choice.label;
+    for (const auto& choice : setting.choices)
+      if (choice.value == value) w.value = choice.label;
     for (const auto& choice : setting.choices) w.options.push_back(choice.label);
     s.widgets.push_back(std::move(w));
   }
@@ -412,11 +418,14 @@ Result<void> Rtc360::stopScan() {
 
 Result<void> Rtc360::choose(const std::string& id, const std::string& value) {
   SettingValues wanted = state_.settings;
-  for (const auto& setting : instrument_.settings)
+  for (const auto& setting : instrument_.settings) {
+    if (setting.key != id) continue;
+    std::string chosen = value;
     for (const auto& choice : setting.choices)
-      if (setting.key == id && (choice.label == value || choice.value == value))
-        for (auto& [key, current] : wanted)
-          if (key == id) current = choice.value;
+      if (choice.label == value) chosen = choice.value;
+    for (auto& [key, current] : wanted)
+      if (key == id) current = chosen;
+  }
   auto resolved = resolveSettings(instrument_, wanted);
   if (resolved) state_.settings = resolved->values;
   else state_.message = resolved.error().message;
