@@ -113,8 +113,13 @@ class Display {
     ImGui::SetCursorPosX(unit_);
     const auto count = static_cast<float>(w.options.size());
     const float gap = 0.3F * unit_;
-    const float width = (ImGui::GetWindowWidth() - 2 * unit_ - gap * (count - 1)) / count;
+    const float whole = ImGui::GetWindowWidth() - 2 * unit_;
+    float widest = 0;
+    for (const auto& option : w.options) widest = std::max(widest, ImGui::CalcTextSize(option.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x);
+    const bool stacked = widest > (whole - gap * (count - 1)) / count;   // too wide for a row: one below the other
+    const float width = stacked ? whole : (whole - gap * (count - 1)) / count;
     for (const auto& option : w.options) {
+      if (stacked) ImGui::SetCursorPosX(unit_);
       const bool chosen = option == w.value;
       ImGui::PushStyleColor(ImGuiCol_Button, chosen ? skin_.accent : skin_.tile);
       ImGui::PushStyleColor(ImGuiCol_ButtonHovered, chosen ? skin_.accent : skin_.tile_hover);
@@ -122,7 +127,7 @@ class Display {
       ImGui::PushStyleColor(ImGuiCol_Text, chosen ? IM_COL32_WHITE : skin_.text);
       if (ImGui::Button(option.c_str(), {width, 2.4F * unit_})) press = Press{w.id, option};
       ImGui::PopStyleColor(4);
-      if (&option != &w.options.back()) ImGui::SameLine(0, gap);
+      if (!stacked && &option != &w.options.back()) ImGui::SameLine(0, gap);
     }
     ImGui::PopID();
   }
