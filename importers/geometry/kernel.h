@@ -22,8 +22,8 @@ struct Tessellation {
   double chord_error_m = 0.001;          // sagitta at most this …
   double max_segment_angle_rad = 0.5236; // … and no segment turns further
 };
-// Segments for an arc of that radius and sweep, at least 1 (at least 3 for a full circle; a full circle gets a multiple
-// of 4, so that its extreme points are on the bounds).
+// Segments for an arc of that radius and sweep, from 1 to 4096 (a full circle gets a multiple of 4, so that its extreme
+// points are on the bounds).
 int segmentCount(double radius_m, double sweep_rad, const Tessellation& tessellation);
 
 using Loop2 = std::vector<Eigen::Vector2d>;   // closed, the first point not repeated
@@ -57,6 +57,7 @@ bool isClosed(const PolyMesh& mesh, double weld_m = 1e-6);
 void orientOutward(PolyMesh& mesh, double weld_m = 1e-6);
 
 // Solids. Profiles lie in the XY plane of their own frame.
+// A profile that encloses nothing gives an empty mesh, and so does a taper between profiles of unequal point counts.
 PolyMesh extrude(const Region2& profile, const Eigen::Vector3d& direction_unit, double depth_m);
 PolyMesh extrudeTapered(const Region2& from, const Region2& to, const Eigen::Vector3d& direction_unit, double depth_m);
 PolyMesh revolve(const Region2& profile, const Eigen::Vector3d& axis_point, const Eigen::Vector3d& axis_unit,
@@ -73,11 +74,14 @@ PolyMesh cone(double radius_m, double height_m, const Tessellation& tessellation
 PolyMesh sphere(double radius_m, const Tessellation& tessellation);
 PolyMesh pyramid(double x_m, double y_m, double height_m);
 
-// Keeps what lies below the plane n·p <= d (n unit) and closes the cut.
+// Keeps what lies below the plane n·p <= d (n unit) and closes the cut. Points within 1e-6 m of the plane count as on it.
+// Nothing left is an empty mesh; an open surface stays open.
 Result<PolyMesh> clip(const PolyMesh& mesh, const Eigen::Vector3d& normal_unit, double offset_m);
 
 // host − all tools at once. First the 2D way (host and tools are extrusions along a common direction, which it finds out
-// itself from the faces), then carve with everything snapped to 1e-6 m, then CGAL corefinement with all tools joined.
+// itself from the faces), for the tools that do not fit carve with everything snapped to 1e-6 m, then CGAL corefinement with
+// all tools left joined. Nothing left is an empty mesh. A face of the result carries the tag of the face that it lies on:
+// give the tools the host's tag where reveals should look like the host.
 // The result's volume is checked: V(host) − V(tools) <= V <= V(host) within 1e-6 + 0.1 %; a result that fails is an error
 // whose message says which way failed, so that the caller keeps the uncut body and reports it.
 Result<PolyMesh> subtract(const PolyMesh& host, std::span<const PolyMesh> tools);
