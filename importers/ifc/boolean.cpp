@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <span>
 
+#include "importers/ifc/convex_cut.h"
 #include "importers/ifc/curve.h"
 #include "importers/ifc/placement.h"
 #include "importers/ifc/solid.h"
@@ -25,67 +27,114 @@ Result<HalfSpace> halfSpace(const Entity& entity, const Scope& scope) {
   return HalfSpace{n, n.dot(f.translation())};
 }
 
-struct Extent {
+struct PlanBox {   // the host in the frame of a bounded half-space
+  Eigen::AlignedBox2d plan;
   double low = 1e300, high = -1e300;
 };
 
-bool inside(const geometry::Loop2& loop, const Eigen::Vector2d& p) {
-  bool in = false;
-  for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++)
-    if ((loop[i].y() > p.y()) != (loop[j].y() > p.y()) &&
-        p.x() < (loop[j].x() - loop[i].x()) * (p.y() - loop[i].y()) / (loop[j].y() - loop[i].y()) + loop[i].x())
-      in = !in;
-  return in;
-}
-
-bool isConvex(const geometry::Loop2& loop) {
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const Eigen::Vector2d a = loop[(i + 1) % loop.size()] - loop[i], b = loop[(i + 2) % loop.size()] - loop[(i + 1) % loop.size()];
-    if (a.x() * b.y() - a.y() * b.x() < -1e-12) return false;
+PlanBox planBox(const geometry::PolyMesh& host, const Eigen::Isometry3d& to_position) {
+  PlanBox box;
+  for (const auto& p : host.points) {
+    const Eigen::Vector3d q = to_position * p;
+    box.plan.extend(Eigen::Vector2d(q.head<2>()));
+    box.low = std::min(box.low, q.z());
+    box.high = std::max(box.high, q.z());
   }
-  return true;
+  return box;
 }
 
-// The polygon of a bounded half-space as a prism that is long enough for this host, cut by the plane. Where the polygon
-// holds all of the host, nothing, and the plane alone does it.
-Result<std::optional<geometry::PolyMesh>> boundedTool(const Entity& entity, const HalfSpace& half, const geometry::PolyMesh& host, Scope& scope) {
-  const Eigen::Isometry3d position = axisPlacement(entity.ref(2), scope);
+constexpr double kMargin_m = 0.1;   // so that no side of a tool that we made up lies on a face of the host
+
+geometry::Region2 around(const Eigen::AlignedBox2d& box) {
+  const Eigen::Vector2d lo = box.min().array() - kMargin_m, hi = box.max().array() + kMargin_m;
+  return {{lo, {hi.x(), lo.y()}, hi, {lo.x(), hi.y()}}, {}};
+}
+
+Result<geometry::Region2> boundary(const Entity& entity, Scope& scope) {
   const auto path = curve(entity.ref(3), scope);
   if (!path) return failure(path.error());
   geometry::Region2 region{loop2(*path), {}};
   geometry::normalise(region);
   if (region.outer.size() < 3) return fail(entity, "the boundary of the half-space encloses nothing");
-  Extent z;
-  bool all_inside = isConvex(region.outer);
-  const Eigen::Isometry3d to_position = position.inverse();
-  for (const auto& p : host.points) {
-    const Eigen::Vector3d q = to_position * p;
-    z.low = std::min(z.low, q.z());
-    z.high = std::max(z.high, q.z());
-    all_inside = all_inside && inside(region.outer, q.head<2>());
+  return region;
+}
+
+enum class Reach { nothing, part, all };
+
+// How much of the host's surroundings the boundary covers. Only asked, never used as the tool: the intersection moves
+// corners by less than a micrometre, and tools that shared an edge would leave a fin between them.
+Reach reachOf(const geometry::Region2& region, const PlanBox& box) {
+  const geometry::Region2 surroundings = around(box.plan);
+  const auto common = geometry::intersection(std::span(&region, 1), std::span(&surroundings, 1));
+  if (!common) return Reach::part;
+  double area = 0;
+  for (const auto& r : *common) area += geometry::area(r);
+  if (area <= 1e-12) return Reach::nothing;
+  return area >= geometry::area(surroundings) * (1 - 1e-9) ? Reach::all : Reach::part;
+}
+
+Result<geometry::PolyMesh> prismTool(const geometry::Region2& region, const Eigen::Isometry3d& position, const PlanBox& box, const HalfSpace& half) {
+  geometry::PolyMesh prism = geometry::extrude(region, Eigen::Vector3d::UnitZ(), box.high - box.low + 2 * kMargin_m);
+  geometry::transform(prism, Eigen::Affine3d(position * Eigen::Translation3d(0, 0, box.low - kMargin_m)));
+  return geometry::clip(prism, half.normal, half.offset);
+}
+
+// The triangles of a region: convex parts of it.
+Regions trianglesOf(const geometry::Region2& region) {
+  geometry::PolyMesh flat;
+  geometry::Face face;
+  const auto add = [&](const geometry::Loop2& loop, std::vector<std::uint32_t>& indices) {
+    for (const auto& p : loop) indices.push_back(static_cast<std::uint32_t>(flat.points.size())), flat.points.emplace_back(p.x(), p.y(), 0);
+  };
+  add(region.outer, face.outer);
+  for (const auto& hole : region.holes) add(hole, face.holes.emplace_back());
+  std::vector<Triangle> triangles;
+  Regions parts;
+  if (!geometry::triangulate(flat.points, face, triangles)) return parts;
+  for (const Triangle& t : triangles) parts.push_back({{flat.points[t[0]].head<2>(), flat.points[t[1]].head<2>(), flat.points[t[2]].head<2>()}, {}});
+  return parts;
+}
+
+Result<geometry::PolyMesh> withoutPrism(const geometry::PolyMesh& host, const geometry::Region2& region, const Entity& entity, const Eigen::Isometry3d& position,
+                                        const PlanBox& box, const HalfSpace& half, Scope& scope) {
+  const auto tool = prismTool(region, position, box, half);
+  if (!tool) return tool;
+  if (tool->faces.empty()) return host;
+  auto cut = subtractOrCut(host, std::span(&*tool, 1), entity, scope.report);
+  if (cut) return cut;
+  const Regions parts = trianglesOf(region);
+  if (parts.empty()) return cut;
+  geometry::PolyMesh left = host;
+  for (const auto& part : parts) {
+    const auto small = prismTool(part, position, box, half);
+    if (!small) return cut;
+    if (small->faces.empty()) continue;
+    auto next = subtractOrCut(left, std::span(&*small, 1), entity, scope.report);
+    if (!next) return cut;
+    left = std::move(*next);
   }
-  if (all_inside) return std::optional<geometry::PolyMesh>();
-  const double margin = 1 + 0.1 * (z.high - z.low);
-  geometry::PolyMesh prism = geometry::extrude(region, Eigen::Vector3d::UnitZ(), z.high - z.low + 2 * margin);
-  geometry::transform(prism, Eigen::Affine3d(position * Eigen::Translation3d(0, 0, z.low - margin)));
-  auto cut = geometry::clip(prism, half.normal, half.offset);
-  if (!cut) return failure(cut.error());
-  return std::optional(std::move(*cut));
+  return left;
+}
+
+Result<geometry::PolyMesh> withBoundedHalfSpace(const geometry::PolyMesh& host, bool keep_inside, const Entity& entity, const HalfSpace& half, Scope& scope) {
+  const Eigen::Isometry3d position = axisPlacement(entity.ref(2), scope);
+  const PlanBox box = planBox(host, position.inverse());
+  const auto region = boundary(entity, scope);
+  if (!region) return failure(region.error());
+  const Reach reach = reachOf(*region, box);
+  if (reach == Reach::nothing) return keep_inside ? geometry::PolyMesh() : host;
+  if (reach == Reach::all) return keep_inside ? geometry::clip(host, half.normal, half.offset) : geometry::clip(host, -half.normal, -half.offset);
+  if (!keep_inside) return withoutPrism(host, *region, entity, position, box, half, scope);
+  const auto tool = prismTool(*region, position, box, half);
+  return tool ? geometry::intersect(host, *tool) : tool;
 }
 
 Result<geometry::PolyMesh> withHalfSpace(const geometry::PolyMesh& host, std::string_view operation, const Entity& entity, Scope& scope) {
   const auto half = halfSpace(entity, scope);
   if (!half) return failure(half.error());
-  const bool keep_inside = operation == "INTERSECTION";
   if (operation == "UNION") return fail(entity, "the union with an unbounded half-space is unbounded");
-  if (entity.is("IFCPOLYGONALBOUNDEDHALFSPACE")) {
-    auto tool = boundedTool(entity, *half, host, scope);
-    if (!tool) return failure(tool.error());
-    if (*tool) {
-      if ((*tool)->faces.empty()) return host;
-      return keep_inside ? geometry::intersect(host, **tool) : geometry::subtract(host, std::span(&**tool, 1));
-    }
-  }
+  const bool keep_inside = operation == "INTERSECTION";
+  if (entity.is("IFCPOLYGONALBOUNDEDHALFSPACE") && !host.faces.empty()) return withBoundedHalfSpace(host, keep_inside, entity, *half, scope);
   return keep_inside ? geometry::clip(host, half->normal, half->offset) : geometry::clip(host, -half->normal, -half->offset);
 }
 
@@ -99,7 +148,7 @@ Result<geometry::PolyMesh> apply(const geometry::PolyMesh& host, const Step& ste
   if (isHalfSpace(step.operand)) return withHalfSpace(host, step.operation, step.operand, scope);
   auto other = item(step.operand, scope);
   if (!other) return other;
-  if (step.operation == "DIFFERENCE") return geometry::subtract(host, std::span(&*other, 1));
+  if (step.operation == "DIFFERENCE") return subtractOrCut(host, std::span(&*other, 1), step.operand, scope.report);
   if (step.operation == "INTERSECTION") return geometry::intersect(host, *other);
   if (step.operation == "UNION") return geometry::unite(host, *other);
   return fail(step.result, "an operation " + std::string(step.operation) + " does not exist");

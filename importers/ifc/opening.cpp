@@ -2,6 +2,7 @@
 #include "importers/ifc/opening.h"
 
 #include "core/environment.h"
+#include "importers/ifc/convex_cut.h"
 
 namespace standpoint::ifc {
 namespace {
@@ -34,7 +35,7 @@ void cutAway(geometry::PolyMesh& body, const std::vector<geometry::PolyMesh>& to
   const Eigen::Vector3d shift = far.cwiseAbs().maxCoeff() > 1000 ? Eigen::Vector3d(far.array().round()) : Eigen::Vector3d(Eigen::Vector3d::Zero());
   move(body, -shift);
   for (auto& tool : touching) move(tool, -shift);
-  auto cut = geometry::subtract(body, touching);
+  auto cut = subtractOrCut(body, touching, element, report);
   if (cut) body = std::move(*cut);
   else report.lose(element.place(), std::to_string(touching.size()) + " openings were not cut, the body stays as it was: " + describe(cut.error()));
   move(body, shift);
