@@ -71,11 +71,11 @@ json stationRow(const Station& s, const Georeference& g) {
           {"scans", std::move(scans)}};
 }
 
-// How much a station would see: the mean distance to what it meets, capped so that one long corridor does not outweigh a
-// room, and nothing for beams that leave the model.
+// How much a station would see: the mean distance to what it meets, capped so that neither a long corridor nor the open
+// ground outside outweighs a room, and nothing for beams that leave the model.
 double view(const RayScene& scene, const Eigen::Vector3d& centre) {
   constexpr int kDirections = 200;
-  constexpr double kFar_m = 8;
+  constexpr double kFar_m = 4;
   double sum = 0;
   for (int i = 0; i < kDirections; ++i) {  // Fibonacci sphere
     const double z = 1 - (2 * i + 1.0) / kDirections;
