@@ -110,17 +110,25 @@ std::vector<Eigen::Vector3d> placesToTry(const Document& document, const RayScen
   return places;
 }
 
-// Points round the model, on its lowest height: for models without a floor (a roof, a set of frames, a mast).
-std::vector<Eigen::Vector3d> placesAround(const RayScene& scene) {
+// Points round a box, on its lowest height.
+void addPlacesAround(const Bounds& b, int count, std::vector<Eigen::Vector3d>& places) {
   constexpr double kAway_m = 3;
-  const Bounds b = bounds(scene.environment());
   const Eigen::Vector3d centre = (b.min + b.max) / 2;
-  std::vector<Eigen::Vector3d> places;
-  for (int k = 0; k < 16; ++k) {
-    const double azimuth = k * std::numbers::pi / 8;
+  for (int k = 0; k < count; ++k) {
+    const double azimuth = 2 * std::numbers::pi * k / count;
     places.emplace_back(centre.x() + ((b.max.x() - b.min.x()) / 2 + kAway_m) * std::cos(azimuth),
                         centre.y() + ((b.max.y() - b.min.y()) / 2 + kAway_m) * std::sin(azimuth), b.min.z());
   }
+}
+
+// For models without a floor (a roof, a set of frames, a line of masts): beside the whole and beside some of its products.
+std::vector<Eigen::Vector3d> placesAround(const RayScene& scene) {
+  constexpr std::size_t kProducts = 40;
+  std::vector<Eigen::Vector3d> places;
+  addPlacesAround(bounds(scene.environment()), 16, places);
+  const auto each = productBounds(scene.environment());
+  for (std::size_t p = 0; p < each.size(); p += each.size() / kProducts + 1)
+    if (scene.environment().products[p].tangible && !each[p].empty()) addPlacesAround(each[p], 4, places);
   return places;
 }
 
