@@ -149,7 +149,7 @@ void drawRows(Editor& editor, float height) {
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(state.listing.rows.size()));
   while (clipper.Step())
-    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd && state.open && !state.stale; ++i)
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
       drawRow(editor, FileRow(state.listing.rows[static_cast<std::size_t>(i)]));
   if (!state.listing.problem.empty()) {
     ImGui::TableNextRow();
