@@ -62,8 +62,8 @@ void drawStations(Editor& editor, const Job& job) {
   const float height = std::min(editor.px(26) + ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(job.stations.size()), editor.px(260));
   if (!ImGui::BeginTable("stations", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg, {0, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch, 0.34F);
-  ImGui::TableSetupColumn("X  Y  Z", ImGuiTableColumnFlags_WidthStretch, 0.66F);
+  ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthFixed, editor.px(70));
+  ImGui::TableSetupColumn("X  Y  Z", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("Scans", ImGuiTableColumnFlags_WidthFixed, editor.px(38));
   ImGui::TableHeadersRow();
   for (int i = 0; i < static_cast<int>(job.stations.size()); ++i) drawStationRow(editor, job.stations[static_cast<std::size_t>(i)], i);

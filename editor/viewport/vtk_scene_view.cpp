@@ -41,7 +41,10 @@ namespace standpoint {
 namespace {
 
 constexpr std::uint64_t kMostEdges = 1500000;
-constexpr int kFineSamples = 8;
+// A fine picture is drawn twice as large and shrunk, up to this many pixels: VTK makes its framebuffer once with the number
+// of samples of that time, so multisampling cannot be switched on for a view that comes to rest.
+constexpr int kFineFactor = 2;
+constexpr std::int64_t kMostFinePixels = 12000000;
 
 // Debian's GLEW speaks GLX only: without an X display glewInit() says "no GLX display" (4) though every entry point was
 // loaded, so both answers are good.
@@ -176,23 +179,44 @@ class VtkSceneView : public SceneView {
 
   std::uint64_t texture(const ViewState& state, int width, int height, bool fine) override {
     const int w = std::max(width, 8), h = std::max(height, 8);
-    const bool resized = window_->GetSize()[0] != w || window_->GetSize()[1] != h;
-    if (resized) window_->SetSize(w, h);
+    const bool resized = width_ != w || height_ != h;
     const bool changed = !drawn_ || !(*drawn_ == state);
     // A picture that was made fine stays so until something changes.
     if (changed || resized || (fine && !fine_)) {
-      update(state);
+      width_ = w;
+      height_ = h;
       fine_ = fine;
-      window_->SetMultiSamples(fine ? kFineSamples : 0);
+      const bool larger = fine && std::int64_t{w} * h * kFineFactor * kFineFactor <= kMostFinePixels;
+      setPixels(larger ? kFineFactor : 1);
+      update(state);
       window_->Render();
       drawn_ = state;
     }
     auto* buffer = window_->GetDisplayFramebuffer();
     auto* colour = buffer != nullptr ? buffer->GetColorAttachmentAsTextureObject(0) : nullptr;
-    return colour != nullptr ? colour->GetHandle() : 0;
+    if (colour == nullptr) return 0;
+    smooth(colour->GetHandle());
+    return colour->GetHandle();
   }
 
  private:
+  void setPixels(int factor) {
+    window_->SetSize(width_ * factor, height_ * factor);
+    for (Layer* layer : {&edges_, &grid_}) layer->actor->GetProperty()->SetLineWidth(static_cast<float>(factor));
+    outline_.actor->GetProperty()->SetLineWidth(static_cast<float>(2 * factor));
+    cloud_.actor->GetProperty()->SetPointSize(static_cast<float>(2 * factor));
+  }
+
+  // At half size each pixel is then the mean of four.
+  static void smooth(GLuint texture) {
+    GLint bound = 0;
+    glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(bound));
+  }
+
   void setUpWindow() {
     window_->SetOwnContext(0);
     window_->SetMapped(1);
@@ -262,7 +286,6 @@ class VtkSceneView : public SceneView {
 
   void setUpPoints(Layer& layer) {
     layer.actor->GetProperty()->SetLighting(false);
-    layer.actor->GetProperty()->SetPointSize(2);
     layer.mapper->SetScalarModeToUsePointData();
     layer.mapper->SetColorModeToDirectScalars();
     renderer_->AddActor(layer.actor);
@@ -388,6 +411,7 @@ class VtkSceneView : public SceneView {
   Bounds bounds_;
   std::optional<ViewState> drawn_;
   bool fine_ = false;
+  int width_ = 0, height_ = 0;   // of the picture as it is shown
 };
 
 }  // namespace
