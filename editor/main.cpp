@@ -20,12 +20,13 @@ namespace {
 using namespace standpoint;
 
 constexpr const char* kUsage =
-    "standpoint-editor [PROJECT or MODEL]\n"
+    "standpoint-editor [PROJECT or MODEL...]\n"
     "standpoint-editor --pictures OUTDIR [--size 1280x800] [--scale 1] PROJECT or MODEL\n"
     "  --pictures  draws the editor without a display and saves what it shows as PNG files\n";
 
 struct Arguments {
-  std::string project, pictures;
+  std::vector<std::string> paths;   // one project, or models that belong together
+  std::string pictures;
   int width = 1280, height = 800;
   float scale = 1;
   bool help = false;
@@ -51,10 +52,10 @@ Result<Arguments> parse(const std::vector<std::string>& words) {
     } else if (!word.empty() && word[0] == '-') {
       return failure(ErrorKind::usage, fmt::format("there is no option '{}'\n{}", word, kUsage));
     } else {
-      result.project = word;
+      result.paths.push_back(word);
     }
   }
-  if (!result.pictures.empty() && result.project.empty()) return failure(ErrorKind::usage, "--pictures needs a project or a model");
+  if (!result.pictures.empty() && result.paths.empty()) return failure(ErrorKind::usage, "--pictures needs a project or a model");
   return result;
 }
 
@@ -70,12 +71,18 @@ int fail(const Error& error) {
   }
 }
 
+// One path is a project or a model; several are models that make one environment.
+void openAll(Editor& editor, const std::vector<std::string>& paths) {
+  if (paths.size() == 1) openPath(editor, paths.front());
+  if (paths.size() > 1) editor.session.start("import", {{"files", paths}}, "Import models");
+}
+
 int makePictures(const Arguments& arguments) {
   auto offscreen = Offscreen::create(arguments.width, arguments.height, arguments.scale);
   if (!offscreen) return fail(offscreen.error());
   Editor editor(allVerbs(), [] {});
   attachInstrument(editor);
-  openPath(editor, arguments.project);
+  openAll(editor, arguments.paths);
   editor.session.wait();
   if (!editor.session.errors().empty()) return fail(editor.session.errors().front().error);
   (*offscreen)->adopt(editor);
@@ -90,7 +97,7 @@ int openWindow(const Arguments& arguments) {
   attachInstrument(editor);
   editor.settings = readSettings(settingsFile());
   editor.dialogs.recovery = findRecoveryCopies(recoveryRoot());
-  if (!arguments.project.empty()) openPath(editor, arguments.project);
+  openAll(editor, arguments.paths);
   const auto shown = runWindow(editor, arguments.width, arguments.height);
   if (auto written = writeSettings(editor.settings, settingsFile()); !written) std::cerr << describe(written.error()) << '\n';
   return shown ? 0 : fail(shown.error());
