@@ -43,12 +43,18 @@ OneWay oneWay(const Shape& from, const std::vector<SurfacePoint>& points, const 
   for (const auto& point : points) result.add(nearest(point.triangle, point.position));
   if (!vertices) return result;
   std::vector<bool> seen(from.positions.size(), false);
-  for (std::uint32_t i = 0; i < from.triangles.size(); ++i)
-    for (const auto v : from.triangles[i]) {
+  for (std::uint32_t i = 0; i < from.triangles.size(); ++i) {
+    // Between its corners a long triangle may bulge away from the other surface: its middle and its edges' middles, too.
+    const auto& t = from.triangles[i];
+    const Vector3d &a = from.positions[t[0]], &b = from.positions[t[1]], &c = from.positions[t[2]];
+    for (const Vector3d& p : {Vector3d((a + b + c) / 3), Vector3d((a + b) / 2), Vector3d((b + c) / 2), Vector3d((c + a) / 2)})
+      result.max_squared = std::max(result.max_squared, nearest(i, p));
+    for (const auto v : t) {
       if (seen[v]) continue;
       seen[v] = true;
       result.max_squared = std::max(result.max_squared, nearest(i, from.positions[v]));
     }
+  }
   return result;
 }
 

@@ -21,7 +21,7 @@ namespace standpoint {
 namespace {
 
 constexpr std::uint32_t kSamples = 100'000;  // on all placed surfaces, each way
-constexpr double kFewestSamples = 100, kMostSamples = 50'000;  // of one mesh
+constexpr double kFewestSamples = 400, kMostSamples = 50'000;  // of one mesh
 
 // What one mesh, shared by its copies, goes through.
 struct Work {
