@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <map>
@@ -104,17 +105,35 @@ class TagHook : public carve::csg::CSG::Hook {
   std::map<const MeshSet::face_t*, std::uint32_t> tag_of_;  // looked up only
 };
 
+bool before(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3); }
+
+// Carve hashes pointers, so that its order changes from run to run: each outline starts at its least point, and the faces
+// are sorted.
 PolyMesh fromCarve(const MeshSet& set, const TagHook& hook) {
-  PolyMesh mesh;
-  for (const auto& vertex : set.vertex_storage) mesh.points.emplace_back(vertex.v.x, vertex.v.y, vertex.v.z);
+  struct Outline {
+    std::vector<Eigen::Vector3d> points;
+    std::uint32_t tag;
+  };
+  std::vector<Outline> outlines;
   for (const auto* part : set.meshes) {
     for (const auto* face : part->faces) {
-      Face own{{}, {}, hook.tagOf(face)};
+      Outline& own = outlines.emplace_back(Outline{{}, hook.tagOf(face)});
       const MeshSet::edge_t* edge = face->edge;
-      for (std::size_t i = 0; i < face->nEdges(); ++i, edge = edge->next) {
-        own.outer.push_back(static_cast<std::uint32_t>(edge->vert - set.vertex_storage.data()));
-      }
-      mesh.faces.push_back(std::move(own));
+      for (std::size_t i = 0; i < face->nEdges(); ++i, edge = edge->next) own.points.emplace_back(edge->vert->v.x, edge->vert->v.y, edge->vert->v.z);
+      std::rotate(own.points.begin(), std::min_element(own.points.begin(), own.points.end(), before), own.points.end());
+    }
+  }
+  std::sort(outlines.begin(), outlines.end(), [](const Outline& a, const Outline& b) {
+    return std::lexicographical_compare(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), before);
+  });
+  PolyMesh mesh;
+  std::map<std::array<double, 3>, std::uint32_t> index;
+  for (const Outline& outline : outlines) {
+    Face& own = mesh.faces.emplace_back(Face{{}, {}, outline.tag});
+    for (const auto& p : outline.points) {
+      const auto [it, fresh] = index.try_emplace({p.x(), p.y(), p.z()}, static_cast<std::uint32_t>(mesh.points.size()));
+      if (fresh) mesh.points.push_back(p);
+      own.outer.push_back(it->second);
     }
   }
   return mesh;
@@ -139,12 +158,11 @@ Result<PolyMesh> combineWithCarve(const PolyMesh& a, const PolyMesh& b, Operatio
       return failure(ErrorKind::unusable, "carve: a body is not closed");
     }
     carve::csg::CSG csg;
-    TagHook hook(*first, *second);
-    csg.hooks.registerHook(&hook, carve::csg::CSG::Hooks::RESULT_FACE_BIT);
+    auto* hook = new TagHook(*first, *second);  // owned by csg, which deletes it also where compute throws
+    csg.hooks.registerHook(hook, carve::csg::CSG::Hooks::RESULT_FACE_BIT);
     const std::unique_ptr<MeshSet> result(csg.compute(first->mesh.get(), second->mesh.get(), opOf(operation)));
-    csg.hooks.unregisterHook(&hook);
     if (!result) return failure(ErrorKind::unusable, "carve: no result");
-    return fromCarve(*result, hook);
+    return fromCarve(*result, *hook);
   } catch (const carve::exception& e) {
     return failure(ErrorKind::unusable, "carve: " + e.str());
   } catch (const std::exception& e) {
