@@ -228,17 +228,24 @@ void fan(const geometry::Face& face, std::vector<Triangle>& triangles) {
 }
 
 void appendMesh(Body& body, const geometry::PolyMesh& mesh, Problems& problems) {
-  const auto base = static_cast<std::uint32_t>(body.positions.size());
-  for (const auto& p : mesh.points) body.positions.push_back(isFinite(p) ? Eigen::Vector3f((p - body.origin).cast<float>()) : Eigen::Vector3f(Eigen::Vector3f::Zero()));
+  std::vector<std::uint32_t> place(mesh.points.size(), UINT32_MAX);   // only points that a triangle has are kept
+  const auto position = [&](std::uint32_t i) {
+    if (place[i] == UINT32_MAX) {
+      place[i] = static_cast<std::uint32_t>(body.positions.size());
+      body.positions.push_back((mesh.points[i] - body.origin).cast<float>());
+    }
+    return place[i];
+  };
   std::vector<Triangle> triangles;
   for (const geometry::Face& face : mesh.faces) {
     triangles.clear();
-    const bool finite = std::all_of(face.outer.begin(), face.outer.end(), [&](std::uint32_t i) { return isFinite(mesh.points[i]); });
+    const auto usable = [&](const std::vector<std::uint32_t>& loop) { return std::all_of(loop.begin(), loop.end(), [&](std::uint32_t i) { return isFinite(mesh.points[i]); }); };
+    const bool finite = usable(face.outer) && std::all_of(face.holes.begin(), face.holes.end(), usable);
     if (!finite) { ++problems.infinite; continue; }
     if (face.outer.size() == 3 && face.holes.empty()) triangles.push_back({face.outer[0], face.outer[1], face.outer[2]});
     else if (!geometry::triangulate(mesh.points, face, triangles)) ++problems.fanned, triangles.clear(), fan(face, triangles);
     for (const Triangle& t : triangles) {
-      body.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+      body.triangles.push_back({position(t[0]), position(t[1]), position(t[2])});
       body.tags.push_back(face.tag);
     }
   }

@@ -5,6 +5,7 @@
 #include "importers/ifc/convex_cut.h"
 #include "importers/ifc/curve.h"
 #include "importers/ifc/placement.h"
+#include "importers/ifc/seams.h"
 #include "importers/ifc/solid.h"
 
 namespace standpoint::ifc {
@@ -95,25 +96,31 @@ Regions trianglesOf(const geometry::Region2& region) {
   return parts;
 }
 
-Result<geometry::PolyMesh> withoutPrism(const geometry::PolyMesh& host, const geometry::Region2& region, const Entity& entity, const Eigen::Isometry3d& position,
-                                        const PlanBox& box, const HalfSpace& half, Scope& scope) {
-  const auto tool = prismTool(region, position, box, half);
-  if (!tool) return tool;
-  if (tool->faces.empty()) return host;
-  auto cut = subtractOrCut(host, std::span(&*tool, 1), entity, scope.report);
-  if (cut) return cut;
-  const Regions parts = trianglesOf(region);
-  if (parts.empty()) return cut;
+// A boundary that is not convex is taken away triangle by triangle; neighbours share their planes and leave nothing between.
+Result<geometry::PolyMesh> withoutTriangles(const geometry::PolyMesh& host, const geometry::Region2& region, const Eigen::Isometry3d& position, const PlanBox& box,
+                                            const HalfSpace& half) {
+  const Regions triangles = trianglesOf(region);
+  if (triangles.empty()) return failure(ErrorKind::unusable, "the boundary could not be triangulated");
   geometry::PolyMesh left = host;
-  for (const auto& part : parts) {
-    const auto small = prismTool(part, position, box, half);
-    if (!small) return cut;
-    if (small->faces.empty()) continue;
-    auto next = subtractOrCut(left, std::span(&*small, 1), entity, scope.report);
-    if (!next) return cut;
+  for (const auto& triangle : triangles) {
+    const auto tool = prismTool(triangle, position, box, half);
+    if (!tool) return tool;
+    if (tool->faces.empty()) continue;
+    auto next = subtractSimpleTools(left, std::span(&*tool, 1));
+    if (!next) return next;
     left = std::move(*next);
   }
   return left;
+}
+
+Result<geometry::PolyMesh> withoutPrism(const geometry::PolyMesh& host, const geometry::Region2& region, const Eigen::Isometry3d& position, const PlanBox& box,
+                                        const HalfSpace& half) {
+  const auto tool = prismTool(region, position, box, half);
+  if (!tool) return tool;
+  if (tool->faces.empty()) return host;
+  if (auto whole = subtractSimpleTools(host, std::span(&*tool, 1))) return whole;
+  if (auto parts = withoutTriangles(host, region, position, box, half)) return parts;
+  return subtractTools(host, std::span(&*tool, 1));
 }
 
 Result<geometry::PolyMesh> withBoundedHalfSpace(const geometry::PolyMesh& host, bool keep_inside, const Entity& entity, const HalfSpace& half, Scope& scope) {
@@ -123,8 +130,8 @@ Result<geometry::PolyMesh> withBoundedHalfSpace(const geometry::PolyMesh& host, 
   if (!region) return failure(region.error());
   const Reach reach = reachOf(*region, box);
   if (reach == Reach::nothing) return keep_inside ? geometry::PolyMesh() : host;
-  if (reach == Reach::all) return keep_inside ? geometry::clip(host, half.normal, half.offset) : geometry::clip(host, -half.normal, -half.offset);
-  if (!keep_inside) return withoutPrism(host, *region, entity, position, box, half, scope);
+  if (reach == Reach::all) return keep_inside ? clipSnapped(host, half.normal, half.offset) : clipSnapped(host, -half.normal, -half.offset);
+  if (!keep_inside) return withoutPrism(host, *region, position, box, half);
   const auto tool = prismTool(*region, position, box, half);
   return tool ? geometry::intersect(host, *tool) : tool;
 }
@@ -135,7 +142,7 @@ Result<geometry::PolyMesh> withHalfSpace(const geometry::PolyMesh& host, std::st
   if (operation == "UNION") return fail(entity, "the union with an unbounded half-space is unbounded");
   const bool keep_inside = operation == "INTERSECTION";
   if (entity.is("IFCPOLYGONALBOUNDEDHALFSPACE") && !host.faces.empty()) return withBoundedHalfSpace(host, keep_inside, entity, *half, scope);
-  return keep_inside ? geometry::clip(host, half->normal, half->offset) : geometry::clip(host, -half->normal, -half->offset);
+  return keep_inside ? clipSnapped(host, half->normal, half->offset) : clipSnapped(host, -half->normal, -half->offset);
 }
 
 struct Step {
@@ -148,7 +155,7 @@ Result<geometry::PolyMesh> apply(const geometry::PolyMesh& host, const Step& ste
   if (isHalfSpace(step.operand)) return withHalfSpace(host, step.operation, step.operand, scope);
   auto other = item(step.operand, scope);
   if (!other) return other;
-  if (step.operation == "DIFFERENCE") return subtractOrCut(host, std::span(&*other, 1), step.operand, scope.report);
+  if (step.operation == "DIFFERENCE") return subtractTools(host, std::span(&*other, 1));
   if (step.operation == "INTERSECTION") return geometry::intersect(host, *other);
   if (step.operation == "UNION") return geometry::unite(host, *other);
   return fail(step.result, "an operation " + std::string(step.operation) + " does not exist");

@@ -34,8 +34,12 @@ void cutAway(geometry::PolyMesh& body, const std::vector<geometry::PolyMesh>& to
   const Eigen::Vector3d far = (host.min + host.max) / 2;
   const Eigen::Vector3d shift = far.cwiseAbs().maxCoeff() > 1000 ? Eigen::Vector3d(far.array().round()) : Eigen::Vector3d(Eigen::Vector3d::Zero());
   move(body, -shift);
-  for (auto& tool : touching) move(tool, -shift);
-  auto cut = subtractOrCut(body, touching, element, report);
+  const std::uint32_t tag = body.faces.empty() ? 0 : body.faces.front().tag;
+  for (auto& tool : touching) {
+    move(tool, -shift);
+    geometry::setTag(tool, tag);   // reveals look like the body
+  }
+  auto cut = subtractTools(body, touching);
   if (cut) body = std::move(*cut);
   else report.lose(element.place(), std::to_string(touching.size()) + " openings were not cut, the body stays as it was: " + describe(cut.error()));
   move(body, shift);
