@@ -44,6 +44,11 @@ std::string validate(const Mesh& mesh, std::size_t surface_count) {
     if (s >= surface_count) return "a triangle's surface is out of range";
   if (!std::is_sorted(mesh.surface_of_triangle.begin(), mesh.surface_of_triangle.end()))
     return "triangles are not sorted by surface";
+  if (!mesh.texture_coordinates.empty() && mesh.texture_coordinates.size() != mesh.positions.size())
+    return "texture_coordinates and positions differ in size";
+  for (const auto& t : mesh.texture_coordinates)
+    if (!t.allFinite()) return "a texture coordinate is not finite";
+  if (!mesh.colours.empty() && mesh.colours.size() != mesh.positions.size()) return "colours and positions differ in size";
   return {};
 }
 
@@ -138,6 +143,10 @@ std::string validate(const Environment& environment) {
     if (auto wrong = validate(*environment.meshes[i], environment.surfaces.size()); !wrong.empty())
       return "mesh " + std::to_string(i) + ": " + wrong;
   }
+  for (const auto& image : environment.images)
+    if (!image) return "an image is missing";
+  for (const auto& surface : environment.surfaces)
+    if (surface.image >= static_cast<std::int32_t>(environment.images.size())) return "a surface's image is out of range";
   std::uint32_t last = 0;
   for (const auto& instance : environment.instances) {
     if (instance.mesh >= environment.meshes.size()) return "an instance's mesh is out of range";

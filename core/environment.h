@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -24,9 +25,23 @@ struct Surface {
   std::string name;      // "Brick", "Glas", …; may be empty
   Colour colour;
   std::string source;    // "#812", "/materials/3", "newmtl wall"
-  std::optional<float> metallic;   // glTF and PBR-MTL only
+  std::optional<float> metallic;   // glTF and PBR-MTL only, as all that follow; nothing where the file is silent
   std::optional<float> roughness;
+  std::optional<float> transmission;          // 0..1, KHR_materials_transmission; MTL: 1 - d
+  std::optional<float> index_of_refraction;   // KHR_materials_ior; MTL Ni
+  std::optional<float> thickness_m;           // KHR_materials_volume
+  std::optional<float> clearcoat;             // 0..1
+  std::optional<float> specular;              // 0..1
+  bool unlit = false;                         // KHR_materials_unlit: the colour has the light in it (photogrammetry)
+  std::int32_t image = -1;                    // what is painted on it: index into Environment::images; -1 = plain
   bool operator==(const Surface&) const = default;
+};
+
+// A texture as the file brought it: encoded, never decoded here, so it leaves as it came in.
+struct Image {
+  std::string name;         // of the file it came from, or what the model calls it
+  std::string media_type;   // "image/png", "image/jpeg"
+  std::vector<std::byte> bytes;
 };
 
 struct MaterialLayer {
@@ -48,20 +63,23 @@ struct SpatialNode {
   std::string global_id;
   std::int32_t parent = -1;     // index into Environment::spatial
   double elevation_m = 0;       // of a storey, file frame
+  std::vector<Property> properties;
 };
 
 struct Product {
   std::string id;               // for IFC the entity's number "#1234", else "/nodes/7", "o wall"
   std::string global_id;        // IFC GlobalId; empty for other formats
   std::string ifc_class;        // "IfcWallStandardCase" in the schema's own spelling; for glTF/OBJ empty
-  std::string predefined_type;
+  std::string predefined_type;  // of the occurrence, else of its type; the user's word where it is USERDEFINED
   std::string name;
+  std::string type_name;        // of its type (IfcWallType, IfcDoorStyle), whose properties stand below its own
   std::string storey;           // name of the storey that contains it, directly or through its whole
   std::int32_t container = -1;  // index into Environment::spatial
   std::int32_t whole = -1;      // the product that it is a part of (IfcRelAggregates), index into products
   bool tangible = true;         // false for spaces, openings, grids, annotations: no beam meets them
   std::vector<std::string> materials;     // names, in the file's order
   std::vector<MaterialLayer> layers;
+  std::vector<std::string> groups;        // "IfcSystem Heating", "IfcZone Flat 3": what it is assigned to besides its place
   std::vector<Property> properties;
 };
 
@@ -85,6 +103,7 @@ struct Bounds {
 struct Environment {
   std::vector<std::shared_ptr<const Mesh>> meshes;
   std::vector<Surface> surfaces;
+  std::vector<std::shared_ptr<const Image>> images;
   std::vector<Product> products;
   std::vector<Instance> instances;   // sorted by product
   std::vector<SpatialNode> spatial;
