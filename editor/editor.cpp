@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/editor.h"
 
+#include "project/underlay_placing.h"
+
 namespace standpoint {
 
 Editor::Editor(std::vector<Verb> verbs, std::function<void()> wake_up)
     : session(std::move(verbs), wake_up), wake(std::move(wake_up)) {}
 
+const Document& Editor::shownDocument() const {
+  return preview.outcome() != nullptr ? preview.outcome()->document : session.document();
+}
+
 Eigen::Vector3d Editor::shift_m() const {
-  const auto& georeference = session.document().georeference;
+  const auto& georeference = shownDocument().georeference;
   return georeference ? georeference->shift_m : Eigen::Vector3d::Zero();
 }
 
@@ -24,9 +30,48 @@ void Editor::update() {
     else if (read->error().kind != ErrorKind::cancelled)
       session.errors().push_back({"The scan cannot be shown", read->error()});
   }
-  if (session.revision() == seen_revision_) return;
-  seen_revision_ = session.revision();
-  adoptDocument();
+  if (session.revision() != seen_revision_) {
+    seen_revision_ = session.revision();
+    adoptDocument();
+  }
+  followPreview();
+  startWaitingCloud();
+  underlays.follow(session.document(), wake);
+  for (auto& error : underlays.takeErrors())
+    session.errors().push_back({"An underlay cannot be shown: put its file back, or remove it in the outliner", std::move(error)});
+}
+
+// The camera looks at what is previewed, and back where it was when that is given up.
+void Editor::followPreview() {
+  const bool came = preview.poll();
+  if (came) preview_selection.clear();
+  if (came && preview.outcome() != nullptr) {
+    if (!camera_before_preview_) camera_before_preview_ = view.camera;
+    view.tool = Tool::select;
+    view.camera = Camera();
+    look(view.camera, StandardView::corner);
+    view.frame_wanted = true;
+  }
+  if (preview.isOpen() || !camera_before_preview_) return;
+  // Given up, or taken in: adoptDocument() has framed that already.
+  if (!view.frame_wanted) view.camera = *camera_before_preview_;
+  camera_before_preview_.reset();
+}
+
+void Editor::startWaitingCloud() {
+  if (waiting_clouds.empty() || preview.isOpen()) return;
+  if (!session.document().imported) {
+    if (!session.running().empty()) return;   // perhaps the model
+    session.errors().push_back({"A point cloud lies under a model",
+                                {ErrorKind::usage, "there is no model yet: import one first, then drop the cloud again",
+                                 waiting_clouds.front().filename().string()}});
+    waiting_clouds.clear();
+    return;
+  }
+  if (!session.whyNot("underlay").empty()) return;
+  const auto file = waiting_clouds.front();
+  waiting_clouds.pop_front();
+  session.start("underlay", {{"add", file.string()}}, "Lay " + file.filename().string() + " under the model");
 }
 
 void Editor::adoptDocument() {
@@ -49,27 +94,35 @@ void Editor::adoptDocument() {
 }
 
 ViewState Editor::viewState() const {
-  const auto& document = session.document();
+  const auto& document = shownDocument();
   ViewState state;
   state.environment = document.environment();
+  state.camera = view.camera;
+  state.colour = view.colour;
+  state.edges = view.edges;
+  state.grid = view.grid;
+  if (preview.outcome() != nullptr) {
+    static const auto kNoneHidden = std::make_shared<const HiddenProducts>();
+    state.hidden = kNoneHidden;
+    state.selected = preview_selection.shared();
+    state.colour = ColourMode::model;
+    return state;
+  }
   state.materials = document.materials;
   if (view.walkable || view.shapes) state.collision = document.collision;
   state.hidden = visibility.shared();
   state.selected = selection.shared();
   state.cut_height_m = visibility.cut_height_m;
-  state.colour = view.colour;
-  state.edges = view.edges;
-  state.grid = view.grid;
   state.walkable = view.walkable && document.collision;
   state.shapes = view.shapes && document.collision;
   state.cloud = cloud_;
-  state.camera = view.camera;
+  state.underlays = underlays.shown(document);
   return state;
 }
 
 void Editor::derive() const {
-  if (derived_from_ == environment()) return;
-  derived_from_ = environment();
+  if (derived_from_ == shown()) return;
+  derived_from_ = shown();
   product_bounds_.clear();
   storeys_.clear();
   triangles_ = 0;
@@ -104,11 +157,15 @@ Bounds Editor::buildingBounds() const {
 Bounds Editor::boundsOfVisible(bool with_terrain) const {
   Bounds all;
   const auto& each = boundsOfProducts();
+  const bool previewed = preview.outcome() != nullptr;
   for (std::uint32_t p = 0; p < each.size(); ++p) {
-    const auto& product = environment()->products[p];
+    const auto& product = shown()->products[p];
     const bool terrain = product.ifc_class == "IfcSite" || product.ifc_class == "IfcGeographicElement";
-    if (!visibility.hidden(p) && product.tangible && !each[p].empty() && (with_terrain || !terrain)) all.extend(each[p]);
+    if ((previewed || !visibility.hidden(p)) && product.tangible && !each[p].empty() && (with_terrain || !terrain)) all.extend(each[p]);
   }
+  if (previewed) return all;
+  if (const Bounds scan = underlays.visibleBounds(session.document()); !scan.empty() && distance_m(all, scan) < kFarFromModel_m)
+    all.extend(scan);
   if (visibility.cut_height_m && !all.empty())
     all.max.z() = std::max(all.min.z(), std::min(all.max.z(), *visibility.cut_height_m));
   return all;
@@ -117,7 +174,7 @@ Bounds Editor::boundsOfVisible(bool with_terrain) const {
 Bounds Editor::selectionBounds() const {
   Bounds all;
   const auto& each = boundsOfProducts();
-  for (const auto p : selection.products())
+  for (const auto p : (preview.outcome() != nullptr ? preview_selection : selection).products())
     if (p < each.size() && !each[p].empty()) all.extend(each[p]);
   return all;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <chrono>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -11,11 +12,13 @@
 #include <vector>
 
 #include "editor/model/camera.h"
+#include "editor/model/import_preview.h"
 #include "editor/model/cloud.h"
 #include "editor/model/picker.h"
 #include "editor/model/selection.h"
 #include "editor/model/session.h"
 #include "editor/model/settings.h"
+#include "editor/model/underlay_view.h"
 #include "editor/model/view_state.h"
 #include "editor/model/visibility.h"
 #include "editor/panels/panel_states.h"
@@ -61,6 +64,10 @@ struct Editor {
   Visibility visibility;
   ViewportState view;
   Picker picker;
+  ImportPreview preview;
+  Selection preview_selection;             // products of what the preview shows
+  UnderlayView underlays;
+  std::deque<std::filesystem::path> waiting_clouds;   // dropped, each to become an underlay when the document is free
   PanelStates panels;
   DialogStates dialogs;
   Workspace workspace = Workspace::model;
@@ -79,6 +86,9 @@ struct Editor {
 
   float px(float points) const { return points * scale; }
   const std::shared_ptr<const Environment>& environment() const { return session.document().environment(); }
+  // What the viewport shows: the preview's model while there is one.
+  const Document& shownDocument() const;
+  const std::shared_ptr<const Environment>& shown() const { return shownDocument().environment(); }
   // Local frame → the file's own, in which every number is shown.
   Eigen::Vector3d shift_m() const;
 
@@ -101,7 +111,10 @@ struct Editor {
 
  private:
   void adoptDocument();
+  void followPreview();
+  void startWaitingCloud();
   Bounds boundsOfVisible(bool with_terrain) const;
+  std::optional<Camera> camera_before_preview_;
   CloudLoader cloud_loader_;
   std::shared_ptr<const Cloud> cloud_;
   std::shared_ptr<const Environment> imported_;   // whose products selection and visibility speak of

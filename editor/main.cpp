@@ -14,6 +14,7 @@
 #include "editor/shell/actions.h"
 #include "editor/viewport/offscreen.h"
 #include "editor/viewport/window.h"
+#include "pointclouds/formats.h"
 
 namespace {
 
@@ -71,10 +72,24 @@ int fail(const Error& error) {
   }
 }
 
-// One path is a project or a model; several are models that make one environment.
+// One folder is a project; files are models that make one environment, and clouds that lie under it. Who names them on
+// the command line has chosen already: there is no preview.
 void openAll(Editor& editor, const std::vector<std::string>& paths) {
-  if (paths.size() == 1) openPath(editor, paths.front());
-  if (paths.size() > 1) editor.session.start("import", {{"files", paths}}, "Import models");
+  std::vector<std::string> models;
+  for (const auto& path : paths) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored) || std::filesystem::path(path).filename() == "project.json") {
+      openPath(editor, path);
+      return;
+    }
+    if (readableCloudFormat(path) != nullptr)
+      editor.waiting_clouds.emplace_back(path);
+    else
+      models.push_back(path);
+  }
+  if (models.empty()) return;
+  const auto title = models.size() == 1 ? "Import " + std::filesystem::path(models.front()).filename().string() : "Import models";
+  if (editor.session.start("import", {{"files", models}}, title) && models.size() == 1) editor.settings.remember(models.front());
 }
 
 int makePictures(const Arguments& arguments) {

@@ -22,6 +22,7 @@ void reset(Editor& editor) {
   editor.view.colour = ColourMode::model;
   editor.view.walkable = false;
   editor.view.tool = Tool::select;
+  editor.preview.close();
   editor.view.camera.orthographic = false;
   look(editor.view.camera, StandardView::corner);
   editor.view.frame_wanted = true;
@@ -87,8 +88,18 @@ void palette(Editor& editor) {
   invoke(editor, "palette");
 }
 
+// What is open, as it would be seen before it is taken in.
+void importPreview(Editor& editor) {
+  const auto& document = editor.session.document();
+  std::vector<std::filesystem::path> files(document.sources.begin(), document.sources.end());
+  if (files.empty()) files.emplace_back(document.name);
+  Outcome outcome{document, nlohmann::json::object(), *document.import_report, {}};
+  editor.preview.show(std::move(files), std::move(outcome));
+}
+
 constexpr std::array kPictures = {Picture{"1-overview", overview},     Picture{"2-inspector", inspect}, Picture{"3-materials", materials},
-                                  Picture{"4-survey", survey},         Picture{"5-instrument", instrument}, Picture{"6-palette", palette}};
+                                  Picture{"4-survey", survey},         Picture{"5-instrument", instrument}, Picture{"7-import-preview", importPreview},
+                                  Picture{"6-palette", palette}};
 
 }  // namespace
 
@@ -102,6 +113,7 @@ Result<std::vector<std::filesystem::path>> drawPictures(Editor& editor, Offscree
   for (const auto& picture : kPictures) {
     reset(editor);
     picture.prepare(editor);
+    editor.underlays.wait(editor.session.document());
     const auto file = folder / (std::string(picture.name) + ".png");
     if (auto saved = offscreen.picture(editor, file); !saved) return failure(saved.error());
     written.push_back(file);

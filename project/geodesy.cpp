@@ -41,6 +41,16 @@ Pj findPj(PJ_CONTEXT* context, const std::string& code) {
   return crs;
 }
 
+// Of the first horizontal axis; of a compound CRS that is its first part's.
+double metresPerUnit(PJ_CONTEXT* context, const PJ* crs) {
+  const Pj part(proj_get_type(crs) == PJ_TYPE_COMPOUND_CRS ? proj_crs_get_sub_crs(context, crs, 0) : proj_clone(context, crs));
+  const Pj system(part ? proj_crs_get_coordinate_system(context, part.get()) : nullptr);
+  double factor = 1;
+  if (system && !proj_cs_get_axis_info(context, system.get(), 0, nullptr, nullptr, nullptr, &factor, nullptr, nullptr, nullptr))
+    return 1;
+  return factor > 0 ? factor : 1;
+}
+
 tl::unexpected<Error> unknownCrs(const std::string& code) {
   return failure(ErrorKind::usage,
                  fmt::format("'{}' is not a coordinate reference system that PROJ knows; write an EPSG code such as "
@@ -63,6 +73,7 @@ Result<CoordinateReferenceSystem> findCrs(const std::string& code) {
   if (const char* wkt = proj_as_wkt(context.get(), crs.get(), PJ_WKT2_2019, nullptr)) result.wkt = wkt;
   const PJ_TYPE type = proj_get_type(crs.get());
   result.projected = type == PJ_TYPE_PROJECTED_CRS || type == PJ_TYPE_COMPOUND_CRS;
+  if (result.projected) result.metres_per_unit = metresPerUnit(context.get(), crs.get());
   return result;
 }
 

@@ -14,6 +14,7 @@ struct CoordinateReferenceSystem {
   std::string name;      // "ETRS89 / UTM zone 32N"
   std::string wkt;       // WKT2:2019, for the files that carry one
   bool projected = false;
+  double metres_per_unit = 1;   // of the eastings and northings
 };
 
 // By code ("EPSG:25832", or just "25832") or WKT, through PROJ. Unknown: an error of kind usage that says what to write.

@@ -17,8 +17,11 @@ namespace standpoint {
 // One background run of a verb on a snapshot. Whoever started it polls `done()` from its own thread, then takes the result.
 class Task {
  public:
+  // What runs instead of the verb when it has been half done already: the rest, with the same result.
+  using Work = std::function<Result<Outcome>(const Document&, Progress&)>;
   // `wake` is called from the worker when progress has moved visibly and once at the end (e.g. glfwPostEmptyEvent).
-  Task(std::string title, const Verb& verb, Document snapshot, nlohmann::json options, std::function<void()> wake);
+  Task(std::string title, const Verb& verb, Document snapshot, nlohmann::json options, std::function<void()> wake,
+       Work work = {});
   ~Task();   // cancels and waits
   Task(const Task&) = delete;
   Task& operator=(const Task&) = delete;

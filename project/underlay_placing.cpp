@@ -62,6 +62,10 @@ Pose placeCloud(const CloudPlace& cloud, const Georeference& model, const Bounds
   const double as_is_m = distance_m(cloud.bounds_cloud_m, model_file_m);
   const bool model_in_map = model.map_from_file && model.map_from_file->scale > 0;
   const bool same = !cloud.crs.empty() && !model.crs.empty() && sameCrs(cloud.crs, model.crs);
+  if (const auto found = findCrs(cloud.crs); !cloud.crs.empty() && found && std::abs(found->metres_per_unit - 1) > 1e-9)
+    report.warn(cloud.name, fmt::format("its CRS {} counts in units of {:.6g} m, which are taken as metres, so it is {:.3g} "
+                                        "times too large: write the cloud in a CRS of metres",
+                                        shownCrs(cloud.crs), found->metres_per_unit, 1 / found->metres_per_unit));
   if (!cloud.crs.empty() && !model.crs.empty() && !same)
     report.warn(cloud.name, fmt::format("the cloud's CRS is {}, the model's {}: coordinates are not transformed; convert "
                                         "the cloud to the model's CRS first, or say where it lies with --at",

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "pointclouds/formats.h"
 
@@ -10,7 +11,10 @@ namespace standpoint {
 
 namespace {
 
-constexpr std::uint64_t kMostShown = 600000;   // what software rendering still turns smoothly
+// A colour alone shows no form: part of the intensity is mixed in.
+std::uint8_t shaded(std::uint8_t colour, std::uint8_t grey) {
+  return static_cast<std::uint8_t>(colour * (96 + grey * 159 / 255) / 255);
+}
 
 class SampleSink : public PointSink {
  public:
@@ -20,21 +24,20 @@ class SampleSink : public PointSink {
     pose_ = header.file_from_scanner;
     pose_.translation -= shift_m_;
     low_ = header.intensity_min;
-    span_ = std::max(header.intensity_max - header.intensity_min, 1e-12);
+    span_ = header.intensity_max - header.intensity_min;
+    coloured_ = header.has_colour;
     return {};
   }
 
   Result<void> write(const PointBlock& block) override {
-    const bool coloured = block.red.size() == block.size();
-    for (std::size_t i = (step_ - seen_ % step_) % step_; i < block.size(); i += step_) {
+    for (std::uint64_t i = (step_ - seen_ % step_) % step_; i < block.size(); i += step_) {
       const Eigen::Vector3d p = pose_ * Eigen::Vector3d(block.x_m[i], block.y_m[i], block.z_m[i]);
       for (int k = 0; k < 3; ++k) cloud_.positions.push_back(static_cast<float>(p[k]));
-      const double share = i < block.intensity.size() ? (block.intensity[i] - low_) / span_ : 0.5;
-      const auto grey = static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0)));
-      if (coloured)
-        cloud_.colours.push_back({shade(block.red[i], grey), shade(block.green[i], grey), shade(block.blue[i], grey), 255});
+      shares_.push_back(span_ > 0 ? static_cast<float>((block.intensity[i] - low_) / span_) : NAN);
+      if (coloured_)
+        cloud_.colours.push_back({block.red[i], block.green[i], block.blue[i], 255});
       else
-        cloud_.colours.push_back({grey, grey, grey, 255});
+        cloud_.colours.push_back({255, 255, 255, 255});
     }
     seen_ += block.size();
     return {};
@@ -42,15 +45,35 @@ class SampleSink : public PointSink {
   Result<void> end() override { return {}; }
   Result<void> close() override { return {}; }
 
- private:
-  // A colour alone shows no form: part of the intensity is mixed in.
-  static std::uint8_t shade(std::uint8_t colour, std::uint8_t grey) { return static_cast<std::uint8_t>(colour * (96 + grey * 159 / 255) / 255); }
+  // Shades the colours by intensity, from what nearly all points have at least to what nearly all have at most: formats
+  // state the sensor's possible range, of which a scan fills a corner. Without any intensity height stands for it.
+  void shade() {
+    if (std::all_of(shares_.begin(), shares_.end(), [](float s) { return std::isnan(s); }))
+      for (std::size_t i = 0; i < shares_.size(); ++i) shares_[i] = cloud_.positions[3 * i + 2];
+    std::vector<float> sorted;
+    std::copy_if(shares_.begin(), shares_.end(), std::back_inserter(sorted), [](float s) { return !std::isnan(s); });
+    if (sorted.empty()) return;
+    const auto at = [&](double share) {
+      const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sorted.size() - 1));
+      std::nth_element(sorted.begin(), middle, sorted.end());
+      return *middle;
+    };
+    const float low = at(0.02), high = at(0.98), span = std::max(high - low, 1e-12F);
+    for (std::size_t i = 0; i < shares_.size(); ++i) {
+      const float share = std::isnan(shares_[i]) ? 0.5F : std::clamp((shares_[i] - low) / span, 0.0F, 1.0F);
+      const auto grey = static_cast<std::uint8_t>(std::lround(40 + 215 * share));
+      for (std::size_t k = 0; k < 3; ++k) cloud_.colours[i][k] = shaded(cloud_.colours[i][k], grey);
+    }
+  }
 
+ private:
   Cloud& cloud_;
   std::uint64_t step_, seen_ = 0;
   Eigen::Vector3d shift_m_;
   Pose pose_;
   double low_ = 0, span_ = 1;
+  bool coloured_ = false;
+  std::vector<float> shares_;
 };
 
 }  // namespace
@@ -66,6 +89,7 @@ Result<Cloud> sampleCloud(const std::filesystem::path& file, const Eigen::Vector
   SampleSink sink(cloud, cloud.points_in_file / most + 1, shift_m);
   auto report = format->read(file, sink, progress);
   if (!report) return failure(report.error());
+  sink.shade();
   return cloud;
 }
 
@@ -81,7 +105,7 @@ void CloudLoader::start(const std::filesystem::path& file, const Eigen::Vector3d
   progress_ = std::make_unique<Progress>();
   done_.store(false);
   worker_ = std::thread([this, file, shift_m, wake = std::move(wake)] {
-    result_ = sampleCloud(file, shift_m, kMostShown, *progress_);
+    result_ = sampleCloud(file, shift_m, kMostShownPoints, *progress_);
     done_.store(true);
     if (wake) wake();
   });

@@ -23,9 +23,11 @@ namespace standpoint {
 struct Cloud {
   std::filesystem::path file;
   std::vector<float> positions;                           // x, y, z
-  std::vector<std::array<std::uint8_t, 4>> colours;       // the scan's own, or its intensity as grey
+  std::vector<std::array<std::uint8_t, 4>> colours;       // the scan's own, shaded by its intensity
   std::uint64_t points_in_file = 0;
 };
+
+constexpr std::uint64_t kMostShownPoints = 600000;   // what software rendering still turns smoothly
 
 // Every k-th point, so that at most `most` are kept; memory does not grow with the file.
 Result<Cloud> sampleCloud(const std::filesystem::path& file, const Eigen::Vector3d& shift_m, std::uint64_t most,
@@ -37,6 +39,7 @@ class CloudLoader {
   ~CloudLoader();
   void start(const std::filesystem::path& file, const Eigen::Vector3d& shift_m, std::function<void()> wake);
   bool busy() const { return worker_.joinable() && !done_.load(); }
+  Progress* progress() { return busy() ? progress_.get() : nullptr; }
   // What the last start brought; once.
   std::optional<Result<Cloud>> take();
 

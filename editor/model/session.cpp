@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "project/import_verb.h"
 #include "project/project_files.h"
 
 namespace standpoint {
@@ -166,6 +167,21 @@ bool Session::adopt(Outcome outcome) {
   say(LogLevel::done, "", outcome.description);
   history_.push(std::move(outcome.document), outcome.description);
   ++revision_;
+  return true;
+}
+
+bool Session::adoptImport(Outcome outcome) {
+  if (!adopt(std::move(outcome))) return false;
+  folder_.clear();
+  return true;
+}
+
+bool Session::startAdding(Outcome outcome, std::string title) {
+  if (!whyNot("add").empty()) return false;
+  auto rest = [read = std::move(outcome)](const Document& document, Progress& progress) {
+    return addImported(document, read, progress);
+  };
+  running_.push_back(std::make_unique<Task>(std::move(title), *verb("add"), document(), json::object(), wake_, std::move(rest)));
   return true;
 }
 

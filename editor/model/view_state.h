@@ -9,6 +9,7 @@
 #include "core/environment.h"
 #include "editor/model/camera.h"
 #include "editor/model/cloud.h"
+#include "editor/model/underlay_view.h"
 #include "editor/model/visibility.h"
 #include "optimizer/optimizer.h"
 #include "project/document.h"
@@ -32,6 +33,7 @@ struct ViewState {
   bool walkable = false;
   bool shapes = false;        // collision shapes instead of the model
   std::shared_ptr<const Cloud> cloud;   // a scan instead of the model; null: none
+  std::vector<ShownUnderlay> underlays;
   Camera camera;
   bool operator==(const ViewState&) const = default;
 };

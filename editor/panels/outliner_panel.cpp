@@ -6,6 +6,7 @@
 
 #include "editor/editor.h"
 #include "editor/panels/panels_list.h"
+#include "editor/shell/actions.h"
 #include "editor/shell/icons.h"
 #include "editor/shell/theme.h"
 #include "editor/shell/widgets.h"
@@ -108,6 +109,65 @@ void drawRow(Editor& editor, const std::vector<OutlinerRow>& rows, int index) {
   ImGui::PopID();
 }
 
+void drawUnderlayEye(Editor& editor, const Underlay& underlay, float x) {
+  ImGui::SameLine(x);
+  ImGui::PushStyleColor(ImGuiCol_Text, underlay.visible ? ImVec4(0.52F, 0.55F, 0.61F, 1) : colour(tone::kWarning));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(editor.px(3), 0));
+  if (ui::iconButton(underlay.visible ? ICON_EYE "###eye" : ICON_EYE_OFF "###eye", underlay.visible ? "Hide" : "Show",
+                     editor.session.whyNot("underlay")))
+    editor.session.start("underlay", {{underlay.visible ? "hide" : "show", underlay.name}},
+                         (underlay.visible ? "Hide " : "Show ") + underlay.name);
+  ImGui::PopStyleVar();
+  ImGui::PopStyleColor();
+}
+
+void frameUnderlay(Editor& editor, const Underlay& underlay) {
+  const Bounds b = underlayBounds(underlay, *editor.session.document().georeference);
+  if (!b.empty()) frame(editor.view.camera, b, editor.view.size.x() / std::max(editor.view.size.y(), 1.0));
+}
+
+void underlayMenu(Editor& editor, const Underlay& underlay) {
+  if (!ImGui::BeginPopupContextItem("###underlay-menu")) return;
+  if (ImGui::MenuItem(ICON_EXPAND "  Frame it###underlay-frame")) frameUnderlay(editor, underlay);
+  const auto why = editor.session.whyNot("underlay");
+  if (ImGui::MenuItem(ICON_MOVE "  Move it…###underlay-move", nullptr, false, why.empty())) {
+    openVerbForm(editor, "underlay");
+    editor.dialogs.verb.form.fill({{"move", underlay.name}, {"at", {underlay.file_from_cloud.translation.x(),
+                                    underlay.file_from_cloud.translation.y(), underlay.file_from_cloud.translation.z()}}});
+  }
+  if (ImGui::MenuItem(ICON_TRASH "  Remove it; its file stays###underlay-remove", nullptr, false, why.empty()))
+    editor.session.start("underlay", {{"remove", underlay.name}}, "Remove underlay " + underlay.name);
+  ImGui::EndPopup();
+}
+
+// Clouds under the model; a double click frames one.
+void drawUnderlays(Editor& editor) {
+  const auto underlays = editor.session.document().underlays;   // a copy: a click may change them
+  for (std::size_t i = 0; i < underlays.size(); ++i) {
+    const Underlay& u = *underlays[i];
+    ImGui::PushID(static_cast<int>(i));
+    const float left = ImGui::GetCursorPosX(), right = left + ImGui::GetContentRegionAvail().x, eye = editor.px(24);
+    const bool pressed = ImGui::Selectable("###underlay", false, ImGuiSelectableFlags_AllowItemOverlap | ImGuiSelectableFlags_AllowDoubleClick, {0, editor.px(19)});
+    if (pressed && ImGui::IsMouseDoubleClicked(0)) frameUnderlay(editor, u);
+    ImGui::SetItemAllowOverlap();
+    underlayMenu(editor, u);
+    ui::tooltip(fmt::format("{}\n{} points\nDouble click frames it", u.file, groupedDigits(u.points)));
+    ImGui::SameLine(left + editor.px(17));
+    ImGui::TextColored(ImVec4(0.45F, 0.62F, 0.85F, 1), "%s", ICON_UNDERLAY);
+    ImGui::SameLine(left + editor.px(39));
+    const std::string points = groupedDigits(u.points);
+    const float width = ImGui::CalcTextSize(points.c_str()).x + editor.px(8);
+    ImGui::BeginDisabled(!u.visible);
+    ui::fitted(u.name, right - ImGui::GetCursorPosX() - width - eye);
+    ImGui::EndDisabled();
+    ImGui::SameLine(right - eye - width);
+    ui::dimText(points);
+    drawUnderlayEye(editor, u, right - eye);
+    ImGui::PopID();
+  }
+  if (!underlays.empty()) ImGui::Separator();
+}
+
 void scrollTo(Editor& editor, const std::vector<OutlinerRow>& rows, float row_height) {
   auto& state = editor.panels.outliner;
   if (state.scroll_to < 0) return;
@@ -129,6 +189,7 @@ void drawOutlinerPanel(Editor& editor) {
   }
   auto& state = editor.panels.outliner;
   ui::searchField("outliner-filter", "Name, class, id, material", state.filter);
+  if (state.filter.empty()) drawUnderlays(editor);
   const auto rows = state.tree.rows(*environment, state.filter);
   if (rows.empty()) {
     ui::emptyState(editor, ICON_SEARCH, "Nothing fits", "No product has all these words in its name, class, id, storey or materials.");

@@ -9,6 +9,7 @@
 #include "editor/editor.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/icons.h"
+#include "editor/shell/import_preview.h"
 #include "editor/shell/widgets.h"
 
 namespace standpoint {
@@ -27,9 +28,7 @@ void newProject(Editor& e) {
 void openProject(Editor& e) {
   whenSaved(e, [&e] { askForProject(e); });
 }
-void importModel(Editor& e) {
-  whenSaved(e, [&e] { askForModel(e); });
-}
+void importModel(Editor& e) { askForModel(e); }
 void save(Editor& e) {
   if (e.session.folder().empty())
     askWhereToSave(e);
@@ -226,16 +225,6 @@ void whenSaved(Editor& editor, std::function<void()> then) {
   editor.dialogs.after_unsaved = std::move(then);
 }
 
-void openPath(Editor& editor, const std::string& path) {
-  whenSaved(editor, [&editor, path] {
-    std::filesystem::path wanted = path;
-    if (wanted.filename() == "project.json") wanted = wanted.parent_path();
-    std::error_code ignored;
-    const bool folder = std::filesystem::is_directory(wanted, ignored);
-    const bool started = folder ? editor.session.open(wanted)
-                                : editor.session.start("import", {{"files", {wanted.string()}}}, "Import " + wanted.filename().string());
-    if (started) editor.settings.remember(wanted);
-  });
-}
+void openPath(Editor& editor, const std::string& path) { openFiles(editor, {path}); }
 
 }  // namespace standpoint

@@ -42,7 +42,7 @@ void actionToolButton(Editor& editor, const char* id);
 void openVerbForm(Editor& editor, const char* verb);
 // Asks about unsaved changes first, when there are any.
 void whenSaved(Editor& editor, std::function<void()> then);
-// A file or folder by what it is: a project is opened, a model imported.
+// A file or folder by what it is: a project is opened, a model previewed, a cloud laid under the model.
 void openPath(Editor& editor, const std::string& path);
 
 }  // namespace standpoint

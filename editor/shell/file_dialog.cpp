@@ -12,9 +12,11 @@
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/icons.h"
+#include "editor/shell/import_preview.h"
 #include "editor/shell/theme.h"
 #include "editor/shell/widgets.h"
 #include "importers/importers.h"
+#include "pointclouds/formats.h"
 
 namespace standpoint {
 
@@ -185,6 +187,8 @@ std::vector<std::string> modelExtensions() {
   std::vector<std::string> all;
   for (const auto& importer : importers())
     for (const char* extension : importer.extensions) all.emplace_back(extension);
+  for (const auto& format : cloudFormats())
+    if (format.read != nullptr && std::find(all.begin(), all.end(), format.extension) == all.end()) all.emplace_back(format.extension);
   return all;
 }
 
@@ -217,10 +221,9 @@ void askForProject(Editor& editor) {
 }
 
 void askForModel(Editor& editor) {
-  askForFile(editor, Purpose::openFile, "Import a model", "Import", modelExtensions(), "",
+  askForFile(editor, Purpose::openFile, "Import a model, or lay a cloud under it", "Open", modelExtensions(), "",
              [&editor](const std::filesystem::path& file) {
-               const auto title = "Import " + file.filename().string();
-               if (editor.session.start("import", {{"files", {file.string()}}}, title)) editor.settings.remember(file);
+               openFiles(editor, {file});
              });
 }
 

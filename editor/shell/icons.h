@@ -62,6 +62,7 @@
 #define ICON_TARGET "\xef\x85\x80"
 #define ICON_TASKS "\xef\x82\xae"
 #define ICON_TRASH "\xef\x87\xb8"
+#define ICON_UNDERLAY "\xef\x8a\xa1"
 #define ICON_UNDO "\xef\x83\xa2"
 #define ICON_WALK "\xef\x86\x83"
 #define ICON_WARNING "\xef\x81\xb1"

@@ -14,6 +14,7 @@
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/icons.h"
+#include "editor/shell/import_preview.h"
 #include "editor/shell/theme.h"
 #include "editor/shell/widgets.h"
 
@@ -271,14 +272,17 @@ std::string hoverText(const Editor& editor) {
   return fmt::format("{}   {}   {:.3f}  {:.3f}  {:.3f} m", readableClass(product.ifc_class), productLabel(product), p.x(), p.y(), p.z());
 }
 
+// A task, else the cloud that is being read to be shown.
 void drawRunningTask(Editor& editor) {
   const auto& running = editor.session.running();
   Task* shown = nullptr;
   for (const auto& task : running)
     if (std::strcmp(task->verb().name, "save-recovery") != 0) shown = task.get();
-  if (shown == nullptr) return;
-  auto& progress = shown->progress();
-  const std::string text = fmt::format("{}   {:.0f} %", shown->title(), progress.fraction() * 100);
+  Progress* const followed = shown != nullptr ? &shown->progress() : editor.underlays.progress();
+  if (followed == nullptr) return;
+  auto& progress = *followed;
+  const std::string title = shown != nullptr ? shown->title() : "Showing " + editor.underlays.reading();
+  const std::string text = fmt::format("{}   {:.0f} %", title, progress.fraction() * 100);
   const float bar = editor.px(160), cancel = editor.px(64);
   const float width = ImGui::CalcTextSize(text.c_str()).x + bar + cancel + editor.px(30);
   ImGui::SameLine(std::max(0.0F, ImGui::GetWindowWidth() - width - editor.px(10)));
@@ -311,10 +315,40 @@ void drawStatusBar(Editor& editor, const Box& box) {
   ImGui::End();
 }
 
+// While a model is looked at before it is taken in, there is it and the question, and nothing else.
+void drawPreviewLayout(Editor& editor, const Box& all) {
+  const float panel = std::min(editor.px(400), all.w * 0.5F), gap = editor.px(3);
+  beginFixed("###preview", {all.x + all.w - panel, all.y, panel, all.h}, {editor.px(14), editor.px(12)}, IM_COL32(35, 39, 46, 255));
+  drawImportPreview(editor);
+  ImGui::End();
+  beginFixed("###viewport", {all.x, all.y, all.w - panel - gap, all.h}, {0, 0}, IM_COL32(35, 39, 46, 255));
+  drawViewport(editor);
+  ImGui::End();
+}
+
+void drawPreviewShell(Editor& editor) {
+  runPreviewKeys(editor);
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const float head = ImGui::GetFrameHeight() + editor.px(12);
+  beginFixed("###preview-head", {0, 0, display.x, head}, {editor.px(14), editor.px(6)}, IM_COL32(35, 39, 46, 255));
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(ICON_IMPORT "  Before it is taken in");
+  ImGui::SameLine(0, editor.px(16));
+  ui::dimText("Enter imports   Esc gives it up   F frames");
+  ImGui::End();
+  drawPreviewLayout(editor, {0, head, display.x, display.y - head});
+  drawFileDialog(editor);   // where to save what is open, before it gives way
+  drawMessages(editor);
+}
+
 }  // namespace
 
 void drawShell(Editor& editor) {
   editor.update();
+  if (editor.preview.isOpen()) {
+    drawPreviewShell(editor);
+    return;
+  }
   runShortcuts(editor);
   drawMenuBar(editor);
   const ImVec2 display = ImGui::GetIO().DisplaySize;

@@ -123,12 +123,13 @@ void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
   const auto& io = ImGui::GetIO();
   if (!view.dragging && !ImGui::IsPopupOpen("###viewport-menu")) {
     view.hover.reset();
-    if (hovered) view.hover = editor.picker.pick(rayThrough(view.camera, pointer(origin), view.size), editor.viewState());
+    if (hovered && !editor.preview.isOpen()) view.hover = editor.picker.pick(rayThrough(view.camera, pointer(origin), view.size), editor.viewState());
   }
   if (hovered && !view.dragging && (ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2))) startDrag(editor);
   if (view.dragging) continueDrag(editor);
-  if (view.dragging && !view.dragged && ImGui::IsMouseReleased(0)) click(editor);
-  if (view.dragging && !view.dragged && ImGui::IsMouseReleased(1)) {
+  const bool previewed = editor.preview.isOpen();   // it can be turned and nothing else
+  if (view.dragging && !view.dragged && ImGui::IsMouseReleased(0) && !previewed) click(editor);
+  if (view.dragging && !view.dragged && ImGui::IsMouseReleased(1) && !previewed) {
     if (view.hover && !editor.selection.contains(view.hover->product)) editor.select(view.hover->product, true);
     ImGui::OpenPopup("###viewport-menu");
   }
@@ -183,7 +184,9 @@ void drawViewport(Editor& editor) {
   auto& list = *ImGui::GetWindowDrawList();
   if (texture != 0)
     list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), origin, {origin.x + size.x, origin.y + size.y}, {0, 1}, {1, 0});
-  if (!editor.environment()) {
+  const bool previewed = editor.preview.isOpen();
+  if (!editor.shown()) {
+    if (previewed) return;
     drawWelcome(editor, origin, size);
     return;
   }
@@ -192,6 +195,7 @@ void drawViewport(Editor& editor) {
   ImGui::SetItemAllowOverlap();
   const bool hovered = ImGui::IsItemHovered() && !overOverlay(editor, origin, size);
   handleMouse(editor, origin, hovered);
+  if (previewed) return;
   drawMarkers(editor, origin);
   drawOverlay(editor, origin, size);
   contextMenu(editor);

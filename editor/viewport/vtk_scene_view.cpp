@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -18,6 +19,7 @@
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkIdTypeArray.h>
 #include <vtkLight.h>
+#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOpenGLFramebufferObject.h>
@@ -108,21 +110,21 @@ struct Layer {
     data->SetLines(cellsOf(lines.ends, 2));
     set(data, lines.ends.empty());
   }
-  void show(const Cloud& cloud) {
+  // Every `step`-th point.
+  void show(const Cloud& cloud, std::size_t step = 1) {
+    std::vector<float> positions;
+    std::vector<Rgba> colours;
+    for (std::size_t i = 0; i < cloud.colours.size(); i += step) {
+      positions.insert(positions.end(), {cloud.positions[3 * i], cloud.positions[3 * i + 1], cloud.positions[3 * i + 2]});
+      colours.push_back(cloud.colours[i]);
+    }
+    std::vector<std::int64_t> indices(colours.size());
+    std::iota(indices.begin(), indices.end(), std::int64_t{0});
     vtkNew<vtkPolyData> data;
-    data->SetPoints(pointsOf(cloud.positions));
-    vtkNew<vtkTypeInt64Array> indices;
-    indices->SetNumberOfTuples(static_cast<vtkIdType>(cloud.colours.size()));
-    std::iota(indices->GetPointer(0), indices->GetPointer(0) + cloud.colours.size(), std::int64_t{0});
-    vtkNew<vtkCellArray> cells;
-    cells->SetData(1, indices);
-    data->SetVerts(cells);
-    vtkNew<vtkUnsignedCharArray> colours;
-    colours->SetNumberOfComponents(4);
-    colours->SetNumberOfTuples(static_cast<vtkIdType>(cloud.colours.size()));
-    if (!cloud.colours.empty()) std::memcpy(colours->GetPointer(0), cloud.colours.data(), 4 * cloud.colours.size());
-    data->GetPointData()->SetScalars(colours);
-    set(data, cloud.colours.empty());
+    data->SetPoints(pointsOf(positions));
+    data->SetVerts(cellsOf(indices, 1));
+    data->GetPointData()->SetScalars(coloursOf(colours));
+    set(data, colours.empty());
   }
   void set(vtkPolyData* data, bool empty) {
     mapper->SetInputData(data);
@@ -205,6 +207,7 @@ class VtkSceneView : public SceneView {
     for (Layer* layer : {&edges_, &grid_}) layer->actor->GetProperty()->SetLineWidth(static_cast<float>(factor));
     outline_.actor->GetProperty()->SetLineWidth(static_cast<float>(2 * factor));
     cloud_.actor->GetProperty()->SetPointSize(static_cast<float>(2 * factor));
+    for (const auto& u : underlays_) u->layer.actor->GetProperty()->SetPointSize(static_cast<float>(2 * factor));
   }
 
   // At half size each pixel is then the mean of four.
@@ -321,6 +324,8 @@ class VtkSceneView : public SceneView {
     if (last == nullptr || last->collision != state.collision || last->walkable != state.walkable || last->shapes != state.shapes) updateCollision(state);
     if (environment || last->grid != state.grid) updateGrid(state);
     if (last == nullptr || last->cloud != state.cloud) updateCloud(state);
+    if (last == nullptr || last->underlays != state.underlays || last->cloud != state.cloud) updateUnderlays(state);
+    reach_ = reachOf(state);
     updateCut(state);
     updateCamera(state.camera);
   }
@@ -360,6 +365,45 @@ class VtkSceneView : public SceneView {
     if (state.cloud) cloud_.show(*state.cloud);
   }
 
+  // Above what can be turned smoothly each shows every k-th point of its sample.
+  void updateUnderlays(const ViewState& state) {
+    std::uint64_t points = 0;
+    for (const auto& u : state.underlays) points += u.cloud->colours.size();
+    const auto step = static_cast<std::size_t>(points / kMostShownPoints + 1);
+    while (underlays_.size() < state.underlays.size()) {
+      underlays_.push_back(std::make_unique<UnderlayLayer>());
+      setUpPoints(underlays_.back()->layer);
+      underlays_.back()->layer.actor->GetProperty()->SetPointSize(cloud_.actor->GetProperty()->GetPointSize());
+    }
+    for (std::size_t i = 0; i < underlays_.size(); ++i) {
+      auto& [layer, cloud, shown_step] = *underlays_[i];
+      layer.hide();
+      if (state.cloud || i >= state.underlays.size()) continue;
+      const auto& wanted = state.underlays[i];
+      if (cloud != wanted.cloud || shown_step != step) layer.show(*wanted.cloud, step);
+      cloud = wanted.cloud;
+      shown_step = step;
+      vtkNew<vtkMatrix4x4> matrix;
+      for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column) matrix->SetElement(row, column, wanted.local_from_cloud(row, column));
+      layer.actor->SetUserMatrix(matrix);
+      layer.actor->SetVisibility(1);
+    }
+  }
+
+  // Of all that is shown; what lies behind it is not drawn.
+  Bounds reachOf(const ViewState& state) const {
+    Bounds reach = bounds_;
+    if (!state.cloud)
+      for (const auto& u : underlays_)
+        if (u->layer.actor->GetVisibility() != 0) {
+          const double* b = u->layer.actor->GetBounds();
+          reach.extend(Eigen::Vector3d(b[0], b[2], b[4]));
+          reach.extend(Eigen::Vector3d(b[1], b[3], b[5]));
+        }
+    return reach;
+  }
+
   void updateGrid(const ViewState& state) {
     grid_.hide();
     if (!state.grid || !state.environment || bounds_.empty()) return;
@@ -368,7 +412,9 @@ class VtkSceneView : public SceneView {
   }
 
   void updateCut(const ViewState& state) {
-    for (Layer* layer : {&opaque_, &transparent_, &shapes_, &selected_, &walkable_, &edges_, &outline_, &cloud_}) {
+    std::vector<Layer*> layers = {&opaque_, &transparent_, &shapes_, &selected_, &walkable_, &edges_, &outline_, &cloud_};
+    for (const auto& u : underlays_) layers.push_back(&u->layer);
+    for (Layer* layer : layers) {
       layer->mapper->RemoveAllClippingPlanes();
       if (!state.cut_height_m) continue;
       vtkNew<vtkPlane> plane;
@@ -387,19 +433,19 @@ class VtkSceneView : public SceneView {
     vtk->SetViewAngle(camera.view_angle_rad / kRadPerDeg);
     vtk->SetParallelProjection(camera.orthographic ? 1 : 0);
     vtk->SetParallelScale(camera.heightAtTarget_m() / 2);
-    if (bounds_.empty()) {
+    if (reach_.empty()) {
       vtk->SetClippingRange(0.1, 1000);
       return;
     }
-    const Eigen::Vector3d centre = (bounds_.min + bounds_.max) / 2;
-    const double reach = 2 * bounds_.diagonal() + 10;   // the grid reaches farther than the model
+    const Eigen::Vector3d centre = (reach_.min + reach_.max) / 2;
+    const double reach = 2 * reach_.diagonal() + 10;   // the grid reaches farther than the model
     const double depth = (centre - eye).dot(camera.forward());
     if (camera.orthographic) {
       vtk->SetClippingRange(depth - reach, depth + reach);
       return;
     }
     // As far away as the model allows: how finely depths can be told apart hangs on the nearest one.
-    const Eigen::Vector3d outside = (eye - bounds_.max).cwiseMax(bounds_.min - eye).cwiseMax(0.0);
+    const Eigen::Vector3d outside = (eye - reach_.max).cwiseMax(reach_.min - eye).cwiseMax(0.0);
     const double nearest = std::max(0.04, 0.5 * outside.norm());
     vtk->SetClippingRange(nearest, std::max(depth + reach, 10 * nearest));
   }
@@ -408,7 +454,13 @@ class VtkSceneView : public SceneView {
   vtkNew<vtkRenderer> renderer_;
   Layer opaque_, transparent_, shapes_, selected_, walkable_, edges_, outline_, grid_, cloud_;
   EdgeCache edge_cache_;
-  Bounds bounds_;
+  struct UnderlayLayer {
+    Layer layer;
+    std::shared_ptr<const Cloud> cloud;
+    std::size_t step = 0;
+  };
+  std::vector<std::unique_ptr<UnderlayLayer>> underlays_;
+  Bounds bounds_, reach_;   // of the environment; of all that is shown
   std::optional<ViewState> drawn_;
   bool fine_ = false;
   int width_ = 0, height_ = 0;   // of the picture as it is shown

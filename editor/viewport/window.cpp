@@ -15,6 +15,7 @@
 
 #include "editor/model/input_queue.h"
 #include "editor/shell/actions.h"
+#include "editor/shell/import_preview.h"
 #include "editor/shell/shell.h"
 #include "editor/shell/theme.h"
 #include "editor/viewport/vtk_scene_view.h"
@@ -102,7 +103,7 @@ class Window {
     glfwSetCharCallback(handle_, [](GLFWwindow* w, unsigned code) { of(w).push({Kind::character, 0, 0, static_cast<int>(code)}); });
     glfwSetWindowFocusCallback(handle_, [](GLFWwindow* w, int focused) { of(w).focus_lost_ = of(w).focus_lost_ || focused == 0; });
     glfwSetDropCallback(handle_, [](GLFWwindow* w, int count, const char** paths) {
-      if (count > 0) openPath(of(w).editor_, paths[0]);
+      if (count > 0) openFiles(of(w).editor_, {paths, paths + count});
       of(w).frames_wanted_ = kFramesAfterInput;
     });
     glfwSetFramebufferSizeCallback(handle_, [](GLFWwindow* w, int, int) { of(w).frames_wanted_ = kFramesAfterInput; });

@@ -70,5 +70,10 @@ TEST(GeoreferenceVerb, WithoutOptionsChangesNothing) {
   EXPECT_TRUE(outcome->answer["geographic"].is_null());
 }
 
+TEST(Crs, SaysHowLongItsUnitIs) {
+  EXPECT_EQ(findCrs("EPSG:25832")->metres_per_unit, 1);
+  EXPECT_NEAR(findCrs("EPSG:2903")->metres_per_unit, 1200.0 / 3937, 1e-12);  // New Mexico Central, US survey feet
+}
+
 }  // namespace
 }  // namespace standpoint

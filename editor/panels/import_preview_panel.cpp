@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "editor/editor.h"
+#include "editor/shell/actions.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/import_preview.h"
+#include "editor/shell/theme.h"
+#include "editor/shell/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+struct Choice {
+  const char* value;
+  const char* label;
+};
+constexpr std::array kUnits = {Choice{"", "As the file says"}, Choice{"m", "Metre"}, Choice{"cm", "Centimetre"},
+                               Choice{"mm", "Millimetre"},     Choice{"in", "Inch"},  Choice{"ft", "Foot"}};
+constexpr std::array kUps = {Choice{"", "As the file says"}, Choice{"y", "Y points up"}, Choice{"z", "Z points up"}};
+
+template <std::size_t N>
+bool choose(const char* id, const std::array<Choice, N>& choices, std::string& value) {
+  const auto chosen = std::find_if(choices.begin(), choices.end(), [&](const Choice& c) { return value == c.value; });
+  bool changed = false;
+  if (!ImGui::BeginCombo(id, chosen == choices.end() ? value.c_str() : chosen->label)) return false;
+  for (const auto& c : choices)
+    if (ImGui::Selectable(c.label, value == c.value)) value = c.value, changed = true;
+  ImGui::EndCombo();
+  return changed;
+}
+
+void heading(Editor& editor, const char* text) {
+  ui::gap(editor, 4);
+  ui::heading(editor, text);
+}
+
+// A text that counts when it is left or Enter is pressed: each change reads the file again.
+bool textField(const char* id, const char* hint, std::string& text) {
+  ImGui::InputTextWithHint(id, hint, &text);
+  return ImGui::IsItemDeactivatedAfterEdit();
+}
+
+void drawPlace(Editor& editor) {
+  auto& preview = editor.preview;
+  auto& chosen = preview.overrides;
+  heading(editor, "Size and place");
+  if (!ui::beginProperties("preview-place", 0.28F)) return;
+  const auto& facts = preview.facts();
+  ui::property("Size", sizeText(facts.size_m));
+  if (preview.firstSize_m()) ui::property("Before", sizeText(*preview.firstSize_m()));
+  ui::propertyLabel("Unit");
+  bool changed = choose("###preview-unit", kUnits, chosen.unit);
+  ui::propertyLabel("Up");
+  changed |= choose("###preview-up", kUps, chosen.up);
+  const auto& georeference = *editor.shownDocument().georeference;
+  ui::propertyLabel("Shift");
+  changed |= textField("###preview-shift", "auto, none or E,N,H", chosen.shift);
+  ui::tooltip(fmt::format("Taken off all coordinates while working, put back on export. Now {:.0f}, {:.0f}, {:.0f} m",
+                          georeference.shift_m.x(), georeference.shift_m.y(), georeference.shift_m.z()));
+  ui::propertyLabel("CRS");
+  changed |= textField("###preview-crs", georeference.crs.empty() ? "not stated; EPSG:n" : georeference.crs.c_str(), chosen.crs);
+  if (!facts.bounds_file_m.empty()) {
+    const auto& b = facts.bounds_file_m;
+    ui::property("From", fmt::format("{:.2f}  {:.2f}  {:.2f} m", b.min.x(), b.min.y(), b.min.z()));
+    ui::property("To", fmt::format("{:.2f}  {:.2f}  {:.2f} m", b.max.x(), b.max.y(), b.max.z()));
+  }
+  ui::endProperties();
+  if (!facts.doubt.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, tone::kWarning);
+    ui::wrapped(std::string(ICON_WARNING "  ") + facts.doubt);
+    ImGui::PopStyleColor();
+  }
+  if (!preview.error().message.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, tone::kBad);
+    ui::wrapped(std::string(ICON_WARNING "  ") + preview.error().message);
+    ImGui::PopStyleColor();
+  }
+  if (changed) preview.readAgain();
+}
+
+void drawClasses(Editor& editor, float height) {
+  const auto& facts = editor.preview.facts();
+  heading(editor, fmt::format("{} products, {} triangles", groupedDigits(facts.products), groupedDigits(facts.triangles)).c_str());
+  const auto flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoPadOuterX;
+  if (!ImGui::BeginTable("preview-classes", 3, flags, {0, height})) return;
+  ImGui::TableSetupColumn("class", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("products", ImGuiTableColumnFlags_WidthFixed, editor.px(64));
+  ImGui::TableSetupColumn("triangles", ImGuiTableColumnFlags_WidthFixed, editor.px(84));
+  for (const auto& row : facts.classes) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ui::fitted(readableClass(row.ifc_class), ImGui::GetContentRegionAvail().x);
+    ImGui::TableNextColumn();
+    ui::textRightAligned(groupedDigits(row.products));
+    ImGui::TableNextColumn();
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ui::textRightAligned(groupedDigits(row.triangles));
+    ImGui::PopStyleColor();
+  }
+  ImGui::EndTable();
+}
+
+void filterButton(Editor& editor, const char* icon, const char* name, std::size_t count, ImU32 shade, bool& shown) {
+  ImGui::PushStyleColor(ImGuiCol_Button, shown ? ImVec4(1, 1, 1, 0.07F) : ImVec4(0, 0, 0, 0));
+  ImGui::PushStyleColor(ImGuiCol_Text, shown && count > 0 ? colour(shade) : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  if (ImGui::Button(fmt::format("{}  {}###preview-{}", icon, groupedDigits(count), name).c_str())) shown = !shown;
+  ImGui::PopStyleColor(2);
+  ui::tooltip(fmt::format("{} {}", shown ? "Hide" : "Show", name));
+  ImGui::SameLine(0, editor.px(4));
+}
+
+void drawIssue(Editor& editor, const Issue& issue, int i) {
+  const auto product = productOf(*editor.shown(), issue.source);
+  ImGui::PushID(i);
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  const ImU32 shade = issue.severity == Severity::loss ? tone::kBad : issue.severity == Severity::warning ? tone::kWarning : tone::kDim;
+  ImGui::TextColored(colour(shade), "%s", issue.severity == Severity::note ? ICON_INFO : ICON_WARNING);
+  ImGui::TableNextColumn();
+  const ImVec2 at = ImGui::GetCursorPos();
+  if (product && ImGui::Selectable("###issue", editor.preview_selection.contains(*product), ImGuiSelectableFlags_AllowItemOverlap)) {
+    editor.preview_selection.set(*product);
+    editor.frameSelection();
+  }
+  ImGui::SetCursorPos(at);
+  const std::string text = issue.source.empty() ? issue.message : issue.source + "  " + issue.message;
+  if (product) ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.50F, 0.73F, 1, 1));
+  ui::fitted(text, ImGui::GetContentRegionAvail().x);
+  if (product) ImGui::PopStyleColor();
+  ImGui::PopID();
+}
+
+void drawIssues(Editor& editor, float height) {
+  const auto& facts = editor.preview.facts();
+  auto& filter = editor.preview.filter;
+  heading(editor, "Issues");
+  filterButton(editor, ICON_BAN, "losses", facts.losses, tone::kBad, filter.losses);
+  filterButton(editor, ICON_WARNING, "warnings", facts.warnings, tone::kWarning, filter.warnings);
+  filterButton(editor, ICON_INFO, "notes", facts.notes, tone::kDim, filter.notes);
+  ImGui::NewLine();
+  const auto& issues = editor.preview.outcome()->report.issues;
+  if (issues.empty()) {
+    ImGui::TextColored(colour(tone::kGood), "%s  Nothing was lost or guessed", ICON_CHECK);
+    return;
+  }
+  std::vector<int> shown;
+  for (int i = 0; i < static_cast<int>(issues.size()); ++i) {
+    const auto& issue = issues[static_cast<std::size_t>(i)];
+    if (passes({levelOf(issue.severity), "", issue.source, issue.message}, filter)) shown.push_back(i);
+  }
+  if (!ImGui::BeginTable("preview-issues", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoPadOuterX, {0, height})) return;
+  ImGui::TableSetupColumn("level", ImGuiTableColumnFlags_WidthFixed, editor.px(18));
+  ImGui::TableSetupColumn("text", ImGuiTableColumnFlags_WidthStretch);
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(shown.size()));
+  while (clipper.Step())
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+      const int issue = shown[static_cast<std::size_t>(i)];
+      drawIssue(editor, issues[static_cast<std::size_t>(issue)], issue);
+    }
+  ImGui::EndTable();
+}
+
+void drawReading(Editor& editor) {
+  auto& progress = editor.preview.task()->progress();
+  const std::string stage = progress.stageName();
+  ui::gap(editor, 6);
+  ui::dimText(stage.empty() ? "Reading" : stage);
+  ui::gap(editor, 2);
+  ui::meter(editor, progress.fraction(), tone::kAccent);
+  ui::gap(editor, 2);
+  ui::dimText(fmt::format("{:.0f} %   {:.1f} s", progress.fraction() * 100, editor.preview.task()->seconds()));
+}
+
+void drawFailure(Editor& editor) {
+  const Error& error = editor.preview.error();
+  ui::gap(editor, 6);
+  ImGui::TextColored(colour(tone::kBad), "%s  It cannot be read", ICON_WARNING);
+  ui::gap(editor, 2);
+  ui::wrapped(error.message);
+  if (!error.source.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ui::wrapped("in " + error.source);
+    ImGui::PopStyleColor();
+  }
+}
+
+std::string whyNotAccept(const Editor& editor, const char* verb) {
+  if (editor.preview.stage() == ImportPreview::Stage::failed) return "There is nothing to take in";
+  if (editor.preview.stage() != ImportPreview::Stage::ready || editor.preview.reading()) return "The file is still being read";
+  return editor.session.whyNot(verb);
+}
+
+void drawButtons(Editor& editor) {
+  const float gap = ImGui::GetStyle().ItemSpacing.x, room = ImGui::GetContentRegionAvail().x;
+  const bool can_add = editor.session.document().imported != nullptr;
+  const float each = can_add ? (room - 2 * gap) / 4 : (room - gap) / 2;
+  if (ui::primaryButton(ICON_IMPORT "  Import###preview-import", whyNotAccept(editor, "import"), {each, editor.px(28)}))
+    acceptPreview(editor);
+  ImGui::SameLine();
+  if (can_add) {
+    if (ui::button("Add to the environment###preview-add", whyNotAccept(editor, "add"), {2 * each, editor.px(28)},
+                   "Keeps the model, stations and scans that are open"))
+      addPreview(editor);
+    ImGui::SameLine();
+  }
+  if (ui::button("Cancel###preview-cancel", {}, {each, editor.px(28)})) closePreview(editor);
+}
+
+std::string fileLine(const ImportPreview& preview) {
+  std::uintmax_t bytes = 0;
+  std::error_code ignored;
+  for (const auto& file : preview.files())
+    if (const auto size = std::filesystem::file_size(file, ignored); !ignored) bytes += size;
+  std::string extension = preview.files().front().extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::toupper(c); });
+  return (extension.empty() ? std::string() : extension.substr(1) + "   ") + readableSize(bytes);
+}
+
+}  // namespace
+
+void drawImportPreview(Editor& editor) {
+  auto& preview = editor.preview;
+  if (editor.fonts.bold != nullptr) ImGui::PushFont(editor.fonts.bold);
+  ui::fitted(preview.fileNames(), ImGui::GetContentRegionAvail().x);
+  if (editor.fonts.bold != nullptr) ImGui::PopFont();
+  ui::tooltip(preview.files().front().string());
+  ui::dimText(fileLine(preview));
+  const float footer = editor.px(28) + ImGui::GetStyle().ItemSpacing.y + editor.px(6);
+  ImGui::BeginChild("preview-body", {0, ImGui::GetContentRegionAvail().y - footer});
+  if (preview.reading()) drawReading(editor);
+  if (preview.stage() == ImportPreview::Stage::failed && !preview.reading()) drawFailure(editor);
+  if (preview.outcome() != nullptr) {
+    ImGui::BeginDisabled(preview.reading());
+    drawPlace(editor);
+    ImGui::EndDisabled();
+    const float row = ImGui::GetTextLineHeightWithSpacing();
+    const float free = ImGui::GetContentRegionAvail().y - 4 * row - editor.px(24);
+    const float classes = std::clamp(row * (static_cast<float>(preview.facts().classes.size()) + 0.5F), row, std::max(row, free / 2));
+    drawClasses(editor, classes);
+    drawIssues(editor, std::max(3 * row, ImGui::GetContentRegionAvail().y - 2.6F * row));
+  }
+  ImGui::EndChild();
+  ui::gap(editor, 2);
+  drawButtons(editor);
+}
+
+}  // namespace standpoint
