@@ -158,36 +158,62 @@ Document documentFrom(const json& project) {
   return d;
 }
 
+namespace {
+
+json propertiesToJson(const std::vector<Property>& properties) {
+  json rows = json::array();
+  for (const auto& q : properties) rows.push_back({q.set, q.name, q.value});
+  return rows;
+}
+
+std::vector<Property> propertiesFrom(const json& rows) {
+  std::vector<Property> properties;
+  for (const auto& q : rows) properties.push_back({q.at(0), q.at(1), q.at(2)});
+  return properties;
+}
+
+}  // namespace
+
 json recordsToJson(const Environment& environment) {
   json products = json::array();
   for (const auto& p : environment.products) {
     json layers = json::array();
     for (const auto& l : p.layers) layers.push_back({l.name, l.thickness_m});
-    json properties = json::array();
-    for (const auto& q : p.properties) properties.push_back({q.set, q.name, q.value});
     products.push_back({{"id", p.id}, {"global_id", p.global_id}, {"class", p.ifc_class}, {"predefined_type", p.predefined_type},
-                        {"name", p.name}, {"storey", p.storey}, {"container", p.container}, {"whole", p.whole},
-                        {"tangible", p.tangible}, {"materials", p.materials}, {"layers", std::move(layers)},
-                        {"properties", std::move(properties)}});
+                        {"name", p.name}, {"type_name", p.type_name}, {"storey", p.storey}, {"container", p.container},
+                        {"whole", p.whole}, {"tangible", p.tangible}, {"materials", p.materials},
+                        {"layers", std::move(layers)}, {"groups", p.groups}, {"properties", propertiesToJson(p.properties)}});
   }
   json spatial = json::array();
   for (const auto& n : environment.spatial)
     spatial.push_back({{"id", n.id}, {"class", n.ifc_class}, {"name", n.name}, {"global_id", n.global_id},
-                       {"parent", n.parent}, {"elevation_m", n.elevation_m}});
+                       {"parent", n.parent}, {"elevation_m", n.elevation_m}, {"properties", propertiesToJson(n.properties)}});
   return {{"products", std::move(products)}, {"spatial", std::move(spatial)}};
 }
 
 Environment recordsFrom(const json& records) {
   Environment e;
   for (const auto& j : records.at("products")) {
-    Product p{j.at("id"), j.at("global_id"), j.at("class"), j.at("predefined_type"), j.at("name"), j.at("storey"),
-              j.at("container"), j.at("whole"), j.at("tangible"), j.at("materials"), {}, {}};
+    Product p;
+    p.id = j.at("id");
+    p.global_id = j.at("global_id");
+    p.ifc_class = j.at("class");
+    p.predefined_type = j.at("predefined_type");
+    p.name = j.at("name");
+    p.type_name = j.value("type_name", "");   // not in the projects of the first version
+    p.storey = j.at("storey");
+    p.container = j.at("container");
+    p.whole = j.at("whole");
+    p.tangible = j.at("tangible");
+    p.materials = j.at("materials").get<std::vector<std::string>>();
     for (const auto& l : j.at("layers")) p.layers.push_back({l.at(0), l.at(1)});
-    for (const auto& q : j.at("properties")) p.properties.push_back({q.at(0), q.at(1), q.at(2)});
+    p.groups = j.value("groups", std::vector<std::string>());
+    p.properties = propertiesFrom(j.at("properties"));
     e.products.push_back(std::move(p));
   }
   for (const auto& n : records.at("spatial"))
-    e.spatial.push_back({n.at("id"), n.at("class"), n.at("name"), n.at("global_id"), n.at("parent"), n.at("elevation_m")});
+    e.spatial.push_back({n.at("id"), n.at("class"), n.at("name"), n.at("global_id"), n.at("parent"), n.at("elevation_m"),
+                         propertiesFrom(n.value("properties", json::array()))});
   return e;
 }
 
