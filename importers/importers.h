@@ -25,7 +25,7 @@ struct ImportOptions {
   UpAxis up = UpAxis::automatic;
   double metres_per_unit = 0;          // 0: what the format says (glTF, OBJ: 1)
   double chord_error_m = 0.001;        // tessellation of curved shapes: sagitta at most this …
-  double max_segment_angle_rad = 0.5236;  // … and no segment turns further than this (12 per circle)
+  double max_segment_angle_rad = 0.2095;  // … and no segment turns further (32 per circle: 0.6 % of its area are lost)
 };
 
 struct ImportedModel {
