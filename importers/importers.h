@@ -59,6 +59,12 @@ Result<void> writeEnvironmentGlb(const Environment& environment, const Georefere
                                  const std::filesystem::path& file, Progress& progress);
 Result<Environment> readEnvironmentGlb(const std::filesystem::path& file, Progress& progress);
 
+// The same for other programs, as .glb or, by the file's extension, as .gltf with a .bin beside it: Y up as glTF demands,
+// each product a node with its name, ids and properties in `extras`, above a node for each instance where it has several.
+// importFile of it gives the same triangles, surfaces, images, places and georeference.
+Result<void> exportEnvironmentGltf(const Environment& environment, const Georeference& georeference,
+                                   const std::filesystem::path& file, Progress& progress);
+
 // OBJ + MTL, coordinates as text in the file frame (shift added in double).
 Result<void> writeEnvironmentObj(const Environment& environment, const Georeference& georeference,
                                  const std::filesystem::path& file, Progress& progress);

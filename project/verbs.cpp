@@ -72,7 +72,7 @@ const std::vector<Verb>& table() {
         {.name = "output", .kind = K::path, .help = "a folder, or a file (.e57, .ptx); an E57 holds all stations", .required = true}},
        runScan},
       {"export", "Writes the model as glTF binary or OBJ", S::reads,
-       {{.name = "output", .kind = K::path, .help = "file to write (.glb, .obj)", .required = true}}, runExport},
+       {{.name = "output", .kind = K::path, .help = "file to write (.glb, .gltf, .obj)", .required = true}}, runExport},
       {"convert", "Converts a point cloud", S::files,
        {{.name = "in", .kind = K::path, .help = "cloud to read", .positional = true, .required = true},
         {.name = "out", .kind = K::path, .help = "cloud to write", .positional = true, .required = true}},
