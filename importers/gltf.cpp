@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
+#include <map>
 #include <set>
 #include <string_view>
 
@@ -52,15 +54,15 @@ class GltfImport {
   Result<ImportedModel> run() {
     checkExtensions();
     auto stored = readGltfGeoreference(file_);
-    environment().surfaces = readGltfSurfaces(file_, model_.report);
+    materials_ = readGltfMaterials(file_, model_.report);
+    environment().surfaces = std::move(materials_.surfaces);
+    environment().images = std::move(materials_.images);
     no_material_ = static_cast<std::uint32_t>(environment().surfaces.size());
-    mesh_of_.assign(file_.count("meshes"), kNotRead);
-    origin_of_.assign(mesh_of_.size(), Eigen::Vector3d::Zero());
-    walkScene(file_, [&](const GltfNode& node) { visit(node); });
+    const auto seen = walkScene(file_, [&](const GltfNode& node) { visit(node); });
     if (file_.failed()) return failure(file_.error());
     if (auto ok = progress_.check(); !ok) return failure(ok.error());
-    if (no_material_used_) environment().surfaces.push_back({"", {}, "no material", {}, {}});
-    listWhatIsNotRead();
+    if (no_material_used_) environment().surfaces.push_back({"", {}, "no material"});
+    listWhatIsNotRead(seen);
     georeference(stored);
     if (auto wrong = validate(environment()); !wrong.empty()) file_.fail("", wrong);
     if (file_.failed()) return failure(file_.error());
@@ -68,8 +70,6 @@ class GltfImport {
   }
 
  private:
-  static constexpr std::int64_t kNotRead = -1;
-
   Environment& environment() { return model_.environment; }
 
   void checkExtensions() {
@@ -85,28 +85,57 @@ class GltfImport {
   void visit(const GltfNode& node) {
     const auto mesh = file_.index(*node.json, "mesh", node.place);
     if (file_.failed() || progress_.cancelled() || !mesh) return;
-    if (*mesh >= mesh_of_.size()) return file_.fail(node.place + "/mesh", "refers to /meshes/" + std::to_string(*mesh) + ", which does not exist");
-    if (mesh_of_[*mesh] == kNotRead) readMesh(*mesh);
-    const auto places = instancesOf(file_, node);
+    const auto& mesh_json = file_.element("meshes", *mesh, node.place + "/mesh");
+    const GltfPose pose = poseOf(node, mesh_json);
     if (file_.failed()) return;
-    const std::uint32_t product = productOf(node, *mesh);
-    for (const auto& place : places) {
-      Instance instance;
-      instance.mesh = static_cast<std::uint32_t>(mesh_of_[*mesh]);
-      instance.product = product;
-      instance.world_from_mesh = world_from_gltf_ * node.world_from_node * place * Eigen::Translation3d(origin_of_[*mesh]);
-      environment().instances.push_back(instance);
-    }
-    if (!memberOf(*node.json, "skin").is_null()) model_.report.lose(node.place + "/skin", "is not applied; the mesh is as it was modelled");
+    const Placed& placed = meshOf(*mesh, pose);
+    // glTF 2.0 §3.7.3.3: a skinned mesh stands where its joints are, not where its node is.
+    const Eigen::Affine3d world_from_node = world_from_gltf_ * (pose.joints.empty() ? node.world_from_node : Eigen::Affine3d::Identity());
+    const auto places = instancesOf(file_, node);
+    if (file_.failed() || !count(places.size(), *environment().meshes[placed.mesh], node.place)) return;
+    const std::uint32_t product = productOf(node, mesh_json, *environment().meshes[placed.mesh]);
+    for (const auto& place : places)
+      environment().instances.push_back({placed.mesh, product, world_from_node * place * Eigen::Translation3d(placed.origin)});
     progress_.advance(static_cast<double>(++visited_) / static_cast<double>(file_.count("nodes")));
   }
 
-  void readMesh(std::size_t index) {
-    auto mesh = readGltfMesh(file_, index, no_material_, model_.report);
-    origin_of_[index] = moveNearOrigin(mesh);
+  // A few bytes can place a mesh a million times; what follows visits every placed vertex.
+  bool count(std::size_t places, const Mesh& mesh, const std::string& place) {
+    constexpr std::size_t kMostPlacedVertices = 1'000'000'000;
+    placed_vertices_ += places * (mesh.positions.size() + 1);
+    if (placed_vertices_ > kMostPlacedVertices) file_.fail(place, "with it the file places more than 1 000 000 000 vertices");
+    return !file_.failed();
+  }
+
+  // A node's own weights stand above its mesh's (glTF 2.0 §3.7.2.2).
+  GltfPose poseOf(const GltfNode& node, const nlohmann::json& mesh_json) {
+    GltfPose pose;
+    const auto& own = memberOf(*node.json, "weights");
+    const auto& weights = own.is_array() ? own : memberOf(mesh_json, "weights");
+    if (weights.is_array())
+      for (const auto& w : weights) pose.weights.push_back(w.is_number() ? w.get<double>() : 0);
+    if (std::all_of(pose.weights.begin(), pose.weights.end(), [](double w) { return w == 0; })) pose.weights.clear();
+    if (const auto skin = file_.index(*node.json, "skin", node.place)) pose.joints = jointsOf(file_, *skin, node.place + "/skin");
+    return pose;
+  }
+
+  struct Placed {
+    GltfPose pose;
+    std::uint32_t mesh = 0;                                // ours
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();      // what was subtracted from its positions
+  };
+
+  const Placed& meshOf(std::size_t index, const GltfPose& pose) {
+    auto& versions = meshes_[index];
+    for (const auto& version : versions)
+      if (version.pose == pose) return version;
+    Report again;   // what is lost of a mesh is said once
+    auto mesh = readGltfMesh(file_, index, materials_, no_material_, pose, versions.empty() ? model_.report : again);
+    const Eigen::Vector3d origin = moveNearOrigin(mesh);
     no_material_used_ |= !mesh.surface_of_triangle.empty() && mesh.surface_of_triangle.back() == no_material_;
-    mesh_of_[index] = static_cast<std::int64_t>(environment().meshes.size());
+    versions.push_back({pose, static_cast<std::uint32_t>(environment().meshes.size()), origin});
     environment().meshes.push_back(std::make_shared<const Mesh>(std::move(mesh)));
+    return versions.back();
   }
 
   // The subtraction is exact in double; it lets the float positions keep what the file had.
@@ -120,27 +149,30 @@ class GltfImport {
   }
 
   // One product for each node with a mesh. Our own files have a node for each instance, and say whose it is.
-  std::uint32_t productOf(const GltfNode& node, std::size_t mesh) {
-    const auto ours = file_.index(memberOf(memberOf(*node.json, "extras"), "standpoint"), "product", node.place + "/extras/standpoint");
+  std::uint32_t productOf(const GltfNode& node, const nlohmann::json& mesh_json, const Mesh& mesh) {
     auto& products = environment().products;
-    if (ours && !products.empty() && ours == last_product_) return static_cast<std::uint32_t>(products.size() - 1);
-    last_product_ = ours;
-    const auto& mesh_json = file_.element("meshes", mesh, node.place);
+    if (node.product && !products.empty() && node.product == last_product_) return static_cast<std::uint32_t>(products.size() - 1);
+    last_product_ = node.product;
     Product product;
     product.id = node.place;
     product.name = file_.text(*node.json, "name");
     if (product.name.empty()) product.name = file_.text(mesh_json, "name");
     addExtras(memberOf(*node.json, "extras"), product.properties);
     addExtras(memberOf(mesh_json, "extras"), product.properties);
-    const auto& used = environment().meshes[static_cast<std::size_t>(mesh_of_[mesh])]->surface_of_triangle;
+    const auto& used = mesh.surface_of_triangle;
     for (const auto surface : std::set<std::uint32_t>(used.begin(), used.end()))
       if (surface < environment().surfaces.size()) product.materials.push_back(environment().surfaces[surface].name);
     products.push_back(std::move(product));
     return static_cast<std::uint32_t>(products.size() - 1);
   }
 
-  void listWhatIsNotRead() {
+  void listWhatIsNotRead(const std::vector<bool>& seen) {
     auto& report = model_.report;
+    std::size_t elsewhere = 0;
+    for (std::size_t i = 0; i < seen.size(); ++i)
+      elsewhere += !seen[i] && memberOf(file_.element("nodes", i, ""), "mesh").is_number() ? 1 : 0;
+    if (elsewhere > 0)
+      report.lose("/scenes", std::to_string(elsewhere) + " nodes with a mesh are not in the scene that the file shows by default");
     for (const char* array : {"animations", "cameras"})
       if (const auto n = file_.count(array); n > 0)
         report.note(std::string("/") + array, std::to_string(n) + " not read: a building at rest is scanned");
@@ -165,8 +197,9 @@ class GltfImport {
   ImportedModel model_;
   std::uint32_t no_material_ = 0;
   bool no_material_used_ = false;
-  std::vector<std::int64_t> mesh_of_;            // glTF mesh → ours
-  std::vector<Eigen::Vector3d> origin_of_;       // what was subtracted from its positions
+  GltfMaterials materials_;                            // its surfaces and images have moved to the environment
+  std::map<std::size_t, std::deque<Placed>> meshes_;   // of each glTF mesh, ours for each pose in which it is used
+  std::size_t placed_vertices_ = 0;
   std::optional<std::size_t> last_product_;
   std::size_t visited_ = 0;
 };

@@ -25,12 +25,13 @@ std::size_t componentSize(std::size_t type) {
   }
 }
 
-std::size_t componentsOf(const std::string& type) {
+std::size_t componentsOfType(const std::string& type) {
   if (type == "SCALAR") return 1;
   if (type == "VEC2") return 2;
   if (type == "VEC3") return 3;
   if (type == "VEC4") return 4;
-  return 0;   // matrices hold no geometry
+  if (type == "MAT4") return 16;   // the only matrices that we need, of floats, so without padding
+  return 0;
 }
 
 template <class T>
@@ -85,10 +86,11 @@ std::span<const std::uint8_t> GltfFile::view(std::size_t buffer_view, const std:
   const auto& json = element("bufferViews", buffer_view, asked_by);
   if (failed()) return {};
   const auto& extensions = memberOf(json, "extensions");
-  const auto& meshopt = memberOf(extensions, "EXT_meshopt_compression");
+  const bool khronos = memberOf(extensions, "KHR_meshopt_compression").is_object();   // the same for what 0.18 can decode
+  const char* name = khronos ? "KHR_meshopt_compression" : "EXT_meshopt_compression";
+  const auto& meshopt = memberOf(extensions, name);
   if (!meshopt.is_object()) return slice(json, place);
-  if (!decoded_views_.contains(buffer_view))
-    decodeMeshopt(buffer_view, meshopt, place + "/extensions/EXT_meshopt_compression");
+  if (!decoded_views_.contains(buffer_view)) decodeMeshopt(buffer_view, meshopt, place + "/extensions/" + name);
   return failed() ? std::span<const std::uint8_t>{} : std::span<const std::uint8_t>(decoded_views_[buffer_view]);
 }
 
@@ -124,7 +126,7 @@ GltfFile::Packed GltfFile::packed(std::size_t accessor, const std::string& asked
   const auto& json = element("accessors", accessor, asked_by);
   Packed out;
   out.component_type = natural(json, "componentType", 0, place);
-  out.components = componentsOf(text(json, "type"));
+  out.components = componentsOfType(text(json, "type"));
   out.count = natural(json, "count", 0, place);
   const auto& normalized = memberOf(json, "normalized");
   out.normalized = normalized.is_boolean() && normalized.get<bool>();
@@ -179,6 +181,14 @@ void GltfFile::applySparse(const nlohmann::json& sparse, const std::string& plac
     if (target >= out.count) return fail(place + "/indices", "element " + std::to_string(i) + " is out of range");
     std::memcpy(&out.bytes[target * size], &values[what_offset + i * size], size);
   }
+}
+
+std::size_t GltfFile::countOf(std::size_t accessor, const std::string& asked_by) {
+  return natural(element("accessors", accessor, asked_by), "count", 0, "/accessors/" + std::to_string(accessor));
+}
+
+std::size_t GltfFile::componentsOf(std::size_t accessor, const std::string& asked_by) {
+  return componentsOfType(text(element("accessors", accessor, asked_by), "type"));
 }
 
 std::vector<float> GltfFile::floats(std::size_t accessor, std::size_t components, const std::string& asked_by) {

@@ -54,6 +54,8 @@ int hexDigit(char c) {
   return -1;
 }
 
+}  // namespace
+
 std::string percentDecoded(std::string_view text) {
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -63,8 +65,6 @@ std::string percentDecoded(std::string_view text) {
   }
   return result;
 }
-
-}  // namespace
 
 const nlohmann::json& memberOf(const nlohmann::json& object, const char* key) {
   static const nlohmann::json kNothing;
@@ -80,9 +80,12 @@ void GltfFile::fail(const std::string& place, std::string message, ErrorKind kin
   error_ = Error{kind, std::move(message), std::move(source)};
 }
 
+void GltfFile::fail(Error error) { fail(error.source, std::move(error.message), error.kind); }
+
 void GltfFile::load() {
-  const auto bytes = readAll(path_, "", kLargest);
-  if (failed()) return;
+  const auto read = readAll(path_, "", kLargest);
+  if (!read) return fail(read.error());
+  const auto& bytes = *read;
   allowance_ = (std::size_t{256} << 20U) + 64 * bytes.size();
   const bool binary = bytes.size() >= 4 && word(bytes, 0) == kGlbMagic;
   if (binary) {
@@ -130,37 +133,35 @@ void GltfFile::parse(std::span<const std::uint8_t> bytes) {
   if (!least.empty() && least != "2.0") return fail("/asset/minVersion", "is " + least + ", glTF 2.0 is read");
 }
 
-std::vector<std::uint8_t> GltfFile::readAll(const std::filesystem::path& file, const std::string& place,
-                                            std::size_t at_most) {
+Result<std::vector<std::uint8_t>> GltfFile::readAll(const std::filesystem::path& file, const std::string& place, std::size_t at_most) {
   std::error_code code;
   const auto size = std::filesystem::file_size(file, code);
-  if (code) return fail(place, "cannot read " + file.string() + ": " + code.message(), ErrorKind::file_system), std::vector<std::uint8_t>{};
+  if (code) return failure(ErrorKind::file_system, "cannot read " + file.string() + ": " + code.message(), place);
   std::vector<std::uint8_t> bytes(std::min<std::size_t>(size, at_most));
   std::ifstream stream(file, std::ios::binary);
   stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!stream) fail(place, "cannot read " + file.string(), ErrorKind::file_system);
+  if (!stream) return failure(ErrorKind::file_system, "cannot read " + file.string(), place);
   return bytes;
 }
 
-std::vector<std::uint8_t> GltfFile::fromUri(const std::string& uri, const std::string& place, std::size_t size) {
+Result<std::vector<std::uint8_t>> GltfFile::resource(const std::string& uri, const std::string& place, std::size_t at_most) {
   if (uri.starts_with("data:")) {
     const auto comma = uri.find(";base64,");
     auto bytes = comma == std::string::npos ? std::nullopt : fromBase64(std::string_view(uri).substr(comma + 8));
-    if (!bytes) fail(place + "/uri", "is a data URI that is not base64");
-    return bytes.value_or(std::vector<std::uint8_t>{});
+    if (!bytes) return failure(ErrorKind::unusable, "is a data URI that is not base64", place + "/uri");
+    return *std::move(bytes);
   }
+  const std::string shown = "'" + uri.substr(0, 80) + "'";
   const std::filesystem::path relative = percentDecoded(uri);
-  if (uri.find("://") != std::string::npos || relative.is_absolute()) {
-    fail(place + "/uri", "'" + uri.substr(0, 80) + "' does not lie beside the file");
-    return {};
-  }
-  const auto file = path_.parent_path() / relative;
   std::error_code code;
-  if (!std::filesystem::is_regular_file(file, code)) {
-    fail(place + "/uri", "'" + uri.substr(0, 80) + "' does not exist");
-    return {};
-  }
-  return readAll(file, place, size);
+  const auto folder = std::filesystem::weakly_canonical(std::filesystem::absolute(path_).parent_path(), code);
+  const auto file = std::filesystem::weakly_canonical(folder / relative, code);
+  const auto inside = file.lexically_relative(folder);
+  if (uri.find("://") != std::string::npos || relative.is_absolute() || inside.empty() || *inside.begin() == "..")
+    return failure(ErrorKind::unusable, shown + " does not lie in the model's folder; put it there", place + "/uri");
+  if (!std::filesystem::is_regular_file(file, code))
+    return failure(ErrorKind::unusable, shown + " does not exist in the model's folder", place + "/uri");
+  return readAll(file, place, at_most);
 }
 
 void GltfFile::loadBuffer(std::size_t index, std::span<const std::uint8_t> binary_chunk) {
@@ -171,7 +172,9 @@ void GltfFile::loadBuffer(std::size_t index, std::span<const std::uint8_t> binar
   auto& buffer = buffers_.back();
   const std::string uri = text(json, "uri");
   if (!uri.empty()) {
-    buffer = fromUri(uri, place, size);
+    auto read = resource(uri, place, size);
+    if (!read) return fail(read.error());
+    buffer = *std::move(read);
   } else if (index == 0 && !binary_chunk.empty()) {
     buffer.assign(binary_chunk.begin(), binary_chunk.begin() + static_cast<std::ptrdiff_t>(std::min(size, binary_chunk.size())));
   } else {

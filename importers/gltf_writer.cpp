@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <fstream>
+#include <map>
+#include <set>
 
 #include <Eigen/SVD>
 #include <nlohmann/json.hpp>
 
 #include "importers/gltf_georeference.h"
-#include "importers/gltf_mesh.h"
+#include "importers/gltf_writer_material.h"
 #include "importers/importers.h"
 
 namespace standpoint {
@@ -18,7 +19,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
-constexpr int kUnsignedInt = 5125, kFloat = 5126;
+constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
 constexpr int kPoints = 0, kTriangles = 4;
 
 // Written by hand with nlohmann-json, whose numbers read back bit for bit; tinygltf would not say so.
@@ -31,6 +32,7 @@ class GlbWriter {
     ours["products"] = environment.products.size();
     addMaterials();
     for (const auto& mesh : environment.meshes) addMesh(*mesh);
+    listExtensions();
     ours["meshes"] = gltf_mesh_of_;
     addNodes();
     if (size_ > 0) json_["buffers"] = Json::array({Json{{"byteLength", size_}}});
@@ -57,6 +59,7 @@ class GlbWriter {
       word(size_);
       out.write("BIN\0", 4);
     }
+    for (const auto& image : environment_.images) writeImage(*image, out);
     for (std::size_t i = 0; i < environment_.meshes.size() && out; ++i) {
       if (auto ok = progress.check(); !ok) return ok;
       writeMesh(*environment_.meshes[i], out);
@@ -69,25 +72,55 @@ class GlbWriter {
 
  private:
   void addMaterials() {
-    for (const auto& s : environment_.surfaces) {
-      const auto& c = s.colour;
-      Json extras = {{"srgb", {c.r, c.g, c.b, c.a}}, {"source", s.source}};
-      if (s.metallic) extras["metallic"] = *s.metallic;
-      if (s.roughness) extras["roughness"] = *s.roughness;
-      const auto unit = [](float value) { return std::clamp(value, 0.0F, 1.0F); };
-      Json material = {{"name", s.name}, {"doubleSided", true}, {"extras", {{"standpoint", std::move(extras)}}}};
-      material["pbrMetallicRoughness"] = {
-          {"baseColorFactor", {linearFromSrgb(c.r), linearFromSrgb(c.g), linearFromSrgb(c.b), unit(c.a)}},
-          {"metallicFactor", unit(s.metallic.value_or(0.0F))},
-          {"roughnessFactor", unit(s.roughness.value_or(1.0F))}};
-      if (c.a < 1) material["alphaMode"] = "BLEND";
-      json_["materials"].push_back(std::move(material));
-    }
+    for (std::size_t i = 0; i < environment_.surfaces.size(); ++i) json_["materials"].push_back(gltfMaterial(environment_.surfaces[i]));
+    addImages();
+    for (std::size_t i = 0; i < environment_.surfaces.size(); ++i)
+      if (const auto texture = textureOf(i); !texture.is_null())
+        json_["materials"][i]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", texture}};
   }
 
-  std::size_t addView(std::size_t bytes, int target) {
-    json_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", size_}, {"byteLength", bytes}, {"target", target}});
-    size_ += bytes;
+  // All images go into the file; those that glTF knows also as images of it.
+  void addImages() {
+    Json all = Json::array();
+    for (const auto& image : environment_.images) {
+      Json stored = {{"name", image->name}, {"media_type", image->media_type}};
+      texture_of_image_.push_back(nullptr);
+      if (!image->bytes.empty()) {
+        stored["bufferView"] = addView(image->bytes.size());
+        if (gltfMediaType(image->bytes) == image->media_type && !image->media_type.empty()) {
+          texture_of_image_.back() = json_["textures"].is_null() ? 0 : json_["textures"].size();
+          json_["images"].push_back({{"bufferView", stored["bufferView"]}, {"mimeType", image->media_type}, {"name", image->name}});
+          json_["textures"].push_back({{"source", json_["images"].size() - 1}});
+        }
+      }
+      all.push_back(std::move(stored));
+    }
+    if (!all.empty()) json_["asset"]["extras"]["standpoint"]["images"] = std::move(all);
+  }
+
+  Json textureOf(std::size_t surface) const {
+    const auto image = environment_.surfaces[surface].image;
+    return image < 0 ? Json() : texture_of_image_[static_cast<std::size_t>(image)];
+  }
+
+  // A mesh without texture coordinates cannot use a material with an image: it gets the same material without it.
+  std::size_t materialFor(const Mesh& mesh, std::size_t surface) {
+    if (!mesh.texture_coordinates.empty() || textureOf(surface).is_null()) return surface;
+    const auto [found, fresh] = plain_of_.try_emplace(surface, json_["materials"].size());
+    if (fresh) {
+      Json plain = json_["materials"][surface];
+      plain["pbrMetallicRoughness"].erase("baseColorTexture");
+      plain["extras"]["standpoint"]["plain_of"] = surface;
+      json_["materials"].push_back(std::move(plain));
+    }
+    return found->second;
+  }
+
+  std::size_t addView(std::size_t bytes, int target = 0) {
+    Json view = {{"buffer", 0}, {"byteOffset", size_}, {"byteLength", bytes}};
+    if (target != 0) view["target"] = target;
+    json_["bufferViews"].push_back(std::move(view));
+    size_ += (bytes + 3) / 4 * 4;
     return json_["bufferViews"].size() - 1;
   }
 
@@ -110,10 +143,25 @@ class GlbWriter {
                         {"max", {high.x(), high.y(), high.z()}}});
   }
 
+  Json addAttributes(const Mesh& mesh) {
+    const std::size_t count = mesh.positions.size();
+    Json attributes = {{"POSITION", addPositions(mesh)}};
+    if (!mesh.texture_coordinates.empty())
+      attributes["TEXCOORD_0"] = addAccessor(
+          {{"bufferView", addView(count * 8, kArrayBuffer)}, {"componentType", kFloat}, {"type", "VEC2"}, {"count", count}});
+    if (!mesh.colours.empty())
+      attributes["COLOR_0"] = addAccessor({{"bufferView", addView(count * 8, kArrayBuffer)},
+                                           {"componentType", kUnsignedShort},
+                                           {"normalized", true},
+                                           {"type", "VEC4"},
+                                           {"count", count}});
+    return attributes;
+  }
+
   // One primitive for each run of a surface; a mesh of vertices only is kept as points, for a glTF mesh cannot be empty.
   void addMesh(const Mesh& mesh) {
     if (mesh.positions.empty()) return gltf_mesh_of_.push_back(nullptr);
-    const std::size_t position = addPositions(mesh);
+    const Json attributes = addAttributes(mesh);
     Json primitives = Json::array();
     const auto& surfaces = mesh.surface_of_triangle;
     const std::size_t indices = surfaces.empty() ? 0 : addView(mesh.triangles.size() * 12, kElementArrayBuffer);
@@ -124,11 +172,21 @@ class GlbWriter {
                                          {"componentType", kUnsignedInt},
                                          {"type", "SCALAR"},
                                          {"count", (to - from) * 3}});
-      primitives.push_back({{"attributes", {{"POSITION", position}}}, {"indices", accessor}, {"material", surfaces[from]}, {"mode", kTriangles}});
+      primitives.push_back(
+          {{"attributes", attributes}, {"indices", accessor}, {"material", materialFor(mesh, surfaces[from])}, {"mode", kTriangles}});
     }
-    if (primitives.empty()) primitives.push_back({{"attributes", {{"POSITION", position}}}, {"mode", kPoints}});
+    if (primitives.empty()) primitives.push_back({{"attributes", attributes}, {"mode", kPoints}});
     gltf_mesh_of_.push_back(json_["meshes"].is_null() ? 0 : json_["meshes"].size());
     json_["meshes"].push_back({{"primitives", std::move(primitives)}});
+  }
+
+  void listExtensions() {
+    std::set<std::string> used;
+    for (const auto& material : json_["materials"])
+      if (material.contains("extensions"))
+        for (const auto& [name, ignored] : material["extensions"].items()) used.insert(name);
+    if (!used.empty()) json_["extensionsUsed"] = used;
+    if (json_["materials"].is_null()) json_.erase("materials");
   }
 
   // Node 0 turns our Z-up world into glTF's Y-up one by an exchange of axes, which costs no bit.
@@ -193,25 +251,37 @@ class GlbWriter {
     return true;
   }
 
+  template <class T>
+  static void writeAll(const std::vector<T>& values, std::ofstream& out) {
+    out.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(T)));
+  }
+
+  // In the order of the views that addImages and addMesh made.
   static void writeMesh(const Mesh& mesh, std::ofstream& out) {
-    static_assert(sizeof(Eigen::Vector3f) == 12 && sizeof(Triangle) == 12);
-    const auto bytes = [](std::size_t count) { return static_cast<std::streamsize>(count * 12); };
-    out.write(reinterpret_cast<const char*>(mesh.positions.data()), bytes(mesh.positions.size()));
-    if (!mesh.positions.empty()) out.write(reinterpret_cast<const char*>(mesh.triangles.data()), bytes(mesh.triangles.size()));
+    static_assert(sizeof(Eigen::Vector3f) == 12 && sizeof(Triangle) == 12 && sizeof(Eigen::Vector2f) == 8);
+    if (mesh.positions.empty()) return;
+    writeAll(mesh.positions, out);
+    writeAll(mesh.texture_coordinates, out);
+    std::vector<std::array<std::uint16_t, 4>> linear;
+    linear.reserve(mesh.colours.size());
+    for (const auto& c : mesh.colours)
+      linear.push_back({linear16FromSrgb8(c[0]), linear16FromSrgb8(c[1]), linear16FromSrgb8(c[2]), static_cast<std::uint16_t>(c[3] * 257)});
+    writeAll(linear, out);
+    writeAll(mesh.triangles, out);
+  }
+
+  static void writeImage(const Image& image, std::ofstream& out) {
+    writeAll(image.bytes, out);
+    out.write("\0\0\0", static_cast<std::streamsize>((4 - image.bytes.size() % 4) % 4));
   }
 
   const Environment& environment_;
   Json json_ = Json::object();
-  std::vector<Json> gltf_mesh_of_;   // null for a mesh without vertices
+  std::vector<Json> gltf_mesh_of_;        // null for a mesh without vertices
+  std::vector<Json> texture_of_image_;    // null for an image that glTF does not know
+  std::map<std::size_t, std::size_t> plain_of_;   // surface with an image → material without it
   std::size_t size_ = 0;             // of the binary chunk; every part is a multiple of 4
 };
-
-bool finiteColours(const Environment& environment) {
-  return std::all_of(environment.surfaces.begin(), environment.surfaces.end(), [](const Surface& s) {
-    const auto& c = s.colour;
-    return std::isfinite(c.r + c.g + c.b + c.a + s.metallic.value_or(0) + s.roughness.value_or(0));
-  });
-}
 
 }  // namespace
 
@@ -219,7 +289,8 @@ Result<void> writeEnvironmentGlb(const Environment& environment, const Georefere
                                  const std::filesystem::path& file, Progress& progress) {
   progress.stage("Writing glTF");
   if (auto wrong = validate(environment); !wrong.empty()) return failure(ErrorKind::internal, wrong, file.string());
-  if (!finiteColours(environment)) return failure(ErrorKind::internal, "a surface's colour is not finite", file.string());
+  if (!std::all_of(environment.surfaces.begin(), environment.surfaces.end(), isFinite))
+    return failure(ErrorKind::internal, "a surface's colour is not finite", file.string());
   return GlbWriter(environment, georeference).write(file, progress);
 }
 

@@ -52,8 +52,9 @@ Result<ImportedModel> importFile(const std::filesystem::path& file, const Import
 // else the centre rounded to whole metres.
 Eigen::Vector3d chooseShift(const ImportOptions& options, const Bounds& bounds_file_m);
 
-// glTF binary. Exactly invertible: readEnvironmentGlb(writeEnvironmentGlb(e)) has the same meshes, surfaces and
-// instances bit for bit (product records are not in it; nodes carry the product's index in `extras`).
+// glTF binary. Exactly invertible: readEnvironmentGlb(writeEnvironmentGlb(e)) has the same meshes with
+// their texture coordinates and colours, surfaces, images and instances bit for bit (product records are not in it; nodes
+// carry the product's index in `extras`).
 Result<void> writeEnvironmentGlb(const Environment& environment, const Georeference& georeference,
                                  const std::filesystem::path& file, Progress& progress);
 Result<Environment> readEnvironmentGlb(const std::filesystem::path& file, Progress& progress);

@@ -28,7 +28,11 @@ void appendEnvironment(Environment& into, Environment&& model, const Eigen::Vect
     for (auto& s : moved->surface_of_triangle) s += surface_offset;
     into.meshes.push_back(std::move(moved));
   }
-  into.surfaces.insert(into.surfaces.end(), model.surfaces.begin(), model.surfaces.end());
+  for (auto& surface : model.surfaces) {
+    if (surface.image >= 0) surface.image += static_cast<std::int32_t>(into.images.size());
+    into.surfaces.push_back(std::move(surface));
+  }
+  into.images.insert(into.images.end(), model.images.begin(), model.images.end());
   for (auto& product : model.products) {
     if (product.container >= 0) product.container += spatial_offset;
     if (product.whole >= 0) product.whole += static_cast<std::int32_t>(product_offset);

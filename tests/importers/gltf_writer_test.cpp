@@ -32,6 +32,30 @@ Instance instance(std::uint32_t mesh, std::uint32_t product, const Eigen::Matrix
   return result;
 }
 
+// Coordinates and every one of the 256 values of a colour's channel.
+void paint(Mesh& mesh, std::uint32_t seed) {
+  for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
+    const auto r = philox({seed, 2}, i, 0, 0);
+    mesh.texture_coordinates.emplace_back(static_cast<float>(uniform(r[0]) * 7 - 3), static_cast<float>(uniform(r[1]) / 3));
+    mesh.colours.push_back({static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(255 - i), static_cast<std::uint8_t>(7 * i),
+                            static_cast<std::uint8_t>(i ^ 0x55U)});
+  }
+}
+
+Mesh painted(Mesh mesh, std::uint32_t seed) {
+  paint(mesh, seed);
+  return mesh;
+}
+
+std::shared_ptr<const Image> image(const char* name, const char* media_type, const std::string& bytes) {
+  const auto* first = reinterpret_cast<const std::byte*>(bytes.data());
+  return std::make_shared<const Image>(Image{name, media_type, {first, first + bytes.size()}});
+}
+
+// A red pixel, as any program writes it.
+const std::string kPng("\x89PNG\r\n\x1A\n\0\0\0\rIHDR\0\0\0\x01\0\0\0\x01\x08\x02\0\0\0\x90wS\xDE\0\0\0\x0CIDATx\x9C"
+                       "c\xF8\xCF\xC0\0\0\x03\x01\x01\0\xC9\xFE\x92\xEF\0\0\0\0IEND\xAE""B`\x82", 69);
+
 Environment everything() {
   Environment e;
   e.surfaces = {{"Brick", {0.1F, 0.7F, 1.0F / 3, 1}, "#12", {}, {}},
@@ -39,7 +63,15 @@ Environment everything() {
                 {"Gl\xC3\xA4s \"x\"", {0.123456789F, 1, 0.5F, 0.1F}, "#9", 1.0F, 0.0F}};
   e.meshes = {std::make_shared<Mesh>(randomMesh(1, 50, 80, 3)), std::make_shared<Mesh>(),
               std::make_shared<Mesh>(randomMesh(2, 7, 0, 3)), std::make_shared<Mesh>(randomMesh(3, 9, 4, 1))};
-  e.products.resize(4);
+  e.images = {image("tiles.png", "image/png", kPng), image("odd", "image/x-tga", "12345"), image("none", "image/png", ""),
+              image("liar", "image/jpeg", kPng)};
+  e.surfaces.push_back({"Tiles", {1, 1, 1, 1}, "#7", {}, 0.1F, {}, {}, {}, 0.7F, 1.0F / 3, false, 0});
+  e.surfaces.push_back({"Pane", {0.2F, 0.9F, 1, 1}, "#8", {}, {}, 0.9F, 1.52F, 0.004F, {}, {}, false, 1});
+  e.surfaces.push_back({"Scan", {1, 1, 1, 1}, "#9", {}, {}, {}, {}, {}, {}, {}, true, 0});
+  e.meshes.push_back(std::make_shared<Mesh>(painted(randomMesh(4, 300, 90, 6), 4)));
+  e.meshes.push_back(std::make_shared<Mesh>(randomMesh(5, 20, 30, 6)));   // without coordinates for the image of its surfaces
+  e.meshes.push_back(std::make_shared<Mesh>(painted(randomMesh(6, 3, 0, 6), 6)));
+  e.products.resize(5);
   e.products[0].name = "wall";
   Eigen::Matrix3d shear, mirror = Eigen::Vector3d(-1, 1, 1).asDiagonal();
   shear << 1, 0.3, 0, 0, 1.7, 0.1, 0, 0, 0.2;
@@ -47,7 +79,8 @@ Environment everything() {
   const Eigen::Vector3d t(std::numbers::pi, -1.0 / 3, 1234.5678901234567);
   e.instances = {instance(0, 0, turn, t),       instance(0, 0, turn * shear, -t), instance(3, 1, mirror, t / 7),
                  instance(1, 1, turn, t),       instance(2, 3, shear, t),         instance(0, 3, Eigen::Matrix3d::Identity(), {0, 0, 0}),
-                 instance(3, 3, Eigen::Vector3d(1, 1, 0).asDiagonal(), t)};
+                 instance(3, 3, Eigen::Vector3d(1, 1, 0).asDiagonal(), t),
+                 instance(4, 4, Eigen::Matrix3d::Identity(), t), instance(5, 4, turn, t), instance(6, 4, turn, t)};
   return e;
 }
 
@@ -58,6 +91,14 @@ void expectSame(const Environment& a, const Environment& b) {
     EXPECT_EQ(bytesOf(a.meshes[i]->positions), bytesOf(b.meshes[i]->positions)) << i;
     EXPECT_EQ(a.meshes[i]->triangles, b.meshes[i]->triangles) << i;
     EXPECT_EQ(a.meshes[i]->surface_of_triangle, b.meshes[i]->surface_of_triangle) << i;
+    EXPECT_EQ(bytesOf(a.meshes[i]->texture_coordinates), bytesOf(b.meshes[i]->texture_coordinates)) << i;
+    EXPECT_EQ(a.meshes[i]->colours, b.meshes[i]->colours) << i;
+  }
+  ASSERT_EQ(a.images.size(), b.images.size());
+  for (std::size_t i = 0; i < a.images.size(); ++i) {
+    EXPECT_EQ(a.images[i]->name, b.images[i]->name);
+    EXPECT_EQ(a.images[i]->media_type, b.images[i]->media_type);
+    EXPECT_EQ(a.images[i]->bytes, b.images[i]->bytes);
   }
   ASSERT_EQ(a.instances.size(), b.instances.size());
   for (std::size_t i = 0; i < a.instances.size(); ++i) {
