@@ -12,6 +12,7 @@
 
 #include "importers/gltf.h"
 #include "importers/obj.h"
+#include "importers/plausibility.h"
 
 namespace standpoint {
 
@@ -75,7 +76,12 @@ Result<ImportedModel> importFile(const std::filesystem::path& file, const Import
   const Importer* importer = byContent(firstBytes(file));
   if (!importer) importer = byExtension(file);
   if (!importer) return failure(ErrorKind::unusable, "no importer knows this format: IFC, glTF and OBJ are read", file.string());
-  return importer->read(file, options, progress);
+  auto model = importer->read(file, options, progress);
+  if (!model) return model;
+  const double stated = model->metres_per_unit > 0 ? model->metres_per_unit : 1;
+  const UpAxis by_format = std::string_view(importer->name) == "ifc" ? UpAxis::z : UpAxis::y;
+  tellImplausible(*model, options.metres_per_unit > 0 ? options.metres_per_unit : stated, options.up == UpAxis::automatic ? by_format : options.up);
+  return model;
 }
 
 Eigen::Vector3d chooseShift(const ImportOptions& options, const Bounds& bounds_file_m) {
