@@ -241,6 +241,6 @@ constexpr const char* kExtensions[] = {".gltf", ".glb"};
 
 }  // namespace
 
-const Importer kGltfImporter = {"gltf", "glTF 2.0, text or binary (ISO/IEC 12113)", kExtensions, &readGltf};
+const Importer kGltfImporter = {"gltf", "glTF 2.0, text or binary (ISO/IEC 12113)", kExtensions, &readGltf, UpAxis::y};
 
 }  // namespace standpoint

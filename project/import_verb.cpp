@@ -10,6 +10,7 @@
 
 #include "project/answers.h"
 #include "project/geodesy.h"
+#include "project/update_verb.h"
 
 namespace standpoint {
 
@@ -215,6 +216,9 @@ Result<Outcome> importModels(const Document& document, const std::vector<std::fi
       outcome.report.warn(files[i].filename().string(), "its georeference differs from the first file's, which is used");
     appendEnvironment(environment, std::move(model->environment), model->georeference.shift_m - georeference.shift_m);
   }
+  const bool building = std::any_of(environment.spatial.begin(), environment.spatial.end(), [](const SpatialNode& n) { return n.ifc_class == "IfcBuilding"; });
+  if (building && crs.empty() && georeference.crs.empty() && !georeference.map_from_file)
+    outcome.report.warn("georeference", "the model does not say where on a map it stands; `georeference` sets it (--crs, --origin, --rotation-deg)");
   if (!crs.empty()) {
     auto found = findCrs(crs);
     if (!found) return failure(found.error());
@@ -240,7 +244,9 @@ Result<Outcome> runImport(const Document& document, const json& options, Progres
   if (!typed) return failure(typed.error());
   std::vector<std::filesystem::path> files;
   for (const auto& f : options.at("files")) files.emplace_back(f.get<std::string>());
-  return importModels(document, files, *typed, options.value("crs", ""), progress);
+  const auto crs = options.value("crs", "");
+  return options.value("update", false) ? updateModels(document, std::move(files), *typed, crs, progress)
+                                        : importModels(document, files, *typed, crs, progress);
 }
 
 }  // namespace standpoint

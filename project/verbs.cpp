@@ -18,10 +18,11 @@ using S = VerbScope;
 // editor's forms follow from it.
 const std::vector<Verb>& table() {
   static const std::vector<Verb> verbs = {
-      {"import", "Reads models (IFC, glTF, OBJ) into a new project", S::creates,
+      {"import", "Reads models (IFC, glTF, OBJ) into a new project, or changed ones into their own (--update)", S::creates,
        {{.name = "files", .kind = K::list, .help = "the model files", .positional = true, .required = true},
         {.name = "output", .kind = K::path, .help = "folder of the new project"},
         {.name = "replace", .kind = K::flag, .help = "replace what is in that folder"},
+        {.name = "update", .kind = K::flag, .help = "take in a changed model: keeps stations, targets and materials, and answers what changed"},
         {.name = "shift", .kind = K::text, .help = "global shift: auto, none, or E,N,H", .unit = "m", .standard = "auto"},
         {.name = "crs", .kind = K::text, .help = "coordinate reference system, as EPSG:n"},
         {.name = "up", .kind = K::choice, .help = "which axis of the file points up (default: as the format says)", .choices = {"y", "z"}},

@@ -32,8 +32,9 @@ void Assembly::add(std::uint32_t product, const Entity& entity, const std::vecto
     Instance instance;
     instance.product = product;
     instance.mesh = mesh(placed, materials, layering);
-    Eigen::Affine3d t = placed.file_from_items;
-    t.translation() = placed.file_from_items * placed.body->origin - shift_m;
+    const Eigen::Affine3d file_from_items = up_from_file_ * placed.file_from_items;
+    Eigen::Affine3d t = file_from_items;
+    t.translation() = file_from_items * placed.body->origin - shift_m;
     instance.world_from_mesh = t;
     environment_.instances.push_back(instance);
   }

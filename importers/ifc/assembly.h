@@ -16,8 +16,10 @@ namespace standpoint::ifc {
 // as it looks the same on all of them: equal walls of other layers have meshes of their own.
 class Assembly {
  public:
-  Assembly(const Model& model, const Relations& relations, Environment& environment, std::filesystem::path folder, Report& report)
-      : model_(model), relations_(relations), environment_(environment), report_(report), placements_(model),
+  // `up_from_file` is no identity where another axis than the file's Z points up.
+  Assembly(const Model& model, const Relations& relations, Environment& environment, const Eigen::Affine3d& up_from_file,
+           std::filesystem::path folder, Report& report)
+      : model_(model), relations_(relations), environment_(environment), report_(report), up_from_file_(up_from_file), placements_(model),
         pool_(model, environment, std::move(folder), report) {}
 
   void add(std::uint32_t product, const Entity& entity, const std::vector<PlacedBody>& bodies, const Eigen::Vector3d& shift_m);
@@ -36,6 +38,7 @@ class Assembly {
   const Relations& relations_;
   Environment& environment_;
   Report& report_;
+  Eigen::Affine3d up_from_file_;
   Placements placements_;
   SurfacePool pool_;
   std::map<Id, TexturedItem> textured_;

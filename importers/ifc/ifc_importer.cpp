@@ -16,15 +16,22 @@ namespace standpoint {
 namespace ifc {
 namespace {
 
-Bounds placedBounds(const Bodies& bodies) {
+Bounds placedBounds(const Bodies& bodies, const Eigen::Affine3d& up) {
   Bounds all;
   for (const auto& of_product : bodies.of_product)
     for (const PlacedBody& b : of_product)
       for (int corner = 0; corner < 8; ++corner) {
         const Eigen::Vector3d &lo = b.body->bounds.min, &hi = b.body->bounds.max;
-        all.extend(b.file_from_items * Eigen::Vector3d(corner & 1 ? hi.x() : lo.x(), corner & 2 ? hi.y() : lo.y(), corner & 4 ? hi.z() : lo.z()));
+        all.extend(up * b.file_from_items * Eigen::Vector3d(corner & 1 ? hi.x() : lo.x(), corner & 2 ? hi.y() : lo.y(), corner & 4 ? hi.z() : lo.z()));
       }
   return all;
+}
+
+// Y becomes Z in a file whose Y points up, against the schema.
+Eigen::Affine3d standing(const ImportOptions& options) {
+  Eigen::Affine3d t = Eigen::Affine3d::Identity();
+  if (options.up == UpAxis::y) t.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  return t;
 }
 
 std::vector<Product> describeAll(const std::vector<Entity>& entities, const Relations& relations, const Model& model) {
@@ -40,7 +47,7 @@ Result<ImportedModel> readIfc(const std::filesystem::path& path, const ImportOpt
   if (!file) return failure(file.error());
   if (auto go = progress.check(); !go) return failure(go.error());
   const TextureMaps textures(*file);
-  const Model model{*file, readUnits(*file, result.report), {options.chord_error_m, options.max_segment_angle_rad}, mappingOfTypes(*file),
+  const Model model{*file, readUnits(*file, options.metres_per_unit, result.report), {options.chord_error_m, options.max_segment_angle_rad}, mappingOfTypes(*file),
                     textures, stylesOfItems(*file, textures), colourMaps(*file), newCurveCache()};
   for (const Entity& cant : file->all("IFCSEGMENTEDREFERENCECURVE")) result.report.warn(cant.place(), "the cant of the alignment is not followed");
   const Relations relations(*file);
@@ -53,8 +60,9 @@ Result<ImportedModel> readIfc(const std::filesystem::path& path, const ImportOpt
   environment.spatial = spatialTree(model, relations, result.report);
   linkProducts(environment.products, entities, environment.spatial, relations, *file);
   result.georeference = readGeoreference(model, relations, result.report);
-  result.georeference.shift_m = chooseShift(options, placedBounds(*bodies));
-  Assembly assembly(model, relations, environment, path.parent_path(), result.report);
+  result.metres_per_unit = model.units.length_m;
+  result.georeference.shift_m = chooseShift(options, placedBounds(*bodies, standing(options)));
+  Assembly assembly(model, relations, environment, standing(options), path.parent_path(), result.report);
   for (std::size_t i = 0; i < entities.size(); ++i) assembly.add(static_cast<std::uint32_t>(i), entities[i], bodies->of_product[i], result.georeference.shift_m);
   result.report.append(bodies->report);
   if (auto go = progress.check(); !go) return failure(go.error());
@@ -68,6 +76,6 @@ constexpr std::array<const char*, 2> kExtensions{".ifc", ".ifczip"};
 }  // namespace ifc
 
 extern const Importer kIfcImporter;
-constinit const Importer kIfcImporter{"ifc", "Industry Foundation Classes, STEP physical file (ISO 16739)", ifc::kExtensions, ifc::readIfc};
+constinit const Importer kIfcImporter{"ifc", "Industry Foundation Classes, STEP physical file (ISO 16739)", ifc::kExtensions, ifc::readIfc, UpAxis::z};
 
 }  // namespace standpoint

@@ -133,7 +133,8 @@ void appendProperties(Properties& properties, const Entity& set, const Model& mo
   const bool extended = kind == "IFCEXTENDEDMATERIALPROPERTIES";  // IFC2X3: (Material, Properties, Description, Name)
   const bool quantities = kind == "IFCELEMENTQUANTITY";
   if (!of_material && !extended && !quantities && kind != "IFCPROPERTYSET") return;
-  const std::string name = prefix + set[of_material ? 0 : extended ? 3 : 2].text();
+  std::string name = set[of_material ? 0 : extended ? 3 : 2].text();
+  name = prefix + (name.empty() ? schemaSpelling(kind) : name);
   for (const Entity& p : set.refs(of_material ? 2 : extended ? 1 : quantities ? 5 : 4)) appendProperty(properties, name, p, model, 0);
 }
 

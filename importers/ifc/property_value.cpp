@@ -63,7 +63,10 @@ std::string valueText(const Value& value, const Entity& own_unit, const Model& m
   if (!inner.number()) return {};
   std::string text(inner.raw());
   while (!text.empty() && (text.back() == ' ' || text.back() == '\n' || text.back() == '\r')) text.pop_back();
-  if (!text.empty() && text.back() == '.') text.pop_back();
+  // "400.000000" says no more than 400.
+  if (text.find('.') != std::string::npos && text.find_first_of("eE") == std::string::npos)
+    while (text.back() == '0') text.pop_back();
+  if (text.back() == '.') text.pop_back();
   const std::string symbol = unitText(measure.empty() ? value.typeName() : measure, own_unit, model);
   return symbol.empty() ? text : text + ' ' + symbol;
 }

@@ -96,7 +96,7 @@ std::string unitSymbol(const Entity& unit) {
   return {};
 }
 
-Units readUnits(const StepFile& file, Report& report) {
+Units readUnits(const StepFile& file, double given_m, Report& report) {
   Units units;
   Entity assignment;
   for (const Entity& project : file.all("IFCPROJECT"))
@@ -113,7 +113,12 @@ Units readUnits(const StepFile& file, Report& report) {
     if (type == "LENGTHUNIT" && usable) units.length_m = factor, length = true;
     if (type == "PLANEANGLEUNIT" && usable) units.angle_rad = factor;
   }
-  if (!length) report.warn(assignment ? assignment.place() : "header", "the file states no usable length unit; metres are assumed");
+  if (given_m > 0) {
+    if (length && units.length_m != given_m) report.note(assignment.place(), "the length unit that the file states is overruled by the one that was given");
+    units.length_m = given_m;
+  } else if (!length) {
+    report.warn(assignment ? assignment.place() : "header", "the file states no usable length unit; metres are assumed; if it is another, import it with --unit");
+  }
   return units;
 }
 
