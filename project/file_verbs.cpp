@@ -81,7 +81,7 @@ Result<Outcome> runInfo(const Document& document, const json& options, Progress&
   if (auto ok = mustExist(file); !ok) return failure(ok.error());
   progress.stage("Read " + file.filename().string());
   Outcome outcome{document, json::object(), {}, {}};
-  if (const auto* format = cloudFormatFor(file); format != nullptr && format->info != nullptr) {
+  if (const auto* format = readableCloudFormat(file)) {
     auto info = format->info(file);
     if (!info) return failure(info.error());
     json scans = json::array();
@@ -90,7 +90,8 @@ Result<Outcome> runInfo(const Document& document, const json& options, Progress&
       scans.push_back(scanInfo(s));
       points += s.points;
     }
-    outcome.answer = {{"format", info->format}, {"points", points}, {"scans", std::move(scans)}};
+    outcome.answer = {{"format", info->format}, {"points", points}, {"scans", std::move(scans)},
+                      {"crs", info->crs.empty() ? json(nullptr) : json(info->crs)}};
     outcome.report = info->report;
     return outcome;
   }
