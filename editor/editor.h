@@ -113,6 +113,7 @@ struct Editor {
   void adoptDocument();
   void followPreview();
   void startWaitingCloud();
+  bool followModel(const Environment& before, const Environment& after);   // false when they have no product in common
   Bounds boundsOfVisible(bool with_terrain) const;
   std::optional<Camera> camera_before_preview_;
   CloudLoader cloud_loader_;

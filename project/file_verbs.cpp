@@ -52,9 +52,10 @@ Result<Outcome> runExport(const Document& document, const json& options, Progres
   const fs::path file = options.at("output").get<std::string>();
   progress.stage("Export " + file.filename().string());
   const auto extension = lowerExtension(file);
-  const auto write = extension == ".glb" ? writeEnvironmentGlb : extension == ".obj" ? writeEnvironmentObj : nullptr;
+  const bool gltf = extension == ".glb" || extension == ".gltf";
+  const auto write = gltf ? exportEnvironmentGltf : extension == ".obj" ? writeEnvironmentObj : nullptr;
   if (write == nullptr)
-    return failure(ErrorKind::usage, fmt::format("'{}' cannot be written; there is .glb and .obj", extension), "--output");
+    return failure(ErrorKind::usage, fmt::format("'{}' cannot be written; there is .glb, .gltf and .obj", extension), "--output");
   if (auto ok = write(*document.environment(), *document.georeference, file, progress); !ok) return failure(ok.error());
   Outcome outcome{document, {{"file", file.string()}, {"triangles", triangleCount(*document.environment())}}, {}, {}};
   outcome.description = "Exported " + file.filename().string();

@@ -19,10 +19,11 @@ using S = VerbScope;
 // editor's forms follow from it.
 const std::vector<Verb>& table() {
   static const std::vector<Verb> verbs = {
-      {"import", "Reads models (IFC, glTF, OBJ) into a new project", S::creates,
+      {"import", "Reads models (IFC, glTF, OBJ) into a new project, or changed ones into their own (--update)", S::creates,
        {{.name = "files", .kind = K::list, .help = "the model files", .positional = true, .required = true},
         {.name = "output", .kind = K::path, .help = "folder of the new project"},
         {.name = "replace", .kind = K::flag, .help = "replace what is in that folder"},
+        {.name = "update", .kind = K::flag, .help = "take in a changed model: keeps stations, targets and materials, and answers what changed"},
         {.name = "shift", .kind = K::text, .help = "global shift: auto, none, or E,N,H", .unit = "m", .standard = "auto"},
         {.name = "crs", .kind = K::text, .help = "coordinate reference system, as EPSG:n"},
         {.name = "up", .kind = K::choice, .help = "which axis of the file points up (default: as the format says)", .choices = {"y", "z"}},
@@ -90,7 +91,7 @@ const std::vector<Verb>& table() {
         {.name = "output", .kind = K::path, .help = "a folder, or a file (.e57, .ptx); an E57 holds all stations", .required = true}},
        runScan},
       {"export", "Writes the model as glTF binary or OBJ", S::reads,
-       {{.name = "output", .kind = K::path, .help = "file to write (.glb, .obj)", .required = true}}, runExport},
+       {{.name = "output", .kind = K::path, .help = "file to write (.glb, .gltf, .obj)", .required = true}}, runExport},
       {"convert", "Converts a point cloud", S::files,
        {{.name = "in", .kind = K::path, .help = "cloud to read", .positional = true, .required = true},
         {.name = "out", .kind = K::path, .help = "cloud to write", .positional = true, .required = true}},

@@ -187,6 +187,11 @@ std::vector<std::string> modelExtensions() {
   std::vector<std::string> all;
   for (const auto& importer : importers())
     for (const char* extension : importer.extensions) all.emplace_back(extension);
+  return all;
+}
+
+std::vector<std::string> modelAndCloudExtensions() {
+  auto all = modelExtensions();
   for (const auto& format : cloudFormats())
     if (format.read != nullptr && std::find(all.begin(), all.end(), format.extension) == all.end()) all.emplace_back(format.extension);
   return all;
@@ -221,10 +226,16 @@ void askForProject(Editor& editor) {
 }
 
 void askForModel(Editor& editor) {
-  askForFile(editor, Purpose::openFile, "Import a model, or lay a cloud under it", "Open", modelExtensions(), "",
+  askForFile(editor, Purpose::openFile, "Import a model, or lay a cloud under it", "Open", modelAndCloudExtensions(), "",
              [&editor](const std::filesystem::path& file) {
                openFiles(editor, {file});
              });
+}
+
+void askForChangedModel(Editor& editor) {
+  askForFile(editor, Purpose::openFile, "Update from a changed model", "Update", modelExtensions(), "", [&editor](const std::filesystem::path& file) {
+    editor.session.start("import", {{"files", {file.string()}}, {"update", true}}, "Update from " + file.filename().string());
+  });
 }
 
 void askForExport(Editor& editor) {

@@ -45,7 +45,8 @@ void acceptPreview(Editor& editor) {
   whenSaved(editor, [&editor] {
     if (!ready(editor)) return;
     for (const auto& file : editor.preview.files()) editor.settings.remember(file);
-    editor.selection.clear();   // of the products of another model
+    editor.selection.clear();        // of the products of another model
+    editor.view.frame_wanted = true;
     editor.session.adoptImport(editor.preview.take());
   });
 }
