@@ -108,6 +108,10 @@ Result<std::vector<std::filesystem::path>> drawPictures(Editor& editor, Offscree
   std::filesystem::create_directories(folder, error);
   if (error) return failure(ErrorKind::file_system, error.message(), folder.string());
   editor.update();
+  while (!editor.waiting_clouds.empty() || !editor.session.running().empty()) {
+    editor.session.wait();
+    editor.update();
+  }
   editor.picker.wait();
   std::vector<std::filesystem::path> written;
   for (const auto& picture : kPictures) {

@@ -178,6 +178,7 @@ Result<Outcome> updateModels(const Document& document, std::vector<fs::path> fil
   const auto match = matchProducts(*document.imported, *outcome->document.imported);
   std::string summary;
   outcome->answer["changes"] = changesAnswer(*document.imported, *outcome->document.imported, match, summary);
+  outcome->document.underlays = document.underlays;
   Update update{document, *outcome, match};
   update.georeference(crs);
   update.survey();

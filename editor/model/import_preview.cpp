@@ -81,10 +81,10 @@ ImportPreview::~ImportPreview() {
   if (task_) task_->progress().cancel();
 }
 
-void ImportPreview::open(std::vector<std::filesystem::path> files, const Verb& import, std::function<void()> wake) {
+void ImportPreview::open(std::vector<std::filesystem::path> files, const Verb& verb, std::function<void()> wake) {
   close();
   files_ = std::move(files);
-  verb_ = &import;
+  verb_ = &verb;
   wake_ = std::move(wake);
   stage_ = Stage::reading;
   start();

@@ -53,8 +53,8 @@ class ImportPreview {
   enum class Stage { closed, reading, ready, failed };
   ~ImportPreview();
 
-  // Starts reading. `import` is the verb of that name.
-  void open(std::vector<std::filesystem::path> files, const Verb& import, std::function<void()> wake);
+  // Starts reading. `verb` is import.
+  void open(std::vector<std::filesystem::path> files, const Verb& verb, std::function<void()> wake);
   // As open(), with a result that is there already.
   void show(std::vector<std::filesystem::path> files, Outcome outcome);
   // Reads again when the overrides were changed; what was read before stays until then.

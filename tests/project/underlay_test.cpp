@@ -132,6 +132,19 @@ TEST(Underlay, IsNoPartOfAProjectThatHasNone) {
   EXPECT_TRUE(loadProject(folder.path() / "p", progress)->underlays.empty());
 }
 
+TEST(Underlay, StaysUnderAChangedModel) {
+  const TemporaryFolder folder;
+  const auto model = (folder.path() / "m.obj").string();
+  std::ofstream(model) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const auto file = cloudFile(folder.path() / "a.xyz", {0, 0, 0});
+  auto document = run("import", {}, {{"files", {model}}})->document;
+  document = run("underlay", document, {{"add", file.string()}})->document;
+  ASSERT_EQ(document.underlays.size(), 1u);
+  const auto updated = run("import", document, {{"files", {model}}, {"update", true}});
+  ASSERT_TRUE(updated) << describe(updated.error());
+  EXPECT_EQ(updated->document.underlays, document.underlays);
+}
+
 TEST(Underlay, WithoutPointsOrFileIsRefused) {
   const TemporaryFolder folder;
   EXPECT_EQ(run("underlay", twoStoreyDocument(), {{"add", (folder.path() / "no.e57").string()}}).error().kind,
