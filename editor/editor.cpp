@@ -175,11 +175,23 @@ std::uint64_t Editor::triangles() const {
   return triangles_;
 }
 
-Bounds Editor::visibleBounds() const { return boundsOfVisible(true); }
+Bounds Editor::visibleBounds() const {
+  Bounds all = boundsOfVisible(true);
+  const Bounds scan = shownScanBounds();
+  if (!scan.empty() && distance_m(all, scan) < kFarFromModel_m) all.extend(scan);
+  return all;
+}
 
+// A scan of the ground around it does not make a building small; one that reaches farther than the model is fitted too.
 Bounds Editor::buildingBounds() const {
-  const Bounds building = boundsOfVisible(false);
-  return building.empty() ? visibleBounds() : building;
+  const Bounds building = boundsOfVisible(false), model = boundsOfVisible(true), scan = shownScanBounds();
+  if (building.empty()) return visibleBounds();
+  const Eigen::Vector3d beyond = (scan.max - model.max).cwiseMax(model.min - scan.min);
+  return scan.empty() || beyond.maxCoeff() < 0.1 * model.diagonal() ? building : visibleBounds();
+}
+
+Bounds Editor::shownScanBounds() const {
+  return preview.outcome() != nullptr ? Bounds() : underlays.visibleBounds(session.document());
 }
 
 Bounds Editor::boundsOfVisible(bool with_terrain) const {
@@ -192,8 +204,6 @@ Bounds Editor::boundsOfVisible(bool with_terrain) const {
     if ((previewed || !visibility.hidden(p)) && product.tangible && !each[p].empty() && (with_terrain || !terrain)) all.extend(each[p]);
   }
   if (previewed) return all;
-  if (const Bounds scan = underlays.visibleBounds(session.document()); !scan.empty() && distance_m(all, scan) < kFarFromModel_m)
-    all.extend(scan);
   if (visibility.cut_height_m && !all.empty())
     all.max.z() = std::max(all.min.z(), std::min(all.max.z(), *visibility.cut_height_m));
   return all;

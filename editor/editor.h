@@ -114,7 +114,8 @@ struct Editor {
   void followPreview();
   void startWaitingCloud();
   bool followModel(const Environment& before, const Environment& after);   // false when they have no product in common
-  Bounds boundsOfVisible(bool with_terrain) const;
+  Bounds boundsOfVisible(bool with_terrain) const;   // of the model
+  Bounds shownScanBounds() const;
   std::optional<Camera> camera_before_preview_;
   CloudLoader cloud_loader_;
   std::shared_ptr<const Cloud> cloud_;

@@ -138,7 +138,7 @@ void drawIssue(Editor& editor, const Issue& issue, int i) {
   ImGui::PopID();
 }
 
-void drawIssues(Editor& editor, float height) {
+void drawIssues(Editor& editor) {
   const auto& facts = editor.preview.facts();
   auto& filter = editor.preview.filter;
   heading(editor, "Issues");
@@ -156,6 +156,7 @@ void drawIssues(Editor& editor, float height) {
     const auto& issue = issues[static_cast<std::size_t>(i)];
     if (passes({levelOf(issue.severity), "", issue.source, issue.message}, filter)) shown.push_back(i);
   }
+  const float height = std::max(3 * ImGui::GetTextLineHeightWithSpacing(), ImGui::GetContentRegionAvail().y);
   if (!ImGui::BeginTable("preview-issues", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoPadOuterX, {0, height})) return;
   ImGui::TableSetupColumn("level", ImGuiTableColumnFlags_WidthFixed, editor.px(18));
   ImGui::TableSetupColumn("text", ImGuiTableColumnFlags_WidthStretch);
@@ -244,9 +245,10 @@ void drawImportPreview(Editor& editor) {
     ImGui::EndDisabled();
     const float row = ImGui::GetTextLineHeightWithSpacing();
     const float free = ImGui::GetContentRegionAvail().y - 4 * row - editor.px(24);
-    const float classes = std::clamp(row * (static_cast<float>(preview.facts().classes.size()) + 0.5F), row, std::max(row, free / 2));
+    const float share = preview.outcome()->report.issues.empty() ? 1 : 0.5F;   // of the room that the two lists have
+    const float classes = std::clamp(row * (static_cast<float>(preview.facts().classes.size()) + 0.5F), row, std::max(row, free * share - 2 * row));
     drawClasses(editor, classes);
-    drawIssues(editor, std::max(3 * row, ImGui::GetContentRegionAvail().y - 2.6F * row));
+    drawIssues(editor);
   }
   ImGui::EndChild();
   ui::gap(editor, 2);
