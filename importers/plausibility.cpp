@@ -25,7 +25,7 @@ double median(std::vector<double> values) {
 
 std::string size(double metres) {
   const double m = std::abs(metres);
-  return m >= 1000 ? fmt::format("{:.3g} km", metres / 1000) : m >= 1 ? fmt::format("{:.3g} m", metres) : m >= 0.01 ? fmt::format("{:.3g} cm", metres * 100) : fmt::format("{:.3g} mm", metres * 1000);
+  return m >= 1e6 ? fmt::format("{:.0f} km", metres / 1000) : m >= 1000 ? fmt::format("{:.3g} km", metres / 1000) : m >= 1 ? fmt::format("{:.3g} m", metres) : m >= 0.01 ? fmt::format("{:.3g} cm", metres * 100) : fmt::format("{:.3g} mm", metres * 1000);
 }
 
 class Judge {
