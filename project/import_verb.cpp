@@ -11,6 +11,7 @@
 #include "project/answers.h"
 #include "project/geodesy.h"
 #include "project/update_verb.h"
+#include "project/model_verbs.h"
 
 namespace standpoint {
 
@@ -247,6 +248,40 @@ Result<Outcome> runImport(const Document& document, const json& options, Progres
   const auto crs = options.value("crs", "");
   return options.value("update", false) ? updateModels(document, std::move(files), *typed, crs, progress)
                                         : importModels(document, files, *typed, crs, progress);
+}
+
+Result<Outcome> addImported(const Document& document, Outcome imported, Progress& progress) {
+  const Georeference &mine = *document.georeference, &its = *imported.document.georeference;
+  Outcome outcome{document, std::move(imported.answer), std::move(imported.report), {}};
+  const std::string source = imported.document.sources.empty() ? "" : std::filesystem::path(imported.document.sources.front()).filename().string();
+  if (its.crs != mine.crs || !sameConversion(its, mine))
+    outcome.report.warn(source, "its georeference differs from the environment's, which is used");
+  Report all = *document.import_report;
+  all.append(outcome.report);
+  auto environment = std::make_shared<Environment>(*document.imported);
+  const auto products = imported.document.imported->products.size();
+  appendEnvironment(*environment, Environment(*imported.document.imported), its.shift_m - mine.shift_m);
+  Document& d = outcome.document;
+  d.imported = std::move(environment);
+  d.import_report = std::make_shared<const Report>(std::move(all));
+  d.sources.insert(d.sources.end(), imported.document.sources.begin(), imported.document.sources.end());
+  if (d.lightening || d.collision)
+    outcome.report.note(source, "the lighter model and the collision shapes were of the model as it was: make them again");
+  d.lightening.reset();
+  d.collision.reset();
+  if (d.materials) {
+    auto assigned = assignDocumentMaterials(d, "", {}, progress);
+    if (!assigned) return failure(assigned.error());
+    d.materials = assigned->document.materials;
+  }
+  outcome.description = fmt::format("Added {}: {} products", source, products);
+  return outcome;
+}
+
+Result<Outcome> runAdd(const Document& document, const json& options, Progress& progress) {
+  auto imported = runImport(Document(), options, progress);
+  if (!imported) return imported;
+  return addImported(document, *std::move(imported), progress);
 }
 
 }  // namespace standpoint

@@ -7,8 +7,6 @@
 
 namespace standpoint {
 
-namespace {
-
 using nlohmann::json;
 
 json poseToJson(const Pose& p) {
@@ -19,6 +17,8 @@ Pose poseFrom(const json& j) {
   const auto& q = j.at("rotation");
   return {Eigen::Quaterniond(q.at(0), q.at(1), q.at(2), q.at(3)), vectorFrom(j.at("translation"))};
 }
+
+namespace {
 
 json scanToJson(const Scan& s) {
   return {{"instrument", s.instrument}, {"file", s.file}, {"format", s.format}, {"settings", s.settings}, {"seed", s.seed},
@@ -124,6 +124,20 @@ json collisionToJson(const CollideResult& c) {
   return {{"shapes", shapes}, {"products", products}, {"doors", doors}, {"walkable_area_m2", c.walkable_area_m2}};
 }
 
+json propertiesToJson(const std::vector<Property>& properties) {
+  json rows = json::array();
+  for (const auto& q : properties) rows.push_back({q.set, q.name, q.value});
+  return rows;
+}
+
+// A project written before storeys kept theirs has none.
+std::vector<Property> propertiesFrom(const json& owner) {
+  std::vector<Property> properties;
+  if (owner.contains("properties"))
+    for (const auto& q : owner.at("properties")) properties.push_back({q.at(0), q.at(1), q.at(2)});
+  return properties;
+}
+
 Severity severityFrom(const std::string& text) {
   return text == "loss" ? Severity::loss : text == "warning" ? Severity::warning : Severity::note;
 }
@@ -158,22 +172,6 @@ Document documentFrom(const json& project) {
   return d;
 }
 
-namespace {
-
-json propertiesToJson(const std::vector<Property>& properties) {
-  json rows = json::array();
-  for (const auto& q : properties) rows.push_back({q.set, q.name, q.value});
-  return rows;
-}
-
-std::vector<Property> propertiesFrom(const json& rows) {
-  std::vector<Property> properties;
-  for (const auto& q : rows) properties.push_back({q.at(0), q.at(1), q.at(2)});
-  return properties;
-}
-
-}  // namespace
-
 json recordsToJson(const Environment& environment) {
   json products = json::array();
   for (const auto& p : environment.products) {
@@ -181,8 +179,8 @@ json recordsToJson(const Environment& environment) {
     for (const auto& l : p.layers) layers.push_back({l.name, l.thickness_m});
     products.push_back({{"id", p.id}, {"global_id", p.global_id}, {"class", p.ifc_class}, {"predefined_type", p.predefined_type},
                         {"name", p.name}, {"type_name", p.type_name}, {"storey", p.storey}, {"container", p.container},
-                        {"whole", p.whole}, {"tangible", p.tangible}, {"materials", p.materials},
-                        {"layers", std::move(layers)}, {"groups", p.groups}, {"properties", propertiesToJson(p.properties)}});
+                        {"whole", p.whole}, {"tangible", p.tangible}, {"materials", p.materials}, {"groups", p.groups},
+                        {"layers", std::move(layers)}, {"properties", propertiesToJson(p.properties)}});
   }
   json spatial = json::array();
   for (const auto& n : environment.spatial)
@@ -200,20 +198,19 @@ Environment recordsFrom(const json& records) {
     p.ifc_class = j.at("class");
     p.predefined_type = j.at("predefined_type");
     p.name = j.at("name");
-    p.type_name = j.value("type_name", "");   // not in the projects of the first version
+    p.type_name = j.value("type_name", "");
     p.storey = j.at("storey");
     p.container = j.at("container");
     p.whole = j.at("whole");
     p.tangible = j.at("tangible");
-    p.materials = j.at("materials").get<std::vector<std::string>>();
+    p.materials = j.at("materials");
+    p.groups = j.value("groups", std::vector<std::string>{});
     for (const auto& l : j.at("layers")) p.layers.push_back({l.at(0), l.at(1)});
-    p.groups = j.value("groups", std::vector<std::string>());
-    p.properties = propertiesFrom(j.at("properties"));
+    p.properties = propertiesFrom(j);
     e.products.push_back(std::move(p));
   }
   for (const auto& n : records.at("spatial"))
-    e.spatial.push_back({n.at("id"), n.at("class"), n.at("name"), n.at("global_id"), n.at("parent"), n.at("elevation_m"),
-                         propertiesFrom(n.value("properties", json::array()))});
+    e.spatial.push_back({n.at("id"), n.at("class"), n.at("name"), n.at("global_id"), n.at("parent"), n.at("elevation_m"), propertiesFrom(n)});
   return e;
 }
 

@@ -76,6 +76,6 @@ constexpr std::array<const char*, 2> kExtensions{".ifc", ".ifczip"};
 }  // namespace ifc
 
 extern const Importer kIfcImporter;
-constinit const Importer kIfcImporter{"ifc", "Industry Foundation Classes, STEP physical file (ISO 16739)", ifc::kExtensions, ifc::readIfc};
+constinit const Importer kIfcImporter{"ifc", "Industry Foundation Classes, STEP physical file (ISO 16739)", ifc::kExtensions, ifc::readIfc, UpAxis::z};
 
 }  // namespace standpoint
