@@ -156,6 +156,8 @@ class Judge {
       if (lying * 10 >= doors.size() * 8) tellLying(fmt::format("{} of {} doors are wider than high", lying, doors.size()));
       return;
     }
+    // A wall alone looks one way and is no model that lies; an IFC says by its schema what is up.
+    if (!model_.environment.products[placed_[0].product].ifc_class.empty() && placed_.size() < 10) return;
     // Floors, ceilings and roofs look along one axis, walls along two: where one horizontal axis has most of the area and
     // the model is shortest along it, those are the floors.
     std::array<double, 3> area = areas();
