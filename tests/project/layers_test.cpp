@@ -24,6 +24,10 @@ TEST(Layers, AWallOfBrickOutsideAndPlasterInsideHasTwoPhysicalMaterialsWithTheir
   Progress progress;
   const auto imported = runOnDisk(*findVerb(verbs(), "import"), {{"files", {(folder.path() / "wall.ifc").string()}}, {"output", (folder.path() / "p").string()}}, progress);
   ASSERT_TRUE(imported) << describe(imported.error());
+  std::map<std::string, double> areas;   // as --json tells them
+  for (const auto& row : imported->answer.at("products")[0].at("surfaces")) areas[row.at("name")] = row.at("area");
+  EXPECT_NEAR(areas["Brick"], 12 + 2 * 0.115 * (3 + 4), 1e-4);
+  EXPECT_NEAR(areas["Plaster"], 12 + 2 * 0.015 * (3 + 4), 1e-4);
   const auto assigned = runOnDisk(*findVerb(verbs(), "materials"), {{"project", (folder.path() / "p").string()}}, progress);
   ASSERT_TRUE(assigned) << describe(assigned.error());
   const auto& environment = *assigned->document.imported;
