@@ -8,6 +8,7 @@
 #include <set>
 
 #include "importers/text_cursor.h"
+#include "importers/text_pieces.h"
 
 namespace standpoint {
 
@@ -68,7 +69,7 @@ class MtlParser {
   void begin(const std::string& name) {
     has_d_ = false;
     const bool is_new = names_.insert(name).second;
-    if (!is_new) report_.warn(place(), "material '" + name + "' is defined again; the first definition holds");
+    if (!is_new) report_.warn(place(), "material " + inQuotes(name) + " is defined again; the first definition holds");
     if (!is_new) {
       ignored_ = {};
       current_ = &ignored_;
@@ -103,7 +104,7 @@ class MtlParser {
   template <class Use>
   void number(const std::string& rest, const Use& use) {
     const auto n = numbers(rest);
-    if (n.empty() || !std::isfinite(n[0])) return report_.warn(place(), "'" + rest.substr(0, 60) + "' is not a number and is not used");
+    if (n.empty() || !std::isfinite(n[0])) return report_.warn(place(), inQuotes(rest) + " is not a number and is not used");
     use(n[0]);
   }
 
@@ -112,7 +113,7 @@ class MtlParser {
     auto n = numbers(rest);
     if (n.size() == 1) n = {n[0], n[0], n[0]};
     if (n.size() >= 3 && std::isfinite(n[0]) && std::isfinite(n[1]) && std::isfinite(n[2])) return std::array{unit(n[0]), unit(n[1]), unit(n[2])};
-    report_.warn(place(), "'" + rest.substr(0, 60) + "' is not a colour of three numbers and is not used");
+    report_.warn(place(), inQuotes(rest) + " is not a colour of three numbers and is not used");
     return std::nullopt;
   }
 

@@ -75,7 +75,9 @@ class Grouping {
   Product newProduct() const {
     Product p;
     const auto groups = words(group_);
-    p.id = object_.empty() ? "g " + group_ : "o " + object_ + (group_.empty() ? "" : " g " + group_);
+    p.id = object_.empty() ? "g " : "o ";
+    p.id += object_.empty() ? group_ : object_;
+    if (!object_.empty() && !group_.empty()) p.id.append(" g ").append(group_);
     const std::string group = groups.empty() ? "" : groups.front();
     p.name = object_.empty() ? group : group.empty() || group == object_ ? object_ : object_ + " " + group;
     if (p.name.empty()) p.name = stem_, p.id = "o";

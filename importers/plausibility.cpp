@@ -17,8 +17,9 @@ struct Unit {
   const char* name;
   double metres;
 };
-constexpr std::array kUnits{Unit{"mm", "millimetres", 0.001}, Unit{"cm", "centimetres", 0.01}, Unit{"in", "inches", 0.0254},
-                            Unit{"ft", "feet", 0.3048}, Unit{"m", "metres", 1}};
+// The likeliest first.
+constexpr std::array kUnits{Unit{"mm", "millimetres", 0.001}, Unit{"m", "metres", 1}, Unit{"cm", "centimetres", 0.01},
+                            Unit{"in", "inches", 0.0254}, Unit{"ft", "feet", 0.3048}};
 
 // Higher than all but a few dozen towers; ground may be as high, but then it is wide and flat.
 constexpr double kHighest_m = 300;

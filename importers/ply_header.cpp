@@ -6,6 +6,8 @@
 #include <charconv>
 #include <string_view>
 
+#include "importers/text_pieces.h"
+
 namespace standpoint {
 
 namespace {
@@ -85,7 +87,7 @@ class HeaderReader {
       out_.texture_files.emplace_back(line.substr(first, line.find_last_not_of(" \t") - first + 1));
     }
     if (w[0] == "comment" || w[0] == "obj_info") return {};
-    return fault("'" + w[0].substr(0, 40) + "' is no word of a PLY header");
+    return fault(inQuotes(w[0]) + " is no word of a PLY header");
   }
 
   Result<void> format(const std::vector<std::string>& w) {
@@ -101,7 +103,7 @@ class HeaderReader {
     PlyElement e;
     if (w.size() != 3) return fault("an element needs a name and a count");
     const auto [end, error] = std::from_chars(w[2].data(), w[2].data() + w[2].size(), e.count);
-    if (error != std::errc() || end != w[2].data() + w[2].size()) return fault("'" + w[2].substr(0, 40) + "' is not a count");
+    if (error != std::errc() || end != w[2].data() + w[2].size()) return fault(inQuotes(w[2]) + " is not a count");
     e.name = w[1];
     e.line = lines_;
     if (std::any_of(out_.elements.begin(), out_.elements.end(), [&](const PlyElement& other) { return other.name == e.name; }))

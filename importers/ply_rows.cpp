@@ -121,7 +121,7 @@ Result<void> PlyRows::textValue(double& out) {
   }
   line_ = cursor_->line();
   if (cursor_->number(out)) return {};
-  return failure(ErrorKind::unusable, "'" + std::string(cursor_->word().substr(0, 40)) + "' is not a number");
+  return failure(ErrorKind::unusable, inQuotes(cursor_->word()) + " is not a number");
 }
 
 Result<void> PlyRows::refill() {

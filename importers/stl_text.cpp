@@ -83,7 +83,7 @@ class TextReader {
       if (in_facet_) return fault(line, "a solid ends within a facet");
       in_solid_ = false;
     } else if (word != "outer" && word != "endloop" && word != "color") {
-      return fault(line, "'" + word + "' is no word of an STL");
+      return fault(line, inQuotes(word) + " is no word of an STL");
     }
     cursor.skipComment();
     return {};
