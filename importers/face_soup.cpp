@@ -8,7 +8,6 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "importers/plausibility.h"
 #include "importers/soup_mesh.h"
 
 namespace standpoint {
@@ -32,8 +31,6 @@ class SoupModel {
     e.products = std::move(soup_.products);
     e.images = std::move(soup_.images);
     sayWhatWasFound();
-    const FrameOrigin origin{options.metres_per_unit > 0 ? options.metres_per_unit : 1, options.metres_per_unit > 0, options.up != UpAxis::automatic};
-    for (auto& issue : plausibility(e, origin)) report_.issues.push_back(std::move(issue));
     model_.report = std::move(report_);
     return std::move(model_);
   }

@@ -38,7 +38,7 @@ struct FaceSoup {
 };
 
 // Metres, Z up, a mesh for each product. Mends what is safe to mend and says so in the report: faces that stand there
-// twice and triangles whose corners coincide go; polygons that cross themselves become fans. Ends with plausibility().
+// twice and triangles whose corners coincide go; polygons that cross themselves become fans.
 Result<ImportedModel> modelFrom(FaceSoup&& soup, UpAxis up_of_format, const ImportOptions& options, Report&& report, Progress& progress);
 
 }  // namespace standpoint

@@ -19,7 +19,7 @@ void readMeshes(GltfFile& file, const nlohmann::json& meshes, const GltfMaterial
     if (file.failed() || progress.cancelled()) return;
     Mesh mesh;
     if (index.is_number_unsigned()) {
-      mesh = readGltfMesh(file, index.get<std::size_t>(), materials, no_material, {}, ignored);
+      mesh = readGltfMesh(file, index.get<std::size_t>(), materials, no_material, {}, ignored).mesh;
       if (!file.failed() && mesh.triangles.empty()) mesh = readGltfPoints(file, index.get<std::size_t>());
     } else if (!index.is_null()) {
       file.fail(place, "holds something that is not an index");

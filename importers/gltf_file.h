@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -63,22 +65,31 @@ class GltfFile {
   struct Packed {
     std::size_t component_type = 0, components = 0, count = 0;
     bool normalized = false;
-    std::vector<std::uint8_t> bytes;   // tightly packed
+    std::span<const std::uint8_t> bytes;   // tightly packed: in the buffer where they are so there …
+    std::vector<std::uint8_t> own;         // … else here
+  };
+  // Big files are read into memory that nobody has set to zero before.
+  struct Block {
+    std::unique_ptr<std::uint8_t[]> data;
+    std::size_t size = 0;
+    std::span<const std::uint8_t> bytes() const { return {data.get(), size}; }
   };
 
-  Result<std::vector<std::uint8_t>> readAll(const std::filesystem::path& file, const std::string& place, std::size_t at_most);
+  static Result<Block> readAll(const std::filesystem::path& file, const std::string& place, std::size_t at_most);
+  Result<Block> blockOf(const std::string& uri, const std::string& place, std::size_t at_most);
   void parse(std::span<const std::uint8_t> bytes);
   void splitBinary(std::span<const std::uint8_t> bytes);
   void loadBuffer(std::size_t index, std::span<const std::uint8_t> binary_chunk);
   std::span<const std::uint8_t> slice(const nlohmann::json& object, const std::string& place);
   void decodeMeshopt(std::size_t buffer_view, const nlohmann::json& extension, const std::string& place);
   Packed packed(std::size_t accessor, const std::string& asked_by);
-  void copyDense(const nlohmann::json& json, const std::string& place, std::size_t element_size, Packed& out);
+  void takeDense(const nlohmann::json& json, const std::string& place, std::size_t element_size, Packed& out);
   void applySparse(const nlohmann::json& sparse, const std::string& place, std::size_t element_size, Packed& out);
 
   std::filesystem::path path_;
   nlohmann::json json_;
-  std::vector<std::vector<std::uint8_t>> buffers_;
+  std::vector<Block> blocks_;                               // the file, and what its buffers name
+  std::vector<std::span<const std::uint8_t>> buffers_;      // in the blocks
   std::map<std::size_t, std::vector<std::uint8_t>> decoded_views_;
   std::size_t spent_ = 0;
   std::size_t allowance_ = 0;

@@ -35,9 +35,10 @@ class MeshReader {
     if (!file_.failed()) vertices(primitive, {});
   }
 
-  Mesh take() {
+  GltfMesh take() {
     sortBySurface(mesh_);
-    return std::move(mesh_);
+    if (!features_.empty()) feature_of_vertex_.resize(mesh_.positions.size(), -1);
+    return {std::move(mesh_), std::move(features_), std::move(feature_of_vertex_)};
   }
 
  private:
@@ -50,7 +51,7 @@ class MeshReader {
     const auto& matrix = use.image_from_set.matrix();
     // Two primitives share their vertices when all that makes them is the same.
     const Key key{primitive.accessor("POSITION"), primitive.accessor(texture), primitive.accessor("COLOR_0"),
-                  {matrix.data(), matrix.data() + matrix.size()}, poseKey(primitive)};
+                  {matrix.data(), matrix.data() + matrix.size()}, poseKey(primitive) + featureKey(primitive)};
     if (file_.failed()) return {};
     const bool shared = !primitive.compressed();
     if (const auto known = ranges_.find(key); shared && known != ranges_.end()) return known->second;
@@ -62,6 +63,7 @@ class MeshReader {
     else mesh_.positions.insert(mesh_.positions.end(), positions.begin(), positions.end());
     textureCoordinates(primitive, texture, use, range);
     colours(primitive, range);
+    features(primitive, range);
     if (shared) ranges_[key] = range;
     return range;
   }
@@ -69,6 +71,11 @@ class MeshReader {
   std::string poseKey(const GltfPrimitive& primitive) const {
     if (pose_ == GltfPose{}) return {};
     return memberOf(primitive.json(), "targets").dump() + memberOf(primitive.json(), "attributes").dump();
+  }
+
+  static std::string featureKey(const GltfPrimitive& primitive) {
+    const auto& features = memberOf(memberOf(primitive.json(), "extensions"), "EXT_mesh_features");
+    return features.is_null() ? "" : features.dump() + memberOf(primitive.json(), "attributes").dump();
   }
 
   bool fits(GltfPrimitive& primitive, const std::string& attribute, std::size_t rows, std::size_t count) {
@@ -119,10 +126,31 @@ class MeshReader {
     }
   }
 
-  void append(const std::vector<Triangle>& triangles, std::size_t base, std::uint32_t surface) {
+  void features(GltfPrimitive& primitive, Range range) {
+    const auto ids = featureIdsOf(file_, primitive.json(), "EXT_mesh_features", primitive.place());
+    if (!ids.present || ids.attribute.empty() || file_.failed()) return;   // a feature for each vertex is no product
+    std::size_t components = 0;
+    const auto values = primitive.floats(ids.attribute, components);
+    if (file_.failed() || !fits(primitive, ids.attribute, values.size(), range.count)) return;
+    if (!file_.spend(mesh_.positions.size() * 4, primitive.place())) return;
+    feature_of_vertex_.resize(mesh_.positions.size(), -1);
+    for (std::size_t i = 0; i < range.count; ++i) {
+      if (!(values[i] >= 0 && values[i] < 4e9F))
+        return file_.fail(primitive.place() + "/attributes/" + ids.attribute, "element " + std::to_string(i) + " is not a number of a feature");
+      const auto row = static_cast<std::size_t>(values[i]);
+      if (row == ids.null) continue;
+      const auto [found, fresh] = index_of_feature_.try_emplace({ids.table, row}, static_cast<std::int32_t>(features_.size()));
+      if (fresh) features_.push_back({ids.table, row});
+      feature_of_vertex_[range.base + i] = found->second;
+    }
+  }
+
+  void append(std::vector<Triangle>&& triangles, std::size_t base, std::uint32_t surface) {
     const auto offset = static_cast<std::uint32_t>(base);
-    mesh_.triangles.reserve(mesh_.triangles.size() + triangles.size());
-    for (const auto& t : triangles) mesh_.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+    if (offset != 0)
+      for (auto& t : triangles) t = {t[0] + offset, t[1] + offset, t[2] + offset};
+    if (mesh_.triangles.empty()) mesh_.triangles = std::move(triangles);
+    else mesh_.triangles.insert(mesh_.triangles.end(), triangles.begin(), triangles.end());
     mesh_.surface_of_triangle.resize(mesh_.triangles.size(), surface);
   }
 
@@ -135,6 +163,9 @@ class MeshReader {
   Report& report_;
   Mesh mesh_;
   std::map<Key, Range> ranges_;
+  std::vector<GltfFeature> features_;
+  std::map<GltfFeature, std::int32_t> index_of_feature_;
+  std::vector<std::int32_t> feature_of_vertex_;
 };
 
 }  // namespace
@@ -145,8 +176,8 @@ bool GltfPose::operator==(const GltfPose& other) const {
                     [](const auto& a, const auto& b) { return a.matrix() == b.matrix(); });
 }
 
-Mesh readGltfMesh(GltfFile& file, std::size_t index, const GltfMaterials& materials, std::uint32_t no_material,
-                  const GltfPose& pose, Report& report) {
+GltfMesh readGltfMesh(GltfFile& file, std::size_t index, const GltfMaterials& materials, std::uint32_t no_material,
+                      const GltfPose& pose, Report& report) {
   const std::string place = "/meshes/" + std::to_string(index);
   const auto& primitives = memberOf(file.element("meshes", index, place), "primitives");
   if (!primitives.is_array()) file.fail(place + "/primitives", "is not an array");
@@ -164,7 +195,7 @@ Mesh readGltfPoints(GltfFile& file, std::size_t index) {
   const GltfPose rest;
   MeshReader reader(file, none, 0, rest, ignored);
   if (primitives.is_array() && !primitives.empty()) reader.addPoints(primitives[0], place + "/primitives/0");
-  return reader.take();
+  return reader.take().mesh;
 }
 
 }  // namespace standpoint

@@ -6,6 +6,7 @@
 #include "core/environment.h"
 #include "core/report.h"
 #include "importers/gltf_material.h"
+#include "importers/gltf_metadata.h"
 #include "importers/gltf_primitive.h"
 
 namespace standpoint {
@@ -17,11 +18,24 @@ struct GltfPose {
   bool operator==(const GltfPose& other) const;
 };
 
+struct GltfMesh {
+  Mesh mesh;
+  std::vector<GltfFeature> features;              // EXT_mesh_features with a property table; else empty, as the next
+  std::vector<std::int32_t> feature_of_vertex;    // index into features; −1: none
+};
+
 // The triangles of /meshes/<index> in the order of its primitives, sorted by surface. A primitive without a material gets
 // `no_material`. Primitives that share their attributes share their vertices. Texture coordinates are those of the
 // material's image, transformed; without an image the first set. What is not a surface goes to the report.
-Mesh readGltfMesh(GltfFile& file, std::size_t index, const GltfMaterials& materials, std::uint32_t no_material,
-                  const GltfPose& pose, Report& report);
+GltfMesh readGltfMesh(GltfFile& file, std::size_t index, const GltfMaterials& materials, std::uint32_t no_material,
+                      const GltfPose& pose, Report& report);
+
+// One part for each feature, in the order in which they are met; what belongs to none comes first.
+struct GltfPart {
+  Mesh mesh;
+  std::optional<GltfFeature> feature;
+};
+std::vector<GltfPart> splitByFeature(GltfMesh&& whole);
 
 // The vertices of a mesh that has no triangles, which our writer keeps as points.
 Mesh readGltfPoints(GltfFile& file, std::size_t index);

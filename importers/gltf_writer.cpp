@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "importers/gltf_georeference.h"
+#include "importers/gltf_product.h"
 #include "importers/gltf_writer_material.h"
 #include "importers/importers.h"
 
@@ -22,24 +24,56 @@ constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
 constexpr int kPoints = 0, kTriangles = 4;
 
+std::string percentEncoded(const std::string& name) {
+  constexpr char kDigits[] = "0123456789ABCDEF";
+  std::string result;
+  for (const char c : name) {
+    const auto u = static_cast<unsigned char>(c);
+    if ((std::isalnum(u) != 0 && u < 128) || c == '-' || c == '_' || c == '.') result += c;
+    else ((result += '%') += kDigits[u >> 4U]) += kDigits[u & 15U];
+  }
+  return result;
+}
+
 // Written by hand with nlohmann-json, whose numbers read back bit for bit; tinygltf would not say so.
 class GlbWriter {
  public:
-  GlbWriter(const Environment& environment, const Georeference& georeference) : environment_(environment) {
+  enum class For { project, others };
+
+  GlbWriter(const Environment& environment, const Georeference& georeference, For reader) : environment_(environment), reader_(reader) {
     json_["asset"] = {{"version", "2.0"}, {"generator", "Standpoint"}};
     auto& ours = json_["asset"]["extras"]["standpoint"];
     ours = toJson(georeference);
     ours["products"] = environment.products.size();
     addMaterials();
     for (const auto& mesh : environment.meshes) addMesh(*mesh);
+    if (reader == For::others) nameMeshes();
     listExtensions();
     ours["meshes"] = gltf_mesh_of_;
     addNodes();
     if (size_ > 0) json_["buffers"] = Json::array({Json{{"byteLength", size_}}});
   }
 
+  // JSON and a binary file of the same name beside it, which is there before the JSON names it.
+  Result<void> writeText(const std::filesystem::path& file, Progress& progress) {
+    auto beside = file;
+    beside.replace_extension(".bin");
+    if (size_ > 0) {
+      json_["buffers"][0]["uri"] = percentEncoded(beside.filename().string());
+      std::ofstream binary(beside, std::ios::binary);
+      if (auto ok = writeBinary(binary, progress); !ok) return ok;
+      binary.close();
+      if (!binary) return failure(ErrorKind::file_system, "cannot write", beside.string());
+    }
+    std::ofstream out(file, std::ios::binary);
+    out << text() << '\n';
+    out.close();
+    if (!out) return failure(ErrorKind::file_system, "cannot write", file.string());
+    return {};
+  }
+
   Result<void> write(const std::filesystem::path& file, Progress& progress) const {
-    std::string text = json_.dump(-1, ' ', false, Json::error_handler_t::replace);
+    std::string text = this->text();
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const std::size_t total = 12 + 8 + text.size() + (size_ > 0 ? 8 + size_ : 0);
     if (total > 0xFFFFFFFFU)
@@ -59,18 +93,25 @@ class GlbWriter {
       word(size_);
       out.write("BIN\0", 4);
     }
-    for (const auto& image : environment_.images) writeImage(*image, out);
-    for (std::size_t i = 0; i < environment_.meshes.size() && out; ++i) {
-      if (auto ok = progress.check(); !ok) return ok;
-      writeMesh(*environment_.meshes[i], out);
-      progress.advance(static_cast<double>(i + 1) / static_cast<double>(environment_.meshes.size()));
-    }
+    if (auto ok = writeBinary(out, progress); !ok) return ok;
     out.close();
     if (!out) return failure(ErrorKind::file_system, "cannot write", file.string());
     return {};
   }
 
  private:
+  std::string text() const { return json_.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+  Result<void> writeBinary(std::ofstream& out, Progress& progress) const {
+    for (const auto& image : environment_.images) writeImage(*image, out);
+    for (std::size_t i = 0; i < environment_.meshes.size() && out; ++i) {
+      if (auto ok = progress.check(); !ok) return ok;
+      writeMesh(*environment_.meshes[i], out);
+      progress.advance(static_cast<double>(i + 1) / static_cast<double>(environment_.meshes.size()));
+    }
+    return {};
+  }
+
   void addMaterials() {
     for (std::size_t i = 0; i < environment_.surfaces.size(); ++i) json_["materials"].push_back(gltfMaterial(environment_.surfaces[i]));
     addImages();
@@ -194,10 +235,40 @@ class GlbWriter {
     Json root = {{"name", "Z-up"}, {"matrix", {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1}}};
     json_["nodes"] = Json::array({root});
     Json children = Json::array();
-    for (const auto& instance : environment_.instances) children.push_back(addInstance(instance));
+    const auto& instances = environment_.instances;
+    for (std::size_t first = 0, last = 0; first < instances.size(); first = last) {
+      while (last < instances.size() && instances[last].product == instances[first].product) ++last;
+      if (reader_ == For::others) children.push_back(addProduct(first, last));
+      else for (std::size_t i = first; i < last; ++i) children.push_back(addInstance(instances[i]));
+    }
     if (!children.empty()) json_["nodes"][0]["children"] = std::move(children);
     json_["scene"] = 0;
     json_["scenes"] = Json::array({Json{{"nodes", Json::array({0})}}});
+  }
+
+  std::size_t addProduct(std::size_t first, std::size_t last) {
+    const auto index = environment_.instances[first].product;
+    const auto& product = environment_.products[index];
+    Json extras = toExtras(product);
+    extras["standpoint"] = {{"product", index}};
+    Json parts = Json::array();
+    for (std::size_t i = first; i < last; ++i) {
+      parts.push_back(addInstance(environment_.instances[i]));
+      json_["nodes"].back().erase("extras");
+    }
+    if (parts.size() == 1) {
+      json_["nodes"].back()["extras"] = std::move(extras);
+      return parts[0];
+    }
+    json_["nodes"].push_back({{"name", product.name}, {"children", std::move(parts)}, {"extras", std::move(extras)}});
+    return json_["nodes"].size() - 1;
+  }
+
+  // After the first product that shows them, as people look for them in a list.
+  void nameMeshes() {
+    for (const auto& instance : environment_.instances)
+      if (const auto& mesh = gltf_mesh_of_[instance.mesh]; !mesh.is_null() && !json_["meshes"][mesh.get<std::size_t>()].contains("name"))
+        json_["meshes"][mesh.get<std::size_t>()]["name"] = environment_.products[instance.product].name;
   }
 
   std::size_t addInstance(const Instance& instance) {
@@ -276,6 +347,7 @@ class GlbWriter {
   }
 
   const Environment& environment_;
+  For reader_;
   Json json_ = Json::object();
   std::vector<Json> gltf_mesh_of_;        // null for a mesh without vertices
   std::vector<Json> texture_of_image_;    // null for an image that glTF does not know
@@ -283,15 +355,28 @@ class GlbWriter {
   std::size_t size_ = 0;             // of the binary chunk; every part is a multiple of 4
 };
 
+Result<void> writable(const Environment& environment, const std::filesystem::path& file) {
+  if (auto wrong = validate(environment); !wrong.empty()) return failure(ErrorKind::internal, wrong, file.string());
+  if (!std::all_of(environment.surfaces.begin(), environment.surfaces.end(), isFinite))
+    return failure(ErrorKind::internal, "a surface's colour is not finite", file.string());
+  return {};
+}
+
 }  // namespace
 
 Result<void> writeEnvironmentGlb(const Environment& environment, const Georeference& georeference,
                                  const std::filesystem::path& file, Progress& progress) {
   progress.stage("Writing glTF");
-  if (auto wrong = validate(environment); !wrong.empty()) return failure(ErrorKind::internal, wrong, file.string());
-  if (!std::all_of(environment.surfaces.begin(), environment.surfaces.end(), isFinite))
-    return failure(ErrorKind::internal, "a surface's colour is not finite", file.string());
-  return GlbWriter(environment, georeference).write(file, progress);
+  if (auto ok = writable(environment, file); !ok) return ok;
+  return GlbWriter(environment, georeference, GlbWriter::For::project).write(file, progress);
+}
+
+Result<void> exportEnvironmentGltf(const Environment& environment, const Georeference& georeference,
+                                   const std::filesystem::path& file, Progress& progress) {
+  progress.stage("Writing glTF");
+  if (auto ok = writable(environment, file); !ok) return ok;
+  GlbWriter writer(environment, georeference, GlbWriter::For::others);
+  return file.extension() == ".gltf" ? writer.writeText(file, progress) : writer.write(file, progress);
 }
 
 }  // namespace standpoint

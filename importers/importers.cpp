@@ -11,6 +11,7 @@
 
 #include "importers/gltf.h"
 #include "importers/obj.h"
+#include "importers/plausibility.h"
 #include "importers/ply.h"
 #include "importers/stl.h"
 
@@ -86,7 +87,12 @@ Result<ImportedModel> importFile(const std::filesystem::path& file, const Import
   if (!importer) importer = byExtension(file);
   if (!importer && hasSizeOfStl(file)) importer = &kStlImporter;
   if (!importer) return failure(ErrorKind::unusable, "no importer knows this format: IFC, glTF, OBJ, PLY and STL are read", file.string());
-  return importer->read(file, options, progress);
+  auto model = importer->read(file, options, progress);
+  if (!model) return model;
+  const double stated = model->metres_per_unit > 0 ? model->metres_per_unit : 1;
+  tellImplausible(*model, options.metres_per_unit > 0 ? options.metres_per_unit : stated,
+                  options.up == UpAxis::automatic ? importer->up : options.up);
+  return model;
 }
 
 }  // namespace standpoint

@@ -88,7 +88,7 @@ Result<ImportedModel> read(const std::filesystem::path& path, const ImportOption
   soup.place = [&](std::size_t face) { return "line " + std::to_string(file->lineOf(face)); };
   applyMaterials(path, groups, soup, report);
   sayWhatIsLost(*file, report);
-  return modelFrom(std::move(soup), UpAxis::y, options, std::move(report), progress);
+  return modelFrom(std::move(soup), kObjImporter.up, options, std::move(report), progress);
 }
 
 Result<ImportedModel> readObj(const std::filesystem::path& path, const ImportOptions& options, Progress& progress) {
@@ -104,6 +104,6 @@ constexpr const char* kExtensions[] = {".obj"};
 
 }  // namespace
 
-const Importer kObjImporter = {"obj", "Wavefront OBJ with MTL", kExtensions, &readObj};
+const Importer kObjImporter = {"obj", "Wavefront OBJ with MTL", kExtensions, &readObj, UpAxis::y};
 
 }  // namespace standpoint

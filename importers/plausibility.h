@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <vector>
-
-#include "core/environment.h"
-#include "core/report.h"
+#include "importers/importers.h"
 
 namespace standpoint {
 
-// Where the model's unit and upright axis come from; what nobody stated was guessed, and is doubted first.
-struct FrameOrigin {
-  double metres_per_unit = 1;   // by which the file's numbers were multiplied
-  bool unit_stated = false;     // by the file or by the user's --unit
-  bool up_stated = false;       // by the file or by the user's --up
-};
-
-// Says, as warnings, what looks wrong about the model's size and stance: a house 3 km high is in millimetres, one whose
-// largest faces all look sideways lies on its side. Each names the option that would mend it, where there is one. Every
-// importer calls it once on what it made (local frame, Z up) and appends the issues to its report. Linear in triangles;
-// an empty model has no issues.
-std::vector<Issue> plausibility(const Environment& environment, const FrameOrigin& origin);
+// Says aloud what of a model cannot well be meant, each with its remedy; changes nothing:
+//  - a unit: doors of 2 km or 2 mm (without doors: windows, walls, the whole model), and the --unit that would make them usual;
+//  - the up-axis: doors that lie, or floors that stand, and the --up that would right them;
+//  - places: parts more than 1 km from the rest (and five times further than it is large), products beyond any map, and
+//    geometry more than 10 km from the file's origin.
+// `metres_per_unit` is what the file's numbers were taken as, `up` the file's axis that was taken as up.
+void tellImplausible(ImportedModel& model, double metres_per_unit, UpAxis up);
 
 }  // namespace standpoint

@@ -62,7 +62,7 @@ Result<ImportedModel> read(const std::filesystem::path& path, const ImportOption
   read->soup.place = [&](std::size_t face) {
     return read->line_of_face.empty() ? "face " + std::to_string(read->row_of_face[face]) : "line " + std::to_string(read->line_of_face[face]);
   };
-  return modelFrom(std::move(read->soup), UpAxis::z, options, std::move(report), progress);
+  return modelFrom(std::move(read->soup), kPlyImporter.up, options, std::move(report), progress);
 }
 
 Result<ImportedModel> readPly(const std::filesystem::path& path, const ImportOptions& options, Progress& progress) {
@@ -78,6 +78,6 @@ constexpr const char* kExtensions[] = {".ply"};
 
 }  // namespace
 
-const Importer kPlyImporter = {"ply", "PLY meshes (Stanford), binary and text", kExtensions, &readPly};
+const Importer kPlyImporter = {"ply", "PLY meshes (Stanford), binary and text", kExtensions, &readPly, UpAxis::z};
 
 }  // namespace standpoint

@@ -97,7 +97,7 @@ Result<ImportedModel> read(const std::filesystem::path& path, const ImportOption
   auto soup = std::move(out).soup();
   const auto lines = std::move(out).lines();
   soup.place = [&](std::size_t face) { return binary ? "triangle " + std::to_string(face + 1) : "line " + std::to_string(lines[face]); };
-  return modelFrom(std::move(soup), UpAxis::z, options, std::move(report), progress);
+  return modelFrom(std::move(soup), kStlImporter.up, options, std::move(report), progress);
 }
 
 Result<ImportedModel> readStl(const std::filesystem::path& path, const ImportOptions& options, Progress& progress) {
@@ -125,6 +125,6 @@ bool isBinaryStl(const FileBytes& bytes) {
   return got >= kHeaderBytes && (!begins_as_text || text.find('\0') != std::string_view::npos);
 }
 
-const Importer kStlImporter = {"stl", "STL, binary and text", kExtensions, &readStl};
+const Importer kStlImporter = {"stl", "STL, binary and text", kExtensions, &readStl, UpAxis::z};
 
 }  // namespace standpoint

@@ -11,6 +11,7 @@
 
 #include "importers/importers.h"
 #include "project/project_json.h"
+#include "project/underlays.h"
 
 namespace standpoint {
 
@@ -127,6 +128,7 @@ Result<Document> fromJson(const json& project, const fs::path& folder, Progress&
     if (!shapes) return failure(shapes.error());
     d.collision = collisionFrom(part, *shapes);
   }
+  if (project.contains("underlays")) d.underlays = underlaysFrom(project.at("underlays"), folder);
   return d;
 }
 
@@ -155,6 +157,7 @@ Result<void> saveProject(const Document& document, const fs::path& folder, Progr
   if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder.string());
 
   json project = documentToJson(document);
+  if (!document.underlays.empty()) project["underlays"] = underlaysToJson(document.underlays, folder);
   std::set<std::string> named;
   const auto store = [&](json& at, const char* key, Result<std::string> name) -> Result<void> {
     if (!name) return failure(name.error());

@@ -20,7 +20,7 @@ namespace standpoint::geometry {
 
 struct Tessellation {
   double chord_error_m = 0.001;          // sagitta at most this …
-  double max_segment_angle_rad = 0.5236; // … and no segment turns further
+  double max_segment_angle_rad = 0.2095; // … and no segment turns further
 };
 // Segments for an arc of that radius and sweep, from 1 to 4096 (a full circle gets a multiple of 4, so that its extreme
 // points are on the bounds).

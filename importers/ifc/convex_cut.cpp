@@ -153,15 +153,25 @@ bool allFit(const geometry::PolyMesh& host, std::span<const geometry::PolyMesh> 
   return common && std::all_of(common->fits.begin(), common->fits.end(), [](bool fits) { return fits; });
 }
 
+// A body that was closed and is not any more has lost a face.
+bool tore(const geometry::PolyMesh& before, const geometry::PolyMesh& after) {
+  return !after.faces.empty() && geometry::isClosed(before) && !geometry::isClosed(after);
+}
+
+Result<geometry::PolyMesh> byPlanes(const geometry::PolyMesh& host, const geometry::PolyMesh& tool) {
+  const auto planes = planesOfConvex(tool);
+  if (!planes) return failure(ErrorKind::unusable, "by planes: the tool is not convex");
+  return subtractConvex(host, *planes);
+}
+
 // Does what it can the simple ways; the tools that are left are put into `general`.
 geometry::PolyMesh subtractSimple(const geometry::PolyMesh& host, std::span<const geometry::PolyMesh> tools, std::vector<geometry::PolyMesh>& general) {
   if (allFit(host, tools))
-    if (auto flat = geometry::subtract(host, tools)) return std::move(*flat);
+    if (auto flat = geometry::subtract(host, tools); flat && !tore(host, *flat)) return std::move(*flat);
   geometry::PolyMesh left = host;
   for (const auto& tool : tools) {
-    const auto planes = planesOfConvex(tool);
-    auto cut = planes ? subtractConvex(left, *planes) : Result<geometry::PolyMesh>(failure(ErrorKind::unusable, "not convex"));
-    if (cut) left = std::move(*cut);
+    auto cut = byPlanes(left, tool);
+    if (cut && !tore(left, *cut)) left = std::move(*cut);
     else general.push_back(tool);
   }
   return left;
@@ -186,17 +196,53 @@ Result<geometry::PolyMesh> subtractSimpleTools(const geometry::PolyMesh& host, s
   return left;
 }
 
+namespace {
+
+// The kernel's volume check leaves room for a lost face where the tools are large: these look closer.
+Result<geometry::PolyMesh> byKernel(const geometry::PolyMesh& host, std::span<const geometry::PolyMesh> tools) {
+  auto cut = geometry::subtract(host, tools);
+  if (!cut) return cut;
+  mendSeams(*cut);
+  if (tore(host, *cut)) return failure(ErrorKind::unusable, "the Boolean tore the body open");
+  if (cut->faces.empty() && !holdAll(tools, host)) return failure(ErrorKind::unusable, "the Boolean left nothing of a body that reaches beyond its tools");
+  return cut;
+}
+
+// Its box grows by that much on every side: faces and edges that only just touched, on which every kernel stumbles, part.
+geometry::PolyMesh grown(geometry::PolyMesh tool, double by_m) {
+  Eigen::AlignedBox3d box;
+  for (const auto& p : tool.points) box.extend(p);
+  const Eigen::Vector3d centre = box.center(), half = (box.sizes() / 2).cwiseMax(by_m);
+  for (auto& p : tool.points) p += ((p - centre).array() / half.array() * by_m).matrix();
+  return tool;
+}
+
+// A tool that will not go as it is goes a little larger; if even that fails the planes' result stands, torn but of the right volume.
+Result<geometry::PolyMesh> subtractStubborn(const geometry::PolyMesh& host, const geometry::PolyMesh& tool) {
+  auto first = byKernel(host, std::span(&tool, 1));
+  if (first) return first;
+  for (const double by_m : {2e-5, 1e-4}) {
+    const geometry::PolyMesh larger = grown(tool, by_m);
+    if (auto cut = byPlanes(host, larger); cut && !tore(host, *cut)) return cut;
+    if (auto cut = byKernel(host, std::span(&larger, 1))) return cut;
+  }
+  if (auto torn = byPlanes(host, tool)) return torn;
+  return first;
+}
+
+}  // namespace
+
 Result<geometry::PolyMesh> subtractTools(const geometry::PolyMesh& host, std::span<const geometry::PolyMesh> tools) {
   std::vector<geometry::PolyMesh> general;
   geometry::PolyMesh left = subtractSimple(host, tools, general);
   if (general.empty()) return left;
-  auto cut = geometry::subtract(left, general);
-  if (!cut) return cut;
-  mendSeams(*cut);
-  // The volume that the kernel checks leaves room for a lost face where the tools are large.
-  if (geometry::isClosed(left) && !cut->faces.empty() && !geometry::isClosed(*cut)) return failure(ErrorKind::unusable, "the Boolean tore the body open");
-  if (cut->faces.empty() && !holdAll(general, left)) return failure(ErrorKind::unusable, "the Boolean left nothing of a body that reaches beyond its tools");
-  return cut;
+  if (auto cut = byKernel(left, general)) return cut;
+  for (const auto& tool : general) {
+    auto cut = subtractStubborn(left, tool);
+    if (!cut) return cut;
+    left = std::move(*cut);
+  }
+  return left;
 }
 
 }  // namespace standpoint::ifc

@@ -260,7 +260,14 @@ class Scanner {
     return nullptr;
   }
 
-  Result<void> cut(const char* begin, const std::string& what) const {
+  // What was complete before the cut is kept: half a building, said aloud, serves better than none.
+  Result<void> cut(const char* begin, const std::string& what) {
+    if (!file_.records_.empty()) {
+      report_.lose(line(begin), "the file ends inside " + what + ": it was cut short or a string is not closed; what followed is missing");
+      p_ = end_;
+      ended_ = true;
+      return {};
+    }
     return failure(ErrorKind::unusable, "the file ends inside " + what + ": it was cut short or a string is not closed",
                    name_ + " " + line(begin));
   }

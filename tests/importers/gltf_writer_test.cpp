@@ -161,6 +161,55 @@ TEST(GltfWriter, ImporterSeesTheSamePlacesAndRestoresTheGeoreference) {
   EXPECT_LT((bounds(moved->environment).min - b.min - g.shift_m).norm(), 1e-6);
 }
 
+// Every corner of every placed triangle with its product's name, in the world.
+std::vector<std::pair<std::string, Eigen::Vector3d>> corners(const Environment& e) {
+  std::vector<std::pair<std::string, Eigen::Vector3d>> result;
+  for (const auto& i : e.instances)
+    for (const auto& t : e.meshes[i.mesh]->triangles)
+      for (const auto corner : t) result.emplace_back(e.products[i.product].name, i.world_from_mesh * e.meshes[i.mesh]->positions[corner].cast<double>());
+  return result;
+}
+
+TEST(GltfExport, ComesBackByImportWithProductsPropertiesAndImages) {
+  auto e = everything();
+  Product& p = e.products[0];
+  p = {"#12", "2O2Fr$t4X7Zf8NOew3FLOH", "IfcWall", "SOLIDWALL", "Wand \"1\"", "WT", "EG", -1, -1, true, {"Brick", "Plaster"}, {{"Plaster", 0.015}},
+       {"IfcZone A"}, {{"Pset_WallCommon", "FireRating", "F90"}, {"Pset_WallCommon", "FireRating", "twice"}, {"", "x", "1"}}};
+  Georeference g;
+  g.shift_m = {4e6, 5e6, 100};
+  g.crs = "EPSG:25832";
+  for (const char* name : {"a b\xC3\xA4.gltf", "a.glb"}) {
+    const auto file = scratch() / name;
+    Progress progress;
+    ASSERT_TRUE(exportEnvironmentGltf(e, g, file, progress));
+    const auto model = import(file);
+    ASSERT_TRUE(model) << describe(model.error());
+    const auto& back = model->environment;
+    EXPECT_EQ(back.surfaces, e.surfaces);
+    ASSERT_EQ(back.images.size(), e.images.size());
+    for (std::size_t i = 0; i < e.images.size(); ++i) EXPECT_EQ(back.images[i]->bytes, e.images[i]->bytes);
+    const auto a = corners(e), b = corners(back);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      EXPECT_EQ(a[i].first, b[i].first);
+      EXPECT_LT((a[i].second - b[i].second).norm(), 1e-9 * (1 + a[i].second.norm()));
+    }
+    EXPECT_EQ(back.instances.size(), e.instances.size() - 1);   // the empty mesh is nowhere
+    EXPECT_EQ(back.meshes.size(), e.meshes.size() - 1);
+    const auto& wall = back.products.at(0);
+    EXPECT_EQ(wall.global_id, p.global_id);
+    EXPECT_EQ(wall.ifc_class, "IfcWall");
+    EXPECT_EQ(wall.predefined_type + wall.type_name + wall.storey, "SOLIDWALLWTEG");
+    EXPECT_EQ(wall.materials, p.materials);
+    EXPECT_EQ(wall.groups, p.groups);
+    EXPECT_EQ(wall.layers.at(0).thickness_m, 0.015);
+    ASSERT_EQ(wall.properties.size(), 3U);
+    EXPECT_EQ(wall.properties[1].set + wall.properties[1].name + wall.properties[1].value, "Pset_WallCommonFireRatingtwice");
+    EXPECT_EQ(model->georeference.shift_m, g.shift_m);
+    EXPECT_EQ(model->georeference.crs, g.crs);
+  }
+}
+
 TEST(GltfWriter, ProgressCancelStopsTheWriting) {
   Progress progress;
   progress.cancel();

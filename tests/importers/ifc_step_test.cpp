@@ -71,6 +71,15 @@ TEST(StepFile, SaysWhereACutFileEnds) {
   EXPECT_EQ(file.error().source, "cut.ifc line 5");
 }
 
+TEST(StepFile, KeepsWhatWasCompleteBeforeTheCut) {
+  Report report;
+  const auto file = StepFile::parse("ISO-10303-21;\nDATA;\n#1=IFCA(1);\n#2=IFCA('abc", "cut.ifc", report);
+  ASSERT_TRUE(file.has_value());
+  EXPECT_EQ(file->records().size(), 1U);
+  ASSERT_EQ(report.losses(), 1U);
+  EXPECT_EQ(report.issues.front().source, "line 4");
+}
+
 TEST(StepFile, ReportsALossWhereTheDataSectionIsNotEnded) {
   Report report;
   const auto file = StepFile::parse("ISO-10303-21;\nDATA;\n#1=IFCA(1);\n", "cut.ifc", report);
