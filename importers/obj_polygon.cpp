@@ -47,17 +47,29 @@ bool isConvex(const std::vector<Point>& p) {
   return turned < 6.3;   // once round: a star polygon turns twice
 }
 
-// Whether edges cross more often than rounding makes them, as far as `budget` comparisons tell; edges are met in the
-// order of their left ends, so that only those are compared that lie above each other.
+// The axis along which fewer edges lie above each other.
+int sweepAxis(const std::vector<Point>& p) {
+  Point low = p[0], high = p[0], along = Point::Zero();
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    low = low.cwiseMin(p[i]), high = high.cwiseMax(p[i]);
+    along += (p[(i + 1) % p.size()] - p[i]).cwiseAbs();
+  }
+  return along.x() * (high.y() - low.y()) <= along.y() * (high.x() - low.x()) ? 0 : 1;
+}
+
+// Whether edges cross more often than rounding makes them, or lie so that telling it would take too long. Edges are met
+// in the order of their first ends, so that only those are compared that lie above each other.
 bool crossesOften(const std::vector<Point>& p) {
   constexpr int kOften = 16;
-  std::int64_t budget = 200'000'000;
+  std::int64_t budget = 1'000'000 + 1000 * static_cast<std::int64_t>(p.size());
   struct Edge {
     Point left, right;
   };
+  const int axis = sweepAxis(p), across = 1 - axis;
   std::vector<Edge> edges, open;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    Edge e{p[i], p[(i + 1) % p.size()]};
+    const Point &a = p[i], &b = p[(i + 1) % p.size()];
+    Edge e{{a[axis], a[across]}, {b[axis], b[across]}};
     if (e.right.x() < e.left.x()) std::swap(e.left, e.right);
     edges.push_back(e);
   }
