@@ -66,7 +66,8 @@ class Grouping {
 
   std::uint32_t product() {
     if (current_product_ >= 0) return static_cast<std::uint32_t>(current_product_);
-    const auto [known, is_new] = product_of_.try_emplace({object_, group_}, static_cast<std::uint32_t>(out_.products.size()));
+    const auto [known, is_new] =
+        product_of_.try_emplace({object_, group_}, static_cast<std::uint32_t>(out_.products.size()));
     if (is_new) out_.products.push_back(newProduct());
     current_product_ = known->second;
     return known->second;

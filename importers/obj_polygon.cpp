@@ -79,7 +79,9 @@ bool crossesOften(const std::vector<Point>& p) {
     budget -= static_cast<std::int64_t>(open.size());
     std::erase_if(open, [&](const Edge& other) { return other.right.x() < e.left.x(); });
     for (const Edge& o : open)
-      if (cross(o.left, o.right, e.left) * cross(o.left, o.right, e.right) < 0 && cross(e.left, e.right, o.left) * cross(e.left, e.right, o.right) < 0) ++crossings;
+      if (cross(o.left, o.right, e.left) * cross(o.left, o.right, e.right) < 0 &&
+          cross(e.left, e.right, o.left) * cross(e.left, e.right, o.right) < 0)
+        ++crossings;
     if (crossings > kOften || budget < 0) return true;
     open.push_back(e);
   }

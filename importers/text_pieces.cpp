@@ -46,7 +46,8 @@ Result<std::string> textPiece(const FileBytes& bytes, std::uint64_t from, std::s
   std::size_t cut = std::string::npos;
   while (end < bytes.size()) {
     const std::size_t look = text.size();
-    const auto more = static_cast<std::size_t>(std::min<std::uint64_t>(std::max<std::size_t>(kMore, text.size() / 2), bytes.size() - end));
+    const auto more = static_cast<std::size_t>(
+        std::min<std::uint64_t>(std::max<std::size_t>(kMore, text.size() / 2), bytes.size() - end));
     text.resize(text.size() + more);
     if (auto ok = bytes.read(end, text.data() + text.size() - more, more); !ok) return failure(ok.error());
     end += more;

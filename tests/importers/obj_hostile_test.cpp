@@ -36,7 +36,8 @@ TEST(ObjHostile, WrongIndicesAreRefusedWithTheirLine) {
   EXPECT_THAT(refused("v 0 0 0\n\n# note\nf 1 1 4\n"), HasSubstr("line 4: refers to vertex 4, there are 1"));
   EXPECT_THAT(refused("v 0 0 0\nf 1 0 1\n"), HasSubstr("line 2: corner 2"));
   EXPECT_THAT(refused("v 0 0 0\nf 1 1 -2\n"), HasSubstr("line 2: refers to vertex -2, only 1 precede it"));
-  EXPECT_THAT(refused("v 0 0 0\nf 1 1 4294967297\n"), HasSubstr("line 2: corner 3 of the face has an index of more than nine digits"));
+  EXPECT_THAT(refused("v 0 0 0\nf 1 1 4294967297\n"),
+              HasSubstr("line 2: corner 3 of the face has an index of more than nine digits"));
   EXPECT_THAT(refused("v 0 0 0\nf 1 1 -99999999999999999999\n"), HasSubstr("line 2"));
   EXPECT_THAT(refused("v 0 0 0\nf a b c\n"), HasSubstr("line 2: corner 1 of the face has no vertex number"));
   EXPECT_THAT(refused("v 0 0 0\nf 1 1 1.5\n"), HasSubstr("line 2: corner 3 of the face is not v, v/t, v//n or v/t/n"));
@@ -50,7 +51,8 @@ TEST(ObjHostile, FacesMayComeBeforeTheirVertices) {
 }
 
 TEST(ObjHostile, ListsOnceWhatIsNotASurface) {
-  const auto model = obj(kThree + "p 1\nl 1 2\nl 2 3\ncstype bezier\ncurv 0 1 1 2\nend\nf 1 2\nf 1 2 3\ncall other.obj\ns 1\n");
+  const auto model =
+      obj(kThree + "p 1\nl 1 2\nl 2 3\ncstype bezier\ncurv 0 1 1 2\nend\nf 1 2\nf 1 2 3\ncall other.obj\ns 1\n");
   ASSERT_TRUE(model);
   EXPECT_EQ(model->report.losses(), 5U);
   EXPECT_EQ(model->report.issues.at(1).source, "line 5");
@@ -67,7 +69,8 @@ TEST(ObjHostile, ATextureCoordinateThatIsNotThereCostsItsCornerOnly) {
 }
 
 TEST(ObjHostile, SomethingElseOfThatNameIsRefused) {
-  EXPECT_THAT(refused("\x64\x86\x07 .text code of a compiler\n"), HasSubstr("a.obj line 1: holds no statement of an OBJ"));
+  EXPECT_THAT(refused("\x64\x86\x07 .text code of a compiler\n"),
+              HasSubstr("a.obj line 1: holds no statement of an OBJ"));
   EXPECT_TRUE(obj("# nothing\n"));
   EXPECT_TRUE(obj(""));
 }
@@ -93,7 +96,8 @@ TEST(ObjHostile, AnOutlineThatCrossesItselfAThousandTimesIsSaid) {
 }
 
 TEST(ObjHostile, CutOffAnywhereItIsAModelOrAnErrorWithItsLine) {
-  const std::string text = "mtllib a.mtl\no a\ng b\nusemtl c\n" + kThree + "v 0 0 1 1 0 0\nvt 0 0\nvn 0 0 1\nf 1/1/1 2//1 3\nf 1 2 \\\n -1\nl 1 2\n";
+  const std::string text = "mtllib a.mtl\no a\ng b\nusemtl c\n" + kThree +
+                           "v 0 0 1 1 0 0\nvt 0 0\nvn 0 0 1\nf 1/1/1 2//1 3\nf 1 2 \\\n -1\nl 1 2\n";
   const auto file = scratch() / "cut.obj";
   for (std::size_t length = 0; length <= text.size(); ++length) {
     const auto model = import(write(file, text.substr(0, length)));
@@ -103,12 +107,14 @@ TEST(ObjHostile, CutOffAnywhereItIsAModelOrAnErrorWithItsLine) {
 }
 
 TEST(ObjHostile, RandomBytesAreAModelOrAnError) {
-  const std::string text = "mtllib a.mtl\no a\ng b\nusemtl c\n" + kThree + "f 1 2 3\nf -1 -2 -3\nl 1 2\ncurv 1 2\nf 1/1/1 2//2 -1\n";
+  const std::string text =
+      "mtllib a.mtl\no a\ng b\nusemtl c\n" + kThree + "f 1 2 3\nf -1 -2 -3\nl 1 2\ncurv 1 2\nf 1/1/1 2//2 -1\n";
   const auto file = scratch() / "mutated.obj";
   for (std::uint32_t round = 0; round < 150; ++round) {
     auto mutated = text;
     const auto r = philox({9, 0}, round, 0, 0);
-    for (int k = 0; k < 3; ++k) mutated[r[static_cast<std::size_t>(k)] % mutated.size()] = static_cast<char>(r[3] >> (8 * k));
+    for (int k = 0; k < 3; ++k)
+      mutated[r[static_cast<std::size_t>(k)] % mutated.size()] = static_cast<char>(r[3] >> (8 * k));
     const auto model = import(write(file, mutated));
     EXPECT_EQ(model ? validate(model->environment) : "", "");
   }

@@ -34,7 +34,8 @@ TEST(Obj, DefaultUpAxisIsYAndZCanBeAskedFor) {
 }
 
 TEST(Obj, ObjectsAndGroupsBecomeProductsAndANameThatComesBackContinues) {
-  const auto model = obj("v 0 0 0\nv 1 0 0\nv 0 1 0\no house\ng wall\nf 1 2 3\ng roof\nf 1 2 3\no house\ng wall\nf -1 -2 -3\n");
+  const auto model =
+      obj("v 0 0 0\nv 1 0 0\nv 0 1 0\no house\ng wall\nf 1 2 3\ng roof\nf 1 2 3\no house\ng wall\nf -1 -2 -3\n");
   ASSERT_TRUE(model);
   ASSERT_EQ(model->environment.products.size(), 2U);
   EXPECT_EQ(model->environment.products.at(0).id, "o house g wall");
@@ -90,11 +91,13 @@ TEST(Obj, OnePositionWithThousandsOfTextureCoordinatesIsAsManyVertices) {
 
 TEST(Obj, ColoursOfVerticesAreReadInBothPlacesAndBothScales) {
   const std::string rest = "v 1 0 0\nv 0 1 0\nf 1 2 3\n";
-  const auto shares = obj("v 0 0 0 1 0.5 0\n" + rest), weighted = obj("v 0 0 0 1 1 0.5 0\n" + rest), bytes = obj("v 0 0 0 255 128 0\n" + rest);
+  const auto shares = obj("v 0 0 0 1 0.5 0\n" + rest), weighted = obj("v 0 0 0 1 1 0.5 0\n" + rest),
+             bytes = obj("v 0 0 0 255 128 0\n" + rest);
   using Rgba = std::array<std::uint8_t, 4>;
   for (const auto* model : {&shares, &weighted, &bytes}) {
     ASSERT_TRUE(*model);
-    EXPECT_THAT((*model)->environment.meshes.at(0)->colours, ElementsAre(Rgba{255, 128, 0, 255}, Rgba{255, 255, 255, 255}, Rgba{255, 255, 255, 255}));
+    EXPECT_THAT((*model)->environment.meshes.at(0)->colours,
+                ElementsAre(Rgba{255, 128, 0, 255}, Rgba{255, 255, 255, 255}, Rgba{255, 255, 255, 255}));
   }
   EXPECT_EQ(shares->environment.surfaces.at(0).colour, (Colour{1, 1, 1, 1}));
   EXPECT_EQ(bytes->report.issues.at(0).severity, Severity::warning);
@@ -148,18 +151,21 @@ TEST(Obj, PiecesOfAnySizeGiveTheSameModel) {
 
 TEST(Obj, Utf16IsReadAsItsText) {
   std::string text = "\xFF\xFE";
-  for (const char c : std::string("o B\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")) text += c == 'B' ? std::string("\xDF\x00", 2) : std::string{c, '\0'};
+  for (const char c : std::string("o B\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"))
+    text += c == 'B' ? std::string("\xDF\x00", 2) : std::string{c, '\0'};
   const auto model = obj(text);
   ASSERT_TRUE(model) << describe(model.error());
   EXPECT_EQ(model->environment.products.at(0).name, "ß");
 }
 
 TEST(Obj, LargeCoordinatesKeepTheirTenthOfAMillimetre) {
-  const auto model = obj("v 4512345.1234 5300000.5 100.25\nv 4512346.1234 5300000.5 100.25\nv 4512345.1234 5300001.5 100.25\nf 1 2 3\n",
-                         {.up = UpAxis::z});
+  const auto model = obj(
+      "v 4512345.1234 5300000.5 100.25\nv 4512346.1234 5300000.5 100.25\nv 4512345.1234 5300001.5 100.25\nf 1 2 3\n",
+      {.up = UpAxis::z});
   ASSERT_TRUE(model);
   const auto& e = model->environment;
-  const Eigen::Vector3d file = e.instances.at(0).world_from_mesh * e.meshes.at(0)->positions.at(0).cast<double>() + model->georeference.shift_m;
+  const Eigen::Vector3d file =
+      e.instances.at(0).world_from_mesh * e.meshes.at(0)->positions.at(0).cast<double>() + model->georeference.shift_m;
   EXPECT_NEAR(file.x(), 4512345.1234, 1e-7);
   EXPECT_EQ(model->georeference.shift_m, model->georeference.shift_m.array().round().matrix());
 }
@@ -167,7 +173,8 @@ TEST(Obj, LargeCoordinatesKeepTheirTenthOfAMillimetre) {
 TEST(Obj, WriterAndImporterAgreeInTheFileFrame) {
   Progress progress;
   const auto folder = scratch();
-  auto model = import(write(folder / "a.obj", "o left #1\n" + kCube + "o right\nusemtl Glass\nf 1 2 3\n"), {.up = UpAxis::z});
+  auto model =
+      import(write(folder / "a.obj", "o left #1\n" + kCube + "o right\nusemtl Glass\nf 1 2 3\n"), {.up = UpAxis::z});
   ASSERT_TRUE(model);
   model->environment.instances[1].world_from_mesh.linear() = Eigen::Vector3d(-1, 1, 1).asDiagonal();
   model->georeference.shift_m = {600000, 5000000, 300};
@@ -203,7 +210,8 @@ TEST(Polygon, TriangulationOfAnyStarShapedPolygonKeepsItsArea) {
     ASSERT_EQ(cut.triangles.size(), n - 2);   // what a polygon of n corners has
     EXPECT_TRUE(cut.clean);
     double sum = 0;
-    for (const auto& t : cut.triangles) sum += 0.5 * (corners[t[1]] - corners[t[0]]).cross(corners[t[2]] - corners[t[0]]).norm();
+    for (const auto& t : cut.triangles)
+      sum += 0.5 * (corners[t[1]] - corners[t[0]]).cross(corners[t[2]] - corners[t[0]]).norm();
     EXPECT_NEAR(sum, shoelace, 1e-12) << n;
   }
 }
@@ -215,7 +223,8 @@ TEST(Polygon, AHoleThatABridgeJoinsToTheOutlineStaysOpen) {
   const auto cut = triangulatePolygon(corners);
   EXPECT_TRUE(cut.clean);
   double sum = 0;
-  for (const auto& t : cut.triangles) sum += 0.5 * (corners[t[1]] - corners[t[0]]).cross(corners[t[2]] - corners[t[0]]).z();
+  for (const auto& t : cut.triangles)
+    sum += 0.5 * (corners[t[1]] - corners[t[0]]).cross(corners[t[2]] - corners[t[0]]).z();
   EXPECT_DOUBLE_EQ(sum, 12);
 }
 

@@ -51,7 +51,8 @@ TEST(ObjMaterials, SeveralLibrariesOnALineAndUseBeforeTheyAreNamed) {
   const auto folder = scratch();
   write(folder / "a.mtl", "newmtl a\nKd 1 0 0\n");
   write(folder / "b.mtl", "newmtl b\nKd 0 1 0\nnewmtl a\nKd 0 0 0\n");
-  const auto model = import(write(folder / "m.obj", kTriangle + "usemtl b\nf 1 2 3\nusemtl a\nf 3 2 1\nmtllib a.mtl b.mtl\n"));
+  const auto model =
+      import(write(folder / "m.obj", kTriangle + "usemtl b\nf 1 2 3\nusemtl a\nf 3 2 1\nmtllib a.mtl b.mtl\n"));
   ASSERT_TRUE(model);
   EXPECT_EQ(model->environment.surfaces.at(0).colour, (Colour{0, 1, 0, 1}));
   EXPECT_EQ(model->environment.surfaces.at(1).colour, (Colour{1, 0, 0, 1}));
@@ -90,7 +91,9 @@ TEST(ObjMaterials, WrongNumbersAreSaidWithTheirLine) {
 
 TEST(ObjMaterials, OptionsOfATextureAreToldFromItsName) {
   Report report;
-  const auto name = [&](const std::string& map) { return parseMtl("newmtl a\nmap_Kd " + map + "\n", "a.mtl", report).at(0).texture; };
+  const auto name = [&](const std::string& map) {
+    return parseMtl("newmtl a\nmap_Kd " + map + "\n", "a.mtl", report).at(0).texture;
+  };
   EXPECT_EQ(name("brick wall.png"), "brick wall.png");
   EXPECT_EQ(name("-s 2 2 2 -o 0.5 -clamp on -blendu off -mm 0 1 -imfchan r a b.png"), "a b.png");
   EXPECT_EQ(name("-texres 512 1.png"), "1.png");
@@ -110,7 +113,8 @@ TEST(ObjMaterials, ATextureStaysEncodedAndItsScaleGoesIntoTheCoordinates) {
   EXPECT_EQ(std::string(reinterpret_cast<const char*>(e.images[0]->bytes.data()), e.images[0]->bytes.size()), kPng);
   EXPECT_EQ(e.surfaces.at(0).image, 0);
   // (u, v) from the bottom become (2 u + 0.5, 4 v), then v counts from the top.
-  EXPECT_THAT(e.meshes.at(0)->texture_coordinates, ElementsAre(Eigen::Vector2f(0.5F, 1), Eigen::Vector2f(2.5F, 1), Eigen::Vector2f(0.5F, -3)));
+  EXPECT_THAT(e.meshes.at(0)->texture_coordinates,
+              ElementsAre(Eigen::Vector2f(0.5F, 1), Eigen::Vector2f(2.5F, 1), Eigen::Vector2f(0.5F, -3)));
   EXPECT_THAT(model->report.issues, says(Severity::note, "is taken from Brick Wall.PNG"));
 }
 
@@ -120,15 +124,18 @@ TEST(ObjMaterials, NothingOutsideTheModelsFolderIsRead) {
   write(folder / "out.png", kPng);
   write(folder / "out.mtl", "newmtl a\nKd 1 0 0\n");
   std::filesystem::create_symlink(folder / "out.png", folder / "model" / "link.png");
-  const std::vector<std::string> names = {"../out.png", (folder / "out.png").string(), "link.png", "C:\\out.png", "..\\out.png"};
+  const std::vector<std::string> names = {"../out.png", (folder / "out.png").string(), "link.png", "C:\\out.png",
+                                          "..\\out.png"};
   for (const auto& name : names) {
     write(folder / "model" / "a.mtl", "newmtl a\nmap_Kd " + name + "\n");
-    const auto model = import(write(folder / "model" / "a.obj", "mtllib a.mtl\n" + kTriangle + "usemtl a\nf 1/1 2/2 3/3\n"));
+    const auto model =
+        import(write(folder / "model" / "a.obj", "mtllib a.mtl\n" + kTriangle + "usemtl a\nf 1/1 2/2 3/3\n"));
     ASSERT_TRUE(model);
     EXPECT_THAT(model->environment.images, IsEmpty()) << name;
     EXPECT_THAT(model->report.issues, says(Severity::loss, "outside the model's folder")) << name;
   }
-  const auto model = import(write(folder / "model" / "a.obj", "mtllib ../out.mtl\n" + kTriangle + "usemtl a\nf 1 2 3\n"));
+  const auto model =
+      import(write(folder / "model" / "a.obj", "mtllib ../out.mtl\n" + kTriangle + "usemtl a\nf 1 2 3\n"));
   EXPECT_EQ(model->environment.surfaces.at(0).colour, Colour());
 }
 

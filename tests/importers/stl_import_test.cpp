@@ -33,14 +33,18 @@ std::string binary(std::string header, const std::vector<Facet>& facets) {
 }
 
 // A tetrahedron on the axes, outward: volume 1/6.
-const std::vector<Facet> kTetrahedron = {{{0, 0, 0, 0, 1, 0, 1, 0, 0}}, {{0, 0, 0, 1, 0, 0, 0, 0, 1}}, {{-0.F, 0, 0, 0, 0, 1, 0, 1, 0}}, {{1, 0, 0, 0, 1, 0, 0, 0, 1}}};
+const std::vector<Facet> kTetrahedron = {{{0, 0, 0, 0, 1, 0, 1, 0, 0}},
+                                         {{0, 0, 0, 1, 0, 0, 0, 0, 1}},
+                                         {{-0.F, 0, 0, 0, 0, 1, 0, 1, 0}},
+                                         {{1, 0, 0, 0, 1, 0, 0, 0, 1}}};
 
 std::string text(const std::string& name) {
   std::string out = "solid " + name + "\n";
   for (const auto& f : kTetrahedron) {
     out += "  facet normal nan nan nan\n    outer loop\n";
     for (std::size_t i = 0; i < 9; i += 3)
-      out += "      vertex " + std::to_string(f.corners[i]) + " " + std::to_string(f.corners[i + 1]) + " " + std::to_string(f.corners[i + 2]) + "\n";
+      out += "      vertex " + std::to_string(f.corners[i]) + " " + std::to_string(f.corners[i + 1]) + " " +
+             std::to_string(f.corners[i + 2]) + "\n";
     out += "    endloop\n  endfacet\n";
   }
   return out + "endsolid " + name + "\n";
@@ -50,7 +54,8 @@ Result<ImportedModel> stl(const std::string& bytes) { return import(write(scratc
 std::string refused(const std::string& bytes) { return refusal(write(scratch() / "a.stl", bytes)); }
 
 TEST(Stl, BinaryAndTextAreWeldedToTheSameClosedSolid) {
-  for (const auto& bytes : {binary("made by a test", kTetrahedron), binary("solid made by a test", kTetrahedron), text("pyramid")}) {
+  for (const auto& bytes :
+       {binary("made by a test", kTetrahedron), binary("solid made by a test", kTetrahedron), text("pyramid")}) {
     const auto model = stl(bytes);
     ASSERT_TRUE(model) << describe(model.error());
     const auto& mesh = *model->environment.meshes.at(0);
@@ -110,8 +115,10 @@ TEST(StlHostile, WhatIsWrongIsRefusedWithItsPlace) {
   EXPECT_THAT(refused(binary("x", kTetrahedron).substr(0, 200)), HasSubstr("says 4 triangles and has bytes for 2"));
   EXPECT_THAT(refused(std::string(80, 'x') + "\xFF\xFF\xFF\xFF"), HasSubstr("says 4294967295 triangles"));
   EXPECT_THAT(refused("solid a\nfacet\nouter loop\nvertex 0 0\n"), HasSubstr("line 4: a vertex needs three numbers"));
-  EXPECT_THAT(refused("solid a\nfacet\nouter loop\nvertex 0 0 inf\n"), HasSubstr("line 4: a coordinate is not a finite number"));
-  EXPECT_THAT(refused("solid a\nfacet\nvertex 0 0 0\nendfacet\n"), HasSubstr("line 4: a facet ends without three vertices"));
+  EXPECT_THAT(refused("solid a\nfacet\nouter loop\nvertex 0 0 inf\n"),
+              HasSubstr("line 4: a coordinate is not a finite number"));
+  EXPECT_THAT(refused("solid a\nfacet\nvertex 0 0 0\nendfacet\n"),
+              HasSubstr("line 4: a facet ends without three vertices"));
   EXPECT_THAT(refused("solid a\nvertex 0 0 0\n"), HasSubstr("line 2"));
   EXPECT_THAT(refused("solid a\nfacet\nvertex 0 0 0\n"), HasSubstr("ends within a facet"));
   EXPECT_THAT(refused("solid a\nhello\n"), HasSubstr("line 2: 'hello' is no word of an STL"));
