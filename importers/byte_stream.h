@@ -32,7 +32,8 @@ class ByteStream {
     buffer_.erase(0, at_);
     at_ = 0;
     const std::size_t kept = buffer_.size();
-    const auto more = static_cast<std::size_t>(std::min<std::uint64_t>(std::max(kBuffer, count), bytes_.size() - next_));
+    const auto more =
+        static_cast<std::size_t>(std::min<std::uint64_t>(std::max(kBuffer, count), bytes_.size() - next_));
     buffer_.resize(kept + more);
     if (auto ok = bytes_.read(next_, buffer_.data() + kept, more); !ok) {
       error_ = ok.error();

@@ -26,7 +26,8 @@ void asSurfaces(FaceSoup& soup, std::span<const std::uint32_t> colour_of_face) {
   std::vector<FaceRun> runs;
   for (const auto& run : soup.runs)
     for (auto f = run.begin; f < run.end; ++f) {
-      const auto [known, is_new] = surface_of.try_emplace(colour_of_face[f], static_cast<std::uint32_t>(soup.surfaces.size()));
+      const auto [known, is_new] =
+          surface_of.try_emplace(colour_of_face[f], static_cast<std::uint32_t>(soup.surfaces.size()));
       if (is_new) soup.surfaces.push_back(surfaceOf(colour_of_face[f]));
       const bool goes_on = !runs.empty() && runs.back().product == run.product && runs.back().surface == known->second;
       if (goes_on) runs.back().end = f + 1;

@@ -61,7 +61,8 @@ class SoupModel {
       const auto product = soup_.runs[from].product;
       auto& materials = soup_.products[product].materials;
       for (; to < soup_.runs.size() && soup_.runs[to].product == product; ++to)
-        if (to == from || soup_.runs[to].surface != soup_.runs[to - 1].surface) materials.push_back(soup_.surfaces[soup_.runs[to].surface].name);
+        if (to == from || soup_.runs[to].surface != soup_.runs[to - 1].surface)
+          materials.push_back(soup_.surfaces[soup_.runs[to].surface].name);
       products_.push_back({from, to});
     }
   }
@@ -69,13 +70,15 @@ class SoupModel {
   void chooseOrigins(const ImportOptions& options) {
     tbb::parallel_for(std::size_t{0}, products_.size(), [&](std::size_t i) {
       for (const auto& run : runsOf(i))
-        for (auto c = soup_.beginOf(run.begin); c < soup_.beginOf(run.end); ++c) products_[i].box.extend(soup_.positions[soup_.corners[c]]);
+        for (auto c = soup_.beginOf(run.begin); c < soup_.beginOf(run.end); ++c)
+          products_[i].box.extend(soup_.positions[soup_.corners[c]]);
     });
     Bounds all;
     for (const auto& p : products_) all.extend(p.box);
     const Eigen::Vector3d shift = model_.georeference.shift_m = chooseShift(options, all);
     for (auto& p : products_) {
-      const double reach = std::max((p.box.min - shift).cwiseAbs().maxCoeff(), (p.box.max - shift).cwiseAbs().maxCoeff());
+      const double reach =
+          std::max((p.box.min - shift).cwiseAbs().maxCoeff(), (p.box.max - shift).cwiseAbs().maxCoeff());
       p.origin = reach < kFarFromOrigin_m ? shift : Eigen::Vector3d((0.5 * (p.box.min + p.box.max)).array().round());
     }
   }
@@ -127,15 +130,23 @@ class SoupModel {
     const auto warn = [&](const FaceTally& tally, const char* what) {
       if (tally.count > 0) report_.warn(place(tally), std::to_string(tally.count) + what);
     };
-    warn(f.unclean, " polygon(s) cross themselves or have no area; a fan of triangles stands for each");
+    warn(f.unclean,
+         " polygon(s) cross themselves, have no area or more corners than can be told apart; a fan of triangles stands "
+         "for each");
     warn(f.collapsed, " triangle(s) have two corners in one place and are left out");
     warn(f.twice, " triangle(s) stand there twice; one is kept");
     warn(f.repainted, " triangle(s) stand there twice with different materials; the first is kept");
-    if (f.unpainted.count > 0) report_.warn("", std::to_string(f.unpainted.count) + " vertices of textured surfaces have no texture coordinates");
-    if (f.flat.count > 0) report_.note(place(f.flat), std::to_string(f.flat.count) + " triangle(s) have no area; they are kept, since their edges may close a solid");
+    if (f.unpainted.count > 0)
+      report_.warn("",
+                   std::to_string(f.unpainted.count) + " vertices of textured surfaces have no texture coordinates");
+    if (f.flat.count > 0)
+      report_.note(place(f.flat), std::to_string(f.flat.count) +
+                                      " triangle(s) have no area; they are kept, since their edges may close a solid");
     if (f.inside_out.count > 0)
-      report_.note(place(f.inside_out), std::to_string(f.inside_out.count) +
-                       " product(s) are closed and face inward: rooms seen from within, or turned inside out; they are kept so");
+      report_.note(
+          place(f.inside_out),
+          std::to_string(f.inside_out.count) +
+              " product(s) are closed and face inward: rooms seen from within, or turned inside out; they are kept so");
     if (soup_.runs.empty()) report_.warn("", "no faces: there is nothing to scan");
   }
 
@@ -149,7 +160,8 @@ class SoupModel {
 
 }  // namespace
 
-Result<ImportedModel> modelFrom(FaceSoup&& soup, UpAxis up_of_format, const ImportOptions& options, Report&& report, Progress& progress) {
+Result<ImportedModel> modelFrom(FaceSoup&& soup, UpAxis up_of_format, const ImportOptions& options, Report&& report,
+                                Progress& progress) {
   const bool z_up = (options.up == UpAxis::automatic ? up_of_format : options.up) == UpAxis::z;
   return SoupModel(soup, report, progress).build(z_up, options);
 }

@@ -26,7 +26,7 @@ struct FaceSoup {
   std::vector<std::array<std::uint8_t, 4>> colours;  // empty, or one for each position
   std::vector<Eigen::Vector2f> texture_coordinates;  // (0, 0) upper left
   std::vector<std::uint32_t> corners;                // in range
-  std::vector<std::uint32_t> texture_corners;        // empty, or one for each corner; kNoTextureCorner where it has none
+  std::vector<std::uint32_t> texture_corners;  // empty, or one for each corner; kNoTextureCorner where it has none
   std::vector<std::uint64_t> face_begins;            // into corners, one more than faces; empty: triangles
   std::vector<FaceRun> runs;                         // in the order of the faces
   std::vector<Product> products;                     // each has a run
@@ -39,6 +39,7 @@ struct FaceSoup {
 
 // Metres, Z up, a mesh for each product. Mends what is safe to mend and says so in the report: faces that stand there
 // twice and triangles whose corners coincide go; polygons that cross themselves become fans.
-Result<ImportedModel> modelFrom(FaceSoup&& soup, UpAxis up_of_format, const ImportOptions& options, Report&& report, Progress& progress);
+Result<ImportedModel> modelFrom(FaceSoup&& soup, UpAxis up_of_format, const ImportOptions& options, Report&& report,
+                                Progress& progress);
 
 }  // namespace standpoint

@@ -16,7 +16,8 @@ Result<FileBytes> FileBytes::open(const std::filesystem::path& file) {
   bytes.path_ = file;
   // A pipe or a device would block or never end; not to block in open itself is what O_NONBLOCK is for.
   bytes.descriptor_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (bytes.descriptor_ < 0) return failure(ErrorKind::file_system, std::string("cannot read: ") + std::strerror(errno), file.string());
+  if (bytes.descriptor_ < 0)
+    return failure(ErrorKind::file_system, std::string("cannot read: ") + std::strerror(errno), file.string());
   struct stat status{};
   if (::fstat(bytes.descriptor_, &status) != 0 || !S_ISREG(status.st_mode))
     return failure(ErrorKind::file_system, "is not a regular file", file.string());
@@ -33,7 +34,10 @@ FileBytes FileBytes::of(std::string bytes, const std::filesystem::path& file) {
 }
 
 FileBytes::FileBytes(FileBytes&& other) noexcept
-    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)), size_(other.size_), memory_(std::move(other.memory_)) {}
+    : path_(std::move(other.path_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      size_(other.size_),
+      memory_(std::move(other.memory_)) {}
 
 FileBytes::~FileBytes() {
   if (descriptor_ >= 0) ::close(descriptor_);
@@ -48,8 +52,10 @@ Result<void> FileBytes::read(std::uint64_t offset, char* to, std::size_t count) 
     const auto got = ::pread(descriptor_, to, count, static_cast<off_t>(offset));
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0)
-      return failure(ErrorKind::file_system, got == 0 ? "became shorter while it was read" : std::string("cannot read: ") + std::strerror(errno),
-                     path_.string());
+      return failure(
+          ErrorKind::file_system,
+          got == 0 ? "became shorter while it was read" : std::string("cannot read: ") + std::strerror(errno),
+          path_.string());
     to += got;
     offset += static_cast<std::uint64_t>(got);
     count -= static_cast<std::size_t>(got);
@@ -59,7 +65,9 @@ Result<void> FileBytes::read(std::uint64_t offset, char* to, std::size_t count) 
 
 Result<std::string> FileBytes::all(std::uint64_t at_most) const {
   if (size_ > at_most)
-    return failure(ErrorKind::unusable, "has " + std::to_string(size_) + " bytes; at most " + std::to_string(at_most) + " are read", path_.string());
+    return failure(ErrorKind::unusable,
+                   "has " + std::to_string(size_) + " bytes; at most " + std::to_string(at_most) + " are read",
+                   path_.string());
   std::string text(static_cast<std::size_t>(size_), '\0');
   if (auto ok = read(0, text.data(), text.size()); !ok) return failure(ok.error());
   return text;

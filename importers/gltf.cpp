@@ -47,7 +47,8 @@ class GltfImport {
     if (auto ok = progress_.check(); !ok) return failure(ok.error());
     if (no_material_used_) environment().surfaces.push_back({"", {}, "no material"});
     listGltfRest(file_, seen, model_.report);
-    if (triangleCount(environment()) == 0) model_.report.warn("/nodes", "no node has a surface: there is nothing to scan");
+    if (triangleCount(environment()) == 0)
+      model_.report.warn("/nodes", "no node has a surface: there is nothing to scan");
     georeference(stored);
     if (auto wrong = validate(environment()); !wrong.empty()) file_.fail("", wrong);
     if (file_.failed()) return failure(file_.error());
@@ -67,7 +68,8 @@ class GltfImport {
     const auto places = instancesOf(file_, node);
     const auto rows = rowsOfInstances(node, places.size());
     // glTF 2.0 §3.7.3.3: a skinned mesh stands where its joints are, not where its node is.
-    const Eigen::Affine3d world_from_node = world_from_gltf_ * (pose.joints.empty() ? node.world_from_node : Eigen::Affine3d::Identity());
+    const Eigen::Affine3d world_from_node =
+        world_from_gltf_ * (pose.joints.empty() ? node.world_from_node : Eigen::Affine3d::Identity());
     for (const auto& part : version.parts) {
       const Mesh& ours = *environment().meshes[part.mesh];
       if (file_.failed() || !count(places.size(), ours, node.place)) return;
@@ -91,7 +93,8 @@ class GltfImport {
     const auto values = accessor ? file_.floats(*accessor, 1, node.place + "/" + ids.attribute) : std::vector<float>{};
     for (std::size_t i = 0; i < places && !file_.failed(); ++i) {
       const bool stated = i < values.size() && values[i] >= 0 && values[i] < 4e9F;
-      if (!ids.attribute.empty() && !stated) file_.fail(node.place + "/extensions/EXT_instance_features", "names no attribute with an id for each instance");
+      if (!ids.attribute.empty() && !stated)
+        file_.fail(node.place + "/extensions/EXT_instance_features", "names no attribute with an id for each instance");
       rows.push_back({ids.table, stated ? static_cast<std::size_t>(values[i]) : i});
     }
     return rows;
@@ -102,7 +105,8 @@ class GltfImport {
     constexpr std::size_t kMostPlacedVertices = 1'000'000'000;
     placed_vertices_ += places * (mesh.positions.size() + 1);
     if (!file_.spend(places * sizeof(Instance), place)) return false;
-    if (placed_vertices_ > kMostPlacedVertices) file_.fail(place, "with it the file places more than 1 000 000 000 vertices");
+    if (placed_vertices_ > kMostPlacedVertices)
+      file_.fail(place, "with it the file places more than 1 000 000 000 vertices");
     return !file_.failed();
   }
 
@@ -114,16 +118,17 @@ class GltfImport {
     if (weights.is_array())
       for (const auto& w : weights) pose.weights.push_back(w.is_number() ? w.get<double>() : 0);
     if (std::all_of(pose.weights.begin(), pose.weights.end(), [](double w) { return w == 0; })) pose.weights.clear();
-    if (const auto skin = file_.index(*node.json, "skin", node.place)) pose.joints = jointsOf(file_, *skin, node.place + "/skin");
+    if (const auto skin = file_.index(*node.json, "skin", node.place))
+      pose.joints = jointsOf(file_, *skin, node.place + "/skin");
     return pose;
   }
 
   struct Part {
-    std::uint32_t mesh = 0;                                // ours
-    Eigen::Vector3d origin = Eigen::Vector3d::Zero();      // what was subtracted from its positions
+    std::uint32_t mesh = 0;                            // ours
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // what was subtracted from its positions
     std::optional<GltfFeature> feature;
   };
-  struct Version {   // a mesh of the file in one pose
+  struct Version {  // a mesh of the file in one pose
     GltfPose pose;
     std::vector<Part> parts;
   };
@@ -132,7 +137,7 @@ class GltfImport {
     auto& versions = meshes_[index];
     for (const auto& version : versions)
       if (version.pose == pose) return version;
-    Report again;   // what is lost of a mesh is said once
+    Report again;  // what is lost of a mesh is said once
     auto whole = readGltfMesh(file_, index, materials_, no_material_, pose, versions.empty() ? model_.report : again);
     versions.push_back({pose, {}});
     for (auto& [mesh, feature] : splitByFeature(std::move(whole))) {
@@ -160,11 +165,13 @@ class GltfImport {
     return origin;
   }
 
-  // One product for each node with a mesh, or for each feature of it. Our own files have a node for each instance, and a
-  // node that says whose they are.
-  std::uint32_t productOf(const GltfNode& node, const nlohmann::json& mesh_json, const std::optional<GltfFeature>& feature, const Mesh& mesh) {
+  // One product for each node with a mesh, or for each feature of it. Our own files have a node for each instance, and
+  // a node that says whose they are.
+  std::uint32_t productOf(const GltfNode& node, const nlohmann::json& mesh_json,
+                          const std::optional<GltfFeature>& feature, const Mesh& mesh) {
     auto& products = environment().products;
-    if (node.product && !products.empty() && node.product == last_product_) return static_cast<std::uint32_t>(products.size() - 1);
+    if (node.product && !products.empty() && node.product == last_product_)
+      return static_cast<std::uint32_t>(products.size() - 1);
     last_product_ = node.product;
     Product product;
     product.id = node.place;
@@ -190,8 +197,8 @@ class GltfImport {
     return static_cast<std::uint32_t>(products.size() - 1);
   }
 
-  // CESIUM_RTC: what the positions are relative to, in the frame that is Z up already (CesiumJS and cesium-native add it
-  // after they have turned the axes), in practice metres from the centre of the earth.
+  // CESIUM_RTC: what the positions are relative to, in the frame that is Z up already (CesiumJS and cesium-native add
+  // it after they have turned the axes), in practice metres from the centre of the earth.
   Eigen::Vector3d centreOfFile() {
     const std::string place = "/extensions/CESIUM_RTC";
     const auto centre = file_.numbers(memberOf(memberOf(file_.json(), "extensions"), "CESIUM_RTC"), "center", 3, place);
@@ -199,7 +206,9 @@ class GltfImport {
     const Eigen::Vector3d c(centre[0], centre[1], centre[2]);
     constexpr double kLeastRadiusOfEarth_m = 6.3e6, kMost_m = 6.5e6;
     if (c.norm() > kLeastRadiusOfEarth_m && c.norm() < kMost_m)
-      model_.report.warn(place, "the coordinates are earth-centred, so that up is not along Z here; turn the model in the program that made it");
+      model_.report.warn(place,
+                         "the coordinates are earth-centred, so that up is not along Z here; turn the model in the "
+                         "program that made it");
     return c;
   }
 
@@ -221,8 +230,8 @@ class GltfImport {
   ImportedModel model_;
   std::uint32_t no_material_ = 0;
   bool no_material_used_ = false;
-  GltfMaterials materials_;                             // its surfaces and images have moved to the environment
-  std::map<std::size_t, std::deque<Version>> meshes_;   // of each glTF mesh, what we made of it
+  GltfMaterials materials_;                            // its surfaces and images have moved to the environment
+  std::map<std::size_t, std::deque<Version>> meshes_;  // of each glTF mesh, what we made of it
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();
   std::size_t placed_vertices_ = 0;
   std::optional<std::size_t> last_product_;

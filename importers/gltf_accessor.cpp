@@ -30,7 +30,7 @@ std::size_t componentsOfType(const std::string& type) {
   if (type == "VEC2") return 2;
   if (type == "VEC3") return 3;
   if (type == "VEC4") return 4;
-  if (type == "MAT4") return 16;   // the only matrices that we need, of floats, so without padding
+  if (type == "MAT4") return 16;  // the only matrices that we need, of floats, so without padding
   return 0;
 }
 
@@ -86,7 +86,8 @@ std::span<const std::uint8_t> GltfFile::view(std::size_t buffer_view, const std:
   const auto& json = element("bufferViews", buffer_view, asked_by);
   if (failed()) return {};
   const auto& extensions = memberOf(json, "extensions");
-  const bool khronos = memberOf(extensions, "KHR_meshopt_compression").is_object();   // the same for what 0.18 can decode
+  const bool khronos =
+      memberOf(extensions, "KHR_meshopt_compression").is_object();  // the same for what 0.18 can decode
   const char* name = khronos ? "KHR_meshopt_compression" : "EXT_meshopt_compression";
   const auto& meshopt = memberOf(extensions, name);
   if (!meshopt.is_object()) return slice(json, place);
@@ -142,7 +143,7 @@ GltfFile::Packed GltfFile::packed(std::size_t accessor, const std::string& asked
 void GltfFile::takeDense(const nlohmann::json& json, const std::string& place, std::size_t size, Packed& out) {
   const auto buffer_view = index(json, "bufferView", place);
   if (failed()) return;
-  if (!buffer_view) {   // zeros, says the specification
+  if (!buffer_view) {  // zeros, says the specification
     if (spend(out.count * size, place)) out.own.resize(out.count * size);
     out.bytes = out.own;
     return;
@@ -217,13 +218,16 @@ std::vector<float> GltfFile::floats(std::size_t accessor, std::size_t components
 
 std::vector<Eigen::Vector3f> GltfFile::vectors3(std::size_t accessor, const std::string& asked_by) {
   const auto in = packed(accessor, asked_by);
-  if (!failed() && in.components != 3) fail("/accessors/" + std::to_string(accessor) + "/type", "is not what " + asked_by + " needs");
+  if (!failed() && in.components != 3)
+    fail("/accessors/" + std::to_string(accessor) + "/type", "is not what " + asked_by + " needs");
   if (failed() || !spend(in.count * sizeof(Eigen::Vector3f), asked_by)) return {};
   std::vector<Eigen::Vector3f> out(in.count);
-  if (in.component_type == kFloat && !out.empty()) std::memcpy(out.data()->data(), in.bytes.data(), out.size() * sizeof(Eigen::Vector3f));
+  if (in.component_type == kFloat && !out.empty())
+    std::memcpy(out.data()->data(), in.bytes.data(), out.size() * sizeof(Eigen::Vector3f));
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (in.component_type != kFloat)
-      for (std::size_t k = 0; k < 3; ++k) out[i][static_cast<Eigen::Index>(k)] = number(in.component_type, in.normalized, in.bytes.data(), 3 * i + k);
+      for (std::size_t k = 0; k < 3; ++k)
+        out[i][static_cast<Eigen::Index>(k)] = number(in.component_type, in.normalized, in.bytes.data(), 3 * i + k);
     if (!out[i].allFinite()) {
       fail("/accessors/" + std::to_string(accessor), "element " + std::to_string(i) + " is not a finite number");
       return {};

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <draco/compression/decode.h>
 #include <exception>
 #include <limits>
-
-#include <draco/compression/decode.h>
 
 #include "importers/gltf_primitive.h"
 
@@ -20,15 +19,21 @@ bool wanted(const std::string& attribute) {
 // The accessor says whether integers are fractions of their type's largest.
 double largestOf(draco::DataType type) {
   switch (type) {
-    case draco::DT_INT8: return 127;
-    case draco::DT_UINT8: return 255;
-    case draco::DT_INT16: return 32767;
-    case draco::DT_UINT16: return 65535;
-    default: return 1;
+    case draco::DT_INT8:
+      return 127;
+    case draco::DT_UINT8:
+      return 255;
+    case draco::DT_INT16:
+      return 32767;
+    case draco::DT_UINT16:
+      return 65535;
+    default:
+      return 1;
   }
 }
 
-bool copyColumn(const draco::Mesh& mesh, const draco::PointAttribute& attribute, bool normalized, DracoPrimitive::Column& out) {
+bool copyColumn(const draco::Mesh& mesh, const draco::PointAttribute& attribute, bool normalized,
+                DracoPrimitive::Column& out) {
   const auto n = static_cast<std::size_t>(attribute.num_components());
   if (n == 0 || n > 4) return false;
   out.components = n;
@@ -56,20 +61,22 @@ bool copyTriangles(const draco::Mesh& mesh, DracoPrimitive& out) {
   return true;
 }
 
-bool normalizedAccessor(GltfFile& file, const nlohmann::json& attributes, const std::string& name, const std::string& place) {
+bool normalizedAccessor(GltfFile& file, const nlohmann::json& attributes, const std::string& name,
+                        const std::string& place) {
   const auto accessor = file.index(attributes, name.c_str(), place);
   if (!accessor) return false;
   const auto& flag = memberOf(file.element("accessors", *accessor, place), "normalized");
   return flag.is_boolean() && flag.get<bool>();
 }
 
-void decode(GltfFile& file, std::span<const std::uint8_t> bytes, const nlohmann::json& ids, const nlohmann::json& attributes,
-            const std::string& place, DracoPrimitive& out) {
+void decode(GltfFile& file, std::span<const std::uint8_t> bytes, const nlohmann::json& ids,
+            const nlohmann::json& attributes, const std::string& place, DracoPrimitive& out) {
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   draco::Decoder decoder;
   auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
-  if (!decoded.ok()) return file.fail(place, "the compressed data is damaged (Draco: " + decoded.status().error_msg_string() + ")");
+  if (!decoded.ok())
+    return file.fail(place, "the compressed data is damaged (Draco: " + decoded.status().error_msg_string() + ")");
   const draco::Mesh& mesh = *decoded.value();
   if (!file.spend(std::size_t{mesh.num_points()} * 40 + std::size_t{mesh.num_faces()} * 12, place)) return;
   if (!copyTriangles(mesh, out)) return file.fail(place, "the compressed data is damaged (a corner is out of range)");
@@ -86,7 +93,8 @@ void decode(GltfFile& file, std::span<const std::uint8_t> bytes, const nlohmann:
 
 }  // namespace
 
-DracoPrimitive decodeDraco(GltfFile& file, const nlohmann::json& extension, const nlohmann::json& attributes, const std::string& place) {
+DracoPrimitive decodeDraco(GltfFile& file, const nlohmann::json& extension, const nlohmann::json& attributes,
+                           const std::string& place) {
   DracoPrimitive out;
   const auto buffer_view = file.index(extension, "bufferView", place);
   if (!buffer_view) file.fail(place, "has no bufferView");

@@ -58,7 +58,7 @@ Result<Environment> readEnvironmentGlb(const std::filesystem::path& path, Progre
   file.load();
   Environment environment;
   if (!file.failed()) {
-    Report ignored;   // we wrote the file
+    Report ignored;  // we wrote the file
     const auto& ours = memberOf(memberOf(memberOf(file.json(), "asset"), "extras"), "standpoint");
     auto materials = readGltfMaterials(file, ignored);
     environment.surfaces = std::move(materials.surfaces);

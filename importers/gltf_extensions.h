@@ -12,7 +12,8 @@ namespace standpoint {
 // building at rest does not need, is named in the report.
 void checkGltfExtensions(GltfFile& file, Report& report);
 
-// What lies in the file and in no scene that is read: other scenes, animations, cameras, lights. `seen` says which nodes were.
+// What lies in the file and in no scene that is read: other scenes, animations, cameras, lights. `seen` says which
+// nodes were.
 void listGltfRest(GltfFile& file, const std::vector<bool>& seen, Report& report);
 
 }  // namespace standpoint

@@ -141,11 +141,15 @@ void GltfFile::splitBinary(std::span<const std::uint8_t> bytes) {
 }
 
 void GltfFile::parse(std::span<const std::uint8_t> bytes) {
-  if (const auto at = tooDeepAt(bytes)) return fail("byte " + std::to_string(*at), "the JSON is nested more than 200 levels deep");
+  if (const auto at = tooDeepAt(bytes))
+    return fail("byte " + std::to_string(*at), "the JSON is nested more than 200 levels deep");
   try {
     json_ = nlohmann::json::parse(bytes.begin(), bytes.end());
   } catch (const nlohmann::json::parse_error& e) {
-    return fail("byte " + std::to_string(e.byte), "not JSON: " + std::string(e.what()));
+    std::string why = e.what();  // which quotes the bytes that it does not like
+    std::replace_if(
+        why.begin(), why.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
+    return fail("byte " + std::to_string(e.byte), "not JSON: " + why);
   }
   if (!json_.is_object()) return fail("byte 0", "the JSON is not an object");
   const auto& asset = memberOf(json_, "asset");
@@ -156,7 +160,8 @@ void GltfFile::parse(std::span<const std::uint8_t> bytes) {
   if (!least.empty() && least != "2.0") return fail("/asset/minVersion", "is " + least + ", glTF 2.0 is read");
 }
 
-Result<GltfFile::Block> GltfFile::readAll(const std::filesystem::path& file, const std::string& place, std::size_t at_most) {
+Result<GltfFile::Block> GltfFile::readAll(const std::filesystem::path& file, const std::string& place,
+                                          std::size_t at_most) {
   std::error_code code;
   const auto size = std::filesystem::file_size(file, code);
   if (code) return failure(ErrorKind::file_system, "cannot read " + file.string() + ": " + code.message(), place);
@@ -171,7 +176,8 @@ Result<GltfFile::Block> GltfFile::readAll(const std::filesystem::path& file, con
 Result<GltfFile::Block> GltfFile::blockOf(const std::string& uri, const std::string& place, std::size_t at_most) {
   if (uri.starts_with("data:")) {
     const auto comma = uri.find(";base64,");
-    if (comma == std::string::npos) return failure(ErrorKind::unusable, "is a data URI that is not base64", place + "/uri");
+    if (comma == std::string::npos)
+      return failure(ErrorKind::unusable, "is a data URI that is not base64", place + "/uri");
     const auto text = std::string_view(uri).substr(comma + 8);
     Block block{std::make_unique_for_overwrite<std::uint8_t[]>(text.size()), 0};
     const auto size = fromBase64(text, block.data.get());
@@ -192,7 +198,8 @@ Result<GltfFile::Block> GltfFile::blockOf(const std::string& uri, const std::str
   return readAll(file, place, at_most);
 }
 
-Result<std::vector<std::uint8_t>> GltfFile::resource(const std::string& uri, const std::string& place, std::size_t at_most) {
+Result<std::vector<std::uint8_t>> GltfFile::resource(const std::string& uri, const std::string& place,
+                                                     std::size_t at_most) {
   auto block = blockOf(uri, place, at_most);
   if (!block) return failure(block.error());
   const auto bytes = block->bytes();

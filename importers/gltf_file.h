@@ -34,7 +34,7 @@ class GltfFile {
   bool failed() const { return error_.has_value(); }
   const Error& error() const { return *error_; }
   void fail(const std::string& place, std::string message, ErrorKind kind = ErrorKind::unusable);
-  void fail(Error error);   // whose source is a place
+  void fail(Error error);  // whose source is a place
 
   // Members of an object, each with the place of the object for the message. A missing one gives the fallback.
   std::size_t natural(const nlohmann::json& object, const char* key, std::size_t fallback, const std::string& place);
@@ -65,8 +65,8 @@ class GltfFile {
   struct Packed {
     std::size_t component_type = 0, components = 0, count = 0;
     bool normalized = false;
-    std::span<const std::uint8_t> bytes;   // tightly packed: in the buffer where they are so there …
-    std::vector<std::uint8_t> own;         // … else here
+    std::span<const std::uint8_t> bytes;  // tightly packed: in the buffer where they are so there …
+    std::vector<std::uint8_t> own;        // … else here
   };
   // Big files are read into memory that nobody has set to zero before.
   struct Block {
@@ -88,8 +88,8 @@ class GltfFile {
 
   std::filesystem::path path_;
   nlohmann::json json_;
-  std::vector<Block> blocks_;                               // the file, and what its buffers name
-  std::vector<std::span<const std::uint8_t>> buffers_;      // in the blocks
+  std::vector<Block> blocks_;                           // the file, and what its buffers name
+  std::vector<std::span<const std::uint8_t>> buffers_;  // in the blocks
   std::map<std::size_t, std::vector<std::uint8_t>> decoded_views_;
   std::size_t spent_ = 0;
   std::size_t allowance_ = 0;

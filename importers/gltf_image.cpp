@@ -52,12 +52,13 @@ std::int32_t GltfImages::ofTexture(std::size_t texture, const std::string& asked
     if (memberOf(memberOf(json, "extensions"), extension).is_object()) other = format;
   if (source) {
     if (other != nullptr && !known_.contains(*source))
-      report_.note(place, std::string("its ") + other + " image is not read, the " + "texture's other image stands for it");
+      report_.note(place,
+                   std::string("its ") + other + " image is not read, the " + "texture's other image stands for it");
     return ofImage(*source, place, asked_by);
   }
-  report_.lose(asked_by, other != nullptr
-                             ? std::string("its image (") + place + ") is " + other + ", which is not read and has no PNG or JPEG beside it"
-                             : "its texture (" + place + ") names no image");
+  report_.lose(asked_by, other != nullptr ? std::string("its image (") + place + ") is " + other +
+                                                ", which is not read and has no PNG or JPEG beside it"
+                                          : "its texture (" + place + ") names no image");
   return -1;
 }
 

@@ -13,10 +13,10 @@ namespace {
 using Json = nlohmann::json;
 
 // Material extensions of which a surface keeps the factors; of any other the name is reported.
-constexpr std::array<std::string_view, 8> kKept = {
-    "KHR_materials_transmission", "KHR_materials_ior",   "KHR_materials_volume",
-    "KHR_materials_clearcoat",    "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_specular",     "KHR_materials_emissive_strength"};
+constexpr std::array<std::string_view, 8> kKept = {"KHR_materials_transmission", "KHR_materials_ior",
+                                                   "KHR_materials_volume",       "KHR_materials_clearcoat",
+                                                   "KHR_materials_unlit",        "KHR_materials_pbrSpecularGlossiness",
+                                                   "KHR_materials_specular",     "KHR_materials_emissive_strength"};
 
 float floatOr(const Json& object, const char* key, double fallback) {
   const auto& value = memberOf(object, key);
@@ -36,8 +36,9 @@ class NotKept {
   }
   void report(Report& report) const {
     for (const auto& [what, entry] : kinds_)
-      report.note(entry.first, what + " is not kept" +
-                                   (entry.count > 1 ? ", here and of " + std::to_string(entry.count - 1) + " more materials" : ""));
+      report.note(entry.first,
+                  what + " is not kept" +
+                      (entry.count > 1 ? ", here and of " + std::to_string(entry.count - 1) + " more materials" : ""));
   }
 
  private:
@@ -90,8 +91,10 @@ class MaterialReader {
     const auto& pbr = memberOf(json, "pbrMetallicRoughness");
     const auto& gloss = memberOf(memberOf(json, "extensions"), "KHR_materials_pbrSpecularGlossiness");
     const bool glossy = gloss.is_object();
-    const std::string where = place_ + (glossy ? "/extensions/KHR_materials_pbrSpecularGlossiness" : "/pbrMetallicRoughness");
-    auto colour = glossy ? file_.numbers(gloss, "diffuseFactor", 4, where) : file_.numbers(pbr, "baseColorFactor", 4, where);
+    const std::string where =
+        place_ + (glossy ? "/extensions/KHR_materials_pbrSpecularGlossiness" : "/pbrMetallicRoughness");
+    auto colour =
+        glossy ? file_.numbers(gloss, "diffuseFactor", 4, where) : file_.numbers(pbr, "baseColorFactor", 4, where);
     if (colour.empty()) colour.assign(4, 1.0);
     if (glossy) {
       surface.roughness = 1 - floatOr(gloss, "glossinessFactor", 1);
@@ -100,7 +103,8 @@ class MaterialReader {
       surface.roughness = floatOr(pbr, "roughnessFactor", 1);
     }
     const auto channel = [&](std::size_t i) { return static_cast<float>(std::clamp(colour[i], 0.0, 1.0)); };
-    surface.colour = {srgbFromLinear(channel(0)), srgbFromLinear(channel(1)), srgbFromLinear(channel(2)), alpha(json, channel(3))};
+    surface.colour = {srgbFromLinear(channel(0)), srgbFromLinear(channel(1)), srgbFromLinear(channel(2)),
+                      alpha(json, channel(3))};
     const auto& texture = glossy ? memberOf(gloss, "diffuseTexture") : memberOf(pbr, "baseColorTexture");
     if (texture.is_object()) image(texture, where + (glossy ? "/diffuseTexture" : "/baseColorTexture"), surface, use);
   }
@@ -111,7 +115,8 @@ class MaterialReader {
     if (mode == "BLEND") return factor;
     if (mode != "MASK") return 1;
     const bool textured = memberOf(memberOf(json, "pbrMetallicRoughness"), "baseColorTexture").is_object();
-    if (textured) report_.warn(place_ + "/alphaMode", "the holes that its image masks are not cut: a beam meets the whole face");
+    if (textured)
+      report_.warn(place_ + "/alphaMode", "the holes that its image masks are not cut: a beam meets the whole face");
     return factor >= floatOr(json, "alphaCutoff", 0.5) ? 1.0F : 0.0F;
   }
 
@@ -122,7 +127,7 @@ class MaterialReader {
     use.set = file_.natural(texture, "texCoord", 0, where);
     const auto& transform = memberOf(memberOf(texture, "extensions"), "KHR_texture_transform");
     if (transform.is_object()) use = transformed(transform, where + "/extensions/KHR_texture_transform", use);
-    if (ours_) return;   // its image is in what we stored
+    if (ours_) return;  // its image is in what we stored
     surface.image = images_.ofTexture(*index, place_);
     if (surface.image >= 0) wrapping(*index);
   }
@@ -149,7 +154,8 @@ class MaterialReader {
     constexpr std::size_t kRepeat = 10497;
     const std::string where = "/samplers/" + std::to_string(*sampler);
     const auto& json = file_.element("samplers", *sampler, place + "/sampler");
-    if (file_.natural(json, "wrapS", kRepeat, where) != kRepeat || file_.natural(json, "wrapT", kRepeat, where) != kRepeat)
+    if (file_.natural(json, "wrapS", kRepeat, where) != kRepeat ||
+        file_.natural(json, "wrapT", kRepeat, where) != kRepeat)
       not_kept_.add("that its image does not repeat beyond its edges (" + where + ")", place_);
   }
 
@@ -159,7 +165,8 @@ class MaterialReader {
     const auto& ior = memberOf(extensions, "KHR_materials_ior");
     if (ior.is_object()) surface.index_of_refraction = floatOr(ior, "ior", 1.5);
     const auto& volume = memberOf(extensions, "KHR_materials_volume");
-    if (volume.is_object() && floatOr(volume, "thicknessFactor", 0) > 0) surface.thickness_m = floatOr(volume, "thicknessFactor", 0);
+    if (volume.is_object() && floatOr(volume, "thicknessFactor", 0) > 0)
+      surface.thickness_m = floatOr(volume, "thicknessFactor", 0);
     const auto& coat = memberOf(extensions, "KHR_materials_clearcoat");
     if (coat.is_object()) surface.clearcoat = floatOr(coat, "clearcoatFactor", 0);
     const auto& specular = memberOf(extensions, "KHR_materials_specular");
@@ -171,15 +178,17 @@ class MaterialReader {
     textures(json, "");
     textures(memberOf(json, "pbrMetallicRoughness"), "");
     const auto& emissive = memberOf(json, "emissiveFactor");
-    if (emissive.is_array() && emissive != Json{0, 0, 0} && std::any_of(emissive.begin(), emissive.end(), [](const Json& c) {
-          return c.is_number() && c.get<double>() > 0;
-        }))
+    if (emissive.is_array() && emissive != Json{0, 0, 0} &&
+        std::any_of(emissive.begin(), emissive.end(),
+                    [](const Json& c) { return c.is_number() && c.get<double>() > 0; }))
       not_kept_.add("the light that it emits", place_);
     const auto& extensions = memberOf(json, "extensions");
     if (!extensions.is_object()) return;
     for (const auto& [name, extension] : extensions.items()) {
-      if (std::find(kKept.begin(), kKept.end(), name) == kKept.end()) not_kept_.add(name, place_);
-      else textures(extension, name + " ");
+      if (std::find(kKept.begin(), kKept.end(), name) == kKept.end())
+        not_kept_.add(name, place_);
+      else
+        textures(extension, name + " ");
     }
   }
 
@@ -210,7 +219,8 @@ class MaterialReader {
   void restore(const Json& json, const Json& stored, Surface& surface) {
     const auto srgb = file_.numbers(stored, "srgb", 4, place_ + "/extras/standpoint");
     if (srgb.empty()) return;
-    const Colour colour{static_cast<float>(srgb[0]), static_cast<float>(srgb[1]), static_cast<float>(srgb[2]), static_cast<float>(srgb[3])};
+    const Colour colour{static_cast<float>(srgb[0]), static_cast<float>(srgb[1]), static_cast<float>(srgb[2]),
+                        static_cast<float>(srgb[3])};
     const auto now = file_.numbers(memberOf(json, "pbrMetallicRoughness"), "baseColorFactor", 4, place_);
     const auto same = [&](std::size_t i, float channel) { return std::abs(now[i] - linearFromSrgb(channel)) < 1e-4; };
     if (now.empty() || !same(0, colour.r) || !same(1, colour.g) || !same(2, colour.b)) return;

@@ -15,7 +15,7 @@ namespace standpoint {
 
 // Where a material's image takes its coordinates from.
 struct GltfTextureUse {
-  std::size_t set = 0;                                          // TEXCOORD_<set>
+  std::size_t set = 0;                                           // TEXCOORD_<set>
   Eigen::Affine2d image_from_set = Eigen::Affine2d::Identity();  // KHR_texture_transform
 };
 
@@ -26,8 +26,9 @@ struct GltfMaterials {
   std::vector<GltfTextureUse> texture_of_material;
 };
 
-// One surface for each of the file's materials, in order, with the images that they show. A file that we wrote gives back
-// the surfaces and images that went into it. What a surface does not keep goes to the report, one line for each kind.
+// One surface for each of the file's materials, in order, with the images that they show. A file that we wrote gives
+// back the surfaces and images that went into it. What a surface does not keep goes to the report, one line for each
+// kind.
 GltfMaterials readGltfMaterials(GltfFile& file, Report& report);
 
 // The images that base colours need, each once, encoded as they are in the file.

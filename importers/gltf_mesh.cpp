@@ -10,21 +10,27 @@ namespace standpoint {
 
 namespace {
 
-std::uint16_t sixteenBits(float value) { return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(value, 0.0F, 1.0F))); }
+std::uint16_t sixteenBits(float value) {
+  return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(value, 0.0F, 1.0F)));
+}
 
 class MeshReader {
  public:
-  MeshReader(GltfFile& file, const GltfMaterials& materials, std::uint32_t no_material, const GltfPose& pose, Report& report)
+  MeshReader(GltfFile& file, const GltfMaterials& materials, std::uint32_t no_material, const GltfPose& pose,
+             Report& report)
       : file_(file), materials_(materials), no_material_(no_material), pose_(pose), report_(report) {}
 
   void add(const nlohmann::json& json, const std::string& place) {
     GltfPrimitive primitive(file_, json, place);
     const auto material = file_.index(json, "material", place);
-    if (material && *material >= materials_.surface_of_material.size()) file_.fail(place + "/material", "does not exist");
+    if (material && *material >= materials_.surface_of_material.size())
+      file_.fail(place + "/material", "does not exist");
     if (file_.failed()) return;
-    if (!primitive.isSurface()) return report_.lose(place, "holds " + primitive.whatItIs() + ", which are not a surface");
+    if (!primitive.isSurface())
+      return report_.lose(place, "holds " + primitive.whatItIs() + ", which are not a surface");
     const auto surface = material ? materials_.surface_of_material[*material] : no_material_;
-    const auto [base, count] = vertices(primitive, material ? materials_.texture_of_material[*material] : GltfTextureUse{});
+    const auto [base, count] =
+        vertices(primitive, material ? materials_.texture_of_material[*material] : GltfTextureUse{});
     if (file_.failed()) return;
     append(primitive.triangles(count, report_), base, surface);
   }
@@ -50,8 +56,11 @@ class MeshReader {
     const std::string texture = "TEXCOORD_" + std::to_string(use.set);
     const auto& matrix = use.image_from_set.matrix();
     // Two primitives share their vertices when all that makes them is the same.
-    const Key key{primitive.accessor("POSITION"), primitive.accessor(texture), primitive.accessor("COLOR_0"),
-                  {matrix.data(), matrix.data() + matrix.size()}, poseKey(primitive) + featureKey(primitive)};
+    const Key key{primitive.accessor("POSITION"),
+                  primitive.accessor(texture),
+                  primitive.accessor("COLOR_0"),
+                  {matrix.data(), matrix.data() + matrix.size()},
+                  poseKey(primitive) + featureKey(primitive)};
     if (file_.failed()) return {};
     const bool shared = !primitive.compressed();
     if (const auto known = ranges_.find(key); shared && known != ranges_.end()) return known->second;
@@ -59,8 +68,10 @@ class MeshReader {
     const Range range{mesh_.positions.size(), positions.size()};
     applyPose(file_, primitive, pose_, positions);
     if (file_.failed()) return {};
-    if (mesh_.positions.empty()) mesh_.positions = std::move(positions);
-    else mesh_.positions.insert(mesh_.positions.end(), positions.begin(), positions.end());
+    if (mesh_.positions.empty())
+      mesh_.positions = std::move(positions);
+    else
+      mesh_.positions.insert(mesh_.positions.end(), positions.begin(), positions.end());
     textureCoordinates(primitive, texture, use, range);
     colours(primitive, range);
     features(primitive, range);
@@ -80,11 +91,13 @@ class MeshReader {
 
   bool fits(GltfPrimitive& primitive, const std::string& attribute, std::size_t rows, std::size_t count) {
     if (rows != count && !file_.failed())
-      file_.fail(primitive.place() + "/attributes/" + attribute, "has " + std::to_string(rows) + " elements for " + std::to_string(count) + " vertices");
+      file_.fail(primitive.place() + "/attributes/" + attribute,
+                 "has " + std::to_string(rows) + " elements for " + std::to_string(count) + " vertices");
     return !file_.failed();
   }
 
-  void textureCoordinates(GltfPrimitive& primitive, const std::string& attribute, const GltfTextureUse& use, Range range) {
+  void textureCoordinates(GltfPrimitive& primitive, const std::string& attribute, const GltfTextureUse& use,
+                          Range range) {
     auto& all = mesh_.texture_coordinates;
     const bool present = primitive.accessor(attribute).has_value();
     if (!present && all.empty()) return;
@@ -94,13 +107,15 @@ class MeshReader {
     std::size_t components = 0;
     const auto values = primitive.floats(attribute, components);
     const bool plain = use.image_from_set.matrix().isIdentity(0);
-    if (components != 2 && !file_.failed()) file_.fail(primitive.place() + "/attributes/" + attribute, "is not of pairs");
+    if (components != 2 && !file_.failed())
+      file_.fail(primitive.place() + "/attributes/" + attribute, "is not of pairs");
     if (file_.failed() || !fits(primitive, attribute, values.size() / 2, range.count)) return;
     for (std::size_t i = 0; i < range.count; ++i) {
       auto& t = all[range.base + i] = {values[2 * i], values[2 * i + 1]};
       if (!plain) t = (use.image_from_set * t.cast<double>()).cast<float>();
       if (!t.allFinite())
-        return file_.fail(primitive.place() + "/attributes/" + attribute, "element " + std::to_string(i) + " is not a finite number");
+        return file_.fail(primitive.place() + "/attributes/" + attribute,
+                          "element " + std::to_string(i) + " is not a finite number");
     }
   }
 
@@ -113,13 +128,15 @@ class MeshReader {
     if (!present) return;
     std::size_t n = 0;
     const auto values = primitive.floats("COLOR_0", n);
-    if (n != 3 && n != 4 && !file_.failed()) file_.fail(primitive.place() + "/attributes/COLOR_0", "is not of three or four numbers");
+    if (n != 3 && n != 4 && !file_.failed())
+      file_.fail(primitive.place() + "/attributes/COLOR_0", "is not of three or four numbers");
     if (file_.failed() || !fits(primitive, "COLOR_0", values.size() / n, range.count)) return;
     for (std::size_t i = 0; i < range.count; ++i) {
       auto& c = all[range.base + i];
       for (std::size_t k = 0; k < n; ++k) {
         if (!std::isfinite(values[n * i + k]))
-          return file_.fail(primitive.place() + "/attributes/COLOR_0", "element " + std::to_string(i) + " is not a finite number");
+          return file_.fail(primitive.place() + "/attributes/COLOR_0",
+                            "element " + std::to_string(i) + " is not a finite number");
         const auto bits = sixteenBits(values[n * i + k]);
         c[k] = k < 3 ? srgb8FromLinear16(bits) : static_cast<std::uint8_t>((bits + 128) / 257);
       }
@@ -128,7 +145,7 @@ class MeshReader {
 
   void features(GltfPrimitive& primitive, Range range) {
     const auto ids = featureIdsOf(file_, primitive.json(), "EXT_mesh_features", primitive.place());
-    if (!ids.present || ids.attribute.empty() || file_.failed()) return;   // a feature for each vertex is no product
+    if (!ids.present || ids.attribute.empty() || file_.failed()) return;  // a feature for each vertex is no product
     std::size_t components = 0;
     const auto values = primitive.floats(ids.attribute, components);
     if (file_.failed() || !fits(primitive, ids.attribute, values.size(), range.count)) return;
@@ -136,10 +153,12 @@ class MeshReader {
     feature_of_vertex_.resize(mesh_.positions.size(), -1);
     for (std::size_t i = 0; i < range.count; ++i) {
       if (!(values[i] >= 0 && values[i] < 4e9F))
-        return file_.fail(primitive.place() + "/attributes/" + ids.attribute, "element " + std::to_string(i) + " is not a number of a feature");
+        return file_.fail(primitive.place() + "/attributes/" + ids.attribute,
+                          "element " + std::to_string(i) + " is not a number of a feature");
       const auto row = static_cast<std::size_t>(values[i]);
       if (row == ids.null) continue;
-      const auto [found, fresh] = index_of_feature_.try_emplace({ids.table, row}, static_cast<std::int32_t>(features_.size()));
+      const auto [found, fresh] =
+          index_of_feature_.try_emplace({ids.table, row}, static_cast<std::int32_t>(features_.size()));
       if (fresh) features_.push_back({ids.table, row});
       feature_of_vertex_[range.base + i] = found->second;
     }
@@ -149,12 +168,15 @@ class MeshReader {
     const auto offset = static_cast<std::uint32_t>(base);
     if (offset != 0)
       for (auto& t : triangles) t = {t[0] + offset, t[1] + offset, t[2] + offset};
-    if (mesh_.triangles.empty()) mesh_.triangles = std::move(triangles);
-    else mesh_.triangles.insert(mesh_.triangles.end(), triangles.begin(), triangles.end());
+    if (mesh_.triangles.empty())
+      mesh_.triangles = std::move(triangles);
+    else
+      mesh_.triangles.insert(mesh_.triangles.end(), triangles.begin(), triangles.end());
     mesh_.surface_of_triangle.resize(mesh_.triangles.size(), surface);
   }
 
-  using Key = std::tuple<std::optional<std::size_t>, std::optional<std::size_t>, std::optional<std::size_t>, std::vector<double>, std::string>;
+  using Key = std::tuple<std::optional<std::size_t>, std::optional<std::size_t>, std::optional<std::size_t>,
+                         std::vector<double>, std::string>;
 
   GltfFile& file_;
   const GltfMaterials& materials_;

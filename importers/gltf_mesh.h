@@ -13,19 +13,19 @@ namespace standpoint {
 
 // How a node shapes a mesh: nothing for nearly all.
 struct GltfPose {
-  std::vector<double> weights;              // of morph targets
-  std::vector<Eigen::Affine3d> joints;      // glTF's world from the mesh's bind pose; empty: no skin
+  std::vector<double> weights;          // of morph targets
+  std::vector<Eigen::Affine3d> joints;  // glTF's world from the mesh's bind pose; empty: no skin
   bool operator==(const GltfPose& other) const;
 };
 
 struct GltfMesh {
   Mesh mesh;
-  std::vector<GltfFeature> features;              // EXT_mesh_features with a property table; else empty, as the next
-  std::vector<std::int32_t> feature_of_vertex;    // index into features; −1: none
+  std::vector<GltfFeature> features;            // EXT_mesh_features with a property table; else empty, as the next
+  std::vector<std::int32_t> feature_of_vertex;  // index into features; −1: none
 };
 
-// The triangles of /meshes/<index> in the order of its primitives, sorted by surface. A primitive without a material gets
-// `no_material`. Primitives that share their attributes share their vertices. Texture coordinates are those of the
+// The triangles of /meshes/<index> in the order of its primitives, sorted by surface. A primitive without a material
+// gets `no_material`. Primitives that share their attributes share their vertices. Texture coordinates are those of the
 // material's image, transformed; without an image the first set. What is not a surface goes to the report.
 GltfMesh readGltfMesh(GltfFile& file, std::size_t index, const GltfMaterials& materials, std::uint32_t no_material,
                       const GltfPose& pose, Report& report);

@@ -45,8 +45,10 @@ const Scalar* scalar(const std::string& name) {
 }
 
 std::size_t componentsOf(const std::string& type) {
-  if (type.size() == 4 && type.starts_with("VEC") && type[3] >= '2' && type[3] <= '4') return static_cast<std::size_t>(type[3] - '0');
-  if (type.size() == 4 && type.starts_with("MAT") && type[3] >= '2' && type[3] <= '4') return static_cast<std::size_t>((type[3] - '0') * (type[3] - '0'));
+  if (type.size() == 4 && type.starts_with("VEC") && type[3] >= '2' && type[3] <= '4')
+    return static_cast<std::size_t>(type[3] - '0');
+  if (type.size() == 4 && type.starts_with("MAT") && type[3] >= '2' && type[3] <= '4')
+    return static_cast<std::size_t>((type[3] - '0') * (type[3] - '0'));
   return 1;
 }
 
@@ -69,7 +71,7 @@ class Column {
         count = end >= first ? end - first : 0;
       }
     }
-    count = std::min<std::size_t>(count * componentsOf(type), 1000);   // as text for a person
+    count = std::min<std::size_t>(count * componentsOf(type), 1000);  // as text for a person
     first *= componentsOf(type);
     std::string text;
     for (std::size_t i = first; i < first + count && !file_.failed(); ++i) {
@@ -94,7 +96,8 @@ class Column {
     }
     const auto& enumeration = memberOf(memberOf(schema_, "enums"), file_.text(definition_, "enumType").c_str());
     std::string component = file_.text(definition_, "componentType");
-    if (type == "ENUM") component = file_.text(enumeration, "valueType").empty() ? "UINT16" : file_.text(enumeration, "valueType");
+    if (type == "ENUM")
+      component = file_.text(enumeration, "valueType").empty() ? "UINT16" : file_.text(enumeration, "valueType");
     const Scalar* kind = scalar(component);
     if (kind == nullptr) return file_.fail(place_, "has a componentType that does not exist"), "";
     if (values.size() < kind->size || i > (values.size() - kind->size) / kind->size) return tooShort();
@@ -104,14 +107,19 @@ class Column {
 
   std::string nameIn(const Json& enumeration, const std::string& number) {
     for (const auto& value : memberOf(enumeration, "values"))
-      if (memberOf(value, "value").is_number_integer() && memberOf(value, "value").dump() == number) return file_.text(value, "name");
+      if (memberOf(value, "value").is_number_integer() && memberOf(value, "value").dump() == number)
+        return file_.text(value, "name");
     return number;
   }
 
   std::string string(std::span<const std::uint8_t> values, std::size_t i) {
-    const auto from = offset("stringOffsets", "stringOffsetType", i), to = offset("stringOffsets", "stringOffsetType", i + 1);
+    const auto from = offset("stringOffsets", "stringOffsetType", i),
+               to = offset("stringOffsets", "stringOffsetType", i + 1);
     if (file_.failed() || from > to || to > values.size()) return tooShort();
-    return {reinterpret_cast<const char*>(values.data()) + from, to - from};
+    const Json text(
+        std::string(reinterpret_cast<const char*>(values.data()) + from, std::min<std::size_t>(to - from, 10000)));
+    return Json::parse(text.dump(-1, ' ', false, Json::error_handler_t::replace))
+        .get<std::string>();  // the file may hold any bytes
   }
 
   std::size_t offset(const char* key, const char* type_key, std::size_t i) {
@@ -137,7 +145,8 @@ class Column {
 };
 
 bool isName(const std::string& key, std::string_view name) {
-  return std::equal(key.begin(), key.end(), name.begin(), name.end(), [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
+  return std::equal(key.begin(), key.end(), name.begin(), name.end(),
+                    [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
 }
 
 }  // namespace
@@ -150,7 +159,8 @@ GltfFeatureIds featureIdsOf(GltfFile& file, const Json& object, const char* exte
     const auto table = file.index(sets[i], "propertyTable", where);
     const auto attribute = file.index(sets[i], "attribute", where);
     if (!table || memberOf(sets[i], "texture").is_object()) continue;
-    result = {true, attribute ? "_FEATURE_ID_" + std::to_string(*attribute) : "", *table, file.index(sets[i], "nullFeatureId", where)};
+    result = {true, attribute ? "_FEATURE_ID_" + std::to_string(*attribute) : "", *table,
+              file.index(sets[i], "nullFeatureId", where)};
   }
   return result;
 }

@@ -34,7 +34,8 @@ GltfPrimitive::GltfPrimitive(GltfFile& file, const nlohmann::json& json, std::st
   if (!accessor("POSITION")) file_.fail(place_ + "/attributes", "has no POSITION: there is nothing to scan");
   const auto& draco = memberOf(memberOf(json_, "extensions"), "KHR_draco_mesh_compression");
   if (!file_.failed() && isSurface() && draco.is_object())
-    draco_ = decodeDraco(file_, draco, memberOf(json_, "attributes"), place_ + "/extensions/KHR_draco_mesh_compression");
+    draco_ =
+        decodeDraco(file_, draco, memberOf(json_, "attributes"), place_ + "/extensions/KHR_draco_mesh_compression");
 }
 
 std::string GltfPrimitive::whatItIs() {
@@ -42,10 +43,14 @@ std::string GltfPrimitive::whatItIs() {
   const auto counted = indices ? indices : accessor("POSITION");
   const std::size_t n = counted ? file_.countOf(*counted, place_) : 0;
   switch (mode_) {
-    case kPoints: return std::to_string(n) + " points";
-    case kLines: return std::to_string(n / 2) + " lines";
-    case kLineLoop: return "a loop of " + std::to_string(n) + " lines";
-    default: return "a strip of " + std::to_string(n > 0 ? n - 1 : 0) + " lines";
+    case kPoints:
+      return std::to_string(n) + " points";
+    case kLines:
+      return std::to_string(n / 2) + " lines";
+    case kLineLoop:
+      return "a loop of " + std::to_string(n) + " lines";
+    default:
+      return "a strip of " + std::to_string(n > 0 ? n - 1 : 0) + " lines";
   }
 }
 
@@ -88,12 +93,13 @@ std::vector<std::uint32_t> GltfPrimitive::order(std::size_t vertices) {
 }
 
 std::vector<Triangle> GltfPrimitive::triangles(std::size_t vertices, Report& report) {
-  if (draco_) return std::move(draco_->triangles);   // Draco's own indices are below its own vertices
+  if (draco_) return std::move(draco_->triangles);  // Draco's own indices are below its own vertices
   const auto corners = order(vertices);
   const auto largest = std::max_element(corners.begin(), corners.end());
   if (largest != corners.end() && *largest >= vertices)
-    file_.fail(place_ + "/indices", "index " + std::to_string(largest - corners.begin()) + " is " + std::to_string(*largest) +
-                                        ", there are " + std::to_string(vertices) + " vertices");
+    file_.fail(place_ + "/indices", "index " + std::to_string(largest - corners.begin()) + " is " +
+                                        std::to_string(*largest) + ", there are " + std::to_string(vertices) +
+                                        " vertices");
   if (file_.failed()) return {};
   if (mode_ == kTriangles && corners.size() % 3 != 0)
     report.warn(place_, std::to_string(corners.size()) + " indices are not a multiple of 3; the rest is left out");

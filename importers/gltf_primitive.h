@@ -38,7 +38,7 @@ class GltfPrimitive {
   std::size_t mode() const { return mode_; }
   bool isSurface() const { return mode_ >= kTriangles; }
   bool compressed() const { return draco_.has_value(); }
-  std::string whatItIs();   // "24 points", for the report
+  std::string whatItIs();  // "24 points", for the report
 
   // Of an attribute, the accessor that identifies it; nothing where the primitive has no such attribute.
   std::optional<std::size_t> accessor(const std::string& attribute);

@@ -62,8 +62,10 @@ Json toExtras(const Product& p) {
   if (!p.tangible) extras["tangible"] = false;
   if (!p.materials.empty()) extras["materials"] = p.materials;
   if (!p.groups.empty()) extras["groups"] = p.groups;
-  for (const auto& layer : p.layers) extras["layers"].push_back({{"name", layer.name}, {"thickness_m", layer.thickness_m}});
-  for (const auto& property : p.properties) extras["properties"].push_back({{"set", property.set}, {"name", property.name}, {"value", property.value}});
+  for (const auto& layer : p.layers)
+    extras["layers"].push_back({{"name", layer.name}, {"thickness_m", layer.thickness_m}});
+  for (const auto& property : p.properties)
+    extras["properties"].push_back({{"set", property.set}, {"name", property.name}, {"value", property.value}});
   return extras;
 }
 

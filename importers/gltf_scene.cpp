@@ -62,14 +62,16 @@ std::vector<std::size_t> rootNodes(GltfFile& file) {
 using Visit = std::function<void(const GltfNode&)>;
 
 // From the given roots, last first.
-std::vector<bool> walk(GltfFile& file, const std::vector<std::size_t>& roots, const std::string& from, const Visit& visit) {
+std::vector<bool> walk(GltfFile& file, const std::vector<std::size_t>& roots, const std::string& from,
+                       const Visit& visit) {
   struct Entry {
     std::size_t index;
     GltfNode parent;
     std::string asked_by;
   };
   std::vector<Entry> stack;
-  const auto push = [&](const std::vector<std::size_t>& last_first, const GltfNode& parent, const std::string& asked_by) {
+  const auto push = [&](const std::vector<std::size_t>& last_first, const GltfNode& parent,
+                        const std::string& asked_by) {
     for (const auto index : last_first) stack.push_back({index, parent, asked_by});
   };
   push(roots, {}, from);
@@ -90,7 +92,8 @@ std::vector<bool> walk(GltfFile& file, const std::vector<std::size_t>& roots, co
     node.world_from_node = entry.parent.world_from_node * placement(file, *node.json, node.place);
     if (!node.world_from_node.matrix().allFinite()) file.fail(node.place, "its placement is not finite");
     const auto& ours = memberOf(memberOf(*node.json, "extras"), "standpoint");
-    if (const auto product = file.index(ours, "product", node.place + "/extras/standpoint"); product && product != node.product) {
+    if (const auto product = file.index(ours, "product", node.place + "/extras/standpoint");
+        product && product != node.product) {
       node.product = product;
       node.product_json = node.json;
     }
@@ -121,17 +124,20 @@ std::vector<Eigen::Affine3d> jointsOf(GltfFile& file, std::size_t skin, const st
   std::vector<float> inverse_bind;
   if (const auto accessor = file.index(json, "inverseBindMatrices", place)) {
     inverse_bind = file.floats(*accessor, 16, place + "/inverseBindMatrices");
-    if (inverse_bind.size() < 16 * joints.size()) file.fail(place + "/inverseBindMatrices", "has fewer matrices than the skin has joints");
+    if (inverse_bind.size() < 16 * joints.size())
+      file.fail(place + "/inverseBindMatrices", "has fewer matrices than the skin has joints");
   }
   std::vector<Eigen::Affine3d> world(file.count("nodes"), Eigen::Affine3d::Identity());
   walk(file, rootNodes(file), "", [&](const GltfNode& node) { world[node.index] = node.world_from_node; });
   std::vector<Eigen::Affine3d> result;
   for (std::size_t i = 0; i < joints.size() && !file.failed(); ++i) {
-    if (joints[i] >= world.size()) file.fail(place + "/joints/" + std::to_string(i), "refers to a node that does not exist");
+    if (joints[i] >= world.size())
+      file.fail(place + "/joints/" + std::to_string(i), "refers to a node that does not exist");
     if (file.failed()) break;
     Eigen::Affine3d bind = Eigen::Affine3d::Identity();
     if (!inverse_bind.empty())
-      bind.matrix().topRows<3>() = Eigen::Map<const Eigen::Matrix4f>(inverse_bind.data() + 16 * i).cast<double>().topRows<3>();
+      bind.matrix().topRows<3>() =
+          Eigen::Map<const Eigen::Matrix4f>(inverse_bind.data() + 16 * i).cast<double>().topRows<3>();
     result.push_back(world[joints[i]] * bind);
   }
   return file.failed() ? std::vector<Eigen::Affine3d>{} : result;

@@ -45,10 +45,13 @@ std::vector<GltfPart> splitByFeature(GltfMesh&& whole) {
     parts.push_back({std::move(whole.mesh), std::nullopt});
     return parts;
   }
-  const auto feature = [&](std::uint32_t triangle) { return whole.feature_of_vertex[whole.mesh.triangles[triangle][0]]; };
+  const auto feature = [&](std::uint32_t triangle) {
+    return whole.feature_of_vertex[whole.mesh.triangles[triangle][0]];
+  };
   std::vector<std::uint32_t> order(whole.mesh.triangles.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return feature(a) < feature(b); });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return feature(a) < feature(b); });
   std::vector<std::uint32_t> new_of_old(whole.mesh.positions.size(), kUnused);
   for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
     const auto id = feature(order[first]);

@@ -29,8 +29,10 @@ std::string percentEncoded(const std::string& name) {
   std::string result;
   for (const char c : name) {
     const auto u = static_cast<unsigned char>(c);
-    if ((std::isalnum(u) != 0 && u < 128) || c == '-' || c == '_' || c == '.') result += c;
-    else ((result += '%') += kDigits[u >> 4U]) += kDigits[u & 15U];
+    if ((std::isalnum(u) != 0 && u < 128) || c == '-' || c == '_' || c == '.')
+      result += c;
+    else
+      ((result += '%') += kDigits[u >> 4U]) += kDigits[u & 15U];
   }
   return result;
 }
@@ -40,7 +42,8 @@ class GlbWriter {
  public:
   enum class For { project, others };
 
-  GlbWriter(const Environment& environment, const Georeference& georeference, For reader) : environment_(environment), reader_(reader) {
+  GlbWriter(const Environment& environment, const Georeference& georeference, For reader)
+      : environment_(environment), reader_(reader) {
     json_["asset"] = {{"version", "2.0"}, {"generator", "Standpoint"}};
     auto& ours = json_["asset"]["extras"]["standpoint"];
     ours = toJson(georeference);
@@ -113,7 +116,8 @@ class GlbWriter {
   }
 
   void addMaterials() {
-    for (std::size_t i = 0; i < environment_.surfaces.size(); ++i) json_["materials"].push_back(gltfMaterial(environment_.surfaces[i]));
+    for (std::size_t i = 0; i < environment_.surfaces.size(); ++i)
+      json_["materials"].push_back(gltfMaterial(environment_.surfaces[i]));
     addImages();
     for (std::size_t i = 0; i < environment_.surfaces.size(); ++i)
       if (const auto texture = textureOf(i); !texture.is_null())
@@ -130,7 +134,8 @@ class GlbWriter {
         stored["bufferView"] = addView(image->bytes.size());
         if (gltfMediaType(image->bytes) == image->media_type && !image->media_type.empty()) {
           texture_of_image_.back() = json_["textures"].is_null() ? 0 : json_["textures"].size();
-          json_["images"].push_back({{"bufferView", stored["bufferView"]}, {"mimeType", image->media_type}, {"name", image->name}});
+          json_["images"].push_back(
+              {{"bufferView", stored["bufferView"]}, {"mimeType", image->media_type}, {"name", image->name}});
           json_["textures"].push_back({{"source", json_["images"].size() - 1}});
         }
       }
@@ -188,8 +193,10 @@ class GlbWriter {
     const std::size_t count = mesh.positions.size();
     Json attributes = {{"POSITION", addPositions(mesh)}};
     if (!mesh.texture_coordinates.empty())
-      attributes["TEXCOORD_0"] = addAccessor(
-          {{"bufferView", addView(count * 8, kArrayBuffer)}, {"componentType", kFloat}, {"type", "VEC2"}, {"count", count}});
+      attributes["TEXCOORD_0"] = addAccessor({{"bufferView", addView(count * 8, kArrayBuffer)},
+                                              {"componentType", kFloat},
+                                              {"type", "VEC2"},
+                                              {"count", count}});
     if (!mesh.colours.empty())
       attributes["COLOR_0"] = addAccessor({{"bufferView", addView(count * 8, kArrayBuffer)},
                                            {"componentType", kUnsignedShort},
@@ -213,8 +220,10 @@ class GlbWriter {
                                          {"componentType", kUnsignedInt},
                                          {"type", "SCALAR"},
                                          {"count", (to - from) * 3}});
-      primitives.push_back(
-          {{"attributes", attributes}, {"indices", accessor}, {"material", materialFor(mesh, surfaces[from])}, {"mode", kTriangles}});
+      primitives.push_back({{"attributes", attributes},
+                            {"indices", accessor},
+                            {"material", materialFor(mesh, surfaces[from])},
+                            {"mode", kTriangles}});
     }
     if (primitives.empty()) primitives.push_back({{"attributes", attributes}, {"mode", kPoints}});
     gltf_mesh_of_.push_back(json_["meshes"].is_null() ? 0 : json_["meshes"].size());
@@ -238,8 +247,10 @@ class GlbWriter {
     const auto& instances = environment_.instances;
     for (std::size_t first = 0, last = 0; first < instances.size(); first = last) {
       while (last < instances.size() && instances[last].product == instances[first].product) ++last;
-      if (reader_ == For::others) children.push_back(addProduct(first, last));
-      else for (std::size_t i = first; i < last; ++i) children.push_back(addInstance(instances[i]));
+      if (reader_ == For::others)
+        children.push_back(addProduct(first, last));
+      else
+        for (std::size_t i = first; i < last; ++i) children.push_back(addInstance(instances[i]));
     }
     if (!children.empty()) json_["nodes"][0]["children"] = std::move(children);
     json_["scene"] = 0;
@@ -267,7 +278,8 @@ class GlbWriter {
   // After the first product that shows them, as people look for them in a list.
   void nameMeshes() {
     for (const auto& instance : environment_.instances)
-      if (const auto& mesh = gltf_mesh_of_[instance.mesh]; !mesh.is_null() && !json_["meshes"][mesh.get<std::size_t>()].contains("name"))
+      if (const auto& mesh = gltf_mesh_of_[instance.mesh];
+          !mesh.is_null() && !json_["meshes"][mesh.get<std::size_t>()].contains("name"))
         json_["meshes"][mesh.get<std::size_t>()]["name"] = environment_.products[instance.product].name;
   }
 
@@ -336,7 +348,8 @@ class GlbWriter {
     std::vector<std::array<std::uint16_t, 4>> linear;
     linear.reserve(mesh.colours.size());
     for (const auto& c : mesh.colours)
-      linear.push_back({linear16FromSrgb8(c[0]), linear16FromSrgb8(c[1]), linear16FromSrgb8(c[2]), static_cast<std::uint16_t>(c[3] * 257)});
+      linear.push_back({linear16FromSrgb8(c[0]), linear16FromSrgb8(c[1]), linear16FromSrgb8(c[2]),
+                        static_cast<std::uint16_t>(c[3] * 257)});
     writeAll(linear, out);
     writeAll(mesh.triangles, out);
   }
@@ -349,9 +362,9 @@ class GlbWriter {
   const Environment& environment_;
   For reader_;
   Json json_ = Json::object();
-  std::vector<Json> gltf_mesh_of_;        // null for a mesh without vertices
-  std::vector<Json> texture_of_image_;    // null for an image that glTF does not know
-  std::map<std::size_t, std::size_t> plain_of_;   // surface with an image → material without it
+  std::vector<Json> gltf_mesh_of_;               // null for a mesh without vertices
+  std::vector<Json> texture_of_image_;           // null for an image that glTF does not know
+  std::map<std::size_t, std::size_t> plain_of_;  // surface with an image → material without it
   std::size_t size_ = 0;             // of the binary chunk; every part is a multiple of 4
 };
 

@@ -35,7 +35,8 @@ Json extensionsOf(const Surface& s) {
   Json extensions = Json::object();
   if (s.transmission) extensions["KHR_materials_transmission"] = {{"transmissionFactor", unit(*s.transmission)}};
   if (s.index_of_refraction) extensions["KHR_materials_ior"] = {{"ior", std::max(1.0F, *s.index_of_refraction)}};
-  if (s.transmission && s.thickness_m) extensions["KHR_materials_volume"] = {{"thicknessFactor", std::max(0.0F, *s.thickness_m)}};
+  if (s.transmission && s.thickness_m)
+    extensions["KHR_materials_volume"] = {{"thicknessFactor", std::max(0.0F, *s.thickness_m)}};
   if (s.clearcoat) extensions["KHR_materials_clearcoat"] = {{"clearcoatFactor", unit(*s.clearcoat)}};
   if (s.specular) extensions["KHR_materials_specular"] = {{"specularFactor", unit(*s.specular)}};
   return extensions;
@@ -52,7 +53,7 @@ Json gltfMaterial(const Surface& s) {
       {"roughnessFactor", unit(s.roughness.value_or(1.0F))}};
   if (c.a < 1) material["alphaMode"] = "BLEND";
   Json extensions = extensionsOf(s);
-  material["doubleSided"] = !extensions.contains("KHR_materials_volume");   // a volume has an inside
+  material["doubleSided"] = !extensions.contains("KHR_materials_volume");  // a volume has an inside
   if (!extensions.empty()) material["extensions"] = std::move(extensions);
   return material;
 }
@@ -60,7 +61,8 @@ Json gltfMaterial(const Surface& s) {
 bool isFinite(const Surface& s) {
   const auto& c = s.colour;
   float sum = c.r + c.g + c.b + c.a;
-  for (const auto& value : {s.metallic, s.roughness, s.transmission, s.index_of_refraction, s.thickness_m, s.clearcoat, s.specular})
+  for (const auto& value :
+       {s.metallic, s.roughness, s.transmission, s.index_of_refraction, s.thickness_m, s.clearcoat, s.specular})
     sum += value.value_or(0);
   return std::isfinite(sum);
 }

@@ -7,8 +7,8 @@
 
 namespace standpoint {
 
-// A surface as a glTF material without its image: what glTF has words for in them, so that any program sees it, and all of
-// it bit for bit in `extras`.
+// A surface as a glTF material without its image: what glTF has words for in them, so that any program sees it, and all
+// of it bit for bit in `extras`.
 nlohmann::json gltfMaterial(const Surface& surface);
 
 bool isFinite(const Surface& surface);

@@ -33,7 +33,8 @@ std::optional<fs::path> inOtherCase(const fs::path& folder, const std::string& n
   std::optional<fs::path> best;
   std::error_code code;
   std::size_t seen = 0;
-  for (fs::directory_iterator it(folder, code), end; !code && it != end && seen < kMaxEntries; it.increment(code), ++seen)
+  for (fs::directory_iterator it(folder, code), end; !code && it != end && seen < kMaxEntries;
+       it.increment(code), ++seen)
     if (lower(it->path().filename().string()) == lower(name) && (!best || it->path() < *best)) best = it->path();
   return best;
 }
@@ -91,7 +92,8 @@ Result<ModelFolder::Found> ModelFolder::find(const std::string& name, const fs::
       return *found;
     }
   }
-  return failure(ErrorKind::unusable, outside ? "lies outside the model's folder and is not read" : "is missing", name.substr(0, 200));
+  return failure(ErrorKind::unusable, outside ? "lies outside the model's folder and is not read" : "is missing",
+                 name.substr(0, 200));
 }
 
 Result<std::int32_t> ImageFiles::add(const fs::path& file) {

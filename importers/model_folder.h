@@ -22,8 +22,8 @@ class ModelFolder {
     std::filesystem::path file;
     bool as_named = true;   // false: the case differs, or the folders of the name were left out
   };
-  // `name` as written: with backslashes, quotes, another case, or a path of another machine, of which only the last part
-  // is looked for. Relative to `base` first (the folder of the file that names it), then to the model's folder.
+  // `name` as written: with backslashes, quotes, another case, or a path of another machine, of which only the last
+  // part is looked for. Relative to `base` first (the folder of the file that names it), then to the model's folder.
   Result<Found> find(const std::string& name, const std::filesystem::path& base) const;
   const std::filesystem::path& root() const { return root_; }
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "importers/text_cursor.h"
+#include "importers/text_pieces.h"
 
 namespace standpoint {
 
@@ -24,7 +25,8 @@ std::string lower(std::string_view text) {
 
 class MtlParser {
  public:
-  MtlParser(std::string_view text, const std::string& name, Report& report) : text_(text, 1), name_(name), report_(report) {}
+  MtlParser(std::string_view text, const std::string& name, Report& report)
+      : text_(text, 1), name_(name), report_(report) {}
 
   std::vector<MtlMaterial> run() {
     while (!text_.done()) {
@@ -51,9 +53,13 @@ class MtlParser {
     if (isMap(key)) return map(key, rest);
     auto& s = current_->surface;
     if (key == "kd") kd(rest);
-    else if (key == "d") number(rest.starts_with("-halo") ? rest.substr(5) : rest, [&](double v) { s.colour.a = unit(v), has_d_ = true; });
+    else if (key == "d")
+      number(rest.starts_with("-halo") ? rest.substr(5) : rest, [&](double v) { s.colour.a = unit(v), has_d_ = true; });
     else if (key == "tr") number(rest, [&](double v) { if (!has_d_) s.colour.a = unit(1 - v); });
-    else if (key == "ni") number(rest, [&](double v) { if (v > 1 && v <= 10) s.index_of_refraction = static_cast<float>(v); });
+    else if (key == "ni")
+      number(rest, [&](double v) {
+        if (v > 1 && v <= 10) s.index_of_refraction = static_cast<float>(v);
+      });
     else if (key == "pr") number(rest, [&](double v) { s.roughness = unit(v); });
     else if (key == "pm") number(rest, [&](double v) { s.metallic = unit(v); });
     else if (key == "pc") number(rest, [&](double v) { s.clearcoat = unit(v); });
@@ -68,7 +74,7 @@ class MtlParser {
   void begin(const std::string& name) {
     has_d_ = false;
     const bool is_new = names_.insert(name).second;
-    if (!is_new) report_.warn(place(), "material '" + name + "' is defined again; the first definition holds");
+    if (!is_new) report_.warn(place(), "material " + inQuotes(name) + " is defined again; the first definition holds");
     if (!is_new) {
       ignored_ = {};
       current_ = &ignored_;
@@ -81,7 +87,8 @@ class MtlParser {
   }
 
   void orphan(const std::string& key) {
-    static constexpr std::array<std::string_view, 12> kObj = {"v", "vn", "vt", "f", "o", "g", "s", "l", "p", "usemtl", "mtllib", "vp"};
+    static constexpr std::array<std::string_view, 12> kObj = {"v", "vn", "vt", "f",      "o",      "g",
+                                                              "s", "l",  "p",  "usemtl", "mtllib", "vp"};
     if (std::find(kObj.begin(), kObj.end(), key) != kObj.end()) return count("statements of an OBJ");
     count("statements before the first newmtl");
   }
@@ -96,14 +103,16 @@ class MtlParser {
     const std::string line = rest + '\n';
     TextCursor cursor(line, 0);
     std::vector<double> result;
-    for (double v = 0; cursor.skipSpaces(), !cursor.atLineEnd() && result.size() < 16 && cursor.number(v);) result.push_back(v);
+    for (double v = 0; cursor.skipSpaces(), !cursor.atLineEnd() && result.size() < 16 && cursor.number(v);)
+      result.push_back(v);
     return result;
   }
 
   template <class Use>
   void number(const std::string& rest, const Use& use) {
     const auto n = numbers(rest);
-    if (n.empty() || !std::isfinite(n[0])) return report_.warn(place(), "'" + rest.substr(0, 60) + "' is not a number and is not used");
+    if (n.empty() || !std::isfinite(n[0]))
+      return report_.warn(place(), inQuotes(rest) + " is not a number and is not used");
     use(n[0]);
   }
 
@@ -111,8 +120,9 @@ class MtlParser {
   std::optional<std::array<float, 3>> colour(const std::string& rest) {
     auto n = numbers(rest);
     if (n.size() == 1) n = {n[0], n[0], n[0]};
-    if (n.size() >= 3 && std::isfinite(n[0]) && std::isfinite(n[1]) && std::isfinite(n[2])) return std::array{unit(n[0]), unit(n[1]), unit(n[2])};
-    report_.warn(place(), "'" + rest.substr(0, 60) + "' is not a colour of three numbers and is not used");
+    if (n.size() >= 3 && std::isfinite(n[0]) && std::isfinite(n[1]) && std::isfinite(n[2]))
+      return std::array{unit(n[0]), unit(n[1]), unit(n[2])};
+    report_.warn(place(), inQuotes(rest) + " is not a colour of three numbers and is not used");
     return std::nullopt;
   }
 
@@ -127,7 +137,8 @@ class MtlParser {
 
   // Tf is read by nobody alike: Maya writes 1 1 1 for opaque, the specification means clear by it.
   void other(const std::string& key, const std::string& rest) {
-    static constexpr std::array<std::string_view, 10> kLooks = {"ka", "ns", "ke", "tf", "ps", "pcr", "aniso", "anisor", "sharpness", "km"};
+    static constexpr std::array<std::string_view, 10> kLooks = {"ka",  "ns",    "ke",     "tf",        "ps",
+                                                                "pcr", "aniso", "anisor", "sharpness", "km"};
     if (std::find(kLooks.begin(), kLooks.end(), key) == kLooks.end()) return count("statements of unknown kinds");
     const auto n = numbers(rest);
     if (std::any_of(n.begin(), n.end(), [](double v) { return v != 0; })) looks_.insert(key);
@@ -159,9 +170,13 @@ class MtlParser {
       if (option == "-s" || option == "-o" || option == "-t" || option == "-mm") {
         double n[3] = {0, 0, 0};
         int count = 0;
-        for (; cursor.skipSpaces(), count < (option == "-mm" ? 2 : 3) && !cursor.atLineEnd() && cursor.number(n[count]);) ++count;
-        if (option == "-s" && count > 0) scale = Eigen::Vector2f(static_cast<float>(n[0]), static_cast<float>(count > 1 ? n[1] : 1));
-        else if (option == "-o" && count > 0) offset = Eigen::Vector2f(static_cast<float>(n[0]), static_cast<float>(n[1]));
+        for (;
+             cursor.skipSpaces(), count < (option == "-mm" ? 2 : 3) && !cursor.atLineEnd() && cursor.number(n[count]);)
+          ++count;
+        if (option == "-s" && count > 0)
+          scale = Eigen::Vector2f(static_cast<float>(n[0]), static_cast<float>(count > 1 ? n[1] : 1));
+        else if (option == "-o" && count > 0)
+          offset = Eigen::Vector2f(static_cast<float>(n[0]), static_cast<float>(n[1]));
         else options_.insert(option);
       } else if (takesOne(option)) {
         cursor.skipSpaces();
@@ -174,7 +189,8 @@ class MtlParser {
   }
 
   static bool takesOne(const std::string& option) {
-    static constexpr std::array<std::string_view, 10> kOne = {"-blendu", "-blendv", "-boost", "-bm", "-cc", "-clamp", "-colorspace", "-imfchan", "-texres", "-type"};
+    static constexpr std::array<std::string_view, 10> kOne = {"-blendu", "-blendv",     "-boost",   "-bm",     "-cc",
+                                                              "-clamp",  "-colorspace", "-imfchan", "-texres", "-type"};
     return std::find(kOne.begin(), kOne.end(), option) != kOne.end();
   }
 
@@ -186,7 +202,8 @@ class MtlParser {
 
   void sayWhatIsNotKept() {
     for (const auto& [what, found] : odd_)
-      report_.warn(name_ + " line " + std::to_string(found.first), std::to_string(found.second) + " " + what + " are not read");
+      report_.warn(name_ + " line " + std::to_string(found.first),
+                   std::to_string(found.second) + " " + what + " are not read");
     if (!looks_.empty()) report_.note(name_, "not kept, since it says how a lamp would light it: " + joined(looks_));
     if (!options_.empty()) report_.note(name_, "options of textures that are not kept: " + joined(options_));
   }

@@ -50,10 +50,13 @@ constexpr std::array kOdd = {
 void sayWhatIsLost(const ObjFile& file, Report& report) {
   const auto say = [&](const Lost& lost, auto&& into) {
     const auto found = file.tallies.find(lost.key);
-    if (found != file.tallies.end()) into("line " + std::to_string(found->second.first_line), std::to_string(found->second.count) + " " + lost.what);
+    if (found != file.tallies.end())
+      into("line " + std::to_string(found->second.first_line), std::to_string(found->second.count) + " " + lost.what);
   };
-  for (const Lost& lost : kLost) say(lost, [&](std::string where, std::string what) { report.lose(std::move(where), std::move(what)); });
-  for (const Lost& odd : kOdd) say(odd, [&](std::string where, std::string what) { report.warn(std::move(where), std::move(what)); });
+  for (const Lost& lost : kLost)
+    say(lost, [&](std::string where, std::string what) { report.lose(std::move(where), std::move(what)); });
+  for (const Lost& odd : kOdd)
+    say(odd, [&](std::string where, std::string what) { report.warn(std::move(where), std::move(what)); });
   if (file.colours_were_bytes) report.warn("", "vertex colours go above 1 and are taken as 0 to 255");
 }
 
@@ -72,7 +75,8 @@ Result<ImportedModel> read(const std::filesystem::path& path, const ImportOption
   auto file = readObjFile(*bytes, name, progress);
   if (!file) return failure(file.error());
   if (file->known_statements == 0 && file->tallies.contains(kUnknown))
-    return failure(ErrorKind::unusable, "holds no statement of an OBJ", name + " line " + std::to_string(file->tallies.find(kUnknown)->second.first_line));
+    return failure(ErrorKind::unusable, "holds no statement of an OBJ",
+                   name + " line " + std::to_string(file->tallies.find(kUnknown)->second.first_line));
   Report report;
   auto groups = groupObjFaces(*file, path.stem().string());
   FaceSoup soup;

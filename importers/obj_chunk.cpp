@@ -160,7 +160,8 @@ class ChunkParser {
 
   std::int32_t textureIndex(std::int64_t t) const {
     if (t == 0) return kNoObjIndex;
-    return t > 0 ? static_cast<std::int32_t>(t - 1) : encodeRelative(static_cast<std::int64_t>(out_.texture_coordinates.size()) + t);
+    return t > 0 ? static_cast<std::int32_t>(t - 1)
+                 : encodeRelative(static_cast<std::int64_t>(out_.texture_coordinates.size()) + t);
   }
 
   bool isNumberStart() const { return text_.peek() == '-' || (text_.peek() >= '0' && text_.peek() <= '9'); }
@@ -193,12 +194,12 @@ class ChunkParser {
   }
 
   void other(std::string_view key) {
-    static constexpr std::array<std::string_view, 15> kLost = {"bsp", "bzp", "call", "cdc", "cdp", "csh", "curv", "curv2", "hole",
-                                                               "l", "p", "res", "scrv", "surf", "trim"};
+    static constexpr std::array<std::string_view, 15> kLost = {
+        "bsp", "bzp", "call", "cdc", "cdp", "csh", "curv", "curv2", "hole", "l", "p", "res", "scrv", "surf", "trim"};
     // They belong to those, or say how to draw.
     static constexpr std::array<std::string_view, 22> kSilent = {
-        "bevel", "bmat", "c_interp", "con", "cstype", "ctech", "d_interp", "deg", "end", "lod", "maplib", "mg", "parm", "s",
-        "shadow_obj", "sp", "stech", "step", "trace_obj", "usemap", "vp", "vw"};
+        "bevel", "bmat", "c_interp",   "con", "cstype", "ctech", "d_interp",  "deg",    "end", "lod", "maplib", "mg",
+        "parm",  "s",    "shadow_obj", "sp",  "stech",  "step",  "trace_obj", "usemap", "vp",  "vw"};
     const bool lost = std::find(kLost.begin(), kLost.end(), key) != kLost.end();
     const bool silent = std::find(kSilent.begin(), kSilent.end(), key) != kSilent.end();
     if (lost || !silent) out_.tallies[std::string(lost ? key : kUnknown)].add(line_);

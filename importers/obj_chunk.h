@@ -72,10 +72,12 @@ struct ObjChunk {
 };
 
 // Tallies besides statements; no statement begins with a capital.
-constexpr std::string_view kShortFaces = "Short", kOddColours = "Odd", kWeights = "Weights", kUnknown = "Unknown", kBadVertices = "Vertices",
-                           kWrongTexture = "Texture";
+constexpr std::string_view kShortFaces = "Short", kOddColours = "Odd", kWeights = "Weights", kUnknown = "Unknown",
+                           kBadVertices = "Vertices", kWrongTexture = "Texture";
 
-inline std::int32_t encodeRelative(std::int64_t in_chunk) { return static_cast<std::int32_t>(in_chunk + INT32_MIN + kMaxObjIndex); }
+inline std::int32_t encodeRelative(std::int64_t in_chunk) {
+  return static_cast<std::int32_t>(in_chunk + INT32_MIN + kMaxObjIndex);
+}
 inline std::int64_t decodeIndex(std::int32_t code, std::int64_t before_chunk) {
   return code >= 0 ? code : std::int64_t{code} - INT32_MIN - kMaxObjIndex + before_chunk;
 }

@@ -42,7 +42,8 @@ class Joiner {
     if (has_colours_) out_.colours.resize(all.position);
     if (has_texture_) out_.texture_corners.resize(all.corner);
     std::vector<ObjTally> wrong_texture(chunks_.size());
-    tbb::parallel_for(std::size_t{0}, chunks_.size(), [&](std::size_t i) { copy(chunks_[i], bases_[i], wrong_texture[i]); });
+    tbb::parallel_for(std::size_t{0}, chunks_.size(),
+                      [&](std::size_t i) { copy(chunks_[i], bases_[i], wrong_texture[i]); });
     if (auto ok = checkVertices(); !ok) return failure(ok.error());
     for (std::size_t i = 0; i < chunks_.size(); ++i) copyWords(chunks_[i], bases_[i], wrong_texture[i]);
     return std::move(out_);
@@ -75,17 +76,20 @@ class Joiner {
       const auto& [largest, lowest] = std::pair(chunks_[i].largest, chunks_[i].lowest);
       const auto before = static_cast<std::int64_t>(bases_[i].position);
       if (lowest.value + before < 0)
-        return failure(error(bases_[i].line + lowest.line, "refers to vertex " + std::to_string(lowest.written) + ", only " +
-                                                               std::to_string(lowest.preceding + before) + " precede it"));
+        return failure(error(bases_[i].line + lowest.line, "refers to vertex " + std::to_string(lowest.written) +
+                                                               ", only " + std::to_string(lowest.preceding + before) +
+                                                               " precede it"));
       if (largest.value > count)
-        return failure(error(bases_[i].line + largest.line, "refers to vertex " + std::to_string(largest.written) + ", there are " + std::to_string(count)));
+        return failure(error(bases_[i].line + largest.line, "refers to vertex " + std::to_string(largest.written) +
+                                                                ", there are " + std::to_string(count)));
     }
     return {};
   }
 
   // The first vertex that cannot be used and that a face uses.
   Result<void> checkVertices() const {
-    if (std::all_of(chunks_.begin(), chunks_.end(), [](const ObjChunk& c) { return c.bad_vertices.empty(); })) return {};
+    if (std::all_of(chunks_.begin(), chunks_.end(), [](const ObjChunk& c) { return c.bad_vertices.empty(); }))
+      return {};
     std::vector<bool> used(out_.positions.size());
     for (const auto index : out_.corners) used[index] = true;
     for (std::size_t i = 0; i < chunks_.size(); ++i)
@@ -95,7 +99,8 @@ class Joiner {
   }
 
   void copy(ObjChunk& chunk, const Base& base, ObjTally& wrong_texture) {
-    std::copy(chunk.positions.begin(), chunk.positions.end(), out_.positions.begin() + static_cast<std::ptrdiff_t>(base.position));
+    std::copy(chunk.positions.begin(), chunk.positions.end(),
+              out_.positions.begin() + static_cast<std::ptrdiff_t>(base.position));
     std::copy(chunk.texture_coordinates.begin(), chunk.texture_coordinates.end(),
               out_.texture_coordinates.begin() + static_cast<std::ptrdiff_t>(base.texture));
     const auto before = static_cast<std::int64_t>(base.position);
@@ -116,7 +121,8 @@ class Joiner {
 
   // A texture coordinate that is not there costs a corner its paint and not the model its face.
   void copyTexture(const ObjChunk& chunk, const Base& base, ObjTally& wrong) {
-    const auto count = static_cast<std::int64_t>(out_.texture_coordinates.size()), before = static_cast<std::int64_t>(base.texture);
+    const auto count = static_cast<std::int64_t>(out_.texture_coordinates.size()),
+               before = static_cast<std::int64_t>(base.texture);
     for (std::size_t i = 0; i < chunk.corners.size(); ++i) {
       auto& to = out_.texture_corners[base.corner + i] = kNoTextureCorner;
       if (i >= chunk.texture_corners.size() || chunk.texture_corners[i] == kNoObjIndex) continue;
@@ -127,18 +133,22 @@ class Joiner {
   }
 
   static std::size_t lineInChunk(const ObjChunk& chunk, std::size_t corner) {
-    const auto face = static_cast<std::uint32_t>(std::upper_bound(chunk.face_ends.begin(), chunk.face_ends.end(), corner) - chunk.face_ends.begin());
-    const auto run = std::upper_bound(chunk.face_lines.begin(), chunk.face_lines.end(), std::pair(face, UINT32_MAX)) - 1;
+    const auto face = static_cast<std::uint32_t>(
+        std::upper_bound(chunk.face_ends.begin(), chunk.face_ends.end(), corner) - chunk.face_ends.begin());
+    const auto run =
+        std::upper_bound(chunk.face_lines.begin(), chunk.face_lines.end(), std::pair(face, UINT32_MAX)) - 1;
     return run->second + (face - run->first);
   }
 
   void copyColours(const ObjChunk& chunk, const Base& base) {
     const float scale = out_.colours_were_bytes ? 1 : 255;
-    for (std::size_t i = 0; i < bases_[static_cast<std::size_t>(&base - bases_.data()) + 1].position - base.position; ++i) {
+    for (std::size_t i = 0; i < bases_[static_cast<std::size_t>(&base - bases_.data()) + 1].position - base.position;
+         ++i) {
       auto& to = out_.colours[base.position + i] = {255, 255, 255, 255};
       if (i >= chunk.colours.size() || !chunk.colours[i].allFinite()) continue;
       for (int k = 0; k < 3; ++k)
-        to[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(std::lround(std::clamp(chunk.colours[i][k] * scale, 0.0F, 255.0F)));
+        to[static_cast<std::size_t>(k)] =
+            static_cast<std::uint8_t>(std::lround(std::clamp(chunk.colours[i][k] * scale, 0.0F, 255.0F)));
     }
   }
 
@@ -170,7 +180,8 @@ class Joiner {
 }  // namespace
 
 std::size_t ObjFile::lineOf(std::size_t face) const {
-  const auto run = std::upper_bound(face_lines.begin(), face_lines.end(), std::pair(static_cast<std::uint32_t>(face), SIZE_MAX)) - 1;
+  const auto run =
+      std::upper_bound(face_lines.begin(), face_lines.end(), std::pair(static_cast<std::uint32_t>(face), SIZE_MAX)) - 1;
   return run->second + (face - run->first);
 }
 

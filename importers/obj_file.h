@@ -21,7 +21,7 @@ struct ObjFile {
   std::vector<std::array<std::uint8_t, 4>> colours;  // empty, or one for each position
   std::vector<Eigen::Vector2f> texture_coordinates;  // (0, 0) upper left
   std::vector<std::uint32_t> corners;
-  std::vector<std::uint32_t> texture_corners;        // empty, or one for each corner; kNoTextureCorner where it has none
+  std::vector<std::uint32_t> texture_corners;  // empty, or one for each corner; kNoTextureCorner where it has none
   std::vector<std::uint64_t> face_begins;            // into corners, one more than there are faces
   std::vector<std::pair<std::uint32_t, std::size_t>> face_lines;   // (face, its line) where lines do not go on by one
   std::vector<ObjEvent> events;                      // faces and lines counted from the file's first

@@ -66,7 +66,8 @@ class Grouping {
 
   std::uint32_t product() {
     if (current_product_ >= 0) return static_cast<std::uint32_t>(current_product_);
-    const auto [known, is_new] = product_of_.try_emplace({object_, group_}, static_cast<std::uint32_t>(out_.products.size()));
+    const auto [known, is_new] =
+        product_of_.try_emplace({object_, group_}, static_cast<std::uint32_t>(out_.products.size()));
     if (is_new) out_.products.push_back(newProduct());
     current_product_ = known->second;
     return known->second;
@@ -75,7 +76,9 @@ class Grouping {
   Product newProduct() const {
     Product p;
     const auto groups = words(group_);
-    p.id = object_.empty() ? "g " + group_ : "o " + object_ + (group_.empty() ? "" : " g " + group_);
+    p.id = object_.empty() ? "g " : "o ";
+    p.id += object_.empty() ? group_ : object_;
+    if (!object_.empty() && !group_.empty()) p.id.append(" g ").append(group_);
     const std::string group = groups.empty() ? "" : groups.front();
     p.name = object_.empty() ? group : group.empty() || group == object_ ? object_ : object_ + " " + group;
     if (p.name.empty()) p.name = stem_, p.id = "o";

@@ -22,9 +22,9 @@ struct ObjGroups {
   std::vector<Library> libraries;
 };
 
-// A product is an object (o), a group (g), or a group within an object; one that comes back goes on. A group named right
-// before an object, without a face between them, holds the object; one that had faces ends there. Of several names on a
-// g line the first names the product, and all stay in Product::groups. `stem` names what has no name.
+// A product is an object (o), a group (g), or a group within an object; one that comes back goes on. A group named
+// right before an object, without a face between them, holds the object; one that had faces ends there. Of several
+// names on a g line the first names the product, and all stay in Product::groups. `stem` names what has no name.
 ObjGroups groupObjFaces(const ObjFile& file, const std::string& stem);
 
 }  // namespace standpoint

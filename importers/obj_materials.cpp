@@ -33,7 +33,8 @@ std::vector<std::string> words(const std::string& text) {
 
 class Materials {
  public:
-  Materials(const fs::path& obj, FaceSoup& soup, Report& report) : obj_(obj), folder_(obj), soup_(soup), report_(report) {}
+  Materials(const fs::path& obj, FaceSoup& soup, Report& report)
+      : obj_(obj), folder_(obj), soup_(soup), report_(report) {}
 
   // A name may hold spaces, and a statement may hold several names: the whole comes first.
   void load(const ObjGroups::Library& library) {
@@ -41,12 +42,14 @@ class Materials {
     const auto names = words(library.names);
     if (names.empty()) return report_.warn(place, "mtllib names no file");
     if (names.size() > 1)
-      if (const auto whole = folder_.find(library.names, folder_.root()); whole) return loadFile(library.names, *whole, place);
+      if (const auto whole = folder_.find(library.names, folder_.root()); whole)
+        return loadFile(library.names, *whole, place);
     for (const auto& name : names) {
       if (!asked_.insert(name).second) continue;
       if (const auto found = folder_.find(name, folder_.root()); found) loadFile(name, *found, place);
       else if (!loadNamesake(name, found.error().message, place))
-        report_.warn(place, "material file '" + name + "' " + found.error().message + "; its materials keep their names only");
+        report_.warn(place,
+                     "material file '" + name + "' " + found.error().message + "; its materials keep their names only");
     }
   }
 
@@ -56,7 +59,8 @@ class Materials {
       const auto found = known_.find(s.name);
       if (found != known_.end()) describe(*found->second, static_cast<std::uint32_t>(i));
       else if (!s.name.empty())
-        report_.warn("line " + std::to_string(first_use[i]), "material '" + s.name + "' is not defined; only its name is known");
+        report_.warn("line " + std::to_string(first_use[i]),
+                     "material '" + s.name + "' is not defined; only its name is known");
     }
     for (const auto& [key, tally] : unread_maps_)
       report_.note(tally.second, std::to_string(tally.first) + " material(s) have a " + key + ", which is not read");
@@ -74,7 +78,8 @@ class Materials {
     const auto bytes = FileBytes::open(found.file);
     const auto text = bytes ? bytes->all(kMaxLibraryBytes) : Result<std::string>(failure(bytes.error()));
     if (!text) return report_.warn(place, "material file '" + name + "': " + text.error().message);
-    if (!found.as_named) report_.note(place, "material file '" + name + "' is taken from " + found.file.filename().string());
+    if (!found.as_named)
+      report_.note(place, "material file '" + name + "' is taken from " + found.file.filename().string());
     for (auto& m : parseMtl(*text, found.file.filename().string(), report_)) {
       const auto key = m.surface.name;
       known_.try_emplace(key, std::make_unique<Material>(Material{std::move(m), found.file.parent_path()}));
@@ -85,7 +90,8 @@ class Materials {
   bool loadNamesake(const std::string& name, const std::string& why, const std::string& place) {
     const auto found = folder_.find(obj_.stem().string() + ".mtl", folder_.root());
     if (!found || read_.contains(found->file)) return false;
-    report_.warn(place, "material file '" + name + "' " + why + "; " + found->file.filename().string() + " stands for it");
+    report_.warn(place,
+                 "material file '" + name + "' " + why + "; " + found->file.filename().string() + " stands for it");
     loadFile(name, {found->file, true}, place);
     return true;
   }
@@ -100,7 +106,8 @@ class Materials {
         moveTexture(index, m.texture_scale, m.texture_offset);
     }
     if (!m.cutout.empty() && m.cutout != m.texture)
-      report_.lose(s.source, "has a map_d '" + m.cutout + "', which is not read: where it cuts holes the surface is whole");
+      report_.lose(s.source,
+                   "has a map_d '" + m.cutout + "', which is not read: where it cuts holes the surface is whole");
     for (const auto& [key, file] : m.other_maps)
       if (auto& tally = unread_maps_[key]; tally.first++ == 0) tally.second = s.source;
   }
@@ -109,10 +116,12 @@ class Materials {
     const auto found = folder_.find(name, base);
     const auto index = found ? images_.add(found->file) : Result<std::int32_t>(failure(found.error()));
     if (!index) {
-      report_.lose(place, "colour texture '" + name + "' " + index.error().message + "; its diffuse colour stands for it");
+      report_.lose(place,
+                   "colour texture '" + name + "' " + index.error().message + "; its diffuse colour stands for it");
       return -1;
     }
-    if (!found->as_named) report_.note(place, "colour texture '" + name + "' is taken from " + found->file.filename().string());
+    if (!found->as_named)
+      report_.note(place, "colour texture '" + name + "' is taken from " + found->file.filename().string());
     return *index;
   }
 
@@ -123,7 +132,8 @@ class Materials {
       for (auto c = soup_.beginOf(run.begin); c < soup_.beginOf(run.end); ++c) {
         auto& corner = soup_.texture_corners[c];
         if (corner == kNoTextureCorner) continue;
-        const auto [known, is_new] = moved.try_emplace(corner, static_cast<std::uint32_t>(soup_.texture_coordinates.size()));
+        const auto [known, is_new] =
+            moved.try_emplace(corner, static_cast<std::uint32_t>(soup_.texture_coordinates.size()));
         if (is_new) {
           const Eigen::Vector2f uv = soup_.texture_coordinates[corner];
           const Eigen::Vector2f from_bottom(scale.x() * uv.x() + offset.x(), scale.y() * (1 - uv.y()) + offset.y());

@@ -25,7 +25,7 @@ double median(std::vector<double> values) {
 
 std::string size(double metres) {
   const double m = std::abs(metres);
-  return m >= 1000 ? fmt::format("{:.3g} km", metres / 1000) : m >= 1 ? fmt::format("{:.3g} m", metres) : m >= 0.01 ? fmt::format("{:.3g} cm", metres * 100) : fmt::format("{:.3g} mm", metres * 1000);
+  return m >= 1e6 ? fmt::format("{:.0f} km", metres / 1000) : m >= 1000 ? fmt::format("{:.3g} km", metres / 1000) : m >= 1 ? fmt::format("{:.3g} m", metres) : m >= 0.01 ? fmt::format("{:.3g} cm", metres * 100) : fmt::format("{:.3g} mm", metres * 1000);
 }
 
 class Judge {
@@ -156,6 +156,8 @@ class Judge {
       if (lying * 10 >= doors.size() * 8) tellLying(fmt::format("{} of {} doors are wider than high", lying, doors.size()));
       return;
     }
+    // A wall alone looks one way and is no model that lies; an IFC says by its schema what is up.
+    if (!model_.environment.products[placed_[0].product].ifc_class.empty() && placed_.size() < 10) return;
     // Floors, ceilings and roofs look along one axis, walls along two: where one horizontal axis has most of the area and
     // the model is shortest along it, those are the floors.
     std::array<double, 3> area = areas();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// PLY meshes. Neither unit nor upright axis is in the format: metres and Z, as scanners and reconstruction programs write.
+// PLY meshes. Neither unit nor upright axis is in the format: metres and Z, as scanners and reconstruction programs
+// write.
 #include "importers/ply.h"
 
 #include <algorithm>
@@ -13,13 +14,15 @@ namespace standpoint {
 namespace {
 
 // The surface of the faces that name no texture is 0, that of texture i is i + 1.
-void addSurfaces(const std::filesystem::path& path, const PlyHeader& header, bool textured, FaceSoup& soup, Report& report) {
+void addSurfaces(const std::filesystem::path& path, const PlyHeader& header, bool textured, FaceSoup& soup,
+                 Report& report) {
   const auto place = [&](std::size_t i) { return "comment TextureFile " + header.texture_files[i]; };
   Surface plain;
   plain.source = "PLY";
   if (!soup.colours.empty()) plain.colour = {1, 1, 1, 1};   // the vertices have the colour
   soup.surfaces.push_back(plain);
-  if (!textured && !header.texture_files.empty()) report.note(place(0), "is not used: no corner has texture coordinates");
+  if (!textured && !header.texture_files.empty())
+    report.note(place(0), "is not used: no corner has texture coordinates");
   if (!textured) return;
   const ModelFolder folder(path);
   ImageFiles images;
@@ -51,7 +54,8 @@ Result<ImportedModel> read(const std::filesystem::path& path, const ImportOption
   for (auto& run : read->soup.runs)
     if (run.surface >= read->soup.surfaces.size()) run.surface = 0;
   if (!read->colour_of_face.empty()) {
-    const bool plain = std::all_of(read->soup.runs.begin(), read->soup.runs.end(), [](const FaceRun& r) { return r.surface == 0; });
+    const bool plain =
+        std::all_of(read->soup.runs.begin(), read->soup.runs.end(), [](const FaceRun& r) { return r.surface == 0; });
     if (plain && read->soup.colours.empty()) paintFaces(read->soup, read->colour_of_face);
     else report.note("", "faces have colours of their own, which are not used: vertices or textures have the colour");
   }
@@ -60,7 +64,8 @@ Result<ImportedModel> read(const std::filesystem::path& path, const ImportOption
   product.id = "ply";
   read->soup.products.push_back(std::move(product));
   read->soup.place = [&](std::size_t face) {
-    return read->line_of_face.empty() ? "face " + std::to_string(read->row_of_face[face]) : "line " + std::to_string(read->line_of_face[face]);
+    return read->line_of_face.empty() ? "face " + std::to_string(read->row_of_face[face])
+                                      : "line " + std::to_string(read->line_of_face[face]);
   };
   return modelFrom(std::move(read->soup), kPlyImporter.up, options, std::move(report), progress);
 }

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <string_view>
 
+#include "importers/text_pieces.h"
+
 namespace standpoint {
 
 namespace {
@@ -17,12 +19,13 @@ struct TypeName {
   std::string_view name;
   PlyType type;
 };
-constexpr std::array kTypes = {TypeName{"char", PlyType::int8}, TypeName{"int8", PlyType::int8}, TypeName{"uchar", PlyType::uint8},
-                               TypeName{"uint8", PlyType::uint8}, TypeName{"short", PlyType::int16}, TypeName{"int16", PlyType::int16},
-                               TypeName{"ushort", PlyType::uint16}, TypeName{"uint16", PlyType::uint16}, TypeName{"int", PlyType::int32},
-                               TypeName{"int32", PlyType::int32}, TypeName{"uint", PlyType::uint32}, TypeName{"uint32", PlyType::uint32},
-                               TypeName{"float", PlyType::float32}, TypeName{"float32", PlyType::float32},
-                               TypeName{"double", PlyType::float64}, TypeName{"float64", PlyType::float64}};
+constexpr std::array kTypes = {
+    TypeName{"char", PlyType::int8},      TypeName{"int8", PlyType::int8},       TypeName{"uchar", PlyType::uint8},
+    TypeName{"uint8", PlyType::uint8},    TypeName{"short", PlyType::int16},     TypeName{"int16", PlyType::int16},
+    TypeName{"ushort", PlyType::uint16},  TypeName{"uint16", PlyType::uint16},   TypeName{"int", PlyType::int32},
+    TypeName{"int32", PlyType::int32},    TypeName{"uint", PlyType::uint32},     TypeName{"uint32", PlyType::uint32},
+    TypeName{"float", PlyType::float32},  TypeName{"float32", PlyType::float32}, TypeName{"double", PlyType::float64},
+    TypeName{"float64", PlyType::float64}};
 
 std::vector<std::string> words(std::string_view line) {
   std::vector<std::string> result;
@@ -53,8 +56,10 @@ class HeaderReader {
     for (const auto& e : out_.elements) {
       const auto least = e.leastBytes(out_.form == PlyForm::text), there = file_size - out_.bytes;
       if (least > 0 && e.count > (there + 1) / least)
-        return failure(ErrorKind::unusable, "says " + std::to_string(e.count) + " of " + e.name + ", the file has bytes for at most " +
-                                                std::to_string((there + 1) / least) + ": it was cut off", name_ + " line " + std::to_string(e.line));
+        return failure(ErrorKind::unusable,
+                       "says " + std::to_string(e.count) + " of " + e.name + ", the file has bytes for at most " +
+                           std::to_string((there + 1) / least) + ": it was cut off",
+                       name_ + " line " + std::to_string(e.line));
     }
     return std::move(out_);
   }
@@ -85,7 +90,7 @@ class HeaderReader {
       out_.texture_files.emplace_back(line.substr(first, line.find_last_not_of(" \t") - first + 1));
     }
     if (w[0] == "comment" || w[0] == "obj_info") return {};
-    return fault("'" + w[0].substr(0, 40) + "' is no word of a PLY header");
+    return fault(inQuotes(w[0]) + " is no word of a PLY header");
   }
 
   Result<void> format(const std::vector<std::string>& w) {
@@ -101,10 +106,11 @@ class HeaderReader {
     PlyElement e;
     if (w.size() != 3) return fault("an element needs a name and a count");
     const auto [end, error] = std::from_chars(w[2].data(), w[2].data() + w[2].size(), e.count);
-    if (error != std::errc() || end != w[2].data() + w[2].size()) return fault("'" + w[2].substr(0, 40) + "' is not a count");
+    if (error != std::errc() || end != w[2].data() + w[2].size()) return fault(inQuotes(w[2]) + " is not a count");
     e.name = w[1];
     e.line = lines_;
-    if (std::any_of(out_.elements.begin(), out_.elements.end(), [&](const PlyElement& other) { return other.name == e.name; }))
+    if (std::any_of(out_.elements.begin(), out_.elements.end(),
+                    [&](const PlyElement& other) { return other.name == e.name; }))
       return fault("there is a second element " + e.name.substr(0, 40));
     out_.elements.push_back(std::move(e));
     return {};
@@ -123,7 +129,8 @@ class HeaderReader {
     const auto type = typeOf(w[list ? 3 : 1]);
     const auto count_type = list ? typeOf(w[2]) : std::nullopt;
     if (!type || (list && !count_type)) return fault("the type of a property is none of PLY's");
-    if (count_type == PlyType::float32 || count_type == PlyType::float64) return fault("a list is counted by a floating-point number");
+    if (count_type == PlyType::float32 || count_type == PlyType::float64)
+      return fault("a list is counted by a floating-point number");
     if (++properties_ > kMaxProperties) return fault("more than 1000 properties");
     out_.elements.back().properties.push_back({w.back(), *type, count_type});
     return {};
@@ -153,7 +160,8 @@ std::size_t sizeOf(PlyType type) {
 }
 
 bool PlyElement::hasLists() const {
-  return std::any_of(properties.begin(), properties.end(), [](const PlyProperty& p) { return p.count_type.has_value(); });
+  return std::any_of(properties.begin(), properties.end(),
+                     [](const PlyProperty& p) { return p.count_type.has_value(); });
 }
 
 std::uint64_t PlyElement::leastBytes(bool text) const {

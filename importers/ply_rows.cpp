@@ -27,10 +27,16 @@ double number(const char* p, bool big_endian) {
 }  // namespace
 
 PlyRows::PlyRows(const FileBytes& bytes, const PlyHeader& header, const std::string& name)
-    : bytes_(bytes), header_(header), name_(name), stream_(bytes, header.bytes), next_piece_(header.bytes), line_(header.lines + 1) {}
+    : bytes_(bytes),
+      header_(header),
+      name_(name),
+      stream_(bytes, header.bytes),
+      next_piece_(header.bytes),
+      line_(header.lines + 1) {}
 
 double PlyRows::share() const {
-  const auto left = header_.form == PlyForm::text ? bytes_.size() - std::min(next_piece_, bytes_.size()) : stream_.remaining();
+  const auto left =
+      header_.form == PlyForm::text ? bytes_.size() - std::min(next_piece_, bytes_.size()) : stream_.remaining();
   return 1 - static_cast<double>(left) / static_cast<double>(bytes_.size());
 }
 
@@ -44,7 +50,9 @@ Result<void> PlyRows::next(const PlyElement& element, std::uint64_t row, PlyRow&
   out.sizes.clear();
   auto ok = header_.form == PlyForm::text ? textRow(element, out) : binaryRow(element, out);
   if (!ok && ok.error().source.empty())
-    return failure(ok.error().kind, ok.error().message + " (" + element.name + " " + std::to_string(row) + " of " + std::to_string(element.count) + ")",
+    return failure(ok.error().kind,
+                   ok.error().message + " (" + element.name + " " + std::to_string(row) + " of " +
+                       std::to_string(element.count) + ")",
                    name_ + " " + place(element, row));
   return ok;
 }
@@ -94,7 +102,8 @@ Result<void> PlyRows::textRow(const PlyElement& element, PlyRow& out) {
     double count = 1;
     if (property.count_type) {
       if (auto ok = textValue(count); !ok) return ok;
-      if (!(count >= 0 && count <= 4294967295.0) || count != std::floor(count)) return failure(ErrorKind::unusable, "a list has a count that is none");
+      if (!(count >= 0 && count <= 4294967295.0) || count != std::floor(count))
+        return failure(ErrorKind::unusable, "a list has a count that is none");
     }
     out.begin.push_back(out.values.size());
     out.sizes.push_back(static_cast<std::size_t>(count));
@@ -121,7 +130,7 @@ Result<void> PlyRows::textValue(double& out) {
   }
   line_ = cursor_->line();
   if (cursor_->number(out)) return {};
-  return failure(ErrorKind::unusable, "'" + std::string(cursor_->word().substr(0, 40)) + "' is not a number");
+  return failure(ErrorKind::unusable, inQuotes(cursor_->word()) + " is not a number");
 }
 
 Result<void> PlyRows::refill() {

@@ -16,13 +16,15 @@ namespace standpoint {
 namespace {
 
 constexpr double kLargest = 1e13;
-constexpr std::initializer_list<const char*> kU = {"s", "u", "texture_u", "texture_s"}, kV = {"t", "v", "texture_v", "texture_t"};
+constexpr std::initializer_list<const char*> kU = {"s", "u", "texture_u", "texture_s"},
+                                             kV = {"t", "v", "texture_v", "texture_t"};
 
 // The first property of those names, with or without a list.
 int propertyOf(const PlyElement& element, std::initializer_list<const char*> names, bool list = false) {
   for (const char* name : names)
     for (std::size_t i = 0; i < element.properties.size(); ++i)
-      if (element.properties[i].name == name && element.properties[i].count_type.has_value() == list) return static_cast<int>(i);
+      if (element.properties[i].name == name && element.properties[i].count_type.has_value() == list)
+        return static_cast<int>(i);
   return -1;
 }
 
@@ -30,14 +32,18 @@ int propertyOf(const PlyElement& element, std::initializer_list<const char*> nam
 class ColourColumns {
  public:
   explicit ColourColumns(const PlyElement& element) {
-    const std::array red = {"red", "diffuse_red", "r"}, green = {"green", "diffuse_green", "g"}, blue = {"blue", "diffuse_blue", "b"};
+    const std::array red = {"red", "diffuse_red", "r"}, green = {"green", "diffuse_green", "g"},
+                     blue = {"blue", "diffuse_blue", "b"};
     for (std::size_t i = 0; i < red.size() && !there(); ++i)
-      columns_ = {propertyOf(element, {red[i]}), propertyOf(element, {green[i]}), propertyOf(element, {blue[i]}), propertyOf(element, {"alpha", "a"})};
+      columns_ = {propertyOf(element, {red[i]}), propertyOf(element, {green[i]}), propertyOf(element, {blue[i]}),
+                  propertyOf(element, {"alpha", "a"})};
     for (std::size_t k = 0; k < 4 && there(); ++k)
       if (columns_[k] >= 0) scale_[k] = scaleOf(element.properties[static_cast<std::size_t>(columns_[k])].type);
   }
   bool there() const { return columns_[0] >= 0 && columns_[1] >= 0 && columns_[2] >= 0; }
-  bool uses(int property) const { return there() && std::find(columns_.begin(), columns_.end(), property) != columns_.end(); }
+  bool uses(int property) const {
+    return there() && std::find(columns_.begin(), columns_.end(), property) != columns_.end();
+  }
 
   std::array<std::uint8_t, 4> operator()(const PlyRow& row) const {
     std::array<std::uint8_t, 4> result = {255, 255, 255, 255};
@@ -61,7 +67,8 @@ class ColourColumns {
 
 class SoupReader {
  public:
-  SoupReader(const FileBytes& bytes, const PlyHeader& header, const std::string& name, Report& report, Progress& progress)
+  SoupReader(const FileBytes& bytes, const PlyHeader& header, const std::string& name, Report& report,
+             Progress& progress)
       : header_(header), name_(name), report_(report), progress_(progress), rows_(bytes, header, name) {}
 
   Result<PlySoup> run() {
@@ -71,13 +78,18 @@ class SoupReader {
     const bool wedges = face != nullptr && propertyOf(*face, {"texcoord"}, true) >= 0;
     vertex_textured_ = !wedges && propertyOf(*element("vertex"), kU) >= 0 && propertyOf(*element("vertex"), kV) >= 0;
     for (const auto& element : header_.elements) {
-      auto ok = element.name == "vertex" ? vertices(element) : element.name == "face" ? faces(element) : element.name == "tristrips" ? strips(element) : skip(element);
+      auto ok = element.name == "vertex"      ? vertices(element)
+                : element.name == "face"      ? faces(element)
+                : element.name == "tristrips" ? strips(element)
+                                              : skip(element);
       if (!ok) return failure(ok.error());
     }
     if (auto ok = checkCorners(); !ok) return failure(ok.error());
-    if (!out_.soup.texture_corners.empty()) out_.soup.texture_corners.resize(out_.soup.corners.size(), kNoTextureCorner);
+    if (!out_.soup.texture_corners.empty())
+      out_.soup.texture_corners.resize(out_.soup.corners.size(), kNoTextureCorner);
     if (!out_.colour_of_face.empty()) out_.colour_of_face.resize(faceCount(), kNoFaceColour);
-    if (short_faces_ > 0) report_.lose(first_short_, std::to_string(short_faces_) + " face(s) have fewer than three corners");
+    if (short_faces_ > 0)
+      report_.lose(first_short_, std::to_string(short_faces_) + " face(s) have fewer than three corners");
     return std::move(out_);
   }
 
@@ -93,10 +105,14 @@ class SoupReader {
   Result<void> mustHaveFaces() const {
     const auto* vertex = element("vertex");
     if (vertex == nullptr) return failure(ErrorKind::unusable, "has no vertices", name_ + " line 1");
-    if (vertex->count >= kNoTextureCorner) return failure(ErrorKind::unusable, "more than 4294967294 vertices", name_ + " line " + std::to_string(vertex->line));
+    if (vertex->count >= kNoTextureCorner)
+      return failure(ErrorKind::unusable, "more than 4294967294 vertices",
+                     name_ + " line " + std::to_string(vertex->line));
     for (const char* kind : {"face", "tristrips"})
       if (const auto* e = element(kind); e != nullptr && e->count > 0) return {};
-    return failure(ErrorKind::unusable, "holds " + std::to_string(vertex->count) + " points and no faces: it is a point cloud, not a model; take it in as an underlay",
+    return failure(ErrorKind::unusable,
+                   "holds " + std::to_string(vertex->count) +
+                       " points and no faces: it is a point cloud, not a model; take it in as an underlay",
                    name_ + " line " + std::to_string(vertex->line));
   }
 
@@ -119,9 +135,12 @@ class SoupReader {
     for (int i = 0; i < static_cast<int>(element.properties.size()); ++i) {
       const auto& name = element.properties[static_cast<std::size_t>(i)].name;
       const bool normal = name == "nx" || name == "ny" || name == "nz";   // what a beam meets is the face
-      if (!normal && !colour.uses(i) && std::find(used.begin(), used.end(), i) == used.end()) unread += (unread.empty() ? "" : ", ") + name.substr(0, 40);
+      if (!normal && !colour.uses(i) && std::find(used.begin(), used.end(), i) == used.end())
+        unread += (unread.empty() ? "" : ", ") + name.substr(0, 40);
     }
-    if (!unread.empty()) report_.note("line " + std::to_string(element.line), "properties of " + element.name + " that are not read: " + unread.substr(0, 400));
+    if (!unread.empty())
+      report_.note("line " + std::to_string(element.line),
+                   "properties of " + element.name + " that are not read: " + unread.substr(0, 400));
   }
 
   Result<void> vertices(const PlyElement& element) {
@@ -142,7 +161,9 @@ class SoupReader {
       }
       soup.positions.push_back(p);
       if (colour.there()) soup.colours.push_back(colour(row_));
-      if (vertex_textured_) soup.texture_coordinates.push_back(texture(row_.at(static_cast<std::size_t>(u)), row_.at(static_cast<std::size_t>(v))));
+      if (vertex_textured_)
+        soup.texture_coordinates.push_back(
+            texture(row_.at(static_cast<std::size_t>(u)), row_.at(static_cast<std::size_t>(v))));
       return {};
     });
   }
@@ -164,7 +185,9 @@ class SoupReader {
 
   Result<void> faces(const PlyElement& element) {
     const int indices = propertyOf(element, {"vertex_indices", "vertex_index"}, true);
-    if (indices < 0) return failure(ErrorKind::unusable, "faces need a list vertex_indices", name_ + " line " + std::to_string(element.line));
+    if (indices < 0)
+      return failure(ErrorKind::unusable, "faces need a list vertex_indices",
+                     name_ + " line " + std::to_string(element.line));
     const int wedges = propertyOf(element, {"texcoord"}, true), number = propertyOf(element, {"texnumber"});
     const ColourColumns colour(element);
     sayUnread(element, {indices, wedges, number}, colour);
@@ -172,17 +195,23 @@ class SoupReader {
     out_.soup.face_begins.reserve(element.count + 1);
     if (header_.form != PlyForm::text) out_.row_of_face.reserve(element.count);
     return eachRow(element, [&](std::uint64_t i) -> Result<void> {
-      const auto from = row_.begin[static_cast<std::size_t>(indices)], n = row_.sizes[static_cast<std::size_t>(indices)];
+      const auto from = row_.begin[static_cast<std::size_t>(indices)],
+                 n = row_.sizes[static_cast<std::size_t>(indices)];
       if (n < 3) return countShort(element, i), Result<void>();
       const double* uv = nullptr;
-      if (wedges >= 0 && row_.sizes[static_cast<std::size_t>(wedges)] == 2 * n) uv = row_.values.data() + row_.begin[static_cast<std::size_t>(wedges)];
+      if (wedges >= 0 && row_.sizes[static_cast<std::size_t>(wedges)] == 2 * n)
+        uv = row_.values.data() + row_.begin[static_cast<std::size_t>(wedges)];
       for (std::size_t k = 0; k < n; ++k) {
         if (auto ok = corner(element, i, row_.values[from + k]); !ok) return ok;
-        if (uv != nullptr) wedge(texture(uv[2 * k], uv[2 * k + 1]));
-        else if (vertex_textured_) vertexTexture();
+        if (uv != nullptr)
+          wedge(texture(uv[2 * k], uv[2 * k + 1]));
+        else if (vertex_textured_)
+          vertexTexture();
       }
       const double image = number >= 0 ? row_.at(static_cast<std::size_t>(number)) : 0;
-      endFace(i, image >= 0 && image < static_cast<double>(header_.texture_files.size()) ? static_cast<std::uint32_t>(image) + 1 : 0);
+      endFace(i, image >= 0 && image < static_cast<double>(header_.texture_files.size())
+                     ? static_cast<std::uint32_t>(image) + 1
+                     : 0);
       if (colour.there()) {
         const auto c = colour(row_);
         out_.colour_of_face.resize(faceCount() - 1, kNoFaceColour);
@@ -199,7 +228,9 @@ class SoupReader {
   Result<void> corner(const PlyElement& element, std::uint64_t row, double index) {
     const auto* vertex = this->element("vertex");
     if (!(index >= 0 && index < static_cast<double>(vertex->count)) || index != std::floor(index))
-      return failure(ErrorKind::unusable, "refers to a vertex that is not there; there are " + std::to_string(vertex->count), name_ + " " + rows_.place(element, row));
+      return failure(ErrorKind::unusable,
+                     "refers to a vertex that is not there; there are " + std::to_string(vertex->count),
+                     name_ + " " + rows_.place(element, row));
     out_.soup.corners.push_back(static_cast<std::uint32_t>(index));
     return {};
   }
@@ -224,9 +255,12 @@ class SoupReader {
   // Each corner after the second makes a triangle with the two before it, turned every other time; -1 begins anew.
   Result<void> strips(const PlyElement& element) {
     const int indices = propertyOf(element, {"vertex_indices", "vertex_index"}, true);
-    if (indices < 0) return failure(ErrorKind::unusable, "strips need a list vertex_indices", name_ + " line " + std::to_string(element.line));
+    if (indices < 0)
+      return failure(ErrorKind::unusable, "strips need a list vertex_indices",
+                     name_ + " line " + std::to_string(element.line));
     return eachRow(element, [&](std::uint64_t i) -> Result<void> {
-      const auto from = row_.begin[static_cast<std::size_t>(indices)], n = row_.sizes[static_cast<std::size_t>(indices)];
+      const auto from = row_.begin[static_cast<std::size_t>(indices)],
+                 n = row_.sizes[static_cast<std::size_t>(indices)];
       std::size_t length = 0;
       for (std::size_t k = 0; k < n; ++k) {
         const double* at = row_.values.data() + from + k;
@@ -245,7 +279,8 @@ class SoupReader {
 
   Result<void> skip(const PlyElement& element) {
     if (element.count > 0)
-      report_.lose("line " + std::to_string(element.line), std::to_string(element.count) + " of the element " + element.name.substr(0, 40) + " are not read");
+      report_.lose("line " + std::to_string(element.line),
+                   std::to_string(element.count) + " of the element " + element.name.substr(0, 40) + " are not read");
     return eachRow(element, [](std::uint64_t) { return Result<void>(); });
   }
 
@@ -278,7 +313,8 @@ class SoupReader {
 
 }  // namespace
 
-Result<PlySoup> readPlySoup(const FileBytes& bytes, const PlyHeader& header, const std::string& name, Report& report, Progress& progress) {
+Result<PlySoup> readPlySoup(const FileBytes& bytes, const PlyHeader& header, const std::string& name, Report& report,
+                            Progress& progress) {
   return SoupReader(bytes, header, name, report, progress).run();
 }
 

@@ -20,8 +20,9 @@ struct PlySoup {
   std::vector<std::size_t> line_of_face;        // of a text file
 };
 
-// Reads vertices, faces and triangle strips; what else there is is listed in the report. A file without faces is refused:
-// it is a point cloud.
-Result<PlySoup> readPlySoup(const FileBytes& bytes, const PlyHeader& header, const std::string& name, Report& report, Progress& progress);
+// Reads vertices, faces and triangle strips; what else there is is listed in the report. A file without faces is
+// refused: it is a point cloud.
+Result<PlySoup> readPlySoup(const FileBytes& bytes, const PlyHeader& header, const std::string& name, Report& report,
+                            Progress& progress);
 
 }  // namespace standpoint

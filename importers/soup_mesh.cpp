@@ -60,13 +60,15 @@ SoupMesh SoupMesher::mesh(std::span<const FaceRun> runs, const Eigen::Vector3d& 
   origin_ = origin;
   textured_ = false;
   for (const auto& run : runs)
-    for (auto c = soup_.beginOf(run.begin); !textured_ && !soup_.texture_corners.empty() && c < soup_.beginOf(run.end); ++c)
+    for (auto c = soup_.beginOf(run.begin); !textured_ && !soup_.texture_corners.empty() && c < soup_.beginOf(run.end);
+         ++c)
       textured_ = soup_.texture_corners[c] != kNoTextureCorner;
   for (const auto& run : runs)
     for (std::size_t f = run.begin; f < run.end; ++f) face(f, run.surface);
   dropRepeats();
   judgeOrientation();
-  if (out_.findings.collapsed.count + out_.findings.twice.count + out_.findings.repainted.count > 0) dropUnused(out_.mesh);
+  if (out_.findings.collapsed.count + out_.findings.twice.count + out_.findings.repainted.count > 0)
+    dropUnused(out_.mesh);
   for (const auto p : position_of_) first_of_[p] = kUnused;
   for (auto* list : {&next_, &position_of_, &texture_of_, &face_of_}) list->clear();
   many_.clear();
@@ -91,7 +93,8 @@ void SoupMesher::polygon(std::size_t face, std::uint64_t begin, std::size_t corn
   }
   const auto cut = triangulatePolygon(polygon_);
   if (!cut.clean) out_.findings.unclean.add(face);
-  for (const auto& t : cut.triangles) triangle(face, {polygon_vertices_[t[0]], polygon_vertices_[t[1]], polygon_vertices_[t[2]]});
+  for (const auto& t : cut.triangles)
+    triangle(face, {polygon_vertices_[t[0]], polygon_vertices_[t[1]], polygon_vertices_[t[2]]});
 }
 
 void SoupMesher::triangle(std::size_t face, const Triangle& t) {
@@ -128,7 +131,8 @@ std::uint32_t SoupMesher::newVertex(std::uint32_t position, std::uint32_t textur
   mesh.positions.push_back((soup_.positions[position] - origin_).cast<float>());
   if (!soup_.colours.empty()) mesh.colours.push_back(soup_.colours[position]);
   if (textured_) {
-    mesh.texture_coordinates.push_back(texture == kNoTextureCorner ? Eigen::Vector2f::Zero() : soup_.texture_coordinates[texture]);
+    mesh.texture_coordinates.push_back(texture == kNoTextureCorner ? Eigen::Vector2f::Zero()
+                                                                   : soup_.texture_coordinates[texture]);
     if (texture == kNoTextureCorner && soup_.surfaces[surface_].image >= 0) ++out_.findings.unpainted.count;
   }
   next_.push_back(kUnused);

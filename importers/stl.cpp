@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// STL, binary and text. Facets become indexed triangles by welding corners that are equal bit for bit; their normals are
-// not read, since the order of the corners says the same. Neither unit nor upright axis is in the format: metres and Z.
+// STL, binary and text. Facets become indexed triangles by welding corners that are equal bit for bit; their normals
+// are not read, since the order of the corners says the same. Neither unit nor upright axis is in the format: metres
+// and Z.
 #include "importers/stl.h"
 
 #include <array>
@@ -54,15 +55,19 @@ class AttributeColours {
   std::uint32_t default_ = 0;
 };
 
-Result<void> readBinary(const FileBytes& bytes, const std::string& name, StlSoup& out, Report& report, Progress& progress) {
+Result<void> readBinary(const FileBytes& bytes, const std::string& name, StlSoup& out, Report& report,
+                        Progress& progress) {
   char header[kHeaderBytes];
   if (auto ok = bytes.read(0, header, kHeaderBytes); !ok) return ok;
   const std::uint64_t count = littleEndian32(header + 80), there = (bytes.size() - kHeaderBytes) / kFacetBytes;
   if (count > there)
-    return failure(ErrorKind::unusable, "says " + std::to_string(count) + " triangles and has bytes for " + std::to_string(there) + ": it was cut off",
-                   name + " byte 80");
+    return failure(
+        ErrorKind::unusable,
+        "says " + std::to_string(count) + " triangles and has bytes for " + std::to_string(there) + ": it was cut off",
+        name + " byte 80");
   if (const auto rest = bytes.size() - kHeaderBytes - count * kFacetBytes; rest > 0)
-    report.warn("byte " + std::to_string(bytes.size() - rest), std::to_string(rest) + " bytes after the last triangle are not read");
+    report.warn("byte " + std::to_string(bytes.size() - rest),
+                std::to_string(rest) + " bytes after the last triangle are not read");
   const AttributeColours colours(std::string_view(header, 80));
   out.begin(name.substr(0, name.rfind('.')), count);
   ByteStream stream(bytes, kHeaderBytes);
@@ -71,9 +76,12 @@ Result<void> readBinary(const FileBytes& bytes, const std::string& name, StlSoup
     if (p == nullptr) return failure(*stream.error());
     for (std::size_t k = 0; k < 3; ++k) {
       std::array<float, 3> v;
-      for (std::size_t axis = 0; axis < 3; ++axis) v[axis] = std::bit_cast<float>(littleEndian32(p + 12 + 12 * k + 4 * axis));
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        v[axis] = std::bit_cast<float>(littleEndian32(p + 12 + 12 * k + 4 * axis));
       for (const float x : v)
-        if (!(std::abs(x) <= kLargest)) return failure(ErrorKind::unusable, "a coordinate is not a finite number below 1e13", name + " triangle " + std::to_string(i + 1));
+        if (!(std::abs(x) <= kLargest))
+          return failure(ErrorKind::unusable, "a coordinate is not a finite number below 1e13",
+                         name + " triangle " + std::to_string(i + 1));
       out.corner({v[0], v[1], v[2]});
     }
     out.colour(colours(littleEndian32(p + 46) >> 16U));
@@ -92,11 +100,15 @@ Result<ImportedModel> read(const std::filesystem::path& path, const ImportOption
   Report report;
   StlSoup out;
   const bool binary = isBinaryStl(*bytes);
-  if (auto ok = binary ? readBinary(*bytes, name, out, report, progress) : readStlText(*bytes, name, out, report, progress); !ok)
+  if (auto ok =
+          binary ? readBinary(*bytes, name, out, report, progress) : readStlText(*bytes, name, out, report, progress);
+      !ok)
     return failure(ok.error());
   auto soup = std::move(out).soup();
   const auto lines = std::move(out).lines();
-  soup.place = [&](std::size_t face) { return binary ? "triangle " + std::to_string(face + 1) : "line " + std::to_string(lines[face]); };
+  soup.place = [&](std::size_t face) {
+    return binary ? "triangle " + std::to_string(face + 1) : "line " + std::to_string(lines[face]);
+  };
   return modelFrom(std::move(soup), kStlImporter.up, options, std::move(report), progress);
 }
 
@@ -119,9 +131,11 @@ bool isBinaryStl(const FileBytes& bytes) {
   const auto got = static_cast<std::size_t>(std::min<std::uint64_t>(bytes.size(), sizeof head));
   if (!bytes.read(0, head, got)) return false;
   const std::string_view text(head, got);
-  if (got >= kHeaderBytes && bytes.size() == kHeaderBytes + kFacetBytes * std::uint64_t{littleEndian32(head + 80)}) return true;
+  if (got >= kHeaderBytes && bytes.size() == kHeaderBytes + kFacetBytes * std::uint64_t{littleEndian32(head + 80)})
+    return true;
   const auto first = text.find_first_not_of(" \t\r\n");
-  const bool begins_as_text = first != std::string_view::npos && (text.substr(first).starts_with("solid") || text.substr(first).starts_with("SOLID"));
+  const bool begins_as_text = first != std::string_view::npos &&
+                              (text.substr(first).starts_with("solid") || text.substr(first).starts_with("SOLID"));
   return got >= kHeaderBytes && (!begins_as_text || text.find('\0') != std::string_view::npos);
 }
 

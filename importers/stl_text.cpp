@@ -41,7 +41,8 @@ class TextReader {
   }
 
   Result<void> finish(std::size_t line) const {
-    if (!seen_solid_) return failure(ErrorKind::unusable, "is neither a text that begins with 'solid' nor a binary STL", name_);
+    if (!seen_solid_)
+      return failure(ErrorKind::unusable, "is neither a text that begins with 'solid' nor a binary STL", name_);
     if (in_facet_) return fault(line, "ends within a facet: it was cut off");
     return {};
   }
@@ -83,7 +84,7 @@ class TextReader {
       if (in_facet_) return fault(line, "a solid ends within a facet");
       in_solid_ = false;
     } else if (word != "outer" && word != "endloop" && word != "color") {
-      return fault(line, "'" + word + "' is no word of an STL");
+      return fault(line, inQuotes(word) + " is no word of an STL");
     }
     cursor.skipComment();
     return {};
@@ -119,10 +120,13 @@ void StlSoup::begin(const std::string& name, std::uint64_t facets) {
   soup_.products.push_back(std::move(p));
 }
 
-void StlSoup::corner(const Eigen::Vector3d& p) { soup_.corners.push_back(weld(p + Eigen::Vector3d::Zero())); }   // -0 → 0
+void StlSoup::corner(const Eigen::Vector3d& p) {
+  soup_.corners.push_back(weld(p + Eigen::Vector3d::Zero()));
+}  // -0 → 0
 
 void StlSoup::endFacet(std::size_t line) {
-  const auto face = static_cast<std::uint32_t>(soup_.face_begins.size() - 1), product = static_cast<std::uint32_t>(soup_.products.size() - 1);
+  const auto face = static_cast<std::uint32_t>(soup_.face_begins.size() - 1),
+             product = static_cast<std::uint32_t>(soup_.products.size() - 1);
   soup_.face_begins.push_back(soup_.corners.size());
   if (soup_.runs.empty() || soup_.runs.back().product != product) soup_.runs.push_back({face, face, product, 0});
   soup_.runs.back().end = face + 1;
@@ -164,7 +168,8 @@ FaceSoup StlSoup::soup() && {
   return std::move(soup_);
 }
 
-Result<void> readStlText(const FileBytes& bytes, const std::string& name, StlSoup& out, Report& report, Progress& progress) {
+Result<void> readStlText(const FileBytes& bytes, const std::string& name, StlSoup& out, Report& report,
+                         Progress& progress) {
   TextReader reader(name, out);
   std::size_t line = 1;
   for (std::uint64_t from = 0; from < bytes.size(); from += kPiece) {
@@ -175,7 +180,8 @@ Result<void> readStlText(const FileBytes& bytes, const std::string& name, StlSou
     if (auto ok = progress.check(); !ok) return ok;
   }
   if (auto ok = reader.finish(line); !ok) return ok;
-  if (reader.in_solid()) report.warn("line " + std::to_string(line), "ends without 'endsolid': something may be missing");
+  if (reader.in_solid())
+    report.warn("line " + std::to_string(line), "ends without 'endsolid': something may be missing");
   return {};
 }
 

@@ -35,6 +35,7 @@ class StlSoup {
 };
 
 // The text form; several solids become several products. Words may be in either case.
-Result<void> readStlText(const FileBytes& bytes, const std::string& name, StlSoup& out, Report& report, Progress& progress);
+Result<void> readStlText(const FileBytes& bytes, const std::string& name, StlSoup& out, Report& report,
+                         Progress& progress);
 
 }  // namespace standpoint

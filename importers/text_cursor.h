@@ -18,7 +18,8 @@ namespace standpoint {
 class TextCursor {
  public:
   // The line's number is that of the first line, from 1.
-  TextCursor(std::string_view text, std::size_t line) : at_(text.data()), end_(text.data() + text.size()), line_(line) {}
+  TextCursor(std::string_view text, std::size_t line)
+      : at_(text.data()), end_(text.data() + text.size()), line_(line) {}
 
   bool done() const { return at_ >= end_; }
   std::size_t line() const { return line_; }
@@ -87,7 +88,9 @@ class TextCursor {
   bool number(double& value) {
     const char* from = *at_ == '+' && at_[1] != '-' ? at_ + 1 : at_;
     const auto [after, error] = fast_float::from_chars(from, end_, value);
-    if (error == std::errc::invalid_argument || (static_cast<unsigned char>(*after) > ' ' && *after != '\\' && *after != '#')) return false;
+    if (error == std::errc::invalid_argument ||
+        (static_cast<unsigned char>(*after) > ' ' && *after != '\\' && *after != '#'))
+      return false;
     at_ = after;
     return true;
   }

@@ -26,6 +26,15 @@ std::size_t cutAfter(const std::string& text, std::size_t at, bool is_whole_file
 
 }  // namespace
 
+std::string inQuotes(std::string_view word, std::size_t most) {
+  std::string text;
+  text.reserve(std::min(word.size(), most) + 2);
+  text += '\'';
+  text += word.substr(0, most);
+  text += '\'';
+  return text;
+}
+
 Result<std::string> textPiece(const FileBytes& bytes, std::uint64_t from, std::size_t size) {
   const std::uint64_t before = std::min<std::uint64_t>(from, kBefore);
   std::uint64_t end = std::min<std::uint64_t>(from + size, bytes.size());
@@ -37,7 +46,8 @@ Result<std::string> textPiece(const FileBytes& bytes, std::uint64_t from, std::s
   std::size_t cut = std::string::npos;
   while (end < bytes.size()) {
     const std::size_t look = text.size();
-    const auto more = static_cast<std::size_t>(std::min<std::uint64_t>(std::max<std::size_t>(kMore, text.size() / 2), bytes.size() - end));
+    const auto more = static_cast<std::size_t>(
+        std::min<std::uint64_t>(std::max<std::size_t>(kMore, text.size() / 2), bytes.size() - end));
     text.resize(text.size() + more);
     if (auto ok = bytes.read(end, text.data() + text.size() - more, more); !ok) return failure(ok.error());
     end += more;

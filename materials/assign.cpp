@@ -202,7 +202,8 @@ class Assigner {
     const auto& rule = rules_[static_cast<std::size_t>(decision.rule)];
     result.material = by_id_.at(rule.assign);
     result.reason = matcher_.reason(decision, product);
-    if (!rule.colour.empty()) result.reason += (result.reason.find(':') == std::string::npos ? ": " : ", ") + colourText(surface);
+    if (!rule.colour.empty())
+      result.reason += (result.reason.find(':') == std::string::npos ? ": " : ", ") + colourText(surface);
     if (decision.generic)
       findings_.add({false, "only class and colour decided for " + surfaceText(pair) + " of", product.ifc_class,
                      ": " + rule.assign + ", " + result.reason},

@@ -136,9 +136,42 @@ json surfaceRows(const Environment& environment) {
   return rows;
 }
 
+using SurfaceAreas = std::map<std::uint32_t, double>;   // m² by surface
+
+SurfaceAreas surfaceAreas(const Mesh& mesh, const Eigen::Matrix3d& linear) {
+  SurfaceAreas areas;
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+    const auto& t = mesh.triangles[k];
+    const Eigen::Vector3d a = mesh.positions[t[0]].cast<double>();
+    const Eigen::Vector3d u = linear * (mesh.positions[t[1]].cast<double>() - a), v = linear * (mesh.positions[t[2]].cast<double>() - a);
+    areas[mesh.surface_of_triangle[k]] += u.cross(v).norm() / 2;
+  }
+  return areas;
+}
+
+// What each product shows: a wall of several layers has several. Meshes that are placed often are measured once.
+std::vector<SurfaceAreas> productSurfaces(const Environment& environment) {
+  std::vector<SurfaceAreas> of_mesh(environment.meshes.size()), result(environment.products.size());
+  for (const auto& i : environment.instances) {
+    const Eigen::Matrix3d linear = i.world_from_mesh.linear();
+    const bool rigid = (linear.transpose() * linear).isIdentity(1e-9);
+    auto& kept = of_mesh[i.mesh];
+    if (rigid && kept.empty()) kept = surfaceAreas(*environment.meshes[i.mesh], Eigen::Matrix3d::Identity());
+    for (const auto& [surface, area] : rigid ? kept : surfaceAreas(*environment.meshes[i.mesh], linear)) result[i.product][surface] += area;
+  }
+  return result;
+}
+
+json surfacesOf(const SurfaceAreas& areas, const Environment& environment) {
+  json rows = json::array();
+  for (const auto& [surface, area] : areas) rows.push_back({{"surface", surface}, {"name", environment.surfaces[surface].name}, {"area", area}});
+  return rows;
+}
+
 json productRows(const Environment& environment, const Eigen::Vector3d& shift_m) {
   const auto product_bounds = productBounds(environment);
   const auto volumes = productVolumes(environment);
+  const auto surfaces = productSurfaces(environment);
   std::vector<std::uint64_t> triangles(environment.products.size());
   for (const auto& i : environment.instances) triangles[i.product] += environment.meshes[i.mesh]->triangles.size();
   json rows = json::array();
@@ -160,6 +193,7 @@ json productRows(const Environment& environment, const Eigen::Vector3d& shift_m)
                     {"volume", volumes[i]},
                     {"materials", p.materials},
                     {"layers", layerRows(p)},
+                    {"surfaces", surfacesOf(surfaces[i], environment)},
                     {"properties", propertySets(p.properties)}});
   }
   return rows;

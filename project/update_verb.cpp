@@ -112,6 +112,7 @@ struct Update {
 
   void survey() {
     outcome.document.job = before.job;
+    outcome.document.underlays = before.underlays;
     std::size_t scans = 0;
     for (const Station& s : before.job->stations) scans += s.scans.size();
     if (scans > 0) outcome.report.note("scan", fmt::format("{} scans show the model as it was before", scans));
@@ -173,7 +174,9 @@ Result<Outcome> updateModels(const Document& document, std::vector<fs::path> fil
   ImportOptions same_frame = options;
   same_frame.shift = ShiftMode::given;
   same_frame.given_shift_m = document.georeference->shift_m;
-  auto outcome = importModels(Document{document.name, {}, {}, {}, {}, {}, {}, {}, {}}, *all, same_frame, crs, progress);
+  Document fresh;
+  fresh.name = document.name;
+  auto outcome = importModels(fresh, *all, same_frame, crs, progress);
   if (!outcome) return outcome;
   const auto match = matchProducts(*document.imported, *outcome->document.imported);
   std::string summary;

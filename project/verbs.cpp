@@ -19,7 +19,7 @@ using S = VerbScope;
 // editor's forms follow from it.
 const std::vector<Verb>& table() {
   static const std::vector<Verb> verbs = {
-      {"import", "Reads models (IFC, glTF, OBJ) into a new project, or changed ones into their own (--update)", S::creates,
+      {"import", "Reads models (IFC, glTF, OBJ, PLY, STL) into a new project, or changed ones into their own (--update)", S::creates,
        {{.name = "files", .kind = K::list, .help = "the model files", .positional = true, .required = true},
         {.name = "output", .kind = K::path, .help = "folder of the new project"},
         {.name = "replace", .kind = K::flag, .help = "replace what is in that folder"},

@@ -45,10 +45,17 @@ EpsgAnswer epsgCrs(const std::string& digits) {
   return answer;
 }
 
-bool isEpsgDatumOrCrs(const std::string& digits) {
+bool isEpsgReference(const std::string& digits, bool vertical) {
   const Database database;
   if (!database.installed()) return true;
-  return database.find(digits, PJ_CATEGORY_DATUM) || database.find(digits, PJ_CATEGORY_CRS) || database.find(digits, PJ_CATEGORY_DATUM_ENSEMBLE);
+  for (const PJ_CATEGORY category : {PJ_CATEGORY_DATUM, PJ_CATEGORY_DATUM_ENSEMBLE, PJ_CATEGORY_CRS}) {
+    const auto found = database.find(digits, category);
+    if (!found) continue;
+    const PJ_TYPE type = proj_get_type(found.get());
+    const bool is_vertical = type == PJ_TYPE_VERTICAL_REFERENCE_FRAME || type == PJ_TYPE_DYNAMIC_VERTICAL_REFERENCE_FRAME || type == PJ_TYPE_VERTICAL_CRS;
+    if (is_vertical == vertical || type == PJ_TYPE_COMPOUND_CRS) return true;
+  }
+  return false;
 }
 
 std::string epsgDigits(const std::string& name) {

@@ -16,7 +16,8 @@ struct EpsgAnswer {
   std::optional<EpsgCrs> crs;    // nothing: there is no CRS of that code
 };
 EpsgAnswer epsgCrs(const std::string& digits);
-bool isEpsgDatumOrCrs(const std::string& digits);   // also true when there is no database
+// Whether it is a vertical (else geodetic) datum or CRS; also true when there is no database.
+bool isEpsgReference(const std::string& digits, bool vertical);
 
 // "25832" of "EPSG:25832", "epsg: 25832", "25832" and "urn:ogc:def:crs:EPSG::25832"; empty where it is no EPSG code.
 std::string epsgDigits(const std::string& name);

@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "importers/ifc/entities.h"
 #include "importers/ifc/epsg.h"
 #include "importers/ifc/map_conversion.h"
 #include "importers/ifc/placement.h"
@@ -79,7 +78,7 @@ void checkDatum(const Entity& crs, std::size_t index, const char* what, Report& 
   const std::string name = crs[index].text();
   if (!lower(name).starts_with("epsg")) return;
   const std::string digits = epsgDigits(name);
-  if (digits.empty() || !isEpsgDatumOrCrs(digits)) report.warn(crs.place(), fmt::format("the {} '{}' is not in the EPSG dataset", what, name));
+  if (digits.empty() || !isEpsgReference(digits, index == 3)) report.warn(crs.place(), fmt::format("the {} '{}' is none in the EPSG dataset", what, name));
 }
 
 // A CRS that has no usable name gives coordinates that nobody can place: its fault is named.
@@ -130,7 +129,7 @@ void checkRigid(const Entity& e, Report& report) {
   const std::string first(e[2].typeName()), second(e[3].typeName());
   const auto fine = [](const std::string& t) { return t == "IFCLENGTHMEASURE" || t == "IFCPLANEANGLEMEASURE"; };
   if (first == second && fine(first)) return;
-  report.warn(e.place(), fmt::format("the first coordinate is an {} and the second an {}; both have to be lengths or both plane angles", schemaSpelling(first), schemaSpelling(second)));
+  report.warn(e.place(), fmt::format("the first coordinate is an {} and the second an {}; both have to be IFCLENGTHMEASURE or both IFCPLANEANGLEMEASURE", first, second));
 }
 
 // Of a geographic CRS: longitude first, as buildingSMART's own example writes it, unless only the other way is on Earth.
@@ -247,7 +246,7 @@ Georeference readGeoreference(const Model& model, const Relations& relations, Re
   readTrueNorth(geo, model);
   readOperations(geo, model, report);
   if (!geo.map_from_file) readPropertySets(geo, model, relations, report);
-  if (geo.crs.empty())
+  if (geo.crs.empty() && operations(model.file).empty())
     for (const char* kind : {"IFCPROJECTEDCRS", "IFCGEOGRAPHICCRS"})
       for (const Entity& crs : model.file.all(kind))
         if (geo.crs.empty()) readCrs(geo, crs, model, report);

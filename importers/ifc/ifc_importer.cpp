@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
+#include <algorithm>
 #include <string>
 
 #include <tbb/parallel_for.h>
@@ -9,6 +10,7 @@
 #include "importers/ifc/georeference.h"
 #include "importers/ifc/mapping.h"
 #include "importers/ifc/product.h"
+#include "importers/ifc/properties.h"
 #include "importers/ifc/style.h"
 #include "importers/importers.h"
 
@@ -34,9 +36,22 @@ Eigen::Affine3d standing(const ImportOptions& options) {
   return t;
 }
 
-std::vector<Product> describeAll(const std::vector<Entity>& entities, const Relations& relations, const Model& model) {
+// In blocks, so that sets which a small file shares among many products are noticed before they fill the memory.
+std::vector<Product> describeAll(const std::vector<Entity>& entities, const Relations& relations, const Model& model, Report& report) {
+  constexpr std::size_t kBlock = 256;
   std::vector<Product> products(entities.size());
-  tbb::parallel_for(std::size_t{0}, entities.size(), [&](std::size_t i) { products[i] = describeProduct(entities[i], relations, model); });
+  std::size_t properties = 0, bare = 0;
+  for (std::size_t begin = 0; begin < entities.size(); begin += kBlock) {
+    const std::size_t end = std::min(begin + kBlock, entities.size());
+    const bool full = properties > kMostPropertiesInAll;
+    tbb::parallel_for(begin, end, [&](std::size_t i) { products[i] = describeProduct(entities[i], !full, relations, model); });
+    for (std::size_t i = begin; i < end; ++i) {
+      properties += products[i].properties.size();
+      if (products[i].properties.size() >= kMostProperties) report.lose(entities[i].place(), "has more than 10 000 properties; the others are left out");
+    }
+    if (full) bare += end - begin;
+  }
+  if (bare > 0) report.lose("model", "more than 5 000 000 properties in all; those of " + std::to_string(bare) + " products are left out");
   return products;
 }
 
@@ -56,7 +71,7 @@ Result<ImportedModel> readIfc(const std::filesystem::path& path, const ImportOpt
   if (!bodies) return failure(bodies.error());
   progress.stage("Properties", 0.95, 1);
   Environment& environment = result.environment;
-  environment.products = describeAll(entities, relations, model);
+  environment.products = describeAll(entities, relations, model, result.report);
   environment.spatial = spatialTree(model, relations, result.report);
   linkProducts(environment.products, entities, environment.spatial, relations, *file);
   result.georeference = readGeoreference(model, relations, result.report);

@@ -85,7 +85,7 @@ std::vector<Entity> productEntities(const StepFile& file) {
   return found;
 }
 
-Product describeProduct(const Entity& e, const Relations& relations, const Model& model) {
+Product describeProduct(const Entity& e, bool with_properties, const Relations& relations, const Model& model) {
   Product p;
   const EntityName* name = entityName(e.typeName());
   const auto a = e.first<5>();
@@ -99,8 +99,10 @@ Product describeProduct(const Entity& e, const Relations& relations, const Model
   p.tangible = !name || name->kind == EntityKind::product || name->kind == EntityKind::spatial;
   ProductMaterials materials = materialsOf(e, relations, model);
   p.groups = groupsOf(e, relations, model.file);
-  p.properties = propertiesOf(e, relations, model);
-  appendMaterialProperties(p.properties, materials, relations, model);
+  if (with_properties) {
+    p.properties = propertiesOf(e, relations, model);
+    appendMaterialProperties(p.properties, materials, relations, model);
+  }
   p.materials = std::move(materials.names);
   p.layers = std::move(materials.layers);
   return p;
@@ -142,6 +144,7 @@ std::vector<SpatialNode> spatialTree(const Model& model, const Relations& relati
   std::vector<SpatialNode> nodes;
   std::map<Id, std::int32_t> index;
   Placements placements(model);
+  std::size_t properties = 0;
   const auto visit = [&](Id root) {
     std::vector<std::pair<Id, std::int32_t>> open{{root, -1}};
     while (!open.empty()) {
@@ -151,7 +154,10 @@ std::vector<SpatialNode> spatialTree(const Model& model, const Relations& relati
       const Entity e = file.entity(id);
       const auto self = static_cast<std::int32_t>(nodes.size());
       const auto a = e.first<3>();
-      nodes.push_back({e.place(), schemaSpelling(e.typeName()), a[2].text(), a[0].text(), parent, 0, propertiesOf(e, relations, model)});
+      nodes.push_back({e.place(), schemaSpelling(e.typeName()), a[2].text(), a[0].text(), parent, 0, {}});
+      if (properties < kMostPropertiesInAll) nodes.back().properties = propertiesOf(e, relations, model);
+      else if (properties != SIZE_MAX) report.lose(e.place(), "more than 5 000 000 properties of places in all; those from here on are left out");
+      properties = properties < kMostPropertiesInAll ? properties + nodes.back().properties.size() : SIZE_MAX;
       if (const std::string type = placeType(e); !type.empty()) nodes.back().properties.insert(nodes.back().properties.begin(), {"Attributes", "PredefinedType", type});
       if (e.is("IFCBUILDINGSTOREY")) nodes.back().elevation_m = elevation(e, placements, model);
       const auto& list = children[id];

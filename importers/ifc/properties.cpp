@@ -20,6 +20,7 @@ void add(Properties& out, const char* set, const char* name, std::string value) 
 }
 
 void appendProperty(Properties& out, const std::string& set, const Entity& p, const Model& model, int depth) {
+  if (out.size() >= kMostProperties) return;
   const std::string_view kind = p.typeName();
   const bool complex = kind == "IFCCOMPLEXPROPERTY";
   if (!complex && kind != "IFCPHYSICALCOMPLEXQUANTITY") {
@@ -27,7 +28,10 @@ void appendProperty(Properties& out, const std::string& set, const Entity& p, co
     return;
   }
   if (depth >= 8) return;   // properties that hold each other
-  for (const Entity& part : p.refs(complex ? 3 : 2)) appendProperty(out, set + "/" + p[0].text(), part, model, depth + 1);
+  for (const Entity& part : p.refs(complex ? 3 : 2)) {
+    if (out.size() >= kMostProperties) return;
+    appendProperty(out, set + "/" + p[0].text(), part, model, depth + 1);
+  }
 }
 
 void appendAttributeSet(Properties& out, const Entity& e, const AttributeSet& set, const Model& model, const std::string& prefix) {
@@ -150,6 +154,7 @@ Properties propertiesOf(const Entity& object, const Relations& relations, const 
       if (!own.contains({p.set, p.name})) properties.push_back(std::move(p));
   }
   appendPresentationLayers(properties, object, relations, model);
+  if (properties.size() > kMostProperties) properties.resize(kMostProperties);
   return properties;
 }
 

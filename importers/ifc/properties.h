@@ -14,6 +14,9 @@ namespace standpoint::ifc {
 //  - property sets and quantities, "Classification" (system → code and title) and "Document" of the occurrence;
 //  - of those of its type the ones whose set and name the occurrence does not have;
 //  - "Presentation layer".
+// At most kMostProperties: sets may hold each other, and be shared by everything.
+constexpr std::size_t kMostProperties = 10'000;
+constexpr std::size_t kMostPropertiesInAll = 5'000'000;
 std::vector<Property> propertiesOf(const Entity& object, const Relations& relations, const Model& model);
 // Those of one set: IfcPropertySet, IfcElementQuantity, IfcMaterialProperties, or a set whose properties are attributes
 // (IfcDoorLiningProperties, IfcOpticalMaterialProperties). `prefix` is written before the set's name.

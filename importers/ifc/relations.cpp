@@ -2,6 +2,7 @@
 #include "importers/ifc/relations.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace standpoint::ifc {
 
@@ -24,7 +25,7 @@ std::vector<Id> Relations::of(const Fan& fan, const Entity& e) const {
   if (!e || fan.empty()) return found;
   const auto index = static_cast<std::uint32_t>(file_.indexOf(e));
   for (auto it = std::lower_bound(fan.begin(), fan.end(), std::pair(index, Id{0})); it != fan.end() && it->first == index; ++it)
-    if (std::find(found.begin(), found.end(), it->second) == found.end()) found.push_back(it->second);
+    if (std::find(found.end() - std::min<std::ptrdiff_t>(std::ssize(found), 64), found.end(), it->second) == found.end()) found.push_back(it->second);
   return found;
 }
 

@@ -14,20 +14,23 @@ class Gltf2 {
  public:
   template <class T>
   int view(const std::vector<T>& values) {
-    add(views_, "{\"buffer\":0,\"byteOffset\":" + std::to_string(binary_.size()) + ",\"byteLength\":" + std::to_string(values.size() * sizeof(T)) + "}");
+    add(views_, "{\"buffer\":0,\"byteOffset\":" + std::to_string(binary_.size()) +
+                    ",\"byteLength\":" + std::to_string(values.size() * sizeof(T)) + "}");
     binary_ += bytesOf(values);
     binary_.resize((binary_.size() + 3) / 4 * 4);
     return view_count_++;
   }
   template <class T>
-  int accessor(const std::vector<T>& values, int type, const char* shape, std::size_t count, const std::string& more = "") {
-    add(accessors_, "{\"bufferView\":" + std::to_string(view(values)) + ",\"componentType\":" + std::to_string(type) + ",\"type\":\"" + shape +
-                        "\",\"count\":" + std::to_string(count) + more + "}");
+  int accessor(const std::vector<T>& values, int type, const char* shape, std::size_t count,
+               const std::string& more = "") {
+    add(accessors_, "{\"bufferView\":" + std::to_string(view(values)) + ",\"componentType\":" + std::to_string(type) +
+                        ",\"type\":\"" + shape + "\",\"count\":" + std::to_string(count) + more + "}");
     return accessor_count_++;
   }
   Result<ImportedModel> import(const std::string& rest, const ImportOptions& options = {}) const {
-    const std::string json = "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":" + std::to_string(binary_.size()) +
-                             "}],\"bufferViews\":[" + views_ + "],\"accessors\":[" + accessors_ + "]," + rest + "}";
+    const std::string json =
+        "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":" + std::to_string(binary_.size()) +
+        "}],\"bufferViews\":[" + views_ + "],\"accessors\":[" + accessors_ + "]," + rest + "}";
     return test::import(write(scratch() / "a.glb", glb(json, binary_)), options);
   }
 
@@ -43,7 +46,8 @@ const std::vector<std::uint8_t> kPng = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '
 std::vector<Eigen::Vector3d> placed(const ImportedModel& model) {
   std::vector<Eigen::Vector3d> result;
   for (const auto& i : model.environment.instances)
-    for (const auto& p : model.environment.meshes[i.mesh]->positions) result.push_back(i.world_from_mesh * p.cast<double>());
+    for (const auto& p : model.environment.meshes[i.mesh]->positions)
+      result.push_back(i.world_from_mesh * p.cast<double>());
   return result;
 }
 
@@ -51,7 +55,8 @@ TEST(GltfTextures, ComeEncodedAndTransformedAsInTheExampleOfTheSpecification) {
   // "only the lower left quadrant of the source image, rotated clockwise 90°": the unit square's corners.
   Gltf2 file;
   file.accessor(kTriangle, 5126, "VEC3", 3);
-  file.accessor(std::vector<std::uint8_t>{0, 0, 0, 0, 255, 0, 0, 0, 0, 255, 0, 0}, 5121, "VEC2", 3, ",\"normalized\":true");
+  file.accessor(std::vector<std::uint8_t>{0, 0, 0, 0, 255, 0, 0, 0, 0, 255, 0, 0}, 5121, "VEC2", 3,
+                ",\"normalized\":true");
   file.view(kPng);
   auto model = file.import(
       R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_1":1},"material":0}]}],"images":[{"bufferView":2,)"
@@ -98,12 +103,15 @@ TEST(GltfTextures, OutsideTheFolderOfTheModelAreNotRead) {
   write(folder / "in" / "a b" / "c.png", std::string(kPng.begin(), kPng.end()));
   std::filesystem::create_symlink(folder / "secret.png", folder / "in" / "link.png");
   const auto withImage = [&](const std::string& uri) {
-    return import(write(folder / "in" / "a.gltf", R"({"asset":{"version":"2.0"},"images":[{"uri":")" + uri + R"("}],"textures":[{"source":0}],)"
-                        R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}]})"));
+    return import(write(folder / "in" / "a.gltf",
+                        R"({"asset":{"version":"2.0"},"images":[{"uri":")" + uri +
+                            R"("}],"textures":[{"source":0}],)"
+                            R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}]})"));
   };
   EXPECT_EQ(withImage("a%20b/c.png")->environment.images.size(), 1U);
   EXPECT_EQ(withImage("a%20b/c.png")->environment.images.at(0)->name, "a b/c.png");
-  for (const char* outside : {"../secret.png", "%2e%2e/secret.png", "link.png", "/etc/hostname", "file:///etc/hostname", "a%20b/../../secret.png"}) {
+  for (const char* outside : {"../secret.png", "%2e%2e/secret.png", "link.png", "/etc/hostname", "file:///etc/hostname",
+                              "a%20b/../../secret.png"}) {
     const auto model = withImage(outside);
     ASSERT_TRUE(model) << outside;
     EXPECT_TRUE(model->environment.images.empty()) << outside;
@@ -118,16 +126,21 @@ TEST(GltfColours, OfAllComponentTypesBecomeEightBitsOfSrgb) {
     Gltf2 file;
     file.accessor(kTriangle, 5126, "VEC3", 3);
     file.accessor(values, type, shape, 3, more);
-    const auto model = file.import(R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":1}}]}])");
+    const auto model =
+        file.import(R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":1}}]}])");
     EXPECT_TRUE(model) << describe(model.error());
     return model ? model->environment.meshes.at(0)->colours.at(0) : std::array<std::uint8_t, 4>{};
   };
   const float half = 0.2158605F;
-  EXPECT_THAT(coloured(std::vector<float>{half, 1, 0, 0.5F, 0, 0, 0, 0, 0, 0, 0, 0}, 5126, "VEC4", ""), ElementsAre(128, 255, 0, 128));
-  EXPECT_THAT(coloured(std::vector<float>{half, 1, 0, 0, 0, 0, 0, 0, 0}, 5126, "VEC3", ""), ElementsAre(128, 255, 0, 255));
-  EXPECT_THAT(coloured(std::vector<std::uint16_t>{14146, 65535, 0, 32768, 0, 0, 0, 0, 0, 0, 0, 0}, 5123, "VEC4", ",\"normalized\":true"),
+  EXPECT_THAT(coloured(std::vector<float>{half, 1, 0, 0.5F, 0, 0, 0, 0, 0, 0, 0, 0}, 5126, "VEC4", ""),
               ElementsAre(128, 255, 0, 128));
-  EXPECT_THAT(coloured(std::vector<std::uint8_t>{55, 255, 0, 127, 0, 0, 0, 0, 0, 0, 0, 0}, 5121, "VEC4", ",\"normalized\":true"),
+  EXPECT_THAT(coloured(std::vector<float>{half, 1, 0, 0, 0, 0, 0, 0, 0}, 5126, "VEC3", ""),
+              ElementsAre(128, 255, 0, 255));
+  EXPECT_THAT(coloured(std::vector<std::uint16_t>{14146, 65535, 0, 32768, 0, 0, 0, 0, 0, 0, 0, 0}, 5123, "VEC4",
+                       ",\"normalized\":true"),
+              ElementsAre(128, 255, 0, 128));
+  EXPECT_THAT(coloured(std::vector<std::uint8_t>{55, 255, 0, 127, 0, 0, 0, 0, 0, 0, 0, 0}, 5121, "VEC4",
+                       ",\"normalized\":true"),
               ElementsAre(128, 255, 0, 127));
 }
 
@@ -153,8 +166,10 @@ TEST(GltfMaterials, KeepTheOpticsAndNameTheRest) {
   EXPECT_EQ(model->environment.surfaces.at(2).colour, (Colour{0, 1, 0, 1}));
   std::vector<std::string> messages;
   for (const auto& issue : model->report.issues) messages.push_back(issue.message);
-  EXPECT_THAT(messages, ElementsAre("2 variants of the materials (summer, winter) are not read; those of the default are used",
-                                    "KHR_materials_sheen is not kept, here and of 1 more materials", "normalTexture is not kept"));
+  EXPECT_THAT(
+      messages,
+      ElementsAre("2 variants of the materials (summer, winter) are not read; those of the default are used",
+                  "KHR_materials_sheen is not kept, here and of 1 more materials", "normalTexture is not kept"));
 }
 
 TEST(GltfPose, MorphTargetsAreAddedByTheWeightsOfTheNodeElseOfTheMesh) {
@@ -162,11 +177,13 @@ TEST(GltfPose, MorphTargetsAreAddedByTheWeightsOfTheNodeElseOfTheMesh) {
   file.accessor(kTriangle, 5126, "VEC3", 3);
   file.accessor(std::vector<float>{0, 0, 4, 0, 0, 4, 0, 0, 4}, 5126, "VEC3", 3);
   file.accessor(std::vector<float>{0, 8, 0, 0, 8, 0, 0, 8, 0}, 5126, "VEC3", 3);
-  const auto model = file.import(R"("nodes":[{"mesh":0},{"mesh":0,"weights":[1,0.5]},{"mesh":0}],"meshes":[{"weights":[0.25,0],)"
-                                 R"("primitives":[{"attributes":{"POSITION":0},"targets":[{"POSITION":1},{"POSITION":2}]}]}])", {.up = UpAxis::z});
+  const auto model =
+      file.import(R"("nodes":[{"mesh":0},{"mesh":0,"weights":[1,0.5]},{"mesh":0}],"meshes":[{"weights":[0.25,0],)"
+                  R"("primitives":[{"attributes":{"POSITION":0},"targets":[{"POSITION":1},{"POSITION":2}]}]}])",
+                  {.up = UpAxis::z});
   ASSERT_TRUE(model) << describe(model.error());
   EXPECT_EQ(model->report.losses(), 0U);
-  EXPECT_EQ(model->environment.meshes.size(), 2U);   // the first and the third node share theirs
+  EXPECT_EQ(model->environment.meshes.size(), 2U);  // the first and the third node share theirs
   const auto p = placed(*model);
   EXPECT_EQ(p.at(0), Eigen::Vector3d(0, 0, 1));
   EXPECT_EQ(p.at(3), Eigen::Vector3d(0, 4, 4));
@@ -180,39 +197,45 @@ TEST(GltfPose, ASkinStandsWhereItsJointsAreAndNotWhereItsNodeIs) {
   file.accessor(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 0.5F, 0.5F, 0, 0}, 5126, "VEC4", 3);
   std::vector<float> bind(32, 0);
   for (const std::size_t k : {0, 5, 10, 15}) bind[k] = bind[16 + k] = 1;
-  bind[16 + 12] = -1;   // the second joint was bound at x = 1
+  bind[16 + 12] = -1;  // the second joint was bound at x = 1
   file.accessor(bind, 5126, "MAT4", 2);
-  const auto model = file.import(R"("scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0,"skin":0,"translation":[100,0,0]},{"children":[2],)"
-                                 R"("translation":[0,0,10]},{"translation":[1,7,0]}],"skins":[{"joints":[1,2],"inverseBindMatrices":3}],)"
-                                 R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2}}]}])", {.up = UpAxis::z});
+  const auto model = file.import(
+      R"("scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0,"skin":0,"translation":[100,0,0]},{"children":[2],)"
+      R"("translation":[0,0,10]},{"translation":[1,7,0]}],"skins":[{"joints":[1,2],"inverseBindMatrices":3}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2}}]}])",
+      {.up = UpAxis::z});
   ASSERT_TRUE(model) << describe(model.error());
   const auto p = placed(*model);
-  EXPECT_EQ(p.at(0), Eigen::Vector3d(0, 0, 10));         // joint 1 moves it by (0, 0, 10)
-  EXPECT_EQ(p.at(1), Eigen::Vector3d(1, 7, 10));         // joint 2: (1, 0, 0) − (1, 0, 0) + (1, 7, 10)
-  EXPECT_EQ(p.at(2), Eigen::Vector3d(0, 1 + 3.5, 10));   // half of each
+  EXPECT_EQ(p.at(0), Eigen::Vector3d(0, 0, 10));        // joint 1 moves it by (0, 0, 10)
+  EXPECT_EQ(p.at(1), Eigen::Vector3d(1, 7, 10));        // joint 2: (1, 0, 0) − (1, 0, 0) + (1, 7, 10)
+  EXPECT_EQ(p.at(2), Eigen::Vector3d(0, 1 + 3.5, 10));  // half of each
 }
 
 TEST(GltfScenes, OnlyTheDefaultOneIsReadAndTheOthersAreCounted) {
   Gltf2 file;
   file.accessor(kTriangle, 5126, "VEC3", 3);
-  const auto model = file.import(R"("scene":1,"scenes":[{"nodes":[0]},{"nodes":[1]}],"nodes":[{"mesh":0},{"mesh":0,"scale":[-1,1,1]}],)"
-                                 R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}},{"mode":0,"attributes":{"POSITION":0}}]}])");
+  const auto model = file.import(
+      R"("scene":1,"scenes":[{"nodes":[0]},{"nodes":[1]}],"nodes":[{"mesh":0},{"mesh":0,"scale":[-1,1,1]}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}},{"mode":0,"attributes":{"POSITION":0}}]}])");
   ASSERT_TRUE(model) << describe(model.error());
   EXPECT_EQ(model->environment.products.at(0).id, "/nodes/1");
   EXPECT_LT(model->environment.instances.at(0).world_from_mesh.linear().determinant(), 0);
   ASSERT_EQ(model->report.losses(), 2U);
   EXPECT_EQ(model->report.issues.at(0).message, "holds 3 points, which are not a surface");
-  EXPECT_EQ(model->report.issues.at(1).message, "1 nodes with a mesh are not in the scene that the file shows by default");
+  EXPECT_EQ(model->report.issues.at(1).message,
+            "1 nodes with a mesh are not in the scene that the file shows by default");
 }
 
 TEST(GltfScenes, CesiumRtcMovesTheModelInAFrameThatIsZUp) {
   Gltf2 file;
   file.accessor(kTriangle, 5126, "VEC3", 3);
-  const auto model = file.import(R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
-                                 R"("extensionsRequired":["CESIUM_RTC"],"extensions":{"CESIUM_RTC":{"center":[4000000.25,20,30]}})");
+  const auto model =
+      file.import(R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+                  R"("extensionsRequired":["CESIUM_RTC"],"extensions":{"CESIUM_RTC":{"center":[4000000.25,20,30]}})");
   ASSERT_TRUE(model) << describe(model.error());
   EXPECT_EQ(model->georeference.shift_m.x(), 4000001);
-  EXPECT_EQ(bounds(model->environment).min, Eigen::Vector3d(-0.75, 20 - model->georeference.shift_m.y(), 30 - model->georeference.shift_m.z()));
+  EXPECT_EQ(bounds(model->environment).min,
+            Eigen::Vector3d(-0.75, 20 - model->georeference.shift_m.y(), 30 - model->georeference.shift_m.z()));
 }
 
 TEST(GltfMetadata, AFeatureOfAMeshIsAProductWithTheRowOfItsTable) {
@@ -228,8 +251,9 @@ TEST(GltfMetadata, AFeatureOfAMeshIsAProductWithTheRowOfItsTable) {
       R"({"EXT_mesh_features":{"featureIds":[{"featureCount":2,"attribute":0,"propertyTable":0}]}}}]}],"extensions":{"EXT_structural_metadata":)"
       R"({"schema":{"enums":{"kind":{"values":[{"name":"LOAD","value":0},{"name":"FREE","value":1}]}},"classes":{"part":{"properties":{"name":)"
       R"({"type":"STRING"},"size":{"type":"VEC2","componentType":"FLOAT32"},"kind":{"type":"ENUM","enumType":"kind"}}}}},"propertyTables":)"
-      R"([{"class":"part","count":2,"properties":{"name":{"values":)" + std::to_string(names) + R"(,"stringOffsets":)" + std::to_string(ends) +
-      R"(},"size":{"values":)" + std::to_string(heights) + R"(},"kind":{"values":)" + std::to_string(kinds) + R"(}}}]}})");
+      R"([{"class":"part","count":2,"properties":{"name":{"values":)" +
+      std::to_string(names) + R"(,"stringOffsets":)" + std::to_string(ends) + R"(},"size":{"values":)" +
+      std::to_string(heights) + R"(},"kind":{"values":)" + std::to_string(kinds) + R"(}}}]}})");
   ASSERT_TRUE(model) << describe(model.error());
   const auto& products = model->environment.products;
   ASSERT_EQ(products.size(), 2U);
@@ -246,9 +270,10 @@ TEST(GltfMetadata, AFeatureOfAMeshIsAProductWithTheRowOfItsTable) {
 TEST(GltfMetadata, XmpPacketsAndExtrasAreProperties) {
   Gltf2 file;
   file.accessor(kTriangle, 5126, "VEC3", 3);
-  const auto model = file.import(R"("nodes":[{"mesh":0,"extras":{"fire":"F90"},"extensions":{"KHR_xmp_json_ld":{"packet":0}}}],"meshes":[{"primitives":)"
-                                 R"([{"attributes":{"POSITION":0}}]}],"extensions":{"KHR_xmp_json_ld":{"packets":[{"@context":{},"dc:title":)"
-                                 R"({"@list":["Door","Tür"]}}]}})");
+  const auto model = file.import(
+      R"("nodes":[{"mesh":0,"extras":{"fire":"F90"},"extensions":{"KHR_xmp_json_ld":{"packet":0}}}],"meshes":[{"primitives":)"
+      R"([{"attributes":{"POSITION":0}}]}],"extensions":{"KHR_xmp_json_ld":{"packets":[{"@context":{},"dc:title":)"
+      R"({"@list":["Door","Tür"]}}]}})");
   ASSERT_TRUE(model) << describe(model.error());
   const auto& p = model->environment.products.at(0).properties;
   ASSERT_EQ(p.size(), 2U);
@@ -261,7 +286,9 @@ TEST(GltfRefusesWithARemedy, WhatItDoesNotUnderstand) {
   file.accessor(kTriangle, 5126, "VEC3", 3);
   const auto model = file.import(R"("extensionsRequired":["NEW_geometry"])");
   ASSERT_FALSE(model);
-  EXPECT_THAT(describe(model.error()), HasSubstr("/extensionsRequired/0: 'NEW_geometry' is required and not understood; export the model without it"));
+  EXPECT_THAT(
+      describe(model.error()),
+      HasSubstr("/extensionsRequired/0: 'NEW_geometry' is required and not understood; export the model without it"));
 }
 
 }  // namespace

@@ -94,8 +94,8 @@ TEST(IfcGeoreference, FaultsAreNamed) {
   EXPECT_TRUE(says(with("EPSG:12invalid", "$", "$"), "warning #60: 'EPSG:12invalid' is no EPSG code"));
   EXPECT_TRUE(says(with("EPSG:99999", "$", "$"), "warning #60: EPSG:99999 is no coordinate reference system"));
   EXPECT_TRUE(says(with("EPSG:4326", "$", "$"), "warning #60: EPSG:4326 is not a projected"));
-  EXPECT_TRUE(says(with("EPSG:25832", "'EPSG:0000'", "$"), "warning #60: the geodetic datum 'EPSG:0000' is not in the EPSG dataset"));
-  EXPECT_TRUE(says(with("EPSG:25832", "$", "'EPSG:2'"), "warning #60: the vertical datum 'EPSG:2' is not in the EPSG dataset"));
+  EXPECT_TRUE(says(with("EPSG:25832", "'EPSG:0000'", "$"), "warning #60: the geodetic datum 'EPSG:0000' is none in the EPSG dataset"));
+  EXPECT_TRUE(says(with("EPSG:25832", "$", "'EPSG:1234'"), "warning #60: the vertical datum 'EPSG:1234' is none in the EPSG dataset"));
   EXPECT_EQ(issuesOf(with("EPSG:25832", "'EPSG:6258'", "'EPSG:5703'")), "");
 }
 

@@ -96,6 +96,18 @@ TEST(IfcProperties, ConstituentsProfilesAndTheMaterialsOwnPropertiesAreTold) {
   EXPECT_EQ(text(productOf(model, "#111").properties), "Material.ProfileSet=Joist\nMaterial.Profile=Oak, 10x20\nMaterial.CardinalPoint=5\nOak/Pset_MaterialCommon.MassDensity=720\n");
 }
 
+TEST(IfcProperties, PropertiesThatMultiplyAreCutWithALoss) {
+  std::string bomb;   // eight levels of ten: a hundred million
+  for (int level = 0; level < 8; ++level) {
+    std::string parts;
+    for (int k = 0; k < 10; ++k) parts += (k ? ",#" : "#") + std::to_string(121 + level);
+    bomb += "#" + std::to_string(120 + level) + "=IFCCOMPLEXPROPERTY('L',$,'u',(" + parts + "));\n";
+  }
+  const ImportedModel model = importText(ifcText(withSet(bomb + "#128=IFCPROPERTYSINGLEVALUE('V',$,IFCREAL(1.),$);\n", "#120,#121")));
+  EXPECT_EQ(productOf(model, "#110").properties.size(), 10000U);
+  EXPECT_EQ(issuesOf(model), "loss #110: has more than 10 000 properties; the others are left out\n");
+}
+
 TEST(IfcProperties, OldOpticalPropertiesOfAMaterialAreTold) {
   const ImportedModel model = importText(ifcText("#110=IFCPLATE('a',$,'A',$,$,#3,$,$);\n#120=IFCMATERIAL('Glass');\n#121=IFCRELASSOCIATESMATERIAL('m',$,$,$,(#110),#120);\n"
       "#122=IFCOPTICALMATERIALPROPERTIES(#120,0.8,$,$,$,$,$,0.1,$,$);\n", "IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.)", "IFC2X3"));

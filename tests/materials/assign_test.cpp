@@ -105,8 +105,10 @@ TEST(Assignment, OfASurfaceThatTransmitsLightIsGlassAndSaysWhy) {
   b.product("", "Fenster", {pane});
   const auto result = b.assign();
   EXPECT_EQ(materialId(result, 0, pane), "glass_float_clear_6mm");
-  EXPECT_THAT(result.assignment.surfaces[0].reason, HasSubstr("colour transparent (transmission 0.90, index of refraction 1.52)"));
-  for (const auto& f : result.report.findings) EXPECT_EQ(f.severity, "note");   // no contradiction between colour and material
+  EXPECT_THAT(result.assignment.surfaces[0].reason,
+              HasSubstr("colour transparent (transmission 0.90, index of refraction 1.52)"));
+  for (const auto& f : result.report.findings)
+    EXPECT_EQ(f.severity, "note");  // no contradiction between colour and material
 }
 
 TEST(Findings, NoteWhatOnlyClassOrColourDecided) {
