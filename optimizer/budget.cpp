@@ -16,7 +16,7 @@ struct Bid {
 
 Bid nextBid(const std::vector<Bidder>& bidders, std::uint32_t i, std::size_t level) {
   const double scale = bidders[i].scale;
-  return {(*bidders[i].levels)[level].cost * scale * scale * scale, i};
+  return {(*bidders[i].levels)[level].cost * scale * scale * scale * bidders[i].weight, i};
 }
 
 // Triangles that all copies save by going on to a level.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <Eigen/SVD>
@@ -31,12 +32,16 @@ struct Work {
   std::uint64_t copies = 0;
   double scale = 0;      // of the largest copy: deviations are measured in its metres
   double placed_area_m2 = 0;
+  double cap_m = std::numeric_limits<double>::infinity();   // on the deviation, in the mesh's own frame
+  double weight = 0;
+  std::uint32_t share = 0;
+  bool keep = false;
+  bool lossless = false;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  // of the first copy, in the mesh's frame
   std::uint32_t samples = 0;
   Deviation deviation;   // in the mesh's own frame
   bool measured = false;
 
-  double maxDeviation() const { return deviation.max_m * scale; }
   bool dropped() const { return lighter.triangles.empty() && !shape.triangles.empty(); }
 };
 
@@ -66,10 +71,39 @@ void forEachLargestFirst(std::vector<Work>& works, Progress& progress, Task task
   });
 }
 
-std::vector<Work> prepare(const Environment& environment) {
+ProductAllowance allowanceOf(const OptimizeOptions& options, std::uint32_t product) {
+  if (!options.products.empty()) return options.products[product];
+  ProductAllowance same;
+  same.max_deviation_m = options.max_deviation_m;
+  return same;
+}
+
+void allow(Work& work, const ProductAllowance& allowance, double stretch) {
+  if (stretch > 0) work.cap_m = std::min(work.cap_m, allowance.max_deviation_m / stretch);
+  work.weight = std::max(work.weight, allowance.weight);
+  work.share = work.copies == 0 ? allowance.share : std::min(work.share, allowance.share);
+  work.keep = work.keep || allowance.keep;
+}
+
+std::uint64_t budgetOf(const OptimizeOptions& options, std::uint32_t share) {
+  return share == 0 ? options.budget : options.further_budgets[share - 1];
+}
+
+// A share that asks for nothing, or for no less than it has, is only rid of what costs nothing.
+void decideLossless(std::vector<Work>& works, const OptimizeOptions& options) {
+  std::vector<std::uint64_t> triangles(1 + options.further_budgets.size(), 0);
+  for (const auto& work : works) triangles[work.share] += work.shape.triangles.size() * work.copies;
+  for (auto& work : works) {
+    const auto budget = budgetOf(options, work.share);
+    work.lossless = budget == 0 || budget >= triangles[work.share];
+  }
+}
+
+std::vector<Work> prepare(const Environment& environment, const OptimizeOptions& options) {
   std::vector<Work> works(environment.meshes.size());
   for (const auto& instance : environment.instances) {
     Work& work = works[instance.mesh];
+    allow(work, allowanceOf(options, instance.product), largestStretch(instance.world_from_mesh));
     const Eigen::Vector3d up = instance.world_from_mesh.linear().transpose() * Eigen::Vector3d::UnitZ();
     if (work.copies++ == 0 && up.norm() > 0) work.up = up.normalized();
     work.scale = std::max(work.scale, largestStretch(instance.world_from_mesh));
@@ -84,6 +118,7 @@ std::vector<Work> prepare(const Environment& environment) {
   for (const auto& work : works) all += work.placed_area_m2;
   for (auto& work : works)
     work.samples = static_cast<std::uint32_t>(std::clamp(kSamples * work.placed_area_m2 / std::max(all, 1e-300), kFewestSamples, kMostSamples));
+  decideLossless(works, options);
   return works;
 }
 
@@ -95,45 +130,57 @@ void measure(Work& work, const DeviationMeter& meter, std::size_t taken) {
 
 // The simplest level whose measured deviation stays within the limit. The log was made with a bound on each step's effect,
 // so that this is rarely needed; what counts is the measurement.
-void shrinkToDeviation(Work& work, const DeviationMeter& meter, double max_deviation_m) {
+void shrinkToDeviation(Work& work, const DeviationMeter& meter) {
   std::size_t good = 0, bad = work.taken;
   while (bad - good > 1) {
     const std::size_t middle = good + (bad - good) / 2;
     measure(work, meter, middle);
-    (work.maxDeviation() <= max_deviation_m ? good : bad) = middle;
+    (work.deviation.max_m <= work.cap_m ? good : bad) = middle;
   }
   work.limit = good;
   work.measured = false;
 }
 
-void share(std::vector<Work>& works, std::uint64_t budget) {
-  std::vector<Bidder> bidders(works.size());
-  for (std::size_t i = 0; i < works.size(); ++i)
-    bidders[i] = {&works[i].levels.levels, works[i].limit, works[i].shape.triangles.size(), works[i].copies, works[i].scale};
-  const auto taken = shareBudget(bidders, budget);
-  for (std::size_t i = 0; i < works.size(); ++i) {
-    if (taken[i] != works[i].taken) works[i].measured = false;
-    works[i].taken = taken[i];
+void shareOne(std::vector<Work>& works, std::uint32_t share, std::uint64_t budget) {
+  std::vector<Bidder> bidders;
+  std::vector<std::uint32_t> work_of_bidder;
+  bool lossless = false;
+  for (std::uint32_t i = 0; i < works.size(); ++i) {
+    const Work& work = works[i];
+    if (work.share != share) continue;
+    lossless = work.lossless;
+    bidders.push_back({&work.levels.levels, work.limit, work.shape.triangles.size(), work.copies, work.scale, work.weight});
+    work_of_bidder.push_back(i);
+  }
+  const auto taken = shareBudget(bidders, lossless ? 0 : budget);
+  for (std::size_t k = 0; k < bidders.size(); ++k) {
+    Work& work = works[work_of_bidder[k]];
+    if (taken[k] != work.taken) work.measured = false;
+    work.taken = taken[k];
   }
 }
 
-Result<void> simplify(std::vector<Work>& works, const OptimizeOptions& options, bool lossless, Progress& progress) {
+void shareAll(std::vector<Work>& works, const OptimizeOptions& options) {
+  for (std::uint32_t share = 0; share <= options.further_budgets.size(); ++share) shareOne(works, share, budgetOf(options, share));
+}
+
+Result<void> simplify(std::vector<Work>& works, const OptimizeOptions& options, Progress& progress) {
   progress.stage("Simplify", 0, 0.6);
   forEachLargestFirst(works, progress, [&](Work& work, std::uint32_t mesh) {
-    if (work.copies == 0 || !(work.scale > 0)) return;
-    work.levels = makeLevels(work.shape, {options.max_deviation_m / work.scale, lossless}, {work.scale, work.up}, mesh, progress);
+    if (work.copies == 0 || work.keep || !(work.scale > 0)) return;
+    work.levels = makeLevels(work.shape, {work.cap_m, work.lossless}, {work.scale, work.up}, mesh, progress);
     work.limit = work.levels.levels.size();
   });
   progress.stage("Measure", 0.6, 0.9);
   for (bool settled = false; !settled;) {
     if (auto going = progress.check(); !going) return going;
-    share(works, lossless ? 0 : options.budget);
+    shareAll(works, options);
     forEachLargestFirst(works, progress, [&](Work& work, std::uint32_t mesh) {
       if (work.measured) return;
       const DeviationMeter meter(work.shape, work.samples, mesh);
       measure(work, meter, work.taken);
       work.measured = true;
-      if (!lossless && work.taken > 0 && work.maxDeviation() > options.max_deviation_m) shrinkToDeviation(work, meter, options.max_deviation_m);
+      if (!work.lossless && work.taken > 0 && work.deviation.max_m > work.cap_m) shrinkToDeviation(work, meter);
     });
     settled = std::all_of(works.begin(), works.end(), [](const Work& work) { return work.measured; });
   }
@@ -210,16 +257,87 @@ OptimizeResult assemble(const Environment& before, const std::vector<Work>& work
   return result;
 }
 
+// What a rule takes away counts with its distance from its own centre: there is nothing else left of it.
+ProductLoss lossOfDropped(const Environment& environment, const std::vector<const Instance*>& instances) {
+  ProductLoss loss;
+  Bounds box;
+  for (const auto* instance : instances) box.extend(bounds(*environment.meshes[instance->mesh], instance->world_from_mesh));
+  const Eigen::Vector3d centre = 0.5 * (box.min + box.max);
+  double area_sum = 0;
+  for (const auto* instance : instances) {
+    const Mesh& mesh = *environment.meshes[instance->mesh];
+    const auto corner = [&](std::uint32_t i) { return Eigen::Vector3d(instance->world_from_mesh * mesh.positions[i].cast<double>()); };
+    loss.triangles_before += mesh.triangles.size();
+    for (const auto& t : mesh.triangles) {
+      const Eigen::Vector3d a = corner(t[0]), b = corner(t[1]), c = corner(t[2]);
+      const double area_m2 = 0.5 * (b - a).cross(c - a).norm();
+      area_sum += area_m2;
+      loss.mean_deviation_m += area_m2 * ((a + b + c) / 3 - centre).norm();
+      for (const auto& p : {a, b, c}) loss.max_deviation_m = std::max(loss.max_deviation_m, (p - centre).norm());
+    }
+  }
+  if (area_sum > 0) loss.mean_deviation_m /= area_sum;
+  return loss;
+}
+
+Environment withoutDropped(const Environment& environment, const OptimizeOptions& options) {
+  Environment rest = environment;
+  std::erase_if(rest.instances, [&](const Instance& instance) { return allowanceOf(options, instance.product).drop; });
+  return rest;
+}
+
+void addDropped(const Environment& environment, const OptimizeOptions& options, OptimizeResult& result) {
+  std::vector<std::vector<const Instance*>> dropped(environment.products.size());
+  for (const auto& instance : environment.instances)
+    if (allowanceOf(options, instance.product).drop) dropped[instance.product].push_back(&instance);
+  for (std::size_t i = 0; i < dropped.size(); ++i) {
+    if (dropped[i].empty()) continue;
+    result.products[i] = lossOfDropped(environment, dropped[i]);
+    result.all.triangles_before += result.products[i].triangles_before;
+    const auto& product = environment.products[i];
+    result.report.lose(product.id, fmt::format("{} {} is dropped by the rule \"{}\" of {}", product.ifc_class.empty() ? "product" : product.ifc_class,
+                                               product.name, options.products[i].reason, options.products[i].lod));
+  }
+}
+
+Result<void> check(const Environment& environment, const OptimizeOptions& options) {
+  const auto wrong = [](double deviation_m) { return !std::isfinite(deviation_m) || deviation_m < 0; };
+  if (wrong(options.max_deviation_m)) return failure(ErrorKind::usage, "the largest deviation must be zero or more metres", "max_deviation_m");
+  if (auto invalid = validate(environment); !invalid.empty()) return failure(ErrorKind::unusable, invalid, "environment");
+  if (!options.products.empty() && options.products.size() != environment.products.size())
+    return failure(ErrorKind::internal, "not one allowance for each product", "products");
+  for (const auto& a : options.products)
+    if (wrong(a.max_deviation_m) || !(a.weight > 0) || !std::isfinite(a.weight) || a.share > options.further_budgets.size())
+      return failure(ErrorKind::usage, "an allowance is out of range", a.lod + " " + a.reason);
+  return {};
+}
+
+// The smallest budget of a share is what is left of it: every level that its cap allows has been taken.
+void checkBudgets(const std::vector<Work>& works, const OptimizeOptions& options, OptimizeResult& result) {
+  for (std::uint32_t share = 0; share <= options.further_budgets.size(); ++share) {
+    std::uint64_t left = 0;
+    for (const auto& work : works)
+      if (work.share == share) left += work.lighter.triangles.size() * work.copies;
+    const auto budget = budgetOf(options, share);
+    if (budget == 0 || left <= budget) continue;
+    result.budget_reached = false;
+    result.smallest_budget += left;
+    const auto named = std::find_if(options.products.begin(), options.products.end(), [&](const auto& a) { return a.share == share; });
+    const std::string whose = named == options.products.end() ? "" : named->lod + ": ";
+    const std::string cap = options.products.empty() ? fmt::format("deviations of at most {} m", options.max_deviation_m) : "the deviations allowed";
+    result.report.warn("budget", fmt::format("{}{} triangles cannot be reached with {}; the least is {}", whose, budget, cap, left));
+  }
+}
+
 }  // namespace
 
 Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOptions& options, Progress& progress) {
-  if (!std::isfinite(options.max_deviation_m) || options.max_deviation_m < 0)
-    return failure(ErrorKind::usage, "the largest deviation must be zero or more metres", "max_deviation_m");
-  if (auto wrong = validate(environment); !wrong.empty()) return failure(ErrorKind::unusable, wrong, "environment");
-  const bool lossless = options.budget == 0 || options.budget >= triangleCount(environment);
-  auto works = prepare(environment);
-  if (auto done = simplify(works, options, lossless, progress); !done) return failure(done.error());
-  auto result = assemble(environment, works);
+  if (auto checked = check(environment, options); !checked) return failure(checked.error());
+  const Environment rest = withoutDropped(environment, options);
+  auto works = prepare(rest, options);
+  if (auto done = simplify(works, options, progress); !done) return failure(done.error());
+  auto result = assemble(rest, works);
+  addDropped(environment, options, result);
   progress.stage("Measure the whole", 0.9, 1);
   if (result.all.triangles_after > 0) {  // of an empty one the products' own figures, to their centres, are all there is
     const auto whole = sceneDeviation(environment, result.environment, kSamples, progress);
@@ -227,12 +345,7 @@ Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOp
     result.all.mean_deviation_m = whole.mean_m;
   }
   if (auto going = progress.check(); !going) return failure(going.error());
-  if (options.budget > 0 && result.all.triangles_after > options.budget) {
-    result.budget_reached = false;
-    result.smallest_budget = result.all.triangles_after;
-    result.report.warn("budget", fmt::format("{} triangles cannot be reached with deviations of at most {} m; the least is {}",
-                                             options.budget, options.max_deviation_m, result.smallest_budget));
-  }
+  checkBudgets(works, options, result);
   return result;
 }
 

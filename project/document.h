@@ -22,7 +22,8 @@ struct Lightening {
   std::shared_ptr<const Environment> environment;
   std::vector<ProductLoss> products;
   ProductLoss all;
-  OptimizeOptions options;
+  OptimizeOptions options;                           // read back: the budget and the largest deviation only
+  std::vector<std::string> levels;                   // of detail, one for each product; empty: all alike
 };
 
 struct MaterialChoice {

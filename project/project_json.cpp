@@ -152,7 +152,7 @@ json documentToJson(const Document& d) {
     json losses = json::array();
     for (const auto& l : d.lightening->products) losses.push_back(lossToJson(l));
     project["lightening"] = {{"budget", d.lightening->options.budget}, {"max_deviation_m", d.lightening->options.max_deviation_m},
-                             {"all", lossToJson(d.lightening->all)}, {"products", losses}};
+                             {"all", lossToJson(d.lightening->all)}, {"products", losses}, {"levels", d.lightening->levels}};
   }
   if (d.collision) project["collision"] = collisionToJson(*d.collision);
   if (d.materials) project["materials"] = materialsToJson(*d.materials);
@@ -217,7 +217,9 @@ Environment recordsFrom(const json& records) {
 std::shared_ptr<const Lightening> lighteningFrom(const json& part, std::shared_ptr<const Environment> environment) {
   Lightening l;
   l.environment = std::move(environment);
-  l.options = {part.at("budget"), part.at("max_deviation_m")};
+  l.options.budget = part.at("budget");
+  l.options.max_deviation_m = part.at("max_deviation_m");
+  l.levels = part.value("levels", std::vector<std::string>{});   // not in the projects of the first version
   l.all = lossFrom(part.at("all"));
   for (const auto& loss : part.at("products")) l.products.push_back(lossFrom(loss));
   return std::make_shared<const Lightening>(std::move(l));

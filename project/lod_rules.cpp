@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/lod_rules.h"
+
+#include <algorithm>
+#include <array>
+
+#include "materials/json_file.h"
+#include "materials/materials.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+
+Result<std::vector<std::string>> readSelectors(const json& object, const JsonPlace& at) {
+  std::vector<std::string> selectors;
+  const auto found = object.find("products");
+  if (found == object.end()) return selectors;
+  const JsonPlace place = at / "products";
+  if (!found->is_array() || found->empty()) return place.unusable("must be a list of selectors");
+  for (std::size_t i = 0; i < found->size(); ++i) {
+    if (!(*found)[i].is_string() || (*found)[i].get<std::string>().empty()) return (place / i).unusable("must be a selector such as class:IfcWall*");
+    selectors.push_back((*found)[i].get<std::string>());
+  }
+  return selectors;
+}
+
+Result<void> readOptional(const json& object, const JsonPlace& at, const char* key, std::optional<double>& value) {
+  if (!object.contains(key)) return {};
+  auto number = readNumber(object.at(key), at / key, 0, 1e6);
+  if (!number) return failure(number.error());
+  value = *number;
+  return {};
+}
+
+Result<void> readFlag(const json& object, const JsonPlace& at, const char* key, bool& value) {
+  if (!object.contains(key)) return {};
+  if (!object.at(key).is_boolean()) return (at / key).unusable("must be true or false");
+  value = object.at(key).get<bool>();
+  return {};
+}
+
+Result<LodRule> readRule(const json& entry, const JsonPlace& at) {
+  if (auto known = checkKeys(entry, at, {"reason", "products", "smaller_than_m", "thinner_than_m", "drop", "keep", "max_deviation_m", "weight"}); !known)
+    return failure(known.error());
+  LodRule rule;
+  auto reason = readText(entry, at, "reason");
+  if (!reason) return failure(reason.error());
+  rule.reason = *std::move(reason);
+  auto selectors = readSelectors(entry, at);
+  if (!selectors) return failure(selectors.error());
+  rule.products = *std::move(selectors);
+  for (const auto& [key, field] : {std::pair{"smaller_than_m", &LodRule::smaller_than_m}, std::pair{"thinner_than_m", &LodRule::thinner_than_m},
+                                   std::pair{"max_deviation_m", &LodRule::max_deviation_m}})
+    if (auto read = readOptional(entry, at, key, rule.*field); !read) return failure(read.error());
+  for (const auto& [key, field] : {std::pair{"drop", &LodRule::drop}, std::pair{"keep", &LodRule::keep}})
+    if (auto read = readFlag(entry, at, key, rule.*field); !read) return failure(read.error());
+  if (rule.drop && rule.keep) return at.unusable("cannot both drop and keep");
+  if (entry.contains("weight")) {
+    auto weight = readNumber(entry.at("weight"), at / "weight", 0.001, 1000);
+    if (!weight) return failure(weight.error());
+    rule.weight = *weight;
+  }
+  return rule;
+}
+
+Result<LodLevel> readLevel(const json& entry, const JsonPlace& at, const char* part) {
+  if (auto known = checkKeys(entry, at, {"part", "level", "budget", "max_deviation_m", "farther_than_m", "products", "rules"}); !known)
+    return failure(known.error());
+  LodLevel level;
+  for (const auto& [key, field] : {std::pair{"part", &LodLevel::part}, std::pair{"level", &LodLevel::level}}) {
+    auto text = readText(entry, at, key);
+    if (!text) return failure(text.error());
+    level.*field = *std::move(text);
+  }
+  if (level.part != part) return (at / "part").unusable(std::string("must be ") + part + ": the main part comes first, then the surroundings");
+  for (const char* key : {"budget", "max_deviation_m", "rules"})
+    if (!entry.contains(key)) return (at / key).unusable("is missing");
+  auto budget = readNumber(entry.at("budget"), at / "budget", 0, 1e12);
+  if (!budget) return failure(budget.error());
+  level.budget = static_cast<std::uint64_t>(*budget);
+  auto deviation = readNumber(entry.at("max_deviation_m"), at / "max_deviation_m", 0, 1000);
+  if (!deviation) return failure(deviation.error());
+  level.max_deviation_m = *deviation;
+  if (auto read = readOptional(entry, at, "farther_than_m", level.farther_than_m); !read) return failure(read.error());
+  auto selectors = readSelectors(entry, at);
+  if (!selectors) return failure(selectors.error());
+  level.products = *std::move(selectors);
+  if (level.part == "main" && (level.farther_than_m || !level.products.empty()))
+    return at.unusable("the main part is what the surroundings leave; say there what they are");
+  if (!entry.at("rules").is_array()) return (at / "rules").unusable("must be a list");
+  for (std::size_t i = 0; i < entry.at("rules").size(); ++i) {
+    auto rule = readRule(entry.at("rules")[i], at / "rules" / i);
+    if (!rule) return failure(rule.error());
+    level.rules.push_back(*std::move(rule));
+  }
+  return level;
+}
+
+std::vector<bool> selected(const Environment& environment, const std::vector<std::string>& selectors, bool of_none) {
+  std::vector<bool> result(environment.products.size(), selectors.empty() && of_none);
+  for (const auto& selector : selectors)
+    for (const auto product : select(environment, selector)) result[product] = true;
+  return result;
+}
+
+double distance(const Bounds& a, const Bounds& b) {
+  return (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0.0).norm();
+}
+
+// Beyond the given distance from all that is not surroundings by its selector, measured from the largest product: the
+// building grows from there, product by product, over gaps that are no wider.
+void addDistant(const std::vector<Bounds>& boxes, double gap_m, std::vector<bool>& around) {
+  std::size_t seed = boxes.size();
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    if (!around[i] && !boxes[i].empty() && (seed == boxes.size() || boxes[i].diagonal() > boxes[seed].diagonal())) seed = i;
+  if (seed == boxes.size()) return;
+  std::vector<bool> reached(boxes.size(), false);
+  std::vector<std::size_t> open{seed};
+  reached[seed] = true;
+  while (!open.empty()) {
+    const std::size_t from = open.back();
+    open.pop_back();
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+      if (!reached[i] && !around[i] && !boxes[i].empty() && distance(boxes[from], boxes[i]) <= gap_m) reached[i] = true, open.push_back(i);
+  }
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    if (!reached[i] && !boxes[i].empty()) around[i] = true;
+}
+
+bool fitsSize(const LodRule& rule, const Bounds& box) {
+  if (!rule.smaller_than_m && !rule.thinner_than_m) return true;
+  if (box.empty()) return false;
+  Eigen::Vector3d edges = box.max - box.min;
+  std::sort(edges.data(), edges.data() + 3);
+  return (!rule.smaller_than_m || box.diagonal() < *rule.smaller_than_m) && (!rule.thinner_than_m || edges.y() < *rule.thinner_than_m);
+}
+
+}  // namespace
+
+Result<std::vector<LodLevel>> readLodRules(const std::filesystem::path& file) {
+  const auto entries = readJsonArray(file);
+  if (!entries) return failure(entries.error());
+  const JsonPlace top{file.filename().string(), {}};
+  if (entries->size() != 2) return top.unusable("must hold two levels: main and surroundings");
+  std::vector<LodLevel> levels;
+  for (std::size_t i = 0; i < 2; ++i) {
+    auto level = readLevel((*entries)[i], top / i, std::array{"main", "surroundings"}[i]);
+    if (!level) return failure(level.error());
+    levels.push_back(*std::move(level));
+  }
+  return levels;
+}
+
+OptimizeOptions allowances(const Environment& environment, const std::vector<LodLevel>& levels, const LodChoice& choice) {
+  const auto boxes = productBounds(environment);
+  auto selectors = levels[1].products;
+  selectors.insert(selectors.end(), choice.surroundings.begin(), choice.surroundings.end());
+  std::vector<bool> around = selected(environment, selectors, false);
+  if (levels[1].farther_than_m) addDistant(boxes, *levels[1].farther_than_m, around);
+
+  OptimizeOptions options;
+  options.budget = choice.budget.value_or(levels[0].budget);
+  options.max_deviation_m = levels[0].max_deviation_m;
+  options.further_budgets = {levels[1].budget};
+  options.products.resize(environment.products.size());
+  for (std::uint32_t share = 0; share < 2; ++share) {
+    const LodLevel& level = levels[share];
+    std::vector<bool> decided(environment.products.size(), false);
+    for (std::size_t i = 0; i < decided.size(); ++i) {
+      if (around[i] != (share == 1)) continue;
+      options.products[i].lod = level.level;
+      options.products[i].share = share;
+      options.products[i].max_deviation_m = level.max_deviation_m;
+    }
+    for (const auto& rule : level.rules) {
+      const auto meant = selected(environment, rule.products, true);
+      for (std::size_t i = 0; i < decided.size(); ++i) {
+        if (decided[i] || around[i] != (share == 1) || !meant[i] || !fitsSize(rule, boxes[i])) continue;
+        decided[i] = true;
+        ProductAllowance& allowance = options.products[i];
+        allowance.max_deviation_m = rule.max_deviation_m.value_or(level.max_deviation_m);
+        allowance.weight = rule.weight;
+        allowance.keep = rule.keep;
+        allowance.drop = rule.drop;
+        allowance.reason = rule.reason;
+      }
+    }
+  }
+  return options;
+}
+
+}  // namespace standpoint
