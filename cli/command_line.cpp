@@ -137,23 +137,26 @@ class Bar {
   std::thread thread_;
 };
 
+// Names come from files, and not every file keeps to UTF-8.
+std::string asText(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
+
 void printText(const Outcome& outcome, const Streams& streams) {
   for (const auto& issue : outcome.report.issues)
     streams.err << fmt::format("{}: {}{}{}\n", name(issue.severity), issue.source, issue.source.empty() ? "" : ": ", issue.message);
   if (!outcome.description.empty()) streams.out << outcome.description << "\n";
   for (const auto& [key, value] : outcome.answer.items())
-    if (value.is_primitive() && key != "seconds") streams.out << fmt::format("  {}: {}\n", key, value.dump());
+    if (value.is_primitive() && key != "seconds") streams.out << fmt::format("  {}: {}\n", key, asText(value));
 }
 
 int finish(const Words& words, const Result<Outcome>& outcome, const Streams& streams) {
   if (!outcome) {
     if (words.print_json)
-      streams.out << json{{"error", {{"message", outcome.error().message}, {"source", outcome.error().source}}}}.dump() << "\n";
+      streams.out << asText({{"error", {{"message", outcome.error().message}, {"source", outcome.error().source}}}}) << "\n";
     streams.err << "standpoint " << words.verb->name << ": " << describe(outcome.error()) << "\n";
     return exitCode(outcome.error().kind);
   }
   if (words.print_json) {
-    streams.out << outcome->answer.dump() << "\n";
+    streams.out << asText(outcome->answer) << "\n";
   } else {
     printText(*outcome, streams);
   }

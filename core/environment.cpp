@@ -169,9 +169,9 @@ Eigen::Vector3d mapFromFile(const MapConversion& c, const Eigen::Vector3d& file_
   const double length = std::hypot(c.x_axis_abscissa, c.x_axis_ordinate);
   const double cosine = length > 0 ? c.x_axis_abscissa / length : 1;
   const double sine = length > 0 ? c.x_axis_ordinate / length : 0;
-  return {c.scale * (cosine * file_m.x() - sine * file_m.y()) + c.eastings_m,
-          c.scale * (sine * file_m.x() + cosine * file_m.y()) + c.northings_m,
-          c.scale * file_m.z() + c.orthogonal_height_m};
+  const Eigen::Vector3d scaled = c.scale * file_m.cwiseProduct(c.factors);
+  return {cosine * scaled.x() - sine * scaled.y() + c.eastings_m, sine * scaled.x() + cosine * scaled.y() + c.northings_m,
+          scaled.z() + c.orthogonal_height_m};
 }
 
 Eigen::Vector3d fileFromMap(const MapConversion& c, const Eigen::Vector3d& map_m) {
@@ -180,7 +180,8 @@ Eigen::Vector3d fileFromMap(const MapConversion& c, const Eigen::Vector3d& map_m
   const double sine = length > 0 ? c.x_axis_ordinate / length : 0;
   const double e = (map_m.x() - c.eastings_m) / c.scale;
   const double n = (map_m.y() - c.northings_m) / c.scale;
-  return {cosine * e + sine * n, -sine * e + cosine * n, (map_m.z() - c.orthogonal_height_m) / c.scale};
+  return Eigen::Vector3d(cosine * e + sine * n, -sine * e + cosine * n, (map_m.z() - c.orthogonal_height_m) / c.scale)
+      .cwiseQuotient(c.factors);
 }
 
 }  // namespace standpoint

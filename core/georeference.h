@@ -8,7 +8,7 @@
 
 namespace standpoint {
 
-// IfcMapConversion: map = scale · R(θ) · file + (E, N, H), θ = atan2(ordinate, abscissa); all in metres.
+// IfcMapConversion: map = scale · R(θ) · diag(factors) · file + (E, N, H), θ = atan2(ordinate, abscissa); all in metres.
 struct MapConversion {
   double eastings_m = 0;
   double northings_m = 0;
@@ -16,6 +16,7 @@ struct MapConversion {
   double x_axis_abscissa = 1;
   double x_axis_ordinate = 0;
   double scale = 1;
+  Eigen::Vector3d factors = Eigen::Vector3d::Ones();   // IfcMapConversionScaled: of each axis of the file, positive
 };
 
 // WGS84, degrees as in the file (this is an edge), metres above whatever the file means.

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/editor.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "project/product_match.h"
+
 namespace standpoint {
 
 Editor::Editor(std::vector<Verb> verbs, std::function<void()> wake_up)
@@ -29,11 +34,35 @@ void Editor::update() {
   adoptDocument();
 }
 
+bool Editor::followModel(const Environment& before, const Environment& after) {
+  const auto match = matchProducts(before, after);
+  if (std::all_of(match.new_of_old.begin(), match.new_of_old.end(), [](std::int32_t p) { return p == kNoProduct; })) return false;
+  std::vector<std::uint32_t> hidden, chosen;
+  for (std::uint32_t p = 0; p < match.new_of_old.size(); ++p) {
+    if (match.new_of_old[p] == kNoProduct) continue;
+    const auto now = static_cast<std::uint32_t>(match.new_of_old[p]);
+    if (visibility.hidden(p)) hidden.push_back(now);
+    if (selection.contains(p)) chosen.push_back(now);
+  }
+  std::sort(chosen.begin(), chosen.end());
+  const auto cut_height_m = visibility.cut_height_m;
+  visibility.reset(after.products.size());
+  visibility.show(hidden, false);
+  visibility.cut_height_m = cut_height_m;
+  selection.set(std::move(chosen));
+  view.hover.reset();
+  panels.outliner = OutlinerPanelState();
+  panels.outliner.tree = Outliner(after);
+  return true;
+}
+
 void Editor::adoptDocument() {
   const auto& document = session.document();
   picker.follow(document.environment(), wake);
   if (document.imported == imported_) return;
-  imported_ = document.imported;
+  const auto before = std::exchange(imported_, document.imported);
+  // A changed model in place of the one before keeps what is hidden, chosen and looked at.
+  if (before && imported_ && followModel(*before, *imported_)) return;
   selection.clear();
   visibility.reset(imported_ ? imported_->products.size() : 0);
   visibility.cut_height_m.reset();

@@ -101,6 +101,7 @@ struct Editor {
 
  private:
   void adoptDocument();
+  bool followModel(const Environment& before, const Environment& after);   // false when they have no product in common
   Bounds boundsOfVisible(bool with_terrain) const;
   CloudLoader cloud_loader_;
   std::shared_ptr<const Cloud> cloud_;

@@ -2,26 +2,24 @@
 #include "importers/gltf.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <deque>
+#include <map>
 #include <set>
-#include <string_view>
+#include <utility>
 
+#include "importers/gltf_extensions.h"
 #include "importers/gltf_georeference.h"
 #include "importers/gltf_mesh.h"
+#include "importers/gltf_product.h"
 #include "importers/gltf_scene.h"
 
 namespace standpoint {
 
 namespace {
 
-// Extensions that may be required because we read them or because they do not change the geometry.
-constexpr std::array<std::string_view, 8> kUnderstood = {
-    "KHR_mesh_quantization", "KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_mesh_gpu_instancing",
-    "KHR_texture_transform", "KHR_texture_basisu",         "EXT_texture_webp",        "MSFT_texture_dds"};
-
 // Beyond this a float step is above 0.1 mm, so a mesh gets a whole-metre origin of its own.
-constexpr float kFarFromOrigin_m = 2000;
+constexpr double kFarFromOrigin_m = 2000;
 
 // (x, y, z) of a Y-up world is (x, −z, y) of ours: an exchange of axes, so no bit of a coordinate changes.
 Eigen::Affine3d zUp(const ImportOptions& options) {
@@ -31,36 +29,26 @@ Eigen::Affine3d zUp(const ImportOptions& options) {
   return result;
 }
 
-std::string asText(const nlohmann::json& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-void addExtras(const nlohmann::json& extras, std::vector<Property>& properties) {
-  if (extras.is_object()) {
-    for (const auto& [key, value] : extras.items())
-      if (key != "standpoint") properties.push_back({"", key, asText(value)});
-  } else if (!extras.is_null()) {
-    properties.push_back({"", "extras", asText(extras)});
-  }
-}
-
 class GltfImport {
  public:
   GltfImport(GltfFile& file, const ImportOptions& options, Progress& progress)
       : file_(file), options_(options), progress_(progress), world_from_gltf_(zUp(options)) {}
 
   Result<ImportedModel> run() {
-    checkExtensions();
+    checkGltfExtensions(file_, model_.report);
+    centre_ = centreOfFile();
     auto stored = readGltfGeoreference(file_);
-    environment().surfaces = readGltfSurfaces(file_, model_.report);
+    materials_ = readGltfMaterials(file_, model_.report);
+    environment().surfaces = std::move(materials_.surfaces);
+    environment().images = std::move(materials_.images);
     no_material_ = static_cast<std::uint32_t>(environment().surfaces.size());
-    mesh_of_.assign(file_.count("meshes"), kNotRead);
-    origin_of_.assign(mesh_of_.size(), Eigen::Vector3d::Zero());
-    walkScene(file_, [&](const GltfNode& node) { visit(node); });
+    const auto seen = walkScene(file_, [&](const GltfNode& node) { visit(node); });
     if (file_.failed()) return failure(file_.error());
     if (auto ok = progress_.check(); !ok) return failure(ok.error());
-    if (no_material_used_) environment().surfaces.push_back({"", {}, "no material", {}, {}});
-    listWhatIsNotRead();
+    if (no_material_used_) environment().surfaces.push_back({"", {}, "no material"});
+    listGltfRest(file_, seen, model_.report);
+    if (triangleCount(environment()) == 0)
+      model_.report.warn("/nodes", "no node has a surface: there is nothing to scan");
     georeference(stored);
     if (auto wrong = validate(environment()); !wrong.empty()) file_.fail("", wrong);
     if (file_.failed()) return failure(file_.error());
@@ -68,83 +56,160 @@ class GltfImport {
   }
 
  private:
-  static constexpr std::int64_t kNotRead = -1;
-
   Environment& environment() { return model_.environment; }
-
-  void checkExtensions() {
-    const auto& required = memberOf(file_.json(), "extensionsRequired");
-    for (std::size_t i = 0; required.is_array() && i < required.size(); ++i) {
-      const std::string name = required[i].is_string() ? required[i].get<std::string>() : required[i].dump();
-      const bool known = name.starts_with("KHR_materials_") ||
-                         std::find(kUnderstood.begin(), kUnderstood.end(), name) != kUnderstood.end();
-      if (!known) file_.fail("/extensionsRequired/" + std::to_string(i), "'" + name + "' is not understood");
-    }
-  }
 
   void visit(const GltfNode& node) {
     const auto mesh = file_.index(*node.json, "mesh", node.place);
     if (file_.failed() || progress_.cancelled() || !mesh) return;
-    if (*mesh >= mesh_of_.size()) return file_.fail(node.place + "/mesh", "refers to /meshes/" + std::to_string(*mesh) + ", which does not exist");
-    if (mesh_of_[*mesh] == kNotRead) readMesh(*mesh);
-    const auto places = instancesOf(file_, node);
+    const auto& mesh_json = file_.element("meshes", *mesh, node.place + "/mesh");
+    const GltfPose pose = poseOf(node, mesh_json);
     if (file_.failed()) return;
-    const std::uint32_t product = productOf(node, *mesh);
-    for (const auto& place : places) {
-      Instance instance;
-      instance.mesh = static_cast<std::uint32_t>(mesh_of_[*mesh]);
-      instance.product = product;
-      instance.world_from_mesh = world_from_gltf_ * node.world_from_node * place * Eigen::Translation3d(origin_of_[*mesh]);
-      environment().instances.push_back(instance);
+    const Version& version = versionOf(*mesh, pose);
+    const auto places = instancesOf(file_, node);
+    const auto rows = rowsOfInstances(node, places.size());
+    // glTF 2.0 §3.7.3.3: a skinned mesh stands where its joints are, not where its node is.
+    const Eigen::Affine3d world_from_node =
+        world_from_gltf_ * (pose.joints.empty() ? node.world_from_node : Eigen::Affine3d::Identity());
+    for (const auto& part : version.parts) {
+      const Mesh& ours = *environment().meshes[part.mesh];
+      if (file_.failed() || !count(places.size(), ours, node.place)) return;
+      std::uint32_t product = rows.empty() ? productOf(node, mesh_json, part.feature, ours) : 0;
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        if (!rows.empty()) product = productOf(node, mesh_json, rows[i], ours);
+        const Eigen::Affine3d placed = world_from_node * places[i] * Eigen::Translation3d(part.origin);
+        environment().instances.push_back({part.mesh, product, Eigen::Translation3d(centre_) * placed});
+      }
     }
-    if (!memberOf(*node.json, "skin").is_null()) model_.report.lose(node.place + "/skin", "is not applied; the mesh is as it was modelled");
     progress_.advance(static_cast<double>(++visited_) / static_cast<double>(file_.count("nodes")));
   }
 
-  void readMesh(std::size_t index) {
-    auto mesh = readGltfMesh(file_, index, no_material_, model_.report);
-    origin_of_[index] = moveNearOrigin(mesh);
-    no_material_used_ |= !mesh.surface_of_triangle.empty() && mesh.surface_of_triangle.back() == no_material_;
-    mesh_of_[index] = static_cast<std::int64_t>(environment().meshes.size());
-    environment().meshes.push_back(std::make_shared<const Mesh>(std::move(mesh)));
+  // EXT_instance_features: each instance is a product of its own.
+  std::vector<GltfFeature> rowsOfInstances(const GltfNode& node, std::size_t places) {
+    const auto& instancing = memberOf(memberOf(*node.json, "extensions"), "EXT_mesh_gpu_instancing");
+    const auto ids = featureIdsOf(file_, *node.json, "EXT_instance_features", node.place);
+    if (!ids.present || !instancing.is_object() || file_.failed()) return {};
+    std::vector<GltfFeature> rows;
+    const auto accessor = file_.index(memberOf(instancing, "attributes"), ids.attribute.c_str(), node.place);
+    const auto values = accessor ? file_.floats(*accessor, 1, node.place + "/" + ids.attribute) : std::vector<float>{};
+    for (std::size_t i = 0; i < places && !file_.failed(); ++i) {
+      const bool stated = i < values.size() && values[i] >= 0 && values[i] < 4e9F;
+      if (!ids.attribute.empty() && !stated)
+        file_.fail(node.place + "/extensions/EXT_instance_features", "names no attribute with an id for each instance");
+      rows.push_back({ids.table, stated ? static_cast<std::size_t>(values[i]) : i});
+    }
+    return rows;
   }
 
-  // The subtraction is exact in double; it lets the float positions keep what the file had.
+  // A few bytes can place a mesh a million times; what follows visits every placed vertex.
+  bool count(std::size_t places, const Mesh& mesh, const std::string& place) {
+    constexpr std::size_t kMostPlacedVertices = 1'000'000'000;
+    placed_vertices_ += places * (mesh.positions.size() + 1);
+    if (!file_.spend(places * sizeof(Instance), place)) return false;
+    if (placed_vertices_ > kMostPlacedVertices)
+      file_.fail(place, "with it the file places more than 1 000 000 000 vertices");
+    return !file_.failed();
+  }
+
+  // A node's own weights stand above its mesh's (glTF 2.0 §3.7.2.2).
+  GltfPose poseOf(const GltfNode& node, const nlohmann::json& mesh_json) {
+    GltfPose pose;
+    const auto& own = memberOf(*node.json, "weights");
+    const auto& weights = own.is_array() ? own : memberOf(mesh_json, "weights");
+    if (weights.is_array())
+      for (const auto& w : weights) pose.weights.push_back(w.is_number() ? w.get<double>() : 0);
+    if (std::all_of(pose.weights.begin(), pose.weights.end(), [](double w) { return w == 0; })) pose.weights.clear();
+    if (const auto skin = file_.index(*node.json, "skin", node.place))
+      pose.joints = jointsOf(file_, *skin, node.place + "/skin");
+    return pose;
+  }
+
+  struct Part {
+    std::uint32_t mesh = 0;                            // ours
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // what was subtracted from its positions
+    std::optional<GltfFeature> feature;
+  };
+  struct Version {  // a mesh of the file in one pose
+    GltfPose pose;
+    std::vector<Part> parts;
+  };
+
+  const Version& versionOf(std::size_t index, const GltfPose& pose) {
+    auto& versions = meshes_[index];
+    for (const auto& version : versions)
+      if (version.pose == pose) return version;
+    Report again;  // what is lost of a mesh is said once
+    auto whole = readGltfMesh(file_, index, materials_, no_material_, pose, versions.empty() ? model_.report : again);
+    versions.push_back({pose, {}});
+    for (auto& [mesh, feature] : splitByFeature(std::move(whole))) {
+      const Eigen::Vector3d origin = moveNearOrigin(mesh);
+      no_material_used_ |= !mesh.surface_of_triangle.empty() && mesh.surface_of_triangle.back() == no_material_;
+      versions.back().parts.push_back({static_cast<std::uint32_t>(environment().meshes.size()), origin, feature});
+      environment().meshes.push_back(std::make_shared<const Mesh>(std::move(mesh)));
+    }
+    return versions.back();
+  }
+
+  // Along each axis on which all positions are far off and within a factor of 2 of another, so that the difference is
+  // exact in float too: what reaches from near the origin to far away stays as the file has it.
   static Eigen::Vector3d moveNearOrigin(Mesh& mesh) {
     Bounds box;
     for (const auto& p : mesh.positions) box.extend(p.cast<double>());
-    if (box.empty() || box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff() < kFarFromOrigin_m) return Eigen::Vector3d::Zero();
-    const Eigen::Vector3d origin = (0.5 * (box.min + box.max)).array().round();
-    for (auto& p : mesh.positions) p = (p.cast<double>() - origin).cast<float>();
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+    for (int axis = 0; axis < 3 && !box.empty(); ++axis) {
+      const double low = box.min[axis], high = box.max[axis];
+      const double near = std::min(std::abs(low), std::abs(high)), far = std::max(std::abs(low), std::abs(high));
+      if (low * high > 0 && far > kFarFromOrigin_m && far < 2 * near) origin[axis] = std::round(0.5 * (low + high));
+    }
+    if (!origin.isZero(0))
+      for (auto& p : mesh.positions) p = (p.cast<double>() - origin).cast<float>();
     return origin;
   }
 
-  // One product for each node with a mesh. Our own files have a node for each instance, and say whose it is.
-  std::uint32_t productOf(const GltfNode& node, std::size_t mesh) {
-    const auto ours = file_.index(memberOf(memberOf(*node.json, "extras"), "standpoint"), "product", node.place + "/extras/standpoint");
+  // One product for each node with a mesh, or for each feature of it. Our own files have a node for each instance, and
+  // a node that says whose they are.
+  std::uint32_t productOf(const GltfNode& node, const nlohmann::json& mesh_json,
+                          const std::optional<GltfFeature>& feature, const Mesh& mesh) {
     auto& products = environment().products;
-    if (ours && !products.empty() && ours == last_product_) return static_cast<std::uint32_t>(products.size() - 1);
-    last_product_ = ours;
-    const auto& mesh_json = file_.element("meshes", mesh, node.place);
+    if (node.product && !products.empty() && node.product == last_product_)
+      return static_cast<std::uint32_t>(products.size() - 1);
+    last_product_ = node.product;
     Product product;
     product.id = node.place;
-    product.name = file_.text(*node.json, "name");
+    const auto& named = node.product_json != nullptr ? *node.product_json : *node.json;
+    product.name = file_.text(named, "name");
+    if (feature) {
+      product.id += "/features/" + std::to_string(feature->row);
+      const std::string whole = std::exchange(product.name, "");
+      addFeature(file_, *feature, product);
+      if (product.name.empty()) product.name = whole + (whole.empty() ? "" : " ") + std::to_string(feature->row);
+    }
     if (product.name.empty()) product.name = file_.text(mesh_json, "name");
-    addExtras(memberOf(*node.json, "extras"), product.properties);
-    addExtras(memberOf(mesh_json, "extras"), product.properties);
-    const auto& used = environment().meshes[static_cast<std::size_t>(mesh_of_[mesh])]->surface_of_triangle;
+    const auto& used = mesh.surface_of_triangle;
     for (const auto surface : std::set<std::uint32_t>(used.begin(), used.end()))
       if (surface < environment().surfaces.size()) product.materials.push_back(environment().surfaces[surface].name);
+    if (node.product_json != nullptr) {
+      restoreProduct(file_, memberOf(named, "extras"), product);
+    } else {
+      addGltfProperties(file_, *node.json, product.properties);
+      addGltfProperties(file_, mesh_json, product.properties);
+    }
     products.push_back(std::move(product));
     return static_cast<std::uint32_t>(products.size() - 1);
   }
 
-  void listWhatIsNotRead() {
-    auto& report = model_.report;
-    for (const char* array : {"animations", "cameras"})
-      if (const auto n = file_.count(array); n > 0)
-        report.note(std::string("/") + array, std::to_string(n) + " not read: a building at rest is scanned");
-    if (triangleCount(environment()) == 0) report.warn("/nodes", "no node has a surface: there is nothing to scan");
+  // CESIUM_RTC: what the positions are relative to, in the frame that is Z up already (CesiumJS and cesium-native add
+  // it after they have turned the axes), in practice metres from the centre of the earth.
+  Eigen::Vector3d centreOfFile() {
+    const std::string place = "/extensions/CESIUM_RTC";
+    const auto centre = file_.numbers(memberOf(memberOf(file_.json(), "extensions"), "CESIUM_RTC"), "center", 3, place);
+    if (centre.empty()) return Eigen::Vector3d::Zero();
+    const Eigen::Vector3d c(centre[0], centre[1], centre[2]);
+    constexpr double kLeastRadiusOfEarth_m = 6.3e6, kMost_m = 6.5e6;
+    if (c.norm() > kLeastRadiusOfEarth_m && c.norm() < kMost_m)
+      model_.report.warn(place,
+                         "the coordinates are earth-centred, so that up is not along Z here; turn the model in the "
+                         "program that made it");
+    return c;
   }
 
   void georeference(std::optional<Georeference>& stored) {
@@ -165,8 +230,10 @@ class GltfImport {
   ImportedModel model_;
   std::uint32_t no_material_ = 0;
   bool no_material_used_ = false;
-  std::vector<std::int64_t> mesh_of_;            // glTF mesh → ours
-  std::vector<Eigen::Vector3d> origin_of_;       // what was subtracted from its positions
+  GltfMaterials materials_;                            // its surfaces and images have moved to the environment
+  std::map<std::size_t, std::deque<Version>> meshes_;  // of each glTF mesh, what we made of it
+  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();
+  std::size_t placed_vertices_ = 0;
   std::optional<std::size_t> last_product_;
   std::size_t visited_ = 0;
 };
@@ -183,6 +250,6 @@ constexpr const char* kExtensions[] = {".gltf", ".glb"};
 
 }  // namespace
 
-const Importer kGltfImporter = {"gltf", "glTF 2.0, text or binary (ISO/IEC 12113)", kExtensions, &readGltf};
+const Importer kGltfImporter = {"gltf", "glTF 2.0, text or binary (ISO/IEC 12113)", kExtensions, &readGltf, UpAxis::y};
 
 }  // namespace standpoint

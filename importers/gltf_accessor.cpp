@@ -25,12 +25,13 @@ std::size_t componentSize(std::size_t type) {
   }
 }
 
-std::size_t componentsOf(const std::string& type) {
+std::size_t componentsOfType(const std::string& type) {
   if (type == "SCALAR") return 1;
   if (type == "VEC2") return 2;
   if (type == "VEC3") return 3;
   if (type == "VEC4") return 4;
-  return 0;   // matrices hold no geometry
+  if (type == "MAT4") return 16;  // the only matrices that we need, of floats, so without padding
+  return 0;
 }
 
 template <class T>
@@ -85,10 +86,12 @@ std::span<const std::uint8_t> GltfFile::view(std::size_t buffer_view, const std:
   const auto& json = element("bufferViews", buffer_view, asked_by);
   if (failed()) return {};
   const auto& extensions = memberOf(json, "extensions");
-  const auto& meshopt = memberOf(extensions, "EXT_meshopt_compression");
+  const bool khronos =
+      memberOf(extensions, "KHR_meshopt_compression").is_object();  // the same for what 0.18 can decode
+  const char* name = khronos ? "KHR_meshopt_compression" : "EXT_meshopt_compression";
+  const auto& meshopt = memberOf(extensions, name);
   if (!meshopt.is_object()) return slice(json, place);
-  if (!decoded_views_.contains(buffer_view))
-    decodeMeshopt(buffer_view, meshopt, place + "/extensions/EXT_meshopt_compression");
+  if (!decoded_views_.contains(buffer_view)) decodeMeshopt(buffer_view, meshopt, place + "/extensions/" + name);
   return failed() ? std::span<const std::uint8_t>{} : std::span<const std::uint8_t>(decoded_views_[buffer_view]);
 }
 
@@ -124,34 +127,42 @@ GltfFile::Packed GltfFile::packed(std::size_t accessor, const std::string& asked
   const auto& json = element("accessors", accessor, asked_by);
   Packed out;
   out.component_type = natural(json, "componentType", 0, place);
-  out.components = componentsOf(text(json, "type"));
+  out.components = componentsOfType(text(json, "type"));
   out.count = natural(json, "count", 0, place);
   const auto& normalized = memberOf(json, "normalized");
   out.normalized = normalized.is_boolean() && normalized.get<bool>();
   const std::size_t size = componentSize(out.component_type) * out.components;
   if (size == 0) fail(place, "componentType or type is not one that geometry can have");
-  if (failed() || !spend(out.count * size, place)) return {};
-  out.bytes.resize(out.count * size);
-  copyDense(json, place, size, out);
+  if (failed()) return {};
+  takeDense(json, place, size, out);
   const auto& sparse = memberOf(json, "sparse");
-  if (!sparse.is_null()) applySparse(sparse, place + "/sparse", size, out);
-  return failed() ? Packed{} : out;
+  if (!failed() && !sparse.is_null()) applySparse(sparse, place + "/sparse", size, out);
+  return failed() ? Packed{} : std::move(out);
 }
 
-void GltfFile::copyDense(const nlohmann::json& json, const std::string& place, std::size_t size, Packed& out) {
+void GltfFile::takeDense(const nlohmann::json& json, const std::string& place, std::size_t size, Packed& out) {
   const auto buffer_view = index(json, "bufferView", place);
-  if (!buffer_view || failed()) return;   // zeros, says the specification
+  if (failed()) return;
+  if (!buffer_view) {  // zeros, says the specification
+    if (spend(out.count * size, place)) out.own.resize(out.count * size);
+    out.bytes = out.own;
+    return;
+  }
   const auto bytes = view(*buffer_view, place);
   if (failed()) return;
   const auto& view_json = element("bufferViews", *buffer_view, place);
   const auto stride = natural(view_json, "byteStride", size, "/bufferViews/" + std::to_string(*buffer_view));
   const auto offset = natural(json, "byteOffset", 0, place);
   if (stride < size) return fail(place, "the stride of its buffer view is shorter than an element");
-  if (out.count == 0) return;
+  if (out.count == 0 || failed()) return;
   if (offset > bytes.size() || (out.count - 1) * stride + size > bytes.size() - offset)
     return fail(place, "needs " + std::to_string(offset + (out.count - 1) * stride + size) + " bytes of /bufferViews/" +
                            std::to_string(*buffer_view) + ", which has " + std::to_string(bytes.size()));
-  for (std::size_t i = 0; i < out.count; ++i) std::memcpy(&out.bytes[i * size], &bytes[offset + i * stride], size);
+  out.bytes = bytes.subspan(offset, stride == size ? out.count * size : bytes.size() - offset);
+  if (stride == size || !spend(out.count * size, place)) return;
+  out.own.resize(out.count * size);
+  for (std::size_t i = 0; i < out.count; ++i) std::memcpy(&out.own[i * size], &out.bytes[i * stride], size);
+  out.bytes = out.own;
 }
 
 void GltfFile::applySparse(const nlohmann::json& sparse, const std::string& place, std::size_t size, Packed& out) {
@@ -174,11 +185,21 @@ void GltfFile::applySparse(const nlohmann::json& sparse, const std::string& plac
     return fail(place + "/indices", "reaches beyond its buffer view");
   if (what_offset > values.size() || count * size > values.size() - what_offset)
     return fail(place + "/values", "reaches beyond its buffer view");
-  for (std::size_t i = 0; i < count; ++i) {
+  if (out.own.empty() && spend(out.bytes.size(), place)) out.own.assign(out.bytes.begin(), out.bytes.end());
+  out.bytes = out.own;
+  for (std::size_t i = 0; i < count && !failed(); ++i) {
     const auto target = wholeNumber(type, places.data() + where_offset, i);
     if (target >= out.count) return fail(place + "/indices", "element " + std::to_string(i) + " is out of range");
-    std::memcpy(&out.bytes[target * size], &values[what_offset + i * size], size);
+    std::memcpy(&out.own[target * size], &values[what_offset + i * size], size);
   }
+}
+
+std::size_t GltfFile::countOf(std::size_t accessor, const std::string& asked_by) {
+  return natural(element("accessors", accessor, asked_by), "count", 0, "/accessors/" + std::to_string(accessor));
+}
+
+std::size_t GltfFile::componentsOf(std::size_t accessor, const std::string& asked_by) {
+  return componentsOfType(text(element("accessors", accessor, asked_by), "type"));
 }
 
 std::vector<float> GltfFile::floats(std::size_t accessor, std::size_t components, const std::string& asked_by) {
@@ -187,15 +208,26 @@ std::vector<float> GltfFile::floats(std::size_t accessor, std::size_t components
     fail("/accessors/" + std::to_string(accessor) + "/type", "is not what " + asked_by + " needs");
   if (failed() || !spend(in.count * components * sizeof(float), asked_by)) return {};
   std::vector<float> out(in.count * components);
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = number(in.component_type, in.normalized, in.bytes.data(), i);
+  if (in.component_type == kFloat) {
+    if (!out.empty()) std::memcpy(out.data(), in.bytes.data(), out.size() * sizeof(float));
+  } else {
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = number(in.component_type, in.normalized, in.bytes.data(), i);
+  }
   return out;
 }
 
 std::vector<Eigen::Vector3f> GltfFile::vectors3(std::size_t accessor, const std::string& asked_by) {
-  const auto flat = floats(accessor, 3, asked_by);
-  std::vector<Eigen::Vector3f> out(flat.size() / 3);
+  const auto in = packed(accessor, asked_by);
+  if (!failed() && in.components != 3)
+    fail("/accessors/" + std::to_string(accessor) + "/type", "is not what " + asked_by + " needs");
+  if (failed() || !spend(in.count * sizeof(Eigen::Vector3f), asked_by)) return {};
+  std::vector<Eigen::Vector3f> out(in.count);
+  if (in.component_type == kFloat && !out.empty())
+    std::memcpy(out.data()->data(), in.bytes.data(), out.size() * sizeof(Eigen::Vector3f));
   for (std::size_t i = 0; i < out.size(); ++i) {
-    out[i] = {flat[3 * i], flat[3 * i + 1], flat[3 * i + 2]};
+    if (in.component_type != kFloat)
+      for (std::size_t k = 0; k < 3; ++k)
+        out[i][static_cast<Eigen::Index>(k)] = number(in.component_type, in.normalized, in.bytes.data(), 3 * i + k);
     if (!out[i].allFinite()) {
       fail("/accessors/" + std::to_string(accessor), "element " + std::to_string(i) + " is not a finite number");
       return {};
@@ -209,9 +241,13 @@ std::vector<std::uint32_t> GltfFile::indices(std::size_t accessor, const std::st
   const bool right = in.components == 1 && (in.component_type == kUnsignedByte || in.component_type == kUnsignedShort ||
                                             in.component_type == kUnsignedInt);
   if (!failed() && !right) fail("/accessors/" + std::to_string(accessor), "is not one of unsigned integers, as indices are");
-  if (failed()) return {};
+  if (failed() || !spend(in.count * sizeof(std::uint32_t), asked_by)) return {};
   std::vector<std::uint32_t> out(in.count);
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = wholeNumber(in.component_type, in.bytes.data(), i);
+  if (in.component_type == kUnsignedInt) {
+    if (!out.empty()) std::memcpy(out.data(), in.bytes.data(), out.size() * sizeof(std::uint32_t));
+  } else {
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = wholeNumber(in.component_type, in.bytes.data(), i);
+  }
   return out;
 }
 

@@ -9,16 +9,8 @@ namespace standpoint {
 
 namespace {
 
-// Vertices without triangles were written as a primitive of points.
-void readPoints(GltfFile& file, std::size_t index, Mesh& mesh) {
-  const std::string place = "/meshes/" + std::to_string(index);
-  const auto& primitives = memberOf(file.element("meshes", index, place), "primitives");
-  if (!primitives.is_array() || primitives.empty()) return;
-  if (const auto position = file.index(memberOf(primitives[0], "attributes"), "POSITION", place))
-    mesh.positions = file.vectors3(*position, place);
-}
-
-void readMeshes(GltfFile& file, const nlohmann::json& meshes, Environment& environment, Progress& progress) {
+void readMeshes(GltfFile& file, const nlohmann::json& meshes, const GltfMaterials& materials, Environment& environment,
+                Progress& progress) {
   const std::string place = "/asset/extras/standpoint/meshes";
   if (!meshes.is_array()) return file.fail(place, "is missing: this GLB is not one of ours, import it instead");
   Report ignored;   // names points and nothing else: we wrote the file
@@ -27,8 +19,8 @@ void readMeshes(GltfFile& file, const nlohmann::json& meshes, Environment& envir
     if (file.failed() || progress.cancelled()) return;
     Mesh mesh;
     if (index.is_number_unsigned()) {
-      mesh = readGltfMesh(file, index.get<std::size_t>(), no_material, ignored);
-      if (!file.failed() && mesh.triangles.empty()) readPoints(file, index.get<std::size_t>(), mesh);
+      mesh = readGltfMesh(file, index.get<std::size_t>(), materials, no_material, {}, ignored).mesh;
+      if (!file.failed() && mesh.triangles.empty()) mesh = readGltfPoints(file, index.get<std::size_t>());
     } else if (!index.is_null()) {
       file.fail(place, "holds something that is not an index");
     }
@@ -66,10 +58,12 @@ Result<Environment> readEnvironmentGlb(const std::filesystem::path& path, Progre
   file.load();
   Environment environment;
   if (!file.failed()) {
-    Report ignored;   // textures, which we do not write
+    Report ignored;  // we wrote the file
     const auto& ours = memberOf(memberOf(memberOf(file.json(), "asset"), "extras"), "standpoint");
-    environment.surfaces = readGltfSurfaces(file, ignored);
-    readMeshes(file, memberOf(ours, "meshes"), environment, progress);
+    auto materials = readGltfMaterials(file, ignored);
+    environment.surfaces = std::move(materials.surfaces);
+    environment.images = std::move(materials.images);
+    readMeshes(file, memberOf(ours, "meshes"), materials, environment, progress);
     const auto products = file.natural(ours, "products", 0, "/asset/extras/standpoint");
     if (!file.failed() && file.spend(products * sizeof(Product) / 64, "/asset/extras/standpoint/products"))
       environment.products.resize(products);

@@ -29,9 +29,9 @@ int base64Digit(char c) {
   return -1;
 }
 
-std::optional<std::vector<std::uint8_t>> fromBase64(std::string_view text) {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(text.size() / 4 * 3);
+// How many bytes `text` holds, written to `out`, which has room for ¾ of its length; nothing if it is not base64.
+std::optional<std::size_t> fromBase64(std::string_view text, std::uint8_t* out) {
+  std::size_t count = 0;
   std::uint32_t bits = 0;
   int have = 0;
   for (const char c : text) {
@@ -42,9 +42,30 @@ std::optional<std::vector<std::uint8_t>> fromBase64(std::string_view text) {
     have += 6;
     if (have < 8) continue;
     have -= 8;
-    bytes.push_back(static_cast<std::uint8_t>(bits >> static_cast<unsigned>(have)));
+    out[count++] = static_cast<std::uint8_t>(bits >> static_cast<unsigned>(have));
   }
-  return bytes;
+  return count;
+}
+
+// Where brackets are nested deeper than any honest file's: what walks the JSON later, and writes it as text, recurses.
+std::optional<std::size_t> tooDeepAt(std::span<const std::uint8_t> json) {
+  constexpr int kDeepest = 200;
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const auto c = json[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      in_string = c != '"';
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '{' || c == '[') {
+      if (++depth > kDeepest) return i;
+    } else if (c == '}' || c == ']') {
+      --depth;
+    }
+  }
+  return std::nullopt;
 }
 
 int hexDigit(char c) {
@@ -53,6 +74,8 @@ int hexDigit(char c) {
   if (c >= 'A' && c <= 'F') return c - 'A' + 10;
   return -1;
 }
+
+}  // namespace
 
 std::string percentDecoded(std::string_view text) {
   std::string result;
@@ -63,8 +86,6 @@ std::string percentDecoded(std::string_view text) {
   }
   return result;
 }
-
-}  // namespace
 
 const nlohmann::json& memberOf(const nlohmann::json& object, const char* key) {
   static const nlohmann::json kNothing;
@@ -80,9 +101,13 @@ void GltfFile::fail(const std::string& place, std::string message, ErrorKind kin
   error_ = Error{kind, std::move(message), std::move(source)};
 }
 
+void GltfFile::fail(Error error) { fail(error.source, std::move(error.message), error.kind); }
+
 void GltfFile::load() {
-  const auto bytes = readAll(path_, "", kLargest);
-  if (failed()) return;
+  auto read = readAll(path_, "", kLargest);
+  if (!read) return fail(read.error());
+  blocks_.push_back(*std::move(read));
+  const auto bytes = blocks_[0].bytes();
   allowance_ = (std::size_t{256} << 20U) + 64 * bytes.size();
   const bool binary = bytes.size() >= 4 && word(bytes, 0) == kGlbMagic;
   if (binary) {
@@ -116,10 +141,15 @@ void GltfFile::splitBinary(std::span<const std::uint8_t> bytes) {
 }
 
 void GltfFile::parse(std::span<const std::uint8_t> bytes) {
+  if (const auto at = tooDeepAt(bytes))
+    return fail("byte " + std::to_string(*at), "the JSON is nested more than 200 levels deep");
   try {
     json_ = nlohmann::json::parse(bytes.begin(), bytes.end());
   } catch (const nlohmann::json::parse_error& e) {
-    return fail("byte " + std::to_string(e.byte), "not JSON: " + std::string(e.what()));
+    std::string why = e.what();  // which quotes the bytes that it does not like
+    std::replace_if(
+        why.begin(), why.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
+    return fail("byte " + std::to_string(e.byte), "not JSON: " + why);
   }
   if (!json_.is_object()) return fail("byte 0", "the JSON is not an object");
   const auto& asset = memberOf(json_, "asset");
@@ -130,37 +160,50 @@ void GltfFile::parse(std::span<const std::uint8_t> bytes) {
   if (!least.empty() && least != "2.0") return fail("/asset/minVersion", "is " + least + ", glTF 2.0 is read");
 }
 
-std::vector<std::uint8_t> GltfFile::readAll(const std::filesystem::path& file, const std::string& place,
-                                            std::size_t at_most) {
+Result<GltfFile::Block> GltfFile::readAll(const std::filesystem::path& file, const std::string& place,
+                                          std::size_t at_most) {
   std::error_code code;
   const auto size = std::filesystem::file_size(file, code);
-  if (code) return fail(place, "cannot read " + file.string() + ": " + code.message(), ErrorKind::file_system), std::vector<std::uint8_t>{};
-  std::vector<std::uint8_t> bytes(std::min<std::size_t>(size, at_most));
+  if (code) return failure(ErrorKind::file_system, "cannot read " + file.string() + ": " + code.message(), place);
+  Block block{nullptr, std::min<std::size_t>(size, at_most)};
+  block.data = std::make_unique_for_overwrite<std::uint8_t[]>(block.size);
   std::ifstream stream(file, std::ios::binary);
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!stream) fail(place, "cannot read " + file.string(), ErrorKind::file_system);
-  return bytes;
+  stream.read(reinterpret_cast<char*>(block.data.get()), static_cast<std::streamsize>(block.size));
+  if (!stream) return failure(ErrorKind::file_system, "cannot read " + file.string(), place);
+  return block;
 }
 
-std::vector<std::uint8_t> GltfFile::fromUri(const std::string& uri, const std::string& place, std::size_t size) {
+Result<GltfFile::Block> GltfFile::blockOf(const std::string& uri, const std::string& place, std::size_t at_most) {
   if (uri.starts_with("data:")) {
     const auto comma = uri.find(";base64,");
-    auto bytes = comma == std::string::npos ? std::nullopt : fromBase64(std::string_view(uri).substr(comma + 8));
-    if (!bytes) fail(place + "/uri", "is a data URI that is not base64");
-    return bytes.value_or(std::vector<std::uint8_t>{});
+    if (comma == std::string::npos)
+      return failure(ErrorKind::unusable, "is a data URI that is not base64", place + "/uri");
+    const auto text = std::string_view(uri).substr(comma + 8);
+    Block block{std::make_unique_for_overwrite<std::uint8_t[]>(text.size()), 0};
+    const auto size = fromBase64(text, block.data.get());
+    if (!size) return failure(ErrorKind::unusable, "is a data URI that is not base64", place + "/uri");
+    block.size = std::min(*size, at_most);
+    return block;
   }
+  const std::string shown = "'" + uri.substr(0, 80) + "'";
   const std::filesystem::path relative = percentDecoded(uri);
-  if (uri.find("://") != std::string::npos || relative.is_absolute()) {
-    fail(place + "/uri", "'" + uri.substr(0, 80) + "' does not lie beside the file");
-    return {};
-  }
-  const auto file = path_.parent_path() / relative;
   std::error_code code;
-  if (!std::filesystem::is_regular_file(file, code)) {
-    fail(place + "/uri", "'" + uri.substr(0, 80) + "' does not exist");
-    return {};
-  }
-  return readAll(file, place, size);
+  const auto folder = std::filesystem::weakly_canonical(std::filesystem::absolute(path_).parent_path(), code);
+  const auto file = std::filesystem::weakly_canonical(folder / relative, code);
+  const auto inside = file.lexically_relative(folder);
+  if (uri.find("://") != std::string::npos || relative.is_absolute() || inside.empty() || *inside.begin() == "..")
+    return failure(ErrorKind::unusable, shown + " does not lie in the model's folder; put it there", place + "/uri");
+  if (!std::filesystem::is_regular_file(file, code))
+    return failure(ErrorKind::unusable, shown + " does not exist in the model's folder", place + "/uri");
+  return readAll(file, place, at_most);
+}
+
+Result<std::vector<std::uint8_t>> GltfFile::resource(const std::string& uri, const std::string& place,
+                                                     std::size_t at_most) {
+  auto block = blockOf(uri, place, at_most);
+  if (!block) return failure(block.error());
+  const auto bytes = block->bytes();
+  return std::vector<std::uint8_t>(bytes.begin(), bytes.end());
 }
 
 void GltfFile::loadBuffer(std::size_t index, std::span<const std::uint8_t> binary_chunk) {
@@ -168,19 +211,20 @@ void GltfFile::loadBuffer(std::size_t index, std::span<const std::uint8_t> binar
   const auto& json = element("buffers", index, place);
   const std::size_t size = natural(json, "byteLength", 0, place);
   buffers_.emplace_back();
-  auto& buffer = buffers_.back();
   const std::string uri = text(json, "uri");
   if (!uri.empty()) {
-    buffer = fromUri(uri, place, size);
+    auto read = blockOf(uri, place, size);
+    if (!read) return fail(read.error());
+    blocks_.push_back(*std::move(read));
+    buffers_.back() = blocks_.back().bytes();
+    allowance_ += 64 * buffers_.back().size();
   } else if (index == 0 && !binary_chunk.empty()) {
-    buffer.assign(binary_chunk.begin(), binary_chunk.begin() + static_cast<std::ptrdiff_t>(std::min(size, binary_chunk.size())));
+    buffers_.back() = binary_chunk.first(std::min(size, binary_chunk.size()));
   } else {
     return;   // no data: allowed for the fallback of EXT_meshopt_compression; slice() refuses any other use
   }
-  allowance_ += 64 * buffer.size();
-  if (buffer.size() < size)
-    return fail(place, "states " + std::to_string(size) + " bytes but has " + std::to_string(buffer.size()));
-  buffer.resize(size);
+  if (buffers_.back().size() < size)
+    fail(place, "states " + std::to_string(size) + " bytes but has " + std::to_string(buffers_.back().size()));
 }
 
 std::size_t GltfFile::natural(const nlohmann::json& object, const char* key, std::size_t fallback, const std::string& place) {

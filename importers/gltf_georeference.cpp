@@ -11,6 +11,8 @@ nlohmann::json toJson(const Georeference& g) {
   if (const auto& m = g.map_from_file)
     json["map_from_file"] = {m->eastings_m,      m->northings_m,     m->orthogonal_height_m,
                              m->x_axis_abscissa, m->x_axis_ordinate, m->scale};
+  if (const auto& m = g.map_from_file; m && m->factors != Eigen::Vector3d::Ones())
+    json["map_factors"] = {m->factors.x(), m->factors.y(), m->factors.z()};
   if (const auto& s = g.site) json["site"] = {s->latitude_deg, s->longitude_deg, s->elevation_m};
   if (g.true_north_rad) json["true_north_rad"] = *g.true_north_rad;
   return json;
@@ -28,6 +30,8 @@ std::optional<Georeference> readGltfGeoreference(GltfFile& file) {
   g.crs = file.text(json, "crs");
   if (const auto m = file.numbers(json, "map_from_file", 6, place); !m.empty())
     g.map_from_file = MapConversion{m[0], m[1], m[2], m[3], m[4], m[5]};
+  if (const auto f = file.numbers(json, "map_factors", 3, place); !f.empty() && g.map_from_file)
+    g.map_from_file->factors = {f[0], f[1], f[2]};
   if (const auto s = file.numbers(json, "site", 3, place); !s.empty()) g.site = GeographicPosition{s[0], s[1], s[2]};
   if (const auto& north = memberOf(json, "true_north_rad"); north.is_number()) g.true_north_rad = north.get<double>();
   return g;

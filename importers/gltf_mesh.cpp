@@ -4,199 +4,220 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 namespace standpoint {
 
 namespace {
 
-enum : std::size_t { kTriangles = 4, kStrip = 5, kFan = 6 };
-
-const char* modeName(std::size_t mode) {
-  constexpr const char* kNames[] = {"points", "lines", "a line loop", "a line strip"};
-  return mode < 4 ? kNames[mode] : "an unknown mode";
-}
-
-// glTF 2.0 §3.7.2.1: strip triangle i is (i, i + 1 + i mod 2, i + 2 − i mod 2), fan triangle (i + 1, i + 2, 0).
-std::vector<Triangle> trianglesOf(std::size_t mode, const std::vector<std::uint32_t>& order) {
-  std::vector<Triangle> out;
-  const std::size_t n = order.size();
-  if (mode == kTriangles)
-    for (std::size_t i = 0; i + 3 <= n; i += 3) out.push_back({order[i], order[i + 1], order[i + 2]});
-  if (mode == kStrip)
-    for (std::size_t i = 0; i + 3 <= n; ++i) out.push_back({order[i], order[i + 1 + i % 2], order[i + 2 - i % 2]});
-  if (mode == kFan)
-    for (std::size_t i = 0; i + 3 <= n; ++i) out.push_back({order[i + 1], order[i + 2], order[0]});
-  return out;
+std::uint16_t sixteenBits(float value) {
+  return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(value, 0.0F, 1.0F)));
 }
 
 class MeshReader {
  public:
-  MeshReader(GltfFile& file, std::uint32_t no_material, Report& report)
-      : file_(file), no_material_(no_material), report_(report) {}
+  MeshReader(GltfFile& file, const GltfMaterials& materials, std::uint32_t no_material, const GltfPose& pose,
+             Report& report)
+      : file_(file), materials_(materials), no_material_(no_material), pose_(pose), report_(report) {}
 
-  void primitive(const nlohmann::json& json, const std::string& place) {
-    const auto mode = file_.natural(json, "mode", kTriangles, place);
+  void add(const nlohmann::json& json, const std::string& place) {
+    GltfPrimitive primitive(file_, json, place);
     const auto material = file_.index(json, "material", place);
-    const auto position = file_.index(memberOf(json, "attributes"), "POSITION", place + "/attributes");
-    if (material && *material >= file_.count("materials")) file_.fail(place + "/material", "does not exist");
-    if (mode > kFan) file_.fail(place + "/mode", "is " + std::to_string(mode) + ", known are 0 to 6");
+    if (material && *material >= materials_.surface_of_material.size())
+      file_.fail(place + "/material", "does not exist");
     if (file_.failed()) return;
-    if (!position) {
-      // The specification lets a client skip such a primitive; a surface without a place cannot be scanned.
-      file_.fail(place + "/attributes", "has no POSITION: there is nothing to scan");
-      return;
-    }
-    if (mode < kTriangles) return report_.lose(place, std::string("holds ") + modeName(mode) + ", which are not a surface");
-    const auto surface = material ? static_cast<std::uint32_t>(*material) : no_material_;
-    const auto& draco = memberOf(memberOf(json, "extensions"), "KHR_draco_mesh_compression");
-    if (draco.is_object()) {
-      compressed(draco, surface, place + "/extensions/KHR_draco_mesh_compression");
-    } else {
-      plain(json, *position, mode, surface, place);
-    }
-    if (memberOf(json, "targets").is_array() && !memberOf(json, "targets").empty()) has_targets_ = true;
+    if (!primitive.isSurface())
+      return report_.lose(place, "holds " + primitive.whatItIs() + ", which are not a surface");
+    const auto surface = material ? materials_.surface_of_material[*material] : no_material_;
+    const auto [base, count] =
+        vertices(primitive, material ? materials_.texture_of_material[*material] : GltfTextureUse{});
+    if (file_.failed()) return;
+    append(primitive.triangles(count, report_), base, surface);
   }
 
-  Mesh take() {
-    sortBySurface(mesh_);
-    return std::move(mesh_);
+  // Vertices without triangles: our writer keeps them as points.
+  void addPoints(const nlohmann::json& json, const std::string& place) {
+    GltfPrimitive primitive(file_, json, place);
+    if (!file_.failed()) vertices(primitive, {});
   }
-  bool hasTargets() const { return has_targets_; }
+
+  GltfMesh take() {
+    sortBySurface(mesh_);
+    if (!features_.empty()) feature_of_vertex_.resize(mesh_.positions.size(), -1);
+    return {std::move(mesh_), std::move(features_), std::move(feature_of_vertex_)};
+  }
 
  private:
-  void plain(const nlohmann::json& json, std::size_t position, std::size_t mode, std::uint32_t surface, const std::string& place) {
-    const std::size_t base = baseOf(position, place + "/attributes/POSITION");
-    if (file_.failed()) return;
-    const std::size_t size = size_of_[position];
-    std::vector<std::uint32_t> order;
-    if (const auto indices = file_.index(json, "indices", place)) {
-      order = file_.indices(*indices, place + "/indices");
-    } else if (file_.spend(size * 16, place)) {
-      order.resize(size);
-      for (std::size_t i = 0; i < size; ++i) order[i] = static_cast<std::uint32_t>(i);
+  struct Range {
+    std::size_t base = 0, count = 0;
+  };
+
+  Range vertices(GltfPrimitive& primitive, const GltfTextureUse& use) {
+    const std::string texture = "TEXCOORD_" + std::to_string(use.set);
+    const auto& matrix = use.image_from_set.matrix();
+    // Two primitives share their vertices when all that makes them is the same.
+    const Key key{primitive.accessor("POSITION"),
+                  primitive.accessor(texture),
+                  primitive.accessor("COLOR_0"),
+                  {matrix.data(), matrix.data() + matrix.size()},
+                  poseKey(primitive) + featureKey(primitive)};
+    if (file_.failed()) return {};
+    const bool shared = !primitive.compressed();
+    if (const auto known = ranges_.find(key); shared && known != ranges_.end()) return known->second;
+    auto positions = primitive.positions();
+    const Range range{mesh_.positions.size(), positions.size()};
+    applyPose(file_, primitive, pose_, positions);
+    if (file_.failed()) return {};
+    if (mesh_.positions.empty())
+      mesh_.positions = std::move(positions);
+    else
+      mesh_.positions.insert(mesh_.positions.end(), positions.begin(), positions.end());
+    textureCoordinates(primitive, texture, use, range);
+    colours(primitive, range);
+    features(primitive, range);
+    if (shared) ranges_[key] = range;
+    return range;
+  }
+
+  std::string poseKey(const GltfPrimitive& primitive) const {
+    if (pose_ == GltfPose{}) return {};
+    return memberOf(primitive.json(), "targets").dump() + memberOf(primitive.json(), "attributes").dump();
+  }
+
+  static std::string featureKey(const GltfPrimitive& primitive) {
+    const auto& features = memberOf(memberOf(primitive.json(), "extensions"), "EXT_mesh_features");
+    return features.is_null() ? "" : features.dump() + memberOf(primitive.json(), "attributes").dump();
+  }
+
+  bool fits(GltfPrimitive& primitive, const std::string& attribute, std::size_t rows, std::size_t count) {
+    if (rows != count && !file_.failed())
+      file_.fail(primitive.place() + "/attributes/" + attribute,
+                 "has " + std::to_string(rows) + " elements for " + std::to_string(count) + " vertices");
+    return !file_.failed();
+  }
+
+  void textureCoordinates(GltfPrimitive& primitive, const std::string& attribute, const GltfTextureUse& use,
+                          Range range) {
+    auto& all = mesh_.texture_coordinates;
+    const bool present = primitive.accessor(attribute).has_value();
+    if (!present && all.empty()) return;
+    if (!file_.spend(mesh_.positions.size() * 8 - all.size() * 8, primitive.place())) return;
+    all.resize(mesh_.positions.size(), Eigen::Vector2f::Zero());
+    if (!present) return;
+    std::size_t components = 0;
+    const auto values = primitive.floats(attribute, components);
+    const bool plain = use.image_from_set.matrix().isIdentity(0);
+    if (components != 2 && !file_.failed())
+      file_.fail(primitive.place() + "/attributes/" + attribute, "is not of pairs");
+    if (file_.failed() || !fits(primitive, attribute, values.size() / 2, range.count)) return;
+    for (std::size_t i = 0; i < range.count; ++i) {
+      auto& t = all[range.base + i] = {values[2 * i], values[2 * i + 1]};
+      if (!plain) t = (use.image_from_set * t.cast<double>()).cast<float>();
+      if (!t.allFinite())
+        return file_.fail(primitive.place() + "/attributes/" + attribute,
+                          "element " + std::to_string(i) + " is not a finite number");
     }
-    for (std::size_t i = 0; i < order.size(); ++i)
-      if (order[i] >= size)
-        return file_.fail(place + "/indices", "index " + std::to_string(i) + " is " + std::to_string(order[i]) +
-                                                  ", there are " + std::to_string(size) + " vertices");
-    if (file_.failed()) return;
-    if (mode == kTriangles && order.size() % 3 != 0)
-      report_.warn(place, std::to_string(order.size()) + " indices are not a multiple of 3; the rest is left out");
-    append(trianglesOf(mode, order), base, surface);
   }
 
-  void compressed(const nlohmann::json& extension, std::uint32_t surface, const std::string& place) {
-    const auto decoded = decodeDraco(file_, extension, place);
-    if (file_.failed()) return;
-    const std::size_t base = mesh_.positions.size();
-    mesh_.positions.insert(mesh_.positions.end(), decoded.positions.begin(), decoded.positions.end());
-    append(decoded.triangles, base, surface);
+  void colours(GltfPrimitive& primitive, Range range) {
+    auto& all = mesh_.colours;
+    const bool present = primitive.accessor("COLOR_0").has_value();
+    if (!present && all.empty()) return;
+    if (!file_.spend(mesh_.positions.size() * 4 - all.size() * 4, primitive.place())) return;
+    all.resize(mesh_.positions.size(), {255, 255, 255, 255});
+    if (!present) return;
+    std::size_t n = 0;
+    const auto values = primitive.floats("COLOR_0", n);
+    if (n != 3 && n != 4 && !file_.failed())
+      file_.fail(primitive.place() + "/attributes/COLOR_0", "is not of three or four numbers");
+    if (file_.failed() || !fits(primitive, "COLOR_0", values.size() / n, range.count)) return;
+    for (std::size_t i = 0; i < range.count; ++i) {
+      auto& c = all[range.base + i];
+      for (std::size_t k = 0; k < n; ++k) {
+        if (!std::isfinite(values[n * i + k]))
+          return file_.fail(primitive.place() + "/attributes/COLOR_0",
+                            "element " + std::to_string(i) + " is not a finite number");
+        const auto bits = sixteenBits(values[n * i + k]);
+        c[k] = k < 3 ? srgb8FromLinear16(bits) : static_cast<std::uint8_t>((bits + 128) / 257);
+      }
+    }
   }
 
-  std::size_t baseOf(std::size_t accessor, const std::string& place) {
-    if (const auto known = base_of_.find(accessor); known != base_of_.end()) return known->second;
-    const auto positions = file_.vectors3(accessor, place);
-    const std::size_t base = mesh_.positions.size();
-    mesh_.positions.insert(mesh_.positions.end(), positions.begin(), positions.end());
-    base_of_[accessor] = base;
-    size_of_[accessor] = positions.size();
-    return base;
+  void features(GltfPrimitive& primitive, Range range) {
+    const auto ids = featureIdsOf(file_, primitive.json(), "EXT_mesh_features", primitive.place());
+    if (!ids.present || ids.attribute.empty() || file_.failed()) return;  // a feature for each vertex is no product
+    std::size_t components = 0;
+    const auto values = primitive.floats(ids.attribute, components);
+    if (file_.failed() || !fits(primitive, ids.attribute, values.size(), range.count)) return;
+    if (!file_.spend(mesh_.positions.size() * 4, primitive.place())) return;
+    feature_of_vertex_.resize(mesh_.positions.size(), -1);
+    for (std::size_t i = 0; i < range.count; ++i) {
+      if (!(values[i] >= 0 && values[i] < 4e9F))
+        return file_.fail(primitive.place() + "/attributes/" + ids.attribute,
+                          "element " + std::to_string(i) + " is not a number of a feature");
+      const auto row = static_cast<std::size_t>(values[i]);
+      if (row == ids.null) continue;
+      const auto [found, fresh] =
+          index_of_feature_.try_emplace({ids.table, row}, static_cast<std::int32_t>(features_.size()));
+      if (fresh) features_.push_back({ids.table, row});
+      feature_of_vertex_[range.base + i] = found->second;
+    }
   }
 
-  void append(const std::vector<Triangle>& triangles, std::size_t base, std::uint32_t surface) {
+  void append(std::vector<Triangle>&& triangles, std::size_t base, std::uint32_t surface) {
     const auto offset = static_cast<std::uint32_t>(base);
-    for (const auto& t : triangles) mesh_.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+    if (offset != 0)
+      for (auto& t : triangles) t = {t[0] + offset, t[1] + offset, t[2] + offset};
+    if (mesh_.triangles.empty())
+      mesh_.triangles = std::move(triangles);
+    else
+      mesh_.triangles.insert(mesh_.triangles.end(), triangles.begin(), triangles.end());
     mesh_.surface_of_triangle.resize(mesh_.triangles.size(), surface);
   }
 
+  using Key = std::tuple<std::optional<std::size_t>, std::optional<std::size_t>, std::optional<std::size_t>,
+                         std::vector<double>, std::string>;
+
   GltfFile& file_;
+  const GltfMaterials& materials_;
   std::uint32_t no_material_;
+  const GltfPose& pose_;
   Report& report_;
   Mesh mesh_;
-  std::map<std::size_t, std::size_t> base_of_, size_of_;
-  bool has_targets_ = false;
+  std::map<Key, Range> ranges_;
+  std::vector<GltfFeature> features_;
+  std::map<GltfFeature, std::int32_t> index_of_feature_;
+  std::vector<std::int32_t> feature_of_vertex_;
 };
-
-bool anyNonZero(const nlohmann::json& weights) {
-  return weights.is_array() && std::any_of(weights.begin(), weights.end(), [](const auto& w) {
-           return w.is_number() && w.template get<double>() != 0;
-         });
-}
-
-float channel(const std::vector<double>& values, std::size_t i) { return values.empty() ? 1.0F : static_cast<float>(values[i]); }
-
-std::optional<float> factor(const nlohmann::json& object, const char* key) {
-  const auto& value = memberOf(object, key);
-  return value.is_number() ? value.get<float>() : 1.0F;
-}
-
-// What our own writer put into `extras`, so that a surface survives bit for bit.
-void restoreSurface(GltfFile& file, const nlohmann::json& extras, const std::string& place, Surface& surface) {
-  if (!extras.is_object()) return;
-  const auto srgb = file.numbers(extras, "srgb", 4, place);
-  if (!srgb.empty())
-    surface.colour = {static_cast<float>(srgb[0]), static_cast<float>(srgb[1]), static_cast<float>(srgb[2]),
-                      static_cast<float>(srgb[3])};
-  const auto optional = [&](const char* key) {
-    const auto& value = memberOf(extras, key);
-    return value.is_number() ? std::optional<float>(value.get<float>()) : std::nullopt;
-  };
-  surface.source = file.text(extras, "source");
-  surface.metallic = optional("metallic");
-  surface.roughness = optional("roughness");
-}
 
 }  // namespace
 
-float srgbFromLinear(float linear) {
-  const double x = std::clamp<double>(linear, 0, 1);
-  return static_cast<float>(x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055);
+bool GltfPose::operator==(const GltfPose& other) const {
+  return weights == other.weights && joints.size() == other.joints.size() &&
+         std::equal(joints.begin(), joints.end(), other.joints.begin(),
+                    [](const auto& a, const auto& b) { return a.matrix() == b.matrix(); });
 }
 
-float linearFromSrgb(float srgb) {
-  const double x = std::clamp<double>(srgb, 0, 1);
-  return static_cast<float>(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4));
-}
-
-std::vector<Surface> readGltfSurfaces(GltfFile& file, Report& report) {
-  std::vector<Surface> surfaces;
-  for (std::size_t i = 0; !file.failed() && i < file.count("materials"); ++i) {
-    const std::string place = "/materials/" + std::to_string(i);
-    const auto& json = file.element("materials", i, place);
-    const auto& pbr = memberOf(json, "pbrMetallicRoughness");
-    Surface surface;
-    surface.name = file.text(json, "name");
-    surface.source = place;
-    auto base = file.numbers(pbr, "baseColorFactor", 4, place + "/pbrMetallicRoughness");
-    const auto& gloss = memberOf(memberOf(json, "extensions"), "KHR_materials_pbrSpecularGlossiness");
-    if (gloss.is_object()) base = file.numbers(gloss, "diffuseFactor", 4, place + "/extensions/KHR_materials_pbrSpecularGlossiness");
-    if (file.failed()) break;
-    const auto& mode = memberOf(json, "alphaMode");
-    surface.colour = {srgbFromLinear(channel(base, 0)), srgbFromLinear(channel(base, 1)), srgbFromLinear(channel(base, 2)),
-                      mode.is_string() && mode != "OPAQUE" ? channel(base, 3) : 1.0F};
-    if (pbr.is_object()) {
-      surface.metallic = factor(pbr, "metallicFactor");
-      surface.roughness = factor(pbr, "roughnessFactor");
-    }
-    if (memberOf(pbr, "baseColorTexture").is_object() || memberOf(gloss, "diffuseTexture").is_object())
-      report.lose(place, "has a base colour texture, which is not read; its colour factor stands for it");
-    restoreSurface(file, memberOf(memberOf(json, "extras"), "standpoint"), place + "/extras/standpoint", surface);
-    surfaces.push_back(std::move(surface));
-  }
-  return surfaces;
-}
-
-Mesh readGltfMesh(GltfFile& file, std::size_t index, std::uint32_t no_material, Report& report) {
+GltfMesh readGltfMesh(GltfFile& file, std::size_t index, const GltfMaterials& materials, std::uint32_t no_material,
+                      const GltfPose& pose, Report& report) {
   const std::string place = "/meshes/" + std::to_string(index);
-  const auto& json = file.element("meshes", index, place);
-  const auto& primitives = memberOf(json, "primitives");
+  const auto& primitives = memberOf(file.element("meshes", index, place), "primitives");
   if (!primitives.is_array()) file.fail(place + "/primitives", "is not an array");
-  MeshReader reader(file, no_material, report);
+  MeshReader reader(file, materials, no_material, pose, report);
   for (std::size_t i = 0; !file.failed() && i < primitives.size(); ++i)
-    reader.primitive(primitives[i], place + "/primitives/" + std::to_string(i));
-  if (reader.hasTargets() && anyNonZero(memberOf(json, "weights")))
-    report.lose(place + "/weights", "morph targets are not applied");
+    reader.add(primitives[i], place + "/primitives/" + std::to_string(i));
   return reader.take();
+}
+
+Mesh readGltfPoints(GltfFile& file, std::size_t index) {
+  const std::string place = "/meshes/" + std::to_string(index);
+  const auto& primitives = memberOf(file.element("meshes", index, place), "primitives");
+  Report ignored;
+  const GltfMaterials none;
+  const GltfPose rest;
+  MeshReader reader(file, none, 0, rest, ignored);
+  if (primitives.is_array() && !primitives.empty()) reader.addPoints(primitives[0], place + "/primitives/0");
+  return reader.take().mesh;
 }
 
 }  // namespace standpoint

@@ -5,27 +5,42 @@
 
 #include "core/environment.h"
 #include "core/report.h"
-#include "importers/gltf_file.h"
+#include "importers/gltf_material.h"
+#include "importers/gltf_metadata.h"
+#include "importers/gltf_primitive.h"
 
 namespace standpoint {
 
-// The triangles of /meshes/<index> in the order of its primitives. Surfaces are the file's materials, one to one; a
-// primitive without a material gets `no_material`. Primitives that share a POSITION accessor share their vertices.
-// What is not a surface (points, lines) or not applied (morph targets) goes to the report.
-Mesh readGltfMesh(GltfFile& file, std::size_t index, std::uint32_t no_material, Report& report);
-
-// One surface for each of the file's materials, in order.
-std::vector<Surface> readGltfSurfaces(GltfFile& file, Report& report);
-
-// KHR_draco_mesh_compression: vertices and triangles of one primitive, or a fault of the file.
-struct DracoPrimitive {
-  std::vector<Eigen::Vector3f> positions;
-  std::vector<Triangle> triangles;
+// How a node shapes a mesh: nothing for nearly all.
+struct GltfPose {
+  std::vector<double> weights;          // of morph targets
+  std::vector<Eigen::Affine3d> joints;  // glTF's world from the mesh's bind pose; empty: no skin
+  bool operator==(const GltfPose& other) const;
 };
-DracoPrimitive decodeDraco(GltfFile& file, const nlohmann::json& extension, const std::string& place);
 
-// glTF colours are linear, ours are sRGB (IEC 61966-2-1).
-float srgbFromLinear(float linear);
-float linearFromSrgb(float srgb);
+struct GltfMesh {
+  Mesh mesh;
+  std::vector<GltfFeature> features;            // EXT_mesh_features with a property table; else empty, as the next
+  std::vector<std::int32_t> feature_of_vertex;  // index into features; −1: none
+};
+
+// The triangles of /meshes/<index> in the order of its primitives, sorted by surface. A primitive without a material
+// gets `no_material`. Primitives that share their attributes share their vertices. Texture coordinates are those of the
+// material's image, transformed; without an image the first set. What is not a surface goes to the report.
+GltfMesh readGltfMesh(GltfFile& file, std::size_t index, const GltfMaterials& materials, std::uint32_t no_material,
+                      const GltfPose& pose, Report& report);
+
+// One part for each feature, in the order in which they are met; what belongs to none comes first.
+struct GltfPart {
+  Mesh mesh;
+  std::optional<GltfFeature> feature;
+};
+std::vector<GltfPart> splitByFeature(GltfMesh&& whole);
+
+// The vertices of a mesh that has no triangles, which our writer keeps as points.
+Mesh readGltfPoints(GltfFile& file, std::size_t index);
+
+// Moves positions as `pose` says; a primitive without targets or joints stays as it is.
+void applyPose(GltfFile& file, GltfPrimitive& primitive, const GltfPose& pose, std::vector<Eigen::Vector3f>& positions);
 
 }  // namespace standpoint

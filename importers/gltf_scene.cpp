@@ -59,42 +59,88 @@ std::vector<std::size_t> rootNodes(GltfFile& file) {
   return roots;
 }
 
-}  // namespace
+using Visit = std::function<void(const GltfNode&)>;
 
-void walkScene(GltfFile& file, const std::function<void(const GltfNode&)>& visit) {
+// From the given roots, last first.
+std::vector<bool> walk(GltfFile& file, const std::vector<std::size_t>& roots, const std::string& from,
+                       const Visit& visit) {
   struct Entry {
     std::size_t index;
-    Eigen::Affine3d parent;
+    GltfNode parent;
     std::string asked_by;
   };
   std::vector<Entry> stack;
-  const auto push = [&](const std::vector<std::size_t>& last_first, const Eigen::Affine3d& parent, const std::string& from) {
-    for (const auto index : last_first) stack.push_back({index, parent, from});
+  const auto push = [&](const std::vector<std::size_t>& last_first, const GltfNode& parent,
+                        const std::string& asked_by) {
+    for (const auto index : last_first) stack.push_back({index, parent, asked_by});
   };
-  const auto& scenes = memberOf(file.json(), "scenes");
-  if (!scenes.is_null() && !scenes.is_array()) return file.fail("/scenes", "is not an array");
-  if (file.count("scenes") > 0) {
-    const auto scene = file.index(file.json(), "scene", "").value_or(0);
-    const std::string place = "/scenes/" + std::to_string(scene);
-    push(reversed(file, file.element("scenes", scene, "/scene"), "nodes", place), Eigen::Affine3d::Identity(), place);
-  } else {
-    push(rootNodes(file), Eigen::Affine3d::Identity(), "");
-  }
+  push(roots, {}, from);
   std::vector<bool> seen(file.count("nodes"), false);
   while (!stack.empty() && !file.failed()) {
     const Entry entry = std::move(stack.back());
     stack.pop_back();
-    GltfNode node{entry.index, "/nodes/" + std::to_string(entry.index), nullptr, entry.parent};
+    GltfNode node = entry.parent;
+    node.index = entry.index;
+    node.place = "/nodes/" + std::to_string(entry.index);
     node.json = &file.element("nodes", entry.index, entry.asked_by);
-    if (file.failed()) return;
-    if (seen[entry.index]) return file.fail(node.place, "is reached twice: node hierarchies are trees");
+    if (file.failed()) break;
+    if (seen[entry.index]) {
+      file.fail(node.place, "is reached twice: node hierarchies are trees");
+      break;
+    }
     seen[entry.index] = true;
-    node.world_from_node = entry.parent * placement(file, *node.json, node.place);
+    node.world_from_node = entry.parent.world_from_node * placement(file, *node.json, node.place);
     if (!node.world_from_node.matrix().allFinite()) file.fail(node.place, "its placement is not finite");
-    if (file.failed()) return;
+    const auto& ours = memberOf(memberOf(*node.json, "extras"), "standpoint");
+    if (const auto product = file.index(ours, "product", node.place + "/extras/standpoint");
+        product && product != node.product) {
+      node.product = product;
+      node.product_json = node.json;
+    }
+    if (file.failed()) break;
     visit(node);
-    push(reversed(file, *node.json, "children", node.place), node.world_from_node, node.place);
+    push(reversed(file, *node.json, "children", node.place), node, node.place);
   }
+  return seen;
+}
+
+}  // namespace
+
+std::vector<bool> walkScene(GltfFile& file, const Visit& visit) {
+  const auto& scenes = memberOf(file.json(), "scenes");
+  if (!scenes.is_null() && !scenes.is_array()) file.fail("/scenes", "is not an array");
+  if (file.failed()) return {};
+  if (file.count("scenes") == 0) return walk(file, rootNodes(file), "", visit);
+  const auto scene = file.index(file.json(), "scene", "").value_or(0);
+  const std::string place = "/scenes/" + std::to_string(scene);
+  return walk(file, reversed(file, file.element("scenes", scene, "/scene"), "nodes", place), place, visit);
+}
+
+std::vector<Eigen::Affine3d> jointsOf(GltfFile& file, std::size_t skin, const std::string& asked_by) {
+  const std::string place = "/skins/" + std::to_string(skin);
+  const auto& json = file.element("skins", skin, asked_by);
+  auto joints = reversed(file, json, "joints", place);
+  std::reverse(joints.begin(), joints.end());
+  std::vector<float> inverse_bind;
+  if (const auto accessor = file.index(json, "inverseBindMatrices", place)) {
+    inverse_bind = file.floats(*accessor, 16, place + "/inverseBindMatrices");
+    if (inverse_bind.size() < 16 * joints.size())
+      file.fail(place + "/inverseBindMatrices", "has fewer matrices than the skin has joints");
+  }
+  std::vector<Eigen::Affine3d> world(file.count("nodes"), Eigen::Affine3d::Identity());
+  walk(file, rootNodes(file), "", [&](const GltfNode& node) { world[node.index] = node.world_from_node; });
+  std::vector<Eigen::Affine3d> result;
+  for (std::size_t i = 0; i < joints.size() && !file.failed(); ++i) {
+    if (joints[i] >= world.size())
+      file.fail(place + "/joints/" + std::to_string(i), "refers to a node that does not exist");
+    if (file.failed()) break;
+    Eigen::Affine3d bind = Eigen::Affine3d::Identity();
+    if (!inverse_bind.empty())
+      bind.matrix().topRows<3>() =
+          Eigen::Map<const Eigen::Matrix4f>(inverse_bind.data() + 16 * i).cast<double>().topRows<3>();
+    result.push_back(world[joints[i]] * bind);
+  }
+  return file.failed() ? std::vector<Eigen::Affine3d>{} : result;
 }
 
 std::vector<Eigen::Affine3d> instancesOf(GltfFile& file, const GltfNode& node) {

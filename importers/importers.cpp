@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -12,12 +11,14 @@
 
 #include "importers/gltf.h"
 #include "importers/obj.h"
+#include "importers/plausibility.h"
+#include "importers/ply.h"
+#include "importers/stl.h"
 
 namespace standpoint {
 
 extern const Importer kIfcImporter;
 extern const Importer kGltfImporter;
-extern const Importer kObjImporter;
 
 namespace {
 
@@ -26,7 +27,9 @@ struct Magic {
   const char* importer;
 };
 // The first bytes after a byte-order mark and white space.
-constexpr std::array kMagics{Magic{"ISO-10303-21", "ifc"}, Magic{"PK\x03\x04", "ifc"}, Magic{"\x1F\x8B", "ifc"}, Magic{"glTF", "gltf"}, Magic{"{", "gltf"}};
+constexpr std::array kMagics{Magic{"ISO-10303-21", "ifc"}, Magic{"PK\x03\x04", "ifc"}, Magic{"\x1F\x8B", "ifc"}, Magic{"glTF", "gltf"}, Magic{"{", "gltf"},
+                             Magic{"ply\n", "ply"}, Magic{"ply\r", "ply"}, Magic{"solid ", "stl"}, Magic{"solid\n", "stl"}, Magic{"solid\r", "stl"},
+                             Magic{"mtllib ", "obj"}, Magic{"v ", "obj"}};
 
 std::string firstBytes(const std::filesystem::path& file) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"), &std::fclose);
@@ -49,6 +52,12 @@ const Importer* byContent(const std::string& head) {
   return nullptr;
 }
 
+// A binary STL has no magic bytes; its size is what its count of triangles says.
+bool hasSizeOfStl(const std::filesystem::path& file) {
+  const auto bytes = FileBytes::open(file);
+  return bytes && bytes->size() > 84 && isBinaryStl(*bytes);
+}
+
 const Importer* byExtension(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -64,6 +73,8 @@ std::span<const Importer> importers() {
       kIfcImporter,
       kGltfImporter,
       kObjImporter,
+      kPlyImporter,
+      kStlImporter,
   };
   return kImporters;
 }
@@ -74,17 +85,14 @@ Result<ImportedModel> importFile(const std::filesystem::path& file, const Import
     return failure(ErrorKind::file_system, code ? code.message() : "is not a file that can be read", file.string());
   const Importer* importer = byContent(firstBytes(file));
   if (!importer) importer = byExtension(file);
-  if (!importer) return failure(ErrorKind::unusable, "no importer knows this format: IFC, glTF and OBJ are read", file.string());
-  return importer->read(file, options, progress);
-}
-
-Eigen::Vector3d chooseShift(const ImportOptions& options, const Bounds& bounds_file_m) {
-  constexpr double kNear_m = 2000;
-  if (options.shift == ShiftMode::given) return options.given_shift_m.array().round();
-  if (options.shift == ShiftMode::none || bounds_file_m.empty()) return Eigen::Vector3d::Zero();
-  const double far = std::max(bounds_file_m.min.cwiseAbs().maxCoeff(), bounds_file_m.max.cwiseAbs().maxCoeff());
-  if (far < kNear_m) return Eigen::Vector3d::Zero();
-  return ((bounds_file_m.min + bounds_file_m.max) / 2).array().round();
+  if (!importer && hasSizeOfStl(file)) importer = &kStlImporter;
+  if (!importer) return failure(ErrorKind::unusable, "no importer knows this format: IFC, glTF, OBJ, PLY and STL are read", file.string());
+  auto model = importer->read(file, options, progress);
+  if (!model) return model;
+  const double stated = model->metres_per_unit > 0 ? model->metres_per_unit : 1;
+  tellImplausible(*model, options.metres_per_unit > 0 ? options.metres_per_unit : stated,
+                  options.up == UpAxis::automatic ? importer->up : options.up);
+  return model;
 }
 
 }  // namespace standpoint

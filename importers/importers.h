@@ -17,13 +17,13 @@
 namespace standpoint {
 
 enum class ShiftMode { automatic, none, given };
-enum class UpAxis { automatic, y, z };   // automatic: what the format says (glTF: Y; OBJ, which says nothing: Y)
+enum class UpAxis { automatic, y, z };   // automatic: what the format says (IFC: Z; glTF: Y; OBJ, which says nothing: Y)
 
 struct ImportOptions {
   ShiftMode shift = ShiftMode::automatic;
   Eigen::Vector3d given_shift_m = Eigen::Vector3d::Zero();  // rounded to whole metres
   UpAxis up = UpAxis::automatic;
-  double metres_per_unit = 0;          // 0: what the format says (glTF, OBJ: 1)
+  double metres_per_unit = 0;          // 0: what the file or format says (glTF, OBJ: 1)
   double chord_error_m = 0.001;        // tessellation of curved shapes: sagitta at most this …
   double max_segment_angle_rad = 0.2095;  // … and no segment turns further (32 per circle: 0.6 % of its area are lost)
 };
@@ -32,6 +32,7 @@ struct ImportedModel {
   Environment environment;       // local frame: metres, Z up, validate(environment) is empty
   Georeference georeference;
   Report report;                 // what was lost or guessed, each with its place in the file
+  double metres_per_unit = 0;    // as the file states it (IFC); 0: the format has one unit
 };
 
 struct Importer {
@@ -39,6 +40,7 @@ struct Importer {
   const char* description;       // "Industry Foundation Classes, STEP physical file (ISO 16739)"
   std::span<const char* const> extensions;   // lower case, with the dot
   Result<ImportedModel> (*read)(const std::filesystem::path&, const ImportOptions&, Progress&);
+  UpAxis up;                     // by the format, or by custom where it says nothing (OBJ: Y; PLY, STL: Z)
 };
 
 // The table of importers; a new format is one file and one line in importers.cpp.
@@ -46,17 +48,25 @@ std::span<const Importer> importers();
 
 // Chooses by the file's content first (magic bytes), then by its extension. Errors: file_system when it cannot be
 // read, unusable when no importer knows it or the importer refuses it; every error names the file and the place.
+// What cannot well be meant (units, up-axis, places far apart) is told in the report.
 Result<ImportedModel> importFile(const std::filesystem::path& file, const ImportOptions& options, Progress& progress);
 
 // The shift that brings `bounds_file_m` (double, file frame) near the origin: zero while every coordinate is below 2 km,
 // else the centre rounded to whole metres.
 Eigen::Vector3d chooseShift(const ImportOptions& options, const Bounds& bounds_file_m);
 
-// glTF binary. Exactly invertible: readEnvironmentGlb(writeEnvironmentGlb(e)) has the same meshes, surfaces and
-// instances bit for bit (product records are not in it; nodes carry the product's index in `extras`).
+// glTF binary. Exactly invertible: readEnvironmentGlb(writeEnvironmentGlb(e)) has the same meshes with
+// their texture coordinates and colours, surfaces, images and instances bit for bit (product records are not in it; nodes
+// carry the product's index in `extras`).
 Result<void> writeEnvironmentGlb(const Environment& environment, const Georeference& georeference,
                                  const std::filesystem::path& file, Progress& progress);
 Result<Environment> readEnvironmentGlb(const std::filesystem::path& file, Progress& progress);
+
+// The same for other programs, as .glb or, by the file's extension, as .gltf with a .bin beside it: Y up as glTF demands,
+// each product a node with its name, ids and properties in `extras`, above a node for each instance where it has several.
+// importFile of it gives the same triangles, surfaces, images, places and georeference.
+Result<void> exportEnvironmentGltf(const Environment& environment, const Georeference& georeference,
+                                   const std::filesystem::path& file, Progress& progress);
 
 // OBJ + MTL, coordinates as text in the file frame (shift added in double).
 Result<void> writeEnvironmentObj(const Environment& environment, const Georeference& georeference,

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "importers/obj_polygon.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "importers/geometry/kernel.h"
 
 namespace standpoint {
 
@@ -42,75 +47,69 @@ bool isConvex(const std::vector<Point>& p) {
   return turned < 6.3;   // once round: a star polygon turns twice
 }
 
-void fan(const std::vector<std::uint32_t>& rest, PolygonTriangles& out) {
-  for (std::size_t i = 1; i + 1 < rest.size(); ++i) out.triangles.push_back({rest[0], rest[i], rest[i + 1]});
+// The axis along which fewer edges lie above each other.
+int sweepAxis(const std::vector<Point>& p) {
+  Point low = p[0], high = p[0], along = Point::Zero();
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    low = low.cwiseMin(p[i]), high = high.cwiseMax(p[i]);
+    along += (p[(i + 1) % p.size()] - p[i]).cwiseAbs();
+  }
+  return along.x() * (high.y() - low.y()) <= along.y() * (high.x() - low.x()) ? 0 : 1;
 }
 
-class EarClipper {
- public:
-  explicit EarClipper(const std::vector<Point>& p) : p_(p), steps_(100000 + 1000 * p.size()) {
-    for (std::uint32_t i = 0; i < p.size(); ++i) rest_.push_back(i);
+// Whether edges cross more often than rounding makes them, or lie so that telling it would take too long. Edges are met
+// in the order of their first ends, so that only those are compared that lie above each other.
+bool crossesOften(const std::vector<Point>& p) {
+  constexpr int kOften = 16;
+  std::int64_t budget = 1'000'000 + 1000 * static_cast<std::int64_t>(p.size());
+  struct Edge {
+    Point left, right;
+  };
+  const int axis = sweepAxis(p), across = 1 - axis;
+  std::vector<Edge> edges, open;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Point &a = p[i], &b = p[(i + 1) % p.size()];
+    Edge e{{a[axis], a[across]}, {b[axis], b[across]}};
+    if (e.right.x() < e.left.x()) std::swap(e.left, e.right);
+    edges.push_back(e);
   }
-
-  PolygonTriangles run() {
-    PolygonTriangles out;
-    std::size_t at = 0, misses = 0;
-    while (rest_.size() > 3) {
-      if (misses > rest_.size() || steps_ == 0) {
-        out.clean = false;
-        break;
-      }
-      at %= rest_.size();
-      if (!isEar(at)) {
-        ++at;
-        ++misses;
-        continue;
-      }
-      out.triangles.push_back({before(at), rest_[at], after(at)});
-      rest_.erase(rest_.begin() + static_cast<std::ptrdiff_t>(at));
-      misses = 0;
-    }
-    fan(rest_, out);
-    return out;
+  std::stable_sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.left.x() < b.left.x(); });
+  int crossings = 0;
+  for (const Edge& e : edges) {
+    budget -= static_cast<std::int64_t>(open.size());
+    std::erase_if(open, [&](const Edge& other) { return other.right.x() < e.left.x(); });
+    for (const Edge& o : open)
+      if (cross(o.left, o.right, e.left) * cross(o.left, o.right, e.right) < 0 &&
+          cross(e.left, e.right, o.left) * cross(e.left, e.right, o.right) < 0)
+        ++crossings;
+    if (crossings > kOften || budget < 0) return true;
+    open.push_back(e);
   }
+  return false;
+}
 
- private:
-  std::uint32_t before(std::size_t i) const { return rest_[(i + rest_.size() - 1) % rest_.size()]; }
-  std::uint32_t after(std::size_t i) const { return rest_[(i + 1) % rest_.size()]; }
-
-  bool isEar(std::size_t i) {
-    const Point &a = p_[before(i)], &b = p_[rest_[i]], &c = p_[after(i)];
-    if (cross(a, b, c) < 0) return false;
-    for (const auto k : rest_) {
-      if (steps_ > 0) --steps_;
-      const Point& q = p_[k];
-      if (q == a || q == b || q == c) continue;
-      if (cross(a, b, q) >= 0 && cross(b, c, q) >= 0 && cross(c, a, q) >= 0) return false;
-    }
-    return true;
-  }
-
-  const std::vector<Point>& p_;
-  std::vector<std::uint32_t> rest_;
-  std::size_t steps_;
-};
+PolygonTriangles fan(std::size_t corners, bool clean) {
+  PolygonTriangles out;
+  for (std::uint32_t i = 1; i + 1 < corners; ++i) out.triangles.push_back({0, i, i + 1});
+  out.clean = clean;
+  return out;
+}
 
 }  // namespace
 
 PolygonTriangles triangulatePolygon(std::span<const Eigen::Vector3d> corners) {
-  PolygonTriangles out;
-  if (corners.size() < 3) return out;
-  if (corners.size() == 3) return {{{0, 1, 2}}, true};
+  // Nobody's floor has more; the time that a hostile outline takes grows faster than its corners.
+  constexpr std::size_t kMaxConcave = 100000, kFew = 64;
+  if (corners.size() <= 3) return fan(corners.size(), true);
   const Eigen::Vector3d normal = newellNormal(corners);
+  if (!(normal.norm() > 0)) return fan(corners.size(), false);
   const auto flat = projected(corners, normal);
-  if (!(normal.norm() > 0) || isConvex(flat)) {
-    std::vector<std::uint32_t> all;
-    for (std::uint32_t i = 0; i < corners.size(); ++i) all.push_back(i);
-    fan(all, out);
-    out.clean = normal.norm() > 0;
-    return out;
-  }
-  return EarClipper(flat).run();
+  if (isConvex(flat)) return fan(corners.size(), true);
+  if (corners.size() > kMaxConcave || (corners.size() > kFew && crossesOften(flat))) return fan(corners.size(), false);
+  geometry::Face face;
+  for (std::uint32_t i = 0; i < corners.size(); ++i) face.outer.push_back(i);
+  PolygonTriangles out;
+  return geometry::triangulate(corners, face, out.triangles) ? out : fan(corners.size(), false);
 }
 
 }  // namespace standpoint

@@ -11,12 +11,13 @@
 namespace standpoint {
 
 struct PolygonTriangles {
-  std::vector<Triangle> triangles;   // corner numbers 0 … n − 1, always n − 2 of them, turning as the polygon does
+  std::vector<Triangle>
+      triangles;  // corner numbers 0 … n − 1, turning as the polygon does; n − 2 of them unless corners coincide
   bool clean = true;                 // false: the polygon crosses itself or has no area, so a fan stands for it
 };
 
-// Ear clipping (Meisters 1975) in the plane of Newell's normal; convex polygons become a fan. Time is bounded by a fixed
-// number of steps for each corner.
+// In the plane of Newell's normal. Convex polygons become a fan, others are cut by geometry::triangulate(), which also
+// takes those that touch themselves, as a hole does that a bridge joins to the outline.
 PolygonTriangles triangulatePolygon(std::span<const Eigen::Vector3d> corners);
 
 }  // namespace standpoint

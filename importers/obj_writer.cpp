@@ -89,7 +89,8 @@ Result<void> writeEnvironmentObj(const Environment& environment, const Georefere
     const auto& instance = environment.instances[i];
     std::string text;
     if (i == 0 || environment.instances[i - 1].product != instance.product)
-      text = "o " + asName(environment.products[instance.product].name, "product") + "." + std::to_string(instance.product) + '\n';
+      text = "o " + asName(environment.products[instance.product].name, "product") + "." +
+             std::to_string(instance.product) + '\n';
     appendInstance(environment, instance, georeference.shift_m, names, first_vertex, text);
     first_vertex += environment.meshes[instance.mesh]->positions.size();
     out << text;

@@ -4,6 +4,8 @@
 #include <map>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "materials/colour.h"
 #include "materials/findings.h"
 #include "materials/materials.h"
@@ -179,6 +181,15 @@ class Assigner {
     return names.empty() ? "the nameless surface" : "material '" + names + "'";
   }
 
+  // "colour transparent (transmission 0.90, index of refraction 1.52)"
+  static std::string colourText(const Surface& surface) {
+    std::string text = "colour " + std::string(colourBand(surface));
+    if (!isTransparent(surface) || isTransparent(surface.colour)) return text;
+    text += fmt::format(" (transmission {:.2f}", *surface.transmission);
+    if (surface.index_of_refraction) text += fmt::format(", index of refraction {:.2f}", *surface.index_of_refraction);
+    return text + ")";
+  }
+
   void byRules(const Pair& pair, AssignedSurface& result) {
     const auto& product = environment_.products[pair.product];
     const auto& surface = environment_.surfaces[pair.surface];
@@ -192,8 +203,7 @@ class Assigner {
     result.material = by_id_.at(rule.assign);
     result.reason = matcher_.reason(decision, product);
     if (!rule.colour.empty())
-      result.reason += (result.reason.find(':') == std::string::npos ? ": " : ", ") + std::string("colour ") +
-                       std::string(colourBand(surface.colour));
+      result.reason += (result.reason.find(':') == std::string::npos ? ": " : ", ") + colourText(surface);
     if (decision.generic)
       findings_.add({false, "only class and colour decided for " + surfaceText(pair) + " of", product.ifc_class,
                      ": " + rule.assign + ", " + result.reason},
@@ -214,14 +224,14 @@ class Assigner {
   }
 
   void checkTransparency(const Pair& pair, const PhysicalMaterial& material) {
-    const auto& colour = environment_.surfaces[pair.surface].colour;
+    const auto& surface = environment_.surfaces[pair.surface];
     const auto& ifc_class = environment_.products[pair.product].ifc_class;
     has_pane_ = has_pane_ || transmits(material);
-    if (isTransparent(colour) && !transmits(material))
+    if (isTransparent(surface) && !transmits(material))
       findings_.add(
           {true, "transparent " + surfaceText(pair) + " of", ifc_class, " has the opaque material " + material.id},
           pair.product, pair.area_m2);
-    if (!isTransparent(colour) && colour != Colour{} && transmits(material))
+    if (!isTransparent(surface) && surface.colour != Colour{} && transmits(material))
       findings_.add(
           {true, "opaque " + surfaceText(pair) + " of", ifc_class, " has the transparent material " + material.id},
           pair.product, pair.area_m2);

@@ -18,4 +18,13 @@ inline bool isTransparent(const Colour& colour) { return colour.a < kOpaqueFrom;
 
 std::string_view colourBand(const Colour& colour);
 
+// What lets light through is transparent, however opaque its colour is written: glTF's glass has alpha 1 and a
+// transmission.
+inline bool isTransparent(const Surface& surface) {
+  return isTransparent(surface.colour) || surface.transmission.value_or(0) > 1 - kOpaqueFrom;
+}
+inline std::string_view colourBand(const Surface& surface) {
+  return isTransparent(surface) ? "transparent" : colourBand(surface.colour);
+}
+
 }  // namespace standpoint

@@ -61,7 +61,7 @@ RuleMatcher::Decision RuleMatcher::decide(const Product& product, const Surface&
   const auto& by_class = fits(classes_, &RulePatterns::ifc_class, product.ifc_class);
   const auto& by_material = fits(materials_, &RulePatterns::material, decision.text);
   const auto& by_name = fits(names_, &RulePatterns::name, product.name);
-  const auto band = colourBand(surface.colour);
+  const auto band = colourBand(surface);
   for (std::size_t i = 0; i < rules_.size(); ++i) {
     if (by_class[i] == -1 || by_material[i] == -1 || by_name[i] == -1) continue;
     if (!rules_[i].colour.empty() && (band.empty() || rules_[i].colour.fit(band) < 0)) continue;

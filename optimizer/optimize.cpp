@@ -183,6 +183,18 @@ void reportDropped(const Environment& before, const std::vector<Work>& works, Re
   }
 }
 
+// Simplified meshes have neither texture coordinates nor colours: the positions that those belong to are gone.
+void reportPaint(const Environment& before, const Environment& after, Report& report) {
+  std::size_t textures = 0, colours = 0;
+  for (std::size_t i = 0; i < before.meshes.size(); ++i) {
+    textures += !before.meshes[i]->texture_coordinates.empty() && after.meshes[i]->texture_coordinates.empty() ? 1 : 0;
+    colours += !before.meshes[i]->colours.empty() && after.meshes[i]->colours.empty() ? 1 : 0;
+  }
+  if (textures + colours > 0)
+    report.lose("textures", fmt::format("{} simplified meshes lose their texture coordinates, {} their vertex colours; the "
+                                        "colour of the surface is what is left", textures, colours));
+}
+
 OptimizeResult assemble(const Environment& before, const std::vector<Work>& works) {
   OptimizeResult result;
   result.environment = before;
@@ -194,6 +206,7 @@ OptimizeResult assemble(const Environment& before, const std::vector<Work>& work
   std::erase_if(result.environment.instances, [&](const Instance& instance) { return works[instance.mesh].dropped(); });
   sumLosses(before, works, result);
   reportDropped(before, works, result.report);
+  reportPaint(before, result.environment, result.report);
   return result;
 }
 

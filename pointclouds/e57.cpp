@@ -71,6 +71,7 @@ Result<CloudInfo> info(const std::filesystem::path& file) {
   for (std::size_t i = 0; i < scanCount(*document); ++i) {
     auto found = findScan(*document, i, info.report);
     if (!found) return failure(found.error());
+    if (info.crs.empty()) info.crs = found->plan.header.coordinate_metadata;
     info.scans.push_back({std::move(found->plan.header), found->records});
   }
   return info;

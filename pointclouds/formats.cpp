@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <string_view>
 #include <utility>
 
 #include "pointclouds/e57.h"
+#include "pointclouds/las.h"
 #include "pointclouds/ply.h"
 #include "pointclouds/ptx.h"
+#include "pointclouds/text_points.h"
 
 namespace standpoint {
 namespace {
@@ -74,6 +77,24 @@ class Distributor final : public PointSink {
   std::unique_ptr<CloudWriter> writer_;
 };
 
+class ExtentSink final : public PointSink {
+ public:
+  explicit ExtentSink(CloudExtent& extent) : extent_(extent) {}
+  Result<void> begin(const ScanHeader& header) override { return pose_ = header.file_from_scanner, Result<void>{}; }
+  Result<void> write(const PointBlock& block) override {
+    for (std::size_t i = 0; i < block.size(); ++i)
+      extent_.bounds_file_m.extend(pose_ * Eigen::Vector3d(block.x_m[i], block.y_m[i], block.z_m[i]));
+    extent_.points += block.size();
+    return {};
+  }
+  Result<void> end() override { return {}; }
+  Result<void> close() override { return {}; }
+
+ private:
+  CloudExtent& extent_;
+  Pose pose_;
+};
+
 Result<const CloudFormat*> known(const std::filesystem::path& file) {
   if (const CloudFormat* format = cloudFormatFor(file)) return format;
   std::string extensions;
@@ -84,7 +105,7 @@ Result<const CloudFormat*> known(const std::filesystem::path& file) {
 }  // namespace
 
 std::span<const CloudFormat> cloudFormats() {
-  static const std::array formats = {kE57, kPtx, kPly};
+  static const std::array formats = {kE57, kPtx, kPly, kLas, kLaz, kPts, kXyz};
   return formats;
 }
 
@@ -93,6 +114,27 @@ const CloudFormat* cloudFormatFor(const std::filesystem::path& file) {
   for (const CloudFormat& format : cloudFormats())
     if (extension == format.extension) return &format;
   return nullptr;
+}
+
+const CloudFormat* readableCloudFormat(const std::filesystem::path& file) {
+  const CloudFormat* const format = cloudFormatFor(file);
+  if (!format || !format->read) return nullptr;
+  return std::string_view(format->name) == kPly.name && ply::hasFaces(file) ? nullptr : format;
+}
+
+Result<CloudExtent> measureCloud(const std::filesystem::path& file, Progress& progress) {
+  const auto format = known(file);
+  if (!format) return failure(format.error());
+  if (!(*format)->read)
+    return failure(ErrorKind::usage, std::string((*format)->name) + " files are only written", file.string());
+  const auto info = (*format)->info(file);
+  if (!info) return failure(info.error());
+  CloudExtent extent{.format = info->format, .crs = info->crs};
+  ExtentSink sink(extent);
+  auto report = (*format)->read(file, sink, progress);
+  if (!report) return failure(report.error());
+  extent.report = *std::move(report);
+  return extent;
 }
 
 Result<std::vector<std::filesystem::path>> convertCloud(const std::filesystem::path& in,

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/environment.h"
 #include "core/points.h"
 #include "core/progress.h"
 #include "core/report.h"
@@ -23,6 +24,7 @@ struct CloudInfo {
   std::string format;
   std::vector<ScanInfo> scans;
   Report report;
+  std::string crs;                 // that the file states: OGC WKT or "EPSG:n"; empty when it says nothing
 };
 
 // A PointSink that writes a file. Needs what core/points.h promises: coordinates are finite, indices lie in the grid of the
@@ -47,6 +49,18 @@ struct CloudFormat {
 // The table of formats; a new one is one file and one line in formats.cpp.
 std::span<const CloudFormat> cloudFormats();
 const CloudFormat* cloudFormatFor(const std::filesystem::path& file);   // by extension; null when unknown
+// As cloudFormatFor, but looks into what can be either: a PLY with faces is a model, and the answer null.
+const CloudFormat* readableCloudFormat(const std::filesystem::path& file);
+
+struct CloudExtent {
+  std::string format;
+  std::uint64_t points = 0;
+  Bounds bounds_file_m;            // of the points in the file's own frame, poses applied; empty without points
+  std::string crs;                 // as in CloudInfo
+  Report report;
+};
+// Reads all points once, in memory that does not grow with them.
+Result<CloudExtent> measureCloud(const std::filesystem::path& file, Progress& progress);
 
 // Writers create `file` + ".part" and rename it in close(), so a full disk or a crash leaves the old file as it was.
 

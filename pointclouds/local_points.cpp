@@ -61,8 +61,8 @@ void FoundPoints::clear() {
   columns.clear();
 }
 
-LocalPoints::LocalPoints(PointSink& sink, ScanHeader header, bool moves_frame)
-    : sink_(sink), header_(std::move(header)), moves_frame_(moves_frame) {}
+LocalPoints::LocalPoints(PointSink& sink, ScanHeader header, bool moves_frame, double fineness_m)
+    : sink_(sink), header_(std::move(header)), moves_frame_(moves_frame), fineness_m_(fineness_m) {}
 
 Result<void> LocalPoints::begin(const FoundPoints* first) {
   begun_ = true;
@@ -99,7 +99,7 @@ Result<void> LocalPoints::finish(Report& report) {
                                   " m");
   const std::string rounding =
       "coordinates became single floats, moved by up to " + numberText(worst_rounding_m_) + " m";
-  if (worst_rounding_m_ > kLoss_m)
+  if (worst_rounding_m_ > std::max(kLoss_m, fineness_m_))
     report.lose(header_.name, rounding);
   else if (worst_rounding_m_ > kWorthListing_m)
     report.note(header_.name, rounding);

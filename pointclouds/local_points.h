@@ -23,8 +23,9 @@ struct FoundPoints {
 // in a national grid); then the frame is moved by whole metres and the pose takes the move up.
 class LocalPoints {
  public:
-  // `moves_frame`: whether the file's coordinates are finer than a float at all.
-  LocalPoints(PointSink& sink, ScanHeader header, bool moves_frame);
+  // `moves_frame`: whether the file's coordinates are finer than a float at all. Rounding up to `fineness_m`, half a
+  // step of the file's own coordinates, loses nothing.
+  LocalPoints(PointSink& sink, ScanHeader header, bool moves_frame, double fineness_m = 0);
   Result<void> write(FoundPoints& points);  // drops points that are not finite; clears `points`
   Result<void> finish(Report& report);
 
@@ -34,7 +35,7 @@ class LocalPoints {
   ScanHeader header_;
   bool moves_frame_ = false, begun_ = false;
   Eigen::Vector3d move_ = Eigen::Vector3d::Zero();
-  double worst_rounding_m_ = 0;
+  double worst_rounding_m_ = 0, fineness_m_ = 0;
   std::uint64_t not_finite_ = 0;
 };
 

@@ -5,7 +5,8 @@
 
 namespace standpoint {
 
-// Binary little-endian PLY of one scan in the file's frame, for tools that train on labelled points. Only written.
+// PLY of points alone. Written: binary little-endian, one scan in the file's frame, for tools that train on labelled
+// points. Read: ASCII and binary of both byte orders.
 extern const CloudFormat kPly;
 
 namespace ply {
@@ -13,6 +14,12 @@ namespace ply {
 // int scalar_Product, int scalar_Row and scalar_Column. CloudCompare takes no others than "scalar_…", Open3D neither
 // uint nor short; comments in the header name the labels.
 Result<std::unique_ptr<CloudWriter>> createWriter(const std::filesystem::path& file);
+
+// The vertices' x y z, intensity and colour in any order and type; the report names what else they have. Of a mesh the
+// vertices are the points.
+Result<Report> read(const std::filesystem::path& file, PointSink& sink, Progress& progress);
+Result<CloudInfo> info(const std::filesystem::path& file);  // reads no points
+bool hasFaces(const std::filesystem::path& file);           // false also when it cannot be read
 }  // namespace ply
 
 }  // namespace standpoint

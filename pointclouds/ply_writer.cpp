@@ -9,8 +9,8 @@
 namespace standpoint {
 
 const CloudFormat kPly = {
-    "ply",  "PLY: one cloud in the file's frame, with labels as scalars", ".ply", false, ply::createWriter, nullptr,
-    nullptr};
+    "ply", "PLY: one cloud in the file's frame, with labels as scalars", ".ply", false, ply::createWriter, ply::read,
+    ply::info};
 
 namespace ply {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "pointclouds/line_reader.h"
 #include "pointclouds/local_points.h"
+#include "pointclouds/measure.h"
 #include "pointclouds/number_text.h"
 #include "pointclouds/ptx.h"
 
@@ -233,16 +234,6 @@ Result<Report> Reader::read() {
   return report_;
 }
 
-// Counts what a reader passes on.
-class Counter final : public PointSink {
- public:
-  std::vector<ScanInfo> scans;
-  Result<void> begin(const ScanHeader& header) override { return scans.push_back({header, 0}), Result<void>{}; }
-  Result<void> write(const PointBlock& block) override { return scans.back().points += block.size(), Result<void>{}; }
-  Result<void> end() override { return {}; }
-  Result<void> close() override { return {}; }
-};
-
 }  // namespace
 
 Result<Report> read(const std::filesystem::path& file, PointSink& sink, Progress& progress) {
@@ -252,7 +243,7 @@ Result<Report> read(const std::filesystem::path& file, PointSink& sink, Progress
 }
 
 Result<CloudInfo> info(const std::filesystem::path& file) {
-  Counter counter;
+  PointCounter counter;
   Progress progress;
   auto report = read(file, counter, progress);
   if (!report) return failure(report.error());

@@ -38,6 +38,8 @@ json georeferenceToJson(const Georeference& g) {
                                 {"abscissa", g.map_from_file->x_axis_abscissa},
                                 {"ordinate", g.map_from_file->x_axis_ordinate},
                                 {"scale", g.map_from_file->scale}};
+  if (g.map_from_file && g.map_from_file->factors != Eigen::Vector3d::Ones())
+    object["map_conversion"]["factors"] = toJson(g.map_from_file->factors);
   if (g.site)
     object["site"] = {{"latitude_deg", g.site->latitude_deg},
                       {"longitude_deg", g.site->longitude_deg},
@@ -55,6 +57,7 @@ Result<Georeference> georeferenceFrom(const json& object) {
       const auto& c = object.at("map_conversion");
       g.map_from_file = MapConversion{c.at("eastings"), c.at("northings"), c.at("height"),
                                       c.at("abscissa"), c.at("ordinate"),  c.at("scale")};
+      if (c.contains("factors")) g.map_from_file->factors = vectorFrom(c.at("factors"));
     }
     if (object.contains("site")) {
       const auto& s = object.at("site");

@@ -31,6 +31,18 @@ struct MaterialChoice {
   MaterialResult result;
 };
 
+// A measured cloud that lies under the model to be compared with. Its points stay in their file.
+struct Underlay {
+  std::string name;
+  std::string file;             // absolute
+  std::string format;           // "e57"
+  std::uint64_t points = 0;
+  Bounds bounds_cloud_m;        // in the cloud's own frame: what its file has, the poses of its scans applied
+  Pose file_from_cloud;         // into the model's file frame
+  std::string crs;              // that the cloud states, as WKT or "EPSG:n", or empty
+  bool visible = true;
+};
+
 // The document is a value: every part is shared and immutable; two parts with the same pointer have not changed, so a
 // viewport or a ray engine rebuilds only what did. Parts that do not exist yet are null.
 struct Document {
@@ -43,6 +55,7 @@ struct Document {
   std::shared_ptr<const CollideResult> collision;
   std::shared_ptr<const MaterialChoice> materials;
   std::shared_ptr<const Job> job;
+  std::vector<std::shared_ptr<const Underlay>> underlays;
 
   // What is shown, walked in and scanned: the lighter environment where there is one.
   const std::shared_ptr<const Environment>& environment() const {

@@ -52,9 +52,10 @@ Result<Outcome> runExport(const Document& document, const json& options, Progres
   const fs::path file = options.at("output").get<std::string>();
   progress.stage("Export " + file.filename().string());
   const auto extension = lowerExtension(file);
-  const auto write = extension == ".glb" ? writeEnvironmentGlb : extension == ".obj" ? writeEnvironmentObj : nullptr;
+  const bool gltf = extension == ".glb" || extension == ".gltf";
+  const auto write = gltf ? exportEnvironmentGltf : extension == ".obj" ? writeEnvironmentObj : nullptr;
   if (write == nullptr)
-    return failure(ErrorKind::usage, fmt::format("'{}' cannot be written; there is .glb and .obj", extension), "--output");
+    return failure(ErrorKind::usage, fmt::format("'{}' cannot be written; there is .glb, .gltf and .obj", extension), "--output");
   if (auto ok = write(*document.environment(), *document.georeference, file, progress); !ok) return failure(ok.error());
   Outcome outcome{document, {{"file", file.string()}, {"triangles", triangleCount(*document.environment())}}, {}, {}};
   outcome.description = "Exported " + file.filename().string();
@@ -80,7 +81,7 @@ Result<Outcome> runInfo(const Document& document, const json& options, Progress&
   if (auto ok = mustExist(file); !ok) return failure(ok.error());
   progress.stage("Read " + file.filename().string());
   Outcome outcome{document, json::object(), {}, {}};
-  if (const auto* format = cloudFormatFor(file); format != nullptr && format->info != nullptr) {
+  if (const auto* format = readableCloudFormat(file)) {
     auto info = format->info(file);
     if (!info) return failure(info.error());
     json scans = json::array();
@@ -89,7 +90,8 @@ Result<Outcome> runInfo(const Document& document, const json& options, Progress&
       scans.push_back(scanInfo(s));
       points += s.points;
     }
-    outcome.answer = {{"format", info->format}, {"points", points}, {"scans", std::move(scans)}};
+    outcome.answer = {{"format", info->format}, {"points", points}, {"scans", std::move(scans)},
+                      {"crs", info->crs.empty() ? json(nullptr) : json(info->crs)}};
     outcome.report = info->report;
     return outcome;
   }

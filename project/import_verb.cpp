@@ -10,6 +10,8 @@
 
 #include "project/answers.h"
 #include "project/geodesy.h"
+#include "project/update_verb.h"
+#include "project/model_verbs.h"
 
 namespace standpoint {
 
@@ -28,7 +30,12 @@ void appendEnvironment(Environment& into, Environment&& model, const Eigen::Vect
     for (auto& s : moved->surface_of_triangle) s += surface_offset;
     into.meshes.push_back(std::move(moved));
   }
-  into.surfaces.insert(into.surfaces.end(), model.surfaces.begin(), model.surfaces.end());
+  const auto image_offset = static_cast<std::int32_t>(into.images.size());
+  for (auto& surface : model.surfaces) {
+    if (surface.image >= 0) surface.image += image_offset;
+    into.surfaces.push_back(std::move(surface));
+  }
+  into.images.insert(into.images.end(), model.images.begin(), model.images.end());
   for (auto& product : model.products) {
     if (product.container >= 0) product.container += spatial_offset;
     if (product.whole >= 0) product.whole += static_cast<std::int32_t>(product_offset);
@@ -74,9 +81,97 @@ std::vector<json> productVolumes(const Environment& environment) {
   return result;
 }
 
+// From the project down to where it stands: "House / Block A / Ground".
+std::string placeOf(const Environment& environment, const Product& product) {
+  std::string path;
+  for (std::int32_t n = product.container; n >= 0; n = environment.spatial[static_cast<std::size_t>(n)].parent) {
+    const auto& node = environment.spatial[static_cast<std::size_t>(n)];
+    const auto& word = node.name.empty() ? node.ifc_class : node.name;
+    path = path.empty() ? word : word + " / " + path;
+  }
+  return path;
+}
+
+json layerRows(const Product& product) {
+  json rows = json::array();
+  for (const auto& layer : product.layers) rows.push_back({{"material", layer.name}, {"thickness", layer.thickness_m}});
+  return rows;
+}
+
+// {set: {name: value}}; where a name stands several times in a set, its values are a list.
+json propertySets(const std::vector<Property>& properties) {
+  json sets = json::object();
+  for (const auto& p : properties) {
+    json& at = sets[p.set][p.name];
+    if (at.is_null()) {
+      at = p.value;
+    } else {
+      if (!at.is_array()) at = json::array({at});
+      at.push_back(p.value);
+    }
+  }
+  return sets;
+}
+
+json spatialRows(const Environment& environment) {
+  json rows = json::array();
+  for (const auto& n : environment.spatial)
+    rows.push_back({{"id", n.id},
+                    {"global_id", n.global_id},
+                    {"class", n.ifc_class},
+                    {"name", n.name},
+                    {"parent", n.parent < 0 ? json(nullptr) : json(environment.spatial[static_cast<std::size_t>(n.parent)].id)},
+                    {"elevation", n.elevation_m},
+                    {"properties", propertySets(n.properties)}});
+  return rows;
+}
+
+json surfaceRows(const Environment& environment) {
+  json rows = json::array();
+  for (const auto& s : environment.surfaces) {
+    json row = {{"name", s.name}, {"source", s.source}, {"colour", {s.colour.r, s.colour.g, s.colour.b, s.colour.a}}};
+    if (s.image >= 0) row["image"] = environment.images[static_cast<std::size_t>(s.image)]->name;
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+using SurfaceAreas = std::map<std::uint32_t, double>;   // m² by surface
+
+SurfaceAreas surfaceAreas(const Mesh& mesh, const Eigen::Matrix3d& linear) {
+  SurfaceAreas areas;
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+    const auto& t = mesh.triangles[k];
+    const Eigen::Vector3d a = mesh.positions[t[0]].cast<double>();
+    const Eigen::Vector3d u = linear * (mesh.positions[t[1]].cast<double>() - a), v = linear * (mesh.positions[t[2]].cast<double>() - a);
+    areas[mesh.surface_of_triangle[k]] += u.cross(v).norm() / 2;
+  }
+  return areas;
+}
+
+// What each product shows: a wall of several layers has several. Meshes that are placed often are measured once.
+std::vector<SurfaceAreas> productSurfaces(const Environment& environment) {
+  std::vector<SurfaceAreas> of_mesh(environment.meshes.size()), result(environment.products.size());
+  for (const auto& i : environment.instances) {
+    const Eigen::Matrix3d linear = i.world_from_mesh.linear();
+    const bool rigid = (linear.transpose() * linear).isIdentity(1e-9);
+    auto& kept = of_mesh[i.mesh];
+    if (rigid && kept.empty()) kept = surfaceAreas(*environment.meshes[i.mesh], Eigen::Matrix3d::Identity());
+    for (const auto& [surface, area] : rigid ? kept : surfaceAreas(*environment.meshes[i.mesh], linear)) result[i.product][surface] += area;
+  }
+  return result;
+}
+
+json surfacesOf(const SurfaceAreas& areas, const Environment& environment) {
+  json rows = json::array();
+  for (const auto& [surface, area] : areas) rows.push_back({{"surface", surface}, {"name", environment.surfaces[surface].name}, {"area", area}});
+  return rows;
+}
+
 json productRows(const Environment& environment, const Eigen::Vector3d& shift_m) {
   const auto product_bounds = productBounds(environment);
   const auto volumes = productVolumes(environment);
+  const auto surfaces = productSurfaces(environment);
   std::vector<std::uint64_t> triangles(environment.products.size());
   for (const auto& i : environment.instances) triangles[i.product] += environment.meshes[i.mesh]->triangles.size();
   json rows = json::array();
@@ -85,12 +180,21 @@ json productRows(const Environment& environment, const Eigen::Vector3d& shift_m)
     rows.push_back({{"id", p.id},
                     {"global_id", p.global_id},
                     {"class", p.ifc_class},
+                    {"predefined_type", p.predefined_type},
                     {"name", p.name},
+                    {"type", p.type_name},
                     {"storey", p.storey},
+                    {"place", placeOf(environment, p)},
+                    {"whole", p.whole < 0 ? json(nullptr) : json(environment.products[static_cast<std::size_t>(p.whole)].id)},
+                    {"tangible", p.tangible},
+                    {"groups", p.groups},
                     {"triangles", triangles[i]},
                     {"bounds", toJson(product_bounds[i], shift_m)},
                     {"volume", volumes[i]},
-                    {"materials", p.materials}});
+                    {"materials", p.materials},
+                    {"layers", layerRows(p)},
+                    {"surfaces", surfacesOf(surfaces[i], environment)},
+                    {"properties", propertySets(p.properties)}});
   }
   return rows;
 }
@@ -147,12 +251,17 @@ Result<Outcome> importModels(const Document& document, const std::vector<std::fi
       outcome.report.warn(files[i].filename().string(), "its georeference differs from the first file's, which is used");
     appendEnvironment(environment, std::move(model->environment), model->georeference.shift_m - georeference.shift_m);
   }
+  const bool building = std::any_of(environment.spatial.begin(), environment.spatial.end(), [](const SpatialNode& n) { return n.ifc_class == "IfcBuilding"; });
+  if (building && crs.empty() && georeference.crs.empty() && !georeference.map_from_file)
+    outcome.report.warn("georeference", "the model does not say where on a map it stands; `georeference` sets it (--crs, --origin, --rotation-deg)");
   if (!crs.empty()) {
     auto found = findCrs(crs);
     if (!found) return failure(found.error());
     georeference.crs = found->code;
   }
   outcome.answer = {{"products", productRows(environment, georeference.shift_m)},
+                    {"spatial", spatialRows(environment)},
+                    {"surfaces", surfaceRows(environment)},
                     {"triangles", triangleCount(environment)},
                     {"bounds", toJson(bounds(environment), georeference.shift_m)},
                     {"georeference", georeferenceToJson(georeference)}};
@@ -170,7 +279,43 @@ Result<Outcome> runImport(const Document& document, const json& options, Progres
   if (!typed) return failure(typed.error());
   std::vector<std::filesystem::path> files;
   for (const auto& f : options.at("files")) files.emplace_back(f.get<std::string>());
-  return importModels(document, files, *typed, options.value("crs", ""), progress);
+  const auto crs = options.value("crs", "");
+  return options.value("update", false) ? updateModels(document, std::move(files), *typed, crs, progress)
+                                        : importModels(document, files, *typed, crs, progress);
+}
+
+Result<Outcome> addImported(const Document& document, Outcome imported, Progress& progress) {
+  const Georeference &mine = *document.georeference, &its = *imported.document.georeference;
+  Outcome outcome{document, std::move(imported.answer), std::move(imported.report), {}};
+  const std::string source = imported.document.sources.empty() ? "" : std::filesystem::path(imported.document.sources.front()).filename().string();
+  if (its.crs != mine.crs || !sameConversion(its, mine))
+    outcome.report.warn(source, "its georeference differs from the environment's, which is used");
+  Report all = *document.import_report;
+  all.append(outcome.report);
+  auto environment = std::make_shared<Environment>(*document.imported);
+  const auto products = imported.document.imported->products.size();
+  appendEnvironment(*environment, Environment(*imported.document.imported), its.shift_m - mine.shift_m);
+  Document& d = outcome.document;
+  d.imported = std::move(environment);
+  d.import_report = std::make_shared<const Report>(std::move(all));
+  d.sources.insert(d.sources.end(), imported.document.sources.begin(), imported.document.sources.end());
+  if (d.lightening || d.collision)
+    outcome.report.note(source, "the lighter model and the collision shapes were of the model as it was: make them again");
+  d.lightening.reset();
+  d.collision.reset();
+  if (d.materials) {
+    auto assigned = assignDocumentMaterials(d, "", {}, progress);
+    if (!assigned) return failure(assigned.error());
+    d.materials = assigned->document.materials;
+  }
+  outcome.description = fmt::format("Added {}: {} products", source, products);
+  return outcome;
+}
+
+Result<Outcome> runAdd(const Document& document, const json& options, Progress& progress) {
+  auto imported = runImport(Document(), options, progress);
+  if (!imported) return imported;
+  return addImported(document, *std::move(imported), progress);
 }
 
 }  // namespace standpoint

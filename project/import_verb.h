@@ -14,6 +14,11 @@ namespace standpoint {
 Result<Outcome> importModels(const Document& document, const std::vector<std::filesystem::path>& files,
                              const ImportOptions& options, const std::string& crs, Progress& progress);
 
+// The outcome of importModels, put beside what `document` has: its georeference, job and underlays stay, materials are
+// assigned anew by its rules, and what was derived from the model as it was (lighter model, collision shapes) is dropped.
+Result<Outcome> addImported(const Document& document, Outcome imported, Progress& progress);
+
+Result<Outcome> runAdd(const Document& document, const nlohmann::json& options, Progress& progress);
 Result<Outcome> runImport(const Document& document, const nlohmann::json& options, Progress& progress);
 
 }  // namespace standpoint

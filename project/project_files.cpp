@@ -11,6 +11,7 @@
 
 #include "importers/importers.h"
 #include "project/project_json.h"
+#include "project/underlays.h"
 
 namespace standpoint {
 
@@ -20,6 +21,7 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr const char* kProjectFile = "project.json";
+constexpr auto kReplace = json::error_handler_t::replace;   // of a name that is not UTF-8 the bytes that are wrong
 
 tl::unexpected<Error> cannotWrite(const fs::path& file) {
   return failure(ErrorKind::file_system,
@@ -74,7 +76,7 @@ Result<std::string> storeEnvironment(const Environment& environment, const Geore
 
 Result<std::string> storeJson(const json& value, const fs::path& geometry, const std::string& stem) {
   const auto fresh = geometry / (".new-" + stem + ".json");
-  if (auto written = writeText(fresh, value.dump()); !written) {
+  if (auto written = writeText(fresh, value.dump(-1, ' ', false, kReplace)); !written) {
     std::error_code ignored;
     fs::remove(fresh, ignored);
     return failure(written.error());
@@ -127,6 +129,7 @@ Result<Document> fromJson(const json& project, const fs::path& folder, Progress&
     if (!shapes) return failure(shapes.error());
     d.collision = collisionFrom(part, *shapes);
   }
+  if (project.contains("underlays")) d.underlays = underlaysFrom(project.at("underlays"), folder);
   return d;
 }
 
@@ -155,6 +158,7 @@ Result<void> saveProject(const Document& document, const fs::path& folder, Progr
   if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder.string());
 
   json project = documentToJson(document);
+  if (!document.underlays.empty()) project["underlays"] = underlaysToJson(document.underlays, folder);
   std::set<std::string> named;
   const auto store = [&](json& at, const char* key, Result<std::string> name) -> Result<void> {
     if (!name) return failure(name.error());
@@ -174,7 +178,7 @@ Result<void> saveProject(const Document& document, const fs::path& folder, Progr
       return ok;
 
   const auto fresh = folder / ".project.json.new";
-  if (auto written = writeText(fresh, project.dump(2) + "\n"); !written) {
+  if (auto written = writeText(fresh, project.dump(2, ' ', false, kReplace) + "\n"); !written) {
     fs::remove(fresh, error);
     return written;
   }

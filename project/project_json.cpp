@@ -7,8 +7,6 @@
 
 namespace standpoint {
 
-namespace {
-
 using nlohmann::json;
 
 json poseToJson(const Pose& p) {
@@ -19,6 +17,8 @@ Pose poseFrom(const json& j) {
   const auto& q = j.at("rotation");
   return {Eigen::Quaterniond(q.at(0), q.at(1), q.at(2), q.at(3)), vectorFrom(j.at("translation"))};
 }
+
+namespace {
 
 json scanToJson(const Scan& s) {
   return {{"instrument", s.instrument}, {"file", s.file}, {"format", s.format}, {"settings", s.settings}, {"seed", s.seed},

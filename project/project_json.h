@@ -31,6 +31,9 @@ std::shared_ptr<const CollideResult> collisionFrom(const nlohmann::json& part, c
 // Empty when the parts fit each other (indices of products, surfaces, materials in range).
 std::string inconsistency(const Document& document);
 
+nlohmann::json poseToJson(const Pose& pose);
+Pose poseFrom(const nlohmann::json& pose);
+
 std::uint64_t contentHash(const std::string& bytes);
 
 }  // namespace standpoint

@@ -28,19 +28,23 @@ Result<Outcome> runOnProject(const Verb& verb, const json& options, Progress& pr
   // A wrong option is said before minutes are spent on reading.
   if (auto checked = checkOptions(verb, own); !checked) return failure(checked.error());
   std::error_code ignored;
-  if (verb.scope == VerbScope::creates && std::filesystem::exists(*folder, ignored) &&
+  const bool update = options.value("update", false);
+  if (update && options.value("replace", false))
+    return failure(ErrorKind::usage, "--update keeps what is in the project and --replace does not; say one of them", "--update");
+  const bool creates = verb.scope == VerbScope::creates && !update;
+  if (creates && std::filesystem::exists(*folder, ignored) &&
       !std::filesystem::is_empty(*folder, ignored) && !options.value("replace", false))
     return failure(ErrorKind::usage, "there is something here already; choose another folder, or say --replace",
                    folder->string());
   Document document;
-  if (verb.scope != VerbScope::creates) {
+  if (!creates) {
     auto loaded = loadProject(*folder, progress);
     if (!loaded) return failure(loaded.error());
     document = *std::move(loaded);
   }
   auto outcome = runVerb(verb, document, own, progress);
   if (!outcome) return outcome;
-  if (verb.scope == VerbScope::creates) outcome->document.name = std::filesystem::absolute(*folder).filename().string();
+  if (creates) outcome->document.name = std::filesystem::absolute(*folder).filename().string();
   if (verb.scope != VerbScope::reads && outcome->document != document)
     if (auto saved = saveProject(outcome->document, *folder, progress); !saved) return failure(saved.error());
   return outcome;

@@ -5,6 +5,7 @@
 #include "project/import_verb.h"
 #include "project/model_verbs.h"
 #include "project/survey_verbs.h"
+#include "project/underlays.h"
 #include "project/verb.h"
 
 namespace standpoint {
@@ -18,15 +19,23 @@ using S = VerbScope;
 // editor's forms follow from it.
 const std::vector<Verb>& table() {
   static const std::vector<Verb> verbs = {
-      {"import", "Reads models (IFC, glTF, OBJ) into a new project", S::creates,
+      {"import", "Reads models (IFC, glTF, OBJ, PLY, STL) into a new project, or changed ones into their own (--update)", S::creates,
        {{.name = "files", .kind = K::list, .help = "the model files", .positional = true, .required = true},
         {.name = "output", .kind = K::path, .help = "folder of the new project"},
         {.name = "replace", .kind = K::flag, .help = "replace what is in that folder"},
+        {.name = "update", .kind = K::flag, .help = "take in a changed model: keeps stations, targets and materials, and answers what changed"},
         {.name = "shift", .kind = K::text, .help = "global shift: auto, none, or E,N,H", .unit = "m", .standard = "auto"},
         {.name = "crs", .kind = K::text, .help = "coordinate reference system, as EPSG:n"},
         {.name = "up", .kind = K::choice, .help = "which axis of the file points up (default: as the format says)", .choices = {"y", "z"}},
         {.name = "unit", .kind = K::choice, .help = "unit of the file's coordinates (default: as the format says)", .choices = {"m", "cm", "mm", "in", "ft"}}},
        runImport},
+      {"add", "Adds models to the environment beside what is in it", S::changes,
+       {{.name = "files", .kind = K::list, .help = "the model files", .positional = true, .required = true},
+        {.name = "shift", .kind = K::text, .help = "global shift of what is added: auto, none, or E,N,H", .unit = "m", .standard = "auto"},
+        {.name = "crs", .kind = K::text, .help = "coordinate reference system of the files, as EPSG:n"},
+        {.name = "up", .kind = K::choice, .help = "which axis of the files points up (default: as the format says)", .choices = {"y", "z"}},
+        {.name = "unit", .kind = K::choice, .help = "unit of the files' coordinates (default: as the format says)", .choices = {"m", "cm", "mm", "in", "ft"}}},
+       runAdd},
       {"optimize", "Brings the model to a polygon budget and measures what that costs", S::changes,
        {{.name = "budget", .kind = K::integer, .help = "placed triangles in all; 0 merges planar regions only", .minimum = 0, .maximum = 1e12},
         {.name = "max-deviation", .kind = K::number, .help = "no surface may move further", .unit = "m", .standard = 0.015, .minimum = 0, .maximum = 1000}},
@@ -61,6 +70,16 @@ const std::vector<Verb>& table() {
         {.name = "size", .kind = K::number, .help = "diameter or side", .unit = "m", .standard = 0.145, .minimum = 0.01, .maximum = 2},
         {.name = "normal", .kind = K::triple, .help = "where a checkerboard faces"}},
        runTarget},
+      {"underlay", "Lays point clouds under the model, or lists those that do; the points stay in their files", S::changes,
+       {{.name = "add", .kind = K::path, .help = "cloud file (.e57, .las, .ply, .ptx, .pts, .xyz)"},
+        {.name = "name", .kind = K::text, .help = "of what is added (default: the file's)"},
+        {.name = "move", .kind = K::text, .help = "name of the underlay to move"},
+        {.name = "remove", .kind = K::text, .help = "name of the underlay to remove"},
+        {.name = "show", .kind = K::text, .help = "name of the underlay to show"},
+        {.name = "hide", .kind = K::text, .help = "name of the underlay to hide"},
+        {.name = "at", .kind = K::triple, .help = "X,Y,Z of the cloud's origin in the file's frame (default: by the map conversion, else as the cloud is)", .unit = "m"},
+        {.name = "yaw-deg", .kind = K::number, .help = "from the file's X axis to the cloud's, counter-clockwise", .unit = "deg", .minimum = -360, .maximum = 360}},
+       runUnderlay},
       {"scan", "Scans from the stations with an instrument into point-cloud files", S::changes,
        {{.name = "stations", .kind = K::text, .help = "all, or names separated by commas", .standard = "all"},
         {.name = "instrument", .kind = K::text, .help = "id of the instrument, such as leica-rtc360", .required = true},
@@ -72,7 +91,7 @@ const std::vector<Verb>& table() {
         {.name = "output", .kind = K::path, .help = "a folder, or a file (.e57, .ptx); an E57 holds all stations", .required = true}},
        runScan},
       {"export", "Writes the model as glTF binary or OBJ", S::reads,
-       {{.name = "output", .kind = K::path, .help = "file to write (.glb, .obj)", .required = true}}, runExport},
+       {{.name = "output", .kind = K::path, .help = "file to write (.glb, .gltf, .obj)", .required = true}}, runExport},
       {"convert", "Converts a point cloud", S::files,
        {{.name = "in", .kind = K::path, .help = "cloud to read", .positional = true, .required = true},
         {.name = "out", .kind = K::path, .help = "cloud to write", .positional = true, .required = true}},

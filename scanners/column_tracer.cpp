@@ -45,7 +45,7 @@ void ColumnTracer::trace(std::uint32_t column, PointBlock& block) {
   for (std::uint32_t row = 0; row < plan_.settings.rows; row += kPacket) {
     packet_.pulses = static_cast<int>(std::min<std::uint32_t>(kPacket, plan_.settings.rows - row));
     aim(row);
-    plan_.scene.intersect(packet_.rays, packet_.pulses, static_cast<float>(plan_.instrument.max_range_m), packet_.hits);
+    plan_.scene.intersect(packet_.rays, packet_.pulses, static_cast<float>(plan_.settings.max_range_m), packet_.hits);
     gather();
     if (packet_.targets == 0) continue;
     receiveAll(row);
@@ -106,7 +106,7 @@ void ColumnTracer::gather() {
     target = surface.optics->transparent ? lookThrough(beam, hit)
                                          : meet(beam, rangeOnPlane(surface.facet, beam.origin, beam.direction, hit.range_m), surface);
     target.lane = k;
-    if (target.range_m >= plan_.instrument.min_range_m && target.range_m <= plan_.instrument.max_range_m) ++packet_.targets;
+    if (target.range_m >= plan_.instrument.min_range_m && target.range_m <= plan_.settings.max_range_m) ++packet_.targets;
   }
 }
 
@@ -145,7 +145,7 @@ ColumnTracer::Target ColumnTracer::lookThrough(const Beam& beam, const NearestHi
     } else {
       inside_product = -1;
     }
-    hit = plan_.scene.nearest(beam.origin, beam.direction, hit.range_m + kBehindFace, plan_.instrument.max_range_m);
+    hit = plan_.scene.nearest(beam.origin, beam.direction, hit.range_m + kBehindFace, plan_.settings.max_range_m);
   }
   return best;
 }

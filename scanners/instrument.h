@@ -23,7 +23,7 @@ struct Evidence {
 struct SettingChoice {
   std::string value;               // "12mm"
   std::string label;               // "Low (12 mm @ 10 m)"
-  // What the choice changes: column/row counts, measurement rate, noise factor, passes, seconds (see the schema).
+  // What the choice changes: column/row counts, measurement rate, noise factor, passes, seconds, range (see the schema).
   std::map<std::string, double> effects;
 };
 struct InstrumentSetting {
@@ -85,6 +85,7 @@ struct ScanSettings {
   std::uint32_t columns = 0, rows = 0;
   double azimuth_from_rad = 0, azimuth_to_rad = 0;
   double elevation_from_rad = 0, elevation_to_rad = 0;
+  double max_range_m = 0, reference_reflectivity = 0;   // the instrument's own, or those of the chosen range mode
   double noise_factor = 1;
   int passes = 1;                  // 2 = double scan
   bool imaging = false;

@@ -274,7 +274,7 @@ class Reader {
     static const std::map<std::string, Domain> kEffects = {
         {"columns", {2, 1e6}},      {"rows", {1, 1e6}},   {"scan_seconds", {0.01, 1e5}}, {"rate_hz", {1, 1e9}},
         {"noise_factor", {0.01, 100}}, {"passes", {1, 16}},  {"imaging", {0, 1}},           {"imaging_seconds", {0, 1e4}},
-        {"area", {0, 1}}};
+        {"area", {0, 1}},           {"max_range_m", {1, 10000}}, {"reference_reflectivity", {0.001, 1}}};
     SettingChoice choice;
     choice.value = text(entry, "value");
     choice.label = text(entry, "label");

@@ -55,8 +55,8 @@ float glossEquivalent(const Optics& optics, float cosine) {
   return optics.glint * static_cast<float>(portable::expNegative(-exponent)) / (square * square * cosine);
 }
 
-double detectionThreshold(const Instrument& instrument) {
-  return instrument.reference_reflectivity / (instrument.max_range_m * instrument.max_range_m);
+double detectionThreshold(const ScanSettings& settings) {
+  return settings.reference_reflectivity / (settings.max_range_m * settings.max_range_m);
 }
 
 SlabPower slab(double index, double inner_transmittance_at_normal, double cosine) {

@@ -49,7 +49,7 @@ inline float nearRangeFactor(const Instrument& instrument, float range_m) {
 }
 
 // x_min = ρ_ref / R_max² of the data sheet (§2.7).
-double detectionThreshold(const Instrument& instrument);
+double detectionThreshold(const ScanSettings& settings);
 
 // A slab in air, both polarisations averaged, all inner reflections added (§4.6).
 struct SlabPower {

@@ -60,7 +60,7 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
   const double average = 1 / std::sqrt(static_cast<double>(settings.passes));
   noise_scale = options.ideal ? 0 : settings.noise_factor * average;
   jitter_rad = options.ideal ? 0 : instrument.angle_jitter_rad * average;
-  threshold = detectionThreshold(instrument);
+  threshold = detectionThreshold(settings);
   softness = options.ideal ? 0 : threshold * instrument.detection_softness;
   for (std::uint32_t row = 0; row < settings.rows; ++row) {
     sine.push_back(std::sin(elevation_rad(row)));

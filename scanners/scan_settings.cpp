@@ -64,12 +64,15 @@ Result<SettingValues> complete(const Instrument& instrument, const SettingValues
 
 struct Effects {
   double columns = 0, rows = 0, seconds = 0, rate_hz = 0, noise_factor = 1, passes = 1, imaging = 0, imaging_seconds = 0;
+  double max_range_m = 0, reference_reflectivity = 0;
   bool area = true;
 };
 
 Effects gather(const Instrument& instrument, const SettingValues& values) {
   Effects sum;
   sum.imaging_seconds = instrument.imaging_seconds;
+  sum.max_range_m = instrument.max_range_m;
+  sum.reference_reflectivity = instrument.reference_reflectivity;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const SettingChoice* choice = choiceOf(instrument.settings[i], values[i].second);
     if (choice == nullptr) continue;
@@ -82,6 +85,8 @@ Effects gather(const Instrument& instrument, const SettingValues& values) {
       if (key == "passes") sum.passes *= value;
       if (key == "imaging") sum.imaging = value;
       if (key == "imaging_seconds") sum.imaging_seconds = value;
+      if (key == "max_range_m") sum.max_range_m = value;
+      if (key == "reference_reflectivity") sum.reference_reflectivity = value;
       if (key == "area") sum.area = value > 0;
     }
   }
@@ -159,6 +164,8 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
   settings.azimuth_to_rad = area->horizontal_to * kRadPerDeg;
   settings.elevation_from_rad = area->vertical_from * kRadPerDeg;
   settings.elevation_to_rad = area->vertical_to * kRadPerDeg;
+  settings.max_range_m = effects.max_range_m;
+  settings.reference_reflectivity = effects.reference_reflectivity;
   settings.noise_factor = effects.noise_factor;
   settings.passes = static_cast<int>(effects.passes);
   settings.imaging = effects.imaging > 0;

@@ -200,7 +200,7 @@ void Session::succeed(Task& task, Outcome outcome) {
     removeRecovery(folderOf(task.options()).parent_path());
     ++revision_;
   } else if (writesDocument(task.verb())) {
-    if (task.verb().scope == VerbScope::creates) folder_.clear();
+    if (task.verb().scope == VerbScope::creates && !task.options().value("update", false)) folder_.clear();
     history_.push(std::move(outcome.document), text);
     ++revision_;
   }

@@ -19,13 +19,27 @@ namespace {
 
 std::string triple(const Eigen::Vector3d& v) { return fmt::format("{:.3f}  {:.3f}  {:.3f}", v.x(), v.y(), v.z()); }
 
+const std::string& nodeLabel(const SpatialNode& node) { return node.name.empty() ? node.ifc_class : node.name; }
+
+// "House › Block A › Ground"
+std::string placeOf(const Environment& environment, const Product& product) {
+  std::string path;
+  for (auto n = product.container; n >= 0; n = environment.spatial[static_cast<std::size_t>(n)].parent) {
+    const auto& node = environment.spatial[static_cast<std::size_t>(n)];
+    path = path.empty() ? nodeLabel(node) : nodeLabel(node) + " › " + path;
+  }
+  return path;
+}
+
 void drawIdentity(const Editor& editor, const Product& product) {
   if (!ui::beginProperties("identity", 0.25F)) return;
   ui::property("Class", product.ifc_class.empty() ? "Object" : product.ifc_class);
-  if (!product.predefined_type.empty()) ui::property("Type", product.predefined_type);
+  if (!product.predefined_type.empty()) ui::property("Kind", product.predefined_type);
+  if (!product.type_name.empty()) ui::property("Type", product.type_name);
   ui::property("Id", product.id);
   if (!product.global_id.empty()) ui::property("GlobalId", product.global_id);
-  if (!product.storey.empty()) ui::property("Storey", product.storey);
+  if (const auto place = placeOf(*editor.environment(), product); !place.empty()) ui::property("Place", place);
+  for (const auto& group : product.groups) ui::property("Group", group);
   if (product.whole >= 0) ui::property("Part of", productLabel(editor.environment()->products[static_cast<std::size_t>(product.whole)]));
   ui::endProperties();
 }
@@ -61,10 +75,35 @@ void drawLayers(const Editor& editor, const Product& product) {
   ui::heading(editor, "Materials of the model");
   if (!ui::beginProperties("layers", 0.68F)) return;
   for (const auto& layer : product.layers)
-    ui::property(layer.name.empty() ? "Layer" : layer.name.c_str(), fmt::format("{:.0f} mm", layer.thickness_m * 1000));
+    ui::property(layer.name.empty() ? "Air" : layer.name.c_str(), fmt::format("{:.4g} mm", layer.thickness_m * 1000));
   if (product.layers.empty())
     for (const auto& name : product.materials) ui::property(name.c_str(), " ");
   ui::endProperties();
+}
+
+// What its faces look like, each surface once, with its share: a wall's sides may be of two layers.
+void drawSurfaces(const Editor& editor, std::uint32_t product) {
+  const auto& environment = *editor.environment();
+  std::map<std::uint32_t, double> area_of;
+  for (const auto& instance : environment.instances) {
+    if (instance.product != product) continue;
+    const auto& mesh = *environment.meshes[instance.mesh];
+    for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+      const auto& t = mesh.triangles[k];
+      const auto at = [&](int i) { return Eigen::Vector3d(instance.world_from_mesh.linear() * mesh.positions[t[static_cast<std::size_t>(i)]].cast<double>()); };
+      area_of[mesh.surface_of_triangle[k]] += (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2;
+    }
+  }
+  if (area_of.empty()) return;
+  ui::heading(editor, "Surfaces of the model");
+  for (const auto& [index, area] : area_of) {
+    const auto& surface = environment.surfaces[index];
+    ui::swatch(editor, surface.colour);
+    ImGui::SameLine();
+    std::string text = fmt::format("{}  {:.2f} m²", surface.name.empty() ? "Nameless" : surface.name, area);
+    if (surface.image >= 0) text += "  " + environment.images[static_cast<std::size_t>(surface.image)]->name;
+    ui::wrapped(text);
+  }
 }
 
 // The physical materials that a product's surfaces have, each once.
@@ -181,6 +220,17 @@ void drawProperties(Editor& editor, const Product& product) {
   }
 }
 
+// Of the storey, space or part of a facility that it stands in.
+void drawPlaceProperties(Editor& editor, const Product& product) {
+  if (product.container < 0) return;
+  const auto& node = editor.environment()->spatial[static_cast<std::size_t>(product.container)];
+  if (node.properties.empty()) return;
+  ui::heading(editor, ("Properties of " + nodeLabel(node)).c_str());
+  if (!ui::beginProperties("place-properties", 0.48F)) return;
+  for (const auto& p : node.properties) ui::property(p.name.c_str(), p.value);
+  ui::endProperties();
+}
+
 void drawMany(Editor& editor) {
   const auto& products = editor.selection.products();
   ui::heading(editor, fmt::format("{} products", products.size()).c_str());
@@ -225,7 +275,9 @@ void drawInspectorPanel(Editor& editor) {
   drawPhysicalMaterial(editor, index);
   drawGeometry(editor, index);
   drawLayers(editor, product);
+  drawSurfaces(editor, index);
   drawProperties(editor, product);
+  drawPlaceProperties(editor, product);
 }
 
 }  // namespace standpoint

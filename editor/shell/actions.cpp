@@ -85,6 +85,7 @@ std::string whySaveNot(const Editor& e) { return e.session.whyNotSave(); }
 std::string whyUndoNot(const Editor& e) { return e.session.whyNotUndo(); }
 std::string whyRedoNot(const Editor& e) { return e.session.whyNotRedo(); }
 std::string whyImportNot(const Editor& e) { return e.session.whyNot("import"); }
+std::string whyUpdateNot(const Editor& e) { return e.environment() ? e.session.whyNot("import") : whyNoModel(e); }
 std::string whyOpenNot(const Editor& e) { return e.session.whyNot("open-project"); }
 std::string whyExportNot(const Editor& e) { return e.session.whyNot("export"); }
 std::string whyStationNot(const Editor& e) { return e.session.whyNot("station"); }
@@ -95,6 +96,7 @@ const std::array kActions = {
     Action{"new", "New project", ICON_FILE_NEW, {'N', true}, newProject, whyOpenNot},
     Action{"open", "Open project…", ICON_FOLDER_OPEN, {'O', true}, openProject, whyOpenNot},
     Action{"import", "Import model…", ICON_IMPORT, {'I', true}, importModel, whyImportNot},
+    Action{"update", "Update from a changed model…", "", {}, askForChangedModel, whyUpdateNot},
     Action{"save", "Save", ICON_SAVE, {'S', true}, save, whySaveNot},
     Action{"save-as", "Save as…", "", {'S', true, true}, askWhereToSave, whySaveNot},
     Action{"export", "Export…", ICON_EXPORT, {'E', true}, askForExport, whyExportNot},

@@ -13,6 +13,7 @@ struct Editor;
 void openPalette(Editor& editor);
 void askForProject(Editor& editor);
 void askForModel(Editor& editor);
+void askForChangedModel(Editor& editor);
 void askForExport(Editor& editor);
 void askWhereToSave(Editor& editor);
 // A file browser of our own; `done` gets what was chosen.

@@ -224,6 +224,12 @@ void askForModel(Editor& editor) {
              });
 }
 
+void askForChangedModel(Editor& editor) {
+  askForFile(editor, Purpose::openFile, "Update from a changed model", "Update", modelExtensions(), "", [&editor](const std::filesystem::path& file) {
+    editor.session.start("import", {{"files", {file.string()}}, {"update", true}}, "Update from " + file.filename().string());
+  });
+}
+
 void askForExport(Editor& editor) {
   openVerbForm(editor, "export");
 }

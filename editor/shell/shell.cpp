@@ -101,7 +101,7 @@ void drawMenuBar(Editor& editor) {
   if (ImGui::BeginMenu("File")) {
     items(editor, {"new", "open"});
     recentMenu(editor);
-    items(editor, {"import", "", "save", "save-as", "export", "", "preferences", "quit"});
+    items(editor, {"import", "update", "", "save", "save-as", "export", "", "preferences", "quit"});
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu("Edit")) {

@@ -146,7 +146,7 @@ void drawWelcome(Editor& editor, ImVec2 origin, ImVec2 size) {
   const float width = std::min(editor.px(420), size.x * 0.9F);
   ImGui::SetCursorScreenPos({origin.x + (size.x - width) / 2, origin.y + size.y * 0.26F});
   ImGui::BeginChild("welcome", {width, editor.px(330)}, false, ImGuiWindowFlags_NoBackground);
-  ui::emptyState(editor, ICON_CUBE, "No model yet", "Import an IFC, glTF or OBJ file, or drop one here. A project is a folder: open it, or drop it, too.");
+  ui::emptyState(editor, ICON_CUBE, "No model yet", "Import an IFC, glTF, OBJ, PLY or STL file, or drop one here. A project is a folder: open it, or drop it, too.");
   const float button = std::min(editor.px(150), (width - editor.px(8)) / 2);
   ImGui::SetCursorPosX((width - 2 * button - editor.px(8)) / 2);
   if (ui::primaryButton(ICON_IMPORT "  Import model…###welcome-import", editor.session.whyNot("import"), {button, editor.px(30)}))

@@ -64,6 +64,64 @@ class Painter {
   const ViewState& state_;
 };
 
+// Takes one placed mesh into the parts of the scene, its vertices once into each part that needs them.
+class MeshMerger {
+ public:
+  MeshMerger(const ViewState& state, const Mesh& mesh, const Instance& instance, MergedScene& scene)
+      : state_(state),
+        mesh_(mesh),
+        instance_(instance),
+        scene_(scene),
+        mirrored_(instance.world_from_mesh.linear().determinant() < 0) {}
+
+  void add(std::size_t triangle, Rgba colour) {
+    if (state_.colour == ColourMode::model && !mesh_.colours.empty())
+      colour = tinted(colour, mesh_.triangles[triangle]);
+    const auto surface = mesh_.surface_of_triangle[triangle];
+    if (out_ == nullptr || surface != surface_ || (colour[3] == 255) != opaque_) aim(surface, colour[3] == 255);
+    appendTriangle(*out_, mesh_.triangles[triangle], offset_, mirrored_, colour);
+  }
+
+ private:
+  void aim(std::uint32_t index, bool opaque) {
+    surface_ = index;
+    opaque_ = opaque;
+    const Surface& surface = state_.environment->surfaces[index];
+    const bool shows_image =
+        state_.colour == ColourMode::model && surface.image >= 0 && !mesh_.texture_coordinates.empty();
+    PaintedTriangles* painted = shows_image ? &scene_.painted[surface.image] : nullptr;
+    out_ = painted != nullptr ? &painted->triangles : opaque ? &scene_.opaque : &scene_.transparent;
+    const auto [found, fresh] = offsets_.try_emplace(out_, pointCount(*out_));
+    offset_ = found->second;
+    if (painted != nullptr) painted->unlit = surface.unlit;
+    if (!fresh) return;
+    appendPositions(out_->positions, mesh_, instance_.world_from_mesh);
+    if (painted != nullptr)
+      for (const auto& t : mesh_.texture_coordinates)
+        painted->coordinates.insert(painted->coordinates.end(), {t.x(), 1 - t.y()});
+  }
+
+  // The mean of the corners: triangles have one colour each.
+  Rgba tinted(Rgba colour, const Triangle& t) const {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const int sum = mesh_.colours[t[0]][k] + mesh_.colours[t[1]][k] + mesh_.colours[t[2]][k];
+      colour[k] = static_cast<std::uint8_t>(colour[k] * sum / (3 * 255));
+    }
+    return colour;
+  }
+
+  const ViewState& state_;
+  const Mesh& mesh_;
+  const Instance& instance_;
+  MergedScene& scene_;
+  bool mirrored_;
+  std::map<const MergedTriangles*, std::int64_t> offsets_;  // of the mesh's first vertex in each part
+  MergedTriangles* out_ = nullptr;                          // where the last triangle went
+  std::int64_t offset_ = 0;
+  std::uint32_t surface_ = 0;
+  bool opaque_ = true;
+};
+
 }  // namespace
 
 MergedScene mergeVisible(const ViewState& state) {
@@ -72,19 +130,12 @@ MergedScene mergeVisible(const ViewState& state) {
   for (const auto& instance : state.environment->instances) {
     if (!visible(state, instance.product)) continue;
     const Mesh& mesh = *state.environment->meshes[instance.mesh];
-    const bool mirrored = instance.world_from_mesh.linear().determinant() < 0;
-    std::int64_t opaque_offset = -1, transparent_offset = -1;
+    MeshMerger merger(state, mesh, instance, scene);
     std::uint32_t surface = ~0U;
     Rgba colour{};
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       if (mesh.surface_of_triangle[t] != surface) colour = painter.of(instance.product, surface = mesh.surface_of_triangle[t]);
-      MergedTriangles& out = colour[3] == 255 ? scene.opaque : scene.transparent;
-      std::int64_t& offset = colour[3] == 255 ? opaque_offset : transparent_offset;
-      if (offset < 0) {
-        offset = pointCount(out);
-        appendPositions(out.positions, mesh, instance.world_from_mesh);
-      }
-      appendTriangle(out, mesh.triangles[t], offset, mirrored, colour);
+      merger.add(t, colour);
     }
   }
   return scene;

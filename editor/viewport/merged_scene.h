@@ -26,8 +26,17 @@ struct MergedLines {
   std::vector<std::int64_t> ends;        // two per line
 };
 
+// What shows an image: one for each image of the environment that is in sight.
+struct PaintedTriangles {
+  MergedTriangles triangles;
+  std::vector<float>
+      coordinates;     // u, v of each position; (0, 0) is the lower left corner, as graphics libraries have it
+  bool unlit = false;  // the light is in the image
+};
+
 struct MergedScene {
   MergedTriangles opaque, transparent;
+  std::map<std::int32_t, PaintedTriangles> painted;  // by image
 };
 
 MergedScene mergeVisible(const ViewState& state);

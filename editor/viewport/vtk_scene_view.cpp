@@ -30,11 +30,13 @@
 #include <vtkRenderer.h>
 #include <vtkTranslucentPass.h>
 #include <vtkRenderStepsPass.h>
+#include <vtkTexture.h>
 #include <vtkTextureObject.h>
 #include <vtkUnsignedCharArray.h>
 
 #include "core/units.h"
 #include "editor/viewport/merged_scene.h"
+#include "editor/viewport/texture.h"
 
 namespace standpoint {
 
@@ -101,6 +103,17 @@ struct Layer {
     data->SetPolys(cellsOf(triangles.corners, 3));
     data->GetCellData()->SetScalars(coloursOf(triangles.colours));
     set(data, triangles.colours.empty());
+  }
+  void show(const PaintedTriangles& painted, vtkTexture* texture) {
+    show(painted.triangles);
+    vtkNew<vtkFloatArray> coordinates;
+    coordinates->SetNumberOfComponents(2);
+    coordinates->SetNumberOfTuples(static_cast<vtkIdType>(painted.coordinates.size() / 2));
+    if (!painted.coordinates.empty())
+      std::memcpy(coordinates->GetPointer(0), painted.coordinates.data(), painted.coordinates.size() * sizeof(float));
+    vtkPolyData::SafeDownCast(mapper->GetInput())->GetPointData()->SetTCoords(coordinates);
+    actor->SetTexture(texture);
+    actor->GetProperty()->SetLighting(!painted.unlit);
   }
   void show(const MergedLines& lines) {
     vtkNew<vtkPolyData> data;
@@ -328,10 +341,17 @@ class VtkSceneView : public SceneView {
   void updateSurfaces(const ViewState& state) {
     opaque_.hide();
     transparent_.hide();
+    for (const auto& layer : painted_) renderer_->RemoveActor(layer->actor);
+    painted_.clear();
     if (!state.environment || state.shapes || state.cloud) return;
     const auto merged = mergeVisible(state);
     opaque_.show(merged.opaque);
     transparent_.show(merged.transparent);
+    for (const auto& [image, painted] : merged.painted) {
+      painted_.push_back(std::make_unique<Layer>());
+      setUpSurface(*painted_.back(), 1);
+      painted_.back()->show(painted, textures_.of(state.environment->images[static_cast<std::size_t>(image)]));
+    }
   }
 
   void updateEdges(const ViewState& state) {
@@ -368,7 +388,9 @@ class VtkSceneView : public SceneView {
   }
 
   void updateCut(const ViewState& state) {
-    for (Layer* layer : {&opaque_, &transparent_, &shapes_, &selected_, &walkable_, &edges_, &outline_, &cloud_}) {
+    std::vector<Layer*> layers = {&opaque_, &transparent_, &shapes_, &selected_, &walkable_, &edges_, &outline_, &cloud_};
+    for (const auto& layer : painted_) layers.push_back(layer.get());
+    for (Layer* layer : layers) {
       layer->mapper->RemoveAllClippingPlanes();
       if (!state.cut_height_m) continue;
       vtkNew<vtkPlane> plane;
@@ -407,6 +429,8 @@ class VtkSceneView : public SceneView {
   vtkNew<ForeignContextWindow> window_;
   vtkNew<vtkRenderer> renderer_;
   Layer opaque_, transparent_, shapes_, selected_, walkable_, edges_, outline_, grid_, cloud_;
+  std::vector<std::unique_ptr<Layer>> painted_;   // one for each image in sight
+  TextureCache textures_;
   EdgeCache edge_cache_;
   Bounds bounds_;
   std::optional<ViewState> drawn_;

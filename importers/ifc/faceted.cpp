@@ -77,6 +77,7 @@ Result<void> appendFace(geometry::PolyMesh& mesh, const Entity& face, PointPool&
       if (loopArea(mesh, loops[i]) > loopArea(mesh, loops[outer])) outer = i;
   std::swap(loops[0], loops[outer]);
   geometry::Face f;
+  f.tag = scope.model.style_of_item[scope.model.file.indexOf(face)];   // a face may be styled by itself
   f.outer = std::move(loops[0]);
   f.holes.assign(std::make_move_iterator(loops.begin() + 1), std::make_move_iterator(loops.end()));
   if (face.is("IFCADVANCEDFACE") || face.is("IFCFACESURFACE"))

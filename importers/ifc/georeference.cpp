@@ -5,8 +5,15 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "importers/ifc/epsg.h"
+#include "importers/ifc/map_conversion.h"
 #include "importers/ifc/placement.h"
 #include "importers/ifc/properties.h"
 #include "importers/ifc/units.h"
@@ -15,13 +22,14 @@ namespace standpoint::ifc {
 namespace {
 
 // "EPSG:25832" of "epsg: 25832", "25832" and "urn:ogc:def:crs:EPSG::25832"; other names stay as they are.
-std::string crsName(std::string name) {
-  std::string upper = name;
-  std::transform(upper.begin(), upper.end(), upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  const std::size_t digits = upper.find_last_not_of("0123456789") + 1;
-  const bool bare = digits == 0, named = upper.find("EPSG") != std::string::npos;
-  if (digits < upper.size() && (bare || named)) return "EPSG:" + upper.substr(digits);
-  return name;
+std::string crsName(const std::string& name) {
+  const std::string digits = epsgDigits(name);
+  return digits.empty() ? name : "EPSG:" + digits;
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
 }
 
 // Degrees, minutes, seconds and millionths of a second, each with the sign (IfcCompoundPlaneAngleMeasure).
@@ -35,10 +43,14 @@ std::optional<double> compoundAngle(const Value& list) {
   return std::isfinite(degrees) ? std::optional(degrees) : std::nullopt;
 }
 
-void readSite(Georeference& geo, const Model& model) {
+void readSite(Georeference& geo, const Model& model, Report& report) {
   for (const Entity& site : model.file.all("IFCSITE")) {
     const auto latitude = compoundAngle(site[9]), longitude = compoundAngle(site[10]);
-    if (!latitude || !longitude || std::abs(*latitude) > 90 || std::abs(*longitude) > 360) continue;
+    if (!latitude || !longitude) continue;
+    if (std::abs(*latitude) > 90 || std::abs(*longitude) > 360) {
+      report.warn(site.place(), fmt::format("the site's latitude {} and longitude {} are nowhere on Earth; they are not used", *latitude, *longitude));
+      continue;
+    }
     geo.site = GeographicPosition{*latitude, *longitude, site[11].number(0) * model.units.length_m};
     return;
   }
@@ -54,30 +66,109 @@ void readTrueNorth(Georeference& geo, const Model& model) {
   }
 }
 
-void readMapConversion(Georeference& geo, const Model& model, Report& report) {
-  std::vector<Entity> conversions = model.file.all("IFCMAPCONVERSION");
-  for (const Entity& e : model.file.all("IFCMAPCONVERSIONSCALED")) conversions.push_back(e);
-  for (const Entity& e : conversions) {
-    const Entity crs = e.ref(1);
-    // Eastings, northings and height are in the CRS's own unit where it states one, and Scale leads from project units to those.
-    const double stated = crs.is("IFCPROJECTEDCRS") ? siFactor(crs.ref(6)) : 0;
-    const double map_unit = stated > 0 ? stated : model.units.length_m;
-    MapConversion c;
-    c.eastings_m = e[2].number(0) * map_unit;
-    c.northings_m = e[3].number(0) * map_unit;
-    c.orthogonal_height_m = e[4].number(0) * map_unit;
-    if (e[5].present() || e[6].present()) c.x_axis_abscissa = e[5].number(0), c.x_axis_ordinate = e[6].number(0);
-    const double length = std::hypot(c.x_axis_abscissa, c.x_axis_ordinate);
-    if (!(length > 1e-12)) c.x_axis_abscissa = 1, c.x_axis_ordinate = 0, report.warn(e.place(), "the map conversion's x axis has no direction; no rotation is assumed");
-    else c.x_axis_abscissa /= length, c.x_axis_ordinate /= length;
-    c.scale = e[7].number(0);
-    // Scale leads from project units to map units. Left out, or 1 between different units, it cannot mean what it says.
-    const double ratio = map_unit / model.units.length_m;
-    if (c.scale == 1 && ratio != 1) report.note(e.place(), "a scale of 1 between different units is taken as: no scale");
-    c.scale = c.scale > 0 && !(c.scale == 1 && ratio != 1) ? c.scale * ratio : 1;
-    geo.map_from_file = c;
-    if (geo.crs.empty()) geo.crs = crsName(crs[0].text());
-    return;
+// The code at the end of a WKT is the whole CRS's: ID["EPSG",25832]] or AUTHORITY["EPSG","25832"]].
+std::string crsOfWkt(const std::string& wkt) {
+  const std::size_t at = std::max(wkt.rfind("ID[\"EPSG\"") + 1, wkt.rfind("AUTHORITY[\"EPSG\"") + 1);   // not found: 0
+  if (at == 0) return wkt;
+  const std::size_t first = wkt.find_first_of("0123456789", at), end = wkt.find_first_not_of("0123456789", first);
+  return first == std::string::npos ? wkt : "EPSG:" + wkt.substr(first, end - first);
+}
+
+void checkDatum(const Entity& crs, std::size_t index, const char* what, Report& report) {
+  const std::string name = crs[index].text();
+  if (!lower(name).starts_with("epsg")) return;
+  const std::string digits = epsgDigits(name);
+  if (digits.empty() || !isEpsgReference(digits, index == 3)) report.warn(crs.place(), fmt::format("the {} '{}' is none in the EPSG dataset", what, name));
+}
+
+// A CRS that has no usable name gives coordinates that nobody can place: its fault is named.
+void readCrs(Georeference& geo, const Entity& crs, const Model& model, Report& report) {
+  const std::string name = crs[0].text(), digits = epsgDigits(name);
+  const bool projected = crs.is("IFCPROJECTEDCRS");
+  std::string wkt;
+  for (const Entity& text : model.file.all("IFCWELLKNOWNTEXT"))
+    if (text.ref(1) == crs) wkt = text[0].text();
+  if (geo.crs.empty()) geo.crs = !digits.empty() || wkt.empty() ? crsName(name) : crsOfWkt(wkt);
+  const char* remedy = "; name it with --crs EPSG:n";
+  if (name.empty() && wkt.empty()) report.warn(crs.place(), std::string("the coordinate reference system has no name, an EPSG code is needed") + remedy);
+  else if (digits.empty() && lower(name).starts_with("epsg")) report.warn(crs.place(), "'" + name + "' is no EPSG code" + remedy);
+  else if (digits.empty() && wkt.empty()) report.warn(crs.place(), "'" + name + "' is no EPSG code; which coordinate reference system is meant is unknown" + remedy);
+  if (!digits.empty()) {
+    const EpsgAnswer known = epsgCrs(digits);
+    if (known.asked && !known.crs) report.warn(crs.place(), "EPSG:" + digits + " is no coordinate reference system of the EPSG dataset" + remedy);
+    else if (known.crs && projected && !known.crs->projected) report.warn(crs.place(), "EPSG:" + digits + " is not a projected coordinate reference system" + remedy);
+  }
+  checkDatum(crs, 2, "geodetic datum", report);
+  if (projected) checkDatum(crs, 3, "vertical datum", report);
+}
+
+std::vector<Entity> operations(const StepFile& file) {
+  std::vector<Entity> all;
+  for (const char* kind : {"IFCMAPCONVERSION", "IFCMAPCONVERSIONSCALED", "IFCRIGIDOPERATION"})
+    for (const Entity& e : file.all(kind)) all.push_back(e);
+  return all;
+}
+
+// All contexts of the model have to say the same: which one a product's shape is in must not move it on the map.
+void checkContexts(const std::vector<Entity>& operations, const Model& model, Report& report) {
+  const auto same = [](const Entity& a, const Entity& b) {
+    for (std::size_t i = 1; i < 11; ++i)
+      if (a[i].inner().raw() != b[i].inner().raw()) return false;
+    return a.typeName() == b.typeName();
+  };
+  for (const Entity& e : operations)
+    if (!same(e, operations[0])) report.warn(e.place(), "places its context on the map otherwise than " + operations[0].place() + " does; that one is used");
+  for (const Entity& context : model.file.all("IFCGEOMETRICREPRESENTATIONCONTEXT")) {
+    if (context[1].text() != "Model") continue;
+    if (std::none_of(operations.begin(), operations.end(), [&](const Entity& e) { return e.ref(0) == context || e.ref(0).is("IFCPROJECT"); }))
+      report.warn(context.place(), "the context is not placed on the map, while " + operations[0].ref(0).place() + " is; its shapes are placed like those");
+  }
+}
+
+void checkRigid(const Entity& e, Report& report) {
+  const std::string first(e[2].typeName()), second(e[3].typeName());
+  const auto fine = [](const std::string& t) { return t == "IFCLENGTHMEASURE" || t == "IFCPLANEANGLEMEASURE"; };
+  if (first == second && fine(first)) return;
+  report.warn(e.place(), fmt::format("the first coordinate is an {} and the second an {}; both have to be IFCLENGTHMEASURE or both IFCPLANEANGLEMEASURE", first, second));
+}
+
+// Of a geographic CRS: longitude first, as buildingSMART's own example writes it, unless only the other way is on Earth.
+void readGeographicRigid(Georeference& geo, const Entity& e, const Model& model, Report& report) {
+  const double stated = e.ref(1).is("IFCGEOGRAPHICCRS") ? siFactor(e.ref(1).ref(4)) : 0;
+  const double degrees = (stated > 0 ? stated : model.units.angle_rad) / kRadPerDeg;
+  double longitude = e[2].number(0) * degrees, latitude = e[3].number(0) * degrees;
+  if (std::abs(latitude) > 90) std::swap(latitude, longitude);
+  if (std::abs(latitude) > 90 || std::abs(longitude) > 360) return report.warn(e.place(), "the coordinates are nowhere on Earth; they are not used");
+  geo.site = GeographicPosition{latitude, longitude, e[4].number(0) * model.units.length_m};
+  report.note(e.place(), fmt::format("the origin is taken at latitude {:.6f}° and longitude {:.6f}°", latitude, longitude));
+}
+
+void readOperations(Georeference& geo, const Model& model, Report& report) {
+  const std::vector<Entity> all = operations(model.file);
+  if (all.empty()) return;
+  checkContexts(all, model, report);
+  for (const Entity& e : all)
+    if (e.is("IFCRIGIDOPERATION")) checkRigid(e, report);
+  if (const auto stated = statedConversion(all[0])) geo.map_from_file = conversionInMetres(*stated, model, report);
+  else readGeographicRigid(geo, all[0], model, report);
+  if (const Entity crs = all[0].ref(1)) readCrs(geo, crs, model, report);
+  else report.warn(all[0].place(), "the map conversion names no coordinate reference system; name it with --crs EPSG:n");
+}
+
+// Some exporters write the place into the world coordinate system of the context.
+void readWorldCoordinates(Georeference& geo, const Model& model, Report& report) {
+  constexpr double kFar_m = 1000;
+  for (const Entity& context : model.file.all("IFCGEOMETRICREPRESENTATIONCONTEXT")) {
+    if (context[1].text() != "Model" || !context.ref(4).is("IFCAXIS2PLACEMENT3D")) continue;
+    Scope scope(model);
+    const Eigen::Isometry3d world = axisPlacement(context.ref(4), scope);
+    const Eigen::Vector3d at = world.translation();
+    if (at.norm() < 1e-6 && world.linear().isIdentity(1e-9)) continue;
+    const bool upright = world.linear().col(2).isApprox(Eigen::Vector3d::UnitZ(), 1e-6);
+    if (geo.map_from_file || !upright || at.head<2>().norm() < kFar_m)
+      return report.note(context.place(), fmt::format("the world coordinate system lies at {:.3f} {:.3f} {:.3f} m and is not applied", at.x(), at.y(), at.z()));
+    geo.map_from_file = MapConversion{at.x(), at.y(), at.z(), world.linear()(0, 0), world.linear()(1, 0), 1};
+    return report.warn(context.place(), "the world coordinate system is taken for the model's place on the map; name the map with --crs EPSG:n");
   }
 }
 
@@ -88,46 +179,78 @@ std::optional<double> firstNumber(const std::string& text) {
   return error == std::errc() && std::isfinite(x) ? std::optional(x) : std::nullopt;
 }
 
-// IFC2X3 has no entity for it; buildingSMART's convention is two property sets on the site (or project or building).
-void readPropertySets(Georeference& geo, const Model& model, const Relations& relations) {
-  MapConversion c;
+// "METRE", "MILLIMETRE", "US SURVEY FOOT" …; 0: unknown.
+double unitByName(const std::string& name) {
+  std::string word = lower(name);
+  word.erase(std::remove_if(word.begin(), word.end(), [](char c) { return c == ' ' || c == '_' || c == '-'; }), word.end());
+  constexpr std::pair<const char*, double> kNames[] = {{"metre", 1}, {"meter", 1}, {"m", 1}, {"millimetre", 0.001}, {"millimeter", 0.001}, {"mm", 0.001},
+                                                       {"centimetre", 0.01}, {"cm", 0.01}, {"foot", 0.3048}, {"feet", 0.3048}, {"ft", 0.3048},
+                                                       {"ussurveyfoot", 1200.0 / 3937.0}, {"usft", 1200.0 / 3937.0}, {"ftus", 1200.0 / 3937.0}};
+  for (const auto& [known, metres] : kNames)
+    if (word == known) return metres;
+  return 0;
+}
+
+struct ConventionSets {
+  StatedConversion conversion;
   bool found = false;
+  std::string crs;
+
+  void take(const Property& p, const std::string& set) {
+    const std::string name = lower(p.name);
+    if (set == "epset_projectedcrs") {
+      if (name == "name") crs = p.value;
+      if (name == "mapunit") conversion.map_unit_m = unitByName(p.value);
+      return;
+    }
+    const auto x = firstNumber(p.value);
+    if (!x) return;
+    found = true;
+    if (name == "eastings") conversion.eastings = *x;
+    else if (name == "northings") conversion.northings = *x;
+    else if (name == "orthogonalheight") conversion.height = *x;
+    else if (name == "xaxisabscissa") conversion.abscissa = *x;
+    else if (name == "xaxisordinate") conversion.ordinate = *x;
+    else if (name == "scale") conversion.scale = *x;
+  }
+};
+
+// IFC2X3 has no entity for it; buildingSMART's convention is two property sets on the site (or project or building), whose
+// numbers are metres where they state no other map unit.
+void readPropertySets(Georeference& geo, const Model& model, const Relations& relations, Report& report) {
+  ConventionSets sets;
   for (const char* kind : {"IFCSITE", "IFCPROJECT", "IFCBUILDING"})
     for (const Entity& object : model.file.all(kind))
       for (const Id id : relations.propertySetsOf(object)) {
+        const Entity set = model.file.entity(id);
+        const std::string name = lower(set[2].text());
+        if (name != "epset_mapconversion" && name != "epset_projectedcrs") continue;
+        if (sets.conversion.place.empty()) sets.conversion.place = set.place();
         std::vector<Property> properties;
-        appendProperties(properties, model.file.entity(id), model);
-        for (const Property& p : properties) {
-          std::string set = p.set;
-          std::transform(set.begin(), set.end(), set.begin(), [](unsigned char ch) { return static_cast<char>(std::tolower(ch)); });
-          if (set == "epset_projectedcrs" && p.name == "Name" && geo.crs.empty()) geo.crs = crsName(p.value);
-          const auto x = firstNumber(p.value);
-          if (set != "epset_mapconversion" || !x) continue;
-          found = true;
-          if (p.name == "Eastings") c.eastings_m = *x;
-          else if (p.name == "Northings") c.northings_m = *x;
-          else if (p.name == "OrthogonalHeight") c.orthogonal_height_m = *x;
-          else if (p.name == "XAxisAbscissa") c.x_axis_abscissa = *x;
-          else if (p.name == "XAxisOrdinate") c.x_axis_ordinate = *x;
-          else if (p.name == "Scale" && *x > 0) c.scale = *x;
-        }
+        appendProperties(properties, set, model);
+        for (const Property& p : properties) sets.take(p, name);
       }
-  if (found) geo.map_from_file = c;
+  if (sets.conversion.map_unit_m <= 0) sets.conversion.map_unit_m = 1;
+  sets.conversion.crs_digits = epsgDigits(sets.crs);
+  if (geo.crs.empty()) geo.crs = crsName(sets.crs);
+  if (!sets.found) return;
+  geo.map_from_file = conversionInMetres(sets.conversion, model, report);
+  if (geo.crs.empty()) report.warn(sets.conversion.place, "the map conversion names no coordinate reference system; name it with --crs EPSG:n");
 }
 
 }  // namespace
 
 Georeference readGeoreference(const Model& model, const Relations& relations, Report& report) {
   Georeference geo;
-  readSite(geo, model);
+  readSite(geo, model, report);
   readTrueNorth(geo, model);
-  readMapConversion(geo, model, report);
-  if (!geo.map_from_file) readPropertySets(geo, model, relations);
-  if (geo.crs.empty())
+  readOperations(geo, model, report);
+  if (!geo.map_from_file) readPropertySets(geo, model, relations, report);
+  if (geo.crs.empty() && operations(model.file).empty())
     for (const char* kind : {"IFCPROJECTEDCRS", "IFCGEOGRAPHICCRS"})
       for (const Entity& crs : model.file.all(kind))
-        if (geo.crs.empty()) geo.crs = crsName(crs[0].text());
-  if (!model.file.all("IFCRIGIDOPERATION").empty()) report.warn(model.file.all("IFCRIGIDOPERATION")[0].place(), "IfcRigidOperation is not read; the model's place on the map is unknown");
+        if (geo.crs.empty()) readCrs(geo, crs, model, report);
+  readWorldCoordinates(geo, model, report);
   return geo;
 }
 

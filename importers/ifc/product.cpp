@@ -26,11 +26,40 @@ bool isProduct(const Entity& e, const EntityName* name) {
   }
 }
 
-std::string predefinedType(const Entity& e, const EntityName* name) {
+std::string statedType(const Entity& e) {
+  const EntityName* name = entityName(e.typeName());
   if (!name || name->predefined_type < 0) return {};
   const std::string type(e[static_cast<std::size_t>(name->predefined_type)].symbol());
   // In IFC2X3 the place of a proxy's or storey's type holds its composition.
   return type == "ELEMENT" || type == "COMPLEX" || type == "PARTIAL" || type == "INTERNAL" || type == "EXTERNAL" || type == "T" || type == "F" ? std::string() : type;
+}
+
+// The occurrence's, else its type's; the user's own word (ObjectType, ElementType) where it is USERDEFINED.
+std::string predefinedType(const Entity& e, const Entity& type) {
+  const std::string own = statedType(e);
+  if (own == "USERDEFINED" && e[4].isText() && !e[4].text().empty()) return e[4].text();
+  if (!own.empty() && own != "NOTDEFINED" && own != "USERDEFINED") return own;
+  const std::string of_type = statedType(type);
+  if (of_type == "USERDEFINED" && type[8].isText() && !type[8].text().empty()) return type[8].text();
+  return of_type.empty() || (of_type == "NOTDEFINED" && !own.empty()) ? own : of_type;
+}
+
+// "IfcSystem Heating", and what that belongs to in turn; then the other places that name it.
+std::vector<std::string> groupsOf(const Entity& e, const Relations& relations, const StepFile& file) {
+  std::vector<std::string> names;
+  std::vector<Id> open = relations.groupsOf(e), seen;
+  for (std::size_t i = 0; i < open.size() && i < 256; ++i) {   // groups may hold each other
+    if (std::find(seen.begin(), seen.end(), open[i]) != seen.end()) continue;
+    seen.push_back(open[i]);
+    const Entity group = file.entity(open[i]);
+    if (!group) continue;
+    const std::string name = group[2].text();
+    names.push_back(schemaSpelling(group.typeName()) + " " + (name.empty() ? group.place() : name));
+    for (const Id above : relations.groupsOf(group)) open.push_back(above);
+  }
+  for (const Id id : relations.referencingOf(e))
+    if (const Entity place = file.entity(id)) names.push_back(schemaSpelling(place.typeName()) + " " + place[2].text() + " (referenced)");
+  return names;
 }
 
 bool isSpatial(const EntityName* name) {
@@ -56,20 +85,26 @@ std::vector<Entity> productEntities(const StepFile& file) {
   return found;
 }
 
-Product describeProduct(const Entity& e, const Relations& relations, const Model& model) {
+Product describeProduct(const Entity& e, bool with_properties, const Relations& relations, const Model& model) {
   Product p;
   const EntityName* name = entityName(e.typeName());
   const auto a = e.first<5>();
   p.id = e.place();
   p.global_id = a[0].text();
   p.ifc_class = schemaSpelling(e.typeName());
-  p.predefined_type = predefinedType(e, name);
+  const Entity type = model.file.entity(relations.typeOf(e));
+  p.predefined_type = predefinedType(e, type);
   p.name = a[2].text();
+  p.type_name = type[2].text();
   p.tangible = !name || name->kind == EntityKind::product || name->kind == EntityKind::spatial;
   ProductMaterials materials = materialsOf(e, relations, model);
+  p.groups = groupsOf(e, relations, model.file);
+  if (with_properties) {
+    p.properties = propertiesOf(e, relations, model);
+    appendMaterialProperties(p.properties, materials, relations, model);
+  }
   p.materials = std::move(materials.names);
   p.layers = std::move(materials.layers);
-  p.properties = propertiesOf(e, relations, model);
   return p;
 }
 
@@ -84,6 +119,12 @@ double elevation(const Entity& storey, Placements& placements, const Model& mode
   const double z = placements.world(placement, ignored).translation().z();
   const double parent = placements.world(placement.ref(0), ignored).translation().z();
   return std::abs(z - parent) > 1e-9 ? z : parent + stated;
+}
+
+// IfcFacilityPart names its kind in a select of enumerations.
+std::string placeType(const Entity& e) {
+  if (e.is("IFCFACILITYPART")) return std::string(e[9].inner().symbol());
+  return predefinedType(e, e);
 }
 
 }  // namespace
@@ -103,6 +144,7 @@ std::vector<SpatialNode> spatialTree(const Model& model, const Relations& relati
   std::vector<SpatialNode> nodes;
   std::map<Id, std::int32_t> index;
   Placements placements(model);
+  std::size_t properties = 0;
   const auto visit = [&](Id root) {
     std::vector<std::pair<Id, std::int32_t>> open{{root, -1}};
     while (!open.empty()) {
@@ -112,7 +154,11 @@ std::vector<SpatialNode> spatialTree(const Model& model, const Relations& relati
       const Entity e = file.entity(id);
       const auto self = static_cast<std::int32_t>(nodes.size());
       const auto a = e.first<3>();
-      nodes.push_back({e.place(), schemaSpelling(e.typeName()), a[2].text(), a[0].text(), parent, 0});
+      nodes.push_back({e.place(), schemaSpelling(e.typeName()), a[2].text(), a[0].text(), parent, 0, {}});
+      if (properties < kMostPropertiesInAll) nodes.back().properties = propertiesOf(e, relations, model);
+      else if (properties != SIZE_MAX) report.lose(e.place(), "more than 5 000 000 properties of places in all; those from here on are left out");
+      properties = properties < kMostPropertiesInAll ? properties + nodes.back().properties.size() : SIZE_MAX;
+      if (const std::string type = placeType(e); !type.empty()) nodes.back().properties.insert(nodes.back().properties.begin(), {"Attributes", "PredefinedType", type});
       if (e.is("IFCBUILDINGSTOREY")) nodes.back().elevation_m = elevation(e, placements, model);
       const auto& list = children[id];
       for (auto child = list.rbegin(); child != list.rend(); ++child) open.emplace_back(*child, self);

@@ -13,7 +13,7 @@ namespace standpoint::ifc {
 // The records that become products, in the order of their numbers.
 std::vector<Entity> productEntities(const StepFile& file);
 // What a record says of itself: names, class, type, materials, properties. Links are filled by linkProducts.
-Product describeProduct(const Entity& entity, const Relations& relations, const Model& model);
+Product describeProduct(const Entity& entity, bool with_properties, const Relations& relations, const Model& model);
 // The tree of project, sites, buildings, storeys and spaces, parents first.
 std::vector<SpatialNode> spatialTree(const Model& model, const Relations& relations, Report& report);
 // Container, storey and whole of each product.

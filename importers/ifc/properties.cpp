@@ -2,94 +2,159 @@
 #include "importers/ifc/properties.h"
 
 #include <algorithm>
-#include <array>
+#include <set>
 #include <string>
+#include <utility>
 
-#include "importers/ifc/units.h"
+#include "importers/ifc/attribute_sets.h"
+#include "importers/ifc/entities.h"
+#include "importers/ifc/property_value.h"
 
 namespace standpoint::ifc {
 namespace {
 
-struct MeasureUnit {
-  const char* measure;
-  const char* unit;
-};
-constexpr std::array<MeasureUnit, 13> kMeasureUnits{{{"IFCLENGTHMEASURE", "LENGTHUNIT"},
-                                                     {"IFCPOSITIVELENGTHMEASURE", "LENGTHUNIT"},
-                                                     {"IFCNONNEGATIVELENGTHMEASURE", "LENGTHUNIT"},
-                                                     {"IFCQUANTITYLENGTH", "LENGTHUNIT"},
-                                                     {"IFCAREAMEASURE", "AREAUNIT"},
-                                                     {"IFCQUANTITYAREA", "AREAUNIT"},
-                                                     {"IFCVOLUMEMEASURE", "VOLUMEUNIT"},
-                                                     {"IFCQUANTITYVOLUME", "VOLUMEUNIT"},
-                                                     {"IFCPLANEANGLEMEASURE", "PLANEANGLEUNIT"},
-                                                     {"IFCPOSITIVEPLANEANGLEMEASURE", "PLANEANGLEUNIT"},
-                                                     {"IFCMASSMEASURE", "MASSUNIT"},
-                                                     {"IFCQUANTITYWEIGHT", "MASSUNIT"},
-                                                     {"IFCPOWERMEASURE", "POWERUNIT"}}};
+using Properties = std::vector<Property>;
 
-std::string unitText(std::string_view measure, const Entity& own_unit, const Model& model) {
-  if (own_unit) return unitSymbol(own_unit);
-  for (const auto& [name, unit] : kMeasureUnits)
-    if (measure == name) {
-      const auto it = model.units.symbol_of_type.find(unit);
-      return it == model.units.symbol_of_type.end() ? std::string() : it->second;
-    }
-  return {};
+void add(Properties& out, const char* set, const char* name, std::string value) {
+  if (!value.empty()) out.push_back({set, name, std::move(value)});
 }
 
-std::string valueText(const Value& value, const Entity& unit, const Model& model, std::string_view measure = {}) {
-  if (!value.present()) return {};
-  const Value inner = value.inner();
-  if (inner.isText()) return inner.text();
-  if (const auto symbol = inner.symbol(); !symbol.empty()) return symbol == "T" ? "true" : symbol == "F" ? "false" : symbol == "U" ? "unknown" : std::string(symbol);
-  if (!inner.number()) return {};
-  std::string text(inner.raw());
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\n' || text.back() == '\r')) text.pop_back();
-  if (!text.empty() && text.back() == '.') text.pop_back();
-  const std::string symbol = unitText(measure.empty() ? value.typeName() : measure, unit, model);
-  return symbol.empty() ? text : text + ' ' + symbol;
-}
-
-std::string joined(const Value& list, const Entity& unit, const Model& model) {
-  std::string text;
-  for (const Value v : list) text += (text.empty() ? "" : ", ") + valueText(v, unit, model);
-  return text;
-}
-
-void appendProperty(std::vector<Property>& out, const std::string& set, const Entity& p, const Model& model, int depth) {
+void appendProperty(Properties& out, const std::string& set, const Entity& p, const Model& model, int depth) {
+  if (out.size() >= kMostProperties) return;
   const std::string_view kind = p.typeName();
-  const std::string name = p[0].text();
-  if (kind == "IFCPROPERTYSINGLEVALUE") out.push_back({set, name, valueText(p[2], p.ref(3), model)});
-  else if (kind == "IFCPROPERTYENUMERATEDVALUE") out.push_back({set, name, joined(p[2], {}, model)});
-  else if (kind == "IFCPROPERTYLISTVALUE") out.push_back({set, name, joined(p[2], p.ref(3), model)});
-  else if (kind == "IFCPROPERTYBOUNDEDVALUE")
-    out.push_back({set, name, valueText(p[3], p.ref(4), model) + " … " + valueText(p[2], p.ref(4), model)});
-  else if (kind.starts_with("IFCQUANTITY")) out.push_back({set, name, valueText(p[3], p.ref(2), model, kind)});
-  else if ((kind == "IFCCOMPLEXPROPERTY" || kind == "IFCPHYSICALCOMPLEXQUANTITY") && depth < 8)
-    for (const Entity& part : p.refs(kind == "IFCCOMPLEXPROPERTY" ? 3 : 2)) appendProperty(out, set + "/" + name, part, model, depth + 1);
+  const bool complex = kind == "IFCCOMPLEXPROPERTY";
+  if (!complex && kind != "IFCPHYSICALCOMPLEXQUANTITY") {
+    if (p) out.push_back({set, p[0].text(), propertyText(p, model)});
+    return;
+  }
+  if (depth >= 8) return;   // properties that hold each other
+  for (const Entity& part : p.refs(complex ? 3 : 2)) {
+    if (out.size() >= kMostProperties) return;
+    appendProperty(out, set + "/" + p[0].text(), part, model, depth + 1);
+  }
+}
+
+void appendAttributeSet(Properties& out, const Entity& e, const AttributeSet& set, const Model& model, const std::string& prefix) {
+  const std::string own = e[0].isText() ? e[2].text() : std::string();   // of a material's set attribute 0 is the material
+  const std::string name = prefix + (own.empty() ? schemaSpelling(e.typeName()) : own);
+  for (const SetAttribute& a : set.attributes)
+    if (std::string text = valueText(e[static_cast<std::size_t>(a.index)], {}, model, a.measure); !text.empty()) out.push_back({name, a.name, std::move(text)});
+}
+
+void appendAttributes(Properties& out, const Entity& e, const Model& model) {
+  const EntityName* name = entityName(e.typeName());
+  const auto a = e.first<12>();
+  add(out, "Attributes", "Description", a[3].text());
+  if (a[4].isText()) add(out, "Attributes", "ObjectType", a[4].text());
+  if (!name) return;
+  if (name->kind == EntityKind::project) {
+    add(out, "Attributes", "LongName", a[5].text());
+    add(out, "Attributes", "Phase", a[6].text());
+  } else if (name->kind == EntityKind::spatial || name->kind == EntityKind::space) {
+    if (a[7].isText()) add(out, "Attributes", "LongName", a[7].text());
+  } else if (name->kind == EntityKind::product && a[7].isText()) {
+    add(out, "Attributes", "Tag", a[7].text());
+  }
+  const std::string_view kind = e.typeName();
+  if (kind.starts_with("IFCDOOR") || kind.starts_with("IFCWINDOW")) {
+    add(out, "Attributes", "OverallHeight", valueText(a[8], {}, model, "IFCLENGTHMEASURE"));
+    add(out, "Attributes", "OverallWidth", valueText(a[9], {}, model, "IFCLENGTHMEASURE"));
+  } else if (kind == "IFCBUILDINGSTOREY") {
+    add(out, "Attributes", "Elevation", valueText(a[9], {}, model, "IFCLENGTHMEASURE"));
+  } else if (kind == "IFCBUILDING" || kind == "IFCSITE") {
+    const Entity address = kind == "IFCSITE" ? e.ref(13) : e.ref(11);
+    add(out, "Attributes", "Address", address ? referenceText(address) : std::string());
+  }
+}
+
+// "Ss_25_10 Walls" under the name of the system that it belongs to.
+void appendClassification(Properties& out, const Entity& reference) {
+  std::string text;
+  Entity system = reference;
+  if (reference.is("IFCCLASSIFICATIONREFERENCE")) {
+    text = reference[1].text();
+    const std::string title = reference[2].text();
+    if (!title.empty() && title != text) text += (text.empty() ? "" : " ") + title;
+    if (text.empty()) text = reference[0].text();
+    for (int steps = 0; system.is("IFCCLASSIFICATIONREFERENCE") && steps < 32; ++steps) system = system.ref(3);
+  } else if (reference.is("IFCCLASSIFICATIONNOTATION")) {   // IFC2X3: the code in pieces
+    for (const Entity& facet : reference.refs(0)) text += facet[0].text();
+    system = {};
+  }
+  const std::string name = system.is("IFCCLASSIFICATION") ? system[3].text() : std::string();
+  out.push_back({"Classification", name.empty() ? "Reference" : name, text});
+}
+
+void appendAssociations(Properties& out, const Entity& object, const Relations& relations, const Model& model) {
+  for (const Id id : relations.classificationsOf(object)) appendClassification(out, model.file.entity(id));
+  for (const Id id : relations.documentsOf(object)) add(out, "Document", "Reference", referenceText(model.file.entity(id)));
+}
+
+// Of the object's representations, of their items, and of what is mapped there.
+class LayerNames {
+ public:
+  explicit LayerNames(const Relations& relations) : relations_(relations) {}
+  void look(const Entity& representation, int depth = 0) {
+    add(representation);
+    for (const Entity& item : representation.refs(3)) {
+      if (--left_ < 0) return;
+      add(item);
+      if (item.is("IFCMAPPEDITEM") && depth < 4) look(item.ref(0).ref(1), depth + 1);
+    }
+  }
+  const std::vector<Id>& ids() const { return ids_; }
+
+ private:
+  void add(const Entity& e) {
+    if (const Id layer = relations_.presentationLayerOf(e); layer && std::find(ids_.begin(), ids_.end(), layer) == ids_.end()) ids_.push_back(layer);
+  }
+  const Relations& relations_;
+  std::vector<Id> ids_;
+  int left_ = 1000;   // items that a thousand products share are not walked a thousand times to the end
+};
+
+void appendPresentationLayers(Properties& out, const Entity& object, const Relations& relations, const Model& model) {
+  if (!relations.hasPresentationLayers()) return;
+  LayerNames names(relations);
+  for (const Entity& representation : object.ref(6).refs(2)) names.look(representation);
+  for (const Id id : names.ids()) add(out, "Presentation layer", "Name", model.file.entity(id)[0].text());
+}
+
+Properties propertiesOfType(const Entity& type, const Relations& relations, const Model& model) {
+  Properties found;
+  for (const Entity& set : type.refs(5)) appendProperties(found, set, model);
+  for (const Id set : relations.propertySetsOf(type)) appendProperties(found, model.file.entity(set), model);
+  appendAssociations(found, type, relations, model);
+  return found;
 }
 
 }  // namespace
 
-void appendProperties(std::vector<Property>& properties, const Entity& set, const Model& model) {
-  if (set.is("IFCPROPERTYSETDEFINITIONSET")) return;
-  const bool quantities = set.is("IFCELEMENTQUANTITY");
-  if (!quantities && !set.is("IFCPROPERTYSET")) return;
-  const std::string name = set[2].text();
-  for (const Entity& p : set.refs(quantities ? 5 : 4)) appendProperty(properties, name, p, model, 0);
+void appendProperties(Properties& properties, const Entity& set, const Model& model, const std::string& prefix) {
+  if (const AttributeSet* attributes = attributeSet(set.typeName())) return appendAttributeSet(properties, set, *attributes, model, prefix);
+  const std::string_view kind = set.typeName();
+  const bool of_material = kind == "IFCMATERIALPROPERTIES";      // (Name, Description, Properties, Material)
+  const bool extended = kind == "IFCEXTENDEDMATERIALPROPERTIES";  // IFC2X3: (Material, Properties, Description, Name)
+  const bool quantities = kind == "IFCELEMENTQUANTITY";
+  if (!of_material && !extended && !quantities && kind != "IFCPROPERTYSET") return;
+  std::string name = set[of_material ? 0 : extended ? 3 : 2].text();
+  name = prefix + (name.empty() ? schemaSpelling(kind) : name);
+  for (const Entity& p : set.refs(of_material ? 2 : extended ? 1 : quantities ? 5 : 4)) appendProperty(properties, name, p, model, 0);
 }
 
-std::vector<Property> propertiesOf(const Entity& product, const Relations& relations, const Model& model) {
-  std::vector<Property> properties;
-  for (const Id set : relations.propertySetsOf(product)) appendProperties(properties, model.file.entity(set), model);
-  const std::size_t own = properties.size();
-  std::vector<Property> of_type;
-  for (const Entity& set : model.file.entity(relations.typeOf(product)).refs(5)) appendProperties(of_type, set, model);
-  for (Property& p : of_type) {
-    const auto end = properties.begin() + static_cast<std::ptrdiff_t>(own);
-    if (std::none_of(properties.begin(), end, [&](const Property& q) { return q.set == p.set && q.name == p.name; })) properties.push_back(std::move(p));
+Properties propertiesOf(const Entity& object, const Relations& relations, const Model& model) {
+  Properties properties;
+  appendAttributes(properties, object, model);
+  for (const Id set : relations.propertySetsOf(object)) appendProperties(properties, model.file.entity(set), model);
+  appendAssociations(properties, object, relations, model);
+  if (const Entity type = model.file.entity(relations.typeOf(object))) {
+    std::set<std::pair<std::string, std::string>> own;
+    for (const Property& p : properties) own.emplace(p.set, p.name);
+    for (Property& p : propertiesOfType(type, relations, model))
+      if (!own.contains({p.set, p.name})) properties.push_back(std::move(p));
   }
+  appendPresentationLayers(properties, object, relations, model);
+  if (properties.size() > kMostProperties) properties.resize(kMostProperties);
   return properties;
 }
 

@@ -9,9 +9,17 @@
 
 namespace standpoint::ifc {
 
-// Property sets and quantities of the occurrence, then what only its type has.
-std::vector<Property> propertiesOf(const Entity& product, const Relations& relations, const Model& model);
-// Those of one set.
-void appendProperties(std::vector<Property>& properties, const Entity& set, const Model& model);
+// All that the file says of an object besides its shape, as text, in this order:
+//  - "Attributes": what stands in the object's own record (Description, ObjectType, LongName, Tag, …);
+//  - property sets and quantities, "Classification" (system → code and title) and "Document" of the occurrence;
+//  - of those of its type the ones whose set and name the occurrence does not have;
+//  - "Presentation layer".
+// At most kMostProperties: sets may hold each other, and be shared by everything.
+constexpr std::size_t kMostProperties = 10'000;
+constexpr std::size_t kMostPropertiesInAll = 5'000'000;
+std::vector<Property> propertiesOf(const Entity& object, const Relations& relations, const Model& model);
+// Those of one set: IfcPropertySet, IfcElementQuantity, IfcMaterialProperties, or a set whose properties are attributes
+// (IfcDoorLiningProperties, IfcOpticalMaterialProperties). `prefix` is written before the set's name.
+void appendProperties(std::vector<Property>& properties, const Entity& set, const Model& model, const std::string& prefix = {});
 
 }  // namespace standpoint::ifc

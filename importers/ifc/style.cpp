@@ -33,7 +33,7 @@ Id firstSurfaceStyle(const Entity& from, std::size_t list_index, int depth) {
 
 Id surfaceStyleOf(const Entity& styled_item) { return firstSurfaceStyle(styled_item, 1, 0); }
 
-std::vector<Id> stylesOfItems(const StepFile& file) {
+std::vector<Id> stylesOfItems(const StepFile& file, const TextureMaps& textures) {
   std::vector<Id> styles(file.records().size(), 0);
   for (const Entity& styled : file.all("IFCSTYLEDITEM")) {
     const Entity item = styled.ref(0);
@@ -41,6 +41,12 @@ std::vector<Id> stylesOfItems(const StepFile& file) {
     Id& style = styles[file.indexOf(item)];
     if (style == 0) style = surfaceStyleOf(styled);
   }
+  for (const Entity& layer : file.all("IFCPRESENTATIONLAYERWITHSTYLE"))
+    if (const Id style = firstSurfaceStyle(layer, 7, 0))
+      for (const Entity& item : layer.refs(2))
+        if (Id& own = styles[file.indexOf(item)]; own == 0) own = style;
+  for (const Entity& map : file.all("IFCTEXTUREMAP"))
+    if (const Entity face = map.ref(2)) styles[file.indexOf(face)] = textures.firstTag(face.id());
   return styles;
 }
 
@@ -48,8 +54,13 @@ std::optional<Style> styleOfTag(const StepFile& file, std::uint32_t tag) {
   if (tag >= kFirstColour) return Style{"", unpackColour(tag)};
   const Entity e = file.entity(tag);
   if (!e.is("IFCSURFACESTYLE")) return {};
-  Style style{e[0].text(), {}};
+  Style style{e[0].text(), {}, {}, 0};
   for (const Entity& shading : e.refs(2)) {
+    if (shading.is("IFCSURFACESTYLEREFRACTION"))
+      if (const auto n = shading[0].number(); n && *n >= 1 && *n < 10) style.index_of_refraction = static_cast<float>(*n);
+    if (shading.is("IFCSURFACESTYLEWITHTEXTURES"))
+      for (const Entity& texture : shading.refs(0))
+        if (style.texture == 0) style.texture = texture.id();
     if (!shading.is("IFCSURFACESTYLERENDERING") && !shading.is("IFCSURFACESTYLESHADING")) continue;
     const Entity rgb = shading.ref(0);
     style.colour = {static_cast<float>(std::clamp(rgb[1].number(0.7), 0.0, 1.0)), static_cast<float>(std::clamp(rgb[2].number(0.7), 0.0, 1.0)),
@@ -65,6 +76,11 @@ std::map<Id, Id> colourMaps(const StepFile& file) {
 }
 
 FaceColours::FaceColours(const Entity& face_set, const Model& model) {
+  if (const std::uint32_t first = model.textures.firstTag(face_set.id())) {
+    const Value faces = face_set[face_set.is("IFCPOLYGONALFACESET") ? 2 : 3];
+    for (std::size_t i = 0, n = faces.size(); i < n; ++i) tags_.push_back(first + static_cast<std::uint32_t>(i));
+    return;
+  }
   const auto known = model.colour_map_of_face_set.find(face_set.id());
   if (known == model.colour_map_of_face_set.end()) return;
   const Entity map = model.file.entity(known->second);

@@ -13,14 +13,18 @@ namespace standpoint::ifc {
 struct Style {
   std::string name;
   Colour colour;
+  std::optional<float> index_of_refraction;
+  Id texture = 0;                      // the first IfcSurfaceTexture of its IfcSurfaceStyleWithTextures
 };
 
-// A face's tag is the id of the style it has; faces of an indexed colour map have tags from kFirstColour on.
+// A face's tag is the id of the style it has; faces with texture coordinates have tags of TextureMaps, faces of an
+// indexed colour map have tags from kFirstColour on.
 constexpr std::uint32_t kNoStyle = 0;
 constexpr std::uint32_t kFirstColour = 0xC0000000U;
 
-// For each record the IfcSurfaceStyle (its id) that an IfcStyledItem gives it.
-std::vector<Id> stylesOfItems(const StepFile& file);
+// For each record the tag that its faces get: the IfcSurfaceStyle (its id) of an IfcStyledItem, else that of the
+// presentation layer it lies on; of an IfcFace with texture coordinates its texture's.
+std::vector<Id> stylesOfItems(const StepFile& file, const TextureMaps& textures);
 // IfcTessellatedFaceSet → IfcIndexedColourMap.
 std::map<Id, Id> colourMaps(const StepFile& file);
 // The first surface style of an IfcStyledItem; 0 when it has none.

@@ -55,18 +55,48 @@ double siFactor(const Entity& unit) {
   return 0;
 }
 
+namespace {
+
+std::string power(std::int64_t exponent) {
+  if (exponent == 1) return {};
+  constexpr std::array kDigits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  return exponent >= 0 && exponent < 10 ? kDigits[static_cast<std::size_t>(exponent)] : "^" + std::to_string(exponent);
+}
+
+// "W/(m²·K)".
+std::string derivedSymbol(const Entity& unit) {
+  std::string above, below;
+  int divisors = 0;
+  for (const Entity& element : unit.refs(0)) {
+    const Entity of = element.ref(0);
+    const auto exponent = element[1].integer(1);
+    if (of.is("IFCDERIVEDUNIT") || exponent == 0) continue;
+    const std::string symbol = unitSymbol(of);
+    if (symbol.empty()) return {};
+    std::string& side = exponent > 0 ? above : below;
+    if (exponent < 0) ++divisors;
+    side += (side.empty() ? "" : "·") + symbol + power(exponent > 0 ? exponent : -exponent);
+  }
+  if (above.empty() && below.empty()) return {};
+  if (below.empty()) return above;
+  return (above.empty() ? "1" : above) + "/" + (divisors > 1 ? "(" + below + ")" : below);
+}
+
+}  // namespace
+
 std::string unitSymbol(const Entity& unit) {
+  if (unit.is("IFCDERIVEDUNIT")) return derivedSymbol(unit);
   if (unit.is("IFCSIUNIT")) {
     const Prefix* prefix = find(kPrefixes, unit[2].symbol());
     const SiUnit* si = find(kSiUnits, unit[3].symbol());
     return si ? std::string(prefix ? prefix->symbol : "") + si->symbol : std::string();
   }
-  if (unit.is("IFCCONVERSIONBASEDUNIT") || unit.is("IFCCONTEXTDEPENDENTUNIT")) return unit[2].text();
+  if (unit.is("IFCCONVERSIONBASEDUNIT") || unit.is("IFCCONVERSIONBASEDUNITWITHOFFSET") || unit.is("IFCCONTEXTDEPENDENTUNIT")) return unit[2].text();
   if (unit.is("IFCMONETARYUNIT")) return unit[0].isText() ? unit[0].text() : std::string(unit[0].symbol());
   return {};
 }
 
-Units readUnits(const StepFile& file, Report& report) {
+Units readUnits(const StepFile& file, double given_m, Report& report) {
   Units units;
   Entity assignment;
   for (const Entity& project : file.all("IFCPROJECT"))
@@ -76,14 +106,19 @@ Units readUnits(const StepFile& file, Report& report) {
       if (!assignment) assignment = any;
   bool length = false;
   for (const Entity& unit : assignment.refs(0)) {
-    const std::string type(unit[1].symbol());
+    const std::string type(unit.is("IFCMONETARYUNIT") ? std::string_view("MONETARYUNIT") : unit[1].symbol());
     const double factor = siFactor(unit);
     if (const std::string symbol = unitSymbol(unit); !symbol.empty()) units.symbol_of_type.emplace(type, symbol);
     const bool usable = factor > 0 && std::isfinite(factor);
     if (type == "LENGTHUNIT" && usable) units.length_m = factor, length = true;
     if (type == "PLANEANGLEUNIT" && usable) units.angle_rad = factor;
   }
-  if (!length) report.warn(assignment ? assignment.place() : "header", "the file states no usable length unit; metres are assumed");
+  if (given_m > 0) {
+    if (length && units.length_m != given_m) report.note(assignment.place(), "the length unit that the file states is overruled by the one that was given");
+    units.length_m = given_m;
+  } else if (!length) {
+    report.warn(assignment ? assignment.place() : "header", "the file states no usable length unit; metres are assumed; if it is another, import it with --unit");
+  }
   return units;
 }
 

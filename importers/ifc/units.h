@@ -15,7 +15,8 @@ struct Units {
   std::map<std::string, std::string> symbol_of_type;   // "LENGTHUNIT" → "mm"
 };
 
-Units readUnits(const StepFile& file, Report& report);
+// `given_m` > 0 is the user's word on what the numbers are; it stands above the file's.
+Units readUnits(const StepFile& file, double given_m, Report& report);
 
 // Metres (radians, …) per unit of an IfcSIUnit, IfcConversionBasedUnit or IfcMeasureWithUnit; 0 when it is none of them.
 double siFactor(const Entity& unit);

@@ -22,6 +22,16 @@ TEST(MapConversion, IsUndoneByItsInverse) {
   EXPECT_LT((fileFromMap(c, mapFromFile(c, file)) - file).norm(), 1e-9);
 }
 
+TEST(MapConversion, StretchesTheFilesAxesBeforeItTurnsThem) {
+  MapConversion c{1000, 2000, 30, 0, 1, 2};   // a quarter turn: the file's x is the map's north
+  c.factors = {1, 2, 3};
+  const Eigen::Vector3d map = mapFromFile(c, {10, 100, 5});
+  EXPECT_NEAR(map.x(), 1000 - 2 * 2 * 100, 1e-9);
+  EXPECT_NEAR(map.y(), 2000 + 2 * 10, 1e-9);
+  EXPECT_NEAR(map.z(), 30 + 2 * 3 * 5, 1e-9);
+  EXPECT_LT((fileFromMap(c, map) - Eigen::Vector3d(10, 100, 5)).norm(), 1e-9);
+}
+
 TEST(GlobalShift, OfWholeMetresComesBackToTheLastBit) {
   const double file = 5012345.678901234;
   const double shift = std::round(file);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <limits>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -65,6 +66,66 @@ TEST(GltfRefuses, CyclesAndForeignFormats) {
 TEST(GltfRefuses, AccessorsThatUnpackToFarMoreThanTheFile) {
   Json accessor = {{"componentType", 5126}, {"type", "VEC3"}, {"count", 4000000000U}};
   EXPECT_THAT(withChange("/accessors/0", accessor), HasSubstr("unpacks to more than 64 times"));
+}
+
+// A node that places its mesh `count` times, with an accessor of zeros that costs the file nothing.
+TEST(GltfRefuses, BombsOfInstancing) {
+  const auto bomb = [](std::uint64_t count) {
+    const std::string bytes = sound();
+    const std::size_t length = static_cast<unsigned char>(bytes[12]) + 256U * static_cast<unsigned char>(bytes[13]);
+    auto json = Json::parse(bytes.substr(20, length));
+    json["accessors"].push_back({{"componentType", 5126}, {"type", "VEC3"}, {"count", count}});
+    json["nodes"][1]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = 2;
+    return refusal(write(scratch() / "bomb.glb", glb(json.dump(), bytes.substr(28 + length))));
+  };
+  EXPECT_EQ(bomb(1000), "accepted");
+  EXPECT_THAT(bomb(1'000'000'000), HasSubstr("/accessors/2: unpacks to more than 64 times the size of the file"));
+  EXPECT_THAT(bomb(10'000'000), HasSubstr("unpacks to more than 64 times the size of the file"));
+}
+
+// Each of 1000 nodes places a mesh of a million vertices that the file spells out once, as zeros.
+TEST(GltfRefuses, MoreThanABillionPlacedVertices) {
+  Json json = {{"asset", {{"version", "2.0"}}},
+               {"accessors", {{{"componentType", 5126}, {"type", "VEC3"}, {"count", 1'000'000}}}},
+               {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}}}};
+  for (int i = 0; i < 1001; ++i) json["nodes"].push_back({{"mesh", 0}});
+  EXPECT_THAT(refusal(write(scratch() / "placed.gltf", json.dump())),
+              HasSubstr("/nodes/999: with it the file places more than 1 000 000 000 vertices"));
+}
+
+TEST(GltfRefuses, DeepNestingOfJsonAndReadsDeepNestingOfNodes) {
+  EXPECT_THAT(refusal(write(scratch() / "deep.gltf",
+                            "{\"asset\":{\"version\":\"2.0\"},\"extras\":" + std::string(5'000'000, '['))),
+              HasSubstr("deep.gltf byte 235: the JSON is nested more than 200 levels deep"));
+  Json json = {{"asset", {{"version", "2.0"}}}, {"scenes", {{{"nodes", {0}}}}}};
+  constexpr int kNodes = 20'000;
+  for (int i = 0; i < kNodes; ++i)
+    json["nodes"].push_back(i + 1 < kNodes ? Json{{"children", {i + 1}}} : Json{{"name", "last"}});
+  EXPECT_EQ(refusal(write(scratch() / "nodes.gltf", json.dump())), "accepted");
+  for (auto& node : json["nodes"]) node["scale"] = {1e10, 1e10, 1e10};
+  EXPECT_THAT(refusal(write(scratch() / "nodes.gltf", json.dump())),
+              HasSubstr("/nodes/30: its placement is not finite"));
+}
+
+TEST(GltfRefuses, DataUrisOfTheWrongLengthAndReadsOverlappingViews) {
+  const auto uri = [](const std::string& data, int states) {
+    return refusal(write(scratch() / "uri.gltf",
+                         R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":)" + std::to_string(states) +
+                             R"(,"uri":"data:application/octet-stream;base64,)" + data + "\"}]}"));
+  };
+  EXPECT_EQ(uri("AAECAw==", 4), "accepted");
+  EXPECT_EQ(uri("AAECAw==", 3), "accepted");  // a longer one is what padding makes
+  EXPECT_THAT(uri("AAECAw==", 5), HasSubstr("/buffers/0: states 5 bytes but has 4"));
+  EXPECT_THAT(uri("AAE*Aw==", 4), HasSubstr("/buffers/0/uri: is a data URI that is not base64"));
+  EXPECT_EQ(withChange("/bufferViews/1/byteOffset", 4), "accepted");  // indices from the bytes of positions: all 0
+}
+
+TEST(GltfRefuses, NumbersThatAreNotFinite) {
+  EXPECT_THAT(withChange("/nodes/1/scale", Json::array({1e308, 1e308, 1e308})), HasSubstr("accepted"));
+  std::string nan = sound();
+  const float not_a_number = std::numeric_limits<float>::quiet_NaN();
+  std::memcpy(&nan[nan.size() - 44 + 4], &not_a_number, 4);
+  EXPECT_THAT(refusal(write(scratch() / "nan.glb", nan)), HasSubstr("/accessors/0: element 0 is not a finite number"));
 }
 
 TEST(GltfRefuses, EveryCutOfAFile) {

@@ -32,6 +32,34 @@ Instance instance(std::uint32_t mesh, std::uint32_t product, const Eigen::Matrix
   return result;
 }
 
+// Coordinates and every one of the 256 values of a colour's channel.
+void paint(Mesh& mesh, std::uint32_t seed) {
+  for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
+    const auto r = philox({seed, 2}, i, 0, 0);
+    mesh.texture_coordinates.emplace_back(static_cast<float>(uniform(r[0]) * 7 - 3),
+                                          static_cast<float>(uniform(r[1]) / 3));
+    mesh.colours.push_back({static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(255 - i),
+                            static_cast<std::uint8_t>(7 * i), static_cast<std::uint8_t>(i ^ 0x55U)});
+  }
+}
+
+Mesh painted(Mesh mesh, std::uint32_t seed) {
+  paint(mesh, seed);
+  return mesh;
+}
+
+std::shared_ptr<const Image> image(const char* name, const char* media_type, const std::string& bytes) {
+  const auto* first = reinterpret_cast<const std::byte*>(bytes.data());
+  return std::make_shared<const Image>(Image{name, media_type, {first, first + bytes.size()}});
+}
+
+// A red pixel, as any program writes it.
+const std::string kPng(
+    "\x89PNG\r\n\x1A\n\0\0\0\rIHDR\0\0\0\x01\0\0\0\x01\x08\x02\0\0\0\x90wS\xDE\0\0\0\x0CIDATx\x9C"
+    "c\xF8\xCF\xC0\0\0\x03\x01\x01\0\xC9\xFE\x92\xEF\0\0\0\0IEND\xAE"
+    "B`\x82",
+    69);
+
 Environment everything() {
   Environment e;
   e.surfaces = {{"Brick", {0.1F, 0.7F, 1.0F / 3, 1}, "#12", {}, {}},
@@ -39,15 +67,31 @@ Environment everything() {
                 {"Gl\xC3\xA4s \"x\"", {0.123456789F, 1, 0.5F, 0.1F}, "#9", 1.0F, 0.0F}};
   e.meshes = {std::make_shared<Mesh>(randomMesh(1, 50, 80, 3)), std::make_shared<Mesh>(),
               std::make_shared<Mesh>(randomMesh(2, 7, 0, 3)), std::make_shared<Mesh>(randomMesh(3, 9, 4, 1))};
-  e.products.resize(4);
+  e.images = {image("tiles.png", "image/png", kPng), image("odd", "image/x-tga", "12345"),
+              image("none", "image/png", ""), image("liar", "image/jpeg", kPng)};
+  e.surfaces.push_back({"Tiles", {1, 1, 1, 1}, "#7", {}, 0.1F, {}, {}, {}, 0.7F, 1.0F / 3, false, 0});
+  e.surfaces.push_back({"Pane", {0.2F, 0.9F, 1, 1}, "#8", {}, {}, 0.9F, 1.52F, 0.004F, {}, {}, false, 1});
+  e.surfaces.push_back({"Scan", {1, 1, 1, 1}, "#9", {}, {}, {}, {}, {}, {}, {}, true, 0});
+  e.meshes.push_back(std::make_shared<Mesh>(painted(randomMesh(4, 300, 90, 6), 4)));
+  e.meshes.push_back(
+      std::make_shared<Mesh>(randomMesh(5, 20, 30, 6)));  // without coordinates for the image of its surfaces
+  e.meshes.push_back(std::make_shared<Mesh>(painted(randomMesh(6, 3, 0, 6), 6)));
+  e.products.resize(5);
   e.products[0].name = "wall";
   Eigen::Matrix3d shear, mirror = Eigen::Vector3d(-1, 1, 1).asDiagonal();
   shear << 1, 0.3, 0, 0, 1.7, 0.1, 0, 0, 0.2;
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   const Eigen::Vector3d t(std::numbers::pi, -1.0 / 3, 1234.5678901234567);
-  e.instances = {instance(0, 0, turn, t),       instance(0, 0, turn * shear, -t), instance(3, 1, mirror, t / 7),
-                 instance(1, 1, turn, t),       instance(2, 3, shear, t),         instance(0, 3, Eigen::Matrix3d::Identity(), {0, 0, 0}),
-                 instance(3, 3, Eigen::Vector3d(1, 1, 0).asDiagonal(), t)};
+  e.instances = {instance(0, 0, turn, t),
+                 instance(0, 0, turn * shear, -t),
+                 instance(3, 1, mirror, t / 7),
+                 instance(1, 1, turn, t),
+                 instance(2, 3, shear, t),
+                 instance(0, 3, Eigen::Matrix3d::Identity(), {0, 0, 0}),
+                 instance(3, 3, Eigen::Vector3d(1, 1, 0).asDiagonal(), t),
+                 instance(4, 4, Eigen::Matrix3d::Identity(), t),
+                 instance(5, 4, turn, t),
+                 instance(6, 4, turn, t)};
   return e;
 }
 
@@ -58,6 +102,14 @@ void expectSame(const Environment& a, const Environment& b) {
     EXPECT_EQ(bytesOf(a.meshes[i]->positions), bytesOf(b.meshes[i]->positions)) << i;
     EXPECT_EQ(a.meshes[i]->triangles, b.meshes[i]->triangles) << i;
     EXPECT_EQ(a.meshes[i]->surface_of_triangle, b.meshes[i]->surface_of_triangle) << i;
+    EXPECT_EQ(bytesOf(a.meshes[i]->texture_coordinates), bytesOf(b.meshes[i]->texture_coordinates)) << i;
+    EXPECT_EQ(a.meshes[i]->colours, b.meshes[i]->colours) << i;
+  }
+  ASSERT_EQ(a.images.size(), b.images.size());
+  for (std::size_t i = 0; i < a.images.size(); ++i) {
+    EXPECT_EQ(a.images[i]->name, b.images[i]->name);
+    EXPECT_EQ(a.images[i]->media_type, b.images[i]->media_type);
+    EXPECT_EQ(a.images[i]->bytes, b.images[i]->bytes);
   }
   ASSERT_EQ(a.instances.size(), b.instances.size());
   for (std::size_t i = 0; i < a.instances.size(); ++i) {
@@ -118,6 +170,70 @@ TEST(GltfWriter, ImporterSeesTheSamePlacesAndRestoresTheGeoreference) {
   ASSERT_TRUE(moved);
   EXPECT_EQ(moved->georeference.shift_m, Eigen::Vector3d::Zero());
   EXPECT_LT((bounds(moved->environment).min - b.min - g.shift_m).norm(), 1e-6);
+}
+
+// Every corner of every placed triangle with its product's name, in the world.
+std::vector<std::pair<std::string, Eigen::Vector3d>> corners(const Environment& e) {
+  std::vector<std::pair<std::string, Eigen::Vector3d>> result;
+  for (const auto& i : e.instances)
+    for (const auto& t : e.meshes[i.mesh]->triangles)
+      for (const auto corner : t)
+        result.emplace_back(e.products[i.product].name,
+                            i.world_from_mesh * e.meshes[i.mesh]->positions[corner].cast<double>());
+  return result;
+}
+
+TEST(GltfExport, ComesBackByImportWithProductsPropertiesAndImages) {
+  auto e = everything();
+  Product& p = e.products[0];
+  p = {"#12",
+       "2O2Fr$t4X7Zf8NOew3FLOH",
+       "IfcWall",
+       "SOLIDWALL",
+       "Wand \"1\"",
+       "WT",
+       "EG",
+       -1,
+       -1,
+       true,
+       {"Brick", "Plaster"},
+       {{"Plaster", 0.015}},
+       {"IfcZone A"},
+       {{"Pset_WallCommon", "FireRating", "F90"}, {"Pset_WallCommon", "FireRating", "twice"}, {"", "x", "1"}}};
+  Georeference g;
+  g.shift_m = {4e6, 5e6, 100};
+  g.crs = "EPSG:25832";
+  for (const char* name : {"a b\xC3\xA4.gltf", "a.glb"}) {
+    const auto file = scratch() / name;
+    Progress progress;
+    ASSERT_TRUE(exportEnvironmentGltf(e, g, file, progress));
+    const auto model = import(file);
+    ASSERT_TRUE(model) << describe(model.error());
+    const auto& back = model->environment;
+    EXPECT_EQ(back.surfaces, e.surfaces);
+    ASSERT_EQ(back.images.size(), e.images.size());
+    for (std::size_t i = 0; i < e.images.size(); ++i) EXPECT_EQ(back.images[i]->bytes, e.images[i]->bytes);
+    const auto a = corners(e), b = corners(back);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      EXPECT_EQ(a[i].first, b[i].first);
+      EXPECT_LT((a[i].second - b[i].second).norm(), 1e-9 * (1 + a[i].second.norm()));
+    }
+    EXPECT_EQ(back.instances.size(), e.instances.size() - 1);  // the empty mesh is nowhere
+    EXPECT_EQ(back.meshes.size(), e.meshes.size() - 1);
+    const auto& wall = back.products.at(0);
+    EXPECT_EQ(wall.global_id, p.global_id);
+    EXPECT_EQ(wall.ifc_class, "IfcWall");
+    EXPECT_EQ(wall.predefined_type + wall.type_name + wall.storey, "SOLIDWALLWTEG");
+    EXPECT_EQ(wall.materials, p.materials);
+    EXPECT_EQ(wall.groups, p.groups);
+    EXPECT_EQ(wall.layers.at(0).thickness_m, 0.015);
+    ASSERT_EQ(wall.properties.size(), 3U);
+    EXPECT_EQ(wall.properties[1].set + wall.properties[1].name + wall.properties[1].value,
+              "Pset_WallCommonFireRatingtwice");
+    EXPECT_EQ(model->georeference.shift_m, g.shift_m);
+    EXPECT_EQ(model->georeference.crs, g.crs);
+  }
 }
 
 TEST(GltfWriter, ProgressCancelStopsTheWriting) {

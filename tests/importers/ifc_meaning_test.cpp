@@ -29,10 +29,10 @@ TEST(IfcMeaning, PredefinedTypesAreTold) {
   EXPECT_EQ(productOf(model, "#111").predefined_type, "GATE");
 }
 
-TEST(IfcMeaning, LayersComeWithTheirThicknessesAndTheFirstNamesTheSurface) {
+TEST(IfcMeaning, LayersComeWithTheirThicknessesAndWithoutAUsageTheFirstNamesTheSurface) {
   const ImportedModel model = importText(ifcText(kBox + product(110, "IFCWALL", "#102") +
       "#120=IFCMATERIAL('Brick',$,$);\n#121=IFCMATERIAL('Plaster',$,$);\n#122=IFCMATERIALLAYER(#120,240.,$,$,$,$,$);\n#123=IFCMATERIALLAYER(#121,15.,$,$,$,$,$);\n"
-      "#124=IFCMATERIALLAYERSET((#122,#123),'outer wall',$);\n#125=IFCMATERIALLAYERSETUSAGE(#124,.AXIS2.,.POSITIVE.,0.,$);\n#126=IFCRELASSOCIATESMATERIAL('m',$,$,$,(#110),#125);\n",
+      "#124=IFCMATERIALLAYERSET((#122,#123),'outer wall',$);\n#126=IFCRELASSOCIATESMATERIAL('m',$,$,$,(#110),#124);\n",
       "IFCSIUNIT(*,.LENGTHUNIT.,.MILLI.,.METRE.)"));
   const Product& wall = productOf(model, "#110");
   EXPECT_EQ(wall.materials, (std::vector<std::string>{"Brick", "Plaster"}));

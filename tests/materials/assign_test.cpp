@@ -97,6 +97,20 @@ TEST(Findings, SayWhatNothingFitsOnceForEachCause) {
       finding("warning", "#100", "no rule fits surface 'Unobtainium' of IfcChimney 'Schlot' and 2 more (3.00 m²)"));
 }
 
+TEST(Assignment, OfASurfaceThatTransmitsLightIsGlassAndSaysWhy) {
+  Builder b;
+  const auto pane = b.surface("Material.001", {0.9F, 0.95F, 1, 1});
+  b.environment.surfaces[pane].transmission = 0.9F;
+  b.environment.surfaces[pane].index_of_refraction = 1.52F;
+  b.product("", "Fenster", {pane});
+  const auto result = b.assign();
+  EXPECT_EQ(materialId(result, 0, pane), "glass_float_clear_6mm");
+  EXPECT_THAT(result.assignment.surfaces[0].reason,
+              HasSubstr("colour transparent (transmission 0.90, index of refraction 1.52)"));
+  for (const auto& f : result.report.findings)
+    EXPECT_EQ(f.severity, "note");  // no contradiction between colour and material
+}
+
 TEST(Findings, NoteWhatOnlyClassOrColourDecided) {
   Builder b;
   b.product("IfcWall", "W", {b.surface("Style 17")}).materials = {"Default Wall"};

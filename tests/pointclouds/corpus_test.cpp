@@ -40,6 +40,12 @@ TEST_F(RealClouds, HaveThePointsThatTheirManifestStates) {
     if (!format || cells.at(4).empty()) continue;
     SCOPED_TRACE(cells[0]);
     KeptScans kept;
+    if (cells[0] == "las/PDAL_garbage_nVariableLength.las") {  // six bytes of its last point are missing
+      const auto cut = readAll(folder / cells[0], kept);
+      ASSERT_FALSE(cut.has_value());
+      EXPECT_THAT(describe(cut.error()), ::testing::HasSubstr("room for 718 of 719 points"));
+      continue;
+    }
     const auto report = readAll(folder / cells[0], kept);
     ASSERT_OK(report);
     const auto info = format->info(folder / cells[0]);
@@ -50,7 +56,7 @@ TEST_F(RealClouds, HaveThePointsThatTheirManifestStates) {
     for (std::size_t i = 0; i < counts.size(); ++i) EXPECT_EQ(kept.scans[i].points.size(), counts[i]);
     ++files;
   }
-  EXPECT_EQ(files, 19);
+  EXPECT_EQ(files, 39);
 }
 
 TEST_F(RealClouds, PumpLiesWithinTheBoundsThatItsFileStates) {

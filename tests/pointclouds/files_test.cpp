@@ -91,7 +91,14 @@ TEST_P(Writers, SayWhereAFolderIsMissing) {
   EXPECT_EQ(writer.error().kind, ErrorKind::file_system);
 }
 
-INSTANTIATE_TEST_SUITE_P(OfEachFormat, Writers, ::testing::ValuesIn(cloudFormats().begin(), cloudFormats().end()),
+std::vector<CloudFormat> writtenFormats() {
+  std::vector<CloudFormat> formats;
+  for (const CloudFormat& format : cloudFormats())
+    if (format.writer) formats.push_back(format);
+  return formats;
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEachFormat, Writers, ::testing::ValuesIn(writtenFormats()),
                          [](const auto& format) { return std::string(format.param.name); });
 
 void writeThree(const std::filesystem::path& file) {
@@ -152,7 +159,7 @@ TEST(ConvertCloud, NamesWhatItCannotDo) {
   ASSERT_FALSE(unknown.has_value());
   EXPECT_EQ(unknown.error().kind, ErrorKind::usage);
   EXPECT_THAT(unknown.error().message, ::testing::HasSubstr(".ptx"));
-  EXPECT_EQ(convertCloud(folder / "a.ply", folder / "b.e57", report, progress).error().kind, ErrorKind::usage);
+  EXPECT_EQ(convertCloud(folder / "a.e57", folder / "b.las", report, progress).error().kind, ErrorKind::usage);
   EXPECT_EQ(convertCloud(folder / "none.e57", folder / "b.ptx", report, progress).error().kind, ErrorKind::file_system);
   EXPECT_TRUE(filesIn(folder).empty());
 }

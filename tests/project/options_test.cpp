@@ -57,7 +57,7 @@ TEST(Verbs, ThatNeedAModelSayThatThereIsNone) {
     if (v.scope != VerbScope::changes && v.scope != VerbScope::reads) continue;
     nlohmann::json options = nlohmann::json::object();
     for (const auto& q : v.parameters)
-      if (q.required) options[q.name] = "x";
+      if (q.required) options[q.name] = q.kind == ParameterKind::list ? nlohmann::json{"x"} : nlohmann::json("x");
     const auto bad = run(v.name, Document{}, options);
     ASSERT_FALSE(bad) << v.name;
     EXPECT_NE(bad.error().message.find("import"), std::string::npos) << v.name;

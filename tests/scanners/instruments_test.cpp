@@ -95,6 +95,32 @@ TEST(TrimbleX7, HasTheDurationsAndPointsOfItsModes) {
   }
 }
 
+// Time, and points in millions: those of the BLK360 and the VZ-400i as printed, the others from spacing and field.
+TEST(OtherInstruments, HaveTheGridsAndTimesOfTheirSheets) {
+  struct Row {
+    const char *id, *key, *value;
+    double million, seconds;
+  };
+  const Row table[] = {{"leica-blk360-g1", "resolution", "low", 4.1, 14},    {"leica-blk360-g1", "resolution", "high", 65.8, 219},
+                       {"leica-p40", "resolution", "6.3mm", 40.1, 109},      {"leica-p40", "resolution", "0.8mm", 2485, 3247},
+                       {"trimble-tx8", "level", "level1", 30.6, 120},        {"trimble-tx8", "level", "level3", 481.5, 600},
+                       {"riegl-vz-400i", "pattern", "panorama_50", 14.4, 120}, {"riegl-vz-400i", "pattern", "panorama_30", 40, 300}};
+  for (const auto& row : table) {
+    const auto settings = resolved(row.id, {{row.key, row.value}});
+    EXPECT_NEAR(1e-6 * settings.columns * settings.rows, row.million, 0.01 * row.million) << row.id << " " << row.value;
+    EXPECT_NEAR(settings.scan_seconds, row.seconds, 1e-9) << row.id << " " << row.value;
+  }
+}
+
+TEST(RangeModes, ReachAsFarAsTheChosenOneSays) {
+  const auto near = resolved("leica-p50", {{"range", "120m"}});
+  const auto far = resolved("leica-p50", {{"range", "1000m"}});
+  EXPECT_EQ(near.max_range_m, 120);
+  EXPECT_EQ(near.reference_reflectivity, 0.08);
+  EXPECT_EQ(far.max_range_m, 1000);
+  EXPECT_EQ(resolved("leica-rtc360", {}).max_range_m, testing::instrument("leica-rtc360").max_range_m);
+}
+
 TEST(Settings, AreRefusedWithWhatIsAllowed) {
   EXPECT_THAT(refused("leica-rtc360", {{"resolution", "1mm"}}).message, HasSubstr("12mm, 6mm, 3mm"));
   EXPECT_THAT(refused("leica-rtc360", {{"quality", "3x"}}).message, HasSubstr("resolution, double_scan"));

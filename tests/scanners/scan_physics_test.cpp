@@ -44,7 +44,8 @@ TEST(PlaneNoise, IsTheFigureOfEverySheet) {
     for (const auto& figure : instrument.range_noise) {
       const auto scene = wallAt(figure.range_m);
       const auto result = scanned(*scene.build(), allOf(*scene.environment(), figure.reflectivity), instrument, straightAhead(instrument), {});
-      ASSERT_EQ(result.points.size(), 40000U) << instrument.id << " " << figure.range_m;
+      // One in 40 000 may fade, where a sheet states its noise near the end of the range.
+      ASSERT_GE(result.points.size(), 39990U) << instrument.id << " " << figure.range_m;
       EXPECT_NEAR(planeResidual(result.points) / figure.sigma_m, 1, 0.05) << instrument.id << " " << figure.range_m << " m";
     }
   }
@@ -90,12 +91,12 @@ double farthest(const PointBlock& points) {
   return range;
 }
 
-// V3: R_max(ρ) = R_spec √(ρ/ρ_spec), for a wall that recedes along a corridor of targets.
+// V3: R_max(ρ) = R_spec √(ρ/ρ_spec), for a wall that recedes along a corridor of targets; nothing beyond R_spec itself.
 TEST(MaximumRange, FollowsTheRootOfTheReflectivity) {
   for (auto instrument : instruments()) {
     instrument.near_range_m = 0;
     for (const double reflectivity : {0.2, 0.1}) {
-      const double limit = instrument.max_range_m * std::sqrt(reflectivity / instrument.reference_reflectivity);
+      const double limit = instrument.max_range_m * std::sqrt(std::min(1.0, reflectivity / instrument.reference_reflectivity));
       if (instrument.id == "leica-rtc360") {
         EXPECT_NEAR(limit, reflectivity == 0.2 ? 61.3 : 43.3, 0.05);
       }

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "importers/ifc/model.h"
+
+namespace standpoint::ifc {
+
+// A value as text with its unit: the property's own, else the project's for such a measure ("IFCLENGTHMEASURE",
+// "IFCQUANTITYAREA"; empty: the measure that the value itself names), else none.
+std::string valueText(const Value& value, const Entity& own_unit, const Model& model, std::string_view measure = {});
+// The values of a list, separated by commas.
+std::string joinedText(const Value& list, const Entity& own_unit, const Model& model);
+// Of IfcProperty… other than the complex ones, and of IfcPhysicalSimpleQuantity.
+std::string propertyText(const Entity& property, const Model& model);
+// What a reference names: "IfcMaterial Brick".
+std::string referenceText(const Entity& entity);
+
+}  // namespace standpoint::ifc

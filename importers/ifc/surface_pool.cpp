@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "importers/ifc/surface_pool.h"
+
+#include <utility>
+
+#include "importers/ifc/style.h"
+
+namespace standpoint::ifc {
+
+// What is known of a tag: nothing, a style, or a style with a picture.
+struct SurfacePool::Look {
+  std::optional<Style> style;
+  Id style_id = 0;
+  std::int32_t image = -1;
+};
+
+Entity SurfacePool::textureOf(std::uint32_t tag) const {
+  for (const Entity& texture : model_.file.entity(model_.textures.source(tag).map).refs(0)) return texture;
+  return {};
+}
+
+SurfacePool::Look SurfacePool::lookOf(std::uint32_t tag) {
+  Look look;
+  if (!TextureMaps::isTextured(tag)) {
+    look.style = styleOfTag(model_.file, tag);
+    look.style_id = look.style && tag < TextureMaps::kFirstTag ? tag : 0;
+    if (look.style && look.style->texture && told_.insert(look.style->texture).second)
+      report_.note("#" + std::to_string(look.style->texture), "the texture has no coordinates on some of the faces that have it; they are plain");
+    return look;
+  }
+  const Entity item = model_.file.entity(model_.textures.source(tag).item);
+  const std::uint32_t own = item ? model_.style_of_item[model_.file.indexOf(item)] : 0;
+  if (!TextureMaps::isTextured(own)) look.style = styleOfTag(model_.file, own), look.style_id = look.style ? own : 0;
+  const Entity texture = textureOf(tag);
+  look.image = texture ? images_.image(texture) : -1;
+  if (!look.style) look.style.emplace();
+  // A picture replaces the colour unless it says that it is multiplied with it.
+  if (look.image >= 0 && texture[2].text() != "MODULATE") look.style->colour = {1, 1, 1, look.style->colour.a};
+  return look;
+}
+
+SurfacePool::Look SurfacePool::lookOfMaterial(Id material) {
+  const auto of_material = style_of_material_.find(material);
+  return of_material == style_of_material_.end() ? Look() : lookOf(of_material->second);
+}
+
+std::uint32_t SurfacePool::keep(Surface s) {
+  const auto key = std::make_tuple(s.name, s.colour.r, s.colour.g, s.colour.b, s.colour.a, s.image, s.index_of_refraction.value_or(0));
+  const auto [it, is_new] = known_.try_emplace(key, static_cast<std::uint32_t>(environment_.surfaces.size()));
+  if (is_new) environment_.surfaces.push_back(std::move(s));
+  return it->second;
+}
+
+namespace {
+
+void apply(Surface& surface, const std::optional<Style>& style, std::int32_t image) {
+  if (!style) return;
+  surface.colour = style->colour;
+  surface.index_of_refraction = style->index_of_refraction;
+  surface.image = image;
+}
+
+}  // namespace
+
+std::uint32_t SurfacePool::surface(std::uint32_t tag, const ProductMaterials& materials) {
+  std::size_t which = 0;
+  bool sure = materials.layered || materials.names.size() == 1;
+  Look look = lookOf(tag);
+  for (std::size_t i = 0; look.style && !sure && i < materials.names.size(); ++i) {
+    const auto of_material = style_of_material_.find(materials.ids[i]);
+    if (materials.names[i] == look.style->name || (of_material != style_of_material_.end() && of_material->second == look.style_id && look.style_id)) which = i, sure = true;
+  }
+  if (!look.style && !materials.ids.empty()) look = lookOfMaterial(materials.ids[which]);
+  Surface s;
+  apply(s, look.style, look.image);
+  if (look.style) s.name = look.style->name;
+  if (!materials.names.empty() && (sure || s.name.empty())) s.name = materials.names[which], s.source = "#" + std::to_string(materials.ids[which]);
+  else if (look.style_id) s.source = "#" + std::to_string(look.style_id);
+  return keep(std::move(s));
+}
+
+std::uint32_t SurfacePool::surfaceOfLayer(std::uint32_t tag, Id material) {
+  Look look = lookOf(tag);
+  if (!look.style) look = lookOfMaterial(material);
+  Surface s;
+  apply(s, look.style, look.image);
+  s.name = model_.file.entity(material)[0].text();
+  s.source = "#" + std::to_string(material);
+  return keep(std::move(s));
+}
+
+}  // namespace standpoint::ifc

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+
+#include "importers/ifc/image.h"
+#include "importers/ifc/material.h"
+
+namespace standpoint::ifc {
+
+// The environment's surfaces, each kept once: a material's name with a style's colour and picture.
+class SurfacePool {
+ public:
+  SurfacePool(const Model& model, Environment& environment, std::filesystem::path folder, Report& report)
+      : model_(model), environment_(environment), report_(report), images_(model, std::move(folder), environment, report),
+        style_of_material_(stylesOfMaterials(model.file)) {}
+
+  // Of faces with this tag, of a product of these materials. Of several materials that are no layers the style tells
+  // which is meant: the one of its name, or the one that has this style itself.
+  std::uint32_t surface(std::uint32_t tag, const ProductMaterials& materials);
+  // Of faces that show this layer: its material's name, and its material's look where the faces have none of their own.
+  std::uint32_t surfaceOfLayer(std::uint32_t tag, Id material);
+  // The picture on faces with that (textured) tag.
+  Entity textureOf(std::uint32_t tag) const;
+
+ private:
+  struct Look;
+  Look lookOf(std::uint32_t tag);
+  Look lookOfMaterial(Id material);
+  std::uint32_t keep(Surface surface);
+
+  const Model& model_;
+  Environment& environment_;
+  Report& report_;
+  Images images_;
+  std::map<Id, Id> style_of_material_;
+  std::set<Id> told_;
+  std::map<std::tuple<std::string, float, float, float, float, std::int32_t, float>, std::uint32_t> known_;
+};
+
+}  // namespace standpoint::ifc

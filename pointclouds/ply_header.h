@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pointclouds/line_reader.h"
+
+namespace standpoint::ply {
+
+enum class Encoding { ascii, little_endian, big_endian };
+enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+std::size_t bytesOf(Type type);
+
+struct Property {
+  std::string name;
+  Type type = Type::float32;
+  std::size_t at = 0;            // in a binary vertex
+};
+
+struct Header {
+  Encoding encoding = Encoding::ascii;
+  std::uint64_t skipped_lines = 0;   // of elements before the vertices, ASCII
+  std::uint64_t vertices_at = 0;     // byte of the first vertex, binary
+  std::uint64_t vertices = 0;        // the file has room for as many
+  std::uint64_t faces = 0;
+  std::vector<Property> properties;  // of a vertex
+  std::size_t vertex_bytes = 0;
+  // Into `properties`.
+  std::array<std::size_t, 3> position{};
+  std::optional<std::size_t> intensity;
+  std::optional<std::array<std::size_t, 3>> colour;
+  std::string unread;                // properties that are none of these, for the report
+};
+
+// Reads up to the line after end_header. Checks counts against what is left of the file.
+Result<Header> readHeader(LineReader& lines);
+
+}  // namespace standpoint::ply

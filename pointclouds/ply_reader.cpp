@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "pointclouds/local_points.h"
+#include "pointclouds/measure.h"
+#include "pointclouds/number_text.h"
+#include "pointclouds/ply.h"
+#include "pointclouds/ply_header.h"
+
+namespace standpoint::ply {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "bytes of big-endian files are turned around");
+
+constexpr std::uint64_t kChunk = 65536, kChunkBytes = 8 << 20;
+
+template <class T>
+double load(const std::uint8_t* from, bool turned) {
+  std::array<std::uint8_t, sizeof(T)> bytes;
+  std::memcpy(bytes.data(), from, sizeof(T));
+  if (turned) std::reverse(bytes.begin(), bytes.end());
+  return static_cast<double>(std::bit_cast<T>(bytes));
+}
+
+double load(Type type, const std::uint8_t* from, bool turned) {
+  switch (type) {
+    case Type::int8: return load<std::int8_t>(from, turned);
+    case Type::uint8: return load<std::uint8_t>(from, turned);
+    case Type::int16: return load<std::int16_t>(from, turned);
+    case Type::uint16: return load<std::uint16_t>(from, turned);
+    case Type::int32: return load<std::int32_t>(from, turned);
+    case Type::uint32: return load<std::uint32_t>(from, turned);
+    case Type::float32: return load<float>(from, turned);
+    case Type::float64: return load<double>(from, turned);
+  }
+  return 0;
+}
+
+bool isReal(Type type) { return type == Type::float32 || type == Type::float64; }
+
+// Colours are bytes, 16 bits or shares of 1.
+double colourScale(Type type) {
+  if (isReal(type)) return 255;
+  return type == Type::uint16 ? 1.0 / 257 : 1;
+}
+
+void takeVertex(const std::vector<double>& values, const Header& header, FoundPoints& to) {
+  to.x.push_back(values[header.position[0]]);
+  to.y.push_back(values[header.position[1]]);
+  to.z.push_back(values[header.position[2]]);
+  PointBlock& block = to.columns;
+  block.intensity.push_back(header.intensity ? static_cast<float>(values[*header.intensity]) : 0.0F);
+  block.row.push_back(0);
+  block.column.push_back(0);
+  if (!header.colour) return;
+  std::vector<std::uint8_t>* const colours[3] = {&block.red, &block.green, &block.blue};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto i = (*header.colour)[k];
+    const double value = values[i] * colourScale(header.properties[i].type);
+    // Written so that a NaN becomes 0.
+    colours[k]->push_back(value > 0 ? static_cast<std::uint8_t>(std::lround(std::min(value, 255.0))) : 0);
+  }
+}
+
+class Reading {
+ public:
+  Reading(const std::filesystem::path& path, const Header& header, ScanHeader scan)
+      : path_(path), header_(header), scan_(std::move(scan)) {}
+  Result<void> run(PointSink& sink, Report& report, Progress& progress);
+
+ private:
+  Result<void> readText(LocalPoints& local, Progress& progress);
+  Result<void> readBinary(LocalPoints& local, Progress& progress);
+  const std::filesystem::path& path_;
+  const Header& header_;
+  ScanHeader scan_;
+};
+
+Result<void> Reading::readBinary(LocalPoints& local, Progress& progress) {
+  auto file = InputFile::open(path_);
+  if (!file) return failure(file.error());
+  const bool turned = header_.encoding == Encoding::big_endian;
+  const std::uint64_t at_once = std::clamp<std::uint64_t>(kChunkBytes / header_.vertex_bytes, 1, kChunk);
+  std::vector<std::uint8_t> bytes;
+  std::vector<double> values(header_.properties.size());
+  FoundPoints found;
+  for (std::uint64_t done = 0; done < header_.vertices;) {
+    const std::uint64_t count = std::min(at_once, header_.vertices - done);
+    bytes.resize(count * header_.vertex_bytes);
+    const auto n = file->read(header_.vertices_at + done * header_.vertex_bytes, bytes);
+    if (!n) return failure(n.error());
+    if (*n < bytes.size())
+      return failure(ErrorKind::unusable, "the file became shorter while it was read",
+                     file->name() + " vertex " + std::to_string(done));
+    for (std::uint64_t i = 0; i < count; ++i) {
+      for (std::size_t k = 0; k < values.size(); ++k)
+        values[k] = load(header_.properties[k].type, bytes.data() + i * header_.vertex_bytes + header_.properties[k].at,
+                         turned);
+      takeVertex(values, header_, found);
+    }
+    if (auto written = local.write(found); !written) return written;
+    done += count;
+    progress.advance(static_cast<double>(done) / static_cast<double>(header_.vertices));
+    if (auto going = progress.check(); !going) return going;
+  }
+  return {};
+}
+
+Result<void> Reading::readText(LocalPoints& local, Progress& progress) {
+  auto file = InputFile::open(path_);
+  if (!file) return failure(file.error());
+  LineReader lines(std::move(*file));
+  if (const auto again = readHeader(lines); !again) return failure(again.error());
+  std::vector<double> values;
+  FoundPoints found;
+  const std::uint64_t all = header_.skipped_lines + header_.vertices;
+  for (std::uint64_t i = 0; i < all; ++i) {
+    const auto line = lines.next();
+    if (!line) return failure(line.error());
+    if (!*line)
+      return failure(ErrorKind::unusable, "the file ends before its last vertex: it is truncated", lines.place());
+    if (i >= header_.skipped_lines) {
+      if (!numbersOf(**line, header_.properties.size(), values) || values.size() != header_.properties.size())
+        return failure(ErrorKind::unusable,
+                       "a vertex has " + std::to_string(header_.properties.size()) + " numbers here", lines.place());
+      takeVertex(values, header_, found);
+    }
+    if (i % kChunk != kChunk - 1 && i + 1 != all) continue;
+    if (auto written = local.write(found); !written) return written;
+    progress.advance(lines.share());
+    if (auto going = progress.check(); !going) return going;
+  }
+  return {};
+}
+
+Result<void> Reading::run(PointSink& sink, Report& report, Progress& progress) {
+  const auto single = [&](std::size_t k) {
+    return header_.encoding != Encoding::ascii && header_.properties[header_.position[k]].type == Type::float32;
+  };
+  LocalPoints local(sink, scan_, !(single(0) && single(1) && single(2)));
+  const auto read = header_.encoding == Encoding::ascii ? readText(local, progress) : readBinary(local, progress);
+  if (!read) return read;
+  return local.finish(report);
+}
+
+struct Opened {
+  Header header;
+  ScanHeader scan;
+  std::string name;
+};
+
+Result<Opened> open(const std::filesystem::path& path) {
+  auto file = InputFile::open(path);
+  if (!file) return failure(file.error());
+  LineReader lines(std::move(*file));
+  auto header = readHeader(lines);
+  if (!header) return failure(header.error());
+  ScanHeader scan;
+  scan.name = path.stem().string();
+  scan.has_colour = header->colour.has_value();
+  if (!header->intensity) scan.intensity_max = 0;
+  return Opened{*std::move(header), std::move(scan), lines.name()};
+}
+
+void listUnread(const Opened& opened, Report& report) {
+  if (!opened.header.unread.empty())
+    report.lose(opened.name, "properties of the vertices that are not read: " + opened.header.unread);
+  if (opened.header.faces > 0)
+    report.lose(opened.name, std::to_string(opened.header.faces) + " faces are not read: the vertices are the points");
+}
+
+// What the type says; real numbers have to be looked at.
+Result<void> setIntensityLimits(const std::filesystem::path& path, Opened& opened, Progress& progress) {
+  if (!opened.header.intensity) return {};
+  const Type type = opened.header.properties[*opened.header.intensity].type;
+  if (type == Type::uint8 || type == Type::uint16) {
+    opened.scan.intensity_max = type == Type::uint8 ? 255 : 65535;
+    return {};
+  }
+  IntensityRange range;
+  Report ignored;
+  progress.stage("Measuring " + opened.name, 0, 0.5);
+  if (auto run = Reading(path, opened.header, opened.scan).run(range, ignored, progress); !run) return run;
+  range.putInto(opened.scan);
+  progress.stage("Reading " + opened.name, 0.5, 1);
+  return {};
+}
+
+}  // namespace
+
+Result<Report> read(const std::filesystem::path& path, PointSink& sink, Progress& progress) {
+  auto opened = open(path);
+  if (!opened) return failure(opened.error());
+  progress.stage("Reading " + opened->name);
+  Report report;
+  listUnread(*opened, report);
+  if (auto set = setIntensityLimits(path, *opened, progress); !set) return failure(set.error());
+  if (auto run = Reading(path, opened->header, opened->scan).run(sink, report, progress); !run)
+    return failure(run.error());
+  return report;
+}
+
+Result<CloudInfo> info(const std::filesystem::path& path) {
+  auto opened = open(path);
+  if (!opened) return failure(opened.error());
+  CloudInfo info{.format = kPly.name};
+  listUnread(*opened, info.report);
+  info.scans.push_back({std::move(opened->scan), opened->header.vertices});
+  return info;
+}
+
+bool hasFaces(const std::filesystem::path& path) {
+  const auto opened = open(path);
+  return opened && opened->header.faces > 0;
+}
+
+}  // namespace standpoint::ply

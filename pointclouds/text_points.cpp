@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pointclouds/text_points.h"
+
+#include <cmath>
+
+#include "pointclouds/line_reader.h"
+#include "pointclouds/local_points.h"
+#include "pointclouds/measure.h"
+#include "pointclouds/number_text.h"
+
+namespace standpoint {
+
+const CloudFormat kPts = {"pts", "Leica PTS: text, a count and points", ".pts", false, nullptr, text_points::readPts,
+                          text_points::infoPts};
+const CloudFormat kXyz = {"xyz", "Text: a point per line", ".xyz", false, nullptr, text_points::readXyz,
+                          text_points::infoXyz};
+
+namespace text_points {
+namespace {
+
+constexpr std::size_t kChunk = 65536, kMostNumbers = 64;
+constexpr std::uint64_t kHeadLines = 10, kShortestPoint = 5;
+
+class Reader {
+ public:
+  Reader(InputFile file, bool counted, ScanHeader scan, PointSink& sink, Progress& progress)
+      : lines_(std::move(file)), counted_(counted), scan_(std::move(scan)), sink_(sink), progress_(progress) {}
+  Result<void> run(Report& report);
+
+ private:
+  tl::unexpected<Error> broken(const std::string& what) const {
+    return failure(ErrorKind::unusable, what, lines_.place());
+  }
+  Result<bool> takeHead(std::string_view line);  // true when the line was no point
+  Result<void> takePoint();
+  Result<void> flush();
+  bool hasIntensity() const { return width_ != 3 && width_ != 6; }
+
+  LineReader lines_;
+  bool counted_;
+  ScanHeader scan_;
+  PointSink& sink_;
+  Progress& progress_;
+  std::optional<LocalPoints> local_;
+  FoundPoints found_;
+  std::vector<double> numbers_;
+  std::size_t width_ = 0;      // numbers of each point, as of the first
+  std::uint64_t missing_ = 0;  // points of the block that are still to come
+  std::uint64_t surplus_ = 0;
+};
+
+Result<bool> Reader::takeHead(std::string_view line) {
+  if (trimmed(line).empty()) return true;
+  const bool numbers = numbersOf(line, kMostNumbers, numbers_);
+  if (counted_ && missing_ == 0) {
+    if (numbers && width_ > 0 && numbers_.size() == width_) return ++surplus_, true;
+    if (!numbers || numbers_.size() != 1 || !(numbers_[0] >= 0) || numbers_[0] != std::floor(numbers_[0]))
+      return broken("a block of PTS points begins with their number");
+    if (numbers_[0] > static_cast<double>(lines_.left() / kShortestPoint + 1))
+      return broken("the file is truncated: it has no room for " + std::string(trimmed(line)) + " points");
+    missing_ = static_cast<std::uint64_t>(numbers_[0]);
+    return true;
+  }
+  if (numbers) return false;
+  if (!counted_ && width_ == 0 && lines_.line() <= kHeadLines) return true;
+  return broken("a point is a line of numbers");
+}
+
+Result<void> Reader::takePoint() {
+  if (width_ == 0) {
+    width_ = numbers_.size();
+    if (width_ < 3) return broken("a point has at least x y z");
+    scan_.has_colour = width_ == 6 || width_ == 7;
+    if (!hasIntensity()) scan_.intensity_min = scan_.intensity_max = 0;
+    local_.emplace(sink_, scan_, true);
+  }
+  if (numbers_.size() != width_)
+    return broken("this point has " + std::to_string(numbers_.size()) + " numbers, those before it " +
+                  std::to_string(width_));
+  found_.x.push_back(numbers_[0]);
+  found_.y.push_back(numbers_[1]);
+  found_.z.push_back(numbers_[2]);
+  PointBlock& block = found_.columns;
+  block.intensity.push_back(hasIntensity() ? static_cast<float>(numbers_[3]) : 0.0F);
+  block.row.push_back(0);
+  block.column.push_back(0);
+  if (!scan_.has_colour) return {};
+  std::vector<std::uint8_t>* const colours[3] = {&block.red, &block.green, &block.blue};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double value = numbers_[width_ - 3 + k];
+    if (!(value >= 0 && value <= 255)) return broken("a colour lies outside 0 to 255");
+    colours[k]->push_back(static_cast<std::uint8_t>(std::lround(value)));
+  }
+  return {};
+}
+
+Result<void> Reader::flush() {
+  if (auto written = local_->write(found_); !written) return written;
+  progress_.advance(lines_.share());
+  return progress_.check();
+}
+
+Result<void> Reader::run(Report& report) {
+  for (;;) {
+    const auto line = lines_.next();
+    if (!line) return failure(line.error());
+    if (!*line) break;
+    const auto head = takeHead(**line);
+    if (!head) return failure(head.error());
+    if (*head) continue;
+    if (auto taken = takePoint(); !taken) return taken;
+    missing_ -= counted_ ? 1 : 0;
+    if (found_.size() == kChunk)
+      if (auto flushed = flush(); !flushed) return flushed;
+  }
+  if (missing_ > 0) return broken("the file ends " + std::to_string(missing_) + " points too early: it is truncated");
+  if (!local_) return broken("the file holds no point");
+  if (auto flushed = flush(); !flushed) return flushed;
+  if (width_ != 3 && width_ != 4 && width_ != 6 && width_ != 7)
+    report.lose(lines_.name(), "points have " + std::to_string(width_) + " numbers, of which x y z and the fourth, as "
+                                   "intensity, are read: what the others are is not stated");
+  if (surplus_ > 0) report.lose(lines_.name(), std::to_string(surplus_) + " points stand behind the number that is stated");
+  return local_->finish(report);
+}
+
+Result<void> readOnce(const std::filesystem::path& path, bool counted, const ScanHeader& scan, PointSink& sink,
+                      Report& report, Progress& progress) {
+  auto file = InputFile::open(path);
+  if (!file) return failure(file.error());
+  return Reader(std::move(*file), counted, scan, sink, progress).run(report);
+}
+
+// The text states no limits of intensity, and a header comes before its points: they are looked at first.
+Result<Report> read(const std::filesystem::path& path, bool counted, PointSink& sink, Progress& progress) {
+  ScanHeader scan;
+  scan.name = path.stem().string();
+  Report report;
+  IntensityRange range;
+  progress.stage("Measuring " + path.filename().string(), 0, 0.5);
+  if (auto done = readOnce(path, counted, scan, range, report, progress); !done) return failure(done.error());
+  range.putInto(scan);
+  report = {};
+  progress.stage("Reading " + path.filename().string(), 0.5, 1);
+  if (auto done = readOnce(path, counted, scan, sink, report, progress); !done) return failure(done.error());
+  return report;
+}
+
+Result<CloudInfo> info(const std::filesystem::path& path, bool counted, const char* name) {
+  PointCounter counter;
+  Progress progress;
+  CloudInfo info{.format = name};
+  ScanHeader scan;
+  scan.name = path.stem().string();
+  if (auto done = readOnce(path, counted, scan, counter, info.report, progress); !done) return failure(done.error());
+  info.scans = std::move(counter.scans);
+  return info;
+}
+
+}  // namespace
+
+Result<Report> readPts(const std::filesystem::path& file, PointSink& sink, Progress& progress) {
+  return read(file, true, sink, progress);
+}
+Result<Report> readXyz(const std::filesystem::path& file, PointSink& sink, Progress& progress) {
+  return read(file, false, sink, progress);
+}
+Result<CloudInfo> infoPts(const std::filesystem::path& file) { return info(file, true, kPts.name); }
+Result<CloudInfo> infoXyz(const std::filesystem::path& file) { return info(file, false, kXyz.name); }
+
+}  // namespace text_points
+}  // namespace standpoint

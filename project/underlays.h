@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "project/verb.h"
+
+namespace standpoint {
+
+using Underlays = std::vector<std::shared_ptr<const Underlay>>;
+
+// As they stand in project.json: a file that lies in the project's folder or beside it is named relative to it, so both
+// can move together. Readers throw nlohmann::json::exception.
+nlohmann::json underlaysToJson(const Underlays& underlays, const std::filesystem::path& project_folder);
+Underlays underlaysFrom(const nlohmann::json& part, const std::filesystem::path& project_folder);
+
+// Of the cloud in the model's file frame.
+Bounds boundsInFile(const Underlay& underlay);
+
+// Adds, moves, shows, hides, removes or lists clouds that lie under the model.
+Result<Outcome> runUnderlay(const Document& document, const nlohmann::json& options, Progress& progress);
+
+}  // namespace standpoint

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pointclouds/text_points.h"
+#include "tests/pointclouds/kept_scans.h"
+#include "tests/pointclouds/made_up_scan.h"
+
+namespace standpoint {
+namespace {
+
+using testing::KeptScans;
+using testing::TemporaryFolder;
+using ::testing::HasSubstr;
+
+TEST(TextPoints, HaveTheColumnsThatTheirNumberSays) {
+  const TemporaryFolder folder;
+  struct Case {
+    const char* line;
+    bool intensity, colour;
+  };
+  for (const Case& c : {Case{"1 2 3", false, false}, Case{"1,2,3,-77", true, false}, Case{"1;2;3;10;20;30", false, true},
+                        Case{"1\t2\t3\t-77\t10\t20\t30", true, true}}) {
+    SCOPED_TRACE(c.line);
+    testing::putBytes(folder / "a.xyz", std::string("//X Y Z\n") + c.line + "\r\n" + c.line + "\n");
+    KeptScans kept;
+    ASSERT_OK(readAll(folder / "a.xyz", kept));
+    const auto& [header, points, ended] = kept.scans.at(0);
+    ASSERT_EQ(points.size(), 2u);
+    EXPECT_EQ(points.z_m[1], 3);
+    EXPECT_EQ(header.intensity_max > header.intensity_min, c.intensity);
+    if (c.intensity) { EXPECT_EQ(points.intensity[1], -77); }
+    EXPECT_EQ(header.has_colour, c.colour);
+    if (c.colour) { EXPECT_EQ(points.blue[1], 30); }
+  }
+}
+
+TEST(TextPoints, OfSeveralBlocksWithCountsAreReadThrough) {
+  const TemporaryFolder folder;
+  testing::putBytes(folder / "a.pts", "1\n1 2 3 4\n2\n5 6 7 8\n9 10 11 12\n\n");
+  KeptScans kept;
+  ASSERT_OK(readAll(folder / "a.pts", kept));
+  EXPECT_EQ(kept.scans.at(0).points.size(), 3u);
+  EXPECT_EQ(kept.scans.at(0).header.intensity_min, 4);
+  EXPECT_EQ(kept.scans.at(0).header.intensity_max, 12);
+}
+
+TEST(TextPoints, BehindTheStatedNumberAreLostAloud) {
+  const TemporaryFolder folder;
+  testing::putBytes(folder / "a.pts", "1\n1 2 3\n4 5 6\n");
+  KeptScans kept;
+  const auto report = readAll(folder / "a.pts", kept);
+  ASSERT_OK(report);
+  EXPECT_EQ(kept.scans.at(0).points.size(), 1u);
+  EXPECT_EQ(report->losses(), 1u);
+  EXPECT_THAT(testing::said(*report), HasSubstr("1 points stand behind"));
+}
+
+TEST(HostileTextPoints, AreRefusedWithLineAndReason) {
+  const TemporaryFolder folder;
+  const std::tuple<const char*, const char*, const char*> bad[] = {
+      {"a.pts", "1000000000000\n1 2 3\n", "no room for 1000000000000"},
+      {"a.pts", "-1\n1 2 3\n", "begins with their number"},
+      {"a.pts", "3\n1 2 3\n1 2 3 \n", "truncated"},
+      {"a.pts", "2\n1 2 3\n1 2 x\n", "a line of numbers"},
+      {"a.xyz", "1 2 3\n1 2 3 4\n", "those before it 3"},
+      {"a.xyz", "1 2\n", "at least x y z"},
+      {"a.xyz", "1 2 3 300 0 0\n", "outside 0 to 255"},
+      {"a.xyz", "words\n", "holds no point"}};
+  for (const auto& [name, text, says] : bad) {
+    testing::putBytes(folder / name, text);
+    KeptScans kept;
+    const auto read = readAll(folder / name, kept);
+    ASSERT_FALSE(read.has_value()) << says;
+    EXPECT_THAT(read.error().message, HasSubstr(says));
+    EXPECT_THAT(read.error().source, HasSubstr(" line "));
+  }
+}
+
+}  // namespace
+}  // namespace standpoint
