@@ -53,7 +53,8 @@ void transform(PolyMesh& mesh, const Eigen::Affine3d& to_from);   // flips the f
 void setTag(PolyMesh& mesh, std::uint32_t tag);
 double volume(const PolyMesh& mesh);
 bool isClosed(const PolyMesh& mesh, double weld_m = 1e-6);
-// Welds points closer than weld_m, drops degenerate faces, makes neighbours agree, and turns closed shells outward.
+// Welds points closer than weld_m, drops degenerate faces, makes neighbours agree, and turns closed shells outward; a closed
+// shell within a larger one and turned against it bounds a cavity, inward.
 void orientOutward(PolyMesh& mesh, double weld_m = 1e-6);
 
 // Solids. Profiles lie in the XY plane of their own frame.
@@ -62,9 +63,13 @@ PolyMesh extrude(const Region2& profile, const Eigen::Vector3d& direction_unit, 
 PolyMesh extrudeTapered(const Region2& from, const Region2& to, const Eigen::Vector3d& direction_unit, double depth_m);
 PolyMesh revolve(const Region2& profile, const Eigen::Vector3d& axis_point, const Eigen::Vector3d& axis_unit,
                  double angle_rad, const Tessellation& tessellation);
-// A disk (or ring: inner_radius_m > 0) along a polyline, mitred at the corners.
+// A disk (or ring: inner_radius_m > 0) along a polyline, mitred at the corners. The normals of the two end faces may differ
+// from the first and last chord, as where the polyline stands for an arc; zero: they do not.
+struct EndNormals {
+  Eigen::Vector3d start_unit = Eigen::Vector3d::Zero(), end_unit = Eigen::Vector3d::Zero();
+};
 PolyMesh sweepDisk(std::span<const Eigen::Vector3d> path, bool closed, double radius_m, double inner_radius_m,
-                   const Tessellation& tessellation);
+                   const Tessellation& tessellation, const EndNormals& ends = {});
 // A profile placed at each frame in turn (x, y of the profile along the frame's x, y), neighbours joined by quads or
 // triangles; all profiles must have the same number of points, loop by loop. Ends capped unless closed.
 Result<PolyMesh> loft(std::span<const Region2> profiles, std::span<const Eigen::Isometry3d> frames, bool closed);

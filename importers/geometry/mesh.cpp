@@ -170,36 +170,72 @@ bool isClosed(const PolyMesh& mesh, double weld_m) {
   return true;
 }
 
+namespace {
+
+// Faces that hang together, their neighbours made to agree with the first.
+struct Component {
+  std::vector<std::uint32_t> faces;
+  std::map<std::uint32_t, bool> turned;
+  bool closed = true;
+  double volume = 0;
+  Eigen::AlignedBox3d box;
+};
+
+Component componentFrom(std::uint32_t seed, const PolyMesh& mesh, const std::vector<std::vector<Link>>& links, const std::vector<bool>& has_border,
+                        std::vector<bool>& seen) {
+  Component c;
+  c.faces.push_back(seed);
+  seen[seed] = true;
+  for (std::size_t next = 0; next < c.faces.size(); ++next) {
+    const std::uint32_t current = c.faces[next];
+    c.closed = c.closed && !has_border[current];
+    for (const Link& link : links[current]) {
+      if (seen[link.face]) continue;
+      seen[link.face] = true;
+      c.faces.push_back(link.face);
+    }
+  }
+  c.turned.emplace(seed, false);
+  for (std::uint32_t current : c.faces) {
+    for (const Link& link : links[current]) c.turned.emplace(link.face, c.turned[current] != link.opposed);
+  }
+  const Eigen::Vector3d origin = mesh.points[mesh.faces[seed].outer[0]];
+  for (std::uint32_t f : c.faces) {
+    c.volume += (c.turned[f] ? -1.0 : 1.0) * faceVolume(mesh, mesh.faces[f], origin);
+    for (std::uint32_t i : mesh.faces[f].outer) c.box.extend(mesh.points[i]);
+  }
+  return c;
+}
+
+// A closed component within another one and turned against it is the cavity of a hollow body, and stays one.
+bool isCavity(const Component& c, const std::vector<Component>& all) {
+  const Component* around = nullptr;
+  for (const Component& other : all) {
+    const bool larger = &other != &c && other.closed && std::abs(other.volume) > std::abs(c.volume) && other.box.contains(c.box);
+    if (larger && (!around || std::abs(other.volume) < std::abs(around->volume))) around = &other;
+  }
+  return around && (around->volume < 0) != (c.volume < 0);
+}
+
+}  // namespace
+
 void orientOutward(PolyMesh& mesh, double weld_m) {
   weldAndClean(mesh, weld_m);
   if (mesh.faces.empty()) return;
   std::vector<bool> has_border;
   const std::vector<std::vector<Link>> links = neighbours(mesh, has_border);
   std::vector<bool> seen(mesh.faces.size(), false);
+  std::vector<Component> components;
   for (std::uint32_t seed = 0; seed < mesh.faces.size(); ++seed) {
-    if (seen[seed]) continue;
-    std::vector<std::uint32_t> shell{seed};
-    seen[seed] = true;
-    bool closed = true;
-    for (std::size_t next = 0; next < shell.size(); ++next) {
-      const std::uint32_t current = shell[next];
-      closed = closed && !has_border[current];
-      for (const Link& link : links[current]) {
-        if (seen[link.face]) continue;
-        seen[link.face] = true;
-        shell.push_back(link.face);
-      }
-    }
-    std::map<std::uint32_t, bool> turned{{seed, false}};
-    for (std::uint32_t current : shell) {
-      for (const Link& link : links[current]) turned.emplace(link.face, turned[current] != link.opposed);
-    }
-    double sum = 0;
-    const Eigen::Vector3d origin = mesh.points[mesh.faces[seed].outer[0]];
-    for (std::uint32_t f : shell) sum += (turned[f] ? -1.0 : 1.0) * faceVolume(mesh, mesh.faces[f], origin);
-    const bool inside_out = closed && sum < 0;
-    for (std::uint32_t f : shell) {
-      if (turned[f] != inside_out) turn(mesh.faces[f]);
+    if (!seen[seed]) components.push_back(componentFrom(seed, mesh, links, has_border, seen));
+  }
+  // Many loose parts are no hollow bodies, and each would be compared with each.
+  constexpr std::size_t kMostCompared = 200;
+  for (Component& c : components) {
+    const bool cavity = c.closed && components.size() <= kMostCompared && isCavity(c, components);
+    const bool inside_out = c.closed && (c.volume < 0) != cavity;
+    for (std::uint32_t f : c.faces) {
+      if (c.turned[f] != inside_out) turn(mesh.faces[f]);
     }
   }
 }

@@ -42,18 +42,20 @@ Ring circleAround(const Eigen::Vector3d& centre, const Eigen::Vector3d& directio
   return ring;
 }
 
-std::vector<Ring> ringsAlong(const std::vector<Eigen::Vector3d>& path, bool closed, double radius_m, int segments) {
+std::vector<Ring> ringsAlong(const std::vector<Eigen::Vector3d>& path, bool closed, double radius_m, int segments, const EndNormals& ends) {
   const std::size_t n = path.size();
   const auto direction = [&](std::size_t i) { return Eigen::Vector3d((path[(i + 1) % n] - path[i % n]).normalized()); };
   std::vector<Ring> rings;
   Eigen::Vector3d current = direction(0);
   rings.push_back(circleAround(path[0], current, radius_m, segments));
   if (closed) rings[0] = slide(rings[0], current, path[0], mitreNormal(direction(n - 1), current));
+  else if (ends.start_unit.dot(current) > 0.5) rings[0] = slide(rings[0], current, path[0], ends.start_unit);
   const std::size_t last = closed ? n : n - 1;
   for (std::size_t i = 1; i <= last; ++i) {
     const bool at_end = !closed && i == last;
     const Eigen::Vector3d next = at_end ? current : direction(i);
-    rings.push_back(slide(rings.back(), current, path[i % n], mitreNormal(current, next)));
+    const bool bent = at_end && ends.end_unit.dot(current) > 0.5;
+    rings.push_back(slide(rings.back(), current, path[i % n], bent ? ends.end_unit : mitreNormal(current, next)));
     current = next;
   }
   return rings;
@@ -99,15 +101,15 @@ void tube(PolyMesh& mesh, std::vector<Ring> rings, bool closed, bool inner, Face
 }  // namespace
 
 PolyMesh sweepDisk(std::span<const Eigen::Vector3d> path, bool closed, double radius_m, double inner_radius_m,
-                   const Tessellation& tessellation) {
+                   const Tessellation& tessellation, const EndNormals& ends) {
   PolyMesh mesh;
   const std::vector<Eigen::Vector3d> points = withoutRepeats(path, closed);
   if (points.size() < 2 || !(radius_m > 0) || inner_radius_m >= radius_m) return mesh;
   closed = closed && points.size() >= 3;
   const int segments = segmentCount(radius_m, 2 * std::numbers::pi, tessellation);
   Face caps[2];
-  tube(mesh, ringsAlong(points, closed, radius_m, segments), closed, false, caps);
-  if (inner_radius_m > 0) tube(mesh, ringsAlong(points, closed, inner_radius_m, segments), closed, true, caps);
+  tube(mesh, ringsAlong(points, closed, radius_m, segments, ends), closed, false, caps);
+  if (inner_radius_m > 0) tube(mesh, ringsAlong(points, closed, inner_radius_m, segments, ends), closed, true, caps);
   if (!closed) mesh.faces.insert(mesh.faces.end(), {caps[0], caps[1]});
   return mesh;
 }

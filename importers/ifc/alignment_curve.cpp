@@ -28,14 +28,13 @@ Parent circleParent(double radius) {
           [radius](double s) { return s / radius + std::numbers::pi / 2; }};
 }
 
-// Points relative to the one at `start`: far along a clothoid the differences would drown.
-Parent clothoidParent(double constant, double start) {
-  const double sharpness = constant / std::abs(constant * constant * constant);   // curvature = sharpness · s
-  const auto heading = [sharpness](double s) { return sharpness * s * s / 2; };
+// A curve that is known by its heading along its length. Points relative to the one at `start`: far along a spiral the
+// differences would drown.
+Parent headedParent(const std::function<double(double)>& heading, double start) {
   const auto at = [heading, start](double s) {
     constexpr std::array kNodes{-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831, 0.9061798459386640};
     constexpr std::array kWeights{0.2369268850561891, 0.4786286704993665, 0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
-    const int pieces = static_cast<int>(std::clamp(std::abs(heading(s) - heading(start)) * 4, 4.0, 500.0));
+    const int pieces = static_cast<int>(std::clamp(std::abs(heading(s) - heading(start)) * 4, 8.0, 500.0));
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     const double half = (s - start) / pieces / 2;
     for (int i = 0; i < pieces; ++i)
@@ -46,6 +45,43 @@ Parent clothoidParent(double constant, double start) {
     return sum;
   };
   return {at, heading};
+}
+
+// A term A of order n bends the curve by sign(A) · s^n / |A|^(n+1) (IFC 4.3, 8.9.3.66 IfcSpiral and its subtypes).
+struct SpiralTerm {
+  int order;
+  double a_m;
+};
+
+double headingOf(const std::vector<SpiralTerm>& terms, double s) {
+  double sum = 0;
+  for (const SpiralTerm& t : terms) sum += (t.a_m < 0 ? -1 : 1) * std::pow(s / std::abs(t.a_m), t.order + 1) / (t.order + 1);
+  return sum;
+}
+
+std::vector<SpiralTerm> terms(const Entity& entity, const Scope& scope) {
+  std::vector<SpiralTerm> found;
+  const auto add = [&](std::size_t index, int order) {
+    if (const double a = scope.metres(entity[index].number(0)); std::abs(a) > 1e-9) found.push_back({order, a});
+  };
+  if (entity.is("IFCCLOTHOID")) add(1, 1);
+  const int highest = entity.is("IFCSECONDORDERPOLYNOMIALSPIRAL") ? 2 : entity.is("IFCTHIRDORDERPOLYNOMIALSPIRAL") ? 3 : entity.is("IFCSEVENTHORDERPOLYNOMIALSPIRAL") ? 7 : -1;
+  for (int order = highest; order >= 0; --order) add(static_cast<std::size_t>(highest - order + 1), order);
+  if (entity.is("IFCSINESPIRAL")) add(2, 1), add(3, 0);
+  if (entity.is("IFCCOSINESPIRAL")) add(2, 0);
+  return found;
+}
+
+// The waves of a cosine or sine spiral are as long as the segment (a half and a whole one).
+std::function<double(double)> spiralHeading(const Entity& entity, double length_m, const Scope& scope) {
+  const std::vector<SpiralTerm> polynomial_part = terms(entity, scope);
+  const double wave = scope.metres(entity[1].number(0)), l = std::abs(length_m);
+  if (entity.is("IFCCOSINESPIRAL") && std::abs(wave) > 1e-9)
+    return [=](double s) { return headingOf(polynomial_part, s) + l / (std::numbers::pi * wave) * std::sin(std::numbers::pi * s / l); };
+  if (entity.is("IFCSINESPIRAL") && std::abs(wave) > 1e-9)
+    return [=](double s) { return headingOf(polynomial_part, s) + l / (2 * std::numbers::pi * wave) * (1 - std::cos(2 * std::numbers::pi * s / l)); };
+  if (polynomial_part.empty()) return {};
+  return [=](double s) { return headingOf(polynomial_part, s); };
 }
 
 std::vector<double> coefficients(const Value& list) {
@@ -72,12 +108,11 @@ Parent polynomialParent(const Entity& entity, double unit) {
           [=](double s) { return std::atan2(slope(y, s / unit), slope(x, s / unit)); }};
 }
 
-Result<Parent> parentOf(const Entity& entity, double start_m, const Scope& scope) {
+Result<Parent> parentOf(const Entity& entity, double start_m, double length_m, const Scope& scope) {
   if (entity.is("IFCLINE")) return lineParent(entity);
   if (entity.is("IFCCIRCLE"))
     if (const double r = scope.metres(entity[1].number(0)); r > 0) return circleParent(r);
-  if (entity.is("IFCCLOTHOID"))
-    if (const double a = scope.metres(entity[1].number(0)); std::abs(a) > 1e-9) return clothoidParent(a, start_m);
+  if (const auto heading = spiralHeading(entity, length_m, scope)) return headedParent(heading, start_m);
   if (entity.is("IFCPOLYNOMIALCURVE")) return polynomialParent(entity, scope.model.units.length_m);
   return fail(entity, std::string(entity.typeName()) + " is not supported as a part of an alignment");
 }
@@ -97,7 +132,7 @@ Result<Path> segmentPath(const Entity& segment, Scope& scope) {
   const double start = segmentMeasure(segment[2], parent_entity, scope), length_m = segmentMeasure(segment[3], parent_entity, scope);
   Path path;
   if (std::abs(length_m) < 1e-9) return path;   // the last segment of an alignment only marks its end
-  const auto parent = parentOf(parent_entity, start, scope);
+  const auto parent = parentOf(parent_entity, start, length_m, scope);
   if (!parent) return failure(parent.error());
   const double sign = length_m < 0 ? -1 : 1;
   const double turn = -(parent->heading(start) + (sign < 0 ? std::numbers::pi : 0));

@@ -2,6 +2,7 @@
 #include "importers/ifc/body.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <exception>
 #include <map>
@@ -182,6 +183,36 @@ class Builder {
           if (const auto& body = shared_[index_.at(part.representation)].body)
             bodies.push_back({body, Eigen::Affine3d(plans_[i].placement) * part.product_from_items, part.style});
       tellMissing(i, bodies.empty());
+    }
+    tellRepairs();
+  }
+
+  // One issue per product and kind while they are few, else one per kind with the count.
+  void tellRepairs() {
+    struct Kind {
+      std::size_t Repairs::*count;
+      const char* what;
+    };
+    constexpr std::array kKinds{Kind{&Repairs::inverted, "shells were inside out and have been turned"},
+                                Kind{&Repairs::disagreeing, "shells had faces that ran against each other; they have been turned to agree"},
+                                Kind{&Repairs::degenerate, "faces had no area and were dropped"},
+                                Kind{&Repairs::duplicate, "faces were there twice; one of each was dropped"},
+                                Kind{&Repairs::open, "shells are said to be closed and are not; they stay open"},
+                                Kind{&Repairs::branching, "edges belong to more than two faces; they stay so"}};
+    constexpr std::size_t kListed = 20;
+    for (const Kind& kind : kKinds) {
+      std::vector<std::pair<std::size_t, std::size_t>> found;   // product, how many
+      std::size_t sum = 0;
+      for (std::size_t i = 0; i < plans_.size(); ++i) {
+        std::size_t count = 0;
+        for (const Part& part : plans_[i].parts)
+          if (const auto it = index_.find(part.representation); it != index_.end()) count += shared_[it->second].items.repairs.*kind.count;
+        if (count > 0) found.emplace_back(i, count), sum += count;
+      }
+      for (std::size_t k = 0; k < std::min(found.size(), kListed); ++k)
+        result_.report.note(products_[found[k].first].place(), std::to_string(found[k].second) + " " + kind.what);
+      if (found.size() > kListed)
+        result_.report.note(products_[found[kListed].first].place(), "and " + std::to_string(found.size() - kListed) + " more products of the same kind (in all " + std::to_string(sum) + " " + kind.what + ")");
     }
   }
 

@@ -19,7 +19,12 @@ void close(Path& path) {
   path.closed = true;
 }
 
-void reverse(Path& path) { std::reverse(path.points.begin(), path.points.end()); }
+void reverse(Path& path) {
+  std::reverse(path.points.begin(), path.points.end());
+  path.start_tangent.swap(path.end_tangent);
+  path.start_tangent *= -1;
+  path.end_tangent *= -1;
+}
 
 geometry::Loop2 loop2(const Path& path) {
   geometry::Loop2 loop;
@@ -138,8 +143,12 @@ Result<Path> indexedPolyCurve(const Entity& entity, Scope& scope) {
       if (i < 1 || i > static_cast<std::int64_t>(points.size())) return fail(entity, "a segment refers to point " + std::to_string(i) + " which the list does not have");
       corners.push_back(points[static_cast<std::size_t>(i - 1)]);
     }
-    if (segment.typeName() == "IFCARCINDEX" && corners.size() == 3) corners = arcThrough(corners[0], corners[1], corners[2], scope).points;
-    for (const auto& p : corners) appendPoint(path, p);
+    const bool first = path.points.empty();
+    Path part{std::move(corners)};
+    if (segment.typeName() == "IFCARCINDEX" && part.points.size() == 3) part = arcThrough(part.points[0], part.points[1], part.points[2], scope);
+    if (first) path.start_tangent = part.start_tangent;
+    path.end_tangent = part.end_tangent;
+    for (const auto& p : part.points) appendPoint(path, p);
   }
   if (path.points.size() < 2) return fail(entity, "the curve has fewer than two different points");
   close(path);

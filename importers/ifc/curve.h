@@ -26,6 +26,7 @@ struct Conic {
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   double a = 0, b = 0;                                             // half axes in metres
   Eigen::Vector3d at(double angle) const { return frame * Eigen::Vector3d(a * std::cos(angle), b * std::sin(angle), 0); }
+  Eigen::Vector3d tangent(double angle) const { return frame.linear() * Eigen::Vector3d(-a * std::sin(angle), b * std::cos(angle), 0).normalized(); }
   double angleOf(const Eigen::Vector3d& point) const;
 };
 Result<Conic> conic(const Entity& entity, Scope& scope);

@@ -42,6 +42,8 @@ Result<Path> compositeCurve(const Entity& entity, Scope& scope) {
     const bool joined = !path.points.empty() && meets(path.points.back(), segment.points.front());
     for (std::size_t i = joined ? 1 : 0; i < segment.points.size(); ++i) appendPoint(path, segment.points[i]);
   }
+  path.start_tangent = segments.front().start_tangent;
+  path.end_tangent = segments.back().end_tangent;
   if (path.points.size() > 2 && meets(path.points.front(), path.points.back())) {
     path.points.pop_back();
     path.closed = true;

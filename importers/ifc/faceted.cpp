@@ -95,6 +95,41 @@ bool isCurved(const Entity& face) {
   return surface_entity && !surface_entity.is("IFCPLANE");
 }
 
+// Of faces over the same points in the same direction one is enough. Gives how many went.
+std::size_t dropRepeatedFaces(geometry::PolyMesh& mesh) {
+  std::vector<std::pair<std::vector<std::uint32_t>, std::size_t>> known;
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+    if (!mesh.faces[i].holes.empty()) continue;
+    known.emplace_back(mesh.faces[i].outer, i);
+    auto& loop = known.back().first;
+    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+  }
+  std::sort(known.begin(), known.end());
+  std::vector<char> gone(mesh.faces.size(), 0);
+  for (std::size_t i = 1; i < known.size(); ++i)
+    if (known[i].first == known[i - 1].first) gone[known[i].second] = 1;
+  std::size_t i = 0;
+  return std::erase_if(mesh.faces, [&](const geometry::Face&) { return gone[i++] != 0; });
+}
+
+std::size_t branchingEdges(const geometry::PolyMesh& mesh) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  const auto walk = [&](const std::vector<std::uint32_t>& loop) {
+    for (std::size_t i = 0; i < loop.size(); ++i) edges.push_back(std::minmax(loop[i], loop[(i + 1) % loop.size()]));
+  };
+  for (const auto& face : mesh.faces) {
+    walk(face.outer);
+    for (const auto& hole : face.holes) walk(hole);
+  }
+  std::sort(edges.begin(), edges.end());
+  std::size_t found = 0;
+  for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
+    while (end < edges.size() && edges[end] == edges[i]) ++end;
+    found += end - i > 2 ? 1 : 0;
+  }
+  return found;
+}
+
 void flip(geometry::PolyMesh& mesh) {
   for (auto& face : mesh.faces) {
     std::reverse(face.outer.begin(), face.outer.end());
@@ -104,14 +139,25 @@ void flip(geometry::PolyMesh& mesh) {
 
 }  // namespace
 
-void orient(geometry::PolyMesh& shell) {
+void orient(geometry::PolyMesh& shell, bool should_be_closed, Scope& scope) {
+  Repairs& repairs = scope.repairs;
+  repairs.duplicate += dropRepeatedFaces(shell);
+  const bool was_closed = geometry::isClosed(shell);
+  const bool inverted = was_closed && geometry::volume(shell) < 0;
+  repairs.inverted += inverted ? 1 : 0;
   geometry::PolyMesh oriented = shell;
   geometry::orientOutward(oriented);
-  if (oriented.faces.size() < shell.faces.size() && geometry::isClosed(shell) && !geometry::isClosed(oriented)) {
-    if (geometry::volume(shell) < 0) flip(shell);
-  } else {
-    shell = std::move(oriented);
+  const std::size_t dropped = shell.faces.size() - oriented.faces.size();
+  const bool is_closed = dropped == 0 && was_closed ? true : geometry::isClosed(oriented);
+  if (dropped > 0 && was_closed && !is_closed) {
+    if (inverted) flip(shell);
+    return;
   }
+  repairs.degenerate += dropped;
+  repairs.disagreeing += !was_closed && is_closed ? 1 : 0;
+  repairs.open += should_be_closed && !is_closed ? 1 : 0;
+  if (!is_closed) repairs.branching += branchingEdges(oriented);
+  shell = std::move(oriented);
 }
 
 Result<void> appendShell(geometry::PolyMesh& mesh, const Entity& shell, Scope& scope) {
@@ -133,12 +179,12 @@ Result<void> appendShell(geometry::PolyMesh& mesh, const Entity& shell, Scope& s
 Result<geometry::PolyMesh> facetedBrep(const Entity& entity, Scope& scope) {
   geometry::PolyMesh mesh;
   if (auto done = appendShell(mesh, entity.ref(0), scope); !done) return failure(done.error());
-  orient(mesh);
+  orient(mesh, true, scope);
   if (entity.typeName().ends_with("WITHVOIDS"))
     for (const Entity& shell : entity.refs(1)) {
       geometry::PolyMesh cavity;
       if (auto done = appendShell(cavity, shell, scope); !done) return failure(done.error());
-      orient(cavity);
+      orient(cavity, true, scope);
       flip(cavity);
       geometry::append(mesh, cavity);
     }
@@ -151,17 +197,26 @@ Result<geometry::PolyMesh> surfaceModel(const Entity& entity, Scope& scope) {
   for (const Entity& shell : entity.refs(0)) {
     geometry::PolyMesh part;
     if (auto done = appendShell(part, shell, scope); !done) return failure(done.error());
-    orient(part);
+    orient(part, shell.is("IFCCLOSEDSHELL"), scope);
     geometry::append(mesh, part);
   }
   if (mesh.faces.empty()) return fail(entity, "the surface model has no usable face");
   return mesh;
 }
 
+Result<geometry::PolyMesh> faceItem(const Entity& entity, Scope& scope) {
+  geometry::PolyMesh mesh;
+  PointPool pool(mesh, scope);
+  const auto done = isCurved(entity) ? appendCurvedFace(mesh, entity, scope) : appendFace(mesh, entity, pool, scope);
+  if (!done) return failure(done.error());
+  if (mesh.faces.empty()) return fail(entity, "the face has no area");
+  return mesh;
+}
+
 Result<geometry::PolyMesh> faceSetItem(const Entity& entity, Scope& scope) {
   geometry::PolyMesh mesh;
   if (auto done = appendShell(mesh, entity, scope); !done) return failure(done.error());
-  orient(mesh);
+  orient(mesh, entity.is("IFCCLOSEDSHELL"), scope);
   if (mesh.faces.empty()) return fail(entity, "the shell has no usable face");
   return mesh;
 }

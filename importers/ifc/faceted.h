@@ -10,8 +10,9 @@ namespace standpoint::ifc {
 // Adds the faces of an IfcConnectedFaceSet (shell), plane polygons as well as faces on curved surfaces.
 Result<void> appendShell(geometry::PolyMesh& mesh, const Entity& shell, Scope& scope);
 
-// Turns a shell outward. One that is closed as it stands keeps its slivers: without them it would leak.
-void orient(geometry::PolyMesh& shell);
+// Turns a shell outward and drops faces that are there twice or without area, and counts what it did. A shell that is closed
+// as it stands keeps its slivers: without them it would leak.
+void orient(geometry::PolyMesh& shell, bool should_be_closed, Scope& scope);
 
 // The faces of an advanced shell whose surface is curved (advanced_face.cpp).
 Result<void> appendCurvedFace(geometry::PolyMesh& mesh, const Entity& face, Scope& scope);

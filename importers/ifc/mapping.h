@@ -15,6 +15,8 @@ namespace standpoint::ifc {
 struct Path {                      // a curve as points in metres; of 2D curves z is 0
   std::vector<Eigen::Vector3d> points;
   bool closed = false;             // then the first point is not repeated
+  // Where it is known that the curve itself leaves and arrives in other directions than its first and last chord; unit, or zero.
+  Eigen::Vector3d start_tangent = Eigen::Vector3d::Zero(), end_tangent = Eigen::Vector3d::Zero();
 };
 using Regions = std::vector<geometry::Region2>;
 

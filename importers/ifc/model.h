@@ -32,11 +32,22 @@ struct Model {
   std::shared_ptr<CurveCache> curves;              // alignments: long, and shared by everything that stands along them
 };
 
+// What was wrong with shells and face sets; the first four kinds are mended, the last two are only said.
+struct Repairs {
+  std::size_t inverted = 0;      // closed shells that were inside out: turned
+  std::size_t disagreeing = 0;   // shells whose faces ran against each other: turned to agree
+  std::size_t degenerate = 0;    // faces without area: dropped
+  std::size_t duplicate = 0;     // faces that were there twice: one dropped
+  std::size_t open = 0;          // shells that claim to be closed and are not
+  std::size_t branching = 0;     // edges of more than two faces
+};
+
 // One product's (or one shared representation's) work: its issues, and the guards against input that nests or multiplies.
 struct Scope {
   explicit Scope(const Model& m) : model(m) {}
   const Model& model;
   Report report;
+  Repairs repairs;
   int depth = 0;
   std::size_t spent = 0;                           // points and calls so far
 

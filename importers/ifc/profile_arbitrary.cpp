@@ -15,6 +15,38 @@ Result<geometry::Loop2> outline(const Entity& curve_entity, Scope& scope) {
   return loop2(*path);
 }
 
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+// An outline in the shape of an eight is two areas that meet at its crossing; each crossing splits it once more.
+Regions partsOfCrossing(const geometry::Loop2& outline) {
+  std::vector<geometry::Loop2> open{outline};
+  Regions parts;
+  for (int splits = 0; !open.empty() && splits < 1000; ++splits) {
+    const geometry::Loop2 loop = std::move(open.back());
+    open.pop_back();
+    bool split = false;
+    const std::size_t n = loop.size();
+    for (std::size_t i = 0; i + 2 < n && !split; ++i)
+      for (std::size_t j = i + 2; j < n && !split; ++j) {
+        const Eigen::Vector2d a = loop[i], u = loop[i + 1] - a, b = loop[j], v = loop[(j + 1) % n] - b;
+        const double det = cross(u, v), s = cross(b - a, v) / det, t = cross(b - a, u) / det;
+        if (!(s > 1e-9 && s < 1 - 1e-9 && t > 1e-9 && t < 1 - 1e-9)) continue;
+        geometry::Loop2 inner(loop.begin() + static_cast<std::ptrdiff_t>(i) + 1, loop.begin() + static_cast<std::ptrdiff_t>(j) + 1), rest(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+        inner.push_back(a + u * s);
+        rest.push_back(a + u * s);
+        rest.insert(rest.end(), loop.begin() + static_cast<std::ptrdiff_t>(j) + 1, loop.end());
+        open.push_back(std::move(rest));
+        open.push_back(std::move(inner));
+        split = true;
+      }
+    if (split) continue;
+    geometry::Region2 part{loop, {}};
+    geometry::normalise(part);
+    if (part.outer.size() >= 3) parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
 // The band on both sides of a path, mitred at its corners.
 geometry::Loop2 band(const Path& path, double half_width) {
   const geometry::Loop2 line = loop2(path);
@@ -41,7 +73,7 @@ geometry::Loop2 band(const Path& path, double half_width) {
 Result<Regions> arbitraryClosedProfile(const Entity& entity, Scope& scope) {
   auto outer = outline(entity.ref(2), scope);
   if (!outer) return failure(outer.error());
-  geometry::Region2 region{std::move(*outer), {}};
+  geometry::Region2 region{*outer, {}};
   if (entity.is("IFCARBITRARYPROFILEDEFWITHVOIDS"))
     for (const Entity& inner : entity.refs(3)) {
       auto hole = outline(inner, scope);
@@ -49,8 +81,11 @@ Result<Regions> arbitraryClosedProfile(const Entity& entity, Scope& scope) {
       else scope.report.warn(hole.error().source, "a hole of the profile was left out: " + hole.error().message);
     }
   geometry::normalise(region);
-  if (region.outer.size() < 3) return fail(entity, "the outline of the profile encloses nothing");
-  return Regions{std::move(region)};
+  if (region.outer.size() >= 3) return Regions{std::move(region)};
+  Regions parts = outer->size() <= 1000 ? partsOfCrossing(*outer) : Regions();
+  if (parts.empty()) return fail(entity, "the outline of the profile encloses nothing");
+  scope.report.warn(entity.place(), "the outline of the profile crosses itself; each of its " + std::to_string(parts.size()) + " parts is filled");
+  return parts;
 }
 
 Result<Regions> centreLineProfile(const Entity& entity, Scope& scope) {

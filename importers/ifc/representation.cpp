@@ -19,6 +19,9 @@ bool hasBody(const Entity& representation, const Model& model, int depth) {
   for (const Entity& e : representation.refs(3)) {
     if (e.is("IFCMAPPEDITEM")) {
       if (depth < 16 && hasBody(e.ref(0).ref(1), model, depth + 1)) return true;
+    } else if (e.is("IFCGEOMETRICSET")) {   // only its surfaces are a body
+      const auto elements = e.refs(0);
+      if (std::any_of(elements.begin(), elements.end(), [&](const Entity& part) { const Mapping* m = model.mapping_of_type[part.type()]; return m && m->item; })) return true;
     } else if (const Mapping* m = model.mapping_of_type[e.type()]; m && m->item) {
       return true;
     }
@@ -133,6 +136,7 @@ Items itemsOf(const Entity& representation, const Model& model) {
     }
   }
   items.report.append(scope.report);
+  items.repairs = scope.repairs;
   return items;
 }
 

@@ -25,6 +25,7 @@ Result<std::vector<Part>> partsOfType(const Entity& type_product, Scope& scope);
 struct Items {
   std::vector<geometry::PolyMesh> meshes;
   Report report;
+  Repairs repairs;
 };
 Items itemsOf(const Entity& representation, const Model& model);
 

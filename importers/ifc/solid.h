@@ -10,6 +10,11 @@ namespace standpoint::ifc {
 Result<geometry::PolyMesh> extrudedAreaSolid(const Entity&, Scope&);
 Result<geometry::PolyMesh> extrudedAreaSolidTapered(const Entity&, Scope&);
 Result<geometry::PolyMesh> revolvedAreaSolid(const Entity&, Scope&);
+Result<geometry::PolyMesh> revolvedAreaSolidTapered(const Entity&, Scope&);
+Result<geometry::PolyMesh> faceItem(const Entity&, Scope&);
+Result<geometry::PolyMesh> curveBoundedPlane(const Entity&, Scope&);
+Result<geometry::PolyMesh> extrudedSurface(const Entity&, Scope&);
+Result<geometry::PolyMesh> geometricSet(const Entity&, Scope&);
 Result<geometry::PolyMesh> sweptDiskSolid(const Entity&, Scope&);
 Result<geometry::PolyMesh> curveSweptAreaSolid(const Entity&, Scope&);
 Result<geometry::PolyMesh> sectionedSolidHorizontal(const Entity&, Scope&);

@@ -53,8 +53,10 @@ Result<geometry::PolyMesh> along(const geometry::Region2& region, const Path& pa
     const Eigen::Vector3d t0 = in.normalized(), t1 = out.normalized();
     Eigen::Vector3d tangent = t0 + t1;
     tangent = tangent.norm() > 1e-3 ? Eigen::Vector3d(tangent.normalized()) : t1;
+    if (first && !path.start_tangent.isZero()) tangent = path.start_tangent;
+    if (last && !path.end_tangent.isZero()) tangent = path.end_tangent;
     const Eigen::Isometry3d f = frame(p[i], tangent, reference(tangent));
-    const double factor = std::min(1 / std::max(tangent.dot(t0), 0.1), 10.0);
+    const double factor = first || last ? 1 : std::min(1 / std::max(tangent.dot(t0), 0.1), 10.0);
     const Eigen::Vector3d bend = f.linear().transpose() * (t1 - t0);
     profiles.push_back(factor > 1 + 1e-9 && bend.head<2>().norm() > 1e-9 ? stretched(region, bend.head<2>().normalized(), factor) : region);
     frames.push_back(f);
@@ -73,7 +75,7 @@ Result<geometry::PolyMesh> sweptDiskSolid(const Entity& entity, Scope& scope) {
   if (!path) return failure(path.error());
   if (entity.is("IFCSWEPTDISKSOLIDPOLYGONAL") && entity[5].number(0) > 0) *path = filleted(*path, scope.metres(entity[5].number(0)), scope);
   if (!scope.spend(path->points.size() * 16)) return fail(entity, "too many points");
-  return geometry::sweepDisk(path->points, path->closed, radius, inner, scope.model.tessellation);
+  return geometry::sweepDisk(path->points, path->closed, radius, inner, scope.model.tessellation, {path->start_tangent, path->end_tangent});
 }
 
 Result<geometry::PolyMesh> curveSweptAreaSolid(const Entity& entity, Scope& scope) {
@@ -186,6 +188,34 @@ Result<geometry::PolyMesh> sectionedSolidHorizontal(const Entity& entity, Scope&
   }
   auto mesh = geometry::loft(regions, frames, false);
   if (mesh) geometry::orientOutward(*mesh);
+  return mesh;
+}
+
+// The profile turns into the other one on its way around the axis.
+Result<geometry::PolyMesh> revolvedAreaSolidTapered(const Entity& entity, Scope& scope) {
+  const auto from = profile(entity.ref(0), scope), to = profile(entity.ref(4), scope);
+  if (!from) return failure(from.error());
+  if (!to) return failure(to.error());
+  const geometry::Region2 &start = from->front(), &end = to->front();
+  if (!alike(start, end)) return fail(entity, "the profiles at both ends have different numbers of points");
+  const double angle = std::clamp(entity[3].number(0) * scope.model.units.angle_rad, -2 * std::numbers::pi, 2 * std::numbers::pi);
+  if (std::abs(angle) < 1e-9) return fail(entity, "the angle of the revolution is zero or missing");
+  const Axis axis = axis1Placement(entity.ref(2), scope);
+  double radius = 0;
+  for (const auto& p : start.outer) radius = std::max(radius, (Eigen::Vector3d(p.x(), p.y(), 0) - axis.point).cross(axis.direction).norm());
+  const int steps = geometry::segmentCount(radius, std::min(std::abs(angle), 2 * std::numbers::pi - 1e-6), scope.model.tessellation);
+  if (!scope.spend(start.outer.size() * static_cast<std::size_t>(steps))) return fail(entity, "too many points");
+  std::vector<geometry::Region2> regions;
+  std::vector<Eigen::Isometry3d> frames;
+  for (int i = 0; i <= steps; ++i) {
+    const double t = static_cast<double>(i) / steps;
+    regions.push_back(blend(start, end, t));
+    frames.push_back(Eigen::Translation3d(axis.point) * Eigen::AngleAxisd(angle * t, axis.direction) * Eigen::Translation3d(-axis.point));
+  }
+  auto mesh = geometry::loft(regions, frames, false);
+  if (!mesh) return mesh;
+  geometry::orientOutward(*mesh);
+  geometry::transform(*mesh, Eigen::Affine3d(axisPlacement(entity.ref(1), scope)));
   return mesh;
 }
 
