@@ -99,7 +99,8 @@ void listUnread(const Header& header, const std::string& source, Report& report)
     fields += ", " + std::to_string(extra) + " extra bytes";
   report.lose(source, "fields that are not read: " + fields);
   if (header.wkt.empty() && !header.epsg.empty())
-    report.warn(source, "GeoTIFF keys say " + header.epsg + ": an underlay is placed by it, a converted file has it not");
+    report.warn(source,
+                "GeoTIFF keys say " + header.epsg + ": an underlay is placed by it, a converted file has it not");
 }
 
 }  // namespace

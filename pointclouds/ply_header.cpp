@@ -174,7 +174,8 @@ Result<Header> HeaderReader::read() {
   }
   if (!has_format_) return broken("the header states no format");
   for (const Element& element : elements_)
-    if (element.name == "face" || element.name == "tristrips") header_.faces += std::min<std::uint64_t>(element.count, 1ULL << 60);
+    if (element.name == "face" || element.name == "tristrips")
+      header_.faces += std::min<std::uint64_t>(element.count, 1ULL << 60);
   header_.vertices_at = lines_.at();
   if (auto placed = place(); !placed) return failure(placed.error());
   if (auto assigned = assignRoles(); !assigned) return failure(assigned.error());

@@ -119,7 +119,8 @@ Result<void> Reader::run(Report& report) {
   if (width_ != 3 && width_ != 4 && width_ != 6 && width_ != 7)
     report.lose(lines_.name(), "points have " + std::to_string(width_) + " numbers, of which x y z and the fourth, as "
                                    "intensity, are read: what the others are is not stated");
-  if (surplus_ > 0) report.lose(lines_.name(), std::to_string(surplus_) + " points stand behind the number that is stated");
+  if (surplus_ > 0)
+    report.lose(lines_.name(), std::to_string(surplus_) + " points stand behind the number that is stated");
   return local_->finish(report);
 }
 

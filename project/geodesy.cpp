@@ -41,9 +41,13 @@ Pj findPj(PJ_CONTEXT* context, const std::string& code) {
   return crs;
 }
 
-// Of the first horizontal axis; of a compound CRS that is its first part's.
+// Of the first horizontal axis; of a compound CRS that is its first part's, of one bound to WGS84 (TOWGS84) its own.
 double metresPerUnit(PJ_CONTEXT* context, const PJ* crs) {
-  const Pj part(proj_get_type(crs) == PJ_TYPE_COMPOUND_CRS ? proj_crs_get_sub_crs(context, crs, 0) : proj_clone(context, crs));
+  Pj part(proj_clone(context, crs));
+  if (part && proj_get_type(part.get()) == PJ_TYPE_BOUND_CRS) part.reset(proj_get_source_crs(context, part.get()));
+  if (part && proj_get_type(part.get()) == PJ_TYPE_COMPOUND_CRS) part.reset(proj_crs_get_sub_crs(context, part.get(), 0));
+  if (part && proj_get_type(part.get()) == PJ_TYPE_BOUND_CRS) part.reset(proj_get_source_crs(context, part.get()));
+  if (part && proj_get_type(part.get()) != PJ_TYPE_PROJECTED_CRS) return 1;
   const Pj system(part ? proj_crs_get_coordinate_system(context, part.get()) : nullptr);
   double factor = 1;
   if (system && !proj_cs_get_axis_info(context, system.get(), 0, nullptr, nullptr, nullptr, &factor, nullptr, nullptr, nullptr))
@@ -73,7 +77,7 @@ Result<CoordinateReferenceSystem> findCrs(const std::string& code) {
   if (const char* wkt = proj_as_wkt(context.get(), crs.get(), PJ_WKT2_2019, nullptr)) result.wkt = wkt;
   const PJ_TYPE type = proj_get_type(crs.get());
   result.projected = type == PJ_TYPE_PROJECTED_CRS || type == PJ_TYPE_COMPOUND_CRS;
-  if (result.projected) result.metres_per_unit = metresPerUnit(context.get(), crs.get());
+  result.metres_per_unit = metresPerUnit(context.get(), crs.get());
   return result;
 }
 

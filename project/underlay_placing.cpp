@@ -38,7 +38,8 @@ bool sameCrs(const std::string& a, const std::string& b) {
 
 std::string shownCrs(const std::string& crs) {
   const auto found = findCrs(crs);
-  return found ? fmt::format("{} ({})", found->name, found->code.substr(0, 40)) : crs.substr(0, 60);
+  if (!found) return crs.substr(0, 60);
+  return found->code.size() < 20 ? fmt::format("{} ({})", found->name, found->code) : found->name;
 }
 
 }  // namespace
@@ -80,18 +81,18 @@ Pose placeCloud(const CloudPlace& cloud, const Georeference& model, const Bounds
                                    : "placed by the model's map conversion: the cloud states no CRS, but only so it lies "
                                      "near the model");
       if (by_map_m > kFarFromModel_m)
-        report.warn(cloud.name, fmt::format("lies {:.1f} km from the model: check the model's map conversion "
-                                            "(`standpoint georeference`), or say where the cloud lies with --at",
-                                            by_map_m / 1000));
+        report.warn(cloud.name,
+                    fmt::format("lies {:.1f} km from the model: check the model's map conversion "
+                                "(`standpoint georeference`), or say where the cloud lies with --at", by_map_m / 1000));
       return by_map;
     }
   }
   report.note(cloud.name, "placed as its coordinates are, in the model's own frame");
   if (as_is_m > kFarFromModel_m)
-    report.warn(cloud.name, fmt::format("lies {:.1f} km from the model: say where its origin lies with --at X,Y,Z, or give "
-                                        "the model its map conversion (`standpoint georeference --origin`) and add the "
-                                        "cloud again",
-                                        as_is_m / 1000));
+    report.warn(cloud.name,
+                fmt::format("lies {:.1f} km from the model: say where its origin lies with --at X,Y,Z, or give the model "
+                            "its map conversion (`standpoint georeference --origin`) and add the cloud again",
+                            as_is_m / 1000));
   return {};
 }
 
