@@ -137,6 +137,12 @@ std::size_t triangleCount(const Environment& environment) {
   return count;
 }
 
+Environment tangiblePart(const Environment& environment) {
+  Environment part = environment;
+  std::erase_if(part.instances, [&](const Instance& instance) { return !environment.products[instance.product].tangible; });
+  return part;
+}
+
 std::string validate(const Environment& environment) {
   for (std::size_t i = 0; i < environment.meshes.size(); ++i) {
     if (!environment.meshes[i]) return "mesh " + std::to_string(i) + " is missing";

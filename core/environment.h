@@ -117,6 +117,9 @@ std::vector<Bounds> productBounds(const Environment& environment);
 // Placed triangles, that is each instance counted.
 std::size_t triangleCount(const Environment& environment);
 
+// The same without the instances of what no beam meets: spaces, zones, annotations. The products stay, so that indices hold.
+Environment tangiblePart(const Environment& environment);
+
 // Empty when indices, orders and meshes are right, else what is wrong.
 std::string validate(const Environment& environment);
 

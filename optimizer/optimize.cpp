@@ -312,6 +312,12 @@ Result<void> check(const Environment& environment, const OptimizeOptions& option
   return {};
 }
 
+void addIntangible(const Environment& environment, Environment& lighter) {
+  for (const auto& instance : environment.instances)
+    if (!environment.products[instance.product].tangible) lighter.instances.push_back(instance);
+  std::stable_sort(lighter.instances.begin(), lighter.instances.end(), [](const Instance& a, const Instance& b) { return a.product < b.product; });
+}
+
 // The smallest budget of a share is what is left of it: every level that its cap allows has been taken.
 void checkBudgets(const std::vector<Work>& works, const OptimizeOptions& options, OptimizeResult& result) {
   for (std::uint32_t share = 0; share <= options.further_budgets.size(); ++share) {
@@ -333,19 +339,21 @@ void checkBudgets(const std::vector<Work>& works, const OptimizeOptions& options
 
 Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOptions& options, Progress& progress) {
   if (auto checked = check(environment, options); !checked) return failure(checked.error());
-  const Environment rest = withoutDropped(environment, options);
+  const Environment tangible = tangiblePart(environment);
+  const Environment rest = withoutDropped(tangible, options);
   auto works = prepare(rest, options);
   if (auto done = simplify(works, options, progress); !done) return failure(done.error());
   auto result = assemble(rest, works);
-  addDropped(environment, options, result);
+  addDropped(tangible, options, result);
   progress.stage("Measure the whole", 0.9, 1);
   if (result.all.triangles_after > 0) {  // of an empty one the products' own figures, to their centres, are all there is
-    const auto whole = sceneDeviation(environment, result.environment, kSamples, progress);
+    const auto whole = sceneDeviation(tangible, result.environment, kSamples, progress);
     result.all.max_deviation_m = whole.max_m;
     result.all.mean_deviation_m = whole.mean_m;
   }
   if (auto going = progress.check(); !going) return failure(going.error());
   checkBudgets(works, options, result);
+  addIntangible(environment, result.environment);
   return result;
 }
 

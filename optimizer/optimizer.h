@@ -45,7 +45,8 @@ struct OptimizeResult {
   Report report;
 };
 
-// Planar regions are merged without loss, then a global budget is shared by cost over all shapes. Deterministic.
+// Planar regions are merged without loss, then a global budget is shared by cost over all shapes. What no beam meets (spaces)
+// neither counts nor changes. Deterministic.
 Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOptions& options, Progress& progress);
 
 struct CollideOptions {

@@ -91,10 +91,9 @@ class Builder {
     return shared_[it->second];
   }
 
-  // Openings are no bodies of their own: they are evaluated for who they cut.
+  // An opening has a body of its own, which no beam meets, and is evaluated in the host's frame for whom it cuts.
   void chooseShared() {
     for (std::size_t i = 0; i < plans_.size(); ++i) {
-      if (isSubtraction(products_[i])) continue;
       for (const Part& part : plans_[i].parts) (plans_[i].openings.empty() ? shared(part.representation).whole : shared(part.representation).cut) = true;
       for (const Id id : plans_[i].openings) {
         const auto [tool, is_new] = tools_.try_emplace(id);
@@ -175,7 +174,6 @@ class Builder {
   void collect() {
     result_.of_product.resize(products_.size());
     for (std::size_t i = 0; i < plans_.size(); ++i) {
-      if (isSubtraction(products_[i])) continue;
       auto& bodies = result_.of_product[i];
       if (!plans_[i].openings.empty()) bodies = std::move(cut_[i]);
       else

@@ -318,5 +318,20 @@ TEST(Simplification, RefusesNonsense) {
   EXPECT_EQ(optimize(broken, {100, 1}, progress).error().kind, ErrorKind::unusable);
 }
 
+TEST(Optimize, LeavesSpacesAsTheyAreAndOutsideTheBudget) {
+  Environment environment;
+  models::add(environment, models::sphere(1, 24, 48), "IfcColumn");
+  models::add(environment, models::sphere(3, 24, 48), "IfcSpace");
+  environment.products[1].tangible = false;
+  Progress progress;
+  const auto result = optimize(environment, {400, 0.5, {}, {}}, progress);
+  ASSERT_TRUE(result) << describe(result.error());
+  EXPECT_EQ(result->all.triangles_before, environment.meshes[0]->triangles.size());
+  EXPECT_LE(result->all.triangles_after, 400U);
+  EXPECT_GE(result->all.triangles_after, 380U);
+  ASSERT_EQ(result->environment.instances.size(), 2U);
+  EXPECT_EQ(result->environment.meshes[1]->triangles, environment.meshes[1]->triangles);
+}
+
 }  // namespace
 }  // namespace standpoint
