@@ -150,6 +150,12 @@ void GltfFile::parse(std::span<const std::uint8_t> bytes) {
     std::replace_if(
         why.begin(), why.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
     return fail("byte " + std::to_string(e.byte), "not JSON: " + why);
+  } catch (const nlohmann::json::exception& e) {   // a number beyond double: the message quotes it, but does not say where
+    const std::string why = e.what();
+    const auto first = why.find('\''), last = why.rfind('\'');
+    const std::string number = first < last ? why.substr(first + 1, last - first - 1) : std::string();
+    const auto at = std::search(bytes.begin(), bytes.end(), number.begin(), number.end());
+    return fail("byte " + std::to_string(at - bytes.begin()), "the number " + number.substr(0, 40) + " is too large");
   }
   if (!json_.is_object()) return fail("byte 0", "the JSON is not an object");
   const auto& asset = memberOf(json_, "asset");

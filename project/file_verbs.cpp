@@ -115,7 +115,7 @@ Result<Outcome> runJob(const Document& document, const json& options, Progress& 
   json steps;
   try {
     steps = json::parse(in);
-  } catch (const json::parse_error& e) {
+  } catch (const json::exception& e) {   // also a number beyond double
     return failure(ErrorKind::unusable, e.what(), file.string());
   }
   if (!steps.is_array()) return failure(ErrorKind::unusable, "a job is a list of {\"verb\": …}", file.string());

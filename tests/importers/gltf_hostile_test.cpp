@@ -128,6 +128,11 @@ TEST(GltfRefuses, NumbersThatAreNotFinite) {
   EXPECT_THAT(refusal(write(scratch() / "nan.glb", nan)), HasSubstr("/accessors/0: element 0 is not a finite number"));
 }
 
+TEST(GltfRefuses, NumbersBeyondDoubleWithTheirPlace) {
+  EXPECT_THAT(refusal(write(scratch() / "large.gltf", R"({"asset":{"version":"2.0"},"x":-2.8e937278})")),
+              HasSubstr("large.gltf byte 31: the number -2.8e937278 is too large"));
+}
+
 TEST(GltfRefuses, EveryCutOfAFile) {
   const auto bytes = sound();
   const auto file = scratch() / "cut.glb";
