@@ -327,7 +327,6 @@ void drawPreviewLayout(Editor& editor, const Box& all) {
 }
 
 void drawPreviewShell(Editor& editor) {
-  runPreviewKeys(editor);
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float head = ImGui::GetFrameHeight() + editor.px(12);
   beginFixed("###preview-head", {0, 0, display.x, head}, {editor.px(14), editor.px(6)}, IM_COL32(35, 39, 46, 255));
@@ -345,6 +344,7 @@ void drawPreviewShell(Editor& editor) {
 
 void drawShell(Editor& editor) {
   editor.update();
+  if (editor.preview.isOpen()) runPreviewKeys(editor);   // which may close it, and then there is nothing of it to draw
   if (editor.preview.isOpen()) {
     drawPreviewShell(editor);
     return;
