@@ -191,12 +191,12 @@ class Builder {
       std::size_t Repairs::*count;
       const char* what;
     };
-    constexpr std::array kKinds{Kind{&Repairs::inverted, "shells were inside out and have been turned"},
-                                Kind{&Repairs::disagreeing, "shells had faces that ran against each other; they have been turned to agree"},
-                                Kind{&Repairs::degenerate, "faces had no area and were dropped"},
-                                Kind{&Repairs::duplicate, "faces were there twice; one of each was dropped"},
-                                Kind{&Repairs::open, "shells are said to be closed and are not; they stay open"},
-                                Kind{&Repairs::branching, "edges belong to more than two faces; they stay so"}};
+    constexpr std::array kKinds{Kind{&Repairs::inverted, "shells inside out, turned"},
+                                Kind{&Repairs::disagreeing, "shells with faces that ran against each other, turned to agree"},
+                                Kind{&Repairs::degenerate, "faces without area, dropped"},
+                                Kind{&Repairs::duplicate, "faces that were there twice, one of each dropped"},
+                                Kind{&Repairs::open, "shells said to be closed that are not, left open"},
+                                Kind{&Repairs::branching, "edges of more than two faces, left so"}};
     constexpr std::size_t kListed = 20;
     for (const Kind& kind : kKinds) {
       std::vector<std::pair<std::size_t, std::size_t>> found;   // product, how many
@@ -208,9 +208,9 @@ class Builder {
         if (count > 0) found.emplace_back(i, count), sum += count;
       }
       for (std::size_t k = 0; k < std::min(found.size(), kListed); ++k)
-        result_.report.note(products_[found[k].first].place(), std::to_string(found[k].second) + " " + kind.what);
+        result_.report.note(products_[found[k].first].place(), std::string(kind.what) + ": " + std::to_string(found[k].second));
       if (found.size() > kListed)
-        result_.report.note(products_[found[kListed].first].place(), "and " + std::to_string(found.size() - kListed) + " more products of the same kind (in all " + std::to_string(sum) + " " + kind.what + ")");
+        result_.report.note(products_[found[kListed].first].place(), "and " + std::to_string(found.size() - kListed) + " more products with " + kind.what + " (in all " + std::to_string(sum) + ")");
     }
   }
 
