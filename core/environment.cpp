@@ -109,9 +109,9 @@ bool isClosed(const Mesh& mesh) {
 
 Bounds bounds(const Mesh& mesh, const Eigen::Affine3d& world_from_mesh) {
   Bounds result;
-  std::vector<bool> used(mesh.positions.size(), false);
+  std::vector<std::uint8_t> used(mesh.positions.size(), 0);   // not vector<bool>: bits are slow to set
   for (const auto& t : mesh.triangles)
-    for (const auto index : t) used[index] = true;
+    for (const auto index : t) used[index] = 1;
   for (std::size_t i = 0; i < used.size(); ++i)
     if (used[i]) result.extend(world_from_mesh * mesh.positions[i].cast<double>());
   return result;

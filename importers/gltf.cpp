@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <iterator>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "importers/gltf_extensions.h"
@@ -184,8 +184,9 @@ class GltfImport {
       if (product.name.empty()) product.name = whole + (whole.empty() ? "" : " ") + std::to_string(feature->row);
     }
     if (product.name.empty()) product.name = file_.text(mesh_json, "name");
-    const auto& used = mesh.surface_of_triangle;
-    for (const auto surface : std::set<std::uint32_t>(used.begin(), used.end()))
+    std::vector<std::uint32_t> used;   // triangles are sorted by surface
+    std::unique_copy(mesh.surface_of_triangle.begin(), mesh.surface_of_triangle.end(), std::back_inserter(used));
+    for (const auto surface : used)
       if (surface < environment().surfaces.size()) product.materials.push_back(environment().surfaces[surface].name);
     if (node.product_json != nullptr) {
       restoreProduct(file_, memberOf(named, "extras"), product);
