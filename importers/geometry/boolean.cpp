@@ -71,20 +71,52 @@ PolyMesh subtractPrisms(PolyMesh host, std::vector<PolyMesh>& tools, std::vector
   return std::move(*result);
 }
 
-// One by one while it works; a failure leaves that tool and those after it in `tools`.
-PolyMesh subtractWithCarve(PolyMesh host, std::vector<PolyMesh>& tools, std::vector<Error>& errors) {
-  std::size_t done = 0;
-  for (; done < tools.size(); ++done) {
-    const double before = volume(host);
-    Result<PolyMesh> result = checked(combineWithCarve(host, tools[done], Operation::difference),
-                                      {std::max(0.0, before - volume(tools[done])), before}, "carve");
-    if (!result) {
-      errors.push_back(result.error());
-      break;
-    }
-    host = std::move(*result);
+Result<PolyMesh> carveAway(const PolyMesh& host, const PolyMesh& tool) {
+  const double before = volume(host);
+  return checked(combineWithCarve(host, tool, Operation::difference), {std::max(0.0, before - volume(tool)), before}, "carve");
+}
+
+// Groups of tools that keep apart from each other, each tool in the first group where it does.
+std::vector<std::vector<std::size_t>> apart(const std::vector<PolyMesh>& tools) {
+  std::vector<Bounds3> bounds;
+  for (const PolyMesh& tool : tools) bounds.emplace_back(tool.points);
+  std::vector<std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < tools.size(); ++i) {
+    const auto free = std::find_if(groups.begin(), groups.end(), [&](const auto& group) {
+      return std::none_of(group.begin(), group.end(), [&](std::size_t k) { return bounds[i].overlaps(bounds[k], 10 * kSnap_m); });
+    });
+    if (free == groups.end()) groups.push_back({i});
+    else free->push_back(i);
   }
-  tools.erase(tools.begin(), tools.begin() + static_cast<std::ptrdiff_t>(done));
+  return groups;
+}
+
+// A call costs what the host costs, so tools that keep apart go together: a slab with 65 openings took 11.4 s one by one.
+// A group that does not work goes one by one while that works; what fails stays in `tools`, and all that comes after it.
+PolyMesh subtractWithCarve(PolyMesh host, std::vector<PolyMesh>& tools, std::vector<Error>& errors) {
+  std::vector<bool> done(tools.size(), false);
+  bool works = true;
+  const auto take = [&](Result<PolyMesh> result, std::span<const std::size_t> which) {
+    if (!result) return false;
+    host = std::move(*result);
+    for (const std::size_t i : which) done[i] = true;
+    return true;
+  };
+  for (const auto& group : apart(tools)) {
+    PolyMesh together;
+    for (const std::size_t i : group) append(together, tools[i]);
+    if (group.size() > 1 && take(carveAway(host, together), group)) continue;
+    for (std::size_t k = 0; works && k < group.size(); ++k) {
+      auto result = carveAway(host, tools[group[k]]);
+      if (!result) errors.push_back(result.error());
+      works = take(std::move(result), std::span(group).subspan(k, 1));
+    }
+    if (!works) break;
+  }
+  std::vector<PolyMesh> left;
+  for (std::size_t i = 0; i < tools.size(); ++i)
+    if (!done[i]) left.push_back(std::move(tools[i]));
+  tools = std::move(left);
   return host;
 }
 

@@ -230,19 +230,20 @@ Result<geometry::PolyMesh> subtractStubborn(const geometry::PolyMesh& host, cons
   return first;
 }
 
+// All at once, else each half on its own: of many tools only the few that do not go as they are cost a call each.
+Result<geometry::PolyMesh> subtractGeneral(const geometry::PolyMesh& host, std::span<const geometry::PolyMesh> tools) {
+  if (tools.size() == 1) return subtractStubborn(host, tools[0]);
+  if (auto cut = byKernel(host, tools)) return cut;
+  auto first = subtractGeneral(host, tools.first(tools.size() / 2));
+  return first ? subtractGeneral(*first, tools.subspan(tools.size() / 2)) : first;
+}
+
 }  // namespace
 
 Result<geometry::PolyMesh> subtractTools(const geometry::PolyMesh& host, std::span<const geometry::PolyMesh> tools) {
   std::vector<geometry::PolyMesh> general;
   geometry::PolyMesh left = subtractSimple(host, tools, general);
-  if (general.empty()) return left;
-  if (auto cut = byKernel(left, general)) return cut;
-  for (const auto& tool : general) {
-    auto cut = subtractStubborn(left, tool);
-    if (!cut) return cut;
-    left = std::move(*cut);
-  }
-  return left;
+  return general.empty() ? left : subtractGeneral(left, general);
 }
 
 }  // namespace standpoint::ifc
