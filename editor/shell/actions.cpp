@@ -149,6 +149,9 @@ const std::array kActions = {
     Action{"about", "About Standpoint", ICON_INFO, {}, [](Editor& e) { e.dialogs.about = true; }, nullptr},
 };
 
+// A text field keeps the keys that edit text; Ctrl+S saves from there, too.
+bool leavesText(const Shortcut& s) { return s.ctrl && std::strchr("ACVXYZ", s.key) == nullptr; }
+
 }  // namespace
 
 std::span<const Action> actions() { return kActions; }
@@ -181,9 +184,10 @@ std::string shortcutText(const Shortcut& s) {
 
 void runShortcuts(Editor& editor) {
   const auto& io = ImGui::GetIO();
-  if (io.WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
+  if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
   for (const auto& action : kActions) {
     const auto& s = action.shortcut;
+    if (io.WantTextInput && !leavesText(s)) continue;
     if (s.key != 0 && s.ctrl == io.KeyCtrl && s.shift == io.KeyShift && ImGui::IsKeyPressed(s.key, false)) {
       invoke(editor, action.id);
       return;

@@ -175,6 +175,20 @@ TEST_F(Gui, TypingDoesNotTriggerShortcuts) {
   EXPECT_EQ(editor.view.camera, before);
 }
 
+TEST_F(Gui, AShortcutThatEditsNoTextWorksFromATextField) {
+  open();
+  const auto* search = gui.find("###search");
+  ASSERT_NE(search, nullptr);
+  gui.moveTo(search->rect.GetCenter());
+  gui.press();
+  const bool could_undo = editor.session.history().canUndo();
+  gui.key('Z', true);
+  EXPECT_EQ(editor.session.history().canUndo(), could_undo);
+  EXPECT_FALSE(editor.dialogs.file.open);
+  gui.key('I', true);
+  EXPECT_TRUE(editor.dialogs.file.open);
+}
+
 TEST_F(Gui, DrawsATreeOfThousandsInAMoment) {
   open();
   editor.panels.outliner.tree.expandAll(true);
