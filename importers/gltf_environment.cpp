@@ -61,6 +61,8 @@ Result<Environment> readEnvironmentGlb(const std::filesystem::path& path, Progre
     Report ignored;  // we wrote the file
     const auto& ours = memberOf(memberOf(memberOf(file.json(), "asset"), "extras"), "standpoint");
     auto materials = readGltfMaterials(file, ignored);
+    for (auto& use : materials.texture_of_material) use.vertex_alpha = true;   // in our own files nothing is left out
+    materials.without_material.vertex_alpha = true;
     environment.surfaces = std::move(materials.surfaces);
     environment.images = std::move(materials.images);
     readMeshes(file, memberOf(ours, "meshes"), materials, environment, progress);

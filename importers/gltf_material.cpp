@@ -103,6 +103,7 @@ class MaterialReader {
       surface.roughness = floatOr(pbr, "roughnessFactor", 1);
     }
     const auto channel = [&](std::size_t i) { return static_cast<float>(std::clamp(colour[i], 0.0, 1.0)); };
+    use.vertex_alpha = file_.text(json, "alphaMode") == "BLEND";
     surface.colour = {srgbFromLinear(channel(0)), srgbFromLinear(channel(1)), srgbFromLinear(channel(2)),
                       alpha(json, channel(3))};
     const auto& texture = glossy ? memberOf(gloss, "diffuseTexture") : memberOf(pbr, "baseColorTexture");

@@ -17,6 +17,7 @@ namespace standpoint {
 struct GltfTextureUse {
   std::size_t set = 0;                                           // TEXCOORD_<set>
   Eigen::Affine2d image_from_set = Eigen::Affine2d::Identity();  // KHR_texture_transform
+  bool vertex_alpha = false;                                     // counts where the material blends (glTF 2.0 §3.9.4)
 };
 
 struct GltfMaterials {
@@ -24,6 +25,7 @@ struct GltfMaterials {
   std::vector<std::shared_ptr<const Image>> images;
   std::vector<std::uint32_t> surface_of_material;
   std::vector<GltfTextureUse> texture_of_material;
+  GltfTextureUse without_material;
 };
 
 // One surface for each of the file's materials, in order, with the images that they show. A file that we wrote gives

@@ -30,7 +30,7 @@ class MeshReader {
       return report_.lose(place, "holds " + primitive.whatItIs() + ", which are not a surface");
     const auto surface = material ? materials_.surface_of_material[*material] : no_material_;
     const auto [base, count] =
-        vertices(primitive, material ? materials_.texture_of_material[*material] : GltfTextureUse{});
+        vertices(primitive, material ? materials_.texture_of_material[*material] : materials_.without_material);
     if (file_.failed()) return;
     append(primitive.triangles(count, report_), base, surface);
   }
@@ -38,7 +38,7 @@ class MeshReader {
   // Vertices without triangles: our writer keeps them as points.
   void addPoints(const nlohmann::json& json, const std::string& place) {
     GltfPrimitive primitive(file_, json, place);
-    if (!file_.failed()) vertices(primitive, {});
+    if (!file_.failed()) vertices(primitive, materials_.without_material);
   }
 
   GltfMesh take() {
@@ -60,7 +60,7 @@ class MeshReader {
                   primitive.accessor(texture),
                   primitive.accessor("COLOR_0"),
                   {matrix.data(), matrix.data() + matrix.size()},
-                  poseKey(primitive) + featureKey(primitive)};
+                  poseKey(primitive) + featureKey(primitive) + (use.vertex_alpha ? "alpha" : "")};
     if (file_.failed()) return {};
     const bool shared = !primitive.compressed();
     if (const auto known = ranges_.find(key); shared && known != ranges_.end()) return known->second;
@@ -73,7 +73,7 @@ class MeshReader {
     else
       mesh_.positions.insert(mesh_.positions.end(), positions.begin(), positions.end());
     textureCoordinates(primitive, texture, use, range);
-    colours(primitive, range);
+    colours(primitive, use, range);
     features(primitive, range);
     if (shared) ranges_[key] = range;
     return range;
@@ -119,7 +119,7 @@ class MeshReader {
     }
   }
 
-  void colours(GltfPrimitive& primitive, Range range) {
+  void colours(GltfPrimitive& primitive, const GltfTextureUse& use, Range range) {
     auto& all = mesh_.colours;
     const bool present = primitive.accessor("COLOR_0").has_value();
     if (!present && all.empty()) return;
@@ -138,7 +138,8 @@ class MeshReader {
           return file_.fail(primitive.place() + "/attributes/COLOR_0",
                             "element " + std::to_string(i) + " is not a finite number");
         const auto bits = sixteenBits(values[n * i + k]);
-        c[k] = k < 3 ? srgb8FromLinear16(bits) : static_cast<std::uint8_t>((bits + 128) / 257);
+        if (k < 3) c[k] = srgb8FromLinear16(bits);
+        else if (use.vertex_alpha) c[k] = static_cast<std::uint8_t>((bits + 128) / 257);
       }
     }
   }
@@ -213,7 +214,8 @@ Mesh readGltfPoints(GltfFile& file, std::size_t index) {
   const std::string place = "/meshes/" + std::to_string(index);
   const auto& primitives = memberOf(file.element("meshes", index, place), "primitives");
   Report ignored;
-  const GltfMaterials none;
+  GltfMaterials none;
+  none.without_material.vertex_alpha = true;   // our own file: nothing is left out
   const GltfPose rest;
   MeshReader reader(file, none, 0, rest, ignored);
   if (primitives.is_array() && !primitives.empty()) reader.addPoints(primitives[0], place + "/primitives/0");

@@ -122,12 +122,14 @@ TEST(GltfTextures, OutsideTheFolderOfTheModelAreNotRead) {
 
 TEST(GltfColours, OfAllComponentTypesBecomeEightBitsOfSrgb) {
   // 0.2158605 is 128 of 255 in sRGB (IEC 61966-2-1).
-  const auto coloured = [](auto values, int type, const char* shape, const std::string& more) {
+  std::string material = R"({"alphaMode":"BLEND"})";
+  const auto coloured = [&material](auto values, int type, const char* shape, const std::string& more) {
     Gltf2 file;
     file.accessor(kTriangle, 5126, "VEC3", 3);
     file.accessor(values, type, shape, 3, more);
     const auto model =
-        file.import(R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":1}}]}])");
+        file.import(R"("nodes":[{"mesh":0}],"materials":[)" + material +
+                    R"(],"meshes":[{"primitives":[{"material":0,"attributes":{"POSITION":0,"COLOR_0":1}}]}])");
     EXPECT_TRUE(model) << describe(model.error());
     return model ? model->environment.meshes.at(0)->colours.at(0) : std::array<std::uint8_t, 4>{};
   };
@@ -142,6 +144,9 @@ TEST(GltfColours, OfAllComponentTypesBecomeEightBitsOfSrgb) {
   EXPECT_THAT(coloured(std::vector<std::uint8_t>{55, 255, 0, 127, 0, 0, 0, 0, 0, 0, 0, 0}, 5121, "VEC4",
                        ",\"normalized\":true"),
               ElementsAre(128, 255, 0, 127));
+  material = "{}";   // opaque: alpha is ignored (glTF 2.0 §3.9.4)
+  EXPECT_THAT(coloured(std::vector<float>{half, 1, 0, 0.5F, 0, 0, 0, 0, 0, 0, 0, 0}, 5126, "VEC4", ""),
+              ElementsAre(128, 255, 0, 255));
 }
 
 TEST(GltfMaterials, KeepTheOpticsAndNameTheRest) {
