@@ -4,7 +4,7 @@
 
 usage: replicate_ifc.py IN.ifc OUT.ifc MEGABYTES [STEP]      STEP: distance of the copies in the file's length unit (default 100000)
 
-Measure with:  /usr/bin/time -v standpoint import OUT.ifc -o /tmp/big --allow-loss --json > big.json
+Then: standpoint import OUT.ifc -o PROJECT --allow-loss
 """
 import hashlib
 import math
