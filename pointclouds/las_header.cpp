@@ -50,6 +50,15 @@ std::string textOf(std::span<const std::uint8_t> bytes) {
   return {bytes.begin(), end};
 }
 
+// A list of variable-length records.
+struct RecordList {
+  std::uint64_t begins_at = 0;
+  std::uint32_t records = 0;
+  std::size_t head_bytes = 0;
+  std::uint64_t ends_at = 0;   // no record reaches beyond it
+  bool extended = false;       // its lengths have 64 bits
+};
+
 class HeaderReader {
  public:
   HeaderReader(const InputFile& file, Report& report) : file_(file), report_(report), place_(file.name() + " header") {}
@@ -60,6 +69,7 @@ class HeaderReader {
   Result<void> readFormat();
   Result<void> readScale();
   Result<void> readCount();
+  Result<void> readList(const RecordList& list);
   Result<void> readRecords();
   Result<void> readExtendedRecords();
   Result<void> take(const std::string& user, std::uint16_t id, std::uint64_t at, std::uint64_t length);
@@ -147,18 +157,20 @@ Result<void> HeaderReader::take(const std::string& user, std::uint16_t id, std::
 }
 
 // A wrong number of records is common (some writers count bytes); the points stand where the header says all the same.
-Result<void> HeaderReader::readRecords() {
-  const auto records = load<std::uint32_t>(block_, 100);
-  std::uint64_t at = load<std::uint16_t>(block_, 94);
-  for (std::uint32_t i = 0; i < std::min(records, kMostRecords); ++i) {
-    std::array<std::uint8_t, kRecordHead> head;
-    const bool inside = at + head.size() <= header_.points_at;
+// The two lists differ in where they lie, in the width of a record's length, and in what they must end before.
+Result<void> HeaderReader::readList(const RecordList& list) {
+  std::vector<std::uint8_t> head(list.head_bytes);
+  std::uint64_t at = list.begins_at;
+  for (std::uint32_t i = 0; i < std::min(list.records, kMostRecords); ++i) {
+    const bool inside = at <= list.ends_at && head.size() <= list.ends_at - at;
     const auto n = inside ? file_.read(at, head) : Result<std::size_t>(0);
     if (!n) return failure(n.error());
-    const std::uint64_t length = *n == head.size() ? load<std::uint16_t>(head, 20) : 0;
-    if (*n < head.size() || at + head.size() + length > header_.points_at) {
-      report_.warn(place_, "it states " + std::to_string(records) + " variable-length records, of which " +
-                               std::to_string(i) + " lie before the points");
+    const bool whole = *n == head.size();
+    const std::uint64_t length = !whole ? 0 : list.extended ? load<std::uint64_t>(head, 20) : load<std::uint16_t>(head, 20);
+    if (!whole || length > list.ends_at - at - head.size()) {
+      report_.warn(place_, "it states " + std::to_string(list.records) + (list.extended ? " extended" : "") +
+                               " variable-length records, of which " + std::to_string(i) + " lie " +
+                               (list.extended ? "in the file" : "before the points"));
       return {};
     }
     at += head.size();
@@ -169,26 +181,13 @@ Result<void> HeaderReader::readRecords() {
   return {};
 }
 
+Result<void> HeaderReader::readRecords() {
+  return readList({load<std::uint16_t>(block_, 94), load<std::uint32_t>(block_, 100), kRecordHead, header_.points_at, false});
+}
+
 Result<void> HeaderReader::readExtendedRecords() {
   if (header_.minor < 4) return {};
-  std::uint64_t at = load<std::uint64_t>(block_, 235);
-  const auto records = load<std::uint32_t>(block_, 243);
-  for (std::uint32_t i = 0; i < std::min(records, kMostRecords); ++i) {
-    std::array<std::uint8_t, kExtendedHead> head;
-    const auto n = at <= file_.size() ? file_.read(at, head) : Result<std::size_t>(0);
-    if (!n) return failure(n.error());
-    const std::uint64_t length = *n == head.size() ? load<std::uint64_t>(head, 20) : 0;
-    if (*n < head.size() || length > file_.size() - at - head.size()) {
-      report_.warn(place_, "it states " + std::to_string(records) + " extended variable-length records, of which " +
-                               std::to_string(i) + " lie in the file");
-      return {};
-    }
-    at += head.size();
-    const auto user = textOf(std::span<const std::uint8_t>(head).subspan(2, 16));
-    if (auto taken = take(user, load<std::uint16_t>(head, 18), at, length); !taken) return taken;
-    at += length;
-  }
-  return {};
+  return readList({load<std::uint64_t>(block_, 235), load<std::uint32_t>(block_, 243), kExtendedHead, file_.size(), true});
 }
 
 Result<Header> HeaderReader::read() {
