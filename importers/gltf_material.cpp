@@ -227,13 +227,7 @@ class MaterialReader {
     if (now.empty() || !same(0, colour.r) || !same(1, colour.g) || !same(2, colour.b)) return;
     surface.colour = colour;
     surface.source = file_.text(stored, "source");
-    surface.metallic = floatIn(stored, "metallic");
-    surface.roughness = floatIn(stored, "roughness");
-    surface.transmission = floatIn(stored, "transmission");
-    surface.index_of_refraction = floatIn(stored, "index_of_refraction");
-    surface.thickness_m = floatIn(stored, "thickness_m");
-    surface.clearcoat = floatIn(stored, "clearcoat");
-    surface.specular = floatIn(stored, "specular");
+    for (const auto& figure : kGltfSurfaceFigures) surface.*figure.value = floatIn(stored, figure.key);
     surface.unlit = memberOf(stored, "unlit") == true;
     if (const auto image = file_.index(stored, "image", place_ + "/extras/standpoint"); image && ours_) {
       if (*image >= result_.images.size()) return file_.fail(place_ + "/extras/standpoint/image", "does not exist");

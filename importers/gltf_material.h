@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -19,6 +21,20 @@ struct GltfTextureUse {
   Eigen::Affine2d image_from_set = Eigen::Affine2d::Identity();  // KHR_texture_transform
   bool vertex_alpha = false;                                     // counts where the material blends (glTF 2.0 §3.9.4)
 };
+
+// The optional figures of a surface that our own files keep in extras to the last bit, by their keys there.
+struct GltfSurfaceFigure {
+  const char* key;
+  std::optional<float> Surface::*value;
+};
+inline constexpr std::array kGltfSurfaceFigures{
+    GltfSurfaceFigure{"metallic", &Surface::metallic},
+    GltfSurfaceFigure{"roughness", &Surface::roughness},
+    GltfSurfaceFigure{"transmission", &Surface::transmission},
+    GltfSurfaceFigure{"index_of_refraction", &Surface::index_of_refraction},
+    GltfSurfaceFigure{"thickness_m", &Surface::thickness_m},
+    GltfSurfaceFigure{"clearcoat", &Surface::clearcoat},
+    GltfSurfaceFigure{"specular", &Surface::specular}};
 
 struct GltfMaterials {
   std::vector<Surface> surfaces;

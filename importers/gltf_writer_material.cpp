@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "importers/gltf_material.h"
+
 namespace standpoint {
 
 namespace {
@@ -14,16 +16,8 @@ float unit(float value) { return std::clamp(value, 0.0F, 1.0F); }
 
 Json extrasOf(const Surface& s) {
   Json extras = {{"srgb", {s.colour.r, s.colour.g, s.colour.b, s.colour.a}}, {"source", s.source}};
-  const auto add = [&](const char* key, const std::optional<float>& value) {
-    if (value) extras[key] = *value;
-  };
-  add("metallic", s.metallic);
-  add("roughness", s.roughness);
-  add("transmission", s.transmission);
-  add("index_of_refraction", s.index_of_refraction);
-  add("thickness_m", s.thickness_m);
-  add("clearcoat", s.clearcoat);
-  add("specular", s.specular);
+  for (const auto& figure : kGltfSurfaceFigures)
+    if (s.*figure.value) extras[figure.key] = *(s.*figure.value);
   if (s.unlit) extras["unlit"] = true;
   if (s.image >= 0) extras["image"] = s.image;
   return extras;
