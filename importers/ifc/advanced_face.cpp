@@ -160,16 +160,10 @@ bool split(Patch& patch, const ParametricSurface& surface, double tolerance) {
 
 }  // namespace
 
-Result<void> appendCurvedFace(geometry::PolyMesh& mesh, const Entity& face, Scope& scope) {
-  const auto surface_result = surface(face.ref(1), scope);
-  if (!surface_result) return failure(surface_result.error());
-  const ParametricSurface& on = **surface_result;
+Result<void> appendOnSurface(geometry::PolyMesh& mesh, const ParametricSurface& on, const Outlines& outlines, bool turned, const Entity& face, Scope& scope) {
   std::vector<UvLoop> loops;
-  for (const Entity& bound : face.refs(0)) {
-    const auto points = loopPoints(bound.ref(0), scope);
-    if (!points) return failure(points.error());
-    if (points->size() >= 3) loops.push_back(toParameters(*points, on));
-  }
+  for (const auto& points : outlines)
+    if (points.size() >= 3) loops.push_back(toParameters(points, on));
   if (loops.empty()) return {};   // a face without area is no loss
   if (!liesOn(loops, on)) return fail(face, "the bounds of the face do not lie on its surface");
   if (!joinRings(loops, on.period().maxCoeff())) return fail(face, "a face whose bound runs around its surface is not supported here");
@@ -178,11 +172,10 @@ Result<void> appendCurvedFace(geometry::PolyMesh& mesh, const Entity& face, Scop
   if (!triangulateLoops(loops, on, patch)) return fail(face, "the face could not be triangulated");
   constexpr std::size_t kMostTriangles = 20000;
   for (int round = 0; round < 10 && patch.triangles.size() < kMostTriangles; ++round)
-    if (!split(patch, on, scope.model.tessellation.chord_error_m)) break;
+    if (!split(patch, on, scope.tessellation.chord_error_m)) break;
   if (!scope.spend(patch.points.size())) return fail(face, "too many points");
   const auto base = static_cast<std::uint32_t>(mesh.points.size());
   mesh.points.insert(mesh.points.end(), patch.points.begin(), patch.points.end());
-  const bool turned = face[2].symbol() == "F";
   for (const Triangle& t : patch.triangles) {
     geometry::Face f;
     f.outer = {base + t[0], base + t[1], base + t[2]};
@@ -190,6 +183,18 @@ Result<void> appendCurvedFace(geometry::PolyMesh& mesh, const Entity& face, Scop
     mesh.faces.push_back(std::move(f));
   }
   return {};
+}
+
+Result<void> appendCurvedFace(geometry::PolyMesh& mesh, const Entity& face, Scope& scope) {
+  const auto on = surface(face.ref(1), scope);
+  if (!on) return failure(on.error());
+  Outlines outlines;
+  for (const Entity& bound : face.refs(0)) {
+    auto points = loopPoints(bound.ref(0), scope);
+    if (!points) return failure(points.error());
+    outlines.push_back(std::move(*points));
+  }
+  return appendOnSurface(mesh, **on, outlines, face[2].symbol() == "F", face, scope);
 }
 
 }  // namespace standpoint::ifc

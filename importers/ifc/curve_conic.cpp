@@ -113,7 +113,7 @@ Result<Conic> conic(const Entity& entity, Scope& scope) {
 }
 
 Path arc(const Conic& c, double from, double sweep, const Scope& scope) {
-  const int n = geometry::segmentCount(std::max(c.a, c.b), std::abs(sweep), scope.model.tessellation);
+  const int n = geometry::segmentCount(std::max(c.a, c.b), std::abs(sweep), scope.tessellation);
   Path path;
   for (int i = 0; i <= n; ++i) appendPoint(path, c.at(from + sweep * i / n));
   path.start_tangent = c.tangent(from) * (sweep < 0 ? -1 : 1);

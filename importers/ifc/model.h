@@ -44,8 +44,9 @@ struct Repairs {
 
 // One product's (or one shared representation's) work: its issues, and the guards against input that nests or multiplies.
 struct Scope {
-  explicit Scope(const Model& m) : model(m) {}
+  explicit Scope(const Model& m) : model(m), tessellation(m.tessellation) {}
   const Model& model;
+  geometry::Tessellation tessellation;             // finer than the model's while a curve in a surface's parameters is read
   Report report;
   Repairs repairs;
   int depth = 0;

@@ -10,23 +10,6 @@
 namespace standpoint::test {
 namespace {
 
-double areaOf(const ImportedModel& model, const std::string& id) {
-  double sum = 0;
-  const std::size_t product = indexOf(model, id);
-  for (const Instance& i : model.environment.instances) {
-    if (i.product != product) continue;
-    const Mesh& mesh = *model.environment.meshes[i.mesh];
-    for (const Triangle& t : mesh.triangles) sum += (mesh.positions[t[1]] - mesh.positions[t[0]]).cross(mesh.positions[t[2]] - mesh.positions[t[0]]).norm() / 2;
-  }
-  return sum;
-}
-
-bool tells(const ImportedModel& model, const std::string& source, const std::string& words) {
-  for (const Issue& i : model.report.issues)
-    if (i.source == source && i.message.find(words) != std::string::npos) return true;
-  return false;
-}
-
 TEST(IfcConstruct, ARebarLosesLessThanOnePercentToItsChords) {
   const ImportedModel model = importText(ifcText("#100=IFCCIRCLEPROFILEDEF(.AREA.,$,#7,0.006);\n#101=IFCEXTRUDEDAREASOLID(#100,$,#4,2.);\n" + product(110, "IFCREINFORCINGBAR", "#101")));
   const double exact = std::numbers::pi * 0.006 * 0.006 * 2;
