@@ -44,7 +44,8 @@ Result<Path> trimmedConic(const Entity& entity, const Entity& basis, Scope& scop
   const double from = angle(trim(entity, 1, scope), *c, points_first, 0, scope);
   const double to = angle(trim(entity, 2, scope), *c, points_first, kTurn, scope);
   double sweep = std::fmod(to - from, kTurn);
-  constexpr double kNothing = 1e-9;   // from = to is the whole turn
+  // from = to is the whole turn, and so is a turn that rounding carried a little beyond it.
+  const double kNothing = std::abs(to - from) > kTurn ? 1e-4 : 1e-9;
   if (forward && sweep < kNothing) sweep += kTurn;
   if (!forward && sweep > -kNothing) sweep -= kTurn;
   Path path = arc(*c, from, sweep, scope);

@@ -6,6 +6,7 @@
 
 #include "importers/ifc/curve.h"
 #include "importers/ifc/placement.h"
+#include "importers/ifc/profile.h"
 #include "importers/ifc/sections.h"
 #include "importers/ifc/solid.h"
 
@@ -83,6 +84,21 @@ Result<geometry::PolyMesh> sweptDiskSolid(const Entity& entity, Scope& scope) {
   return geometry::sweepDisk(path->points, path->closed, radius, inner, scope.tessellation, {path->start_tangent, path->end_tangent});
 }
 
+namespace {
+
+// Whether a curve begins within the height of an extruded surface, as a curve on it does.
+bool liesOn(const Path& path, const Entity& extrusion, Scope& scope) {
+  const auto swept = profileCurve(extrusion.ref(0), scope);
+  if (!swept || swept->points.empty() || path.points.empty()) return true;
+  const Eigen::Isometry3d position = axisPlacement(extrusion.ref(1), scope);
+  const Eigen::Vector3d along = position.linear() * direction(extrusion.ref(2), Eigen::Vector3d::UnitZ());
+  const double height = (path.points.front() - position * swept->points.front()).dot(along);
+  constexpr double kSlack_m = 1e-4;
+  return height > -kSlack_m && height < scope.metres(extrusion[3].number(0)) + kSlack_m;
+}
+
+}  // namespace
+
 Result<geometry::PolyMesh> curveSweptAreaSolid(const Entity& entity, Scope& scope) {
   const auto regions = profile(entity.ref(0), scope);
   if (!regions) return failure(regions.error());
@@ -94,12 +110,17 @@ Result<geometry::PolyMesh> curveSweptAreaSolid(const Entity& entity, Scope& scop
   else if (reference.is("IFCPLANE")) x = axisPlacement(reference.ref(0), scope).linear().col(2);
   else if (reference.is("IFCSURFACEOFLINEAREXTRUSION")) x = axisPlacement(reference.ref(1), scope).linear() * direction(reference.ref(2), Eigen::Vector3d::UnitZ());
   else return fail(entity, "a reference surface of this kind (" + std::string(reference.typeName()) + ") is not supported");
+  const bool across = reference.is("IFCSURFACEOFLINEAREXTRUSION") && liesOn(*path, reference, scope);
+  if (reference.is("IFCSURFACEOFLINEAREXTRUSION") && !across) {
+    scope.report.note(entity.place(), "its directrix does not lie on its reference surface, as in old exports of Revit; the profile's x is taken against the surface's direction");
+    x = -x;
+  }
   // A derived reference follows the cant of its directrix, a fixed one does not.
   const bool rolls = entity.is("IFCDIRECTRIXDERIVEDREFERENCESWEPTAREASOLID") && path->ups.size() == path->points.size();
   geometry::PolyMesh mesh;
   for (const auto& region : *regions) {
     if (!scope.spend(path->points.size() * region.outer.size())) return fail(entity, "too many points");
-    auto part = reference.is("IFCSURFACEOFLINEAREXTRUSION")
+    auto part = across
                     ? along(region, *path, [&](std::size_t, const Eigen::Vector3d& t) { return Eigen::Vector3d(t.cross(x)); })
                     : along(region, *path, [&](std::size_t i, const Eigen::Vector3d&) { return rolls ? rolled(x, path->ups[i]) : x; });
     if (!part) return part;

@@ -112,5 +112,25 @@ TEST(IfcConstruct, AShellThatIsSaidToBeClosedAndIsNotIsPointedOut) {
   EXPECT_TRUE(tells(model, "#110", "said to be closed")) << issuesOf(model);
 }
 
+TEST(IfcConstruct, ATurnThatRoundingCarriedBeyondItselfIsAWholeOne) {
+  const ImportedModel model = importText(ifcText(
+      "#100=IFCCIRCLE(#7,0.5);\n#101=IFCTRIMMEDCURVE(#100,(IFCPARAMETERVALUE(0.)),(IFCPARAMETERVALUE(6.28318977355957)),.T.,.PARAMETER.);\n#102=IFCCOMPOSITECURVESEGMENT(.CONTINUOUS.,.T.,#101);\n"
+      "#103=IFCCOMPOSITECURVE((#102),.F.);\n#104=IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$,#103);\n#105=IFCEXTRUDEDAREASOLID(#104,$,#4,1.);\n" + product(110, "IFCPLATE", "#105")));
+  EXPECT_NEAR(volumeOf(model, "#110") / (std::numbers::pi * 0.25), 1, 0.01);
+}
+
+TEST(IfcConstruct, AnElbowWhoseReferenceSurfaceLiesElsewhereIsStillAnElbow) {
+  // As old exports of Revit write it: a pipe of radius 51.5875 around a bend of 57.9375, whose directrix is the inner edge
+  // (6.35) and whose profile is shifted along its y. Pappus: the area times a quarter turn of the middle.
+  const ImportedModel model = importText(ifcText(
+      "#90=IFCCARTESIANPOINT((0.,51.5875));\n#91=IFCAXIS2PLACEMENT2D(#90,$);\n#92=IFCCIRCLEPROFILEDEF(.AREA.,$,#91,51.5875);\n#93=IFCCARTESIANPOINT((-6.35,0.));\n#94=IFCDIRECTION((0.,1.));\n"
+      "#95=IFCAXIS2PLACEMENT2D(#93,#94);\n#96=IFCCIRCLE(#95,6.35);\n#97=IFCTRIMMEDCURVE(#96,(IFCPARAMETERVALUE(4.71238898038469)),(IFCPARAMETERVALUE(0.)),.T.,.PARAMETER.);\n"
+      "#98=IFCARBITRARYOPENPROFILEDEF(.CURVE.,$,#97);\n#99=IFCCARTESIANPOINT((0.,0.,-304.8));\n#100=IFCAXIS2PLACEMENT3D(#99,$,$);\n#101=IFCDIRECTION((0.,0.,-1.));\n"
+      "#102=IFCSURFACEOFLINEAREXTRUSION(#98,#100,#101,1.);\n#103=IFCSURFACECURVESWEPTAREASOLID(#92,#2,#97,0.,360.,#102);\n" + product(110, "IFCPIPEFITTING", "#103"), "IFCSIUNIT(*,.LENGTHUNIT.,.MILLI.,.METRE.)"));
+  const double r = 0.0515875;
+  EXPECT_NEAR(volumeOf(model, "#110") / (std::numbers::pi * r * r * std::numbers::pi / 2 * 0.0579375), 1, 0.01);
+  EXPECT_TRUE(tells(model, "#103", "reference surface")) << issuesOf(model);
+}
+
 }  // namespace
 }  // namespace standpoint::test
