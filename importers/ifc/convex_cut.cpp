@@ -237,6 +237,12 @@ Result<geometry::PolyMesh> subtractGeneral(const geometry::PolyMesh& host, std::
 Result<geometry::PolyMesh> subtractTools(const geometry::PolyMesh& host, std::span<const geometry::PolyMesh> tools) {
   std::vector<geometry::PolyMesh> general;
   geometry::PolyMesh left = subtractSimple(host, tools, general);
+  if (hasFlaps(left) && !hasFlaps(host)) {   // a side that rounding put a hair inside of the host's
+    std::vector<geometry::PolyMesh> larger, general_of_larger;
+    for (const auto& tool : tools) larger.push_back(grown(tool, 2e-5));
+    geometry::PolyMesh without = subtractSimple(host, larger, general_of_larger);
+    if (!tore(host, without) && !hasFlaps(without)) left = std::move(without), general = std::move(general_of_larger);
+  }
   return general.empty() ? left : subtractGeneral(left, general);
 }
 
