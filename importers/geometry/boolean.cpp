@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "importers/geometry/boolean_ways.h"
 #include "importers/geometry/kernel.h"
@@ -131,8 +132,14 @@ PolyMesh subtractWithCarve(PolyMesh host, std::vector<PolyMesh>& tools, std::vec
 Result<PolyMesh> combineTwo(const PolyMesh& a, const PolyMesh& b, Operation operation, const Limits& range) {
   const std::span<const PolyMesh> second(&b, 1);
   std::vector<Error> errors;
+  std::optional<PolyMesh> torn;   // of the right volume, but open: stands when no other way does better
+  const bool solids = isClosed(a) && isClosed(b);
   const auto keep = [&](Result<PolyMesh> result, const char* way) {
     result = checked(std::move(result), range, way);
+    if (result && solids && !isClosed(*result)) {
+      if (!torn) torn = std::move(*result);
+      result = failure(ErrorKind::unusable, std::string(way) + ": the result is torn open");
+    }
     if (!result) errors.push_back(result.error());
     return result;
   };
@@ -141,6 +148,7 @@ Result<PolyMesh> combineTwo(const PolyMesh& a, const PolyMesh& b, Operation oper
   }
   if (auto result = keep(combineWithCarve(a, b, operation), "carve")) return result;
   if (auto result = keep(combineWithCgal(a, second, operation), "CGAL")) return result;
+  if (torn) return std::move(*torn);
   return failure(joined(errors));
 }
 

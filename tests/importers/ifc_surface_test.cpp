@@ -88,5 +88,20 @@ TEST(IfcSurface, ASweepAlongACurveInTheParametersOfItsPlane) {
   EXPECT_NEAR(boundsOf(model, "#110").max.z(), 2.1, 1e-4);   // the plane's x is the model's z
 }
 
+TEST(IfcSurface, AFaceMayHaveACornerAtThePole) {
+  // Half of the upper hemisphere of radius 0.2, from +x over +y to −x: two meridians and half of the equator; πr².
+  for (const char* first : {"#224,#225,#226", "#225,#226,#224", "#226,#224,#225"}) {
+    const ImportedModel model = importText(ifcText(
+        "#100=IFCSPHERICALSURFACE(#2,0.2);\n#200=IFCCARTESIANPOINT((0.2,0.,0.));\n#201=IFCCARTESIANPOINT((-0.2,0.,0.));\n#202=IFCCARTESIANPOINT((0.,0.,0.2));\n"
+        "#204=IFCVERTEXPOINT(#200);\n#205=IFCVERTEXPOINT(#201);\n#206=IFCVERTEXPOINT(#202);\n#207=IFCDIRECTION((0.,-1.,0.));\n#208=IFCAXIS2PLACEMENT3D(#1,#207,#5);\n#209=IFCCIRCLE(#2,0.2);\n#210=IFCCIRCLE(#208,0.2);\n"
+        "#220=IFCEDGECURVE(#204,#205,#209,.T.);\n#221=IFCEDGECURVE(#206,#205,#210,.T.);\n#222=IFCEDGECURVE(#204,#206,#210,.T.);\n"
+        "#224=IFCORIENTEDEDGE(*,*,#220,.T.);\n#225=IFCORIENTEDEDGE(*,*,#221,.F.);\n#226=IFCORIENTEDEDGE(*,*,#222,.F.);\n"
+        "#228=IFCEDGELOOP((" + std::string(first) + "));\n#229=IFCFACEOUTERBOUND(#228,.T.);\n#230=IFCADVANCEDFACE((#229),#100,.T.);\n#231=IFCOPENSHELL((#230));\n#232=IFCSHELLBASEDSURFACEMODEL((#231));\n" +
+        product(110, "IFCPLATE", "#232", "SurfaceModel")));
+    EXPECT_EQ(model.report.losses(), 0U) << issuesOf(model);
+    EXPECT_NEAR(areaOf(model, "#110") / (kPi * 0.04), 1, 0.02);
+  }
+}
+
 }  // namespace
 }  // namespace standpoint::test
