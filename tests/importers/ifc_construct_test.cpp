@@ -132,5 +132,17 @@ TEST(IfcConstruct, AnElbowWhoseReferenceSurfaceLiesElsewhereIsStillAnElbow) {
   EXPECT_TRUE(tells(model, "#103", "reference surface")) << issuesOf(model);
 }
 
+TEST(IfcConstruct, ArcsBeyondATurnOfRadiansAreInDegreesWhereNoUnitIsStated) {
+  // A quarter disk of radius 2, its arc from 90 to 180.
+  std::string text = ifcText(
+      "#100=IFCCIRCLE(#7,2.);\n#101=IFCTRIMMEDCURVE(#100,(IFCPARAMETERVALUE(90.)),(IFCPARAMETERVALUE(180.)),.T.,.PARAMETER.);\n#102=IFCCOMPOSITECURVESEGMENT(.CONTINUOUS.,.T.,#101);\n"
+      "#103=IFCCARTESIANPOINT((-2.,0.));\n#104=IFCCARTESIANPOINT((0.,2.));\n#105=IFCPOLYLINE((#103,#6,#104));\n#106=IFCCOMPOSITECURVESEGMENT(.CONTINUOUS.,.T.,#105);\n"
+      "#107=IFCCOMPOSITECURVE((#102,#106),.F.);\n#108=IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$,#107);\n#109=IFCEXTRUDEDAREASOLID(#108,$,#4,1.);\n" + product(110, "IFCPLATE", "#109"));
+  text.replace(text.find("(#10,#13)"), 9, "(#10)");
+  const ImportedModel model = importText(text);
+  EXPECT_NEAR(volumeOf(model, "#110"), std::numbers::pi, 0.01);
+  EXPECT_TRUE(tells(model, "#11", "degrees are assumed")) << issuesOf(model);
+}
+
 }  // namespace
 }  // namespace standpoint::test
