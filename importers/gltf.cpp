@@ -45,7 +45,7 @@ class GltfImport {
     const auto seen = walkScene(file_, [&](const GltfNode& node) { visit(node); });
     if (file_.failed()) return failure(file_.error());
     if (auto ok = progress_.check(); !ok) return failure(ok.error());
-    if (no_material_used_) environment().surfaces.push_back({"", {}, "no material"});
+    if (no_material_used_) environment().surfaces.push_back({"", {1, 1, 1, 1}, "no material"});  // glTF 2.0, 3.9.6
     listGltfRest(file_, seen, model_.report);
     if (triangleCount(environment()) == 0)
       model_.report.warn("/nodes", "no node has a surface: there is nothing to scan");
