@@ -56,7 +56,7 @@ Result<Outcome> runExport(const Document& document, const json& options, Progres
   const auto write = gltf ? exportEnvironmentGltf : extension == ".obj" ? writeEnvironmentObj : nullptr;
   if (write == nullptr)
     return failure(ErrorKind::usage, fmt::format("'{}' cannot be written; there is .glb, .gltf and .obj", extension), "--output");
-  const Environment tangible = tangiblePart(*document.environment());
+  const Environment tangible = sceneOf(*document.environment());
   if (auto ok = write(tangible, *document.georeference, file, progress); !ok) return failure(ok.error());
   Outcome outcome{document, {{"file", file.string()}, {"triangles", triangleCount(tangible)}}, {}, {}};
   if (const auto left_out = document.environment()->instances.size() - tangible.instances.size(); left_out > 0)

@@ -15,7 +15,7 @@ std::uint8_t byte(float value) { return static_cast<std::uint8_t>(std::lround(st
 Rgba rgba(const Colour& c) { return {byte(c.r), byte(c.g), byte(c.b), byte(c.a)}; }
 
 bool visible(const ViewState& state, std::uint32_t product) {
-  if (!state.environment->products[product].tangible) return false;
+  if (!state.environment->products[product].inScene()) return false;
   return !state.hidden || product >= state.hidden->size() || (*state.hidden)[product] == 0;
 }
 
