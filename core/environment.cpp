@@ -137,9 +137,9 @@ std::size_t triangleCount(const Environment& environment) {
   return count;
 }
 
-Environment tangiblePart(const Environment& environment) {
+Environment sceneOf(const Environment& environment) {
   Environment part = environment;
-  std::erase_if(part.instances, [&](const Instance& instance) { return !environment.products[instance.product].tangible; });
+  std::erase_if(part.instances, [&](const Instance& instance) { return !environment.products[instance.product].inScene(); });
   return part;
 }
 

@@ -201,7 +201,7 @@ Bounds Editor::boundsOfVisible(bool with_terrain) const {
   for (std::uint32_t p = 0; p < each.size(); ++p) {
     const auto& product = shown()->products[p];
     const bool terrain = product.ifc_class == "IfcSite" || product.ifc_class == "IfcGeographicElement";
-    if ((previewed || !visibility.hidden(p)) && product.tangible && !each[p].empty() && (with_terrain || !terrain)) all.extend(each[p]);
+    if ((previewed || !visibility.hidden(p)) && product.inScene() && !each[p].empty() && (with_terrain || !terrain)) all.extend(each[p]);
   }
   if (previewed) return all;
   if (visibility.cut_height_m && !all.empty())

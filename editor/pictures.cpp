@@ -34,7 +34,7 @@ std::int64_t richestProduct(const Editor& editor) {
   std::int64_t best = -1;
   for (std::uint32_t p = 0; p < environment.products.size(); ++p) {
     const auto& product = environment.products[p];
-    if (!product.tangible || editor.boundsOfProducts()[p].empty()) continue;
+    if (!product.inScene() || editor.boundsOfProducts()[p].empty()) continue;
     if (best < 0 || product.properties.size() + 20 * product.layers.size() >
                         environment.products[static_cast<std::size_t>(best)].properties.size() + 20 * environment.products[static_cast<std::size_t>(best)].layers.size())
       best = p;

@@ -28,7 +28,7 @@ struct Work {
 
 std::vector<bool> stopping(const Environment& environment) {
   auto result = belongsToDoor(environment);
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] = !result[i] && environment.products[i].tangible;
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = !result[i] && environment.products[i].inScene();
   return result;
 }
 

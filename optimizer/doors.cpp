@@ -174,7 +174,7 @@ std::vector<bool> belongsToDoor(const Environment& environment) {
 std::vector<Door> checkDoors(const Environment& environment, const std::vector<CollisionShape>& shapes, const CollideOptions& options, Report& report) {
   std::vector<std::uint32_t> doors;
   for (std::uint32_t i = 0; i < environment.products.size(); ++i)
-    if (environment.products[i].tangible && isDoor(environment.products[i])) doors.push_back(i);
+    if (environment.products[i].inScene() && isDoor(environment.products[i])) doors.push_back(i);
   const Obstacles obstacles(shapes);
   const TriangleTree tree(obstacles.positions, obstacles.triangles);
   std::vector<Verdict> verdicts(doors.size());

@@ -27,7 +27,7 @@ void drawResult(Editor& editor, const Lightening& light) {
     ui::property("Mean deviation", fmt::format("{:.3f} mm", all.mean_deviation_m * 1000));
     ui::endProperties();
   }
-  if (light.options.budget > 0 && all.triangles_after > light.options.budget)
+  if (light.request.budget.value_or(0) > 0 && all.triangles_after > *light.request.budget)
     ImGui::TextColored(colour(tone::kWarning), "%s  The budget cannot be kept with this deviation", ICON_WARNING);
 }
 

@@ -41,7 +41,7 @@ void quit(Editor& e) {
 void selectAll(Editor& e) {
   std::vector<std::uint32_t> all;
   for (std::uint32_t p = 0; p < e.environment()->products.size(); ++p)
-    if (e.environment()->products[p].tangible && !e.visibility.hidden(p)) all.push_back(p);
+    if (e.environment()->products[p].inScene() && !e.visibility.hidden(p)) all.push_back(p);
   e.selection.set(std::move(all));
 }
 void escape(Editor& e) {

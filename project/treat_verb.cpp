@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "project/model_verbs.h"
+#include "project/treatments.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+
+json answerOf(const Environment& environment, const std::vector<Treatment>& treatments) {
+  json rows = treatmentsToJson(treatments);
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i]["count"] = select(environment, treatments[i].selector).size();
+  std::size_t excluded = 0;
+  for (const auto& product : environment.products) excluded += product.excluded ? 1 : 0;
+  return {{"treatments", std::move(rows)}, {"excluded_products", excluded}};
+}
+
+// Of rows that mean no product nothing is said: an update may bring theirs back.
+template <class Idle>
+void eraseIdle(const Environment& environment, std::vector<Treatment>& treatments, Idle idle) {
+  for (std::size_t i = treatments.size(); i-- > 0;) {
+    const auto meant = select(environment, treatments[i].selector);
+    if (!meant.empty() && idle(i, meant)) treatments.erase(treatments.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+// First what later words have replaced goes, then what takes back something that is no longer there.
+void tidy(const Environment& environment, std::vector<Treatment>& treatments) {
+  using Products = std::vector<std::uint32_t>;
+  eraseIdle(environment, treatments, [&](std::size_t i, const Products& meant) {
+    const auto decided = treatmentOf(environment, treatments);
+    return std::none_of(meant.begin(), meant.end(), [&](std::uint32_t p) { return decided[p] == &treatments[i]; });
+  });
+  eraseIdle(environment, treatments, [&](std::size_t i, const Products& meant) {
+    if (treatments[i].kind != TreatmentKind::as_rules) return false;
+    const std::vector<Treatment> before(treatments.begin(), treatments.begin() + static_cast<std::ptrdiff_t>(i));
+    const auto earlier = treatmentOf(environment, before);
+    return std::none_of(meant.begin(), meant.end(), [&](std::uint32_t p) { return earlier[p] != nullptr; });
+  });
+}
+
+// What was made from the scene as it was before: the lighter one only changes its marks, the rest is made anew or goes.
+Result<void> follow(Document& document, Report& report, Progress& progress) {
+  if (document.lightening) {
+    auto lightening = *document.lightening;
+    lightening.environment = withExclusions(lightening.environment, *document.treatments);
+    document.lightening = std::make_shared<const Lightening>(std::move(lightening));
+  }
+  if (document.collision) {
+    document.collision = nullptr;
+    report.note("collide", "the collision shapes were those of the scene before; compute them again");
+  }
+  if (!document.materials) return {};
+  auto assigned = assignDocumentMaterials(document, "", {}, progress);
+  if (!assigned) return failure(assigned.error());
+  document.materials = assigned->document.materials;
+  return {};
+}
+
+}  // namespace
+
+Result<Outcome> runTreat(const Document& document, const json& options, Progress& progress) {
+  const auto selectors = options.value("products", std::vector<std::string>{});
+  const auto now = document.treatments ? *document.treatments : std::vector<Treatment>{};
+  if (selectors.empty()) {
+    if (options.contains("as")) return failure(ErrorKind::usage, "say which products: #id, a GlobalId, class:IfcFurniture, name:*chair*, storey:…", "products");
+    return Outcome{document, answerOf(*document.imported, now), {}, {}};
+  }
+  if (!options.contains("as")) return failure(ErrorKind::usage, "say how they are treated: excluded, kept, simplified or rules", "--as");
+  const auto as = options.at("as").get<std::string>();
+  const auto kind = as == "excluded" ? TreatmentKind::excluded : as == "kept" ? TreatmentKind::kept
+                    : as == "simplified" ? TreatmentKind::simplified : TreatmentKind::as_rules;
+  Treatment treatment{{}, kind, {}, {}};
+  if (options.contains("max-deviation")) treatment.max_deviation_m = options.at("max-deviation").get<double>();
+  if (options.contains("weight")) treatment.weight = options.at("weight").get<double>();
+  if (kind != TreatmentKind::simplified && (treatment.max_deviation_m || treatment.weight))
+    return failure(ErrorKind::usage, "limits are for products that are simplified: --as simplified", treatment.weight ? "--weight" : "--max-deviation");
+  auto treatments = now;
+  std::size_t count = 0;
+  for (const auto& selector : selectors) {
+    const auto meant = select(*document.imported, selector);
+    if (meant.empty()) return failure(ErrorKind::usage, "no product is meant by it; #id, a GlobalId, class:IfcFurniture, name:*chair* and storey:… select", selector);
+    count += meant.size();
+    treatment.selector = selector;
+    treatments.push_back(treatment);
+  }
+  Outcome outcome{document, {}, {}, {}};
+  auto& after = outcome.document;
+  tidy(*document.imported, treatments);
+  after.treatments = std::make_shared<const std::vector<Treatment>>(std::move(treatments));
+  after.imported = withExclusions(document.imported, *after.treatments);
+  if (after.imported != document.imported)
+    if (auto done = follow(after, outcome.report, progress); !done) return failure(done.error());
+  if (document.lightening && kind != TreatmentKind::excluded)
+    outcome.report.note("optimize", "the lighter model follows when it is optimised again");
+  outcome.answer = answerOf(*after.imported, *after.treatments);
+  const char* done = kind == TreatmentKind::excluded ? "Excluded" : kind == TreatmentKind::kept ? "Keep as they are:"
+                     : kind == TreatmentKind::simplified ? "Simplify within own limits:" : "By the rules again:";
+  outcome.description = fmt::format("{} {} products ({})", done, count, fmt::join(selectors, ", "));
+  return outcome;
+}
+
+}  // namespace standpoint
