@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -22,15 +21,6 @@ constexpr double kFloorReach = 0.35;  // m above and below the door's lower edge
 constexpr double kTouch = 1e-3;       // m; a capsule that only touches still passes
 constexpr double kOffsets[] = {0, 0.02, -0.02, 0.05, -0.05, 0.1, -0.1, 0.15, -0.15};  // m beside the door's middle
 
-bool isDoor(const Product& product) { return product.ifc_class == "IfcDoor" || product.ifc_class == "IfcDoorStandardCase"; }
-
-// Where a door stands and which way leads through it.
-struct Passage {
-  Vector3d middle = Vector3d::Zero();  // on its lower edge
-  Vector3d through = Vector3d::UnitX(), across = Vector3d::UnitY();
-  double half_depth = 0;
-};
-
 struct Obstacles {
   std::vector<Vector3d> positions;
   std::vector<Triangle> triangles;
@@ -48,36 +38,6 @@ struct Obstacles {
   }
   Corners corners(std::uint32_t i) const { return {positions[triangles[i][0]], positions[triangles[i][1]], positions[triangles[i][2]]}; }
 };
-
-// A door's leaf and glass are most of its area, so their normals say which way leads through. Angles are doubled, as a
-// normal and its opposite are the same direction.
-std::optional<Passage> passageOf(const Environment& environment, std::uint32_t product) {
-  double cosine = 0, sine = 0;
-  std::vector<Vector3d> points;
-  for (const auto& instance : environment.instances) {
-    if (instance.product != product) continue;
-    const auto& mesh = *environment.meshes[instance.mesh];
-    for (const auto& t : mesh.triangles) {
-      Vector3d corner[3];
-      for (int k = 0; k < 3; ++k) points.push_back(corner[k] = instance.world_from_mesh * mesh.positions[t[k]].cast<double>());
-      const Vector3d normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
-      const double level = normal.head<2>().norm(), angle = 2 * std::atan2(normal.y(), normal.x());
-      cosine += level * std::cos(angle);
-      sine += level * std::sin(angle);
-    }
-  }
-  if (points.empty()) return std::nullopt;
-  Passage passage;
-  const double angle = std::atan2(sine, cosine) / 2;
-  passage.through = {std::cos(angle), std::sin(angle), 0};
-  passage.across = {-passage.through.y(), passage.through.x(), 0};
-  Bounds box;
-  for (const auto& p : points) box.extend(Vector3d(passage.through.dot(p), passage.across.dot(p), p.z()));
-  passage.middle = passage.through * (0.5 * (box.min.x() + box.max.x())) + passage.across * (0.5 * (box.min.y() + box.max.y()));
-  passage.middle.z() = box.min.z();
-  passage.half_depth = 0.5 * (box.max.x() - box.min.x());
-  return passage;
-}
 
 // Height of the uppermost surface below or above p within reach.
 std::optional<double> floorAt(const Obstacles& obstacles, const TriangleTree& tree, const Vector3d& p) {
@@ -158,6 +118,38 @@ Verdict judge(const Environment& environment, std::uint32_t product, const std::
 }
 
 }  // namespace
+
+bool isDoor(const Product& product) { return product.ifc_class == "IfcDoor" || product.ifc_class == "IfcDoorStandardCase"; }
+
+// A door's leaf and glass are most of its area, so their normals say which way leads through. Angles are doubled, as a
+// normal and its opposite are the same direction.
+std::optional<Passage> passageOf(const Environment& environment, std::uint32_t product) {
+  double cosine = 0, sine = 0;
+  std::vector<Vector3d> points;
+  for (const auto& instance : environment.instances) {
+    if (instance.product != product) continue;
+    const auto& mesh = *environment.meshes[instance.mesh];
+    for (const auto& t : mesh.triangles) {
+      Vector3d corner[3];
+      for (int k = 0; k < 3; ++k) points.push_back(corner[k] = instance.world_from_mesh * mesh.positions[t[k]].cast<double>());
+      const Vector3d normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+      const double level = normal.head<2>().norm(), angle = 2 * std::atan2(normal.y(), normal.x());
+      cosine += level * std::cos(angle);
+      sine += level * std::sin(angle);
+    }
+  }
+  if (points.empty()) return std::nullopt;
+  Passage passage;
+  const double angle = std::atan2(sine, cosine) / 2;
+  passage.through = {std::cos(angle), std::sin(angle), 0};
+  passage.across = {-passage.through.y(), passage.through.x(), 0};
+  Bounds box;
+  for (const auto& p : points) box.extend(Vector3d(passage.through.dot(p), passage.across.dot(p), p.z()));
+  passage.middle = passage.through * (0.5 * (box.min.x() + box.max.x())) + passage.across * (0.5 * (box.min.y() + box.max.y()));
+  passage.middle.z() = box.min.z();
+  passage.half_depth = 0.5 * (box.max.x() - box.min.x());
+  return passage;
+}
 
 std::vector<bool> belongsToDoor(const Environment& environment) {
   std::vector<bool> result(environment.products.size(), false);
