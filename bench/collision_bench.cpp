@@ -168,7 +168,8 @@ bool inside(const CollisionShape& shape, const Vector3d& p, double tolerance) {
   if (shape.kind == CollisionShapeKind::mesh) return false;
   for (const auto& t : shape.mesh.triangles) {
     const Vector3d a = shape.mesh.positions[t[0]].cast<double>();
-    const Vector3d normal = (shape.mesh.positions[t[1]].cast<double>() - a).cross(shape.mesh.positions[t[2]].cast<double>() - a);
+    const Vector3d ab = shape.mesh.positions[t[1]].cast<double>() - a, ac = shape.mesh.positions[t[2]].cast<double>() - a, normal = ab.cross(ac);
+    if (normal.norm() < 1e-4 * std::max(ab.norm(), ac.norm())) continue;  // a sliver's normal is rounding
     if (normal.dot(p - a) > tolerance * normal.norm()) return false;
   }
   return true;
@@ -200,7 +201,9 @@ void deviationOf(const std::string& id, bool wall, const Soup& raw, const std::v
   for (const auto& point : pointsByArea(made.positions, made.triangles, kSamples, {3, 0})) {
     const auto own = made.owner[point.triangle];
     const bool covered = std::any_of(shapes.begin(), shapes.end(), [&](const auto* s) { return s != shapes[own] && inside(*s, point.position, 1e-4); });
-    if (!covered) outward = std::max(outward, std::sqrt(raw_tree.squaredDistance(point.position)));
+    if (covered) continue;
+    // Between pieces there may be a crack within the solid: only what is out of the model's surface is too much.
+    if (const double off = std::sqrt(raw_tree.squaredDistance(point.position)); off > outward && std::abs(winding(raw, point.position)) < 0.5) outward = off;
   }
   for (const auto& point : pointsByArea(raw.positions, raw.triangles, kSamples, {4, 0})) {
     const bool covered = std::any_of(shapes.begin(), shapes.end(), [&](const auto* s) { return inside(*s, point.position, 1e-4); });

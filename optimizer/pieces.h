@@ -32,6 +32,10 @@ Pieces collisionPieces(const Shape& shape, double max_deviation_m);
 // The three ways, each empty when it does not apply. `volume_m3` of the closed part tells whether nothing was lost.
 std::vector<Piece> boxPieces(const Shape& part, double volume_m3);
 std::vector<Piece> prismPieces(const Shape& part, double volume_m3);
+// A part without a volume becomes a plate of a millimetre.
+std::vector<Piece> sheetPieces(const Shape& part);
+// Cut along the planes of its reflex faces until no face has anything more than tolerance_m before it.
+std::vector<Piece> cutPieces(const Shape& part, double tolerance_m);
 std::optional<Piece> hullPiece(const std::vector<Eigen::Vector3d>& points);
 
 // Directions of the faces (either sense), largest total area first, no two closer than half a degree.

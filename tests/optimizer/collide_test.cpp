@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "optimizer/obstacles.h"
 #include "optimizer/optimizer.h"
 #include "tests/optimizer/models.h"
 
@@ -128,16 +129,103 @@ TEST(Wall, WithAGableAndWindowsBecomesFewConvexPieces) {
   EXPECT_LT(result.products[0].max_deviation_m, 2e-3);
 }
 
-TEST(RoundColumn, IsItsConvexHullAndATorusItsTriangles) {
+TEST(Wall, WithManyWindowsIsCoveredByPillarsAndStrips) {
+  Environment e;
+  std::vector<std::array<double, 4>> windows;
+  for (int i = 0; i < 5; ++i) windows.push_back({1.0 + 2 * i, 0.9, 2.0 + 2 * i, 2.1});
+  models::add(e, extruded({{0, 2.8}, {11, 2.8}}, windows, 0.3), "IfcWall");
+  EXPECT_EQ(collided(e).shapes.size(), 6 + 2);  // pillars, and what runs below and above the windows
+}
+
+// The box with its ends cut to 45 degrees, under a gable: oblique in three directions, prismatic in none.
+TEST(Wall, WithMitredEndsUnderAGableIsOnePiece) {
+  Mesh wall = extruded({{0, 3}, {4, 6}, {8, 3}}, {}, 0.3);
+  for (auto& p : wall.positions)
+    if (p.y() > 0.1F) p.x() += p.x() < 0.1F ? 0.3F : p.x() > 7.9F ? -0.3F : 0;
+  Environment e;
+  models::add(e, wall, "IfcWall");
+  const auto result = collided(e);
+  ASSERT_LE(result.shapes.size(), 2);
+  double sum = 0;
+  for (const auto& shape : result.shapes) {
+    EXPECT_EQ(shape.kind, CollisionShapeKind::convex);
+    sum += volume(shape.mesh);
+  }
+  EXPECT_NEAR(sum / volume(wall), 1, 0.01);
+}
+
+TEST(Wall, WithMitredEndsAndADoorwayStaysOpenWithinAMillimetre) {
+  Mesh wall = extruded({{0, 3}, {4, 6}, {8, 3}}, {{1, 0, 2, 2.1}, {5, 1, 6, 2}}, 0.3);
+  for (auto& p : wall.positions)
+    if (p.y() > 0.1F) p.x() += p.x() < 0.1F ? 0.3F : p.x() > 7.9F ? -0.3F : 0;
+  Environment e;
+  models::add(e, wall, "IfcWall");
+  const auto result = collided(e);
+  EXPECT_LE(result.shapes.size(), 2 + 3 * 2);
+  const Obstacles obstacles(result.shapes);
+  EXPECT_FALSE(obstacles.sweep({0.499, 2.099}, {1.5, -1, 0.0005}, {1.5, 1, 0.0005}));
+  EXPECT_TRUE(obstacles.sweep({0.501, 2.099}, {1.5, -1, 0.0005}, {1.5, 1, 0.0005}));
+  EXPECT_TRUE(obstacles.sweep({0.499, 2.101}, {1.5, -1, 0.0005}, {1.5, 1, 0.0005}));
+  EXPECT_FALSE(obstacles.sweep({0.499, 0.998}, {5.5, -1, 1.001}, {5.5, 1, 1.001}));
+  for (const auto& shape : result.shapes) EXPECT_NE(shape.kind, CollisionShapeKind::mesh);
+}
+
+TEST(Slab, WithAStairwellIsOpenThere) {
+  Mesh slab = extruded({{0, 5}, {8, 5}}, {{2, 1, 4.5, 3.6}}, 0.2);  // lies in the xz plane
+  Environment e;
+  models::add(e, slab, "IfcSlab", Affine3d(AngleAxisd(0.3, Vector3d::UnitZ()) * AngleAxisd(-1.5707963267948966, Vector3d::UnitX())));
+  const auto result = collided(e);
+  EXPECT_LE(result.shapes.size(), 4);
+  const Obstacles obstacles(result.shapes);
+  const auto falls = [&](double x, double y) {
+    const Vector3d top = AngleAxisd(0.3, Vector3d::UnitZ()) * Vector3d(x, y, 1);
+    return !obstacles.sweep({0.3, 1.8}, top, top - Vector3d(0, 0, 4));
+  };
+  EXPECT_TRUE(falls(3.2, 2.3));
+  EXPECT_FALSE(falls(2.2, 2.3));
+  EXPECT_FALSE(falls(6, 2));
+}
+
+TEST(RoundThings, AreConvexPiecesWithinACentimetre) {
   Environment e;
   models::add(e, models::cylinder(0.3, 3, 24, 6), "IfcColumn");
   models::add(e, models::torus(2, 0.4, 24, 12), "", at(10, 0, 0));
   const auto result = collided(e);
-  ASSERT_EQ(result.shapes.size(), 2);
-  EXPECT_EQ(result.shapes[0].kind, CollisionShapeKind::convex);
+  EXPECT_EQ(result.products[0].shapes, 1);
   EXPECT_NEAR(volume(result.shapes[0].mesh) / volume(*e.meshes[0]), 1, 1e-4);
-  EXPECT_EQ(result.shapes[1].kind, CollisionShapeKind::mesh);
-  EXPECT_THAT(result.report.issues, testing::Contains(testing::Field(&Issue::source, "#2")));
+  Mesh all;
+  for (const auto& shape : result.shapes) {
+    EXPECT_EQ(shape.kind, CollisionShapeKind::convex);
+    if (shape.product == 1) models::append(all, shape.mesh);
+  }
+  Mesh placed;
+  models::append(placed, *e.meshes[1], at(10, 0, 0));
+  EXPECT_LT(models::farthest(placed, all, 2000), 0.010);
+}
+
+TEST(Pane, IsAPlateOfAMillimetreOnItsOwnOrOnAFrame) {
+  Environment e;
+  Mesh pane;
+  for (const auto& p : {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 0, 2), Vector3d(0, 0, 2)}) pane.positions.push_back(p.cast<float>());
+  pane.triangles = {{0, 1, 2}, {0, 2, 3}};
+  pane.surface_of_triangle = {0, 0};
+  models::add(e, pane, "IfcPlate");
+  const auto result = collided(e);
+  ASSERT_EQ(result.shapes.size(), 1);
+  EXPECT_EQ(result.shapes[0].kind, CollisionShapeKind::box);
+  EXPECT_NEAR(volume(result.shapes[0].mesh), 1 * 2 * 0.001, 1e-5);
+}
+
+TEST(Bowl, IsItsTrianglesAndNamedInTheReport) {
+  Environment e;
+  Mesh bowl = models::sphere(0.5, 16, 24);
+  std::erase_if(bowl.triangles, [&](const Triangle& t) { return bowl.positions[t[0]].z() > 0.2F; });
+  bowl.surface_of_triangle.assign(bowl.triangles.size(), 0);
+  models::add(e, bowl, "IfcFurniture");
+  const auto result = collided(e);
+  ASSERT_EQ(result.shapes.size(), 1);
+  EXPECT_EQ(result.shapes[0].kind, CollisionShapeKind::mesh);
+  EXPECT_THAT(result.report.issues, testing::Contains(testing::Field(&Issue::source, "#1")));
 }
 
 TEST(Door, BetweenTwoRoomsIsPassableAndJoinsThem) {
