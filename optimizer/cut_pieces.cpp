@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "optimizer/pieces.h"
 
@@ -209,17 +208,6 @@ class Cutter {
     return 8 * both + std::max(before, behind) - std::min(before, behind);
   }
 
-  // How often the surface goes around p.
-  double winding(const Vector3d& p) const {
-    double sum = 0;
-    for (const auto& t : part_.triangles) {
-      const Vector3d a = part_.positions[t[0]] - p, b = part_.positions[t[1]] - p, c = part_.positions[t[2]] - p;
-      const double la = a.norm(), lb = b.norm(), lc = c.norm();
-      sum += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-    }
-    return sum / (4 * std::numbers::pi);
-  }
-
   // The solid in a cell without reflex facets: the corners of its facets, and those of the cell that lie in it.
   std::optional<Piece> solidIn(const Cell& cell) {
     auto points = cornersOf(cell.facets);
@@ -232,7 +220,7 @@ class Cutter {
       // A corner of the cell may lie in the plane of a face without being on it: asked a little inwards.
       Vector3d middle = Vector3d::Zero();
       for (const auto& q : corners) middle += q / static_cast<double>(corners.size());
-      if (winding(p + (middle - p) * 1e-4) > 0.5) points.push_back(p);
+      if (windingNumber(part_, p + (middle - p) * 1e-4) > 0.5) points.push_back(p);
     }
     auto piece = hullPiece(points);
     if (piece && volumeOf(piece->positions, piece->triangles) < 1e-9) return std::nullopt;
@@ -262,7 +250,7 @@ class Cutter {
   }
 
   bool isSolid(const std::vector<Vector3d>& points) const {
-    return std::all_of(points.begin(), points.end(), [&](const Vector3d& p) { return winding(p) > 0.5; });
+    return std::all_of(points.begin(), points.end(), [&](const Vector3d& p) { return windingNumber(part_, p) > 0.5; });
   }
 
   // Where two pieces of an open shape may have nothing but a missing face between them.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "optimizer/collapse.h"
@@ -148,7 +149,7 @@ double deviationOf(const std::vector<Piece>& pieces, const Shape& part, double m
     sum += volumeOf(piece.positions, piece.triangles);
   }
   const double volume = std::abs(volumeOf(part.positions, part.triangles));
-  const bool solid = std::abs(sum - volume) <= kSameVolume * volume && isClosed(meshOf(part));
+  const bool closed = isClosed(meshOf(part)), same_volume = closed && std::abs(sum - volume) <= kSameVolume * volume;
   const TriangleTree tree(positions, triangles), part_tree(part.positions, part.triangles);
   const auto covered = [&](const Vector3d& p, std::size_t except, double tolerance) {
     for (std::size_t k = 0; k < pieces.size(); ++k)
@@ -157,25 +158,32 @@ double deviationOf(const std::vector<Piece>& pieces, const Shape& part, double m
   };
   double worst = 0;
   const double limit = max_deviation_m * max_deviation_m;
-  const auto look = [&](const TriangleTree& at, const Vector3d& p, std::size_t except, double tolerance, bool skip_covered) {
-    const double distance = at.squaredDistance(p);
-    if (distance > worst && !(skip_covered && covered(p, except, tolerance))) worst = distance;
+  const auto inward = [&](const Vector3d& p) {
+    const double distance = tree.squaredDistance(p);
+    if (distance > worst && !(same_volume && covered(p, pieces.size(), 0))) worst = distance;
+    return worst <= limit;
+  };
+  const auto outward = [&](const Vector3d& p, std::size_t piece) {
+    const double distance = part_tree.squaredDistance(p);
+    // Not where another piece covers it, nor where a crack between pieces is within the solid.
+    if (distance > worst && !covered(p, piece, kCovered) && !(closed && windingNumber(part, p) > 0.5)) worst = distance;
     return worst <= limit;
   };
   constexpr auto kInfinite = std::numeric_limits<double>::infinity();
   for (const auto& p : part.positions)
-    if (!look(tree, p, pieces.size(), 0, solid)) return kInfinite;
+    if (!inward(p)) return kInfinite;
   for (const auto& point : pointsByArea(part.positions, part.triangles, kSamples, {1, 0}))
-    if (!look(tree, point.position, pieces.size(), 0, solid)) return kInfinite;
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-    for (const auto& t : pieces[i].triangles)  // a hull is farthest off in the middle of what it spans
-      for (int k = 0; k < 3; ++k) {
-        const auto& p = pieces[i].positions;
-        if (!look(part_tree, 0.5 * (p[t[k]] + p[t[(k + 1) % 3]]), i, kCovered, true) || !look(part_tree, (p[t[0]] + p[t[1]] + p[t[2]]) / 3, i, kCovered, true)) return kInfinite;
-      }
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-    for (const auto& point : pointsByArea(pieces[i].positions, pieces[i].triangles, kSamples / static_cast<std::uint32_t>(pieces.size()) + kLeastSamples, {2, 0}))
-      if (!look(part_tree, point.position, i, kCovered, true)) return kInfinite;
+    if (!inward(point.position)) return kInfinite;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const auto& p = pieces[i].positions;
+    for (const auto& t : pieces[i].triangles) {  // a hull is farthest off in the middle of what it spans
+      if (!outward((p[t[0]] + p[t[1]] + p[t[2]]) / 3, i)) return kInfinite;
+      for (int k = 0; k < 3; ++k)
+        if (!outward(0.5 * (p[t[k]] + p[t[(k + 1) % 3]]), i)) return kInfinite;
+    }
+    for (const auto& point : pointsByArea(p, pieces[i].triangles, kSamples / static_cast<std::uint32_t>(pieces.size()) + kLeastSamples, {2, 0}))
+      if (!outward(point.position, i)) return kInfinite;
+  }
   return std::sqrt(worst);
 }
 
@@ -235,6 +243,16 @@ void addAsMesh(const Shape& part, Piece& mesh) {
 }
 
 }  // namespace
+
+double windingNumber(const Shape& part, const Vector3d& p) {
+  double sum = 0;
+  for (const auto& t : part.triangles) {
+    const Vector3d a = part.positions[t[0]] - p, b = part.positions[t[1]] - p, c = part.positions[t[2]] - p;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    sum += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return sum / (4 * std::numbers::pi);
+}
 
 double volumeOf(const std::vector<Vector3d>& positions, const std::vector<Triangle>& triangles) {
   double sum = 0;

@@ -41,6 +41,9 @@ std::optional<Piece> hullPiece(const std::vector<Eigen::Vector3d>& points);
 // Directions of the faces (either sense), largest total area first, no two closer than half a degree.
 std::vector<Eigen::Vector3d> faceDirections(const Shape& part);
 
+// How often the surface goes around p: 1 inside of a closed part, 0 outside.
+double windingNumber(const Shape& part, const Eigen::Vector3d& p);
+
 double volumeOf(const std::vector<Eigen::Vector3d>& positions, const std::vector<Triangle>& triangles);
 
 // A convex prism over a counter-clockwise polygon, given by its corners at the bottom and at the top.

@@ -263,6 +263,85 @@ TEST(Door, WithoutAFloorBehindItIsReported) {
   EXPECT_THAT(result.report.issues, testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("no floor"))));
 }
 
+// Three rooms of 4 x 4 m in a row, with spaces: a doorway of 0.9 m from the first into the second, one of 0.5 m from the
+// first onto a terrace, one of 0.9 m from the second into the air, and none into the third.
+Environment threeRooms() {
+  Environment e;
+  models::add(e, models::box({12.6, 4.4, 0.2}, 1), "IfcSlab", at(-0.2, -0.2, -0.2));
+  models::add(e, models::box({4, 3, 0.2}, 1), "IfcSlab", at(0, -3.2, -0.2));
+  models::add(e, extruded({{0, 2.8}, {12.6, 2.8}}, {{1.95, 0, 2.45, 2.1}, {6.05, 0, 6.95, 2.1}}, 0.2), "IfcWall", at(-0.2, -0.2, 0));
+  models::add(e, models::box({12.6, 0.2, 2.8}, 1), "IfcWall", at(-0.2, 4, 0));
+  for (const double x : {-0.2, 8.1, 12.2}) models::add(e, models::box({0.2, 4, 2.8}, 1), "IfcWall", at(x, 0, 0));
+  const Affine3d across = at(4.1, 0, 0) * AngleAxisd(1.5707963267948966, Vector3d::UnitZ());
+  models::add(e, extruded({{0, 2.8}, {4, 2.8}}, {{1.55, 0, 2.45, 2.1}}, 0.1), "IfcWall", across);
+  models::add(e, models::box({0.06, 0.9, 2.1}, 1), "IfcDoor", at(4.02, 1.55, 0));     // #9: into the second room
+  models::add(e, models::box({0.5, 0.06, 2.1}, 1), "IfcDoor", at(1.75, -0.13, 0));    // #10: narrow
+  models::add(e, models::box({0.9, 0.06, 2.1}, 1), "IfcDoor", at(5.85, -0.13, 0));    // #11: above nothing
+  for (const double x : {0.0, 4.1, 8.3}) {
+    models::add(e, models::box({3.9, 4, 2.8}, 1), "IfcSpace", at(x, 0, 0));
+    e.products.back().tangible = false;
+  }
+  return e;
+}
+
+TEST(Rooms, ThatAreWalledInAreReported) {
+  const auto result = collided(threeRooms());
+  ASSERT_EQ(result.rooms.size(), 3);
+  EXPECT_TRUE(result.rooms[0].reached);
+  EXPECT_TRUE(result.rooms[1].reached);
+  EXPECT_FALSE(result.rooms[2].reached);
+  EXPECT_NEAR(result.rooms[2].walkable_m2, (12.2 - 8.3 - 0.6) * 3.4, 1);
+  EXPECT_NEAR((result.rooms[2].position - Vector3d(10.25, 2, 0)).norm(), 0, 1e-5);
+  const auto issue = [&](const char* source, const char* text) {
+    return testing::Contains(testing::AllOf(testing::Field(&Issue::source, source), testing::Field(&Issue::message, testing::HasSubstr(text))));
+  };
+  EXPECT_THAT(result.report.issues, issue("#14", "cannot be reached"));
+  EXPECT_THAT(result.report.issues, issue("#10", "0.50 m are clear"));
+  EXPECT_THAT(result.report.issues, issue("#11", "no floor"));
+  EXPECT_EQ(result.report.issues.size(), 3);
+}
+
+TEST(Door, TellsItsClearWidthAndPlace) {
+  const auto result = collided(threeRooms());
+  ASSERT_EQ(result.doors.size(), 3);
+  EXPECT_TRUE(result.doors[0].passable);
+  EXPECT_FALSE(result.doors[1].passable);
+  EXPECT_TRUE(result.doors[2].passable);
+  EXPECT_FALSE(result.doors[2].floor);
+  EXPECT_TRUE(result.doors[0].floor && result.doors[1].floor);
+  EXPECT_NEAR(result.doors[0].clear_width_m, 0.9, 0.01);
+  EXPECT_NEAR(result.doors[1].clear_width_m, 0.5, 0.01);
+  EXPECT_NEAR((result.doors[1].position - Vector3d(2, -0.1, 0)).norm(), 0, 1e-5);
+}
+
+TEST(Door, StandsClosedWhereItIsSet) {
+  CollideOptions options;
+  options.doors = DoorState::closed;
+  auto result = collided(threeRooms(), options);
+  for (const auto& door : result.doors) EXPECT_TRUE(door.closed && !door.passable) << door.product;
+  EXPECT_EQ(std::count_if(result.shapes.begin(), result.shapes.end(), [](const auto& s) { return s.product >= 8 && s.product <= 10; }), 3);
+  options.doors = DoorState::as_set;
+  options.closed.assign(threeRooms().products.size(), false);
+  options.closed[8] = true;
+  result = collided(threeRooms(), options);
+  EXPECT_FALSE(result.doors[0].passable);
+  EXPECT_TRUE(result.doors[2].passable && !result.doors[2].closed);
+  EXPECT_TRUE(result.rooms[0].reached != result.rooms[1].reached) << "the door between them is closed";
+}
+
+TEST(Door, WithoutALeafIsClosedByAPlate) {
+  Environment e = twoRooms(true);
+  Mesh frame = models::box({0.06, 0.02, 2.1}, 1);  // two posts beside a clear opening
+  models::append(frame, models::box({0.06, 0.02, 2.1}, 1), at(0, 0.88, 0));
+  e.meshes.back() = std::make_shared<const Mesh>(frame);
+  EXPECT_TRUE(collided(e).doors[0].passable);
+  CollideOptions options;
+  options.doors = DoorState::closed;
+  const auto result = collided(e, options);
+  EXPECT_FALSE(result.doors[0].passable);
+  EXPECT_THAT(result.report.issues, testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("a plate stands across"))));
+}
+
 TEST(Stair, OfSeventeenByTwentyEightCentimetresIsWalkable) {
   Environment e;
   const int steps = 16;
