@@ -19,6 +19,7 @@
 
 #include "core/random.h"
 #include "importers/importers.h"
+#include "optimizer/avatar.h"
 #include "optimizer/deviation.h"
 #include "optimizer/doors.h"
 #include "optimizer/obstacles.h"
@@ -56,10 +57,10 @@ struct Soup {
 
 // What stops somebody when the doors stand open, as the model has it.
 Soup rawTriangles(const Environment& environment) {
-  const auto leaf = belongsToDoor(environment);
+  const auto door_of = doorOf(environment);
   Soup soup;
   for (const auto& instance : environment.instances)
-    if (environment.products[instance.product].tangible && !leaf[instance.product])
+    if (environment.products[instance.product].tangible && door_of[instance.product] < 0)
       soup.add(*environment.meshes[instance.mesh], instance.world_from_mesh, instance.product);
   return soup;
 }
@@ -95,7 +96,7 @@ double floorUnder(const Soup& soup, const TriangleTree& tree, const Vector3d& p,
 }
 
 // Somewhere in the door a walker of this size passes between the model's own triangles; sills up to a step are stepped over.
-bool passableInTruth(const Soup& raw, const TriangleTree& tree, const Passage& door) {
+bool passable(const Soup& raw, const TriangleTree& tree, const Passage& door) {
   const Vector3d reach = door.through * (door.half_depth + kWalker.radius_m);
   double level = door.middle.z();
   for (const double side : {-1.0, 1.0}) level = std::max(level, floorUnder(raw, tree, door.middle + side * reach, 0.35, 0.35));
@@ -113,14 +114,19 @@ struct DoorFigures {
   std::string lost;
 };
 
-DoorFigures judgeDoors(const Environment& environment, const Soup& raw, const CollideResult& open) {
+DoorFigures judgeDoors(const Environment& environment, const Soup& raw, const CollideResult& open, const CollideResult& closed) {
   const TriangleTree tree(raw.positions, raw.triangles);
   DoorFigures figures;
+  Soup shut;  // by distances, not by the product's queries
+  for (std::uint32_t i = 0; i < closed.shapes.size(); ++i) shut.add(closed.shapes[i].mesh, Eigen::Affine3d::Identity(), i);
+  const TriangleTree shut_tree(shut.positions, shut.triangles);
+  for (const auto& door : closed.doors)
+    if (const auto passage = passageOf(environment, door.product)) figures.closed_passable += door.passable || passable(shut, shut_tree, *passage);
   for (const auto& door : open.doors) {
     const auto passage = passageOf(environment, door.product);
     if (!passage) continue;
     ++figures.doors;
-    const bool truth = passableInTruth(raw, tree, *passage);
+    const bool truth = passable(raw, tree, *passage);
     figures.truth += truth;
     figures.kept += truth && door.passable;
     figures.added += !truth && door.passable;
@@ -311,6 +317,54 @@ std::map<std::string, std::uint32_t> openingsOf(const std::string& file) {
   return openings;
 }
 
+struct Walk {
+  int steps = 0, through = 0, floats = 0, starts = 0;  // what of the steps met the model's triangles, and ended over its floor
+  double way_m = 0, climbed_m = 0;
+};
+
+// Walks at random from many places of the walkable surface, each step judged by the model's triangles.
+Walk walkAtRandom(const Soup& raw, const CollideResult& result) {
+  constexpr std::uint32_t kStarts = 40, kSteps = 1000;
+  constexpr double kLet = 0.0105;  // m that the shapes may be off, and a little
+  Walk walk;
+  const Obstacles obstacles(result.shapes);
+  const TriangleTree tree(raw.positions, raw.triangles);
+  const auto& triangles = result.walkable.triangles;
+  for (std::uint32_t start = 0; start < kStarts && !triangles.empty(); ++start) {
+    const auto& t = triangles[triangles.size() * start / kStarts];
+    Avatar avatar(obstacles, kWalker);
+    const Vector3d place = (result.walkable.positions[t[0]] + result.walkable.positions[t[2]]).cast<double>() / 2;
+    if (!avatar.stand(place, 0.5)) continue;
+    ++walk.starts;
+    double angle = 0, lowest = avatar.feet().z(), highest = lowest;
+    for (std::uint32_t i = 0; i < kSteps; ++i) {
+      const auto random = philox({13, 0}, start, i, 0);
+      angle += i % 50 == 0 ? 6.28 * uniform(random[0]) : 0.4 * (uniform(random[0]) - 0.5);
+      const Vector3d before = avatar.feet();
+      avatar.walk(0.05 * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+      const Vector3d after = avatar.feet(), up(0, 0, kStepHeight);
+      if ((after - before).head<2>().norm() < 0.005) angle += 6.28 * uniform(random[1]);
+      ++walk.steps;
+      walk.way_m += (after - before).norm();
+      lowest = std::min(lowest, after.z()), highest = std::max(highest, after.z());
+      const double level = std::max(before.z(), after.z());
+      walk.through += meets(raw, tree, {kWalker.radius_m - kLet, kWalker.height_m - kStepHeight - kLet}, Vector3d(before.x(), before.y(), level) + up,
+                            Vector3d(after.x(), after.y(), level) + up);
+      walk.floats += after.z() - floorUnder(raw, tree, after, 0.02, 0.5) > 0.020;
+    }
+    walk.climbed_m = std::max(walk.climbed_m, highest - lowest);
+  }
+  return walk;
+}
+
+void printRooms(const Environment& environment, const CollideResult& result) {
+  const auto reached = std::count_if(result.rooms.begin(), result.rooms.end(), [](const Room& r) { return r.reached; });
+  fmt::print("  rooms: {} of {} reached", reached, result.rooms.size());
+  for (const auto& room : result.rooms)
+    if (!room.reached) fmt::print(", {} has {:.1f} m2", environment.products[room.product].name, room.walkable_m2);
+  fmt::print("\n");
+}
+
 void printPieces(const std::string& file, const Environment& environment, const CollideResult& result) {
   auto openings = openingsOf(file);
   std::vector<std::uint32_t> walls;
@@ -338,20 +392,28 @@ int judge(const std::string& file) {
   const auto result = collide(environment, {}, progress);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!result) return fmt::print("{}: {}\n", file, describe(result.error())), 1;
+  CollideOptions shut;
+  shut.doors = DoorState::closed;
+  const auto closed = collide(environment, shut, progress);
+  if (!closed) return fmt::print("{}: {}\n", file, describe(closed.error())), 1;
   const Soup raw = rawTriangles(environment);
   fmt::print("{}\n  {} shapes in {:.2f} s\n", std::filesystem::path(file).stem().string(), result->shapes.size(), seconds);
-  const auto doors = judgeDoors(environment, raw, *result);
-  fmt::print("  doors: {} of {} that are passable in truth ({} more of {}){}{}\n", doors.kept, doors.truth, doors.added, doors.doors,
+  const auto doors = judgeDoors(environment, raw, *result, *closed);
+  fmt::print("  doors: {} of {} that are passable in truth ({} more of {}), {} when closed{}{}\n", doors.kept, doors.truth, doors.added, doors.doors, doors.closed_passable,
              doors.lost.empty() ? "" : ", lost:", doors.lost);
   const auto leaks = sweepWalls(environment, raw, *result);
   fmt::print("  leaks: ball {}, walker {} of {} each, {} of them confirmed by distances\n", leaks.ball, leaks.walker, kSweeps / 2, leaks.exact);
   printPieces(file, environment, *result);
+  printRooms(environment, *result);
   const auto off = deviations(environment, *result);
   fmt::print("  deviation: outward {:.1f} mm ({}), inward {:.1f} mm ({}), overfill {} of {} points in walls\n", off.outward * 1000, off.outward_id,
              off.inward * 1000, off.inward_id, off.overfull, off.points);
   const auto floors = judgeFloors(raw, *result);
   fmt::print("  walkable: {:.1f} m2 of {:.1f} m2, overlap {:.2f} %, gap at most {:.1f} mm, over 20 mm at {} of {} points\n", floors.area_m2, floors.truth_m2,
              floors.overlap * 100, floors.largest_gap_m * 1000, floors.gaps, floors.points);
+  const auto walk = walkAtRandom(raw, *result);
+  fmt::print("  walk: {} steps, {:.0f} m from {} places, {} through something, {} over the floor, climbed {:.1f} m\n", walk.steps, walk.way_m, walk.starts, walk.through,
+             walk.floats, walk.climbed_m);
   std::fflush(stdout);
   return 0;
 }
