@@ -48,7 +48,7 @@ Result<std::vector<Work>> makePieces(const Environment& environment, const std::
     const auto log = recordCollapses(whole, {0, true}, progress);
     work.shape = replay(whole, log, log.size());
     if (progress.cancelled()) return;
-    work.result = collisionPieces(work.shape, kMaxDeviation / work.scale);
+    work.result = collisionPieces(work.shape, kMaxDeviation / work.scale, progress);
     progress.advance(static_cast<double>(++done) / static_cast<double>(works.size()));
   });
   if (auto going = progress.check(); !going) return failure(going.error());
@@ -83,7 +83,7 @@ void placeShapes(const Environment& environment, const std::vector<bool>& stops,
     if (work.result.fell_back) fell_back[instance.product] = true;
   }
   for (std::size_t i = 0; i < fell_back.size(); ++i)
-    if (fell_back[i]) result.report.note(environment.products[i].id, "collides as its triangles: neither prismatic nor nearly convex");
+    if (fell_back[i]) result.report.note(environment.products[i].id, fmt::format("{} collides as its triangles, or a part of it does: no convex pieces come within {:.0f} mm", environment.products[i].ifc_class, kMaxDeviation * 1000));
 }
 
 }  // namespace

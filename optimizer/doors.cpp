@@ -203,6 +203,7 @@ void closeWhatIsOpen(const Environment& environment, const CollideOptions& optio
 
 std::vector<Door> checkDoors(const Environment& environment, const std::vector<CollisionShape>& shapes, const CollideOptions& options, Report& report) {
   const auto doors = tangibleDoors(environment);
+  if (doors.empty()) return {};
   const auto closed = closedDoors(environment, options);
   const Obstacles obstacles(shapes);
   std::vector<Verdict> verdicts(doors.size());

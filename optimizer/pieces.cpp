@@ -22,6 +22,7 @@ constexpr std::size_t kMostParts = 1000;          // a mesh of more stays a mesh
 constexpr std::size_t kMostTriangles = 20'000;    // of a part that is taken apart
 constexpr double kSameVolume = 1e-3;              // a part with this little concavity is convex
 constexpr double kSameDirection = 0.99996;        // half a degree
+constexpr std::size_t kMostInVain = 20'000;        // triangles of a shape that are cut for nothing before it is given up
 constexpr std::size_t kFew = 4;                   // pieces that need not become fewer
 constexpr double kThin = 1e-6;                     // m of volume for each m² of a part that is a sheet
 constexpr double kCovered = 1e-4;                 // m; a point this near to a piece is covered by it
@@ -199,12 +200,13 @@ double areaOf(const Shape& part) {
   return sum;
 }
 
-Shape flattened(const Shape& part, double max_deviation_m) {
-  const auto log = recordCollapses(part, {max_deviation_m, false}, Progress());
+Shape flattened(const Shape& part, double max_deviation_m, const Progress& progress) {
+  const auto log = recordCollapses(part, {max_deviation_m, false}, progress);
   return replay(part, log, log.size());
 }
 
-Attempt takeApart(Shape part, double max_deviation_m) {
+// `cheaply`: not by cuts, which take long for rich parts.
+Attempt takeApart(Shape part, double max_deviation_m, bool cheaply, const Progress& progress) {
   if (part.triangles.empty() || part.triangles.size() > kMostTriangles) return {};
   double volume = volumeOf(part.positions, part.triangles);
   if (volume < 0)
@@ -225,12 +227,12 @@ Attempt takeApart(Shape part, double max_deviation_m) {
     if (!closed || hull_volume <= (1 + kSameVolume) * volume) take({std::move(*piece)});
   }
   if (best.pieces.empty() && closed) take(prismPieces(part, volume));
-  if (!best.pieces.empty() && best.pieces.size() <= kFew) return best;
+  if (cheaply || (!best.pieces.empty() && best.pieces.size() <= kFew)) return best;
   if (part.triangles.size() <= kManyTriangles) take(cutPieces(part, kCutShare * max_deviation_m));
   // Rounded parts have more planes than are worth a cut: these are cut as they look after a little flattening.
   for (const double share : kFlattenShares) {
-    if (!best.pieces.empty()) break;
-    const Shape light = flattened(part, share * max_deviation_m);
+    if (!best.pieces.empty() || progress.cancelled()) break;
+    const Shape light = flattened(part, share * max_deviation_m, progress);
     if (light.triangles.size() >= 4) take(cutPieces(light, kCutShare * max_deviation_m));
   }
   return best;
@@ -308,24 +310,22 @@ std::vector<Vector3d> faceDirections(const Shape& part) {
   return result;
 }
 
-Pieces collisionPieces(const Shape& shape, double max_deviation_m) {
+Pieces collisionPieces(const Shape& shape, double max_deviation_m, const Progress& progress) {
   Pieces result;
   Piece mesh{CollisionShapeKind::mesh};
-  const auto take = [&](Attempt best) {
-    result.max_deviation_m = std::max(result.max_deviation_m, best.deviation_m);
+  std::size_t in_vain = 0;  // triangles of parts that were cut for nothing
+  const auto take = [&](const Shape& part) {
+    auto best = takeApart(part, max_deviation_m, in_vain > kMostInVain || progress.cancelled(), progress);
+    if (best.pieces.empty()) in_vain += part.triangles.size();
+    result.max_deviation_m = std::max(result.max_deviation_m, best.pieces.empty() ? 0 : best.deviation_m);
     std::move(best.pieces.begin(), best.pieces.end(), std::back_inserter(result.pieces));
+    return !best.pieces.empty();
   };
   for (const auto& part : parts(shape)) {
-    if (auto best = takeApart(part, max_deviation_m); !best.pieces.empty()) {
-      take(std::move(best));
-      continue;
-    }
+    if (take(part)) continue;
     const auto smaller = manifoldParts(part);
-    for (const auto& own : smaller) {
-      auto best = smaller.size() > 1 ? takeApart(own, max_deviation_m) : Attempt{};
-      if (best.pieces.empty()) addAsMesh(own, mesh);
-      else take(std::move(best));
-    }
+    for (const auto& own : smaller)
+      if (smaller.size() == 1 || !take(own)) addAsMesh(own, mesh);
   }
   result.fell_back = !mesh.triangles.empty();
   if (result.fell_back) result.pieces.push_back(std::move(mesh));

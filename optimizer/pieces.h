@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "core/progress.h"
 #include "optimizer/optimizer.h"
 #include "optimizer/shape.h"
 
@@ -22,14 +23,15 @@ struct Piece {
 struct Pieces {
   std::vector<Piece> pieces;
   double max_deviation_m = 0;  // between the pieces' outer surface and the shape's, measured
-  bool fell_back = false;      // a part that is neither prismatic nor nearly convex stays a triangle mesh
+  bool fell_back = false;      // a part that no convex pieces describe stays a triangle mesh
 };
 
-// Connected part by part: boxes between the planes of its faces where these are square to each other, else prisms over a
-// convex partition of its section, else its convex hull where that deviates by at most max_deviation_m, else its triangles.
-Pieces collisionPieces(const Shape& shape, double max_deviation_m);
+// Connected part by part: boxes between the planes of its faces where these are square to each other, else its convex hull,
+// else prisms over a convex partition of its section, else what cuts along its reflex planes leave: whatever is least and
+// deviates by at most max_deviation_m; else its triangles.
+Pieces collisionPieces(const Shape& shape, double max_deviation_m, const Progress& progress);
 
-// The three ways, each empty when it does not apply. `volume_m3` of the closed part tells whether nothing was lost.
+// The ways, each empty when it does not apply. `volume_m3` of the closed part tells whether nothing was lost.
 std::vector<Piece> boxPieces(const Shape& part, double volume_m3);
 std::vector<Piece> prismPieces(const Shape& part, double volume_m3);
 // A part without a volume becomes a plate of a millimetre.

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "core/random.h"
 #include "optimizer/obstacles.h"
 #include "optimizer/optimizer.h"
 #include "tests/optimizer/models.h"
@@ -26,6 +27,10 @@ CollideResult collided(const Environment& environment, const CollideOptions& opt
   EXPECT_EQ(result->products.size(), environment.products.size());
   for (const auto& shape : result->shapes) EXPECT_EQ(validate(shape.mesh, 1), "");
   return std::move(*result);
+}
+
+std::string describe(const Door& door) {
+  return std::to_string(door.product) + (door.floor ? "f" : "-") + (door.passable ? "p" : "-") + std::to_string(door.clear_width_m);
 }
 
 Affine3d at(double x, double y, double z) { return Affine3d(Translation3d(x, y, z)); }
@@ -382,17 +387,93 @@ TEST(Walkability, LeavesOutWhatIsLowAndWhatIsNotThere) {
 }
 
 TEST(Collision, GivesTheSameForAnyNumberOfThreads) {
+  Environment e = threeRooms();
+  models::add(e, models::torus(0.5, 0.2, 12, 6), "IfcFurniture", at(2, 2, 0.2));
+  Mesh gable = extruded({{0, 3}, {4, 6}, {8, 3}}, {{1, 0, 2, 2.1}, {5, 1, 6, 2}}, 0.3);
+  for (auto& p : gable.positions)
+    if (p.y() > 0.1F) p.x() += p.x() < 0.1F ? 0.3F : p.x() > 7.9F ? -0.3F : 0;
+  models::add(e, gable, "IfcWall", at(0, 10, 0));
   std::string first;
-  for (const std::size_t threads : {1, 2, 7}) {
+  for (const std::size_t threads : {1, 2, 8}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    const auto result = collided(twoRooms(true));
+    const auto result = collided(e);
     std::string now;
     for (const auto& shape : result.shapes)
       now.append(reinterpret_cast<const char*>(shape.mesh.positions.data()), shape.mesh.positions.size() * sizeof(Eigen::Vector3f));
     now.append(reinterpret_cast<const char*>(result.walkable.positions.data()), result.walkable.positions.size() * sizeof(Eigen::Vector3f));
+    for (const auto& door : result.doors) now += describe(door);
+    for (const auto& room : result.rooms) now += std::to_string(room.walkable_m2) + (room.reached ? "r" : "-");
     if (first.empty()) first = now;
     EXPECT_TRUE(first == now) << threads << " threads";
   }
+}
+
+TEST(Collision, OfAHundredThousandLooseTrianglesIsThese) {
+  Mesh loose;
+  for (std::uint32_t i = 0; i < 100'000; ++i) {
+    const auto r = philox({9, 0}, i, 0, 0);
+    const Vector3d middle(20 * uniform(r[0]), 20 * uniform(r[1]), 3 * uniform(r[2]));
+    for (const auto& d : {Vector3d(0, 0, 0), Vector3d(0.1, 0, 0), Vector3d(0, 0.1, 0.1)}) loose.positions.push_back((middle + d).cast<float>());
+    loose.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  loose.surface_of_triangle.assign(loose.triangles.size(), 0);
+  Environment e;
+  models::add(e, loose);
+  const auto result = collided(e);
+  ASSERT_EQ(result.shapes.size(), 1);
+  EXPECT_EQ(result.shapes[0].kind, CollisionShapeKind::mesh);
+  EXPECT_GE(result.products[0].triangles, 99'990);
+}
+
+TEST(Collision, OfAnInvertedWallIsThatOfTheWall) {
+  Mesh inverted = extruded({{0, 3}, {4, 6}, {8, 3}}, {{1, 0, 2, 2.1}, {5, 1, 6, 2}}, 0.3);
+  Environment right, wrong;
+  models::add(right, inverted, "IfcWall");
+  for (auto& t : inverted.triangles) std::swap(t[1], t[2]);
+  models::add(wrong, inverted, "IfcWall");
+  const auto a = collided(right), b = collided(wrong);
+  double inside = 0;
+  for (const auto& shape : b.shapes) {
+    EXPECT_NE(shape.kind, CollisionShapeKind::mesh);
+    EXPECT_GT(volume(shape.mesh), 0);
+    inside += volume(shape.mesh);
+  }
+  EXPECT_EQ(a.shapes.size(), b.shapes.size());
+  EXPECT_NEAR(inside, -volume(inverted), 1e-3);
+}
+
+TEST(Collision, OfWhatIsNotANumberIsRefusedWithItsPlace) {
+  Environment e = twoRooms(true);
+  Mesh bad = models::box({1, 1, 1}, 1);
+  bad.positions[3].y() = std::nanf("");
+  models::add(e, bad, "IfcWall");
+  Progress progress;
+  const auto result = collide(e, {}, progress);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, ErrorKind::unusable);
+}
+
+// A screw thread of thin turns: many planes, none of them worth a cut.
+TEST(Collision, OfARichShapeEndsSoon) {
+  Mesh spiral;
+  const int turns = 40, segments = 24;
+  for (int i = 0; i <= turns * segments; ++i) {
+    const double angle = 6.283185307 * i / segments, z = 0.05 * i / segments;
+    for (const auto& [radius, height] : {std::pair(0.5, 0.0), {0.8, 0.0}, {0.8, 0.02}, {0.5, 0.02}})
+      spiral.positions.push_back(Vector3d(radius * std::cos(angle), radius * std::sin(angle), z + height).cast<float>());
+  }
+  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) { spiral.triangles.insert(spiral.triangles.end(), {{a, b, c}, {a, c, d}}); };
+  quad(3, 2, 1, 0);
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(turns * segments); ++i)
+    for (std::uint32_t k = 0; k < 4; ++k) quad(4 * i + k, 4 * i + (k + 1) % 4, 4 * i + 4 + (k + 1) % 4, 4 * i + 4 + k);
+  const std::uint32_t last = 4U * turns * segments;
+  quad(last, last + 1, last + 2, last + 3);
+  spiral.surface_of_triangle.assign(spiral.triangles.size(), 0);
+  Environment e;
+  models::add(e, spiral);
+  const auto result = collided(e);
+  ASSERT_EQ(result.shapes.size(), 1);
+  EXPECT_EQ(result.shapes[0].kind, CollisionShapeKind::mesh);
 }
 
 TEST(Collision, SurvivesEmptyFlatAndMirroredInput) {
