@@ -83,7 +83,7 @@ void placeShapes(const Environment& environment, const std::vector<bool>& stops,
     if (work.result.fell_back) fell_back[instance.product] = true;
   }
   for (std::size_t i = 0; i < fell_back.size(); ++i)
-    if (fell_back[i]) result.report.note(environment.products[i].id, fmt::format("{} collides as its triangles, or a part of it does: no convex pieces come within {:.0f} mm", environment.products[i].ifc_class, kMaxDeviation * 1000));
+    if (fell_back[i]) result.report.note(environment.products[i].id, fmt::format("collides as its triangles, or a part of it does: no convex pieces come within {:.0f} mm", kMaxDeviation * 1000));
 }
 
 }  // namespace
