@@ -113,6 +113,10 @@ bool Editor::followModel(const Environment& before, const Environment& after) {
 void Editor::adoptDocument() {
   const auto& document = session.document();
   picker.follow(document.environment(), wake);
+  if (walk.active() && !walk.isIn(document.collision)) {
+    walk.stop();
+    if (view.tool == Tool::walk) view.tool = Tool::select;
+  }
   if (document.imported == imported_) return;
   const auto before = std::exchange(imported_, document.imported);
   // A changed model in place of the one before keeps what is hidden, chosen and looked at.

@@ -21,6 +21,7 @@
 #include "editor/model/underlay_view.h"
 #include "editor/model/view_state.h"
 #include "editor/model/visibility.h"
+#include "editor/model/walk.h"
 #include "editor/panels/panel_states.h"
 #include "editor/shell/dialog_states.h"
 
@@ -37,7 +38,7 @@ struct Fonts {
 };
 
 // What the next click in the viewport does.
-enum class Tool { select, placeStation, placeTarget, measure };
+enum class Tool { select, placeStation, placeTarget, measure, walk };
 
 // Which of the two models is looked at; there is one only until it has been optimised.
 enum class ModelSide { lighter, original, both };
@@ -69,6 +70,7 @@ struct Editor {
   Visibility visibility;
   ViewportState view;
   Picker picker;
+  Walk walk;                               // while the tool is Tool::walk
   ImportPreview preview;
   Selection preview_selection;             // products of what the preview shows
   UnderlayView underlays;

@@ -48,8 +48,19 @@ void selectAll(Editor& e) {
     if (e.environment()->products[p].inScene() && !e.visibility.hidden(p)) all.push_back(p);
   e.selection.set(std::move(all));
 }
+void walk(Editor& e) {
+  if (e.view.tool == Tool::walk) return;   // its key is the one to go ahead
+  const auto& agent = e.panels.collision;
+  const auto place = e.view.hover ? e.view.hover->position : e.view.camera.target;
+  if (e.walk.start(e.session.document().collision, {agent.agent_radius_m, agent.agent_height_m}, place, e.view.camera)) e.view.tool = Tool::walk;
+}
+std::string whyWalkNot(const Editor& e) {
+  if (auto why = whyNoCollision(e); !why.empty()) return why;
+  return e.session.document().collision->walkable.triangles.empty() ? "There is nothing to walk on" : "";
+}
 void escape(Editor& e) {
   if (e.view.tool != Tool::select) {
+    e.walk.stop();
     e.view.tool = Tool::select;
     e.view.measured_from.reset();
     e.view.measured_to.reset();
@@ -144,6 +155,7 @@ const std::array kActions = {
     Action{"grid", "Ground grid", "", {'G'}, [](Editor& e) { e.view.grid = !e.view.grid; }, nullptr},
     Action{"labels", "Labels", "", {}, [](Editor& e) { e.view.labels = !e.view.labels; }, nullptr},
     Action{"walkable", "Walkable area", ICON_WALK, {}, [](Editor& e) { e.view.walkable = !e.view.walkable; }, whyNoCollision},
+    Action{"walk", "Walk in the model with W A S D", ICON_WALK, {'W'}, walk, whyWalkNot},
     Action{"shapes", "Collision shapes", ICON_CUBES, {}, [](Editor& e) { e.view.shapes = !e.view.shapes; }, whyNoCollision},
     Action{"colour-model", "Colours of the model", "", {}, [](Editor& e) { e.view.colour = ColourMode::model; }, nullptr},
     Action{"colour-material", "Colours by physical material", "", {},

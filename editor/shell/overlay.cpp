@@ -130,9 +130,10 @@ void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
     case Tool::placeStation: hint = "Click on the floor to set up a station.   Esc to leave"; break;
     case Tool::placeTarget: hint = "Click where a target shall be.   Esc to leave"; break;
     case Tool::measure: hint = "Click two points.   Esc to leave"; break;
+    case Tool::walk: hint = "W A S D to walk, Shift to hurry, drag to look around.   Esc to leave"; break;
     case Tool::select: break;
   }
-  if (editor.environment() && !editor.picker.ready() && hint != nullptr) hint = "One moment: the model is being prepared for picking";
+  if (editor.environment() && !editor.picker.ready() && hint != nullptr && editor.view.tool != Tool::walk) hint = "One moment: the model is being prepared for picking";
   if (hint == nullptr) return;
   const ImVec2 text = ImGui::CalcTextSize(hint);
   const float pad = editor.px(8);

@@ -41,6 +41,7 @@ void continueDrag(Editor& editor) {
   if (moved > kClickSlack_px * editor.scale) view.dragged = true;
   if (!view.dragged || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) return;
   const Eigen::Vector2d drag(io.MouseDelta.x, io.MouseDelta.y);
+  if (view.tool == Tool::walk) return orbit(view.camera, -drag / editor.scale, view.camera.eye());
   if (io.MouseDown[0] && !io.KeyShift)
     orbit(view.camera, drag / editor.scale, view.pivot);
   else
@@ -94,6 +95,7 @@ void click(Editor& editor) {
     case Tool::measure:
       if (hit) measure(editor, *hit);
       return;
+    case Tool::walk: return;
     case Tool::select: break;
   }
   if (hit && add)
@@ -120,6 +122,13 @@ void contextMenu(Editor& editor) {
   ImGui::EndPopup();
 }
 
+void handleWalking(Editor& editor) {
+  const auto& io = ImGui::GetIO();
+  if (editor.view.tool != Tool::walk || io.WantTextInput || io.KeyCtrl || ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId)) return;
+  const auto axis = [](int less, int more) { return (ImGui::IsKeyDown(more) ? 1.0 : 0.0) - (ImGui::IsKeyDown(less) ? 1.0 : 0.0); };
+  editor.walk.go({axis('A', 'D'), axis('S', 'W')}, io.KeyShift, io.DeltaTime, editor.view.camera);
+}
+
 void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
   auto& view = editor.view;
   const auto& io = ImGui::GetIO();
@@ -137,7 +146,7 @@ void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
   }
   if (hovered && ImGui::IsMouseDoubleClicked(0) && view.tool == Tool::select) editor.frameSelection();
   if (view.dragging && !io.MouseDown[0] && !io.MouseDown[1] && !io.MouseDown[2]) view.dragging = false;
-  if (hovered && io.MouseWheel != 0) {
+  if (hovered && io.MouseWheel != 0 && view.tool != Tool::walk) {
     const auto ray = rayThrough(view.camera, pointer(origin), view.size);
     const Eigen::Vector3d on_target_plane =
         ray.origin + ray.direction * ((view.camera.target - ray.origin).dot(view.camera.forward()) / ray.direction.dot(view.camera.forward()));
@@ -219,6 +228,7 @@ void drawViewport(Editor& editor) {
   const ImVec2 right(origin.x + size.x, origin.y);
   if (!view.dragging) view.in_right_half = both && ImGui::GetIO().MousePos.x >= right.x;
   handleMouse(editor, view.in_right_half ? right : origin, hovered);
+  handleWalking(editor);
   if (previewed) return;
   drawMarkers(editor, both ? right : origin);
   drawOverlay(editor, origin, whole);
