@@ -117,8 +117,9 @@ Bounds bounds(const Mesh& mesh, const Eigen::Affine3d& world_from_mesh);
 Bounds bounds(const Environment& environment);
 std::vector<Bounds> productBounds(const Environment& environment);
 
-// Placed triangles, that is each instance counted.
+// Placed triangles, that is each instance counted; of what is in the scene only.
 std::size_t triangleCount(const Environment& environment);
+std::size_t sceneTriangleCount(const Environment& environment);
 
 // Without the instances of what is not in the scene: spaces, annotations, what the author excludes. The products stay, so
 // that indices hold.

@@ -130,8 +130,10 @@ json collisionToJson(const CollideResult& c) {
   json products = json::array();
   for (const auto& p : c.products) products.push_back({p.shapes, p.triangles, p.max_deviation_m});
   json doors = json::array();
-  for (const auto& d : c.doors) doors.push_back({d.product, d.floor, d.passable});
-  return {{"shapes", shapes}, {"products", products}, {"doors", doors}, {"walkable_area_m2", c.walkable_area_m2}};
+  for (const auto& d : c.doors) doors.push_back({d.product, d.floor, d.passable, d.closed, d.clear_width_m, toJson(d.position)});
+  json rooms = json::array();
+  for (const auto& r : c.rooms) rooms.push_back({r.product, r.walkable_m2, r.reached, toJson(r.position)});
+  return {{"shapes", shapes}, {"products", products}, {"doors", doors}, {"rooms", rooms}, {"walkable_area_m2", c.walkable_area_m2}};
 }
 
 json propertiesToJson(const std::vector<Property>& properties) {
@@ -255,7 +257,14 @@ std::shared_ptr<const CollideResult> collisionFrom(const json& part, const Envir
     c.shapes.push_back({static_cast<CollisionShapeKind>(rows[i].at(0).get<int>()), rows[i].at(1), *shapes.meshes[i]});
   if (shapes.meshes.size() == rows.size() + 1) c.walkable = *shapes.meshes.back();
   for (const auto& p : part.at("products")) c.products.push_back({p.at(0), p.at(1), p.at(2)});
-  for (const auto& d : part.at("doors")) c.doors.push_back({d.at(0), d.at(1), d.at(2)});
+  for (const auto& d : part.at("doors")) {
+    c.doors.push_back({d.at(0), d.at(1), d.at(2)});
+    if (d.size() < 6) continue;  // a project of before doors could be closed
+    c.doors.back().closed = d.at(3);
+    c.doors.back().clear_width_m = d.at(4);
+    c.doors.back().position = vectorFrom(d.at(5));
+  }
+  for (const auto& r : part.value("rooms", json::array())) c.rooms.push_back({r.at(0), r.at(1), r.at(2), vectorFrom(r.at(3))});
   c.walkable_area_m2 = part.at("walkable_area_m2");
   return std::make_shared<const CollideResult>(std::move(c));
 }
@@ -270,6 +279,8 @@ std::string inconsistency(const Document& d) {
       if (s.product >= products) return "/collision names a product that is not there";
     for (const auto& door : d.collision->doors)
       if (door.product >= products) return "/collision/doors names a product that is not there";
+    for (const auto& room : d.collision->rooms)
+      if (room.product >= products) return "/collision/rooms names a product that is not there";
   }
   if (d.materials) {
     const auto count = static_cast<std::int32_t>(d.materials->result.assignment.materials.size());

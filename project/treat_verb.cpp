@@ -21,28 +21,27 @@ json answerOf(const Environment& environment, const std::vector<Treatment>& trea
   return {{"treatments", std::move(rows)}, {"excluded_products", excluded}};
 }
 
-// Of rows that mean no product nothing is said: an update may bring theirs back.
-template <class Idle>
-void eraseIdle(const Environment& environment, std::vector<Treatment>& treatments, Idle idle) {
-  for (std::size_t i = treatments.size(); i-- > 0;) {
-    const auto meant = select(environment, treatments[i].selector);
-    if (!meant.empty() && idle(i, meant)) treatments.erase(treatments.begin() + static_cast<std::ptrdiff_t>(i));
-  }
-}
-
-// First what later words have replaced goes, then what takes back something that is no longer there.
+// First what later words have replaced goes, then what takes back something that is no longer there. Rows that mean no
+// product stay: an update may bring theirs back.
 void tidy(const Environment& environment, std::vector<Treatment>& treatments) {
-  using Products = std::vector<std::uint32_t>;
-  eraseIdle(environment, treatments, [&](std::size_t i, const Products& meant) {
-    const auto decided = treatmentOf(environment, treatments);
-    return std::none_of(meant.begin(), meant.end(), [&](std::uint32_t p) { return decided[p] == &treatments[i]; });
-  });
-  eraseIdle(environment, treatments, [&](std::size_t i, const Products& meant) {
-    if (treatments[i].kind != TreatmentKind::as_rules) return false;
-    const std::vector<Treatment> before(treatments.begin(), treatments.begin() + static_cast<std::ptrdiff_t>(i));
-    const auto earlier = treatmentOf(environment, before);
-    return std::none_of(meant.begin(), meant.end(), [&](std::uint32_t p) { return earlier[p] != nullptr; });
-  });
+  std::vector<std::vector<std::uint32_t>> meant;
+  std::vector<std::size_t> deciding(environment.products.size(), treatments.size());
+  for (std::size_t i = 0; i < treatments.size(); ++i) {
+    meant.push_back(select(environment, treatments[i].selector));
+    for (const auto product : meant[i]) deciding[product] = i;
+  }
+  std::vector<Treatment> kept;
+  std::vector<bool> treated(environment.products.size(), false);
+  for (std::size_t i = 0; i < treatments.size(); ++i) {
+    const auto any = [&](auto holds) { return std::any_of(meant[i].begin(), meant[i].end(), holds); };
+    if (!meant[i].empty()) {
+      if (!any([&](std::uint32_t p) { return deciding[p] == i; })) continue;
+      if (treatments[i].kind == TreatmentKind::as_rules && !any([&](std::uint32_t p) { return treated[p]; })) continue;
+    }
+    for (const auto product : meant[i]) treated[product] = true;
+    kept.push_back(std::move(treatments[i]));
+  }
+  treatments = std::move(kept);
 }
 
 // What was made from the scene as it was before: the lighter one only changes its marks, the rest is made anew or goes.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <unordered_map>
 
 namespace standpoint {
@@ -51,6 +52,7 @@ class Painter {
   explicit Painter(const ViewState& state) : state_(state) {}
 
   Rgba of(std::uint32_t product, std::uint32_t surface) const {
+    if (state_.colour == ColourMode::deviation) return state_.deviation ? Rgba{255, 255, 255, 255} : deviationColour(0, 1);
     if (state_.colour != ColourMode::model) {
       if (!state_.materials) return rgba(materialColour(nullptr));
       const auto& assignment = state_.materials->result.assignment;
@@ -69,13 +71,15 @@ class Painter {
 // colour runs into those of its neighbours stands there once for each surface that it has a part in.
 class MeshMerger {
  public:
-  MeshMerger(const ViewState& state, const Mesh& mesh, const Instance& instance, MergedScene& scene)
+  // `gradation` is empty, or has what each vertex's colour multiplies that of the surface with.
+  MeshMerger(const ViewState& state, const Mesh& mesh, const Instance& instance, std::span<const Rgba> gradation, MergedScene& scene)
       : state_(state),
         mesh_(mesh),
         instance_(instance),
+        gradation_(gradation),
         scene_(scene),
         mirrored_(instance.world_from_mesh.linear().determinant() < 0),
-        graded_(state.colour == ColourMode::model && !mesh.colours.empty()) {}
+        graded_(!gradation.empty()) {}
 
   void add(std::size_t triangle, Rgba colour) {
     const auto surface = mesh_.surface_of_triangle[triangle];
@@ -121,7 +125,7 @@ class MeshMerger {
   }
 
   bool opaqueCorners(const Triangle& t) const {
-    return mesh_.colours[t[0]][3] == 255 && mesh_.colours[t[1]][3] == 255 && mesh_.colours[t[2]][3] == 255;
+    return gradation_[t[0]][3] == 255 && gradation_[t[1]][3] == 255 && gradation_[t[2]][3] == 255;
   }
 
   void addGraded(const Triangle& t, const Rgba& colour) {
@@ -134,7 +138,7 @@ class MeshMerger {
     const Eigen::Vector3f world = (instance_.world_from_mesh * mesh_.positions[vertex].cast<double>()).cast<float>();
     out_->positions.insert(out_->positions.end(), {world.x(), world.y(), world.z()});
     Rgba product{};
-    for (std::size_t k = 0; k < 4; ++k) product[k] = static_cast<std::uint8_t>(colour[k] * mesh_.colours[vertex][k] / 255);
+    for (std::size_t k = 0; k < 4; ++k) product[k] = static_cast<std::uint8_t>(colour[k] * gradation_[vertex][k] / 255);
     out_->colours.push_back(product);
     if (painted_ != nullptr) appendCoordinates(vertex);
     return found->second;
@@ -143,6 +147,7 @@ class MeshMerger {
   const ViewState& state_;
   const Mesh& mesh_;
   const Instance& instance_;
+  std::span<const Rgba> gradation_;
   MergedScene& scene_;
   bool mirrored_, graded_;
   std::map<const MergedTriangles*, std::int64_t> offsets_;               // of the mesh's first vertex in each part
@@ -154,15 +159,28 @@ class MeshMerger {
   bool opaque_ = true;
 };
 
+std::vector<Rgba> coloursOf(const DeviationField& field, std::size_t instance) {
+  std::vector<Rgba> colours;
+  for (const float d : field.of_instance[instance]->distance_m) colours.push_back(deviationColour(d, field.full_scale_m));
+  return colours;
+}
+
 }  // namespace
 
 MergedScene mergeVisible(const ViewState& state) {
   MergedScene scene;
   const Painter painter(state);
-  for (const auto& instance : state.environment->instances) {
+  const bool deviations = state.colour == ColourMode::deviation && state.deviation;
+  std::vector<Rgba> distances;
+  for (std::size_t i = 0; i < state.environment->instances.size(); ++i) {
+    const auto& instance = state.environment->instances[i];
     if (!visible(state, instance.product)) continue;
     const Mesh& mesh = *state.environment->meshes[instance.mesh];
-    MeshMerger merger(state, mesh, instance, scene);
+    if (deviations) distances = coloursOf(*state.deviation, i);
+    std::span<const Rgba> gradation;
+    if (deviations) gradation = distances;
+    else if (state.colour == ColourMode::model) gradation = mesh.colours;
+    MeshMerger merger(state, mesh, instance, gradation, scene);
     std::uint32_t surface = ~0U;
     Rgba colour{};
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

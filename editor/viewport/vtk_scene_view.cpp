@@ -336,7 +336,7 @@ class VtkSceneView : public SceneView {
     const bool environment = last == nullptr || last->environment != state.environment;
     const bool shown = environment || last->hidden != state.hidden || last->shapes != state.shapes || last->cloud != state.cloud;
     if (environment) bounds_ = state.environment ? bounds(*state.environment) : Bounds();
-    if (shown || last->materials != state.materials || last->colour != state.colour) updateSurfaces(state);
+    if (shown || last->materials != state.materials || last->colour != state.colour || last->deviation != state.deviation) updateSurfaces(state);
     if (shown || last->edges != state.edges) updateEdges(state);
     if (shown || last->selected != state.selected) updateSelection(state);
     if (last == nullptr || last->collision != state.collision || last->walkable != state.walkable || last->shapes != state.shapes) updateCollision(state);

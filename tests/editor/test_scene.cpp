@@ -88,6 +88,29 @@ TEST(MergedScene, PutsWhatShowsAnImageApartAndLetsVertexColoursRunFromCornerToCo
   EXPECT_EQ(mergeVisible(state).opaque.colours.size(), 2U);
 }
 
+TEST(MergedScene, ShowsDeviationsFromGreyToDarkRedAtTheFullScale) {
+  const auto document = demoHouse();
+  auto state = demoState(document);
+  state.colour = ColourMode::deviation;
+  const auto waiting = mergeVisible(state);
+  ASSERT_FALSE(waiting.opaque.colours.empty());
+  EXPECT_EQ(waiting.opaque.colours.front(), deviationColour(0, 1));
+  DeviationField field{document.imported, {}, 0.01};
+  for (const auto& i : document.imported->instances) {
+    InstanceDeviation d;
+    d.distance_m.assign(document.imported->meshes[i.mesh]->positions.size(), i.product == 0 ? 0.02F : 0.0F);
+    d.area_m2.assign(d.distance_m.size(), 1);
+    field.of_instance.push_back(std::make_shared<const InstanceDeviation>(std::move(d)));
+  }
+  state.deviation = std::make_shared<const DeviationField>(std::move(field));
+  const auto merged = mergeVisible(state);
+  EXPECT_TRUE(merged.opaque.corners.empty());
+  EXPECT_TRUE(merged.transparent.corners.empty());   // glass, too, shows how far it moved
+  ASSERT_EQ(merged.graded.colours.size(), merged.graded.positions.size() / 3);
+  EXPECT_EQ(merged.graded.colours.front(), (Rgba{118, 8, 40, 255}));
+  EXPECT_EQ(merged.graded.colours.back(), (Rgba{178, 186, 196, 255}));
+}
+
 TEST(MergedScene, LeavesOutWhatIsHidden) {
   const auto document = demoHouse();
   auto state = demoState(document);
