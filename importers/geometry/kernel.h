@@ -93,9 +93,10 @@ Result<PolyMesh> subtract(const PolyMesh& host, std::span<const PolyMesh> tools)
 Result<PolyMesh> intersect(const PolyMesh& a, const PolyMesh& b);
 Result<PolyMesh> unite(const PolyMesh& a, const PolyMesh& b);
 
-// A planar polygon with holes → triangles that index the same points. Robust for collinear points, touching holes, slight
+// A planar polygon with holes → triangles that index the same points, `inner` ones too, which lie inside and off its edges. Robust for collinear points, touching holes, slight
 // non-planarity and self-touching outlines; a polygon that cannot be triangulated gives no triangles and false.
-bool triangulate(std::span<const Eigen::Vector3d> points, const Face& face, std::vector<Triangle>& triangles);
+bool triangulate(std::span<const Eigen::Vector3d> points, const Face& face, std::vector<Triangle>& triangles,
+                 std::span<const std::uint32_t> inner = {});
 
 struct TriangulatedMesh {
   std::vector<Eigen::Vector3d> points;

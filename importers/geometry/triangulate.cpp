@@ -94,19 +94,19 @@ Loop withoutRepeats(std::span<const Eigen::Vector3d> points, const Loop& loop) {
 
 }  // namespace
 
-bool triangulate(std::span<const Eigen::Vector3d> points, const Face& face, std::vector<Triangle>& triangles) {
+bool triangulate(std::span<const Eigen::Vector3d> points, const Face& face, std::vector<Triangle>& triangles, std::span<const std::uint32_t> inner) {
   for (std::uint32_t i : face.outer) {
     if (i >= points.size() || !points[i].allFinite()) return false;
   }
   const Loop outer = withoutRepeats(points, face.outer);
   const Eigen::Vector3d normal = areaVector(points, outer);
   if (outer.size() < 3 || !(normal.norm() > 0)) return false;
-  if (outer.size() == 3 && face.holes.empty()) {
+  if (outer.size() == 3 && face.holes.empty() && inner.empty()) {
     triangles.push_back({outer[0], outer[1], outer[2]});
     return true;
   }
   const Projection projection(normal);
-  if (face.holes.empty() && outer.size() <= kMaxEarPoints) {
+  if (face.holes.empty() && inner.empty() && outer.size() <= kMaxEarPoints) {
     Flat flat;
     for (std::uint32_t i : outer) flat.push_back(projection(points[i]));
     if (fan(flat, outer, triangles) || cutEars(flat, outer, triangles)) return true;
@@ -119,7 +119,7 @@ bool triangulate(std::span<const Eigen::Vector3d> points, const Face& face, std:
     Loop clean = withoutRepeats(points, hole);
     if (clean.size() >= 3) loops.push_back(std::move(clean));
   }
-  return triangulateHard(points, loops, projection, triangles);
+  return triangulateHard(points, loops, inner, projection, triangles);
 }
 
 TriangulatedMesh triangulate(const PolyMesh& mesh) {

@@ -32,6 +32,7 @@ struct Flat {
   std::vector<std::uint32_t> index;       // into the caller's points
   std::vector<Loop2> loops;
   EdgeList edges;
+  std::vector<std::pair<Eigen::Vector2d, std::uint32_t>> inner;
 };
 
 Flat flatten(std::span<const Eigen::Vector3d> points, const std::vector<std::vector<std::uint32_t>>& loops,
@@ -120,6 +121,11 @@ bool delaunayOf(const Flat& flat, const EdgeList& edges, std::vector<Triangle>& 
       const auto from = vertex(a), to = vertex(b);
       if (from != to) delaunay.insert_constraint(from, to);
     }
+    for (const auto& [p, index] : flat.inner) {
+      const std::size_t count = delaunay.number_of_vertices();
+      const auto inserted = delaunay.insert({p.x(), p.y()}, last->face());
+      if (delaunay.number_of_vertices() > count) inserted->info() = index;
+    }
     if (delaunay.dimension() < 2 || !emitInside(delaunay, flat, triangles)) {
       triangles.resize(before);
       return false;
@@ -134,8 +140,9 @@ bool delaunayOf(const Flat& flat, const EdgeList& edges, std::vector<Triangle>& 
 }  // namespace
 
 bool triangulateHard(std::span<const Eigen::Vector3d> points, const std::vector<std::vector<std::uint32_t>>& loops,
-                     const Projection& projection, std::vector<Triangle>& triangles) {
-  const Flat flat = flatten(points, loops, projection);
+                     std::span<const std::uint32_t> inner, const Projection& projection, std::vector<Triangle>& triangles) {
+  Flat flat = flatten(points, loops, projection);
+  for (const auto i : inner) flat.inner.emplace_back(projection(points[i]), i);
   if (delaunayOf(flat, flat.edges, triangles)) return true;
   // Outlines that cross by a hair, as touching holes do after rounding: snap them, then try again.
   std::vector<Segment> segments;

@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 
+#include "importers/geometry/polygon.h"
 #include "importers/ifc/curve.h"
 #include "importers/ifc/faceted.h"
 
@@ -138,8 +139,69 @@ bool joinRings(std::vector<UvLoop>& loops, double period) {
   return true;
 }
 
-// Triangulates in the parameters, stretched to about the lengths they have in space.
-bool triangulateLoops(const std::vector<UvLoop>& loops, const ParametricSurface& surface, Patch& patch) {
+// A lattice in the parameters on which chords keep to the surface.
+struct Lattice {
+  Uv low = Uv::Zero(), step = Uv::Zero();
+  Eigen::Vector2i count = Eigen::Vector2i::Ones();   // of steps
+};
+
+// A chord over a step h is |S''| h² / 8 off; half of the error is left to the diagonals.
+Lattice latticeOver(const std::vector<UvLoop>& loops, const ParametricSurface& surface, double chord_error_m) {
+  constexpr int kProbes = 8, kMostSteps = 100;
+  Eigen::AlignedBox2d box;
+  for (const auto& loop : loops)
+    for (const auto& p : loop.uv) box.extend(p);
+  Lattice lattice{box.min(), box.sizes(), {1, 1}};
+  for (const int k : {0, 1}) {
+    const double d = box.sizes()[k] / 64;
+    if (!(d > 0)) continue;
+    double bend = 0;
+    for (int i = 0; i < kProbes * kProbes; ++i) {
+      const Uv at = box.min() + box.sizes().cwiseProduct(Uv(i % kProbes + 0.5, i / kProbes + 0.5) / kProbes);
+      const Uv off = Uv::Unit(k) * d;
+      bend = std::max(bend, (surface.at(at + off) - 2 * surface.at(at) + surface.at(at - off)).norm() / (d * d));
+    }
+    lattice.count[k] = static_cast<int>(std::clamp(std::ceil(box.sizes()[k] * std::sqrt(bend / (4 * chord_error_m))), 1.0, double{kMostSteps}));
+    lattice.step[k] = box.sizes()[k] / lattice.count[k];
+  }
+  return lattice;
+}
+
+double squaredDistance(const Uv& p, const Uv& a, const Uv& b) {
+  const double length = (b - a).squaredNorm(), t = length > 0 ? std::clamp((p - a).dot(b - a) / length, 0.0, 1.0) : 0;
+  return (a + (b - a) * t - p).squaredNorm();
+}
+
+// Lattice points within the loops, a third of a step off them. Where a surface bends both ways, corners on the bounds alone
+// leave long triangles, which no halving of their edges brings onto it.
+std::vector<std::uint32_t> innerPoints(const std::vector<UvLoop>& loops, const Lattice& lattice, const ParametricSurface& surface, Patch& patch) {
+  const auto inSteps = [&](const Uv& p) { return Uv((p - lattice.low).cwiseQuotient(lattice.step)); };
+  std::vector<geometry::Loop2> scaled;
+  for (const auto& loop : loops)
+    for (scaled.emplace_back(); const auto& p : loop.uv) scaled.back().push_back(inSteps(p));
+  const auto inside = [&](const Uv& p) {
+    int crossings = 0;
+    for (const auto& loop : scaled) {
+      crossings += geometry::windingNumber(loop, p) != 0 ? 1 : 0;
+      for (std::size_t i = 0; i < loop.size(); ++i)
+        if (squaredDistance(p, loop[i], loop[(i + 1) % loop.size()]) < 1.0 / 9) return false;
+    }
+    return crossings == 1;   // within the outline and in no hole
+  };
+  std::vector<std::uint32_t> inner;
+  for (int i = 1; i < lattice.count.x(); ++i)
+    for (int k = 1; k < lattice.count.y(); ++k) {
+      if (!inside({i, k})) continue;
+      inner.push_back(static_cast<std::uint32_t>(patch.uv.size()));
+      patch.uv.emplace_back(lattice.low + lattice.step.cwiseProduct(Uv(i, k)));
+      patch.points.push_back(surface.at(patch.uv.back()));
+    }
+  return inner;
+}
+
+// Triangulates in the parameters: in steps of the lattice where the surface bends both ways, else stretched to about the
+// lengths they have in space.
+bool triangulateLoops(const std::vector<UvLoop>& loops, const ParametricSurface& surface, double chord_error_m, Patch& patch) {
   geometry::Face face;
   for (const UvLoop& loop : loops) {
     std::vector<std::uint32_t> indices;
@@ -151,11 +213,20 @@ bool triangulateLoops(const std::vector<UvLoop>& loops, const ParametricSurface&
     for (std::size_t i = 0; i < indices.size(); ++i) patch.is_bound[edge(indices[i], indices[(i + 1) % indices.size()])] = true;
     (face.outer.empty() ? face.outer : face.holes.emplace_back()) = std::move(indices);
   }
-  const Uv middle = loops[0].uv[0], h(1e-3, 1e-3);
-  const double su = (surface.at(middle + Uv(h.x(), 0)) - surface.at(middle)).norm() / h.x(), sv = (surface.at(middle + Uv(0, h.y())) - surface.at(middle)).norm() / h.y();
+  const Lattice lattice = latticeOver(loops, surface, chord_error_m);
+  std::vector<std::uint32_t> inner;
+  Uv scale = Uv::Ones();
+  if (lattice.count.minCoeff() > 1) {
+    inner = innerPoints(loops, lattice, surface, patch);
+    scale = lattice.step.cwiseInverse();
+  } else {
+    const Uv middle = loops[0].uv[0], h(1e-3, 1e-3);
+    const double su = (surface.at(middle + Uv(h.x(), 0)) - surface.at(middle)).norm() / h.x(), sv = (surface.at(middle + Uv(0, h.y())) - surface.at(middle)).norm() / h.y();
+    scale = {su > 1e-9 ? su : 1, sv > 1e-9 ? sv : 1};
+  }
   std::vector<Eigen::Vector3d> flat;
-  for (const Uv& p : patch.uv) flat.emplace_back(p.x() * (su > 1e-9 ? su : 1), p.y() * (sv > 1e-9 ? sv : 1), 0);
-  return geometry::triangulate(flat, face, patch.triangles) && !patch.triangles.empty();
+  for (const Uv& p : patch.uv) flat.emplace_back(p.x() * scale.x(), p.y() * scale.y(), 0);
+  return geometry::triangulate(flat, face, patch.triangles, inner) && !patch.triangles.empty();
 }
 
 bool leaves(const Patch& patch, const ParametricSurface& surface, std::uint32_t a, std::uint32_t b, double tolerance) {
@@ -207,7 +278,7 @@ Result<void> appendOnSurface(geometry::PolyMesh& mesh, const ParametricSurface& 
   if (!joinRings(loops, on.period().maxCoeff())) return fail(face, "a face whose bound runs around its surface is not supported here");
   std::stable_sort(loops.begin(), loops.end(), [](const UvLoop& a, const UvLoop& b) { return std::abs(area2(a.uv)) > std::abs(area2(b.uv)); });
   Patch patch;
-  if (!triangulateLoops(loops, on, patch)) return fail(face, "the face could not be triangulated");
+  if (!triangulateLoops(loops, on, scope.tessellation.chord_error_m, patch)) return fail(face, "the face could not be triangulated");
   constexpr std::size_t kMostTriangles = 20000;
   bool fine = false;
   for (int round = 0; !fine && round < 10 && patch.triangles.size() < kMostTriangles; ++round) fine = !split(patch, on, scope.tessellation.chord_error_m);

@@ -88,18 +88,41 @@ TEST(IfcSurface, ASweepAlongACurveInTheParametersOfItsPlane) {
   EXPECT_NEAR(boundsOf(model, "#110").max.z(), 2.1, 1e-4);   // the plane's x is the model's z
 }
 
+// Half of the upper hemisphere, from +x over +y to −x: two meridians and half of the equator, in any order.
+ImportedModel quarterBall(const std::string& radius, const std::string& edges) {
+  return importText(ifcText(
+      "#100=IFCSPHERICALSURFACE(#2," + radius + ");\n#200=IFCCARTESIANPOINT((" + radius + ",0.,0.));\n#201=IFCCARTESIANPOINT((-" + radius + ",0.,0.));\n#202=IFCCARTESIANPOINT((0.,0.," + radius + "));\n"
+      "#204=IFCVERTEXPOINT(#200);\n#205=IFCVERTEXPOINT(#201);\n#206=IFCVERTEXPOINT(#202);\n#207=IFCDIRECTION((0.,-1.,0.));\n#208=IFCAXIS2PLACEMENT3D(#1,#207,#5);\n#209=IFCCIRCLE(#2," + radius + ");\n#210=IFCCIRCLE(#208," + radius + ");\n"
+      "#220=IFCEDGECURVE(#204,#205,#209,.T.);\n#221=IFCEDGECURVE(#206,#205,#210,.T.);\n#222=IFCEDGECURVE(#204,#206,#210,.T.);\n"
+      "#224=IFCORIENTEDEDGE(*,*,#220,.T.);\n#225=IFCORIENTEDEDGE(*,*,#221,.F.);\n#226=IFCORIENTEDEDGE(*,*,#222,.F.);\n"
+      "#228=IFCEDGELOOP((" + edges + "));\n#229=IFCFACEOUTERBOUND(#228,.T.);\n#230=IFCADVANCEDFACE((#229),#100,.T.);\n#231=IFCOPENSHELL((#230));\n#232=IFCSHELLBASEDSURFACEMODEL((#231));\n" +
+      product(110, "IFCPLATE", "#232", "SurfaceModel")));
+}
+
 TEST(IfcSurface, AFaceMayHaveACornerAtThePole) {
-  // Half of the upper hemisphere of radius 0.2, from +x over +y to −x: two meridians and half of the equator; πr².
-  for (const char* first : {"#224,#225,#226", "#225,#226,#224", "#226,#224,#225"}) {
-    const ImportedModel model = importText(ifcText(
-        "#100=IFCSPHERICALSURFACE(#2,0.2);\n#200=IFCCARTESIANPOINT((0.2,0.,0.));\n#201=IFCCARTESIANPOINT((-0.2,0.,0.));\n#202=IFCCARTESIANPOINT((0.,0.,0.2));\n"
-        "#204=IFCVERTEXPOINT(#200);\n#205=IFCVERTEXPOINT(#201);\n#206=IFCVERTEXPOINT(#202);\n#207=IFCDIRECTION((0.,-1.,0.));\n#208=IFCAXIS2PLACEMENT3D(#1,#207,#5);\n#209=IFCCIRCLE(#2,0.2);\n#210=IFCCIRCLE(#208,0.2);\n"
-        "#220=IFCEDGECURVE(#204,#205,#209,.T.);\n#221=IFCEDGECURVE(#206,#205,#210,.T.);\n#222=IFCEDGECURVE(#204,#206,#210,.T.);\n"
-        "#224=IFCORIENTEDEDGE(*,*,#220,.T.);\n#225=IFCORIENTEDEDGE(*,*,#221,.F.);\n#226=IFCORIENTEDEDGE(*,*,#222,.F.);\n"
-        "#228=IFCEDGELOOP((" + std::string(first) + "));\n#229=IFCFACEOUTERBOUND(#228,.T.);\n#230=IFCADVANCEDFACE((#229),#100,.T.);\n#231=IFCOPENSHELL((#230));\n#232=IFCSHELLBASEDSURFACEMODEL((#231));\n" +
-        product(110, "IFCPLATE", "#232", "SurfaceModel")));
+  for (const char* edges : {"#224,#225,#226", "#225,#226,#224", "#226,#224,#225"}) {
+    const ImportedModel model = quarterBall("0.2", edges);
     EXPECT_EQ(model.report.losses(), 0U) << issuesOf(model);
-    EXPECT_NEAR(areaOf(model, "#110") / (kPi * 0.04), 1, 0.02);
+    EXPECT_NEAR(areaOf(model, "#110") / (kPi * 0.04), 1, 0.01);
+  }
+}
+
+TEST(IfcSurface, ALargeBallKeepsToTheChordErrorAwayFromItsBounds) {
+  for (const char* edges : {"#224,#225,#226", "#225,#226,#224", "#226,#224,#225"}) {
+    const ImportedModel model = quarterBall("2.", edges);
+    EXPECT_EQ(issuesOf(model).find("coarser"), std::string::npos);
+    EXPECT_NEAR(areaOf(model, "#110") / (kPi * 4), 1, 0.005);
+    double inner = 0, outer = 0;
+    const auto& e = model.environment;
+    for (const auto& i : e.instances)
+      for (const auto& t : e.meshes[i.mesh]->triangles) {
+        Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+        for (const auto v : t) middle += i.world_from_mesh * e.meshes[i.mesh]->positions[v].cast<double>() / 3;
+        const bool at_bound = middle.y() < 0.2 || middle.z() < 0.2;
+        (at_bound ? outer : inner) = std::max(at_bound ? outer : inner, std::abs(middle.norm() - 2));
+      }
+    EXPECT_LE(inner, 0.001);
+    EXPECT_LE(outer, 2 * (1 - std::cos(kPi / 32)) + 0.001);   // circles have 32 chords
   }
 }
 
