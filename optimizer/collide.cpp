@@ -30,7 +30,7 @@ struct Work {
 std::vector<bool> stopping(const Environment& environment, const CollideOptions& options) {
   const auto door_of = doorOf(environment);
   auto result = closedDoors(environment, options);
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] = (result[i] || door_of[i] < 0) && environment.products[i].tangible;
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = (result[i] || door_of[i] < 0) && environment.products[i].inScene();
   return result;
 }
 

@@ -96,7 +96,7 @@ Verdict judge(const Environment& environment, std::uint32_t product, const Obsta
 std::vector<std::uint32_t> tangibleDoors(const Environment& environment) {
   std::vector<std::uint32_t> doors;
   for (std::uint32_t i = 0; i < environment.products.size(); ++i)
-    if (environment.products[i].tangible && isDoor(environment.products[i])) doors.push_back(i);
+    if (environment.products[i].inScene() && isDoor(environment.products[i])) doors.push_back(i);
   return doors;
 }
 

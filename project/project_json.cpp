@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "project/project_files.h"
+#include "project/treatments.h"
 
 namespace standpoint {
 
@@ -72,6 +73,15 @@ json lossToJson(const ProductLoss& l) {
 }
 
 ProductLoss lossFrom(const json& j) { return {j.at(0), j.at(1), j.at(2), j.at(3)}; }
+
+json lighteningToJson(const Lightening& l) {
+  json losses = json::array();
+  for (const auto& loss : l.products) losses.push_back(lossToJson(loss));
+  json part = {{"max_deviation_m", l.request.max_deviation_m}, {"lod_rules", l.request.lod_rules}, {"surroundings", l.request.surroundings},
+               {"all", lossToJson(l.all)}, {"products", losses}, {"levels", l.levels}};
+  if (l.request.budget) part["budget"] = *l.request.budget;
+  return part;
+}
 
 json physicalToJson(const PhysicalMaterial& m) {
   return {{"id", m.id}, {"label", m.label}, {"reflectance", m.reflectance}, {"roughness_rad", m.roughness_rad},
@@ -150,12 +160,8 @@ json documentToJson(const Document& d) {
   json project = {{"version", kProjectVersion}, {"sources", d.sources}, {"georeference", georeferenceToJson(*d.georeference)},
                   {"job", jobToJson(*d.job)}};
   if (d.import_report) project["import_report"] = toJson(*d.import_report);
-  if (d.lightening) {
-    json losses = json::array();
-    for (const auto& l : d.lightening->products) losses.push_back(lossToJson(l));
-    project["lightening"] = {{"budget", d.lightening->options.budget}, {"max_deviation_m", d.lightening->options.max_deviation_m},
-                             {"all", lossToJson(d.lightening->all)}, {"products", losses}, {"levels", d.lightening->levels}};
-  }
+  if (d.lightening) project["lightening"] = lighteningToJson(*d.lightening);
+  if (d.treatments) project["treatments"] = treatmentsToJson(*d.treatments);
   if (d.collision) project["collision"] = collisionToJson(*d.collision);
   if (d.materials) project["materials"] = materialsToJson(*d.materials);
   return project;
@@ -170,6 +176,8 @@ Document documentFrom(const json& project) {
     for (const auto& i : project.at("import_report"))
       report.issues.push_back({severityFrom(i.at("severity")), i.at("source"), i.at("message")});
   d.import_report = std::make_shared<const Report>(std::move(report));
+  if (project.contains("treatments"))
+    d.treatments = std::make_shared<const std::vector<Treatment>>(treatmentsFrom(project.at("treatments")));
   if (project.contains("materials")) d.materials = std::make_shared<const MaterialChoice>(materialsFrom(project.at("materials")));
   return d;
 }
@@ -181,7 +189,7 @@ json recordsToJson(const Environment& environment) {
     for (const auto& l : p.layers) layers.push_back({l.name, l.thickness_m});
     products.push_back({{"id", p.id}, {"global_id", p.global_id}, {"class", p.ifc_class}, {"predefined_type", p.predefined_type},
                         {"name", p.name}, {"type_name", p.type_name}, {"storey", p.storey}, {"container", p.container},
-                        {"whole", p.whole}, {"tangible", p.tangible}, {"materials", p.materials}, {"groups", p.groups},
+                        {"whole", p.whole}, {"tangible", p.tangible}, {"excluded", p.excluded}, {"materials", p.materials}, {"groups", p.groups},
                         {"layers", std::move(layers)}, {"properties", propertiesToJson(p.properties)}});
   }
   json spatial = json::array();
@@ -205,6 +213,7 @@ Environment recordsFrom(const json& records) {
     p.container = j.at("container");
     p.whole = j.at("whole");
     p.tangible = j.at("tangible");
+    p.excluded = j.value("excluded", false);
     p.materials = j.at("materials");
     p.groups = j.value("groups", std::vector<std::string>{});
     for (const auto& l : j.at("layers")) p.layers.push_back({l.at(0), l.at(1)});
@@ -219,8 +228,10 @@ Environment recordsFrom(const json& records) {
 std::shared_ptr<const Lightening> lighteningFrom(const json& part, std::shared_ptr<const Environment> environment) {
   Lightening l;
   l.environment = std::move(environment);
-  l.options.budget = part.at("budget");
-  l.options.max_deviation_m = part.at("max_deviation_m");
+  if (part.contains("budget")) l.request.budget = part.at("budget").get<std::uint64_t>();
+  l.request.max_deviation_m = part.at("max_deviation_m");
+  l.request.lod_rules = part.value("lod_rules", "");
+  l.request.surroundings = part.value("surroundings", std::vector<std::string>{});
   l.levels = part.value("levels", std::vector<std::string>{});   // not in the projects of the first version
   l.all = lossFrom(part.at("all"));
   for (const auto& loss : part.at("products")) l.products.push_back(lossFrom(loss));

@@ -22,6 +22,10 @@ std::string whyNoCollision(const Editor& e) {
   return e.session.document().collision ? "" : "Compute the collision shapes first (panel Collision)";
 }
 
+std::string whyNotOptimised(const Editor& e) {
+  return e.session.document().lightening ? "" : "Optimise the model first (panel Optimise)";
+}
+
 void newProject(Editor& e) {
   whenSaved(e, [&e] { e.session.clear(); });
 }
@@ -41,7 +45,7 @@ void quit(Editor& e) {
 void selectAll(Editor& e) {
   std::vector<std::uint32_t> all;
   for (std::uint32_t p = 0; p < e.environment()->products.size(); ++p)
-    if (e.environment()->products[p].tangible && !e.visibility.hidden(p)) all.push_back(p);
+    if (e.environment()->products[p].inScene() && !e.visibility.hidden(p)) all.push_back(p);
   e.selection.set(std::move(all));
 }
 void walk(Editor& e) {
@@ -91,6 +95,20 @@ std::string whyRemoveNot(const Editor& e) {
   return name.empty() ? "Choose a station or target in the panel Survey first" : "";
 }
 
+// What is said of the selection, each product by what it keeps through an update of the model.
+void treat(Editor& e, const char* as, const char* title) {
+  nlohmann::json selectors = nlohmann::json::array();
+  for (const auto p : e.selection.products()) {
+    const auto& product = e.environment()->products[p];
+    selectors.push_back(product.global_id.empty() ? product.id : product.global_id);
+  }
+  e.session.start("treat", {{"products", std::move(selectors)}, {"as", as}}, title);
+}
+std::string whyTreatNot(const Editor& e) {
+  if (auto why = whyNoSelection(e); !why.empty()) return why;
+  return e.session.whyNot("treat");
+}
+
 std::string whySaveNot(const Editor& e) { return e.session.whyNotSave(); }
 std::string whyUndoNot(const Editor& e) { return e.session.whyNotUndo(); }
 std::string whyRedoNot(const Editor& e) { return e.session.whyNotRedo(); }
@@ -130,6 +148,9 @@ const std::array kActions = {
            [](Editor& e) { e.visibility.isolate(e.selection.products()); }, whyNoSelection},
     Action{"show-all", "Show everything", ICON_EYE, {'H', true},
            [](Editor& e) { e.visibility.showAll(); e.visibility.cut_height_m.reset(); }, whyNoModel},
+    Action{"exclude", "Exclude from the scene", ICON_BAN, {'X'}, [](Editor& e) { treat(e, "excluded", "Exclude from the scene"); }, whyTreatNot},
+    Action{"keep", "Never simplify", ICON_CHECK_CIRCLE, {'K'}, [](Editor& e) { treat(e, "kept", "Never simplify"); }, whyTreatNot},
+    Action{"by-rules", "Treat by the rules again", ICON_UNDO, {'X', false, true}, [](Editor& e) { treat(e, "rules", "Treat by the rules again"); }, whyTreatNot},
     Action{"edges", "Edges", "", {'L'}, [](Editor& e) { e.view.edges = !e.view.edges; }, nullptr},
     Action{"grid", "Ground grid", "", {'G'}, [](Editor& e) { e.view.grid = !e.view.grid; }, nullptr},
     Action{"labels", "Labels", "", {}, [](Editor& e) { e.view.labels = !e.view.labels; }, nullptr},
@@ -141,6 +162,9 @@ const std::array kActions = {
            [](Editor& e) { e.view.colour = ColourMode::material; }, whyNoModel},
     Action{"colour-reflectance", "Reflectance at 1550 nm", "", {},
            [](Editor& e) { e.view.colour = ColourMode::reflectance; }, whyNoModel},
+    Action{"colour-deviation", "Deviation from the original", "", {}, [](Editor& e) { e.view.colour = ColourMode::deviation; }, whyNotOptimised},
+    Action{"both-models", "Original and lighter model side by side", ICON_COMPRESS, {'B'},
+           [](Editor& e) { e.view.side = e.view.side == ModelSide::both ? ModelSide::lighter : ModelSide::both; }, whyNotOptimised},
     Action{"add-station", "Add station by a click on the floor", ICON_STATION, {'T'},
            [](Editor& e) { e.view.tool = Tool::placeStation; showWorkspace(e, Workspace::survey); }, whyStationNot},
     Action{"add-target", "Add target by a click", ICON_TARGET, {},

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/environment.h"
+#include "optimizer/triangle_tree.h"
+
+namespace standpoint {
+
+// All surfaces of an environment, to be asked for distances: trees over the meshes, and one over the instances' boxes, so
+// that a mesh with a thousand copies is held once. Keeps references: the environment's meshes must outlive it.
+class PlacedSurfaces {
+ public:
+  explicit PlacedSurfaces(const Environment& environment);
+
+  // From a place in the local frame to the nearest of all surfaces; infinite where there are none.
+  double squaredDistance(const Eigen::Vector3d& p) const;
+  // The same to the instances [first, last) only.
+  double squaredDistance(const Eigen::Vector3d& p, std::size_t first, std::size_t last) const;
+  std::size_t instances() const { return instances_.size(); }
+  double area(std::size_t instance) const { return instances_[instance].area; }
+  std::vector<Eigen::Vector3d> points(std::size_t instance, std::uint32_t count) const;
+  // Corners of triangles, one after the other: a position that no triangle uses is no part of the surface.
+  std::size_t corners(std::size_t instance) const { return 3 * instances_[instance].solid->triangles->size(); }
+  Eigen::Vector3d corner(std::size_t instance, std::size_t i) const {
+    const Solid& solid = *instances_[instance].solid;
+    return instances_[instance].world_from_solid * solid.positions[(*solid.triangles)[i / 3][i % 3]];
+  }
+
+ private:
+  struct Solid {  // a mesh, or a copy of one that is distorted
+    std::vector<Eigen::Vector3d> positions;
+    const std::vector<Triangle>* triangles = nullptr;
+    std::unique_ptr<TriangleTree> tree;
+  };
+  struct Placed {
+    double squaredDistance(const Eigen::Vector3d& p, double bound) const;
+
+    const Solid* solid = nullptr;
+    Eigen::Affine3d solid_from_world, world_from_solid;
+    double scale = 1, area = 0;
+  };
+
+  std::vector<Solid> solids_;
+  std::vector<Placed> instances_;
+  std::vector<Eigen::Vector3d> corners_;  // two per instance: its box
+  std::vector<Triangle> boxes_;           // (low, high, low) has the instance's box
+  std::unique_ptr<TriangleTree> tree_;
+};
+
+}  // namespace standpoint
