@@ -93,7 +93,7 @@ Verdict judge(const Environment& environment, std::uint32_t product, const Obsta
   return verdict;
 }
 
-std::vector<std::uint32_t> tangibleDoors(const Environment& environment) {
+std::vector<std::uint32_t> doorsOf(const Environment& environment) {
   std::vector<std::uint32_t> doors;
   for (std::uint32_t i = 0; i < environment.products.size(); ++i)
     if (environment.products[i].inScene() && isDoor(environment.products[i])) doors.push_back(i);
@@ -169,10 +169,11 @@ std::vector<std::int32_t> doorOf(const Environment& environment) {
 std::vector<bool> closedDoors(const Environment& environment, const CollideOptions& options) {
   const auto door_of = doorOf(environment);
   std::vector<bool> result(door_of.size(), false);
+  const auto isSet = [&](std::size_t product) { return product < options.closed.size() && options.closed[product]; };
   for (std::size_t i = 0; i < result.size(); ++i) {
     if (door_of[i] < 0) continue;
-    const auto door = static_cast<std::size_t>(door_of[i]);
-    result[i] = options.doors == DoorState::closed || (options.doors == DoorState::as_set && ((door < options.closed.size() && options.closed[door]) || (i < options.closed.size() && options.closed[i])));
+    const bool set = isSet(i) || isSet(static_cast<std::size_t>(door_of[i]));
+    result[i] = options.doors == DoorState::closed || (options.doors == DoorState::as_set && set);
   }
   return result;
 }
@@ -181,7 +182,7 @@ void closeWhatIsOpen(const Environment& environment, const CollideOptions& optio
   const auto closed = closedDoors(environment, options);
   const Obstacles obstacles(shapes);
   std::vector<CollisionShape> plates;
-  for (const auto door : tangibleDoors(environment)) {
+  for (const auto door : doorsOf(environment)) {
     const auto passage = closed[door] ? passageOf(environment, door) : std::nullopt;
     if (!passage || blocker(obstacles, *passage, wayThrough(*passage, obstacles, options), options.agent_radius_m)) continue;
     std::vector<Vector3d> bottom;
@@ -202,7 +203,7 @@ void closeWhatIsOpen(const Environment& environment, const CollideOptions& optio
 }
 
 std::vector<Door> checkDoors(const Environment& environment, const std::vector<CollisionShape>& shapes, const CollideOptions& options, Report& report) {
-  const auto doors = tangibleDoors(environment);
+  const auto doors = doorsOf(environment);
   if (doors.empty()) return {};
   const auto closed = closedDoors(environment, options);
   const Obstacles obstacles(shapes);
