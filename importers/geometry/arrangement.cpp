@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kMaxSegments = 20000;
 constexpr std::size_t kMaxWindings = 20'000'000;
 constexpr int kMaxRounds = 12;
+constexpr std::size_t kMaxMeetings = 5'000'000;   // of pieces in each other's boxes: edges that all lie on one another
 
 // Finds or adds the point within the snapping distance. Looked up only, so that the hash order does not show.
 class Points {
@@ -64,6 +65,9 @@ class Splitter {
   Splitter(std::vector<Eigen::Vector2d>& points, Points& finder, double snap_m)
       : points_(points), finder_(finder), snap_(snap_m) {}
 
+  // Of all rounds so far more pieces lay in each other's boxes than it is worth.
+  bool exhausted() const { return meetings_ > kMaxMeetings; }
+
   // One round: every piece is cut where another one meets it. True when something was cut.
   bool round(std::vector<Piece>& pieces) {
     cuts_.assign(pieces.size(), {});
@@ -78,11 +82,11 @@ class Splitter {
     std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
       return box[i][0] != box[j][0] ? box[i][0] < box[j][0] : i < j;
     });
-    for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t i = 0; i < order.size() && !exhausted(); ++i) {
       const std::uint32_t s = order[i];
       for (std::size_t j = i + 1; j < order.size() && box[order[j]][0] <= box[s][1]; ++j) {
         const std::uint32_t t = order[j];
-        if (box[s][2] <= box[t][3] && box[t][2] <= box[s][3]) meet(pieces, s, t);
+        if (box[s][2] <= box[t][3] && box[t][2] <= box[s][3]) ++meetings_, meet(pieces, s, t);
       }
     }
     return cutAll(pieces);
@@ -144,6 +148,7 @@ class Splitter {
 
   std::vector<Eigen::Vector2d>& points_;
   Points& finder_;
+  std::size_t meetings_ = 0;
   double snap_;
   std::vector<std::vector<std::uint32_t>> cuts_;
 };
@@ -270,8 +275,9 @@ std::optional<Arrangement> arrange(std::span<const Eigen::Vector2d> points, std:
   Splitter splitter(result.points, finder, snap_m);
   int rounds = 0;
   while (splitter.round(pieces)) {
-    if (++rounds > kMaxRounds || pieces.size() > 4 * kMaxSegments) return std::nullopt;
+    if (++rounds > kMaxRounds || splitter.exhausted() || pieces.size() > 4 * kMaxSegments) return std::nullopt;
   }
+  if (splitter.exhausted()) return std::nullopt;
   const std::vector<int> gains = mergePieces(result, std::move(pieces), segments);
   if (gains.size() > kMaxWindings || result.edges.size() > kMaxSegments) return std::nullopt;
   wind(result, gains);

@@ -136,7 +136,7 @@ Result<PolyMesh> combineTwo(const PolyMesh& a, const PolyMesh& b, Operation oper
   const bool solids = isClosed(a) && isClosed(b);
   const auto keep = [&](Result<PolyMesh> result, const char* way) {
     result = checked(std::move(result), range, way);
-    if (result && solids && !isClosed(*result)) {
+    if (result && solids && !result->faces.empty() && !isClosed(*result)) {
       if (!torn) torn = std::move(*result);
       result = failure(ErrorKind::unusable, std::string(way) + ": the result is torn open");
     }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "importers/ifc/image.h"
 
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <utility>
 
-#include "importers/ifc/png.h"
+#include <png.h>
 
 namespace standpoint::ifc {
 namespace {
@@ -49,13 +50,27 @@ std::vector<std::byte> binary(const Value& value) {
   return bytes;
 }
 
+// Of 8-bit grey, grey with alpha, RGB or RGBA points (1 to 4 components), rows from below as IFC counts them.
+std::vector<std::byte> pngFromPixels(const std::vector<std::byte>& pixels, std::uint32_t width, std::uint32_t height, std::size_t components) {
+  constexpr std::array<png_uint_32, 4> kFormats{PNG_FORMAT_GRAY, PNG_FORMAT_GA, PNG_FORMAT_RGB, PNG_FORMAT_RGBA};
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = width;
+  image.height = height;
+  image.format = kFormats[components - 1];
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+  std::vector<std::byte> png(size);
+  const auto from_below = -static_cast<png_int_32>(width * components);
+  png.resize(png_image_write_to_memory(&image, png.data(), &size, 0, pixels.data(), from_below, nullptr) ? size : 0);
+  return png;
+}
+
 Result<Image> pixels(const Entity& texture) {
   const std::size_t at = firstOwn(texture, 4);
   const auto width = texture[at].integer(), height = texture[at + 1].integer(), components = texture[at + 2].integer();
   if (width < 1 || height < 1 || width > 16384 || height > 16384 || components < 1 || components > 4)
     return fail(texture, "the pixel texture has no usable size");
   const Value list = texture[at + 3];
-  const auto row_bytes = static_cast<std::size_t>(width * components);
   // Counted before anything is allocated for it: a claim of 16384 × 16384 may have no points at all.
   if (list.size() != static_cast<std::size_t>(width * height)) return fail(texture, "the pixel texture has another number of points than its size says");
   std::vector<std::byte> raw;
@@ -64,11 +79,9 @@ Result<Image> pixels(const Entity& texture) {
     if (point.size() != static_cast<std::size_t>(components)) return fail(texture, "a point of the pixel texture has another number of colours than it says");
     raw.insert(raw.end(), point.begin(), point.end());
   }
-  std::vector<std::byte> turned;   // IFC's first row is the lowest, PNG's the highest
-  for (std::size_t row = static_cast<std::size_t>(height); row-- > 0;)
-    turned.insert(turned.end(), raw.begin() + static_cast<std::ptrdiff_t>(row * row_bytes), raw.begin() + static_cast<std::ptrdiff_t>((row + 1) * row_bytes));
-  return Image{"IfcPixelTexture " + texture.place(), "image/png",
-               pngFromPixels(turned, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), static_cast<int>(components))};
+  auto png = pngFromPixels(raw, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), static_cast<std::size_t>(components));
+  if (png.empty()) return fail(texture, "the pixel texture could not be written as PNG");
+  return Image{"IfcPixelTexture " + texture.place(), "image/png", std::move(png)};
 }
 
 Result<Image> blob(const Entity& texture) {

@@ -156,5 +156,17 @@ TEST(Triangulation, OfALargePolygonIsDoneInSeconds) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
 }
 
+TEST(Triangulation, OfAnOutlineThatRunsToAndFroOnOneLineIsGivenUp) {
+  // 1,000 edges on each other would be cut at every end of every other one, and their pieces again.
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> along(0, 100);
+  std::vector<Eigen::Vector2d> loop{{50, 1e-7}};
+  for (int i = 0; i < 1000; ++i) loop.emplace_back(i % 2 ? along(random) : -along(random), 0);
+  Sheet sheet;
+  sheet.face.outer = sheet.add(loop);
+  std::vector<Triangle> triangles;
+  EXPECT_FALSE(triangulate(sheet.points, sheet.face, triangles));
+}
+
 }  // namespace
 }  // namespace standpoint::geometry
