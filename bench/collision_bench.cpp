@@ -60,7 +60,7 @@ Soup rawTriangles(const Environment& environment) {
   const auto door_of = doorOf(environment);
   Soup soup;
   for (const auto& instance : environment.instances)
-    if (environment.products[instance.product].tangible && door_of[instance.product] < 0)
+    if (environment.products[instance.product].inScene() && door_of[instance.product] < 0)
       soup.add(*environment.meshes[instance.mesh], instance.world_from_mesh, instance.product);
   return soup;
 }

@@ -169,10 +169,11 @@ std::vector<std::int32_t> doorOf(const Environment& environment) {
 std::vector<bool> closedDoors(const Environment& environment, const CollideOptions& options) {
   const auto door_of = doorOf(environment);
   std::vector<bool> result(door_of.size(), false);
+  const auto isSet = [&](std::size_t product) { return product < options.closed.size() && options.closed[product]; };
   for (std::size_t i = 0; i < result.size(); ++i) {
     if (door_of[i] < 0) continue;
-    const auto door = static_cast<std::size_t>(door_of[i]);
-    result[i] = options.doors == DoorState::closed || (options.doors == DoorState::as_set && ((door < options.closed.size() && options.closed[door]) || (i < options.closed.size() && options.closed[i])));
+    const bool set = isSet(i) || isSet(static_cast<std::size_t>(door_of[i]));
+    result[i] = options.doors == DoorState::closed || (options.doors == DoorState::as_set && set);
   }
   return result;
 }

@@ -51,7 +51,8 @@ bool isInside(const Space& space, const Vector3d& p) {
 std::vector<Space> spacesOf(const Environment& environment) {
   std::vector<Space> spaces;
   for (const auto& instance : environment.instances) {
-    if (environment.products[instance.product].ifc_class != "IfcSpace") continue;
+    const auto& product = environment.products[instance.product];
+    if (product.ifc_class != "IfcSpace" || product.excluded) continue;
     if (spaces.empty() || spaces.back().product != instance.product) spaces.emplace_back().product = instance.product;
     const auto& mesh = *environment.meshes[instance.mesh];
     for (const auto& t : mesh.triangles)
