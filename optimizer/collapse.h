@@ -26,7 +26,9 @@ struct CollapseOptions {
 
 // A full simplification by quadric error, cheapest step first, of which any prefix is a valid simplification. A shape
 // without a limit ends with no triangle at all: small parts that cannot become simpler vanish at the price of their size.
-// Deterministic and serial; O(n log n), as no vertex may gather more than some hundred triangles. Stops when cancelled.
+// O(n log n), as no vertex may gather more than some hundred triangles. A shape of more than 100 000 triangles is cut into
+// cells that are simplified side by side; how depends on the shape only, so that any number of threads gives the same log.
+// Stops when cancelled.
 std::vector<Collapse> recordCollapses(const Shape& shape, const CollapseOptions& options, const Progress& progress);
 
 // The shape after the first `steps` steps. Vertices that did not move keep their exact position.
