@@ -106,6 +106,7 @@ bool read(std::FILE* file, Mesh& mesh, Figures& figures) {
 }
 
 bool inChild(const std::function<void()>& task) {
+  std::fflush(stdout);
   const pid_t child = fork();
   if (child == 0) {
     task();

@@ -48,7 +48,7 @@ class Relief {
       const auto a = normals(philox({seed, 1}, static_cast<std::uint32_t>(i), 0, 0));
       const double frequency = 2 * std::pow(60.0, double(i) / kWaves);
       const Vector3d direction = Vector3d(a[0], a[1], a[2]).normalized();
-      waves_[i] = {direction * frequency, a[3] * 4, kRoughness * std::pow(frequency, -1.45)};
+      waves_[i] = {direction * frequency, a[3] * 4, kRoughness * std::pow(frequency, -1.0)};
     }
   }
   double operator()(const Vector3d& p) const {
@@ -59,7 +59,7 @@ class Relief {
 
  private:
   static constexpr int kWaves = 48;
-  static constexpr double kRoughness = 0.07;
+  static constexpr double kRoughness = 0.12;
   struct Wave {
     Vector3d vector;
     double phase, amplitude;
@@ -105,19 +105,19 @@ void addPanel(Mesh& mesh, int n, const Vector3d& corner, const std::function<dou
 
 double rosette(double s, double t, int petals) {
   const double x = 2 * s - 1, y = 2 * t - 1, r = std::hypot(x, y), turn = std::atan2(y, x);
-  return 0.12 * std::exp(-4 * r * r) * (1 + 0.6 * std::cos(petals * turn)) + 0.02 * std::cos(18 * r) * std::exp(-r);
+  return 0.04 * std::exp(-4 * r * r) * (1 + 0.6 * std::cos(petals * turn)) + 0.006 * std::cos(18 * r) * std::exp(-r);
 }
 
 double blocks(double s, double t, int rows) {
   const double v = t * rows, row = std::floor(v), u = s * 4 + 0.5 * std::fmod(row, 2);
   const double joint = std::min({v - row, 1 - (v - row), 4 * (u - std::floor(u)) / 2, 4 * (1 - (u - std::floor(u))) / 2});
-  return 0.04 * std::min(1.0, joint * 8);
+  return 0.015 * std::min(1.0, joint * 8);
 }
 
 void addColumn(Mesh& mesh, const Vector3d& foot, int flutes) {
-  const int u = 72, v = 16;
+  const int u = 74, v = 16;
   addGrid(mesh, u, v, true, [&](double s, double t) {
-    const double turn = -2 * kPi * s, r = 0.3 * (1 - 0.15 * t * t) + 0.05 * std::exp(-60 * t * t) + 0.05 * std::exp(-60 * (1 - t) * (1 - t)) + 0.012 * std::cos(flutes * turn);
+    const double turn = -2 * kPi * s, r = 0.3 * (1 - 0.15 * t * t) + 0.05 * std::exp(-60 * t * t) + 0.05 * std::exp(-60 * (1 - t) * (1 - t)) + 0.006 * std::cos(flutes * turn);
     const double close = t == 0 || t == 1 ? 0.0 : 1.0;  // its ends are closed by a fan without thickness
     return Vector3d(foot + Vector3d(close * r * std::cos(turn), close * r * std::sin(turn), 2.8 * t));
   });
@@ -125,7 +125,7 @@ void addColumn(Mesh& mesh, const Vector3d& foot, int flutes) {
 
 void addDentils(Mesh& mesh, int n, const Vector3d& corner, int teeth) {
   addGrid(mesh, n, n, false, [&](double s, double t) {
-    const double tooth = std::sin(2 * kPi * teeth * s) > 0 && t > 0.35 && t < 0.7 ? 0.12 : 0.0;
+    const double tooth = std::sin(2 * kPi * teeth * s) > 0 && t > 0.35 && t < 0.7 ? 0.05 : 0.0;
     return Vector3d(corner + Vector3d(2.8 * s, -0.3 * t * t - tooth - 0.05 * std::cos(9 * t), 0.9 * t));
   });
 }
@@ -193,16 +193,16 @@ Mesh facade() {
     const int kind = bay % 40 % 4;
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     if (kind == 0) {
-      addPanel(mesh, 36, corner, [&](double s, double t) { return rosette(s, t, 5 + bay % 7); });
+      addPanel(mesh, 35, corner, [&](double s, double t) { return rosette(s, t, 5 + bay % 7); });
       const int here = std::min(fins, 23);
-      addFins(mesh, first, 36, here);
+      addFins(mesh, first, 35, here);
       fins -= here;
     } else if (kind == 1) {
-      addPanel(mesh, 36, corner, [&](double s, double t) { return blocks(s, t, 6 + bay % 3); });
+      addPanel(mesh, 35, corner, [&](double s, double t) { return blocks(s, t, 6 + bay % 3); });
     } else if (kind == 2) {
       addColumn(mesh, corner + Vector3d(1.4, -0.5, 0), 12 + bay % 9);
     } else {
-      addDentils(mesh, 34, corner, 6 + bay % 5);
+      addDentils(mesh, 33, corner, 6 + bay % 5);
     }
   }
   return mesh;

@@ -20,6 +20,7 @@ constexpr std::size_t kCell = 32'000;        // triangles; what two cores' cache
 constexpr std::size_t kSplit = 100'000;      // a patch with more is simplified in cells first
 constexpr double kOneRound = 0.25;           // of the triangles are left by a round of cells that touch …
 constexpr double kDeeper = 0.18;             // … of which each goes this far, so that the cheapest steps of all can be chosen
+constexpr std::size_t kRefineFrom = 3;       // times the triangles that shall be left
 constexpr double kWorthwhile = 0.9;          // a round that leaves more was the last one
 
 // A cell as a patch of its own.
@@ -172,6 +173,18 @@ std::vector<Collapse> recordCollapses(const Shape& shape, const CollapseOptions&
   if (!limited.lossless && limited.max_deviation_m >= shape.diagonal() / 2 && last.triangles() > 0 && !progress.cancelled())
     log.push_back({0, 0, static_cast<std::uint32_t>(last.triangles()), Eigen::Vector3d::Zero()});
   return log;
+}
+
+std::vector<Collapse> refined(const Shape& shape, const std::vector<Collapse>& log, std::size_t triangles, const Progress& progress) {
+  std::vector<Collapse> result;
+  for (std::size_t left = shape.triangles.size(); result.size() < log.size() && left > kRefineFrom * triangles; result.push_back(log[result.size()]))
+    left -= log[result.size()].triangles;
+  CollapseOptions options;
+  options.memoryless = true;
+  options.max_deviation_m = std::numeric_limits<double>::max();
+  const Shape start = replay(shape, log, result.size());
+  for (const auto& step : Collapser(patchOf(start, options), options, start).run(triangles, progress)) result.push_back(step.collapse);
+  return result;
 }
 
 Shape replay(const Shape& shape, const std::vector<Collapse>& log, std::size_t steps, std::vector<std::uint32_t>* image) {

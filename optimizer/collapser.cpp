@@ -25,7 +25,57 @@ Collapser::Collapser(Patch patch, const CollapseOptions& options, const Shape& w
       next_corner_(3 * patch_.triangles.size(), kNone), corner_count_(patch_.positions.size(), 0), age_(patch_.positions.size(), 0),
       mark_(patch_.positions.size(), 0) {
   linkCorners();
+  if (options_.memoryless) {
+    solids_.resize(patch_.positions.size());
+    for (std::uint32_t v = 0; v < solids_.size(); ++v) sumSolid(v);
+  }
   pushAll();
+}
+
+void Collapser::Solid::add(const Vector3d& area_vector, const Vector3d& point, double sign) {
+  sweep.addPlane(area_vector, point, sign);
+  normal += sign * area_vector;
+  offset += sign * area_vector.dot(point);
+}
+
+void Collapser::Solid::add(const Solid& other) {
+  sweep += other.sweep;
+  normal += other.normal;
+  offset += other.offset;
+}
+
+void Collapser::sumSolid(std::uint32_t v) {
+  Solid sum;
+  forTriangles(v, [&](std::uint32_t i) {
+    const auto& t = patch_.triangles[i];
+    const Vector3d& p = patch_.positions[t[0]];
+    sum.add((patch_.positions[t[1]] - p).cross(patch_.positions[t[2]] - p), p, 1);
+  });
+  solids_[v] = sum;
+}
+
+// The quadric by which joining a and b is judged, and the best place for it.
+Quadric Collapser::measure(std::uint32_t a, std::uint32_t b, Vector3d& p) {
+  Quadric q = patch_.quadrics[a];
+  q += patch_.quadrics[b];
+  if (!options_.memoryless) {
+    p = place(a, b, q);
+    return q;
+  }
+  Solid solid = solids_[a];
+  solid.add(solids_[b]);
+  forTriangles(a, [&](std::uint32_t i) {  // those of both were counted twice
+    const auto& t = patch_.triangles[i];
+    if (t[0] != b && t[1] != b && t[2] != b) return;
+    const Vector3d& corner = patch_.positions[t[0]];
+    solid.add((patch_.positions[t[1]] - corner).cross(patch_.positions[t[2]] - corner), corner, -1);
+  });
+  q.scale((patch_.positions[a] - patch_.positions[b]).squaredNorm());  // what holds edges, in the same unit: m⁶
+  q += solid.sweep;
+  const Vector3d middle = 0.5 * (patch_.positions[a] + patch_.positions[b]);
+  p = q.minimumInPlane(middle, solid.normal, solid.offset).cwiseMax(-half_size_).cwiseMin(half_size_);
+  if (!((p - middle).squaredNorm() <= (patch_.positions[a] - patch_.positions[b]).squaredNorm() * 4)) p = middle;
+  return q;
 }
 
 void Collapser::linkCorners() {
@@ -67,11 +117,10 @@ void Collapser::push(std::uint32_t a, std::uint32_t b) {
   if (a > b) std::swap(a, b);
   if (fixed(b)) std::swap(a, b);
   if (fixed(b)) return;
-  Quadric q = patch_.quadrics[a];
-  q += patch_.quadrics[b];
-  const Vector3d p = place(a, b, q);
+  Vector3d p;
+  const Quadric q = measure(a, b, p);
   const double cost = q(p);
-  if (cost > 4 * q.weight * options_.max_deviation_m * options_.max_deviation_m) return;
+  if (!options_.memoryless && cost > 4 * q.weight * options_.max_deviation_m * options_.max_deviation_m) return;
   if (options_.lossless) {
     Quadric f = patch_.features[a];
     f += patch_.features[b];
@@ -153,6 +202,14 @@ void Collapser::apply(std::uint32_t a, std::uint32_t b, const Vector3d& p) {
   if (options_.lossless) patch_.features[a] += patch_.features[b];
   ++age_[a];
   ++age_[b];
+  if (!options_.memoryless) return;
+  sumSolid(a);
+  ++epoch_;
+  mark_[a] = epoch_;
+  forTriangles(a, [&](std::uint32_t i) {
+    for (const auto n : patch_.triangles[i])
+      if (mark_[n] != epoch_) mark_[n] = epoch_, sumSolid(n);
+  });
 }
 
 void Collapser::pushAround(std::uint32_t v) {
@@ -179,9 +236,17 @@ std::vector<Step> Collapser::run(std::size_t floor, const Progress& progress) {
     Candidate c = heap_.back();
     heap_.pop_back();
     if (c.age != std::uint64_t{age_[c.a]} + age_[c.b] || corner_count_[c.a] + corner_count_[c.b] > kMaxCorners) continue;
-    Quadric q = patch_.quadrics[c.a];
-    q += patch_.quadrics[c.b];
-    const Vector3d p = place(c.a, c.b, q);
+    Vector3d p;
+    const Quadric q = measure(c.a, c.b, p);
+    if (options_.memoryless) {  // what is around may have changed since it was looked at
+      const double now = q(p);
+      if (now > 1.000001 * c.cost) {
+        c.cost = now;
+        heap_.push_back(c);
+        std::push_heap(heap_.begin(), heap_.end());
+        continue;
+      }
+    }
     const Effect e = effect(c.a, c.b, p);
     if (e.vanishing == 0 || (options_.lossless && (e.flips || e.surviving == 0))) continue;
     const double cost = price(c, q, e);

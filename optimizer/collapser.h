@@ -56,11 +56,21 @@ class Collapser {
   };
   using Corners = std::array<Eigen::Vector3d, 3>;
 
+  struct Solid {  // of the triangles around a vertex: squared volume swept by moving it, and where that volume is kept
+    Quadric sweep;
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    double offset = 0;
+    void add(const Eigen::Vector3d& area_vector, const Eigen::Vector3d& point, double sign);
+    void add(const Solid& other);
+  };
+
   void linkCorners();
   void pushAll();
   void push(std::uint32_t a, std::uint32_t b);
   void pushAround(std::uint32_t v);
   Eigen::Vector3d place(std::uint32_t a, std::uint32_t b, const Quadric& q) const;
+  void sumSolid(std::uint32_t v);
+  Quadric measure(std::uint32_t a, std::uint32_t b, Eigen::Vector3d& p);  // sets the place, too
   Effect effect(std::uint32_t a, std::uint32_t b, const Eigen::Vector3d& p);
   void addEffect(std::uint32_t v, std::uint32_t other, bool first, const Eigen::Vector3d& p, Effect& effect);
   double price(const Candidate& c, const Quadric& q, const Effect& e) const;
@@ -97,6 +107,7 @@ class Collapser {
   Patch patch_;
   std::size_t alive_ = 0;
   std::vector<std::uint32_t> first_corner_, last_corner_, next_corner_, corner_count_, age_, mark_;
+  std::vector<Solid> solids_;            // memoryless only
   std::vector<Candidate> heap_;
   std::vector<Corners> before_, after_;  // the triangles around a candidate
   std::uint32_t epoch_ = 0;

@@ -25,11 +25,12 @@ struct Deviation {
   double max_m = 0;   // sampled symmetric Hausdorff distance
   double mean_m = 0;  // mean of the two directions' area-weighted means
   double area_m2 = 0; // of the shape before
+  double turn_rad = 0;  // mean angle between the normals of the shape before and of what is nearest; its area decides. 0..π/2
 };
 
 // Measures how far shapes are from the one that they were made of: points spread by area on each, and every vertex for the
 // maximum, each against the other's nearest triangle. An empty shape counts as the centre: it was dropped.
-// Keeps a reference to `before`.
+// Parallel, the same figures for any number of threads. Keeps a reference to `before`.
 class DeviationMeter {
  public:
   DeviationMeter(const Shape& before, std::uint32_t samples, std::uint64_t seed);

@@ -129,7 +129,7 @@ Patch patchOf(const Shape& shape, const CollapseOptions& options) {
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t chunk) {  // each its own vertices; the features one after the other below
     std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
     for (auto v = chunk * kChunk; v < std::min(shape.positions.size(), (chunk + 1) * kChunk); ++v) {
-      patch.quadrics[v] = finder.planesAround(static_cast<std::uint32_t>(v));
+      if (!options.memoryless) patch.quadrics[v] = finder.planesAround(static_cast<std::uint32_t>(v));
       finder.findFeatures(static_cast<std::uint32_t>(v), edges, found[chunk]);
     }
   });
