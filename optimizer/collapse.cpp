@@ -171,7 +171,7 @@ std::vector<Collapse> recordCollapses(const Shape& shape, const CollapseOptions&
   for (const auto& step : last.run(0, progress)) log.push_back(step.collapse);
   // The last step of all: whatever is left goes at once.
   if (!limited.lossless && limited.max_deviation_m >= shape.diagonal() / 2 && last.triangles() > 0 && !progress.cancelled())
-    log.push_back({0, 0, static_cast<std::uint32_t>(last.triangles()), Eigen::Vector3d::Zero()});
+    log.push_back({0, 0, static_cast<std::uint32_t>(last.triangles()), false, Eigen::Vector3d::Zero()});
   return log;
 }
 

@@ -16,6 +16,7 @@ namespace standpoint {
 struct Collapse {
   std::uint32_t kept = 0, removed = 0;
   std::uint32_t triangles = 0;  // that vanish with it, of one copy of the shape
+  bool flat = false;            // it moves the surface by no more than rounding does
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 

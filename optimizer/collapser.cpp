@@ -261,7 +261,7 @@ std::vector<Step> Collapser::run(std::size_t floor, const Progress& progress) {
     apply(c.a, c.b, p);
     patch_.deviation_m[c.a] = static_cast<float>(deviation);
     dearest = std::max(dearest, cost);
-    log.push_back({{c.a, c.b, e.vanishing, p}, dearest, static_cast<float>(deviation)});
+    log.push_back({{c.a, c.b, e.vanishing, !options_.memoryless && q(p) <= 4 * q.weight * rounding_ * rounding_, p}, dearest, static_cast<float>(deviation)});
     pushAround(c.a);
   }
   return log;

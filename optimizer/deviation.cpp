@@ -145,13 +145,15 @@ std::vector<SurfacePoint> pointsByArea(std::span<const Vector3d> positions, std:
   return points;
 }
 
-DeviationMeter::DeviationMeter(const Shape& before, std::uint32_t samples, std::uint64_t seed)
-    : before_(before), samples_(samples), seed_(seed), tree_(before.positions, before.triangles),
+DeviationMeter::DeviationMeter(const Shape& before, const TriangleTree& tree, std::uint32_t samples, std::uint64_t seed)
+    : before_(before), samples_(samples), seed_(seed), tree_(tree),
       points_(pointsByArea(before.positions, before.triangles, samples, {seed, 0})) {
   for (const auto& t : before.triangles) area_m2_ += areaOf(before.positions, t);
 }
 
 Deviation DeviationMeter::of(const Shape& after, const std::vector<std::uint32_t>& image) const { return measure(after, image, true); }
+
+Deviation DeviationMeter::ofItself() const { return {.area_m2 = area_m2_}; }
 
 Deviation DeviationMeter::measure(const Shape& after, const std::vector<std::uint32_t>& image, bool vertices) const {
   Deviation result;

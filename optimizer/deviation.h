@@ -12,6 +12,8 @@
 
 namespace standpoint {
 
+inline constexpr std::uint32_t kDeviationSamples = 100'000;  // on all placed surfaces, each way
+
 struct SurfacePoint {
   std::uint32_t triangle = 0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -30,13 +32,14 @@ struct Deviation {
 
 // Measures how far shapes are from the one that they were made of: points spread by area on each, and every vertex for the
 // maximum, each against the other's nearest triangle. An empty shape counts as the centre: it was dropped.
-// Parallel, the same figures for any number of threads. Keeps a reference to `before`.
+// Parallel, the same figures for any number of threads. Keeps references to `before` and its tree.
 class DeviationMeter {
  public:
-  DeviationMeter(const Shape& before, std::uint32_t samples, std::uint64_t seed);
+  DeviationMeter(const Shape& before, const TriangleTree& tree, std::uint32_t samples, std::uint64_t seed);
 
   // `image` is replay()'s, or empty: it only makes the search faster. `after` has the same centre.
   Deviation of(const Shape& after, const std::vector<std::uint32_t>& image = {}) const;
+  Deviation ofItself() const;
   // Without a look at the vertices.
   Deviation roughlyOf(const Shape& after, const std::vector<std::uint32_t>& image) const { return measure(after, image, false); }
   // How far `after` reaches out of the shape before, where `counts` says that it matters.
@@ -58,7 +61,7 @@ class DeviationMeter {
   std::uint32_t samples_;
   std::uint64_t seed_;
   double area_m2_ = 0;
-  TriangleTree tree_;
+  const TriangleTree& tree_;
   std::vector<SurfacePoint> points_;
 };
 

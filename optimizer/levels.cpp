@@ -119,10 +119,10 @@ class DoorwayGuard {
   bool has_room_ = false;
 };
 
-std::vector<Point> measure(const Shape& shape, const ShapeLevels& made, double max_deviation_m, const Placement& placement, std::uint64_t seed, const Progress& progress) {
+std::vector<Point> measure(const Shape& shape, const TriangleTree& tree, const ShapeLevels& made, double max_deviation_m, const Placement& placement, std::uint64_t seed, const Progress& progress) {
   auto left = static_cast<std::uint32_t>(shape.triangles.size());
   std::vector<Point> points{{left}};
-  const DeviationMeter meter(shape, kSamples, seed);
+  const DeviationMeter meter(shape, tree, kSamples, seed);
   const auto target = [](std::uint32_t count) { return static_cast<std::uint32_t>(count * (count <= kFineBelow ? kFineSpacing : kCoarseSpacing)); };
   std::uint32_t next = std::min(target(left), kMostMeasured);
   std::vector<std::uint32_t> image;
@@ -161,7 +161,7 @@ std::vector<Point> lowerHull(std::vector<Point> points) {
 
 }  // namespace
 
-ShapeLevels makeLevels(const Shape& shape, const CollapseOptions& options, const Placement& placement, std::uint64_t seed, const Progress& progress) {
+ShapeLevels makeLevels(const Shape& shape, const TriangleTree& tree, const CollapseOptions& options, const Placement& placement, std::uint64_t seed, const Progress& progress) {
   ShapeLevels made;
   if (shape.triangles.empty()) return made;
   made.log = recordCollapses(shape, options, progress);
@@ -172,8 +172,8 @@ ShapeLevels makeLevels(const Shape& shape, const CollapseOptions& options, const
     for (const auto& step : made.log) left -= step.triangles;
     hull.push_back({left, 0, static_cast<std::uint32_t>(made.log.size())});
   } else {
-    made.stand_ins = standIns(shape);
-    hull = lowerHull(measure(shape, made, options.max_deviation_m, placement, seed, progress));
+    if (shape.wedges.empty()) made.stand_ins = standIns(shape);
+    hull = lowerHull(measure(shape, tree, made, options.max_deviation_m, placement, seed, progress));
   }
   for (std::size_t i = 0; i + 1 < hull.size(); ++i) {
     const double cost = std::max(0.0, slope(hull[i], hull[i + 1]));

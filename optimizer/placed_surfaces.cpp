@@ -20,12 +20,26 @@ bool keepsAngles(const Eigen::Affine3d& transform) {
   return (product - Eigen::Matrix3d::Identity() * (product.trace() / 3)).norm() <= 1e-6 * product.trace() && product.trace() > 0;
 }
 
+std::vector<std::uint32_t> usedPositions(const Mesh& mesh) {
+  std::vector<bool> is_used(mesh.positions.size(), false);
+  for (const auto& t : mesh.triangles)
+    for (const auto v : t) is_used[v] = true;
+  std::vector<std::uint32_t> used;
+  for (std::uint32_t v = 0; v < is_used.size(); ++v)
+    if (is_used[v]) used.push_back(v);
+  return used;
+}
+
 }  // namespace
 
 PlacedSurfaces::PlacedSurfaces(const Environment& environment) : solids_(environment.meshes.size() + environment.instances.size()), instances_(environment.instances.size()) {
+  std::vector<bool> placed(environment.meshes.size(), false);
+  for (const auto& instance : environment.instances) placed[instance.mesh] = true;
   tbb::parallel_for(std::size_t{0}, environment.meshes.size(), [&](std::size_t i) {
+    if (!placed[i]) return;
     for (const auto& p : environment.meshes[i]->positions) solids_[i].positions.push_back(p.cast<double>());
     solids_[i].triangles = &environment.meshes[i]->triangles;
+    solids_[i].used = usedPositions(*environment.meshes[i]);
     solids_[i].tree = std::make_unique<TriangleTree>(solids_[i].positions, *solids_[i].triangles);
   });
   tbb::parallel_for(std::size_t{0}, instances_.size(), [&](std::size_t i) {
@@ -38,6 +52,7 @@ PlacedSurfaces::PlacedSurfaces(const Environment& environment) : solids_(environ
       Solid& own = solids_[environment.meshes.size() + i];
       for (const auto& p : mesh.positions) own.positions.push_back(instance.world_from_mesh * p);
       own.triangles = mesh.triangles;
+      own.used = mesh.used;
       own.tree = std::make_unique<TriangleTree>(own.positions, *own.triangles);
       placed.solid = &own;
       placed.world_from_solid = Eigen::Affine3d::Identity();
@@ -58,14 +73,14 @@ PlacedSurfaces::PlacedSurfaces(const Environment& environment) : solids_(environ
   tree_ = std::make_unique<TriangleTree>(corners_, boxes_);
 }
 
-double PlacedSurfaces::Placed::squaredDistance(const Vector3d& p, double bound) const {
+double PlacedSurfaces::Placed::squaredDistance(const Vector3d& p, double bound, double enough) const {
   const double scale_squared = scale * scale;
-  return solid->tree->squaredDistance(solid_from_world * p, bound / scale_squared) * scale_squared;
+  return solid->tree->nearestTriangle(solid_from_world * p, bound / scale_squared, enough / scale_squared).squared * scale_squared;
 }
 
-double PlacedSurfaces::squaredDistance(const Vector3d& p) const {
-  return tree_->nearest(p, std::numeric_limits<double>::infinity(),
-                        [&](std::uint32_t i, double bound) { return instances_[i].squaredDistance(p, bound); });
+double PlacedSurfaces::squaredDistance(const Vector3d& p, double enough) const {
+  const auto to_instance = [&](std::uint32_t i, double bound) { return instances_[i].squaredDistance(p, bound, enough); };
+  return tree_->nearest(p, std::numeric_limits<double>::infinity(), to_instance, enough);
 }
 
 double PlacedSurfaces::squaredDistance(const Vector3d& p, std::size_t first, std::size_t last) const {

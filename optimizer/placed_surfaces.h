@@ -17,27 +17,29 @@ class PlacedSurfaces {
   explicit PlacedSurfaces(const Environment& environment);
 
   // From a place in the local frame to the nearest of all surfaces; infinite where there are none.
-  double squaredDistance(const Eigen::Vector3d& p) const;
+  // May end with the first that is no further than the root of `enough`.
+  double squaredDistance(const Eigen::Vector3d& p, double enough = 0) const;
   // The same to the instances [first, last) only.
   double squaredDistance(const Eigen::Vector3d& p, std::size_t first, std::size_t last) const;
   std::size_t instances() const { return instances_.size(); }
   double area(std::size_t instance) const { return instances_[instance].area; }
   std::vector<Eigen::Vector3d> points(std::size_t instance, std::uint32_t count) const;
-  // Corners of triangles, one after the other: a position that no triangle uses is no part of the surface.
-  std::size_t corners(std::size_t instance) const { return 3 * instances_[instance].solid->triangles->size(); }
-  Eigen::Vector3d corner(std::size_t instance, std::size_t i) const {
+  // Vertices, without positions that no triangle uses: those are no part of the surface.
+  std::size_t vertices(std::size_t instance) const { return instances_[instance].solid->used.size(); }
+  Eigen::Vector3d vertex(std::size_t instance, std::size_t i) const {
     const Solid& solid = *instances_[instance].solid;
-    return instances_[instance].world_from_solid * solid.positions[(*solid.triangles)[i / 3][i % 3]];
+    return instances_[instance].world_from_solid * solid.positions[solid.used[i]];
   }
 
  private:
   struct Solid {  // a mesh, or a copy of one that is distorted
     std::vector<Eigen::Vector3d> positions;
     const std::vector<Triangle>* triangles = nullptr;
+    std::vector<std::uint32_t> used;  // positions
     std::unique_ptr<TriangleTree> tree;
   };
   struct Placed {
-    double squaredDistance(const Eigen::Vector3d& p, double bound) const;
+    double squaredDistance(const Eigen::Vector3d& p, double bound, double enough = 0) const;
 
     const Solid* solid = nullptr;
     Eigen::Affine3d solid_from_world, world_from_solid;

@@ -128,24 +128,6 @@ TEST(Surfaces, KeepTheirAreasWhenNothingIsLost) {
   for (const auto& [surface, square_metres] : areaOfSurfaces(before)) EXPECT_NEAR(areaOfSurfaces(after)[surface] / square_metres, 1, 1e-6);
 }
 
-TEST(Textures, OfMeshesThatBecomeSimplerAreReportedAsLostInOneLine) {
-  const auto painted = [](Mesh mesh) {
-    mesh.texture_coordinates.assign(mesh.positions.size(), {0.5F, 0.5F});
-    mesh.colours.assign(mesh.positions.size(), {1, 2, 3, 4});
-    return mesh;
-  };
-  Environment e;
-  models::add(e, painted(models::box({1, 1, 1}, 8)));
-  models::add(e, painted(models::box({2, 1, 1}, 8)));
-  models::add(e, painted(models::box({1, 1, 1}, 1)));   // nothing to gain: it keeps what is painted on it
-  const auto result = optimized(e, 0);
-  EXPECT_TRUE(result.environment.meshes[0]->texture_coordinates.empty());
-  EXPECT_EQ(result.environment.meshes[2]->texture_coordinates.size(), e.meshes[2]->positions.size());
-  ASSERT_EQ(result.report.issues.size(), 1U);
-  EXPECT_EQ(result.report.losses(), 1U);
-  EXPECT_THAT(result.report.issues[0].message, ::testing::StartsWith("2 simplified meshes lose their texture coordinates, 2 "));
-}
-
 TEST(Budget, IsMetWithinOnePercentOnSpheresToriAndSoups) {
   for (const auto& environment : {only(models::sphere(1, 60, 90)), only(models::torus(2, 0.6, 90, 50)), only(soup(500, 1))})
     for (const double share : {0.5, 0.1, 0.02}) {
