@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -81,7 +80,7 @@ double peakMegabytes(bool reset) {
 }
 
 struct Figures {
-  double seconds = 0, megabytes = 0;
+  double seconds = 0, cpu_seconds = 0, megabytes = 0;
   std::size_t triangles = 0;
   ErrorPercent error;
 };
@@ -125,7 +124,7 @@ Figures run(const Case& c, const std::function<Simplified(const Environment&)>& 
     const Environment environment = c.make();
     peakMegabytes(true);
     const auto simplified = simplify(environment);
-    write(file, simplified.mesh, {simplified.seconds, peakMegabytes(false), simplified.mesh.triangles.size(), {}});
+    write(file, simplified.mesh, {simplified.seconds, simplified.cpu_seconds, peakMegabytes(false), simplified.mesh.triangles.size(), {}});
   });
   if (made && read(file, result, figures))
     inChild([&] {
@@ -141,28 +140,29 @@ Figures run(const Case& c, const std::function<Simplified(const Environment&)>& 
 Simplified ours(const Environment& environment, std::size_t budget, std::size_t threads) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
   Progress progress;
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const auto result = optimize(environment, {budget, 1e6, {}, {}}, progress);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  auto simplified = watch.stop({});
   if (!result) return {};
   std::printf("    (states a mean of %.3f mm and a maximum of %.2f mm)\n", 1000 * result->all.mean_deviation_m, 1000 * result->all.max_deviation_m);
   std::fflush(stdout);
-  return {flattened(result->environment), seconds};
+  simplified.mesh = flattened(result->environment);
+  return simplified;
 }
 
-void print(const char* who, const Figures& f, double seconds_of_ours) {
-  std::printf("  %-22s %9zu triangles %8.2f s  x%6.2f   mean %.4f %%   max %.3f %%   %6.0f MB\n", who, f.triangles, f.seconds,
-              seconds_of_ours > 0 ? f.seconds / seconds_of_ours : 1.0, f.error.mean, f.error.max, f.megabytes);
+void print(const char* who, const Figures& f, const Figures& ours) {
+  std::printf("  %-22s %9zu triangles %7.2f s (x%6.2f) %7.2f s of CPU (x%6.2f)  mean %.4f %%  max %.3f %%  %6.0f MB\n", who, f.triangles, f.seconds, f.seconds / ours.seconds,
+              f.cpu_seconds, f.cpu_seconds / ours.cpu_seconds, f.error.mean, f.error.max, f.megabytes);
   std::fflush(stdout);
 }
 
 void compare(const Case& c) {
   std::printf("%s -> %zu\n", c.name.c_str(), c.budget);
   const auto two = run(c, [&](const Environment& e) { return ours(e, c.budget, 2); });
-  print("ours, two threads", two, two.seconds);
-  print("ours, one thread", run(c, [&](const Environment& e) { return ours(e, c.budget, 1); }), two.seconds);
-  print("meshoptimizer", run(c, [&](const Environment& e) { return meshoptimizer(flattened(e), c.budget); }), two.seconds);
-  if (c.lindstrom_turk) print("CGAL Lindstrom-Turk", run(c, [&](const Environment& e) { return lindstromTurk(flattened(e), c.budget); }), two.seconds);
+  print("ours, two threads", two, two);
+  print("ours, one thread", run(c, [&](const Environment& e) { return ours(e, c.budget, 1); }), two);
+  print("meshoptimizer", run(c, [&](const Environment& e) { return meshoptimizer(flattened(e), c.budget); }), two);
+  if (c.lindstrom_turk) print("CGAL Lindstrom-Turk", run(c, [&](const Environment& e) { return lindstromTurk(flattened(e), c.budget); }), two);
 }
 
 Case caseOf(const std::string& argument) {

@@ -59,7 +59,7 @@ class Relief {
 
  private:
   static constexpr int kWaves = 48;
-  static constexpr double kRoughness = 0.12;
+  static constexpr double kRoughness = 0.137;
   struct Wave {
     Vector3d vector;
     double phase, amplitude;

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
@@ -24,9 +26,10 @@ namespace {
 using Kernel = CGAL::Simple_cartesian<double>;
 using Point = Kernel::Point_3;
 using Surface = CGAL::Surface_mesh<Point>;
-using Clock = std::chrono::steady_clock;
 
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double wallSeconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+double cpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 Point pointOf(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -102,6 +105,10 @@ OneWay oneWay(const Corners& from, const Corners& to) {
 
 }  // namespace
 
+Stopwatch::Stopwatch() : wall_(wallSeconds()), cpu_(cpuSeconds()) {}
+
+Simplified Stopwatch::stop(Mesh mesh) const { return {std::move(mesh), wallSeconds() - wall_, cpuSeconds() - cpu_}; }
+
 Simplified lindstromTurk(const Mesh& mesh, std::size_t target) {
   std::vector<Point> points;
   for (const auto& p : mesh.positions) points.push_back(pointOf(p));
@@ -111,9 +118,9 @@ Simplified lindstromTurk(const Mesh& mesh, std::size_t target) {
   CGAL::Polygon_mesh_processing::orient_polygon_soup(points, faces);
   Surface surface;
   CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(points, faces, surface);
-  const auto start = Clock::now();
+  const Stopwatch watch;
   CGAL::Surface_mesh_simplification::edge_collapse(surface, FewEnough{surface, target});
-  Simplified result{{}, since(start)};
+  auto result = watch.stop({});
   surface.collect_garbage();
   result.mesh = meshOf(surface);
   return result;
@@ -123,10 +130,10 @@ Simplified meshoptimizer(const Mesh& mesh, std::size_t target) {
   std::vector<unsigned> indices;
   for (const auto& t : mesh.triangles) indices.insert(indices.end(), t.begin(), t.end());
   std::vector<unsigned> result(indices.size());
-  const auto start = Clock::now();
+  const Stopwatch watch;
   const auto count = meshopt_simplify(result.data(), indices.data(), indices.size(), mesh.positions[0].data(), mesh.positions.size(), sizeof(mesh.positions[0]),
                                       3 * target, std::numeric_limits<float>::max(), 0, nullptr);
-  Simplified made{{}, since(start)};
+  auto made = watch.stop({});
   made.mesh.positions = mesh.positions;
   for (std::size_t i = 0; i + 2 < count; i += 3) {
     made.mesh.triangles.push_back({result[i], result[i + 1], result[i + 2]});

@@ -10,10 +10,21 @@ namespace standpoint::bench {
 struct Simplified {
   Mesh mesh;
   double seconds = 0;
+  double cpu_seconds = 0;  // of all threads: what counts where others use the machine, too
 };
 
 Simplified lindstromTurk(const Mesh& mesh, std::size_t target);   // CGAL's Surface_mesh_simplification, its default cost and placement
 Simplified meshoptimizer(const Mesh& mesh, std::size_t target);   // meshopt_simplify without a limit on the error
+
+// Since it was made.
+class Stopwatch {
+ public:
+  Stopwatch();
+  Simplified stop(Mesh mesh) const;
+
+ private:
+  double wall_, cpu_;
+};
 
 struct ErrorPercent {  // of the diagonal of the mesh before
   double mean = 0;     // of the two directions' means

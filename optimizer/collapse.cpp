@@ -187,32 +187,49 @@ std::vector<Collapse> refined(const Shape& shape, const std::vector<Collapse>& l
   return result;
 }
 
-Shape replay(const Shape& shape, const std::vector<Collapse>& log, std::size_t steps, std::vector<std::uint32_t>* image) {
-  Shape result;
-  result.centre = shape.centre;
-  result.half_size = shape.half_size;
-  result.positions = shape.positions;
-  std::vector<std::uint32_t> joined(shape.positions.size());
-  std::iota(joined.begin(), joined.end(), 0U);
-  if (image) image->assign(shape.triangles.size(), kNone);
-  if (steps > 0 && log[steps - 1].kept == log[steps - 1].removed) return result;
-  for (std::size_t i = 0; i < steps; ++i) {
-    joined[log[i].removed] = log[i].kept;
-    result.positions[log[i].kept] = log[i].position;
+LogPlayer::LogPlayer(const Shape& shape, const std::vector<Collapse>& log) : log_(log), form_(shape), joined_(shape.positions.size()), origin_(shape.triangles.size()) {
+  form_.wedges.clear();  // they are of the beginning
+  std::iota(joined_.begin(), joined_.end(), 0U);
+  std::iota(origin_.begin(), origin_.end(), 0U);
+}
+
+const Shape& LogPlayer::at(std::size_t steps) {
+  if (steps <= done_) return form_;
+  for (; done_ < steps; ++done_) {
+    const auto& step = log_[done_];
+    joined_[step.removed] = step.kept;
+    form_.positions[step.kept] = step.position;
   }
   const auto root = [&](std::uint32_t v) {
-    while (joined[v] != v) v = joined[v] = joined[joined[v]];
+    while (joined_[v] != v) v = joined_[v] = joined_[joined_[v]];
     return v;
   };
-  for (std::size_t i = 0; i < shape.triangles.size(); ++i) {
-    const auto& t = shape.triangles[i];
+  const bool nothing_left = log_[steps - 1].kept == log_[steps - 1].removed;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < form_.triangles.size() && !nothing_left; ++i) {
+    const auto& t = form_.triangles[i];
     const Triangle now{root(t[0]), root(t[1]), root(t[2])};
     if (now[0] == now[1] || now[1] == now[2] || now[2] == now[0]) continue;
-    if (image) (*image)[i] = static_cast<std::uint32_t>(result.triangles.size());
-    result.triangles.push_back(now);
-    result.surface_of_triangle.push_back(shape.surface_of_triangle[i]);
+    form_.triangles[kept] = now;
+    form_.surface_of_triangle[kept] = form_.surface_of_triangle[i];
+    origin_[kept++] = origin_[i];
   }
+  form_.triangles.resize(kept);
+  form_.surface_of_triangle.resize(kept);
+  return form_;
+}
+
+std::vector<std::uint32_t> LogPlayer::image() const {
+  std::vector<std::uint32_t> result(origin_.size(), kNone);
+  for (std::uint32_t i = 0; i < form_.triangles.size(); ++i) result[origin_[i]] = i;
   return result;
+}
+
+Shape replay(const Shape& shape, const std::vector<Collapse>& log, std::size_t steps, std::vector<std::uint32_t>* image) {
+  LogPlayer player(shape, log);
+  player.at(steps);
+  if (image) *image = player.image();
+  return player.take();
 }
 
 }  // namespace standpoint

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -39,8 +40,24 @@ std::vector<Collapse> recordCollapses(const Shape& shape, const CollapseOptions&
 // or one or two less.
 std::vector<Collapse> refined(const Shape& shape, const std::vector<Collapse>& log, std::size_t triangles, const Progress& progress);
 
-// The shape after the first `steps` steps. Vertices that did not move keep their exact position.
-// `image`, when given, receives for each triangle of `shape` its index in the result, or the largest number if it vanished.
+// Plays a log: the shape after its first steps, which may only become more. Vertices that did not move keep their exact position.
+// Keeps references to both. Going on costs what is left, so that looking at many stages of a long log is cheap.
+class LogPlayer {
+ public:
+  LogPlayer(const Shape& shape, const std::vector<Collapse>& log);
+  const Shape& at(std::size_t steps);
+  // For each triangle of the shape its index in what at() gave last, or the largest number if it vanished.
+  std::vector<std::uint32_t> image() const;
+  Shape take() { return std::move(form_); }
+
+ private:
+  const std::vector<Collapse>& log_;
+  Shape form_;
+  std::size_t done_ = 0;
+  std::vector<std::uint32_t> joined_, origin_;
+};
+
+// All of it at once.
 Shape replay(const Shape& shape, const std::vector<Collapse>& log, std::size_t steps, std::vector<std::uint32_t>* image = nullptr);
 
 }  // namespace standpoint

@@ -20,7 +20,7 @@ constexpr double kLargestTurnCosine = 0.2;       // a triangle may turn by 78° 
 }  // namespace
 
 Collapser::Collapser(Patch patch, const CollapseOptions& options, const Shape& whole)
-    : options_(options), rounding_(whole.rounding()), diagonal_(whole.diagonal()), half_size_(whole.half_size), patch_(std::move(patch)),
+    : options_(options), rounding_(whole.rounding()), capped_(options.max_deviation_m < whole.diagonal()), half_size_(whole.half_size), patch_(std::move(patch)),
       alive_(patch_.triangles.size()), first_corner_(patch_.positions.size(), kNone), last_corner_(patch_.positions.size(), kNone),
       next_corner_(3 * patch_.triangles.size(), kNone), corner_count_(patch_.positions.size(), 0), age_(patch_.positions.size(), 0),
       mark_(patch_.positions.size(), 0) {
@@ -135,7 +135,7 @@ void Collapser::addEffect(std::uint32_t v, std::uint32_t other, bool first, cons
     const bool shared = t[0] == other || t[1] == other || t[2] == other;
     if (shared && !first) return;
     std::array<Vector3d, 3> old{patch_.positions[t[0]], patch_.positions[t[1]], patch_.positions[t[2]]};
-    before_.push_back(old);
+    if (capped_) before_.push_back(old);
     if (shared) {
       ++e.vanishing;
       for (int k = 0; k < 3; ++k) e.longest_edge = std::max(e.longest_edge, (old[k] - old[(k + 1) % 3]).norm());
@@ -145,7 +145,7 @@ void Collapser::addEffect(std::uint32_t v, std::uint32_t other, bool first, cons
     auto now = old;
     for (int k = 0; k < 3; ++k)
       if (t[k] == v) now[k] = p;
-    after_.push_back(now);
+    if (capped_) after_.push_back(now);
     const Vector3d e1 = old[1] - old[0], e2 = old[2] - old[0], f1 = now[1] - now[0], f2 = now[2] - now[0];
     const Vector3d n = e1.cross(e2), m = f1.cross(f2);
     const bool flat_now = isFlat(m, f1, f2);
@@ -173,7 +173,7 @@ double Collapser::price(const Candidate& c, const Quadric& q, const Effect& e) c
 bool Collapser::tooFar(std::uint32_t a, std::uint32_t b, const Vector3d& p, const Effect& e, double& deviation) const {
   const double before = std::max(patch_.deviation_m[a], patch_.deviation_m[b]);
   deviation = before;
-  if (options_.max_deviation_m >= diagonal_) return false;
+  if (!capped_) return false;
   const auto distance = [](const Vector3d& from, const std::vector<std::array<Vector3d, 3>>& star) {
     double best = std::numeric_limits<double>::infinity();
     for (const auto& t : star) best = std::min(best, (closestPoint(from, t[0], t[1], t[2]) - from).squaredNorm());

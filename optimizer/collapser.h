@@ -102,7 +102,8 @@ class Collapser {
   }
 
   CollapseOptions options_;
-  double rounding_, diagonal_;
+  double rounding_;
+  bool capped_;  // there is a limit that can be met
   Eigen::Vector3d half_size_;
   Patch patch_;
   std::size_t alive_ = 0;

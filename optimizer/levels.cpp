@@ -125,15 +125,15 @@ std::vector<Point> measure(const Shape& shape, const TriangleTree& tree, const S
   const DeviationMeter meter(shape, tree, kSamples, seed);
   const auto target = [](std::uint32_t count) { return static_cast<std::uint32_t>(count * (count <= kFineBelow ? kFineSpacing : kCoarseSpacing)); };
   std::uint32_t next = std::min(target(left), kMostMeasured);
-  std::vector<std::uint32_t> image;
   std::uint32_t refused = 0;
+  LogPlayer player(shape, made.log);
   const DoorwayGuard guard(shape, meter, placement);
   for (std::uint32_t i = 0; i < made.log.size(); ++i) {
     left -= made.log[i].triangles;
     if (left > next && i + 1 < made.log.size()) continue;
     if (progress.cancelled()) return points;
-    const Shape form = replay(shape, made.log, i + 1, &image);
-    const auto deviation = meter.roughlyOf(form, image);
+    const Shape& form = player.at(i + 1);
+    const auto deviation = meter.roughlyOf(form, player.image());
     if (guard.refuses(form)) ++refused;
     else points.push_back({left, deviation.mean_m * deviation.area_m2, i + 1, -1, refused});
     next = target(left);

@@ -98,7 +98,9 @@ Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOp
   reportDropped(shared, works, result.report);
   progress.stage("Measure the whole", 0.9, 1);
   if (result.all.triangles_after > 0) {  // of an empty one the products' own figures, to their centres, are all there is
-    const auto whole = sceneDeviation(withDropped(shared, tangible, options), result.environment, kDeviationSamples, progress);
+    std::vector<PlacedSurfaces::Known> known;
+    for (const auto& work : works) known.push_back({&work.shape, work.tree.get()});
+    const auto whole = sceneDeviation(withDropped(shared, tangible, options), result.environment, kDeviationSamples, known, progress);
     result.all.max_deviation_m = whole.max_m + *std::max_element(residual_m.begin(), residual_m.end());
     result.all.mean_deviation_m = whole.mean_m;
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/environment.h"
+#include "optimizer/shape.h"
 #include "optimizer/triangle_tree.h"
 
 namespace standpoint {
@@ -14,7 +15,12 @@ namespace standpoint {
 // that a mesh with a thousand copies is held once. Keeps references: the environment's meshes must outlive it.
 class PlacedSurfaces {
  public:
-  explicit PlacedSurfaces(const Environment& environment);
+  // For a mesh: its welded shape and that one's tree, if someone has them already.
+  struct Known {
+    const Shape* shape = nullptr;
+    const TriangleTree* tree = nullptr;
+  };
+  explicit PlacedSurfaces(const Environment& environment, const std::vector<Known>& known = {});
 
   // From a place in the local frame to the nearest of all surfaces; infinite where there are none.
   // May end with the first that is no further than the root of `enough`.
@@ -28,15 +34,18 @@ class PlacedSurfaces {
   std::size_t vertices(std::size_t instance) const { return instances_[instance].solid->used.size(); }
   Eigen::Vector3d vertex(std::size_t instance, std::size_t i) const {
     const Solid& solid = *instances_[instance].solid;
-    return instances_[instance].world_from_solid * solid.positions[solid.used[i]];
+    return instances_[instance].world_from_solid * (*solid.positions)[solid.used[i]];
   }
 
  private:
   struct Solid {  // a mesh, or a copy of one that is distorted
-    std::vector<Eigen::Vector3d> positions;
+    std::vector<Eigen::Vector3d> own_positions;
+    std::unique_ptr<TriangleTree> own_tree;
+    const std::vector<Eigen::Vector3d>* positions = &own_positions;
     const std::vector<Triangle>* triangles = nullptr;
+    const TriangleTree* tree = nullptr;
     std::vector<std::uint32_t> used;  // positions
-    std::unique_ptr<TriangleTree> tree;
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // what was taken from the positions
   };
   struct Placed {
     double squaredDistance(const Eigen::Vector3d& p, double bound, double enough = 0) const;

@@ -8,8 +8,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
-#include "optimizer/placed_surfaces.h"
-
 namespace standpoint {
 
 namespace {
@@ -103,9 +101,9 @@ double farthest(const PlacedSurfaces& from, const PlacedSurfaces& to, const std:
 
 }  // namespace
 
-Deviation sceneDeviation(const Environment& before, const Environment& after, std::uint32_t samples, const Progress& progress) {
+Deviation sceneDeviation(const Environment& before, const Environment& after, std::uint32_t samples, const std::vector<PlacedSurfaces::Known>& known, const Progress& progress) {
   if (before.instances.empty() || after.instances.empty()) return {};
-  const PlacedSurfaces a(before), b(after);
+  const PlacedSurfaces a(before, known), b(after);
   const auto same_before = unchanged(before, after), same_after = unchanged(after, before);
   const OneWay there = ofPoints(a, b, same_before, samples, progress), back = ofPoints(b, a, same_after, samples, progress);
   double max_squared = std::max(there.max_squared, back.max_squared);

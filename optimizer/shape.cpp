@@ -6,6 +6,8 @@
 #include <numeric>
 #include <tuple>
 
+#include <tbb/parallel_sort.h>
+
 namespace standpoint {
 
 namespace {
@@ -17,7 +19,7 @@ template <class Key>
 std::vector<std::uint32_t> firstWithKey(std::size_t count, Key key) {
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
+  tbb::parallel_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
   std::vector<std::uint32_t> first(count);
   for (std::size_t i = 0; i < count; ++i) first[order[i]] = i > 0 && key(order[i - 1]) == key(order[i]) ? first[order[i - 1]] : order[i];
   return first;
@@ -39,7 +41,7 @@ void removeRepetitions(Shape& shape) {
   };
   std::vector<std::uint32_t> order(shape.triangles.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return turned(a) < turned(b); });
+  tbb::parallel_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return std::tuple(turned(a), a) < std::tuple(turned(b), b); });
   std::vector<bool> again(order.size(), false);
   for (std::size_t i = 1; i < order.size(); ++i) again[order[i]] = turned(order[i - 1]) == turned(order[i]);
   std::size_t kept = 0;

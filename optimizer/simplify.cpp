@@ -14,6 +14,7 @@ namespace standpoint {
 
 namespace {
 
+constexpr std::uint32_t kRoughSamples = 5000;
 constexpr std::size_t kRefineMin = 300, kRefineMost = 200'000;  // triangles of a form that is worth refining, and of one whose last steps are few enough
 
 // Largest first, so that the last threads do not wait for the largest.
@@ -36,12 +37,37 @@ void forEachLargestFirst(std::vector<Work>& works, Progress& progress, Task task
   });
 }
 
-void measure(Work& work, const DeviationMeter& meter, std::size_t taken) {
-  std::vector<std::uint32_t> image;
+void takeLevel(Work& work, std::size_t taken, std::vector<std::uint32_t>& image) {
   const auto steps = taken > 0 && work.levels.levels[taken - 1].stand_in < 0 ? work.levels.levels[taken - 1].collapses : 0;
   work.steps.assign(work.levels.log.begin(), work.levels.log.begin() + steps);
   work.lighter = atLevel(work.shape, work.levels, taken, image);
+}
+
+void measure(Work& work, const DeviationMeter& meter, std::size_t taken) {
+  std::vector<std::uint32_t> image;
+  takeLevel(work, taken, image);
   work.deviation = taken > 0 ? meter.of(work.lighter, image) : meter.ofItself();
+}
+
+// The same count by steps that look at the surface as it is, which would not know seams. Only where that turns out nearer to the
+// original, and within the limit.
+bool refine(Work& work, const DeviationMeter& meter, std::uint32_t mesh, const Progress& progress) {
+  std::vector<std::uint32_t> image, refined_image;
+  takeLevel(work, work.taken, image);
+  const auto triangles = work.lighter.triangles.size();
+  if (work.lossless || work.steps.empty() || !work.shape.wedges.empty() || triangles < kRefineMin || triangles > kRefineMost || 2 * triangles > work.shape.triangles.size())
+    return false;
+  auto steps = refined(work.shape, work.levels.log, triangles, progress);
+  auto lighter = replay(work.shape, steps, steps.size(), &refined_image);
+  if (progress.cancelled() || lighter.triangles.empty() || lighter.triangles.size() > triangles || 100 * lighter.triangles.size() < 99 * triangles) return false;
+  const DeviationMeter rough(work.shape, *work.tree, kRoughSamples, mesh);
+  if (rough.roughlyOf(lighter, refined_image).mean_m >= rough.roughlyOf(work.lighter, image).mean_m) return false;
+  const auto deviation = meter.of(lighter, refined_image);
+  if (deviation.max_m > work.cap_m) return false;
+  work.steps = std::move(steps);
+  work.lighter = std::move(lighter);
+  work.deviation = deviation;
+  return true;
 }
 
 // The simplest level whose measured deviation stays within the limit. The log was made with a bound on each step's effect,
@@ -80,21 +106,6 @@ void shareAll(std::vector<Work>& works, const OptimizeOptions& options) {
   for (std::uint32_t share = 0; share <= options.further_budgets.size(); ++share) shareOne(works, share, budgetOf(options, share));
 }
 
-// The same count, by steps that look at the surface as it is, which would not know seams; taken only where that is measured to be nearer to the original.
-void refine(Work& work, std::uint32_t mesh, const Progress& progress) {
-  const auto triangles = work.lighter.triangles.size();
-  if (work.lossless || work.steps.empty() || !work.shape.wedges.empty() || triangles < kRefineMin || triangles > kRefineMost || 2 * triangles > work.shape.triangles.size()) return;
-  auto steps = refined(work.shape, work.levels.log, triangles, progress);
-  std::vector<std::uint32_t> image;
-  auto lighter = replay(work.shape, steps, steps.size(), &image);
-  if (progress.cancelled() || lighter.triangles.empty() || lighter.triangles.size() > triangles || 100 * lighter.triangles.size() < 99 * triangles) return;
-  const auto deviation = DeviationMeter(work.shape, *work.tree, work.samples, mesh).of(lighter, image);
-  if (deviation.mean_m >= work.deviation.mean_m || deviation.max_m > std::max(work.deviation.max_m, std::min(1.2 * work.deviation.max_m, work.cap_m))) return;
-  work.steps = std::move(steps);
-  work.lighter = std::move(lighter);
-  work.deviation = deviation;
-}
-
 }  // namespace
 
 Result<void> simplify(std::vector<Work>& works, const OptimizeOptions& options, Progress& progress) {
@@ -105,7 +116,7 @@ Result<void> simplify(std::vector<Work>& works, const OptimizeOptions& options, 
     work.levels = makeLevels(work.shape, *work.tree, {work.cap_m, work.lossless}, {work.scale, work.up}, mesh, progress);
     work.limit = work.levels.levels.size();
   });
-  progress.stage("Measure", 0.6, 0.8);
+  progress.stage("Refine and measure", 0.6, 0.9);
   for (bool settled = false; !settled;) {
     if (auto going = progress.check(); !going) return going;
     shareAll(works, options);
@@ -113,17 +124,12 @@ Result<void> simplify(std::vector<Work>& works, const OptimizeOptions& options, 
       if (work.measured) return;
       if (!work.tree) work.tree = std::make_unique<TriangleTree>(work.shape.positions, work.shape.triangles);
       const DeviationMeter meter(work.shape, *work.tree, work.samples, mesh);
-      measure(work, meter, work.taken);
+      if (!refine(work, meter, mesh, progress)) measure(work, meter, work.taken);
       work.measured = true;
       if (!work.lossless && work.taken > 0 && work.deviation.max_m > work.cap_m) shrinkToDeviation(work, meter);
     });
     settled = std::all_of(works.begin(), works.end(), [](const Work& work) { return work.measured; });
   }
-  progress.stage("Refine", 0.8, 0.9);
-  forEachLargestFirst(works, progress, [&](Work& work, std::uint32_t mesh) {
-    refine(work, mesh, progress);
-    work.tree.reset();
-  });
   return progress.check();
 }
 

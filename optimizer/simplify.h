@@ -10,7 +10,7 @@
 namespace standpoint {
 
 // Brings all works to the budgets of their shares: logs, shared by cost; then measured, and where a deviation is over its cap the
-// work's levels are cut and the budget is shared again. Last, large smooth shapes are refined (collapse.h).
+// work's levels are cut and the budget is shared again. Large smooth shapes are refined (collapse.h).
 Result<void> simplify(std::vector<Work>& works, const OptimizeOptions& options, Progress& progress);
 
 }  // namespace standpoint
