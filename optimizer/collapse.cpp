@@ -16,7 +16,7 @@ namespace standpoint {
 namespace {
 
 constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t kCell = 32'000;        // triangles; what two cores' caches hold
+constexpr std::size_t kCell = 8'000;         // triangles; what a core's own cache holds
 constexpr std::size_t kSplit = 100'000;      // a patch with more is simplified in cells first
 constexpr double kOneRound = 0.25;           // of the triangles are left by a round of cells that touch …
 constexpr double kDeeper = 0.18;             // … of which each goes this far, so that the cheapest steps of all can be chosen

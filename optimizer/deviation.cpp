@@ -66,11 +66,15 @@ class Way {
   OneWay ofPoints(const std::vector<SurfacePoint>& points) const {
     return inChunks(points.size(), [&](std::size_t first, std::size_t last) {
       OneWay part;
+      std::uint32_t lately = kNone;  // what was nearest to the point before
       for (auto i = first; i < last; ++i) {
         const auto& point = points[i];
         auto near = hint(point.triangle, point.position);
+        if (lately != kNone)
+          if (const double squared = squaredDistance(point.position, to_, lately); squared < near.squared) near = {squared, lately};
         const auto better = tree_.nearestTriangle(point.position, near.squared);
         if (better.triangle != kNone) near = better;
+        lately = near.triangle;
         part.max_squared = std::max(part.max_squared, near.squared);
         part.sum += std::sqrt(near.squared);
         part.turn += near.triangle == kNone ? 0 : angleBetween(normalOf(from_, point.triangle), normalOf(to_, near.triangle));

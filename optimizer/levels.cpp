@@ -17,6 +17,7 @@ using Eigen::Vector3d;
 
 constexpr std::uint32_t kSamples = 256;
 constexpr std::uint32_t kMostMeasured = 50'000;  // triangles; a larger form is not measured, as its tree would cost more than its log
+constexpr std::size_t kMostBoxed = 200'000;    // triangles; what has more is not a small thing
 constexpr double kFineSpacing = 0.8, kCoarseSpacing = 0.5;  // of the triangle counts at which is measured
 constexpr std::uint32_t kFineBelow = 5000;
 // A form that reaches further than this out of the shape, at the height of the knees, closes a doorway, of which half is
@@ -172,7 +173,7 @@ ShapeLevels makeLevels(const Shape& shape, const TriangleTree& tree, const Colla
     for (const auto& step : made.log) left -= step.triangles;
     hull.push_back({left, 0, static_cast<std::uint32_t>(made.log.size())});
   } else {
-    if (shape.wedges.empty()) made.stand_ins = standIns(shape);
+    if (shape.wedges.empty() && shape.triangles.size() <= kMostBoxed) made.stand_ins = standIns(shape);
     hull = lowerHull(measure(shape, tree, made, options.max_deviation_m, placement, seed, progress));
   }
   for (std::size_t i = 0; i + 1 < hull.size(); ++i) {

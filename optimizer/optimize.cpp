@@ -5,12 +5,14 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include "optimizer/losses.h"
 #include "optimizer/paint.h"
 #include "optimizer/scene_deviation.h"
 #include "optimizer/simplify.h"
+#include "optimizer/visibility.h"
 
 namespace standpoint {
 
@@ -38,6 +40,35 @@ void addIntangible(const Environment& environment, Environment& lighter) {
   for (const auto& instance : environment.instances)
     if (!environment.products[instance.product].tangible) lighter.instances.push_back(instance);
   std::stable_sort(lighter.instances.begin(), lighter.instances.end(), [](const Instance& a, const Instance& b) { return a.product < b.product; });
+}
+
+// Without the triangles that nobody can see. A product whose every triangle is hidden stays as it is: what it is made of is not for
+// rays to say.
+void takeHidden(Environment& environment, const OptimizeOptions& options, Report& report, const Progress& progress) {
+  const auto hidden = hiddenTriangles(environment, progress);
+  std::vector<bool> kept(environment.meshes.size(), false);
+  std::vector<std::uint64_t> copies(environment.meshes.size(), 0);
+  for (const auto& instance : environment.instances) {
+    kept[instance.mesh] = kept[instance.mesh] || allowanceOf(options, instance.product).keep;
+    ++copies[instance.mesh];
+  }
+  std::uint64_t gone = 0;
+  for (std::size_t m = 0; m < hidden.size(); ++m) {
+    const auto count = static_cast<std::uint64_t>(std::count(hidden[m].begin(), hidden[m].end(), true));
+    if (count == 0 || kept[m] || count == hidden[m].size()) continue;
+    Mesh mesh = *environment.meshes[m];
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < hidden[m].size(); ++i) {
+      if (hidden[m][i]) continue;
+      mesh.triangles[left] = mesh.triangles[i];
+      mesh.surface_of_triangle[left++] = mesh.surface_of_triangle[i];
+    }
+    mesh.triangles.resize(left);
+    mesh.surface_of_triangle.resize(left);
+    environment.meshes[m] = std::make_shared<const Mesh>(std::move(mesh));
+    gone += copies[m] * count;
+  }
+  if (gone > 0) report.note("hidden faces", fmt::format("{} triangles that cannot be seen from anywhere were left out; deviations count from what is left", gone));
 }
 
 // `shared` with its meshes as light as they became. What is not placed any more is not held any more.
@@ -85,11 +116,12 @@ Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOp
   progress.stage("Find repetitions", 0, 0.1);
   const Environment tangible = tangiblePart(environment);
   const Environment rest = withoutDropped(tangible, options);
+  OptimizeResult result;
   Environment shared = rest;
+  if (options.hidden_faces) takeHidden(shared, options, result.report, progress);
   std::vector<double> residual_m;
   auto works = prepareWorks(shared, options, residual_m);
   if (auto done = simplify(works, options, progress); !done) return failure(done.error());
-  OptimizeResult result;
   result.environment = assemble(shared, works);
   sumLosses(shared, works, residual_m, result);
   addDropped(tangible, options, result);
@@ -97,7 +129,8 @@ Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOp
   reportLossless(rest, works, result.report);
   reportDropped(shared, works, result.report);
   progress.stage("Measure the whole", 0.9, 1);
-  if (result.all.triangles_after > 0) {  // of an empty one the products' own figures, to their centres, are all there is
+  // Of an empty one the products' own figures, to their centres, are all there is; of one mesh they are those of the whole.
+  if (result.all.triangles_after > 0 && tangible.instances.size() > 1) {
     std::vector<PlacedSurfaces::Known> known;
     for (const auto& work : works) known.push_back({&work.shape, work.tree.get()});
     const auto whole = sceneDeviation(withDropped(shared, tangible, options), result.environment, kDeviationSamples, known, progress);

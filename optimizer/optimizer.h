@@ -28,6 +28,7 @@ struct OptimizeOptions {
   double max_deviation_m = 0.015;  // no collapse may cost more, per product
   std::vector<ProductAllowance> products;           // one for each product, or empty: all alike
   std::vector<std::uint64_t> further_budgets;       // of the shares 1, 2, …
+  bool hidden_faces = false;       // take away triangles that cannot be seen from anywhere (visibility.h); listed in the report
 };
 
 struct ProductLoss {

@@ -105,6 +105,17 @@ double PlacedSurfaces::squaredDistance(const Vector3d& p, std::size_t first, std
   return best;
 }
 
+PlacedSurfaces::Hit PlacedSurfaces::firstHit(const Vector3d& origin, const Vector3d& unit_direction, double reach) const {
+  Hit result;
+  result.distance = tree_->alongRay(origin, unit_direction, reach, [&](std::uint32_t i, double far) {
+    const auto& placed = instances_[i];  // the same t on both sides, as the direction is not made a unit again
+    const double t = placed.solid->tree->firstHit(placed.solid_from_world * origin, placed.solid_from_world.linear() * unit_direction, far);
+    if (t < far) result.instance = i;
+    return t;
+  });
+  return result;
+}
+
 std::vector<Vector3d> PlacedSurfaces::points(std::size_t instance, std::uint32_t count) const {
   const auto& placed = instances_[instance];
   std::vector<Vector3d> result;

@@ -27,6 +27,13 @@ class PlacedSurfaces {
   double squaredDistance(const Eigen::Vector3d& p, double enough = 0) const;
   // The same to the instances [first, last) only.
   double squaredDistance(const Eigen::Vector3d& p, std::size_t first, std::size_t last) const;
+  // What a ray from `origin` meets first; `instance` is the largest number where it meets nothing within `reach`.
+  struct Hit {
+    double distance = 0;
+    std::size_t instance = static_cast<std::size_t>(-1);
+  };
+  Hit firstHit(const Eigen::Vector3d& origin, const Eigen::Vector3d& unit_direction, double reach) const;
+
   std::size_t instances() const { return instances_.size(); }
   double area(std::size_t instance) const { return instances_[instance].area; }
   std::vector<Eigen::Vector3d> points(std::size_t instance, std::uint32_t count) const;

@@ -139,4 +139,17 @@ double TriangleTree::squaredDistance(const Eigen::Vector3d& p, double bound) con
   });
 }
 
+// Möller and Trumbore 1997, both sides.
+double TriangleTree::firstHit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double reach) const {
+  return alongRay(origin, direction, reach, [&](std::uint32_t i, double far) {
+    const auto& t = triangles_[i];
+    const Eigen::Vector3d e1 = positions_[t[1]] - positions_[t[0]], e2 = positions_[t[2]] - positions_[t[0]], h = direction.cross(e2);
+    const double determinant = e1.dot(h);
+    if (determinant == 0) return far;
+    const Eigen::Vector3d s = origin - positions_[t[0]], q = s.cross(e1);
+    const double u = s.dot(h) / determinant, v = direction.dot(q) / determinant, distance = e2.dot(q) / determinant;
+    return u >= 0 && v >= 0 && u + v <= 1 && distance > 0 ? distance : far;
+  });
+}
+
 }  // namespace standpoint

@@ -68,6 +68,45 @@ class TriangleTree {
     return bound;
   }
 
+  // How far along a ray (origin + t * direction) the first triangle is, or `reach`; for whatever the triangles stand for, hit(triangle, reach)
+  // is asked for t, or for anything not below `reach`, of those whose box the ray meets.
+  template <class Hit>
+  double alongRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double reach, Hit hit) const {
+    if (nodes_.empty()) return reach;
+    const Eigen::Vector3d inverse = direction.cwiseInverse();  // infinite along the axes, which slabs can do with
+    const auto enters = [&](const Node& node) {
+      double from = 0, to = reach;
+      for (int k = 0; k < 3; ++k) {
+        const double a = (static_cast<double>(node.low[k]) - origin[k]) * inverse[k], b = (static_cast<double>(node.high[k]) - origin[k]) * inverse[k];
+        from = std::max(from, std::min(a, b));  // a NaN (0 times infinity: on the slab's plane) leaves `from` as it is
+        to = std::min(to, std::max(a, b));
+      }
+      return from <= to ? from : std::numeric_limits<double>::infinity();
+    };
+    struct Entry {
+      double from;
+      std::uint32_t node;
+    };
+    Entry stack[64];
+    int top = 0;
+    stack[top++] = {enters(nodes_[0]), 0};
+    while (top > 0) {
+      const Entry entry = stack[--top];
+      if (!(entry.from < reach)) continue;
+      const Node& node = nodes_[entry.node];
+      if (node.count > 0) {
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) reach = std::min(reach, hit(order_[i], reach));
+        continue;
+      }
+      Entry left{enters(nodes_[node.first]), node.first}, right{enters(nodes_[node.first + 1]), node.first + 1};
+      if (left.from < right.from) std::swap(left, right);
+      stack[top++] = left;
+      stack[top++] = right;  // the nearer one is looked at first
+    }
+    return reach;
+  }
+  double firstHit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double reach) const;
+
   // Calls visit(triangle index) for each triangle whose box meets [low, high]; stops when visit returns false.
   template <class Visit>
   void inBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high, Visit visit) const {
