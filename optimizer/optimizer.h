@@ -33,7 +33,7 @@ struct OptimizeOptions {
 
 struct ProductLoss {
   std::uint64_t triangles_before = 0, triangles_after = 0;
-  double max_deviation_m = 0;      // sampled symmetric Hausdorff distance between the product before and after
+  double max_deviation_m = 0;      // symmetric Hausdorff distance between the product before and after, searched (deviation.h)
   double mean_deviation_m = 0;     // area-weighted, both directions
   double mean_turn_rad = 0;        // area-weighted angle between the normals before and of what is nearest after, 0..π/2
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -42,6 +43,13 @@ class PlacedSurfaces {
   Eigen::Vector3d vertex(std::size_t instance, std::size_t i) const {
     const Solid& solid = *instances_[instance].solid;
     return instances_[instance].world_from_solid * (*solid.positions)[solid.used[i]];
+  }
+  std::size_t triangles(std::size_t instance) const { return instances_[instance].solid->triangles->size(); }
+  std::array<Eigen::Vector3d, 3> triangle(std::size_t instance, std::size_t i) const {
+    const auto& placed = instances_[instance];
+    const auto& t = (*placed.solid->triangles)[i];
+    const auto& p = *placed.solid->positions;
+    return {placed.world_from_solid * p[t[0]], placed.world_from_solid * p[t[1]], placed.world_from_solid * p[t[2]]};
   }
 
  private:

@@ -15,6 +15,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t kMostVertices = 3'000'000;  // that are looked at for the maximum, each way
+constexpr int kSteps = 6;                         // along the edges of a long triangle
 constexpr std::size_t kChunk = 1024;              // points that one task looks at
 
 struct OneWay {
@@ -95,6 +96,16 @@ double farthest(const PlacedSurfaces& from, const PlacedSurfaces& to, const std:
         if (const double s = to.squaredDistance(from.vertex(i, k * stride), most); std::isfinite(s)) most = std::max(most, s);
       return most;
     }, [](double a, double b) { return std::max(a, b); });  // the maximum is the same in any order
+    if (stride > 1) return;
+    for (std::size_t k = 0; k < from.triangles(i); ++k) {  // between its corners a long triangle may bulge away
+      const auto t = from.triangle(i, k);
+      if (std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()}) < 4 * parts[i]) continue;
+      for (int u = 0; u <= kSteps; ++u)
+        for (int v = 0; u + v <= kSteps; ++v) {
+          const Vector3d p = (t[0] * u + t[1] * v + t[2] * (kSteps - u - v)) / kSteps;
+          if (const double s = to.squaredDistance(p, parts[i]); std::isfinite(s)) parts[i] = std::max(parts[i], s);
+        }
+    }
   });
   return *std::max_element(parts.begin(), parts.end());
 }
