@@ -5,7 +5,8 @@
 usage: deviation_beside_cloudcompare.py STANDPOINT MODEL:BUDGET ...      needs: apt install cloudcompare xvfb
 
 Both directions: 100 000 points by area for the mean (of the two means), these and all vertices for the maximum, each with
-CloudCompare's distance to the other mesh. By product: the five whose stated maximum is largest, of those with a name of their own.
+CloudCompare's distance to the other mesh; its 200 largest figures, and those that are no number, are looked at again by exhaustion, as it
+misses long thin triangles at times: a nearer triangle refutes them (the count is printed). By product: the five whose stated maximum is largest, of those with a name of their own.
 """
 import collections
 import itertools
@@ -69,16 +70,50 @@ def distances(points, positions, triangles, folder):
     return [abs(float(line.split()[3])) for line in open(f"{folder}/{written}") if not line.startswith("//")]
 
 
+def exhaustive(p, positions, triangles):
+    """Distance of a point from the nearest of all triangles."""
+    def minus(a, b):
+        return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+    def dot(a, b):
+        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+    def cross(a, b):
+        return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+    best = float("inf")
+    for t in triangles:
+        corners = [positions[i] for i in t]
+        if any(min(c[k] for c in corners) - p[k] > best or p[k] - max(c[k] for c in corners) > best for k in range(3)):
+            continue
+        normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]))
+        inside = dot(normal, normal) > 0
+        for a, b in zip(corners, corners[1:] + corners[:1]):
+            edge, aside = minus(b, a), minus(p, a)
+            share = max(0, min(1, dot(aside, edge) / dot(edge, edge))) if dot(edge, edge) > 0 else 0
+            off = minus(aside, tuple(share * x for x in edge))
+            best = min(best, dot(off, off) ** 0.5)
+            inside = inside and dot(cross(edge, aside), normal) >= 0
+        if inside:
+            best = min(best, abs(dot(minus(p, corners[0]), normal)) / dot(normal, normal) ** 0.5)
+    return best
+
+
 def compare(before, after, folder):
-    """Mean and maximum, as the program defines them."""
-    generator, means, most = random.Random(1), [], 0
+    """Mean and maximum, as the program defines them, and how many of CloudCompare's figures are refuted."""
+    generator, means, most, refuted = random.Random(1), [], 0, 0
     for (positions, triangles), (other, others) in ((before, after), (after, before)):
         points = sampled(positions, triangles, SAMPLES, generator)
         vertices = [positions[v] for v in sorted({i for t in triangles for i in t})]
-        found = distances(points + vertices, other, others, folder)
+        places = points + vertices
+        found = distances(places, other, others, folder)
+        for i in sorted(range(len(found)), key=lambda i: found[i] if found[i] == found[i] else float("inf"))[-200:]:
+            true = exhaustive(places[i], other, others)
+            if not found[i] <= 1.01 * true + 1e-6:
+                found[i], refuted = true, refuted + 1
         means.append(sum(found[:SAMPLES]) / SAMPLES)
         most = max(most, max(found))
-    return sum(means) / 2, most
+    return sum(means) / 2, most, refuted
 
 
 def main():
@@ -101,10 +136,11 @@ def main():
             for p in sorted(single, key=lambda p: -p["max_deviation_m"])[:5]:
                 rows.append((p["name"], p, objects[numbered[p["name"]]], other_objects[numbered[p["name"]]]))
             for name, figures, triangles, other_triangles in rows:
-                mean, most = compare((positions, triangles), (others, other_triangles), folder)
+                mean, most, refuted = compare((positions, triangles), (others, other_triangles), folder)
                 shares = [100 * (a / b - 1) if b > 0 else 0 for a, b in ((figures["mean_deviation_m"], mean), (figures["max_deviation_m"], most))]
                 print(f"  mean {1000 * figures['mean_deviation_m']:8.4f} mm, CloudCompare {1000 * mean:8.4f} ({shares[0]:+5.1f} %)"
-                      f"   max {1000 * figures['max_deviation_m']:8.3f} mm, {1000 * most:8.3f} ({shares[1]:+5.1f} %)   {re.sub(r'[^ -~]', '?', name)[:40]}", flush=True)
+                      f"   max {1000 * figures['max_deviation_m']:8.3f} mm, {1000 * most:8.3f} ({shares[1]:+5.1f} %)   {re.sub(r'[^ -~]', '?', name)[:40]}"
+                      + (f"   ({refuted} refuted)" if refuted else ""), flush=True)
 
 
 main()

@@ -140,18 +140,21 @@ void addFins(Mesh& mesh, std::uint32_t first, int n, int count) {
   }
 }
 
-// A chair, a lamp, a plant, …: some turned parts and rounded bars, from 200 to 1500 triangles each.
+// A chair, a lamp, a plant, …: turned parts. The first kinds are finely made, of about 16 000 triangles, the others of a few hundred.
+constexpr std::uint32_t kFineKinds = 12;
+
 Mesh furniture(std::uint32_t kind) {
   Mesh mesh;
   const auto random = [&](std::uint32_t i) { return uniform(philox({kind, 3}, i, 0, 0)[0]); };
-  const int parts = 3 + static_cast<int>(4 * random(0));
+  const bool fine = kind < kFineKinds;
+  const int parts = fine ? 5 : 2, around = fine ? 40 : 12, along = fine ? 40 : 6;
   for (int k = 0; k < parts; ++k) {
     const auto i = static_cast<std::uint32_t>(10 * k);
-    const double r = 0.02 + 0.25 * random(i + 1) * random(i + 2), h = 0.1 + 0.8 * random(i + 3), waist = 0.6 * random(i + 4);
-    const Vector3d foot(0.5 * random(i + 5), 0.5 * random(i + 6), 0.4 * random(i + 7));
-    addGrid(mesh, 12 + static_cast<int>(10 * random(i + 8)), 5 + static_cast<int>(8 * random(i + 9)), true, [&](double s, double t) {
+    const double r = 0.015 + 0.2 * random(i + 1) * random(i + 2), h = 0.1 + 0.7 * random(i + 3), waist = 0.5 * random(i + 4);
+    const Vector3d foot(0.4 * random(i + 5), 0.4 * random(i + 6), 0.3 * random(i + 7));
+    addGrid(mesh, around, along, true, [&](double s, double t) {
       const double radius = t == 0 || t == 1 ? 0 : r * (1 - waist * std::sin(kPi * t)), turn = -2 * kPi * s;
-      return Vector3d(foot + Vector3d(radius * std::cos(turn), radius * std::sin(turn) * (0.5 + random(i + 1)), h * t));
+      return Vector3d(foot + Vector3d(radius * std::cos(turn), radius * std::sin(turn), h * t));
     });
   }
   return mesh;
@@ -220,21 +223,14 @@ Environment restaurant() {
   std::vector<Mesh> kinds;
   for (std::uint32_t k = 0; k < 420; ++k) kinds.push_back(furniture(k));
   std::size_t triangles = 0;
-  for (std::uint32_t piece = 0; triangles < 9'400'000; ++piece) {
-    // A product is a group of chairs around a table, written as one mesh.
-    Mesh group;
+  for (std::uint32_t piece = 0; triangles < 9'400'000; ++piece) {  // each light kind once, the fine ones as often as it takes
     const auto block = philox({21, 1}, piece, 0, 0);
-    const Mesh& kind = kinds[static_cast<std::size_t>(uniform(block[0]) * uniform(block[1]) * static_cast<double>(kinds.size()))];
-    const Affine3d stands = Translation3d(96 * uniform(block[2]), 1 + 38 * uniform(block[3]), 0) * Eigen::AngleAxisd(kPi / 6 * (block[2] % 12), Vector3d::UnitZ());
-    const int chairs = 8;
-    for (int c = 0; c < chairs; ++c) {
-      const Affine3d here = stands * Eigen::AngleAxisd(2 * kPi * c / chairs, Vector3d::UnitZ()) * Translation3d(1, 0, 0);
-      const auto first = static_cast<std::uint32_t>(group.positions.size());
-      for (const auto& p : kind.positions) group.positions.emplace_back((here * p.cast<double>()).cast<float>());
-      for (const auto& t : kind.triangles) add(group, first + t[0], first + t[1], first + t[2]);
-    }
-    triangles += group.triangles.size();
-    place(environment, std::move(group), "IfcFurnishingElement");
+    const std::uint32_t kind = piece % 2 == 0 && piece / 2 + kFineKinds < kinds.size() ? piece / 2 + kFineKinds : block[0] % kFineKinds;
+    Mesh mesh = kinds[kind];
+    const Affine3d stands = Translation3d(95 * uniform(block[2]), 1 + 38 * uniform(block[3]), 0) * Eigen::AngleAxisd(kPi / 6 * (block[1] % 12), Vector3d::UnitZ());
+    for (auto& p : mesh.positions) p = (stands * p.cast<double>()).cast<float>();
+    triangles += mesh.triangles.size();
+    place(environment, std::move(mesh), "IfcFurnishingElement");
   }
   return environment;
 }

@@ -14,7 +14,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kFewestSamples = 400, kMostSamples = kDeviationSamples;  // of one mesh
+constexpr double kFewestSamples = 2000, kMostSamples = kDeviationSamples;  // of one mesh
 
 void allow(Work& work, const ProductAllowance& allowance, double stretch) {
   if (stretch > 0) work.cap_m = std::min(work.cap_m, allowance.max_deviation_m / stretch);
