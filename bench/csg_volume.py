@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Volume of an IFC Boolean tree without making any surface: random points are asked whether they are in it.
 
-usage: csg_volume.py FILE.ifc ITEM_NUMBER [POINTS]
+usage: csg_volume.py FILE.ifc NUMBER [POINTS]   of a representation item, or of a product's body less its openings
 
 An opinion that shares nothing with a tessellating kernel: for docs/import-differences.md. Knows what the corpus' hard cases
-are made of: extrusions of polygons, rectangles and circles, faceted breps, half-spaces.
+are made of: extrusions of polygons, rectangles (also hollow) and circles, faceted breps, half-spaces.
 """
 import math
 import random
@@ -103,6 +103,20 @@ def outline(number):
             part = outline(ref(s[2]))
             points += (part if s[1] == ".T." else part[::-1])[:-1]
         return points
+    if name == "IFCTRIMMEDCURVE":
+        basis, base = RECORDS[ref(a[0])][0], arguments(ref(a[0]))
+        ends, values = [[point(n) for n in refs(a[k])] for k in (1, 2)], [re.search(r"VALUE\(([-+0-9.Ee]+)\)", a[k]) for k in (1, 2)]
+        if basis == "IFCLINE":
+            along = arguments(ref(base[1]))
+            start, d = point(ref(base[0])), [c * float(along[1]) for c in unit(ref(along[0]), [1, 0, 0])]
+            return [e[0] if e else [start[k] + d[k] * float(v[1]) for k in range(3)] for e, v in zip(ends, values)]
+        if basis == "IFCCIRCLE":
+            f, r = frame(ref(base[0])), float(base[1])
+            per = math.pi / 180 if any("'DEGREE'" in text.upper() for name, text in RECORDS.values() if name == "IFCCONVERSIONBASEDUNIT") else 1
+            t = [math.atan2(*into(f, e[0])[1::-1]) if e else float(v[1]) * per for e, v in zip(ends, values)]
+            forward = a[3] == ".T."
+            sweep = (t[1] - t[0]) % (2 * math.pi) if forward else -((t[0] - t[1]) % (2 * math.pi))
+            return [out_of(f, [r * math.cos(t[0] + sweep * k / 90), r * math.sin(t[0] + sweep * k / 90), 0]) for k in range(91)]
     raise SystemExit(f"#{number}={name} is not known here")
 
 
@@ -117,6 +131,13 @@ def profile(number):
         w, h = float(a[3]) / 2, float(a[4]) / 2
         corners = [out_of(f, [x, y, 0]) for x, y in ((-w, -h), (w, -h), (w, h), (-w, h))]
         return polygon_holds(corners)
+    if name == "IFCRECTANGLEHOLLOWPROFILEDEF":
+        w, h, t = float(a[3]) / 2, float(a[4]) / 2, float(a[5])
+
+        def hollow(x, y):
+            x, y = (abs(c) for c in into(f, [x, y, 0])[:2])
+            return x <= w and y <= h and not (x < w - t and y < h - t)
+        return hollow
     if name == "IFCCIRCLEPROFILEDEF":
         r = float(a[3])
         return lambda x, y: math.hypot(x - f[1][0], y - f[1][1]) <= r
@@ -169,6 +190,12 @@ def solid(number):
         return extruded
     if name == "IFCFACETEDBREP":
         return brep(number)
+    if name == "IFCMAPPEDITEM":   # neither scaled nor mirrored
+        source, target = arguments(ref(a[0])), arguments(ref(a[1]))
+        parts, origin = [solid(n) for n in refs(arguments(ref(source[1]))[3])], frame(ref(source[0]))
+        x, z = unit(ref(target[0]), [1, 0, 0]), unit(ref(target[4]) if len(target) > 4 else None, [0, 0, 1])
+        f = [x, cross(z, x), z], point(ref(target[2]))
+        return lambda p: any(part(into(origin, into(f, p))) for part in parts)
     if "HALFSPACE" in name:
         plane, side = frame(ref(arguments(ref(a[0]))[0])), -1 if a[1] == ".T." else 1
         if name != "IFCPOLYGONALBOUNDEDHALFSPACE":
@@ -193,11 +220,51 @@ def corners(number):
     return [out_of(f, [p[0] + d[0] * t, p[1] + d[1] * t, d[2] * t]) for p in flat for t in (0, float(a[3]))]
 
 
+def body(product):
+    shapes = refs(arguments(ref(arguments(product)[6]))[2])
+    return [item for s in shapes if arguments(s)[1] == "'Body'" for item in refs(arguments(s)[3])]
+
+
+def to_world(placement):
+    chain = []
+    while placement:
+        a = arguments(placement)
+        chain.append(frame(ref(a[1])))
+        placement = ref(a[0])
+    return chain
+
+
+def less_openings(product):
+    """Whether a point of the product's frame is in its body and in none of its openings."""
+    items, own = [solid(n) for n in body(product)], to_world(ref(arguments(product)[5]))
+    tools = []
+    for name, text in RECORDS.values():
+        if name == "IFCRELVOIDSELEMENT" and refs(text)[-2] == product:
+            opening = refs(text)[-1]
+            tools.append((to_world(ref(arguments(opening)[5])), [solid(n) for n in body(opening)]))
+
+    def holds(p):
+        if not any(item(p) for item in items):
+            return False
+        world = p
+        for f in own:
+            world = out_of(f, world)
+        for chain, parts in tools:
+            q = world
+            for f in reversed(chain):
+                q = into(f, q)
+            if any(part(q) for part in parts):
+                return False
+        return True
+    return holds
+
+
 def main():
     sys.setrecursionlimit(10000)
     item, count = int(sys.argv[2]), int(sys.argv[3]) if len(sys.argv) > 3 else 20000
-    box = [(min(c), max(c)) for c in zip(*corners(item))]
-    holds, rng = solid(item), random.Random(1)
+    product = arguments(item)[0].startswith("'")
+    box = [(min(c), max(c)) for c in zip(*(q for n in (body(item) if product else [item]) for q in corners(n)))]
+    holds, rng = less_openings(item) if product else solid(item), random.Random(1)
     kept = [p for p in ([rng.uniform(*side) for side in box] for _ in range(count)) if holds(p)]
     whole, share = math.prod(b - a for a, b in box), len(kept) / count
     error = 2 * whole * math.sqrt(share * (1 - share) / count)

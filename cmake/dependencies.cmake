@@ -21,7 +21,7 @@ find_package(CGAL REQUIRED)
 find_library(CARVE NAMES carve REQUIRED)
 pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
 target_link_libraries(PkgConfig::IMGUI INTERFACE Freetype::Freetype)  # imgui.pc forgets it
-pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet)
+pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet-float64)
 find_library(RECAST NAMES Recast REQUIRED)  # ships no configuration of its own
 find_library(GEOGRAPHICLIB NAMES GeographicLib Geographic REQUIRED)
 if(STANDPOINT_TESTS)

@@ -137,9 +137,16 @@ std::size_t triangleCount(const Environment& environment) {
   return count;
 }
 
-Environment tangiblePart(const Environment& environment) {
+std::size_t sceneTriangleCount(const Environment& environment) {
+  std::size_t count = 0;
+  for (const auto& instance : environment.instances)
+    if (environment.products[instance.product].inScene()) count += environment.meshes[instance.mesh]->triangles.size();
+  return count;
+}
+
+Environment sceneOf(const Environment& environment) {
   Environment part = environment;
-  std::erase_if(part.instances, [&](const Instance& instance) { return !environment.products[instance.product].tangible; });
+  std::erase_if(part.instances, [&](const Instance& instance) { return !environment.products[instance.product].inScene(); });
   return part;
 }
 

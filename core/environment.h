@@ -81,6 +81,9 @@ struct Product {
   std::vector<MaterialLayer> layers;
   std::vector<std::string> groups;        // "IfcSystem Heating", "IfcZone Flat 3": what it is assigned to besides its place
   std::vector<Property> properties;
+  bool excluded = false;        // by the author: it stays in the list, and is not there for anything else
+
+  bool inScene() const { return tangible && !excluded; }
 };
 
 struct Instance {
@@ -114,11 +117,13 @@ Bounds bounds(const Mesh& mesh, const Eigen::Affine3d& world_from_mesh);
 Bounds bounds(const Environment& environment);
 std::vector<Bounds> productBounds(const Environment& environment);
 
-// Placed triangles, that is each instance counted.
+// Placed triangles, that is each instance counted; of what is in the scene only.
 std::size_t triangleCount(const Environment& environment);
+std::size_t sceneTriangleCount(const Environment& environment);
 
-// The same without the instances of what no beam meets: spaces, zones, annotations. The products stay, so that indices hold.
-Environment tangiblePart(const Environment& environment);
+// Without the instances of what is not in the scene: spaces, annotations, what the author excludes. The products stay, so
+// that indices hold.
+Environment sceneOf(const Environment& environment);
 
 // Empty when indices, orders and meshes are right, else what is wrong.
 std::string validate(const Environment& environment);

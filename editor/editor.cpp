@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "project/product_match.h"
+#include "project/treatments.h"
 #include "project/underlay_placing.h"
 
 namespace standpoint {
@@ -41,6 +42,11 @@ void Editor::update() {
   followPreview();
   startWaitingCloud();
   underlays.follow(session.document(), wake);
+  if (!session.document().lightening) {
+    view.side = ModelSide::lighter;
+    if (view.colour == ColourMode::deviation) view.colour = ColourMode::model;
+  }
+  if (view.colour == ColourMode::deviation || std::exchange(wants_deviation, false)) deviation.follow(session.document(), wake);
   for (auto& error : underlays.takeErrors())
     session.errors().push_back({"An underlay cannot be shown: put its file back, or remove it in the outliner", std::move(error)});
 }
@@ -95,6 +101,10 @@ bool Editor::followModel(const Environment& before, const Environment& after) {
   visibility.cut_height_m = cut_height_m;
   selection.set(std::move(chosen));
   view.hover.reset();
+  // Where only what is said of products has changed, the tree stays open as it is.
+  const auto same = [](const Product& a, const Product& b) { return a.id == b.id && a.container == b.container && a.name == b.name; };
+  if (before.spatial.size() == after.spatial.size() && std::equal(before.products.begin(), before.products.end(), after.products.begin(), after.products.end(), same))
+    return true;
   panels.outliner = OutlinerPanelState();
   panels.outliner.tree = Outliner(after);
   return true;
@@ -103,6 +113,10 @@ bool Editor::followModel(const Environment& before, const Environment& after) {
 void Editor::adoptDocument() {
   const auto& document = session.document();
   picker.follow(document.environment(), wake);
+  if (walk.active() && !walk.isIn(document.collision)) {
+    walk.stop();
+    if (view.tool == Tool::walk) view.tool = Tool::select;
+  }
   if (document.imported == imported_) return;
   const auto before = std::exchange(imported_, document.imported);
   // A changed model in place of the one before keeps what is hidden, chosen and looked at.
@@ -137,6 +151,7 @@ ViewState Editor::viewState() const {
     return state;
   }
   state.materials = document.materials;
+  if (const auto both = deviation.of(document); both && state.colour == ColourMode::deviation) state.deviation = both->lighter;
   if (view.walkable || view.shapes) state.collision = document.collision;
   state.hidden = visibility.shared();
   state.selected = selection.shared();
@@ -148,6 +163,25 @@ ViewState Editor::viewState() const {
   return state;
 }
 
+ViewState Editor::originalState() const {
+  ViewState state = viewState();
+  const auto& document = shownDocument();
+  if (state.environment == document.imported) return state;
+  state.environment = document.imported;
+  if (const auto both = deviation.of(document); both && state.colour == ColourMode::deviation) state.deviation = both->original;
+  return state;
+}
+
+const Treatment* Editor::treatmentOfProduct(std::uint32_t product) const {
+  const auto& document = session.document();
+  if (!document.treatments || !document.imported) return nullptr;
+  if (treated_by_ != document.treatments) {
+    treated_by_ = document.treatments;
+    treatment_of_product_ = treatmentOf(*document.imported, *treated_by_);
+  }
+  return product < treatment_of_product_.size() ? treatment_of_product_[product] : nullptr;
+}
+
 void Editor::derive() const {
   if (derived_from_ == shown()) return;
   derived_from_ = shown();
@@ -156,7 +190,7 @@ void Editor::derive() const {
   triangles_ = 0;
   if (!derived_from_) return;
   product_bounds_ = productBounds(*derived_from_);
-  triangles_ = triangleCount(*derived_from_);
+  triangles_ = sceneTriangleCount(*derived_from_);
   storeys_ = storeyLevels(*derived_from_, shift_m().z());
 }
 
@@ -201,7 +235,7 @@ Bounds Editor::boundsOfVisible(bool with_terrain) const {
   for (std::uint32_t p = 0; p < each.size(); ++p) {
     const auto& product = shown()->products[p];
     const bool terrain = product.ifc_class == "IfcSite" || product.ifc_class == "IfcGeographicElement";
-    if ((previewed || !visibility.hidden(p)) && product.tangible && !each[p].empty() && (with_terrain || !terrain)) all.extend(each[p]);
+    if ((previewed || !visibility.hidden(p)) && product.inScene() && !each[p].empty() && (with_terrain || !terrain)) all.extend(each[p]);
   }
   if (previewed) return all;
   if (visibility.cut_height_m && !all.empty())

@@ -21,6 +21,7 @@
 #include "editor/model/underlay_view.h"
 #include "editor/model/view_state.h"
 #include "editor/model/visibility.h"
+#include "editor/model/walk.h"
 #include "editor/panels/panel_states.h"
 #include "editor/shell/dialog_states.h"
 
@@ -37,11 +38,15 @@ struct Fonts {
 };
 
 // What the next click in the viewport does.
-enum class Tool { select, placeStation, placeTarget, measure };
+enum class Tool { select, placeStation, placeTarget, measure, walk };
+
+// Which of the two models is looked at; there is one only until it has been optimised.
+enum class ModelSide { lighter, original, both };
 
 struct ViewportState {
   Camera camera;
   ColourMode colour = ColourMode::model;
+  ModelSide side = ModelSide::lighter;
   bool edges = true, grid = true, walkable = false, shapes = false, labels = true;
   Tool tool = Tool::select;
   std::optional<RayHit> hover;             // under the pointer
@@ -51,6 +56,7 @@ struct ViewportState {
   std::optional<Eigen::Vector3d> measured_from, measured_to;
   bool dragging = false;
   bool dragged = false;
+  bool in_right_half = false;              // where the pointer is, or began to drag, when both models are shown
   bool frame_wanted = false;
 };
 
@@ -64,9 +70,12 @@ struct Editor {
   Visibility visibility;
   ViewportState view;
   Picker picker;
+  Walk walk;                               // while the tool is Tool::walk
   ImportPreview preview;
   Selection preview_selection;             // products of what the preview shows
   UnderlayView underlays;
+  DeviationView deviation;
+  bool wants_deviation = false;            // a panel shows it
   std::deque<std::filesystem::path> waiting_clouds;   // dropped, each to become an underlay when the document is free
   PanelStates panels;
   DialogStates dialogs;
@@ -76,6 +85,7 @@ struct Editor {
   Fonts fonts;
   float scale = 1;                         // pixels per point
   SceneView* scene = nullptr;              // null: the viewport stays empty
+  SceneView* scene_beside = nullptr;       // the original's half
   std::function<void()> wake;
   std::function<void(Editor&)> draw_instrument;    // the emulated device; empty: this build has none
   std::function<void(const std::string&)> on_title;
@@ -94,7 +104,8 @@ struct Editor {
 
   // To be called once a frame before drawing: results of tasks, and what follows from another document.
   void update();
-  ViewState viewState() const;
+  ViewState viewState() const;             // of the lighter model where there is one
+  ViewState originalState() const;         // of the model as it was imported
   // Shows a scan's points instead of the model, once they are read; an empty path goes back to the model.
   void showCloud(const std::filesystem::path& file);
   const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
@@ -107,7 +118,8 @@ struct Editor {
 
   const std::vector<Bounds>& boundsOfProducts() const;   // kept until the environment changes
   const std::vector<StoreyLevel>& storeys() const;
-  std::uint64_t triangles() const;          // placed
+  std::uint64_t triangles() const;          // placed, in the scene
+  const Treatment* treatmentOfProduct(std::uint32_t product) const;   // nullptr: none
 
  private:
   void adoptDocument();
@@ -125,6 +137,8 @@ struct Editor {
   mutable std::vector<Bounds> product_bounds_;
   mutable std::vector<StoreyLevel> storeys_;
   mutable std::uint64_t triangles_ = 0;
+  mutable std::shared_ptr<const std::vector<Treatment>> treated_by_;
+  mutable std::vector<const Treatment*> treatment_of_product_;
   void derive() const;
 };
 

@@ -34,7 +34,7 @@ std::int64_t richestProduct(const Editor& editor) {
   std::int64_t best = -1;
   for (std::uint32_t p = 0; p < environment.products.size(); ++p) {
     const auto& product = environment.products[p];
-    if (!product.tangible || editor.boundsOfProducts()[p].empty()) continue;
+    if (!product.inScene() || editor.boundsOfProducts()[p].empty()) continue;
     if (best < 0 || product.properties.size() + 20 * product.layers.size() >
                         environment.products[static_cast<std::size_t>(best)].properties.size() + 20 * environment.products[static_cast<std::size_t>(best)].layers.size())
       best = p;
@@ -85,7 +85,28 @@ void instrument(Editor& editor) {
 
 void palette(Editor& editor) {
   editor.workspace = Workspace::model;
+  editor.view.side = ModelSide::lighter;
+  editor.view.colour = ColourMode::model;
   invoke(editor, "palette");
+}
+
+// The original beside what is left of a quarter of its triangles, each coloured by its distance from the other.
+void deviation(Editor& editor) {
+  editor.workspace = Workspace::model;
+  editor.wanted_tab[1] = "optimise";
+  if (!editor.session.document().lightening) {
+    editor.session.start("optimize", {{"budget", std::max<std::uint64_t>(1, sceneTriangleCount(*editor.session.document().imported) / 4)}});
+    editor.session.wait();
+    editor.update();
+  }
+  editor.visibility.cut_height_m.reset();
+  editor.selection.clear();
+  editor.view.colour = ColourMode::deviation;
+  editor.view.side = ModelSide::both;
+  look(editor.view.camera, StandardView::corner);
+  editor.view.frame_wanted = true;
+  editor.update();
+  editor.deviation.wait();
 }
 
 // What is open, as it would be seen before it is taken in.
@@ -98,7 +119,8 @@ void importPreview(Editor& editor) {
 }
 
 constexpr std::array kPictures = {Picture{"1-overview", overview},     Picture{"2-inspector", inspect}, Picture{"3-materials", materials},
-                                  Picture{"4-survey", survey},         Picture{"5-instrument", instrument}, Picture{"7-import-preview", importPreview},
+                                  Picture{"4-survey", survey},         Picture{"5-instrument", instrument}, Picture{"8-deviation", deviation},
+                                  Picture{"7-import-preview", importPreview},
                                   Picture{"6-palette", palette}};
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "importers/gltf_companions.h"
 #include "importers/gltf_extensions.h"
 #include "importers/gltf_georeference.h"
 #include "importers/gltf_mesh.h"
@@ -45,8 +46,10 @@ class GltfImport {
     const auto seen = walkScene(file_, [&](const GltfNode& node) { visit(node); });
     if (file_.failed()) return failure(file_.error());
     if (auto ok = progress_.check(); !ok) return failure(ok.error());
-    if (no_material_used_) environment().surfaces.push_back({"", {}, "no material"});
+    if (no_material_used_) environment().surfaces.push_back({"", {1, 1, 1, 1}, "no material"});  // glTF 2.0, 3.9.6
     listGltfRest(file_, seen, model_.report);
+    if (collision_shapes_ > 0)
+      model_.report.note("/nodes", std::to_string(collision_shapes_) + " collision shapes for game engines (UCX_, -colonly) are left out");
     if (triangleCount(environment()) == 0)
       model_.report.warn("/nodes", "no node has a surface: there is nothing to scan");
     georeference(stored);
@@ -61,6 +64,10 @@ class GltfImport {
   void visit(const GltfNode& node) {
     const auto mesh = file_.index(*node.json, "mesh", node.place);
     if (file_.failed() || progress_.cancelled() || !mesh) return;
+    if (isGltfCollision(*node.json)) {
+      ++collision_shapes_;
+      return;
+    }
     const auto& mesh_json = file_.element("meshes", *mesh, node.place + "/mesh");
     const GltfPose pose = poseOf(node, mesh_json);
     if (file_.failed()) return;
@@ -237,6 +244,7 @@ class GltfImport {
   std::size_t placed_vertices_ = 0;
   std::optional<std::size_t> last_product_;
   std::size_t visited_ = 0;
+  std::size_t collision_shapes_ = 0;
 };
 
 Result<ImportedModel> readGltf(const std::filesystem::path& path, const ImportOptions& options, Progress& progress) {

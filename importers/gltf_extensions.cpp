@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::json;
 
 // Read, or named where they are met: a file may require them.
-constexpr std::array<std::string_view, 19> kUnderstood = {"KHR_mesh_quantization",
+constexpr std::array<std::string_view, 22> kUnderstood = {"KHR_mesh_quantization",
                                                           "KHR_draco_mesh_compression",
                                                           "EXT_meshopt_compression",
                                                           "KHR_meshopt_compression",
@@ -30,7 +30,10 @@ constexpr std::array<std::string_view, 19> kUnderstood = {"KHR_mesh_quantization
                                                           "KHR_xmp_json_ld",
                                                           "KHR_lights_punctual",
                                                           "KHR_animation_pointer",
-                                                          "EXT_lights_image_based"};
+                                                          "EXT_lights_image_based",
+                                                          "MSFT_lod",
+                                                          "KHR_physics_rigid_bodies",
+                                                          "KHR_implicit_shapes"};
 
 bool understood(std::string_view name) {
   return name.starts_with("KHR_materials_") ||
@@ -54,6 +57,35 @@ void variants(GltfFile& file, Report& report) {
                                                         ") are not read; those of the default are used");
 }
 
+// Marks what stands outside of the scene on purpose, with all below it: simpler levels of nodes, meshes of colliders.
+// Returns how many nodes have levels.
+std::size_t seeCompanions(GltfFile& file, std::vector<bool>& seen) {
+  std::vector<std::size_t> open;
+  const auto push = [&](const Json& index) {
+    if (index.is_number_unsigned() && index.get<std::size_t>() < seen.size()) open.push_back(index.get<std::size_t>());
+  };
+  const auto pushAll = [&](const Json& list) {
+    if (list.is_array())
+      for (const auto& index : list) push(index);
+  };
+  std::size_t with_levels = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const auto& extensions = memberOf(file.element("nodes", i, ""), "extensions");
+    const auto& ids = memberOf(memberOf(extensions, "MSFT_lod"), "ids");
+    with_levels += ids.is_array() && !ids.empty() ? 1 : 0;
+    pushAll(ids);
+    push(memberOf(memberOf(memberOf(memberOf(extensions, "KHR_physics_rigid_bodies"), "collider"), "geometry"), "node"));
+  }
+  while (!open.empty()) {
+    const auto node = open.back();
+    open.pop_back();
+    if (seen[node]) continue;
+    seen[node] = true;
+    pushAll(memberOf(file.element("nodes", node, ""), "children"));
+  }
+  return with_levels;
+}
+
 }  // namespace
 
 void checkGltfExtensions(GltfFile& file, Report& report) {
@@ -69,7 +101,10 @@ void checkGltfExtensions(GltfFile& file, Report& report) {
   variants(file, report);
 }
 
-void listGltfRest(GltfFile& file, const std::vector<bool>& seen, Report& report) {
+void listGltfRest(GltfFile& file, const std::vector<bool>& in_scene, Report& report) {
+  auto seen = in_scene;
+  if (const auto levels = seeCompanions(file, seen); levels > 0)
+    report.note("/nodes", std::to_string(levels) + " nodes have simpler levels of detail (MSFT_lod); the finest is read");
   std::size_t elsewhere = 0;
   for (std::size_t i = 0; i < seen.size(); ++i)
     elsewhere += !seen[i] && memberOf(file.element("nodes", i, ""), "mesh").is_number() ? 1 : 0;

@@ -9,6 +9,7 @@
 #include <Eigen/SVD>
 #include <nlohmann/json.hpp>
 
+#include "importers/gltf_companions.h"
 #include "importers/gltf_georeference.h"
 #include "importers/gltf_product.h"
 #include "importers/gltf_writer_material.h"
@@ -42,18 +43,18 @@ class GlbWriter {
  public:
   enum class For { project, others };
 
-  GlbWriter(const Environment& environment, const Georeference& georeference, For reader)
+  GlbWriter(const Environment& environment, const Georeference& georeference, For reader, const GltfCompanions& companions = {})
       : environment_(environment), reader_(reader) {
     json_["asset"] = {{"version", "2.0"}, {"generator", "Standpoint"}};
     auto& ours = json_["asset"]["extras"]["standpoint"];
     ours = toJson(georeference);
     ours["products"] = environment.products.size();
     addMaterials();
-    for (const auto& mesh : environment.meshes) addMesh(*mesh);
+    for (const auto& mesh : environment.meshes) gltf_mesh_of_.push_back(addMesh(mesh, true));
     if (reader == For::others) nameMeshes();
     listExtensions();
     ours["meshes"] = gltf_mesh_of_;
-    addNodes();
+    addNodes(companions);
     if (size_ > 0) json_["buffers"] = Json::array({Json{{"byteLength", size_}}});
   }
 
@@ -107,10 +108,10 @@ class GlbWriter {
 
   Result<void> writeBinary(std::ofstream& out, Progress& progress) const {
     for (const auto& image : environment_.images) writeImage(*image, out);
-    for (std::size_t i = 0; i < environment_.meshes.size() && out; ++i) {
+    for (std::size_t i = 0; i < stored_.size() && out; ++i) {
       if (auto ok = progress.check(); !ok) return ok;
-      writeMesh(*environment_.meshes[i], out);
-      progress.advance(static_cast<double>(i + 1) / static_cast<double>(environment_.meshes.size()));
+      writeMesh(*stored_[i], out);
+      progress.advance(static_cast<double>(i + 1) / static_cast<double>(stored_.size()));
     }
     return {};
   }
@@ -207,8 +208,10 @@ class GlbWriter {
   }
 
   // One primitive for each run of a surface; a mesh of vertices only is kept as points, for a glTF mesh cannot be empty.
-  void addMesh(const Mesh& mesh) {
-    if (mesh.positions.empty()) return gltf_mesh_of_.push_back(nullptr);
+  Json addMesh(const std::shared_ptr<const Mesh>& shared, bool with_materials) {
+    const Mesh& mesh = *shared;
+    stored_.push_back(shared);
+    if (mesh.positions.empty()) return nullptr;
     const Json attributes = addAttributes(mesh);
     Json primitives = Json::array();
     const auto& surfaces = mesh.surface_of_triangle;
@@ -222,12 +225,23 @@ class GlbWriter {
                                          {"count", (to - from) * 3}});
       primitives.push_back({{"attributes", attributes},
                             {"indices", accessor},
-                            {"material", materialFor(mesh, surfaces[from])},
                             {"mode", kTriangles}});
+      if (with_materials) primitives.back()["material"] = materialFor(mesh, surfaces[from]);
     }
     if (primitives.empty()) primitives.push_back({{"attributes", attributes}, {"mode", kPoints}});
-    gltf_mesh_of_.push_back(json_["meshes"].is_null() ? 0 : json_["meshes"].size());
     json_["meshes"].push_back({{"primitives", std::move(primitives)}});
+    return json_["meshes"].size() - 1;
+  }
+
+  // Of a companion: stored once, whoever shows it.
+  Json meshOf(const std::shared_ptr<const Mesh>& mesh, const std::string& name, bool with_materials) {
+    if (gltf_mesh_.empty())
+      for (std::size_t i = 0; i < environment_.meshes.size(); ++i) gltf_mesh_.emplace(environment_.meshes[i].get(), gltf_mesh_of_[i]);
+    const auto [found, fresh] = gltf_mesh_.try_emplace(mesh.get(), nullptr);
+    if (!fresh) return found->second;
+    found->second = addMesh(mesh, with_materials);
+    if (!found->second.is_null()) json_["meshes"][found->second.get<std::size_t>()]["name"] = name;
+    return found->second;
   }
 
   void listExtensions() {
@@ -240,18 +254,26 @@ class GlbWriter {
   }
 
   // Node 0 turns our Z-up world into glTF's Y-up one by an exchange of axes, which costs no bit.
-  void addNodes() {
+  void addNodes(const GltfCompanions& companions) {
     Json root = {{"name", "Z-up"}, {"matrix", {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1}}};
     json_["nodes"] = Json::array({root});
     Json children = Json::array();
     const auto& instances = environment_.instances;
     for (std::size_t first = 0, last = 0; first < instances.size(); first = last) {
       while (last < instances.size() && instances[last].product == instances[first].product) ++last;
-      if (reader_ == For::others)
+      if (reader_ == For::others) {
         children.push_back(addProduct(first, last));
-      else
-        for (std::size_t i = first; i < last; ++i) children.push_back(addInstance(instances[i]));
+        node_of_product_[instances[first].product] = children.back();
+      } else {
+        for (std::size_t i = first; i < last; ++i) children.push_back(addInstance(instances[i], gltf_mesh_of_[instances[i].mesh]));
+      }
     }
+    GltfScene scene{json_, [&](const auto& mesh, const auto& name) { return meshOf(mesh, name, true); },
+                    [&](const auto& mesh, const auto& name) { return meshOf(mesh, name, false); },
+                    [&](const auto& instance, const auto& mesh) { return addInstance(instance, mesh); }};
+    addGltfLevels(scene, environment_, companions.levels, node_of_product_);
+    if (companions.collision)
+      for (const auto node : addGltfCollision(scene, environment_, *companions.collision, node_of_product_)) children.push_back(node);
     if (!children.empty()) json_["nodes"][0]["children"] = std::move(children);
     json_["scene"] = 0;
     json_["scenes"] = Json::array({Json{{"nodes", Json::array({0})}}});
@@ -264,7 +286,7 @@ class GlbWriter {
     extras["standpoint"] = {{"product", index}};
     Json parts = Json::array();
     for (std::size_t i = first; i < last; ++i) {
-      parts.push_back(addInstance(environment_.instances[i]));
+      parts.push_back(addInstance(environment_.instances[i], gltf_mesh_of_[environment_.instances[i].mesh]));
       json_["nodes"].back().erase("extras");
     }
     if (parts.size() == 1) {
@@ -283,7 +305,7 @@ class GlbWriter {
         json_["meshes"][mesh.get<std::size_t>()]["name"] = environment_.products[instance.product].name;
   }
 
-  std::size_t addInstance(const Instance& instance) {
+  std::size_t addInstance(const Instance& instance, const Json& mesh) {
     const auto& m = instance.world_from_mesh.matrix();
     const Json matrix(std::vector<double>(m.data(), m.data() + 16));
     const auto& product = environment_.products[instance.product];
@@ -291,7 +313,6 @@ class GlbWriter {
     if (!product.ifc_class.empty()) extras["ifc_class"] = product.ifc_class;
     if (!product.global_id.empty()) extras["global_id"] = product.global_id;
     Json node = {{"name", product.name}};
-    const Json& mesh = gltf_mesh_of_[instance.mesh];
     if (isRotationAndScale(instance.world_from_mesh.linear())) {
       if (!m.isIdentity(0)) node["matrix"] = matrix;
       if (!mesh.is_null()) node["mesh"] = mesh;
@@ -362,7 +383,10 @@ class GlbWriter {
   const Environment& environment_;
   For reader_;
   Json json_ = Json::object();
-  std::vector<Json> gltf_mesh_of_;               // null for a mesh without vertices
+  std::vector<Json> gltf_mesh_of_;               // of the environment's meshes; null for one without vertices
+  std::map<const Mesh*, Json> gltf_mesh_;        // with those of companions
+  std::map<std::uint32_t, std::size_t> node_of_product_;
+  std::vector<std::shared_ptr<const Mesh>> stored_;   // in the order of the views
   std::vector<Json> texture_of_image_;           // null for an image that glTF does not know
   std::map<std::size_t, std::size_t> plain_of_;  // surface with an image → material without it
   std::size_t size_ = 0;             // of the binary chunk; every part is a multiple of 4
@@ -385,10 +409,10 @@ Result<void> writeEnvironmentGlb(const Environment& environment, const Georefere
 }
 
 Result<void> exportEnvironmentGltf(const Environment& environment, const Georeference& georeference,
-                                   const std::filesystem::path& file, Progress& progress) {
+                                   const std::filesystem::path& file, Progress& progress, const GltfCompanions& companions) {
   progress.stage("Writing glTF");
   if (auto ok = writable(environment, file); !ok) return ok;
-  GlbWriter writer(environment, georeference, GlbWriter::For::others);
+  GlbWriter writer(environment, georeference, GlbWriter::For::others, companions);
   return file.extension() == ".gltf" ? writer.writeText(file, progress) : writer.write(file, progress);
 }
 

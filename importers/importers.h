@@ -62,11 +62,32 @@ Result<void> writeEnvironmentGlb(const Environment& environment, const Georefere
                                  const std::filesystem::path& file, Progress& progress);
 Result<Environment> readEnvironmentGlb(const std::filesystem::path& file, Progress& progress);
 
+// A simpler level of detail of the same products, and what it costs each.
+struct GltfLevel {
+  std::string name;                        // "LOD 1: 10000 triangles"
+  const Environment* environment = nullptr;
+  std::vector<double> max_deviation_m, mean_deviation_m;   // one for each product
+};
+enum class CollisionNaming {
+  unreal,    // UCX_<name of the mesh>_01 beside it
+  godot,     // <name>-convcolonly, -colonly
+  physics,   // nodes with KHR_physics_rigid_bodies colliders, whose meshes nobody draws
+};
+struct GltfCollision {
+  const Environment* shapes = nullptr;     // an instance for each shape; its surfaces do not matter
+  std::vector<bool> convex;                // one for each instance
+  CollisionNaming naming = CollisionNaming::physics;
+};
+struct GltfCompanions {
+  std::vector<GltfLevel> levels;           // from fine to coarse; as MSFT_lod of each product's node
+  std::optional<GltfCollision> collision;
+};
+
 // The same for other programs, as .glb or, by the file's extension, as .gltf with a .bin beside it: Y up as glTF demands,
 // each product a node with its name, ids and properties in `extras`, above a node for each instance where it has several.
-// importFile of it gives the same triangles, surfaces, images, places and georeference.
+// importFile of it gives the same triangles, surfaces, images, places and georeference, without the companions.
 Result<void> exportEnvironmentGltf(const Environment& environment, const Georeference& georeference,
-                                   const std::filesystem::path& file, Progress& progress);
+                                   const std::filesystem::path& file, Progress& progress, const GltfCompanions& companions = {});
 
 // OBJ + MTL, coordinates as text in the file frame (shift added in double).
 Result<void> writeEnvironmentObj(const Environment& environment, const Georeference& georeference,

@@ -148,10 +148,10 @@ class Assigner {
       const auto& o = overrides_[static_cast<std::size_t>(said)];
       result.material = by_id_.at(o.material);
       result.reason = "override " + o.selector;
-    } else if (product.tangible) {
+    } else if (product.inScene()) {
       byRules(pair, result);
     }
-    if (product.tangible) account(pair, result.material);
+    if (product.inScene()) account(pair, result.material);
     assigned_.push_back(std::move(result));
   }
 

@@ -15,6 +15,7 @@ using Eigen::Vector3d;
 constexpr double kFlat = 0.001;              // m; faces this flat in one axis are square to it, planes this near are one
 constexpr std::size_t kMostCells = 100'000;
 constexpr std::size_t kMostBoxes = 200;
+constexpr std::size_t kFewBlocks = 4;        // that need not become fewer
 
 // The part's own axes (rows): the two largest perpendicular face directions and their cross product.
 std::optional<Matrix3d> ownAxes(const Shape& part) {
@@ -133,6 +134,64 @@ std::vector<Block> blocks(const Cells& cells, const std::array<int, 3>& order) {
   return result;
 }
 
+// The same, but each block grows both ways and over cells that others have already: pillars and strips may cross.
+std::vector<Block> coveringBlocks(const Cells& cells) {
+  auto left = cells.solid;
+  const auto count = [&](const Block& b, const std::vector<char>& of) {
+    std::size_t sum = 0;
+    for (int z = b.low[2]; z < b.high[2]; ++z)
+      for (int y = b.low[1]; y < b.high[1]; ++y)
+        for (int x = b.low[0]; x < b.high[0]; ++x) sum += of[cells.at(x, y, z)] != 0;
+    return sum;
+  };
+  const auto isSolid = [&](const Block& b) {
+    return count(b, cells.solid) == static_cast<std::size_t>(b.high[0] - b.low[0]) * (b.high[1] - b.low[1]) * (b.high[2] - b.low[2]);
+  };
+  const auto grown = [&](const std::array<int, 3>& at, const std::array<int, 3>& order) {
+    Block block{at, {at[0] + 1, at[1] + 1, at[2] + 1}};
+    for (const int axis : order) {
+      for (Block next = block; next.high[axis] < cells.size[axis]; block.high[axis] = next.high[axis]) {
+        next = block, next.low[axis] = block.high[axis], next.high[axis] = block.high[axis] + 1;
+        if (!isSolid(next)) break;
+      }
+      for (Block next = block; block.low[axis] > 0; block.low[axis] = next.low[axis]) {
+        next = block, next.high[axis] = block.low[axis], next.low[axis] = block.low[axis] - 1;
+        if (!isSolid(next)) break;
+      }
+    }
+    return block;
+  };
+  std::vector<Block> result;
+  for (int z = 0; z < cells.size[2]; ++z)
+    for (int y = 0; y < cells.size[1]; ++y)
+      for (int x = 0; x < cells.size[0]; ++x) {
+        if (!left[cells.at(x, y, z)]) continue;
+        Block best;
+        std::size_t most = 0;
+        std::array<int, 3> order{0, 1, 2};
+        do {
+          const auto block = grown({x, y, z}, order);
+          if (const auto gain = count(block, left); gain > most) best = block, most = gain;
+        } while (std::next_permutation(order.begin(), order.end()));
+        for (int k = best.low[2]; k < best.high[2]; ++k)
+          for (int j = best.low[1]; j < best.high[1]; ++j)
+            for (int i = best.low[0]; i < best.high[0]; ++i) left[cells.at(i, j, k)] = 0;
+        result.push_back(best);
+        if (result.size() > kMostBoxes) return result;
+      }
+  return result;
+}
+
+double volumeOf(const Cells& cells) {
+  double sum = 0;
+  const auto length = [&](int axis, int i) { return cells.planes[axis][i + 1] - cells.planes[axis][i]; };
+  for (int z = 0; z < cells.size[2]; ++z)
+    for (int y = 0; y < cells.size[1]; ++y)
+      for (int x = 0; x < cells.size[0]; ++x)
+        if (cells.solid[cells.at(x, y, z)]) sum += length(0, x) * length(1, y) * length(2, z);
+  return sum;
+}
+
 Piece boxOf(const Cells& cells, const Block& block, const Matrix3d& axes) {
   std::vector<Vector3d> bottom, top;
   constexpr int kCorners[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -151,21 +210,18 @@ std::vector<Piece> boxPieces(const Shape& part, double volume_m3) {
   const auto axes = ownAxes(part);
   if (!axes) return {};
   const auto cells = cut(part, *axes);
-  if (!cells) return {};
+  if (!cells || std::abs(volumeOf(*cells) - std::abs(volume_m3)) > 0.01 * std::abs(volume_m3)) return {};
   std::vector<Block> best;
   std::array<int, 3> order{0, 1, 2};
   do {
     auto candidate = blocks(*cells, order);
     if (best.empty() || candidate.size() < best.size()) best = std::move(candidate);
   } while (std::next_permutation(order.begin(), order.end()));
-  if (best.empty() || best.size() > kMostBoxes) return {};
+  if (best.size() > kFewBlocks)
+    if (auto covering = coveringBlocks(*cells); covering.size() < best.size()) best = std::move(covering);
+  if (best.size() > kMostBoxes) return {};
   std::vector<Piece> result;
-  double sum = 0;
-  for (const auto& block : best) {
-    result.push_back(boxOf(*cells, block, *axes));
-    sum += volumeOf(result.back().positions, result.back().triangles);
-  }
-  if (std::abs(sum - std::abs(volume_m3)) > 0.01 * std::abs(volume_m3)) return {};
+  for (const auto& block : best) result.push_back(boxOf(*cells, block, *axes));
   return result;
 }
 

@@ -11,6 +11,7 @@
 #include "optimizer/doors.h"
 #include "optimizer/optimizer.h"
 #include "optimizer/pieces.h"
+#include "optimizer/rooms.h"
 #include "optimizer/shape.h"
 #include "optimizer/walkable.h"
 
@@ -26,9 +27,10 @@ struct Work {
   Pieces result;
 };
 
-std::vector<bool> stopping(const Environment& environment) {
-  auto result = belongsToDoor(environment);
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] = !result[i] && environment.products[i].tangible;
+std::vector<bool> stopping(const Environment& environment, const CollideOptions& options) {
+  const auto door_of = doorOf(environment);
+  auto result = closedDoors(environment, options);
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = (result[i] || door_of[i] < 0) && environment.products[i].inScene();
   return result;
 }
 
@@ -46,7 +48,7 @@ Result<std::vector<Work>> makePieces(const Environment& environment, const std::
     const auto log = recordCollapses(whole, {0, true}, progress);
     work.shape = replay(whole, log, log.size());
     if (progress.cancelled()) return;
-    work.result = collisionPieces(work.shape, kMaxDeviation / work.scale);
+    work.result = collisionPieces(work.shape, kMaxDeviation / work.scale, progress);
     progress.advance(static_cast<double>(++done) / static_cast<double>(works.size()));
   });
   if (auto going = progress.check(); !going) return failure(going.error());
@@ -76,16 +78,12 @@ void placeShapes(const Environment& environment, const std::vector<bool>& stops,
     if (!stops[instance.product]) continue;
     const auto& work = works[instance.mesh];
     auto& sum = result.products[instance.product];
-    for (const auto& piece : work.result.pieces) {
-      result.shapes.push_back(placed(piece, work.shape.centre, instance));
-      ++sum.shapes;
-      sum.triangles += piece.triangles.size();
-    }
+    for (const auto& piece : work.result.pieces) result.shapes.push_back(placed(piece, work.shape.centre, instance));
     sum.max_deviation_m = std::max(sum.max_deviation_m, work.result.max_deviation_m * work.scale);
     if (work.result.fell_back) fell_back[instance.product] = true;
   }
   for (std::size_t i = 0; i < fell_back.size(); ++i)
-    if (fell_back[i]) result.report.note(environment.products[i].id, "collides as its triangles: neither prismatic nor nearly convex");
+    if (fell_back[i]) result.report.note(environment.products[i].id, fmt::format("collides as its triangles, or a part of it does: no convex pieces come within {:.0f} mm", kMaxDeviation * 1000));
 }
 
 }  // namespace
@@ -96,21 +94,27 @@ Result<CollideResult> collide(const Environment& environment, const CollideOptio
   if (!(options.agent_height_m >= 2 * options.agent_radius_m) || !(options.agent_height_m <= 20))
     return failure(ErrorKind::usage, "the agent's height must be at least twice its radius, and at most 20 m", "agent_height_m");
   if (auto wrong = validate(environment); !wrong.empty()) return failure(ErrorKind::unusable, wrong, "environment");
-  const auto stops = stopping(environment);
+  const auto stops = stopping(environment, options);
   auto works = makePieces(environment, stops, progress);
   if (!works) return failure(works.error());
   CollideResult result;
   placeShapes(environment, stops, *works, result);
+  if (options.doors != DoorState::open) closeWhatIsOpen(environment, options, result.shapes, result.report);
+  for (const auto& shape : result.shapes) {
+    ++result.products[shape.product].shapes;
+    result.products[shape.product].triangles += shape.mesh.triangles.size();
+  }
   progress.stage("Find the walkable surface", 0.5, 0.9);
   auto walkable = walkableSurface(result.shapes, options, progress);
   if (!walkable) return failure(walkable.error());
-  result.walkable_area_m2 = walkable->area_m2;
-  result.walkable = std::move(walkable->mesh);
   if (walkable->cell_m > options.agent_radius_m / 10 + 1e-6)
     result.report.note("walkable", fmt::format("found on a grid of {:.3f} m, as the model is large: narrow passages may be missing", walkable->cell_m));
   progress.stage("Pass through the doors", 0.9, 1);
   if (auto going = progress.check(); !going) return failure(going.error());
   result.doors = checkDoors(environment, result.shapes, options, result.report);
+  if (options.doors != DoorState::closed) result.rooms = checkRooms(environment, *walkable, result.doors, result.report);
+  result.walkable_area_m2 = walkable->area_m2;
+  result.walkable = std::move(walkable->mesh);
   return result;
 }
 

@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include "optimizer/triangle_distance.h"
-#include "optimizer/triangle_tree.h"
+#include "optimizer/pieces.h"
 #include "optimizer/walkable.h"
 
 namespace standpoint {
@@ -18,39 +16,105 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFloorReach = 0.35;  // m above and below the door's lower edge in which its floor is looked for
-constexpr double kTouch = 1e-3;       // m; a capsule that only touches still passes
-constexpr double kOffsets[] = {0, 0.02, -0.02, 0.05, -0.05, 0.1, -0.1, 0.15, -0.15};  // m beside the door's middle
+constexpr double kFloorReach = 0.35;   // m above and below the door's lower edge in which its floor is looked for
+constexpr double kTouch = 1e-3;        // m; a capsule that only touches still passes
+constexpr double kBeside = 0.30;       // m from the door's middle that a way through it is looked for …
+constexpr double kBesideStep = 0.02;   // … in steps of
+constexpr double kWidest = 2;          // m that a clear width is measured to
+constexpr double kDeep = 1.5;          // times its width, that no door is
+constexpr double kPlate = 0.04;        // m, thickness of the leaf of a door that has none
 
 bool isDoor(const Product& product) { return product.ifc_class == "IfcDoor" || product.ifc_class == "IfcDoorStandardCase"; }
 
-// Where a door stands and which way leads through it.
-struct Passage {
-  Vector3d middle = Vector3d::Zero();  // on its lower edge
-  Vector3d through = Vector3d::UnitX(), across = Vector3d::UnitY();
-  double half_depth = 0;
+// Height of the uppermost surface below or above p within reach.
+std::optional<double> floorAt(const Obstacles& obstacles, const Vector3d& p) {
+  const Vector3d reach(0, 0, kFloorReach);
+  const auto hit = obstacles.ray(p + reach, p - reach);
+  return hit ? std::optional(hit->point.z()) : std::nullopt;
+}
+
+struct Way {
+  Vector3d from, to;    // of the feet of what passes, in the door's middle
+  Body upper;           // the agent without what it steps over, as in the walkable surface
+  bool floor = false;
 };
 
-struct Obstacles {
-  std::vector<Vector3d> positions;
-  std::vector<Triangle> triangles;
-  std::vector<std::uint32_t> shape_of_triangle;
+Way wayThrough(const Passage& passage, const Obstacles& obstacles, const CollideOptions& options) {
+  const Vector3d reach = passage.through * (passage.half_depth + options.agent_radius_m);
+  const auto before = floorAt(obstacles, passage.middle - reach), behind = floorAt(obstacles, passage.middle + reach);
+  const double lift = std::min(kStepHeight, options.agent_height_m - 2 * options.agent_radius_m);
+  Way way{passage.middle - reach, passage.middle + reach, {options.agent_radius_m, options.agent_height_m - lift}, before && behind};
+  way.from.z() = way.to.z() = std::max({passage.middle.z(), before.value_or(-1e300), behind.value_or(-1e300)}) + lift;
+  return way;
+}
 
-  explicit Obstacles(const std::vector<CollisionShape>& shapes) {
-    for (std::uint32_t i = 0; i < shapes.size(); ++i) {
-      const auto first = static_cast<std::uint32_t>(positions.size());
-      for (const auto& p : shapes[i].mesh.positions) positions.emplace_back(p.cast<double>());
-      for (const auto& t : shapes[i].mesh.triangles) {
-        triangles.push_back({first + t[0], first + t[1], first + t[2]});
-        shape_of_triangle.push_back(i);
-      }
-    }
+// What stops a body of this radius on the way nearest to the door's middle, or nothing where it passes on any.
+std::optional<std::uint32_t> blocker(const Obstacles& obstacles, const Passage& passage, const Way& way, double radius) {
+  const Body body{radius - kTouch, way.upper.height_m};
+  std::optional<std::uint32_t> first;
+  for (int i = 0; i * kBesideStep <= 2 * kBeside; ++i) {
+    const Vector3d beside = passage.across * ((i % 2 == 0 ? 0.5 : -0.5) * kBesideStep * (i + i % 2));
+    auto met = obstacles.sweep(body, way.from + beside, way.to + beside);
+    if (!met) met = obstacles.sweep(body, way.to + beside, way.from + beside);
+    if (!met) return std::nullopt;
+    if (!first) first = met->product;
   }
-  Corners corners(std::uint32_t i) const { return {positions[triangles[i][0]], positions[triangles[i][1]], positions[triangles[i][2]]}; }
+  return first;
+}
+
+double clearWidth(const Obstacles& obstacles, const Passage& passage, const Way& way) {
+  double passes = 0, stuck = std::min(kWidest, way.upper.height_m) / 2;
+  if (!blocker(obstacles, passage, way, stuck)) return 2 * stuck;
+  while (stuck - passes > 0.0025) {
+    const double radius = 0.5 * (passes + stuck);
+    (blocker(obstacles, passage, way, radius + kTouch) ? stuck : passes) = radius;
+  }
+  return passes < 0.01 ? 0 : 2 * passes;
+}
+
+struct Verdict {
+  Door door;
+  bool shapeless = false;
+  std::optional<std::uint32_t> blocked_by;  // product
 };
 
-// A door's leaf and glass are most of its area, so their normals say which way leads through. Angles are doubled, as a
-// normal and its opposite are the same direction.
+Verdict judge(const Environment& environment, std::uint32_t product, const Obstacles& obstacles, const CollideOptions& options) {
+  Verdict verdict;
+  verdict.door.product = product;
+  const auto passage = passageOf(environment, product);
+  verdict.shapeless = !passage;
+  if (!passage) return verdict;
+  const auto way = wayThrough(*passage, obstacles, options);
+  verdict.door.position = passage->middle;
+  verdict.door.floor = way.floor;
+  verdict.blocked_by = blocker(obstacles, *passage, way, options.agent_radius_m);
+  verdict.door.passable = !verdict.blocked_by;
+  verdict.door.clear_width_m = clearWidth(obstacles, *passage, way);
+  return verdict;
+}
+
+std::vector<std::uint32_t> doorsOf(const Environment& environment) {
+  std::vector<std::uint32_t> doors;
+  for (std::uint32_t i = 0; i < environment.products.size(); ++i)
+    if (environment.products[i].inScene() && isDoor(environment.products[i])) doors.push_back(i);
+  return doors;
+}
+
+void reportDoor(const Environment& environment, const Verdict& verdict, Report& report) {
+  const auto& product = environment.products[verdict.door.product];
+  if (verdict.shapeless) return report.warn(product.id, fmt::format("door {} has no geometry: whether one can pass is unknown", product.name));
+  if (!verdict.door.floor) report.warn(product.id, fmt::format("door {} has no floor on both sides", product.name));
+  if (!verdict.blocked_by || verdict.door.closed) return;
+  const auto& other = environment.products[*verdict.blocked_by];
+  report.warn(product.id, verdict.door.clear_width_m > 0
+                              ? fmt::format("door {} lets nobody pass: {:.2f} m are clear beside {} {}", product.name, verdict.door.clear_width_m, other.ifc_class, other.id)
+                              : fmt::format("door {} is blocked by {} {}", product.name, other.ifc_class, other.id));
+}
+
+}  // namespace
+
+// A door's leaf and glass are most of its area, so their normals say which way leads through, unless it would be much deeper
+// than wide. Angles are doubled, as a normal and its opposite are the same direction.
 std::optional<Passage> passageOf(const Environment& environment, std::uint32_t product) {
   double cosine = 0, sine = 0;
   std::vector<Vector3d> points;
@@ -70,127 +134,85 @@ std::optional<Passage> passageOf(const Environment& environment, std::uint32_t p
   Passage passage;
   const double angle = std::atan2(sine, cosine) / 2;
   passage.through = {std::cos(angle), std::sin(angle), 0};
-  passage.across = {-passage.through.y(), passage.through.x(), 0};
-  Bounds box;
-  for (const auto& p : points) box.extend(Vector3d(passage.through.dot(p), passage.across.dot(p), p.z()));
+  const auto boxAlong = [&] {
+    passage.across = {-passage.through.y(), passage.through.x(), 0};
+    Bounds box;
+    for (const auto& p : points) box.extend(Vector3d(passage.through.dot(p), passage.across.dot(p), p.z()));
+    return box;
+  };
+  Bounds box = boxAlong();
+  if (const Vector3d size = box.max - box.min; size.x() > kDeep * size.y()) {  // the posts of an empty frame
+    passage.through = passage.across;
+    box = boxAlong();
+  }
   passage.middle = passage.through * (0.5 * (box.min.x() + box.max.x())) + passage.across * (0.5 * (box.min.y() + box.max.y()));
   passage.middle.z() = box.min.z();
-  passage.half_depth = 0.5 * (box.max.x() - box.min.x());
+  const Vector3d size = box.max - box.min;
+  passage.half_depth = 0.5 * size.x();
+  passage.half_width = 0.5 * size.y();
+  passage.height = size.z();
   return passage;
 }
 
-// Height of the uppermost surface below or above p within reach.
-std::optional<double> floorAt(const Obstacles& obstacles, const TriangleTree& tree, const Vector3d& p) {
-  std::optional<double> best;
-  const Vector3d reach(1e-6, 1e-6, kFloorReach);
-  tree.inBox(p - reach, p + reach, [&](std::uint32_t i) {
-    const auto t = obstacles.corners(i);
-    const auto side = [&](const Vector3d& a, const Vector3d& b) { return (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x()); };
-    const double a = side(t[1], t[2]), b = side(t[2], t[0]), c = side(t[0], t[1]), sum = a + b + c;
-    if (sum == 0 || a * sum < 0 || b * sum < 0 || c * sum < 0) return true;
-    const double z = (a * t[0].z() + b * t[1].z() + c * t[2].z()) / sum;
-    if (std::abs(z - p.z()) <= kFloorReach && (!best || z > *best)) best = z;
-    return true;
-  });
-  return best;
-}
-
-bool isInside(const CollisionShape& shape, const Vector3d& p) {
-  if (shape.kind == CollisionShapeKind::mesh) return false;
-  for (const auto& t : shape.mesh.triangles) {
-    const Vector3d a = shape.mesh.positions[t[0]].cast<double>();
-    const Vector3d normal = (shape.mesh.positions[t[1]].cast<double>() - a).cross(shape.mesh.positions[t[2]].cast<double>() - a);
-    if (normal.dot(p - a) > 0) return false;
-  }
-  return true;
-}
-
-// What a sphere swept over the whole rectangle low..high meets first: the volume that an upright capsule sweeps on a
-// straight way, the same in both senses.
-std::optional<std::uint32_t> blocker(const std::vector<CollisionShape>& shapes, const Obstacles& obstacles, const TriangleTree& tree, const Vector3d& from,
-                                     const Vector3d& to, double height, double radius) {
-  const Vector3d up(0, 0, height);
-  const Corners first{from, to, to + up}, second{from, to + up, from + up};
-  const Vector3d margin = Vector3d::Constant(radius);
-  std::optional<std::uint32_t> result;
-  tree.inBox(from.cwiseMin(to) - margin, from.cwiseMax(to) + up + margin, [&](std::uint32_t i) {
-    const auto t = obstacles.corners(i);
-    if (distance(first, t) < radius || distance(second, t) < radius) result = obstacles.shape_of_triangle[i];
-    return !result;
-  });
-  for (std::uint32_t i = 0; i < shapes.size() && !result; ++i)
-    if (isInside(shapes[i], 0.5 * (from + to) + 0.5 * up)) result = i;
-  return result;
-}
-
-struct Verdict {
-  Door door;
-  bool shapeless = false;
-  std::optional<std::uint32_t> blocked_by;  // product
-};
-
-Verdict judge(const Environment& environment, std::uint32_t product, const std::vector<CollisionShape>& shapes, const Obstacles& obstacles,
-              const TriangleTree& tree, const CollideOptions& options) {
-  Verdict verdict;
-  verdict.door.product = product;
-  const auto passage = passageOf(environment, product);
-  verdict.shapeless = !passage;
-  if (!passage) return verdict;
-  const Vector3d reach = passage->through * (passage->half_depth + options.agent_radius_m);
-  const auto before = floorAt(obstacles, tree, passage->middle - reach), behind = floorAt(obstacles, tree, passage->middle + reach);
-  verdict.door.floor = before && behind;
-  const double level = std::max({passage->middle.z(), before.value_or(-1e300), behind.value_or(-1e300)});
-  // What is lower than a step is climbed, as in the walkable surface.
-  const double radius = options.agent_radius_m;
-  const double low = level + std::min(kStepHeight, options.agent_height_m - 2 * radius) + radius;
-  const double height = level + options.agent_height_m - radius - low;
-  std::optional<std::uint32_t> first;
-  for (const double offset : kOffsets) {
-    Vector3d middle = passage->middle + passage->across * offset;
-    middle.z() = low;
-    const auto met = blocker(shapes, obstacles, tree, middle - reach, middle + reach, height, radius - kTouch);
-    verdict.door.passable = !met;
-    if (!met) break;
-    if (!first) first = shapes[*met].product;
-  }
-  if (!verdict.door.passable) verdict.blocked_by = first;
-  return verdict;
-}
-
-}  // namespace
-
-std::vector<bool> belongsToDoor(const Environment& environment) {
-  std::vector<bool> result(environment.products.size(), false);
+std::vector<std::int32_t> doorOf(const Environment& environment) {
+  std::vector<std::int32_t> result(environment.products.size(), -1);
   for (std::size_t i = 0; i < result.size(); ++i) {
     auto at = static_cast<std::int32_t>(i);
     for (int depth = 0; depth < 32 && at >= 0; ++depth) {  // a file may make a ring of parts
-      if (isDoor(environment.products[static_cast<std::size_t>(at)])) result[i] = true;
+      if (isDoor(environment.products[static_cast<std::size_t>(at)])) result[i] = at;
       at = environment.products[static_cast<std::size_t>(at)].whole;
     }
   }
   return result;
 }
 
-std::vector<Door> checkDoors(const Environment& environment, const std::vector<CollisionShape>& shapes, const CollideOptions& options, Report& report) {
-  std::vector<std::uint32_t> doors;
-  for (std::uint32_t i = 0; i < environment.products.size(); ++i)
-    if (environment.products[i].tangible && isDoor(environment.products[i])) doors.push_back(i);
+std::vector<bool> closedDoors(const Environment& environment, const CollideOptions& options) {
+  const auto door_of = doorOf(environment);
+  std::vector<bool> result(door_of.size(), false);
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    if (door_of[i] < 0) continue;
+    const auto door = static_cast<std::size_t>(door_of[i]);
+    result[i] = options.doors == DoorState::closed || (options.doors == DoorState::as_set && ((door < options.closed.size() && options.closed[door]) || (i < options.closed.size() && options.closed[i])));
+  }
+  return result;
+}
+
+void closeWhatIsOpen(const Environment& environment, const CollideOptions& options, std::vector<CollisionShape>& shapes, Report& report) {
+  const auto closed = closedDoors(environment, options);
   const Obstacles obstacles(shapes);
-  const TriangleTree tree(obstacles.positions, obstacles.triangles);
+  std::vector<CollisionShape> plates;
+  for (const auto door : doorsOf(environment)) {
+    const auto passage = closed[door] ? passageOf(environment, door) : std::nullopt;
+    if (!passage || blocker(obstacles, *passage, wayThrough(*passage, obstacles, options), options.agent_radius_m)) continue;
+    std::vector<Vector3d> bottom;
+    for (const auto& [along, beside] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
+      bottom.push_back(passage->middle + passage->through * (along * kPlate / 2) + passage->across * (beside * passage->half_width));
+    auto top = bottom;
+    for (auto& p : top) p.z() += passage->height;
+    const auto plate = prism(bottom, top, CollisionShapeKind::box);
+    CollisionShape shape{plate.kind, door, {}};
+    for (const auto& p : plate.positions) shape.mesh.positions.push_back(p.cast<float>());
+    shape.mesh.triangles = plate.triangles;
+    shape.mesh.surface_of_triangle.assign(plate.triangles.size(), 0);
+    plates.push_back(std::move(shape));
+    report.note(environment.products[door].id, "has no leaf that closes it: a plate stands across it");
+  }
+  shapes.insert(shapes.end(), std::make_move_iterator(plates.begin()), std::make_move_iterator(plates.end()));
+  std::stable_sort(shapes.begin(), shapes.end(), [](const auto& a, const auto& b) { return a.product < b.product; });
+}
+
+std::vector<Door> checkDoors(const Environment& environment, const std::vector<CollisionShape>& shapes, const CollideOptions& options, Report& report) {
+  const auto doors = doorsOf(environment);
+  if (doors.empty()) return {};
+  const auto closed = closedDoors(environment, options);
+  const Obstacles obstacles(shapes);
   std::vector<Verdict> verdicts(doors.size());
-  tbb::parallel_for(std::size_t{0}, doors.size(), [&](std::size_t i) { verdicts[i] = judge(environment, doors[i], shapes, obstacles, tree, options); });
+  tbb::parallel_for(std::size_t{0}, doors.size(), [&](std::size_t i) { verdicts[i] = judge(environment, doors[i], obstacles, options); });
   std::vector<Door> result;
-  for (const auto& verdict : verdicts) {
-    const auto& product = environment.products[verdict.door.product];
+  for (auto& verdict : verdicts) {
+    verdict.door.closed = closed[verdict.door.product];
+    reportDoor(environment, verdict, report);
     result.push_back(verdict.door);
-    if (verdict.shapeless) {
-      report.warn(product.id, fmt::format("door {} has no geometry: whether one can pass is unknown", product.name));
-      continue;
-    }
-    if (!verdict.door.floor) report.warn(product.id, fmt::format("door {} has no floor on both sides", product.name));
-    if (!verdict.door.passable)
-      report.warn(product.id, fmt::format("door {} is blocked by {} {}", product.name, environment.products[*verdict.blocked_by].ifc_class,
-                                          environment.products[*verdict.blocked_by].id));
   }
   return result;
 }

@@ -38,7 +38,7 @@ Result<void> check(const Environment& environment, const OptimizeOptions& option
 
 void addIntangible(const Environment& environment, Environment& lighter) {
   for (const auto& instance : environment.instances)
-    if (!environment.products[instance.product].tangible) lighter.instances.push_back(instance);
+    if (!environment.products[instance.product].inScene()) lighter.instances.push_back(instance);
   std::stable_sort(lighter.instances.begin(), lighter.instances.end(), [](const Instance& a, const Instance& b) { return a.product < b.product; });
 }
 
@@ -114,7 +114,7 @@ Environment withDropped(const Environment& shared, const Environment& tangible, 
 Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOptions& options, Progress& progress) {
   if (auto checked = check(environment, options); !checked) return failure(checked.error());
   progress.stage("Find repetitions", 0, 0.1);
-  const Environment tangible = tangiblePart(environment);
+  const Environment tangible = sceneOf(environment);
   const Environment rest = withoutDropped(tangible, options);
   OptimizeResult result;
   Environment shared = rest;

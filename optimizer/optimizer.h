@@ -51,9 +51,13 @@ struct OptimizeResult {
 // neither counts nor changes. Deterministic.
 Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOptions& options, Progress& progress);
 
+enum class DoorState { open, closed, as_set };
+
 struct CollideOptions {
   double agent_radius_m = 0.3;
   double agent_height_m = 1.8;
+  DoorState doors = DoorState::open;
+  std::vector<bool> closed;        // for as_set: one for each product, true for the doors that are; empty: none is
 };
 
 enum class CollisionShapeKind { box, convex, mesh };
@@ -73,17 +77,31 @@ struct Door {
   std::uint32_t product = 0;
   bool floor = false;              // there is floor on both sides
   bool passable = false;           // the agent's capsule passes both ways
+  bool closed = false;             // its leaf is in the way
+  double clear_width_m = 0;        // of the widest body of the agent's height that passes; 0 when none does, at most 2 m
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // the middle of its lower edge, local frame
+};
+
+// An IfcSpace.
+struct Room {
+  std::uint32_t product = 0;
+  double walkable_m2 = 0;          // of it, wherever that leads to
+  bool reached = false;            // one walks there from where most rooms are reached from
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // the middle of its floor, local frame
 };
 
 struct CollideResult {
-  std::vector<CollisionShape> shapes;         // sorted by product; none for door leaves (doors stay open)
+  std::vector<CollisionShape> shapes;         // sorted by product; of doors only what stands closed
   std::vector<ProductCollision> products;     // one per product of the environment
   std::vector<Door> doors;
+  std::vector<Room> rooms;
   double walkable_area_m2 = 0;
   Mesh walkable;                              // local frame, for display
-  Report report;                              // doors without a floor, doors that are blocked, shapes that fell back
+  Report report;                              // doors and rooms that are not as one expects, shapes that fell back
 };
 
+// Solids that bodies bump into, what can be walked on between them, and whether the doors and rooms can be walked to.
+// Deterministic.
 Result<CollideResult> collide(const Environment& environment, const CollideOptions& options, Progress& progress);
 
 }  // namespace standpoint

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "core/progress.h"
 #include "optimizer/optimizer.h"
 #include "optimizer/shape.h"
 
@@ -22,20 +23,28 @@ struct Piece {
 struct Pieces {
   std::vector<Piece> pieces;
   double max_deviation_m = 0;  // between the pieces' outer surface and the shape's, measured
-  bool fell_back = false;      // a part that is neither prismatic nor nearly convex stays a triangle mesh
+  bool fell_back = false;      // a part that no convex pieces describe stays a triangle mesh
 };
 
-// Connected part by part: boxes between the planes of its faces where these are square to each other, else prisms over a
-// convex partition of its section, else its convex hull where that deviates by at most max_deviation_m, else its triangles.
-Pieces collisionPieces(const Shape& shape, double max_deviation_m);
+// Connected part by part: boxes between the planes of its faces where these are square to each other, else its convex hull,
+// else prisms over a convex partition of its section, else what cuts along its reflex planes leave: whatever is least and
+// deviates by at most max_deviation_m; else its triangles.
+Pieces collisionPieces(const Shape& shape, double max_deviation_m, const Progress& progress);
 
-// The three ways, each empty when it does not apply. `volume_m3` of the closed part tells whether nothing was lost.
+// The ways, each empty when it does not apply. `volume_m3` of the closed part tells whether nothing was lost.
 std::vector<Piece> boxPieces(const Shape& part, double volume_m3);
 std::vector<Piece> prismPieces(const Shape& part, double volume_m3);
+// A part without a volume becomes a plate of a millimetre.
+std::vector<Piece> sheetPieces(const Shape& part);
+// Cut along the planes of its reflex faces until no face has anything more than tolerance_m before it.
+std::vector<Piece> cutPieces(const Shape& part, double tolerance_m);
 std::optional<Piece> hullPiece(const std::vector<Eigen::Vector3d>& points);
 
 // Directions of the faces (either sense), largest total area first, no two closer than half a degree.
 std::vector<Eigen::Vector3d> faceDirections(const Shape& part);
+
+// How often the surface goes around p: 1 inside of a closed part, 0 outside.
+double windingNumber(const Shape& part, const Eigen::Vector3d& p);
 
 double volumeOf(const std::vector<Eigen::Vector3d>& positions, const std::vector<Triangle>& triangles);
 

@@ -29,6 +29,8 @@ constexpr double kFlat = 0.001;     // m; a face this flat along the axis is a c
 constexpr double kUpright = 2e-3;   // sine of the largest angle between the axis and a side
 constexpr double kSnap = 1e-5;      // m; points of the section this near are one
 constexpr std::size_t kMostPieces = 100;
+constexpr std::size_t kMostSheetTriangles = 2000;
+constexpr double kHalfSheet = 0.0005;  // m
 constexpr std::size_t kMostDirections = 6;
 constexpr std::size_t kMostSegments = 4000;
 
@@ -211,6 +213,35 @@ std::vector<Piece> prismsAlong(const Shape& part, const Vector3d& axis, double v
 }
 
 }  // namespace
+
+std::vector<Piece> sheetPieces(const Shape& part) {
+  const auto directions = faceDirections(part);
+  if (directions.size() != 1) return {};
+  const Vector3d axis = directions[0];
+  const Frame frame{axis.unitOrthogonal(), axis.cross(axis.unitOrthogonal()), axis};
+  Section sheet;
+  double height = 0;
+  for (const auto& p : part.positions) {
+    sheet.points.push_back(frame.flat(p));
+    height += axis.dot(p) / static_cast<double>(part.positions.size());
+  }
+  std::vector<Triangle> seen;
+  for (auto t : part.triangles) {
+    auto sorted = t;
+    std::sort(sorted.begin(), sorted.end());
+    if (std::find(seen.begin(), seen.end(), sorted) != seen.end()) continue;  // the same face from behind
+    seen.push_back(sorted);
+    const double turn = cross(sheet.points[t[0]], sheet.points[t[1]], sheet.points[t[2]]);
+    if (turn < 0) std::swap(t[1], t[2]);
+    if (turn != 0) sheet.polygons.push_back({static_cast<int>(t[0]), static_cast<int>(t[1]), static_cast<int>(t[2])});
+    if (seen.size() > kMostSheetTriangles) return {};
+  }
+  sheet.polygons = convexPartition(sheet.points, std::move(sheet.polygons));
+  std::vector<Piece> result;
+  for (const auto& polygon : sheet.polygons)
+    if (auto piece = lift(sheet, polygon, frame, height - kHalfSheet, height + kHalfSheet); !piece.triangles.empty()) result.push_back(std::move(piece));
+  return result.size() > kMostPieces ? std::vector<Piece>{} : result;
+}
 
 std::vector<Piece> prismPieces(const Shape& part, double volume_m3) {
   std::vector<Piece> best;

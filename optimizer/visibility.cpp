@@ -37,7 +37,7 @@ Vector3d direction(const std::array<std::uint32_t, 4>& block, double lowest_sine
 }  // namespace
 
 std::vector<double> skyShares(const Environment& environment, const Progress& progress) {
-  const Environment tangible = tangiblePart(environment);
+  const Environment tangible = sceneOf(environment);
   std::vector<double> shares(environment.products.size(), 1);
   if (tangible.instances.empty()) return shares;
   const PlacedSurfaces surfaces(tangible);
@@ -64,7 +64,7 @@ std::vector<double> skyShares(const Environment& environment, const Progress& pr
 }
 
 std::vector<double> walkersView(const Environment& environment, const Mesh& walkable, const Progress& progress) {
-  const Environment tangible = tangiblePart(environment);
+  const Environment tangible = sceneOf(environment);
   std::vector<double> view(environment.products.size(), 1);
   std::vector<Vector3d> floor;
   for (const auto& p : walkable.positions) floor.push_back(p.cast<double>());
@@ -102,7 +102,7 @@ void weighByView(OptimizeOptions& options, const Environment& environment, const
 }
 
 std::vector<std::vector<bool>> hiddenTriangles(const Environment& environment, const Progress& progress) {
-  const Environment tangible = tangiblePart(environment);
+  const Environment tangible = sceneOf(environment);
   const PlacedSurfaces surfaces(tangible);
   const auto isHidden = [&](const Instance& instance, const Triangle& t, std::uint32_t index) {
     const Mesh& mesh = *environment.meshes[instance.mesh];

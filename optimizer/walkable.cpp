@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <tuple>
 
 #include <recastnavigation/Recast.h>
 
@@ -96,18 +97,20 @@ bool addSolid(const Soup& soup, rcHeightfield& field, const Grid& grid, int clim
   return true;
 }
 
-// Clears islands on which the agent has no room, and returns the number of spans that stay.
-std::size_t removeIslands(rcCompactHeightfield& field, double smallest_spans) {
-  std::vector<char> seen(static_cast<std::size_t>(field.spanCount), 0);
+constexpr std::uint32_t kNoIsland = std::numeric_limits<std::uint32_t>::max();
+
+// Numbers the islands, by span. Those on which the agent has no room are cleared.
+std::vector<std::uint32_t> findIslands(rcCompactHeightfield& field, double smallest_spans) {
+  std::vector<std::uint32_t> result(static_cast<std::size_t>(field.spanCount), kNoIsland);
+  std::uint32_t number = 0;
   std::vector<std::array<int, 3>> island;  // x, z, span
-  std::size_t kept = 0;
   for (int z = 0; z < field.height; ++z)
     for (int x = 0; x < field.width; ++x) {
       const auto& cell = field.cells[z * field.width + x];
       for (int i = static_cast<int>(cell.index); i < static_cast<int>(cell.index + cell.count); ++i) {
-        if (seen[i] || field.areas[i] == RC_NULL_AREA) continue;
+        if (result[i] != kNoIsland || field.areas[i] == RC_NULL_AREA) continue;
         island.assign(1, {x, z, i});
-        seen[i] = 1;
+        result[i] = number;
         for (std::size_t at = 0; at < island.size(); ++at) {
           const auto [ix, iz, ii] = island[at];
           for (int direction = 0; direction < 4; ++direction) {
@@ -115,35 +118,36 @@ std::size_t removeIslands(rcCompactHeightfield& field, double smallest_spans) {
             if (layer == RC_NOT_CONNECTED) continue;
             const int nx = ix + rcGetDirOffsetX(direction), nz = iz + rcGetDirOffsetY(direction);
             const int ni = static_cast<int>(field.cells[nz * field.width + nx].index) + layer;
-            if (seen[ni] || field.areas[ni] == RC_NULL_AREA) continue;
-            seen[ni] = 1;
+            if (result[ni] != kNoIsland || field.areas[ni] == RC_NULL_AREA) continue;
+            result[ni] = number;
             island.push_back({nx, nz, ni});
           }
         }
-        if (static_cast<double>(island.size()) >= smallest_spans) kept += island.size();
-        else
+        ++number;
+        if (static_cast<double>(island.size()) < smallest_spans)
           for (const auto& member : island) field.areas[member[2]] = RC_NULL_AREA;
       }
     }
-  return kept;
+  return result;
 }
 
 struct Rectangle {
   int x0 = 0, x1 = 0, z0 = 0, z1 = 0;
   int level = 0;
+  std::uint32_t island = 0;
 };
 
 // Runs of cells of equal height along one row.
-std::vector<Rectangle> runs(const rcCompactHeightfield& field, int z) {
+std::vector<Rectangle> runs(const rcCompactHeightfield& field, const std::vector<std::uint32_t>& islands, int z) {
   std::vector<Rectangle> done, growing;  // one per level under way
   for (int x = 0; x < field.width; ++x) {
     const auto& cell = field.cells[z * field.width + x];
     for (std::uint32_t i = cell.index, end = cell.index + cell.count; i < end; ++i) {
       if (field.areas[i] == RC_NULL_AREA) continue;
       const int level = field.spans[i].y;
-      const auto run = std::find_if(growing.begin(), growing.end(), [&](const Rectangle& r) { return r.level == level && r.x1 == x; });
+      const auto run = std::find_if(growing.begin(), growing.end(), [&](const Rectangle& r) { return r.level == level && r.island == islands[i] && r.x1 == x; });
       if (run != growing.end()) ++run->x1;
-      else growing.push_back({x, x + 1, z, z + 1, level});
+      else growing.push_back({x, x + 1, z, z + 1, level, islands[i]});
     }
     std::copy_if(growing.begin(), growing.end(), std::back_inserter(done), [&](const Rectangle& r) { return r.x1 <= x; });
     std::erase_if(growing, [&](const Rectangle& r) { return r.x1 <= x; });
@@ -153,13 +157,14 @@ std::vector<Rectangle> runs(const rcCompactHeightfield& field, int z) {
 }
 
 // Equal runs of neighbouring rows joined.
-std::vector<Rectangle> rectangles(const rcCompactHeightfield& field) {
+std::vector<Rectangle> rectangles(const rcCompactHeightfield& field, const std::vector<std::uint32_t>& islands) {
+  using Key = std::tuple<int, int, int, std::uint32_t>;
   std::vector<Rectangle> done;
-  std::map<std::array<int, 3>, Rectangle> open;
+  std::map<Key, Rectangle> open;
   for (int z = 0; z < field.height; ++z) {
-    std::map<std::array<int, 3>, Rectangle> next;
-    for (auto run : runs(field, z)) {
-      const std::array<int, 3> key{run.x0, run.x1, run.level};
+    std::map<Key, Rectangle> next;
+    for (auto run : runs(field, islands, z)) {
+      const Key key{run.x0, run.x1, run.level, run.island};
       if (const auto before = open.find(key); before != open.end()) {
         run.z0 = before->second.z0;
         open.erase(before);
@@ -173,9 +178,11 @@ std::vector<Rectangle> rectangles(const rcCompactHeightfield& field) {
   return done;
 }
 
-Mesh meshOf(const rcCompactHeightfield& field) {
-  Mesh mesh;
-  for (const auto& r : rectangles(field)) {
+void addMesh(const rcCompactHeightfield& field, const std::vector<std::uint32_t>& islands, Walkable& result) {
+  Mesh& mesh = result.mesh;
+  for (const auto& r : rectangles(field, islands)) {
+    result.area_m2 += static_cast<double>(r.x1 - r.x0) * (r.z1 - r.z0) * field.cs * field.cs;
+    result.island_of_triangle.insert(result.island_of_triangle.end(), 2, r.island);
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     const float height = field.bmin[1] + static_cast<float>(r.level) * field.ch;
     const auto corner = [&](int x, int z) {
@@ -186,7 +193,6 @@ Mesh meshOf(const rcCompactHeightfield& field) {
     mesh.triangles.push_back({first, first + 2, first + 3});
   }
   mesh.surface_of_triangle.assign(mesh.triangles.size(), 0);
-  return mesh;
 }
 
 }  // namespace
@@ -216,8 +222,8 @@ Result<Walkable> walkableSurface(const std::vector<CollisionShape>& shapes, cons
   if (!compact || !rcBuildCompactHeightfield(&context, height, climb, *field, *compact)) return full();
   if (!rcErodeWalkableArea(&context, std::min(127, static_cast<int>(std::ceil(options.agent_radius_m / grid.cell - 1e-3))), *compact)) return full();
   const double cell_area = static_cast<double>(grid.cell) * grid.cell;
-  result.area_m2 = static_cast<double>(removeIslands(*compact, 4 * options.agent_radius_m * options.agent_radius_m / cell_area)) * cell_area;
-  result.mesh = meshOf(*compact);
+  const auto islands = findIslands(*compact, 4 * options.agent_radius_m * options.agent_radius_m / cell_area);
+  addMesh(*compact, islands, result);
   return result;
 }
 

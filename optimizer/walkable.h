@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/progress.h"
@@ -16,6 +17,7 @@ struct Walkable {
   double area_m2 = 0;  // where the agent's axis may stand: its radius away from walls and ledges
   double cell_m = 0;   // of the grid that it was found on
   Mesh mesh;
+  std::vector<std::uint32_t> island_of_triangle;  // triangles of one island can be walked to from each other
 };
 
 // By Recast's voxels over the collision shapes, of which convex ones are solid. Islands smaller than the agent do not count.

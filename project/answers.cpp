@@ -22,6 +22,10 @@ json toJson(const Bounds& bounds_local, const Eigen::Vector3d& shift_m) {
   return {toJson(bounds_local.min + shift_m), toJson(bounds_local.max + shift_m)};
 }
 
+json identity(const Product& product) {
+  return {{"id", product.id}, {"global_id", product.global_id}, {"class", product.ifc_class}, {"name", product.name}};
+}
+
 json toJson(const Report& report) {
   json issues = json::array();
   for (const auto& i : report.issues)

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,13 +18,35 @@
 
 namespace standpoint {
 
+// How a lighter model was asked for, so that it can be asked for again when the model has changed.
+struct LighteningRequest {
+  std::optional<std::uint64_t> budget;               // of the main part; nothing: the rules' own, without rules lossless
+  double max_deviation_m = 0.015;                    // where no rules say how far
+  std::string lod_rules;                             // file, or "default"; empty: all products alike
+  std::vector<std::string> surroundings;             // selectors
+};
+
 // What the optimizer did to reach the lighter environment.
 struct Lightening {
   std::shared_ptr<const Environment> environment;
   std::vector<ProductLoss> products;
   ProductLoss all;
-  OptimizeOptions options;                           // read back: the budget and the largest deviation only
+  LighteningRequest request;
   std::vector<std::string> levels;                   // of detail, one for each product; empty: all alike
+};
+
+// What the author says of some products; later ones win.
+enum class TreatmentKind {
+  as_rules,      // takes an earlier treatment back
+  excluded,      // not in the scene: not seen, walked on, scanned, counted or exported
+  kept,          // never simplified, and never dropped
+  simplified,    // within its own limits
+};
+struct Treatment {
+  std::string selector;                         // as of MaterialOverride
+  TreatmentKind kind = TreatmentKind::as_rules;
+  std::optional<double> max_deviation_m;        // of what is simplified
+  std::optional<double> weight;
 };
 
 struct MaterialChoice {
@@ -52,6 +75,7 @@ struct Document {
   std::shared_ptr<const Environment> imported;       // as read from the model
   std::shared_ptr<const Georeference> georeference;
   std::shared_ptr<const Report> import_report;
+  std::shared_ptr<const std::vector<Treatment>> treatments;
   std::shared_ptr<const Lightening> lightening;
   std::shared_ptr<const CollideResult> collision;
   std::shared_ptr<const MaterialChoice> materials;

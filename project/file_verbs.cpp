@@ -34,12 +34,6 @@ json scanInfo(const ScanInfo& scan) {
                         h.file_from_scanner.rotation.z()}}};
 }
 
-std::string lowerExtension(const fs::path& file) {
-  auto extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  return extension;
-}
-
 Result<void> mustExist(const fs::path& file) {
   std::error_code error;
   if (!fs::exists(file, error)) return failure(ErrorKind::file_system, "there is no such file", file.string());
@@ -47,23 +41,6 @@ Result<void> mustExist(const fs::path& file) {
 }
 
 }  // namespace
-
-Result<Outcome> runExport(const Document& document, const json& options, Progress& progress) {
-  const fs::path file = options.at("output").get<std::string>();
-  progress.stage("Export " + file.filename().string());
-  const auto extension = lowerExtension(file);
-  const bool gltf = extension == ".glb" || extension == ".gltf";
-  const auto write = gltf ? exportEnvironmentGltf : extension == ".obj" ? writeEnvironmentObj : nullptr;
-  if (write == nullptr)
-    return failure(ErrorKind::usage, fmt::format("'{}' cannot be written; there is .glb, .gltf and .obj", extension), "--output");
-  const Environment tangible = tangiblePart(*document.environment());
-  if (auto ok = write(tangible, *document.georeference, file, progress); !ok) return failure(ok.error());
-  Outcome outcome{document, {{"file", file.string()}, {"triangles", triangleCount(tangible)}}, {}, {}};
-  if (const auto left_out = document.environment()->instances.size() - tangible.instances.size(); left_out > 0)
-    outcome.report.note("spaces", fmt::format("{} bodies of spaces and other things that no beam meets are not exported", left_out));
-  outcome.description = "Exported " + file.filename().string();
-  return outcome;
-}
 
 Result<Outcome> runConvert(const Document& document, const json& options, Progress& progress) {
   const fs::path in = options.at("in").get<std::string>();

@@ -7,9 +7,6 @@
 
 namespace standpoint {
 
-Result<Outcome> optimizeDocument(const Document& document, const OptimizeOptions& options, Progress& progress);
-Result<Outcome> runOptimize(const Document& document, const nlohmann::json& options, Progress& progress);
-
 Result<Outcome> collideDocument(const Document& document, const CollideOptions& options, Progress& progress);
 Result<Outcome> runCollide(const Document& document, const nlohmann::json& options, Progress& progress);
 

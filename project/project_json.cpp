@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "project/project_files.h"
+#include "project/treatments.h"
 
 namespace standpoint {
 
@@ -73,6 +74,15 @@ json lossToJson(const ProductLoss& l) {
 
 ProductLoss lossFrom(const json& j) { return {j.at(0), j.at(1), j.at(2), j.at(3)}; }
 
+json lighteningToJson(const Lightening& l) {
+  json losses = json::array();
+  for (const auto& loss : l.products) losses.push_back(lossToJson(loss));
+  json part = {{"max_deviation_m", l.request.max_deviation_m}, {"lod_rules", l.request.lod_rules}, {"surroundings", l.request.surroundings},
+               {"all", lossToJson(l.all)}, {"products", losses}, {"levels", l.levels}};
+  if (l.request.budget) part["budget"] = *l.request.budget;
+  return part;
+}
+
 json physicalToJson(const PhysicalMaterial& m) {
   return {{"id", m.id}, {"label", m.label}, {"reflectance", m.reflectance}, {"roughness_rad", m.roughness_rad},
           {"gloss_slope", m.gloss_slope}, {"index_of_refraction", m.index_of_refraction}, {"thickness_m", m.thickness_m},
@@ -120,8 +130,10 @@ json collisionToJson(const CollideResult& c) {
   json products = json::array();
   for (const auto& p : c.products) products.push_back({p.shapes, p.triangles, p.max_deviation_m});
   json doors = json::array();
-  for (const auto& d : c.doors) doors.push_back({d.product, d.floor, d.passable});
-  return {{"shapes", shapes}, {"products", products}, {"doors", doors}, {"walkable_area_m2", c.walkable_area_m2}};
+  for (const auto& d : c.doors) doors.push_back({d.product, d.floor, d.passable, d.closed, d.clear_width_m, toJson(d.position)});
+  json rooms = json::array();
+  for (const auto& r : c.rooms) rooms.push_back({r.product, r.walkable_m2, r.reached, toJson(r.position)});
+  return {{"shapes", shapes}, {"products", products}, {"doors", doors}, {"rooms", rooms}, {"walkable_area_m2", c.walkable_area_m2}};
 }
 
 json propertiesToJson(const std::vector<Property>& properties) {
@@ -148,12 +160,8 @@ json documentToJson(const Document& d) {
   json project = {{"version", kProjectVersion}, {"sources", d.sources}, {"georeference", georeferenceToJson(*d.georeference)},
                   {"job", jobToJson(*d.job)}};
   if (d.import_report) project["import_report"] = toJson(*d.import_report);
-  if (d.lightening) {
-    json losses = json::array();
-    for (const auto& l : d.lightening->products) losses.push_back(lossToJson(l));
-    project["lightening"] = {{"budget", d.lightening->options.budget}, {"max_deviation_m", d.lightening->options.max_deviation_m},
-                             {"all", lossToJson(d.lightening->all)}, {"products", losses}, {"levels", d.lightening->levels}};
-  }
+  if (d.lightening) project["lightening"] = lighteningToJson(*d.lightening);
+  if (d.treatments) project["treatments"] = treatmentsToJson(*d.treatments);
   if (d.collision) project["collision"] = collisionToJson(*d.collision);
   if (d.materials) project["materials"] = materialsToJson(*d.materials);
   return project;
@@ -168,6 +176,8 @@ Document documentFrom(const json& project) {
     for (const auto& i : project.at("import_report"))
       report.issues.push_back({severityFrom(i.at("severity")), i.at("source"), i.at("message")});
   d.import_report = std::make_shared<const Report>(std::move(report));
+  if (project.contains("treatments"))
+    d.treatments = std::make_shared<const std::vector<Treatment>>(treatmentsFrom(project.at("treatments")));
   if (project.contains("materials")) d.materials = std::make_shared<const MaterialChoice>(materialsFrom(project.at("materials")));
   return d;
 }
@@ -179,7 +189,7 @@ json recordsToJson(const Environment& environment) {
     for (const auto& l : p.layers) layers.push_back({l.name, l.thickness_m});
     products.push_back({{"id", p.id}, {"global_id", p.global_id}, {"class", p.ifc_class}, {"predefined_type", p.predefined_type},
                         {"name", p.name}, {"type_name", p.type_name}, {"storey", p.storey}, {"container", p.container},
-                        {"whole", p.whole}, {"tangible", p.tangible}, {"materials", p.materials}, {"groups", p.groups},
+                        {"whole", p.whole}, {"tangible", p.tangible}, {"excluded", p.excluded}, {"materials", p.materials}, {"groups", p.groups},
                         {"layers", std::move(layers)}, {"properties", propertiesToJson(p.properties)}});
   }
   json spatial = json::array();
@@ -203,6 +213,7 @@ Environment recordsFrom(const json& records) {
     p.container = j.at("container");
     p.whole = j.at("whole");
     p.tangible = j.at("tangible");
+    p.excluded = j.value("excluded", false);
     p.materials = j.at("materials");
     p.groups = j.value("groups", std::vector<std::string>{});
     for (const auto& l : j.at("layers")) p.layers.push_back({l.at(0), l.at(1)});
@@ -217,8 +228,10 @@ Environment recordsFrom(const json& records) {
 std::shared_ptr<const Lightening> lighteningFrom(const json& part, std::shared_ptr<const Environment> environment) {
   Lightening l;
   l.environment = std::move(environment);
-  l.options.budget = part.at("budget");
-  l.options.max_deviation_m = part.at("max_deviation_m");
+  if (part.contains("budget")) l.request.budget = part.at("budget").get<std::uint64_t>();
+  l.request.max_deviation_m = part.at("max_deviation_m");
+  l.request.lod_rules = part.value("lod_rules", "");
+  l.request.surroundings = part.value("surroundings", std::vector<std::string>{});
   l.levels = part.value("levels", std::vector<std::string>{});   // not in the projects of the first version
   l.all = lossFrom(part.at("all"));
   for (const auto& loss : part.at("products")) l.products.push_back(lossFrom(loss));
@@ -244,7 +257,14 @@ std::shared_ptr<const CollideResult> collisionFrom(const json& part, const Envir
     c.shapes.push_back({static_cast<CollisionShapeKind>(rows[i].at(0).get<int>()), rows[i].at(1), *shapes.meshes[i]});
   if (shapes.meshes.size() == rows.size() + 1) c.walkable = *shapes.meshes.back();
   for (const auto& p : part.at("products")) c.products.push_back({p.at(0), p.at(1), p.at(2)});
-  for (const auto& d : part.at("doors")) c.doors.push_back({d.at(0), d.at(1), d.at(2)});
+  for (const auto& d : part.at("doors")) {
+    c.doors.push_back({d.at(0), d.at(1), d.at(2)});
+    if (d.size() < 6) continue;  // a project of before doors could be closed
+    c.doors.back().closed = d.at(3);
+    c.doors.back().clear_width_m = d.at(4);
+    c.doors.back().position = vectorFrom(d.at(5));
+  }
+  for (const auto& r : part.value("rooms", json::array())) c.rooms.push_back({r.at(0), r.at(1), r.at(2), vectorFrom(r.at(3))});
   c.walkable_area_m2 = part.at("walkable_area_m2");
   return std::make_shared<const CollideResult>(std::move(c));
 }
@@ -259,6 +279,8 @@ std::string inconsistency(const Document& d) {
       if (s.product >= products) return "/collision names a product that is not there";
     for (const auto& door : d.collision->doors)
       if (door.product >= products) return "/collision/doors names a product that is not there";
+    for (const auto& room : d.collision->rooms)
+      if (room.product >= products) return "/collision/rooms names a product that is not there";
   }
   if (d.materials) {
     const auto count = static_cast<std::int32_t>(d.materials->result.assignment.materials.size());

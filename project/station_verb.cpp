@@ -128,7 +128,7 @@ std::vector<Eigen::Vector3d> placesAround(const RayScene& scene) {
   addPlacesAround(bounds(scene.environment()), 16, places);
   const auto each = productBounds(scene.environment());
   for (std::size_t p = 0; p < each.size(); p += each.size() / kProducts + 1)
-    if (scene.environment().products[p].tangible && !each[p].empty()) addPlacesAround(each[p], 4, places);
+    if (scene.environment().products[p].inScene() && !each[p].empty()) addPlacesAround(each[p], 4, places);
   return places;
 }
 

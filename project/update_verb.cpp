@@ -9,8 +9,11 @@
 #include <fmt/format.h>
 
 #include "project/import_verb.h"
+#include "project/answers.h"
 #include "project/model_verbs.h"
+#include "project/optimize_verb.h"
 #include "project/product_match.h"
+#include "project/treatments.h"
 
 namespace standpoint {
 
@@ -18,8 +21,6 @@ namespace {
 
 using nlohmann::json;
 namespace fs = std::filesystem;
-
-json row(const Product& p) { return {{"id", p.id}, {"global_id", p.global_id}, {"class", p.ifc_class}, {"name", p.name}}; }
 
 // The old list with the new files in their places.
 Result<std::vector<fs::path>> sourcesAfter(const Document& document, const std::vector<fs::path>& files) {
@@ -77,23 +78,34 @@ struct Update {
   const ProductMatch& match;
   json kept = json::array();
 
-  // Overrides whose product is gone stay in the list, so that they work again when it comes back.
+  // What was said of a product that is gone stays in the list, so that it holds again when the product comes back.
+  std::string follow(const Selectors& selectors, const std::string& selector, const char* what, const std::string& value) {
+    const Product* product = selectors.named(selector);
+    if (product == nullptr) return selector;
+    if (selectors.gone(selector)) {
+      kept.push_back({{"what", what}, {"selector", selector}, {what, value}, {"product", identity(*product)}});
+      outcome.report.warn(selector, fmt::format("the product '{}' is gone; its {} {} is kept for when it comes back", product->name, what, value));
+    }
+    return selectors.followed(selector);
+  }
+
+  void treatments() {
+    if (!before.treatments) return;
+    const Selectors selectors(*before.imported, *outcome.document.imported, match);
+    auto now = *before.treatments;
+    const json rows = treatmentsToJson(now);
+    for (std::size_t i = 0; i < now.size(); ++i) now[i].selector = follow(selectors, now[i].selector, "treatment", rows[i].at("as"));
+    outcome.document.imported = withExclusions(outcome.document.imported, now);
+    outcome.document.treatments = std::make_shared<const std::vector<Treatment>>(std::move(now));
+  }
+
   Result<void> materials(Progress& progress) {
     if (!before.materials) return {};
     const Selectors selectors(*before.imported, *outcome.document.imported, match);
     MaterialChoice choice;
     choice.rules_file = before.materials->rules_file;
-    for (const MaterialOverride& o : before.materials->overrides) {
-      MaterialOverride now = o;
-      if (const Product* product = selectors.named(o.selector)) {
-        now.selector = selectors.followed(o.selector);
-        if (selectors.gone(o.selector)) {
-          kept.push_back({{"what", "material"}, {"selector", o.selector}, {"material", o.material}, {"product", row(*product)}});
-          outcome.report.warn(o.selector, fmt::format("the product '{}' is gone; its material {} is kept for when it comes back", product->name, o.material));
-        }
-      }
-      choice.overrides.push_back(std::move(now));
-    }
+    for (const MaterialOverride& o : before.materials->overrides)
+      choice.overrides.push_back({follow(selectors, o.selector, "material", o.material), o.material});
     outcome.document.materials = std::make_shared<const MaterialChoice>(std::move(choice));
     auto assigned = assignDocumentMaterials(outcome.document, "", {}, progress);
     if (!assigned) return failure(assigned.error());
@@ -103,7 +115,7 @@ struct Update {
 
   Result<void> lightening(Progress& progress) {
     if (!before.lightening) return {};
-    auto light = optimizeDocument(outcome.document, before.lightening->options, progress);
+    auto light = optimizeDocument(outcome.document, before.lightening->request, progress);
     if (!light) return failure(light.error());
     outcome.document.lightening = light->document.lightening;
     outcome.report.append(light->report);
@@ -139,7 +151,7 @@ json changesAnswer(const Environment& before, const Environment& after, const Pr
   std::size_t unchanged = 0, geometry = 0, material = 0, properties = 0;
   for (std::size_t i = 0; i < before.products.size(); ++i) {
     if (match.new_of_old[i] == kNoProduct) {
-      removed.push_back(row(before.products[i]));
+      removed.push_back(identity(before.products[i]));
       continue;
     }
     const ProductChange& c = changes[i];
@@ -147,7 +159,7 @@ json changesAnswer(const Environment& before, const Environment& after, const Pr
       ++unchanged;
       continue;
     }
-    json r = row(after.products[static_cast<std::size_t>(match.new_of_old[i])]);
+    json r = identity(after.products[static_cast<std::size_t>(match.new_of_old[i])]);
     r.update({{"geometry", c.geometry}, {"material", c.material}, {"properties", c.which}});
     changed.push_back(std::move(r));
     geometry += c.geometry ? 1 : 0;
@@ -155,7 +167,7 @@ json changesAnswer(const Environment& before, const Environment& after, const Pr
     properties += c.properties ? 1 : 0;
   }
   for (std::size_t i = 0; i < after.products.size(); ++i)
-    if (match.old_of_new[i] == kNoProduct) added.push_back(row(after.products[i]));
+    if (match.old_of_new[i] == kNoProduct) added.push_back(identity(after.products[i]));
   summary = fmt::format("{} products added, {} removed, {} changed", added.size(), removed.size(), changed.size());
   const json counts = {{"added", added.size()}, {"removed", removed.size()}, {"changed", changed.size()}, {"unchanged", unchanged},
                        {"geometry", geometry}, {"material", material}, {"properties", properties}};
@@ -185,6 +197,7 @@ Result<Outcome> updateModels(const Document& document, std::vector<fs::path> fil
   Update update{document, *outcome, match};
   update.georeference(crs);
   update.survey();
+  update.treatments();
   if (auto done = update.lightening(progress); !done) return failure(done.error());
   if (auto done = update.materials(progress); !done) return failure(done.error());
   outcome->answer["changes"]["kept"] = std::move(update.kept);

@@ -4,7 +4,9 @@
 #include "project/file_verbs.h"
 #include "project/import_verb.h"
 #include "project/model_verbs.h"
+#include "project/optimize_verb.h"
 #include "project/survey_verbs.h"
+#include "project/treatments.h"
 #include "project/underlays.h"
 #include "project/verb.h"
 
@@ -42,9 +44,17 @@ const std::vector<Verb>& table() {
         {.name = "lod", .kind = K::path, .help = "file of level-of-detail rules, or `default` for LoD 300 with surroundings of LoD 200"},
         {.name = "surroundings", .kind = K::list, .help = "selectors of what stands around the main model: #id, class:…, name:…, storey:…"}},
        runOptimize},
-      {"collide", "Makes collision shapes, the walkable surface, and checks the doors", S::changes,
+      {"treat", "Says how single products are treated, or lists it: left out of the scene, kept as they are, simplified within own limits", S::changes,
+       {{.name = "products", .kind = K::list, .help = "#id, a GlobalId, class:IfcFurniture, name:*chair*, storey:…", .positional = true},
+        {.name = "as", .kind = K::choice, .help = "`excluded` is not in the scene, `kept` is never simplified, `rules` takes back what was said", .choices = {"excluded", "kept", "simplified", "rules"}},
+        {.name = "max-deviation", .kind = K::number, .help = "with simplified: its surface may not move further", .unit = "m", .minimum = 0, .maximum = 1000},
+        {.name = "weight", .kind = K::number, .help = "with simplified: its error counts this many times", .minimum = 0.001, .maximum = 1000}},
+       runTreat},
+      {"collide", "Makes collision shapes, the walkable surface, and checks the doors and rooms", S::changes,
        {{.name = "agent-radius", .kind = K::number, .help = "of whoever walks", .unit = "m", .standard = 0.3, .minimum = 0.05, .maximum = 2},
-        {.name = "agent-height", .kind = K::number, .help = "of whoever walks", .unit = "m", .standard = 1.8, .minimum = 0.3, .maximum = 5}},
+        {.name = "agent-height", .kind = K::number, .help = "of whoever walks", .unit = "m", .standard = 1.8, .minimum = 0.3, .maximum = 5},
+        {.name = "doors", .kind = K::choice, .help = "how they stand; as-set: those closed that were last, or that --closed names", .standard = "open", .choices = {"open", "closed", "as-set"}},
+        {.name = "closed", .kind = K::list, .help = "selectors of the doors that stand closed, with --doors as-set: #id, name:…, storey:…"}},
        runCollide},
       {"materials", "Gives every surface a physical material and reports the share that has one", S::changes,
        {{.name = "rules", .kind = K::path, .help = "file of assignment rules instead of the default ones"},
@@ -93,7 +103,10 @@ const std::vector<Verb>& table() {
         {.name = "output", .kind = K::path, .help = "a folder, or a file (.e57, .ptx); an E57 holds all stations", .required = true}},
        runScan},
       {"export", "Writes the model as glTF binary or OBJ", S::reads,
-       {{.name = "output", .kind = K::path, .help = "file to write (.glb, .gltf, .obj)", .required = true}}, runExport},
+       {{.name = "output", .kind = K::path, .help = "file to write (.glb, .gltf, .obj)", .required = true},
+        {.name = "levels", .kind = K::list, .help = "triangles of simpler levels of detail, from fine to coarse, as MSFT_lod: 10000 2000"},
+        {.name = "collision", .kind = K::choice, .help = "with the collision shapes, named as engines read them", .choices = {"unreal", "godot", "physics"}}},
+       runExport},
       {"convert", "Converts a point cloud", S::files,
        {{.name = "in", .kind = K::path, .help = "cloud to read", .positional = true, .required = true},
         {.name = "out", .kind = K::path, .help = "cloud to write", .positional = true, .required = true}},

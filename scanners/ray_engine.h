@@ -24,7 +24,7 @@ struct RayHit {
 };
 
 // An Environment as rays see it (Embree 3, ROBUST, instanced meshes). Immutable after build; intersect is thread-safe.
-// The editor picks with it, too. Products that are not tangible are left out.
+// The editor picks with it, too. Products that are not in the scene are left out.
 class RayScene {
  public:
   static Result<std::shared_ptr<const RayScene>> build(std::shared_ptr<const Environment> environment, Progress& progress);

@@ -50,7 +50,7 @@ Result<void> EmbreeScene::commit(std::shared_ptr<const Environment> environment,
   std::vector<std::uint32_t> uses(environment_->meshes.size(), 0);
   for (std::uint32_t i = 0; i < environment_->instances.size(); ++i) {
     const Instance& instance = environment_->instances[i];
-    if (!environment_->products[instance.product].tangible || environment_->meshes[instance.mesh]->triangles.empty()) continue;
+    if (!environment_->products[instance.product].inScene() || environment_->meshes[instance.mesh]->triangles.empty()) continue;
     placements_.push_back(i);
     ++uses[instance.mesh];
   }

@@ -9,6 +9,7 @@
 #include "core/environment.h"
 #include "editor/model/camera.h"
 #include "editor/model/cloud.h"
+#include "editor/model/deviation_view.h"
 #include "editor/model/underlay_view.h"
 #include "editor/model/visibility.h"
 #include "optimizer/optimizer.h"
@@ -16,7 +17,7 @@
 
 namespace standpoint {
 
-enum class ColourMode { model, material, reflectance };
+enum class ColourMode { model, material, reflectance, deviation };
 
 // All that a picture of the scene depends on, as a value: equal states give the same picture, so whoever draws compares
 // and redraws only when something differs. Parts of the document are compared by pointer.
@@ -24,6 +25,7 @@ struct ViewState {
   std::shared_ptr<const Environment> environment;
   std::shared_ptr<const MaterialChoice> materials;
   std::shared_ptr<const CollideResult> collision;
+  std::shared_ptr<const DeviationField> deviation;   // of `environment`; null until it is there
   std::shared_ptr<const HiddenProducts> hidden;
   std::shared_ptr<const std::vector<std::uint32_t>> selected;
   std::optional<double> cut_height_m;

@@ -18,33 +18,82 @@ void numberRow(const char* label, const char* id, double& value, float low, floa
   if (ImGui::SliderFloat(id, &shown, low, high, "%.2f m", ImGuiSliderFlags_AlwaysClamp)) value = shown;
 }
 
+void selectable(Editor& editor, std::uint32_t product) {
+  if (ImGui::Selectable("###row", editor.selection.contains(product), ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap)) {
+    editor.select(product, true);
+    editor.frameSelection();
+  }
+  ImGui::SameLine(0, 0);
+  ui::fitted(productLabel(editor.environment()->products[product]), ImGui::GetContentRegionAvail().x);
+}
+
+bool beginRows(Editor& editor, const char* id, const char* title, std::size_t rows) {
+  const float height = ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(std::min<std::size_t>(rows, 8) + 1);
+  if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg, {0, height})) return false;
+  ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("State", ImGuiTableColumnFlags_WidthFixed, editor.px(128));
+  return true;
+}
+
+void beginRow(int id) {
+  ImGui::PushID(id);
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+}
+
 void drawDoors(Editor& editor, const CollideResult& result) {
   ui::heading(editor, "Doors");
   if (result.doors.empty()) {
     ui::dimText("The model has no doors.");
     return;
   }
-  if (!ImGui::BeginTable("doors", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;
-  ImGui::TableSetupColumn("Door", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("State", ImGuiTableColumnFlags_WidthFixed, editor.px(110));
+  auto& state = editor.panels.collision;
+  if (!beginRows(editor, "doors", "Door", result.doors.size())) return;
   for (std::size_t i = 0; i < result.doors.size(); ++i) {
     const auto& door = result.doors[i];
-    ImGui::PushID(static_cast<int>(i));
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    if (ImGui::Selectable("###door", editor.selection.contains(door.product), ImGuiSelectableFlags_SpanAllColumns)) {
-      editor.select(door.product, true);
-      editor.frameSelection();
+    const auto& id = editor.environment()->products[door.product].id;
+    beginRow(static_cast<int>(i));
+    if (state.doors == 2) {
+      bool closed = state.closed.contains(id);
+      if (ImGui::Checkbox("###closed", &closed)) closed ? void(state.closed.insert(id)) : void(state.closed.erase(id));
+      ui::tooltip("Stands closed when the shapes are computed again");
+      ImGui::SameLine();
     }
-    ImGui::SameLine(0, 0);
-    ui::fitted(productLabel(editor.environment()->products[door.product]), ImGui::GetContentRegionAvail().x);
+    selectable(editor, door.product);
     ImGui::TableNextColumn();
-    const auto tone = door.passable ? tone::kGood : door.floor ? tone::kBad : tone::kDim;
-    const char* text = door.passable ? ICON_CHECK "  passable" : door.floor ? ICON_BAN "  blocked" : ICON_INFO "  no floor";
-    ImGui::TextColored(colour(tone), "%s", text);
+    const auto tone = door.closed ? tone::kDim : !door.floor ? tone::kWarning : door.passable ? tone::kGood : tone::kBad;
+    const auto text = door.closed      ? std::string(ICON_STOP "  closed")
+                      : !door.floor    ? std::string(ICON_INFO "  no floor")
+                      : door.passable  ? fmt::format("{}  {:.2f} m clear", ICON_CHECK, door.clear_width_m)
+                                       : fmt::format("{}  {:.2f} m clear", ICON_BAN, door.clear_width_m);
+    ImGui::TextColored(colour(tone), "%s", text.c_str());
     ImGui::PopID();
   }
   ImGui::EndTable();
+}
+
+void drawRooms(Editor& editor, const CollideResult& result) {
+  if (result.rooms.empty()) return;
+  ui::heading(editor, "Rooms");
+  if (!beginRows(editor, "rooms", "Room", result.rooms.size())) return;
+  for (std::size_t i = 0; i < result.rooms.size(); ++i) {
+    const auto& room = result.rooms[i];
+    beginRow(static_cast<int>(i));
+    selectable(editor, room.product);
+    ImGui::TableNextColumn();
+    const char* text = room.reached ? ICON_CHECK "  reached" : room.walkable_m2 > 0 ? ICON_BAN "  no way in" : ICON_INFO "  no floor";
+    ImGui::TextColored(colour(room.reached ? tone::kGood : room.walkable_m2 > 0 ? tone::kBad : tone::kWarning), "%s", text);
+    ImGui::PopID();
+  }
+  ImGui::EndTable();
+}
+
+// The options of the verb that the panel's fields stand for.
+nlohmann::json options(const CollisionPanelState& state) {
+  constexpr const char* kDoors[] = {"open", "closed", "as-set"};
+  nlohmann::json result = {{"agent-radius", state.agent_radius_m}, {"agent-height", state.agent_height_m}, {"doors", kDoors[state.doors]}};
+  if (state.doors == 2) result["closed"] = state.closed;
+  return result;
 }
 
 }  // namespace
@@ -59,10 +108,12 @@ void drawCollisionPanel(Editor& editor) {
   if (ui::beginProperties("agent", 0.42F)) {
     numberRow("Walker's radius", "###radius", state.agent_radius_m, 0.05F, 1.0F);
     numberRow("Walker's height", "###height", state.agent_height_m, 0.3F, 2.5F);
+    ui::propertyLabel("Doors");
+    ImGui::Combo("###doors", &state.doors, "open\0closed\0one by one\0");
     ui::endProperties();
   }
   if (ui::primaryButton(ICON_CUBES "  Compute collision shapes###collide", editor.session.whyNot("collide"), {-FLT_MIN, 0})) {
-    editor.session.start("collide", {{"agent-radius", state.agent_radius_m}, {"agent-height", state.agent_height_m}}, "Collision shapes");
+    editor.session.start("collide", options(state), "Collision shapes");
     editor.view.walkable = true;
   }
   if (!document.collision) {
@@ -85,6 +136,7 @@ void drawCollisionPanel(Editor& editor) {
   ImGui::Checkbox("Show the walkable area", &editor.view.walkable);
   ImGui::Checkbox("Show the shapes instead of the model", &editor.view.shapes);
   drawDoors(editor, result);
+  drawRooms(editor, result);
 }
 
 }  // namespace standpoint

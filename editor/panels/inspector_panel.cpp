@@ -31,6 +31,19 @@ std::string placeOf(const Environment& environment, const Product& product) {
   return path;
 }
 
+std::string treatmentText(const Editor& editor, const Product& product) {
+  const auto* treatment = editor.treatmentOfProduct(static_cast<std::uint32_t>(&product - editor.environment()->products.data()));
+  if (treatment == nullptr) return {};
+  switch (treatment->kind) {
+    case TreatmentKind::excluded: return "Excluded from the scene";
+    case TreatmentKind::kept: return "Never simplified";
+    case TreatmentKind::simplified:
+      return treatment->max_deviation_m ? fmt::format("Simplified within {:g} mm", *treatment->max_deviation_m * 1000) : "Simplified with a weight of its own";
+    case TreatmentKind::as_rules: break;
+  }
+  return {};
+}
+
 void drawIdentity(const Editor& editor, const Product& product) {
   if (!ui::beginProperties("identity", 0.25F)) return;
   ui::property("Class", product.ifc_class.empty() ? "Object" : product.ifc_class);
@@ -40,6 +53,7 @@ void drawIdentity(const Editor& editor, const Product& product) {
   if (!product.global_id.empty()) ui::property("GlobalId", product.global_id);
   if (const auto place = placeOf(*editor.environment(), product); !place.empty()) ui::property("Place", place);
   for (const auto& group : product.groups) ui::property("Group", group);
+  if (const auto treated = treatmentText(editor, product); !treated.empty()) ui::property("Treatment", treated);
   if (product.whole >= 0) ui::property("Part of", productLabel(editor.environment()->products[static_cast<std::size_t>(product.whole)]));
   ui::endProperties();
 }

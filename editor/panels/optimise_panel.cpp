@@ -27,8 +27,50 @@ void drawResult(Editor& editor, const Lightening& light) {
     ui::property("Mean deviation", fmt::format("{:.3f} mm", all.mean_deviation_m * 1000));
     ui::endProperties();
   }
-  if (light.options.budget > 0 && all.triangles_after > light.options.budget)
+  if (light.request.budget.value_or(0) > 0 && all.triangles_after > *light.request.budget)
     ImGui::TextColored(colour(tone::kWarning), "%s  The budget cannot be kept with this deviation", ICON_WARNING);
+}
+
+std::string lengthText(double metres) { return metres < 1e-3 ? fmt::format("{:.1f} mm", metres * 1000) : fmt::format("{:.0f} mm", metres * 1000); }
+
+// Of the area of both models, how much stands how far from the other one.
+void drawHistogram(Editor& editor) {
+  ui::heading(editor, "Deviation of the surfaces");
+  editor.wants_deviation = true;
+  const auto both = editor.deviation.of(editor.session.document());
+  if (!both) {
+    ui::dimText(editor.deviation.busy() ? "Comparing with the original …" : "Not compared yet");
+    return;
+  }
+  const auto& area = both->histogram.area_m2;
+  double sum = 0, most = 0;
+  for (const double a : area) sum += a, most = std::max(most, a);
+  if (!(sum > 0) || !ImGui::BeginTable("histogram", 3)) return;
+  ImGui::TableSetupColumn("to", ImGuiTableColumnFlags_WidthFixed, editor.px(86));
+  ImGui::TableSetupColumn("bar", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("share", ImGuiTableColumnFlags_WidthFixed, editor.px(58));
+  for (std::size_t i = 0; i < area.size(); ++i) {
+    const bool last = i + 1 == area.size();
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ui::dimText(last ? "over " + lengthText(DeviationHistogram::kLimits_m[i - 1]) : "to " + lengthText(DeviationHistogram::kLimits_m[i]));
+    ImGui::TableNextColumn();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
+    // By the root: what is rare is what one looks for.
+    const auto length = static_cast<float>(std::sqrt(area[i] / most)) * width;
+    const auto c = deviationColour(i == 0 ? 0 : std::min(DeviationHistogram::kLimits_m[i], 1.0), both->lighter->full_scale_m);
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + height * 0.2F}, {at.x + length, at.y + height * 0.9F}, IM_COL32(c[0], c[1], c[2], 255));
+    ImGui::Dummy({width, height});
+    ImGui::TableNextColumn();
+    ui::textRightAligned(fmt::format("{:.2f} %", area[i] / sum * 100));
+  }
+  ImGui::EndTable();
+  const bool shown = editor.view.colour == ColourMode::deviation && editor.view.side == ModelSide::both;
+  if (ui::button(shown ? ICON_CUBE "  Back to the model's colours###map" : ICON_PAINT "  Show it on both models###map", "", {-FLT_MIN, 0})) {
+    editor.view.colour = shown ? ColourMode::model : ColourMode::deviation;
+    editor.view.side = shown ? ModelSide::lighter : ModelSide::both;
+  }
 }
 
 // What lost most, so that one can look at it.
@@ -77,7 +119,7 @@ void drawOptimisePanel(Editor& editor) {
     return;
   }
   auto& state = editor.panels.optimise;
-  const auto before = triangleCount(*document.imported);
+  const auto before = sceneTriangleCount(*document.imported);
   ui::dimText(fmt::format("The model as imported has {} triangles.", groupedDigits(before)));
   ui::gap(editor, 2);
   ImGui::Checkbox("Only what costs nothing", &state.only_lossless);
@@ -101,6 +143,7 @@ void drawOptimisePanel(Editor& editor) {
                          "Optimise the model");
   if (!document.lightening) return;
   drawResult(editor, *document.lightening);
+  drawHistogram(editor);
   drawWorst(editor, *document.lightening);
 }
 

@@ -63,6 +63,16 @@ void drawEye(Editor& editor, const std::vector<std::uint32_t>& below, float x) {
   ImGui::PopStyleColor();
 }
 
+// For all that is chosen; a row that is not becomes so.
+void productMenu(Editor& editor, const std::vector<OutlinerRow>& rows, int index, bool chosen) {
+  if (!ImGui::BeginPopupContextItem("###row-menu")) return;
+  if (ImGui::IsWindowAppearing() && !chosen) choose(editor, rows, index);
+  for (const char* id : {"frame", "hide", "isolate", "show-all"}) actionMenuItem(editor, id);
+  ImGui::Separator();
+  for (const char* id : {"exclude", "keep", "by-rules"}) actionMenuItem(editor, id);
+  ImGui::EndPopup();
+}
+
 void drawRow(Editor& editor, const std::vector<OutlinerRow>& rows, int index) {
   auto& state = editor.panels.outliner;
   const OutlinerRow row = rows[static_cast<std::size_t>(index)];
@@ -81,19 +91,21 @@ void drawRow(Editor& editor, const std::vector<OutlinerRow>& rows, int index) {
     if (product && ImGui::IsMouseDoubleClicked(0)) editor.frameSelection();
   }
   const bool hovered = ImGui::IsItemHovered();
+  productMenu(editor, rows, index, chosen);
   ImGui::SetItemAllowOverlap();
   ImGui::SameLine(left + indent);
   if (row.expandable) ui::dimText(row.expanded ? ICON_ARROW_DOWN : ICON_CHEVRON_RIGHT);
   ImGui::SameLine(left + indent + editor.px(17));
   const bool hidden = product && editor.visibility.hidden(node.index);
+  const bool excluded = product && editor.environment()->products[node.index].excluded;
   ImGui::PushStyleColor(ImGuiCol_Text, product ? ImVec4(0.45F, 0.62F, 0.85F, 1) : ImVec4(0.62F, 0.66F, 0.73F, 1));
-  ImGui::TextUnformatted(iconOf(editor, node));
+  ImGui::TextUnformatted(excluded ? ICON_BAN : iconOf(editor, node));
   ImGui::PopStyleColor();
   ImGui::SameLine(left + indent + editor.px(39));
   const std::string count = product ? std::string() : std::to_string(node.products);
   const float count_width = count.empty() ? 0 : ImGui::CalcTextSize(count.c_str()).x + editor.px(8);
   const float eye = editor.px(24);
-  ImGui::BeginDisabled(hidden);
+  ImGui::BeginDisabled(hidden || excluded);
   ui::fitted(node.label, right - ImGui::GetCursorPosX() - count_width - eye);
   ImGui::EndDisabled();
   if (!count.empty()) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,8 @@ struct OptimisePanelState {
 struct CollisionPanelState {
   double agent_radius_m = 0.3;
   double agent_height_m = 1.8;
+  int doors = 0;                        // 0 open, 1 closed, 2 one by one
+  std::set<std::string> closed;         // ids of the doors that stand closed, one by one
 };
 
 struct GeoreferencePanelState {

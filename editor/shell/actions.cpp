@@ -22,6 +22,10 @@ std::string whyNoCollision(const Editor& e) {
   return e.session.document().collision ? "" : "Compute the collision shapes first (panel Collision)";
 }
 
+std::string whyNotOptimised(const Editor& e) {
+  return e.session.document().lightening ? "" : "Optimise the model first (panel Optimise)";
+}
+
 void newProject(Editor& e) {
   whenSaved(e, [&e] { e.session.clear(); });
 }
@@ -41,11 +45,22 @@ void quit(Editor& e) {
 void selectAll(Editor& e) {
   std::vector<std::uint32_t> all;
   for (std::uint32_t p = 0; p < e.environment()->products.size(); ++p)
-    if (e.environment()->products[p].tangible && !e.visibility.hidden(p)) all.push_back(p);
+    if (e.environment()->products[p].inScene() && !e.visibility.hidden(p)) all.push_back(p);
   e.selection.set(std::move(all));
+}
+void walk(Editor& e) {
+  if (e.view.tool == Tool::walk) return;   // its key is the one to go ahead
+  const auto& agent = e.panels.collision;
+  const auto place = e.view.hover ? e.view.hover->position : e.view.camera.target;
+  if (e.walk.start(e.session.document().collision, {agent.agent_radius_m, agent.agent_height_m}, place, e.view.camera)) e.view.tool = Tool::walk;
+}
+std::string whyWalkNot(const Editor& e) {
+  if (auto why = whyNoCollision(e); !why.empty()) return why;
+  return e.session.document().collision->walkable.triangles.empty() ? "There is nothing to walk on" : "";
 }
 void escape(Editor& e) {
   if (e.view.tool != Tool::select) {
+    e.walk.stop();
     e.view.tool = Tool::select;
     e.view.measured_from.reset();
     e.view.measured_to.reset();
@@ -78,6 +93,20 @@ std::string whyRemoveNot(const Editor& e) {
   const auto [verb, name] = chosenInSurvey(e);
   if (auto why = e.session.whyNot(verb); !why.empty()) return why;
   return name.empty() ? "Choose a station or target in the panel Survey first" : "";
+}
+
+// What is said of the selection, each product by what it keeps through an update of the model.
+void treat(Editor& e, const char* as, const char* title) {
+  nlohmann::json selectors = nlohmann::json::array();
+  for (const auto p : e.selection.products()) {
+    const auto& product = e.environment()->products[p];
+    selectors.push_back(product.global_id.empty() ? product.id : product.global_id);
+  }
+  e.session.start("treat", {{"products", std::move(selectors)}, {"as", as}}, title);
+}
+std::string whyTreatNot(const Editor& e) {
+  if (auto why = whyNoSelection(e); !why.empty()) return why;
+  return e.session.whyNot("treat");
 }
 
 std::string whySaveNot(const Editor& e) { return e.session.whyNotSave(); }
@@ -119,16 +148,23 @@ const std::array kActions = {
            [](Editor& e) { e.visibility.isolate(e.selection.products()); }, whyNoSelection},
     Action{"show-all", "Show everything", ICON_EYE, {'H', true},
            [](Editor& e) { e.visibility.showAll(); e.visibility.cut_height_m.reset(); }, whyNoModel},
+    Action{"exclude", "Exclude from the scene", ICON_BAN, {'X'}, [](Editor& e) { treat(e, "excluded", "Exclude from the scene"); }, whyTreatNot},
+    Action{"keep", "Never simplify", ICON_CHECK_CIRCLE, {'K'}, [](Editor& e) { treat(e, "kept", "Never simplify"); }, whyTreatNot},
+    Action{"by-rules", "Treat by the rules again", ICON_UNDO, {'X', false, true}, [](Editor& e) { treat(e, "rules", "Treat by the rules again"); }, whyTreatNot},
     Action{"edges", "Edges", "", {'L'}, [](Editor& e) { e.view.edges = !e.view.edges; }, nullptr},
     Action{"grid", "Ground grid", "", {'G'}, [](Editor& e) { e.view.grid = !e.view.grid; }, nullptr},
     Action{"labels", "Labels", "", {}, [](Editor& e) { e.view.labels = !e.view.labels; }, nullptr},
     Action{"walkable", "Walkable area", ICON_WALK, {}, [](Editor& e) { e.view.walkable = !e.view.walkable; }, whyNoCollision},
+    Action{"walk", "Walk in the model with W A S D", ICON_WALK, {'W'}, walk, whyWalkNot},
     Action{"shapes", "Collision shapes", ICON_CUBES, {}, [](Editor& e) { e.view.shapes = !e.view.shapes; }, whyNoCollision},
     Action{"colour-model", "Colours of the model", "", {}, [](Editor& e) { e.view.colour = ColourMode::model; }, nullptr},
     Action{"colour-material", "Colours by physical material", "", {},
            [](Editor& e) { e.view.colour = ColourMode::material; }, whyNoModel},
     Action{"colour-reflectance", "Reflectance at 1550 nm", "", {},
            [](Editor& e) { e.view.colour = ColourMode::reflectance; }, whyNoModel},
+    Action{"colour-deviation", "Deviation from the original", "", {}, [](Editor& e) { e.view.colour = ColourMode::deviation; }, whyNotOptimised},
+    Action{"both-models", "Original and lighter model side by side", ICON_COMPRESS, {'B'},
+           [](Editor& e) { e.view.side = e.view.side == ModelSide::both ? ModelSide::lighter : ModelSide::both; }, whyNotOptimised},
     Action{"add-station", "Add station by a click on the floor", ICON_STATION, {'T'},
            [](Editor& e) { e.view.tool = Tool::placeStation; showWorkspace(e, Workspace::survey); }, whyStationNot},
     Action{"add-target", "Add target by a click", ICON_TARGET, {},

@@ -146,6 +146,7 @@ constexpr std::array kMouse = {
     Hint{"Left drag", "Turn around the point under the pointer"},
     Hint{"Middle or right drag, Shift+left", "Move sideways"},
     Hint{"Wheel", "Closer or farther, towards the pointer"},
+    Hint{"W A S D", "Walk, once W has put you into the model; with Shift faster; Esc leaves"},
     Hint{"Right click", "Menu of what is under the pointer"},
 };
 

@@ -30,6 +30,7 @@ const char* colourName(ColourMode mode) {
     case ColourMode::model: return "Model colours";
     case ColourMode::material: return "Physical materials";
     case ColourMode::reflectance: return "Reflectance 1550 nm";
+    case ColourMode::deviation: return "Deviation";
   }
   return "";
 }
@@ -39,6 +40,27 @@ void colourChip(Editor& editor) {
   if (!ImGui::BeginCombo("###colour", fmt::format("{}  {}", ICON_PAINT, colourName(editor.view.colour)).c_str(), ImGuiComboFlags_NoArrowButton)) return;
   for (const auto mode : {ColourMode::model, ColourMode::material, ColourMode::reflectance})
     if (ImGui::Selectable(colourName(mode), editor.view.colour == mode)) editor.view.colour = mode;
+  if (editor.session.document().lightening && ImGui::Selectable(colourName(ColourMode::deviation), editor.view.colour == ColourMode::deviation))
+    editor.view.colour = ColourMode::deviation;
+  ImGui::EndCombo();
+}
+
+const char* sideName(ModelSide side) {
+  switch (side) {
+    case ModelSide::lighter: return "Lighter model";
+    case ModelSide::original: return "Original";
+    case ModelSide::both: return "Side by side";
+  }
+  return "";
+}
+
+void sideChip(Editor& editor) {
+  if (!editor.session.document().lightening) return;
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(editor.px(118));
+  if (!ImGui::BeginCombo("###side", fmt::format("{}  {}", ICON_COMPRESS, sideName(editor.view.side)).c_str(), ImGuiComboFlags_NoArrowButton)) return;
+  for (const auto side : {ModelSide::lighter, ModelSide::original, ModelSide::both})
+    if (ImGui::Selectable(sideName(side), editor.view.side == side)) editor.view.side = side;
   ImGui::EndCombo();
 }
 
@@ -108,9 +130,10 @@ void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
     case Tool::placeStation: hint = "Click on the floor to set up a station.   Esc to leave"; break;
     case Tool::placeTarget: hint = "Click where a target shall be.   Esc to leave"; break;
     case Tool::measure: hint = "Click two points.   Esc to leave"; break;
+    case Tool::walk: hint = "W A S D to walk, Shift to hurry, drag to look around.   Esc to leave"; break;
     case Tool::select: break;
   }
-  if (editor.environment() && !editor.picker.ready() && hint != nullptr) hint = "One moment: the model is being prepared for picking";
+  if (editor.environment() && !editor.picker.ready() && hint != nullptr && editor.view.tool != Tool::walk) hint = "One moment: the model is being prepared for picking";
   if (hint == nullptr) return;
   const ImVec2 text = ImGui::CalcTextSize(hint);
   const float pad = editor.px(8);
@@ -176,6 +199,26 @@ void drawReflectanceLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
   list.AddText({x + width - ImGui::CalcTextSize(most).x, y + height + editor.px(2)}, tone::kDim, most);
 }
 
+void drawDeviationLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
+  if (editor.view.colour != ColourMode::deviation) return;
+  auto& list = *ImGui::GetWindowDrawList();
+  const float caption = editor.view.side == ModelSide::both ? editor.px(22) : 0;
+  const float width = editor.px(160), height = editor.px(8), x = origin.x + editor.px(kMargin), y = origin.y + size.y - editor.px(38) - caption;
+  const auto both = editor.deviation.of(editor.session.document());
+  if (!both) {
+    list.AddText({x, y}, tone::kDim, editor.deviation.busy() ? "Comparing with the original …" : "");
+    return;
+  }
+  constexpr int kSteps = 32;
+  for (int i = 0; i < kSteps; ++i) {
+    const auto c = deviationColour((i + 0.5) / kSteps, 1);
+    list.AddRectFilled({x + width * static_cast<float>(i) / kSteps, y}, {x + width * static_cast<float>(i + 1) / kSteps, y + height}, IM_COL32(c[0], c[1], c[2], 255));
+  }
+  list.AddText({x, y + height + editor.px(2)}, tone::kDim, "0");
+  const auto most = fmt::format("{:.3g} mm and more", both->lighter->full_scale_m * 1000);
+  list.AddText({x + width - ImGui::CalcTextSize(most.c_str()).x, y + height + editor.px(2)}, tone::kDim, most.c_str());
+}
+
 }  // namespace
 
 bool overOverlay(const Editor& editor, ImVec2 origin, ImVec2 size) {
@@ -190,6 +233,7 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   ImGui::PushStyleColor(ImGuiCol_FrameBg, tone::kOverlay);
   ImGui::BeginGroup();
   colourChip(editor);
+  sideChip(editor);
   ImGui::SameLine();
   cutChip(editor);
   cloudChip(editor);
@@ -204,6 +248,7 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   ImGui::PopStyleColor();
   drawAxes(editor, origin, size);
   drawReflectanceLegend(editor, origin, size);
+  drawDeviationLegend(editor, origin, size);
   drawToolHint(editor, origin, size);
 }
 

@@ -89,7 +89,7 @@ void runMenu(Editor& editor) {
 
 void viewMenu(Editor& editor) {
   items(editor, {"frame", "view-corner", "view-front", "view-back", "view-right", "view-left", "view-top", "view-parallel", "",
-                 "hide", "isolate", "show-all", "", "edges", "grid", "labels", "walkable", "shapes", "", "colour-model",
+                 "hide", "isolate", "show-all", "", "edges", "grid", "labels", "walkable", "shapes", "walk", "", "colour-model",
                  "colour-material", "colour-reflectance", "", "workspace-model", "workspace-materials", "workspace-survey",
                  "workspace-instrument"});
 }

@@ -41,6 +41,7 @@ void continueDrag(Editor& editor) {
   if (moved > kClickSlack_px * editor.scale) view.dragged = true;
   if (!view.dragged || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) return;
   const Eigen::Vector2d drag(io.MouseDelta.x, io.MouseDelta.y);
+  if (view.tool == Tool::walk) return orbit(view.camera, -drag / editor.scale, view.camera.eye());
   if (io.MouseDown[0] && !io.KeyShift)
     orbit(view.camera, drag / editor.scale, view.pivot);
   else
@@ -94,6 +95,7 @@ void click(Editor& editor) {
     case Tool::measure:
       if (hit) measure(editor, *hit);
       return;
+    case Tool::walk: return;
     case Tool::select: break;
   }
   if (hit && add)
@@ -111,11 +113,20 @@ void contextMenu(Editor& editor) {
     ui::dimText(productLabel(editor.environment()->products[editor.selection.primary()]));
   for (const char* id : {"frame", "hide", "isolate", "show-all"}) actionMenuItem(editor, id);
   ImGui::Separator();
+  for (const char* id : {"exclude", "keep", "by-rules"}) actionMenuItem(editor, id);
+  ImGui::Separator();
   const auto why = hit ? editor.session.whyNot("station") : "There is nothing under the pointer";
   if (ImGui::MenuItem(ICON_STATION "  Set up a station here###station-here", nullptr, false, why.empty())) placeStation(editor, *hit);
   ui::tooltip(why);
   if (ImGui::MenuItem(ICON_TARGET "  Put a target here###target-here", nullptr, false, why.empty())) placeTarget(editor, *hit);
   ImGui::EndPopup();
+}
+
+void handleWalking(Editor& editor) {
+  const auto& io = ImGui::GetIO();
+  if (editor.view.tool != Tool::walk || io.WantTextInput || io.KeyCtrl || ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId)) return;
+  const auto axis = [](int less, int more) { return (ImGui::IsKeyDown(more) ? 1.0 : 0.0) - (ImGui::IsKeyDown(less) ? 1.0 : 0.0); };
+  editor.walk.go({axis('A', 'D'), axis('S', 'W')}, io.KeyShift, io.DeltaTime, editor.view.camera);
 }
 
 void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
@@ -135,7 +146,7 @@ void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
   }
   if (hovered && ImGui::IsMouseDoubleClicked(0) && view.tool == Tool::select) editor.frameSelection();
   if (view.dragging && !io.MouseDown[0] && !io.MouseDown[1] && !io.MouseDown[2]) view.dragging = false;
-  if (hovered && io.MouseWheel != 0) {
+  if (hovered && io.MouseWheel != 0 && view.tool != Tool::walk) {
     const auto ray = rayThrough(view.camera, pointer(origin), view.size);
     const Eigen::Vector3d on_target_plane =
         ray.origin + ray.direction * ((view.camera.target - ray.origin).dot(view.camera.forward()) / ray.direction.dot(view.camera.forward()));
@@ -165,25 +176,45 @@ void drawWelcome(Editor& editor, ImVec2 origin, ImVec2 size) {
   ImGui::EndChild();
 }
 
+void drawScene(SceneView* scene, const ViewState& state, ImVec2 origin, ImVec2 size, bool fine) {
+  const float pixels = ImGui::GetIO().DisplayFramebufferScale.x > 0 ? ImGui::GetIO().DisplayFramebufferScale.x : 1;
+  const std::uint64_t texture = scene == nullptr ? 0 : scene->texture(state, static_cast<int>(size.x * pixels), static_cast<int>(size.y * pixels), fine);
+  if (texture == 0) return;
+  ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), origin, {origin.x + size.x, origin.y + size.y}, {0, 1}, {1, 0});
+}
+
+void drawCaption(const Editor& editor, ImVec2 origin, ImVec2 size, const std::string& text) {
+  const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
+  ImGui::GetWindowDrawList()->AddText({origin.x + (size.x - extent.x) / 2, origin.y + size.y - extent.y - editor.px(8)}, tone::kDim, text.c_str());
+}
+
+// The original on the left, what was made of it on the right, through one camera. The half under the pointer is turned.
+void drawBothModels(Editor& editor, ImVec2 origin, ImVec2 half) {
+  const ImVec2 right(origin.x + half.x, origin.y);
+  drawScene(editor.scene_beside, editor.originalState(), origin, half, editor.fine_picture);
+  drawScene(editor.scene, editor.viewState(), right, half, editor.fine_picture);
+  ImGui::GetWindowDrawList()->AddLine(right, {right.x, right.y + half.y}, IM_COL32(12, 14, 17, 255), editor.px(2));
+  const auto& document = editor.session.document();
+  drawCaption(editor, origin, half, fmt::format("Original  {} triangles", groupedDigits(document.lightening->all.triangles_before)));
+  drawCaption(editor, right, half, fmt::format("Lighter  {} triangles", groupedDigits(document.lightening->all.triangles_after)));
+}
+
 }  // namespace
 
 void drawViewport(Editor& editor) {
   const ImVec2 origin = ImGui::GetCursorScreenPos();
-  const ImVec2 size = ImGui::GetContentRegionAvail();
-  if (size.x < 8 || size.y < 8) return;
+  const ImVec2 whole = ImGui::GetContentRegionAvail();
+  if (whole.x < 16 || whole.y < 8) return;
+  const bool both = editor.view.side == ModelSide::both && editor.session.document().lightening && !editor.preview.isOpen();
+  const ImVec2 size = both ? ImVec2(whole.x / 2, whole.y) : whole;
   auto& view = editor.view;
   view.size = {size.x, size.y};
   if (view.frame_wanted) {
     frame(view.camera, editor.buildingBounds(), size.x / size.y);
     view.frame_wanted = false;
   }
-  const float pixels = ImGui::GetIO().DisplayFramebufferScale.x > 0 ? ImGui::GetIO().DisplayFramebufferScale.x : 1;
-  const std::uint64_t texture = editor.scene == nullptr ? 0
-                                                        : editor.scene->texture(editor.viewState(), static_cast<int>(size.x * pixels),
-                                                                                static_cast<int>(size.y * pixels), editor.fine_picture);
-  auto& list = *ImGui::GetWindowDrawList();
-  if (texture != 0)
-    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), origin, {origin.x + size.x, origin.y + size.y}, {0, 1}, {1, 0});
+  if (both) drawBothModels(editor, origin, size);
+  else drawScene(editor.scene, view.side == ModelSide::original ? editor.originalState() : editor.viewState(), origin, size, editor.fine_picture);
   const bool previewed = editor.preview.isOpen();
   if (!editor.shown()) {
     if (previewed) return;
@@ -191,13 +222,16 @@ void drawViewport(Editor& editor) {
     return;
   }
   ImGui::SetCursorScreenPos(origin);
-  ImGui::InvisibleButton("###scene", size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+  ImGui::InvisibleButton("###scene", whole, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   ImGui::SetItemAllowOverlap();
-  const bool hovered = ImGui::IsItemHovered() && !overOverlay(editor, origin, size);
-  handleMouse(editor, origin, hovered);
+  const bool hovered = ImGui::IsItemHovered() && !overOverlay(editor, origin, whole);
+  const ImVec2 right(origin.x + size.x, origin.y);
+  if (!view.dragging) view.in_right_half = both && ImGui::GetIO().MousePos.x >= right.x;
+  handleMouse(editor, view.in_right_half ? right : origin, hovered);
+  handleWalking(editor);
   if (previewed) return;
-  drawMarkers(editor, origin);
-  drawOverlay(editor, origin, size);
+  drawMarkers(editor, both ? right : origin);
+  drawOverlay(editor, origin, whole);
   contextMenu(editor);
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <unordered_map>
 
 namespace standpoint {
 
@@ -14,7 +16,7 @@ std::uint8_t byte(float value) { return static_cast<std::uint8_t>(std::lround(st
 Rgba rgba(const Colour& c) { return {byte(c.r), byte(c.g), byte(c.b), byte(c.a)}; }
 
 bool visible(const ViewState& state, std::uint32_t product) {
-  if (!state.environment->products[product].tangible) return false;
+  if (!state.environment->products[product].inScene()) return false;
   return !state.hidden || product >= state.hidden->size() || (*state.hidden)[product] == 0;
 }
 
@@ -50,6 +52,7 @@ class Painter {
   explicit Painter(const ViewState& state) : state_(state) {}
 
   Rgba of(std::uint32_t product, std::uint32_t surface) const {
+    if (state_.colour == ColourMode::deviation) return state_.deviation ? Rgba{255, 255, 255, 255} : deviationColour(0, 1);
     if (state_.colour != ColourMode::model) {
       if (!state_.materials) return rgba(materialColour(nullptr));
       const auto& assignment = state_.materials->result.assignment;
@@ -64,22 +67,27 @@ class Painter {
   const ViewState& state_;
 };
 
-// Takes one placed mesh into the parts of the scene, its vertices once into each part that needs them.
+// Takes one placed mesh into the parts of the scene, its vertices once into each part that needs them. A vertex whose
+// colour runs into those of its neighbours stands there once for each surface that it has a part in.
 class MeshMerger {
  public:
-  MeshMerger(const ViewState& state, const Mesh& mesh, const Instance& instance, MergedScene& scene)
+  // `gradation` is empty, or has what each vertex's colour multiplies that of the surface with.
+  MeshMerger(const ViewState& state, const Mesh& mesh, const Instance& instance, std::span<const Rgba> gradation, MergedScene& scene)
       : state_(state),
         mesh_(mesh),
         instance_(instance),
+        gradation_(gradation),
         scene_(scene),
-        mirrored_(instance.world_from_mesh.linear().determinant() < 0) {}
+        mirrored_(instance.world_from_mesh.linear().determinant() < 0),
+        graded_(!gradation.empty()) {}
 
   void add(std::size_t triangle, Rgba colour) {
-    if (state_.colour == ColourMode::model && !mesh_.colours.empty())
-      colour = tinted(colour, mesh_.triangles[triangle]);
     const auto surface = mesh_.surface_of_triangle[triangle];
-    if (out_ == nullptr || surface != surface_ || (colour[3] == 255) != opaque_) aim(surface, colour[3] == 255);
-    appendTriangle(*out_, mesh_.triangles[triangle], offset_, mirrored_, colour);
+    const auto& t = mesh_.triangles[triangle];
+    const bool opaque = colour[3] == 255 && (!graded_ || opaqueCorners(t));
+    if (out_ == nullptr || surface != surface_ || opaque != opaque_) aim(surface, opaque);
+    if (graded_) addGraded(t, colour);
+    else appendTriangle(*out_, t, offset_, mirrored_, colour);
   }
 
  private:
@@ -89,48 +97,90 @@ class MeshMerger {
     const Surface& surface = state_.environment->surfaces[index];
     const bool shows_image =
         state_.colour == ColourMode::model && surface.image >= 0 && !mesh_.texture_coordinates.empty();
-    PaintedTriangles* painted = shows_image ? &scene_.painted[surface.image] : nullptr;
-    out_ = painted != nullptr ? &painted->triangles : opaque ? &scene_.opaque : &scene_.transparent;
+    painted_ = shows_image ? &scene_.painted[{surface.image, graded_}] : nullptr;
+    if (painted_ != nullptr) {
+      out_ = &painted_->triangles;
+      painted_->unlit = surface.unlit;
+    } else if (graded_) {
+      out_ = opaque ? &scene_.graded : &scene_.graded_transparent;
+    } else {
+      out_ = opaque ? &scene_.opaque : &scene_.transparent;
+    }
+    out_->graded = graded_;
+    if (graded_) {
+      graded_vertex_.clear();
+      return;
+    }
     const auto [found, fresh] = offsets_.try_emplace(out_, pointCount(*out_));
     offset_ = found->second;
-    if (painted != nullptr) painted->unlit = surface.unlit;
     if (!fresh) return;
     appendPositions(out_->positions, mesh_, instance_.world_from_mesh);
-    if (painted != nullptr)
-      for (const auto& t : mesh_.texture_coordinates)
-        painted->coordinates.insert(painted->coordinates.end(), {t.x(), 1 - t.y()});
+    if (painted_ != nullptr)
+      for (std::uint32_t v = 0; v < mesh_.texture_coordinates.size(); ++v) appendCoordinates(v);
   }
 
-  // The mean of the corners: triangles have one colour each.
-  Rgba tinted(Rgba colour, const Triangle& t) const {
-    for (std::size_t k = 0; k < 4; ++k) {
-      const int sum = mesh_.colours[t[0]][k] + mesh_.colours[t[1]][k] + mesh_.colours[t[2]][k];
-      colour[k] = static_cast<std::uint8_t>(colour[k] * sum / (3 * 255));
-    }
-    return colour;
+  void appendCoordinates(std::uint32_t vertex) {
+    const auto& t = mesh_.texture_coordinates[vertex];
+    painted_->coordinates.insert(painted_->coordinates.end(), {t.x(), 1 - t.y()});
+  }
+
+  bool opaqueCorners(const Triangle& t) const {
+    return gradation_[t[0]][3] == 255 && gradation_[t[1]][3] == 255 && gradation_[t[2]][3] == 255;
+  }
+
+  void addGraded(const Triangle& t, const Rgba& colour) {
+    for (const auto k : {0, mirrored_ ? 2 : 1, mirrored_ ? 1 : 2}) out_->corners.push_back(gradedVertex(t[k], colour));
+  }
+
+  std::int64_t gradedVertex(std::uint32_t vertex, const Rgba& colour) {
+    const auto [found, fresh] = graded_vertex_.try_emplace(vertex, pointCount(*out_));
+    if (!fresh) return found->second;
+    const Eigen::Vector3f world = (instance_.world_from_mesh * mesh_.positions[vertex].cast<double>()).cast<float>();
+    out_->positions.insert(out_->positions.end(), {world.x(), world.y(), world.z()});
+    Rgba product{};
+    for (std::size_t k = 0; k < 4; ++k) product[k] = static_cast<std::uint8_t>(colour[k] * gradation_[vertex][k] / 255);
+    out_->colours.push_back(product);
+    if (painted_ != nullptr) appendCoordinates(vertex);
+    return found->second;
   }
 
   const ViewState& state_;
   const Mesh& mesh_;
   const Instance& instance_;
+  std::span<const Rgba> gradation_;
   MergedScene& scene_;
-  bool mirrored_;
-  std::map<const MergedTriangles*, std::int64_t> offsets_;  // of the mesh's first vertex in each part
-  MergedTriangles* out_ = nullptr;                          // where the last triangle went
+  bool mirrored_, graded_;
+  std::map<const MergedTriangles*, std::int64_t> offsets_;               // of the mesh's first vertex in each part
+  std::unordered_map<std::uint32_t, std::int64_t> graded_vertex_;        // of this surface
+  MergedTriangles* out_ = nullptr;                                       // where the last triangle went
+  PaintedTriangles* painted_ = nullptr;                                  // the same, when it shows an image
   std::int64_t offset_ = 0;
   std::uint32_t surface_ = 0;
   bool opaque_ = true;
 };
+
+std::vector<Rgba> coloursOf(const DeviationField& field, std::size_t instance) {
+  std::vector<Rgba> colours;
+  for (const float d : field.of_instance[instance]->distance_m) colours.push_back(deviationColour(d, field.full_scale_m));
+  return colours;
+}
 
 }  // namespace
 
 MergedScene mergeVisible(const ViewState& state) {
   MergedScene scene;
   const Painter painter(state);
-  for (const auto& instance : state.environment->instances) {
+  const bool deviations = state.colour == ColourMode::deviation && state.deviation;
+  std::vector<Rgba> distances;
+  for (std::size_t i = 0; i < state.environment->instances.size(); ++i) {
+    const auto& instance = state.environment->instances[i];
     if (!visible(state, instance.product)) continue;
     const Mesh& mesh = *state.environment->meshes[instance.mesh];
-    MeshMerger merger(state, mesh, instance, scene);
+    if (deviations) distances = coloursOf(*state.deviation, i);
+    std::span<const Rgba> gradation;
+    if (deviations) gradation = distances;
+    else if (state.colour == ColourMode::model) gradation = mesh.colours;
+    MeshMerger merger(state, mesh, instance, gradation, scene);
     std::uint32_t surface = ~0U;
     Rgba colour{};
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

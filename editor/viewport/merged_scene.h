@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "editor/model/view_state.h"
@@ -19,14 +20,15 @@ using Rgba = std::array<std::uint8_t, 4>;
 struct MergedTriangles {
   std::vector<float> positions;          // x, y, z
   std::vector<std::int64_t> corners;     // three per triangle
-  std::vector<Rgba> colours;             // one per triangle
+  std::vector<Rgba> colours;             // one per triangle; where graded, one per position
+  bool graded = false;                   // the colour runs from corner to corner
 };
 struct MergedLines {
   std::vector<float> positions;
   std::vector<std::int64_t> ends;        // two per line
 };
 
-// What shows an image: one for each image of the environment that is in sight.
+// What shows an image: at most two for each image of the environment that is in sight, with and without vertex colours.
 struct PaintedTriangles {
   MergedTriangles triangles;
   std::vector<float>
@@ -36,7 +38,8 @@ struct PaintedTriangles {
 
 struct MergedScene {
   MergedTriangles opaque, transparent;
-  std::map<std::int32_t, PaintedTriangles> painted;  // by image
+  MergedTriangles graded, graded_transparent;
+  std::map<std::pair<std::int32_t, bool>, PaintedTriangles> painted;  // by image, and whether graded
 };
 
 MergedScene mergeVisible(const ViewState& state);

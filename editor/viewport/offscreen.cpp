@@ -65,6 +65,7 @@ class EglOffscreen : public Offscreen {
     applyTheme(scale);
     fonts_ = buildFonts(scale);
     scene_ = makeVtkSceneView();
+    beside_ = makeVtkSceneView();
     scene_->texture(ViewState(), 8, 8, false);   // loads the OpenGL functions
     ImGui_ImplOpenGL3_Init("#version 150");
     makeTarget();
@@ -74,6 +75,7 @@ class EglOffscreen : public Offscreen {
     ImGui::DestroyContext();
     glDeleteFramebuffers(1, &framebuffer_);
     glDeleteTextures(1, &texture_);
+    beside_.reset();
     scene_.reset();
   }
   EglOffscreen(const EglOffscreen&) = delete;
@@ -83,6 +85,7 @@ class EglOffscreen : public Offscreen {
     editor.fonts = fonts_;
     editor.scale = scale_;
     editor.scene = scene_.get();
+    editor.scene_beside = beside_.get();
     editor.fine_picture = true;
   }
 
@@ -121,7 +124,7 @@ class EglOffscreen : public Offscreen {
   int width_, height_;
   float scale_;
   Fonts fonts_;
-  std::unique_ptr<SceneView> scene_;
+  std::unique_ptr<SceneView> scene_, beside_;
   GLuint texture_ = 0, framebuffer_ = 0;
 };
 

@@ -103,7 +103,10 @@ struct Layer {
     vtkNew<vtkPolyData> data;
     data->SetPoints(pointsOf(triangles.positions));
     data->SetPolys(cellsOf(triangles.corners, 3));
-    data->GetCellData()->SetScalars(coloursOf(triangles.colours));
+    if (triangles.graded) data->GetPointData()->SetScalars(coloursOf(triangles.colours));
+    else data->GetCellData()->SetScalars(coloursOf(triangles.colours));
+    if (triangles.graded) mapper->SetScalarModeToUsePointData();
+    else mapper->SetScalarModeToUseCellData();
     set(data, triangles.colours.empty());
   }
   void show(const PaintedTriangles& painted, vtkTexture* texture) {
@@ -284,7 +287,6 @@ class VtkSceneView : public SceneView {
     property->SetAmbient(0.34);
     property->SetDiffuse(0.78);
     property->SetSpecular(0);
-    layer.mapper->SetScalarModeToUseCellData();
     layer.mapper->SetColorModeToDirectScalars();
     layer.mapper->SetResolveCoincidentTopologyToPolygonOffset();
     layer.mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(offset, offset);
@@ -313,6 +315,9 @@ class VtkSceneView : public SceneView {
     setUpSurface(opaque_, 1);
     setUpSurface(transparent_, 1);
     transparent_.actor->ForceTranslucentOn();
+    setUpSurface(graded_, 1);
+    setUpSurface(graded_transparent_, 1);
+    graded_transparent_.actor->ForceTranslucentOn();
     setUpSurface(shapes_, 1);
     setUpSurface(selected_, -1);
     selected_.actor->ForceTranslucentOn();
@@ -323,7 +328,7 @@ class VtkSceneView : public SceneView {
     setUpLines(edges_, {0.07, 0.08, 0.10}, 0.55, 1);
     setUpLines(outline_, {0.42, 0.71, 1.0}, 1, 2);
     setUpPoints(cloud_);
-    for (Layer* layer : {&opaque_, &transparent_, &shapes_, &selected_, &walkable_, &edges_, &outline_, &grid_, &cloud_}) layer->hide();
+    for (Layer* layer : {&opaque_, &transparent_, &graded_, &graded_transparent_, &shapes_, &selected_, &walkable_, &edges_, &outline_, &grid_, &cloud_}) layer->hide();
   }
 
   void update(const ViewState& state) {
@@ -331,7 +336,7 @@ class VtkSceneView : public SceneView {
     const bool environment = last == nullptr || last->environment != state.environment;
     const bool shown = environment || last->hidden != state.hidden || last->shapes != state.shapes || last->cloud != state.cloud;
     if (environment) bounds_ = state.environment ? bounds(*state.environment) : Bounds();
-    if (shown || last->materials != state.materials || last->colour != state.colour) updateSurfaces(state);
+    if (shown || last->materials != state.materials || last->colour != state.colour || last->deviation != state.deviation) updateSurfaces(state);
     if (shown || last->edges != state.edges) updateEdges(state);
     if (shown || last->selected != state.selected) updateSelection(state);
     if (last == nullptr || last->collision != state.collision || last->walkable != state.walkable || last->shapes != state.shapes) updateCollision(state);
@@ -346,16 +351,20 @@ class VtkSceneView : public SceneView {
   void updateSurfaces(const ViewState& state) {
     opaque_.hide();
     transparent_.hide();
+    graded_.hide();
+    graded_transparent_.hide();
     for (const auto& layer : painted_) renderer_->RemoveActor(layer->actor);
     painted_.clear();
     if (!state.environment || state.shapes || state.cloud) return;
     const auto merged = mergeVisible(state);
     opaque_.show(merged.opaque);
     transparent_.show(merged.transparent);
-    for (const auto& [image, painted] : merged.painted) {
+    graded_.show(merged.graded);
+    graded_transparent_.show(merged.graded_transparent);
+    for (const auto& [key, painted] : merged.painted) {
       painted_.push_back(std::make_unique<Layer>());
       setUpSurface(*painted_.back(), 1);
-      painted_.back()->show(painted, textures_.of(state.environment->images[static_cast<std::size_t>(image)]));
+      painted_.back()->show(painted, textures_.of(state.environment->images[static_cast<std::size_t>(key.first)]));
     }
   }
 
@@ -432,7 +441,7 @@ class VtkSceneView : public SceneView {
   }
 
   void updateCut(const ViewState& state) {
-    std::vector<Layer*> layers = {&opaque_, &transparent_, &shapes_, &selected_, &walkable_, &edges_, &outline_, &cloud_};
+    std::vector<Layer*> layers = {&opaque_, &transparent_, &graded_, &graded_transparent_, &shapes_, &selected_, &walkable_, &edges_, &outline_, &cloud_};
     for (const auto& u : underlays_) layers.push_back(&u->layer);
     for (const auto& layer : painted_) layers.push_back(layer.get());
     for (Layer* layer : layers) {
@@ -473,7 +482,7 @@ class VtkSceneView : public SceneView {
 
   vtkNew<ForeignContextWindow> window_;
   vtkNew<vtkRenderer> renderer_;
-  Layer opaque_, transparent_, shapes_, selected_, walkable_, edges_, outline_, grid_, cloud_;
+  Layer opaque_, transparent_, graded_, graded_transparent_, shapes_, selected_, walkable_, edges_, outline_, grid_, cloud_;
   std::vector<std::unique_ptr<Layer>> painted_;   // one for each image in sight
   TextureCache textures_;
   EdgeCache edge_cache_;

@@ -49,8 +49,10 @@ class Window {
     io.GetClipboardTextFn = [](void* window) { return glfwGetClipboardString(static_cast<GLFWwindow*>(window)); };
     listen();
     scene_ = makeVtkSceneView();
+    beside_ = makeVtkSceneView();
     scene_->texture(ViewState(), 8, 8, false);   // loads the OpenGL functions
     editor_.scene = scene_.get();
+    editor_.scene_beside = beside_.get();
     ImGui_ImplOpenGL3_Init("#version 150");
     makeCursors();
     rescale();
@@ -58,7 +60,8 @@ class Window {
   ~Window() {
     for (auto* cursor : cursors_)
       if (cursor != nullptr) glfwDestroyCursor(cursor);
-    editor_.scene = nullptr;
+    editor_.scene = editor_.scene_beside = nullptr;
+    beside_.reset();
     scene_.reset();
     ImGui_ImplOpenGL3_Shutdown();
     ImGui::DestroyContext();
@@ -248,7 +251,7 @@ class Window {
   Editor& editor_;
   GLFWwindow* handle_;
   InputQueue input_;
-  std::unique_ptr<SceneView> scene_;
+  std::unique_ptr<SceneView> scene_, beside_;
   GLFWcursor* cursors_[ImGuiMouseCursor_COUNT] = {};
   int frames_wanted_ = kFramesAfterInput;
   double last_input_s_ = 0, last_frame_s_ = 0, last_kept_s_ = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "importers/geometry/boolean_ways.h"
 #include "importers/geometry/kernel.h"
@@ -11,19 +12,27 @@ namespace {
 
 constexpr std::size_t kMaxFaces = 100000;
 
-// What a correct result's volume must lie between.
-struct VolumeRange {
+// What a correct result's volume must lie between, and what it must lie within.
+struct Limits {
   double low, high;
+  Bounds3 within;
   bool holds(double v) const {
     const double slack = 1e-6 + 1e-3 * std::abs(high);
     return v >= low - slack && v <= high + slack;
   }
+  // Kernels that take a tool outside of the host for a cavity leave its shell there; the volume alone may not tell.
+  bool reachedBeyond(const PolyMesh& mesh) const {
+    const Bounds3 b(mesh.points);
+    constexpr double kSlack_m = 10 * kSnap_m;
+    return !mesh.faces.empty() && !((b.low.array() >= within.low.array() - kSlack_m).all() && (b.high.array() <= within.high.array() + kSlack_m).all());
+  }
 };
 
-Result<PolyMesh> checked(Result<PolyMesh> result, const VolumeRange& range, const char* way) {
+Result<PolyMesh> checked(Result<PolyMesh> result, const Limits& range, const char* way) {
   if (!result) return result;
   if (!isFinite(*result)) return failure(ErrorKind::unusable, std::string(way) + ": a point is not a number");
   const double v = volume(*result);
+  if (range.reachedBeyond(*result)) return failure(ErrorKind::unusable, std::string(way) + ": the result reaches beyond the body");
   if (range.holds(v)) return result;
   return failure(ErrorKind::unusable, std::string(way) + ": the result's volume " + std::to_string(v) + " m3 is not between " +
                                           std::to_string(range.low) + " and " + std::to_string(range.high));
@@ -62,7 +71,7 @@ PolyMesh subtractPrisms(PolyMesh host, std::vector<PolyMesh>& tools, std::vector
   }
   const double before = volume(host);
   Result<PolyMesh> result = checked(combinePrisms(host, flat, common->direction, Operation::difference),
-                                    {std::max(0.0, before - tool_volume), before}, "in the plane");
+                                    {std::max(0.0, before - tool_volume), before, Bounds3(host.points)}, "in the plane");
   if (!result) {
     errors.push_back(result.error());
     return host;
@@ -73,7 +82,7 @@ PolyMesh subtractPrisms(PolyMesh host, std::vector<PolyMesh>& tools, std::vector
 
 Result<PolyMesh> carveAway(const PolyMesh& host, const PolyMesh& tool) {
   const double before = volume(host);
-  return checked(combineWithCarve(host, tool, Operation::difference), {std::max(0.0, before - volume(tool)), before}, "carve");
+  return checked(combineWithCarve(host, tool, Operation::difference), {std::max(0.0, before - volume(tool)), before, Bounds3(host.points)}, "carve");
 }
 
 // Groups of tools that keep apart from each other, each tool in the first group where it does.
@@ -120,11 +129,17 @@ PolyMesh subtractWithCarve(PolyMesh host, std::vector<PolyMesh>& tools, std::vec
   return host;
 }
 
-Result<PolyMesh> combineTwo(const PolyMesh& a, const PolyMesh& b, Operation operation, const VolumeRange& range) {
+Result<PolyMesh> combineTwo(const PolyMesh& a, const PolyMesh& b, Operation operation, const Limits& range) {
   const std::span<const PolyMesh> second(&b, 1);
   std::vector<Error> errors;
+  std::optional<PolyMesh> torn;   // of the right volume, but open: stands when no other way does better
+  const bool solids = isClosed(a) && isClosed(b);
   const auto keep = [&](Result<PolyMesh> result, const char* way) {
     result = checked(std::move(result), range, way);
+    if (result && solids && !isClosed(*result)) {
+      if (!torn) torn = std::move(*result);
+      result = failure(ErrorKind::unusable, std::string(way) + ": the result is torn open");
+    }
     if (!result) errors.push_back(result.error());
     return result;
   };
@@ -133,6 +148,7 @@ Result<PolyMesh> combineTwo(const PolyMesh& a, const PolyMesh& b, Operation oper
   }
   if (auto result = keep(combineWithCarve(a, b, operation), "carve")) return result;
   if (auto result = keep(combineWithCgal(a, second, operation), "CGAL")) return result;
+  if (torn) return std::move(*torn);
   return failure(joined(errors));
 }
 
@@ -156,7 +172,7 @@ Result<PolyMesh> subtract(const PolyMesh& host, std::span<const PolyMesh> tools)
   for (const PolyMesh& tool : left) tool_volume += volume(tool);
   const double before = volume(body);
   Result<PolyMesh> result = checked(combineWithCgal(body, left, Operation::difference),
-                                    {std::max(0.0, before - tool_volume), before}, "CGAL");
+                                    {std::max(0.0, before - tool_volume), before, Bounds3(body.points)}, "CGAL");
   if (result) return result;
   errors.push_back(result.error());
   return failure(joined(errors));
@@ -168,7 +184,7 @@ Result<PolyMesh> intersect(const PolyMesh& a, const PolyMesh& b) {
   }
   if (a.faces.empty() || b.faces.empty() || !Bounds3(a.points).overlaps(Bounds3(b.points), kSnap_m)) return PolyMesh{};
   const PolyMesh first = outward(a), second = outward(b);
-  return combineTwo(first, second, Operation::intersection, {0.0, std::min(volume(first), volume(second))});
+  return combineTwo(first, second, Operation::intersection, {0.0, std::min(volume(first), volume(second)), Bounds3(first.points)});
 }
 
 Result<PolyMesh> unite(const PolyMesh& a, const PolyMesh& b) {
@@ -178,7 +194,9 @@ Result<PolyMesh> unite(const PolyMesh& a, const PolyMesh& b) {
   if (a.faces.empty() || b.faces.empty()) return a.faces.empty() ? b : a;
   const PolyMesh first = outward(a), second = outward(b);
   const double va = volume(first), vb = volume(second);
-  return combineTwo(first, second, Operation::unite, {std::max(va, vb), va + vb});
+  PolyMesh both = first;
+  append(both, second);
+  return combineTwo(first, second, Operation::unite, {std::max(va, vb), va + vb, Bounds3(both.points)});
 }
 
 }  // namespace standpoint::geometry

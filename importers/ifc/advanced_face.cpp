@@ -30,15 +30,53 @@ struct UvLoop {
   Uv drift = Uv::Zero();     // how far it is from closing: a whole period where it runs around
 };
 
-UvLoop toParameters(const std::vector<Eigen::Vector3d>& points, const ParametricSurface& surface) {
+// The parameter that has no value at a pole, where a whole line of the parameters is one point; −1: this is none.
+int undefinedAt(const ParametricSurface& surface, const Uv& uv) {
+  for (const int k : {0, 1})
+    if (surface.period()[k] > 0 && (surface.at(uv + Uv::Unit(k) * surface.period()[k] / 4) - surface.at(uv)).norm() < 1e-7) return k;
+  return -1;
+}
+
+UvLoop toParameters(std::vector<Eigen::Vector3d> points, const ParametricSurface& surface) {
   UvLoop loop;
   Uv near = surface.low().x() < surface.high().x() ? Uv((surface.low() + surface.high()) / 2) : Uv(Uv::Zero());
+  const auto regular = std::find_if(points.begin(), points.end(), [&](const auto& p) { return undefinedAt(surface, surface.parameters(p, near)) < 0; });
+  if (regular != points.end()) std::rotate(points.begin(), regular, points.end());
+  const auto append = [&](const Uv& uv, const Eigen::Vector3d& p) { loop.uv.push_back(uv), loop.points.push_back(p); };
+  // A pole is passed along its line, from where the bound arrives to where it leaves.
+  int pole = -1;
+  std::size_t left_at = 0;
+  const auto leave = [&](const Uv& next) {
+    if (pole < 0) return;
+    Uv uv = loop.uv.back();
+    const double from = uv[pole], turn = next[pole] - from;
+    const Eigen::Vector3d point = loop.points.back();
+    left_at = loop.uv.size();
+    const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(turn) / surface.period()[pole] * 32)));
+    for (int i = 1; i <= steps; ++i) uv[pole] = from + turn * i / steps, append(uv, point);
+    pole = -1;
+  };
   for (const auto& p : points) {
     near = surface.parameters(p, near);
-    loop.uv.push_back(near);
-    loop.points.push_back(p);
+    const int here = undefinedAt(surface, near);
+    if (here < 0) leave(near);
+    append(near, p);
+    if (here >= 0) pole = here;
   }
-  if (!loop.uv.empty()) loop.drift = surface.parameters(points.front(), near) - loop.uv.front();
+  if (points.empty()) return loop;
+  const Uv end = surface.parameters(points.front(), near);
+  leave(end);
+  loop.drift = end - loop.uv.front();
+  // Which way round the pole only the end tells: a bound that passed it closes.
+  if (left_at > 0 && loop.drift.norm() > 0.5 * surface.period().maxCoeff()) {
+    const Uv arrived = loop.uv[left_at - 1];
+    std::size_t back = left_at;
+    while (back + 1 < loop.uv.size() && loop.points[back + 1] == loop.points[left_at]) ++back;
+    const Uv turn = loop.uv[back] - arrived;
+    for (std::size_t i = left_at; i < loop.uv.size(); ++i)
+      loop.uv[i] = i > back ? Uv(loop.uv[i] - loop.drift) : Uv(arrived + (turn - loop.drift) * static_cast<double>(i + 1 - left_at) / static_cast<double>(back + 1 - left_at));
+    loop.drift.setZero();
+  }
   return loop;
 }
 
@@ -160,16 +198,10 @@ bool split(Patch& patch, const ParametricSurface& surface, double tolerance) {
 
 }  // namespace
 
-Result<void> appendCurvedFace(geometry::PolyMesh& mesh, const Entity& face, Scope& scope) {
-  const auto surface_result = surface(face.ref(1), scope);
-  if (!surface_result) return failure(surface_result.error());
-  const ParametricSurface& on = **surface_result;
+Result<void> appendOnSurface(geometry::PolyMesh& mesh, const ParametricSurface& on, const Outlines& outlines, bool turned, const Entity& face, Scope& scope) {
   std::vector<UvLoop> loops;
-  for (const Entity& bound : face.refs(0)) {
-    const auto points = loopPoints(bound.ref(0), scope);
-    if (!points) return failure(points.error());
-    if (points->size() >= 3) loops.push_back(toParameters(*points, on));
-  }
+  for (const auto& points : outlines)
+    if (points.size() >= 3) loops.push_back(toParameters(points, on));
   if (loops.empty()) return {};   // a face without area is no loss
   if (!liesOn(loops, on)) return fail(face, "the bounds of the face do not lie on its surface");
   if (!joinRings(loops, on.period().maxCoeff())) return fail(face, "a face whose bound runs around its surface is not supported here");
@@ -177,19 +209,32 @@ Result<void> appendCurvedFace(geometry::PolyMesh& mesh, const Entity& face, Scop
   Patch patch;
   if (!triangulateLoops(loops, on, patch)) return fail(face, "the face could not be triangulated");
   constexpr std::size_t kMostTriangles = 20000;
-  for (int round = 0; round < 10 && patch.triangles.size() < kMostTriangles; ++round)
-    if (!split(patch, on, scope.model.tessellation.chord_error_m)) break;
+  bool fine = false;
+  for (int round = 0; !fine && round < 10 && patch.triangles.size() < kMostTriangles; ++round) fine = !split(patch, on, scope.tessellation.chord_error_m);
+  if (!fine) scope.report.note(face.place(), "the face has " + std::to_string(patch.triangles.size()) + " triangles and is still coarser than the chord error");
   if (!scope.spend(patch.points.size())) return fail(face, "too many points");
   const auto base = static_cast<std::uint32_t>(mesh.points.size());
   mesh.points.insert(mesh.points.end(), patch.points.begin(), patch.points.end());
-  const bool turned = face[2].symbol() == "F";
   for (const Triangle& t : patch.triangles) {
+    if (patch.points[t[0]] == patch.points[t[1]] || patch.points[t[1]] == patch.points[t[2]] || patch.points[t[2]] == patch.points[t[0]]) continue;   // at a pole
     geometry::Face f;
     f.outer = {base + t[0], base + t[1], base + t[2]};
     if (turned) std::swap(f.outer[1], f.outer[2]);
     mesh.faces.push_back(std::move(f));
   }
   return {};
+}
+
+Result<void> appendCurvedFace(geometry::PolyMesh& mesh, const Entity& face, Scope& scope) {
+  const auto on = surface(face.ref(1), scope);
+  if (!on) return failure(on.error());
+  Outlines outlines;
+  for (const Entity& bound : face.refs(0)) {
+    auto points = loopPoints(bound.ref(0), scope);
+    if (!points) return failure(points.error());
+    outlines.push_back(std::move(*points));
+  }
+  return appendOnSurface(mesh, **on, outlines, face[2].symbol() == "F", face, scope);
 }
 
 }  // namespace standpoint::ifc

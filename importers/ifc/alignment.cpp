@@ -16,6 +16,12 @@ double planLength(const Eigen::Vector3d& step) {
   return plan > 1e-9 ? plan : step.norm();
 }
 
+Eigen::Vector3d upBetween(const Path& path, std::size_t i, double t) {
+  if (path.ups.size() != path.points.size()) return Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d up = path.ups[i - 1] + t * (path.ups[i] - path.ups[i - 1]);
+  return up.norm() > 1e-9 ? Eigen::Vector3d(up.normalized()) : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
+}
+
 }  // namespace
 
 Station stationAt(const Path& path, double distance) {
@@ -24,10 +30,25 @@ Station stationAt(const Path& path, double distance) {
   for (std::size_t i = 1; i < p.size(); ++i) {
     const Eigen::Vector3d step = p[i] - p[i - 1];
     const double here = planLength(step);
-    if (at + here >= distance || i + 1 == p.size()) return {p[i - 1] + step * ((distance - at) / here), step.normalized()};
+    if (at + here >= distance || i + 1 == p.size()) {
+      const double t = (distance - at) / here;
+      return {p[i - 1] + step * t, step.normalized(), upBetween(path, i, std::clamp(t, 0.0, 1.0))};
+    }
     at += here;
   }
   return {p.front(), Eigen::Vector3d::UnitX()};
+}
+
+double lengthTo(const Path& path, double distance) {
+  double at = 0, sum = 0;
+  for (std::size_t i = 1; i < path.points.size(); ++i) {
+    const Eigen::Vector3d step = path.points[i] - path.points[i - 1];
+    const double here = planLength(step);
+    if (at + here >= distance) return sum + step.norm() * std::max(distance - at, 0.0) / here;
+    at += here;
+    sum += step.norm();
+  }
+  return sum;
 }
 
 std::vector<double> distancesBetween(const Path& path, double from_m, double to_m) {
@@ -54,8 +75,10 @@ Result<Eigen::Isometry3d> placeAlong(const Entity& position, const Path& directr
   if (directrix.points.size() < 2) return fail(position, "the curve has no length");
   const Offsets o = offsetsAt(position, scope);
   const Station s = stationAt(directrix, o.along);
-  Eigen::Vector3d forward = s.tangent;
-  const Eigen::Vector3d left = Eigen::Vector3d::UnitZ().cross(forward).normalized();
+  const Eigen::Vector3d forward = s.tangent;
+  // A stated Axis is the exact one, and exporters count the cant into it; only where there is none the curve's own counts.
+  const bool has_axis = position.is("IFCAXIS2PLACEMENTLINEAR") && position.ref(1);
+  const Eigen::Vector3d left = (has_axis ? Eigen::Vector3d(Eigen::Vector3d::UnitZ()) : s.up).cross(forward).normalized();
   const Eigen::Vector3d up = forward.cross(left);
   const Eigen::Vector3d origin = s.point + left * o.lateral + up * o.vertical + forward * o.longitudinal;
   Eigen::Isometry3d f = Eigen::Isometry3d::Identity();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "importers/ifc/alignment.h"
 #include "importers/ifc/curve.h"
 #include "importers/ifc/placement.h"
 
@@ -160,12 +161,26 @@ Result<Path> segmentsPath(const Entity& entity, Scope& scope) {
 
 }  // namespace
 
+std::function<double(double)> curvatureShare(const Entity& segment, const Scope& scope) {
+  const Entity parent_entity = segment.ref(4);
+  const double start = segmentMeasure(segment[2], parent_entity, scope), length_m = segmentMeasure(segment[3], parent_entity, scope);
+  const auto parent = parentOf(parent_entity, start, length_m, scope);
+  const double step = 1e-4 * length_m;
+  if (!parent || std::abs(step) < 1e-12) return [](double t) { return t; };
+  const auto curvature = [heading = parent->heading, start, length_m, step](double t) {
+    const double at = start + length_m * t;
+    return (heading(at + step) - heading(at - step)) / (2 * step);
+  };
+  const double first = curvature(0), change = curvature(1) - first;
+  if (!(std::abs(change) > 1e-6 * std::abs(first) + 1e-12)) return [](double t) { return t; };
+  return [=](double t) { return (curvature(t) - first) / change; };
+}
+
 Result<Path> alignmentPlan(const Entity& entity, Scope& scope) { return segmentsPath(entity, scope); }
 
 Result<Path> gradientCurve(const Entity& entity, Scope& scope) {
   const auto plan = curve(entity.ref(2), scope);
   if (!plan) return plan;
-  if (entity.is("IFCSEGMENTEDREFERENCECURVE")) return plan;   // its cant is not followed, which the importer says once
   const auto gradient = segmentsPath(entity, scope);
   if (!gradient) return gradient;
   // Every corner of either curve becomes a point: distance along the plan → height.

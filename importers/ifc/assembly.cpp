@@ -55,7 +55,7 @@ std::uint32_t Assembly::plainMesh(const PlacedBody& placed, const ProductMateria
   for (const std::uint32_t tag : body.tags) {
     if (of_last == UINT32_MAX || tag != last) {
       const auto [it, is_new] = surface_of_tag.try_emplace(tag, 0);
-      if (is_new) it->second = pool_.surface(tag ? tag : placed.style, materials);
+      if (is_new) it->second = pool_.surface(tag, placed.style, materials);
       last = tag, of_last = it->second;
     }
     m.surface_of_triangle.push_back(of_last);
@@ -66,7 +66,7 @@ std::uint32_t Assembly::plainMesh(const PlacedBody& placed, const ProductMateria
   if (const auto it = meshes_.find(key); it != meshes_.end()) return it->second;
   m.positions = body.positions;
   m.triangles = body.triangles;
-  placePictures(m, body);
+  placePictures(m, placed);
   return keep(std::move(key), std::move(m));
 }
 
@@ -75,7 +75,7 @@ std::uint32_t Assembly::layeredMesh(const PlacedBody& placed, const ProductMater
   if (before != layered_.end()) return before->second;
   auto layered = layeredBody(*placed.body, layering.product_from_file * placed.file_from_items, materials, layering.line);
   std::uint32_t index = 0;
-  const bool pictured = std::any_of(placed.body->tags.begin(), placed.body->tags.end(), TextureMaps::isTextured);
+  const bool pictured = isPictured(placed);
   if (!layered || pictured) {
     index = plainMesh(placed, materials);
   } else {
@@ -103,34 +103,60 @@ std::uint32_t Assembly::keep(Key key, Mesh mesh) {
   return it->second;
 }
 
-// Each corner of a textured face gets its place on the picture; where faces meet at a seam the position stands twice.
-void Assembly::placePictures(Mesh& mesh, const Body& body) {
-  if (std::none_of(body.tags.begin(), body.tags.end(), TextureMaps::isTextured)) return;
-  const auto positions = std::move(mesh.positions);
+bool Assembly::isPictured(const PlacedBody& placed) const {
+  std::uint32_t last = kNoStyle;
+  bool of_last = static_cast<bool>(pool_.generatedTexture(kNoStyle, placed.style));
+  return std::any_of(placed.body->tags.begin(), placed.body->tags.end(), [&](std::uint32_t tag) {
+    if (tag != last) last = tag, of_last = TextureMaps::isTextured(tag) || pool_.generatedTexture(tag, placed.style);
+    return of_last;
+  });
+}
+
+// Where the corners of a face with a list of coordinates lie on its picture; nothing when the list does not fit the face.
+std::optional<Assembly::Corners> Assembly::listedCorners(const Body& body, std::size_t k) {
+  const auto source = model_.textures.source(body.tags[k]);
+  auto it = textured_.find(source.item);
+  if (it == textured_.end()) it = textured_.emplace(source.item, TexturedItem(source, pool_.textureOf(body.tags[k]), model_)).first;
+  const TexturedFace face = it->second.face(source.face);
+  Corners on;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto at = face.at(body.positions[body.triangles[k][c]].cast<double>() + body.origin);
+    if (!at || !at->allFinite()) return {};
+    on[c] = at->cast<float>();
+  }
+  return on;
+}
+
+Assembly::Corners Assembly::generatedCorners(const Body& body, std::size_t k, const Entity& texture) const {
+  const auto at = [&](std::size_t c) { return Eigen::Vector3d(body.positions[body.triangles[k][c]].cast<double>() + body.origin); };
+  const Eigen::Vector3d normal = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
+  Corners on;
+  for (std::size_t c = 0; c < 3; ++c)
+    on[c] = onPicture(pool_.generators().at(texture.id(), at(c) / model_.units.length_m, normal), texture).cast<float>();
+  return on;
+}
+
+// Each corner of a face with a picture gets its place on it; where faces meet at a seam the position stands twice.
+void Assembly::placePictures(Mesh& mesh, const PlacedBody& placed_body) {
+  if (!isPictured(placed_body)) return;
+  const Body& body = *placed_body.body;
   mesh.positions.clear();
   std::map<std::tuple<std::uint32_t, float, float>, std::uint32_t> placed;
   std::set<Id> lost;
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
-    std::array<Eigen::Vector2f, 3> on{Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero()};
+    Corners on{Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero()};
     if (TextureMaps::isTextured(body.tags[k])) {
-      const auto source = model_.textures.source(body.tags[k]);
-      auto it = textured_.find(source.item);
-      if (it == textured_.end()) it = textured_.emplace(source.item, TexturedItem(source, pool_.textureOf(body.tags[k]), model_)).first;
-      const TexturedFace face = it->second.face(source.face);
-      bool known = true;
-      for (std::size_t c = 0; c < 3; ++c) {
-        const auto at = face.at(positions[mesh.triangles[k][c]].cast<double>() + body.origin);
-        known = known && at && at->allFinite();
-        if (known) on[c] = at->cast<float>();
-      }
-      if (!known && lost.insert(source.item).second)
-        report_.lose("#" + std::to_string(source.item), "some faces do not fit the coordinates of their texture; the picture is not placed there");
+      if (const auto listed = listedCorners(body, k)) on = *listed;
+      else if (const Id item = model_.textures.source(body.tags[k]).item; lost.insert(item).second)
+        report_.lose("#" + std::to_string(item), "some faces do not fit the coordinates of their texture; the picture is not placed there");
+    } else if (const Entity texture = pool_.generatedTexture(body.tags[k], placed_body.style)) {
+      on = generatedCorners(body, k, texture);
     }
     for (std::size_t c = 0; c < 3; ++c) {
       std::uint32_t& corner = mesh.triangles[k][c];
       const auto [it, is_new] = placed.try_emplace({corner, on[c].x(), on[c].y()}, static_cast<std::uint32_t>(mesh.positions.size()));
       if (is_new) {
-        mesh.positions.push_back(positions[corner]);
+        mesh.positions.push_back(body.positions[corner]);
         mesh.texture_coordinates.push_back(on[c]);
       }
       corner = it->second;

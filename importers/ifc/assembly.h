@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -32,7 +34,11 @@ class Assembly {
   std::uint32_t plainMesh(const PlacedBody& placed, const ProductMaterials& materials);
   std::uint32_t layeredMesh(const PlacedBody& placed, const ProductMaterials& materials, const Layering& layering, std::vector<double> key);
   std::uint32_t keep(Key key, Mesh mesh);
-  void placePictures(Mesh& mesh, const Body& body);
+  using Corners = std::array<Eigen::Vector2f, 3>;
+  bool isPictured(const PlacedBody& placed) const;
+  std::optional<Corners> listedCorners(const Body& body, std::size_t triangle);
+  Corners generatedCorners(const Body& body, std::size_t triangle, const Entity& texture) const;
+  void placePictures(Mesh& mesh, const PlacedBody& placed);
 
   const Model& model_;
   const Relations& relations_;

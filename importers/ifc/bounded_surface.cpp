@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces that are bodies on their own: of no thickness, but a beam meets them.
+#include <algorithm>
+
 #include "importers/ifc/curve.h"
+#include "importers/ifc/faceted.h"
 #include "importers/ifc/placement.h"
 #include "importers/ifc/profile.h"
 #include "importers/ifc/solid.h"
@@ -30,6 +33,85 @@ Result<geometry::PolyMesh> curveBoundedPlane(const Entity& entity, Scope& scope)
     if (const auto inner = curve(boundary, scope); inner && inner->points.size() >= 3) appendLoop(mesh, *inner, face.holes.emplace_back());
   mesh.faces.push_back(std::move(face));
   geometry::transform(mesh, Eigen::Affine3d(axisPlacement(plane.ref(0), scope)));
+  return mesh;
+}
+
+Result<geometry::PolyMesh> curveBoundedSurface(const Entity& entity, Scope& scope) {
+  if (entity[2].isTrue()) return fail(entity, "an implicit outer boundary is not supported");
+  const auto on = surface(entity.ref(0), scope);
+  if (!on) return failure(on.error());
+  Outlines outlines;
+  for (const Entity& boundary : entity.refs(1)) {
+    auto path = curve(boundary, scope);
+    if (!path) return failure(path.error());
+    outlines.push_back(std::move(path->points));
+  }
+  geometry::PolyMesh mesh;
+  if (auto done = appendOnSurface(mesh, **on, outlines, false, entity, scope); !done) return failure(done.error());
+  if (mesh.faces.empty()) return fail(entity, "the surface has no area");
+  return mesh;
+}
+
+namespace {
+
+// From a to b in the stated direction, around a surface that closes.
+void orderBounds(double& a, double& b, bool forward, double period) {
+  if (!forward) std::swap(a, b);
+  if (b <= a && period > 0) b += period;
+  if (b < a) std::swap(a, b);
+}
+
+// Into how many equal pieces a range of one parameter has to be cut for chords to keep the tolerance.
+int piecesAlong(const ParametricSurface& on, const Eigen::Vector2d& low, const Eigen::Vector2d& high, int axis, double tolerance_m) {
+  constexpr int kMost = 256, kLines = 4;
+  const auto at = [&](double t, int line) {
+    Eigen::Vector2d share = Eigen::Vector2d::Constant(static_cast<double>(line) / kLines);
+    share[axis] = t;
+    return on.at(low + (high - low).cwiseProduct(share));
+  };
+  for (int n = 1; n < kMost; n *= 2) {
+    double off = 0;
+    for (int i = 0; i < n; ++i)
+      for (int line = 0; line <= kLines; ++line) {
+        const double a = static_cast<double>(i) / n, b = static_cast<double>(i + 1) / n;
+        const Eigen::Vector3d from = at(a, line), to = at(b, line);
+        for (const double t : {0.25, 0.5, 0.75}) off = std::max(off, (from + (to - from) * t - at(a + (b - a) * t, line)).norm());
+      }
+    if (off <= tolerance_m) return n;
+  }
+  return kMost;
+}
+
+}  // namespace
+
+Result<geometry::PolyMesh> rectangularTrimmedSurface(const Entity& entity, Scope& scope) {
+  const auto on = surface(entity.ref(0), scope);
+  if (!on) return failure(on.error());
+  const auto bound = [&](std::size_t u, std::size_t v) {
+    return (*on)->fromFile({entity[u].number(0), entity[v].number(0)}, scope.model.units.length_m, scope.model.units.angle_rad);
+  };
+  auto low = bound(1, 2), high = bound(3, 4);
+  if (!low || !high) return fail(entity, "trims in the parameters of " + std::string(entity.ref(0).typeName()) + " are not supported");
+  for (const int k : {0, 1}) orderBounds((*low)[k], (*high)[k], entity[k == 0 ? 5 : 6].symbol() != "F", (*on)->period()[k]);
+  const int nu = piecesAlong(**on, *low, *high, 0, scope.tessellation.chord_error_m), nv = piecesAlong(**on, *low, *high, 1, scope.tessellation.chord_error_m);
+  if (!scope.spend(static_cast<std::size_t>(nu + 1) * static_cast<std::size_t>(nv + 1))) return fail(entity, "too many points");
+  geometry::PolyMesh mesh;
+  for (int j = 0; j <= nv; ++j)
+    for (int i = 0; i <= nu; ++i)
+      mesh.points.push_back((*on)->at(*low + (*high - *low).cwiseProduct(Eigen::Vector2d(static_cast<double>(i) / nu, static_cast<double>(j) / nv))));
+  const auto triangle = [&](int a, int b, int c) {
+    geometry::Face face;
+    for (const int i : {a, b, c}) face.outer.push_back(static_cast<std::uint32_t>(i));
+    const auto& p = mesh.points;
+    if ((p[face.outer[1]] - p[face.outer[0]]).cross(p[face.outer[2]] - p[face.outer[0]]).norm() > 1e-12) mesh.faces.push_back(std::move(face));   // at a pole
+  };
+  for (int j = 0; j < nv; ++j)
+    for (int i = 0; i < nu; ++i) {
+      const int a = j * (nu + 1) + i, above = a + nu + 1;
+      triangle(a, a + 1, above + 1);
+      triangle(a, above + 1, above);
+    }
+  if (mesh.faces.empty()) return fail(entity, "the surface has no area");
   return mesh;
 }
 

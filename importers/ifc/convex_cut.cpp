@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "importers/geometry/boolean_ways.h"
+#include "importers/ifc/flaps.h"
 #include "importers/ifc/seams.h"
 
 namespace standpoint::ifc {
@@ -208,24 +209,17 @@ Result<geometry::PolyMesh> byKernel(const geometry::PolyMesh& host, std::span<co
   return cut;
 }
 
-// Its box grows by that much on every side: faces and edges that only just touched, on which every kernel stumbles, part.
-geometry::PolyMesh grown(geometry::PolyMesh tool, double by_m) {
-  Eigen::AlignedBox3d box;
-  for (const auto& p : tool.points) box.extend(p);
-  const Eigen::Vector3d centre = box.center(), half = (box.sizes() / 2).cwiseMax(by_m);
-  for (auto& p : tool.points) p += ((p - centre).array() / half.array() * by_m).matrix();
-  return tool;
-}
-
-// A tool that will not go as it is goes a little larger; if even that fails the planes' result stands, torn but of the right volume.
+// A tool that will not go as it is, or leaves flaps, goes a little larger: faces and edges that only just touched, on which
+// every kernel stumbles, part. If even that fails what there was stands, with flaps, or torn but of the right volume.
 Result<geometry::PolyMesh> subtractStubborn(const geometry::PolyMesh& host, const geometry::PolyMesh& tool) {
   auto first = byKernel(host, std::span(&tool, 1));
-  if (first) return first;
+  if (first && !hasFlaps(*first)) return first;
   for (const double by_m : {2e-5, 1e-4}) {
     const geometry::PolyMesh larger = grown(tool, by_m);
-    if (auto cut = byPlanes(host, larger); cut && !tore(host, *cut)) return cut;
-    if (auto cut = byKernel(host, std::span(&larger, 1))) return cut;
+    if (auto cut = byPlanes(host, larger); cut && !tore(host, *cut) && !hasFlaps(*cut)) return cut;
+    if (auto cut = byKernel(host, std::span(&larger, 1)); cut && (!first || !hasFlaps(*cut))) return cut;
   }
+  if (first) return first;
   if (auto torn = byPlanes(host, tool)) return torn;
   return first;
 }
@@ -233,7 +227,7 @@ Result<geometry::PolyMesh> subtractStubborn(const geometry::PolyMesh& host, cons
 // All at once, else each half on its own: of many tools only the few that do not go as they are cost a call each.
 Result<geometry::PolyMesh> subtractGeneral(const geometry::PolyMesh& host, std::span<const geometry::PolyMesh> tools) {
   if (tools.size() == 1) return subtractStubborn(host, tools[0]);
-  if (auto cut = byKernel(host, tools)) return cut;
+  if (auto cut = byKernel(host, tools); cut && (!hasFlaps(*cut) || hasFlaps(host))) return cut;
   auto first = subtractGeneral(host, tools.first(tools.size() / 2));
   return first ? subtractGeneral(*first, tools.subspan(tools.size() / 2)) : first;
 }
@@ -243,6 +237,12 @@ Result<geometry::PolyMesh> subtractGeneral(const geometry::PolyMesh& host, std::
 Result<geometry::PolyMesh> subtractTools(const geometry::PolyMesh& host, std::span<const geometry::PolyMesh> tools) {
   std::vector<geometry::PolyMesh> general;
   geometry::PolyMesh left = subtractSimple(host, tools, general);
+  if (hasFlaps(left) && !hasFlaps(host)) {   // a side that rounding put a hair inside of the host's
+    std::vector<geometry::PolyMesh> larger, general_of_larger;
+    for (const auto& tool : tools) larger.push_back(grown(tool, 2e-5));
+    geometry::PolyMesh without = subtractSimple(host, larger, general_of_larger);
+    if (!tore(host, without) && !hasFlaps(without)) left = std::move(without), general = std::move(general_of_larger);
+  }
   return general.empty() ? left : subtractGeneral(left, general);
 }
 

@@ -31,19 +31,19 @@ Result<geometry::PolyMesh> rectangularPyramid(const Entity& e, Scope& s) {
 Result<geometry::PolyMesh> rightCircularCone(const Entity& e, Scope& s) {
   const double height = m(e, 1, s), radius = m(e, 2, s);
   if (!(height > 0 && radius > 0)) return notPositive(e);
-  return placed(e, geometry::cone(radius, height, s.model.tessellation), s);
+  return placed(e, geometry::cone(radius, height, s.tessellation), s);
 }
 
 Result<geometry::PolyMesh> rightCircularCylinder(const Entity& e, Scope& s) {
   const double height = m(e, 1, s), radius = m(e, 2, s);
   if (!(height > 0 && radius > 0)) return notPositive(e);
-  return placed(e, geometry::cylinder(radius, height, s.model.tessellation), s);
+  return placed(e, geometry::cylinder(radius, height, s.tessellation), s);
 }
 
 Result<geometry::PolyMesh> sphereSolid(const Entity& e, Scope& s) {
   const double radius = m(e, 1, s);
   if (!(radius > 0)) return notPositive(e);
-  return placed(e, geometry::sphere(radius, s.model.tessellation), s);
+  return placed(e, geometry::sphere(radius, s.tessellation), s);
 }
 
 Result<geometry::PolyMesh> csgSolid(const Entity& e, Scope& s) { return item(e.ref(0), s); }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "importers/ifc/placement.h"
 
@@ -21,6 +20,7 @@ void close(Path& path) {
 
 void reverse(Path& path) {
   std::reverse(path.points.begin(), path.points.end());
+  std::reverse(path.ups.begin(), path.ups.end());
   path.start_tangent.swap(path.end_tangent);
   path.start_tangent *= -1;
   path.end_tangent *= -1;
@@ -48,8 +48,12 @@ Path portion(const Path& path, double from_m, double to_m) {
     const Eigen::Vector3d &a = path.points[i - 1], &b = path.points[i % path.points.size()];
     const double step = (b - a).norm();
     if (step > 0 && at + step >= from_m && at <= to_m) {
-      appendPoint(part, a + (b - a) * std::clamp((from_m - at) / step, 0.0, 1.0));
-      appendPoint(part, a + (b - a) * std::clamp((to_m - at) / step, 0.0, 1.0));
+      for (const double end_m : {from_m, to_m}) {
+        const double t = std::clamp((end_m - at) / step, 0.0, 1.0);
+        appendPoint(part, a + (b - a) * t);
+        if (!path.closed && path.ups.size() == path.points.size() && part.ups.size() < part.points.size())
+          part.ups.push_back(path.ups[i - 1] + t * (path.ups[i] - path.ups[i - 1]));
+      }
     }
     at += step;
   }
@@ -87,7 +91,7 @@ Path sample(const std::function<Eigen::Vector3d(double)>& at, double from, doubl
       // Two more looks beside the middle: an S-shaped piece crosses its chord there.
       const double off = std::max({deviation(piece.a, piece.b, m), deviation(piece.a, piece.b, at((piece.from + mid) / 2)),
                                    deviation(piece.a, piece.b, at((piece.to + mid) / 2))});
-      if (piece.depth < 12 && off > scope.model.tessellation.chord_error_m) {
+      if (piece.depth < 12 && off > scope.tessellation.chord_error_m) {
         open.push_back({mid, piece.to, m, piece.b, piece.depth + 1});
         open.push_back({piece.from, mid, piece.a, m, piece.depth + 1});
       } else {
@@ -153,54 +157,6 @@ Result<Path> indexedPolyCurve(const Entity& entity, Scope& scope) {
   if (path.points.size() < 2) return fail(entity, "the curve has fewer than two different points");
   close(path);
   return path;
-}
-
-Result<Path> surfaceCurve(const Entity& entity, Scope& scope) { return curve(entity.ref(0), scope); }
-
-namespace {
-
-// A polyline's parameter is the number of its point.
-Path polylinePortion(const Path& path, double t0, double t1) {
-  const auto& p = path.points;
-  const auto at = [&](double t) {
-    const double clamped = std::clamp(t, 0.0, static_cast<double>(p.size() - 1));
-    const auto i = std::min(static_cast<std::size_t>(clamped), p.size() - 2);
-    return Eigen::Vector3d(p[i] + (p[i + 1] - p[i]) * (clamped - static_cast<double>(i)));
-  };
-  Path part;
-  appendPoint(part, at(t0));
-  for (std::size_t i = 0; i < p.size(); ++i)
-    if (static_cast<double>(i) > t0 && static_cast<double>(i) < t1) appendPoint(part, p[i]);
-  appendPoint(part, at(t1));
-  return part.points.size() >= 2 ? part : path;
-}
-
-}  // namespace
-
-Result<Path> trimmedDirectrix(const Entity& directrix, const Value& start, const Value& end, Scope& scope) {
-  const double t0 = start.number(0);
-  if (directrix.is("IFCCIRCLE") || directrix.is("IFCELLIPSE")) {
-    const double from = t0 * scope.model.units.angle_rad, sweep = end.number(0) * scope.model.units.angle_rad - from;
-    if (const auto c = conic(directrix, scope); c && sweep > 1e-9 && sweep < 2 * std::numbers::pi - 1e-9) return arc(*c, from, sweep, scope);
-  }
-  auto path = curve(directrix, scope);
-  if (!path || path->closed || (!start.present() && !end.present())) return path;
-  const double whole = length(*path);
-  const bool by_length = start.typeName() == "IFCLENGTHMEASURE" || end.typeName() == "IFCLENGTHMEASURE" || directrix.is("IFCGRADIENTCURVE");
-  if (by_length) {
-    Path part = portion(*path, scope.metres(t0), end.present() ? scope.metres(end.number(0)) : whole);
-    return part.points.size() >= 2 ? part : *path;
-  }
-  if (directrix.is("IFCLINE")) {   // one parameter is one vector long
-    const Eigen::Vector3d from = path->points.front(), along = path->points.back() - from;
-    return Path{{from + along * t0, from + along * end.number(1)}, false};
-  }
-  if (!directrix.is("IFCPOLYLINE") && !directrix.is("IFCINDEXEDPOLYCURVE")) return path;   // of others the trims repeat what the curve says
-  const auto last = static_cast<double>(path->points.size() - 1);
-  const double t1 = end.number(last);
-  // Many exporters write 0 … 1 for the whole of any curve, which is what they draw, too.
-  const bool normalised = t0 == 0 && t1 == 1;
-  return t1 > t0 && !normalised ? polylinePortion(*path, t0, t1) : *path;
 }
 
 }  // namespace standpoint::ifc

@@ -50,7 +50,10 @@ Result<Path> trimmedCurve(const Entity&, Scope&);
 Result<Path> bSplineCurve(const Entity&, Scope&);
 Result<Path> offsetCurve(const Entity&, Scope&);
 Result<Path> surfaceCurve(const Entity&, Scope&);
+Result<Path> pcurve(const Entity&, Scope&);
+Entity spatialCurve(const Entity& surface_curve);       // its curve in space, else its curve on a surface
 Result<Path> alignmentPlan(const Entity&, Scope&);      // a composite curve of IfcCurveSegments
 Result<Path> gradientCurve(const Entity&, Scope&);
+Result<Path> segmentedReferenceCurve(const Entity&, Scope&);
 
 }  // namespace standpoint::ifc

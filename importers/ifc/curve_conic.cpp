@@ -44,7 +44,8 @@ Result<Path> trimmedConic(const Entity& entity, const Entity& basis, Scope& scop
   const double from = angle(trim(entity, 1, scope), *c, points_first, 0, scope);
   const double to = angle(trim(entity, 2, scope), *c, points_first, kTurn, scope);
   double sweep = std::fmod(to - from, kTurn);
-  constexpr double kNothing = 1e-9;   // from = to is the whole turn
+  // from = to is the whole turn, and so is a turn that rounding carried a little beyond it.
+  const double kNothing = std::abs(to - from) > kTurn ? 1e-4 : 1e-9;
   if (forward && sweep < kNothing) sweep += kTurn;
   if (!forward && sweep > -kNothing) sweep -= kTurn;
   Path path = arc(*c, from, sweep, scope);
@@ -113,7 +114,7 @@ Result<Conic> conic(const Entity& entity, Scope& scope) {
 }
 
 Path arc(const Conic& c, double from, double sweep, const Scope& scope) {
-  const int n = geometry::segmentCount(std::max(c.a, c.b), std::abs(sweep), scope.model.tessellation);
+  const int n = geometry::segmentCount(std::max(c.a, c.b), std::abs(sweep), scope.tessellation);
   Path path;
   for (int i = 0; i <= n; ++i) appendPoint(path, c.at(from + sweep * i / n));
   path.start_tangent = c.tangent(from) * (sweep < 0 ? -1 : 1);

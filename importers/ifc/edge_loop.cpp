@@ -41,7 +41,7 @@ Result<Path> edgePath(const Entity& edge, Scope& scope) {
   const Eigen::Vector3d start = vertex(edge.ref(0), scope), end = vertex(edge.ref(1), scope);
   if (!edge.is("IFCEDGECURVE")) return Path{{start, end}, false};
   Entity basis = edge.ref(2);
-  if (basis.is("IFCSURFACECURVE") || basis.is("IFCSEAMCURVE") || basis.is("IFCINTERSECTIONCURVE")) basis = basis.ref(0);
+  if (basis.is("IFCSURFACECURVE") || basis.is("IFCSEAMCURVE") || basis.is("IFCINTERSECTIONCURVE")) basis = spatialCurve(basis);
   const bool same_sense = edge[3].symbol() != "F";
   const Eigen::Vector3d &from = same_sense ? start : end, &to = same_sense ? end : start;
   Path path;

@@ -91,7 +91,10 @@ Result<void> appendFace(geometry::PolyMesh& mesh, const Entity& face, PointPool&
 
 bool isCurved(const Entity& face) {
   if (!face.is("IFCADVANCEDFACE") && !face.is("IFCFACESURFACE")) return false;
-  const Entity surface_entity = face.ref(1);
+  Entity surface_entity = face.ref(1);
+  // A trimmed or bounded surface is as curved as its basis; the face has bounds of its own.
+  for (int depth = 0; depth < 4 && (surface_entity.is("IFCRECTANGULARTRIMMEDSURFACE") || surface_entity.typeName().starts_with("IFCCURVEBOUNDED")); ++depth)
+    surface_entity = surface_entity.ref(0);
   return surface_entity && !surface_entity.is("IFCPLANE");
 }
 

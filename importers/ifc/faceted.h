@@ -14,6 +14,9 @@ Result<void> appendShell(geometry::PolyMesh& mesh, const Entity& shell, Scope& s
 // as it stands keeps its slivers: without them it would leak.
 void orient(geometry::PolyMesh& shell, bool should_be_closed, Scope& scope);
 
+// What the outlines enclose on a surface; `face` is named where that cannot be done.
+using Outlines = std::vector<std::vector<Eigen::Vector3d>>;
+Result<void> appendOnSurface(geometry::PolyMesh& mesh, const ParametricSurface& on, const Outlines& outlines, bool turned, const Entity& face, Scope& scope);
 // The faces of an advanced shell whose surface is curved (advanced_face.cpp).
 Result<void> appendCurvedFace(geometry::PolyMesh& mesh, const Entity& face, Scope& scope);
 

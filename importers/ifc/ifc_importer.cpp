@@ -63,8 +63,7 @@ Result<ImportedModel> readIfc(const std::filesystem::path& path, const ImportOpt
   if (auto go = progress.check(); !go) return failure(go.error());
   const TextureMaps textures(*file);
   const Model model{*file, readUnits(*file, options.metres_per_unit, result.report), {options.chord_error_m, options.max_segment_angle_rad}, mappingOfTypes(*file),
-                    textures, stylesOfItems(*file, textures), colourMaps(*file), newCurveCache()};
-  for (const Entity& cant : file->all("IFCSEGMENTEDREFERENCECURVE")) result.report.warn(cant.place(), "the cant of the alignment is not followed");
+                    textures, ShapeAspects(*file), stylesOfItems(*file, textures), colourMaps(*file), newCurveCache()};
   const Relations relations(*file);
   const std::vector<Entity> entities = productEntities(*file);
   auto bodies = buildBodies(entities, relations, model, progress);

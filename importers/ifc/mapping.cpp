@@ -38,6 +38,7 @@ constexpr std::array kMappings{
     solid("IFCFIXEDREFERENCESWEPTAREASOLID", curveSweptAreaSolid),
     solid("IFCDIRECTRIXDERIVEDREFERENCESWEPTAREASOLID", curveSweptAreaSolid),
     solid("IFCSECTIONEDSOLIDHORIZONTAL", sectionedSolidHorizontal),
+    solid("IFCSECTIONEDSURFACE", sectionedSurface),
     solid("IFCSECTIONEDSPINE", sectionedSpine),
     solid("IFCFACETEDBREP", facetedBrep),
     solid("IFCFACETEDBREPWITHVOIDS", facetedBrep),
@@ -51,7 +52,6 @@ constexpr std::array kMappings{
     solid("IFCFACE", faceItem),
     solid("IFCFACESURFACE", faceItem),
     solid("IFCADVANCEDFACE", faceItem),
-    solid("IFCCURVEBOUNDEDPLANE", curveBoundedPlane),
     solid("IFCGEOMETRICSET", geometricSet),
     solid("IFCTRIANGULATEDFACESET", triangulatedFaceSet),
     solid("IFCTRIANGULATEDIRREGULARNETWORK", triangulatedFaceSet),
@@ -83,11 +83,12 @@ constexpr std::array kMappings{
     curved("IFCOFFSETCURVE2D", offsetCurve),
     curved("IFCOFFSETCURVE3D", offsetCurve),
     curved("IFCOFFSETCURVEBYDISTANCES", offsetCurve),
+    curved("IFCPCURVE", pcurve),
     curved("IFCSURFACECURVE", surfaceCurve),
     curved("IFCSEAMCURVE", surfaceCurve),
     curved("IFCINTERSECTIONCURVE", surfaceCurve),
     curved("IFCGRADIENTCURVE", gradientCurve),
-    curved("IFCSEGMENTEDREFERENCECURVE", gradientCurve),
+    curved("IFCSEGMENTEDREFERENCECURVE", segmentedReferenceCurve),
 
     area("IFCRECTANGLEPROFILEDEF", rectangleProfile),
     area("IFCROUNDEDRECTANGLEPROFILEDEF", roundedRectangleProfile),
@@ -103,6 +104,8 @@ constexpr std::array kMappings{
     area("IFCUSHAPEPROFILEDEF", uShapeProfile),
     area("IFCCSHAPEPROFILEDEF", cShapeProfile),
     area("IFCZSHAPEPROFILEDEF", zShapeProfile),
+    area("IFCCRANERAILASHAPEPROFILEDEF", craneRailAProfile),
+    area("IFCCRANERAILFSHAPEPROFILEDEF", craneRailFProfile),
     area("IFCARBITRARYCLOSEDPROFILEDEF", arbitraryClosedProfile),
     area("IFCARBITRARYPROFILEDEFWITHVOIDS", arbitraryClosedProfile),
     area("IFCCENTERLINEPROFILEDEF", centreLineProfile),
@@ -118,6 +121,9 @@ constexpr std::array kMappings{
     bent("IFCRATIONALBSPLINESURFACEWITHKNOTS", bSplineSurface),
     Mapping{"IFCSURFACEOFLINEAREXTRUSION", extrudedSurface, nullptr, nullptr, surfaceOfLinearExtrusion},
     bent("IFCSURFACEOFREVOLUTION", surfaceOfRevolution),
+    Mapping{"IFCCURVEBOUNDEDPLANE", curveBoundedPlane, nullptr, nullptr, basisSurface},
+    Mapping{"IFCCURVEBOUNDEDSURFACE", curveBoundedSurface, nullptr, nullptr, basisSurface},
+    Mapping{"IFCRECTANGULARTRIMMEDSURFACE", rectangularTrimmedSurface, nullptr, nullptr, basisSurface},
 };
 
 const Mapping* mappingOf(const Entity& entity, const Scope& scope) {
@@ -157,7 +163,7 @@ std::shared_ptr<CurveCache> newCurveCache() { return std::make_shared<CurveCache
 
 Result<Path> curve(const Entity& e, Scope& s) {
   const Mapping* m = mappingOf(e, s);
-  if (!m || m->curve != gradientCurve) return guarded(m ? m->curve : nullptr, e, s, "curve");
+  if (!m || (m->curve != gradientCurve && m->curve != segmentedReferenceCurve)) return guarded(m ? m->curve : nullptr, e, s, "curve");
   CurveCache& cache = *s.model.curves;
   {
     const std::lock_guard lock(cache.mutex);

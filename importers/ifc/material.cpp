@@ -41,6 +41,8 @@ void add(ProductMaterials& found, Entity m, const Model& model) {
   found.definition = m.id();
   if (m.is("IFCMATERIALLAYERSETUSAGE")) found.usage = usageOf(m, model);
   if (m.is("IFCMATERIALLAYERSETUSAGE") || m.is("IFCMATERIALPROFILESETUSAGE") || m.is("IFCMATERIALPROFILESETUSAGETAPERING")) m = m.ref(0);
+  if (m.is("IFCMATERIALCONSTITUENTSET"))
+    for (const Entity& constituent : m.refs(2)) found.constituents.emplace_back(constituent[0].text(), constituent.ref(2).id());
   if (m.is("IFCMATERIAL")) addMaterial(found, m);
   else if (m.is("IFCMATERIALLIST")) addMembers(found, m, 0, 0);
   else if (m.is("IFCMATERIALLAYERSET")) addLayers(found, m, model);

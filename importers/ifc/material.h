@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/environment.h"
@@ -23,6 +24,7 @@ struct LayerUsage {
 struct ProductMaterials {
   std::vector<std::string> names;          // in the file's order, each once
   std::vector<Id> ids;                     // of the IfcMaterials, in step with `names`
+  std::vector<std::pair<std::string, Id>> constituents;   // their names and IfcMaterials
   std::vector<MaterialLayer> layers;
   std::vector<Id> material_of_layer;       // in step with `layers`; 0: a layer of air
   std::optional<LayerUsage> usage;

@@ -11,6 +11,7 @@
 #include "core/report.h"
 #include "core/result.h"
 #include "importers/geometry/kernel.h"
+#include "importers/ifc/shape_aspect.h"
 #include "importers/ifc/step_file.h"
 #include "importers/ifc/texture.h"
 #include "importers/ifc/units.h"
@@ -27,6 +28,7 @@ struct Model {
   geometry::Tessellation tessellation;
   std::vector<const Mapping*> mapping_of_type;     // by Record::type; nullptr: the table does not know it
   TextureMaps textures;
+  ShapeAspects aspects;
   std::vector<Id> style_of_item;                   // a face's tag by position of its item's record; 0: none of its own
   std::map<Id, Id> colour_map_of_face_set;
   std::shared_ptr<CurveCache> curves;              // alignments: long, and shared by everything that stands along them
@@ -44,8 +46,9 @@ struct Repairs {
 
 // One product's (or one shared representation's) work: its issues, and the guards against input that nests or multiplies.
 struct Scope {
-  explicit Scope(const Model& m) : model(m) {}
+  explicit Scope(const Model& m) : model(m), tessellation(m.tessellation) {}
   const Model& model;
+  geometry::Tessellation tessellation;             // finer than the model's while a curve in a surface's parameters is read
   Report report;
   Repairs repairs;
   int depth = 0;

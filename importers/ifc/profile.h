@@ -25,7 +25,11 @@ Result<Regions> centreLineProfile(const Entity&, Scope&);
 Result<Regions> compositeProfile(const Entity&, Scope&);
 Result<Regions> derivedProfile(const Entity&, Scope&);
 
-// The curve of an IfcArbitraryOpenProfileDef, or the outline of an area where that is what is given.
+Result<Path> openCrossProfile(const Entity&, Scope&);
+Result<Regions> craneRailAProfile(const Entity&, Scope&);
+Result<Regions> craneRailFProfile(const Entity&, Scope&);
+
+// The curve of an open profile (arbitrary, open cross), or the outline of an area where that is what is given.
 Result<Path> profileCurve(const Entity& profile, Scope& scope);
 
 }  // namespace standpoint::ifc

@@ -128,6 +128,7 @@ Result<Regions> derivedProfile(const Entity& entity, Scope& scope) {
 
 Result<Path> profileCurve(const Entity& entity, Scope& scope) {
   if (entity.is("IFCARBITRARYOPENPROFILEDEF") || entity.is("IFCARBITRARYCLOSEDPROFILEDEF")) return curve(entity.ref(2), scope);
+  if (entity.is("IFCOPENCROSSPROFILEDEF")) return openCrossProfile(entity, scope);
   const auto regions = profile(entity, scope);
   if (!regions) return failure(regions.error());
   Path path;

@@ -28,7 +28,7 @@ void appendCorner(geometry::Loop2& loop, const Eigen::Vector2d& before, const Co
   const Eigen::Vector2d centre = c + (u + v).normalized() * (radius / std::sin(half));
   const Eigen::Vector2d from = c + u * reach - centre, to = c + v * reach - centre;
   double sweep = std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
-  const int n = geometry::segmentCount(radius, std::abs(sweep), scope.model.tessellation);
+  const int n = geometry::segmentCount(radius, std::abs(sweep), scope.tessellation);
   for (int i = 0; i <= n; ++i) {
     const double a = sweep * i / n;
     const Eigen::Vector2d p(from.x() * std::cos(a) - from.y() * std::sin(a), from.x() * std::sin(a) + from.y() * std::cos(a));
@@ -215,6 +215,31 @@ Result<Regions> zShapeProfile(const Entity& e, Scope& s) {
   const double out = width - web;   // each flange is `width` long, measured from the web's far face
   return placed(e, {{-web, -y}, {out, -y}, {out, -y + flange, edge}, {web, -y + flange, fillet}, {web, y},
                     {-out, y}, {-out, y - flange, edge}, {-web, y - flange, fillet}}, s);
+}
+
+// Crane rails (IFC2X3), DIN 536: from the foot's middle up to the head, its right half; the left mirrors it. The foot is
+// thinner outwards (f1 at the web, f2, f3 at its edge), the head deeper at the web (h2) than at its side (h3).
+namespace {
+
+Result<Regions> craneRail(const Entity& e, const std::vector<Corner>& right, const Scope& s) {
+  std::vector<Corner> all = right;
+  for (auto it = right.rbegin(); it != right.rend(); ++it) all.push_back({-it->x, it->y, it->radius});
+  return placed(e, all, s);
+}
+
+}  // namespace
+
+Result<Regions> craneRailAProfile(const Entity& e, Scope& s) {
+  const double y = m(e, 3, s) / 2, foot = m(e, 4, s) / 2, head = m(e, 6, s) / 2, h2 = m(e, 7, s), h3 = m(e, 8, s), web = m(e, 9, s) / 2;
+  const double knee = m(e, 10, s) / 2, f1 = m(e, 11, s), f2 = m(e, 12, s), f3 = m(e, 13, s);
+  if (!(y > 0 && foot > 0 && head > 0 && web > 0 && h2 > 0 && h3 > 0 && f1 > 0)) return notPositive(e);
+  return craneRail(e, {{foot, -y}, {foot, -y + f3}, {knee, -y + f2}, {web, -y + f1}, {web, y - h2}, {head, y - h3}, {head, y, m(e, 5, s)}}, s);
+}
+
+Result<Regions> craneRailFProfile(const Entity& e, Scope& s) {
+  const double y = m(e, 3, s) / 2, head = m(e, 4, s) / 2, h2 = m(e, 6, s), h3 = m(e, 7, s), web = m(e, 8, s) / 2, f1 = m(e, 9, s), f2 = m(e, 10, s);
+  if (!(y > 0 && head > 0 && web > 0 && h2 > 0 && h3 > 0 && f1 > 0)) return notPositive(e);
+  return craneRail(e, {{head, -y}, {head, -y + f2}, {web, -y + f1}, {web, y - h2}, {head, y - h3}, {head, y, m(e, 5, s)}}, s);
 }
 
 }  // namespace standpoint::ifc

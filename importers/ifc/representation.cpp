@@ -58,7 +58,7 @@ struct Walk {
     bool direct = false;
     for (const Entity& e : r.refs(3)) {
       if (!e.is("IFCMAPPEDITEM")) { direct = true; continue; }
-      const Id own = scope.model.style_of_item[scope.model.file.indexOf(e)];
+      const std::uint32_t part = scope.model.aspects.tagOf(e), own = part ? part : scope.model.style_of_item[scope.model.file.indexOf(e)];
       const Entity map = e.ref(0);
       if (!map.ref(1)) { scope.report.lose(e.place(), "the mapped item has no representation"); continue; }
       const Eigen::Affine3d next = placed * transformationOperator(e.ref(1), scope) * Eigen::Affine3d(axisPlacement(map.ref(0), scope));
@@ -70,18 +70,6 @@ struct Walk {
   }
 };
 
-// A Boolean result is coloured by its own style or by its first operand's.
-std::uint32_t styleOf(Entity e, const Model& model) {
-  for (int depth = 0; e && depth < 1000; ++depth) {
-    if (const Id style = model.style_of_item[model.file.indexOf(e)]) return style;
-    const std::string_view name = e.typeName();
-    if (name == "IFCBOOLEANRESULT" || name == "IFCBOOLEANCLIPPINGRESULT") e = e.ref(1);
-    else if (name == "IFCCSGSOLID") e = e.ref(0);
-    else break;
-  }
-  return kNoStyle;
-}
-
 void appendItem(Items& items, const Entity& e, Scope& scope) {
   const Mapping* mapping = scope.model.mapping_of_type[e.type()];
   const bool flat = !mapping || !mapping->item;
@@ -92,7 +80,7 @@ void appendItem(Items& items, const Entity& e, Scope& scope) {
     else items.report.lose(mesh.error().source.empty() ? e.place() : mesh.error().source, e.place() + " has no geometry: " + mesh.error().message);
     return;
   }
-  const std::uint32_t style = styleOf(e, scope.model);
+  const std::uint32_t part = scope.model.aspects.tagOf(e), style = part ? part : styleOf(e, scope.model);
   for (auto& face : mesh->faces)
     if (face.tag == kNoStyle) face.tag = style;
   items.meshes.push_back(std::move(*mesh));

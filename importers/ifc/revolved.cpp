@@ -17,7 +17,7 @@ Result<geometry::PolyMesh> revolvedAreaSolid(const Entity& entity, Scope& scope)
   geometry::PolyMesh mesh;
   for (const auto& region : *regions) {
     const Eigen::Vector3d along = angle < 0 ? Eigen::Vector3d(-axis.direction) : axis.direction;
-    geometry::append(mesh, geometry::revolve(region, axis.point, along, std::abs(angle), scope.model.tessellation));
+    geometry::append(mesh, geometry::revolve(region, axis.point, along, std::abs(angle), scope.tessellation));
   }
   geometry::orientOutward(mesh);
   geometry::transform(mesh, Eigen::Affine3d(axisPlacement(entity.ref(1), scope)));

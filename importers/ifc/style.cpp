@@ -50,6 +50,17 @@ std::vector<Id> stylesOfItems(const StepFile& file, const TextureMaps& textures)
   return styles;
 }
 
+std::uint32_t styleOf(Entity e, const Model& model) {
+  for (int depth = 0; e && depth < 1000; ++depth) {
+    if (const Id style = model.style_of_item[model.file.indexOf(e)]) return style;
+    const std::string_view name = e.typeName();
+    if (name == "IFCBOOLEANRESULT" || name == "IFCBOOLEANCLIPPINGRESULT") e = e.ref(1);
+    else if (name == "IFCCSGSOLID") e = e.ref(0);
+    else break;
+  }
+  return kNoStyle;
+}
+
 std::optional<Style> styleOfTag(const StepFile& file, std::uint32_t tag) {
   if (tag >= kFirstColour) return Style{"", unpackColour(tag)};
   const Entity e = file.entity(tag);

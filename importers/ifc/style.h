@@ -29,6 +29,8 @@ std::vector<Id> stylesOfItems(const StepFile& file, const TextureMaps& textures)
 std::map<Id, Id> colourMaps(const StepFile& file);
 // The first surface style of an IfcStyledItem; 0 when it has none.
 Id surfaceStyleOf(const Entity& styled_item);
+// Of an item; a Boolean result is coloured by its own style or by its first operand's.
+std::uint32_t styleOf(Entity item, const Model& model);
 // Of a tag; nothing when it is no style.
 std::optional<Style> styleOfTag(const StepFile& file, std::uint32_t tag);
 

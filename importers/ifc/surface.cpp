@@ -23,6 +23,7 @@ class Plane : public ParametricSurface {
   explicit Plane(const Eigen::Isometry3d& f) : frame_(f), inverse_(f.inverse()) {}
   Eigen::Vector3d at(const Eigen::Vector2d& uv) const override { return frame_ * Eigen::Vector3d(uv.x(), uv.y(), 0); }
   Eigen::Vector2d parameters(const Eigen::Vector3d& p, const Eigen::Vector2d&) const override { return (inverse_ * p).head<2>(); }
+  std::optional<Eigen::Vector2d> fromFile(const Eigen::Vector2d& uv, double length_m, double) const override { return uv * length_m; }
 
  private:
   Eigen::Isometry3d frame_, inverse_;
@@ -46,6 +47,9 @@ class Round : public ParametricSurface {
     if (kind_ == Kind::cylinder) return {u, q.z()};
     const double v = std::atan2(q.z(), r - major_);
     return {u, kind_ == Kind::torus ? nearTurn(v, near.y()) : v};
+  }
+  std::optional<Eigen::Vector2d> fromFile(const Eigen::Vector2d& uv, double length_m, double angle_rad) const override {
+    return Eigen::Vector2d(uv.x() * angle_rad, uv.y() * (kind_ == Kind::cylinder ? length_m : angle_rad));
   }
   Eigen::Vector2d period() const override { return {kTurn, kind_ == Kind::torus ? kTurn : 0}; }
 
@@ -105,6 +109,7 @@ class Spline : public Searched {
       if (period_[k] > 0) uv[k] += period_[k] * std::round((near[k] - uv[k]) / period_[k]);
     return uv;
   }
+  std::optional<Eigen::Vector2d> fromFile(const Eigen::Vector2d& uv, double, double) const override { return uv; }
   Eigen::Vector2d low() const override { return {spline_.u.from(), spline_.v.from()}; }
   Eigen::Vector2d high() const override { return {spline_.u.to(), spline_.v.to()}; }
   Eigen::Vector2d period() const override { return period_; }
@@ -203,6 +208,8 @@ SurfacePtr round(Round::Kind kind, const Entity& e, double major, double minor, 
 }  // namespace
 
 Result<SurfacePtr> planeSurface(const Entity& e, Scope& s) { return std::make_shared<Plane>(axisPlacement(e.ref(0), s)); }
+
+Result<SurfacePtr> basisSurface(const Entity& e, Scope& s) { return surface(e.ref(0), s); }
 
 Result<SurfacePtr> cylindricalSurface(const Entity& e, Scope& s) {
   const double r = s.metres(e[1].number(0));

@@ -19,29 +19,47 @@ Entity SurfacePool::textureOf(std::uint32_t tag) const {
   return {};
 }
 
-SurfacePool::Look SurfacePool::lookOf(std::uint32_t tag) {
+// The tag of the style alone, which a named part stands before.
+std::uint32_t SurfacePool::styleTag(std::uint32_t tag, std::uint32_t otherwise) const {
+  if (ShapeAspects::isAspect(tag)) tag = styleOf(model_.file.entity(model_.aspects.item(tag)), model_);
+  if (tag != kNoStyle) return tag;
+  return ShapeAspects::isAspect(otherwise) ? styleOf(model_.file.entity(model_.aspects.item(otherwise)), model_) : otherwise;
+}
+
+Entity SurfacePool::generatedTexture(std::uint32_t tag, std::uint32_t otherwise) const {
+  const std::uint32_t style_tag = styleTag(tag, otherwise);
+  if (TextureMaps::isTextured(style_tag)) return {};
+  const auto style = styleOfTag(model_.file, style_tag);
+  return style && generators_.has(style->texture) ? model_.file.entity(style->texture) : Entity();
+}
+
+SurfacePool::Look SurfacePool::lookOf(std::uint32_t tag, bool has_coordinates) {
   Look look;
   if (!TextureMaps::isTextured(tag)) {
     look.style = styleOfTag(model_.file, tag);
     look.style_id = look.style && tag < TextureMaps::kFirstTag ? tag : 0;
-    if (look.style && look.style->texture && told_.insert(look.style->texture).second)
+    if (has_coordinates && look.style && generators_.has(look.style->texture)) placePicture(look, model_.file.entity(look.style->texture));
+    else if (look.style && look.style->texture && told_.insert(look.style->texture).second)
       report_.note("#" + std::to_string(look.style->texture), "the texture has no coordinates on some of the faces that have it; they are plain");
     return look;
   }
   const Entity item = model_.file.entity(model_.textures.source(tag).item);
   const std::uint32_t own = item ? model_.style_of_item[model_.file.indexOf(item)] : 0;
   if (!TextureMaps::isTextured(own)) look.style = styleOfTag(model_.file, own), look.style_id = look.style ? own : 0;
-  const Entity texture = textureOf(tag);
-  look.image = texture ? images_.image(texture) : -1;
   if (!look.style) look.style.emplace();
-  // A picture replaces the colour unless it says that it is multiplied with it.
-  if (look.image >= 0 && texture[2].text() != "MODULATE") look.style->colour = {1, 1, 1, look.style->colour.a};
+  placePicture(look, textureOf(tag));
   return look;
+}
+
+// A picture replaces the colour unless it says that it is multiplied with it.
+void SurfacePool::placePicture(Look& look, const Entity& texture) {
+  look.image = texture ? images_.image(texture) : -1;
+  if (look.image >= 0 && texture[2].text() != "MODULATE") look.style->colour = {1, 1, 1, look.style->colour.a};
 }
 
 SurfacePool::Look SurfacePool::lookOfMaterial(Id material) {
   const auto of_material = style_of_material_.find(material);
-  return of_material == style_of_material_.end() ? Look() : lookOf(of_material->second);
+  return of_material == style_of_material_.end() ? Look() : lookOf(of_material->second, false);
 }
 
 std::uint32_t SurfacePool::keep(Surface s) {
@@ -62,10 +80,14 @@ void apply(Surface& surface, const std::optional<Style>& style, std::int32_t ima
 
 }  // namespace
 
-std::uint32_t SurfacePool::surface(std::uint32_t tag, const ProductMaterials& materials) {
+std::uint32_t SurfacePool::surface(std::uint32_t tag, std::uint32_t otherwise, const ProductMaterials& materials) {
   std::size_t which = 0;
   bool sure = materials.layered || materials.names.size() == 1;
-  Look look = lookOf(tag);
+  if (const std::uint32_t part = ShapeAspects::isAspect(tag) ? tag : ShapeAspects::isAspect(otherwise) ? otherwise : 0)
+    for (const auto& [name, material] : materials.constituents)
+      for (std::size_t i = 0; i < materials.ids.size() && !sure; ++i)
+        if (name == model_.aspects.name(part) && materials.names[i] == model_.file.entity(material)[0].text()) which = i, sure = true;
+  Look look = lookOf(styleTag(tag, otherwise));
   for (std::size_t i = 0; look.style && !sure && i < materials.names.size(); ++i) {
     const auto of_material = style_of_material_.find(materials.ids[i]);
     if (materials.names[i] == look.style->name || (of_material != style_of_material_.end() && of_material->second == look.style_id && look.style_id)) which = i, sure = true;
@@ -80,7 +102,7 @@ std::uint32_t SurfacePool::surface(std::uint32_t tag, const ProductMaterials& ma
 }
 
 std::uint32_t SurfacePool::surfaceOfLayer(std::uint32_t tag, Id material) {
-  Look look = lookOf(tag);
+  Look look = lookOf(styleTag(tag, kNoStyle));
   if (!look.style) look = lookOfMaterial(material);
   Surface s;
   apply(s, look.style, look.image);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Profiles along curves: swept disks, fixed-reference and surface-curve sweeps, sectioned solids.
+// Profiles along curves: swept disks, fixed-reference and surface-curve sweeps, sectioned spines, tapered revolutions.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "importers/ifc/alignment.h"
 #include "importers/ifc/curve.h"
 #include "importers/ifc/placement.h"
+#include "importers/ifc/profile.h"
+#include "importers/ifc/sections.h"
 #include "importers/ifc/solid.h"
 
 namespace standpoint::ifc {
@@ -39,7 +40,7 @@ geometry::Region2 stretched(const geometry::Region2& region, const Eigen::Vector
   return s;
 }
 
-// The profile at each point of the path, mitred; `reference(i, tangent)` is where its x axis points to.
+// The profile at each point of the path, mitred; `reference(i, tangent)` is where its x axis points to at point i.
 template <class Reference>
 Result<geometry::PolyMesh> along(const geometry::Region2& region, const Path& path, const Reference& reference) {
   std::vector<geometry::Region2> profiles;
@@ -55,13 +56,18 @@ Result<geometry::PolyMesh> along(const geometry::Region2& region, const Path& pa
     tangent = tangent.norm() > 1e-3 ? Eigen::Vector3d(tangent.normalized()) : t1;
     if (first && !path.start_tangent.isZero()) tangent = path.start_tangent;
     if (last && !path.end_tangent.isZero()) tangent = path.end_tangent;
-    const Eigen::Isometry3d f = frame(p[i], tangent, reference(tangent));
+    const Eigen::Isometry3d f = frame(p[i], tangent, reference(i, tangent));
     const double factor = first || last ? 1 : std::min(1 / std::max(tangent.dot(t0), 0.1), 10.0);
     const Eigen::Vector3d bend = f.linear().transpose() * (t1 - t0);
     profiles.push_back(factor > 1 + 1e-9 && bend.head<2>().norm() > 1e-9 ? stretched(region, bend.head<2>().normalized(), factor) : region);
     frames.push_back(f);
   }
   return geometry::loft(profiles, frames, path.closed);
+}
+
+// A direction that is meant with "up" being Z, where "up" leans.
+Eigen::Vector3d rolled(const Eigen::Vector3d& direction_unit, const Eigen::Vector3d& up) {
+  return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up) * direction_unit;
 }
 
 }  // namespace
@@ -75,8 +81,23 @@ Result<geometry::PolyMesh> sweptDiskSolid(const Entity& entity, Scope& scope) {
   if (!path) return failure(path.error());
   if (entity.is("IFCSWEPTDISKSOLIDPOLYGONAL") && entity[5].number(0) > 0) *path = filleted(*path, scope.metres(entity[5].number(0)), scope);
   if (!scope.spend(path->points.size() * 16)) return fail(entity, "too many points");
-  return geometry::sweepDisk(path->points, path->closed, radius, inner, scope.model.tessellation, {path->start_tangent, path->end_tangent});
+  return geometry::sweepDisk(path->points, path->closed, radius, inner, scope.tessellation, {path->start_tangent, path->end_tangent});
 }
+
+namespace {
+
+// Whether a curve begins within the height of an extruded surface, as a curve on it does.
+bool liesOn(const Path& path, const Entity& extrusion, Scope& scope) {
+  const auto swept = profileCurve(extrusion.ref(0), scope);
+  if (!swept || swept->points.empty() || path.points.empty()) return true;
+  const Eigen::Isometry3d position = axisPlacement(extrusion.ref(1), scope);
+  const Eigen::Vector3d along = position.linear() * direction(extrusion.ref(2), Eigen::Vector3d::UnitZ());
+  const double height = (path.points.front() - position * swept->points.front()).dot(along);
+  constexpr double kSlack_m = 1e-4;
+  return height > -kSlack_m && height < scope.metres(extrusion[3].number(0)) + kSlack_m;
+}
+
+}  // namespace
 
 Result<geometry::PolyMesh> curveSweptAreaSolid(const Entity& entity, Scope& scope) {
   const auto regions = profile(entity.ref(0), scope);
@@ -89,12 +110,19 @@ Result<geometry::PolyMesh> curveSweptAreaSolid(const Entity& entity, Scope& scop
   else if (reference.is("IFCPLANE")) x = axisPlacement(reference.ref(0), scope).linear().col(2);
   else if (reference.is("IFCSURFACEOFLINEAREXTRUSION")) x = axisPlacement(reference.ref(1), scope).linear() * direction(reference.ref(2), Eigen::Vector3d::UnitZ());
   else return fail(entity, "a reference surface of this kind (" + std::string(reference.typeName()) + ") is not supported");
+  const bool across = reference.is("IFCSURFACEOFLINEAREXTRUSION") && liesOn(*path, reference, scope);
+  if (reference.is("IFCSURFACEOFLINEAREXTRUSION") && !across) {
+    scope.report.note(entity.place(), "its directrix does not lie on its reference surface, as in old exports of Revit; the profile's x is taken against the surface's direction");
+    x = -x;
+  }
+  // A derived reference follows the cant of its directrix, a fixed one does not.
+  const bool rolls = entity.is("IFCDIRECTRIXDERIVEDREFERENCESWEPTAREASOLID") && path->ups.size() == path->points.size();
   geometry::PolyMesh mesh;
   for (const auto& region : *regions) {
     if (!scope.spend(path->points.size() * region.outer.size())) return fail(entity, "too many points");
-    auto part = reference.is("IFCSURFACEOFLINEAREXTRUSION")
-                    ? along(region, *path, [&](const Eigen::Vector3d& t) { return Eigen::Vector3d(t.cross(x)); })
-                    : along(region, *path, [&](const Eigen::Vector3d&) { return x; });
+    auto part = across
+                    ? along(region, *path, [&](std::size_t, const Eigen::Vector3d& t) { return Eigen::Vector3d(t.cross(x)); })
+                    : along(region, *path, [&](std::size_t i, const Eigen::Vector3d&) { return rolls ? rolled(x, path->ups[i]) : x; });
     if (!part) return part;
     geometry::append(mesh, *part);
   }
@@ -127,70 +155,6 @@ Result<geometry::PolyMesh> sectionedSpine(const Entity& entity, Scope& scope) {
   return sections(entity, entity.refs(1), frames, scope);
 }
 
-namespace {
-
-bool alike(const geometry::Region2& a, const geometry::Region2& b) {
-  if (a.outer.size() != b.outer.size() || a.holes.size() != b.holes.size()) return false;
-  for (std::size_t h = 0; h < a.holes.size(); ++h)
-    if (a.holes[h].size() != b.holes[h].size()) return false;
-  return true;
-}
-
-geometry::Region2 blend(const geometry::Region2& a, const geometry::Region2& b, double t) {
-  geometry::Region2 mid = a;
-  const auto mix = [t](geometry::Loop2& to, const geometry::Loop2& other) { for (std::size_t i = 0; i < to.size(); ++i) to[i] += (other[i] - to[i]) * t; };
-  mix(mid.outer, b.outer);
-  for (std::size_t h = 0; h < mid.holes.size(); ++h) mix(mid.holes[h], b.holes[h]);
-  return mid;
-}
-
-// The plane of a section stands upright across the directrix: x to the left, y up.
-Eigen::Isometry3d upright(const Station& s) {
-  const Eigen::Vector3d forward = Eigen::Vector3d(s.tangent.x(), s.tangent.y(), 0).normalized();
-  Eigen::Isometry3d f = Eigen::Isometry3d::Identity();
-  f.linear() << Eigen::Vector3d::UnitZ().cross(forward), Eigen::Vector3d::UnitZ(), forward;
-  f.translation() = s.point;
-  return f;
-}
-
-}  // namespace
-
-// Between two stated sections the solid follows every bend of its directrix.
-Result<geometry::PolyMesh> sectionedSolidHorizontal(const Entity& entity, Scope& scope) {
-  const auto directrix = curve(entity.ref(0), scope);
-  if (!directrix) return failure(directrix.error());
-  const auto positions = entity.refs(2), profiles = entity.refs(1);
-  if (positions.size() != profiles.size() || positions.size() < 2) return fail(entity, "cross sections and their positions do not match");
-  std::vector<geometry::Region2> regions;
-  std::vector<Eigen::Isometry3d> frames;
-  double last = 0;
-  Offsets last_offsets;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    auto region = profile(profiles[i], scope);
-    if (!region) return failure(region.error());
-    const Offsets here = offsetsAt(positions[i], scope);
-    const geometry::Region2 next = std::move(region->front());
-    if (i > 0) {
-      if (!alike(regions.back(), next)) return fail(entity, "the cross sections have different numbers of points");
-      const geometry::Region2 from = regions.back();
-      for (const double d : distancesBetween(*directrix, last, here.along)) {
-        const double t = (d - last) / (here.along - last);
-        regions.push_back(blend(from, next, t));
-        frames.push_back(upright(stationAt(*directrix, d)) * Eigen::Translation3d(last_offsets.lateral + (here.lateral - last_offsets.lateral) * t,
-                                                                                 last_offsets.vertical + (here.vertical - last_offsets.vertical) * t, 0));
-        if (!scope.spend(next.outer.size())) return fail(entity, "too many points");
-      }
-    }
-    regions.push_back(next);
-    frames.push_back(upright(stationAt(*directrix, here.along)) * Eigen::Translation3d(here.lateral, here.vertical, 0));
-    last = here.along;
-    last_offsets = here;
-  }
-  auto mesh = geometry::loft(regions, frames, false);
-  if (mesh) geometry::orientOutward(*mesh);
-  return mesh;
-}
-
 // The profile turns into the other one on its way around the axis.
 Result<geometry::PolyMesh> revolvedAreaSolidTapered(const Entity& entity, Scope& scope) {
   const auto from = profile(entity.ref(0), scope), to = profile(entity.ref(4), scope);
@@ -203,7 +167,7 @@ Result<geometry::PolyMesh> revolvedAreaSolidTapered(const Entity& entity, Scope&
   const Axis axis = axis1Placement(entity.ref(2), scope);
   double radius = 0;
   for (const auto& p : start.outer) radius = std::max(radius, (Eigen::Vector3d(p.x(), p.y(), 0) - axis.point).cross(axis.direction).norm());
-  const int steps = geometry::segmentCount(radius, std::min(std::abs(angle), 2 * std::numbers::pi - 1e-6), scope.model.tessellation);
+  const int steps = geometry::segmentCount(radius, std::min(std::abs(angle), 2 * std::numbers::pi - 1e-6), scope.tessellation);
   if (!scope.spend(start.outer.size() * static_cast<std::size_t>(steps))) return fail(entity, "too many points");
   std::vector<geometry::Region2> regions;
   std::vector<Eigen::Isometry3d> frames;

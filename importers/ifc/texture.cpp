@@ -18,6 +18,17 @@ Eigen::Vector2d pair(const Value& list) {
   return p;
 }
 
+// One face's indices into a list that counts from 1; none when one of them leaves it.
+std::vector<std::uint32_t> indices(const Value& list, std::size_t count) {
+  std::vector<std::uint32_t> found;
+  for (const Value v : list)
+    if (const auto i = v.integer(); i >= 1 && i <= static_cast<std::int64_t>(count)) found.push_back(static_cast<std::uint32_t>(i - 1));
+    else return {};
+  return found;
+}
+
+}  // namespace
+
 // The texture's transformation in 2D; IFC counts upwards from the lower left corner, glTF downwards from the upper left.
 Eigen::Vector2d onPicture(const Eigen::Vector2d& st, const Entity& texture) {
   Eigen::Vector2d p = st;
@@ -31,17 +42,6 @@ Eigen::Vector2d onPicture(const Eigen::Vector2d& st, const Entity& texture) {
   }
   return {p.x(), 1 - p.y()};
 }
-
-// One face's indices into a list that counts from 1; none when one of them leaves it.
-std::vector<std::uint32_t> indices(const Value& list, std::size_t count) {
-  std::vector<std::uint32_t> found;
-  for (const Value v : list)
-    if (const auto i = v.integer(); i >= 1 && i <= static_cast<std::int64_t>(count)) found.push_back(static_cast<std::uint32_t>(i - 1));
-    else return {};
-  return found;
-}
-
-}  // namespace
 
 TextureMaps::TextureMaps(const StepFile& file) {
   std::uint32_t next = kFirstTag;

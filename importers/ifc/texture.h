@@ -21,7 +21,7 @@ class TextureMaps {
  public:
   explicit TextureMaps(const StepFile& file);
 
-  static constexpr std::uint32_t kFirstTag = 0x80000000U, kEndOfTags = 0xC0000000U;
+  static constexpr std::uint32_t kFirstTag = 0x80000000U, kEndOfTags = 0xB0000000U;
   static bool isTextured(std::uint32_t tag) { return tag >= kFirstTag && tag < kEndOfTags; }
 
   // The tag of a face set's first face, or of a face; 0 when it has no texture coordinates.
@@ -43,6 +43,9 @@ class TextureMaps {
   std::vector<Range> ranges_;          // by rising `first`
   std::map<Id, std::size_t> of_item_;
 };
+
+// Where on the picture a texture coordinate lies: (0, 0) is its upper left corner; the texture's own transformation is applied.
+Eigen::Vector2d onPicture(const Eigen::Vector2d& st, const Entity& texture);
 
 // Corners of a textured face in metres, in the frame of its items, and what of the picture lies on each; (0, 0) is the
 // picture's upper left corner, and the texture's own transformation is applied.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string_view>
 
 namespace standpoint::ifc {
@@ -82,6 +83,19 @@ std::string derivedSymbol(const Entity& unit) {
   return (above.empty() ? "1" : above) + "/" + (divisors > 1 ? "(" + below + ")" : below);
 }
 
+// Whether arcs are trimmed by numbers that no radian has: more than a whole turn.
+bool arcsCountDegrees(const StepFile& file) {
+  constexpr double kTurn = 6.2832;
+  for (const Entity& trimmed : file.all("IFCTRIMMEDCURVE")) {
+    const Entity basis = trimmed.ref(0);
+    if (!basis.is("IFCCIRCLE") && !basis.is("IFCELLIPSE")) continue;
+    for (const std::size_t end : {1U, 2U})
+      for (const Value v : trimmed[end])
+        if (const auto t = v.number(); t && std::abs(*t) > kTurn + 0.01) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string unitSymbol(const Entity& unit) {
@@ -104,14 +118,18 @@ Units readUnits(const StepFile& file, double given_m, Report& report) {
   if (!assignment)
     for (const Entity& any : file.all("IFCUNITASSIGNMENT"))
       if (!assignment) assignment = any;
-  bool length = false;
+  bool length = false, angle = false;
   for (const Entity& unit : assignment.refs(0)) {
     const std::string type(unit.is("IFCMONETARYUNIT") ? std::string_view("MONETARYUNIT") : unit[1].symbol());
     const double factor = siFactor(unit);
     if (const std::string symbol = unitSymbol(unit); !symbol.empty()) units.symbol_of_type.emplace(type, symbol);
     const bool usable = factor > 0 && std::isfinite(factor);
     if (type == "LENGTHUNIT" && usable) units.length_m = factor, length = true;
-    if (type == "PLANEANGLEUNIT" && usable) units.angle_rad = factor;
+    if (type == "PLANEANGLEUNIT" && usable) units.angle_rad = factor, angle = true;
+  }
+  if (!angle && arcsCountDegrees(file)) {
+    units.angle_rad = std::numbers::pi / 180;
+    report.warn(assignment ? assignment.place() : "header", "the file states no unit of angles, and its arcs go beyond a whole turn of radians: degrees are assumed");
   }
   if (given_m > 0) {
     if (length && units.length_m != given_m) report.note(assignment.place(), "the length unit that the file states is overruled by the one that was given");

@@ -196,6 +196,57 @@ TEST_F(Gui, DrawsATreeOfThousandsInAMoment) {
   EXPECT_LT(itemProbe().items.size(), 400U) << "rows that are not seen are not drawn";
 }
 
+TEST_F(Gui, ExcludesTheSelectionFromTheSceneAndTakesItBack) {
+  open();
+  const auto roof = productNamed("Roof");
+  const auto triangles = editor.triangles();
+  editor.select(roof, true);
+  gui.frames(2);
+  gui.key('X');
+  gui.settle();
+  ASSERT_TRUE(editor.session.errors().empty()) << describe(editor.session.errors().front().error);
+  EXPECT_TRUE(editor.environment()->products[roof].excluded);
+  EXPECT_EQ(editor.selection.products(), std::vector<std::uint32_t>{roof}) << "it stays chosen, so that it can be taken back";
+  EXPECT_EQ(editor.triangles(), triangles - 12);
+  if (editor.picker.ready()) {
+    gui.moveTo(screenOf({5, 4, 6.3}));
+    EXPECT_TRUE(!editor.view.hover || editor.view.hover->product != roof);
+  }
+  editor.session.undo();
+  gui.frames(2);
+  EXPECT_FALSE(editor.environment()->products[roof].excluded);
+}
+
+TEST_F(Gui, ShowsTheOriginalBesideTheLighterModelWithTheirDistances) {
+  open();
+  ASSERT_TRUE(editor.session.start("optimize", {{"budget", 60}, {"max-deviation", 0.5}}));
+  gui.settle();
+  gui.key('B');
+  EXPECT_EQ(editor.view.side, ModelSide::both);
+  invoke(editor, "colour-deviation");
+  gui.frames(2);
+  editor.deviation.wait();
+  gui.frames(2);
+  const auto both = editor.deviation.of(editor.session.document());
+  ASSERT_TRUE(both);
+  EXPECT_EQ(editor.originalState().environment, editor.session.document().imported);
+  EXPECT_EQ(editor.originalState().deviation, both->original);
+  EXPECT_EQ(editor.viewState().deviation, both->lighter);
+  double area = 0, far = 0;
+  for (std::size_t i = 0; i < both->histogram.area_m2.size(); ++i) area += both->histogram.area_m2[i];
+  for (std::size_t i = 4; i < both->histogram.area_m2.size(); ++i) far += both->histogram.area_m2[i];
+  double expected = 0;
+  for (const auto& e : {*editor.session.document().imported, *editor.environment()})
+    for (const auto& i : e.instances)
+      if (e.products[i.product].inScene()) expected += standpoint::area(*e.meshes[i.mesh]);
+  EXPECT_NEAR(area, expected, 1e-3 * expected);
+  EXPECT_GT(far, 0);
+  editor.session.undo();   // the lighter model is gone, and with it what compares
+  gui.frames(3);
+  EXPECT_EQ(editor.view.side, ModelSide::lighter);
+  EXPECT_EQ(editor.view.colour, ColourMode::model);
+}
+
 void closeEverything(Editor& editor, GuiDriver& gui) {
   editor.dialogs = DialogStates();
   editor.quit = false;

@@ -59,7 +59,7 @@ TEST(MergedScene, HasEveryTangibleTriangleOnceAndGlassApart) {
   EXPECT_TRUE(std::all_of(merged.opaque.corners.begin(), merged.opaque.corners.end(), [&](std::int64_t c) { return c >= 0 && c < points; }));
 }
 
-TEST(MergedScene, PutsWhatShowsAnImageApartAndTintsByVertexColours) {
+TEST(MergedScene, PutsWhatShowsAnImageApartAndLetsVertexColoursRunFromCornerToCorner) {
   Environment e;
   e.images = {std::make_shared<Image>()};
   e.surfaces = {{"plain", {1, 1, 1, 1}}, {"painted", {1, 1, 1, 1}}};
@@ -69,19 +69,46 @@ TEST(MergedScene, PutsWhatShowsAnImageApartAndTintsByVertexColours) {
   mesh.triangles = {{0, 1, 2}, {0, 1, 2}};
   mesh.surface_of_triangle = {0, 1};
   mesh.texture_coordinates = {{0, 0}, {1, 0}, {0, 0.75F}};
-  mesh.colours = {{30, 255, 0, 255}, {60, 255, 0, 255}, {90, 255, 0, 255}};
+  mesh.colours = {{30, 255, 0, 255}, {60, 255, 0, 255}, {90, 127, 0, 255}};
   e.meshes = {std::make_shared<Mesh>(mesh)};
   e.products.resize(1);
   e.instances = {{0, 0, Eigen::Affine3d::Identity()}};
   ViewState state;
   state.environment = std::make_shared<const Environment>(e);
   const auto merged = mergeVisible(state);
-  ASSERT_EQ(merged.opaque.colours.size(), 1U);
-  EXPECT_EQ(merged.opaque.colours[0], (Rgba{60, 255, 0, 255}));
+  EXPECT_TRUE(merged.graded.graded);
+  EXPECT_EQ(merged.graded.colours, (std::vector<Rgba>{{30, 255, 0, 255}, {60, 255, 0, 255}, {90, 127, 0, 255}}));
+  EXPECT_EQ(merged.graded.corners.size(), 3U);
+  EXPECT_TRUE(merged.opaque.corners.empty());
   ASSERT_EQ(merged.painted.size(), 1U);
-  EXPECT_EQ(merged.painted.at(0).coordinates, (std::vector<float>{0, 1, 1, 1, 0, 0.25F}));   // upside down
+  const auto& painted = merged.painted.at({0, true});
+  EXPECT_EQ(painted.coordinates, (std::vector<float>{0, 1, 1, 1, 0, 0.25F}));   // upside down
+  EXPECT_EQ(painted.triangles.colours.size(), 3U);
   state.colour = ColourMode::reflectance;
   EXPECT_EQ(mergeVisible(state).opaque.colours.size(), 2U);
+}
+
+TEST(MergedScene, ShowsDeviationsFromGreyToDarkRedAtTheFullScale) {
+  const auto document = demoHouse();
+  auto state = demoState(document);
+  state.colour = ColourMode::deviation;
+  const auto waiting = mergeVisible(state);
+  ASSERT_FALSE(waiting.opaque.colours.empty());
+  EXPECT_EQ(waiting.opaque.colours.front(), deviationColour(0, 1));
+  DeviationField field{document.imported, {}, 0.01};
+  for (const auto& i : document.imported->instances) {
+    InstanceDeviation d;
+    d.distance_m.assign(document.imported->meshes[i.mesh]->positions.size(), i.product == 0 ? 0.02F : 0.0F);
+    d.area_m2.assign(d.distance_m.size(), 1);
+    field.of_instance.push_back(std::make_shared<const InstanceDeviation>(std::move(d)));
+  }
+  state.deviation = std::make_shared<const DeviationField>(std::move(field));
+  const auto merged = mergeVisible(state);
+  EXPECT_TRUE(merged.opaque.corners.empty());
+  EXPECT_TRUE(merged.transparent.corners.empty());   // glass, too, shows how far it moved
+  ASSERT_EQ(merged.graded.colours.size(), merged.graded.positions.size() / 3);
+  EXPECT_EQ(merged.graded.colours.front(), (Rgba{118, 8, 40, 255}));
+  EXPECT_EQ(merged.graded.colours.back(), (Rgba{178, 186, 196, 255}));
 }
 
 TEST(MergedScene, LeavesOutWhatIsHidden) {

@@ -10,23 +10,6 @@
 namespace standpoint::test {
 namespace {
 
-double areaOf(const ImportedModel& model, const std::string& id) {
-  double sum = 0;
-  const std::size_t product = indexOf(model, id);
-  for (const Instance& i : model.environment.instances) {
-    if (i.product != product) continue;
-    const Mesh& mesh = *model.environment.meshes[i.mesh];
-    for (const Triangle& t : mesh.triangles) sum += (mesh.positions[t[1]] - mesh.positions[t[0]]).cross(mesh.positions[t[2]] - mesh.positions[t[0]]).norm() / 2;
-  }
-  return sum;
-}
-
-bool tells(const ImportedModel& model, const std::string& source, const std::string& words) {
-  for (const Issue& i : model.report.issues)
-    if (i.source == source && i.message.find(words) != std::string::npos) return true;
-  return false;
-}
-
 TEST(IfcConstruct, ARebarLosesLessThanOnePercentToItsChords) {
   const ImportedModel model = importText(ifcText("#100=IFCCIRCLEPROFILEDEF(.AREA.,$,#7,0.006);\n#101=IFCEXTRUDEDAREASOLID(#100,$,#4,2.);\n" + product(110, "IFCREINFORCINGBAR", "#101")));
   const double exact = std::numbers::pi * 0.006 * 0.006 * 2;
@@ -127,6 +110,38 @@ TEST(IfcConstruct, AShellThatIsSaidToBeClosedAndIsNotIsPointedOut) {
       "#100=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(1.,0.,0.),(0.,1.,0.),(0.,0.,1.)));\n#101=IFCTRIANGULATEDFACESET(#100,$,.T.,((1,3,2),(1,2,4),(1,4,3)),$);\n" +
       product(110, "IFCFURNISHINGELEMENT", "#101", "Tessellation")));
   EXPECT_TRUE(tells(model, "#110", "said to be closed")) << issuesOf(model);
+}
+
+TEST(IfcConstruct, ATurnThatRoundingCarriedBeyondItselfIsAWholeOne) {
+  const ImportedModel model = importText(ifcText(
+      "#100=IFCCIRCLE(#7,0.5);\n#101=IFCTRIMMEDCURVE(#100,(IFCPARAMETERVALUE(0.)),(IFCPARAMETERVALUE(6.28318977355957)),.T.,.PARAMETER.);\n#102=IFCCOMPOSITECURVESEGMENT(.CONTINUOUS.,.T.,#101);\n"
+      "#103=IFCCOMPOSITECURVE((#102),.F.);\n#104=IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$,#103);\n#105=IFCEXTRUDEDAREASOLID(#104,$,#4,1.);\n" + product(110, "IFCPLATE", "#105")));
+  EXPECT_NEAR(volumeOf(model, "#110") / (std::numbers::pi * 0.25), 1, 0.01);
+}
+
+TEST(IfcConstruct, AnElbowWhoseReferenceSurfaceLiesElsewhereIsStillAnElbow) {
+  // As old exports of Revit write it: a pipe of radius 51.5875 around a bend of 57.9375, whose directrix is the inner edge
+  // (6.35) and whose profile is shifted along its y. Pappus: the area times a quarter turn of the middle.
+  const ImportedModel model = importText(ifcText(
+      "#90=IFCCARTESIANPOINT((0.,51.5875));\n#91=IFCAXIS2PLACEMENT2D(#90,$);\n#92=IFCCIRCLEPROFILEDEF(.AREA.,$,#91,51.5875);\n#93=IFCCARTESIANPOINT((-6.35,0.));\n#94=IFCDIRECTION((0.,1.));\n"
+      "#95=IFCAXIS2PLACEMENT2D(#93,#94);\n#96=IFCCIRCLE(#95,6.35);\n#97=IFCTRIMMEDCURVE(#96,(IFCPARAMETERVALUE(4.71238898038469)),(IFCPARAMETERVALUE(0.)),.T.,.PARAMETER.);\n"
+      "#98=IFCARBITRARYOPENPROFILEDEF(.CURVE.,$,#97);\n#99=IFCCARTESIANPOINT((0.,0.,-304.8));\n#100=IFCAXIS2PLACEMENT3D(#99,$,$);\n#101=IFCDIRECTION((0.,0.,-1.));\n"
+      "#102=IFCSURFACEOFLINEAREXTRUSION(#98,#100,#101,1.);\n#103=IFCSURFACECURVESWEPTAREASOLID(#92,#2,#97,0.,360.,#102);\n" + product(110, "IFCPIPEFITTING", "#103"), "IFCSIUNIT(*,.LENGTHUNIT.,.MILLI.,.METRE.)"));
+  const double r = 0.0515875;
+  EXPECT_NEAR(volumeOf(model, "#110") / (std::numbers::pi * r * r * std::numbers::pi / 2 * 0.0579375), 1, 0.01);
+  EXPECT_TRUE(tells(model, "#103", "reference surface")) << issuesOf(model);
+}
+
+TEST(IfcConstruct, ArcsBeyondATurnOfRadiansAreInDegreesWhereNoUnitIsStated) {
+  // A quarter disk of radius 2, its arc from 90 to 180.
+  std::string text = ifcText(
+      "#100=IFCCIRCLE(#7,2.);\n#101=IFCTRIMMEDCURVE(#100,(IFCPARAMETERVALUE(90.)),(IFCPARAMETERVALUE(180.)),.T.,.PARAMETER.);\n#102=IFCCOMPOSITECURVESEGMENT(.CONTINUOUS.,.T.,#101);\n"
+      "#103=IFCCARTESIANPOINT((-2.,0.));\n#104=IFCCARTESIANPOINT((0.,2.));\n#105=IFCPOLYLINE((#103,#6,#104));\n#106=IFCCOMPOSITECURVESEGMENT(.CONTINUOUS.,.T.,#105);\n"
+      "#107=IFCCOMPOSITECURVE((#102,#106),.F.);\n#108=IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$,#107);\n#109=IFCEXTRUDEDAREASOLID(#108,$,#4,1.);\n" + product(110, "IFCPLATE", "#109"));
+  text.replace(text.find("(#10,#13)"), 9, "(#10)");
+  const ImportedModel model = importText(text);
+  EXPECT_NEAR(volumeOf(model, "#110"), std::numbers::pi, 0.01);
+  EXPECT_TRUE(tells(model, "#11", "degrees are assumed")) << issuesOf(model);
 }
 
 }  // namespace

@@ -100,10 +100,27 @@ inline double volumeOf(const ImportedModel& model, const std::string& id) {
   return sum;
 }
 
+inline double areaOf(const ImportedModel& model, const std::string& id) {
+  double sum = 0;
+  const std::size_t product = indexOf(model, id);
+  for (const Instance& i : model.environment.instances) {
+    if (i.product != product) continue;
+    const Mesh& mesh = *model.environment.meshes[i.mesh];
+    for (const Triangle& t : mesh.triangles) sum += (mesh.positions[t[1]] - mesh.positions[t[0]]).cross(mesh.positions[t[2]] - mesh.positions[t[0]]).norm() / 2;
+  }
+  return sum;
+}
+
 inline std::string issuesOf(const ImportedModel& model) {
   std::string text;
   for (const Issue& i : model.report.issues) text += std::string(name(i.severity)) + " " + i.source + ": " + i.message + "\n";
   return text;
+}
+
+inline bool tells(const ImportedModel& model, const std::string& source, const std::string& words) {
+  for (const Issue& i : model.report.issues)
+    if (i.source == source && i.message.find(words) != std::string::npos) return true;
+  return false;
 }
 
 inline void expectNear(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double tolerance = 1e-5) {

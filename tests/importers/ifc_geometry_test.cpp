@@ -36,7 +36,7 @@ TEST(IfcGeometry, AnOpeningIsCutFromItsWallAndIsABodyThatNoBeamMeets) {
   EXPECT_NEAR(volumeOf(model, "#110"), 3.6 - 0.3 * 2, 1e-5);
   EXPECT_FALSE(productOf(model, "#210").tangible);
   EXPECT_NEAR(volumeOf(model, "#210"), 1 * 1 * 2, 1e-6);
-  EXPECT_EQ(tangiblePart(model.environment).instances.size(), 1U);
+  EXPECT_EQ(sceneOf(model.environment).instances.size(), 1U);
   EXPECT_TRUE(model.report.issues.empty()) << issuesOf(model);
 }
 

@@ -31,7 +31,7 @@ std::string smallModel() {
 TEST(IfcHostile, TheUnharmedModelLosesNothing) {
   const ImportedModel model = importText(smallModel());
   EXPECT_EQ(model.report.losses(), 0U) << issuesOf(model);
-  EXPECT_EQ(tangiblePart(model.environment).instances.size(), 3U);
+  EXPECT_EQ(sceneOf(model.environment).instances.size(), 3U);
 }
 
 TEST(IfcHostile, AFileCutAnywhereIsAnErrorOrALossAndNeverACrash) {

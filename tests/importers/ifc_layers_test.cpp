@@ -141,5 +141,30 @@ TEST(IfcLayers, WhereTheirSumIsNotTheWallsThicknessOnlyTheSidesAreTold) {
   EXPECT_NEAR(sides(model, "#110", 0, 1).at("Wool").area, 0.9, 1e-5);   // the thickest
 }
 
+TEST(IfcLayers, ACurvedWallShowsItsOuterLayerOutside) {
+  // A quarter ring around the origin, 5 to 5.3 m, 3 m high; the reference line is its inner arc, drawn counter-clockwise,
+  // so that its left is the inside: layers in the negative sense follow each other outwards.
+  const ImportedModel model = importText(ifcText(
+      "#90=IFCCIRCLE(#7,5.);\n#91=IFCTRIMMEDCURVE(#90,(IFCPARAMETERVALUE(0.)),(IFCPARAMETERVALUE(1.5707963267948966)),.T.,.PARAMETER.);\n#92=IFCSHAPEREPRESENTATION(#12,'Axis','Curve2D',(#91));\n"
+      "#93=IFCCARTESIANPOINTLIST2D(((5.3,0.),(3.7476659402887,3.7476659402887),(0.,5.3),(0.,5.),(3.5355339059327,3.5355339059327),(5.,0.)));\n"
+      "#94=IFCINDEXEDPOLYCURVE(#93,(IFCARCINDEX((1,2,3)),IFCLINEINDEX((3,4)),IFCARCINDEX((4,5,6)),IFCLINEINDEX((6,1))),.F.);\n"
+      "#95=IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$,#94);\n#102=IFCEXTRUDEDAREASOLID(#95,$,#4,3.);\n"
+      "#110=IFCWALL('guid110',$,'Arc',$,$,#3,#111,$,$);\n#111=IFCPRODUCTDEFINITIONSHAPE($,$,(#92,#112));\n#112=IFCSHAPEREPRESENTATION(#12,'Body','SweptSolid',(#102));\n"
+      "#120=IFCMATERIAL('Plaster');\n#121=IFCMATERIAL('Wool');\n#122=IFCMATERIAL('Brick');\n#123=IFCMATERIALLAYER(#120,0.05,$);\n#124=IFCMATERIALLAYER(#121,0.135,$);\n#125=IFCMATERIALLAYER(#122,0.115,$);\n"
+      "#126=IFCMATERIALLAYERSET((#123,#124,#125),'outer wall');\n#127=IFCMATERIALLAYERSETUSAGE(#126,.AXIS2.,.NEGATIVE.,0.);\n#128=IFCRELASSOCIATESMATERIAL('m',$,$,$,(#110),#127);\n"));
+  std::map<std::string, double> outward, inward;   // areas that look away from the centre, and towards it
+  const Mesh& mesh = *model.environment.meshes.at(0);
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+    const auto at = [&](std::size_t c) { return Eigen::Vector3d(mesh.positions[mesh.triangles[k][c]].cast<double>()); };
+    const Eigen::Vector3d n = (at(1) - at(0)).cross(at(2) - at(0)), away = Eigen::Vector3d(at(0).x(), at(0).y(), 0).normalized();
+    const double facing = n.normalized().dot(away);
+    if (std::abs(facing) > 0.9) (facing > 0 ? outward : inward)[model.environment.surfaces[mesh.surface_of_triangle[k]].name] += n.norm() / 2;
+  }
+  ASSERT_EQ(outward.size(), 1U);
+  EXPECT_NEAR(outward.at("Brick"), 3.14159265 / 2 * 5.3 * 3, 0.05);
+  ASSERT_EQ(inward.size(), 1U);
+  EXPECT_NEAR(inward.at("Plaster"), 3.14159265 / 2 * 5.0 * 3, 0.05);
+}
+
 }  // namespace
 }  // namespace standpoint::test

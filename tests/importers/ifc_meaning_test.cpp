@@ -135,5 +135,24 @@ TEST(IfcMeaning, AClassThatNoSchemaHasIsStillAProduct) {
   EXPECT_NEAR(volumeOf(model, "#110"), 3.6, 1e-5);
 }
 
+TEST(IfcMeaning, APartHasTheMaterialOfTheConstituentOfItsName) {
+  // A frame and a pane in one body, of one style; their names tell what each is made of.
+  const ImportedModel model = importText(ifcText(kBox + boxSolid(103, "1.", "1.", "0.1") + product(110, "IFCWINDOW", "#102,#105") +
+      "#160=IFCMATERIAL('Oak',$,$);\n#161=IFCMATERIAL('Float glass',$,$);\n#162=IFCMATERIALCONSTITUENT('Glazing',$,#161,$,$);\n#163=IFCMATERIALCONSTITUENT('Frame',$,#160,$,$);\n"
+      "#164=IFCMATERIALCONSTITUENTSET('window',$,(#162,#163));\n#165=IFCRELASSOCIATESMATERIAL('m',$,$,$,(#110),#164);\n"
+      "#170=IFCSHAPEREPRESENTATION(#12,'Body','SweptSolid',(#102));\n#171=IFCSHAPEASPECT((#170),'Frame',$,.F.,#111);\n"
+      "#172=IFCSHAPEREPRESENTATION(#12,'Body','SweptSolid',(#105));\n#173=IFCSHAPEASPECT((#172),'Glazing',$,.F.,#111);\n"));
+  const Mesh& mesh = *model.environment.meshes.at(0);
+  std::map<std::string, float> top;   // by material, how high it reaches
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k)
+    for (const std::uint32_t i : mesh.triangles[k]) {
+      float& z = top[model.environment.surfaces[mesh.surface_of_triangle[k]].name];
+      z = std::max(z, mesh.positions[i].z());
+    }
+  ASSERT_EQ(top.size(), 2U);
+  EXPECT_FLOAT_EQ(top.at("Float glass"), 0.1F);
+  EXPECT_GT(top.at("Oak"), 0.5F);
+}
+
 }  // namespace
 }  // namespace standpoint::test

@@ -122,5 +122,43 @@ TEST(IfcTexture, AnOpeningInATexturedPlateLeavesThePictureWhereItWas) {
   EXPECT_GE(inner, 4U);
 }
 
+// A plate of 2 × 1 × 0.5 m with a style whose picture a rule places.
+std::string generated(const std::string& mode, const std::string& transformation = "$") {
+  return boxSolid(100, "2.", "1.", "0.5") + product(110, "IFCPLATE", "#102") + "#120=IFCPIXELTEXTURE(.T.,.T.,$," + transformation +
+         ",$,2,1,3,(\"0FF0000\",\"000FF00\"));\n#121=IFCSURFACESTYLEWITHTEXTURES((#120));\n#122=IFCSURFACESTYLE('picture',.BOTH.,(#121));\n#123=IFCSTYLEDITEM(#102,(#122),$);\n"
+         "#124=IFCTEXTURECOORDINATEGENERATOR((#120),'" + mode + "',$);\n";
+}
+
+TEST(IfcTexture, ARuleMayTakeThePlaceOnThePictureFromThePoint) {
+  const ImportedModel model = importText(ifcText(generated("COORD")));
+  EXPECT_EQ(issuesOf(model), "");
+  const Mesh& mesh = *model.environment.meshes.at(0);
+  ASSERT_EQ(mesh.texture_coordinates.size(), mesh.positions.size());
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    EXPECT_FLOAT_EQ(mesh.texture_coordinates[i].x(), mesh.positions[i].x());
+    EXPECT_FLOAT_EQ(mesh.texture_coordinates[i].y(), 1 - mesh.positions[i].y());
+  }
+  EXPECT_EQ(model.environment.surfaces.at(mesh.surface_of_triangle[0]).image, 0);
+}
+
+TEST(IfcTexture, ARuleMayTakeThePlaceOnThePictureFromTheNormal) {
+  const ImportedModel model = importText(ifcText(generated("SPHERE")));
+  const Mesh& mesh = *model.environment.meshes.at(0);
+  ASSERT_EQ(mesh.texture_coordinates.size(), mesh.positions.size());
+  for (const Triangle& t : mesh.triangles) {
+    const Eigen::Vector3f n = (mesh.positions[t[1]] - mesh.positions[t[0]]).cross(mesh.positions[t[2]] - mesh.positions[t[0]]).normalized();
+    for (const std::uint32_t i : t) {
+      EXPECT_NEAR(mesh.texture_coordinates[i].x(), n.x() / 2 + 0.5F, 1e-5F);
+      EXPECT_NEAR(mesh.texture_coordinates[i].y(), 0.5F - n.y() / 2, 1e-5F);
+    }
+  }
+}
+
+TEST(IfcTexture, ARuleThatNeedsACameraIsNamedAsLost) {
+  const ImportedModel model = importText(ifcText(generated("CAMERASPACEREFLECTIONVECTOR")));
+  EXPECT_TRUE(tells(model, "#124", "CAMERASPACEREFLECTIONVECTOR")) << issuesOf(model);
+  EXPECT_TRUE(model.environment.meshes.at(0)->texture_coordinates.empty());
+}
+
 }  // namespace
 }  // namespace standpoint::test

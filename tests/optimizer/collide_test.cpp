@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "core/random.h"
+#include "optimizer/obstacles.h"
 #include "optimizer/optimizer.h"
 #include "tests/optimizer/models.h"
 
@@ -25,6 +27,10 @@ CollideResult collided(const Environment& environment, const CollideOptions& opt
   EXPECT_EQ(result->products.size(), environment.products.size());
   for (const auto& shape : result->shapes) EXPECT_EQ(validate(shape.mesh, 1), "");
   return std::move(*result);
+}
+
+std::string describe(const Door& door) {
+  return std::to_string(door.product) + (door.floor ? "f" : "-") + (door.passable ? "p" : "-") + std::to_string(door.clear_width_m);
 }
 
 Affine3d at(double x, double y, double z) { return Affine3d(Translation3d(x, y, z)); }
@@ -128,16 +134,103 @@ TEST(Wall, WithAGableAndWindowsBecomesFewConvexPieces) {
   EXPECT_LT(result.products[0].max_deviation_m, 2e-3);
 }
 
-TEST(RoundColumn, IsItsConvexHullAndATorusItsTriangles) {
+TEST(Wall, WithManyWindowsIsCoveredByPillarsAndStrips) {
+  Environment e;
+  std::vector<std::array<double, 4>> windows;
+  for (int i = 0; i < 5; ++i) windows.push_back({1.0 + 2 * i, 0.9, 2.0 + 2 * i, 2.1});
+  models::add(e, extruded({{0, 2.8}, {11, 2.8}}, windows, 0.3), "IfcWall");
+  EXPECT_EQ(collided(e).shapes.size(), 6 + 2);  // pillars, and what runs below and above the windows
+}
+
+// The box with its ends cut to 45 degrees, under a gable: oblique in three directions, prismatic in none.
+TEST(Wall, WithMitredEndsUnderAGableIsOnePiece) {
+  Mesh wall = extruded({{0, 3}, {4, 6}, {8, 3}}, {}, 0.3);
+  for (auto& p : wall.positions)
+    if (p.y() > 0.1F) p.x() += p.x() < 0.1F ? 0.3F : p.x() > 7.9F ? -0.3F : 0;
+  Environment e;
+  models::add(e, wall, "IfcWall");
+  const auto result = collided(e);
+  ASSERT_LE(result.shapes.size(), 2);
+  double sum = 0;
+  for (const auto& shape : result.shapes) {
+    EXPECT_EQ(shape.kind, CollisionShapeKind::convex);
+    sum += volume(shape.mesh);
+  }
+  EXPECT_NEAR(sum / volume(wall), 1, 0.01);
+}
+
+TEST(Wall, WithMitredEndsAndADoorwayStaysOpenWithinAMillimetre) {
+  Mesh wall = extruded({{0, 3}, {4, 6}, {8, 3}}, {{1, 0, 2, 2.1}, {5, 1, 6, 2}}, 0.3);
+  for (auto& p : wall.positions)
+    if (p.y() > 0.1F) p.x() += p.x() < 0.1F ? 0.3F : p.x() > 7.9F ? -0.3F : 0;
+  Environment e;
+  models::add(e, wall, "IfcWall");
+  const auto result = collided(e);
+  EXPECT_LE(result.shapes.size(), 2 + 3 * 2);
+  const Obstacles obstacles(result.shapes);
+  EXPECT_FALSE(obstacles.sweep({0.499, 2.099}, {1.5, -1, 0.0005}, {1.5, 1, 0.0005}));
+  EXPECT_TRUE(obstacles.sweep({0.501, 2.099}, {1.5, -1, 0.0005}, {1.5, 1, 0.0005}));
+  EXPECT_TRUE(obstacles.sweep({0.499, 2.101}, {1.5, -1, 0.0005}, {1.5, 1, 0.0005}));
+  EXPECT_FALSE(obstacles.sweep({0.499, 0.998}, {5.5, -1, 1.001}, {5.5, 1, 1.001}));
+  for (const auto& shape : result.shapes) EXPECT_NE(shape.kind, CollisionShapeKind::mesh);
+}
+
+TEST(Slab, WithAStairwellIsOpenThere) {
+  Mesh slab = extruded({{0, 5}, {8, 5}}, {{2, 1, 4.5, 3.6}}, 0.2);  // lies in the xz plane
+  Environment e;
+  models::add(e, slab, "IfcSlab", Affine3d(AngleAxisd(0.3, Vector3d::UnitZ()) * AngleAxisd(-1.5707963267948966, Vector3d::UnitX())));
+  const auto result = collided(e);
+  EXPECT_LE(result.shapes.size(), 4);
+  const Obstacles obstacles(result.shapes);
+  const auto falls = [&](double x, double y) {
+    const Vector3d top = AngleAxisd(0.3, Vector3d::UnitZ()) * Vector3d(x, y, 1);
+    return !obstacles.sweep({0.3, 1.8}, top, top - Vector3d(0, 0, 4));
+  };
+  EXPECT_TRUE(falls(3.2, 2.3));
+  EXPECT_FALSE(falls(2.2, 2.3));
+  EXPECT_FALSE(falls(6, 2));
+}
+
+TEST(RoundThings, AreConvexPiecesWithinACentimetre) {
   Environment e;
   models::add(e, models::cylinder(0.3, 3, 24, 6), "IfcColumn");
   models::add(e, models::torus(2, 0.4, 24, 12), "", at(10, 0, 0));
   const auto result = collided(e);
-  ASSERT_EQ(result.shapes.size(), 2);
-  EXPECT_EQ(result.shapes[0].kind, CollisionShapeKind::convex);
+  EXPECT_EQ(result.products[0].shapes, 1);
   EXPECT_NEAR(volume(result.shapes[0].mesh) / volume(*e.meshes[0]), 1, 1e-4);
-  EXPECT_EQ(result.shapes[1].kind, CollisionShapeKind::mesh);
-  EXPECT_THAT(result.report.issues, testing::Contains(testing::Field(&Issue::source, "#2")));
+  Mesh all;
+  for (const auto& shape : result.shapes) {
+    EXPECT_EQ(shape.kind, CollisionShapeKind::convex);
+    if (shape.product == 1) models::append(all, shape.mesh);
+  }
+  Mesh placed;
+  models::append(placed, *e.meshes[1], at(10, 0, 0));
+  EXPECT_LT(models::farthest(placed, all, 2000), 0.010);
+}
+
+TEST(Pane, IsAPlateOfAMillimetreOnItsOwnOrOnAFrame) {
+  Environment e;
+  Mesh pane;
+  for (const auto& p : {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 0, 2), Vector3d(0, 0, 2)}) pane.positions.push_back(p.cast<float>());
+  pane.triangles = {{0, 1, 2}, {0, 2, 3}};
+  pane.surface_of_triangle = {0, 0};
+  models::add(e, pane, "IfcPlate");
+  const auto result = collided(e);
+  ASSERT_EQ(result.shapes.size(), 1);
+  EXPECT_EQ(result.shapes[0].kind, CollisionShapeKind::box);
+  EXPECT_NEAR(volume(result.shapes[0].mesh), 1 * 2 * 0.001, 1e-5);
+}
+
+TEST(Bowl, IsItsTrianglesAndNamedInTheReport) {
+  Environment e;
+  Mesh bowl = models::sphere(0.5, 16, 24);
+  std::erase_if(bowl.triangles, [&](const Triangle& t) { return bowl.positions[t[0]].z() > 0.2F; });
+  bowl.surface_of_triangle.assign(bowl.triangles.size(), 0);
+  models::add(e, bowl, "IfcFurniture");
+  const auto result = collided(e);
+  ASSERT_EQ(result.shapes.size(), 1);
+  EXPECT_EQ(result.shapes[0].kind, CollisionShapeKind::mesh);
+  EXPECT_THAT(result.report.issues, testing::Contains(testing::Field(&Issue::source, "#1")));
 }
 
 TEST(Door, BetweenTwoRoomsIsPassableAndJoinsThem) {
@@ -173,6 +266,85 @@ TEST(Door, WithoutAFloorBehindItIsReported) {
   ASSERT_EQ(result.doors.size(), 1);
   EXPECT_FALSE(result.doors[0].floor);
   EXPECT_THAT(result.report.issues, testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("no floor"))));
+}
+
+// Three rooms of 4 x 4 m in a row, with spaces: a doorway of 0.9 m from the first into the second, one of 0.5 m from the
+// first onto a terrace, one of 0.9 m from the second into the air, and none into the third.
+Environment threeRooms() {
+  Environment e;
+  models::add(e, models::box({12.6, 4.4, 0.2}, 1), "IfcSlab", at(-0.2, -0.2, -0.2));
+  models::add(e, models::box({4, 3, 0.2}, 1), "IfcSlab", at(0, -3.2, -0.2));
+  models::add(e, extruded({{0, 2.8}, {12.6, 2.8}}, {{1.95, 0, 2.45, 2.1}, {6.05, 0, 6.95, 2.1}}, 0.2), "IfcWall", at(-0.2, -0.2, 0));
+  models::add(e, models::box({12.6, 0.2, 2.8}, 1), "IfcWall", at(-0.2, 4, 0));
+  for (const double x : {-0.2, 8.1, 12.2}) models::add(e, models::box({0.2, 4, 2.8}, 1), "IfcWall", at(x, 0, 0));
+  const Affine3d across = at(4.1, 0, 0) * AngleAxisd(1.5707963267948966, Vector3d::UnitZ());
+  models::add(e, extruded({{0, 2.8}, {4, 2.8}}, {{1.55, 0, 2.45, 2.1}}, 0.1), "IfcWall", across);
+  models::add(e, models::box({0.06, 0.9, 2.1}, 1), "IfcDoor", at(4.02, 1.55, 0));     // #9: into the second room
+  models::add(e, models::box({0.5, 0.06, 2.1}, 1), "IfcDoor", at(1.75, -0.13, 0));    // #10: narrow
+  models::add(e, models::box({0.9, 0.06, 2.1}, 1), "IfcDoor", at(5.85, -0.13, 0));    // #11: above nothing
+  for (const double x : {0.0, 4.1, 8.3}) {
+    models::add(e, models::box({3.9, 4, 2.8}, 1), "IfcSpace", at(x, 0, 0));
+    e.products.back().tangible = false;
+  }
+  return e;
+}
+
+TEST(Rooms, ThatAreWalledInAreReported) {
+  const auto result = collided(threeRooms());
+  ASSERT_EQ(result.rooms.size(), 3);
+  EXPECT_TRUE(result.rooms[0].reached);
+  EXPECT_TRUE(result.rooms[1].reached);
+  EXPECT_FALSE(result.rooms[2].reached);
+  EXPECT_NEAR(result.rooms[2].walkable_m2, (12.2 - 8.3 - 0.6) * 3.4, 1);
+  EXPECT_NEAR((result.rooms[2].position - Vector3d(10.25, 2, 0)).norm(), 0, 1e-5);
+  const auto issue = [&](const char* source, const char* text) {
+    return testing::Contains(testing::AllOf(testing::Field(&Issue::source, source), testing::Field(&Issue::message, testing::HasSubstr(text))));
+  };
+  EXPECT_THAT(result.report.issues, issue("#14", "cannot be reached"));
+  EXPECT_THAT(result.report.issues, issue("#10", "0.50 m are clear"));
+  EXPECT_THAT(result.report.issues, issue("#11", "no floor"));
+  EXPECT_EQ(result.report.issues.size(), 3);
+}
+
+TEST(Door, TellsItsClearWidthAndPlace) {
+  const auto result = collided(threeRooms());
+  ASSERT_EQ(result.doors.size(), 3);
+  EXPECT_TRUE(result.doors[0].passable);
+  EXPECT_FALSE(result.doors[1].passable);
+  EXPECT_TRUE(result.doors[2].passable);
+  EXPECT_FALSE(result.doors[2].floor);
+  EXPECT_TRUE(result.doors[0].floor && result.doors[1].floor);
+  EXPECT_NEAR(result.doors[0].clear_width_m, 0.9, 0.01);
+  EXPECT_NEAR(result.doors[1].clear_width_m, 0.5, 0.01);
+  EXPECT_NEAR((result.doors[1].position - Vector3d(2, -0.1, 0)).norm(), 0, 1e-5);
+}
+
+TEST(Door, StandsClosedWhereItIsSet) {
+  CollideOptions options;
+  options.doors = DoorState::closed;
+  auto result = collided(threeRooms(), options);
+  for (const auto& door : result.doors) EXPECT_TRUE(door.closed && !door.passable) << door.product;
+  EXPECT_EQ(std::count_if(result.shapes.begin(), result.shapes.end(), [](const auto& s) { return s.product >= 8 && s.product <= 10; }), 3);
+  options.doors = DoorState::as_set;
+  options.closed.assign(threeRooms().products.size(), false);
+  options.closed[8] = true;
+  result = collided(threeRooms(), options);
+  EXPECT_FALSE(result.doors[0].passable);
+  EXPECT_TRUE(result.doors[2].passable && !result.doors[2].closed);
+  EXPECT_TRUE(result.rooms[0].reached != result.rooms[1].reached) << "the door between them is closed";
+}
+
+TEST(Door, WithoutALeafIsClosedByAPlate) {
+  Environment e = twoRooms(true);
+  Mesh frame = models::box({0.06, 0.02, 2.1}, 1);  // two posts beside a clear opening
+  models::append(frame, models::box({0.06, 0.02, 2.1}, 1), at(0, 0.88, 0));
+  e.meshes.back() = std::make_shared<const Mesh>(frame);
+  EXPECT_TRUE(collided(e).doors[0].passable);
+  CollideOptions options;
+  options.doors = DoorState::closed;
+  const auto result = collided(e, options);
+  EXPECT_FALSE(result.doors[0].passable);
+  EXPECT_THAT(result.report.issues, testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("a plate stands across"))));
 }
 
 TEST(Stair, OfSeventeenByTwentyEightCentimetresIsWalkable) {
@@ -215,17 +387,93 @@ TEST(Walkability, LeavesOutWhatIsLowAndWhatIsNotThere) {
 }
 
 TEST(Collision, GivesTheSameForAnyNumberOfThreads) {
+  Environment e = threeRooms();
+  models::add(e, models::torus(0.5, 0.2, 12, 6), "IfcFurniture", at(2, 2, 0.2));
+  Mesh gable = extruded({{0, 3}, {4, 6}, {8, 3}}, {{1, 0, 2, 2.1}, {5, 1, 6, 2}}, 0.3);
+  for (auto& p : gable.positions)
+    if (p.y() > 0.1F) p.x() += p.x() < 0.1F ? 0.3F : p.x() > 7.9F ? -0.3F : 0;
+  models::add(e, gable, "IfcWall", at(0, 10, 0));
   std::string first;
-  for (const std::size_t threads : {1, 2, 7}) {
+  for (const std::size_t threads : {1, 2, 8}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    const auto result = collided(twoRooms(true));
+    const auto result = collided(e);
     std::string now;
     for (const auto& shape : result.shapes)
       now.append(reinterpret_cast<const char*>(shape.mesh.positions.data()), shape.mesh.positions.size() * sizeof(Eigen::Vector3f));
     now.append(reinterpret_cast<const char*>(result.walkable.positions.data()), result.walkable.positions.size() * sizeof(Eigen::Vector3f));
+    for (const auto& door : result.doors) now += describe(door);
+    for (const auto& room : result.rooms) now += std::to_string(room.walkable_m2) + (room.reached ? "r" : "-");
     if (first.empty()) first = now;
     EXPECT_TRUE(first == now) << threads << " threads";
   }
+}
+
+TEST(Collision, OfAHundredThousandLooseTrianglesIsThese) {
+  Mesh loose;
+  for (std::uint32_t i = 0; i < 100'000; ++i) {
+    const auto r = philox({9, 0}, i, 0, 0);
+    const Vector3d middle(20 * uniform(r[0]), 20 * uniform(r[1]), 3 * uniform(r[2]));
+    for (const auto& d : {Vector3d(0, 0, 0), Vector3d(0.1, 0, 0), Vector3d(0, 0.1, 0.1)}) loose.positions.push_back((middle + d).cast<float>());
+    loose.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  loose.surface_of_triangle.assign(loose.triangles.size(), 0);
+  Environment e;
+  models::add(e, loose);
+  const auto result = collided(e);
+  ASSERT_EQ(result.shapes.size(), 1);
+  EXPECT_EQ(result.shapes[0].kind, CollisionShapeKind::mesh);
+  EXPECT_GE(result.products[0].triangles, 99'990);
+}
+
+TEST(Collision, OfAnInvertedWallIsThatOfTheWall) {
+  Mesh inverted = extruded({{0, 3}, {4, 6}, {8, 3}}, {{1, 0, 2, 2.1}, {5, 1, 6, 2}}, 0.3);
+  Environment right, wrong;
+  models::add(right, inverted, "IfcWall");
+  for (auto& t : inverted.triangles) std::swap(t[1], t[2]);
+  models::add(wrong, inverted, "IfcWall");
+  const auto a = collided(right), b = collided(wrong);
+  double inside = 0;
+  for (const auto& shape : b.shapes) {
+    EXPECT_NE(shape.kind, CollisionShapeKind::mesh);
+    EXPECT_GT(volume(shape.mesh), 0);
+    inside += volume(shape.mesh);
+  }
+  EXPECT_EQ(a.shapes.size(), b.shapes.size());
+  EXPECT_NEAR(inside, -volume(inverted), 1e-3);
+}
+
+TEST(Collision, OfWhatIsNotANumberIsRefusedWithItsPlace) {
+  Environment e = twoRooms(true);
+  Mesh bad = models::box({1, 1, 1}, 1);
+  bad.positions[3].y() = std::nanf("");
+  models::add(e, bad, "IfcWall");
+  Progress progress;
+  const auto result = collide(e, {}, progress);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, ErrorKind::unusable);
+}
+
+// A screw thread of thin turns: many planes, none of them worth a cut.
+TEST(Collision, OfARichShapeEndsSoon) {
+  Mesh spiral;
+  const int turns = 40, segments = 24;
+  for (int i = 0; i <= turns * segments; ++i) {
+    const double angle = 6.283185307 * i / segments, z = 0.05 * i / segments;
+    for (const auto& [radius, height] : {std::pair(0.5, 0.0), {0.8, 0.0}, {0.8, 0.02}, {0.5, 0.02}})
+      spiral.positions.push_back(Vector3d(radius * std::cos(angle), radius * std::sin(angle), z + height).cast<float>());
+  }
+  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) { spiral.triangles.insert(spiral.triangles.end(), {{a, b, c}, {a, c, d}}); };
+  quad(3, 2, 1, 0);
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(turns * segments); ++i)
+    for (std::uint32_t k = 0; k < 4; ++k) quad(4 * i + k, 4 * i + (k + 1) % 4, 4 * i + 4 + (k + 1) % 4, 4 * i + 4 + k);
+  const std::uint32_t last = 4U * turns * segments;
+  quad(last, last + 1, last + 2, last + 3);
+  spiral.surface_of_triangle.assign(spiral.triangles.size(), 0);
+  Environment e;
+  models::add(e, spiral);
+  const auto result = collided(e);
+  ASSERT_EQ(result.shapes.size(), 1);
+  EXPECT_EQ(result.shapes[0].kind, CollisionShapeKind::mesh);
 }
 
 TEST(Collision, SurvivesEmptyFlatAndMirroredInput) {

@@ -243,6 +243,17 @@ TEST(Simplification, GivesTheSameBytesForAnyNumberOfThreads) {
   }
 }
 
+TEST(Simplification, OfAShapeThatIsCutIntoCellsGivesTheSameBytesForAnyNumberOfThreads) {
+  const auto environment = only(models::torus(2, 0.5, 400, 150));  // 120 000 triangles
+  std::string first;
+  for (const std::size_t threads : {1, 2, 8}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const auto now = bytes(optimized(environment, 3000, 0.1));
+    if (first.empty()) first = now;
+    EXPECT_TRUE(first == now) << threads << " threads";
+  }
+}
+
 TEST(Simplification, SurvivesDegenerateInput) {
   Mesh bad = models::box({1, 1, 1}, 3);
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {

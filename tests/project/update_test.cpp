@@ -160,5 +160,29 @@ TEST_F(Update, ProductsWithoutGlobalIdsAreKnownByTheirNames) {
   EXPECT_EQ(changes.at("removed")[0].at("name"), "A");
 }
 
+TEST_F(Update, WhatWasExcludedStaysSoByItsGlobalId) {
+  import(kBefore);
+  done("treat", {{"project", project()}, {"products", {"#120"}}, {"as", "excluded"}});
+  done("treat", {{"project", project()}, {"products", {"c"}}, {"as", "excluded"}});
+  update({{"a", "A"}, {"b", "B", 4, 2}, {"d", "D", 4, 6}}, 5000);
+  std::vector<std::string> excluded;
+  for (const auto& p : document().imported->products)
+    if (p.excluded) excluded.push_back(p.global_id);
+  EXPECT_EQ(excluded, std::vector<std::string>{"b"});
+  update(kBefore, 9000);   // what was gone comes back as it was treated
+  for (const auto& p : document().imported->products) EXPECT_EQ(p.excluded, p.global_id == "b" || p.global_id == "c") << p.global_id;
+}
+
+TEST_F(Update, LightensByTheSameRulesAgain) {
+  import(kBefore);
+  done("optimize", {{"project", project()}, {"lod", "default"}, {"surroundings", {"name:D"}}});
+  update({{"a", "A"}, {"d", "D", 4, 6}, {"e", "E", 4, 8}}, 5000);
+  const Document d = document();
+  ASSERT_TRUE(d.lightening);
+  ASSERT_EQ(d.lightening->levels.size(), d.imported->products.size());
+  for (std::size_t i = 0; i < d.lightening->levels.size(); ++i)
+    EXPECT_EQ(d.lightening->levels[i], d.imported->products[i].name == "D" ? "LoD 200" : "LoD 300");
+}
+
 }  // namespace
 }  // namespace standpoint

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "importers/importers.h"
+#include "project/answers.h"
+#include "project/file_verbs.h"
+#include "project/optimize_verb.h"
+#include "project/project_json.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr double kNoLimit = 1000;   // m: a level of detail is bought with deviation, which is measured and written
+
+std::string lowerExtension(const fs::path& file) {
+  auto extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+Result<std::vector<std::uint64_t>> budgetsOf(const std::vector<std::string>& texts, std::uint64_t triangles) {
+  std::vector<std::uint64_t> budgets;
+  for (const auto& text : texts) {
+    std::uint64_t value = 0;
+    const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (wrong != std::errc() || end != text.data() + text.size() || value == 0)
+      return failure(ErrorKind::usage, fmt::format("'{}' is not a number of triangles", text), "--levels");
+    const auto before = budgets.empty() ? triangles : budgets.back();
+    if (value >= before)
+      return failure(ErrorKind::usage, fmt::format("each level must have fewer triangles than the one before: {} after {}", value, before), "--levels");
+    budgets.push_back(value);
+  }
+  return budgets;
+}
+
+// The levels with the environments that they point to.
+struct Levels {
+  std::vector<std::unique_ptr<const Environment>> environments;
+  std::vector<GltfLevel> levels;
+  json answer = json::array();
+};
+
+Result<Levels> makeLevels(const Document& document, const std::vector<std::uint64_t>& budgets, Report& report, Progress& progress) {
+  Levels result;
+  for (const auto budget : budgets) {
+    LighteningRequest request;
+    request.budget = budget;
+    request.max_deviation_m = kNoLimit;
+    const auto plan = planLightening(document, request);
+    if (!plan) return failure(plan.error());
+    auto lighter = optimize(*document.imported, plan->options, progress);
+    if (!lighter) return failure(lighter.error());
+    result.environments.push_back(std::make_unique<const Environment>(sceneOf(lighter->environment)));
+    GltfLevel level{fmt::format("LOD{}: {} triangles", result.levels.size() + 1, lighter->all.triangles_after), result.environments.back().get(), {}, {}};
+    for (const auto& loss : lighter->products) {
+      level.max_deviation_m.push_back(loss.max_deviation_m);
+      level.mean_deviation_m.push_back(loss.mean_deviation_m);
+    }
+    if (!lighter->budget_reached)
+      report.warn("--levels", fmt::format("{} triangles cannot be reached; the level has {}", budget, lighter->all.triangles_after));
+    result.answer.push_back({{"triangles", lighter->all.triangles_after}, {"max_deviation_m", lighter->all.max_deviation_m},
+                             {"mean_deviation_m", lighter->all.mean_deviation_m}});
+    result.levels.push_back(std::move(level));
+  }
+  return result;
+}
+
+// The scene without the meshes that nothing shows any more.
+Environment shownOf(const Environment& environment) {
+  Environment scene = sceneOf(environment);
+  std::vector<std::uint32_t> now(scene.meshes.size(), 0);
+  for (const auto& instance : scene.instances) now[instance.mesh] = 1;
+  std::vector<std::shared_ptr<const Mesh>> meshes;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (std::exchange(now[i], static_cast<std::uint32_t>(meshes.size())) != 0) meshes.push_back(scene.meshes[i]);
+  for (auto& instance : scene.instances) instance.mesh = now[instance.mesh];
+  scene.meshes = std::move(meshes);
+  return scene;
+}
+
+GltfCollision collisionOf(const CollideResult& collision, const Environment& shapes, const std::string& naming) {
+  GltfCollision result{&shapes, {}, naming == "unreal" ? CollisionNaming::unreal : naming == "godot" ? CollisionNaming::godot : CollisionNaming::physics};
+  for (const auto& shape : collision.shapes) result.convex.push_back(shape.kind != CollisionShapeKind::mesh);
+  return result;
+}
+
+Result<void> exportGltf(const Document& document, const Environment& scene, const fs::path& file, const json& options, Outcome& outcome,
+                        Progress& progress) {
+  GltfCompanions companions;
+  const auto budgets = budgetsOf(options.value("levels", std::vector<std::string>{}), triangleCount(scene));
+  if (!budgets) return failure(budgets.error());
+  auto levels = makeLevels(document, *budgets, outcome.report, progress);
+  if (!levels) return failure(levels.error());
+  companions.levels = std::move(levels->levels);
+  if (!levels->answer.empty()) outcome.answer["levels"] = std::move(levels->answer);
+  Environment shapes;
+  if (options.contains("collision")) {
+    if (!document.collision) return failure(ErrorKind::usage, "there are no collision shapes yet: `collide` makes them", "--collision");
+    shapes = collisionEnvironment(*document.collision);
+    companions.collision = collisionOf(*document.collision, shapes, options.at("collision"));
+    outcome.answer["collision_shapes"] = shapes.instances.size();
+  }
+  return exportEnvironmentGltf(scene, *document.georeference, file, progress, companions);
+}
+
+}  // namespace
+
+Result<Outcome> runExport(const Document& document, const json& options, Progress& progress) {
+  const fs::path file = options.at("output").get<std::string>();
+  progress.stage("Export " + file.filename().string());
+  const auto extension = lowerExtension(file);
+  const bool gltf = extension == ".glb" || extension == ".gltf";
+  if (!gltf && extension != ".obj")
+    return failure(ErrorKind::usage, fmt::format("'{}' cannot be written; there is .glb, .gltf and .obj", extension), "--output");
+  if (!gltf && (options.contains("levels") || options.contains("collision")))
+    return failure(ErrorKind::usage, "levels of detail and collision shapes go into .glb or .gltf only", "--output");
+  const Environment scene = shownOf(*document.environment());
+  Outcome outcome{document, {{"file", file.string()}, {"triangles", triangleCount(scene)}}, {}, {}};
+  auto written = gltf ? exportGltf(document, scene, file, options, outcome, progress)
+                      : writeEnvironmentObj(scene, *document.georeference, file, progress);
+  if (!written) return failure(written.error());
+  if (const auto left_out = document.environment()->instances.size() - scene.instances.size(); left_out > 0)
+    outcome.report.note("spaces", fmt::format("{} bodies that are not in the scene (spaces, what is excluded) are not exported", left_out));
+  outcome.description = "Exported " + file.filename().string();
+  return outcome;
+}
+
+}  // namespace standpoint

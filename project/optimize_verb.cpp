@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/optimize_verb.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "project/answers.h"
+#include "project/treatments.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+
+json toJson(const ProductLoss& loss, const std::string& lod) {
+  return {{"triangles_before", loss.triangles_before},
+          {"triangles_after", loss.triangles_after},
+          {"max_deviation_m", loss.max_deviation_m},
+          {"mean_deviation_m", loss.mean_deviation_m},
+          {"lod", lod}};
+}
+
+std::string alikeName(const OptimizeOptions& options) {
+  return options.budget == 0 ? "lossless" : fmt::format("budget {}", options.budget);
+}
+
+std::string levelsOf(const OptimizeOptions& options) {
+  if (options.products.empty()) return alikeName(options);
+  std::set<std::string> names;
+  for (const auto& allowance : options.products) names.insert(allowance.lod);
+  return fmt::format("{}", fmt::join(names, " and "));
+}
+
+// What the rules said, with the numbers they hold and how many products each decided.
+void reportRules(const LighteningPlan& plan, Report& report) {
+  const auto& products = plan.options.products;
+  for (std::uint32_t share = 0; share < plan.levels.size(); ++share) {
+    const LodLevel& level = plan.levels[share];
+    const auto count = [&](const std::string& reason) {
+      return std::count_if(products.begin(), products.end(), [&](const auto& a) { return a.share == share && a.reason == reason; });
+    };
+    const auto members = std::count_if(products.begin(), products.end(), [&](const auto& a) { return a.share == share; });
+    if (members == 0) continue;
+    const auto budget = share == 0 ? plan.options.budget : plan.options.further_budgets[share - 1];
+    report.note(level.level, fmt::format("{}: {} products, {} triangles, deviations of at most {} m where no rule says otherwise",
+                                         level.part, members, budget, level.max_deviation_m));
+    for (const auto& rule : level.rules)
+      if (const auto decided = count(rule.reason); decided > 0)
+        report.note(level.level, fmt::format("{}: {} products {}", rule.reason, decided,
+                                             rule.drop   ? "dropped"
+                                             : rule.keep ? "kept as they are"
+                                                         : fmt::format("within {} m, weight {}", rule.max_deviation_m.value_or(level.max_deviation_m), rule.weight)));
+  }
+}
+
+void reportTreatments(const Document& document, Report& report) {
+  if (!document.treatments) return;
+  for (const auto& row : treatmentsToJson(*document.treatments))
+    report.note("treat", fmt::format("{}: {}", row.at("products").get<std::string>(), row.at("as").get<std::string>()));
+}
+
+}  // namespace
+
+Result<LighteningPlan> planLightening(const Document& document, const LighteningRequest& request) {
+  LighteningPlan plan;
+  if (request.lod_rules.empty()) {
+    plan.options.budget = request.budget.value_or(0);
+    plan.options.max_deviation_m = request.max_deviation_m;
+  } else {
+    const std::filesystem::path file = request.lod_rules == "default" ? dataFolder() / "optimizer" / "lod" / "default.json"
+                                                                      : std::filesystem::path(request.lod_rules);
+    auto levels = readLodRules(file);
+    if (!levels) return failure(levels.error());
+    plan.levels = *std::move(levels);
+    plan.options = allowances(*document.imported, plan.levels, {request.budget, request.surroundings});
+  }
+  if (document.treatments) applyTreatments(*document.imported, *document.treatments, alikeName(plan.options), plan.options);
+  return plan;
+}
+
+Result<Outcome> optimizeDocument(const Document& document, const LighteningRequest& request, Progress& progress) {
+  progress.stage("Optimise");
+  auto plan = planLightening(document, request);
+  if (!plan) return failure(plan.error());
+  const auto& options = plan->options;
+  auto result = optimize(*document.imported, options, progress);
+  if (!result) return failure(result.error());
+  Outcome outcome{document, json::object(), {}, {}};
+  reportRules(*plan, outcome.report);
+  reportTreatments(document, outcome.report);
+  outcome.report.append(result->report);
+  const auto lod = [&](std::size_t product) { return options.products.empty() ? alikeName(options) : options.products[product].lod; };
+  outcome.answer = toJson(result->all, levelsOf(options));
+  outcome.answer["budget_reached"] = result->budget_reached;
+  if (!result->budget_reached) outcome.answer["smallest_budget"] = result->smallest_budget;
+  json rows = json::array();
+  for (std::size_t i = 0; i < result->products.size(); ++i) {
+    if (result->products[i].triangles_before == 0) continue;
+    json row = identity(document.imported->products[i]);
+    row.update(toJson(result->products[i], lod(i)));
+    if (!options.products.empty()) row["rule"] = options.products[i].reason;
+    rows.push_back(std::move(row));
+  }
+  outcome.answer["products"] = std::move(rows);
+  outcome.description = fmt::format("Optimised {} to {} triangles, at most {:.1f} mm off", result->all.triangles_before,
+                                    result->all.triangles_after, result->all.max_deviation_m * 1000);
+  Lightening lightening{std::make_shared<const Environment>(std::move(result->environment)),
+                        std::move(result->products), result->all, request, {}};
+  for (const auto& allowance : options.products) lightening.levels.push_back(allowance.lod);
+  outcome.document.lightening = std::make_shared<const Lightening>(std::move(lightening));
+  return outcome;
+}
+
+Result<Outcome> runOptimize(const Document& document, const json& options, Progress& progress) {
+  if (options.contains("surroundings") && !options.contains("lod"))
+    return failure(ErrorKind::usage, "tells surroundings apart for level rules: give --lod as well", "surroundings");
+  LighteningRequest request;
+  if (options.contains("budget")) request.budget = options.at("budget").get<std::uint64_t>();
+  request.max_deviation_m = options.at("max-deviation").get<double>();
+  request.lod_rules = options.value("lod", "");
+  request.surroundings = options.value("surroundings", std::vector<std::string>{});
+  return optimizeDocument(document, request, progress);
+}
+
+}  // namespace standpoint

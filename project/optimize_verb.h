@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "project/lod_rules.h"
+#include "project/verb.h"
+
+namespace standpoint {
+
+// What a request means for the model as it is now: rules looked up, products selected, the author's treatments on top.
+struct LighteningPlan {
+  OptimizeOptions options;
+  std::vector<LodLevel> levels;   // of the rules; empty without
+};
+Result<LighteningPlan> planLightening(const Document& document, const LighteningRequest& request);
+
+Result<Outcome> optimizeDocument(const Document& document, const LighteningRequest& request, Progress& progress);
+Result<Outcome> runOptimize(const Document& document, const nlohmann::json& options, Progress& progress);
+
+}  // namespace standpoint

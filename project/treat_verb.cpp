@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "project/model_verbs.h"
+#include "project/treatments.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+
+json answerOf(const Environment& environment, const std::vector<Treatment>& treatments) {
+  json rows = treatmentsToJson(treatments);
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i]["count"] = select(environment, treatments[i].selector).size();
+  std::size_t excluded = 0;
+  for (const auto& product : environment.products) excluded += product.excluded ? 1 : 0;
+  return {{"treatments", std::move(rows)}, {"excluded_products", excluded}};
+}
+
+// First what later words have replaced goes, then what takes back something that is no longer there. Rows that mean no
+// product stay: an update may bring theirs back.
+void tidy(const Environment& environment, std::vector<Treatment>& treatments) {
+  std::vector<std::vector<std::uint32_t>> meant;
+  std::vector<std::size_t> deciding(environment.products.size(), treatments.size());
+  for (std::size_t i = 0; i < treatments.size(); ++i) {
+    meant.push_back(select(environment, treatments[i].selector));
+    for (const auto product : meant[i]) deciding[product] = i;
+  }
+  std::vector<Treatment> kept;
+  std::vector<bool> treated(environment.products.size(), false);
+  for (std::size_t i = 0; i < treatments.size(); ++i) {
+    const auto any = [&](auto holds) { return std::any_of(meant[i].begin(), meant[i].end(), holds); };
+    if (!meant[i].empty()) {
+      if (!any([&](std::uint32_t p) { return deciding[p] == i; })) continue;
+      if (treatments[i].kind == TreatmentKind::as_rules && !any([&](std::uint32_t p) { return treated[p]; })) continue;
+    }
+    for (const auto product : meant[i]) treated[product] = true;
+    kept.push_back(std::move(treatments[i]));
+  }
+  treatments = std::move(kept);
+}
+
+// What was made from the scene as it was before: the lighter one only changes its marks, the rest is made anew or goes.
+Result<void> follow(Document& document, Report& report, Progress& progress) {
+  if (document.lightening) {
+    auto lightening = *document.lightening;
+    lightening.environment = withExclusions(lightening.environment, *document.treatments);
+    document.lightening = std::make_shared<const Lightening>(std::move(lightening));
+  }
+  if (document.collision) {
+    document.collision = nullptr;
+    report.note("collide", "the collision shapes were those of the scene before; compute them again");
+  }
+  if (!document.materials) return {};
+  auto assigned = assignDocumentMaterials(document, "", {}, progress);
+  if (!assigned) return failure(assigned.error());
+  document.materials = assigned->document.materials;
+  return {};
+}
+
+}  // namespace
+
+Result<Outcome> runTreat(const Document& document, const json& options, Progress& progress) {
+  const auto selectors = options.value("products", std::vector<std::string>{});
+  const auto now = document.treatments ? *document.treatments : std::vector<Treatment>{};
+  if (selectors.empty()) {
+    if (options.contains("as")) return failure(ErrorKind::usage, "say which products: #id, a GlobalId, class:IfcFurniture, name:*chair*, storey:…", "products");
+    return Outcome{document, answerOf(*document.imported, now), {}, {}};
+  }
+  if (!options.contains("as")) return failure(ErrorKind::usage, "say how they are treated: excluded, kept, simplified or rules", "--as");
+  const auto as = options.at("as").get<std::string>();
+  const auto kind = as == "excluded" ? TreatmentKind::excluded : as == "kept" ? TreatmentKind::kept
+                    : as == "simplified" ? TreatmentKind::simplified : TreatmentKind::as_rules;
+  Treatment treatment{{}, kind, {}, {}};
+  if (options.contains("max-deviation")) treatment.max_deviation_m = options.at("max-deviation").get<double>();
+  if (options.contains("weight")) treatment.weight = options.at("weight").get<double>();
+  if (kind != TreatmentKind::simplified && (treatment.max_deviation_m || treatment.weight))
+    return failure(ErrorKind::usage, "limits are for products that are simplified: --as simplified", treatment.weight ? "--weight" : "--max-deviation");
+  auto treatments = now;
+  std::size_t count = 0;
+  for (const auto& selector : selectors) {
+    const auto meant = select(*document.imported, selector);
+    if (meant.empty()) return failure(ErrorKind::usage, "no product is meant by it; #id, a GlobalId, class:IfcFurniture, name:*chair* and storey:… select", selector);
+    count += meant.size();
+    treatment.selector = selector;
+    treatments.push_back(treatment);
+  }
+  Outcome outcome{document, {}, {}, {}};
+  auto& after = outcome.document;
+  tidy(*document.imported, treatments);
+  after.treatments = std::make_shared<const std::vector<Treatment>>(std::move(treatments));
+  after.imported = withExclusions(document.imported, *after.treatments);
+  if (after.imported != document.imported)
+    if (auto done = follow(after, outcome.report, progress); !done) return failure(done.error());
+  if (document.lightening && kind != TreatmentKind::excluded)
+    outcome.report.note("optimize", "the lighter model follows when it is optimised again");
+  outcome.answer = answerOf(*after.imported, *after.treatments);
+  const char* done = kind == TreatmentKind::excluded ? "Excluded" : kind == TreatmentKind::kept ? "Keep as they are:"
+                     : kind == TreatmentKind::simplified ? "Simplify within own limits:" : "By the rules again:";
+  outcome.description = fmt::format("{} {} products ({})", done, count, fmt::join(selectors, ", "));
+  return outcome;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// What the author says of single products, beside the rules: left out, kept as they are, or held to limits of their own.
+
+#include <memory>
+#include <vector>
+
+#include "project/verb.h"
+
+namespace standpoint {
+
+// The treatment that decides for each product: the last that means it; nullptr = none.
+std::vector<const Treatment*> treatmentOf(const Environment& environment, const std::vector<Treatment>& treatments);
+
+// The environment with the products that are excluded marked so, and no others; the same pointer when it is so already.
+std::shared_ptr<const Environment> withExclusions(const std::shared_ptr<const Environment>& environment,
+                                                  const std::vector<Treatment>& treatments);
+
+// Kept and limited products, in the allowances for the optimizer. Where the options treat all alike and no product is
+// treated otherwise, they stay as they are; `alike` is what the level of all others is called.
+void applyTreatments(const Environment& environment, const std::vector<Treatment>& treatments, const std::string& alike,
+                     OptimizeOptions& options);
+
+nlohmann::json treatmentsToJson(const std::vector<Treatment>& treatments);
+std::vector<Treatment> treatmentsFrom(const nlohmann::json& rows);  // throws nlohmann's exceptions
+
+Result<Outcome> runTreat(const Document& document, const nlohmann::json& options, Progress& progress);
+
+}  // namespace standpoint
