@@ -2,336 +2,159 @@
 #include "optimizer/collapse.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
-#include <tuple>
 
-#include "optimizer/quadric.h"
-#include "optimizer/triangle_tree.h"
+#include <tbb/parallel_for.h>
+
+#include "optimizer/collapser.h"
+#include "optimizer/features.h"
+#include "optimizer/partition.h"
 
 namespace standpoint {
 
 namespace {
 
 constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr std::uint32_t kMaxCorners = 400;       // of one vertex; bounds the time of a fan
-constexpr double kCreaseCosine = 0.866;          // 30°
-constexpr double kFeatureWeight = 0.3;           // of a constraint plane, times the squared length of its edge
-constexpr double kShortestFirst = 1e-12;         // among equal costs: 1 m of edge weighs like 1 µm of deviation
-constexpr double kLargestTurnCosine = 0.2;       // a triangle may turn by 78° in one step
+constexpr std::size_t kCell = 8'000;         // triangles; what a core's own cache holds
+constexpr std::size_t kSplit = 100'000;      // a patch with more is simplified in cells first
+constexpr double kOneRound = 0.25;           // of the triangles are left by a round of cells that touch …
+constexpr double kDeeper = 0.18;             // … of which each goes this far, so that the cheapest steps of all can be chosen
+constexpr std::size_t kRefineFrom = 3;       // times the triangles that shall be left
+constexpr double kWorthwhile = 0.9;          // a round that leaves more was the last one
 
-using Eigen::Vector3d;
-
-struct Candidate {
-  double cost = 0;
-  std::uint32_t a = 0, b = 0, age_a = 0, age_b = 0;
-  bool operator<(const Candidate& o) const {  // std heaps keep the greatest on top; we want the cheapest
-    return std::tie(o.cost, o.a, o.b, o.age_a, o.age_b) < std::tie(cost, a, b, age_a, age_b);
-  }
+// A cell as a patch of its own.
+struct Cell {
+  Patch patch;
+  std::vector<std::uint32_t> vertices;  // of the whole
 };
 
-// Triangles as an array, each corner a link in its vertex's list of corners (corner = 3 * triangle + k).
-class Collapser {
- public:
-  Collapser(const Shape& shape, const CollapseOptions& options);
-  std::vector<Collapse> run(const Progress& progress);
-
- private:
-  struct Effect {  // what a collapse would do
-    std::uint32_t vanishing = 0, surviving = 0;
-    bool flips = false;
-    double longest_edge = 0;  // of the vanishing triangles
-  };
-
-  void linkCorners();
-  void addPlanes();
-  void addFeatures();
-  void addFeature(std::uint32_t a, std::uint32_t b, const Vector3d& normal);
-  void push(std::uint32_t a, std::uint32_t b);
-  void pushAround(std::uint32_t v);
-  Vector3d place(std::uint32_t a, std::uint32_t b, const Quadric& q) const;
-  Effect effect(std::uint32_t a, std::uint32_t b, const Vector3d& p);
-  void addEffect(std::uint32_t v, std::uint32_t other, bool first, const Vector3d& p, Effect& effect);
-  double price(const Candidate& c, const Quadric& q, const Effect& e, double base) const;
-  bool tooFar(std::uint32_t a, std::uint32_t b, const Vector3d& p, const Effect& e, double& deviation) const;
-  void apply(std::uint32_t a, std::uint32_t b, const Vector3d& p);
-  void vanish(std::vector<Collapse>& log) const;
-
-  bool isFlat(const Vector3d& normal, const Vector3d& e1, const Vector3d& e2) const {
-    return normal.squaredNorm() <= rounding_ * rounding_ * std::max({e1.squaredNorm(), e2.squaredNorm(), (e2 - e1).squaredNorm()});
-  }
-  bool dead(std::uint32_t triangle) const { return triangles_[triangle][0] == kNone; }
-
-  template <class Visit>
-  void forTriangles(std::uint32_t v, Visit visit) {  // drops the links of dead triangles on its way
-    std::uint32_t* link = &first_corner_[v];
-    std::uint32_t last = kNone;
-    while (*link != kNone) {
-      const std::uint32_t corner = *link;
-      if (dead(corner / 3)) {
-        *link = next_corner_[corner];
-        --corner_count_[v];
+Cell cut(const Patch& whole, const std::vector<std::uint32_t>& triangles, const std::vector<std::uint8_t>& shared, std::vector<std::uint32_t>& local) {
+  Cell cell;
+  std::vector<std::uint32_t> outer;  // shared vertices have a number in each of their cells: those are looked up
+  for (const auto i : triangles)
+    for (const auto v : whole.triangles[i])
+      if (shared[v] != 0) outer.push_back(v);
+  std::sort(outer.begin(), outer.end());
+  outer.erase(std::unique(outer.begin(), outer.end()), outer.end());
+  cell.vertices = outer;
+  const auto outers = static_cast<std::uint32_t>(outer.size());
+  for (const auto i : triangles) {
+    auto t = whole.triangles[i];
+    for (auto& v : t) {
+      if (shared[v] != 0) {
+        v = static_cast<std::uint32_t>(std::lower_bound(outer.begin(), outer.end(), v) - outer.begin());
         continue;
       }
-      visit(corner / 3);
-      last = corner;
-      link = &next_corner_[corner];
+      auto& known = local[v];
+      if (known == kNone) {
+        known = static_cast<std::uint32_t>(cell.vertices.size());
+        cell.vertices.push_back(v);
+      }
+      v = known;
     }
-    last_corner_[v] = last;
+    cell.patch.triangles.push_back(t);
   }
-
-  CollapseOptions options_;
-  double rounding_;
-  Vector3d half_size_;
-  double diagonal_;
-  std::vector<Vector3d> positions_;
-  std::vector<Triangle> triangles_;
-  const std::vector<std::uint32_t>& surfaces_;
-  std::vector<std::uint32_t> first_corner_, last_corner_, next_corner_, corner_count_, age_, mark_;
-  std::vector<Quadric> quadrics_;
-  std::vector<Quadric> features_;     // lossless only: unweighted, so that its root bounds the distance to each
-  std::vector<float> deviation_m_;    // of what was gathered at a vertex, from the surface that it has now
-  std::vector<Candidate> heap_;
-  std::vector<std::array<Vector3d, 3>> before_, after_;  // the triangles around a candidate
-  std::uint32_t epoch_ = 0;
-};
-
-Collapser::Collapser(const Shape& shape, const CollapseOptions& options)
-    : options_(options), rounding_(shape.rounding()), half_size_(shape.half_size), diagonal_(shape.diagonal()),
-      positions_(shape.positions), triangles_(shape.triangles), surfaces_(shape.surface_of_triangle),
-      first_corner_(positions_.size(), kNone), last_corner_(positions_.size(), kNone), next_corner_(3 * triangles_.size(), kNone),
-      corner_count_(positions_.size(), 0), age_(positions_.size(), 0), mark_(positions_.size(), 0), quadrics_(positions_.size()),
-      features_(options.lossless ? positions_.size() : 0), deviation_m_(positions_.size(), 0) {
-  linkCorners();
-  addPlanes();
-  addFeatures();
+  for (const auto v : cell.vertices) {
+    cell.patch.positions.push_back(whole.positions[v]);
+    cell.patch.quadrics.push_back(whole.quadrics[v]);
+    cell.patch.deviation_m.push_back(whole.deviation_m[v]);
+    if (!whole.features.empty()) cell.patch.features.push_back(whole.features[v]);
+  }
+  if (outers > 0) {
+    cell.patch.fixed.assign(cell.vertices.size(), 0);
+    std::fill_n(cell.patch.fixed.begin(), outers, std::uint8_t{1});
+  }
+  return cell;
 }
 
-void Collapser::linkCorners() {
-  for (std::uint32_t corner = 0; corner < next_corner_.size(); ++corner) {
-    const auto v = triangles_[corner / 3][corner % 3];
-    if (first_corner_[v] == kNone) first_corner_[v] = corner;
-    else next_corner_[last_corner_[v]] = corner;
-    last_corner_[v] = corner;
-    ++corner_count_[v];
-  }
-}
-
-void Collapser::addPlanes() {
-  for (const auto& t : triangles_) {
-    const Vector3d e1 = positions_[t[1]] - positions_[t[0]], e2 = positions_[t[2]] - positions_[t[0]];
-    const Vector3d normal = e1.cross(e2);
-    if (isFlat(normal, e1, e2)) continue;
-    const double length = normal.norm();
-    for (const auto v : t) quadrics_[v].addPlane(normal / length, positions_[t[0]], length / 6);
-  }
-}
-
-// A plane through the edge, upright on its triangle: it holds the edge where its triangles' own planes do not (borders of
-// the mesh and between surfaces), and the rim of thin parts, whose side has too little area to speak for itself.
-void Collapser::addFeature(std::uint32_t a, std::uint32_t b, const Vector3d& normal) {
-  const Vector3d edge = positions_[b] - positions_[a];
-  const Vector3d upright = edge.cross(normal);
-  const double length = upright.norm();
-  if (!(length > 0)) return;
-  for (const auto v : {a, b}) {
-    quadrics_[v].addPlane(upright / length, positions_[a], kFeatureWeight * edge.squaredNorm());
-    if (options_.lossless) features_[v].addPlane(upright / length, positions_[a], 1);
-  }
-}
-
-void Collapser::addFeatures() {
-  struct Edge {
-    std::uint64_t key;
-    std::uint32_t triangle;
+// The logs of all cells as one, cheapest step first: what one queue over all of them would do.
+std::vector<Step> merged(std::vector<std::vector<Step>>& logs) {
+  std::vector<Step> all;
+  std::size_t size = 0;
+  for (const auto& log : logs) size += log.size();
+  all.reserve(size);
+  struct Next {
+    double cost;
+    std::uint32_t cell;
+    bool operator<(const Next& o) const { return cost != o.cost ? cost > o.cost : cell > o.cell; }
   };
-  std::vector<Edge> edges;
-  edges.reserve(3 * triangles_.size());
-  std::vector<Vector3d> normals(triangles_.size(), Vector3d::Zero());
-  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-    const auto& t = triangles_[i];
-    for (int k = 0; k < 3; ++k) {
-      const std::uint64_t a = t[k], b = t[(k + 1) % 3];
-      edges.push_back({std::min(a, b) << 32U | std::max(a, b), i});
+  std::vector<Next> heap;
+  std::vector<std::size_t> at(logs.size(), 0);
+  for (std::uint32_t i = 0; i < logs.size(); ++i)
+    if (!logs[i].empty()) heap.push_back({logs[i][0].cost, i});
+  std::make_heap(heap.begin(), heap.end());
+  while (!heap.empty()) {
+    std::pop_heap(heap.begin(), heap.end());
+    const auto cell = heap.back().cell;
+    auto& log = logs[cell];
+    all.push_back(log[at[cell]++]);
+    if (at[cell] < log.size()) {
+      heap.back() = {log[at[cell]].cost, cell};
+      std::push_heap(heap.begin(), heap.end());
+    } else {
+      heap.pop_back();
+      log = {};
     }
-    const Vector3d e1 = positions_[t[1]] - positions_[t[0]], e2 = positions_[t[2]] - positions_[t[0]];
-    const Vector3d normal = e1.cross(e2);
-    // A needle's normal is noise: it must not make a crease of the plane that it lies in.
-    if (normal.norm() > 100 * rounding_ * std::max({e1.norm(), e2.norm(), (e2 - e1).norm()})) normals[i] = normal.normalized();
   }
-  std::sort(edges.begin(), edges.end(), [](const Edge& x, const Edge& y) { return std::tie(x.key, x.triangle) < std::tie(y.key, y.triangle); });
-  for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
-    while (j < edges.size() && edges[j].key == edges[i].key) ++j;
-    bool feature = j - i == 1;
-    const Vector3d* reference = nullptr;
-    for (std::size_t k = i; k < j; ++k) {
-      const auto& normal = normals[edges[k].triangle];
-      feature |= surfaces_[edges[k].triangle] != surfaces_[edges[i].triangle];
-      if (normal.isZero()) continue;
-      feature |= reference != nullptr && reference->dot(normal) < kCreaseCosine;
-      if (reference == nullptr) reference = &normal;
-    }
-    const auto a = static_cast<std::uint32_t>(edges[i].key >> 32U), b = static_cast<std::uint32_t>(edges[i].key);
-    for (std::size_t k = i; feature && k < j; ++k) addFeature(a, b, normals[edges[k].triangle]);
-  }
-  for (std::size_t i = 0; i < edges.size(); ++i)  // only now are the quadrics whole
-    if (i == 0 || edges[i].key != edges[i - 1].key)
-      push(static_cast<std::uint32_t>(edges[i].key >> 32U), static_cast<std::uint32_t>(edges[i].key));
+  return all;
 }
 
-Vector3d Collapser::place(std::uint32_t a, std::uint32_t b, const Quadric& q) const {
-  const Vector3d &pa = positions_[a], &pb = positions_[b], middle = 0.5 * (pa + pb);
-  const double cost_a = q(pa), cost_b = q(pb);
-  const Vector3d& end = cost_a <= cost_b ? pa : pb;
-  const double cost_end = std::min(cost_a, cost_b);
-  // An end that is as good up to rounding keeps its exact position, so that planes stay planes.
-  if (options_.lossless || cost_end <= q.weight * rounding_ * rounding_) return end;
-  Vector3d best = q.minimum(middle).cwiseMax(-half_size_).cwiseMin(half_size_);
-  if (!((best - middle).squaredNorm() <= 4 * (pb - pa).squaredNorm())) best = middle;  // ill-conditioned, or not finite
-  return q(best) < cost_end ? best : end;
-}
-
-void Collapser::push(std::uint32_t a, std::uint32_t b) {
-  if (a > b) std::swap(a, b);
-  Quadric q = quadrics_[a];
-  q += quadrics_[b];
-  const Vector3d p = place(a, b, q);
-  const double cost = q(p);
-  if (cost > 4 * q.weight * options_.max_deviation_m * options_.max_deviation_m) return;
-  if (options_.lossless) {
-    Quadric f = features_[a];
-    f += features_[b];
-    if (f(p) > 4 * options_.max_deviation_m * options_.max_deviation_m) return;
-  }
-  heap_.push_back({cost + kShortestFirst * q.weight * (positions_[a] - positions_[b]).squaredNorm(), a, b, age_[a], age_[b]});
-}
-
-void Collapser::addEffect(std::uint32_t v, std::uint32_t other, bool first, const Vector3d& p, Effect& e) {
-  forTriangles(v, [&](std::uint32_t i) {
-    const auto& t = triangles_[i];
-    const bool shared = t[0] == other || t[1] == other || t[2] == other;
-    if (shared && !first) return;
-    std::array<Vector3d, 3> old{positions_[t[0]], positions_[t[1]], positions_[t[2]]};
-    before_.push_back(old);
-    if (shared) {
-      ++e.vanishing;
-      for (int k = 0; k < 3; ++k) e.longest_edge = std::max(e.longest_edge, (old[k] - old[(k + 1) % 3]).norm());
-      return;
-    }
-    ++e.surviving;
-    auto now = old;
-    for (int k = 0; k < 3; ++k)
-      if (t[k] == v) now[k] = p;
-    after_.push_back(now);
-    const Vector3d e1 = old[1] - old[0], e2 = old[2] - old[0], f1 = now[1] - now[0], f2 = now[2] - now[0];
-    const Vector3d n = e1.cross(e2), m = f1.cross(f2);
-    const bool flat_now = isFlat(m, f1, f2);
-    e.flips |= isFlat(n, e1, e2) ? !flat_now : flat_now || n.dot(m) < kLargestTurnCosine * n.norm() * m.norm();
-  });
-}
-
-Collapser::Effect Collapser::effect(std::uint32_t a, std::uint32_t b, const Vector3d& p) {
-  Effect e;
-  before_.clear();
-  after_.clear();
-  addEffect(a, b, true, p, e);
-  addEffect(b, a, false, p, e);
-  return e;
-}
-
-// What a candidate really costs. Folding a triangle over costs as if its whole neighbourhood moved by the edge's length;
-// a part that vanishes costs its area times its squared size. Both keep a shape able to reach any count, last of all.
-double Collapser::price(const Candidate& c, const Quadric& q, const Effect& e, double base) const {
-  if (e.surviving == 0) return std::max(base, q.weight * e.longest_edge * e.longest_edge / 4);
-  if (e.flips) return std::max(base, q.weight * (positions_[c.a] - positions_[c.b]).squaredNorm());
-  return base;
-}
-
-bool Collapser::tooFar(std::uint32_t a, std::uint32_t b, const Vector3d& p, const Effect& e, double& deviation) const {
-  const double before = std::max(deviation_m_[a], deviation_m_[b]);
-  deviation = before;
-  if (options_.max_deviation_m >= diagonal_) return false;
-  const auto distance = [](const Vector3d& from, const std::vector<std::array<Vector3d, 3>>& star) {
-    double best = std::numeric_limits<double>::infinity();
-    for (const auto& t : star) best = std::min(best, (closestPoint(from, t[0], t[1], t[2]) - from).squaredNorm());
-    return std::sqrt(best);
-  };
-  const double here = e.surviving == 0 ? e.longest_edge / 2
-                                       : std::max({distance(positions_[a], after_), distance(positions_[b], after_), distance(p, before_)});
-  deviation = before + here;
-  return deviation > options_.max_deviation_m;
-}
-
-void Collapser::apply(std::uint32_t a, std::uint32_t b, const Vector3d& p) {
-  for (std::uint32_t corner = first_corner_[b]; corner != kNone; corner = next_corner_[corner]) {
-    auto& t = triangles_[corner / 3];
-    if (t[0] == kNone) continue;
-    if (t[0] == a || t[1] == a || t[2] == a) t = {kNone, kNone, kNone};
-    else t[corner % 3] = a;
-  }
-  if (first_corner_[a] == kNone) first_corner_[a] = first_corner_[b];
-  else next_corner_[last_corner_[a]] = first_corner_[b];
-  if (first_corner_[b] != kNone) last_corner_[a] = last_corner_[b];
-  corner_count_[a] += corner_count_[b];
-  first_corner_[b] = kNone;
-  positions_[a] = p;
-  quadrics_[a] += quadrics_[b];
-  if (options_.lossless) features_[a] += features_[b];
-  ++age_[a];
-  ++age_[b];
-}
-
-void Collapser::pushAround(std::uint32_t v) {
-  ++epoch_;
-  mark_[v] = epoch_;
-  forTriangles(v, [&](std::uint32_t i) {
-    for (const auto n : triangles_[i]) {
-      if (mark_[n] == epoch_) continue;
-      mark_[n] = epoch_;
-      const auto size = heap_.size();
-      push(v, n);
-      if (heap_.size() > size) std::push_heap(heap_.begin(), heap_.end());
+std::vector<Step> runCells(const Patch& whole, const Partition& parts, const CollapseOptions& options, const Shape& shape, const Progress& progress) {
+  std::vector<std::vector<Step>> logs(parts.cells.size());
+  std::vector<std::uint32_t> local(whole.positions.size(), kNone);  // each entry is of one cell only
+  tbb::parallel_for(std::size_t{0}, logs.size(), [&](std::size_t i) {
+    if (progress.cancelled()) return;
+    const auto& triangles = parts.cells[i];
+    auto cell = cut(whole, triangles, parts.shared, local);
+    const auto floor = parts.any_shared ? static_cast<std::size_t>(kDeeper * static_cast<double>(triangles.size())) : 0;
+    logs[i] = Collapser(std::move(cell.patch), options, shape).run(floor, progress);
+    for (auto& step : logs[i]) {
+      step.collapse.kept = cell.vertices[step.collapse.kept];
+      step.collapse.removed = cell.vertices[step.collapse.removed];
     }
   });
+  return merged(logs);
 }
 
-// The last step of all: whatever is left goes at once.
-void Collapser::vanish(std::vector<Collapse>& log) const {
-  const auto count = std::count_if(triangles_.begin(), triangles_.end(), [](const Triangle& t) { return t[0] != kNone; });
-  if (count > 0) log.push_back({0, 0, static_cast<std::uint32_t>(count), Vector3d::Zero()});
-}
-
-std::vector<Collapse> Collapser::run(const Progress& progress) {
-  std::vector<Collapse> log;
-  std::make_heap(heap_.begin(), heap_.end());
-  for (std::size_t round = 0; !heap_.empty(); ++round) {
-    if (round % 1024 == 0 && progress.cancelled()) return log;
-    std::pop_heap(heap_.begin(), heap_.end());
-    Candidate c = heap_.back();
-    heap_.pop_back();
-    if (c.age_a != age_[c.a] || c.age_b != age_[c.b] || corner_count_[c.a] + corner_count_[c.b] > kMaxCorners) continue;
-    Quadric q = quadrics_[c.a];
-    q += quadrics_[c.b];
-    const Vector3d p = place(c.a, c.b, q);
-    const Effect e = effect(c.a, c.b, p);
-    if (e.vanishing == 0 || (options_.lossless && (e.flips || e.surviving == 0))) continue;
-    const double cost = price(c, q, e, c.cost);
-    double deviation = 0;
-    if (tooFar(c.a, c.b, p, e, deviation)) continue;
-    if (cost > c.cost) {
-      c.cost = cost;
-      heap_.push_back(c);
-      std::push_heap(heap_.begin(), heap_.end());
-      continue;
-    }
-    apply(c.a, c.b, p);
-    deviation_m_[c.a] = static_cast<float>(deviation);
-    log.push_back({c.a, c.b, e.vanishing, p});
-    pushAround(c.a);
+void takeSteps(Patch& patch, const std::vector<Step>& steps) {
+  std::vector<std::uint32_t> joined(patch.positions.size());
+  std::iota(joined.begin(), joined.end(), 0U);
+  for (const auto& [step, cost, deviation] : steps) {
+    joined[step.removed] = step.kept;
+    patch.positions[step.kept] = step.position;
+    patch.quadrics[step.kept] += patch.quadrics[step.removed];
+    if (!patch.features.empty()) patch.features[step.kept] += patch.features[step.removed];
+    patch.deviation_m[step.kept] = std::max(patch.deviation_m[step.kept], deviation);
   }
-  if (!options_.lossless && options_.max_deviation_m >= diagonal_ / 2) vanish(log);
-  return log;
+  const auto root = [&](std::uint32_t v) {
+    while (joined[v] != v) v = joined[v] = joined[joined[v]];
+    return v;
+  };
+  std::size_t kept = 0;
+  for (const auto& t : patch.triangles) {
+    const Triangle now{root(t[0]), root(t[1]), root(t[2])};
+    if (now[0] != now[1] && now[1] != now[2] && now[2] != now[0]) patch.triangles[kept++] = now;
+  }
+  patch.triangles.resize(kept);
+}
+
+// Rounds of cells until what is left is small enough for one queue. The cells of a round meet elsewhere than those before.
+void runRounds(Patch& patch, const CollapseOptions& options, const Shape& shape, std::vector<Collapse>& log, const Progress& progress) {
+  double cut = 0.5;
+  while (patch.triangles.size() > kSplit && !progress.cancelled()) {
+    const auto parts = partition(patch.positions, patch.triangles, kCell, cut);
+    auto steps = runCells(patch, parts, options, shape, progress);
+    const auto before = patch.triangles.size();
+    const auto enough = parts.any_shared ? static_cast<std::size_t>(kOneRound * static_cast<double>(before)) : 0;
+    std::size_t left = before, taken = 0;
+    while (taken < steps.size() && left > enough) left -= steps[taken++].collapse.triangles;
+    steps.resize(taken);
+    for (const auto& step : steps) log.push_back(step.collapse);
+    takeSteps(patch, steps);
+    if (!parts.any_shared || static_cast<double>(left) > kWorthwhile * static_cast<double>(before)) return;
+    cut = cut == 0.5 ? 0.38 : 0.5;
+  }
 }
 
 }  // namespace
@@ -340,35 +163,73 @@ std::vector<Collapse> recordCollapses(const Shape& shape, const CollapseOptions&
   if (shape.triangles.empty()) return {};
   CollapseOptions limited = options;
   if (options.lossless) limited.max_deviation_m = 2 * shape.rounding();
-  return Collapser(shape, limited).run(progress);
+  Patch patch = patchOf(shape, limited);
+  std::vector<Collapse> log;
+  runRounds(patch, limited, shape, log, progress);
+  if (patch.triangles.empty()) return log;
+  Collapser last(std::move(patch), limited, shape);
+  for (const auto& step : last.run(0, progress)) log.push_back(step.collapse);
+  // The last step of all: whatever is left goes at once.
+  if (!limited.lossless && limited.max_deviation_m >= shape.diagonal() / 2 && last.triangles() > 0 && !progress.cancelled())
+    log.push_back({0, 0, static_cast<std::uint32_t>(last.triangles()), false, Eigen::Vector3d::Zero()});
+  return log;
+}
+
+std::vector<Collapse> refined(const Shape& shape, const std::vector<Collapse>& log, std::size_t triangles, const Progress& progress) {
+  std::vector<Collapse> result;
+  for (std::size_t left = shape.triangles.size(); result.size() < log.size() && left > kRefineFrom * triangles; result.push_back(log[result.size()]))
+    left -= log[result.size()].triangles;
+  CollapseOptions options;
+  options.memoryless = true;
+  options.max_deviation_m = std::numeric_limits<double>::max();
+  const Shape start = replay(shape, log, result.size());
+  for (const auto& step : Collapser(patchOf(start, options), options, start).run(triangles, progress)) result.push_back(step.collapse);
+  return result;
+}
+
+LogPlayer::LogPlayer(const Shape& shape, const std::vector<Collapse>& log) : log_(log), form_(shape), joined_(shape.positions.size()), origin_(shape.triangles.size()) {
+  form_.wedges.clear();  // they are of the beginning
+  std::iota(joined_.begin(), joined_.end(), 0U);
+  std::iota(origin_.begin(), origin_.end(), 0U);
+}
+
+const Shape& LogPlayer::at(std::size_t steps) {
+  if (steps <= done_) return form_;
+  for (; done_ < steps; ++done_) {
+    const auto& step = log_[done_];
+    joined_[step.removed] = step.kept;
+    form_.positions[step.kept] = step.position;
+  }
+  const auto root = [&](std::uint32_t v) {
+    while (joined_[v] != v) v = joined_[v] = joined_[joined_[v]];
+    return v;
+  };
+  const bool nothing_left = log_[steps - 1].kept == log_[steps - 1].removed;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < form_.triangles.size() && !nothing_left; ++i) {
+    const auto& t = form_.triangles[i];
+    const Triangle now{root(t[0]), root(t[1]), root(t[2])};
+    if (now[0] == now[1] || now[1] == now[2] || now[2] == now[0]) continue;
+    form_.triangles[kept] = now;
+    form_.surface_of_triangle[kept] = form_.surface_of_triangle[i];
+    origin_[kept++] = origin_[i];
+  }
+  form_.triangles.resize(kept);
+  form_.surface_of_triangle.resize(kept);
+  return form_;
+}
+
+std::vector<std::uint32_t> LogPlayer::image() const {
+  std::vector<std::uint32_t> result(origin_.size(), kNone);
+  for (std::uint32_t i = 0; i < form_.triangles.size(); ++i) result[origin_[i]] = i;
+  return result;
 }
 
 Shape replay(const Shape& shape, const std::vector<Collapse>& log, std::size_t steps, std::vector<std::uint32_t>* image) {
-  Shape result;
-  result.centre = shape.centre;
-  result.half_size = shape.half_size;
-  result.positions = shape.positions;
-  std::vector<std::uint32_t> joined(shape.positions.size());
-  std::iota(joined.begin(), joined.end(), 0U);
-  if (image) image->assign(shape.triangles.size(), kNone);
-  if (steps > 0 && log[steps - 1].kept == log[steps - 1].removed) return result;
-  for (std::size_t i = 0; i < steps; ++i) {
-    joined[log[i].removed] = log[i].kept;
-    result.positions[log[i].kept] = log[i].position;
-  }
-  const auto root = [&](std::uint32_t v) {
-    while (joined[v] != v) v = joined[v] = joined[joined[v]];
-    return v;
-  };
-  for (std::size_t i = 0; i < shape.triangles.size(); ++i) {
-    const auto& t = shape.triangles[i];
-    const Triangle now{root(t[0]), root(t[1]), root(t[2])};
-    if (now[0] == now[1] || now[1] == now[2] || now[2] == now[0]) continue;
-    if (image) (*image)[i] = static_cast<std::uint32_t>(result.triangles.size());
-    result.triangles.push_back(now);
-    result.surface_of_triangle.push_back(shape.surface_of_triangle[i]);
-  }
-  return result;
+  LogPlayer player(shape, log);
+  player.at(steps);
+  if (image) *image = player.image();
+  return player.take();
 }
 
 }  // namespace standpoint

@@ -12,6 +12,8 @@
 
 namespace standpoint {
 
+inline constexpr std::uint32_t kDeviationSamples = 100'000;  // on all placed surfaces, each way
+
 struct SurfacePoint {
   std::uint32_t triangle = 0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -22,20 +24,22 @@ std::vector<SurfacePoint> pointsByArea(std::span<const Eigen::Vector3d> position
                                        std::uint32_t count, const RandomKey& key);
 
 struct Deviation {
-  double max_m = 0;   // sampled symmetric Hausdorff distance
+  double max_m = 0;   // symmetric Hausdorff distance, searched; of dense meshes at vertices, middles of faces and edges, and samples
   double mean_m = 0;  // mean of the two directions' area-weighted means
   double area_m2 = 0; // of the shape before
+  double turn_rad = 0;  // mean angle between the normals of the shape before and of what is nearest; its area decides. 0..π/2
 };
 
-// Measures how far shapes are from the one that they were made of: points spread by area on each, and every vertex for the
-// maximum, each against the other's nearest triangle. An empty shape counts as the centre: it was dropped.
-// Keeps a reference to `before`.
+// Measures how far shapes are from the one that they were made of: points spread by area on each, and for the maximum a search of
+// every triangle (where both together have more than 200 000: a look at its corners and middles), each against the other's nearest triangle. An empty shape counts as the centre: it was dropped.
+// Parallel, the same figures for any number of threads. Keeps references to `before` and its tree.
 class DeviationMeter {
  public:
-  DeviationMeter(const Shape& before, std::uint32_t samples, std::uint64_t seed);
+  DeviationMeter(const Shape& before, const TriangleTree& tree, std::uint32_t samples, std::uint64_t seed);
 
   // `image` is replay()'s, or empty: it only makes the search faster. `after` has the same centre.
   Deviation of(const Shape& after, const std::vector<std::uint32_t>& image = {}) const;
+  Deviation ofItself() const;
   // Without a look at the vertices.
   Deviation roughlyOf(const Shape& after, const std::vector<std::uint32_t>& image) const { return measure(after, image, false); }
   // How far `after` reaches out of the shape before, where `counts` says that it matters.
@@ -57,7 +61,7 @@ class DeviationMeter {
   std::uint32_t samples_;
   std::uint64_t seed_;
   double area_m2_ = 0;
-  TriangleTree tree_;
+  const TriangleTree& tree_;
   std::vector<SurfacePoint> points_;
 };
 

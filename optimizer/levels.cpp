@@ -17,6 +17,7 @@ using Eigen::Vector3d;
 
 constexpr std::uint32_t kSamples = 256;
 constexpr std::uint32_t kMostMeasured = 50'000;  // triangles; a larger form is not measured, as its tree would cost more than its log
+constexpr std::size_t kMostBoxed = 200'000;    // triangles; what has more is not a small thing
 constexpr double kFineSpacing = 0.8, kCoarseSpacing = 0.5;  // of the triangle counts at which is measured
 constexpr std::uint32_t kFineBelow = 5000;
 // A form that reaches further than this out of the shape, at the height of the knees, closes a doorway, of which half is
@@ -119,21 +120,21 @@ class DoorwayGuard {
   bool has_room_ = false;
 };
 
-std::vector<Point> measure(const Shape& shape, const ShapeLevels& made, double max_deviation_m, const Placement& placement, std::uint64_t seed, const Progress& progress) {
+std::vector<Point> measure(const Shape& shape, const TriangleTree& tree, const ShapeLevels& made, double max_deviation_m, const Placement& placement, std::uint64_t seed, const Progress& progress) {
   auto left = static_cast<std::uint32_t>(shape.triangles.size());
   std::vector<Point> points{{left}};
-  const DeviationMeter meter(shape, kSamples, seed);
+  const DeviationMeter meter(shape, tree, kSamples, seed);
   const auto target = [](std::uint32_t count) { return static_cast<std::uint32_t>(count * (count <= kFineBelow ? kFineSpacing : kCoarseSpacing)); };
   std::uint32_t next = std::min(target(left), kMostMeasured);
-  std::vector<std::uint32_t> image;
   std::uint32_t refused = 0;
+  LogPlayer player(shape, made.log);
   const DoorwayGuard guard(shape, meter, placement);
   for (std::uint32_t i = 0; i < made.log.size(); ++i) {
     left -= made.log[i].triangles;
     if (left > next && i + 1 < made.log.size()) continue;
     if (progress.cancelled()) return points;
-    const Shape form = replay(shape, made.log, i + 1, &image);
-    const auto deviation = meter.roughlyOf(form, image);
+    const Shape& form = player.at(i + 1);
+    const auto deviation = meter.roughlyOf(form, player.image());
     if (guard.refuses(form)) ++refused;
     else points.push_back({left, deviation.mean_m * deviation.area_m2, i + 1, -1, refused});
     next = target(left);
@@ -161,7 +162,7 @@ std::vector<Point> lowerHull(std::vector<Point> points) {
 
 }  // namespace
 
-ShapeLevels makeLevels(const Shape& shape, const CollapseOptions& options, const Placement& placement, std::uint64_t seed, const Progress& progress) {
+ShapeLevels makeLevels(const Shape& shape, const TriangleTree& tree, const CollapseOptions& options, const Placement& placement, std::uint64_t seed, const Progress& progress) {
   ShapeLevels made;
   if (shape.triangles.empty()) return made;
   made.log = recordCollapses(shape, options, progress);
@@ -172,8 +173,8 @@ ShapeLevels makeLevels(const Shape& shape, const CollapseOptions& options, const
     for (const auto& step : made.log) left -= step.triangles;
     hull.push_back({left, 0, static_cast<std::uint32_t>(made.log.size())});
   } else {
-    made.stand_ins = standIns(shape);
-    hull = lowerHull(measure(shape, made, options.max_deviation_m, placement, seed, progress));
+    if (shape.wedges.empty() && shape.triangles.size() <= kMostBoxed) made.stand_ins = standIns(shape);
+    hull = lowerHull(measure(shape, tree, made, options.max_deviation_m, placement, seed, progress));
   }
   for (std::size_t i = 0; i + 1 < hull.size(); ++i) {
     const double cost = std::max(0.0, slope(hull[i], hull[i + 1]));

@@ -33,8 +33,8 @@ struct Placement {
 
 // Without loss every step of the log is a level that costs nothing. Else the deviation is measured at a few of the steps,
 // so that shapes compete by what one would see and not by their quadrics, which overrate thin and underrate folded parts.
-// Forms that close a doorway are left out.
-ShapeLevels makeLevels(const Shape& shape, const CollapseOptions& options, const Placement& placement, std::uint64_t seed, const Progress& progress);
+// Forms that close a doorway are left out, and stand-ins for what is painted. `tree` is the shape's.
+ShapeLevels makeLevels(const Shape& shape, const TriangleTree& tree, const CollapseOptions& options, const Placement& placement, std::uint64_t seed, const Progress& progress);
 
 // `levels` of them taken; 0 is the shape itself. `image` as for replay().
 Shape atLevel(const Shape& shape, const ShapeLevels& levels, std::size_t taken, std::vector<std::uint32_t>& image);

@@ -28,12 +28,14 @@ struct OptimizeOptions {
   double max_deviation_m = 0.015;  // no collapse may cost more, per product
   std::vector<ProductAllowance> products;           // one for each product, or empty: all alike
   std::vector<std::uint64_t> further_budgets;       // of the shares 1, 2, …
+  bool hidden_faces = false;       // take away triangles that cannot be seen from anywhere (visibility.h); listed in the report
 };
 
 struct ProductLoss {
   std::uint64_t triangles_before = 0, triangles_after = 0;
-  double max_deviation_m = 0;      // sampled symmetric Hausdorff distance between the product before and after
+  double max_deviation_m = 0;      // symmetric Hausdorff distance between the product before and after, searched (deviation.h)
   double mean_deviation_m = 0;     // area-weighted, both directions
+  double mean_turn_rad = 0;        // area-weighted angle between the normals before and of what is nearest after, 0..π/2
 };
 
 struct OptimizeResult {
@@ -45,7 +47,7 @@ struct OptimizeResult {
   Report report;
 };
 
-// Planar regions are merged without loss, then a global budget is shared by cost over all shapes. What no beam meets (spaces)
+// Meshes that are the same but for a motion are shared and planar regions merged without loss, then a global budget is shared by cost over all shapes. What no beam meets (spaces)
 // neither counts nor changes. Deterministic.
 Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOptions& options, Progress& progress);
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
+
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace standpoint {
 
@@ -27,6 +30,11 @@ struct Quadric {
     return *this;
   }
 
+  void scale(double s) {
+    xx *= s, xy *= s, xz *= s, yy *= s, yz *= s, zz *= s;
+    bx *= s, by *= s, bz *= s, c *= s, weight *= s;
+  }
+
   double operator()(const Eigen::Vector3d& p) const {
     const double x = p.x(), y = p.y(), z = p.z();
     const double value = x * (xx * x + 2 * (xy * y + xz * z + bx)) + y * (yy * y + 2 * (yz * z + by)) + z * (zz * z + 2 * bz) + c;
@@ -45,6 +53,21 @@ struct Quadric {
     if (!(determinant > 0)) return start;
     return start + Eigen::Vector3d(m00 * r.x() + m01 * r.y() + m02 * r.z(), m01 * r.x() + m11 * r.y() + m12 * r.z(),
                                    m02 * r.x() + m12 * r.y() + m22 * r.z()) / determinant;
+  }
+
+  // The same among the points with normal.p = offset; where nothing tells, near `start`.
+  Eigen::Vector3d minimumInPlane(const Eigen::Vector3d& start, const Eigen::Vector3d& normal, double offset) const {
+    const double squared = normal.squaredNorm();
+    if (!(squared > 0)) return minimum(start);
+    const Eigen::Vector3d foot = start + normal * ((offset - normal.dot(start)) / squared);
+    const Eigen::Vector3d u = normal.unitOrthogonal(), v = normal.cross(u) / std::sqrt(squared);
+    const auto times = [&](const Eigen::Vector3d& p) { return Eigen::Vector3d(xx * p.x() + xy * p.y() + xz * p.z(), xy * p.x() + yy * p.y() + yz * p.z(), xz * p.x() + yz * p.y() + zz * p.z()); };
+    const Eigen::Vector3d r = -(times(foot) + Eigen::Vector3d(bx, by, bz)), au = times(u), av = times(v);
+    const double damping = 1e-6 * (xx + yy + zz) + 1e-300;
+    const double a = u.dot(au) + damping, b = u.dot(av), d = v.dot(av) + damping, ru = u.dot(r), rv = v.dot(r);
+    const double determinant = a * d - b * b;
+    if (!(determinant > 0)) return foot;
+    return foot + u * ((d * ru - b * rv) / determinant) + v * ((a * rv - b * ru) / determinant);
   }
 };
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-
-#include "optimizer/placed_surfaces.h"
+#include <tbb/parallel_reduce.h>
 
 namespace standpoint {
 
@@ -14,44 +14,65 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kMostCorners = 3'000'000;  // that are looked at for the maximum, each way
+constexpr std::size_t kMostVertices = 3'000'000;  // that are looked at for the maximum, each way
+constexpr int kSteps = 6;                         // along the edges of a long triangle
+constexpr std::size_t kChunk = 1024;              // points that one task looks at
 
 struct OneWay {
   double max_squared = 0, sum = 0;
   std::size_t count = 0;
+  double mean() const { return count > 0 ? sum / static_cast<double>(count) : 0; }
 };
 
-OneWay oneWay(const PlacedSurfaces& from, const PlacedSurfaces& to, const std::vector<bool>& unchanged, std::uint32_t samples, const Progress& progress) {
+// Which instances stand in the other environment as they stand in this one.
+std::vector<bool> unchanged(const Environment& here, const Environment& there) {
+  std::vector<bool> result;
+  auto other = there.instances.begin();
+  for (const auto& instance : here.instances) {  // both are sorted by product
+    while (other != there.instances.end() && other->product < instance.product) ++other;
+    bool found = false;
+    for (auto i = other; i != there.instances.end() && i->product == instance.product && !found; ++i)
+      found = there.meshes[i->mesh] == here.meshes[instance.mesh] && i->world_from_mesh.matrix() == instance.world_from_mesh.matrix();
+    result.push_back(found);
+  }
+  return result;
+}
+
+std::vector<std::uint32_t> countsByArea(const PlacedSurfaces& surfaces, std::uint32_t samples) {
   double all = 0;
-  for (std::size_t i = 0; i < from.instances(); ++i) all += from.area(i);
-  std::vector<std::uint32_t> counts(from.instances(), 0);
+  for (std::size_t i = 0; i < surfaces.instances(); ++i) all += surfaces.area(i);
+  std::vector<std::uint32_t> counts(surfaces.instances(), 0);
   double walked = 0;
   std::uint32_t given = 0;
   for (std::size_t i = 0; i < counts.size() && all > 0; ++i) {
-    walked += from.area(i);
+    walked += surfaces.area(i);
     const auto until = static_cast<std::uint32_t>(samples * std::min(1.0, walked / all) + 0.5);
     counts[i] = until - given;
     given = until;
   }
-  std::size_t corners = 0;
-  for (std::size_t i = 0; i < from.instances(); ++i) corners += unchanged[i] ? 0 : from.corners(i);
-  const std::size_t stride = 1 + corners / kMostCorners;
+  return counts;
+}
+
+OneWay ofPoints(const PlacedSurfaces& from, const PlacedSurfaces& to, const std::vector<bool>& same, std::uint32_t samples, const Progress& progress) {
+  const auto counts = countsByArea(from, samples);
   std::vector<OneWay> parts(from.instances());
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {  // each into its own slot, summed in order below
     if (progress.cancelled()) return;
-    if (unchanged[i]) {
+    if (same[i]) {
       parts[i].count = counts[i];
       return;
     }
-    for (const auto& p : from.points(i, counts[i])) {
-      const double squared = to.squaredDistance(p);
-      if (!std::isfinite(squared)) continue;  // nothing is left at all
-      parts[i].max_squared = std::max(parts[i].max_squared, squared);
-      parts[i].sum += std::sqrt(squared);
+    const auto points = from.points(i, counts[i]);
+    std::vector<double> squared(points.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kChunk), [&](const auto& range) {
+      for (auto k = range.begin(); k < range.end(); ++k) squared[k] = to.squaredDistance(points[k]);
+    });
+    for (const double s : squared) {
+      if (!std::isfinite(s)) continue;  // nothing is left at all
+      parts[i].max_squared = std::max(parts[i].max_squared, s);
+      parts[i].sum += std::sqrt(s);
       ++parts[i].count;
     }
-    for (std::size_t k = 0; k < from.corners(i); k += stride)
-      if (const double squared = to.squaredDistance(from.corner(i, k)); std::isfinite(squared)) parts[i].max_squared = std::max(parts[i].max_squared, squared);
   });
   OneWay result;
   for (const auto& part : parts) {
@@ -62,20 +83,45 @@ OneWay oneWay(const PlacedSurfaces& from, const PlacedSurfaces& to, const std::v
   return result;
 }
 
+// The largest squared distance of any vertex, or `known`, if none is further: most are settled by a surface that is near enough.
+double farthest(const PlacedSurfaces& from, const PlacedSurfaces& to, const std::vector<bool>& same, double known, const Progress& progress) {
+  std::size_t vertices = 0;
+  for (std::size_t i = 0; i < from.instances(); ++i) vertices += same[i] ? 0 : from.vertices(i);
+  const std::size_t stride = 1 + vertices / kMostVertices;
+  std::vector<double> parts(from.instances(), known);
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+    if (same[i] || progress.cancelled()) return;
+    parts[i] = tbb::parallel_reduce(tbb::blocked_range<std::size_t>(0, (from.vertices(i) + stride - 1) / stride, kChunk), known, [&](const auto& range, double most) {
+      for (auto k = range.begin(); k < range.end(); ++k)
+        if (const double s = to.squaredDistance(from.vertex(i, k * stride), most); std::isfinite(s)) most = std::max(most, s);
+      return most;
+    }, [](double a, double b) { return std::max(a, b); });  // the maximum is the same in any order
+    if (stride > 1) return;
+    for (std::size_t k = 0; k < from.triangles(i); ++k) {  // between its corners a long triangle may bulge away
+      const auto t = from.triangle(i, k);
+      if (std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()}) < 4 * parts[i]) continue;
+      for (int u = 0; u <= kSteps; ++u)
+        for (int v = 0; u + v <= kSteps; ++v) {
+          const Vector3d p = (t[0] * u + t[1] * v + t[2] * (kSteps - u - v)) / kSteps;
+          if (const double s = to.squaredDistance(p, parts[i]); std::isfinite(s)) parts[i] = std::max(parts[i], s);
+        }
+    }
+  });
+  return *std::max_element(parts.begin(), parts.end());
+}
+
 }  // namespace
 
-Deviation sceneDeviation(const Environment& before, const Environment& after, std::uint32_t samples, const Progress& progress) {
-  const PlacedSurfaces a(before), b(after);
-  const auto unchanged = [&](const Environment& environment) {
-    std::vector<bool> result;
-    for (const auto& instance : environment.instances) result.push_back(before.meshes[instance.mesh] == after.meshes[instance.mesh]);
-    return result;
-  };
-  const OneWay there = oneWay(a, b, unchanged(before), samples, progress), back = oneWay(b, a, unchanged(after), samples, progress);
+Deviation sceneDeviation(const Environment& before, const Environment& after, std::uint32_t samples, const std::vector<PlacedSurfaces::Known>& known, const Progress& progress) {
+  if (before.instances.empty() || after.instances.empty()) return {};
+  const PlacedSurfaces a(before, known), b(after);
+  const auto same_before = unchanged(before, after), same_after = unchanged(after, before);
+  const OneWay there = ofPoints(a, b, same_before, samples, progress), back = ofPoints(b, a, same_after, samples, progress);
+  double max_squared = std::max(there.max_squared, back.max_squared);
+  max_squared = farthest(a, b, same_before, farthest(b, a, same_after, max_squared, progress), progress);
   Deviation result;
-  result.max_m = std::sqrt(std::max(there.max_squared, back.max_squared));
-  const auto mean = [](const OneWay& way) { return way.count > 0 ? way.sum / static_cast<double>(way.count) : 0; };
-  result.mean_m = 0.5 * (mean(there) + mean(back));
+  result.max_m = std::sqrt(max_squared);
+  result.mean_m = 0.5 * (there.mean() + back.mean());
   for (std::size_t i = 0; i < a.instances(); ++i) result.area_m2 += a.area(i);
   return result;
 }

@@ -6,23 +6,30 @@
 #include <numeric>
 #include <tuple>
 
+#include <tbb/parallel_sort.h>
+
 namespace standpoint {
 
 namespace {
 
 constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
 
-// For each position the first one at the same place.
-std::vector<std::uint32_t> firstAtPlace(const std::vector<Eigen::Vector3f>& positions) {
-  std::vector<std::uint32_t> order(positions.size());
+// For each position the first one with an equal key.
+template <class Key>
+std::vector<std::uint32_t> firstWithKey(std::size_t count, Key key) {
+  std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0U);
-  const auto key = [&](std::uint32_t i) { return std::tuple(positions[i].x(), positions[i].y(), positions[i].z()); };
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
-  std::vector<std::uint32_t> first(positions.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    first[order[i]] = i > 0 && key(order[i - 1]) == key(order[i]) ? first[order[i - 1]] : order[i];
+  tbb::parallel_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
+  std::vector<std::uint32_t> first(count);
+  for (std::size_t i = 0; i < count; ++i) first[order[i]] = i > 0 && key(order[i - 1]) == key(order[i]) ? first[order[i - 1]] : order[i];
   return first;
+}
+
+auto placeOf(const Mesh& mesh, std::uint32_t i) { return std::tuple(mesh.positions[i].x(), mesh.positions[i].y(), mesh.positions[i].z()); }
+
+auto paintOf(const Mesh& mesh, std::uint32_t i) {
+  const auto uv = mesh.texture_coordinates.empty() ? Eigen::Vector2f(0, 0) : mesh.texture_coordinates[i];
+  return std::tuple(uv.x(), uv.y(), mesh.colours.empty() ? std::array<std::uint8_t, 4>{} : mesh.colours[i]);
 }
 
 // Keeps the first of triangles that are equal up to rotation and have the same surface.
@@ -34,16 +41,18 @@ void removeRepetitions(Shape& shape) {
   };
   std::vector<std::uint32_t> order(shape.triangles.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return turned(a) < turned(b); });
+  tbb::parallel_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return std::tuple(turned(a), a) < std::tuple(turned(b), b); });
   std::vector<bool> again(order.size(), false);
   for (std::size_t i = 1; i < order.size(); ++i) again[order[i]] = turned(order[i - 1]) == turned(order[i]);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (again[i]) continue;
     shape.triangles[kept] = shape.triangles[i];
+    if (!shape.wedges.empty()) shape.wedges[kept] = shape.wedges[i];
     shape.surface_of_triangle[kept++] = shape.surface_of_triangle[i];
   }
   shape.triangles.resize(kept);
+  if (!shape.wedges.empty()) shape.wedges.resize(kept);
   shape.surface_of_triangle.resize(kept);
 }
 
@@ -54,9 +63,13 @@ double Shape::rounding() const {
   return 2 * std::numeric_limits<float>::epsilon() * (centre.cwiseAbs() + half_size).maxCoeff();
 }
 
-Shape weld(const Mesh& mesh) {
+bool isPainted(const Mesh& mesh) { return !mesh.texture_coordinates.empty() || !mesh.colours.empty(); }
+
+Shape weld(const Mesh& mesh, WeldCounts* counts) {
   Shape shape;
-  const auto first = firstAtPlace(mesh.positions);
+  const auto first = firstWithKey(mesh.positions.size(), [&](std::uint32_t i) { return placeOf(mesh, i); });
+  std::vector<std::uint32_t> wedge;
+  if (isPainted(mesh)) wedge = firstWithKey(mesh.positions.size(), [&](std::uint32_t i) { return std::tuple(placeOf(mesh, i), paintOf(mesh, i)); });
   std::vector<std::uint32_t> index(mesh.positions.size(), kNone);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     Triangle t{};
@@ -71,8 +84,11 @@ Shape weld(const Mesh& mesh) {
     }
     shape.triangles.push_back(t);
     shape.surface_of_triangle.push_back(mesh.surface_of_triangle[i]);
+    if (!wedge.empty()) shape.wedges.push_back({wedge[mesh.triangles[i][0]], wedge[mesh.triangles[i][1]], wedge[mesh.triangles[i][2]]});
   }
+  const auto proper = shape.triangles.size();
   removeRepetitions(shape);
+  if (counts) *counts = {mesh.positions.size() - shape.positions.size(), mesh.triangles.size() - proper, proper - shape.triangles.size()};
   if (shape.positions.empty()) return shape;
   Eigen::Vector3d low = shape.positions[0], high = low;
   for (const auto& p : shape.positions) {

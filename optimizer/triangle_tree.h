@@ -26,18 +26,28 @@ class TriangleTree {
   // Squared distance from p to the nearest triangle, or `bound` when nothing is nearer than that.
   double squaredDistance(const Eigen::Vector3d& p, double bound = std::numeric_limits<double>::infinity()) const;
 
+  // The nearest triangle; none (the largest number) where nothing is nearer than the square root of `bound`. A search that only asks
+  // whether something is near may end at the first that is no further than the root of `enough`.
+  struct Near {
+    double squared = std::numeric_limits<double>::infinity();
+    std::uint32_t triangle = std::numeric_limits<std::uint32_t>::max();
+  };
+  Near nearestTriangle(const Eigen::Vector3d& p, double bound = std::numeric_limits<double>::infinity(), double enough = 0) const;
+
   // Whether p is on the side of its nearest triangle that the triangle faces.
   bool isOutside(const Eigen::Vector3d& p) const;
 
   // The same distance for whatever the triangles stand for: squared(triangle, bound) is asked for those whose box is nearer than bound.
   template <class Squared>
-  double nearest(const Eigen::Vector3d& p, double bound, Squared squared) const {
+  double nearest(const Eigen::Vector3d& p, double bound, Squared squared, double enough = 0) const {
     if (nodes_.empty()) return bound;
     struct Entry {
       double distance;
       std::uint32_t node;
     };
-    const auto to_box = [&](const Node& node) { return (node.low - p).cwiseMax(p - node.high).cwiseMax(0.0).squaredNorm(); };
+    const auto to_box = [&](const Node& node) {
+      return (node.low.cast<double>() - p).cwiseMax(p - node.high.cast<double>()).cwiseMax(0.0).squaredNorm();
+    };
     Entry stack[64];
     int top = 0;
     stack[top++] = {to_box(nodes_[0]), 0};
@@ -47,6 +57,7 @@ class TriangleTree {
       const Node& node = nodes_[entry.node];
       if (node.count > 0) {
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i) bound = std::min(bound, squared(order_[i], bound));
+        if (bound <= enough) return bound;
         continue;
       }
       Entry left{to_box(nodes_[node.first]), node.first}, right{to_box(nodes_[node.first + 1]), node.first + 1};
@@ -57,6 +68,45 @@ class TriangleTree {
     return bound;
   }
 
+  // How far along a ray (origin + t * direction) the first triangle is, or `reach`; for whatever the triangles stand for, hit(triangle, reach)
+  // is asked for t, or for anything not below `reach`, of those whose box the ray meets.
+  template <class Hit>
+  double alongRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double reach, Hit hit) const {
+    if (nodes_.empty()) return reach;
+    const Eigen::Vector3d inverse = direction.cwiseInverse();  // infinite along the axes, which slabs can do with
+    const auto enters = [&](const Node& node) {
+      double from = 0, to = reach;
+      for (int k = 0; k < 3; ++k) {
+        const double a = (static_cast<double>(node.low[k]) - origin[k]) * inverse[k], b = (static_cast<double>(node.high[k]) - origin[k]) * inverse[k];
+        from = std::max(from, std::min(a, b));  // a NaN (0 times infinity: on the slab's plane) leaves `from` as it is
+        to = std::min(to, std::max(a, b));
+      }
+      return from <= to ? from : std::numeric_limits<double>::infinity();
+    };
+    struct Entry {
+      double from;
+      std::uint32_t node;
+    };
+    Entry stack[64];
+    int top = 0;
+    stack[top++] = {enters(nodes_[0]), 0};
+    while (top > 0) {
+      const Entry entry = stack[--top];
+      if (!(entry.from < reach)) continue;
+      const Node& node = nodes_[entry.node];
+      if (node.count > 0) {
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) reach = std::min(reach, hit(order_[i], reach));
+        continue;
+      }
+      Entry left{enters(nodes_[node.first]), node.first}, right{enters(nodes_[node.first + 1]), node.first + 1};
+      if (left.from < right.from) std::swap(left, right);
+      stack[top++] = left;
+      stack[top++] = right;  // the nearer one is looked at first
+    }
+    return reach;
+  }
+  double firstHit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double reach) const;
+
   // Calls visit(triangle index) for each triangle whose box meets [low, high]; stops when visit returns false.
   template <class Visit>
   void inBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high, Visit visit) const {
@@ -66,7 +116,7 @@ class TriangleTree {
     stack[top++] = 0;
     while (top > 0) {
       const Node& node = nodes_[stack[--top]];
-      if ((node.low.array() > high.array()).any() || (node.high.array() < low.array()).any()) continue;
+      if ((node.low.cast<double>().array() > high.array()).any() || (node.high.cast<double>().array() < low.array()).any()) continue;
       if (node.count > 0) {
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
           if (meetsBox(order_[i], low, high) && !visit(order_[i])) return;
@@ -79,12 +129,17 @@ class TriangleTree {
 
  private:
   struct Node {
-    Eigen::Vector3d low, high;
+    Eigen::Vector3f low, high;  // rounded outward
     std::uint32_t first = 0;  // of the children, or of the leaf's triangles in order_
     std::uint32_t count = 0;  // 0: inner node
   };
+  struct Item {
+    Eigen::Vector3f centre;
+    std::uint32_t triangle;
+  };
+  void build(std::uint32_t node, std::uint32_t below, std::vector<Item>& items);
   bool meetsBox(std::uint32_t triangle, const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
-  void fit(Node& node) const;
+  void fitLeaf(Node& node) const;
 
   std::span<const Eigen::Vector3d> positions_;
   std::span<const Triangle> triangles_;

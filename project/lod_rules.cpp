@@ -6,6 +6,7 @@
 
 #include "materials/json_file.h"
 #include "materials/materials.h"
+#include "optimizer/visibility.h"
 
 namespace standpoint {
 
@@ -42,7 +43,7 @@ Result<void> readFlag(const json& object, const JsonPlace& at, const char* key, 
 }
 
 Result<LodRule> readRule(const json& entry, const JsonPlace& at) {
-  if (auto known = checkKeys(entry, at, {"reason", "products", "smaller_than_m", "thinner_than_m", "drop", "keep", "max_deviation_m", "weight"}); !known)
+  if (auto known = checkKeys(entry, at, {"reason", "products", "smaller_than_m", "thinner_than_m", "sees_sky_less_than", "drop", "keep", "max_deviation_m", "weight"}); !known)
     return failure(known.error());
   LodRule rule;
   auto reason = readText(entry, at, "reason");
@@ -52,7 +53,7 @@ Result<LodRule> readRule(const json& entry, const JsonPlace& at) {
   if (!selectors) return failure(selectors.error());
   rule.products = *std::move(selectors);
   for (const auto& [key, field] : {std::pair{"smaller_than_m", &LodRule::smaller_than_m}, std::pair{"thinner_than_m", &LodRule::thinner_than_m},
-                                   std::pair{"max_deviation_m", &LodRule::max_deviation_m}})
+                                   std::pair{"sees_sky_less_than", &LodRule::sees_sky_less_than}, std::pair{"max_deviation_m", &LodRule::max_deviation_m}})
     if (auto read = readOptional(entry, at, key, rule.*field); !read) return failure(read.error());
   for (const auto& [key, field] : {std::pair{"drop", &LodRule::drop}, std::pair{"keep", &LodRule::keep}})
     if (auto read = readFlag(entry, at, key, rule.*field); !read) return failure(read.error());
@@ -66,7 +67,7 @@ Result<LodRule> readRule(const json& entry, const JsonPlace& at) {
 }
 
 Result<LodLevel> readLevel(const json& entry, const JsonPlace& at, const char* part) {
-  if (auto known = checkKeys(entry, at, {"part", "level", "budget", "max_deviation_m", "farther_than_m", "products", "rules"}); !known)
+  if (auto known = checkKeys(entry, at, {"part", "level", "budget", "max_deviation_m", "hidden_faces", "farther_than_m", "products", "rules"}); !known)
     return failure(known.error());
   LodLevel level;
   for (const auto& [key, field] : {std::pair{"part", &LodLevel::part}, std::pair{"level", &LodLevel::level}}) {
@@ -84,6 +85,8 @@ Result<LodLevel> readLevel(const json& entry, const JsonPlace& at, const char* p
   if (!deviation) return failure(deviation.error());
   level.max_deviation_m = *deviation;
   if (auto read = readOptional(entry, at, "farther_than_m", level.farther_than_m); !read) return failure(read.error());
+  if (auto read = readFlag(entry, at, "hidden_faces", level.hidden_faces); !read) return failure(read.error());
+  if (level.hidden_faces && level.part != "main") return (at / "hidden_faces").unusable("belongs to the main part, and is meant for the whole");
   auto selectors = readSelectors(entry, at);
   if (!selectors) return failure(selectors.error());
   level.products = *std::move(selectors);
@@ -137,6 +140,14 @@ bool fitsSize(const LodRule& rule, const Bounds& box) {
   return (!rule.smaller_than_m || box.diagonal() < *rule.smaller_than_m) && (!rule.thinner_than_m || edges.y() < *rule.thinner_than_m);
 }
 
+// Only where a rule asks for it, as it takes some million rays.
+std::vector<double> skySharesIfAsked(const Environment& environment, const std::vector<LodLevel>& levels) {
+  for (const auto& level : levels)
+    for (const auto& rule : level.rules)
+      if (rule.sees_sky_less_than) return skyShares(environment, Progress());
+  return std::vector<double>(environment.products.size(), 1);
+}
+
 }  // namespace
 
 Result<std::vector<LodLevel>> readLodRules(const std::filesystem::path& file) {
@@ -163,8 +174,11 @@ OptimizeOptions allowances(const Environment& environment, const std::vector<Lod
   OptimizeOptions options;
   options.budget = choice.budget.value_or(levels[0].budget);
   options.max_deviation_m = levels[0].max_deviation_m;
+  options.hidden_faces = levels[0].hidden_faces;
   options.further_budgets = {levels[1].budget};
   options.products.resize(environment.products.size());
+  const bool any_around = std::find(around.begin(), around.end(), true) != around.end();
+  const auto sky = any_around ? skySharesIfAsked(environment, levels) : skySharesIfAsked(environment, {levels[0]});
   for (std::uint32_t share = 0; share < 2; ++share) {
     const LodLevel& level = levels[share];
     std::vector<bool> decided(environment.products.size(), false);
@@ -178,6 +192,7 @@ OptimizeOptions allowances(const Environment& environment, const std::vector<Lod
       const auto meant = selected(environment, rule.products, true);
       for (std::size_t i = 0; i < decided.size(); ++i) {
         if (decided[i] || around[i] != (share == 1) || !meant[i] || !fitsSize(rule, boxes[i])) continue;
+        if (rule.sees_sky_less_than && !(sky[i] < *rule.sees_sky_less_than)) continue;
         decided[i] = true;
         ProductAllowance& allowance = options.products[i];
         allowance.max_deviation_m = rule.max_deviation_m.value_or(level.max_deviation_m);

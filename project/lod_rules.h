@@ -19,6 +19,7 @@ struct LodRule {
   std::vector<std::string> products;         // selectors, of which one must fit; empty = every product
   std::optional<double> smaller_than_m;      // the diagonal of its box
   std::optional<double> thinner_than_m;      // the middle one of its box's edges: the diameter of a pipe along an axis
+  std::optional<double> sees_sky_less_than;  // of the rays from its surface towards the sky this share gets there (visibility.h)
   bool drop = false;
   bool keep = false;
   std::optional<double> max_deviation_m;     // else that of the level
@@ -31,6 +32,7 @@ struct LodLevel {
   std::string level;                         // "LoD 300"
   std::uint64_t budget = 0;                  // placed triangles
   double max_deviation_m = 0;
+  bool hidden_faces = false;                 // triangles that cannot be seen from anywhere go; main only, for the whole environment
   std::optional<double> farther_than_m;      // surroundings only: what lies further than this from the main part's products …
   std::vector<std::string> products;         // … and what these selectors mean
   std::vector<LodRule> rules;

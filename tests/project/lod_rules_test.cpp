@@ -67,6 +67,21 @@ TEST(LodRules, TellSurroundingsByTheAuthorsSelectors) {
   EXPECT_EQ(options.products[0].share, 0U);
 }
 
+TEST(LodRules, DropOfTheSurroundingsWhatNeverSeesTheSky) {
+  Environment environment = street();
+  auto mesh = std::make_shared<Mesh>();  // a tent without a floor's edge to look under: a closed pyramid, and a triangle in it
+  mesh->positions = {{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}, {4.5F, 4.5F, 9}};
+  mesh->triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {0, 2, 1}, {0, 3, 2}};
+  mesh->surface_of_triangle.assign(6, 0);
+  add(environment, "IfcRoof", {60, 0, 0}, {1, 1, 1});
+  environment.meshes.back() = mesh;
+  add(environment, "IfcBuildingElementProxy", {64, 4, 1}, {1, 0.5, 1});
+  const auto options = allowances(environment, shipped(), {std::nullopt, {"#6", "#7"}});
+  EXPECT_FALSE(options.products[5].drop);
+  EXPECT_TRUE(options.products[6].drop);
+  EXPECT_EQ(options.products[6].reason, "what never sees the sky");
+}
+
 TEST(LodRules, TellSurroundingsByTheGapBetweenBuildings) {
   auto levels = shipped();
   levels[1].farther_than_m = 20;

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "optimizer/simplify.h"
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+
+#include "optimizer/budget.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr std::uint32_t kRoughSamples = 5000;
+constexpr std::size_t kRefineMin = 300, kRefineMost = 200'000;  // triangles of a form that is worth refining, and of one whose last steps are few enough
+
+// Largest first, so that the last threads do not wait for the largest.
+template <class Task>
+void forEachLargestFirst(std::vector<Work>& works, Progress& progress, Task task) {
+  std::vector<std::uint32_t> order(works.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return works[a].shape.triangles.size() > works[b].shape.triangles.size();
+  });
+  double all = 1;
+  for (const auto& work : works) all += 1 + static_cast<double>(work.shape.triangles.size());
+  std::atomic<std::uint64_t> done{0};
+  tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t k) {  // each task writes only its own Work
+    if (progress.cancelled()) return;
+    Work& work = works[order[k]];
+    task(work, order[k]);
+    const auto so_far = done += 1 + work.shape.triangles.size();
+    progress.advance(static_cast<double>(so_far) / all);
+  });
+}
+
+void takeLevel(Work& work, std::size_t taken, std::vector<std::uint32_t>& image) {
+  const auto steps = taken > 0 && work.levels.levels[taken - 1].stand_in < 0 ? work.levels.levels[taken - 1].collapses : 0;
+  work.steps.assign(work.levels.log.begin(), work.levels.log.begin() + steps);
+  work.lighter = atLevel(work.shape, work.levels, taken, image);
+}
+
+void measure(Work& work, const DeviationMeter& meter, std::size_t taken) {
+  std::vector<std::uint32_t> image;
+  takeLevel(work, taken, image);
+  work.deviation = taken > 0 ? meter.of(work.lighter, image) : meter.ofItself();
+}
+
+// The same count by steps that look at the surface as it is, which would not know seams. Only where that turns out nearer to the
+// original, and within the limit.
+bool refine(Work& work, const DeviationMeter& meter, std::uint32_t mesh, const Progress& progress) {
+  std::vector<std::uint32_t> image, refined_image;
+  takeLevel(work, work.taken, image);
+  const auto triangles = work.lighter.triangles.size();
+  if (work.lossless || work.steps.empty() || !work.shape.wedges.empty() || triangles < kRefineMin || triangles > kRefineMost || 2 * triangles > work.shape.triangles.size())
+    return false;
+  auto steps = refined(work.shape, work.levels.log, triangles, progress);
+  auto lighter = replay(work.shape, steps, steps.size(), &refined_image);
+  if (progress.cancelled() || lighter.triangles.empty() || lighter.triangles.size() > triangles || 100 * lighter.triangles.size() < 99 * triangles) return false;
+  const DeviationMeter rough(work.shape, *work.tree, kRoughSamples, mesh);
+  if (rough.roughlyOf(lighter, refined_image).mean_m >= rough.roughlyOf(work.lighter, image).mean_m) return false;
+  const auto deviation = meter.of(lighter, refined_image);
+  if (deviation.max_m > work.cap_m) return false;
+  work.steps = std::move(steps);
+  work.lighter = std::move(lighter);
+  work.deviation = deviation;
+  return true;
+}
+
+// The simplest level whose measured deviation stays within the limit. The log was made with a bound on each step's effect,
+// so that this is rarely needed; what counts is the measurement.
+void shrinkToDeviation(Work& work, const DeviationMeter& meter) {
+  std::size_t good = 0, bad = work.taken;
+  while (bad - good > 1) {
+    const std::size_t middle = good + (bad - good) / 2;
+    measure(work, meter, middle);
+    (work.deviation.max_m <= work.cap_m ? good : bad) = middle;
+  }
+  work.limit = good;
+  work.measured = false;
+}
+
+void shareOne(std::vector<Work>& works, std::uint32_t share, std::uint64_t budget) {
+  std::vector<Bidder> bidders;
+  std::vector<std::uint32_t> work_of_bidder;
+  bool lossless = false;
+  for (std::uint32_t i = 0; i < works.size(); ++i) {
+    const Work& work = works[i];
+    if (work.share != share) continue;
+    lossless = work.lossless;
+    bidders.push_back({&work.levels.levels, work.limit, work.shape.triangles.size(), work.copies, work.scale, work.weight});
+    work_of_bidder.push_back(i);
+  }
+  const auto taken = shareBudget(bidders, lossless ? 0 : budget);
+  for (std::size_t k = 0; k < bidders.size(); ++k) {
+    Work& work = works[work_of_bidder[k]];
+    if (taken[k] != work.taken) work.measured = false;
+    work.taken = taken[k];
+  }
+}
+
+void shareAll(std::vector<Work>& works, const OptimizeOptions& options) {
+  for (std::uint32_t share = 0; share <= options.further_budgets.size(); ++share) shareOne(works, share, budgetOf(options, share));
+}
+
+}  // namespace
+
+Result<void> simplify(std::vector<Work>& works, const OptimizeOptions& options, Progress& progress) {
+  progress.stage("Simplify", 0, 0.6);
+  forEachLargestFirst(works, progress, [&](Work& work, std::uint32_t mesh) {
+    if (work.copies == 0 || work.keep || !(work.scale > 0)) return;
+    work.tree = std::make_unique<TriangleTree>(work.shape.positions, work.shape.triangles);
+    work.levels = makeLevels(work.shape, *work.tree, {work.cap_m, work.lossless}, {work.scale, work.up}, mesh, progress);
+    work.limit = work.levels.levels.size();
+  });
+  progress.stage("Refine and measure", 0.6, 0.9);
+  for (bool settled = false; !settled;) {
+    if (auto going = progress.check(); !going) return going;
+    shareAll(works, options);
+    forEachLargestFirst(works, progress, [&](Work& work, std::uint32_t mesh) {
+      if (work.measured) return;
+      if (!work.tree) work.tree = std::make_unique<TriangleTree>(work.shape.positions, work.shape.triangles);
+      const DeviationMeter meter(work.shape, *work.tree, work.samples, mesh);
+      if (!refine(work, meter, mesh, progress)) measure(work, meter, work.taken);
+      work.measured = true;
+      if (!work.lossless && work.taken > 0 && work.deviation.max_m > work.cap_m) shrinkToDeviation(work, meter);
+    });
+    settled = std::all_of(works.begin(), works.end(), [](const Work& work) { return work.measured; });
+  }
+  return progress.check();
+}
+
+}  // namespace standpoint

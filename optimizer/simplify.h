@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "core/progress.h"
+#include "core/result.h"
+#include "optimizer/work.h"
+
+namespace standpoint {
+
+// Brings all works to the budgets of their shares: logs, shared by cost; then measured, and where a deviation is over its cap the
+// work's levels are cut and the budget is shared again. Large smooth shapes are refined (collapse.h).
+Result<void> simplify(std::vector<Work>& works, const OptimizeOptions& options, Progress& progress);
+
+}  // namespace standpoint
