@@ -11,7 +11,7 @@
 namespace standpoint {
 
 Editor::Editor(std::vector<Verb> verbs, std::function<void()> wake_up)
-    : session(std::move(verbs), wake_up), wake(std::move(wake_up)) {}
+    : session(std::move(verbs), wake_up), budget_preview(wake_up), wake(std::move(wake_up)) {}
 
 const Document& Editor::shownDocument() const {
   return preview.outcome() != nullptr ? preview.outcome()->document : session.document();
@@ -42,6 +42,10 @@ void Editor::update() {
   followPreview();
   startWaitingCloud();
   underlays.follow(session.document(), wake);
+  if (const auto asked = std::exchange(previewed_budget, std::nullopt); asked && session.document().imported)
+    budget_preview.want(session.document(), asked->second, asked->first);
+  else
+    budget_preview.drop();
   if (!session.document().lightening) {
     view.side = ModelSide::lighter;
     if (view.colour == ColourMode::deviation) view.colour = ColourMode::model;
@@ -150,8 +154,9 @@ ViewState Editor::viewState() const {
     state.colour = ColourMode::model;
     return state;
   }
+  if (const auto previewed = budget_preview.state().shown) state.environment = previewed;
   state.materials = document.materials;
-  if (const auto both = deviation.of(document); both && state.colour == ColourMode::deviation) state.deviation = both->lighter;
+  if (const auto both = deviation.of(document); both && state.colour == ColourMode::deviation && state.environment == document.environment()) state.deviation = both->lighter;
   if (view.walkable || view.shapes) state.collision = document.collision;
   state.hidden = visibility.shared();
   state.selected = selection.shared();

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "editor/model/budget_preview.h"
 #include "editor/model/camera.h"
 #include "editor/model/import_preview.h"
 #include "editor/model/cloud.h"
@@ -74,6 +75,8 @@ struct Editor {
   ImportPreview preview;
   Selection preview_selection;             // products of what the preview shows
   UnderlayView underlays;
+  BudgetPreview budget_preview;
+  std::optional<std::pair<std::uint64_t, double>> previewed_budget;   // with the deviation allowed; what a panel asks for
   DeviationView deviation;
   bool wants_deviation = false;            // a panel shows it
   std::deque<std::filesystem::path> waiting_clouds;   // dropped, each to become an underlay when the document is free

@@ -18,24 +18,6 @@ namespace standpoint {
 
 namespace {
 
-Environment withoutDropped(const Environment& environment, const OptimizeOptions& options) {
-  Environment rest = environment;
-  std::erase_if(rest.instances, [&](const Instance& instance) { return allowanceOf(options, instance.product).drop; });
-  return rest;
-}
-
-Result<void> check(const Environment& environment, const OptimizeOptions& options) {
-  const auto wrong = [](double deviation_m) { return !std::isfinite(deviation_m) || deviation_m < 0; };
-  if (wrong(options.max_deviation_m)) return failure(ErrorKind::usage, "the largest deviation must be zero or more metres", "max_deviation_m");
-  if (auto invalid = validate(environment); !invalid.empty()) return failure(ErrorKind::unusable, invalid, "environment");
-  if (!options.products.empty() && options.products.size() != environment.products.size())
-    return failure(ErrorKind::internal, "not one allowance for each product", "products");
-  for (const auto& a : options.products)
-    if (wrong(a.max_deviation_m) || !(a.weight > 0) || !std::isfinite(a.weight) || a.share > options.further_budgets.size())
-      return failure(ErrorKind::usage, "an allowance is out of range", a.lod + " " + a.reason);
-  return {};
-}
-
 void addIntangible(const Environment& environment, Environment& lighter) {
   for (const auto& instance : environment.instances)
     if (!environment.products[instance.product].inScene()) lighter.instances.push_back(instance);
@@ -111,8 +93,26 @@ Environment withDropped(const Environment& shared, const Environment& tangible, 
 
 }  // namespace
 
+Environment withoutDropped(const Environment& environment, const OptimizeOptions& options) {
+  Environment rest = environment;
+  std::erase_if(rest.instances, [&](const Instance& instance) { return allowanceOf(options, instance.product).drop; });
+  return rest;
+}
+
+Result<void> checkOptions(const Environment& environment, const OptimizeOptions& options) {
+  const auto wrong = [](double deviation_m) { return !std::isfinite(deviation_m) || deviation_m < 0; };
+  if (wrong(options.max_deviation_m)) return failure(ErrorKind::usage, "the largest deviation must be zero or more metres", "max_deviation_m");
+  if (auto invalid = validate(environment); !invalid.empty()) return failure(ErrorKind::unusable, invalid, "environment");
+  if (!options.products.empty() && options.products.size() != environment.products.size())
+    return failure(ErrorKind::internal, "not one allowance for each product", "products");
+  for (const auto& a : options.products)
+    if (wrong(a.max_deviation_m) || !(a.weight > 0) || !std::isfinite(a.weight) || a.share > options.further_budgets.size())
+      return failure(ErrorKind::usage, "an allowance is out of range", a.lod + " " + a.reason);
+  return {};
+}
+
 Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOptions& options, Progress& progress) {
-  if (auto checked = check(environment, options); !checked) return failure(checked.error());
+  if (auto checked = checkOptions(environment, options); !checked) return failure(checked.error());
   progress.stage("Find repetitions", 0, 0.1);
   const Environment tangible = sceneOf(environment);
   const Environment rest = withoutDropped(tangible, options);

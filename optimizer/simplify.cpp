@@ -102,20 +102,25 @@ void shareOne(std::vector<Work>& works, std::uint32_t share, std::uint64_t budge
   }
 }
 
+}  // namespace
+
 void shareAll(std::vector<Work>& works, const OptimizeOptions& options) {
   for (std::uint32_t share = 0; share <= options.further_budgets.size(); ++share) shareOne(works, share, budgetOf(options, share));
 }
 
-}  // namespace
-
-Result<void> simplify(std::vector<Work>& works, const OptimizeOptions& options, Progress& progress) {
-  progress.stage("Simplify", 0, 0.6);
+Result<void> makeAllLevels(std::vector<Work>& works, Progress& progress) {
   forEachLargestFirst(works, progress, [&](Work& work, std::uint32_t mesh) {
     if (work.copies == 0 || work.keep || !(work.scale > 0)) return;
     work.tree = std::make_unique<TriangleTree>(work.shape.positions, work.shape.triangles);
     work.levels = makeLevels(work.shape, *work.tree, {work.cap_m, work.lossless}, {work.scale, work.up}, mesh, progress);
     work.limit = work.levels.levels.size();
   });
+  return progress.check();
+}
+
+Result<void> simplify(std::vector<Work>& works, const OptimizeOptions& options, Progress& progress) {
+  progress.stage("Simplify", 0, 0.6);
+  if (auto made = makeAllLevels(works, progress); !made) return made;
   progress.stage("Refine and measure", 0.6, 0.9);
   for (bool settled = false; !settled;) {
     if (auto going = progress.check(); !going) return going;

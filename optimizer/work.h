@@ -44,6 +44,10 @@ inline double meanStretch(const Eigen::Affine3d& transform) { return std::cbrt(s
 ProductAllowance allowanceOf(const OptimizeOptions& options, std::uint32_t product);
 std::uint64_t budgetOf(const OptimizeOptions& options, std::uint32_t share);
 
+// Errors: usage where an option is out of range, unusable where the environment is.
+Result<void> checkOptions(const Environment& environment, const OptimizeOptions& options);
+Environment withoutDropped(const Environment& environment, const OptimizeOptions& options);
+
 // One for each mesh of the environment. Meshes that are the same but for a motion are found first (identical.h): the environment's instances
 // are led to the first of them. `residual_m` gets, for each instance, how far that moved any vertex.
 std::vector<Work> prepareWorks(Environment& environment, const OptimizeOptions& options, std::vector<double>& residual_m);

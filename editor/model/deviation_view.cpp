@@ -35,13 +35,13 @@ std::shared_ptr<DeviationField> fieldOf(const std::shared_ptr<const Environment>
   return field;
 }
 
-std::shared_ptr<const Deviation> compare(const std::shared_ptr<const Environment>& original, const std::shared_ptr<const Environment>& lighter,
+std::shared_ptr<const Comparison> compare(const std::shared_ptr<const Environment>& original, const std::shared_ptr<const Environment>& lighter,
                                          double limit_m, Progress& progress) {
   const auto lost = fieldOf(original, sceneOf(*lighter), progress), off = lost ? fieldOf(lighter, sceneOf(*original), progress) : nullptr;
   if (!off) return nullptr;
   const double most = std::max(largest(*lost), largest(*off));
   lost->full_scale_m = off->full_scale_m = std::max(1e-4, std::min(most, limit_m));
-  auto result = std::make_shared<Deviation>();
+  auto result = std::make_shared<Comparison>();
   count(*lost, result->histogram);
   count(*off, result->histogram);
   result->original = lost;
@@ -90,7 +90,7 @@ void DeviationView::follow(const Document& document, const std::function<void()>
   });
 }
 
-std::shared_ptr<const Deviation> DeviationView::of(const Document& document) const {
+std::shared_ptr<const Comparison> DeviationView::of(const Document& document) const {
   if (!done_.load() || !document.lightening || document.imported != original_ || document.lightening->environment != lighter_) return nullptr;
   return result_;
 }

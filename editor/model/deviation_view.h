@@ -26,7 +26,7 @@ struct DeviationHistogram {
   std::array<double, 8> area_m2 = {};
 };
 
-struct Deviation {
+struct Comparison {
   std::shared_ptr<const DeviationField> original, lighter;
   DeviationHistogram histogram;
 };
@@ -41,7 +41,7 @@ class DeviationView {
   // To be called when the document may have changed and the comparison is asked for.
   void follow(const Document& document, const std::function<void()>& wake);
   // Of this document; null until it is there.
-  std::shared_ptr<const Deviation> of(const Document& document) const;
+  std::shared_ptr<const Comparison> of(const Document& document) const;
   bool busy() const { return worker_.joinable() && !done_.load(); }
   void wait();
 
@@ -51,7 +51,7 @@ class DeviationView {
   std::unique_ptr<Progress> progress_;
   std::thread worker_;
   std::atomic<bool> done_{false};
-  std::shared_ptr<const Deviation> result_;
+  std::shared_ptr<const Comparison> result_;
 };
 
 }  // namespace standpoint

@@ -110,6 +110,17 @@ void drawWorst(Editor& editor, const Lightening& light) {
   ImGui::EndTable();
 }
 
+// Asks for the model at the sliders' budget, and says what has come of it.
+void drawPreview(Editor& editor, std::uint64_t budget) {
+  const auto& state = editor.panels.optimise;
+  if (!state.only_lossless) editor.previewed_budget = {std::max<std::uint64_t>(1, budget), state.max_deviation_mm / 1000};
+  const auto preview = editor.budget_preview.state();
+  if (!preview.error.empty()) ImGui::TextColored(colour(tone::kWarning), "%s  %s", ICON_WARNING, preview.error.c_str());
+  else if (preview.preparing || !preview.shown) ui::dimText("Preparing all levels …");
+  else if (preview.triangles > budget) ImGui::TextColored(colour(tone::kWarning), "%s  %s are the least with this deviation", ICON_WARNING, groupedDigits(preview.least).c_str());
+  else ui::dimText(fmt::format("The view shows {} triangles", groupedDigits(preview.triangles)));
+}
+
 }  // namespace
 
 void drawOptimisePanel(Editor& editor) {
@@ -137,10 +148,15 @@ void drawOptimisePanel(Editor& editor) {
       state.max_deviation_mm = deviation;
     ui::endProperties();
   }
+  ImGui::Checkbox("Show it at once", &state.live);
+  ui::tooltip("The view follows the sliders; only Optimise measures the result and keeps it");
+  if (state.live) drawPreview(editor, budget);
   ImGui::EndDisabled();
-  if (ui::primaryButton(ICON_COMPRESS "  Optimise###optimise", editor.session.whyNot("optimize"), {-FLT_MIN, 0}))
+  if (ui::primaryButton(ICON_COMPRESS "  Optimise###run-optimise", editor.session.whyNot("optimize"), {-FLT_MIN, 0})) {
+    state.live = false;
     editor.session.start("optimize", {{"budget", state.only_lossless ? 0 : std::max<std::uint64_t>(1, budget)}, {"max-deviation", state.max_deviation_mm / 1000}},
                          "Optimise the model");
+  }
   if (!document.lightening) return;
   drawResult(editor, *document.lightening);
   drawHistogram(editor);

@@ -41,6 +41,7 @@ struct OptimisePanelState {
   double budget_share = 0.25;       // of the imported model's triangles
   bool only_lossless = false;
   double max_deviation_mm = 15;
+  bool live = false;                // the view follows the sliders
 };
 
 struct CollisionPanelState {

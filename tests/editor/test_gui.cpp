@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <chrono>
+#include <cmath>
 #include <functional>
 #include <set>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -245,6 +248,34 @@ TEST_F(Gui, ShowsTheOriginalBesideTheLighterModelWithTheirDistances) {
   gui.frames(3);
   EXPECT_EQ(editor.view.side, ModelSide::lighter);
   EXPECT_EQ(editor.view.colour, ColourMode::model);
+}
+
+TEST_F(Gui, FollowsTheBudgetsSliderAtOnceAndForgetsItWhenOptimised) {
+  open();
+  editor.workspace = Workspace::model;
+  editor.wanted_tab[1] = "optimise";
+  editor.panels.optimise.live = true;
+  editor.panels.optimise.max_deviation_mm = 500;
+  const auto whole = sceneTriangleCount(*editor.environment());
+  const auto shownAt = [&](double share) -> std::uint64_t {
+    editor.panels.optimise.budget_share = share;
+    const auto budget = static_cast<std::uint64_t>(std::llround(share * static_cast<double>(whole)));
+    for (int i = 0; i < 400; ++i) {
+      gui.frame();
+      const auto state = editor.budget_preview.state();
+      if (state.shown && !state.preparing && state.triangles <= budget && state.triangles + 4 >= budget) return sceneTriangleCount(*editor.viewState().environment);
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return 0;
+  };
+  const auto half = shownAt(0.5), quarter = shownAt(0.25);
+  EXPECT_GT(half, quarter);
+  EXPECT_GT(quarter, 0U);
+  EXPECT_EQ(editor.session.document().lightening, nullptr) << "a look changes nothing";
+  ASSERT_TRUE(gui.click("###run-optimise"));
+  gui.settle();
+  EXPECT_FALSE(editor.panels.optimise.live);
+  EXPECT_EQ(editor.viewState().environment, editor.session.document().lightening->environment);
 }
 
 void closeEverything(Editor& editor, GuiDriver& gui) {
