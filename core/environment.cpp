@@ -107,13 +107,35 @@ bool isClosed(const Mesh& mesh) {
   return true;
 }
 
+namespace {
+
+// An exchange of axes, mirrored and scaled or not: boxes stay boxes.
+bool keepsAxes(const Eigen::Matrix3d& linear) {
+  for (int i = 0; i < 3; ++i)
+    if ((linear.row(i).array() != 0).count() != 1 || (linear.col(i).array() != 0).count() != 1) return false;
+  return true;
+}
+
+}  // namespace
+
 Bounds bounds(const Mesh& mesh, const Eigen::Affine3d& world_from_mesh) {
   Bounds result;
   std::vector<std::uint8_t> used(mesh.positions.size(), 0);   // not vector<bool>: bits are slow to set
   for (const auto& t : mesh.triangles)
     for (const auto index : t) used[index] = 1;
-  for (std::size_t i = 0; i < used.size(); ++i)
-    if (used[i]) result.extend(world_from_mesh * mesh.positions[i].cast<double>());
+  if (mesh.triangles.empty() || !keepsAxes(world_from_mesh.linear())) {
+    for (std::size_t i = 0; i < used.size(); ++i)
+      if (used[i]) result.extend(world_from_mesh * mesh.positions[i].cast<double>());
+    return result;
+  }
+  Eigen::Vector3f low = mesh.positions[mesh.triangles[0][0]], high = low;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    const Eigen::Vector3f& p = used[i] != 0 ? mesh.positions[i] : low;
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  result.extend(world_from_mesh * low.cast<double>());
+  result.extend(world_from_mesh * high.cast<double>());
   return result;
 }
 

@@ -82,5 +82,25 @@ TEST(Environment, RefusesInstancesOutOfOrder) {
   EXPECT_EQ(triangleCount(e), 24U);
 }
 
+TEST(Bounds, AreThoseOfEveryUsedCornerHoweverTheMeshStands) {
+  Mesh mesh;
+  mesh.positions = {{1, 2, 3}, {-4, 5, 0.5F}, {2, -1, 7}, {100, 100, 100}};   // nothing uses the last
+  mesh.triangles = {{0, 1, 2}};
+  mesh.surface_of_triangle = {0};
+  Eigen::Matrix3d y_up, mirrored;
+  y_up << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  mirrored << 0, -2, 0, 0.5, 0, 0, 0, 0, 3;
+  const Eigen::Matrix3d turned = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).matrix();
+  for (const Eigen::Matrix3d& linear : {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), y_up, mirrored, turned}) {
+    const Eigen::Affine3d placed = Eigen::Translation3d(1e6, -5, 0.25) * Eigen::Affine3d(linear);
+    Bounds expected;
+    for (std::size_t i = 0; i < 3; ++i) expected.extend(Eigen::Vector3d(placed * mesh.positions[i].cast<double>()));
+    const Bounds found = bounds(mesh, placed);
+    EXPECT_EQ(found.min, expected.min);
+    EXPECT_EQ(found.max, expected.max);
+  }
+  EXPECT_TRUE(bounds(Mesh(), Eigen::Affine3d::Identity()).empty());
+}
+
 }  // namespace
 }  // namespace standpoint
