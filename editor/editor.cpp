@@ -42,8 +42,8 @@ void Editor::update() {
   followPreview();
   startWaitingCloud();
   underlays.follow(session.document(), wake);
-  if (const auto asked = std::exchange(previewed_budget, std::nullopt); asked && session.document().imported)
-    budget_preview.want(session.document(), asked->second, asked->first);
+  if (const auto asked = std::exchange(previewed, std::nullopt); asked && session.document().imported)
+    budget_preview.want(session.document(), *asked);
   else
     budget_preview.drop();
   if (!session.document().lightening) {

@@ -76,7 +76,7 @@ struct Editor {
   Selection preview_selection;             // products of what the preview shows
   UnderlayView underlays;
   BudgetPreview budget_preview;
-  std::optional<std::pair<std::uint64_t, double>> previewed_budget;   // with the deviation allowed; what a panel asks for
+  std::optional<LighteningRequest> previewed;   // what a panel asks for
   DeviationView deviation;
   bool wants_deviation = false;            // a panel shows it
   std::deque<std::filesystem::path> waiting_clouds;   // dropped, each to become an underlay when the document is free

@@ -24,6 +24,8 @@ struct LighteningRequest {
   double max_deviation_m = 0.015;                    // where no rules say how far
   std::string lod_rules;                             // file, or "default"; empty: all products alike
   std::vector<std::string> surroundings;             // selectors
+  bool by_view = false;                              // errors weigh by what is seen from the walkable surface
+  bool operator==(const LighteningRequest&) const = default;
 };
 
 // What the optimizer did to reach the lighter environment.

@@ -56,7 +56,7 @@ Result<Levels> makeLevels(const Document& document, const std::vector<std::uint6
     LighteningRequest request;
     request.budget = budget;
     request.max_deviation_m = kNoLimit;
-    const auto plan = planLightening(document, request);
+    const auto plan = planLightening(document, request, progress);
     if (!plan) return failure(plan.error());
     auto lighter = optimize(*document.imported, plan->options, progress);
     if (!lighter) return failure(lighter.error());

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "optimizer/visibility.h"
 #include "project/answers.h"
 #include "project/treatments.h"
 
@@ -66,8 +67,10 @@ void reportTreatments(const Document& document, Report& report) {
 
 }  // namespace
 
-Result<LighteningPlan> planLightening(const Document& document, const LighteningRequest& request) {
+Result<LighteningPlan> planLightening(const Document& document, const LighteningRequest& request, const Progress& progress) {
   LighteningPlan plan;
+  if (request.by_view && !document.collision)
+    return failure(ErrorKind::usage, "what walkers see is told from the walkable surface: `collide` makes it", "--by-view");
   if (request.lod_rules.empty()) {
     plan.options.budget = request.budget.value_or(0);
     plan.options.max_deviation_m = request.max_deviation_m;
@@ -80,12 +83,13 @@ Result<LighteningPlan> planLightening(const Document& document, const Lightening
     plan.options = allowances(*document.imported, plan.levels, {request.budget, request.surroundings});
   }
   if (document.treatments) applyTreatments(*document.imported, *document.treatments, alikeName(plan.options), plan.options);
+  if (request.by_view) weighByView(plan.options, sceneOf(*document.imported), document.collision->walkable, progress);
   return plan;
 }
 
 Result<Outcome> optimizeDocument(const Document& document, const LighteningRequest& request, Progress& progress) {
   progress.stage("Optimise");
-  auto plan = planLightening(document, request);
+  auto plan = planLightening(document, request, progress);
   if (!plan) return failure(plan.error());
   const auto& options = plan->options;
   auto result = optimize(*document.imported, options, progress);
@@ -122,6 +126,7 @@ Result<Outcome> runOptimize(const Document& document, const json& options, Progr
   LighteningRequest request;
   if (options.contains("budget")) request.budget = options.at("budget").get<std::uint64_t>();
   request.max_deviation_m = options.at("max-deviation").get<double>();
+  request.by_view = options.value("by-view", false);
   request.lod_rules = options.value("lod", "");
   request.surroundings = options.value("surroundings", std::vector<std::string>{});
   return optimizeDocument(document, request, progress);

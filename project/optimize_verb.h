@@ -11,7 +11,7 @@ struct LighteningPlan {
   OptimizeOptions options;
   std::vector<LodLevel> levels;   // of the rules; empty without
 };
-Result<LighteningPlan> planLightening(const Document& document, const LighteningRequest& request);
+Result<LighteningPlan> planLightening(const Document& document, const LighteningRequest& request, const Progress& progress);
 
 Result<Outcome> optimizeDocument(const Document& document, const LighteningRequest& request, Progress& progress);
 Result<Outcome> runOptimize(const Document& document, const nlohmann::json& options, Progress& progress);

@@ -79,6 +79,7 @@ json lighteningToJson(const Lightening& l) {
   for (const auto& loss : l.products) losses.push_back(lossToJson(loss));
   json part = {{"max_deviation_m", l.request.max_deviation_m}, {"lod_rules", l.request.lod_rules}, {"surroundings", l.request.surroundings},
                {"all", lossToJson(l.all)}, {"products", losses}, {"levels", l.levels}};
+  if (l.request.by_view) part["by_view"] = true;
   if (l.request.budget) part["budget"] = *l.request.budget;
   return part;
 }
@@ -230,6 +231,7 @@ std::shared_ptr<const Lightening> lighteningFrom(const json& part, std::shared_p
   l.environment = std::move(environment);
   if (part.contains("budget")) l.request.budget = part.at("budget").get<std::uint64_t>();
   l.request.max_deviation_m = part.at("max_deviation_m");
+  l.request.by_view = part.value("by_view", false);
   l.request.lod_rules = part.value("lod_rules", "");
   l.request.surroundings = part.value("surroundings", std::vector<std::string>{});
   l.levels = part.value("levels", std::vector<std::string>{});   // not in the projects of the first version

@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "project/model_verbs.h"
 #include "project/treatments.h"
@@ -62,6 +61,8 @@ Result<void> follow(Document& document, Report& report, Progress& progress) {
   return {};
 }
 
+std::string nameOf(const Product* product) { return product->name.empty() ? product->id : product->name; }
+
 }  // namespace
 
 Result<Outcome> runTreat(const Document& document, const json& options, Progress& progress) {
@@ -82,10 +83,12 @@ Result<Outcome> runTreat(const Document& document, const json& options, Progress
     return failure(ErrorKind::usage, "limits are for products that are simplified: --as simplified", treatment.weight ? "--weight" : "--max-deviation");
   auto treatments = now;
   std::size_t count = 0;
+  const Product* last = nullptr;
   for (const auto& selector : selectors) {
     const auto meant = select(*document.imported, selector);
     if (meant.empty()) return failure(ErrorKind::usage, "no product is meant by it; #id, a GlobalId, class:IfcFurniture, name:*chair* and storey:… select", selector);
     count += meant.size();
+    last = &document.imported->products[meant.back()];
     treatment.selector = selector;
     treatments.push_back(treatment);
   }
@@ -99,9 +102,9 @@ Result<Outcome> runTreat(const Document& document, const json& options, Progress
   if (document.lightening && kind != TreatmentKind::excluded)
     outcome.report.note("optimize", "the lighter model follows when it is optimised again");
   outcome.answer = answerOf(*after.imported, *after.treatments);
-  const char* done = kind == TreatmentKind::excluded ? "Excluded" : kind == TreatmentKind::kept ? "Keep as they are:"
+  const char* done = kind == TreatmentKind::excluded ? "Excluded" : kind == TreatmentKind::kept ? "Keep as it is:"
                      : kind == TreatmentKind::simplified ? "Simplify within own limits:" : "By the rules again:";
-  outcome.description = fmt::format("{} {} products ({})", done, count, fmt::join(selectors, ", "));
+  outcome.description = fmt::format("{} {}", done, count == 1 ? nameOf(last) : fmt::format("{} products", count));
   return outcome;
 }
 

@@ -115,7 +115,9 @@ struct Update {
 
   Result<void> lightening(Progress& progress) {
     if (!before.lightening) return {};
-    auto light = optimizeDocument(outcome.document, before.lightening->request, progress);
+    auto request = before.lightening->request;
+    if (std::exchange(request.by_view, false)) outcome.report.note("optimize", "what walkers see of the changed model is not known yet: it does not weigh");
+    auto light = optimizeDocument(outcome.document, request, progress);
     if (!light) return failure(light.error());
     outcome.document.lightening = light->document.lightening;
     outcome.report.append(light->report);

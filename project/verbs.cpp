@@ -41,6 +41,7 @@ const std::vector<Verb>& table() {
       {"optimize", "Brings the model to a polygon budget and measures what that costs", S::changes,
        {{.name = "budget", .kind = K::integer, .help = "placed triangles in all; 0 merges planar regions only", .minimum = 0, .maximum = 1e12},
         {.name = "max-deviation", .kind = K::number, .help = "no surface may move further, where --lod does not say how far", .unit = "m", .standard = 0.015, .minimum = 0, .maximum = 1000},
+        {.name = "by-view", .kind = K::flag, .help = "what is seen from the walkable surface weighs more, what nobody sees less; after `collide`"},
         {.name = "lod", .kind = K::path, .help = "file of level-of-detail rules, or `default` for LoD 300 with surroundings of LoD 200"},
         {.name = "surroundings", .kind = K::list, .help = "selectors of what stands around the main model: #id, class:…, name:…, storey:…"}},
        runOptimize},

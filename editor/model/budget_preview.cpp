@@ -15,8 +15,8 @@ BudgetPreview::~BudgetPreview() {
   if (worker_.joinable()) worker_.join();
 }
 
-void BudgetPreview::want(const Document& document, double max_deviation_m, std::uint64_t budget) {
-  const Wish wish{document.imported, document.treatments, max_deviation_m, budget};
+void BudgetPreview::want(const Document& document, const LighteningRequest& request) {
+  const Wish wish{document.imported, document.treatments, request.by_view ? document.collision : nullptr, request};
   const std::lock_guard lock(mutex_);
   if (wish_ == wish) return;
   if (progress_ && wish_ && !wish_->sameModel(wish)) progress_->cancel();
@@ -51,10 +51,8 @@ void BudgetPreview::prepare(const Wish& wish) {
   Document document;
   document.imported = wish.imported;
   document.treatments = wish.treatments;
-  LighteningRequest request;
-  request.budget = 1;
-  request.max_deviation_m = wish.max_deviation_m;
-  const auto plan = planLightening(document, request);
+  document.collision = wish.collision;
+  const auto plan = planLightening(document, wish.request, *progress);
   auto made = plan ? OptimizePreview::prepare(wish.imported, plan->options, *progress) : failure(plan.error());
   const std::lock_guard lock(mutex_);
   progress_.reset();
@@ -88,7 +86,7 @@ void BudgetPreview::work() {
       if (wake_) wake_();
       continue;
     }
-    auto shown = preview_->at(wish.budget);
+    auto shown = preview_->at(wish.request.budget.value_or(1));
     {
       const std::lock_guard lock(mutex_);
       if (wish_ && wish_->sameModel(wish)) state_ = {false, shown, sceneTriangleCount(*shown), preview_->least(), {}};

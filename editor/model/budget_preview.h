@@ -20,7 +20,7 @@ class BudgetPreview {
   explicit BudgetPreview(std::function<void()> wake) : wake_(std::move(wake)) {}
   ~BudgetPreview();
   // Of the imported model with the document's treatments. Other limits, or another model, are prepared first.
-  void want(const Document& document, double max_deviation_m, std::uint64_t budget);
+  void want(const Document& document, const LighteningRequest& request);
   void drop();   // shows nothing and forgets what was prepared
 
   struct State {
@@ -35,9 +35,14 @@ class BudgetPreview {
   struct Wish {
     std::shared_ptr<const Environment> imported;
     std::shared_ptr<const std::vector<Treatment>> treatments;
-    double max_deviation_m = 0;
-    std::uint64_t budget = 0;
-    bool sameModel(const Wish& o) const { return imported == o.imported && treatments == o.treatments && max_deviation_m == o.max_deviation_m; }
+    std::shared_ptr<const CollideResult> collision;
+    LighteningRequest request;
+    // But for the budget.
+    bool sameModel(const Wish& o) const {
+      Wish other = o;
+      other.request.budget = request.budget;
+      return *this == other;
+    }
     bool operator==(const Wish&) const = default;
   };
   void work();

@@ -113,11 +113,17 @@ void drawWorst(Editor& editor, const Lightening& light) {
 // Asks for the model at the sliders' budget, and says what has come of it.
 void drawPreview(Editor& editor, std::uint64_t budget) {
   const auto& state = editor.panels.optimise;
-  if (!state.only_lossless) editor.previewed_budget = {std::max<std::uint64_t>(1, budget), state.max_deviation_mm / 1000};
+  if (!state.only_lossless) {
+    LighteningRequest request;
+    request.budget = std::max<std::uint64_t>(1, budget);
+    request.max_deviation_m = state.max_deviation_mm / 1000;
+    request.by_view = state.by_view && editor.session.document().collision;
+    editor.previewed = std::move(request);
+  }
   const auto preview = editor.budget_preview.state();
   if (!preview.error.empty()) ImGui::TextColored(colour(tone::kWarning), "%s  %s", ICON_WARNING, preview.error.c_str());
   else if (preview.preparing || !preview.shown) ui::dimText("Preparing all levels …");
-  else if (preview.triangles > budget) ImGui::TextColored(colour(tone::kWarning), "%s  %s are the least with this deviation", ICON_WARNING, groupedDigits(preview.least).c_str());
+  else if (preview.triangles > budget) ImGui::TextColored(colour(tone::kWarning), "%s  About %s are the least with this deviation", ICON_WARNING, groupedDigits(preview.least).c_str());
   else ui::dimText(fmt::format("The view shows {} triangles", groupedDigits(preview.triangles)));
 }
 
@@ -148,13 +154,18 @@ void drawOptimisePanel(Editor& editor) {
       state.max_deviation_mm = deviation;
     ui::endProperties();
   }
+  ImGui::BeginDisabled(!document.collision);
+  ImGui::Checkbox("More where walkers look", &state.by_view);
+  ImGui::EndDisabled();
+  ui::tooltip(document.collision ? "Errors weigh by what is seen from the walkable surface" : "Compute the collision shapes first (panel Collision)");
   ImGui::Checkbox("Show it at once", &state.live);
   ui::tooltip("The view follows the sliders; only Optimise measures the result and keeps it");
   if (state.live) drawPreview(editor, budget);
   ImGui::EndDisabled();
   if (ui::primaryButton(ICON_COMPRESS "  Optimise###run-optimise", editor.session.whyNot("optimize"), {-FLT_MIN, 0})) {
     state.live = false;
-    editor.session.start("optimize", {{"budget", state.only_lossless ? 0 : std::max<std::uint64_t>(1, budget)}, {"max-deviation", state.max_deviation_mm / 1000}},
+    editor.session.start("optimize", {{"budget", state.only_lossless ? 0 : std::max<std::uint64_t>(1, budget)}, {"max-deviation", state.max_deviation_mm / 1000},
+                                      {"by-view", state.by_view && document.collision != nullptr}},
                          "Optimise the model");
   }
   if (!document.lightening) return;

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "project/project_files.h"
+#include "tests/project/support.h"
+
+namespace standpoint {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+// The house of two rooms with two equal round tables: one in a room, one outside, far above every floor.
+Document furnished() {
+  auto document = twoStoreyDocument();
+  auto e = std::make_shared<Environment>(*document.imported);
+  auto ball = std::make_shared<Mesh>();
+  constexpr int kRings = 12, kSegments = 24;
+  for (int i = 0; i <= kRings; ++i)
+    for (int k = 0; k < kSegments; ++k) {
+      const double a = M_PI * i / kRings, b = 2 * M_PI * k / kSegments;
+      ball->positions.emplace_back(static_cast<float>(0.4 * std::sin(a) * std::cos(b)), static_cast<float>(0.4 * std::sin(a) * std::sin(b)), static_cast<float>(0.4 * std::cos(a)));
+    }
+  for (std::uint32_t i = 0; i < kRings; ++i)
+    for (std::uint32_t k = 0; k < kSegments; ++k) {
+      const std::uint32_t next = (k + 1) % kSegments, row = i * kSegments, below = row + kSegments;
+      ball->triangles.push_back({row + k, below + k, below + next});
+      ball->triangles.push_back({row + k, below + next, row + next});
+    }
+  ball->surface_of_triangle.assign(ball->triangles.size(), 0);
+  auto other = std::make_shared<Mesh>(*ball);
+  for (auto& p : other->positions) p.z() *= 1.001F;   // not to be found as the same
+  for (const auto& [id, mesh, at] : {std::tuple{"seen", ball, Eigen::Vector3d(1.5, 2, 1)}, std::tuple{"unseen", other, Eigen::Vector3d(3, 2, 50)}}) {
+    e->instances.push_back({static_cast<std::uint32_t>(e->meshes.size()), static_cast<std::uint32_t>(e->products.size()), Eigen::Affine3d(Eigen::Translation3d(at))});
+    e->products.emplace_back().id = id;
+    e->meshes.push_back(mesh);
+  }
+  document.imported = e;
+  return document;
+}
+
+TEST(OptimizeVerb, GivesMoreToWhatWalkersSee) {
+  auto document = furnished();
+  document = run("collide", document, json::object())->document;
+  const json options = {{"budget", 400}, {"max-deviation", 1}};
+  json by_view = options;
+  by_view["by-view"] = true;
+  const auto alike = run("optimize", document, options), seen = run("optimize", document, by_view);
+  ASSERT_TRUE(seen) << describe(seen.error());
+  const auto& even = alike->document.lightening->products;
+  const auto& weighed = seen->document.lightening->products;
+  const auto n = weighed.size();
+  EXPECT_NEAR(static_cast<double>(even[n - 2].triangles_after), static_cast<double>(even[n - 1].triangles_after), 30);
+  EXPECT_GT(weighed[n - 2].triangles_after, 2 * weighed[n - 1].triangles_after);
+  EXPECT_LE(seen->answer.at("triangles_after").get<int>(), 400);
+  const TemporaryFolder folder;
+  Progress progress;
+  ASSERT_TRUE(saveProject(seen->document, folder.path() / "p", progress));
+  EXPECT_TRUE(loadProject(folder.path() / "p", progress)->lightening->request.by_view);
+}
+
+TEST(OptimizeVerb, SaysThatWhatWalkersSeeNeedsCollisionShapes) {
+  const auto refused = run("optimize", twoStoreyDocument(), {{"budget", 100}, {"by-view", true}});
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(describe(refused.error()), HasSubstr("collide"));
+}
+
+}  // namespace
+}  // namespace standpoint
