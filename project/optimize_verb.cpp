@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/units.h"
 #include "optimizer/visibility.h"
 #include "project/answers.h"
 #include "project/treatments.h"
@@ -23,6 +24,7 @@ json toJson(const ProductLoss& loss, const std::string& lod) {
           {"triangles_after", loss.triangles_after},
           {"max_deviation_m", loss.max_deviation_m},
           {"mean_deviation_m", loss.mean_deviation_m},
+          {"mean_turn_deg", loss.mean_turn_rad / kRadPerDeg},
           {"lod", lod}};
 }
 

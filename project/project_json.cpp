@@ -69,10 +69,11 @@ Job jobFrom(const json& j) {
 }
 
 json lossToJson(const ProductLoss& l) {
-  return {l.triangles_before, l.triangles_after, l.max_deviation_m, l.mean_deviation_m};
+  return {l.triangles_before, l.triangles_after, l.max_deviation_m, l.mean_deviation_m, l.mean_turn_rad};
 }
 
-ProductLoss lossFrom(const json& j) { return {j.at(0), j.at(1), j.at(2), j.at(3)}; }
+// The turn of the normals came later.
+ProductLoss lossFrom(const json& j) { return {j.at(0), j.at(1), j.at(2), j.at(3), j.size() > 4 ? j.at(4).get<double>() : 0}; }
 
 json lighteningToJson(const Lightening& l) {
   json losses = json::array();

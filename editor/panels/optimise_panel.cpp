@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "core/units.h"
 #include "editor/editor.h"
 #include "editor/panels/panels_list.h"
 #include "editor/shell/icons.h"
@@ -25,6 +26,7 @@ void drawResult(Editor& editor, const Lightening& light) {
     ui::property("Triangles now", fmt::format("{}  ({:.1f} %)", groupedDigits(all.triangles_after), share * 100));
     ui::property("Largest deviation", fmt::format("{:.2f} mm", all.max_deviation_m * 1000));
     ui::property("Mean deviation", fmt::format("{:.3f} mm", all.mean_deviation_m * 1000));
+    ui::property("Normals turned by", fmt::format("{:.2f}° in the mean", all.mean_turn_rad / kRadPerDeg));
     ui::endProperties();
   }
   if (light.request.budget.value_or(0) > 0 && all.triangles_after > *light.request.budget)

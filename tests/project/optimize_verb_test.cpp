@@ -57,7 +57,10 @@ TEST(OptimizeVerb, GivesMoreToWhatWalkersSee) {
   const TemporaryFolder folder;
   Progress progress;
   ASSERT_TRUE(saveProject(seen->document, folder.path() / "p", progress));
-  EXPECT_TRUE(loadProject(folder.path() / "p", progress)->lightening->request.by_view);
+  const auto loaded = loadProject(folder.path() / "p", progress);
+  EXPECT_TRUE(loaded->lightening->request.by_view);
+  EXPECT_GT(seen->answer.at("mean_turn_deg").get<double>(), 0.1);   // a ball of fewer corners has other normals
+  EXPECT_EQ(loaded->lightening->all.mean_turn_rad, seen->document.lightening->all.mean_turn_rad);
 }
 
 TEST(OptimizeVerb, SaysThatWhatWalkersSeeNeedsCollisionShapes) {
