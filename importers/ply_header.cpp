@@ -2,7 +2,6 @@
 #include "importers/ply_header.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <string_view>
 
@@ -14,18 +13,6 @@ namespace {
 
 constexpr std::uint64_t kMaxHeader = 1U << 20U;
 constexpr std::size_t kMaxProperties = 1000;
-
-struct TypeName {
-  std::string_view name;
-  PlyType type;
-};
-constexpr std::array kTypes = {
-    TypeName{"char", PlyType::int8},      TypeName{"int8", PlyType::int8},       TypeName{"uchar", PlyType::uint8},
-    TypeName{"uint8", PlyType::uint8},    TypeName{"short", PlyType::int16},     TypeName{"int16", PlyType::int16},
-    TypeName{"ushort", PlyType::uint16},  TypeName{"uint16", PlyType::uint16},   TypeName{"int", PlyType::int32},
-    TypeName{"int32", PlyType::int32},    TypeName{"uint", PlyType::uint32},     TypeName{"uint32", PlyType::uint32},
-    TypeName{"float", PlyType::float32},  TypeName{"float32", PlyType::float32}, TypeName{"double", PlyType::float64},
-    TypeName{"float64", PlyType::float64}};
 
 std::vector<std::string> words(std::string_view line) {
   std::vector<std::string> result;
@@ -116,18 +103,12 @@ class HeaderReader {
     return {};
   }
 
-  static std::optional<PlyType> typeOf(const std::string& word) {
-    for (const auto& t : kTypes)
-      if (t.name == word) return t.type;
-    return std::nullopt;
-  }
-
   Result<void> property(const std::vector<std::string>& w) {
     if (out_.elements.empty()) return fault("a property stands before the first element");
     const bool list = w.size() == 5 && w[1] == "list";
     if (!list && w.size() != 3) return fault("a property needs a type and a name");
-    const auto type = typeOf(w[list ? 3 : 1]);
-    const auto count_type = list ? typeOf(w[2]) : std::nullopt;
+    const auto type = plyType(w[list ? 3 : 1]);
+    const auto count_type = list ? plyType(w[2]) : std::nullopt;
     if (!type || (list && !count_type)) return fault("the type of a property is none of PLY's");
     if (count_type == PlyType::float32 || count_type == PlyType::float64)
       return fault("a list is counted by a floating-point number");
@@ -144,20 +125,6 @@ class HeaderReader {
 };
 
 }  // namespace
-
-std::size_t sizeOf(PlyType type) {
-  switch (type) {
-    case PlyType::int8:
-    case PlyType::uint8: return 1;
-    case PlyType::int16:
-    case PlyType::uint16: return 2;
-    case PlyType::int32:
-    case PlyType::uint32:
-    case PlyType::float32: return 4;
-    case PlyType::float64: return 8;
-  }
-  return 8;
-}
 
 bool PlyElement::hasLists() const {
   return std::any_of(properties.begin(), properties.end(),

@@ -6,13 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "core/ply_number.h"
 #include "core/result.h"
 #include "importers/file_bytes.h"
 
 namespace standpoint {
-
-enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-std::size_t sizeOf(PlyType type);
 
 struct PlyProperty {
   std::string name;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "importers/ply_rows.h"
 
-#include <bit>
 #include <cmath>
-#include <type_traits>
 
 #include "importers/text_pieces.h"
 
@@ -12,17 +10,6 @@ namespace standpoint {
 namespace {
 
 constexpr std::size_t kPiece = 4U << 20U;
-
-template <class T>
-double number(const char* p, bool big_endian) {
-  std::conditional_t<sizeof(T) == 8, std::uint64_t, std::uint32_t> bits = 0;
-  for (unsigned i = 0; i < sizeof(T); ++i) {
-    const unsigned place = big_endian ? sizeof(T) - 1 - i : i;
-    bits |= static_cast<decltype(bits)>(static_cast<unsigned char>(p[i])) << 8U * place;
-  }
-  if constexpr (std::is_floating_point_v<T>) return std::bit_cast<T>(bits);
-  else return static_cast<T>(bits);
-}
 
 }  // namespace
 
@@ -62,28 +49,14 @@ tl::unexpected<Error> PlyRows::ended() const {
   return failure(ErrorKind::unusable, "the file ends here: it was cut off");
 }
 
-double PlyRows::decode(PlyType type, const char* p) const {
-  const bool big = header_.form == PlyForm::big_endian;
-  switch (type) {
-    case PlyType::int8: return number<std::int8_t>(p, big);
-    case PlyType::uint8: return number<std::uint8_t>(p, big);
-    case PlyType::int16: return number<std::int16_t>(p, big);
-    case PlyType::uint16: return number<std::uint16_t>(p, big);
-    case PlyType::int32: return number<std::int32_t>(p, big);
-    case PlyType::uint32: return number<std::uint32_t>(p, big);
-    case PlyType::float32: return number<float>(p, big);
-    case PlyType::float64: return number<double>(p, big);
-  }
-  return 0;
-}
-
 Result<void> PlyRows::binaryRow(const PlyElement& element, PlyRow& out) {
+  const bool big = header_.form == PlyForm::big_endian;
   for (const auto& property : element.properties) {
     double count = 1;
     if (property.count_type) {
       const char* p = stream_.take(sizeOf(*property.count_type));
       if (p == nullptr) return ended();
-      count = decode(*property.count_type, p);
+      count = plyNumber(*property.count_type, p, big);
       if (count < 0) return failure(ErrorKind::unusable, "a list has a negative count");
     }
     const auto n = static_cast<std::size_t>(count), size = sizeOf(property.type);
@@ -92,7 +65,7 @@ Result<void> PlyRows::binaryRow(const PlyElement& element, PlyRow& out) {
     out.sizes.push_back(n);
     const char* p = stream_.take(n * size);
     if (p == nullptr && n > 0) return ended();
-    for (std::size_t i = 0; i < n; ++i) out.values.push_back(decode(property.type, p + i * size));
+    for (std::size_t i = 0; i < n; ++i) out.values.push_back(plyNumber(property.type, p + i * size, big));
   }
   return {};
 }

@@ -35,7 +35,6 @@ class PlyRows {
   Result<void> textRow(const PlyElement& element, PlyRow& out);
   Result<void> value(PlyType type, double& out);
   Result<void> textValue(double& out);
-  double decode(PlyType type, const char* p) const;
   Result<void> refill();
   tl::unexpected<Error> ended() const;
 

@@ -12,18 +12,6 @@ namespace {
 constexpr std::size_t kMostElements = 100, kMostProperties = 1000;
 constexpr std::uint64_t kShortestVertex = 5;  // bytes of a line of text: "0 0 0"
 
-struct TypeName {
-  std::string_view name;
-  Type type;
-};
-constexpr std::array kTypes = {
-    TypeName{"char", Type::int8},      TypeName{"int8", Type::int8},       TypeName{"uchar", Type::uint8},
-    TypeName{"uint8", Type::uint8},    TypeName{"short", Type::int16},     TypeName{"int16", Type::int16},
-    TypeName{"ushort", Type::uint16},  TypeName{"uint16", Type::uint16},   TypeName{"int", Type::int32},
-    TypeName{"int32", Type::int32},    TypeName{"uint", Type::uint32},     TypeName{"uint32", Type::uint32},
-    TypeName{"float", Type::float32},  TypeName{"float32", Type::float32}, TypeName{"double", Type::float64},
-    TypeName{"float64", Type::float64}};
-
 struct Element {
   std::string name;
   std::uint64_t count = 0;
@@ -91,11 +79,11 @@ Result<void> HeaderReader::takeProperty(const std::vector<std::string_view>& par
   Element& element = elements_.back();
   if (parts.size() >= 5 && parts[1] == "list") return element.has_list = true, Result<void>{};
   if (parts.size() < 3) return broken("a property has a type and a name");
-  const auto type = std::find_if(kTypes.begin(), kTypes.end(), [&](const TypeName& t) { return t.name == parts[1]; });
-  if (type == kTypes.end()) return broken(std::string(parts[1]) + " is no type of a property");
+  const auto type = plyType(parts[1]);
+  if (!type) return broken(std::string(parts[1]) + " is no type of a property");
   if (element.properties.size() == kMostProperties) return broken("an element has too many properties");
-  element.properties.push_back({std::string(parts[2]), type->type, element.bytes});
-  element.bytes += bytesOf(type->type);
+  element.properties.push_back({std::string(parts[2]), *type, element.bytes});
+  element.bytes += sizeOf(*type);
   return {};
 }
 
@@ -183,11 +171,6 @@ Result<Header> HeaderReader::read() {
 }
 
 }  // namespace
-
-std::size_t bytesOf(Type type) {
-  constexpr std::array<std::size_t, 8> kBytes = {1, 1, 2, 2, 4, 4, 4, 8};
-  return kBytes[static_cast<std::size_t>(type)];
-}
 
 Result<Header> readHeader(LineReader& lines) { return HeaderReader(lines).read(); }
 

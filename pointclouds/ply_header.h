@@ -7,17 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "core/ply_number.h"
 #include "pointclouds/line_reader.h"
 
 namespace standpoint::ply {
 
 enum class Encoding { ascii, little_endian, big_endian };
-enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-std::size_t bytesOf(Type type);
 
 struct Property {
   std::string name;
-  Type type = Type::float32;
+  PlyType type = PlyType::float32;
   std::size_t at = 0;            // in a binary vertex
 };
 

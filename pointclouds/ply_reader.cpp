@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "pointclouds/local_points.h"
@@ -14,38 +12,14 @@
 namespace standpoint::ply {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "bytes of big-endian files are turned around");
-
 constexpr std::uint64_t kChunk = 65536, kChunkBytes = 8 << 20;
 
-template <class T>
-double load(const std::uint8_t* from, bool turned) {
-  std::array<std::uint8_t, sizeof(T)> bytes;
-  std::memcpy(bytes.data(), from, sizeof(T));
-  if (turned) std::reverse(bytes.begin(), bytes.end());
-  return static_cast<double>(std::bit_cast<T>(bytes));
-}
-
-double load(Type type, const std::uint8_t* from, bool turned) {
-  switch (type) {
-    case Type::int8: return load<std::int8_t>(from, turned);
-    case Type::uint8: return load<std::uint8_t>(from, turned);
-    case Type::int16: return load<std::int16_t>(from, turned);
-    case Type::uint16: return load<std::uint16_t>(from, turned);
-    case Type::int32: return load<std::int32_t>(from, turned);
-    case Type::uint32: return load<std::uint32_t>(from, turned);
-    case Type::float32: return load<float>(from, turned);
-    case Type::float64: return load<double>(from, turned);
-  }
-  return 0;
-}
-
-bool isReal(Type type) { return type == Type::float32 || type == Type::float64; }
+bool isReal(PlyType type) { return type == PlyType::float32 || type == PlyType::float64; }
 
 // Colours are bytes, 16 bits or shares of 1.
-double colourScale(Type type) {
+double colourScale(PlyType type) {
   if (isReal(type)) return 255;
-  return type == Type::uint16 ? 1.0 / 257 : 1;
+  return type == PlyType::uint16 ? 1.0 / 257 : 1;
 }
 
 void takeVertex(const std::vector<double>& values, const Header& header, FoundPoints& to) {
@@ -98,7 +72,7 @@ Result<void> Reading::readBinary(LocalPoints& local, Progress& progress) {
                      file->name() + " vertex " + std::to_string(done));
     for (std::uint64_t i = 0; i < count; ++i) {
       for (std::size_t k = 0; k < values.size(); ++k)
-        values[k] = load(header_.properties[k].type, bytes.data() + i * header_.vertex_bytes + header_.properties[k].at,
+        values[k] = plyNumber(header_.properties[k].type, bytes.data() + i * header_.vertex_bytes + header_.properties[k].at,
                          turned);
       takeVertex(values, header_, found);
     }
@@ -139,7 +113,7 @@ Result<void> Reading::readText(LocalPoints& local, Progress& progress) {
 
 Result<void> Reading::run(PointSink& sink, Report& report, Progress& progress) {
   const auto single = [&](std::size_t k) {
-    return header_.encoding != Encoding::ascii && header_.properties[header_.position[k]].type == Type::float32;
+    return header_.encoding != Encoding::ascii && header_.properties[header_.position[k]].type == PlyType::float32;
   };
   LocalPoints local(sink, scan_, !(single(0) && single(1) && single(2)));
   const auto read = header_.encoding == Encoding::ascii ? readText(local, progress) : readBinary(local, progress);
@@ -176,9 +150,9 @@ void listUnread(const Opened& opened, Report& report) {
 // What the type says; real numbers have to be looked at.
 Result<void> setIntensityLimits(const std::filesystem::path& path, Opened& opened, Progress& progress) {
   if (!opened.header.intensity) return {};
-  const Type type = opened.header.properties[*opened.header.intensity].type;
-  if (type == Type::uint8 || type == Type::uint16) {
-    opened.scan.intensity_max = type == Type::uint8 ? 255 : 65535;
+  const PlyType type = opened.header.properties[*opened.header.intensity].type;
+  if (type == PlyType::uint8 || type == PlyType::uint16) {
+    opened.scan.intensity_max = type == PlyType::uint8 ? 255 : 65535;
     return {};
   }
   IntensityRange range;
