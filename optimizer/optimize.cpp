@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "core/unused_meshes.h"
 #include "optimizer/losses.h"
 #include "optimizer/paint.h"
 #include "optimizer/scene_deviation.h"
@@ -64,17 +65,6 @@ Environment assemble(const Environment& shared, const std::vector<Work>& works) 
   });
   std::erase_if(result.instances, [&](const Instance& instance) { return works[instance.mesh].dropped(); });
   return result;
-}
-
-void dropUnused(Environment& environment) {
-  constexpr auto kNone = static_cast<std::uint32_t>(-1);
-  std::vector<std::uint32_t> index(environment.meshes.size(), kNone);
-  for (const auto& instance : environment.instances) index[instance.mesh] = 0;
-  std::uint32_t kept = 0;
-  for (std::size_t i = 0; i < index.size(); ++i)
-    if (index[i] != kNone) environment.meshes[kept] = std::move(environment.meshes[i]), index[i] = kept++;
-  environment.meshes.resize(kept);
-  for (auto& instance : environment.instances) instance.mesh = index[instance.mesh];
 }
 
 void countTriangles(const Environment& tangible, OptimizeResult& result) {
@@ -140,7 +130,7 @@ Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOp
   if (auto going = progress.check(); !going) return failure(going.error());
   checkBudgets(works, options, result);
   addIntangible(environment, result.environment);
-  dropUnused(result.environment);
+  dropUnusedMeshes(result.environment);
   return result;
 }
 

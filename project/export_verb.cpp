@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/unused_meshes.h"
 #include "importers/importers.h"
 #include "project/answers.h"
 #include "project/file_verbs.h"
@@ -75,19 +76,6 @@ Result<Levels> makeLevels(const Document& document, const std::vector<std::uint6
   return result;
 }
 
-// The scene without the meshes that nothing shows any more.
-Environment shownOf(const Environment& environment) {
-  Environment scene = sceneOf(environment);
-  std::vector<std::uint32_t> now(scene.meshes.size(), 0);
-  for (const auto& instance : scene.instances) now[instance.mesh] = 1;
-  std::vector<std::shared_ptr<const Mesh>> meshes;
-  for (std::size_t i = 0; i < now.size(); ++i)
-    if (std::exchange(now[i], static_cast<std::uint32_t>(meshes.size())) != 0) meshes.push_back(scene.meshes[i]);
-  for (auto& instance : scene.instances) instance.mesh = now[instance.mesh];
-  scene.meshes = std::move(meshes);
-  return scene;
-}
-
 GltfCollision collisionOf(const CollideResult& collision, const Environment& shapes, const std::string& naming) {
   GltfCollision result{&shapes, {}, naming == "unreal" ? CollisionNaming::unreal : naming == "godot" ? CollisionNaming::godot : CollisionNaming::physics};
   for (const auto& shape : collision.shapes) result.convex.push_back(shape.kind != CollisionShapeKind::mesh);
@@ -124,7 +112,8 @@ Result<Outcome> runExport(const Document& document, const json& options, Progres
     return failure(ErrorKind::usage, fmt::format("'{}' cannot be written; there is .glb, .gltf and .obj", extension), "--output");
   if (!gltf && (options.contains("levels") || options.contains("collision")))
     return failure(ErrorKind::usage, "levels of detail and collision shapes go into .glb or .gltf only", "--output");
-  const Environment scene = shownOf(*document.environment());
+  Environment scene = sceneOf(*document.environment());
+  dropUnusedMeshes(scene);
   Outcome outcome{document, {{"file", file.string()}, {"triangles", triangleCount(scene)}}, {}, {}};
   auto written = gltf ? exportGltf(document, scene, file, options, outcome, progress)
                       : writeEnvironmentObj(scene, *document.georeference, file, progress);
