@@ -40,41 +40,17 @@ class TriangleTree {
   // The same distance for whatever the triangles stand for: squared(triangle, bound) is asked for those whose box is nearer than bound.
   template <class Squared>
   double nearest(const Eigen::Vector3d& p, double bound, Squared squared, double enough = 0) const {
-    if (nodes_.empty()) return bound;
-    struct Entry {
-      double distance;
-      std::uint32_t node;
-    };
-    const auto to_box = [&](const Node& node) {
+    return nearFirst(bound, enough, squared, [&](const Node& node) {
       return (node.low.cast<double>() - p).cwiseMax(p - node.high.cast<double>()).cwiseMax(0.0).squaredNorm();
-    };
-    Entry stack[64];
-    int top = 0;
-    stack[top++] = {to_box(nodes_[0]), 0};
-    while (top > 0) {
-      const Entry entry = stack[--top];
-      if (entry.distance >= bound) continue;
-      const Node& node = nodes_[entry.node];
-      if (node.count > 0) {
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) bound = std::min(bound, squared(order_[i], bound));
-        if (bound <= enough) return bound;
-        continue;
-      }
-      Entry left{to_box(nodes_[node.first]), node.first}, right{to_box(nodes_[node.first + 1]), node.first + 1};
-      if (left.distance < right.distance) std::swap(left, right);
-      stack[top++] = left;
-      stack[top++] = right;  // the nearer one is looked at first
-    }
-    return bound;
+    });
   }
 
   // How far along a ray (origin + t * direction) the first triangle is, or `reach`; for whatever the triangles stand for, hit(triangle, reach)
   // is asked for t, or for anything not below `reach`, of those whose box the ray meets.
   template <class Hit>
   double alongRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double reach, Hit hit) const {
-    if (nodes_.empty()) return reach;
     const Eigen::Vector3d inverse = direction.cwiseInverse();  // infinite along the axes, which slabs can do with
-    const auto enters = [&](const Node& node) {
+    return nearFirst(reach, -std::numeric_limits<double>::infinity(), hit, [&, reach](const Node& node) {
       double from = 0, to = reach;
       for (int k = 0; k < 3; ++k) {
         const double a = (static_cast<double>(node.low[k]) - origin[k]) * inverse[k], b = (static_cast<double>(node.high[k]) - origin[k]) * inverse[k];
@@ -82,28 +58,7 @@ class TriangleTree {
         to = std::min(to, std::max(a, b));
       }
       return from <= to ? from : std::numeric_limits<double>::infinity();
-    };
-    struct Entry {
-      double from;
-      std::uint32_t node;
-    };
-    Entry stack[64];
-    int top = 0;
-    stack[top++] = {enters(nodes_[0]), 0};
-    while (top > 0) {
-      const Entry entry = stack[--top];
-      if (!(entry.from < reach)) continue;
-      const Node& node = nodes_[entry.node];
-      if (node.count > 0) {
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) reach = std::min(reach, hit(order_[i], reach));
-        continue;
-      }
-      Entry left{enters(nodes_[node.first]), node.first}, right{enters(nodes_[node.first + 1]), node.first + 1};
-      if (left.from < right.from) std::swap(left, right);
-      stack[top++] = left;
-      stack[top++] = right;  // the nearer one is looked at first
-    }
-    return reach;
+    });
   }
   double firstHit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double reach) const;
 
@@ -137,6 +92,35 @@ class TriangleTree {
     Eigen::Vector3f centre;
     std::uint32_t triangle;
   };
+  // The least that cost(triangle, bound) gives, or `bound`, over the triangles of all nodes that from(node) puts below it, those nearer first;
+  // ends at the first that is not above `enough`.
+  template <class Cost, class From>
+  double nearFirst(double bound, double enough, Cost cost, From from) const {
+    if (nodes_.empty()) return bound;
+    struct Entry {
+      double from;
+      std::uint32_t node;
+    };
+    Entry stack[64];
+    int top = 0;
+    stack[top++] = {from(nodes_[0]), 0};
+    while (top > 0) {
+      const Entry entry = stack[--top];
+      if (!(entry.from < bound)) continue;
+      const Node& node = nodes_[entry.node];
+      if (node.count > 0) {
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) bound = std::min(bound, cost(order_[i], bound));
+        if (bound <= enough) return bound;
+        continue;
+      }
+      Entry left{from(nodes_[node.first]), node.first}, right{from(nodes_[node.first + 1]), node.first + 1};
+      if (left.from < right.from) std::swap(left, right);
+      stack[top++] = left;
+      stack[top++] = right;  // the nearer one is looked at first
+    }
+    return bound;
+  }
+
   void build(std::uint32_t node, std::uint32_t below, std::vector<Item>& items);
   bool meetsBox(std::uint32_t triangle, const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
   void fitLeaf(Node& node) const;
