@@ -73,9 +73,7 @@ Result<Outcome> runTreat(const Document& document, const json& options, Progress
     return Outcome{document, answerOf(*document.imported, now), {}, {}};
   }
   if (!options.contains("as")) return failure(ErrorKind::usage, "say how they are treated: excluded, kept, simplified or rules", "--as");
-  const auto as = options.at("as").get<std::string>();
-  const auto kind = as == "excluded" ? TreatmentKind::excluded : as == "kept" ? TreatmentKind::kept
-                    : as == "simplified" ? TreatmentKind::simplified : TreatmentKind::as_rules;
+  const auto kind = treatmentKind(options.at("as"));
   Treatment treatment{{}, kind, {}, {}};
   if (options.contains("max-deviation")) treatment.max_deviation_m = options.at("max-deviation").get<double>();
   if (options.contains("weight")) treatment.weight = options.at("weight").get<double>();

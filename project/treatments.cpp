@@ -58,6 +58,11 @@ constexpr std::array kKinds = {"rules", "excluded", "kept", "simplified"};
 
 }  // namespace
 
+TreatmentKind treatmentKind(const std::string& word) {
+  const auto kind = std::find(kKinds.begin(), kKinds.end(), word);
+  return kind == kKinds.end() ? TreatmentKind::as_rules : static_cast<TreatmentKind>(kind - kKinds.begin());
+}
+
 json treatmentsToJson(const std::vector<Treatment>& treatments) {
   json rows = json::array();
   for (const auto& t : treatments) {
@@ -74,8 +79,7 @@ std::vector<Treatment> treatmentsFrom(const json& rows) {
   for (const auto& row : rows) {
     Treatment t;
     t.selector = row.at("products");
-    const auto kind = std::find(kKinds.begin(), kKinds.end(), row.at("as").get<std::string>());
-    t.kind = kind == kKinds.end() ? TreatmentKind::as_rules : static_cast<TreatmentKind>(kind - kKinds.begin());
+    t.kind = treatmentKind(row.at("as"));
     if (row.contains("max_deviation_m")) t.max_deviation_m = row.at("max_deviation_m").get<double>();
     if (row.contains("weight")) t.weight = row.at("weight").get<double>();
     treatments.push_back(std::move(t));

@@ -22,6 +22,9 @@ std::shared_ptr<const Environment> withExclusions(const std::shared_ptr<const En
 void applyTreatments(const Environment& environment, const std::vector<Treatment>& treatments, const std::string& alike,
                      OptimizeOptions& options);
 
+// "excluded", "kept", "simplified"; "rules" and whatever else takes back.
+TreatmentKind treatmentKind(const std::string& word);
+
 nlohmann::json treatmentsToJson(const std::vector<Treatment>& treatments);
 std::vector<Treatment> treatmentsFrom(const nlohmann::json& rows);  // throws nlohmann's exceptions
 
