@@ -59,6 +59,7 @@ class Expectation {
   Expectation(std::shared_ptr<const RayScene> scene, std::shared_ptr<const MaterialAssignment> assignment, ReturnLaw law);
   ExpectedReturn from(const Eigen::Vector3d& station, const SurfacePlace& place) const;
   const Optics& opticsAt(std::uint32_t product, std::uint32_t surface) const;
+  const RayScene& scene() const { return *scene_; }
   const ReturnLaw& law() const { return law_; }
 
  private:
