@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kKnots = 12, kFewestCells = 8;
 constexpr int kReweightings = 15, kSweeps = 400;
 constexpr double kHuber = 1.345, kStiffness = 1e-3;
-constexpr double kBeyond_db = 1;
+constexpr double kBeyond_db = 1, kClearlyLess = 0.5;
 constexpr double kStraight_db = 0.25;   // to which the curve is called a straight line
 
 double medianAbsolute(std::vector<double> values) {
@@ -136,16 +136,17 @@ double IntensityScale::dbAt(double figure) const {
 }
 
 std::string IntensityScale::describe() const {
-  std::vector<double> x, y;   // without the outermost knots, which few cells hold
+  std::vector<double> plain, lg, y;   // without the outermost knots, which few cells hold
   for (std::size_t k = 1; k + 1 < measured.size(); ++k) {
-    x.push_back(logarithmic ? std::log10(std::max(measured[k], 1e-12)) : measured[k]);
+    plain.push_back(measured[k]);
+    lg.push_back(std::log10(std::max(measured[k], 1e-12)));
     y.push_back(db[k]);
   }
-  double slope = 0;
-  const double off = offLine(x, y, slope);
+  double slope = 0, lg_slope = 0;
+  const double off = offLine(plain, y, slope), lg_off = measured.front() > 0 ? offLine(lg, y, lg_slope) : off;
   char text[96];
-  if (off > kStraight_db || !(slope > 0)) return "another rising curve";
-  if (logarithmic) std::snprintf(text, sizeof text, "power law: measured ~ power^%.2f", 10 / slope);
+  if (std::min(off, lg_off) > kStraight_db || !(slope > 0)) return "another rising curve";
+  if (lg_off < kClearlyLess * off) std::snprintf(text, sizeof text, "power law: measured ~ power^%.2f", 10 / lg_slope);
   else std::snprintf(text, sizeof text, "linear in dB: %.4g per dB", 1 / slope);
   return text;
 }

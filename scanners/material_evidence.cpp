@@ -40,6 +40,7 @@ class Comparison {
 
   Result<MaterialComparison> run(Progress& progress) {
     cells_ = evidenceCells(returns_, options_, result_, is_used_);
+    set_aside_.assign(groups_.size(), false);
     first_cell_.assign(groups_.size() + 1, 0);
     for (const auto& cell : cells_) ++first_cell_[cell.group + 1];
     for (std::size_t g = 0; g < groups_.size(); ++g) first_cell_[g + 1] += first_cell_[g];
@@ -48,6 +49,11 @@ class Comparison {
     if (!fitScale()) return std::move(result_);
     judgeGroups();
     findLevel();
+    // What a wrong surface loses with the incidence is wrong, too: once more without those.
+    if (setOddAside() && fitScale()) {
+      judgeGroups();
+      findLevel();
+    }
     spread();
     if (auto go_on = progress.check(); !go_on) return failure(go_on.error());
     progress.advance(0.8);
@@ -67,7 +73,10 @@ class Comparison {
     return result_.scale.dbAt(cell.measured) + result_.level_db - expectedDb(cell, optics);
   }
   // Of what a group is said to be; panes are no measure of anything.
-  bool holdsScale(std::uint32_t group) const { return groups_[group].material >= 0 && !opticsOfGroup(group).transparent; }
+  bool holdsScale(std::uint32_t group) const {
+    return groups_[group].material >= 0 && !opticsOfGroup(group).transparent && !set_aside_[group];
+  }
+  bool setOddAside();
 
   std::vector<IntensityCell> scaleCells(bool range_compensated, bool by_material) const;
   bool fitScale();
@@ -89,6 +98,7 @@ class Comparison {
   std::vector<EvidenceCell> cells_;
   std::vector<std::size_t> first_cell_;   // of each group, and the end
   std::vector<bool> is_used_;
+  std::vector<bool> set_aside_;           // groups that the scale is not fitted to
   MaterialComparison result_;
 };
 
@@ -163,7 +173,18 @@ GroupEvidence Comparison::judged(std::uint32_t group) const {
   return e;
 }
 
+bool Comparison::setOddAside() {
+  if (!result_.no_verdict.empty()) return false;
+  bool any = false;
+  for (const auto& m : result_.materials)
+    for (const auto& g : m.groups)
+      if (g.supported && !g.agrees && holdsScale(g.group)) any = set_aside_[g.group] = true;
+  return any;
+}
+
 void Comparison::judgeGroups() {
+  result_.materials.clear();
+  result_.level_db = 0;
   std::map<std::int32_t, MaterialEvidence> by_material;
   for (std::uint32_t g = 0; g < groups_.size(); ++g) {
     if (first_cell_[g] == first_cell_[g + 1]) continue;
@@ -182,14 +203,14 @@ double materialOff(const MaterialEvidence& evidence) {
   return weightedMedian(off);
 }
 
-// The constant on which most materials agree, weighed by the root of their points.
+// The constant on which most materials agree. A large one counts for more, but hardly: it is wrong as easily.
 void Comparison::findLevel() {
   std::vector<Weighted> off;
   for (const auto& m : result_.materials)
     if (m.supported && m.material >= 0 && !optics_[static_cast<std::size_t>(m.material)].transparent) {
       double points = 0;
       for (const auto& g : m.groups) points += g.supported ? static_cast<double>(g.points) : 0;
-      off.push_back({materialOff(m), std::sqrt(points)});
+      off.push_back({materialOff(m), std::pow(points, 0.25)});
     }
   double most = 0, all = 0;
   std::vector<Weighted> agreeing;

@@ -79,8 +79,8 @@ struct EvidenceOptions {
 };
 
 // Compares what was measured with what the library's materials would send back. The vendor's scale is unknown: it is
-// fitted within surfaces (intensity_scale.h), and its constant is where most materials agree; so one wrong material
-// stands out, two thirds of wrong ones do not.
+// fitted within surfaces (intensity_scale.h), and its constant is where most materials agree: a wrong material stands out
+// where most are right.
 Result<MaterialComparison> compareMaterials(const std::vector<MeasuredReturn>& returns, const std::vector<SurfaceGroup>& groups,
                                             const std::vector<PhysicalMaterial>& library, const Instrument& instrument,
                                             const EvidenceOptions& options, Progress& progress);

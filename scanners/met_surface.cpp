@@ -22,7 +22,7 @@ bool isEdge(const RayScene& scene, const Eigen::Vector3d& station, const Eigen::
     const Eigen::Vector3d way = point + beside - station;
     const auto hit = scene.intersect(station, way.normalized(), std::numeric_limits<double>::infinity());
     if (!hit || hit->product != met.product || hit->surface != met.surface) return true;
-    if (std::abs(met.normal.dot(hit->position - point) + met.off_m) > edge_m / 2) return true;
+    if (std::abs(met.normal.dot(hit->position - point) - met.off_m) > edge_m / 2) return true;
   }
   return false;
 }
