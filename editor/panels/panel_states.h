@@ -12,6 +12,7 @@
 #include "editor/model/log.h"
 #include "editor/model/option_form.h"
 #include "editor/model/outliner_rows.h"
+#include "editor/model/verification_view.h"
 #include "project/geodesy.h"
 #include "scanners/instrument.h"
 
@@ -36,6 +37,13 @@ struct MaterialsPanelState {
   std::string chosen;               // material id; "" with chosen_unassigned
   bool chosen_unassigned = false;
   int incidence_deg = 0;            // of the card's readings
+};
+
+struct VerifyPanelState {
+  std::string underlay, instrument; // instrument "": as the cloud says
+  std::string chosen;               // material id
+  std::uint64_t seen_revision = ~0ULL;
+  VerificationView view;            // of that revision
 };
 
 struct OptimisePanelState {
@@ -97,6 +105,7 @@ struct PanelStates {
   OutlinerPanelState outliner;
   InspectorPanelState inspector;
   MaterialsPanelState materials;
+  VerifyPanelState verify;
   OptimisePanelState optimise;
   CollisionPanelState collision;
   GeoreferencePanelState georeference;
