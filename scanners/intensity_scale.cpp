@@ -175,8 +175,15 @@ IntensityScale fitIntensityScale(const std::vector<IntensityCell>& cells, bool l
       weight[i] = problem.weight[i] * std::min(1.0, kHuber * std::max(scatter, 1e-3) / std::max(1e-12, std::abs(residual[i])));
   }
   scale.scatter_db = scatter;
-  const double left = scatter / std::max(scale.spread_db, 1e-9);
-  scale.explained = std::clamp(1 - left * left, 0.0, 1.0);
+  // By all cells, outliers too, and for what is left free: a dozen steps follow a few cells of any noise.
+  centre(problem, problem.weight, rows, expected);
+  residual = expected - rows * steps;
+  std::vector<bool> has_cells(problem.groups, false);
+  for (const auto g : problem.group) has_cells[g] = true;
+  const double free = static_cast<double>(problem.group.size()) - static_cast<double>(std::count(has_cells.begin(), has_cells.end(), true));
+  const double left = problem.weight.dot(residual.cwiseAbs2()) / std::max(1e-9, free - static_cast<double>(steps.size()));
+  const double all = problem.weight.dot(expected.cwiseAbs2()) / std::max(1e-9, free);
+  scale.explained = free > static_cast<double>(steps.size()) && all > 0 ? std::clamp(1 - left / all, 0.0, 1.0) : 0;
   scale.db = {0};
   for (Eigen::Index k = 0; k < steps.size(); ++k) scale.db.push_back(scale.db.back() + steps[k]);
   return scale;
