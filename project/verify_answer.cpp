@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "project/verify_answer.h"
 
-#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -39,6 +39,9 @@ const std::string& idOf(const VerifyFound& found, std::int32_t material) {
 json idOrNull(const VerifyFound& found, std::int32_t material) {
   return material < 0 ? json(nullptr) : json(idOf(found, material));
 }
+
+// Tenths, and never a negative zero.
+double tenths(double db) { return std::round(db * 10) / 10 + 0.0; }
 
 const Product& productOf(const VerifyFound& found, std::uint32_t group) {
   return found.document->environment()->products[found.measured.groups[group].product];
@@ -181,11 +184,12 @@ void tellVerified(const VerifyFound& found, Report& report) {
                                             c.scale.explained * 100, c.scale.scatter_db));
   for (const auto& m : c.materials)
     report.note(idOf(found, m.material),
-                fmt::format("{} points: {:+.1f} dB (quartiles {:+.1f}, {:+.1f}){}", m.points, m.off_db.median, m.off_db.lower,
-                            m.off_db.upper, !m.supported ? ", which is not enough to judge by" : m.agrees ? "" : ", does not agree"));
+                fmt::format("{} points: {:+.1f} dB (quartiles {:+.1f}, {:+.1f}){}", m.points, tenths(m.off_db.median),
+                            tenths(m.off_db.lower), tenths(m.off_db.upper), !m.supported ? ", which is not enough to judge by" : m.agrees ? "" : ", does not agree"));
   for (const auto& p : c.proposals)
     report.warn(idOf(found, p.material),
-                fmt::format("{} behaves like '{}': {}", p.whole_material ? "all that can be judged of it" : fmt::format("{} of its products", productIds(found, p.groups).size()),
+                fmt::format("{} behaves like '{}': {}",
+                            p.whole_material ? "all that can be judged of it" : fmt::format("{} of its products", productIds(found, p.groups).size()),
                             idOf(found, p.instead), evidenceOf(found, p)));
   if (!c.no_verdict.empty()) report.warn(found.underlay, "nothing is proposed: " + c.no_verdict);
 }

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <map>
 
-#include <fmt/format.h>
-
 namespace standpoint {
 
 namespace {
@@ -37,13 +35,11 @@ VerifiedMaterial materialFrom(const json& row, const std::map<std::string, std::
 VerifiedProposal proposalFrom(const json& row, const std::map<std::string, std::uint32_t>& by_id) {
   VerifiedProposal p;
   p.products = productsOf(row.at("products"), by_id);
-  const auto material = textOf(row.at("material"));
-  p.title = fmt::format("{}{} behaves like {}", material.empty() ? "Unassigned" : material,
-                        row.at("whole_material").get<bool>() ? "" : fmt::format(" ({} product{})", p.products.size(), p.products.size() == 1 ? "" : "s"),
-                        row.at("behaves_like").get<std::string>());
+  p.material = textOf(row.at("material"));
+  p.behaves_like = row.at("behaves_like");
+  p.alike = row.at("alike").get<std::vector<std::string>>();
+  p.whole_material = row.at("whole_material");
   p.evidence = row.at("evidence");
-  const auto alike = row.at("alike").get<std::vector<std::string>>();
-  if (!alike.empty()) p.alike = fmt::format("As well as: {}", fmt::join(alike, ", "));
   p.assign = row.at("assign");
   return p;
 }

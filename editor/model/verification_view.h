@@ -19,7 +19,10 @@ struct VerifiedMaterial {
   std::vector<std::uint32_t> products;
 };
 struct VerifiedProposal {
-  std::string title, evidence, alike;     // "stucco: like 'plaster_gypsum'"
+  std::string material, behaves_like;     // ids; "" = nothing is assigned
+  std::vector<std::string> alike;         // ids that explain it as well
+  bool whole_material = false;
+  std::string evidence;
   nlohmann::json assign;                  // for the verb `materials`
   std::vector<std::uint32_t> products;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -91,7 +92,7 @@ void drawMaterial(Editor& editor, const VerifiedMaterial& m, double reach_db) {
   ImGui::TableNextColumn();
   drawBox(editor, m, reach_db);
   ImGui::TableNextColumn();
-  ui::textRightAligned(m.judged ? fmt::format("{:+.1f}", m.off_db[2] == 0 ? 0.0 : m.off_db[2]) : "?");
+  ui::textRightAligned(m.judged ? fmt::format("{:+.1f}", std::round(m.off_db[2] * 10) / 10 + 0.0) : "?");
   ImGui::PopID();
 }
 
@@ -107,14 +108,21 @@ void drawMaterials(Editor& editor, const VerificationView& view) {
   ImGui::EndTable();
 }
 
+std::string titleOf(const Editor& editor, const VerifiedProposal& p) {
+  const auto count = p.whole_material ? std::string() : fmt::format(" ({} product{})", p.products.size(), p.products.size() == 1 ? "" : "s");
+  return fmt::format("{}{} behaves like {}", labelOf(editor, p.material), count, labelOf(editor, p.behaves_like));
+}
+
 void drawProposal(Editor& editor, const VerifiedProposal& p, int index) {
   ImGui::PushID(index);
   ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
   ImGui::SameLine();
-  ui::wrapped(p.title);
+  ui::wrapped(titleOf(editor, p));
   ImGui::PushTextWrapPos(0);
   ui::dimText(p.evidence);
-  if (!p.alike.empty()) ui::dimText(p.alike);
+  std::vector<std::string> alike;
+  for (const auto& id : p.alike) alike.push_back(labelOf(editor, id));
+  if (!alike.empty()) ui::dimText(fmt::format("As well as: {}", fmt::join(alike, "; ")));
   ImGui::PopTextWrapPos();
   if (ui::button(ICON_PAINT "  Assign###assign", editor.session.whyNot("materials"), {0, 0}, "Assigns it to these products; undo takes it back"))
     editor.session.start("materials", {{"assign", p.assign}}, "Assign what was measured");
