@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/face_normal.h"
+
 namespace standpoint {
 
 namespace {
@@ -28,12 +30,20 @@ ColumnTracer::ColumnTracer(const ScanPlan& plan) : plan_(plan), cache_(std::size
   std::fill_n(packet_.signal.gain, kSignalLanes, 1.0F);
 }
 
+std::int32_t ColumnTracer::materialAt(const Facet& facet) const {
+  if (plan_.assignment.faces.empty()) return materialOf(plan_.assignment, facet.product, facet.surface);
+  const Environment& environment = plan_.scene.environment();
+  const Instance& instance = environment.instances[facet.instance];
+  const Mesh& mesh = *environment.meshes[instance.mesh];
+  return materialOf(plan_.assignment, facet.product, facet.surface, placedNormal(mesh, mesh.triangles[facet.triangle], instance.world_from_mesh));
+}
+
 const ColumnTracer::Met& ColumnTracer::met(std::uint64_t number) {
   Met& entry = cache_[slot(number)];
   if (entry.number == number) return entry;
   entry.number = number;
   entry.facet = plan_.scene.facet(number);
-  const std::int32_t material = materialOf(plan_.assignment, entry.facet.product, entry.facet.surface);
+  const std::int32_t material = materialAt(entry.facet);
   const bool assigned = material >= 0;
   entry.material = assigned ? static_cast<std::uint32_t>(material) : plan_.unassignedLabel();
   entry.optics = &plan_.optics[assigned ? entry.material : entry.material + entry.facet.surface];
@@ -136,9 +146,10 @@ ColumnTracer::Target ColumnTracer::lookThrough(const Beam& beam, const NearestHi
       target.excess_m = excess;
       if (range >= plan_.instrument.min_range_m && (best.range_m < 0 || receivedPower(target) > receivedPower(best))) best = target;
       if (!surface.optics->transparent) break;
-      const double transmitted = slab(surface.optics->index, surface.optics->inner_transmittance, target.cosine).transmitted;
+      const SlabPower pane = slab(surface.optics->index, surface.optics->inner_transmittance, target.cosine);
+      const double transmitted = stack(pane, surface.optics->panes).transmitted;
       gain *= transmitted * transmitted;
-      excess += (surface.optics->index - 1) * surface.optics->thickness_m;
+      excess += surface.optics->panes * (surface.optics->index - 1) * surface.optics->thickness_m;
       inside_product = surface.facet.product;
       inside_front = front;
       inside_range = range;
