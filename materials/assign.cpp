@@ -7,6 +7,7 @@
 #include "core/face_normal.h"
 #include "materials/areas.h"
 #include "materials/checks.h"
+#include "materials/colour.h"
 #include "materials/findings.h"
 #include "materials/materials.h"
 #include "materials/override_table.h"
@@ -81,6 +82,10 @@ class Assigner {
 
   const PhysicalMaterial& material(std::int32_t index) const { return library_[static_cast<std::size_t>(index)]; }
 
+  const std::string& assignOf(const RuleMatcher::Decision& decision) const {
+    return rules_.rules[static_cast<std::size_t>(decision.rule)].assign;
+  }
+
   void byUser(int index, AssignedSurface& result) const {
     const auto& o = overrides_[static_cast<std::size_t>(index)];
     result.material = by_id_.at(o.material);
@@ -91,7 +96,11 @@ class Assigner {
   void byRules(const SurfaceOfProduct& pair, AssignedSurface& result) {
     const auto& product = environment_.products[pair.product];
     const auto& surface = environment_.surfaces[pair.surface];
-    const auto decision = matcher_.decide(product, surface);
+    asked_rules_ = true;
+    auto decision = matcher_.decide(product, surface);
+    // "Glass door" tells of a pane somewhere; this surface is not drawn as one.
+    if (decision.rule >= 0 && decision.named >= RuleMatcher::Named::type && !isTransparent(surface) && transmits(material(by_id_.at(assignOf(decision)))))
+      decision = matcher_.decide(product, surface, false);
     if (decision.rule < 0) return;
     const auto& rule = rules_.rules[static_cast<std::size_t>(decision.rule)];
     own_decided_ = own_decided_ || static_cast<std::size_t>(decision.rule) < rules_.own;
@@ -160,7 +169,7 @@ class Assigner {
       c.remedies = {{"Take it back", overrides_[i].selector, "rules"}};
       findings_.addAbout(std::move(c), overrides_[i].selector);
     }
-    if (rules_.own == 0 || own_decided_ || all_.area_m2 == 0) return;
+    if (rules_.own == 0 || own_decided_ || !asked_rules_) return;
     FindingCollector::Cause c;
     c.kind = "idle-rules";
     c.warning = true;
@@ -204,7 +213,7 @@ class Assigner {
   std::map<std::string, MaterialUse> uses_;
   CoverageRow all_;
   Rows by_class_, by_storey_;
-  bool own_decided_ = false;
+  bool own_decided_ = false, asked_rules_ = false;
 };
 
 }  // namespace

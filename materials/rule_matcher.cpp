@@ -11,8 +11,9 @@ namespace standpoint {
 
 namespace {
 
-// A type's name tells of the whole product ("Basic wall: brick 240"), not of this surface: it makes a weak rule at best.
-constexpr double kByType = 0.5;
+// A type's name tells of the whole product ("Basic wall: brick 240"), not of this surface: it makes a weak rule at best. The
+// product's own name ("Tree 3") as much again less.
+constexpr double kByNamed[] = {1, 1, 0.5, 0.4};
 
 bool within(const std::optional<ValueRange>& range, const std::optional<float>& value) {
   return !range || (value && *value >= range->from && *value <= range->to);
@@ -55,8 +56,8 @@ RuleMatcher::Known RuleMatcher::known(const std::string& name) {
 
 // The surface's own name where a rule knows it; else the product's materials, and of layers the outer ones first: what
 // lies between them meets no beam. Several materials that are no layers may each be anywhere ("Glass, Sash" of a
-// window), so none of them is taken for a surface. Last the type's name, but not for a pane.
-RuleMatcher::Decision RuleMatcher::knownMaterial(const Product& product, const Surface& surface, std::string_view band) {
+// window), so none of them is taken for a surface. Last the names of the type and of the product.
+RuleMatcher::Decision RuleMatcher::knownMaterial(const Product& product, const Surface& surface, bool by_names) {
   std::vector<std::pair<const std::string*, Named>> candidates{{&surface.name, Named::surface}};
   if (!product.layers.empty())
     for (const auto* layer : {&product.layers.front(), &product.layers.back()}) candidates.emplace_back(&layer->name, Named::product);
@@ -70,10 +71,13 @@ RuleMatcher::Decision RuleMatcher::knownMaterial(const Product& product, const S
         decision.named = named;
         return decision;
       }
-  if (band != "transparent" && product.materials.size() <= 1 && known(product.type_name) == Known::visible) {
-    decision.text = product.type_name;
-    decision.named = Named::type;
-  }
+  if (!by_names || isTransparent(surface) || product.materials.size() > 1) return decision;
+  for (const auto& [name, named] : {std::pair{&product.type_name, Named::type}, {&product.name, Named::name}})
+    if (known(*name) == Known::visible) {
+      decision.text = *name;
+      decision.named = named;
+      break;
+    }
   return decision;
 }
 
@@ -83,9 +87,9 @@ bool RuleMatcher::passesGroups(std::size_t rule, const Product& product) {
                      [&](const std::string& group) { return passes(groups_, &RulePatterns::group, group)[rule]; });
 }
 
-RuleMatcher::Decision RuleMatcher::decide(const Product& product, const Surface& surface) {
+RuleMatcher::Decision RuleMatcher::decide(const Product& product, const Surface& surface, bool by_names) {
   const auto band = colourBand(surface);
-  auto decision = knownMaterial(product, surface, band);
+  auto decision = knownMaterial(product, surface, by_names);
   const auto& by_class = passes(classes_, &RulePatterns::ifc_class, product.ifc_class);
   const auto& by_material = passes(materials_, &RulePatterns::material, decision.text);
   const auto& by_name = passes(names_, &RulePatterns::name, product.name);
@@ -97,7 +101,7 @@ RuleMatcher::Decision RuleMatcher::decide(const Product& product, const Surface&
     if (!rule.colour.empty() && (band.empty() || patterns_[i].colour.fit(band) < 0)) continue;
     if (!within(rule.metallic, surface.metallic) || !within(rule.roughness, surface.roughness) || !within(rule.transmission, surface.transmission)) continue;
     decision.rule = static_cast<std::int32_t>(i);
-    decision.confidence = rule.confidence * (decision.named == Named::type && !rule.material.empty() ? kByType : 1);
+    decision.confidence = rule.confidence * (rule.material.empty() ? 1 : kByNamed[static_cast<int>(decision.named)]);
     break;
   }
   return decision;
@@ -114,7 +118,7 @@ std::string RuleMatcher::reason(const Decision& decision, const Product& product
     return pattern.found(std::max(0, pattern.fit(plain)), plain);
   };
   if (!rule.material.empty()) {
-    constexpr const char* kFrom[] = {"material", "the product's material", "type"};
+    constexpr const char* kFrom[] = {"material", "the product's material", "type", "name"};
     add(fmt::format("{} '{}' ({})", kFrom[static_cast<int>(decision.named)], decision.text, found(patterns.material, decision.text)));
   }
   if (!rule.ifc_class.empty()) add("class " + product.ifc_class);

@@ -22,14 +22,15 @@ class RuleMatcher {
   RuleMatcher& operator=(const RuleMatcher&) = delete;
 
   // Where the name of the material that decided comes from.
-  enum class Named { surface, product, type };
+  enum class Named { surface, product, type, name };
   struct Decision {
     std::int32_t rule = -1;  // -1: none fits
     std::string text;        // the material's name that the rules were asked with; "" when no rule knows any name
     Named named = Named::surface;
     double confidence = 0;
   };
-  Decision decide(const Product& product, const Surface& surface);
+  // `by_names`: the names of the product and its type may say what it is made of, where nothing better does.
+  Decision decide(const Product& product, const Surface& surface, bool by_names = true);
 
   // "material 'Stahlbeton' (*beton*), rule 17 of default.json", for people; `text` as in the decision.
   std::string reason(const Decision& decision, const Product& product, const Surface& surface);
@@ -46,7 +47,7 @@ class RuleMatcher {
   // By the first rule that asks for a material and fits the name.
   enum class Known { no, hidden, visible };
   Known known(const std::string& material_name);
-  Decision knownMaterial(const Product& product, const Surface& surface, std::string_view band);
+  Decision knownMaterial(const Product& product, const Surface& surface, bool by_names);
 
   const RuleSet& set_;
   WordTable words_;

@@ -189,7 +189,7 @@ Result<RuleSet> parseAssignmentRules(const std::string& text, const std::string&
   }
   auto set = RulesReader(file_name, library, defaults.words).read(*content);
   if (!set) return set;
-  set->own = set->rules.size();
+  set->own = default_file.empty() ? 0 : set->rules.size();   // else they are the default rules themselves
   if (!*more) return set;
   // The default patterns keep the words that they were written with.
   for (const auto& [name, words] : defaults.words)

@@ -92,7 +92,7 @@ struct Builder {
     const auto index = static_cast<std::uint32_t>(environment.products.size());
     environment.products.emplace_back();
     auto& product = environment.products.back();
-    product.id = "#" + std::to_string(100 + index);
+    product.id = std::to_string(100 + index).insert(0, 1, '#');
     product.ifc_class = ifc_class;
     product.name = name;
     environment.meshes.push_back(unitSquares(std::move(surfaces)));
