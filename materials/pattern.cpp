@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "materials/pattern.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace standpoint {
@@ -149,7 +150,21 @@ std::string folded(std::string_view utf8) {
   return text;
 }
 
+std::uint64_t bytePairs(std::string_view text) {
+  std::uint64_t pairs = 0;
+  for (std::size_t i = 1; i < text.size(); ++i) {
+    const auto code = static_cast<std::uint64_t>(static_cast<unsigned char>(text[i - 1])) << 8U | static_cast<unsigned char>(text[i]);
+    pairs |= std::uint64_t{1} << (code * 0x9E3779B97F4A7C15ULL >> 58U);
+  }
+  return pairs;
+}
+
 Glob::Glob(std::string_view folded_glob) : glob_(folded_glob) {
+  for (std::size_t begin = 0; begin < glob_.size();) {   // between two signs that may stand for anything
+    const auto end = std::min(glob_.find_first_of("*?#<>", begin), glob_.size());
+    pairs_ |= bytePairs(std::string_view(glob_).substr(begin, end - begin));
+    begin = end + 1;
+  }
   if (glob_.find_first_of("<>") != std::string::npos) glob_ = '*' + glob_ + '*';
   const auto stars = glob_.size() > 2 && glob_.front() == '*' && glob_.back() == '*';
   inside_ = stars && glob_.find_first_of("*?#<>", 1) == glob_.size() - 1;
@@ -175,10 +190,10 @@ int WordTable::index(std::string_view name) const {
   return found == index_.end() ? -1 : found->second;
 }
 
-int WordTable::fit(int list, std::string_view folded_text) const {
+int WordTable::fit(int list, std::string_view folded_text, std::uint64_t pairs) const {
   const auto& words = lists_[static_cast<std::size_t>(list)];
   for (std::size_t i = 0; i < words.size(); ++i)
-    if (words[i].second.fits(folded_text)) return static_cast<int>(i);
+    if (words[i].second.fits(folded_text, pairs)) return static_cast<int>(i);
   return -1;
 }
 
@@ -203,7 +218,7 @@ const WordTable& Pattern::none() {
 
 int Pattern::wordIn(int list, Folded& text) const {
   auto& known = text.word_of_list[static_cast<std::size_t>(list)];
-  if (known == Folded::kNotAsked) known = words_->fit(list, text.text);
+  if (known == Folded::kNotAsked) known = words_->fit(list, text.text, text.pairs);
   return known;
 }
 
@@ -211,7 +226,7 @@ int Pattern::fit(Folded& text) const {
   for (std::size_t i = 0; i < alternatives_.size(); ++i) {
     bool all = true;
     for (const auto& term : alternatives_[i])
-      all = all && (term.list >= 0 ? wordIn(term.list, text) >= 0 : term.glob.fits(text.text)) != term.negated;
+      all = all && (term.list >= 0 ? wordIn(term.list, text) >= 0 : term.glob.fits(text.text, text.pairs)) != term.negated;
     if (all) return static_cast<int>(i);
   }
   return -1;

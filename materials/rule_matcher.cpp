@@ -27,6 +27,13 @@ RuleMatcher::RuleMatcher(const RuleSet& set) : set_(set), words_(set.words) {
     patterns_.push_back({pattern(rule.ifc_class), pattern(rule.material), pattern(rule.name), pattern(rule.type),
                          pattern(rule.storey), pattern(rule.group), pattern(rule.colour)});
   }
+  all_pass_.assign(patterns_.size(), true);
+  asks_name_ = asks(&RulePatterns::name);
+  asks_type_ = asks(&RulePatterns::type);
+}
+
+bool RuleMatcher::asks(Field field) const {
+  return std::any_of(patterns_.begin(), patterns_.end(), [&](const RulePatterns& rule) { return !(rule.*field).empty(); });
 }
 
 const std::vector<bool>& RuleMatcher::passes(Memo& memo, Field field, const std::string& text) {
@@ -92,8 +99,8 @@ RuleMatcher::Decision RuleMatcher::decide(const Product& product, const Surface&
   auto decision = knownMaterial(product, surface, by_names);
   const auto& by_class = passes(classes_, &RulePatterns::ifc_class, product.ifc_class);
   const auto& by_material = passes(materials_, &RulePatterns::material, decision.text);
-  const auto& by_name = passes(names_, &RulePatterns::name, product.name);
-  const auto& by_type = passes(types_, &RulePatterns::type, product.type_name);
+  const auto& by_name = asks_name_ ? passes(names_, &RulePatterns::name, product.name) : all_pass_;
+  const auto& by_type = asks_type_ ? passes(types_, &RulePatterns::type, product.type_name) : all_pass_;
   const auto& by_storey = passes(storeys_, &RulePatterns::storey, product.storey);
   for (std::size_t i = 0; i < patterns_.size(); ++i) {
     if (!by_class[i] || !by_material[i] || !by_name[i] || !by_type[i] || !by_storey[i] || !passesGroups(i, product)) continue;

@@ -43,6 +43,7 @@ class RuleMatcher {
   using Memo = std::map<std::string, std::vector<bool>, std::less<>>;   // by name: for each rule, whether it lets that pass
 
   const std::vector<bool>& passes(Memo& memo, Field field, const std::string& text);
+  bool asks(Field field) const;
   bool passesGroups(std::size_t rule, const Product& product);
   // By the first rule that asks for a material and fits the name.
   enum class Known { no, hidden, visible };
@@ -52,6 +53,8 @@ class RuleMatcher {
   const RuleSet& set_;
   WordTable words_;
   std::vector<RulePatterns> patterns_;
+  std::vector<bool> all_pass_;          // for what no rule asks of
+  bool asks_name_ = false, asks_type_ = false;
   Memo classes_, materials_, names_, types_, storeys_, groups_;
   std::map<std::string, Known, std::less<>> known_;
 };

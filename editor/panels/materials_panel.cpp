@@ -87,8 +87,19 @@ void drawUses(Editor& editor, const MaterialResult& result, float height) {
   ImGui::EndTable();
 }
 
+// What one click can do about it: the remedies that name a material, as options of the verb.
+void drawRemedies(Editor& editor, const MaterialFinding& finding) {
+  if (!ImGui::BeginPopupContextItem("remedies")) return;
+  for (const auto& remedy : finding.remedies)
+    if (!remedy.material.empty() && ImGui::MenuItem(remedy.text.c_str()))
+      editor.session.start("materials", {{"assign", {remedy.selector + "=" + remedy.material}}}, remedy.text);
+  if (ImGui::MenuItem("Select what it is about")) editor.selection.set(finding.products);
+  ImGui::EndPopup();
+}
+
 void drawFindings(Editor& editor, const MaterialReport& report) {
-  ui::heading(editor, fmt::format("Findings  {}", report.findings.size()).c_str());
+  const auto open = std::count_if(report.findings.begin(), report.findings.end(), [](const MaterialFinding& f) { return f.because.empty(); });
+  ui::heading(editor, fmt::format("Findings  {} open of {}", open, report.findings.size()).c_str());
   ImGui::BeginChild("findings");
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(report.findings.size()));
@@ -101,9 +112,10 @@ void drawFindings(Editor& editor, const MaterialReport& report) {
           editor.select(*product, true);
           editor.frameSelection();
         }
-      ui::tooltip(finding.message);
+      drawRemedies(editor, finding);
+      ui::tooltip(finding.message + (finding.why.empty() ? "" : "\n" + finding.why) + (finding.because.empty() ? "" : "\nAccepted: " + finding.because));
       ImGui::SameLine(0, 0);
-      const bool warning = finding.severity == "warning";
+      const bool warning = finding.severity == "warning" && finding.because.empty();
       ImGui::TextColored(colour(warning ? tone::kWarning : tone::kDim), "%s", warning ? ICON_WARNING : ICON_INFO);
       ImGui::SameLine();
       ui::dimText(finding.source);
