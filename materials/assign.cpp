@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -61,13 +63,21 @@ class Assigner {
     assigned_.push_back(std::move(result));
   }
 
+  // After checkIds.
+  void prepare() {
+    for (const auto& rule : rules_.rules) of_rule_.push_back(by_id_.at(rule.assign));
+  }
+
   MaterialResult finish(const AssignOptions& options) {
     checks_.finish(options.wavelengths_nm);
     aboutTheUser();
     MaterialResult result;
     result.report.area_m2 = all_.area_m2;
     result.report.coverage = all_.area_m2 > 0 ? all_.assigned_m2 / all_.area_m2 : 0;
-    for (auto& [id, use] : uses_) result.report.uses.push_back(std::move(use));
+    for (auto& [index, use] : uses_) {
+      use.material = index < 0 ? "" : material(index).id;
+      result.report.uses.push_back(std::move(use));
+    }
     std::stable_sort(result.report.uses.begin(), result.report.uses.end(),
                      [](const MaterialUse& a, const MaterialUse& b) { return a.area_m2 > b.area_m2; });
     result.report.by_class = rows(by_class_);
@@ -82,9 +92,7 @@ class Assigner {
 
   const PhysicalMaterial& material(std::int32_t index) const { return library_[static_cast<std::size_t>(index)]; }
 
-  const std::string& assignOf(const RuleMatcher::Decision& decision) const {
-    return rules_.rules[static_cast<std::size_t>(decision.rule)].assign;
-  }
+  std::int32_t assignedBy(const RuleMatcher::Decision& decision) const { return of_rule_[static_cast<std::size_t>(decision.rule)]; }
 
   void byUser(int index, AssignedSurface& result) const {
     const auto& o = overrides_[static_cast<std::size_t>(index)];
@@ -99,12 +107,11 @@ class Assigner {
     asked_rules_ = true;
     auto decision = matcher_.decide(product, surface);
     // "Glass door" tells of a pane somewhere; this surface is not drawn as one.
-    if (decision.rule >= 0 && decision.named >= RuleMatcher::Named::type && !isTransparent(surface) && transmits(material(by_id_.at(assignOf(decision)))))
+    if (decision.rule >= 0 && decision.named >= RuleMatcher::Named::type && !isTransparent(surface) && transmits(material(assignedBy(decision))))
       decision = matcher_.decide(product, surface, false);
     if (decision.rule < 0) return;
-    const auto& rule = rules_.rules[static_cast<std::size_t>(decision.rule)];
     own_decided_ = own_decided_ || static_cast<std::size_t>(decision.rule) < rules_.own;
-    result.material = by_id_.at(rule.assign);
+    result.material = assignedBy(decision);
     result.confidence = decision.confidence;
     result.reason = matcher_.reason(decision, product, surface);
     if (!isGap(material(result.material))) checks_.byRule(pair, material(result.material), decision, result.reason);
@@ -135,14 +142,17 @@ class Assigner {
   }
 
   void account(std::uint32_t product, std::int32_t index, double confidence, double area_m2) {
-    const auto& p = environment_.products[product];
-    for (auto* row : {&all_, &by_class_[p.ifc_class], &by_storey_[p.storey]}) {
+    if (product_ != product) {
+      const auto& p = environment_.products[product];
+      product_ = product;
+      rows_ = {&all_, &by_class_[p.ifc_class], &by_storey_[p.storey]};
+    }
+    for (auto* row : rows_) {
       row->area_m2 += area_m2;
       if (index >= 0) row->assigned_m2 += area_m2;
       if (index >= 0 && confidence < kWeakConfidence) row->weak_m2 += area_m2;
     }
-    const auto id = index < 0 ? std::string() : material(index).id;
-    auto& use = uses_.try_emplace(id, MaterialUse{id, 0, {}}).first->second;
+    auto& use = uses_[index];
     use.area_m2 += area_m2;
     if (use.products.empty() || use.products.back() != product) use.products.push_back(product);
   }
@@ -208,11 +218,14 @@ class Assigner {
   FindingCollector findings_;
   AssignmentChecks checks_;
   std::map<std::string, std::int32_t> by_id_;
+  std::vector<std::int32_t> of_rule_;
   std::vector<AssignedSurface> assigned_;
   std::vector<AssignedFaces> faces_;
-  std::map<std::string, MaterialUse> uses_;
+  std::map<std::int32_t, MaterialUse> uses_;   // by index into the library, which is sorted by id
   CoverageRow all_;
   Rows by_class_, by_storey_;
+  std::optional<std::uint32_t> product_;   // that is being accounted for
+  std::array<CoverageRow*, 3> rows_{};     // where it counts
   bool own_decided_ = false, asked_rules_ = false;
 };
 
@@ -226,6 +239,7 @@ Result<MaterialResult> assignMaterials(const Environment& environment, const std
   if (!pairs) return failure(pairs.error());
   Assigner assigner(environment, library, rules, overrides);
   if (auto checked = assigner.checkIds(); !checked) return failure(checked.error());
+  assigner.prepare();
   progress.stage("Assigning materials", 0.7, 1);
   for (std::size_t i = 0; i < pairs->size(); ++i) {
     if (i % 256 == 0) {

@@ -47,12 +47,23 @@ std::string AssignmentChecks::selectorOf(const SurfaceOfProduct& pair) const {
   return text.empty() ? product.id : text;
 }
 
-FindingCollector::Cause AssignmentChecks::cause(const char* kind, bool warning, const SurfaceOfProduct& pair, const std::string& about) const {
-  FindingCollector::Cause result;
-  result.kind = kind;
-  result.warning = warning;
-  result.subject = selectorOf(pair) + " / " + surfaceText(pair) + " / " + about;
-  return result;
+template <class Describe>
+void AssignmentChecks::tell(const char* kind, bool warning, const SurfaceOfProduct& pair, const PhysicalMaterial* about, Describe describe) {
+  const auto& product = environment_.products[pair.product];
+  std::string like = product.ifc_class;
+  if (environment_.surfaces[pair.surface].name.empty())
+    for (const auto& name : product.materials) like += '/' + name;
+  if (like.empty()) like = product.id;   // nothing but its number to select it by
+  auto*& extent = told_[{kind, pair.surface, about, std::move(like)}];
+  if (extent == nullptr) {
+    FindingCollector::Cause cause;
+    cause.kind = kind;
+    cause.warning = warning;
+    cause.subject = selectorOf(pair) + " / " + surfaceText(pair) + " / " + (about == nullptr ? "" : about->id);
+    describe(cause);
+    extent = &findings_.of(std::move(cause));
+  }
+  FindingCollector::add(*extent, pair.product, pair.area_m2);
 }
 
 void AssignmentChecks::nextProduct(std::uint32_t product) {
@@ -63,33 +74,33 @@ void AssignmentChecks::nextProduct(std::uint32_t product) {
 void AssignmentChecks::unassigned(const SurfaceOfProduct& pair) {
   nextProduct(pair.product);
   product_m2_ += pair.area_m2;
-  auto c = cause("unassigned", true, pair, "");
-  c.what = "no rule fits " + surfaceText(pair) + " of";
-  c.why = "A scan then takes the luminance of its colour for its reflectance, which says nothing of the infrared.";
-  c.remedies = {{"Choose a material for these", selectorOf(pair), ""}};
-  findings_.add(std::move(c), pair.product, pair.area_m2);
+  tell("unassigned", true, pair, nullptr, [&](FindingCollector::Cause& c) {
+    c.what = "no rule fits " + surfaceText(pair) + " of";
+    c.why = "A scan then takes the luminance of its colour for its reflectance, which says nothing of the infrared.";
+    c.remedies = {{"Choose a material for these", selectorOf(pair), ""}};
+  });
 }
 
 void AssignmentChecks::gap(const SurfaceOfProduct& pair, const PhysicalMaterial& material) {
   nextProduct(pair.product);
   product_m2_ += pair.area_m2;
-  auto c = cause("gap", true, pair, material.id);
-  c.what = surfaceText(pair) + " of";
-  c.then = " would be " + material.label + ", of which there are no figures";
-  c.why = material.gaps.front();
-  c.remedies = {{"Choose a material that comes near", selectorOf(pair), ""}};
-  findings_.add(std::move(c), pair.product, pair.area_m2);
+  tell("gap", true, pair, &material, [&](FindingCollector::Cause& c) {
+    c.what = surfaceText(pair) + " of";
+    c.then = " would be " + material.label + ", of which there are no figures";
+    c.why = material.gaps.front();
+    c.remedies = {{"Choose a material that comes near", selectorOf(pair), ""}};
+  });
 }
 
 void AssignmentChecks::byRule(const SurfaceOfProduct& pair, const PhysicalMaterial& material, const RuleMatcher::Decision& decision,
                               const std::string& reason) {
   if (decision.confidence >= kWeakConfidence) return;
-  auto c = cause("weak-rule", false, pair, material.id);
-  c.what = (decision.text.empty() ? "only class and colour decided for " : "a weak rule decided for ") + surfaceText(pair) + " of";
-  c.then = ": " + material.id + ", " + reason;
-  c.why = fmt::format("The rule's confidence is {:.2g}: it knows what such things are often made of, not what this one is.", decision.confidence);
-  c.remedies = {{"Keep " + material.label, selectorOf(pair), material.id}, {"Choose another material", selectorOf(pair), ""}};
-  findings_.add(std::move(c), pair.product, pair.area_m2);
+  tell("weak-rule", false, pair, &material, [&](FindingCollector::Cause& c) {
+    c.what = (decision.text.empty() ? "only class and colour decided for " : "a weak rule decided for ") + surfaceText(pair) + " of";
+    c.then = ": " + material.id + ", " + reason;
+    c.why = fmt::format("The rule's confidence is {:.2g}: it knows what such things are often made of, not what this one is.", decision.confidence);
+    c.remedies = {{"Keep " + material.label, selectorOf(pair), material.id}, {"Choose another material", selectorOf(pair), ""}};
+  });
 }
 
 void AssignmentChecks::assigned(const SurfaceOfProduct& pair, const PhysicalMaterial& material) {
@@ -99,42 +110,36 @@ void AssignmentChecks::assigned(const SurfaceOfProduct& pair, const PhysicalMate
   transparency(pair, material);
   implausible(pair, material);
   if (transmits(material)) thickness(pair, material);
-  const auto count = [&](Share& share) {
-    if (share.products.empty()) share.first_product = pair.product;
-    if (share.products.empty() || share.products.back() != pair.product) share.products.push_back(pair.product);
-    share.area_m2 += pair.area_m2;
-  };
-  auto& use = in_use_[material.id];
-  use.first = &material;
-  count(use.second);
-  if (const auto& name = environment_.surfaces[pair.surface].name; !name.empty()) count(by_name_[name][material.id]);
+  auto& share = shares_[{pair.surface, &material}];
+  if (share.products.empty() || share.products.back() != pair.product) share.products.push_back(pair.product);
+  share.area_m2 += pair.area_m2;
 }
 
 void AssignmentChecks::transparency(const SurfaceOfProduct& pair, const PhysicalMaterial& material) {
   const auto& surface = environment_.surfaces[pair.surface];
   const auto& ifc_class = environment_.products[pair.product].ifc_class;
   if (isTransparent(surface) && !transmits(material)) {
-    auto c = cause("opaque-glass", true, pair, material.id);
-    c.what = "transparent " + surfaceText(pair) + " of";
-    c.then = " has the opaque material " + material.id;
-    c.why = "The model draws it as something to look through; a beam would stop at it.";
-    c.remedies = {{"Take these for glass", selectorOf(pair), isWindow(ifc_class) ? "glass_double_clear_4mm" : "glass_float_clear_6mm"},
-                  {"Choose another material", selectorOf(pair), ""}};
-    findings_.add(std::move(c), pair.product, pair.area_m2);
+    tell("opaque-glass", true, pair, &material, [&](FindingCollector::Cause& c) {
+      c.what = "transparent " + surfaceText(pair) + " of";
+      c.then = " has the opaque material " + material.id;
+      c.why = "The model draws it as something to look through; a beam would stop at it.";
+      c.remedies = {{"Take these for glass", selectorOf(pair), isWindow(ifc_class) ? "glass_double_clear_4mm" : "glass_float_clear_6mm"},
+                    {"Choose another material", selectorOf(pair), ""}};
+    });
   }
   if (!isTransparent(surface) && surface.colour != Colour{} && transmits(material)) {
-    auto c = cause("clear-solid", true, pair, material.id);
-    c.what = "opaque " + surfaceText(pair) + " of";
-    c.then = " has the transparent material " + material.id;
-    c.why = "The model draws it as something that one cannot look through; beams would pass it.";
-    c.remedies = {{"Choose an opaque material", selectorOf(pair), ""}};
-    findings_.add(std::move(c), pair.product, pair.area_m2);
+    tell("clear-solid", true, pair, &material, [&](FindingCollector::Cause& c) {
+      c.what = "opaque " + surfaceText(pair) + " of";
+      c.then = " has the transparent material " + material.id;
+      c.why = "The model draws it as something that one cannot look through; beams would pass it.";
+      c.remedies = {{"Choose an opaque material", selectorOf(pair), ""}};
+    });
   }
 }
 
 void AssignmentChecks::implausible(const SurfaceOfProduct& pair, const PhysicalMaterial& material) {
   const auto& ifc_class = environment_.products[pair.product].ifc_class;
-  const auto [place, is_new] = implausible_of_.try_emplace({ifc_class, material.id}, -1);
+  const auto [place, is_new] = implausible_of_.try_emplace({ifc_class, &material}, -1);
   if (is_new)
     for (std::size_t i = 0; i < implausible_.size() && place->second < 0; ++i) {
       Folded id(material.id, words_);
@@ -142,12 +147,12 @@ void AssignmentChecks::implausible(const SurfaceOfProduct& pair, const PhysicalM
         place->second = static_cast<int>(i);
     }
   if (place->second < 0) return;
-  auto c = cause("implausible", true, pair, material.id);
-  c.what = surfaceText(pair) + " of";
-  c.then = " has the material " + material.id;
-  c.why = implausible_[static_cast<std::size_t>(place->second)].why;
-  c.remedies = {{"Choose another material", selectorOf(pair), ""}};
-  findings_.add(std::move(c), pair.product, pair.area_m2);
+  tell("implausible", true, pair, &material, [&](FindingCollector::Cause& c) {
+    c.what = surfaceText(pair) + " of";
+    c.then = " has the material " + material.id;
+    c.why = implausible_[static_cast<std::size_t>(place->second)].why;
+    c.remedies = {{"Choose another material", selectorOf(pair), ""}};
+  });
 }
 
 // The thickest solid that the surface bounds in any of the product's meshes; 0 where it bounds none.
@@ -175,27 +180,27 @@ const PhysicalMaterial* AssignmentChecks::paneOf(double thickness_m, double inde
 void AssignmentChecks::thickness(const SurfaceOfProduct& pair, const PhysicalMaterial& material) {
   const double modelled = modelledThickness(pair), wanted = buildUpThickness(material);
   if (modelled > kThickestGlass) {
-    auto c = cause("thick-glass", true, pair, material.id);
-    c.what = surfaceText(pair) + " of";
-    c.then = fmt::format(" is a solid {:.0f} mm thick and has the material {}", modelled * 1000, material.id);
-    c.why = fmt::format("Glass is thin; this library's is {:.0f} mm in all. A frame drawn with its pane as one body, or a block?", wanted * 1000);
-    c.remedies = {{"Choose another material", selectorOf(pair), ""}};
-    findings_.add(std::move(c), pair.product, pair.area_m2);
+    tell("thick-glass", true, pair, &material, [&](FindingCollector::Cause& c) {
+      c.what = surfaceText(pair) + " of";
+      c.then = fmt::format(" is a solid {:.0f} mm thick and has the material {}", modelled * 1000, material.id);
+      c.why = fmt::format("Glass is thin; this library's is {:.0f} mm in all. A frame drawn with its pane as one body, or a block?", wanted * 1000);
+      c.remedies = {{"Choose another material", selectorOf(pair), ""}};
+    });
   } else if (modelled == 0) {
-    auto c = cause("flat-glass", false, pair, material.id);
-    c.what = surfaceText(pair) + " of";
-    c.then = fmt::format(" bounds no solid; a beam meets {} of {:.0f} mm at each face", material.id, wanted * 1000);
-    c.why = "A pane without thickness is passed as one pane; two sheets drawn for its two sides count as two.";
-    findings_.add(std::move(c), pair.product, pair.area_m2);
+    tell("flat-glass", false, pair, &material, [&](FindingCollector::Cause& c) {
+      c.what = surfaceText(pair) + " of";
+      c.then = fmt::format(" bounds no solid; a beam meets {} of {:.0f} mm at each face", material.id, wanted * 1000);
+      c.why = "A pane without thickness is passed as one pane; two sheets drawn for its two sides count as two.";
+    });
   } else if (std::abs(modelled - wanted) > kThicknessTolerance * std::max(wanted, modelled)) {
-    auto c = cause("pane-thickness", false, pair, material.id);
-    c.what = surfaceText(pair) + " of";
-    c.then = fmt::format(" is drawn {:.0f} mm thick, {} is {:.0f} mm", modelled * 1000, material.id, wanted * 1000);
-    c.why = "The library's build-up decides what passes, not the thickness in the model: is it the right one?";
-    if (const auto* nearest = paneOf(modelled, material.index_of_refraction); nearest != nullptr && nearest->id != material.id)
-      c.remedies.push_back({"Take " + nearest->label, selectorOf(pair), nearest->id});
-    c.remedies.push_back({"Choose another material", selectorOf(pair), ""});
-    findings_.add(std::move(c), pair.product, pair.area_m2);
+    tell("pane-thickness", false, pair, &material, [&](FindingCollector::Cause& c) {
+      c.what = surfaceText(pair) + " of";
+      c.then = fmt::format(" is drawn {:.0f} mm thick, {} is {:.0f} mm", modelled * 1000, material.id, wanted * 1000);
+      c.why = "The library's build-up decides what passes, not the thickness in the model: is it the right one?";
+      if (const auto* nearest = paneOf(modelled, material.index_of_refraction); nearest != nullptr && nearest->id != material.id)
+        c.remedies.push_back({"Take " + nearest->label, selectorOf(pair), nearest->id});
+      c.remedies.push_back({"Choose another material", selectorOf(pair), ""});
+    });
   }
 }
 
@@ -208,7 +213,7 @@ void AssignmentChecks::closeProduct() {
     c.subject = environment_.products[*product_].ifc_class + " / " + environment_.products[*product_].type_name;
     c.what = "no surface is of glass in";
     c.why = "A beam would stop at the window, where a real one passes twice through its panes.";
-    findings_.add(std::move(c), *product_, product_m2_);
+    FindingCollector::add(findings_.of(std::move(c)), *product_, product_m2_);
   }
   has_pane_ = false;
   product_m2_ = 0;
@@ -216,43 +221,53 @@ void AssignmentChecks::closeProduct() {
 }
 
 void AssignmentChecks::namesAssignedTwoWays() {
-  for (const auto& [name, shares] : by_name_) {
-    if (shares.size() < 2) continue;
+  std::map<std::string, std::map<std::string, std::vector<const Share*>>> by_name;   // the surface's, then the material's
+  for (const auto& [key, share] : shares_)
+    if (const auto& name = environment_.surfaces[key.first].name; !name.empty()) by_name[name][key.second->id].push_back(&share);
+  for (const auto& [name, materials] : by_name) {
+    if (materials.size() < 2) continue;
+    std::vector<std::pair<double, std::string>> order;
+    for (const auto& [id, shares] : materials) {
+      order.emplace_back(0, id);
+      for (const auto* share : shares) order.back().first -= share->area_m2;
+    }
+    std::sort(order.begin(), order.end());
     FindingCollector::Cause c;
     c.kind = "two-ways";
     c.subject = name;
     c.what = "surface '" + name + "' is";
-    std::vector<std::pair<double, std::string>> order;
-    for (const auto& [id, share] : shares) order.emplace_back(-share.area_m2, id);
-    std::sort(order.begin(), order.end());
     for (const auto& [area, id] : order) {
       c.what += fmt::format("{} {}", c.what.ends_with("is") ? "" : ",", id);
       c.remedies.push_back({"All of them " + id, "material:" + literalPattern(name), id});
     }
     c.what += " of";
     c.why = "One name in the model, several materials: rules for a class, a colour or single products decided differently.";
-    for (const auto& [id, share] : shares)
-      for (const auto product : share.products)
-        findings_.add(c, product, share.area_m2 / static_cast<double>(share.products.size()));
+    auto& extent = findings_.of(std::move(c));
+    for (const auto& [id, shares] : materials)
+      for (const auto* share : shares) addShare(extent, *share);
   }
 }
 
+void AssignmentChecks::addShare(FindingCollector::Extent& extent, const Share& share) {
+  for (const auto product : share.products) FindingCollector::add(extent, product, share.area_m2 / static_cast<double>(share.products.size()));
+}
+
 void AssignmentChecks::withoutData(const std::vector<double>& wavelengths_nm) {
-  for (const auto& [id, use] : in_use_) {
-    const auto& [material, share] = use;
+  for (const auto& [key, share] : shares_) {
+    const auto& material = *key.second;
     for (const double wavelength : wavelengths_nm) {
       const auto covers = [&](const Spectrum& table) {
         return table.empty() || (wavelength >= table.front().first - kBeyondData_nm && wavelength <= table.back().first + kBeyondData_nm);
       };
-      if (covers(material->reflectance) && covers(material->transmittance)) continue;
+      if (covers(material.reflectance) && covers(material.transmittance)) continue;
       FindingCollector::Cause c;
       c.kind = "no-data";
       c.warning = true;
-      c.subject = fmt::format("{} / {:.0f}", id, wavelength);
-      c.what = fmt::format("{} has no figure at {:.0f} nm:", id, wavelength);
-      c.then = fmt::format(", the table runs from {:.0f} to {:.0f} nm", material->reflectance.front().first, material->reflectance.back().first);
+      c.subject = fmt::format("{} / {:.0f}", material.id, wavelength);
+      c.what = fmt::format("{} has no figure at {:.0f} nm:", material.id, wavelength);
+      c.then = fmt::format(", the table runs from {:.0f} to {:.0f} nm", material.reflectance.front().first, material.reflectance.back().first);
       c.why = "The instrument would be given the nearest figure, which may be far off.";
-      for (const auto product : share.products) findings_.add(c, product, share.area_m2 / static_cast<double>(share.products.size()));
+      addShare(findings_.of(std::move(c)), share);
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -30,7 +31,6 @@ class AssignmentChecks {
 
  private:
   struct Share {
-    std::uint32_t first_product = 0;
     double area_m2 = 0;
     std::vector<std::uint32_t> products;
   };
@@ -41,12 +41,15 @@ class AssignmentChecks {
   const PhysicalMaterial* paneOf(double thickness_m, double index) const;
   void nextProduct(std::uint32_t product);
   void closeProduct();
+  static void addShare(FindingCollector::Extent& extent, const Share& share);
   void namesAssignedTwoWays();
   void withoutData(const std::vector<double>& wavelengths_nm);
 
   std::string surfaceText(const SurfaceOfProduct& pair) const;
   std::string selectorOf(const SurfaceOfProduct& pair) const;
-  FindingCollector::Cause cause(const char* kind, bool warning, const SurfaceOfProduct& pair, const std::string& about) const;
+  // Tells the finding of this surface; `describe` writes it out when it is the first of its like.
+  template <class Describe>
+  void tell(const char* kind, bool warning, const SurfaceOfProduct& pair, const PhysicalMaterial* about, Describe describe);
 
   const Environment& environment_;
   const std::vector<PhysicalMaterial>& library_;
@@ -57,9 +60,10 @@ class AssignmentChecks {
   };
   WordTable words_;
   std::vector<ImplausiblePattern> implausible_;
-  std::map<std::pair<std::string, std::string>, int> implausible_of_;   // class and material: index, or -1
-  std::map<std::string, std::map<std::string, Share>> by_name_;         // surface's name, then material
-  std::map<std::string, std::pair<const PhysicalMaterial*, Share>> in_use_;
+  std::map<std::pair<std::string, const PhysicalMaterial*>, int> implausible_of_;   // by class: index, or -1
+  using Like = std::tuple<const char*, std::uint32_t, const PhysicalMaterial*, std::string>;   // kind, surface, material, product
+  std::map<Like, FindingCollector::Extent*> told_;
+  std::map<std::pair<std::uint32_t, const PhysicalMaterial*>, Share> shares_;   // of a surface and its material
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> thickness_; // of a mesh's surface
   std::optional<std::uint32_t> product_;                                // whose surfaces are being looked at
   double product_m2_ = 0;

@@ -37,9 +37,13 @@ std::string causeOf(const FindingCollector::Cause& cause, const std::vector<std:
 
 }  // namespace
 
-void FindingCollector::add(Cause cause, std::uint32_t product, double area_m2) {
+FindingCollector::Extent& FindingCollector::of(Cause cause) {
   auto& extent = extents_[{cause.kind, cause.subject}];
-  if (extent.products.empty()) extent.cause = std::move(cause);
+  if (extent.cause.kind.empty()) extent.cause = std::move(cause);
+  return extent;
+}
+
+void FindingCollector::add(Extent& extent, std::uint32_t product, double area_m2) {
   if (extent.products.empty() || extent.products.back() != product) extent.products.push_back(product);
   extent.area_m2 += area_m2;
 }

@@ -24,19 +24,21 @@ class FindingCollector {
     std::string why;
     std::vector<Remedy> remedies;
   };
-  void add(Cause cause, std::uint32_t product, double area_m2);
-  // One that no product stands for: it is about what the user said.
-  void addAbout(Cause cause, std::string source);
-  // Those that nobody accepted first; of them warnings first, then by falling area.
-  std::vector<MaterialFinding> findings(const Environment& environment, const std::vector<AcceptedFinding>& accepted) const;
-
- private:
   struct Extent {
     Cause cause;
     std::string source;
     std::vector<std::uint32_t> products;
     double area_m2 = 0;
   };
+  // The finding of this kind and subject, which stays where it is; `add` then tells of each surface that it is about.
+  Extent& of(Cause cause);
+  static void add(Extent& extent, std::uint32_t product, double area_m2);
+  // One that no product stands for: it is about what the user said.
+  void addAbout(Cause cause, std::string source);
+  // Those that nobody accepted first; of them warnings first, then by falling area.
+  std::vector<MaterialFinding> findings(const Environment& environment, const std::vector<AcceptedFinding>& accepted) const;
+
+ private:
   std::map<std::pair<std::string, std::string>, Extent> extents_;   // by kind and subject
 };
 

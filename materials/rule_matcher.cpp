@@ -15,6 +15,13 @@ namespace {
 // product's own name ("Tree 3") as much again less.
 constexpr double kByNamed[] = {1, 1, 0.5, 0.4};
 
+// "Baum:352583" is the 352583rd thing called Baum: the number says nothing of what it is made of.
+std::string withoutNumber(const std::string& name) {
+  const auto last = name.find_last_not_of("0123456789");
+  if (last == std::string::npos || last + 1 == name.size() || std::string_view(" :-_.#").find(name[last]) == std::string_view::npos) return name;
+  return name.substr(0, last);
+}
+
 bool within(const std::optional<ValueRange>& range, const std::optional<float>& value) {
   return !range || (value && *value >= range->from && *value <= range->to);
 }
@@ -52,9 +59,9 @@ RuleMatcher::Known RuleMatcher::known(const std::string& name) {
   if (name.empty()) return Known::no;
   const auto [place, is_new] = known_.try_emplace(name, Known::no);
   if (!is_new) return place->second;
-  const auto& fits = passes(materials_, &RulePatterns::material, name);
-  for (std::size_t i = 0; i < fits.size(); ++i)
-    if (fits[i] && !patterns_[i].material.empty()) {
+  Folded text(name, words_);
+  for (std::size_t i = 0; i < patterns_.size(); ++i)
+    if (!patterns_[i].material.empty() && patterns_[i].material.fit(text) >= 0) {
       place->second = set_.rules[i].hidden ? Known::hidden : Known::visible;
       break;
     }
@@ -79,9 +86,9 @@ RuleMatcher::Decision RuleMatcher::knownMaterial(const Product& product, const S
         return decision;
       }
   if (!by_names || isTransparent(surface) || product.materials.size() > 1) return decision;
-  for (const auto& [name, named] : {std::pair{&product.type_name, Named::type}, {&product.name, Named::name}})
-    if (known(*name) == Known::visible) {
-      decision.text = *name;
+  for (const auto& [name, named] : {std::pair{product.type_name, Named::type}, {withoutNumber(product.name), Named::name}})
+    if (known(name) == Known::visible) {
+      decision.text = name;
       decision.named = named;
       break;
     }
