@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "importers/gltf_physical_material.h"
+
+namespace standpoint {
+
+nlohmann::json gltfPhysicalMaterial(const PhysicalMaterial& m) {
+  nlohmann::json json = {{"id", m.id}, {"label", m.label}};
+  if (!m.reflectance.empty()) json["reflectance"] = m.reflectance;
+  if (!m.transmittance.empty()) json["transmittance"] = m.transmittance;
+  if (m.roughness_rad > 0) json["roughnessRad"] = m.roughness_rad;
+  if (m.gloss_slope > 0) json["glossSlope"] = m.gloss_slope;
+  if (m.index_of_refraction > 0) json["indexOfRefraction"] = m.index_of_refraction;
+  for (const auto& row : m.complex_index) json["complexIndex"].push_back({row.wavelength_nm, row.n, row.k});
+  if (m.thickness_m > 0) json["thicknessM"] = m.thickness_m;
+  if (m.panes > 1) {
+    json["panes"] = m.panes;
+    json["gapM"] = m.gap_m;
+  }
+  if (m.variation > 0) json["variation"] = m.variation;
+  if (m.texture_scale_m > 0) json["textureScaleM"] = m.texture_scale_m;
+  for (const auto& c : m.sources) json["source"].push_back(c.figure + ": " + c.text + (c.licence.empty() ? "" : " (" + c.licence + ")"));
+  return json;
+}
+
+}  // namespace standpoint
