@@ -156,7 +156,9 @@ void drawAssign(Editor& editor, const std::string& current) {
   }
   ui::searchField("material-filter", "Brick, glass, steel …", filter);
   ImGui::BeginChild("materials", {editor.px(300), editor.px(260)});
-  for (const auto& material : catalogue.materials) {
+  const auto& choice = editor.session.document().materials;
+  for (const auto& material : choice ? withOwn(catalogue.materials, choice->own) : catalogue.materials) {
+    if (isGap(material)) continue;
     Product searched;
     searched.name = material.label + " " + material.id;
     if (!matchesFilter(searched, filter)) continue;
