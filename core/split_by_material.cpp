@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/face_normal.h"
+
 namespace standpoint {
 
 namespace {
@@ -19,9 +21,15 @@ class Splitter {
     std::vector<std::shared_ptr<const Mesh>> meshes;
     for (auto& instance : environment.instances) {
       const auto& mesh = environment.meshes[instance.mesh];
+      if (hasFaces(instance.product)) {
+        auto own = byFace(environment, instance);
+        instance.mesh = static_cast<std::uint32_t>(meshes.size());
+        meshes.push_back(std::move(own));
+        continue;
+      }
       const auto& used = usedSurfaces(mesh);
       std::vector<std::uint32_t> become;
-      for (const auto surface : used) become.push_back(surfaceFor(environment, instance.product, surface));
+      for (const auto surface : used) become.push_back(surfaceFor(environment, surface, materialOf(assignment_, instance.product, surface)));
       const auto [found, fresh] = mesh_of.try_emplace({instance.mesh, become}, static_cast<std::uint32_t>(meshes.size()));
       if (fresh) meshes.push_back(repainted(*mesh, used, become));
       instance.mesh = found->second;
@@ -43,8 +51,24 @@ class Splitter {
     return found->second;
   }
 
-  std::uint32_t surfaceFor(const Environment& environment, std::uint32_t product, std::uint32_t surface) {
-    const std::int32_t material = materialOf(assignment_, product, surface);
+  bool hasFaces(std::uint32_t product) const {
+    const auto& faces = assignment_.faces;
+    const auto found = std::lower_bound(faces.begin(), faces.end(), product, [](const AssignedFaces& f, std::uint32_t p) { return f.product < p; });
+    return found != faces.end() && found->product == product;
+  }
+
+  std::shared_ptr<const Mesh> byFace(const Environment& environment, const Instance& instance) {
+    auto copy = std::make_shared<Mesh>(*environment.meshes[instance.mesh]);
+    for (std::size_t i = 0; i < copy->triangles.size(); ++i) {
+      auto& surface = copy->surface_of_triangle[i];
+      const auto normal = placedNormal(*copy, copy->triangles[i], instance.world_from_mesh);
+      surface = surfaceFor(environment, surface, materialOf(assignment_, instance.product, surface, normal));
+    }
+    sortTriangles(*copy);
+    return copy;
+  }
+
+  std::uint32_t surfaceFor(const Environment& environment, std::uint32_t surface, std::int32_t material) {
     const bool by_look = looks_ == LooksOfSplit::kept || material < 0;
     const auto [found, fresh] = index_.try_emplace({by_look ? surface : 0, material}, static_cast<std::uint32_t>(surfaces.size()));
     if (fresh) {
@@ -58,11 +82,13 @@ class Splitter {
     auto copy = std::make_shared<Mesh>(mesh);
     for (auto& surface : copy->surface_of_triangle)
       surface = become[static_cast<std::size_t>(std::lower_bound(used.begin(), used.end(), surface) - used.begin())];
-    if (!std::is_sorted(copy->surface_of_triangle.begin(), copy->surface_of_triangle.end())) sortTriangles(*copy);
+    sortTriangles(*copy);
     return copy;
   }
 
+  // By surface, as validate() demands.
   static void sortTriangles(Mesh& mesh) {
+    if (std::is_sorted(mesh.surface_of_triangle.begin(), mesh.surface_of_triangle.end())) return;
     std::vector<std::uint32_t> order(mesh.triangles.size());
     std::iota(order.begin(), order.end(), 0U);
     const auto before = mesh;

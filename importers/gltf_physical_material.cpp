@@ -11,7 +11,14 @@ nlohmann::json gltfPhysicalMaterial(const PhysicalMaterial& m) {
   if (m.gloss_slope > 0) json["glossSlope"] = m.gloss_slope;
   if (m.index_of_refraction > 0) json["indexOfRefraction"] = m.index_of_refraction;
   if (m.thickness_m > 0) json["thicknessM"] = m.thickness_m;
-  if (!m.source.empty()) json["source"] = m.source;
+  for (const auto& c : m.complex_index) json["complexIndex"].push_back({c.wavelength_nm, c.n, c.k});
+  if (m.panes > 1) json["panes"] = m.panes;
+  if (m.gap_m > 0) json["gapM"] = m.gap_m;
+  if (m.variation > 0) json["variation"] = m.variation;
+  if (m.texture_scale_m > 0) json["textureScaleM"] = m.texture_scale_m;
+  if (!m.wet_of.empty()) json["wetOf"] = m.wet_of;
+  for (const auto& gap : m.gaps) json["gaps"].push_back(gap);
+  for (const auto& source : m.sources) json["sources"].push_back({{"figure", source.figure}, {"text", source.text}, {"licence", source.licence}});
   return json;
 }
 

@@ -13,6 +13,7 @@
 #include "editor/shell/icons.h"
 #include "editor/shell/theme.h"
 #include "editor/shell/widgets.h"
+#include "materials/materials.h"
 
 namespace standpoint {
 
@@ -169,13 +170,20 @@ void drawReported(Editor& editor, const PhysicalMaterial& m) {
   note("Intensity as stored, range noise 1 σ");
 }
 
+void drawGaps(const Editor& editor, const PhysicalMaterial& m) {
+  const auto gaps = gapsOf(m);
+  if (gaps.empty()) return;
+  ui::heading(editor, "Not known");
+  for (const auto& gap : gaps) note(gap.c_str());
+}
+
 void drawSources(Editor& editor, const PhysicalMaterial& m) {
   ui::heading(editor, "Sources");
-  for (const auto& source : m.source) {
-    const bool unsourced = source.starts_with("unsourced");
+  for (const auto& source : m.sources) {
+    const bool unsourced = source.text.starts_with("unsourced");
     ImGui::TextColored(colour(unsourced ? tone::kWarning : tone::kGood), "%s", unsourced ? ICON_WARNING : ICON_CHECK);
     ImGui::SameLine();
-    ui::wrapped(source);
+    ui::wrapped(fmt::format("{}: {}{}", source.figure, source.text, source.licence.empty() ? "" : " (" + source.licence + ")"));
   }
 }
 
@@ -209,6 +217,7 @@ void drawMaterialCardPanel(Editor& editor) {
   drawSpectrum(editor, *material);
   drawAngles(editor, *material);
   drawReported(editor, *material);
+  drawGaps(editor, *material);
   drawSources(editor, *material);
   ImGui::EndChild();
 }

@@ -56,7 +56,7 @@ void drawUse(Editor& editor, const MaterialResult& result, const MaterialUse& us
     editor.selection.set(use.products);
     editor.view.colour = ColourMode::material;
   }
-  if (material != nullptr && !material->source.empty()) ui::tooltip(fmt::format("{}\n{}", material->id, material->source.front()));
+  if (material != nullptr && !material->sources.empty()) ui::tooltip(fmt::format("{}\n{}", material->id, material->sources.front().text));
   ImGui::SameLine(0, 0);
   ui::swatch(editor, materialColour(material));
   ImGui::SameLine();

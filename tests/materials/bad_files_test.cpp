@@ -10,7 +10,8 @@ namespace {
 using testing::HasSubstr;
 
 const std::string kGood = R"({"id": "stone", "label": "Stone", "reflectance": [[532, 0.3], [905, 0.4]],
-  "roughness_rad": 0.2, "source": {"reflectance": "measured", "roughness_rad": "unsourced"}})";
+  "roughness_rad": 0.2, "source": {"reflectance": "measured: [lab] no 7", "roughness_rad": "unsourced"}})";
+const std::string kSources = R"({"sources": [{"id": "lab", "text": "Own laboratory", "licence": "own"}], "materials": [)";
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
   const auto at = text.find(what);
@@ -31,7 +32,7 @@ class BadEntries : public testing::TestWithParam<BadEntry> {};
 TEST_P(BadEntries, AreRefusedWithTheirPlace) {
   const auto& bad = GetParam();
   const TemporaryFolder folder;
-  folder.write("stone.json", "[" + replaced(kGood, "stone", "rock") + ",\n" + replaced(kGood, bad.what, bad.by) + "]");
+  folder.write("stone.json", kSources + replaced(kGood, "stone", "rock") + ",\n" + replaced(kGood, bad.what, bad.by) + "]}");
   const auto library = readMaterialLibrary(folder.path());
   ASSERT_FALSE(library.has_value());
   EXPECT_EQ(library.error().kind, ErrorKind::unusable);
@@ -42,40 +43,40 @@ TEST_P(BadEntries, AreRefusedWithTheirPlace) {
 INSTANTIATE_TEST_SUITE_P(
     Library, BadEntries,
     testing::Values(
-        BadEntry{"unknownKey", "\"label\"", "\"colour\": 1, \"label\"", "stone.json /1/colour", "not a known key"},
-        BadEntry{"noId", "\"id\": \"stone\",", "", "stone.json /1/id", "missing"},
-        BadEntry{"idOfOtherLetters", "\"stone\"", "\"Stone 1\"", "stone.json /1/id", "a-z"},
-        BadEntry{"sameId", "\"stone\"", "\"rock\"", "stone.json /1/id", "already in stone.json /0"},
-        BadEntry{"emptyLabel", "\"Stone\"", "\" \"", "stone.json /1/label", "empty"},
-        BadEntry{"tooBright", "0.4", "1.4", "stone.json /1/reflectance/1/1", "1.4"},
-        BadEntry{"negative", "0.3", "-0.3", "stone.json /1/reflectance/0/1", "-0.3"},
-        BadEntry{"text", "0.3", "\"0.3\"", "stone.json /1/reflectance/0/1", "number"},
-        BadEntry{"nothing", "0.3", "null", "stone.json /1/reflectance/0/1", "number"},
-        BadEntry{"micrometres", "532", "0.532", "stone.json /1/reflectance/0/0", "0.532"},
-        BadEntry{"unsorted", "905", "532", "stone.json /1/reflectance/1/0", "rise"},
-        BadEntry{"noPair", "[532, 0.3]", "[532]", "stone.json /1/reflectance/0", "[wavelength_nm, share]"},
-        BadEntry{"emptySpectrum", "[[532, 0.3], [905, 0.4]]", "[]", "stone.json /1/reflectance", "list"},
-        BadEntry{"roughnessInDegrees", "0.2", "20", "stone.json /1/roughness_rad", "20"},
+        BadEntry{"unknownKey", "\"label\"", "\"colour\": 1, \"label\"", "stone.json /materials/1/colour", "not a known key"},
+        BadEntry{"noId", "\"id\": \"stone\",", "", "stone.json /materials/1/id", "missing"},
+        BadEntry{"idOfOtherLetters", "\"stone\"", "\"Stone 1\"", "stone.json /materials/1/id", "a-z"},
+        BadEntry{"sameId", "\"stone\"", "\"rock\"", "stone.json /materials/1/id", "already in stone.json /materials/0"},
+        BadEntry{"emptyLabel", "\"Stone\"", "\" \"", "stone.json /materials/1/label", "empty"},
+        BadEntry{"tooBright", "0.4", "1.4", "stone.json /materials/1/reflectance/1/1", "1.4"},
+        BadEntry{"negative", "0.3", "-0.3", "stone.json /materials/1/reflectance/0/1", "-0.3"},
+        BadEntry{"text", "0.3", "\"0.3\"", "stone.json /materials/1/reflectance/0/1", "number"},
+        BadEntry{"nothing", "0.3", "null", "stone.json /materials/1/reflectance/0/1", "number"},
+        BadEntry{"micrometres", "532", "0.532", "stone.json /materials/1/reflectance/0/0", "0.532"},
+        BadEntry{"unsorted", "905", "532", "stone.json /materials/1/reflectance/1/0", "rise"},
+        BadEntry{"noPair", "[532, 0.3]", "[532]", "stone.json /materials/1/reflectance/0", "[wavelength_nm, share]"},
+        BadEntry{"emptySpectrum", "[[532, 0.3], [905, 0.4]]", "[]", "stone.json /materials/1/reflectance", "list"},
+        BadEntry{"roughnessInDegrees", "0.2", "20", "stone.json /materials/1/roughness_rad", "20"},
         BadEntry{"noSource", "\"roughness_rad\": \"unsourced\"", "\"reflectance2\": \"x\"",
-                 "stone.json /1/source/reflectance2", "figure"},
-        BadEntry{"missingSource", ", \"roughness_rad\": \"unsourced\"", "", "stone.json /1/source/roughness_rad",
+                 "stone.json /materials/1/source/reflectance2", "figure"},
+        BadEntry{"missingSource", ", \"roughness_rad\": \"unsourced\"", "", "stone.json /materials/1/source/roughness_rad",
                  "missing"},
-        BadEntry{"sourceOfNothing", "\"roughness_rad\": 0.2,", "", "stone.json /1/source/roughness_rad",
+        BadEntry{"sourceOfNothing", "\"roughness_rad\": 0.2,", "", "stone.json /materials/1/source/roughness_rad",
                  "does not have"},
-        BadEntry{"noSources", ", \"roughness_rad\": \"unsourced\"}}", "}, \"source2\": 1}", "stone.json /1/source2",
+        BadEntry{"noSources", ", \"roughness_rad\": \"unsourced\"}}", "}, \"source2\": 1}", "stone.json /materials/1/source2",
                  "not a known key"},
         BadEntry{"moreThanAll", "\"roughness_rad\": 0.2, \"source\": {",
-                 "\"roughness_rad\": 0.2, \"index_of_refraction\": 30, \"source\": {\"index_of_refraction\": \"x\", ",
-                 "stone.json /1/reflectance/0", "exceed"},
+                 "\"roughness_rad\": 0.2, \"index_of_refraction\": 30, \"source\": {\"index_of_refraction\": \"unsourced\", ",
+                 "stone.json /materials/1/reflectance/0", "exceed"},
         BadEntry{"glossWithoutIndex", "\"roughness_rad\": 0.2, \"source\": {",
                  "\"roughness_rad\": 0.2, \"gloss_slope\": 0.1, \"source\": {\"gloss_slope\": \"x\", ",
-                 "stone.json /1/gloss_slope", "needs index_of_refraction"},
+                 "stone.json /materials/1/gloss_slope", "needs index_of_refraction"},
         BadEntry{"thickWithoutTransmittance", "\"roughness_rad\": 0.2, \"source\": {",
                  "\"roughness_rad\": 0.2, \"thickness_m\": 0.01, \"source\": {\"thickness_m\": \"x\", ",
-                 "stone.json /1/thickness_m", "needs transmittance"},
+                 "stone.json /materials/1/thickness_m", "needs transmittance"},
         BadEntry{"keyTwice", "\"label\": \"Stone\"", "\"label\": \"Stone\", \"label\": \"Rock\"", "stone.json",
                  "'label' twice"},
-        BadEntry{"noObject", kGood.c_str(), "7", "stone.json /1", "object"},
+        BadEntry{"noObject", kGood.c_str(), "7", "stone.json /materials/1", "object"},
         BadEntry{"cutShort", "\"source\"", "\"sou", "stone.json line 4", "not JSON"}),
     [](const auto& each) { return std::string(each.param.name); });
 
@@ -83,8 +84,8 @@ TEST(BadLibraries, WithoutAFolderOrFilesSaySo) {
   const TemporaryFolder folder;
   EXPECT_EQ(readMaterialLibrary(folder.path() / "none").error().kind, ErrorKind::file_system);
   EXPECT_THAT(readMaterialLibrary(folder.path()).error().message, HasSubstr("no material library"));
-  folder.write("list.json", "{}");
-  EXPECT_THAT(readMaterialLibrary(folder.path()).error().message, HasSubstr("must be a list"));
+  folder.write("list.json", "[]");
+  EXPECT_THAT(readMaterialLibrary(folder.path()).error().message, HasSubstr("must be an object"));
 }
 
 TEST(BadLibraries, NestedDeeplyOrHugeEndInAnErrorNotACrash) {
@@ -123,19 +124,19 @@ struct BadRule {
 
 TEST(BadRules, AreRefusedWithTheirPlace) {
   const TemporaryFolder folder;
-  const std::string good = R"([{"material": "*beton*", "assign": "concrete_construction"}, )";
+  const std::string good = R"({"rules": [{"material": "*beton*", "assign": "concrete_construction"}, )";
   for (const auto& [text, source, message] :
-       {BadRule{R"({"material": "x", "assign": "adamantium"})", "r.json /1/assign", "not in the library"},
-        BadRule{R"({"material": "x"})", "r.json /1/assign", "missing"},
-        BadRule{R"({"assign": "bark"})", "r.json /1", "fit everything"},
-        BadRule{R"({"material": "a||b", "assign": "bark"})", "r.json /1/material", "empty pattern"},
-        BadRule{R"({"material": "", "assign": "bark"})", "r.json /1/material", "empty"},
-        BadRule{R"({"material": 3, "assign": "bark"})", "r.json /1/material", "text"},
-        BadRule{R"({"colour": "red|mauve", "assign": "bark"})", "r.json /1/colour", "'mauve' is no colour"},
-        BadRule{R"({"material": "x", "assign": "bark", "hidden": 1})", "r.json /1/hidden", "true or false"},
-        BadRule{R"({"ifc_class": "x", "assign": "bark", "hidden": true})", "r.json /1/hidden", "needs a pattern"},
-        BadRule{R"({"class": "IfcWall", "assign": "bark"})", "r.json /1/class", "not a known key"}}) {
-    const auto rules = readAssignmentRules(folder.write("r.json", good + text + "]"), shippedLibrary());
+       {BadRule{R"({"material": "x", "assign": "adamantium"})", "r.json /rules/1/assign", "not in the library"},
+        BadRule{R"({"material": "x"})", "r.json /rules/1/assign", "missing"},
+        BadRule{R"({"assign": "bark"})", "r.json /rules/1", "fit everything"},
+        BadRule{R"({"material": "a||b", "assign": "bark"})", "r.json /rules/1/material", "empty pattern"},
+        BadRule{R"({"material": "", "assign": "bark"})", "r.json /rules/1/material", "empty"},
+        BadRule{R"({"material": 3, "assign": "bark"})", "r.json /rules/1/material", "text"},
+        BadRule{R"({"colour": "red|mauve", "assign": "bark"})", "r.json /rules/1/colour", "'mauve' is no colour"},
+        BadRule{R"({"material": "x", "assign": "bark", "hidden": 1})", "r.json /rules/1/hidden", "true or false"},
+        BadRule{R"({"ifc_class": "x", "assign": "bark", "hidden": true})", "r.json /rules/1/hidden", "needs a pattern"},
+        BadRule{R"({"class": "IfcWall", "assign": "bark"})", "r.json /rules/1/class", "not a known key"}}) {
+    const auto rules = readAssignmentRules(folder.write("r.json", good + text + "]}"), shippedLibrary());
     ASSERT_FALSE(rules.has_value()) << text;
     EXPECT_EQ(rules.error().kind, ErrorKind::unusable);
     EXPECT_EQ(rules.error().source, source);
