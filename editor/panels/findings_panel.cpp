@@ -20,8 +20,13 @@ void choose(Editor& editor, const MaterialFinding& finding) {
   auto& state = editor.panels.findings;
   state.chosen = finding.id;
   state.because = finding.because;
-  if (finding.products.empty()) return;
   editor.selection.set(finding.products);
+}
+
+// Alone, as what is doubtful often stands in a room.
+void look(Editor& editor, const MaterialFinding& finding) {
+  editor.selection.set(finding.products);
+  editor.visibility.isolate(finding.products);
   editor.frameSelection();
 }
 
@@ -40,7 +45,6 @@ void drawList(Editor& editor, const std::vector<MaterialFinding>& findings) {
       const auto& finding = findings[static_cast<std::size_t>(i)];
       ImGui::PushID(i);
       if (ImGui::Selectable("###finding", state.chosen == finding.id)) choose(editor, finding);
-      ui::tooltip(finding.message);
       ImGui::SameLine(0, 0);
       drawMark(finding);
       ImGui::SameLine();
@@ -85,6 +89,9 @@ void drawFinding(Editor& editor, const MaterialFinding& finding) {
   ImGui::PushStyleColor(ImGuiCol_Text, tone::kDim);
   ui::wrapped(finding.why);
   ImGui::PopStyleColor();
+  if (ui::iconButton(ICON_CROSSHAIRS "  Show it alone###look", "Hides the rest and brings it into view", finding.products.empty() ? "It has no product" : "")) look(editor, finding);
+  ImGui::SameLine();
+  if (ui::iconButton(ICON_EYE "  Show all###show-all", "Everything again")) editor.visibility.showAll();
   const auto why = editor.session.whyNot("materials");
   for (const auto& remedy : finding.remedies) drawRemedy(editor, remedy, why);
   drawAcceptance(editor, finding, why);

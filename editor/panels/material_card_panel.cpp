@@ -11,6 +11,7 @@
 #include "editor/model/material_card.h"
 #include "editor/panels/panels_list.h"
 #include "editor/shell/icons.h"
+#include "editor/shell/material_brush.h"
 #include "editor/shell/theme.h"
 #include "editor/shell/widgets.h"
 #include "materials/materials.h"
@@ -26,7 +27,7 @@ class Plot {
  public:
   Plot(const Editor& editor, float height_pt) : list_(*ImGui::GetWindowDrawList()), scale_(editor.scale) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const float margin = ImGui::CalcTextSize("100 %").x + editor.px(6);
+    const float margin = ImGui::CalcTextSize("1000 %").x + editor.px(6);
     size_ = {ImGui::GetContentRegionAvail().x - margin - editor.px(4), editor.px(height_pt)};
     low_ = {corner.x + margin, corner.y + editor.px(4)};
     list_.AddRectFilled(low_, {low_.x + size_.x, low_.y + size_.y}, IM_COL32(22, 25, 30, 255));
@@ -188,13 +189,11 @@ void drawSources(Editor& editor, const PhysicalMaterial& m) {
 }
 
 // The one that is chosen in the list, else that of what is selected.
-const PhysicalMaterial* shownMaterial(const Editor& editor) {
+const PhysicalMaterial* shownMaterial(Editor& editor) {
   const auto& choice = editor.session.document().materials;
   if (!choice) return nullptr;
   const auto& assignment = choice->result.assignment;
-  const auto& state = editor.panels.materials;
-  for (const auto& m : assignment.materials)
-    if (!state.chosen_unassigned && m.id == state.chosen) return &m;
+  if (const auto* chosen = knownMaterial(editor, editor.panels.materials.chosen)) return chosen;
   if (editor.selection.empty()) return nullptr;
   for (const auto& s : assignment.surfaces)
     if (s.product == editor.selection.primary() && s.material >= 0) return &assignment.materials[static_cast<std::size_t>(s.material)];
