@@ -17,6 +17,8 @@
 
 #include <fmt/format.h>
 
+#include "bench/collision_soup.h"
+#include "bench/door_ways.h"
 #include "core/random.h"
 #include "importers/importers.h"
 #include "optimizer/avatar.h"
@@ -37,23 +39,6 @@ constexpr std::uint32_t kSamples = 2000;  // of each product's surface
 constexpr double kGrid = 0.05;            // m, of the walkable areas that are compared
 const Body kWalker{0.30, 1.80};
 const Body kBall{0.05, 0.10};
-
-// Triangles in the local frame, with what each belongs to.
-struct Soup {
-  std::vector<Vector3d> positions;
-  std::vector<Triangle> triangles;
-  std::vector<std::uint32_t> owner;
-
-  void add(const Mesh& mesh, const Eigen::Affine3d& place, std::uint32_t owned_by) {
-    const auto first = static_cast<std::uint32_t>(positions.size());
-    for (const auto& p : mesh.positions) positions.push_back(place * p.cast<double>());
-    for (const auto& t : mesh.triangles) {
-      triangles.push_back({first + t[0], first + t[1], first + t[2]});
-      owner.push_back(owned_by);
-    }
-  }
-  Corners corners(std::uint32_t i) const { return {positions[triangles[i][0]], positions[triangles[i][1]], positions[triangles[i][2]]}; }
-};
 
 // What stops somebody when the doors stand open, as the model has it.
 Soup rawTriangles(const Environment& environment) {
@@ -78,23 +63,6 @@ bool meets(const Soup& soup, const TriangleTree& tree, const Body& body, const V
   return result;
 }
 
-// Height of the uppermost triangle over or under p between the reaches.
-double floorUnder(const Soup& soup, const TriangleTree& tree, const Vector3d& p, double above, double below) {
-  double best = -1e300;
-  tree.inBox(p - Vector3d(1e-7, 1e-7, below), p + Vector3d(1e-7, 1e-7, above), [&](std::uint32_t i) {
-    const auto t = soup.corners(i);
-    const Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
-    if (std::abs(normal.z()) < 1e-12) return true;
-    const auto side = [&](int a, int b) { return (t[b].x() - t[a].x()) * (p.y() - t[a].y()) - (t[b].y() - t[a].y()) * (p.x() - t[a].x()); };
-    const double s = side(0, 1), q = side(1, 2), r = side(2, 0);
-    if (!((s >= 0 && q >= 0 && r >= 0) || (s <= 0 && q <= 0 && r <= 0))) return true;
-    const double z = t[0].z() - ((p.x() - t[0].x()) * normal.x() + (p.y() - t[0].y()) * normal.y()) / normal.z();
-    if (z <= p.z() + above && z >= p.z() - below) best = std::max(best, z);
-    return true;
-  });
-  return best;
-}
-
 // Somewhere in the door a walker of this size passes between the model's own triangles; sills up to a step are stepped over.
 bool passable(const Soup& raw, const TriangleTree& tree, const Passage& door) {
   const Vector3d reach = door.through * (door.half_depth + kWalker.radius_m);
@@ -111,10 +79,12 @@ bool passable(const Soup& raw, const TriangleTree& tree, const Passage& door) {
 
 struct DoorFigures {
   int doors = 0, truth = 0, kept = 0, added = 0, closed_passable = 0;
-  std::string lost;
+  int floored = 0, joined = 0, joined_raw = 0;  // of those passable in truth: with a floor, and that the surfaces lead through
+  std::string lost, parted;
 };
 
-DoorFigures judgeDoors(const Environment& environment, const Soup& raw, const CollideResult& open, const CollideResult& closed) {
+// `raw_walkable`: the surface that the model's own triangles have.
+DoorFigures judgeDoors(const Environment& environment, const Soup& raw, const Mesh& raw_walkable, const CollideResult& open, const CollideResult& closed) {
   const TriangleTree tree(raw.positions, raw.triangles);
   DoorFigures figures;
   Soup shut;  // by distances, not by the product's queries
@@ -131,6 +101,12 @@ DoorFigures judgeDoors(const Environment& environment, const Soup& raw, const Co
     figures.kept += truth && door.passable;
     figures.added += !truth && door.passable;
     if (truth && !door.passable) figures.lost += " " + environment.products[door.product].id;
+    if (!truth || !hasFloor(raw, tree, *passage, kWalker.radius_m)) continue;
+    ++figures.floored;
+    const bool joined = leadsThrough(open.walkable, *passage, kWalker.radius_m), in_raw = leadsThrough(raw_walkable, *passage, kWalker.radius_m);
+    figures.joined += joined;
+    figures.joined_raw += in_raw;
+    if (!joined) figures.parted += " " + environment.products[door.product].id + (in_raw ? "!" : "");
   }
   return figures;
 }
@@ -266,17 +242,20 @@ struct Floors {
   int points = 0, gaps = 0;      // on a grid of 0.1 m; of more than 20 mm
 };
 
-Floors judgeFloors(const Soup& raw, const CollideResult& result) {
+Mesh rawWalkable(const Soup& raw) {
   std::vector<CollisionShape> skins(1);
   skins[0].kind = CollisionShapeKind::mesh;
   for (const auto& p : raw.positions) skins[0].mesh.positions.push_back(p.cast<float>());
   skins[0].mesh.triangles = raw.triangles;
   skins[0].mesh.surface_of_triangle.assign(raw.triangles.size(), 0);
   Progress progress;
-  const auto truth = walkableSurface(skins, {}, progress);
+  auto truth = walkableSurface(skins, {}, progress);
+  return truth ? std::move(truth->mesh) : Mesh{};
+}
+
+Floors judgeFloors(const Soup& raw, const Mesh& raw_walkable, const CollideResult& result) {
   Floors floors;
-  if (!truth) return floors;
-  const auto here = columns(result.walkable), there = columns(truth->mesh);
+  const auto here = columns(result.walkable), there = columns(raw_walkable);
   std::size_t ours = 0, theirs = 0, both = 0;
   for (const auto& [at, heights] : there) theirs += heights.size();
   for (const auto& [at, heights] : here) {
@@ -398,9 +377,12 @@ int judge(const std::string& file) {
   if (!closed) return fmt::print("{}: {}\n", file, describe(closed.error())), 1;
   const Soup raw = rawTriangles(environment);
   fmt::print("{}\n  {} shapes in {:.2f} s\n", std::filesystem::path(file).stem().string(), result->shapes.size(), seconds);
-  const auto doors = judgeDoors(environment, raw, *result, *closed);
+  const Mesh raw_walkable = rawWalkable(raw);
+  const auto doors = judgeDoors(environment, raw, raw_walkable, *result, *closed);
   fmt::print("  doors: {} of {} that are passable in truth ({} more of {}), {} when closed{}{}\n", doors.kept, doors.truth, doors.added, doors.doors, doors.closed_passable,
              doors.lost.empty() ? "" : ", lost:", doors.lost);
+  fmt::print("  ways: the surface leads through {} of {} that are passable and have a floor in truth, that of the raw triangles through {}{}{}\n", doors.joined,
+             doors.floored, doors.joined_raw, doors.parted.empty() ? "" : ", parted:", doors.parted);
   const auto leaks = sweepWalls(environment, raw, *result);
   fmt::print("  leaks: ball {}, walker {} of {} each, {} of them confirmed by distances\n", leaks.ball, leaks.walker, kSweeps / 2, leaks.exact);
   printPieces(file, environment, *result);
@@ -408,7 +390,7 @@ int judge(const std::string& file) {
   const auto off = deviations(environment, *result);
   fmt::print("  deviation: outward {:.1f} mm ({}), inward {:.1f} mm ({}), overfill {} of {} points in walls\n", off.outward * 1000, off.outward_id,
              off.inward * 1000, off.inward_id, off.overfull, off.points);
-  const auto floors = judgeFloors(raw, *result);
+  const auto floors = judgeFloors(raw, raw_walkable, *result);
   fmt::print("  walkable: {:.1f} m2 of {:.1f} m2, overlap {:.2f} %, gap at most {:.1f} mm, over 20 mm at {} of {} points\n", floors.area_m2, floors.truth_m2,
              floors.overlap * 100, floors.largest_gap_m * 1000, floors.gaps, floors.points);
   const auto walk = walkAtRandom(raw, *result);
