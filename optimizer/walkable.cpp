@@ -18,6 +18,8 @@ namespace {
 
 constexpr double kMostColumns = 4e6;
 constexpr double kMostLevels = 8000;  // Recast keeps heights in 13 bits
+constexpr double kLeastOver = 1e-3;   // m, what rounding adds to a step of just the height that is climbed …
+constexpr double kLeastSteeper = 0.1; // degrees, … and to a slope that is just not too steep, as many roofs are
 
 using Heightfield = std::unique_ptr<rcHeightfield, decltype(&rcFreeHeightField)>;
 using CompactHeightfield = std::unique_ptr<rcCompactHeightfield, decltype(&rcFreeCompactHeightfield)>;
@@ -37,7 +39,9 @@ Grid gridOver(const std::vector<CollisionShape>& shapes, const CollideOptions& o
   if (box.empty()) return grid;
   const Eigen::Vector3d size = box.max - box.min + Eigen::Vector3d::Constant(0.5);
   const double cell = std::max(options.agent_radius_m / 10, std::sqrt(size.x() * size.y() / kMostColumns));
-  const double level = std::max(cell / 2, (size.z() + options.agent_height_m) / kMostLevels);
+  // A step is a whole number of levels, so that it does not matter where between two levels it begins.
+  const double finest = std::max(cell / 2, (size.z() + options.agent_height_m) / kMostLevels), step = kStepHeight + kLeastOver;
+  const double level = finest < step ? step / std::floor(step / finest) : finest;
   grid.cell = static_cast<float>(cell);
   grid.level = static_cast<float>(level);
   const Eigen::Vector3d low(box.min.x(), box.min.z(), -box.max.y()), high(box.max.x(), box.max.z(), -box.min.y());
@@ -61,7 +65,7 @@ Soup soupOf(const Mesh& mesh, rcContext& context) {
   for (const auto& t : mesh.triangles)
     for (const auto v : t) soup.triangles.push_back(static_cast<int>(v));
   soup.areas.assign(mesh.triangles.size(), RC_NULL_AREA);
-  rcMarkWalkableTriangles(&context, static_cast<float>(kSteepestSlopeDeg), soup.corners.data(), static_cast<int>(mesh.positions.size()),
+  rcMarkWalkableTriangles(&context, static_cast<float>(kSteepestSlopeDeg + kLeastSteeper), soup.corners.data(), static_cast<int>(mesh.positions.size()),
                           soup.triangles.data(), static_cast<int>(mesh.triangles.size()), soup.areas.data());
   return soup;
 }
@@ -204,7 +208,7 @@ Result<Walkable> walkableSurface(const std::vector<CollisionShape>& shapes, cons
   result.cell_m = grid.cell;
   const auto full = [] { return failure(ErrorKind::unusable, "not enough memory for the walkable surface", "collide"); };
   rcContext context(false);
-  const int climb = static_cast<int>(std::floor(kStepHeight / grid.level + 1e-3));
+  const int climb = static_cast<int>(std::floor((kStepHeight + kLeastOver) / grid.level + 1e-3));
   const int height = static_cast<int>(std::ceil(options.agent_height_m / grid.level - 1e-3));
   const Heightfield field(rcAllocHeightfield(), rcFreeHeightField);
   if (!field || !rcCreateHeightfield(&context, *field, grid.width, grid.depth, grid.low, grid.high, grid.cell, grid.level)) return full();
