@@ -19,6 +19,7 @@
 
 #include "bench/collision_soup.h"
 #include "bench/door_ways.h"
+#include "bench/room_flood.h"
 #include "core/random.h"
 #include "importers/importers.h"
 #include "optimizer/avatar.h"
@@ -48,19 +49,6 @@ Soup rawTriangles(const Environment& environment) {
     if (environment.products[instance.product].inScene() && door_of[instance.product] < 0)
       soup.add(*environment.meshes[instance.mesh], instance.world_from_mesh, instance.product);
   return soup;
-}
-
-// Exactly: the volume that the upright body sweeps is a ball moved over a rectangle.
-bool meets(const Soup& soup, const TriangleTree& tree, const Body& body, const Vector3d& from, const Vector3d& to) {
-  const Vector3d low(0, 0, body.radius_m), high(0, 0, body.height_m - body.radius_m), margin = Vector3d::Constant(body.radius_m);
-  const Corners first{from + low, to + low, to + high}, second{from + low, to + high, from + high};
-  bool result = false;
-  tree.inBox((from + low).cwiseMin(to + low) - margin, (from + high).cwiseMax(to + high) + margin, [&](std::uint32_t i) {
-    const auto t = soup.corners(i);
-    result = distance(first, t) < body.radius_m || distance(second, t) < body.radius_m;
-    return !result;
-  });
-  return result;
 }
 
 // Somewhere in the door a walker of this size passes between the model's own triangles; sills up to a step are stepped over.
@@ -336,12 +324,24 @@ Walk walkAtRandom(const Soup& raw, const CollideResult& result) {
   return walk;
 }
 
-void printRooms(const Environment& environment, const CollideResult& result) {
+// Whether a flood of the model's own triangles comes to the same.
+void printRooms(const Environment& environment, const Soup& raw, const CollideResult& result) {
   const auto reached = std::count_if(result.rooms.begin(), result.rooms.end(), [](const Room& r) { return r.reached; });
-  fmt::print("  rooms: {} of {} reached", reached, result.rooms.size());
-  for (const auto& room : result.rooms)
-    if (!room.reached) fmt::print(", {} has {:.1f} m2", environment.products[room.product].name, room.walkable_m2);
-  fmt::print("\n");
+  const auto flooded = floodRooms(environment, raw, kWalker);
+  int same = 0;
+  std::string rows;
+  for (const auto& room : result.rooms) {
+    const auto own = std::find_if(flooded.begin(), flooded.end(), [&](const FloodedRoom& f) { return f.product == room.product; });
+    if (own == flooded.end()) continue;
+    const bool truth = own->mainland_m2 + own->entered_m2 > 0.05;
+    same += truth == room.reached;
+    if (truth && room.reached) continue;
+    const auto& product = environment.products[room.product];
+    rows += fmt::format("    room {} {}: {}, {:.1f} m2; flood: {}, {:.1f} m2, {:.1f} with most rooms, {:.1f} from an entrance, with {} other rooms\n", product.id, product.name,
+                        room.reached ? "reached" : "unreached", room.walkable_m2, truth ? "reached" : "unreached", own->area_m2, own->mainland_m2, own->entered_m2,
+                        own->others);
+  }
+  fmt::print("  rooms: {} of {} reached, the flood agrees on {}\n{}", reached, result.rooms.size(), same, rows);
 }
 
 void printPieces(const std::string& file, const Environment& environment, const CollideResult& result) {
@@ -386,7 +386,7 @@ int judge(const std::string& file) {
   const auto leaks = sweepWalls(environment, raw, *result);
   fmt::print("  leaks: ball {}, walker {} of {} each, {} of them confirmed by distances\n", leaks.ball, leaks.walker, kSweeps / 2, leaks.exact);
   printPieces(file, environment, *result);
-  printRooms(environment, *result);
+  printRooms(environment, raw, *result);
   const auto off = deviations(environment, *result);
   fmt::print("  deviation: outward {:.1f} mm ({}), inward {:.1f} mm ({}), overfill {} of {} points in walls\n", off.outward * 1000, off.outward_id,
              off.inward * 1000, off.inward_id, off.overfull, off.points);

@@ -306,6 +306,36 @@ TEST(Rooms, ThatAreWalledInAreReported) {
   EXPECT_EQ(result.report.issues.size(), 3);
 }
 
+// A ground floor with an entrance, and above it a gallery and three rooms behind passable doors, to which nothing leads up:
+// they are most of the rooms, and the gallery lies in the ground floor's space, which is as high as the house.
+TEST(Rooms, AboveTheGroundAreNotReachedWithoutAStair) {
+  Environment e;
+  models::add(e, models::box({12.4, 6.4, 0.2}, 1), "IfcSlab", at(-0.2, -0.2, -0.2));
+  models::add(e, extruded({{0, 6}, {12.4, 6}}, {{6, 0, 6.9, 2.1}}, 0.2), "IfcWall", at(-0.2, -0.2, 0));
+  models::add(e, models::box({12.4, 0.2, 6}, 1), "IfcWall", at(-0.2, 6, 0));
+  for (const double x : {-0.2, 12.0}) models::add(e, models::box({0.2, 6, 6}, 1), "IfcWall", at(x, 0, 0));
+  models::add(e, models::box({12, 4, 0.2}, 1), "IfcSlab", at(0, 2, 2.8));  // whose first metre is the gallery
+  models::add(e, extruded({{0, 3}, {12, 3}}, {{1.5, 0, 2.4, 2.1}, {5.5, 0, 6.4, 2.1}, {9.5, 0, 10.4, 2.1}}, 0.1), "IfcWall", at(0, 3, 3));
+  for (const double x : {4.0, 8.0}) models::add(e, models::box({0.1, 2.9, 3}, 1), "IfcWall", at(x, 3.1, 3));
+  models::add(e, models::box({0.9, 0.06, 2.1}, 1), "IfcDoor", at(5.8, -0.13, 0));
+  for (const double x : {1.5, 5.5, 9.5}) models::add(e, models::box({0.9, 0.06, 2.1}, 1), "IfcDoor", at(x, 3.02, 3));
+  Mesh hall = models::box({12, 6, 2.8}, 1);
+  models::append(hall, models::box({12, 3, 3}, 1), at(0, 0, 2.9));
+  models::add(e, hall, "IfcSpace");
+  for (const double x : {0.0, 4.1, 8.1}) models::add(e, models::box({3.9, 2.9, 3}, 1), "IfcSpace", at(x, 3.1, 3));
+  for (std::size_t i = e.products.size() - 4; i < e.products.size(); ++i) e.products[i].tangible = false;
+  auto result = collided(e);
+  ASSERT_EQ(result.rooms.size(), 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(result.rooms[i].reached, i == 0) << i;
+    EXPECT_GT(result.rooms[i].walkable_m2, 5) << i;
+  }
+  for (int i = 0; i < 15; ++i) models::add(e, models::box({0.28, 1, 0.2 * (i + 1)}, 1), "IfcStair", at(1 + 0.28 * i, 1, 0));
+  models::add(e, models::box({1.5, 1, 3}, 1), "IfcStair", at(1 + 0.28 * 15, 1, 0));
+  result = collided(e);
+  for (const auto& room : result.rooms) EXPECT_TRUE(room.reached) << room.product;
+}
+
 TEST(Door, TellsItsClearWidthAndPlace) {
   const auto result = collided(threeRooms());
   ASSERT_EQ(result.doors.size(), 3);
