@@ -13,6 +13,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kStep = 0.01;    // m between the points
+constexpr double kFeet = 0.15;    // m beside the middle of a way that need a floor too
 constexpr double kReach = 0.6;    // m above and below the door's lower edge that its way may lie
 
 struct Points {
@@ -67,12 +68,17 @@ bool leadsThrough(const Mesh& walkable, const Passage& door, double radius_m) {
 
 bool hasFloor(const Soup& model, const TriangleTree& tree, const Passage& door, double radius_m) {
   const double reach = door.half_depth + radius_m;
+  const auto under = [&](double along, double beside, double level, double within) {
+    Vector3d p = door.middle + door.through * along + door.across * beside;
+    p.z() = level;
+    return floorUnder(model, tree, p, within, within);
+  };
   for (const double beside : {0.0, 0.1, -0.1, 0.2, -0.2, 0.3, -0.3}) {
-    double level = floorUnder(model, tree, door.middle - door.through * reach + door.across * beside, 0.35, 0.35);
-    for (double u = -reach; u <= reach && level > -1e299; u += kStep) {
-      Vector3d p = door.middle + door.through * u + door.across * beside;
-      p.z() = level;
-      level = floorUnder(model, tree, p, kStepHeight, kStepHeight);
+    double level = under(-reach, beside, door.middle.z(), 0.35);
+    for (double along = -reach; along <= reach && level > -1e299; along += kStep) {
+      level = under(along, beside, level, kStepHeight);
+      for (const double foot : {-kFeet, kFeet})  // the top of a wall is no floor
+        if (level > -1e299 && under(along, beside + foot, level, kStepHeight) < -1e299) level = -1e300;
     }
     if (level > -1e299) return true;
   }

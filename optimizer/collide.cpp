@@ -14,6 +14,7 @@
 #include "optimizer/rooms.h"
 #include "optimizer/shape.h"
 #include "optimizer/walkable.h"
+#include "optimizer/ways.h"
 
 namespace standpoint {
 
@@ -112,6 +113,7 @@ Result<CollideResult> collide(const Environment& environment, const CollideOptio
   progress.stage("Pass through the doors", 0.9, 1);
   if (auto going = progress.check(); !going) return failure(going.error());
   result.doors = checkDoors(environment, result.shapes, options, result.report);
+  joinThroughDoors(environment, result.shapes, options, result.doors, *walkable, result.report);
   if (options.doors != DoorState::closed) result.rooms = checkRooms(environment, *walkable, result.doors, result.report);
   result.walkable_area_m2 = walkable->area_m2;
   result.walkable = std::move(walkable->mesh);

@@ -306,6 +306,44 @@ TEST(Rooms, ThatAreWalledInAreReported) {
   EXPECT_EQ(result.report.issues.size(), 3);
 }
 
+// Two rooms and a wall with a doorway between them, turned about the vertical; a space in each.
+Environment narrowDoorway(double width, double step, double turn) {
+  Environment e;
+  models::add(e, models::box({3, 4, 0.2}, 1), "IfcSlab", at(0, 0, -0.2));
+  models::add(e, models::box({3, 4, 0.2}, 1), "IfcSlab", at(3, 0, step - 0.2));
+  const Affine3d across = at(3.1, 0, 0) * AngleAxisd(1.5707963267948966, Vector3d::UnitZ());
+  models::add(e, extruded({{0, 2.8}, {4, 2.8}}, {{2 - width / 2, 0, 2 + width / 2, 2.1}}, 0.2), "IfcWall", across);
+  models::add(e, models::box({0.06, width, 2.1}, 1), "IfcDoor", at(2.97, 2 - width / 2, 0));
+  for (const double x : {0.0, 3.1}) {
+    models::add(e, models::box({2.9, 4, 2.8}, 1), "IfcSpace", at(x, 0, 0));
+    e.products.back().tangible = false;
+  }
+  for (auto& instance : e.instances) instance.world_from_mesh = AngleAxisd(turn, Vector3d::UnitZ()) * instance.world_from_mesh;
+  return e;
+}
+
+TEST(Door, HardlyWiderThanTheAgentLeadsFromRoomToRoom) {
+  for (const double width : {0.605, 0.62, 0.65, 0.7})
+    for (const double turn : {0.0, 0.02, 0.3, 0.785, 1.2, 2.0}) {
+      const auto result = collided(narrowDoorway(width, 0.1, turn));
+      ASSERT_EQ(result.doors.size(), 1);
+      EXPECT_TRUE(result.doors[0].passable && result.doors[0].floor && result.doors[0].led_through) << width << " " << turn;
+      EXPECT_TRUE(result.rooms[0].reached && result.rooms[1].reached) << width << " " << turn;
+      EXPECT_EQ(validate(result.walkable, 1), "");
+      EXPECT_NEAR(area(result.walkable), result.walkable_area_m2, 1e-3 * result.walkable_area_m2);
+    }
+}
+
+TEST(Door, AboveAStepThatNobodyClimbsIsNotLedThrough) {
+  for (const double turn : {0.0, 0.3}) {
+    const auto result = collided(narrowDoorway(0.9, 0.28, turn));
+    EXPECT_TRUE(result.doors[0].passable && result.doors[0].floor);
+    EXPECT_FALSE(result.doors[0].led_through);
+    EXPECT_FALSE(result.rooms[0].reached && result.rooms[1].reached);
+    EXPECT_THAT(result.report.issues, testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("does not lead through"))));
+  }
+}
+
 // A ground floor with an entrance, and above it a gallery and three rooms behind passable doors, to which nothing leads up:
 // they are most of the rooms, and the gallery lies in the ground floor's space, which is as high as the house.
 TEST(Rooms, AboveTheGroundAreNotReachedWithoutAStair) {
