@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <numeric>
 #include <regex>
 #include <set>
 #include <string>
@@ -146,15 +147,55 @@ bool inside(const CollisionShape& shape, const Vector3d& p, double tolerance) {
 }
 
 // How often the closed surface goes around p.
-double winding(const Soup& soup, const Vector3d& p) {
+double winding(const Soup& soup, const std::vector<std::uint32_t>& triangles, const Vector3d& p) {
   double sum = 0;
-  for (std::uint32_t i = 0; i < soup.triangles.size(); ++i) {
+  for (const auto i : triangles) {
     const auto t = soup.corners(i);
     const Vector3d a = t[0] - p, b = t[1] - p, c = t[2] - p;
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
     sum += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
   }
   return sum / (4 * 3.14159265358979323846);
+}
+
+// The triangles of a soup by bodies: parted where an edge has not just two of them. A closed stringer and the open treads that
+// end on it are bodies of their own, or the treads would take from what goes around a point in the stringer.
+std::vector<std::vector<std::uint32_t>> bodiesOf(const Soup& soup) {
+  using Point = std::array<double, 3>;
+  std::map<std::pair<Point, Point>, std::vector<std::uint32_t>> edges;
+  for (std::uint32_t i = 0; i < soup.triangles.size(); ++i) {
+    const auto t = soup.corners(i);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector3d &a = t[k], &b = t[(k + 1) % 3];
+      const Point p{a.x(), a.y(), a.z()}, q{b.x(), b.y(), b.z()};
+      edges[{std::min(p, q), std::max(p, q)}].push_back(i);
+    }
+  }
+  std::vector<std::uint32_t> joined(soup.triangles.size());
+  std::iota(joined.begin(), joined.end(), 0U);
+  const auto root = [&](std::uint32_t i) {
+    while (joined[i] != i) i = joined[i] = joined[joined[i]];
+    return i;
+  };
+  for (const auto& [edge, triangles] : edges)
+    if (triangles.size() == 2) joined[root(triangles[0])] = root(triangles[1]);
+  std::map<std::uint32_t, std::vector<std::uint32_t>> bodies;
+  for (std::uint32_t i = 0; i < joined.size(); ++i) bodies[root(i)].push_back(i);
+  std::vector<std::vector<std::uint32_t>> result;
+  for (auto& [first, triangles] : bodies) result.push_back(std::move(triangles));
+  return result;
+}
+
+// In a body, and in no cavity of one.
+bool isInside(const Soup& soup, const std::vector<std::vector<std::uint32_t>>& bodies, const Vector3d& p) {
+  double all = 0, most = 0, least = 0;
+  for (const auto& body : bodies) {
+    const double own = winding(soup, body, p);
+    all += own;
+    most = std::max(most, own);
+    least = std::min(least, own);
+  }
+  return std::abs(all) > 0.5 || (most > 0.5 && least > -0.5);
 }
 
 struct Deviations {
@@ -167,13 +208,14 @@ void deviationOf(const std::string& id, bool wall, const Soup& raw, const std::v
   Soup made;
   for (std::uint32_t i = 0; i < shapes.size(); ++i) made.add(shapes[i]->mesh, Eigen::Affine3d::Identity(), i);
   const TriangleTree raw_tree(raw.positions, raw.triangles), made_tree(made.positions, made.triangles);
+  const auto bodies = bodiesOf(raw);
   double outward = 0, inward = 0;
   for (const auto& point : pointsByArea(made.positions, made.triangles, kSamples, {3, 0})) {
     const auto own = made.owner[point.triangle];
     const bool covered = std::any_of(shapes.begin(), shapes.end(), [&](const auto* s) { return s != shapes[own] && inside(*s, point.position, 1e-4); });
     if (covered) continue;
     // Between pieces there may be a crack within the solid: only what is out of the model's surface is too much.
-    if (const double off = std::sqrt(raw_tree.squaredDistance(point.position)); off > outward && std::abs(winding(raw, point.position)) < 0.5) outward = off;
+    if (const double off = std::sqrt(raw_tree.squaredDistance(point.position)); off > outward && !isInside(raw, bodies, point.position)) outward = off;
   }
   for (const auto& point : pointsByArea(raw.positions, raw.triangles, kSamples, {4, 0})) {
     const bool covered = std::any_of(shapes.begin(), shapes.end(), [&](const auto* s) { return inside(*s, point.position, 1e-4); });
@@ -190,7 +232,7 @@ void deviationOf(const std::string& id, bool wall, const Soup& raw, const std::v
     const double u = uniform(random[3]), v = uniform(random[2] ^ random[1]);
     const Vector3d p = corner(random[0]) * u + (1 - u) * (corner(random[1]) * v + (1 - v) * corner(random[2]));
     ++sum.points;
-    if (std::abs(winding(raw, p)) < 0.5 && raw_tree.squaredDistance(p) > 1e-4) ++sum.overfull;
+    if (!isInside(raw, bodies, p) && raw_tree.squaredDistance(p) > 1e-4) ++sum.overfull;
   }
 }
 

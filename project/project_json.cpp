@@ -266,7 +266,7 @@ std::shared_ptr<const CollideResult> collisionFrom(const json& part, const Envir
     c.doors.back().closed = d.at(3);
     c.doors.back().clear_width_m = d.at(4);
     c.doors.back().position = vectorFrom(d.at(5));
-    if (d.size() > 6) c.doors.back().led_through = d.at(6);  // a project of before the surface was followed through doors
+    c.doors.back().led_through = d.size() > 6 ? d.at(6).get<bool>() : c.doors.back().passable;  // before it was looked for
   }
   for (const auto& r : part.value("rooms", json::array())) c.rooms.push_back({r.at(0), r.at(1), r.at(2), vectorFrom(r.at(3))});
   c.walkable_area_m2 = part.at("walkable_area_m2");
