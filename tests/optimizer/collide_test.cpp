@@ -572,6 +572,16 @@ TEST(Collision, OfWhatIsNotANumberIsRefusedWithItsPlace) {
   EXPECT_EQ(result.error().kind, ErrorKind::unusable);
 }
 
+TEST(Collision, OfWhatIsOutOfReachIsRefusedWithItsName) {
+  Environment e = twoRooms(true);
+  models::add(e, models::box({1e30, 1, 1}, 1), "IfcWall");
+  Progress progress;
+  const auto result = collide(e, {}, progress);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, ErrorKind::unusable);
+  EXPECT_THAT(result.error().message, testing::HasSubstr("#9"));
+}
+
 // A screw thread of thin turns: many planes, none of them worth a cut.
 TEST(Collision, OfARichShapeEndsSoon) {
   Mesh spiral;

@@ -59,5 +59,17 @@ TEST(Slope, OfJustFortyFiveDegreesIsWalkedWhereverItPoints) {
   }
 }
 
+// A thing by mistake 10 km away must not make the grid so coarse that no room has a floor any more.
+TEST(Walkability, IsFoundAsFinelyWhereSomethingIsFarAway) {
+  Environment near, far;
+  for (auto* e : {&near, &far}) models::add(*e, models::box({3, 3, 0.2}, 1), "");
+  models::add(far, models::box({1, 1, 1}, 1), "", at(10'000, -10'000, 3000));
+  models::add(far, models::box({3, 0.2, 2}, 1), "", at(0, -0.4, 0.1));  // beside it, and in the way
+  models::add(near, models::box({3, 0.2, 2}, 1), "", at(0, -0.4, 0.1));
+  const auto a = walkableOf(near), b = walkableOf(far);
+  EXPECT_EQ(a.cell_m, b.cell_m);
+  EXPECT_EQ(a.area_m2, b.area_m2);
+}
+
 }  // namespace
 }  // namespace standpoint
