@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include "optimizer/triangle_distance.h"
 
@@ -69,12 +71,13 @@ class Way {
   Way(const Shape& from, const Shape& to, const TriangleTree& tree, const std::vector<std::uint32_t>& counterpart)
       : from_(from), to_(to), tree_(tree), counterpart_(counterpart) {}
 
-  OneWay ofPoints(const std::vector<SurfacePoint>& points) const {
-    return inChunks(points.size(), [&](std::size_t first, std::size_t last) {
+  // Each stride-th of them.
+  OneWay ofPoints(const std::vector<SurfacePoint>& points, std::size_t stride) const {
+    return inChunks((points.size() + stride - 1) / stride, [&](std::size_t first, std::size_t last) {
       OneWay part;
       std::uint32_t lately = kNone;  // what was nearest to the point before
       for (auto i = first; i < last; ++i) {
-        const auto& point = points[i];
+        const auto& point = points[i * stride];
         auto near = hint(point.triangle, point.position);
         if (lately != kNone)
           if (const double squared = squaredDistance(point.position, to_, lately); squared < near.squared) near = {squared, lately};
@@ -93,19 +96,22 @@ class Way {
   // The largest squared distance of any point of the surface, at most 4 % below the truth but for pieces that are still in doubt when a triangle
   // was halved nine times; or `known`, if none is further. Of dense meshes only vertices and middles of faces and edges are looked at.
   double farthest(double known) const {
+    const bool dense = from_.triangles.size() + to_.triangles.size() > kMostSearched;
+    // Of the finer one most triangles are settled as a whole, so that sorting its edges would cost more than it saves.
+    std::vector<std::uint8_t> fresh(from_.triangles.size(), 63);
+    if (dense && from_.triangles.size() < to_.triangles.size()) fresh = freshPoints();
     return inChunks(from_.triangles.size(), [&](std::size_t first, std::size_t last) {
       OneWay part{known};
       std::uint32_t lately = kNone;  // what was near enough for the piece before
+      Corner corner_before[3];
       for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
         const auto& t = from_.triangles[i];
         const auto own = i < counterpart_.size() ? counterpart_[i] : kNone;
         const Corners corners{from_.positions[t[0]], from_.positions[t[1]], from_.positions[t[2]]};
-        if (own != kNone && reach(corners, own) <= part.max_squared) {
-          lately = own;
-          continue;
-        }
-        if (from_.triangles.size() + to_.triangles.size() <= kMostSearched) search(corners, kHalvings, lately, part.max_squared);
-        else lookAtMiddles(corners, lately, part.max_squared);
+        if (lately != kNone && answers(lately, t, corner_before, part.max_squared)) continue;
+        if (own != kNone && own != lately && answers(own, t, corner_before, part.max_squared)) lately = own;
+        else if (dense) lookAtMiddles(corners, fresh[i], lately, part.max_squared);
+        else search(corners, kHalvings, lately, part.max_squared);
       }
       return part;
     }).max_squared;
@@ -120,6 +126,28 @@ class Way {
   // No point of the piece is further from that triangle: the distance from one convex set is greatest at a corner.
   double reach(const Corners& piece, std::uint32_t triangle) const {
     return std::max({squaredDistance(piece[0], to_, triangle), squaredDistance(piece[1], to_, triangle), squaredDistance(piece[2], to_, triangle)});
+  }
+
+  // The same of a triangle; it mostly shares two corners with the one that was asked for before.
+  struct Corner {
+    std::uint32_t vertex = kNone, triangle = kNone;
+    double squared = 0;
+  };
+  bool answers(std::uint32_t triangle, const Triangle& t, Corner (&before)[3], double max_squared) const {
+    Corner now[3];
+    for (int k = 0; k < 3; ++k) {
+      now[k] = {t[k], triangle, -1};
+      for (const auto& corner : before)
+        if (corner.vertex == t[k] && corner.triangle == triangle) now[k].squared = corner.squared;
+    }
+    bool near = true;
+    for (auto& corner : now) {
+      if (corner.squared < 0) corner.squared = squaredDistance(from_.positions[corner.vertex], to_, triangle);
+      near = corner.squared <= max_squared;
+      if (!near) break;
+    }
+    if (near) std::copy(now, now + 3, before);
+    return near;
   }
 
   // Branch and bound: halves along the longest edge, until one triangle of the other surface answers for all of a piece.
@@ -146,16 +174,42 @@ class Way {
     search({half, b, c}, halvings - 1, lately, max_squared);
   }
 
-  void lookAtMiddles(const Corners& t, std::uint32_t& lately, double& max_squared) const {
-    for (const auto& p : t) lookAt(p, lately, max_squared);
+  // Of each triangle which corners (the lower three bits) and which edges no triangle before it has.
+  std::vector<std::uint8_t> freshPoints() const {
+    std::vector<std::uint8_t> fresh(from_.triangles.size(), 0);
+    std::vector<bool> seen(from_.positions.size(), false);
+    for (std::size_t i = 0; i < fresh.size(); ++i)
+      for (unsigned k = 0; k < 3; ++k) {
+        const auto v = from_.triangles[i][k];
+        if (!seen[v]) fresh[i] |= static_cast<std::uint8_t>(1U << k);
+        seen[v] = true;
+      }
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> edges(3 * fresh.size());  // its vertices, the corner it begins at
+    for (std::uint32_t corner = 0; corner < edges.size(); ++corner) {
+      const auto& t = from_.triangles[corner / 3];
+      const auto [a, b] = std::minmax(t[corner % 3], t[(corner + 1) % 3]);
+      edges[corner] = {std::uint64_t{a} << 32U | b, corner};
+    }
+    tbb::parallel_sort(edges.begin(), edges.end());
+    for (std::size_t i = 0; i < edges.size(); ++i)
+      if (i == 0 || edges[i].first != edges[i - 1].first) fresh[edges[i].second / 3] |= static_cast<std::uint8_t>(8U << (edges[i].second % 3));
+    return fresh;
+  }
+
+  void lookAtMiddles(const Corners& t, std::uint8_t fresh, std::uint32_t& lately, double& max_squared) const {
     lookAt((t[0] + t[1] + t[2]) / 3, lately, max_squared);
-    for (int k = 0; k < 3; ++k) lookAt((t[k] + t[(k + 1) % 3]) / 2, lately, max_squared);
+    if (lately != kNone && reach(t, lately) <= max_squared) return;
+    for (unsigned k = 0; k < 3; ++k) {
+      if ((fresh & 1U << k) != 0) lookAt(t[k], lately, max_squared);
+      if ((fresh & 8U << k) != 0) lookAt((t[k] + t[(k + 1) % 3]) / 2, lately, max_squared);
+    }
   }
 
   void lookAt(const Vector3d& p, std::uint32_t& lately, double& max_squared) const {
-    if (lately != kNone && squaredDistance(p, to_, lately) <= max_squared) return;
-    const auto near = tree_.nearestTriangle(p, std::numeric_limits<double>::infinity(), max_squared);
-    lately = near.triangle;
+    const double known = lately != kNone ? squaredDistance(p, to_, lately) : std::numeric_limits<double>::infinity();
+    if (known <= max_squared) return;
+    const auto near = tree_.nearestTriangle(p, known, max_squared);
+    if (near.triangle != kNone) lately = near.triangle;
     max_squared = std::max(max_squared, near.squared);
   }
 
@@ -200,11 +254,11 @@ DeviationMeter::DeviationMeter(const Shape& before, const TriangleTree& tree, st
   for (const auto& t : before.triangles) area_m2_ += areaOf(before.positions, t);
 }
 
-Deviation DeviationMeter::of(const Shape& after, const std::vector<std::uint32_t>& image) const { return measure(after, image, true); }
+Deviation DeviationMeter::of(const Shape& after, const std::vector<std::uint32_t>& image) const { return measure(after, image, samples_, true); }
 
 Deviation DeviationMeter::ofItself() const { return {.area_m2 = area_m2_}; }
 
-Deviation DeviationMeter::measure(const Shape& after, const std::vector<std::uint32_t>& image, bool vertices) const {
+Deviation DeviationMeter::measure(const Shape& after, const std::vector<std::uint32_t>& image, std::uint32_t samples, bool search) const {
   Deviation result;
   if (before_.triangles.empty()) return result;
   if (after.triangles.empty()) {
@@ -214,10 +268,11 @@ Deviation DeviationMeter::measure(const Shape& after, const std::vector<std::uin
     for (std::uint32_t i = 0; i < image.size(); ++i)
       if (image[i] != kNone) origin[image[i]] = i;
     const TriangleTree tree(after.positions, after.triangles);
+    const std::size_t stride = std::max<std::size_t>(1, points_.size() / std::max<std::uint32_t>(samples, 1));
     const Way forth(before_, after, tree, image), back(after, before_, tree_, origin);
-    const OneWay there = forth.ofPoints(points_), here = back.ofPoints(pointsByArea(after.positions, after.triangles, samples_, {seed_, 1}));
+    const OneWay there = forth.ofPoints(points_, stride), here = back.ofPoints(pointsByArea(after.positions, after.triangles, samples, {seed_, 1}), 1);
     double max_squared = std::max(there.max_squared, here.max_squared);
-    if (vertices) max_squared = forth.farthest(back.farthest(max_squared));
+    if (search) max_squared = forth.farthest(back.farthest(max_squared));
     result.max_m = std::sqrt(max_squared);
     result.mean_m = 0.5 * (there.mean() + here.mean());
     result.turn_rad = there.meanTurn();

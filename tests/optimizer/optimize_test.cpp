@@ -195,9 +195,9 @@ TEST(Deviation, StatedIsWhatExhaustiveSearchFinds) {
   for (const auto& before : {models::sphere(1, 20, 26), models::torus(1, 0.4, 30, 16)}) {
     const auto result = optimized(only(before), before.triangles.size() / 6, 1);
     const auto& after = *result.environment.meshes[0];
-    const double max_m = std::max(models::farthest(before, after, 2000), models::farthest(after, before, 2000));
+    const double max_m = std::max(models::farthest(before, after, 20'000), models::farthest(after, before, 20'000));
     const double mean_m = 0.5 * (models::meanDistance(before, after, 2000) + models::meanDistance(after, before, 2000));
-    EXPECT_GE(result.all.max_deviation_m, 0.999 * max_m);  // it looks at more points
+    EXPECT_GE(result.all.max_deviation_m, 0.96 * max_m);  // it does not search what can only be 4 % further
     EXPECT_LE(result.all.max_deviation_m, 1.15 * max_m);
     EXPECT_NEAR(result.all.mean_deviation_m / mean_m, 1, 0.05);
     EXPECT_LT(mean_m, 0.02);
