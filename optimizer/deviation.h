@@ -40,6 +40,8 @@ class DeviationMeter {
   // `image` is replay()'s, or empty: it only makes the search faster. `after` has the same centre.
   Deviation of(const Shape& after, const std::vector<std::uint32_t>& image = {}) const;
   Deviation ofItself() const;
+  // Whether the maximum is more than that; much faster than the maximum.
+  bool exceeds(const Shape& after, const std::vector<std::uint32_t>& image, double limit_m) const;
   // By about so many samples, and the maximum by no more than those.
   Deviation roughlyOf(const Shape& after, std::uint32_t samples) const { return measure(after, {}, samples, false); }
   // How far `after` reaches out of the shape before, where `counts` says that it matters.

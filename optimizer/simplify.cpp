@@ -15,7 +15,7 @@ namespace standpoint {
 namespace {
 
 constexpr std::uint32_t kRoughSamples = 5000;
-constexpr std::size_t kRefineFrom = 3;           // times the triangles that shall be left
+constexpr std::size_t kRefineFrom = 6;           // times the triangles that shall be left
 constexpr std::size_t kRefineMin = 300, kRefineMost = 200'000;  // triangles of a form that is worth refining, and of one whose last steps are few enough
 
 // Largest first, so that the last threads do not wait for the largest.
@@ -93,8 +93,9 @@ void shrinkToDeviation(Work& work, const DeviationMeter& meter) {
   std::size_t good = 0, bad = work.taken;
   while (bad - good > 1) {
     const std::size_t middle = good + (bad - good) / 2;
-    measure(work, meter, middle);
-    (work.deviation.max_m <= work.cap_m ? good : bad) = middle;
+    std::vector<std::uint32_t> image;
+    const Shape form = atLevel(work.shape, work.levels, middle, image);
+    (meter.exceeds(form, image, work.cap_m) ? bad : good) = middle;
   }
   work.limit = good;
   work.measured = false;

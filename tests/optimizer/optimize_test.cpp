@@ -254,6 +254,22 @@ TEST(Simplification, OfAShapeThatIsCutIntoCellsGivesTheSameBytesForAnyNumberOfTh
   }
 }
 
+// So much is left that the refinement is done in cells, too.
+TEST(Simplification, RefinedInCellsGivesTheSameBytesForAnyNumberOfThreads) {
+  const auto environment = only(models::torus(2, 0.5, 400, 150));  // 120 000 triangles
+  std::string first;
+  for (const std::size_t threads : {1, 2, 8}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const auto result = optimized(environment, 12'000, 0.1);
+    EXPECT_LE(result.all.triangles_after, 12'000U);
+    EXPECT_GE(result.all.triangles_after, 11'880U);
+    EXPECT_TRUE(isClosed(*result.environment.meshes[0]));
+    const auto now = bytes(result);
+    if (first.empty()) first = now;
+    EXPECT_TRUE(first == now) << threads << " threads";
+  }
+}
+
 TEST(Simplification, SurvivesDegenerateInput) {
   Mesh bad = models::box({1, 1, 1}, 3);
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
