@@ -127,12 +127,46 @@ std::vector<std::uint32_t> LogPlayer::image() const {
   return result;
 }
 
+std::vector<Triangle> LogPlayer::wedges() const {
+  if (shape_.wedges.empty()) return {};
+  std::vector<bool> here(shape_.triangles.size(), false);
+  for (std::size_t i = 0; i < form_.triangles.size(); ++i) here[origin_[i]] = true;
+  std::vector<std::uint32_t> same;  // as which another wedge counts
+  const auto root = [&](std::uint32_t w) {
+    while (same[w] != w) w = same[w] = same[same[w]];
+    return w;
+  };
+  std::uint32_t most = 0;
+  for (const auto& t : shape_.wedges) most = std::max({most, t[0], t[1], t[2]});
+  same.resize(std::size_t{most} + 1);
+  std::iota(same.begin(), same.end(), 0U);
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    if (here[i]) continue;
+    Triangle end = shape_.triangles[i];
+    for (auto& v : end)
+      while (joined_[v] != v) v = joined_[v];
+    for (int k = 0; k < 3; ++k)
+      if (const int n = (k + 1) % 3; end[k] == end[n]) {
+        const auto one = root(shape_.wedges[i][k]), other = root(shape_.wedges[i][n]);
+        same[std::max(one, other)] = std::min(one, other);
+      }
+  }
+  std::vector<Triangle> result;
+  result.reserve(form_.triangles.size());
+  for (std::size_t i = 0; i < form_.triangles.size(); ++i) {
+    const auto& w = shape_.wedges[origin_[i]];
+    result.push_back({root(w[0]), root(w[1]), root(w[2])});
+  }
+  return result;
+}
+
 Shape withoutUnused(const Shape& shape, std::vector<std::uint32_t>& names) {
   Shape result;
   result.centre = shape.centre;
   result.half_size = shape.half_size;
   result.surface_of_triangle = shape.surface_of_triangle;
   result.triangles = shape.triangles;
+  result.wedges = shape.wedges;
   names.clear();
   std::vector<std::uint32_t> index(shape.positions.size(), kNone);
   for (auto& t : result.triangles)

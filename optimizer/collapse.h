@@ -48,6 +48,8 @@ class LogPlayer {
   const Shape& at(std::size_t steps);
   // For each triangle of the shape what it became in what at() gave last, or one that is near that; the largest number if there is none.
   std::vector<std::uint32_t> image() const;
+  // The wedges of what at() gave last, as Shape's: corners whose paint is one after what vanished between them have the same.
+  std::vector<Triangle> wedges() const;
   Shape take() { return std::move(form_); }
 
  private:

@@ -118,23 +118,28 @@ void Collapser::pushAll() {
 void Collapser::place(std::uint32_t a, std::uint32_t b, Merger& merger) const {
   const Quadric& q = merger.q;
   const Vector3d &pa = patch_.positions[a], &pb = patch_.positions[b];
-  const double cost_a = q(pa);
+  const auto take = [&](const Vector3d& p) {
+    const double value = q(p);
+    if (value >= merger.value) return;
+    merger.position = p;
+    merger.value = value;
+  };
   merger.position = pa;
-  merger.value = cost_a;
-  if (fixed(a)) return;
-  if (const double cost_b = q(pb); cost_b < cost_a) {
-    merger.position = pb;
-    merger.value = cost_b;
+  merger.value = std::numeric_limits<double>::infinity();
+  const double same = q.weight * rounding_ * rounding_;
+  if (!options_.lossless && !fixed(a)) {
+    const Vector3d middle = 0.5 * (pa + pb), best = q.minimum(middle);
+    const bool inside = (best.cwiseAbs().array() <= half_size_.array()).all();
+    const bool near = (best - middle).squaredNorm() <= 4 * (pb - pa).squaredNorm();  // else ill-conditioned, or not finite
+    take(near ? best.cwiseMax(-half_size_).cwiseMin(half_size_) : middle);
+    if (inside && near && merger.value > same) return;  // no end is better
   }
   // An end that is as good up to rounding keeps its exact position, so that planes stay planes.
-  if (options_.lossless || merger.value <= q.weight * rounding_ * rounding_) return;
-  const Vector3d middle = 0.5 * (pa + pb);
-  Vector3d best = q.minimum(middle).cwiseMax(-half_size_).cwiseMin(half_size_);
-  if (!((best - middle).squaredNorm() <= 4 * (pb - pa).squaredNorm())) best = middle;  // ill-conditioned, or not finite
-  if (const double value = q(best); value < merger.value) {
-    merger.position = best;
-    merger.value = value;
-  }
+  const Merger best = merger;
+  merger.value = std::numeric_limits<double>::infinity();
+  take(pa);
+  if (!fixed(a)) take(pb);
+  if (merger.value > same && best.value < merger.value) merger = best;
 }
 
 // Nothing where the two may not join.

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "optimizer/farthest.h"
@@ -17,11 +19,18 @@ using Eigen::Vector3d;
 
 constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
 
-double areaOf(std::span<const Vector3d> positions, const Triangle& t) {
-  return 0.5 * (positions[t[1]] - positions[t[0]]).cross(positions[t[2]] - positions[t[0]]).norm();
-}
+constexpr std::size_t kChunk = 2048;     // points or triangles that one task looks at
 
-constexpr std::size_t kChunk = 2048;     // points that one task looks at
+std::vector<double> areasOf(std::span<const Vector3d> positions, std::span<const Triangle> triangles) {
+  std::vector<double> areas(triangles.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, areas.size(), kChunk), [&](const auto& range) {
+    for (auto i = range.begin(); i < range.end(); ++i) {
+      const auto& t = triangles[i];
+      areas[i] = 0.5 * (positions[t[1]] - positions[t[0]]).cross(positions[t[2]] - positions[t[0]]).norm();
+    }
+  });
+  return areas;
+}
 
 struct OneWay {
   double max_squared = 0, sum = 0, turn = 0;
@@ -87,6 +96,25 @@ std::vector<std::uint32_t> inverseOf(const std::vector<std::uint32_t>& image, st
   return origin;
 }
 
+std::vector<SurfacePoint> spread(std::span<const Vector3d> positions, std::span<const Triangle> triangles, const std::vector<double>& areas, std::uint32_t count,
+                                 const RandomKey& key) {
+  std::vector<SurfacePoint> points;
+  const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
+  if (!(total > 0)) return points;
+  points.reserve(count);
+  double walked = 0;
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    const auto& t = triangles[i];
+    walked += areas[i];
+    while (points.size() < count && (static_cast<double>(points.size()) + 0.5) * total <= walked * count) {
+      const auto block = philox(key, static_cast<std::uint32_t>(points.size()), 0, 0);
+      const double r = std::sqrt(uniform(block[0])), s = uniform(block[1]);
+      points.push_back({i, (1 - r) * positions[t[0]] + r * (1 - s) * positions[t[1]] + r * s * positions[t[2]]});
+    }
+  }
+  return points;
+}
+
 Deviation deviationOfDropped(const Shape& shape, const std::vector<SurfacePoint>& points) {
   OneWay way;
   for (const auto& point : points) way += {point.position.squaredNorm(), point.position.norm(), 0, 1};
@@ -99,28 +127,14 @@ Deviation deviationOfDropped(const Shape& shape, const std::vector<SurfacePoint>
 
 std::vector<SurfacePoint> pointsByArea(std::span<const Vector3d> positions, std::span<const Triangle> triangles, std::uint32_t count,
                                        const RandomKey& key) {
-  std::vector<SurfacePoint> points;
-  double total = 0;
-  for (const auto& t : triangles) total += areaOf(positions, t);
-  if (!(total > 0)) return points;
-  points.reserve(count);
-  double walked = 0;
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    const auto& t = triangles[i];
-    walked += areaOf(positions, t);
-    while (points.size() < count && (static_cast<double>(points.size()) + 0.5) * total <= walked * count) {
-      const auto block = philox(key, static_cast<std::uint32_t>(points.size()), 0, 0);
-      const double r = std::sqrt(uniform(block[0])), s = uniform(block[1]);
-      points.push_back({i, (1 - r) * positions[t[0]] + r * (1 - s) * positions[t[1]] + r * s * positions[t[2]]});
-    }
-  }
-  return points;
+  return spread(positions, triangles, areasOf(positions, triangles), count, key);
 }
 
 DeviationMeter::DeviationMeter(const Shape& before, const TriangleTree& tree, std::uint32_t samples, std::uint64_t seed)
-    : before_(before), samples_(samples), seed_(seed), tree_(tree),
-      points_(pointsByArea(before.positions, before.triangles, samples, {seed, 0})) {
-  for (const auto& t : before.triangles) area_m2_ += areaOf(before.positions, t);
+    : before_(before), samples_(samples), seed_(seed), tree_(tree) {
+  const auto areas = areasOf(before.positions, before.triangles);
+  area_m2_ = std::accumulate(areas.begin(), areas.end(), 0.0);
+  points_ = spread(before.positions, before.triangles, areas, samples, {seed, 0});
 }
 
 Deviation DeviationMeter::of(const Shape& after, const std::vector<std::uint32_t>& image) const { return measure(after, image, samples_, true); }

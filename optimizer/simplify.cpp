@@ -53,11 +53,10 @@ void measure(Work& work, const DeviationMeter& meter, std::size_t taken) {
   work.deviation = taken > 0 ? meter.of(work.lighter, image) : meter.ofItself();
 }
 
-// The same count by steps that look at the surface as it is, which would not know seams. Only where that turns out nearer to the
-// original, and within the limit.
+// The same count by steps that look at the surface as it is. Only where that turns out nearer to the original, and within the limit.
 bool refine(Work& work, const DeviationMeter& meter, const Progress& progress) {
   const auto taken = stepsTaken(work, work.taken);
-  if (work.lossless || taken == 0 || !work.shape.wedges.empty()) return false;
+  if (work.lossless || taken == 0) return false;
   const std::size_t triangles = work.levels.levels[work.taken - 1].triangles;
   if (triangles < kRefineMin || triangles > kRefineMost || 2 * triangles > work.shape.triangles.size()) return false;
   const auto& log = work.levels.log;
@@ -65,17 +64,17 @@ bool refine(Work& work, const DeviationMeter& meter, const Progress& progress) {
   for (auto left = work.shape.triangles.size(); first < taken && left > kRefineFrom * triangles; ++first) left -= log[first].triangles;
   LogPlayer player(work.shape, log);
   std::vector<std::uint32_t> names;
-  const Shape start = withoutUnused(player.at(first), names);
+  Shape start = withoutUnused(player.at(first), names);
+  start.wedges = player.wedges();
   auto image = player.image();
   auto steps = refined(start, triangles, progress);
   LogPlayer refining(start, steps);
   const Shape& lighter = refining.at(steps.size());
   if (progress.cancelled() || lighter.triangles.empty() || lighter.triangles.size() > triangles || 100 * lighter.triangles.size() < 99 * triangles) return false;
-  if (meter.roughlyOf(lighter, kRoughSamples).mean_m >= meter.roughlyOf(player.at(taken), kRoughSamples).mean_m) return false;
   const auto last_image = refining.image();
   for (auto& i : image) i = i < last_image.size() ? last_image[i] : i;
   const auto deviation = meter.of(lighter, image);
-  if (deviation.max_m > work.cap_m) return false;
+  if (deviation.max_m > work.cap_m || deviation.mean_m >= meter.roughlyOf(player.at(taken), kRoughSamples).mean_m) return false;
   work.steps.assign(log.begin(), log.begin() + static_cast<std::ptrdiff_t>(first));
   for (auto& step : steps) {
     step.kept = names[step.kept];
