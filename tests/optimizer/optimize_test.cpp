@@ -295,7 +295,9 @@ TEST(Simplification, SurvivesDegenerateInput) {
   for (const std::uint64_t budget : {0, 1000, 40, 10, 1}) {
     const auto result = optimized(environment, budget, 100);
     EXPECT_TRUE(result.budget_reached);
-    if (budget == 0 || budget > 10) EXPECT_EQ(result.products[2].triangles_after, 1);  // else it may be what costs least
+    if (budget == 0 || budget > 10) {  // else it may be what costs least
+      EXPECT_EQ(result.products[2].triangles_after, 1);
+    }
   }
   EXPECT_EQ(optimized(Environment{}, 100).all.triangles_after, 0);
 }
