@@ -11,7 +11,7 @@
 namespace standpoint {
 
 Editor::Editor(std::vector<Verb> verbs, std::function<void()> wake_up)
-    : session(std::move(verbs), wake_up), budget_preview(wake_up), wake(std::move(wake_up)) {}
+    : session(std::move(verbs), wake_up), budget_preview(wake_up), expected(wake_up), wake(std::move(wake_up)) {}
 
 const Document& Editor::shownDocument() const {
   return preview.outcome() != nullptr ? preview.outcome()->document : session.document();
@@ -50,6 +50,8 @@ void Editor::update() {
     view.side = ModelSide::lighter;
     if (view.colour == ColourMode::deviation) view.colour = ColourMode::model;
   }
+  if (isExpected(view.colour)) view.side = ModelSide::lighter;   // what is scanned
+  else expected.drop();
   if (view.colour == ColourMode::deviation || std::exchange(wants_deviation, false)) deviation.follow(session.document(), wake);
   for (auto& error : underlays.takeErrors())
     session.errors().push_back({"An underlay cannot be shown: put its file back, or remove it in the outliner", std::move(error)});
@@ -145,6 +147,7 @@ ViewState Editor::viewState() const {
   state.environment = document.environment();
   state.camera = view.camera;
   state.colour = view.colour;
+  state.wavelength_nm = view.wavelength_nm;
   state.edges = view.edges;
   state.grid = view.grid;
   if (preview.outcome() != nullptr) {
@@ -154,7 +157,7 @@ ViewState Editor::viewState() const {
     state.colour = ColourMode::model;
     return state;
   }
-  if (const auto previewed = budget_preview.state().shown) state.environment = previewed;
+  if (const auto lighter = budget_preview.state().shown) state.environment = lighter;
   state.materials = document.materials;
   if (const auto both = deviation.of(document); both && state.colour == ColourMode::deviation && state.environment == document.environment()) state.deviation = both->lighter;
   if (view.walkable || view.shapes) state.collision = document.collision;
@@ -166,6 +169,12 @@ ViewState Editor::viewState() const {
   state.cloud = cloud_;
   state.underlays = underlays.shown(document);
   return state;
+}
+
+std::shared_ptr<const Expectation> Editor::expectation() {
+  const auto& all = readCatalogue(panels.catalogue).instruments;
+  const auto chosen = std::find_if(all.begin(), all.end(), [&](const Instrument& i) { return i.id == view.probe.instrument; });
+  return chosen == all.end() ? nullptr : kept_expectation_.of(picker.scene(), session.document().materials, *chosen);
 }
 
 ViewState Editor::originalState() const {
@@ -236,13 +245,13 @@ Bounds Editor::shownScanBounds() const {
 Bounds Editor::boundsOfVisible(bool with_terrain) const {
   Bounds all;
   const auto& each = boundsOfProducts();
-  const bool previewed = preview.outcome() != nullptr;
+  const bool in_preview = preview.outcome() != nullptr;
   for (std::uint32_t p = 0; p < each.size(); ++p) {
     const auto& product = shown()->products[p];
     const bool terrain = product.ifc_class == "IfcSite" || product.ifc_class == "IfcGeographicElement";
-    if ((previewed || !visibility.hidden(p)) && product.inScene() && !each[p].empty() && (with_terrain || !terrain)) all.extend(each[p]);
+    if ((in_preview || !visibility.hidden(p)) && product.inScene() && !each[p].empty() && (with_terrain || !terrain)) all.extend(each[p]);
   }
-  if (previewed) return all;
+  if (in_preview) return all;
   if (visibility.cut_height_m && !all.empty())
     all.max.z() = std::max(all.min.z(), std::min(all.max.z(), *visibility.cut_height_m));
   return all;

@@ -15,6 +15,7 @@
 #include "editor/model/camera.h"
 #include "editor/model/import_preview.h"
 #include "editor/model/cloud.h"
+#include "editor/model/expected_view.h"
 #include "editor/model/picker.h"
 #include "editor/model/selection.h"
 #include "editor/model/session.h"
@@ -44,10 +45,20 @@ enum class Tool { select, placeStation, placeTarget, measure, walk };
 // Which of the two models is looked at; there is one only until it has been optimised.
 enum class ModelSide { lighter, original, both };
 
+// Where one would stand with which instrument, to see what it would get. It is no station yet.
+struct Probe {
+  std::optional<Eigen::Vector3d> position;   // of the instrument's centre, local frame; nothing until it is asked for
+  double height_m = 1.7;                     // above what it stands on
+  std::string instrument = "leica-rtc360";
+  bool dragged = false;
+};
+
 struct ViewportState {
   Camera camera;
   ColourMode colour = ColourMode::model;
   ModelSide side = ModelSide::lighter;
+  double wavelength_nm = kReflectanceWavelength_nm;   // at which reflectance is shown
+  Probe probe;
   bool edges = true, grid = true, walkable = false, shapes = false, labels = true;
   Tool tool = Tool::select;
   std::optional<RayHit> hover;             // under the pointer
@@ -78,6 +89,7 @@ struct Editor {
   BudgetPreview budget_preview;
   std::optional<LighteningRequest> previewed;   // what a panel asks for
   DeviationView deviation;
+  ExpectedView expected;
   bool wants_deviation = false;            // a panel shows it
   std::deque<std::filesystem::path> waiting_clouds;   // dropped, each to become an underlay when the document is free
   PanelStates panels;
@@ -95,7 +107,7 @@ struct Editor {
   bool fine_picture = false;               // the view stands still: smooth edges
   bool quit = false;                       // confirmed
 
-  float overlay_width = 0;                 // of the controls over the viewport, as drawn last
+  Eigen::Vector2f overlay_size = {0, 0};   // of the controls over the viewport, as drawn last
 
   float px(float points) const { return points * scale; }
   const std::shared_ptr<const Environment>& environment() const { return session.document().environment(); }
@@ -109,6 +121,8 @@ struct Editor {
   void update();
   ViewState viewState() const;             // of the lighter model where there is one
   ViewState originalState() const;         // of the model as it was imported
+  // What the probe's instrument gets from the model and its materials; null until picking is ready.
+  std::shared_ptr<const Expectation> expectation();
   // Shows a scan's points instead of the model, once they are read; an empty path goes back to the model.
   void showCloud(const std::filesystem::path& file);
   const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
@@ -130,6 +144,7 @@ struct Editor {
   void startWaitingCloud();
   bool followModel(const Environment& before, const Environment& after);   // false when they have no product in common
   Bounds boundsOfVisible(bool with_terrain) const;   // of the model
+  KeptExpectation kept_expectation_;
   Bounds shownScanBounds() const;
   std::optional<Camera> camera_before_preview_;
   CloudLoader cloud_loader_;

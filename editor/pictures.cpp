@@ -65,11 +65,14 @@ void inspect(Editor& editor) {
 
 void materials(Editor& editor) {
   editor.workspace = Workspace::materials;
+  editor.wanted_tab[1] = "material";
   if (!editor.session.document().materials) {
     editor.session.start("materials", nlohmann::json::object());
     editor.session.wait();
   }
   editor.view.colour = ColourMode::material;
+  const auto& uses = editor.session.document().materials->result.report.uses;
+  if (!uses.empty()) editor.panels.materials.chosen = uses.front().material;
 }
 
 void survey(Editor& editor) {
@@ -109,6 +112,17 @@ void deviation(Editor& editor) {
   editor.deviation.wait();
 }
 
+// From the first station, into the storey it stands in.
+void expected(Editor& editor, ColourMode mode) {
+  materials(editor);
+  cutIntoStorey(editor);
+  *editor.visibility.cut_height_m += 0.6;   // above the lintels, where beams end
+  editor.view.colour = mode;
+}
+void expectedIntensity(Editor& editor) { expected(editor, ColourMode::expected_intensity); }
+void expectedNoise(Editor& editor) { expected(editor, ColourMode::expected_noise); }
+void expectedFate(Editor& editor) { expected(editor, ColourMode::expected_fate); }
+
 // What is open, as it would be seen before it is taken in.
 void importPreview(Editor& editor) {
   const auto& document = editor.session.document();
@@ -120,6 +134,8 @@ void importPreview(Editor& editor) {
 
 constexpr std::array kPictures = {Picture{"1-overview", overview},     Picture{"2-inspector", inspect}, Picture{"3-materials", materials},
                                   Picture{"4-survey", survey},         Picture{"5-instrument", instrument}, Picture{"8-deviation", deviation},
+                                  Picture{"9-expected-intensity", expectedIntensity},
+                                  Picture{"10-expected-noise", expectedNoise}, Picture{"11-what-comes-back", expectedFate},
                                   Picture{"7-import-preview", importPreview},
                                   Picture{"6-palette", palette}};
 

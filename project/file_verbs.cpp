@@ -9,6 +9,8 @@
 #include "importers/importers.h"
 #include "pointclouds/formats.h"
 #include "project/answers.h"
+#include "project/project_files.h"
+#include "project/project_info.h"
 #include "project/session.h"
 
 namespace standpoint {
@@ -61,6 +63,12 @@ Result<Outcome> runInfo(const Document& document, const json& options, Progress&
   if (auto ok = mustExist(file); !ok) return failure(ok.error());
   progress.stage("Read " + file.filename().string());
   Outcome outcome{document, json::object(), {}, {}};
+  if (fs::is_directory(file)) {
+    auto project = loadProject(file, progress);
+    if (!project) return failure(project.error());
+    outcome.answer = projectInfo(*project);
+    return outcome;
+  }
   if (const auto* format = readableCloudFormat(file)) {
     auto info = format->info(file);
     if (!info) return failure(info.error());

@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scanners/pane_passage.h"
+
 namespace standpoint {
 
 namespace {
 
 constexpr std::size_t kCacheBits = 11;
-constexpr int kMostPanes = 16;             // faces that a beam may pass
-constexpr double kBehindFace = 1e-4;       // m; where the search behind a face goes on
-constexpr double kThickestPane = 0.2;      // m; faces farther apart are two panes
 
 std::size_t slot(std::uint64_t facet) { return (facet * 0x9E3779B97F4A7C15ULL) >> (64U - kCacheBits); }
 
@@ -115,37 +114,27 @@ float ColumnTracer::receivedPower(const Target& target) const {
   return target.equivalent * target.gain * nearRangeFactor(plan_.instrument, range) / (range * range);
 }
 
-// The stronger of the pane's own return (dirt and glint) and of what lies behind, through which the beam goes twice
-// (physics.md §4.6). A pane is usually modelled as a solid, so its second face is the same pane: same product, other side.
+// The stronger of the pane's own return (dirt and glint) and of what lies behind.
 ColumnTracer::Target ColumnTracer::lookThrough(const Beam& beam, const NearestHit& first) {
   Target best;
   best.range_m = -1;
-  double gain = 1, excess = 0;
-  std::int64_t inside_product = -1;
-  bool inside_front = false;
-  double inside_range = 0;
+  PanePassage passage;
   NearestHit hit = first;
   for (int face = 0; face < kMostPanes && hit.facet != kNoFacet; ++face) {
     const Met& surface = met(hit.facet);
     const double range = rangeOnPlane(surface.facet, beam.origin, beam.direction, hit.range_m);
     const bool front = surface.facet.normal.dot(beam.direction) < 0;
-    const bool other_face = inside_product == surface.facet.product && front != inside_front && range - inside_range < kThickestPane;
-    if (!other_face || !surface.optics->transparent) {
+    if (!surface.optics->transparent || !passage.isOtherFace(surface.facet, front, range)) {
       Target target = meet(beam, range, surface);
-      target.gain = static_cast<float>(gain);
-      target.excess_m = excess;
+      target.gain = static_cast<float>(passage.gain());
+      target.excess_m = passage.excess_m();
       if (range >= plan_.instrument.min_range_m && (best.range_m < 0 || receivedPower(target) > receivedPower(best))) best = target;
       if (!surface.optics->transparent) break;
-      const double transmitted = slab(surface.optics->index, surface.optics->inner_transmittance, target.cosine).transmitted;
-      gain *= transmitted * transmitted;
-      excess += (surface.optics->index - 1) * surface.optics->thickness_m;
-      inside_product = surface.facet.product;
-      inside_front = front;
-      inside_range = range;
+      passage.enter(*surface.optics, target.cosine, surface.facet, front, range);
     } else {
-      inside_product = -1;
+      passage.leave();
     }
-    hit = plan_.scene.nearest(beam.origin, beam.direction, hit.range_m + kBehindFace, plan_.settings.max_range_m);
+    hit = plan_.scene.nearest(beam.origin, beam.direction, hit.range_m + kBehindFace_m, plan_.settings.max_range_m);
   }
   return best;
 }

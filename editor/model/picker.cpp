@@ -49,9 +49,13 @@ void Picker::follow(const std::shared_ptr<const Environment>& environment, const
 
 std::optional<RayHit> Picker::pick(const ViewRay& ray, const ViewState& view) const {
   if (!ready() || view.environment != environment_) return std::nullopt;
+  return firstShown(*scene_, ray, view);
+}
+
+std::optional<RayHit> firstShown(const RayScene& scene, const ViewRay& ray, const ViewState& view) {
   double travelled = 0;
   for (int i = 0; i < kMostHidden; ++i) {
-    auto hit = scene_->intersect(ray.origin + ray.direction * travelled, ray.direction, kFar_m);
+    auto hit = scene.intersect(ray.origin + ray.direction * travelled, ray.direction, kFar_m);
     if (!hit) return std::nullopt;
     hit->range_m += travelled;
     if (shown(*hit, view)) return hit;

@@ -14,6 +14,9 @@
 
 namespace standpoint {
 
+// The first surface of the scene that `view` shows: what is hidden or cut away lets the ray through.
+std::optional<RayHit> firstShown(const RayScene& scene, const ViewRay& ray, const ViewState& view);
+
 // Picks with the rays that the scanners use, so that what is clicked is what a beam would meet. The scene is built
 // beside the interface; until it is ready nothing can be picked.
 class Picker {
@@ -27,8 +30,10 @@ class Picker {
   void follow(const std::shared_ptr<const Environment>& environment, const std::function<void()>& wake);
   bool ready() const { return ready_.load(std::memory_order_acquire); }
   void wait();
+  // Of what it follows; null until it is ready.
+  std::shared_ptr<const RayScene> scene() const { return ready() ? scene_ : nullptr; }
 
-  // The first visible surface: what is hidden or cut away lets the ray through.
+  // As firstShown(); none where the view is of another environment.
   std::optional<RayHit> pick(const ViewRay& ray, const ViewState& view) const;
   // Is there nothing visible between the two points?
   bool sees(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const ViewState& view) const;

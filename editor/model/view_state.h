@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -17,7 +18,25 @@
 
 namespace standpoint {
 
-enum class ColourMode { model, material, reflectance, deviation };
+constexpr double kReflectanceWavelength_nm = 1550;   // what most of the emulated scanners emit
+
+enum class ColourMode {
+  model,
+  material,
+  reflectance,
+  deviation,
+  // Of what a station gets (expected_view.h); the model below it is grey.
+  expected_intensity,
+  expected_noise,
+  expected_fate,
+};
+constexpr bool isExpected(ColourMode mode) { return mode >= ColourMode::expected_intensity; }
+
+// Rows from the top; an alpha of 0 lets what is below be seen.
+struct PixelPicture {
+  int width = 0, height = 0;
+  std::vector<std::array<std::uint8_t, 4>> rgba;
+};
 
 // All that a picture of the scene depends on, as a value: equal states give the same picture, so whoever draws compares
 // and redraws only when something differs. Parts of the document are compared by pointer.
@@ -30,6 +49,7 @@ struct ViewState {
   std::shared_ptr<const std::vector<std::uint32_t>> selected;
   std::optional<double> cut_height_m;
   ColourMode colour = ColourMode::model;
+  double wavelength_nm = kReflectanceWavelength_nm;   // at which reflectance is shown
   bool edges = true;
   bool grid = true;
   bool walkable = false;
@@ -47,11 +67,12 @@ class SceneView {
   // A texture that holds the picture of `state`, for Dear ImGui's AddImage with v from 1 to 0; 0 when there is none.
   // `fine` asks for smooth edges: it costs a multiple, so it is for a view that stands still.
   virtual std::uint64_t texture(const ViewState& state, int width_px, int height_px, bool fine) = 0;
+  // A texture of these pixels, with v from 0 to 1; taken over once for each picture.
+  virtual std::uint64_t texture(const std::shared_ptr<const PixelPicture>& picture) = 0;
 };
 
 // The colour that stands for a physical material: about what it looks like by its reflectance in the visible, with a tint
 // of its own to tell it from others that look the same. nullptr = nothing assigned.
 Colour materialColour(const PhysicalMaterial* material);
-constexpr double kReflectanceWavelength_nm = 1550;   // what most of the emulated scanners emit
 
 }  // namespace standpoint

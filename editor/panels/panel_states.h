@@ -35,6 +35,7 @@ struct MaterialsPanelState {
   std::string filter;
   std::string chosen;               // material id; "" with chosen_unassigned
   bool chosen_unassigned = false;
+  int incidence_deg = 0;            // of the card's readings
 };
 
 struct OptimisePanelState {

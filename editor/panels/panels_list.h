@@ -10,6 +10,7 @@ void drawGeoreferencePanel(Editor& editor);
 void drawInspectorPanel(Editor& editor);
 void drawInstrumentPanel(Editor& editor);
 void drawLogPanel(Editor& editor);
+void drawMaterialCardPanel(Editor& editor);
 void drawMaterialsPanel(Editor& editor);
 void drawOptimisePanel(Editor& editor);
 void drawOutlinerPanel(Editor& editor);

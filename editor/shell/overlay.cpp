@@ -9,6 +9,7 @@
 
 #include "editor/editor.h"
 #include "editor/shell/actions.h"
+#include "editor/shell/expected_overlay.h"
 #include "editor/shell/icons.h"
 #include "editor/shell/theme.h"
 #include "editor/shell/widgets.h"
@@ -29,8 +30,11 @@ const char* colourName(ColourMode mode) {
   switch (mode) {
     case ColourMode::model: return "Model colours";
     case ColourMode::material: return "Physical materials";
-    case ColourMode::reflectance: return "Reflectance 1550 nm";
+    case ColourMode::reflectance: return "Reflectance";
     case ColourMode::deviation: return "Deviation";
+    case ColourMode::expected_intensity: return "Expected intensity";
+    case ColourMode::expected_noise: return "Expected noise";
+    case ColourMode::expected_fate: return "What comes back";
   }
   return "";
 }
@@ -38,10 +42,21 @@ const char* colourName(ColourMode mode) {
 void colourChip(Editor& editor) {
   ImGui::SetNextItemWidth(editor.px(166));
   if (!ImGui::BeginCombo("###colour", fmt::format("{}  {}", ICON_PAINT, colourName(editor.view.colour)).c_str(), ImGuiComboFlags_NoArrowButton)) return;
-  for (const auto mode : {ColourMode::model, ColourMode::material, ColourMode::reflectance})
+  for (const auto mode : {ColourMode::model, ColourMode::material, ColourMode::reflectance, ColourMode::expected_intensity, ColourMode::expected_noise, ColourMode::expected_fate})
     if (ImGui::Selectable(colourName(mode), editor.view.colour == mode)) editor.view.colour = mode;
   if (editor.session.document().lightening && ImGui::Selectable(colourName(ColourMode::deviation), editor.view.colour == ColourMode::deviation))
     editor.view.colour = ColourMode::deviation;
+  ImGui::EndCombo();
+}
+
+// Those of the emulated scanners, and where the libraries begin.
+void wavelengthChip(Editor& editor) {
+  if (editor.view.colour != ColourMode::reflectance) return;
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(editor.px(90));
+  if (!ImGui::BeginCombo("###wavelength", fmt::format("{:.0f} nm", editor.view.wavelength_nm).c_str())) return;
+  for (const double wavelength : {532.0, 660.0, 785.0, 830.0, 905.0, 1064.0, 1550.0})
+    if (ImGui::Selectable(fmt::format("{:.0f} nm", wavelength).c_str(), editor.view.wavelength_nm == wavelength)) editor.view.wavelength_nm = wavelength;
   ImGui::EndCombo();
 }
 
@@ -55,7 +70,7 @@ const char* sideName(ModelSide side) {
 }
 
 void sideChip(Editor& editor) {
-  if (!editor.session.document().lightening) return;
+  if (!editor.session.document().lightening || isExpected(editor.view.colour)) return;
   ImGui::SameLine();
   ImGui::SetNextItemWidth(editor.px(118));
   if (!ImGui::BeginCombo("###side", fmt::format("{}  {}", ICON_COMPRESS, sideName(editor.view.side)).c_str(), ImGuiComboFlags_NoArrowButton)) return;
@@ -224,8 +239,7 @@ void drawDeviationLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
 bool overOverlay(const Editor& editor, ImVec2 origin, ImVec2 size) {
   const ImVec2 p = ImGui::GetIO().MousePos, c = axesCentre(editor, origin, size);
   if (std::hypot(p.x - c.x, p.y - c.y) < editor.px(kAxesRadius)) return true;
-  const float bar_height = editor.px(kMargin) + ImGui::GetFrameHeight();
-  return p.y < origin.y + bar_height && p.x < origin.x + editor.px(kMargin) + editor.overlay_width;
+  return p.y < origin.y + editor.px(kMargin) + editor.overlay_size.y() && p.x < origin.x + editor.px(kMargin) + editor.overlay_size.x();
 }
 
 void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
@@ -233,6 +247,7 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   ImGui::PushStyleColor(ImGuiCol_FrameBg, tone::kOverlay);
   ImGui::BeginGroup();
   colourChip(editor);
+  wavelengthChip(editor);
   sideChip(editor);
   ImGui::SameLine();
   cutChip(editor);
@@ -243,8 +258,10 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   toggle(editor, ICON_WALK, "walkable", editor.view.walkable);
   toggle(editor, ICON_CUBES, "shapes", editor.view.shapes);
   toggle(editor, ICON_EYE, "show-all", false);
+  expectedChips(editor);
   ImGui::EndGroup();
-  editor.overlay_width = ImGui::GetItemRectSize().x;
+  const ImVec2 drawn = ImGui::GetItemRectSize();
+  editor.overlay_size = {drawn.x, drawn.y};
   ImGui::PopStyleColor();
   drawAxes(editor, origin, size);
   drawReflectanceLegend(editor, origin, size);

@@ -7,6 +7,7 @@
 
 #include "editor/editor.h"
 #include "editor/shell/actions.h"
+#include "editor/shell/expected_overlay.h"
 #include "editor/shell/icons.h"
 #include "editor/shell/overlay.h"
 #include "editor/shell/shell.h"
@@ -118,6 +119,7 @@ void contextMenu(Editor& editor) {
   const auto why = hit ? editor.session.whyNot("station") : "There is nothing under the pointer";
   if (ImGui::MenuItem(ICON_STATION "  Set up a station here###station-here", nullptr, false, why.empty())) placeStation(editor, *hit);
   ui::tooltip(why);
+  if (hit && expectedQuantity(editor.view.colour) && ImGui::MenuItem(ICON_EYE "  Look from here###probe-here")) putProbeOn(editor, hit->position);
   if (ImGui::MenuItem(ICON_TARGET "  Put a target here###target-here", nullptr, false, why.empty())) placeTarget(editor, *hit);
   ImGui::EndPopup();
 }
@@ -216,6 +218,7 @@ void drawViewport(Editor& editor) {
   if (both) drawBothModels(editor, origin, size);
   else drawScene(editor.scene, view.side == ModelSide::original ? editor.originalState() : editor.viewState(), origin, size, editor.fine_picture);
   const bool previewed = editor.preview.isOpen();
+  if (!previewed) drawExpected(editor, origin, size);
   if (!editor.shown()) {
     if (previewed) return;
     drawWelcome(editor, origin, size);
@@ -227,9 +230,11 @@ void drawViewport(Editor& editor) {
   const bool hovered = ImGui::IsItemHovered() && !overOverlay(editor, origin, whole);
   const ImVec2 right(origin.x + size.x, origin.y);
   if (!view.dragging) view.in_right_half = both && ImGui::GetIO().MousePos.x >= right.x;
-  handleMouse(editor, view.in_right_half ? right : origin, hovered);
+  const bool on_probe = !previewed && !view.dragging && dragProbe(editor, origin, hovered);
+  if (!on_probe) handleMouse(editor, view.in_right_half ? right : origin, hovered);
   handleWalking(editor);
   if (previewed) return;
+  drawExpectedLegend(editor, origin, size);
   drawMarkers(editor, both ? right : origin);
   drawOverlay(editor, origin, whole);
   contextMenu(editor);

@@ -34,12 +34,12 @@ void appendTriangle(MergedTriangles& out, const Triangle& t, std::int64_t offset
 
 std::int64_t pointCount(const MergedTriangles& out) { return static_cast<std::int64_t>(out.positions.size() / 3); }
 
-Colour physicalColour(const MaterialAssignment& assignment, std::int32_t material, ColourMode mode) {
+Colour physicalColour(const MaterialAssignment& assignment, std::int32_t material, const ViewState& state) {
   if (material < 0) return materialColour(nullptr);
   const auto& m = assignment.materials[static_cast<std::size_t>(material)];
   const float alpha = m.transmittance.empty() ? 1.0F : 0.35F;
-  if (mode == ColourMode::reflectance) {
-    const auto grey = static_cast<float>(std::clamp(atWavelength(m.reflectance, kReflectanceWavelength_nm), 0.03, 1.0));
+  if (state.colour == ColourMode::reflectance) {
+    const auto grey = static_cast<float>(std::clamp(atWavelength(m.reflectance, state.wavelength_nm), 0.03, 1.0));
     return {grey, grey, grey, alpha};
   }
   Colour c = materialColour(&m);
@@ -53,10 +53,11 @@ class Painter {
 
   Rgba of(std::uint32_t product, std::uint32_t surface) const {
     if (state_.colour == ColourMode::deviation) return state_.deviation ? Rgba{255, 255, 255, 255} : deviationColour(0, 1);
+    if (isExpected(state_.colour)) return deviationColour(0, 1);
     if (state_.colour != ColourMode::model) {
       if (!state_.materials) return rgba(materialColour(nullptr));
       const auto& assignment = state_.materials->result.assignment;
-      return rgba(physicalColour(assignment, materialOf(assignment, product, surface), state_.colour));
+      return rgba(physicalColour(assignment, materialOf(assignment, product, surface), state_));
     }
     Colour c = state_.environment->surfaces[surface].colour;
     if (c.a < 1) c.a = std::clamp(c.a, 0.15F, 0.85F);   // glass stays to be seen

@@ -95,6 +95,7 @@ class EglOffscreen : public Offscreen {
       ImGui::NewFrame();
       drawShell(editor);
       ImGui::Render();
+      editor.expected.wait();
     }
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
     glViewport(0, 0, width_, height_);

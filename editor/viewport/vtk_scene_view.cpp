@@ -191,7 +191,10 @@ class VtkSceneView : public SceneView {
     setUpLights();
     setUpLayers();
   }
-  ~VtkSceneView() override { window_->Finalize(); }
+  ~VtkSceneView() override {
+    if (pixels_texture_ != 0) glDeleteTextures(1, &pixels_texture_);
+    window_->Finalize();
+  }
   VtkSceneView(const VtkSceneView&) = delete;
   VtkSceneView& operator=(const VtkSceneView&) = delete;
 
@@ -215,6 +218,23 @@ class VtkSceneView : public SceneView {
     if (colour == nullptr) return 0;
     smooth(colour->GetHandle());
     return colour->GetHandle();
+  }
+
+  std::uint64_t texture(const std::shared_ptr<const PixelPicture>& picture) override {
+    if (picture == nullptr || picture->rgba.empty()) return 0;
+    if (picture == pixels_) return pixels_texture_;
+    pixels_ = picture;
+    if (pixels_texture_ == 0) glGenTextures(1, &pixels_texture_);
+    smooth(pixels_texture_);
+    GLint bound = 0;
+    glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
+    glBindTexture(GL_TEXTURE_2D, pixels_texture_);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, picture->width, picture->height, 0, GL_RGBA, GL_UNSIGNED_BYTE, picture->rgba.data());
+    glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(bound));
+    return pixels_texture_;
   }
 
  private:
@@ -336,7 +356,7 @@ class VtkSceneView : public SceneView {
     const bool environment = last == nullptr || last->environment != state.environment;
     const bool shown = environment || last->hidden != state.hidden || last->shapes != state.shapes || last->cloud != state.cloud;
     if (environment) bounds_ = state.environment ? bounds(*state.environment) : Bounds();
-    if (shown || last->materials != state.materials || last->colour != state.colour || last->deviation != state.deviation) updateSurfaces(state);
+    if (shown || last->materials != state.materials || last->colour != state.colour || last->wavelength_nm != state.wavelength_nm || last->deviation != state.deviation) updateSurfaces(state);
     if (shown || last->edges != state.edges) updateEdges(state);
     if (shown || last->selected != state.selected) updateSelection(state);
     if (last == nullptr || last->collision != state.collision || last->walkable != state.walkable || last->shapes != state.shapes) updateCollision(state);
@@ -494,6 +514,8 @@ class VtkSceneView : public SceneView {
   std::vector<std::unique_ptr<UnderlayLayer>> underlays_;
   Bounds bounds_, reach_;   // of the environment; of all that is shown
   std::optional<ViewState> drawn_;
+  std::shared_ptr<const PixelPicture> pixels_;   // what pixels_texture_ shows
+  GLuint pixels_texture_ = 0;
   bool fine_ = false;
   int width_ = 0, height_ = 0;   // of the picture as it is shown
 };

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "editor/model/view_state.h"
+#include "scanners/expectation.h"
+
+namespace standpoint {
+
+enum class ExpectedQuantity { intensity, noise, fate };
+constexpr double kNoiseFullScale_m = 0.005;   // what has the last colour
+
+std::array<std::uint8_t, 4> fateColour(ReturnFate fate);
+const char* fateName(ReturnFate fate);
+// Of a legend: 0..1 of the scale.
+std::array<std::uint8_t, 4> scaleColour(ExpectedQuantity quantity, double share);
+// What does not come back has the colour of its reason, whatever is asked for.
+std::array<std::uint8_t, 4> expectedColour(ExpectedQuantity quantity, const ExpectedReturn& expected);
+
+// Made anew only when something that it depends on is another one.
+class KeptExpectation {
+ public:
+  // Without `materials` by the colours of the model. The instrument has its default settings; null where these are refused.
+  const std::shared_ptr<const Expectation>& of(const std::shared_ptr<const RayScene>& scene, const std::shared_ptr<const MaterialChoice>& materials,
+                                               const Instrument& instrument);
+
+ private:
+  std::shared_ptr<const RayScene> scene_;
+  std::shared_ptr<const MaterialChoice> materials_;
+  std::string instrument_;
+  std::shared_ptr<const Expectation> expectation_;
+};
+
+// All that a picture of expected returns depends on.
+struct ExpectedRequest {
+  std::shared_ptr<const Expectation> expectation;
+  std::shared_ptr<const RayScene> scene;   // that the camera sees
+  ViewState view;                          // camera, and what is hidden or cut away
+  Eigen::Vector3d station = Eigen::Vector3d::Zero();   // the instrument's centre, local frame
+  ExpectedQuantity quantity = ExpectedQuantity::intensity;
+  int width = 0, height = 0;               // pixels
+  bool operator==(const ExpectedRequest&) const = default;
+};
+
+// Draws what a station is expected to get, through the camera: a ray for each pixel, and one from the station to what it
+// meets, by the laws of the scan. In the background, coarse first; a newer request ends an older one. While only the
+// station moves, the camera's rays are kept.
+class ExpectedView {
+ public:
+  // `wake` is called whenever a picture has become better.
+  explicit ExpectedView(std::function<void()> wake) : wake_(std::move(wake)) {}
+  ~ExpectedView();
+  ExpectedView(const ExpectedView&) = delete;
+  ExpectedView& operator=(const ExpectedView&) = delete;
+
+  void want(const ExpectedRequest& request);
+  void drop();
+  void wait();   // until the finest picture of what is wanted is there
+  // The newest there is through this camera; null: none.
+  std::shared_ptr<const PixelPicture> picture(const Camera& camera) const;
+
+ private:
+  struct Seen {
+    Eigen::Vector3f position = Eigen::Vector3f::Zero(), normal = Eigen::Vector3f::Zero();
+    std::uint32_t product = 0, surface = 0;
+    bool any = false;
+  };
+  // What the camera sees, a ray for each square of `step` pixels.
+  struct Raster {
+    int step = 0, width = 0, height = 0;
+    std::vector<Seen> seen;
+  };
+  static constexpr std::array<int, 3> kSteps = {6, 2, 1};
+
+  void work(const std::stop_token& stop);
+  bool publish(const std::shared_ptr<const PixelPicture>& picture, const ExpectedRequest& request, std::uint64_t revision);
+  bool superseded(std::uint64_t revision) const;
+  bool look(const ExpectedRequest& request, std::uint64_t revision, Raster& raster) const;
+  std::shared_ptr<const PixelPicture> paint(const ExpectedRequest& request, std::uint64_t revision, const Raster& raster) const;
+
+  std::function<void()> wake_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::optional<ExpectedRequest> wanted_;
+  std::uint64_t revision_ = 0, done_ = 0;        // of what is wanted, and of what has its finest picture
+  std::shared_ptr<const PixelPicture> picture_;
+  Camera picture_camera_;
+  std::optional<ExpectedRequest> looked_;        // what rasters_ were made for; the worker's own
+  std::array<Raster, kSteps.size()> rasters_;
+  std::jthread worker_;
+};
+
+}  // namespace standpoint

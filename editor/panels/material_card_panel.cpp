@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "core/units.h"
+#include "editor/editor.h"
+#include "editor/model/material_card.h"
+#include "editor/panels/panels_list.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/theme.h"
+#include "editor/shell/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr double kFirst_nm = 400, kLast_nm = 1700;
+
+// A frame with what lies in it as shares of its width (from the left) and height (from below).
+class Plot {
+ public:
+  Plot(const Editor& editor, float height_pt) : list_(*ImGui::GetWindowDrawList()), scale_(editor.scale) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float margin = ImGui::CalcTextSize("100 %").x + editor.px(6);
+    size_ = {ImGui::GetContentRegionAvail().x - margin - editor.px(4), editor.px(height_pt)};
+    low_ = {corner.x + margin, corner.y + editor.px(4)};
+    list_.AddRectFilled(low_, {low_.x + size_.x, low_.y + size_.y}, IM_COL32(22, 25, 30, 255));
+    ImGui::Dummy({margin + size_.x, size_.y + ImGui::GetTextLineHeight() + editor.px(10)});
+  }
+  ImVec2 at(double x, double y) const {
+    return {low_.x + static_cast<float>(x) * size_.x, low_.y + static_cast<float>(1 - std::clamp(y, 0.0, 1.0)) * size_.y};
+  }
+  void level(double y, const std::string& text) const {
+    const ImVec2 p = at(0, y), words = ImGui::CalcTextSize(text.c_str());
+    list_.AddLine(p, at(1, y), tone::kLine, scale_);
+    list_.AddText({p.x - words.x - 5 * scale_, p.y - words.y / 2}, tone::kDim, text.c_str());
+  }
+  void column(double x, const std::string& text, ImU32 tone) const {
+    const ImVec2 p = at(x, 0), words = ImGui::CalcTextSize(text.c_str());
+    list_.AddLine(p, at(x, 1), tone, scale_);
+    const float left = std::clamp(p.x - words.x / 2, low_.x, low_.x + size_.x - words.x);
+    list_.AddText({left, p.y + 2 * scale_}, tone::kDim, text.c_str());
+  }
+  void line(const std::vector<ImVec2>& points, ImU32 tone, float width = 1.8F) const {
+    list_.AddPolyline(points.data(), static_cast<int>(points.size()), tone, 0, width * scale_);
+  }
+  bool hovered() const { return ImGui::IsMouseHoveringRect(low_, {low_.x + size_.x, low_.y + size_.y}) && ImGui::IsWindowHovered(); }
+  double pointer() const { return std::clamp(static_cast<double>((ImGui::GetIO().MousePos.x - low_.x) / size_.x), 0.0, 1.0); }
+
+ private:
+  ImDrawList& list_;
+  ImVec2 low_, size_;
+  float scale_;
+};
+
+void note(const char* text) {
+  ImGui::PushTextWrapPos(0);
+  ui::dimText(text);
+  ImGui::PopTextWrapPos();
+}
+
+std::vector<ImVec2> curve(const Plot& plot, const std::vector<std::pair<double, double>>& table) {
+  std::vector<ImVec2> points;
+  constexpr int kSteps = 130;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double wavelength = kFirst_nm + (kLast_nm - kFirst_nm) * i / kSteps;
+    // Beyond what was measured nothing is drawn: the reader's constant is a default, no figure.
+    if (wavelength >= table.front().first && wavelength <= table.back().first)
+      points.push_back(plot.at(static_cast<double>(i) / kSteps, atWavelength(table, wavelength)));
+  }
+  return points;
+}
+
+void drawSpectrum(Editor& editor, const PhysicalMaterial& m) {
+  ui::heading(editor, "Spectrum");
+  const Plot plot(editor, 120);
+  for (const double share : {0.0, 0.5, 1.0}) plot.level(share, fmt::format("{:.0f} %", share * 100));
+  const auto x = [](double wavelength) { return (wavelength - kFirst_nm) / (kLast_nm - kFirst_nm); };
+  for (const double wavelength : {532.0, 905.0, 1550.0}) plot.column(x(wavelength), fmt::format("{:.0f}", wavelength), tone::kLine);
+  plot.column(x(editor.view.wavelength_nm), "", tone::kAccent);
+  if (!m.transmittance.empty()) plot.line(curve(plot, m.transmittance), IM_COL32(98, 160, 214, 255));
+  if (!m.reflectance.empty()) plot.line(curve(plot, m.reflectance), tone::kStation);
+  if (plot.hovered()) {
+    const double wavelength = kFirst_nm + plot.pointer() * (kLast_nm - kFirst_nm);
+    auto text = fmt::format("{:.0f} nm\nreflects {:.1f} %", wavelength, 100 * atWavelength(m.reflectance, wavelength));
+    if (!m.transmittance.empty()) text += fmt::format("\nlets {:.1f} % through", 100 * atWavelength(m.transmittance, wavelength));
+    ImGui::SetTooltip("%s", text.c_str());
+    if (ImGui::IsMouseClicked(0)) editor.view.wavelength_nm = std::round(wavelength);
+  }
+  note(m.transmittance.empty() ? "Diffuse reflectance over nm; click to choose a wavelength" : "Diffuse reflectance, and transmittance (blue), over nm");
+}
+
+// As a scanner's own light shows them: a ball, and a plane that turns away from it.
+void drawBodies(Editor& editor, const std::array<float, 81>& response) {
+  auto& list = *ImGui::GetWindowDrawList();
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float radius = editor.px(34);
+  const ImVec2 centre(corner.x + radius, corner.y + radius);
+  const auto grey = [&](double degrees) {
+    const double share = std::clamp(static_cast<double>(response[static_cast<std::size_t>(std::clamp(degrees, 0.0, 80.0))]) / 100, 0.0, 1.0);
+    const int level = static_cast<int>(std::lround(255 * std::pow(share, 1 / 2.2)));
+    return IM_COL32(level, level, level, 255);
+  };
+  for (int degrees = 90; degrees >= 0; degrees -= 3) list.AddCircleFilled(centre, radius * static_cast<float>(std::sin(degrees * kRadPerDeg)), grey(degrees), 48);
+  const float left = corner.x + 2 * radius + editor.px(14), width = ImGui::GetContentRegionAvail().x - 2 * radius - editor.px(18);
+  for (int degrees = 0; degrees < 80; degrees += 2)
+    list.AddRectFilled({left + width * static_cast<float>(degrees) / 80, corner.y + editor.px(12)}, {left + width * static_cast<float>(degrees + 2) / 80, corner.y + 2 * radius - editor.px(18)},
+                       grey(degrees + 1));
+  const float below = corner.y + 2 * radius - editor.px(16);
+  list.AddText({left, below}, tone::kDim, "0°");
+  list.AddText({left + width - ImGui::CalcTextSize("80°").x, below}, tone::kDim, "80°");
+  ImGui::Dummy({2 * radius, 2 * radius + editor.px(4)});
+}
+
+void drawAngles(Editor& editor, const PhysicalMaterial& m) {
+  ui::heading(editor, fmt::format("Seen by a scanner at {:.0f} nm", editor.view.wavelength_nm).c_str());
+  const auto response = angularResponse(m, editor.view.wavelength_nm);
+  drawBodies(editor, response);
+  const double head_on = 100 * atWavelength(m.reflectance, editor.view.wavelength_nm);
+  const double most = std::max(head_on, static_cast<double>(*std::max_element(response.begin(), response.end())));
+  const double top = most > 100 ? std::pow(10, std::ceil(std::log10(most))) : most > 50 ? 100 : most > 20 ? 50 : most > 5 ? 20 : 5;
+  const Plot plot(editor, 90);
+  for (const double share : {0.0, 0.5, 1.0}) plot.level(share, fmt::format("{:g} %", share * top));
+  for (const int degrees : {0, 20, 40, 60, 80}) plot.column(degrees / 80.0, fmt::format("{}°", degrees), tone::kLine);
+  std::vector<ImVec2> own, lambert;
+  for (int degrees = 0; degrees <= 80; ++degrees) {
+    own.push_back(plot.at(degrees / 80.0, static_cast<double>(response[static_cast<std::size_t>(degrees)]) / top));
+    lambert.push_back(plot.at(degrees / 80.0, head_on * std::cos(degrees * kRadPerDeg) / top));
+  }
+  plot.line(lambert, tone::kDim, 1);
+  plot.line(own, tone::kStation);
+  if (plot.hovered()) {
+    const auto degrees = static_cast<std::size_t>(std::lround(plot.pointer() * 80));
+    ImGui::SetTooltip("%zu°: like a white board of %.1f %% head-on", degrees, static_cast<double>(response[degrees]));
+  }
+  note("Of a white Lambert board head-on; thin: Lambert's cosine");
+}
+
+std::string reading(const ExpectedReturn& expected) {
+  if (expected.fate != ReturnFate::returned) return fateName(expected.fate);
+  return fmt::format("{:.2f}\n{:.1f} mm", expected.intensity, expected.sigma_m * 1000);
+}
+
+void drawReported(Editor& editor, const PhysicalMaterial& m) {
+  ui::heading(editor, "What scanners report");
+  auto& degrees = editor.panels.materials.incidence_deg;
+  ImGui::SetNextItemWidth(-1);
+  ImGui::SliderInt("###incidence", &degrees, 0, 80, "%d° off normal");
+  if (!ImGui::BeginTable("reported", 1 + static_cast<int>(kCardRanges_m.size()), ImGuiTableFlags_RowBg)) return;
+  ImGui::TableSetupColumn("###instrument", ImGuiTableColumnFlags_WidthStretch, 1.5F);
+  for (const double range : kCardRanges_m) ImGui::TableSetupColumn(fmt::format("{:.0f} m", range).c_str(), ImGuiTableColumnFlags_WidthStretch, 1);
+  ImGui::TableHeadersRow();
+  for (const auto& row : reportedOf(m, readCatalogue(editor.panels.catalogue).instruments, degrees * kRadPerDeg)) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(row.instrument.c_str());
+    ui::dimText(fmt::format("{:.0f} nm", row.wavelength_nm));
+    for (const auto& expected : row.at) {
+      ImGui::TableNextColumn();
+      if (expected.fate == ReturnFate::returned) ImGui::TextUnformatted(reading(expected).c_str());
+      else ui::wrapped(reading(expected));
+    }
+  }
+  ImGui::EndTable();
+  note("Intensity as stored, range noise 1 σ");
+}
+
+void drawSources(Editor& editor, const PhysicalMaterial& m) {
+  ui::heading(editor, "Sources");
+  for (const auto& source : m.source) {
+    const bool unsourced = source.starts_with("unsourced");
+    ImGui::TextColored(colour(unsourced ? tone::kWarning : tone::kGood), "%s", unsourced ? ICON_WARNING : ICON_CHECK);
+    ImGui::SameLine();
+    ui::wrapped(source);
+  }
+}
+
+// The one that is chosen in the list, else that of what is selected.
+const PhysicalMaterial* shownMaterial(const Editor& editor) {
+  const auto& choice = editor.session.document().materials;
+  if (!choice) return nullptr;
+  const auto& assignment = choice->result.assignment;
+  const auto& state = editor.panels.materials;
+  for (const auto& m : assignment.materials)
+    if (!state.chosen_unassigned && m.id == state.chosen) return &m;
+  if (editor.selection.empty()) return nullptr;
+  for (const auto& s : assignment.surfaces)
+    if (s.product == editor.selection.primary() && s.material >= 0) return &assignment.materials[static_cast<std::size_t>(s.material)];
+  return nullptr;
+}
+
+}  // namespace
+
+void drawMaterialCardPanel(Editor& editor) {
+  const auto* material = shownMaterial(editor);
+  if (material == nullptr) {
+    ui::emptyState(editor, ICON_PAINT, "No material chosen", "Choose one in the list of materials, or a surface in the view, to see its spectrum, how it fades when it turns away, and what scanners report of it.");
+    return;
+  }
+  ImGui::BeginChild("card");
+  if (editor.fonts.bold != nullptr) ImGui::PushFont(editor.fonts.bold);
+  ui::wrapped(material->label);
+  if (editor.fonts.bold != nullptr) ImGui::PopFont();
+  ui::dimText(material->id);
+  drawSpectrum(editor, *material);
+  drawAngles(editor, *material);
+  drawReported(editor, *material);
+  drawSources(editor, *material);
+  ImGui::EndChild();
+}
+
+}  // namespace standpoint

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/shell/expected_overlay.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "editor/editor.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/theme.h"
+#include "editor/shell/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr float kGrip_pt = 11;   // how near the pointer must be to take the probe
+constexpr double kFloor = 0.7;   // upward part of a normal that can be stood on
+
+ImU32 packed(const std::array<std::uint8_t, 4>& c) { return IM_COL32(c[0], c[1], c[2], c[3]); }
+
+const Instrument* instrumentOf(Editor& editor) {
+  const auto& all = readCatalogue(editor.panels.catalogue).instruments;
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Instrument& i) { return i.id == editor.view.probe.instrument; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+// At the chosen station, else the first, else above the floor in the middle of what is looked at.
+void placeProbe(Editor& editor) {
+  auto& probe = editor.view.probe;
+  const auto& job = editor.session.document().job;
+  if (job && !job->stations.empty()) {
+    const auto chosen = static_cast<std::size_t>(std::max(0, editor.panels.survey.station));
+    const auto& station = job->stations[std::min(chosen, job->stations.size() - 1)];
+    probe.position = station.true_pose.translation;
+    probe.height_m = station.instrument_height_m;
+    return;
+  }
+  const Bounds all = editor.buildingBounds();
+  const Eigen::Vector3d middle = (all.min + all.max) / 2;
+  const auto scene = editor.picker.scene();
+  const auto below = scene->intersect({middle.x(), middle.y(), std::min(middle.z(), all.min.z() + 2.0)}, -Eigen::Vector3d::UnitZ(), 1e4);
+  putProbeOn(editor, below ? below->position : Eigen::Vector3d(middle.x(), middle.y(), all.min.z()));
+}
+
+std::optional<ImVec2> onScreen(const Editor& editor, ImVec2 origin) {
+  if (!editor.view.probe.position) return std::nullopt;
+  const auto pixel = project(editor.view.camera, *editor.view.probe.position, editor.view.size);
+  if (!pixel) return std::nullopt;
+  return ImVec2(origin.x + static_cast<float>(pixel->x()), origin.y + static_cast<float>(pixel->y()));
+}
+
+// On the floor under the pointer, else where it is at the height of the floor that it stands on.
+void follow(Editor& editor, ImVec2 origin) {
+  auto& probe = editor.view.probe;
+  const ImVec2 p = ImGui::GetIO().MousePos;
+  const auto ray = rayThrough(editor.view.camera, {p.x - origin.x, p.y - origin.y}, editor.view.size);
+  const auto hit = editor.picker.pick(ray, editor.viewState());
+  if (hit && hit->normal.z() > kFloor) return putProbeOn(editor, hit->position);
+  const double height = probe.position->z() - probe.height_m;
+  const double travel = (height - ray.origin.z()) / ray.direction.z();
+  if (std::isfinite(travel) && travel > 0 && travel < 1e4) putProbeOn(editor, ray.origin + travel * ray.direction);
+}
+
+void drawProbe(const Editor& editor, ImVec2 origin) {
+  const auto at = onScreen(editor, origin);
+  if (!at) return;
+  auto& list = *ImGui::GetWindowDrawList();
+  const auto& probe = editor.view.probe;
+  const Eigen::Vector3d floor = *probe.position - Eigen::Vector3d(0, 0, probe.height_m);
+  if (const auto foot = project(editor.view.camera, floor, editor.view.size))
+    list.AddLine(*at, {origin.x + static_cast<float>(foot->x()), origin.y + static_cast<float>(foot->y())}, IM_COL32(255, 255, 255, 170), editor.px(2));
+  list.AddCircleFilled(*at, editor.px(kGrip_pt - 3), IM_COL32(255, 255, 255, 235));
+  list.AddCircleFilled(*at, editor.px(kGrip_pt - 6), tone::kAccent);
+}
+
+struct Legend {
+  ImVec2 at;
+  float width;
+};
+
+void drawScale(Editor& editor, const Legend& legend, ExpectedQuantity quantity, const Instrument& instrument) {
+  auto& list = *ImGui::GetWindowDrawList();
+  constexpr int kParts = 48;
+  const float height = editor.px(8);
+  for (int i = 0; i < kParts; ++i)
+    list.AddRectFilled({legend.at.x + legend.width * static_cast<float>(i) / kParts, legend.at.y}, {legend.at.x + legend.width * static_cast<float>(i + 1) / kParts, legend.at.y + height},
+                       packed(scaleColour(quantity, (i + 0.5) / kParts)));
+  const auto text = [&](float x, const std::string& words) { list.AddText({x, legend.at.y + height + editor.px(2)}, tone::kText, words.c_str()); };
+  const bool noise = quantity == ExpectedQuantity::noise;
+  const auto most = noise ? fmt::format("{:.0f} mm and more", kNoiseFullScale_m * 1000) : fmt::format("1 ({:.0f} dB)", instrument.intensity_high_db);
+  text(legend.at.x, noise ? "0" : fmt::format("0 ({:.0f} dB)", instrument.intensity_low_db));
+  text(legend.at.x + legend.width - ImGui::CalcTextSize(most.c_str()).x, most);
+  const char* title = noise ? "Range noise expected, 1 σ" : "Intensity expected";
+  list.AddText({legend.at.x, legend.at.y - ImGui::GetTextLineHeight() - editor.px(2)}, tone::kText, title);
+}
+
+void drawFates(Editor& editor, ImVec2 at, bool with_returned) {
+  auto& list = *ImGui::GetWindowDrawList();
+  const float swatch = editor.px(10);
+  for (const auto fate : {ReturnFate::returned, ReturnFate::too_weak, ReturnFate::seen_through, ReturnFate::hidden, ReturnFate::too_near, ReturnFate::too_far}) {
+    if (fate == ReturnFate::returned && !with_returned) continue;
+    list.AddRectFilled({at.x, at.y + editor.px(2)}, {at.x + swatch, at.y + editor.px(2) + swatch}, packed(fateColour(fate)));
+    list.AddText({at.x + swatch + editor.px(5), at.y}, tone::kText, fateName(fate));
+    at.x += swatch + editor.px(19) + ImGui::CalcTextSize(fateName(fate)).x;
+  }
+}
+
+std::string materialName(const Editor& editor, const RayHit& hit) {
+  const auto& choice = editor.session.document().materials;
+  const std::int32_t material = choice ? materialOf(choice->result.assignment, hit.product, hit.surface) : -1;
+  return material < 0 ? "No material" : choice->result.assignment.materials[static_cast<std::size_t>(material)].label;
+}
+
+void drawReading(Editor& editor, const Expectation& expectation) {
+  const auto& hit = editor.view.hover;
+  if (!hit || editor.view.probe.dragged || editor.view.dragging) return;
+  const auto expected = expectation.from(*editor.view.probe.position, {hit->position, hit->normal, hit->product, hit->surface});
+  auto text = fmt::format("{}\n{:.2f} m, {:.0f}° off normal", materialName(editor, *hit), expected.range_m, expected.incidence_rad / kRadPerDeg);
+  if (expected.fate == ReturnFate::returned)
+    text += fmt::format("\nintensity {:.3f}, σ {:.2f} mm, {:.0f} % come back", expected.intensity, expected.sigma_m * 1000, expected.probability * 100);
+  else
+    text += fmt::format("\n{}", fateName(expected.fate));
+  ImGui::SetTooltip("%s", text.c_str());
+}
+
+}  // namespace
+
+std::optional<ExpectedQuantity> expectedQuantity(ColourMode mode) {
+  switch (mode) {
+    case ColourMode::expected_intensity: return ExpectedQuantity::intensity;
+    case ColourMode::expected_noise: return ExpectedQuantity::noise;
+    case ColourMode::expected_fate: return ExpectedQuantity::fate;
+    default: return std::nullopt;
+  }
+}
+
+void putProbeOn(Editor& editor, const Eigen::Vector3d& floor) {
+  editor.view.probe.position = floor + Eigen::Vector3d(0, 0, editor.view.probe.height_m);
+}
+
+bool dragProbe(Editor& editor, ImVec2 origin, bool hovered) {
+  auto& probe = editor.view.probe;
+  if (!expectedQuantity(editor.view.colour) || editor.view.tool != Tool::select) return probe.dragged = false;
+  const auto at = onScreen(editor, origin);
+  const ImVec2 p = ImGui::GetIO().MousePos;
+  const bool near = hovered && at && std::hypot(p.x - at->x, p.y - at->y) < editor.px(kGrip_pt);
+  if (near && ImGui::IsMouseClicked(0)) probe.dragged = true;
+  if (!ImGui::IsMouseDown(0)) probe.dragged = false;
+  if (near || probe.dragged) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+  if (probe.dragged && ImGui::IsMouseDragging(0, 0)) follow(editor, origin);
+  return near || probe.dragged;
+}
+
+void drawExpected(Editor& editor, ImVec2 origin, ImVec2 size) {
+  const auto quantity = expectedQuantity(editor.view.colour);
+  const auto expectation = quantity && !editor.cloud() ? editor.expectation() : nullptr;
+  if (!expectation) return;
+  if (!editor.view.probe.position) placeProbe(editor);
+  ViewState view;   // what rays depend on, no more
+  view.camera = editor.view.camera;
+  view.hidden = editor.visibility.shared();
+  view.cut_height_m = editor.visibility.cut_height_m;
+  view.edges = editor.view.edges;
+  editor.expected.want({expectation, editor.picker.scene(), std::move(view), *editor.view.probe.position, *quantity, static_cast<int>(size.x), static_cast<int>(size.y)});
+  const auto picture = editor.expected.picture(editor.view.camera);
+  const std::uint64_t texture = editor.scene != nullptr && picture ? editor.scene->texture(picture) : 0;
+  if (texture != 0)
+    ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), origin, {origin.x + size.x, origin.y + size.y});
+}
+
+void drawExpectedLegend(Editor& editor, ImVec2 origin, ImVec2 size) {
+  const auto quantity = expectedQuantity(editor.view.colour);
+  if (!quantity) return;
+  const auto expectation = editor.expectation();
+  const auto* instrument = instrumentOf(editor);
+  if (!expectation || instrument == nullptr || !editor.view.probe.position) {
+    ImGui::GetWindowDrawList()->AddText({origin.x + editor.px(10), origin.y + size.y - editor.px(24)}, tone::kDim, "One moment: the model is being prepared for rays");
+    return;
+  }
+  drawProbe(editor, origin);
+  const bool fates_only = *quantity == ExpectedQuantity::fate;
+  const float line = ImGui::GetTextLineHeight(), x = origin.x + editor.px(10);
+  const float top = origin.y + size.y - line - editor.px(12) - (fates_only ? 0 : 2 * line + editor.px(18));
+  ImGui::GetWindowDrawList()->AddRectFilled({x - editor.px(6), top}, {x + editor.px(fates_only ? 530 : 430), origin.y + size.y - editor.px(4)}, tone::kOverlay, editor.px(4));
+  drawFates(editor, {x, origin.y + size.y - line - editor.px(8)}, fates_only);
+  if (!fates_only) drawScale(editor, {{x, origin.y + size.y - 2 * line - editor.px(26)}, editor.px(220)}, *quantity, *instrument);
+  if (ImGui::IsItemHovered()) drawReading(editor, *expectation);
+}
+
+void expectedChips(Editor& editor) {
+  if (!expectedQuantity(editor.view.colour)) return;
+  auto& probe = editor.view.probe;
+  const auto* instrument = instrumentOf(editor);
+  ImGui::NewLine();
+  ImGui::SetNextItemWidth(editor.px(166));
+  if (ImGui::BeginCombo("###probe-instrument", fmt::format("{}  {}", ICON_TABLET, instrument != nullptr ? instrument->model : "Instrument").c_str(), ImGuiComboFlags_NoArrowButton)) {
+    for (const auto& i : readCatalogue(editor.panels.catalogue).instruments)
+      if (ImGui::Selectable(fmt::format("{} {}, {:.0f} nm###{}", i.maker, i.model, i.wavelength_nm, i.id).c_str(), i.id == probe.instrument)) probe.instrument = i.id;
+    ImGui::EndCombo();
+  }
+  ImGui::SameLine();
+  const auto& job = editor.session.document().job;
+  if (!job || job->stations.empty()) return ImGui::TextUnformatted("Drag the white dot: there the scanner stands");
+  ImGui::SetNextItemWidth(editor.px(128));
+  const auto standing = std::find_if(job->stations.begin(), job->stations.end(), [&](const Station& s) { return probe.position == s.true_pose.translation; });
+  if (!ImGui::BeginCombo("###probe-place", fmt::format("{}  {}", ICON_STATION, standing != job->stations.end() ? standing->name : "Drag the dot").c_str(), ImGuiComboFlags_NoArrowButton)) return;
+  for (const auto& s : job->stations)
+    if (ImGui::Selectable(s.name.c_str())) {
+      probe.position = s.true_pose.translation;
+      probe.height_m = s.instrument_height_m;
+    }
+  ImGui::EndCombo();
+}
+
+}  // namespace standpoint
