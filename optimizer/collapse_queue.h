@@ -10,8 +10,9 @@
 
 namespace standpoint {
 
-// Pairs of vertices, cheapest first; among equals the one with the lower first vertex. Four children to a node of 16 bytes, so that
-// those of one are in a cache line and the way down is half as long: most of a simplification's time was spent in a heap of two.
+// Pairs of vertices, cheapest first; among equals the one with the lower first vertex. Four children to a node of 16
+// bytes, so that those of one are in a cache line and the way down is half as long: most of a simplification's time was
+// spent in a heap of two.
 class CollapseQueue {
  public:
   struct Entry {
@@ -50,7 +51,9 @@ class CollapseQueue {
 
  private:
   // Costs are never negative: the upper half of their bits, as a number, is in their order.
-  static std::uint32_t keyOf(double cost) { return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(cost) >> 32U); }
+  static std::uint32_t keyOf(double cost) {
+    return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(cost) >> 32U);
+  }
 
   std::size_t leastFrom(std::size_t child) const {
     if (child + 4 > heap_.size()) {
@@ -58,7 +61,8 @@ class CollapseQueue {
       for (auto k = child + 1; k < heap_.size(); ++k) least = heap_[k].rank < heap_[least].rank ? k : least;
       return least;
     }
-    const Entry* entry = &heap_[child];  // sums, not branches: which child is the least is chance, and wrong guesses cost most
+    const Entry* entry =
+        &heap_[child];  // sums, not branches: which child is the least is chance, and wrong guesses cost most
     const std::size_t left = entry[1].rank < entry[0].rank ? 1 : 0, right = entry[3].rank < entry[2].rank ? 3 : 2;
     return child + left + (right - left) * static_cast<std::size_t>(entry[right].rank < entry[left].rank);
   }

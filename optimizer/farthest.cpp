@@ -19,11 +19,11 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t kChunk = 2048;             // triangles that one task looks at
-constexpr std::size_t kMostSearched = 200'000;   // triangles of both shapes
-constexpr int kMostPieces = 1024, kDeepest = 12; // of one triangle
-constexpr double kSettled = 1.04 * 1.04;         // a piece that can only be 4 % further than what was found is not searched
-constexpr double kTooSmall = 0.25;               // nor one that is half as large as that; its corners are looked at
+constexpr std::size_t kChunk = 2048;              // triangles that one task looks at
+constexpr std::size_t kMostSearched = 200'000;    // triangles of both shapes
+constexpr int kMostPieces = 1024, kDeepest = 12;  // of one triangle
+constexpr double kSettled = 1.04 * 1.04;  // a piece that can only be 4 % further than what was found is not searched
+constexpr double kTooSmall = 0.25;        // nor one that is half as large as that; its corners are looked at
 
 // A convex piece of a triangle.
 struct Piece {
@@ -31,7 +31,9 @@ struct Piece {
   int count = 0;
 
   Piece() = default;
-  explicit Piece(const std::array<Vector3d, 3>& triangle) : count(3) { std::copy(triangle.begin(), triangle.end(), corners.begin()); }
+  explicit Piece(const std::array<Vector3d, 3>& triangle) : count(3) {
+    std::copy(triangle.begin(), triangle.end(), corners.begin());
+  }
   void add(const Vector3d& p) {
     if (static_cast<std::size_t>(count) < corners.size()) corners[static_cast<std::size_t>(count++)] = p;
   }
@@ -65,7 +67,10 @@ std::pair<Piece, Piece> cut(const Piece& piece, const Vector3d& normal, const Ve
 class Search {
  public:
   Search(const OneWaySurfaces& way, double known_squared, bool only_whether)
-      : way_(way), only_whether_(only_whether), max_squared_(known_squared), rounding_squared_(std::pow(way.from.rounding(), 2)) {}
+      : way_(way),
+        only_whether_(only_whether),
+        max_squared_(known_squared),
+        rounding_squared_(std::pow(way.from.rounding(), 2)) {}
 
   double maxSquared() const { return max_squared_; }
   // `fresh`: of a dense mesh which corners (the lower three bits) and middles of edges are to be looked at.
@@ -80,7 +85,8 @@ class Search {
   double settled() const { return std::max(only_whether_ ? max_squared_ : kSettled * max_squared_, rounding_squared_); }
   bool answers(std::uint32_t triangle, const Triangle& t);
   bool answers(std::uint32_t triangle, const Piece& piece) const {
-    return std::all_of(piece.begin(), piece.end(), [&](const Vector3d& p) { return way_.squaredDistance(p, triangle) <= settled(); });
+    return std::all_of(piece.begin(), piece.end(),
+                       [&](const Vector3d& p) { return way_.squaredDistance(p, triangle) <= settled(); });
   }
   void search(const Piece& piece, int deepest);
   void divide(const Piece& piece, const Vector3d& middle, int deepest);
@@ -103,15 +109,16 @@ void Search::lookThrough(std::uint32_t triangle, const std::uint8_t* fresh) {
     lately_ = own;
     return;
   }
-  const std::array<Vector3d, 3> corners{way_.from.positions[t[0]], way_.from.positions[t[1]], way_.from.positions[t[2]]};
+  const std::array<Vector3d, 3> corners{way_.from.positions[t[0]], way_.from.positions[t[1]],
+                                        way_.from.positions[t[2]]};
   if (fresh != nullptr) return lookAtMiddles(corners, *fresh);
   pieces_ = 0;
   for (const auto& p : corners) lookAt(p);
   search(Piece(corners), kDeepest);
 }
 
-// Whether no point of the triangle is further from that other one: the distance from a convex set is greatest at a corner. It mostly
-// shares two corners with the one that was asked for before.
+// Whether no point of the triangle is further from that other one: the distance from a convex set is greatest at a
+// corner. It mostly shares two corners with the one that was asked for before.
 bool Search::answers(std::uint32_t triangle, const Triangle& t) {
   Corner now[3];
   for (int k = 0; k < 3; ++k) {
@@ -131,13 +138,15 @@ bool Search::answers(std::uint32_t triangle, const Triangle& t) {
 void Search::search(const Piece& piece, int deepest) {
   if (piece.count < 3 || ++pieces_ > kMostPieces || (lately_ != kNone && answers(lately_, piece))) return;
   const Vector3d middle = piece.middle();
-  auto near = way_.tree.nearestTriangle(middle, lately_ != kNone ? way_.squaredDistance(middle, lately_) : std::numeric_limits<double>::infinity());
+  auto near = way_.tree.nearestTriangle(
+      middle, lately_ != kNone ? way_.squaredDistance(middle, lately_) : std::numeric_limits<double>::infinity());
   if (near.triangle != kNone) lately_ = near.triangle;
   if (lately_ == kNone) return;
   max_squared_ = std::max(max_squared_, near.squared);
   double radius = 0;
   for (const auto& p : piece) radius = std::max(radius, (p - middle).norm());
-  const double furthest = std::sqrt(near.squared) + radius;  // no two points' distances differ by more than they are apart
+  const double furthest =
+      std::sqrt(near.squared) + radius;  // no two points' distances differ by more than they are apart
   if (furthest * furthest <= settled() || answers(lately_, piece)) return;
   if (deepest == 0 || 4 * radius * radius <= kTooSmall * max_squared_) {
     for (const auto& p : piece) lookAt(p);
@@ -146,8 +155,9 @@ void Search::search(const Piece& piece, int deepest) {
   divide(piece, middle, deepest - 1);
 }
 
-// What lies above the nearest triangle is as far as its corners are; what lies beside it is searched on its own. So two tilings of one plane
-// are through when each tile was met. Where the nearest triangle is not below, or too far, the piece is halved.
+// What lies above the nearest triangle is as far as its corners are; what lies beside it is searched on its own. So two
+// tilings of one plane are through when each tile was met. Where the nearest triangle is not below, or too far, the
+// piece is halved.
 void Search::divide(const Piece& piece, const Vector3d& middle, int deepest) {
   const auto& t = way_.to.triangles[lately_];
   const std::array<Vector3d, 3> corners{way_.to.positions[t[0]], way_.to.positions[t[1]], way_.to.positions[t[2]]};
@@ -196,7 +206,8 @@ void Search::lookAtMiddles(const std::array<Vector3d, 3>& t, std::uint8_t fresh)
 std::vector<std::uint8_t> freshPoints(const Shape& shape) {
   std::vector<std::uint8_t> fresh(shape.triangles.size(), 0);
   std::vector<bool> seen(shape.positions.size(), false);
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> edges(3 * fresh.size());  // its vertices, the corner it begins at
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> edges(3 *
+                                                             fresh.size());  // its vertices, the corner it begins at
   for (std::uint32_t corner = 0; corner < edges.size(); ++corner) {
     const auto& t = shape.triangles[corner / 3];
     const auto v = t[corner % 3];
@@ -207,7 +218,8 @@ std::vector<std::uint8_t> freshPoints(const Shape& shape) {
   }
   tbb::parallel_sort(edges.begin(), edges.end());
   for (std::size_t i = 0; i < edges.size(); ++i)
-    if (i == 0 || edges[i].first != edges[i - 1].first) fresh[edges[i].second / 3] |= static_cast<std::uint8_t>(8U << edges[i].second % 3);
+    if (i == 0 || edges[i].first != edges[i - 1].first)
+      fresh[edges[i].second / 3] |= static_cast<std::uint8_t>(8U << edges[i].second % 3);
   return fresh;
 }
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
+#include "optimizer/cheapest_steps.h"
 #include "optimizer/partition.h"
 
 namespace standpoint {
@@ -16,14 +16,15 @@ namespace standpoint {
 namespace {
 
 constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t kCell = 8'000;        // triangles; what a core's own cache holds
-constexpr double kDeeper = 0.72;            // of what all leave together, a cell leaves
-constexpr std::size_t kStretches = 64;      // of all steps by cost, that are put in order side by side
+constexpr std::size_t kCell = 8'000;  // triangles; what a core's own cache holds
+constexpr double kDeeper = 0.72;      // of what all leave together, a cell leaves
 
 using Log = std::vector<Step>;
 
-// Shared vertices have a number in each of their cells: those are looked up. `local` has one entry for each vertex that is not.
-Region cut(const Patch& whole, const std::vector<std::uint32_t>& triangles, const std::vector<std::uint8_t>& shared, std::vector<std::uint32_t>& local) {
+// Shared vertices have a number in each of their cells: those are looked up. `local` has one entry for each vertex that
+// is not.
+Region cut(const Patch& whole, const std::vector<std::uint32_t>& triangles, const std::vector<std::uint8_t>& shared,
+           std::vector<std::uint32_t>& local) {
   Region cell;
   std::vector<std::uint32_t> outer;
   for (const auto i : triangles)
@@ -62,7 +63,8 @@ Region cut(const Patch& whole, const std::vector<std::uint32_t>& triangles, cons
   return cell;
 }
 
-std::vector<Log> runCells(const Patch& whole, const Partition& parts, double deeper, const CollapseOptions& options, const Shape& shape, const Progress& progress) {
+std::vector<Log> runCells(const Patch& whole, const Partition& parts, double deeper, const CollapseOptions& options,
+                          const Shape& shape, const Progress& progress) {
   std::vector<Log> logs(parts.cells.size());
   std::vector<std::uint32_t> local(whole.positions.size(), kNone);  // each entry is of one cell only
   tbb::parallel_for(std::size_t{0}, logs.size(), [&](std::size_t i) {
@@ -78,94 +80,10 @@ std::vector<Log> runCells(const Patch& whole, const Partition& parts, double dee
   return logs;
 }
 
-// The cheapest steps of all logs, each of which is in order: what one queue over all of them would do.
-class Choice {
- public:
-  Choice(const std::vector<Log>& logs, std::size_t triangles, std::size_t enough);
-  const std::vector<Step>& steps() const { return steps_; }
-  std::size_t taken(std::size_t log) const { return taken_[log]; }
-
- private:
-  struct Stretch {
-    std::vector<std::size_t> from;  // in each log
-    std::size_t first = 0, triangles = 0;
-  };
-  void findStretches();
-  void merge(const Stretch& stretch, const std::vector<std::size_t>& to);
-
-  const std::vector<Log>& logs_;
-  std::vector<Stretch> stretches_;
-  std::vector<Step> steps_;
-  std::vector<std::size_t> taken_;
-};
-
-Choice::Choice(const std::vector<Log>& logs, std::size_t triangles, std::size_t enough) : logs_(logs), taken_(logs.size(), 0) {
-  findStretches();
-  const auto last = stretches_.size() - 1;  // where all logs end
-  tbb::parallel_for(std::size_t{0}, last, [&](std::size_t s) {
-    for (std::size_t i = 0; i < logs.size(); ++i)
-      for (auto k = stretches_[s].from[i]; k < stretches_[s + 1].from[i]; ++k) stretches_[s].triangles += logs[i][k].collapse.triangles;
-  });
-  std::size_t until = 0;
-  auto left = triangles;
-  for (; until < last && left > enough; ++until) left -= stretches_[until].triangles;
-  steps_.resize(stretches_[until].first);
-  tbb::parallel_for(std::size_t{0}, until, [&](std::size_t s) { merge(stretches_[s], stretches_[s + 1].from); });
-  taken_ = stretches_[until].from;
-  // What is too much of the last stretch.
-  while (!steps_.empty() && left + steps_.back().collapse.triangles <= enough) {
-    left += steps_.back().collapse.triangles;
-    steps_.pop_back();
-  }
-  if (until == 0) return;
-  for (std::size_t i = 0; i < logs.size(); ++i) taken_[i] = stretches_[until - 1].from[i];
-  for (auto k = stretches_[until - 1].first; k < steps_.size(); ++k) ++taken_[steps_[k].cell];
-}
-
-void Choice::findStretches() {
-  std::vector<double> costs;
-  for (const auto& log : logs_)
-    for (std::size_t k = 0; k < log.size(); k += kStretches) costs.push_back(log[k].cost);
-  std::sort(costs.begin(), costs.end());
-  for (std::size_t s = 0; s <= kStretches; ++s) {
-    auto& stretch = stretches_.emplace_back();
-    for (const auto& log : logs_) {
-      std::size_t at = s == 0 ? 0 : log.size();
-      if (s > 0 && s < kStretches && !costs.empty())
-        at = static_cast<std::size_t>(std::lower_bound(log.begin(), log.end(), costs[s * costs.size() / kStretches], [](const Step& step, double cost) { return step.cost < cost; }) - log.begin());
-      stretch.from.push_back(at);
-      stretch.first += at;
-    }
-  }
-}
-
-void Choice::merge(const Stretch& stretch, const std::vector<std::size_t>& to) {
-  struct Next {
-    double cost;
-    std::uint32_t log;
-    bool operator<(const Next& o) const { return cost != o.cost ? cost > o.cost : log > o.log; }
-  };
-  auto at = stretch.from;
-  std::vector<Next> heap;
-  for (std::uint32_t i = 0; i < at.size(); ++i)
-    if (at[i] < to[i]) heap.push_back({logs_[i][at[i]].cost, i});
-  std::make_heap(heap.begin(), heap.end());
-  for (auto k = stretch.first; !heap.empty(); ++k) {
-    std::pop_heap(heap.begin(), heap.end());
-    const auto i = heap.back().log;
-    steps_[k] = logs_[i][at[i]++];
-    steps_[k].cell = i;
-    if (at[i] < to[i]) {
-      heap.back() = {logs_[i][at[i]].cost, i};
-      std::push_heap(heap.begin(), heap.end());
-    } else {
-      heap.pop_back();
-    }
-  }
-}
-
-// What one cell's steps do to the vertices that only it has; those that keep to a shared one are left for later, as are its sums.
-void takeOwn(Patch& patch, const Log& log, std::size_t taken, const std::vector<std::uint8_t>& shared, std::vector<std::uint32_t>& joined) {
+// What one cell's steps do to the vertices that only it has; those that keep to a shared one are left for later, as are
+// its sums.
+void takeOwn(Patch& patch, const Log& log, std::size_t taken, const std::vector<std::uint8_t>& shared,
+             std::vector<std::uint32_t>& joined) {
   for (std::size_t k = 0; k < taken; ++k) {
     const auto& [step, cost, deviation, cell] = log[k];
     if (shared[step.kept] != 0) continue;
@@ -174,7 +92,8 @@ void takeOwn(Patch& patch, const Log& log, std::size_t taken, const std::vector<
     if (!patch.features.empty()) patch.features[step.kept] += patch.features[step.removed];
     patch.deviation_m[step.kept] = std::max(patch.deviation_m[step.kept], deviation);
   }
-  for (std::size_t k = taken; k-- > 0;) joined[log[k].collapse.removed] = joined[log[k].collapse.kept];  // the last first: that one's end is known
+  for (std::size_t k = taken; k-- > 0;)
+    joined[log[k].collapse.removed] = joined[log[k].collapse.kept];  // the last first: that one's end is known
 }
 
 void takeShared(Patch& patch, const Log& log, std::size_t taken, const std::vector<std::uint8_t>& shared) {
@@ -198,7 +117,8 @@ void keepProper(Patch& patch, const Partition& parts, const std::vector<std::uin
     }
   });
   patch.triangles.clear();
-  for (const auto& triangles : proper) patch.triangles.insert(patch.triangles.end(), triangles.begin(), triangles.end());
+  for (const auto& triangles : proper)
+    patch.triangles.insert(patch.triangles.end(), triangles.begin(), triangles.end());
 }
 
 template <class Value>
@@ -210,7 +130,8 @@ std::vector<Value> picked(const std::vector<Value>& values, const std::vector<st
   return result;
 }
 
-// Without the vertices that no triangle has, in the order in which triangles name them.
+// Without the vertices that no triangle has, in the order in which triangles name them: what is left of a large shape
+// lies close together again.
 void compact(Region& region) {
   std::vector<std::uint32_t> index(region.patch.positions.size(), kNone), used;
   for (auto& t : region.patch.triangles)
@@ -238,13 +159,15 @@ Region wholeRegion(Patch patch) {
   return region;
 }
 
-void runRound(Region& region, const Round& round, const CollapseOptions& options, const Shape& shape, std::vector<Collapse>& log, const Progress& progress) {
+void runRound(Region& region, const Round& round, const CollapseOptions& options, const Shape& shape,
+              std::vector<Collapse>& log, const Progress& progress) {
   auto& patch = region.patch;
   const auto parts = partition(patch.positions, patch.triangles, kCell, round.cut);
   const auto before = static_cast<double>(patch.triangles.size());
   const auto enough = std::max(round.enough, parts.any_shared ? static_cast<std::size_t>(round.share * before) : 0);
-  const auto logs = runCells(patch, parts, parts.any_shared ? kDeeper * static_cast<double>(enough) / before : 0, options, shape, progress);
-  const Choice choice(logs, patch.triangles.size(), enough);
+  const auto logs = runCells(patch, parts, parts.any_shared ? kDeeper * static_cast<double>(enough) / before : 0,
+                             options, shape, progress);
+  const CheapestSteps choice(logs, patch.triangles.size(), enough);
   const auto done = log.size();
   log.resize(done + choice.steps().size());
   tbb::parallel_for(std::size_t{0}, choice.steps().size(), [&](std::size_t k) {
@@ -254,7 +177,8 @@ void runRound(Region& region, const Round& round, const CollapseOptions& options
   });
   std::vector<std::uint32_t> joined(patch.positions.size());
   std::iota(joined.begin(), joined.end(), 0U);
-  tbb::parallel_for(std::size_t{0}, logs.size(), [&](std::size_t i) { takeOwn(patch, logs[i], choice.taken(i), parts.shared, joined); });
+  tbb::parallel_for(std::size_t{0}, logs.size(),
+                    [&](std::size_t i) { takeOwn(patch, logs[i], choice.taken(i), parts.shared, joined); });
   for (std::size_t i = 0; i < logs.size(); ++i) takeShared(patch, logs[i], choice.taken(i), parts.shared);
   keepProper(patch, parts, joined);
   compact(region);

@@ -15,18 +15,19 @@ struct Region {
   std::vector<std::uint32_t> names;
 };
 
-// The region without vertices that no triangle has: what is left of a large shape lies close together again.
 Region wholeRegion(Patch patch);
 
-// One round of simplification in cells that work side by side, until `enough` triangles are left. Each cell goes further than all do
-// together, so that the cheapest steps of all can be chosen. Which cells, and so which steps, depends on the region and `cut` only.
+// One round of simplification in cells that work side by side, until `enough` triangles are left. Each cell goes
+// further than all do together, so that the cheapest steps of all can be chosen. Which cells, and so which steps,
+// depends on the region and `cut` only.
 struct Round {
-  double cut = 0.5;          // where cells meet (partition.h): another one than in the round before
-  double share = 0.25;       // of the triangles, that is left; all but nothing where the cells are parts of their own …
-  std::size_t enough = 0;    // … but no less than these
+  double cut = 0.5;        // where cells meet (partition.h): another one than in the round before
+  double share = 0.25;     // of the triangles, that is left; all but nothing where the cells are parts of their own …
+  std::size_t enough = 0;  // … but no less than these
 };
 
 // The steps, cheapest first, named as in the shape, are appended to `log`, and the region becomes what they leave.
-void runRound(Region& region, const Round& round, const CollapseOptions& options, const Shape& shape, std::vector<Collapse>& log, const Progress& progress);
+void runRound(Region& region, const Round& round, const CollapseOptions& options, const Shape& shape,
+              std::vector<Collapse>& log, const Progress& progress);
 
 }  // namespace standpoint

@@ -15,7 +15,8 @@ Shape square(int n, double raised = 0) {
   Shape shape;
   shape.half_size = {2, 2, raised};
   for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) shape.positions.emplace_back(4.0 * i / n - 2, 4.0 * j / n - 2, 2 * i == n && 2 * j == n ? raised : 0);
+    for (int i = 0; i <= n; ++i)
+      shape.positions.emplace_back(4.0 * i / n - 2, 4.0 * j / n - 2, 2 * i == n && 2 * j == n ? raised : 0);
   for (std::uint32_t j = 0, row = static_cast<std::uint32_t>(n) + 1; j + 1 < row; ++j)
     for (std::uint32_t i = 0; i + 1 < row; ++i) {
       const auto a = j * row + i;
