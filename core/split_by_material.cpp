@@ -22,8 +22,9 @@ class Splitter {
     for (auto& instance : environment.instances) {
       const auto& mesh = environment.meshes[instance.mesh];
       if (hasFaces(instance.product)) {
-        meshes.push_back(splitByFaces(environment, *mesh, instance));
-        instance.mesh = static_cast<std::uint32_t>(meshes.size() - 1);
+        auto own = byFace(environment, instance);
+        instance.mesh = static_cast<std::uint32_t>(meshes.size());
+        meshes.push_back(std::move(own));
         continue;
       }
       const auto& used = usedSurfaces(mesh);
@@ -51,16 +52,17 @@ class Splitter {
   }
 
   bool hasFaces(std::uint32_t product) const {
-    return std::any_of(assignment_.faces.begin(), assignment_.faces.end(), [&](const AssignedFaces& f) { return f.product == product; });
+    const auto& faces = assignment_.faces;
+    const auto found = std::lower_bound(faces.begin(), faces.end(), product, [](const AssignedFaces& f, std::uint32_t p) { return f.product < p; });
+    return found != faces.end() && found->product == product;
   }
 
-  // Single faces have materials of their own: which ones is a matter of how the mesh is placed.
-  std::shared_ptr<const Mesh> splitByFaces(const Environment& environment, const Mesh& mesh, const Instance& instance) {
-    auto copy = std::make_shared<Mesh>(mesh);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const auto surface = mesh.surface_of_triangle[t];
-      const auto normal = placedNormal(mesh, mesh.triangles[t], instance.world_from_mesh);
-      copy->surface_of_triangle[t] = surfaceFor(environment, surface, materialOf(assignment_, instance.product, surface, normal));
+  std::shared_ptr<const Mesh> byFace(const Environment& environment, const Instance& instance) {
+    auto copy = std::make_shared<Mesh>(*environment.meshes[instance.mesh]);
+    for (std::size_t i = 0; i < copy->triangles.size(); ++i) {
+      auto& surface = copy->surface_of_triangle[i];
+      const auto normal = placedNormal(*copy, copy->triangles[i], instance.world_from_mesh);
+      surface = surfaceFor(environment, surface, materialOf(assignment_, instance.product, surface, normal));
     }
     sortTriangles(*copy);
     return copy;
@@ -80,11 +82,13 @@ class Splitter {
     auto copy = std::make_shared<Mesh>(mesh);
     for (auto& surface : copy->surface_of_triangle)
       surface = become[static_cast<std::size_t>(std::lower_bound(used.begin(), used.end(), surface) - used.begin())];
-    if (!std::is_sorted(copy->surface_of_triangle.begin(), copy->surface_of_triangle.end())) sortTriangles(*copy);
+    sortTriangles(*copy);
     return copy;
   }
 
+  // By surface, as validate() demands.
   static void sortTriangles(Mesh& mesh) {
+    if (std::is_sorted(mesh.surface_of_triangle.begin(), mesh.surface_of_triangle.end())) return;
     std::vector<std::uint32_t> order(mesh.triangles.size());
     std::iota(order.begin(), order.end(), 0U);
     const auto before = mesh;

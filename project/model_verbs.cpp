@@ -66,6 +66,7 @@ Result<Outcome> collideDocument(const Document& document, const CollideOptions& 
     row["floor"] = d.floor;
     row["passable"] = d.passable;
     row["closed"] = d.closed;
+    row["led_through"] = d.led_through;
     row["clear_width_m"] = d.clear_width_m;
     row["at"] = toJson(d.position + shift);
     doors.push_back(std::move(row));

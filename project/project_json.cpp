@@ -92,7 +92,7 @@ json collisionToJson(const CollideResult& c) {
   json products = json::array();
   for (const auto& p : c.products) products.push_back({p.shapes, p.triangles, p.max_deviation_m});
   json doors = json::array();
-  for (const auto& d : c.doors) doors.push_back({d.product, d.floor, d.passable, d.closed, d.clear_width_m, toJson(d.position)});
+  for (const auto& d : c.doors) doors.push_back({d.product, d.floor, d.passable, d.closed, d.clear_width_m, toJson(d.position), d.led_through});
   json rooms = json::array();
   for (const auto& r : c.rooms) rooms.push_back({r.product, r.walkable_m2, r.reached, toJson(r.position)});
   return {{"shapes", shapes}, {"products", products}, {"doors", doors}, {"rooms", rooms}, {"walkable_area_m2", c.walkable_area_m2}};
@@ -226,6 +226,7 @@ std::shared_ptr<const CollideResult> collisionFrom(const json& part, const Envir
     c.doors.back().closed = d.at(3);
     c.doors.back().clear_width_m = d.at(4);
     c.doors.back().position = vectorFrom(d.at(5));
+    c.doors.back().led_through = d.size() > 6 ? d.at(6).get<bool>() : c.doors.back().passable;  // before it was looked for
   }
   for (const auto& r : part.value("rooms", json::array())) c.rooms.push_back({r.at(0), r.at(1), r.at(2), vectorFrom(r.at(3))});
   c.walkable_area_m2 = part.at("walkable_area_m2");

@@ -71,15 +71,15 @@ Expectation::WayThere Expectation::walk(const Eigen::Vector3d& station, const Ei
       way.gain = passage.gain();
       if (!look_on) break;
     }
-    const double along = facet.normal.dot(direction);
-    const Optics& optics = opticsAt(facet.product, facet.surface, along < 0 ? facet.normal : Eigen::Vector3d(-facet.normal));
-    const double cosine = std::abs(along);
+    const double towards = facet.normal.dot(direction), cosine = std::abs(towards);
+    const Eigen::Vector3d met_side = towards < 0 ? facet.normal : Eigen::Vector3d(-facet.normal);
+    const Optics& optics = opticsAt(facet.product, facet.surface, met_side);
     if (!optics.transparent) {
       way.open = reached;
       if (reached) way.power_beyond = law_.of(optics, range, cosine, passage.gain()).power;
       break;
     }
-    const bool front = along < 0;
+    const bool front = towards < 0;
     if (passage.isOtherFace(facet, front, range)) passage.leave();
     else passage.enter(optics, cosine, facet, front, range);
     from = hit.range_m + kBehindFace_m;

@@ -58,7 +58,7 @@ class Expectation {
   // `scene` is one that RayScene::build made.
   Expectation(std::shared_ptr<const RayScene> scene, std::shared_ptr<const MaterialAssignment> assignment, ReturnLaw law);
   ExpectedReturn from(const Eigen::Vector3d& station, const SurfacePlace& place) const;
-  // `normal` tells faces of one surface apart that have materials of their own.
+  // Of the side that `normal` points away from; of a solid that is its outside, which single faces are assigned by.
   const Optics& opticsAt(std::uint32_t product, std::uint32_t surface, const Eigen::Vector3d& normal) const;
   const ReturnLaw& law() const { return law_; }
 

@@ -7,6 +7,7 @@
 #include <imgui_stdlib.h>
 
 #include "editor/editor.h"
+#include "editor/model/material_scope.h"
 #include "editor/panels/panels_list.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/icons.h"
@@ -128,9 +129,6 @@ std::vector<std::pair<std::int32_t, std::string>> materialsOf(const MaterialAssi
       found.emplace_back(s.material, s.reason);
   return found;
 }
-
-// "#12" where the model's ids are numbers, else the GlobalId: what the verb's selectors understand.
-std::string selectorOf(const Product& product) { return product.id.rfind('#', 0) == 0 || product.global_id.empty() ? product.id : product.global_id; }
 
 void assign(Editor& editor, const PhysicalMaterial& material) {
   nlohmann::json pairs = nlohmann::json::array();

@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/physical_material.h"
@@ -14,6 +15,7 @@
 #include "editor/model/outliner_rows.h"
 #include "project/geodesy.h"
 #include "scanners/instrument.h"
+#include "scanners/ray_engine.h"
 
 namespace standpoint {
 
@@ -36,6 +38,14 @@ struct MaterialsPanelState {
   std::string chosen;               // material id; "" with chosen_unassigned
   bool chosen_unassigned = false;
   int incidence_deg = 0;            // of the card's readings
+  bool whole_library = false;       // listed, not only what is in use
+  std::string bulk;                 // selector of what gets the chosen material
+  std::pair<RayHit, std::string> painted;   // where a material was dropped, and its id: a menu asks how far it goes
+};
+
+struct FindingsPanelState {
+  std::string chosen;               // MaterialFinding::id
+  std::string because;              // what stands in the field
 };
 
 struct OptimisePanelState {
@@ -97,6 +107,7 @@ struct PanelStates {
   OutlinerPanelState outliner;
   InspectorPanelState inspector;
   MaterialsPanelState materials;
+  FindingsPanelState findings;
   OptimisePanelState optimise;
   CollisionPanelState collision;
   GeoreferencePanelState georeference;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 #include <unordered_map>
+#include <utility>
 
 #include "core/face_normal.h"
 
@@ -49,6 +50,13 @@ Colour physicalColour(const MaterialAssignment& assignment, std::int32_t materia
   return c;
 }
 
+double confidenceOf(const MaterialAssignment& assignment, std::uint32_t product, std::uint32_t surface) {
+  const auto before = [](const AssignedSurface& s, const std::pair<std::uint32_t, std::uint32_t>& key) { return std::pair(s.product, s.surface) < key; };
+  const auto found = std::lower_bound(assignment.surfaces.begin(), assignment.surfaces.end(), std::pair(product, surface), before);
+  const bool there = found != assignment.surfaces.end() && found->product == product && found->surface == surface && found->material >= 0;
+  return there ? found->confidence : -1;
+}
+
 class Painter {
  public:
   explicit Painter(const ViewState& state) : state_(state) {}
@@ -66,6 +74,7 @@ class Painter {
     if (state_.colour != ColourMode::model) {
       if (!state_.materials) return rgba(materialColour(nullptr));
       const auto& assignment = state_.materials->result.assignment;
+      if (state_.colour == ColourMode::confidence) return rgba(confidenceColour(confidenceOf(assignment, product, surface)));
       return rgba(physicalColour(assignment, materialOf(assignment, product, surface, normal), state_));
     }
     Colour c = state_.environment->surfaces[surface].colour;
