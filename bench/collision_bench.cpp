@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <numeric>
 #include <regex>
 #include <set>
 #include <string>
@@ -17,6 +18,9 @@
 
 #include <fmt/format.h>
 
+#include "bench/collision_soup.h"
+#include "bench/door_ways.h"
+#include "bench/room_flood.h"
 #include "core/random.h"
 #include "importers/importers.h"
 #include "optimizer/avatar.h"
@@ -38,23 +42,6 @@ constexpr double kGrid = 0.05;            // m, of the walkable areas that are c
 const Body kWalker{0.30, 1.80};
 const Body kBall{0.05, 0.10};
 
-// Triangles in the local frame, with what each belongs to.
-struct Soup {
-  std::vector<Vector3d> positions;
-  std::vector<Triangle> triangles;
-  std::vector<std::uint32_t> owner;
-
-  void add(const Mesh& mesh, const Eigen::Affine3d& place, std::uint32_t owned_by) {
-    const auto first = static_cast<std::uint32_t>(positions.size());
-    for (const auto& p : mesh.positions) positions.push_back(place * p.cast<double>());
-    for (const auto& t : mesh.triangles) {
-      triangles.push_back({first + t[0], first + t[1], first + t[2]});
-      owner.push_back(owned_by);
-    }
-  }
-  Corners corners(std::uint32_t i) const { return {positions[triangles[i][0]], positions[triangles[i][1]], positions[triangles[i][2]]}; }
-};
-
 // What stops somebody when the doors stand open, as the model has it.
 Soup rawTriangles(const Environment& environment) {
   const auto door_of = doorOf(environment);
@@ -63,36 +50,6 @@ Soup rawTriangles(const Environment& environment) {
     if (environment.products[instance.product].inScene() && door_of[instance.product] < 0)
       soup.add(*environment.meshes[instance.mesh], instance.world_from_mesh, instance.product);
   return soup;
-}
-
-// Exactly: the volume that the upright body sweeps is a ball moved over a rectangle.
-bool meets(const Soup& soup, const TriangleTree& tree, const Body& body, const Vector3d& from, const Vector3d& to) {
-  const Vector3d low(0, 0, body.radius_m), high(0, 0, body.height_m - body.radius_m), margin = Vector3d::Constant(body.radius_m);
-  const Corners first{from + low, to + low, to + high}, second{from + low, to + high, from + high};
-  bool result = false;
-  tree.inBox((from + low).cwiseMin(to + low) - margin, (from + high).cwiseMax(to + high) + margin, [&](std::uint32_t i) {
-    const auto t = soup.corners(i);
-    result = distance(first, t) < body.radius_m || distance(second, t) < body.radius_m;
-    return !result;
-  });
-  return result;
-}
-
-// Height of the uppermost triangle over or under p between the reaches.
-double floorUnder(const Soup& soup, const TriangleTree& tree, const Vector3d& p, double above, double below) {
-  double best = -1e300;
-  tree.inBox(p - Vector3d(1e-7, 1e-7, below), p + Vector3d(1e-7, 1e-7, above), [&](std::uint32_t i) {
-    const auto t = soup.corners(i);
-    const Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
-    if (std::abs(normal.z()) < 1e-12) return true;
-    const auto side = [&](int a, int b) { return (t[b].x() - t[a].x()) * (p.y() - t[a].y()) - (t[b].y() - t[a].y()) * (p.x() - t[a].x()); };
-    const double s = side(0, 1), q = side(1, 2), r = side(2, 0);
-    if (!((s >= 0 && q >= 0 && r >= 0) || (s <= 0 && q <= 0 && r <= 0))) return true;
-    const double z = t[0].z() - ((p.x() - t[0].x()) * normal.x() + (p.y() - t[0].y()) * normal.y()) / normal.z();
-    if (z <= p.z() + above && z >= p.z() - below) best = std::max(best, z);
-    return true;
-  });
-  return best;
 }
 
 // Somewhere in the door a walker of this size passes between the model's own triangles; sills up to a step are stepped over.
@@ -111,10 +68,12 @@ bool passable(const Soup& raw, const TriangleTree& tree, const Passage& door) {
 
 struct DoorFigures {
   int doors = 0, truth = 0, kept = 0, added = 0, closed_passable = 0;
-  std::string lost;
+  int floored = 0, joined = 0, joined_raw = 0;  // of those passable in truth: with a floor, and that the surfaces lead through
+  std::string lost, parted;
 };
 
-DoorFigures judgeDoors(const Environment& environment, const Soup& raw, const CollideResult& open, const CollideResult& closed) {
+// `raw_walkable`: the surface that the model's own triangles have.
+DoorFigures judgeDoors(const Environment& environment, const Soup& raw, const Mesh& raw_walkable, const CollideResult& open, const CollideResult& closed) {
   const TriangleTree tree(raw.positions, raw.triangles);
   DoorFigures figures;
   Soup shut;  // by distances, not by the product's queries
@@ -131,6 +90,12 @@ DoorFigures judgeDoors(const Environment& environment, const Soup& raw, const Co
     figures.kept += truth && door.passable;
     figures.added += !truth && door.passable;
     if (truth && !door.passable) figures.lost += " " + environment.products[door.product].id;
+    if (!truth || !hasFloor(raw, tree, *passage, kWalker.radius_m)) continue;
+    ++figures.floored;
+    const bool joined = leadsThrough(open.walkable, *passage, kWalker.radius_m), in_raw = leadsThrough(raw_walkable, *passage, kWalker.radius_m);
+    figures.joined += joined;
+    figures.joined_raw += in_raw;
+    if (!joined) figures.parted += " " + environment.products[door.product].id + (in_raw ? "!" : "");
   }
   return figures;
 }
@@ -182,15 +147,55 @@ bool inside(const CollisionShape& shape, const Vector3d& p, double tolerance) {
 }
 
 // How often the closed surface goes around p.
-double winding(const Soup& soup, const Vector3d& p) {
+double winding(const Soup& soup, const std::vector<std::uint32_t>& triangles, const Vector3d& p) {
   double sum = 0;
-  for (std::uint32_t i = 0; i < soup.triangles.size(); ++i) {
+  for (const auto i : triangles) {
     const auto t = soup.corners(i);
     const Vector3d a = t[0] - p, b = t[1] - p, c = t[2] - p;
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
     sum += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
   }
   return sum / (4 * 3.14159265358979323846);
+}
+
+// The triangles of a soup by bodies: parted where an edge has not just two of them. A closed stringer and the open treads that
+// end on it are bodies of their own, or the treads would take from what goes around a point in the stringer.
+std::vector<std::vector<std::uint32_t>> bodiesOf(const Soup& soup) {
+  using Point = std::array<double, 3>;
+  std::map<std::pair<Point, Point>, std::vector<std::uint32_t>> edges;
+  for (std::uint32_t i = 0; i < soup.triangles.size(); ++i) {
+    const auto t = soup.corners(i);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector3d &a = t[k], &b = t[(k + 1) % 3];
+      const Point p{a.x(), a.y(), a.z()}, q{b.x(), b.y(), b.z()};
+      edges[{std::min(p, q), std::max(p, q)}].push_back(i);
+    }
+  }
+  std::vector<std::uint32_t> joined(soup.triangles.size());
+  std::iota(joined.begin(), joined.end(), 0U);
+  const auto root = [&](std::uint32_t i) {
+    while (joined[i] != i) i = joined[i] = joined[joined[i]];
+    return i;
+  };
+  for (const auto& [edge, triangles] : edges)
+    if (triangles.size() == 2) joined[root(triangles[0])] = root(triangles[1]);
+  std::map<std::uint32_t, std::vector<std::uint32_t>> bodies;
+  for (std::uint32_t i = 0; i < joined.size(); ++i) bodies[root(i)].push_back(i);
+  std::vector<std::vector<std::uint32_t>> result;
+  for (auto& [first, triangles] : bodies) result.push_back(std::move(triangles));
+  return result;
+}
+
+// In a body, and in no cavity of one.
+bool isInside(const Soup& soup, const std::vector<std::vector<std::uint32_t>>& bodies, const Vector3d& p) {
+  double all = 0, most = 0, least = 0;
+  for (const auto& body : bodies) {
+    const double own = winding(soup, body, p);
+    all += own;
+    most = std::max(most, own);
+    least = std::min(least, own);
+  }
+  return std::abs(all) > 0.5 || (most > 0.5 && least > -0.5);
 }
 
 struct Deviations {
@@ -203,13 +208,14 @@ void deviationOf(const std::string& id, bool wall, const Soup& raw, const std::v
   Soup made;
   for (std::uint32_t i = 0; i < shapes.size(); ++i) made.add(shapes[i]->mesh, Eigen::Affine3d::Identity(), i);
   const TriangleTree raw_tree(raw.positions, raw.triangles), made_tree(made.positions, made.triangles);
+  const auto bodies = bodiesOf(raw);
   double outward = 0, inward = 0;
   for (const auto& point : pointsByArea(made.positions, made.triangles, kSamples, {3, 0})) {
     const auto own = made.owner[point.triangle];
     const bool covered = std::any_of(shapes.begin(), shapes.end(), [&](const auto* s) { return s != shapes[own] && inside(*s, point.position, 1e-4); });
     if (covered) continue;
     // Between pieces there may be a crack within the solid: only what is out of the model's surface is too much.
-    if (const double off = std::sqrt(raw_tree.squaredDistance(point.position)); off > outward && std::abs(winding(raw, point.position)) < 0.5) outward = off;
+    if (const double off = std::sqrt(raw_tree.squaredDistance(point.position)); off > outward && !isInside(raw, bodies, point.position)) outward = off;
   }
   for (const auto& point : pointsByArea(raw.positions, raw.triangles, kSamples, {4, 0})) {
     const bool covered = std::any_of(shapes.begin(), shapes.end(), [&](const auto* s) { return inside(*s, point.position, 1e-4); });
@@ -226,7 +232,7 @@ void deviationOf(const std::string& id, bool wall, const Soup& raw, const std::v
     const double u = uniform(random[3]), v = uniform(random[2] ^ random[1]);
     const Vector3d p = corner(random[0]) * u + (1 - u) * (corner(random[1]) * v + (1 - v) * corner(random[2]));
     ++sum.points;
-    if (std::abs(winding(raw, p)) < 0.5 && raw_tree.squaredDistance(p) > 1e-4) ++sum.overfull;
+    if (!isInside(raw, bodies, p) && raw_tree.squaredDistance(p) > 1e-4) ++sum.overfull;
   }
 }
 
@@ -266,17 +272,20 @@ struct Floors {
   int points = 0, gaps = 0;      // on a grid of 0.1 m; of more than 20 mm
 };
 
-Floors judgeFloors(const Soup& raw, const CollideResult& result) {
+Mesh rawWalkable(const Soup& raw) {
   std::vector<CollisionShape> skins(1);
   skins[0].kind = CollisionShapeKind::mesh;
   for (const auto& p : raw.positions) skins[0].mesh.positions.push_back(p.cast<float>());
   skins[0].mesh.triangles = raw.triangles;
   skins[0].mesh.surface_of_triangle.assign(raw.triangles.size(), 0);
   Progress progress;
-  const auto truth = walkableSurface(skins, {}, progress);
+  auto truth = walkableSurface(skins, {}, progress);
+  return truth ? std::move(truth->mesh) : Mesh{};
+}
+
+Floors judgeFloors(const Soup& raw, const Mesh& raw_walkable, const CollideResult& result) {
   Floors floors;
-  if (!truth) return floors;
-  const auto here = columns(result.walkable), there = columns(truth->mesh);
+  const auto here = columns(result.walkable), there = columns(raw_walkable);
   std::size_t ours = 0, theirs = 0, both = 0;
   for (const auto& [at, heights] : there) theirs += heights.size();
   for (const auto& [at, heights] : here) {
@@ -357,12 +366,24 @@ Walk walkAtRandom(const Soup& raw, const CollideResult& result) {
   return walk;
 }
 
-void printRooms(const Environment& environment, const CollideResult& result) {
+// Whether a flood of the model's own triangles comes to the same.
+void printRooms(const Environment& environment, const Soup& raw, const CollideResult& result) {
   const auto reached = std::count_if(result.rooms.begin(), result.rooms.end(), [](const Room& r) { return r.reached; });
-  fmt::print("  rooms: {} of {} reached", reached, result.rooms.size());
-  for (const auto& room : result.rooms)
-    if (!room.reached) fmt::print(", {} has {:.1f} m2", environment.products[room.product].name, room.walkable_m2);
-  fmt::print("\n");
+  const auto flooded = floodRooms(environment, raw, kWalker);
+  int same = 0;
+  std::string rows;
+  for (const auto& room : result.rooms) {
+    const auto own = std::find_if(flooded.begin(), flooded.end(), [&](const FloodedRoom& f) { return f.product == room.product; });
+    if (own == flooded.end()) continue;
+    const bool truth = own->mainland_m2 + own->entered_m2 > 0.05;
+    same += truth == room.reached;
+    if (truth && room.reached) continue;
+    const auto& product = environment.products[room.product];
+    rows += fmt::format("    room {} {}: {}, {:.1f} m2; flood: {}, {:.1f} m2, {:.1f} with most rooms, {:.1f} from an entrance, with {} other rooms\n", product.id, product.name,
+                        room.reached ? "reached" : "unreached", room.walkable_m2, truth ? "reached" : "unreached", own->area_m2, own->mainland_m2, own->entered_m2,
+                        own->others);
+  }
+  fmt::print("  rooms: {} of {} reached, the flood agrees on {}\n{}", reached, result.rooms.size(), same, rows);
 }
 
 void printPieces(const std::string& file, const Environment& environment, const CollideResult& result) {
@@ -398,17 +419,20 @@ int judge(const std::string& file) {
   if (!closed) return fmt::print("{}: {}\n", file, describe(closed.error())), 1;
   const Soup raw = rawTriangles(environment);
   fmt::print("{}\n  {} shapes in {:.2f} s\n", std::filesystem::path(file).stem().string(), result->shapes.size(), seconds);
-  const auto doors = judgeDoors(environment, raw, *result, *closed);
+  const Mesh raw_walkable = rawWalkable(raw);
+  const auto doors = judgeDoors(environment, raw, raw_walkable, *result, *closed);
   fmt::print("  doors: {} of {} that are passable in truth ({} more of {}), {} when closed{}{}\n", doors.kept, doors.truth, doors.added, doors.doors, doors.closed_passable,
              doors.lost.empty() ? "" : ", lost:", doors.lost);
+  fmt::print("  ways: the surface leads through {} of {} that are passable and have a floor in truth, that of the raw triangles through {}{}{}\n", doors.joined,
+             doors.floored, doors.joined_raw, doors.parted.empty() ? "" : ", parted:", doors.parted);
   const auto leaks = sweepWalls(environment, raw, *result);
   fmt::print("  leaks: ball {}, walker {} of {} each, {} of them confirmed by distances\n", leaks.ball, leaks.walker, kSweeps / 2, leaks.exact);
   printPieces(file, environment, *result);
-  printRooms(environment, *result);
+  printRooms(environment, raw, *result);
   const auto off = deviations(environment, *result);
   fmt::print("  deviation: outward {:.1f} mm ({}), inward {:.1f} mm ({}), overfill {} of {} points in walls\n", off.outward * 1000, off.outward_id,
              off.inward * 1000, off.inward_id, off.overfull, off.points);
-  const auto floors = judgeFloors(raw, *result);
+  const auto floors = judgeFloors(raw, raw_walkable, *result);
   fmt::print("  walkable: {:.1f} m2 of {:.1f} m2, overlap {:.2f} %, gap at most {:.1f} mm, over 20 mm at {} of {} points\n", floors.area_m2, floors.truth_m2,
              floors.overlap * 100, floors.largest_gap_m * 1000, floors.gaps, floors.points);
   const auto walk = walkAtRandom(raw, *result);

@@ -6,24 +6,62 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace standpoint {
 
+// Share over wavelength in nm, ascending; linear between, constant outside.
+using Spectrum = std::vector<std::pair<double, double>>;
+
+// n + ik of an opaque body: a metal.
+struct ComplexIndex {
+  double wavelength_nm = 0;
+  double n = 0;
+  double k = 0;
+  bool operator==(const ComplexIndex&) const = default;
+};
+
+// Where one figure of a material comes from.
+struct Citation {
+  std::string figure;    // the figure's key: "reflectance"
+  std::string text;      // "measured: ECOSTRESS …, sample 0424UUUCNC"; begins with "unsourced" where nobody measured it
+  std::string licence;   // of the source; empty where the figure is unsourced
+  bool operator==(const Citation&) const = default;
+};
+
 // The physics of a surface for a monostatic laser (physics.md §2): reflectance is the Lambert-equivalent diffuse
-// reflectance at normal incidence, 0..1, over wavelength in nm (ascending; linear between, constant outside).
+// reflectance at normal incidence. A material without reflectance is a named gap: people ask for it, nobody measured it.
 struct PhysicalMaterial {
   std::string id;        // "brick_red_bare"
   std::string label;     // "Brick, red, bare"
-  std::vector<std::pair<double, double>> reflectance;   // (wavelength_nm, 0..1), diffuse part
+  Spectrum reflectance;  // diffuse part
   double roughness_rad = 0;         // Oren–Nayar σ of the facets' slope; 0 = Lambert
   double gloss_slope = 0;           // Beckmann slope m of the specular lobe; 0 = no lobe
-  double index_of_refraction = 0;   // n of the coat or body; 0 = no specular part
-  double thickness_m = 0;           // of a pane; 0 = opaque
-  std::vector<std::pair<double, double>> transmittance; // (wavelength_nm, 0..1) of the whole pane at normal incidence
-  std::vector<std::string> source;  // one or more citations for the figures
+  double index_of_refraction = 0;   // n of the coat or body; 0 = no specular part, or a metal
+  std::vector<ComplexIndex> complex_index;   // of a metal, wavelengths ascending
+  double thickness_m = 0;           // of one pane; 0 = opaque
+  Spectrum transmittance;           // of one pane at normal incidence
+  int panes = 1;                    // equal panes, one behind the other …
+  double gap_m = 0;                 // … so far apart
+  double variation = 0;             // coefficient of variation of the reflectance within the class; 0 = a gap
+  double texture_scale_m = 0;       // correlation length on one surface; 0 = a gap
+  std::string wet_of;               // the dry material whose figures were wetted
+  std::vector<std::string> gaps;    // what is known to be missing, in words
+  std::vector<Citation> sources;    // one for each figure
+  bool operator==(const PhysicalMaterial&) const = default;
 };
 
-// Linear between the tabulated wavelengths, constant outside; 0 for an empty table.
-double atWavelength(const std::vector<std::pair<double, double>>& table, double wavelength_nm);
+// 0 for an empty table.
+double atWavelength(const Spectrum& table, double wavelength_nm);
+
+// F0: what the specular lobe sends back at normal incidence, 0..1.
+double specularAtNormal(const PhysicalMaterial& material, double wavelength_nm);
+
+// Of the whole build-up from the first face to the last.
+double buildUpThickness(const PhysicalMaterial& material);
+
+inline bool transmits(const PhysicalMaterial& material) { return !material.transmittance.empty(); }
+inline bool isGap(const PhysicalMaterial& material) { return material.reflectance.empty(); }
 
 // Which physical material a product's surface has. Sorted by (product, surface); one entry for each pair that occurs.
 struct AssignedSurface {
@@ -31,14 +69,30 @@ struct AssignedSurface {
   std::uint32_t surface = 0;   // index into Environment::surfaces
   std::int32_t material = -1;  // index into MaterialAssignment::materials; -1 = nothing fits
   std::string reason;          // the rule or the user's selector that decided, "" when nothing fits
+  double confidence = 0;       // 0..1, of the rule; 1 where the user said so
 };
+
+// Faces of a surface that the user gave another material: those that look within kFaceCone of a direction.
+struct AssignedFaces {
+  std::uint32_t product = 0;
+  std::uint32_t surface = 0;
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();   // unit, local frame
+  std::int32_t material = -1;
+  std::string reason;
+};
+constexpr double kFaceCone = 0.984807753012208;   // cos 10°
 
 struct MaterialAssignment {
   std::vector<PhysicalMaterial> materials;   // those in use, by id
   std::vector<AssignedSurface> surfaces;
+  std::vector<AssignedFaces> faces;          // sorted by (product, surface); of several that fit, the last one holds
 };
 
 // -1 when the pair is not assigned.
 std::int32_t materialOf(const MaterialAssignment& assignment, std::uint32_t product, std::uint32_t surface);
+
+// The same for one face with its unit normal in the local frame.
+std::int32_t materialOf(const MaterialAssignment& assignment, std::uint32_t product, std::uint32_t surface,
+                        const Eigen::Vector3d& normal);
 
 }  // namespace standpoint

@@ -40,7 +40,7 @@ struct Fonts {
 };
 
 // What the next click in the viewport does.
-enum class Tool { select, placeStation, placeTarget, measure, walk };
+enum class Tool { select, placeStation, placeTarget, measure, walk, takeMaterial, paintMaterial };
 
 // Which of the two models is looked at; there is one only until it has been optimised.
 enum class ModelSide { lighter, original, both };

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "importers/gltf_companions.h"
+#include "importers/gltf_physical_material.h"
 #include "importers/gltf_georeference.h"
 #include "importers/gltf_product.h"
 #include "importers/gltf_writer_material.h"
@@ -49,7 +50,7 @@ class GlbWriter {
     auto& ours = json_["asset"]["extras"]["standpoint"];
     ours = toJson(georeference);
     ours["products"] = environment.products.size();
-    addMaterials();
+    addMaterials(companions);
     for (const auto& mesh : environment.meshes) gltf_mesh_of_.push_back(addMesh(mesh, true));
     if (reader == For::others) nameMeshes();
     listExtensions();
@@ -116,9 +117,11 @@ class GlbWriter {
     return {};
   }
 
-  void addMaterials() {
+  void addMaterials(const GltfCompanions& companions) {
     for (std::size_t i = 0; i < environment_.surfaces.size(); ++i)
       json_["materials"].push_back(gltfMaterial(environment_.surfaces[i]));
+    for (std::size_t i = 0; i < companions.physical.size(); ++i)
+      if (companions.physical[i] != nullptr) json_["materials"][i]["extensions"][kGltfPhysicalMaterial] = gltfPhysicalMaterial(*companions.physical[i]);
     addImages();
     for (std::size_t i = 0; i < environment_.surfaces.size(); ++i)
       if (const auto texture = textureOf(i); !texture.is_null())

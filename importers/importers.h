@@ -10,6 +10,7 @@
 
 #include "core/environment.h"
 #include "core/georeference.h"
+#include "core/physical_material.h"
 #include "core/progress.h"
 #include "core/report.h"
 #include "core/result.h"
@@ -81,6 +82,7 @@ struct GltfCollision {
 struct GltfCompanions {
   std::vector<GltfLevel> levels;           // from fine to coarse; as MSFT_lod of each product's node
   std::optional<GltfCollision> collision;
+  std::vector<const PhysicalMaterial*> physical;   // one for each surface, or none at all; null: not assigned
 };
 
 // The same for other programs, as .glb or, by the file's extension, as .gltf with a .bin beside it: Y up as glTF demands,
@@ -88,6 +90,12 @@ struct GltfCompanions {
 // importFile of it gives the same triangles, surfaces, images, places and georeference, without the companions.
 Result<void> exportEnvironmentGltf(const Environment& environment, const Georeference& georeference,
                                    const std::filesystem::path& file, Progress& progress, const GltfCompanions& companions = {});
+
+// A scene for HELIOS++: the XML file, an OBJ and MTL of its name beside it, and spectra/<material>.txt, which HELIOS++ finds when
+// the folder is one of its --assets. `physical` has one entry for each surface, null where nothing is assigned.
+// What HELIOS++ has no words for (panes, gloss, surfaces without a material) is told in the report.
+Result<void> writeHeliosScene(const Environment& environment, const std::vector<const PhysicalMaterial*>& physical,
+                              const Georeference& georeference, const std::filesystem::path& file, Report& report, Progress& progress);
 
 // OBJ + MTL, coordinates as text in the file frame (shift added in double).
 Result<void> writeEnvironmentObj(const Environment& environment, const Georeference& georeference,

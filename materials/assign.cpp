@@ -1,139 +1,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <map>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "core/face_normal.h"
+#include "materials/areas.h"
+#include "materials/checks.h"
 #include "materials/colour.h"
 #include "materials/findings.h"
 #include "materials/materials.h"
+#include "materials/override_table.h"
 #include "materials/rule_matcher.h"
-#include "materials/select.h"
 
 namespace standpoint {
 
 namespace {
 
-struct SurfaceArea {
-  std::uint32_t surface;
-  double area_m2;
-};
-
-// A surface of a product with all its placed triangles.
-struct Pair {
-  std::uint32_t product, surface;
-  double area_m2;
-};
-
-std::vector<SurfaceArea> placedAreas(const Mesh& mesh, const Eigen::Matrix3d& linear) {
-  std::vector<SurfaceArea> areas;  // triangles are sorted by surface
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const auto& [a, b, c] = mesh.triangles[i];
-    const Eigen::Vector3d origin = mesh.positions[a].cast<double>();
-    const Eigen::Vector3d u = linear * (mesh.positions[b].cast<double>() - origin);
-    const Eigen::Vector3d v = linear * (mesh.positions[c].cast<double>() - origin);
-    if (areas.empty() || areas.back().surface != mesh.surface_of_triangle[i])
-      areas.push_back({mesh.surface_of_triangle[i], 0});
-    areas.back().area_m2 += 0.5 * u.cross(v).norm();
-  }
-  return areas;
-}
-
-// s where the placement turns, mirrors and scales evenly by s: areas then follow from the mesh's own.
-std::optional<double> evenScale(const Eigen::Matrix3d& linear) {
-  const Eigen::Matrix3d gram = linear.transpose() * linear;
-  const double square = gram.trace() / 3;
-  const double off = (gram - square * Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  return off <= 1e-9 * square ? std::optional(std::sqrt(square)) : std::nullopt;
-}
-
-Result<std::vector<Pair>> measuredPairs(const Environment& environment, Progress& progress) {
-  std::vector<std::vector<SurfaceArea>> own(environment.meshes.size());
-  std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < environment.instances.size(); ++i) {
-    const auto& instance = environment.instances[i];
-    const auto& mesh = *environment.meshes[instance.mesh];
-    const Eigen::Matrix3d linear = instance.world_from_mesh.linear();
-    const auto scale = evenScale(linear);
-    auto& kept = own[instance.mesh];
-    if (scale && kept.empty()) kept = placedAreas(mesh, Eigen::Matrix3d::Identity());
-    for (const auto& [surface, area_m2] : scale ? kept : placedAreas(mesh, linear))
-      pairs.push_back({instance.product, surface, scale ? area_m2 * *scale * *scale : area_m2});
-    if (i % 256 == 0) {
-      if (auto going = progress.check(); !going) return failure(going.error());
-      progress.advance(static_cast<double>(i) / static_cast<double>(environment.instances.size()));
-    }
-  }
-  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
-    return std::pair(a.product, a.surface) < std::pair(b.product, b.surface);
-  });
-  std::size_t count = 0;
-  for (const auto& pair : pairs)
-    if (count > 0 && pairs[count - 1].product == pair.product && pairs[count - 1].surface == pair.surface)
-      pairs[count - 1].area_m2 += pair.area_m2;
-    else
-      pairs[count++] = pair;
-  pairs.resize(count);
-  return pairs;
-}
-
-// What the user said: the last override that means a product or one of its surfaces.
-class OverrideTable {
- public:
-  OverrideTable(const Environment& environment, const std::vector<MaterialOverride>& overrides)
-      : environment_(environment), of_product_(environment.products.size(), -1), selects_(overrides.size(), false) {
-    for (std::size_t i = 0; i < overrides.size(); ++i) {
-      if (auto surfaces = SurfaceSelector::parse(environment, overrides[i].selector)) {
-        of_surface_.emplace_back(static_cast<int>(i), std::move(*surfaces));
-        continue;
-      }
-      for (const auto product : select(environment, overrides[i].selector)) {
-        of_product_[product] = static_cast<int>(i);
-        selects_[i] = true;
-      }
-    }
-  }
-
-  int of(const Pair& pair) {
-    int last = of_product_[pair.product];
-    for (const auto& [index, surfaces] : of_surface_) {
-      if (!surfaces.fits(environment_, pair.product, pair.surface)) continue;
-      selects_[static_cast<std::size_t>(index)] = true;
-      last = std::max(last, index);
-    }
-    return last;
-  }
-  bool selects(std::size_t index) const { return selects_[index]; }
-
- private:
-  const Environment& environment_;
-  std::vector<int> of_product_;
-  std::vector<std::pair<int, SurfaceSelector>> of_surface_;
-  std::vector<bool> selects_;
-};
-
-bool transmits(const PhysicalMaterial& material) { return !material.transmittance.empty(); }
-
 class Assigner {
  public:
-  Assigner(const Environment& environment, const std::vector<PhysicalMaterial>& library,
-           const std::vector<AssignmentRule>& rules, const std::vector<MaterialOverride>& overrides)
+  Assigner(const Environment& environment, const std::vector<PhysicalMaterial>& library, const RuleSet& rules,
+           const std::vector<MaterialOverride>& overrides)
       : environment_(environment),
         library_(library),
         rules_(rules),
         overrides_(overrides),
         matcher_(rules),
-        table_(environment, overrides) {
+        table_(environment, overrides),
+        checks_(environment, library, rules, findings_) {
     for (std::size_t i = 0; i < library.size(); ++i) by_id_.emplace(library[i].id, static_cast<std::int32_t>(i));
   }
 
   Result<void> checkIds() const {
-    for (std::size_t i = 0; i < rules_.size(); ++i)
-      if (!by_id_.contains(rules_[i].assign))
-        return failure(ErrorKind::usage, "'" + rules_[i].assign + "' is not in the library",
-                       "rule /" + std::to_string(i));
+    for (const auto& rule : rules_.rules)
+      if (!by_id_.contains(rule.assign)) return failure(ErrorKind::usage, "'" + rule.assign + "' is not in the library", rule.place);
     for (const auto& o : overrides_)
       if (!by_id_.contains(o.material))
         return failure(ErrorKind::usage, "'" + o.material + "' is not in the library of materials", o.selector);
@@ -141,153 +43,203 @@ class Assigner {
   }
 
   // Pairs come by rising product and surface. What no beam meets stays as it is, unless the user speaks of it.
-  void assign(const Pair& pair) {
-    AssignedSurface result{pair.product, pair.surface, -1, {}};
-    const auto& product = environment_.products[pair.product];
-    if (const int said = table_.of(pair); said >= 0) {
-      const auto& o = overrides_[static_cast<std::size_t>(said)];
-      result.material = by_id_.at(o.material);
-      result.reason = "override " + o.selector;
-    } else if (product.inScene()) {
-      byRules(pair, result);
+  void assign(const SurfaceOfProduct& pair) {
+    AssignedSurface result{pair.product, pair.surface, -1, {}, 0};
+    const bool in_scene = environment_.products[pair.product].inScene();
+    const auto said = table_.of(pair);
+    if (said.whole >= 0) byUser(said.whole, result);
+    else if (in_scene) byRules(pair, result);
+    if (result.material >= 0 && isGap(material(result.material))) {
+      if (in_scene) checks_.gap(pair, material(result.material));
+      result.material = -1;
+      result.confidence = 0;
+    } else if (in_scene && result.material < 0) {
+      checks_.unassigned(pair);
+    } else if (in_scene) {
+      checks_.assigned(pair, material(result.material));
     }
-    if (product.inScene()) account(pair, result.material);
+    if (!said.faces.empty()) assignFaces(pair, said.faces, result, in_scene);
+    else if (in_scene) account(pair.product, result.material, result.confidence, pair.area_m2);
     assigned_.push_back(std::move(result));
   }
 
-  MaterialResult finish() {
-    closeProduct();
+  // After checkIds.
+  void prepare() {
+    for (const auto& rule : rules_.rules) of_rule_.push_back(by_id_.at(rule.assign));
+  }
+
+  MaterialResult finish(const AssignOptions& options) {
+    checks_.finish(options.wavelengths_nm);
+    aboutTheUser();
     MaterialResult result;
-    result.report.area_m2 = area_m2_;
-    result.report.coverage = area_m2_ > 0 ? assigned_m2_ / area_m2_ : 0;
-    for (auto& [id, use] : uses_) result.report.uses.push_back(std::move(use));
+    result.report.area_m2 = all_.area_m2;
+    result.report.coverage = all_.area_m2 > 0 ? all_.assigned_m2 / all_.area_m2 : 0;
+    for (auto& [index, use] : uses_) {
+      use.material = index < 0 ? "" : material(index).id;
+      result.report.uses.push_back(std::move(use));
+    }
     std::stable_sort(result.report.uses.begin(), result.report.uses.end(),
                      [](const MaterialUse& a, const MaterialUse& b) { return a.area_m2 > b.area_m2; });
-    for (std::size_t i = 0; i < overrides_.size(); ++i)
-      if (!table_.selects(i))
-        result.report.findings.push_back(
-            {"warning", overrides_[i].selector, "the selector means no surface of this model"});
-    for (auto& finding : findings_.findings(environment_)) result.report.findings.push_back(std::move(finding));
+    result.report.by_class = rows(by_class_);
+    result.report.by_storey = rows(by_storey_);
+    result.report.findings = findings_.findings(environment_, options.accepted);
     keepUsed(result.assignment);
     return result;
   }
 
  private:
-  std::string surfaceText(const Pair& pair) const {
-    const auto& surface = environment_.surfaces[pair.surface];
-    if (!surface.name.empty()) return "surface '" + surface.name + "'";
-    std::string names;
-    for (const auto& name : environment_.products[pair.product].materials) names += (names.empty() ? "" : ", ") + name;
-    return names.empty() ? "the nameless surface" : "material '" + names + "'";
+  using Rows = std::map<std::string, CoverageRow>;
+
+  const PhysicalMaterial& material(std::int32_t index) const { return library_[static_cast<std::size_t>(index)]; }
+
+  std::int32_t assignedBy(const RuleMatcher::Decision& decision) const { return of_rule_[static_cast<std::size_t>(decision.rule)]; }
+
+  void byUser(int index, AssignedSurface& result) const {
+    const auto& o = overrides_[static_cast<std::size_t>(index)];
+    result.material = by_id_.at(o.material);
+    result.reason = "override " + o.selector;
+    result.confidence = 1;
   }
 
-  // "colour transparent (transmission 0.90, index of refraction 1.52)"
-  static std::string colourText(const Surface& surface) {
-    std::string text = "colour " + std::string(colourBand(surface));
-    if (!isTransparent(surface) || isTransparent(surface.colour)) return text;
-    text += fmt::format(" (transmission {:.2f}", *surface.transmission);
-    if (surface.index_of_refraction) text += fmt::format(", index of refraction {:.2f}", *surface.index_of_refraction);
-    return text + ")";
-  }
-
-  void byRules(const Pair& pair, AssignedSurface& result) {
+  void byRules(const SurfaceOfProduct& pair, AssignedSurface& result) {
     const auto& product = environment_.products[pair.product];
     const auto& surface = environment_.surfaces[pair.surface];
-    const auto decision = matcher_.decide(product, surface);
-    if (decision.rule < 0) {
-      findings_.add({true, "no rule fits " + surfaceText(pair) + " of", product.ifc_class, ""}, pair.product,
-                    pair.area_m2);
-      return;
+    asked_rules_ = true;
+    auto decision = matcher_.decide(product, surface);
+    // "Glass door" tells of a pane somewhere; this surface is not drawn as one.
+    if (decision.rule >= 0 && decision.named >= RuleMatcher::Named::type && !isTransparent(surface) && transmits(material(assignedBy(decision))))
+      decision = matcher_.decide(product, surface, false);
+    if (decision.rule < 0) return;
+    own_decided_ = own_decided_ || static_cast<std::size_t>(decision.rule) < rules_.own;
+    result.material = assignedBy(decision);
+    result.confidence = decision.confidence;
+    result.reason = matcher_.reason(decision, product, surface);
+    if (!isGap(material(result.material))) checks_.byRule(pair, material(result.material), decision, result.reason);
+  }
+
+  // Of several directions that a face fits, the last holds.
+  void assignFaces(const SurfaceOfProduct& pair, const std::vector<int>& said, const AssignedSurface& whole, bool in_scene) {
+    for (const int index : said) {
+      const auto& o = overrides_[static_cast<std::size_t>(index)];
+      faces_.push_back({pair.product, pair.surface, table_.direction(index), by_id_.at(o.material), "override " + o.selector});
     }
-    const auto& rule = rules_[static_cast<std::size_t>(decision.rule)];
-    result.material = by_id_.at(rule.assign);
-    result.reason = matcher_.reason(decision, product);
-    if (!rule.colour.empty())
-      result.reason += (result.reason.find(':') == std::string::npos ? ": " : ", ") + colourText(surface);
-    if (decision.generic)
-      findings_.add({false, "only class and colour decided for " + surfaceText(pair) + " of", product.ifc_class,
-                     ": " + rule.assign + ", " + result.reason},
-                    pair.product, pair.area_m2);
+    if (!in_scene) return;
+    std::map<std::int32_t, double> area;
+    const auto& instances = environment_.instances;
+    auto i = std::lower_bound(instances.begin(), instances.end(), pair.product, [](const Instance& a, std::uint32_t p) { return a.product < p; });
+    for (; i != instances.end() && i->product == pair.product; ++i) {
+      const Mesh& mesh = *environment_.meshes[i->mesh];
+      for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (mesh.surface_of_triangle[t] != pair.surface) continue;
+        const auto normal = placedNormal(mesh, mesh.triangles[t], i->world_from_mesh);
+        std::int32_t material = whole.material;
+        for (const int index : said)
+          if (table_.direction(index).dot(normal) >= kFaceCone) material = by_id_.at(overrides_[static_cast<std::size_t>(index)].material);
+        area[material] += placedArea(mesh, mesh.triangles[t], i->world_from_mesh);
+      }
+    }
+    for (const auto& [material, m2] : area) account(pair.product, material, material == whole.material ? whole.confidence : 1, m2);
   }
 
-  void account(const Pair& pair, std::int32_t material) {
-    if (product_ != pair.product) closeProduct();
-    product_ = pair.product;
-    area_m2_ += pair.area_m2;
-    if (material >= 0) assigned_m2_ += pair.area_m2;
-    const auto id = material < 0 ? std::string() : library_[static_cast<std::size_t>(material)].id;
-    auto& use = uses_.try_emplace(id, MaterialUse{id, 0, {}}).first->second;
-    use.area_m2 += pair.area_m2;
-    if (use.products.empty() || use.products.back() != pair.product) use.products.push_back(pair.product);
-    product_m2_ += pair.area_m2;
-    if (material >= 0) checkTransparency(pair, library_[static_cast<std::size_t>(material)]);
+  void account(std::uint32_t product, std::int32_t index, double confidence, double area_m2) {
+    if (product_ != product) {
+      const auto& p = environment_.products[product];
+      product_ = product;
+      rows_ = {&all_, &by_class_[p.ifc_class], &by_storey_[p.storey]};
+    }
+    for (auto* row : rows_) {
+      row->area_m2 += area_m2;
+      if (index >= 0) row->assigned_m2 += area_m2;
+      if (index >= 0 && confidence < kWeakConfidence) row->weak_m2 += area_m2;
+    }
+    auto& use = uses_[index];
+    use.area_m2 += area_m2;
+    if (use.products.empty() || use.products.back() != product) use.products.push_back(product);
   }
 
-  void checkTransparency(const Pair& pair, const PhysicalMaterial& material) {
-    const auto& surface = environment_.surfaces[pair.surface];
-    const auto& ifc_class = environment_.products[pair.product].ifc_class;
-    has_pane_ = has_pane_ || transmits(material);
-    if (isTransparent(surface) && !transmits(material))
-      findings_.add(
-          {true, "transparent " + surfaceText(pair) + " of", ifc_class, " has the opaque material " + material.id},
-          pair.product, pair.area_m2);
-    if (!isTransparent(surface) && surface.colour != Colour{} && transmits(material))
-      findings_.add(
-          {true, "opaque " + surfaceText(pair) + " of", ifc_class, " has the transparent material " + material.id},
-          pair.product, pair.area_m2);
+  static std::vector<CoverageRow> rows(const Rows& by_name) {
+    std::vector<CoverageRow> result;
+    for (const auto& [name, row] : by_name) {
+      result.push_back(row);
+      result.back().name = name;
+    }
+    std::stable_sort(result.begin(), result.end(), [](const CoverageRow& a, const CoverageRow& b) { return a.area_m2 > b.area_m2; });
+    return result;
   }
 
-  // A window whose file knows no pane of its own would stop every beam.
-  void closeProduct() {
-    if (product_ && !has_pane_ && environment_.products[*product_].ifc_class.starts_with("IfcWindow"))
-      findings_.add({true, "no surface is of glass in", environment_.products[*product_].ifc_class, ""}, *product_,
-                    product_m2_);
-    has_pane_ = false;
-    product_m2_ = 0;
-    product_.reset();
+  void aboutTheUser() {
+    for (std::size_t i = 0; i < overrides_.size(); ++i) {
+      if (table_.selects(i)) continue;
+      FindingCollector::Cause c;
+      c.kind = "selector";
+      c.warning = true;
+      c.subject = overrides_[i].selector;
+      c.what = "the selector means no surface of this model";
+      c.why = "What was assigned by it reaches nothing: a name that changed, or a product that is gone.";
+      c.remedies = {{"Take it back", overrides_[i].selector, "rules"}};
+      findings_.addAbout(std::move(c), overrides_[i].selector);
+    }
+    if (rules_.own == 0 || own_decided_ || !asked_rules_) return;
+    FindingCollector::Cause c;
+    c.kind = "idle-rules";
+    c.warning = true;
+    c.subject = rules_.rules.front().place;
+    c.what = fmt::format("none of the {} rules of the file decided anything", rules_.own);
+    c.why = "The names, classes or colours that they ask for do not occur in this model.";
+    findings_.addAbout(std::move(c), rules_.rules.front().place);
   }
 
   void keepUsed(MaterialAssignment& assignment) {
     std::map<std::string, std::int32_t> used;
-    for (const auto& surface : assigned_)
-      if (surface.material >= 0)
-        used.emplace(library_[static_cast<std::size_t>(surface.material)].id, surface.material);
+    const auto use = [&](std::int32_t index) {
+      if (index >= 0) used.emplace(material(index).id, index);
+    };
+    for (const auto& surface : assigned_) use(surface.material);
+    std::erase_if(faces_, [&](const AssignedFaces& f) { return isGap(material(f.material)); });
+    for (const auto& face : faces_) use(face.material);
     std::vector<std::int32_t> new_index(library_.size(), -1);
     for (const auto& [id, index] : used) {
       new_index[static_cast<std::size_t>(index)] = static_cast<std::int32_t>(assignment.materials.size());
-      assignment.materials.push_back(library_[static_cast<std::size_t>(index)]);
+      assignment.materials.push_back(material(index));
     }
-    for (auto& surface : assigned_)
-      if (surface.material >= 0) surface.material = new_index[static_cast<std::size_t>(surface.material)];
+    const auto renumber = [&](std::int32_t& index) { index = index < 0 ? -1 : new_index[static_cast<std::size_t>(index)]; };
+    for (auto& surface : assigned_) renumber(surface.material);
+    for (auto& face : faces_) renumber(face.material);
     assignment.surfaces = std::move(assigned_);
+    assignment.faces = std::move(faces_);
   }
 
   const Environment& environment_;
   const std::vector<PhysicalMaterial>& library_;
-  const std::vector<AssignmentRule>& rules_;
+  const RuleSet& rules_;
   const std::vector<MaterialOverride>& overrides_;
   RuleMatcher matcher_;
   OverrideTable table_;
-  std::map<std::string, std::int32_t> by_id_;
   FindingCollector findings_;
+  AssignmentChecks checks_;
+  std::map<std::string, std::int32_t> by_id_;
+  std::vector<std::int32_t> of_rule_;
   std::vector<AssignedSurface> assigned_;
-  std::map<std::string, MaterialUse> uses_;
-  double area_m2_ = 0, assigned_m2_ = 0;
-  std::optional<std::uint32_t> product_;  // whose pairs are being accounted
-  double product_m2_ = 0;
-  bool has_pane_ = false;
+  std::vector<AssignedFaces> faces_;
+  std::map<std::int32_t, MaterialUse> uses_;   // by index into the library, which is sorted by id
+  CoverageRow all_;
+  Rows by_class_, by_storey_;
+  std::optional<std::uint32_t> product_;   // that is being accounted for
+  std::array<CoverageRow*, 3> rows_{};     // where it counts
+  bool own_decided_ = false, asked_rules_ = false;
 };
 
 }  // namespace
 
 Result<MaterialResult> assignMaterials(const Environment& environment, const std::vector<PhysicalMaterial>& library,
-                                       const std::vector<AssignmentRule>& rules,
-                                       const std::vector<MaterialOverride>& overrides, Progress& progress) {
+                                       const RuleSet& rules, const std::vector<MaterialOverride>& overrides,
+                                       const AssignOptions& options, Progress& progress) {
   progress.stage("Measuring surfaces", 0, 0.7);
-  const auto pairs = measuredPairs(environment, progress);
+  const auto pairs = measuredSurfaces(environment, progress);
   if (!pairs) return failure(pairs.error());
   Assigner assigner(environment, library, rules, overrides);
   if (auto checked = assigner.checkIds(); !checked) return failure(checked.error());
+  assigner.prepare();
   progress.stage("Assigning materials", 0.7, 1);
   for (std::size_t i = 0; i < pairs->size(); ++i) {
     if (i % 256 == 0) {
@@ -297,7 +249,7 @@ Result<MaterialResult> assignMaterials(const Environment& environment, const std
     assigner.assign((*pairs)[i]);
   }
   progress.advance(1);
-  return assigner.finish();
+  return assigner.finish(options);
 }
 
 }  // namespace standpoint

@@ -2,47 +2,89 @@
 #include "materials/findings.h"
 
 #include <algorithm>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 namespace standpoint {
 
 namespace {
 
-std::string metres(double area_m2) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f m²", area_m2);
-  return text;
-}
-
 std::string called(const Product& product) {
   return (product.ifc_class.empty() ? "object" : product.ifc_class) + " '" + product.name + "'";
 }
 
+// FNV-1a: a short name for a text, the same on every machine.
+std::uint32_t fingerprint(const std::vector<std::string>& texts) {
+  std::uint32_t hash = 2166136261U;
+  for (const auto& text : texts) {
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
+    hash = (hash ^ 0xFFU) * 16777619U;
+  }
+  return hash;
+}
+
+std::string causeOf(const FindingCollector::Cause& cause, const std::vector<std::uint32_t>& products, const Environment& environment) {
+  std::vector<std::string> texts{cause.what, cause.then};
+  std::vector<std::string> names;
+  for (const auto p : products) {
+    const auto& product = environment.products[p];
+    names.push_back(product.global_id.empty() ? product.id : product.global_id);
+  }
+  std::sort(names.begin(), names.end());
+  texts.insert(texts.end(), names.begin(), names.end());
+  return fmt::format("{:08x}", fingerprint(texts));
+}
+
 }  // namespace
 
-// Called by rising product.
-void FindingCollector::add(Cause cause, std::uint32_t product, double area_m2) {
-  auto [place, is_new] = extents_.try_emplace(std::move(cause), Extent{product, product, 1, area_m2});
-  if (is_new) return;
-  auto& extent = place->second;
-  extent.products += extent.last != product;
-  extent.last = product;
+FindingCollector::Extent& FindingCollector::of(Cause cause) {
+  auto& extent = extents_[{cause.kind, cause.subject}];
+  if (extent.cause.kind.empty()) extent.cause = std::move(cause);
+  return extent;
+}
+
+void FindingCollector::add(Extent& extent, std::uint32_t product, double area_m2) {
+  if (extent.products.empty() || extent.products.back() != product) extent.products.push_back(product);
   extent.area_m2 += area_m2;
 }
 
-std::vector<MaterialFinding> FindingCollector::findings(const Environment& environment) const {
-  std::vector<std::pair<const Cause*, const Extent*>> order;
-  for (const auto& [cause, extent] : extents_) order.emplace_back(&cause, &extent);
-  std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
-    return std::pair(!a.first->warning, -a.second->area_m2) < std::pair(!b.first->warning, -b.second->area_m2);
-  });
+void FindingCollector::addAbout(Cause cause, std::string source) {
+  auto& extent = extents_[{cause.kind, cause.subject}];
+  extent.cause = std::move(cause);
+  extent.source = std::move(source);
+}
+
+std::vector<MaterialFinding> FindingCollector::findings(const Environment& environment, const std::vector<AcceptedFinding>& accepted) const {
   std::vector<MaterialFinding> result;
-  for (const auto& [cause, extent] : order) {
-    const auto& product = environment.products[extent->first];
-    const auto more = extent->products > 1 ? " and " + std::to_string(extent->products - 1) + " more" : std::string();
-    result.push_back({cause->warning ? "warning" : "note", product.id,
-                      cause->what + ' ' + called(product) + more + cause->then + " (" + metres(extent->area_m2) + ")"});
+  for (const auto& [key, extent] : extents_) {
+    const auto& cause = extent.cause;
+    MaterialFinding finding;
+    finding.severity = cause.warning ? "warning" : "note";
+    finding.kind = cause.kind;
+    finding.id = fmt::format("{}-{:08x}", cause.kind, fingerprint({cause.kind, cause.subject}));
+    finding.why = cause.why;
+    finding.area_m2 = extent.area_m2;
+    finding.products = extent.products;
+    std::sort(finding.products.begin(), finding.products.end());
+    finding.products.erase(std::unique(finding.products.begin(), finding.products.end()), finding.products.end());
+    finding.remedies = cause.remedies;
+    finding.cause = causeOf(cause, finding.products, environment);
+    finding.source = extent.source;
+    finding.message = cause.what;
+    if (!finding.products.empty()) {
+      const auto& first = environment.products[finding.products.front()];
+      finding.source = first.id;
+      const auto more = finding.products.size() > 1 ? fmt::format(" and {} more", finding.products.size() - 1) : "";
+      finding.message += fmt::format(" {}{}{} ({:.2f} m²)", called(first), more, cause.then, extent.area_m2);
+    }
+    for (const auto& seen : accepted)
+      if (seen.finding == finding.id && seen.cause == finding.cause) finding.because = seen.because;
+    result.push_back(std::move(finding));
   }
+  std::stable_sort(result.begin(), result.end(), [](const MaterialFinding& a, const MaterialFinding& b) {
+    const auto order = [](const MaterialFinding& f) { return std::tuple(!f.because.empty(), f.severity != "warning", -f.area_m2); };
+    return order(a) < order(b);
+  });
   return result;
 }
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "core/environment.h"
@@ -12,27 +12,34 @@
 
 namespace standpoint {
 
-// Gathers findings that have the same cause into one line: the first product stands for all, the rest are counted.
+// Gathers findings that have the same kind and subject into one: the first product stands for all, the rest are counted.
 class FindingCollector {
  public:
   // `what` reads on with the product: "no rule fits surface 'X' of" … "IfcWall 'W1'", then `then`.
   struct Cause {
-    bool warning;
-    std::string what, ifc_class, then;
-    auto operator<=>(const Cause&) const = default;
+    std::string kind;
+    bool warning = false;
+    std::string subject;      // tells findings of one kind apart, in every run alike
+    std::string what, then;
+    std::string why;
+    std::vector<Remedy> remedies;
   };
-  void add(Cause cause, std::uint32_t product, double area_m2);
-  // Warnings first, then by falling area.
-  std::vector<MaterialFinding> findings(const Environment& environment) const;
-
- private:
   struct Extent {
-    std::uint32_t first = 0;
-    std::uint32_t last = 0;
-    std::size_t products = 0;
+    Cause cause;
+    std::string source;
+    std::vector<std::uint32_t> products;
     double area_m2 = 0;
   };
-  std::map<Cause, Extent> extents_;
+  // The finding of this kind and subject, which stays where it is; `add` then tells of each surface that it is about.
+  Extent& of(Cause cause);
+  static void add(Extent& extent, std::uint32_t product, double area_m2);
+  // One that no product stands for: it is about what the user said.
+  void addAbout(Cause cause, std::string source);
+  // Those that nobody accepted first; of them warnings first, then by falling area.
+  std::vector<MaterialFinding> findings(const Environment& environment, const std::vector<AcceptedFinding>& accepted) const;
+
+ private:
+  std::map<std::pair<std::string, std::string>, Extent> extents_;   // by kind and subject
 };
 
 }  // namespace standpoint

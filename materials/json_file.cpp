@@ -34,18 +34,6 @@ class KeyWatch {
   std::string wrong_;
 };
 
-Result<std::string> readWhole(const std::filesystem::path& file) {
-  std::error_code code;
-  const auto size = std::filesystem::file_size(file, code);
-  if (code) return failure(ErrorKind::file_system, "cannot be read: " + code.message(), file.string());
-  if (size > kLargestFile) return failure(ErrorKind::unusable, "is larger than 16 MB", file.string());
-  std::ifstream stream(file, std::ios::binary);
-  std::string text(size, '\0');
-  if (!stream.read(text.data(), static_cast<std::streamsize>(size)))
-    return failure(ErrorKind::file_system, "cannot be read", file.string());
-  return text;
-}
-
 }  // namespace
 
 JsonPlace JsonPlace::operator/(std::string_view key) const {
@@ -58,24 +46,45 @@ tl::unexpected<Error> JsonPlace::unusable(std::string message) const {
   return failure(ErrorKind::unusable, std::move(message), pointer.empty() ? file : file + ' ' + pointer);
 }
 
-Result<nlohmann::json> readJsonArray(const std::filesystem::path& file) {
-  const auto text = readWhole(file);
+Result<std::string> readWholeFile(const std::filesystem::path& file, std::uintmax_t most_bytes) {
+  std::error_code code;
+  const auto size = std::filesystem::file_size(file, code);
+  if (code) return failure(ErrorKind::file_system, "cannot be read: " + code.message(), file.string());
+  if (size > most_bytes) return failure(ErrorKind::unusable, "is larger than " + std::to_string(most_bytes >> 20U) + " MB", file.string());
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(size, '\0');
+  if (!stream.read(text.data(), static_cast<std::streamsize>(size)))
+    return failure(ErrorKind::file_system, "cannot be read", file.string());
+  return text;
+}
+
+Result<nlohmann::json> readJsonFile(const std::filesystem::path& file) {
+  const auto text = readWholeFile(file, kLargestFile);
   if (!text) return failure(text.error());
-  const JsonPlace root{file.filename().string(), {}};
+  return parseJson(*text, file.filename().string());
+}
+
+Result<nlohmann::json> readJsonArray(const std::filesystem::path& file) {
+  auto content = readJsonFile(file);
+  if (content && !content->is_array()) return JsonPlace{file.filename().string(), {}}.unusable("must be a list");
+  return content;
+}
+
+Result<nlohmann::json> parseJson(const std::string& text, const std::string& file_name) {
+  const JsonPlace root{file_name, {}};
   KeyWatch watch;
   nlohmann::json result;
   try {
     result =
-        nlohmann::json::parse(*text, [&](int depth, auto event, auto& parsed) { return watch(depth, event, parsed); });
+        nlohmann::json::parse(text, [&](int depth, auto event, auto& parsed) { return watch(depth, event, parsed); });
   } catch (const nlohmann::json::parse_error& error) {
-    const auto end = text->begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text->size()));
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
     return failure(ErrorKind::unusable, "is not JSON: " + std::string(error.what()),
-                   root.file + " line " + std::to_string(1 + std::count(text->begin(), end, '\n')));
+                   root.file + " line " + std::to_string(1 + std::count(text.begin(), end, '\n')));
   } catch (const nlohmann::json::exception& error) {
     return root.unusable("is not JSON: " + std::string(error.what()));
   }
   if (!watch.wrong().empty()) return root.unusable(watch.wrong());
-  if (!result.is_array()) return root.unusable("must be a list");
   return result;
 }
 
@@ -91,13 +100,24 @@ Result<void> checkKeys(const nlohmann::json& value, const JsonPlace& at,
   return {};
 }
 
+Result<std::string> textOf(const nlohmann::json& value, const JsonPlace& at) {
+  if (!value.is_string()) return at.unusable("must be a text");
+  auto text = value.get<std::string>();
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) return at.unusable("is empty");
+  return text;
+}
+
 Result<std::string> readText(const nlohmann::json& object, const JsonPlace& at, const char* key) {
   const auto found = object.find(key);
   if (found == object.end()) return (at / key).unusable("is missing");
-  if (!found->is_string()) return (at / key).unusable("must be a text");
-  auto text = found->get<std::string>();
-  if (text.find_first_not_of(" \t\r\n") == std::string::npos) return (at / key).unusable("is empty");
-  return text;
+  return textOf(*found, at / key);
+}
+
+Result<std::string> readId(const nlohmann::json& object, const JsonPlace& at) {
+  auto id = readText(object, at, "id");
+  if (id && id->find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != std::string::npos)
+    return (at / "id").unusable("may hold a-z, 0-9 and _ only");
+  return id;
 }
 
 Result<double> readNumber(const nlohmann::json& value, const JsonPlace& at, double minimum, double maximum) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <initializer_list>
 #include <string>
@@ -22,12 +23,18 @@ struct JsonPlace {
   tl::unexpected<Error> unusable(std::string message) const;
 };
 
-// The whole file as one array. A file that is too large, syntax errors and a key given twice are errors with their
+Result<std::string> readWholeFile(const std::filesystem::path& file, std::uintmax_t most_bytes);
+
+// The whole file. One that is too large or nests too deeply, syntax errors and a key given twice are errors with their
 // place.
+Result<nlohmann::json> readJsonFile(const std::filesystem::path& file);
 Result<nlohmann::json> readJsonArray(const std::filesystem::path& file);
+Result<nlohmann::json> parseJson(const std::string& text, const std::string& file_name);
 
 Result<void> checkKeys(const nlohmann::json& value, const JsonPlace& at, std::initializer_list<std::string_view> known);
+Result<std::string> textOf(const nlohmann::json& value, const JsonPlace& at);   // not blank
 Result<std::string> readText(const nlohmann::json& object, const JsonPlace& at, const char* key);
+Result<std::string> readId(const nlohmann::json& object, const JsonPlace& at);   // of a-z, 0-9 and _
 Result<double> readNumber(const nlohmann::json& value, const JsonPlace& at, double minimum, double maximum);
 
 }  // namespace standpoint

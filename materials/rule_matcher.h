@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <map>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,35 +17,46 @@ namespace standpoint {
 // distinct name; a product then costs one look per rule.
 class RuleMatcher {
  public:
-  explicit RuleMatcher(std::span<const AssignmentRule> rules);
+  explicit RuleMatcher(const RuleSet& set);
+  RuleMatcher(const RuleMatcher&) = delete;
+  RuleMatcher& operator=(const RuleMatcher&) = delete;
 
+  // Where the name of the material that decided comes from.
+  enum class Named { surface, product, type, name };
   struct Decision {
     std::int32_t rule = -1;  // -1: none fits
     std::string text;        // the material's name that the rules were asked with; "" when no rule knows any name
-    bool generic = false;    // only class or colour decided
+    Named named = Named::surface;
+    double confidence = 0;
   };
-  Decision decide(const Product& product, const Surface& surface);
+  // `by_names`: the names of the product and its type may say what it is made of, where nothing better does.
+  Decision decide(const Product& product, const Surface& surface, bool by_names = true);
 
-  // "rule /17: material *beton*", for people who look into the file; `text` as in the decision.
-  std::string reason(const Decision& decision, const Product& product);
+  // "material 'Stahlbeton' (*beton*), rule 17 of default.json", for people; `text` as in the decision.
+  std::string reason(const Decision& decision, const Product& product, const Surface& surface);
 
  private:
   struct RulePatterns {
-    Pattern ifc_class, material, name, colour;
-    bool hidden;
+    Pattern ifc_class, material, name, type, storey, group, colour;
   };
   using Field = Pattern RulePatterns::*;
-  using Fits = std::vector<int>;  // per rule: the glob that fits, -1 when none, kNoPattern when the rule does not ask
-  using Memo = std::map<std::string, Fits, std::less<>>;
+  using Memo = std::map<std::string, std::vector<bool>, std::less<>>;   // by name: for each rule, whether it lets that pass
 
-  const Fits& fits(Memo& memo, Field field, const std::string& text);
+  const std::vector<bool>& passes(Memo& memo, Field field, const std::string& text);
+  bool asks(Field field) const;
+  bool passesGroups(std::size_t rule, const Product& product);
   // By the first rule that asks for a material and fits the name.
   enum class Known { no, hidden, visible };
   Known known(const std::string& material_name);
-  std::string knownMaterialName(const Product& product, const Surface& surface);
+  Decision knownMaterial(const Product& product, const Surface& surface, bool by_names);
 
-  std::vector<RulePatterns> rules_;
-  Memo classes_, materials_, names_;
+  const RuleSet& set_;
+  WordTable words_;
+  std::vector<RulePatterns> patterns_;
+  std::vector<bool> all_pass_;          // for what no rule asks of
+  bool asks_name_ = false, asks_type_ = false;
+  Memo classes_, materials_, names_, types_, storeys_, groups_;
+  std::map<std::string, Known, std::less<>> known_;
 };
 
 }  // namespace standpoint

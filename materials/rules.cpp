@@ -10,15 +10,9 @@ namespace standpoint {
 
 namespace {
 
-Result<void> checkGlobs(const std::string& globs, const JsonPlace& at) {
-  for (std::size_t begin = 0; begin <= globs.size();) {
-    const auto end = std::min(globs.find('|', begin), globs.size());
-    const auto glob = globs.substr(begin, end - begin);
-    if (glob.find_first_not_of(" \t") == std::string::npos) return at.unusable("holds an empty pattern");
-    begin = end + 1;
-  }
-  return {};
-}
+// Each distinct name of a model is held against every rule: these keep the product of the two within a second or so.
+constexpr std::uintmax_t kLargestRules = 1U << 20U;
+constexpr std::size_t kMostRules = 10'000;
 
 Result<void> checkColours(const std::string& globs, const JsonPlace& at) {
   for (std::size_t begin = 0; begin < globs.size();) {
@@ -34,49 +28,183 @@ Result<void> checkColours(const std::string& globs, const JsonPlace& at) {
   return {};
 }
 
-Result<AssignmentRule> readRule(const nlohmann::json& entry, const JsonPlace& at, const std::set<std::string>& ids) {
-  if (auto checked = checkKeys(entry, at, {"ifc_class", "material", "name", "colour", "assign", "hidden"}); !checked)
-    return failure(checked.error());
-  AssignmentRule rule;
-  for (const auto& [key, field] :
-       {std::pair{"ifc_class", &AssignmentRule::ifc_class}, std::pair{"material", &AssignmentRule::material},
-        std::pair{"name", &AssignmentRule::name}, std::pair{"colour", &AssignmentRule::colour}}) {
-    if (!entry.contains(key)) continue;
-    auto globs = readText(entry, at, key);
-    if (!globs) return failure(globs.error());
-    if (auto checked = checkGlobs(*globs, at / key); !checked) return failure(checked.error());
-    rule.*field = std::move(*globs);
+class RulesReader {
+ public:
+  RulesReader(std::string file, const std::vector<PhysicalMaterial>& library, WordLists words)
+      : root_{std::move(file), {}}, words_(std::move(words)) {
+    for (const auto& material : library) ids_.insert(material.id);
   }
-  if (auto checked = checkColours(rule.colour, at / "colour"); !checked) return failure(checked.error());
-  if (rule.ifc_class.empty() && rule.material.empty() && rule.name.empty() && rule.colour.empty())
-    return at.unusable("has no pattern, so it would fit everything");
-  auto assign = readText(entry, at, "assign");
-  if (!assign) return failure(assign.error());
-  if (!ids.contains(*assign)) return (at / "assign").unusable("'" + *assign + "' is not in the library");
-  rule.assign = std::move(*assign);
-  if (const auto hidden = entry.find("hidden"); hidden != entry.end()) {
-    if (!hidden->is_boolean()) return (at / "hidden").unusable("must be true or false");
-    if (rule.material.empty()) return (at / "hidden").unusable("needs a pattern for the material");
-    rule.hidden = hidden->get<bool>();
+
+  Result<RuleSet> read(const nlohmann::json& content) {
+    RuleSet set;
+    if (auto checked = checkKeys(content, root_, {"words", "rules", "implausible", "then"}); !checked)
+      return failure(checked.error());
+    if (auto done = readWords(content); !done) return failure(done.error());
+    if (!content.contains("rules")) return (root_ / "rules").unusable("is missing");
+    for (const char* key : {"rules", "implausible"})
+      if (content.contains(key) && !content[key].is_array()) return (root_ / key).unusable("must be a list");
+    const auto& list = content["rules"];
+    if (list.size() > kMostRules) return (root_ / "rules").unusable("holds more than " + std::to_string(kMostRules) + " rules");
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      auto rule = readRule(list[i], root_ / "rules" / i);
+      if (!rule) return failure(rule.error());
+      rule->place = "rule " + std::to_string(i) + " of " + root_.file;
+      set.rules.push_back(std::move(*rule));
+    }
+    if (content.contains("implausible"))
+      for (std::size_t i = 0; i < content["implausible"].size(); ++i) {
+        auto entry = readImplausible(content["implausible"][i], root_ / "implausible" / i);
+        if (!entry) return failure(entry.error());
+        set.implausible.push_back(std::move(*entry));
+      }
+    set.words = std::move(words_);
+    return set;
   }
-  return rule;
+
+ private:
+  Result<void> readWords(const nlohmann::json& content) {
+    const auto found = content.find("words");
+    if (found == content.end()) return {};
+    if (!found->is_object()) return (root_ / "words").unusable("must be an object of lists");
+    for (const auto& [name, list] : found->items()) {
+      const auto at = root_ / "words" / name;
+      if (name.empty() || name.find_first_of("{}|&!") != std::string::npos) return at.unusable("may not hold { } | & !");
+      if (!list.is_array() || list.empty()) return at.unusable("must be a list of texts");
+      auto& words = words_[name];
+      words.clear();
+      for (std::size_t i = 0; i < list.size(); ++i) {
+        auto word = textOf(list[i], at / i);
+        if (!word) return failure(word.error());
+        if (word->find_first_of("{}|&") != std::string::npos) return (at / i).unusable("is one word: { } | & belong into patterns");
+        words.push_back(std::move(*word));
+      }
+    }
+    return {};
+  }
+
+  Result<std::string> readPattern(const nlohmann::json& entry, const JsonPlace& at, const char* key) const {
+    if (!entry.contains(key)) return std::string();
+    auto text = readText(entry, at, key);
+    if (!text) return text;
+    if (auto flaw = flawOf(*text, words_); !flaw.empty()) return (at / key).unusable(flaw);
+    return text;
+  }
+
+  static Result<std::optional<ValueRange>> readRange(const nlohmann::json& entry, const JsonPlace& at, const char* key) {
+    const auto found = entry.find(key);
+    if (found == entry.end()) return std::optional<ValueRange>();
+    if (!found->is_array() || found->size() != 2) return (at / key).unusable("must be [from, to]");
+    const auto from = readNumber((*found)[0], at / key / std::size_t{0}, 0, 1);
+    if (!from) return failure(from.error());
+    const auto to = readNumber((*found)[1], at / key / std::size_t{1}, *from, 1);
+    if (!to) return failure(to.error());
+    return std::optional(ValueRange{static_cast<float>(*from), static_cast<float>(*to)});
+  }
+
+  Result<std::string> readAssigned(const nlohmann::json& entry, const JsonPlace& at) const {
+    auto assign = readText(entry, at, "assign");
+    if (assign && !ids_.contains(*assign)) return (at / "assign").unusable("'" + *assign + "' is not in the library");
+    return assign;
+  }
+
+  Result<AssignmentRule> readRule(const nlohmann::json& entry, const JsonPlace& at) const {
+    if (auto checked = checkKeys(entry, at, {"ifc_class", "material", "name", "type", "storey", "group", "colour", "metallic", "roughness",
+                                             "transmission", "assign", "hidden", "confidence"});
+        !checked)
+      return failure(checked.error());
+    AssignmentRule rule;
+    bool asks = false;
+    for (const auto& [key, field] :
+         {std::pair{"ifc_class", &AssignmentRule::ifc_class}, {"material", &AssignmentRule::material}, {"name", &AssignmentRule::name},
+          {"type", &AssignmentRule::type}, {"storey", &AssignmentRule::storey}, {"group", &AssignmentRule::group}, {"colour", &AssignmentRule::colour}}) {
+      auto pattern = readPattern(entry, at, key);
+      if (!pattern) return failure(pattern.error());
+      asks = asks || !pattern->empty();
+      rule.*field = std::move(*pattern);
+    }
+    if (auto checked = checkColours(rule.colour, at / "colour"); !checked) return failure(checked.error());
+    for (const auto& [key, field] : {std::pair{"metallic", &AssignmentRule::metallic}, {"roughness", &AssignmentRule::roughness}, {"transmission", &AssignmentRule::transmission}}) {
+      auto range = readRange(entry, at, key);
+      if (!range) return failure(range.error());
+      asks = asks || range->has_value();
+      rule.*field = *range;
+    }
+    if (!asks) return at.unusable("has no pattern, so it would fit everything");
+    auto assign = readAssigned(entry, at);
+    if (!assign) return failure(assign.error());
+    rule.assign = std::move(*assign);
+    if (const auto hidden = entry.find("hidden"); hidden != entry.end()) {
+      if (!hidden->is_boolean()) return (at / "hidden").unusable("must be true or false");
+      if (rule.material.empty()) return (at / "hidden").unusable("needs a pattern for the material");
+      rule.hidden = hidden->get<bool>();
+    }
+    if (entry.contains("confidence")) {
+      const auto confidence = readNumber(entry["confidence"], at / "confidence", 0, 1);
+      if (!confidence) return failure(confidence.error());
+      rule.confidence = *confidence;
+    }
+    return rule;
+  }
+
+  Result<Implausible> readImplausible(const nlohmann::json& entry, const JsonPlace& at) const {
+    if (auto checked = checkKeys(entry, at, {"ifc_class", "assigned", "why"}); !checked) return failure(checked.error());
+    auto ifc_class = readPattern(entry, at, "ifc_class");
+    if (!ifc_class) return failure(ifc_class.error());
+    if (!entry.contains("assigned")) return (at / "assigned").unusable("is missing");
+    auto assigned = readPattern(entry, at, "assigned");
+    if (!assigned) return failure(assigned.error());
+    auto why = readText(entry, at, "why");
+    if (!why) return failure(why.error());
+    return Implausible{std::move(*ifc_class), std::move(*assigned), std::move(*why)};
+  }
+
+  JsonPlace root_;
+  WordLists words_;
+  std::set<std::string> ids_;
+};
+
+// "then": "default" asks for the default rules after these.
+Result<bool> wantsDefault(const nlohmann::json& content, const JsonPlace& root) {
+  if (!content.is_object() || !content.contains("then")) return false;
+  if (content["then"] != "default") return (root / "then").unusable("may be \"default\" only");
+  return true;
 }
 
 }  // namespace
 
-Result<std::vector<AssignmentRule>> readAssignmentRules(const std::filesystem::path& file,
-                                                        const std::vector<PhysicalMaterial>& library) {
-  const auto entries = readJsonArray(file);
-  if (!entries) return failure(entries.error());
-  std::set<std::string> ids;
-  for (const auto& material : library) ids.insert(material.id);
-  std::vector<AssignmentRule> rules;
-  for (std::size_t i = 0; i < entries->size(); ++i) {
-    auto rule = readRule((*entries)[i], JsonPlace{file.filename().string(), {}} / i, ids);
-    if (!rule) return failure(rule.error());
-    rules.push_back(std::move(*rule));
+Result<std::string> readRulesText(const std::filesystem::path& file) { return readWholeFile(file, kLargestRules); }
+
+Result<RuleSet> parseAssignmentRules(const std::string& text, const std::string& file_name,
+                                     const std::vector<PhysicalMaterial>& library,
+                                     const std::filesystem::path& default_file) {
+  const auto content = parseJson(text, file_name);
+  if (!content) return failure(content.error());
+  const auto more = wantsDefault(*content, JsonPlace{file_name, {}});
+  if (!more) return failure(more.error());
+  RuleSet defaults;
+  if (*more) {
+    auto read = readAssignmentRules(default_file, library);
+    if (!read) return read;
+    defaults = std::move(*read);
   }
-  return rules;
+  auto set = RulesReader(file_name, library, defaults.words).read(*content);
+  if (!set) return set;
+  set->own = default_file.empty() ? 0 : set->rules.size();   // else they are the default rules themselves
+  if (!*more) return set;
+  // The default patterns keep the words that they were written with.
+  for (const auto& [name, words] : defaults.words)
+    if (set->words.at(name) != words)
+      return (JsonPlace{file_name, {}} / "words" / name).unusable("is a list of the default rules: give yours another name");
+  set->rules.insert(set->rules.end(), defaults.rules.begin(), defaults.rules.end());
+  set->implausible.insert(set->implausible.end(), defaults.implausible.begin(), defaults.implausible.end());
+  return set;
+}
+
+Result<RuleSet> readAssignmentRules(const std::filesystem::path& file, const std::vector<PhysicalMaterial>& library,
+                                    const std::filesystem::path& default_file) {
+  const auto text = readRulesText(file);
+  if (!text) return failure(text.error());
+  return parseAssignmentRules(*text, file.filename().string(), library, default_file);
 }
 
 }  // namespace standpoint

@@ -25,6 +25,7 @@ struct CollapseOptions {
   double max_deviation_m = 0;  // a step that moves the surface further is not made
   bool lossless = false;       // only steps that keep surface, borders, creases and the borders between surfaces
   bool memoryless = false;     // steps are judged by the surface as it is, not by that of the beginning
+  std::size_t floor = 0;       // no steps below so many triangles
 };
 
 // A full simplification by quadric error, cheapest step first, of which any prefix is a valid simplification. A shape
@@ -34,11 +35,10 @@ struct CollapseOptions {
 // Stops when cancelled.
 std::vector<Collapse> recordCollapses(const Shape& shape, const CollapseOptions& options, const Progress& progress);
 
-// The last steps once more, better: `log` up to where three times `triangles` are left, from there on by Lindstrom and Turk's
-// cost and placement (1998: volume kept, squared volume between old and new least), which look at the surface as it is. A third
-// less mean error on smooth surfaces. Borders, creases and seams are held as before. Returns the whole log; its end has `triangles`
-// or one or two less.
-std::vector<Collapse> refined(const Shape& shape, const std::vector<Collapse>& log, std::size_t triangles, const Progress& progress);
+// Down to `triangles`, or one or two less, by Lindstrom and Turk's cost and placement (1998: volume kept, squared volume between
+// old and new least), which look at the surface as it is. As the last steps of a simplification, a third less mean error on smooth
+// surfaces. Borders, creases and seams are held as before; cells as before.
+std::vector<Collapse> refined(const Shape& shape, std::size_t triangles, const Progress& progress);
 
 // Plays a log: the shape after its first steps, which may only become more. Vertices that did not move keep their exact position.
 // Keeps references to both. Going on costs what is left, so that looking at many stages of a long log is cheap.
@@ -46,16 +46,22 @@ class LogPlayer {
  public:
   LogPlayer(const Shape& shape, const std::vector<Collapse>& log);
   const Shape& at(std::size_t steps);
-  // For each triangle of the shape its index in what at() gave last, or the largest number if it vanished.
+  // For each triangle of the shape what it became in what at() gave last, or one that is near that; the largest number if there is none.
   std::vector<std::uint32_t> image() const;
+  // The wedges of what at() gave last, as Shape's: corners whose paint is one after what vanished between them have the same.
+  std::vector<Triangle> wedges() const;
   Shape take() { return std::move(form_); }
 
  private:
+  const Shape& shape_;
   const std::vector<Collapse>& log_;
   Shape form_;
   std::size_t done_ = 0;
   std::vector<std::uint32_t> joined_, origin_;
 };
+
+// Without the positions that no triangle uses; `names` gets what the others were called before.
+Shape withoutUnused(const Shape& shape, std::vector<std::uint32_t>& names);
 
 // All of it at once.
 Shape replay(const Shape& shape, const std::vector<Collapse>& log, std::size_t steps, std::vector<std::uint32_t>* image = nullptr);

@@ -54,28 +54,40 @@ void Collapser::sumSolid(std::uint32_t v) {
   solids_[v] = sum;
 }
 
-// The quadric by which joining a and b is judged, and the best place for it.
-Quadric Collapser::measure(std::uint32_t a, std::uint32_t b, Vector3d& p) {
-  Quadric q = patch_.quadrics[a];
+// How joining a and b is judged, and the best place for it.
+Collapser::Merger Collapser::merge(std::uint32_t a, std::uint32_t b) {
+  Merger merger;
+  Quadric& q = merger.q;
+  q = patch_.quadrics[a];
   q += patch_.quadrics[b];
-  if (!options_.memoryless) {
-    p = place(a, b, q);
-    return q;
+  const double squared_length = (patch_.positions[a] - patch_.positions[b]).squaredNorm();
+  if (options_.memoryless) {
+    Solid solid = solids_[a];
+    solid.add(solids_[b]);
+    forTriangles(a, [&](std::uint32_t i) {  // those of both were counted twice
+      const auto& t = patch_.triangles[i];
+      if (t[0] != b && t[1] != b && t[2] != b) return;
+      const Vector3d& corner = patch_.positions[t[0]];
+      solid.add((patch_.positions[t[1]] - corner).cross(patch_.positions[t[2]] - corner), corner, -1);
+    });
+    q.scale(squared_length);  // what holds edges, in the same unit: m⁶
+    q += solid.sweep;
+    placeBySolid(a, b, solid, merger);
+  } else {
+    place(a, b, merger);
   }
-  Solid solid = solids_[a];
-  solid.add(solids_[b]);
-  forTriangles(a, [&](std::uint32_t i) {  // those of both were counted twice
-    const auto& t = patch_.triangles[i];
-    if (t[0] != b && t[1] != b && t[2] != b) return;
-    const Vector3d& corner = patch_.positions[t[0]];
-    solid.add((patch_.positions[t[1]] - corner).cross(patch_.positions[t[2]] - corner), corner, -1);
-  });
-  q.scale((patch_.positions[a] - patch_.positions[b]).squaredNorm());  // what holds edges, in the same unit: m⁶
-  q += solid.sweep;
-  const Vector3d middle = 0.5 * (patch_.positions[a] + patch_.positions[b]);
-  p = q.minimumInPlane(middle, solid.normal, solid.offset).cwiseMax(-half_size_).cwiseMin(half_size_);
-  if (!((p - middle).squaredNorm() <= (patch_.positions[a] - patch_.positions[b]).squaredNorm() * 4)) p = middle;
-  return q;
+  merger.cost = merger.value + kShortestFirst * q.weight * squared_length;
+  return merger;
+}
+
+void Collapser::placeBySolid(std::uint32_t a, std::uint32_t b, const Solid& solid, Merger& merger) const {
+  const Vector3d &pa = patch_.positions[a], &pb = patch_.positions[b], middle = 0.5 * (pa + pb);
+  merger.position = pa;
+  if (!fixed(a)) {
+    merger.position = merger.q.minimumInPlane(middle, solid.normal, solid.offset).cwiseMax(-half_size_).cwiseMin(half_size_);
+    if (!((merger.position - middle).squaredNorm() <= (pa - pb).squaredNorm() * 4)) merger.position = middle;
+  }
+  merger.value = merger.q(merger.position);
 }
 
 void Collapser::linkCorners() {
@@ -89,44 +101,61 @@ void Collapser::linkCorners() {
 }
 
 void Collapser::pushAll() {
-  heap_.reserve(2 * patch_.triangles.size());
+  queue_.reserve(2 * patch_.triangles.size());
   for (std::uint32_t v = 0; v < patch_.positions.size(); ++v) {
     mark_[v] = ++epoch_;
     forTriangles(v, [&](std::uint32_t i) {
-      for (const auto n : patch_.triangles[i])
-        if (n > v && mark_[n] != epoch_) mark_[n] = epoch_, push(v, n);
+      for (const auto n : patch_.triangles[i]) {
+        if (n < v || mark_[n] == epoch_) continue;
+        mark_[n] = epoch_;
+        if (const auto entry = candidate(v, n)) queue_.append(*entry);
+      }
     });
   }
-  std::make_heap(heap_.begin(), heap_.end());
+  queue_.arrange();
 }
 
-Vector3d Collapser::place(std::uint32_t a, std::uint32_t b, const Quadric& q) const {
-  if (fixed(a)) return patch_.positions[a];
-  const Vector3d &pa = patch_.positions[a], &pb = patch_.positions[b], middle = 0.5 * (pa + pb);
-  const double cost_a = q(pa), cost_b = q(pb);
-  const Vector3d& end = cost_a <= cost_b ? pa : pb;
-  const double cost_end = std::min(cost_a, cost_b);
+void Collapser::place(std::uint32_t a, std::uint32_t b, Merger& merger) const {
+  const Quadric& q = merger.q;
+  const Vector3d &pa = patch_.positions[a], &pb = patch_.positions[b];
+  const auto take = [&](const Vector3d& p) {
+    const double value = q(p);
+    if (value >= merger.value) return;
+    merger.position = p;
+    merger.value = value;
+  };
+  merger.position = pa;
+  merger.value = std::numeric_limits<double>::infinity();
+  const double same = q.weight * rounding_ * rounding_;
+  if (!options_.lossless && !fixed(a)) {
+    const Vector3d middle = 0.5 * (pa + pb), best = q.minimum(middle);
+    const bool inside = (best.cwiseAbs().array() <= half_size_.array()).all();
+    const bool near = (best - middle).squaredNorm() <= 4 * (pb - pa).squaredNorm();  // else ill-conditioned, or not finite
+    take(near ? best.cwiseMax(-half_size_).cwiseMin(half_size_) : middle);
+    if (inside && near && merger.value > same) return;  // no end is better
+  }
   // An end that is as good up to rounding keeps its exact position, so that planes stay planes.
-  if (options_.lossless || cost_end <= q.weight * rounding_ * rounding_) return end;
-  Vector3d best = q.minimum(middle).cwiseMax(-half_size_).cwiseMin(half_size_);
-  if (!((best - middle).squaredNorm() <= 4 * (pb - pa).squaredNorm())) best = middle;  // ill-conditioned, or not finite
-  return q(best) < cost_end ? best : end;
+  const Merger best = merger;
+  merger.value = std::numeric_limits<double>::infinity();
+  take(pa);
+  if (!fixed(a)) take(pb);
+  if (merger.value > same && best.value < merger.value) merger = best;
 }
 
-void Collapser::push(std::uint32_t a, std::uint32_t b) {
+// Nothing where the two may not join.
+std::optional<CollapseQueue::Entry> Collapser::candidate(std::uint32_t a, std::uint32_t b) {
   if (a > b) std::swap(a, b);
   if (fixed(b)) std::swap(a, b);
-  if (fixed(b)) return;
-  Vector3d p;
-  const Quadric q = measure(a, b, p);
-  const double cost = q(p);
-  if (!options_.memoryless && cost > 4 * q.weight * options_.max_deviation_m * options_.max_deviation_m) return;
+  if (fixed(b)) return std::nullopt;
+  const Merger merger = merge(a, b);
+  const auto& q = merger.q;
+  if (!options_.memoryless && merger.value > 4 * q.weight * options_.max_deviation_m * options_.max_deviation_m) return std::nullopt;
   if (options_.lossless) {
     Quadric f = patch_.features[a];
     f += patch_.features[b];
-    if (f(p) > 4 * options_.max_deviation_m * options_.max_deviation_m) return;
+    if (f(merger.position) > 4 * options_.max_deviation_m * options_.max_deviation_m) return std::nullopt;
   }
-  heap_.push_back({cost + kShortestFirst * q.weight * (patch_.positions[a] - patch_.positions[b]).squaredNorm(), a, b, std::uint64_t{age_[a]} + age_[b]});
+  return CollapseQueue::Entry(merger.cost, a, b, age_[a] + age_[b]);
 }
 
 void Collapser::addEffect(std::uint32_t v, std::uint32_t other, bool first, const Vector3d& p, Effect& e) {
@@ -164,10 +193,10 @@ Collapser::Effect Collapser::effect(std::uint32_t a, std::uint32_t b, const Vect
 
 // What a candidate really costs. Folding a triangle over costs as if its whole neighbourhood moved by the edge's length;
 // a part that vanishes costs its area times its squared size. Both keep a shape able to reach any count, last of all.
-double Collapser::price(const Candidate& c, const Quadric& q, const Effect& e) const {
-  if (e.surviving == 0) return std::max(c.cost, q.weight * e.longest_edge * e.longest_edge / 4);
-  if (e.flips) return std::max(c.cost, q.weight * (patch_.positions[c.a] - patch_.positions[c.b]).squaredNorm());
-  return c.cost;
+double Collapser::price(std::uint32_t a, std::uint32_t b, const Merger& merger, const Effect& e) const {
+  if (e.surviving == 0) return std::max(merger.cost, merger.q.weight * e.longest_edge * e.longest_edge / 4);
+  if (e.flips) return std::max(merger.cost, merger.q.weight * (patch_.positions[a] - patch_.positions[b]).squaredNorm());
+  return merger.cost;
 }
 
 bool Collapser::tooFar(std::uint32_t a, std::uint32_t b, const Vector3d& p, const Effect& e, double& deviation) const {
@@ -219,9 +248,7 @@ void Collapser::pushAround(std::uint32_t v) {
     for (const auto n : patch_.triangles[i]) {
       if (mark_[n] == epoch_) continue;
       mark_[n] = epoch_;
-      const auto size = heap_.size();
-      push(v, n);
-      if (heap_.size() > size) std::push_heap(heap_.begin(), heap_.end());
+      if (const auto entry = candidate(v, n)) queue_.push(*entry);
     }
   });
 }
@@ -230,39 +257,31 @@ std::vector<Step> Collapser::run(std::size_t floor, const Progress& progress) {
   std::vector<Step> log;
   log.reserve(patch_.positions.size());
   double dearest = 0;
-  for (std::size_t round = 0; !heap_.empty() && alive_ > floor; ++round) {
+  for (std::size_t round = 0; !queue_.empty() && alive_ > floor; ++round) {
     if (round % 1024 == 0 && progress.cancelled()) return log;
-    std::pop_heap(heap_.begin(), heap_.end());
-    Candidate c = heap_.back();
-    heap_.pop_back();
-    if (c.age != std::uint64_t{age_[c.a]} + age_[c.b] || corner_count_[c.a] + corner_count_[c.b] > kMaxCorners) continue;
-    Vector3d p;
-    const Quadric q = measure(c.a, c.b, p);
-    if (options_.memoryless) {  // what is around may have changed since it was looked at
-      const double now = q(p);
-      if (now > 1.000001 * c.cost) {
-        c.cost = now;
-        heap_.push_back(c);
-        std::push_heap(heap_.begin(), heap_.end());
-        continue;
-      }
-    }
-    const Effect e = effect(c.a, c.b, p);
-    if (e.vanishing == 0 || (options_.lossless && (e.flips || e.surviving == 0))) continue;
-    const double cost = price(c, q, e);
-    double deviation = 0;
-    if (tooFar(c.a, c.b, p, e, deviation)) continue;
-    if (cost > c.cost) {
-      c.cost = cost;
-      heap_.push_back(c);
-      std::push_heap(heap_.begin(), heap_.end());
+    const auto c = queue_.pop();
+    const auto a = c.a(), b = c.b;
+    if (c.age != age_[a] + age_[b] || corner_count_[a] + corner_count_[b] > kMaxCorners) continue;
+    const Merger merger = merge(a, b);
+    if (c.isBelow(merger.cost)) {  // memoryless: what is around has changed since it was looked at
+      queue_.push({merger.cost, a, b, c.age});
       continue;
     }
-    apply(c.a, c.b, p);
-    patch_.deviation_m[c.a] = static_cast<float>(deviation);
+    const Effect e = effect(a, b, merger.position);
+    if (e.vanishing == 0 || (options_.lossless && (e.flips || e.surviving == 0))) continue;
+    const double cost = price(a, b, merger, e);
+    double deviation = 0;
+    if (tooFar(a, b, merger.position, e, deviation)) continue;
+    if (c.isBelow(cost)) {
+      queue_.push({cost, a, b, c.age});
+      continue;
+    }
+    apply(a, b, merger.position);
+    patch_.deviation_m[a] = static_cast<float>(deviation);
     dearest = std::max(dearest, cost);
-    log.push_back({{c.a, c.b, e.vanishing, !options_.memoryless && q(p) <= 4 * q.weight * rounding_ * rounding_, p}, dearest, static_cast<float>(deviation)});
-    pushAround(c.a);
+    const bool flat = !options_.memoryless && merger.value <= 4 * merger.q.weight * rounding_ * rounding_;
+    log.push_back({{a, b, e.vanishing, flat, merger.position}, dearest, static_cast<float>(deviation)});
+    pushAround(a);
   }
   return log;
 }

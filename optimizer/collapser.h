@@ -4,10 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "core/progress.h"
 #include "optimizer/collapse.h"
+#include "optimizer/collapse_queue.h"
 #include "optimizer/quadric.h"
 
 namespace standpoint {
@@ -26,6 +28,7 @@ struct Step {
   Collapse collapse;
   double cost = 0;         // never falls along a log: the largest so far
   float deviation_m = 0;
+  std::uint32_t cell = 0;  // whose step it is, where several work side by side
 };
 
 // Collapses edges of a patch, cheapest first. Triangles are an array, each corner a link in its vertex's list of corners
@@ -39,15 +42,11 @@ class Collapser {
 
  private:
   static constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
-  struct Candidate {
+  struct Merger {  // of two vertices
+    Quadric q;
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    double value = 0;  // of q there
     double cost = 0;
-    std::uint32_t a = 0, b = 0;
-    std::uint64_t age = 0;  // of both: neither ever falls, so the sum tells whether one changed
-    bool operator<(const Candidate& o) const {  // std heaps keep the greatest on top; we want the cheapest
-      if (cost != o.cost) return cost > o.cost;
-      if (a != o.a) return a > o.a;
-      return b != o.b ? b > o.b : age > o.age;
-    }
   };
   struct Effect {  // what a collapse would do
     std::uint32_t vanishing = 0, surviving = 0;
@@ -66,14 +65,15 @@ class Collapser {
 
   void linkCorners();
   void pushAll();
-  void push(std::uint32_t a, std::uint32_t b);
+  std::optional<CollapseQueue::Entry> candidate(std::uint32_t a, std::uint32_t b);
   void pushAround(std::uint32_t v);
-  Eigen::Vector3d place(std::uint32_t a, std::uint32_t b, const Quadric& q) const;
+  void place(std::uint32_t a, std::uint32_t b, Merger& merger) const;
+  void placeBySolid(std::uint32_t a, std::uint32_t b, const Solid& solid, Merger& merger) const;
   void sumSolid(std::uint32_t v);
-  Quadric measure(std::uint32_t a, std::uint32_t b, Eigen::Vector3d& p);  // sets the place, too
+  Merger merge(std::uint32_t a, std::uint32_t b);
   Effect effect(std::uint32_t a, std::uint32_t b, const Eigen::Vector3d& p);
   void addEffect(std::uint32_t v, std::uint32_t other, bool first, const Eigen::Vector3d& p, Effect& effect);
-  double price(const Candidate& c, const Quadric& q, const Effect& e) const;
+  double price(std::uint32_t a, std::uint32_t b, const Merger& merger, const Effect& e) const;
   bool tooFar(std::uint32_t a, std::uint32_t b, const Eigen::Vector3d& p, const Effect& e, double& deviation) const;
   void apply(std::uint32_t a, std::uint32_t b, const Eigen::Vector3d& p);
   bool fixed(std::uint32_t v) const { return !patch_.fixed.empty() && patch_.fixed[v] != 0; }
@@ -109,7 +109,7 @@ class Collapser {
   std::size_t alive_ = 0;
   std::vector<std::uint32_t> first_corner_, last_corner_, next_corner_, corner_count_, age_, mark_;
   std::vector<Solid> solids_;            // memoryless only
-  std::vector<Candidate> heap_;
+  CollapseQueue queue_;
   std::vector<Corners> before_, after_;  // the triangles around a candidate
   std::uint32_t epoch_ = 0;
 };

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 
 #include <Eigen/SVD>
 #include <fmt/format.h>
@@ -14,12 +15,14 @@
 #include "optimizer/rooms.h"
 #include "optimizer/shape.h"
 #include "optimizer/walkable.h"
+#include "optimizer/ways.h"
 
 namespace standpoint {
 
 namespace {
 
 constexpr double kMaxDeviation = 0.010;  // m, of a collision shape from what one sees
+constexpr double kFarthest = 1e6;        // m from the origin: beyond, floats are coarser than 6 cm
 
 struct Work {
   double scale = 0;  // of the largest copy that stops anybody; 0: none does
@@ -32,6 +35,16 @@ std::vector<bool> stopping(const Environment& environment, const CollideOptions&
   auto result = closedDoors(environment, options);
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = (result[i] || door_of[i] < 0) && environment.products[i].inScene();
   return result;
+}
+
+// The first product that is where no shape can be.
+std::optional<std::uint32_t> productTooFar(const Environment& environment, const std::vector<bool>& stops) {
+  for (const auto& instance : environment.instances) {
+    if (!stops[instance.product]) continue;
+    for (const auto& p : environment.meshes[instance.mesh]->positions)
+      if (!((instance.world_from_mesh * p.cast<double>()).cwiseAbs().maxCoeff() <= kFarthest)) return instance.product;
+  }
+  return std::nullopt;
 }
 
 Result<std::vector<Work>> makePieces(const Environment& environment, const std::vector<bool>& stops, Progress& progress) {
@@ -95,6 +108,9 @@ Result<CollideResult> collide(const Environment& environment, const CollideOptio
     return failure(ErrorKind::usage, "the agent's height must be at least twice its radius, and at most 20 m", "agent_height_m");
   if (auto wrong = validate(environment); !wrong.empty()) return failure(ErrorKind::unusable, wrong, "environment");
   const auto stops = stopping(environment, options);
+  if (const auto product = productTooFar(environment, stops))
+    return failure(ErrorKind::unusable, fmt::format("product {} reaches more than {:.0f} km away from the model's origin: leave it out with `treat`, or mend its placement",
+                                                    environment.products[*product].id, kFarthest / 1000), "collide");
   auto works = makePieces(environment, stops, progress);
   if (!works) return failure(works.error());
   CollideResult result;
@@ -112,6 +128,7 @@ Result<CollideResult> collide(const Environment& environment, const CollideOptio
   progress.stage("Pass through the doors", 0.9, 1);
   if (auto going = progress.check(); !going) return failure(going.error());
   result.doors = checkDoors(environment, result.shapes, options, result.report);
+  joinThroughDoors(environment, result.shapes, options, result.doors, *walkable, result.report);
   if (options.doors != DoorState::closed) result.rooms = checkRooms(environment, *walkable, result.doors, result.report);
   result.walkable_area_m2 = walkable->area_m2;
   result.walkable = std::move(walkable->mesh);

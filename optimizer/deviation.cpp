@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "optimizer/triangle_distance.h"
+#include "optimizer/farthest.h"
 
 namespace standpoint {
 
@@ -17,15 +19,18 @@ using Eigen::Vector3d;
 
 constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
 
-double areaOf(std::span<const Vector3d> positions, const Triangle& t) {
-  return 0.5 * (positions[t[1]] - positions[t[0]]).cross(positions[t[2]] - positions[t[0]]).norm();
-}
+constexpr std::size_t kChunk = 2048;     // points or triangles that one task looks at
 
-constexpr std::size_t kChunk = 2048;     // points that one task looks at
-constexpr int kHalvings = 9;             // of a triangle that is searched for its farthest point
-constexpr std::size_t kMostSearched = 200'000;  // triangles of both shapes
-constexpr double kSettled = 1.04 * 1.04; // a piece that can only be 4 % further than what was found is not searched
-constexpr double kTooSmall = 0.25;       // nor one whose longest edge is half of that; its corners were looked at
+std::vector<double> areasOf(std::span<const Vector3d> positions, std::span<const Triangle> triangles) {
+  std::vector<double> areas(triangles.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, areas.size(), kChunk), [&](const auto& range) {
+    for (auto i = range.begin(); i < range.end(); ++i) {
+      const auto& t = triangles[i];
+      areas[i] = 0.5 * (positions[t[1]] - positions[t[0]]).cross(positions[t[2]] - positions[t[0]]).norm();
+    }
+  });
+  return areas;
+}
 
 struct OneWay {
   double max_squared = 0, sum = 0, turn = 0;
@@ -39,11 +44,6 @@ struct OneWay {
     count += o.count;
   }
 };
-
-double squaredDistance(const Vector3d& p, const Shape& s, std::uint32_t triangle) {
-  const auto& t = s.triangles[triangle];
-  return (closestPoint(p, s.positions[t[0]], s.positions[t[1]], s.positions[t[2]]) - p).squaredNorm();
-}
 
 Vector3d normalOf(const Shape& s, std::uint32_t triangle) {
   const auto& t = s.triangles[triangle];
@@ -63,106 +63,57 @@ OneWay inChunks(std::size_t count, Task task) {
   return all;
 }
 
-// One direction of a measurement.
-class Way {
- public:
-  Way(const Shape& from, const Shape& to, const TriangleTree& tree, const std::vector<std::uint32_t>& counterpart)
-      : from_(from), to_(to), tree_(tree), counterpart_(counterpart) {}
-
-  OneWay ofPoints(const std::vector<SurfacePoint>& points) const {
-    return inChunks(points.size(), [&](std::size_t first, std::size_t last) {
-      OneWay part;
-      std::uint32_t lately = kNone;  // what was nearest to the point before
-      for (auto i = first; i < last; ++i) {
-        const auto& point = points[i];
-        auto near = hint(point.triangle, point.position);
-        if (lately != kNone)
-          if (const double squared = squaredDistance(point.position, to_, lately); squared < near.squared) near = {squared, lately};
-        const auto better = tree_.nearestTriangle(point.position, near.squared);
-        if (better.triangle != kNone) near = better;
-        lately = near.triangle;
-        part.max_squared = std::max(part.max_squared, near.squared);
-        part.sum += std::sqrt(near.squared);
-        part.turn += near.triangle == kNone ? 0 : angleBetween(normalOf(from_, point.triangle), normalOf(to_, near.triangle));
-        ++part.count;
+// Each stride-th of them.
+OneWay ofPoints(const OneWaySurfaces& way, const std::vector<SurfacePoint>& points, std::size_t stride) {
+  return inChunks((points.size() + stride - 1) / stride, [&](std::size_t first, std::size_t last) {
+    OneWay part;
+    std::uint32_t lately = kNone;  // what was nearest to the point before
+    for (auto i = first; i < last; ++i) {
+      const auto& point = points[i * stride];
+      const auto own = point.triangle < way.counterpart.size() ? way.counterpart[point.triangle] : kNone;
+      TriangleTree::Near near;
+      for (const auto known : {own, lately}) {
+        if (known == kNone) continue;
+        if (const double squared = way.squaredDistance(point.position, known); squared < near.squared) near = {squared, known};
       }
-      return part;
-    });
-  }
+      const auto better = way.tree.nearestTriangle(point.position, near.squared);
+      if (better.triangle != kNone) near = better;
+      lately = near.triangle;
+      part.max_squared = std::max(part.max_squared, near.squared);
+      part.sum += std::sqrt(near.squared);
+      part.turn += near.triangle == kNone ? 0 : angleBetween(normalOf(way.from, point.triangle), normalOf(way.to, near.triangle));
+      ++part.count;
+    }
+    return part;
+  });
+}
 
-  // The largest squared distance of any point of the surface, at most 4 % below the truth but for pieces that are still in doubt when a triangle
-  // was halved nine times; or `known`, if none is further. Of dense meshes only vertices and middles of faces and edges are looked at.
-  double farthest(double known) const {
-    return inChunks(from_.triangles.size(), [&](std::size_t first, std::size_t last) {
-      OneWay part{known};
-      std::uint32_t lately = kNone;  // what was near enough for the piece before
-      for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
-        const auto& t = from_.triangles[i];
-        const auto own = i < counterpart_.size() ? counterpart_[i] : kNone;
-        const Corners corners{from_.positions[t[0]], from_.positions[t[1]], from_.positions[t[2]]};
-        if (own != kNone && reach(corners, own) <= part.max_squared) {
-          lately = own;
-          continue;
-        }
-        if (from_.triangles.size() + to_.triangles.size() <= kMostSearched) search(corners, kHalvings, lately, part.max_squared);
-        else lookAtMiddles(corners, lately, part.max_squared);
-      }
-      return part;
-    }).max_squared;
-  }
+// For triangles of what came of it one that it was.
+std::vector<std::uint32_t> inverseOf(const std::vector<std::uint32_t>& image, std::size_t count) {
+  std::vector<std::uint32_t> origin(count, kNone);
+  for (std::uint32_t i = 0; i < image.size(); ++i)
+    if (image[i] != kNone) origin[image[i]] = i;
+  return origin;
+}
 
- private:
-  TriangleTree::Near hint(std::uint32_t triangle, const Vector3d& p) const {
-    const auto other = triangle < counterpart_.size() ? counterpart_[triangle] : kNone;
-    return other != kNone ? TriangleTree::Near{squaredDistance(p, to_, other), other} : TriangleTree::Near{};
+std::vector<SurfacePoint> spread(std::span<const Vector3d> positions, std::span<const Triangle> triangles, const std::vector<double>& areas, std::uint32_t count,
+                                 const RandomKey& key) {
+  std::vector<SurfacePoint> points;
+  const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
+  if (!(total > 0)) return points;
+  points.reserve(count);
+  double walked = 0;
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    const auto& t = triangles[i];
+    walked += areas[i];
+    while (points.size() < count && (static_cast<double>(points.size()) + 0.5) * total <= walked * count) {
+      const auto block = philox(key, static_cast<std::uint32_t>(points.size()), 0, 0);
+      const double r = std::sqrt(uniform(block[0])), s = uniform(block[1]);
+      points.push_back({i, (1 - r) * positions[t[0]] + r * (1 - s) * positions[t[1]] + r * s * positions[t[2]]});
+    }
   }
-
-  // No point of the piece is further from that triangle: the distance from one convex set is greatest at a corner.
-  double reach(const Corners& piece, std::uint32_t triangle) const {
-    return std::max({squaredDistance(piece[0], to_, triangle), squaredDistance(piece[1], to_, triangle), squaredDistance(piece[2], to_, triangle)});
-  }
-
-  // Branch and bound: halves along the longest edge, until one triangle of the other surface answers for all of a piece.
-  void search(const Corners& piece, int halvings, std::uint32_t& lately, double& max_squared) const {
-    if (lately != kNone && reach(piece, lately) <= kSettled * max_squared) return;
-    const Vector3d middle = (piece[0] + piece[1] + piece[2]) / 3;
-    auto near = tree_.nearestTriangle(middle, lately != kNone ? squaredDistance(middle, to_, lately) : std::numeric_limits<double>::infinity());
-    if (near.triangle == kNone) near.triangle = lately;
-    lately = near.triangle;
-    max_squared = std::max(max_squared, near.squared);
-    const double radius = std::sqrt(std::max({(piece[0] - middle).squaredNorm(), (piece[1] - middle).squaredNorm(), (piece[2] - middle).squaredNorm()}));
-    const double furthest = std::sqrt(near.squared) + radius;  // no two points' distances differ by more than they are apart
-    if (furthest * furthest <= kSettled * max_squared || reach(piece, lately) <= kSettled * max_squared) return;
-    int longest = 0;
-    for (int k = 1; k < 3; ++k)
-      if ((piece[(k + 1) % 3] - piece[k]).squaredNorm() > (piece[(longest + 1) % 3] - piece[longest]).squaredNorm()) longest = k;
-    const Vector3d &a = piece[longest], &b = piece[(longest + 1) % 3], &c = piece[(longest + 2) % 3];
-    if (halvings == kHalvings)
-      for (const auto& p : piece) lookAt(p, lately, max_squared);
-    if (halvings == 0 || (b - a).squaredNorm() <= kTooSmall * max_squared) return;
-    const Vector3d half = (a + b) / 2;
-    lookAt(half, lately, max_squared);
-    search({a, half, c}, halvings - 1, lately, max_squared);
-    search({half, b, c}, halvings - 1, lately, max_squared);
-  }
-
-  void lookAtMiddles(const Corners& t, std::uint32_t& lately, double& max_squared) const {
-    for (const auto& p : t) lookAt(p, lately, max_squared);
-    lookAt((t[0] + t[1] + t[2]) / 3, lately, max_squared);
-    for (int k = 0; k < 3; ++k) lookAt((t[k] + t[(k + 1) % 3]) / 2, lately, max_squared);
-  }
-
-  void lookAt(const Vector3d& p, std::uint32_t& lately, double& max_squared) const {
-    if (lately != kNone && squaredDistance(p, to_, lately) <= max_squared) return;
-    const auto near = tree_.nearestTriangle(p, std::numeric_limits<double>::infinity(), max_squared);
-    lately = near.triangle;
-    max_squared = std::max(max_squared, near.squared);
-  }
-
-  const Shape &from_, &to_;
-  const TriangleTree& tree_;
-  const std::vector<std::uint32_t>& counterpart_;
-};
+  return points;
+}
 
 Deviation deviationOfDropped(const Shape& shape, const std::vector<SurfacePoint>& points) {
   OneWay way;
@@ -176,54 +127,47 @@ Deviation deviationOfDropped(const Shape& shape, const std::vector<SurfacePoint>
 
 std::vector<SurfacePoint> pointsByArea(std::span<const Vector3d> positions, std::span<const Triangle> triangles, std::uint32_t count,
                                        const RandomKey& key) {
-  std::vector<SurfacePoint> points;
-  double total = 0;
-  for (const auto& t : triangles) total += areaOf(positions, t);
-  if (!(total > 0)) return points;
-  points.reserve(count);
-  double walked = 0;
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    const auto& t = triangles[i];
-    walked += areaOf(positions, t);
-    while (points.size() < count && (static_cast<double>(points.size()) + 0.5) * total <= walked * count) {
-      const auto block = philox(key, static_cast<std::uint32_t>(points.size()), 0, 0);
-      const double r = std::sqrt(uniform(block[0])), s = uniform(block[1]);
-      points.push_back({i, (1 - r) * positions[t[0]] + r * (1 - s) * positions[t[1]] + r * s * positions[t[2]]});
-    }
-  }
-  return points;
+  return spread(positions, triangles, areasOf(positions, triangles), count, key);
 }
 
 DeviationMeter::DeviationMeter(const Shape& before, const TriangleTree& tree, std::uint32_t samples, std::uint64_t seed)
-    : before_(before), samples_(samples), seed_(seed), tree_(tree),
-      points_(pointsByArea(before.positions, before.triangles, samples, {seed, 0})) {
-  for (const auto& t : before.triangles) area_m2_ += areaOf(before.positions, t);
+    : before_(before), samples_(samples), seed_(seed), tree_(tree) {
+  const auto areas = areasOf(before.positions, before.triangles);
+  area_m2_ = std::accumulate(areas.begin(), areas.end(), 0.0);
+  points_ = spread(before.positions, before.triangles, areas, samples, {seed, 0});
 }
 
-Deviation DeviationMeter::of(const Shape& after, const std::vector<std::uint32_t>& image) const { return measure(after, image, true); }
+Deviation DeviationMeter::of(const Shape& after, const std::vector<std::uint32_t>& image) const { return measure(after, image, samples_, true); }
 
 Deviation DeviationMeter::ofItself() const { return {.area_m2 = area_m2_}; }
 
-Deviation DeviationMeter::measure(const Shape& after, const std::vector<std::uint32_t>& image, bool vertices) const {
+Deviation DeviationMeter::measure(const Shape& after, const std::vector<std::uint32_t>& image, std::uint32_t samples, bool search) const {
   Deviation result;
   if (before_.triangles.empty()) return result;
   if (after.triangles.empty()) {
     result = deviationOfDropped(before_, points_);
   } else {
-    std::vector<std::uint32_t> origin(after.triangles.size(), kNone);
-    for (std::uint32_t i = 0; i < image.size(); ++i)
-      if (image[i] != kNone) origin[image[i]] = i;
+    const auto origin = inverseOf(image, after.triangles.size());
     const TriangleTree tree(after.positions, after.triangles);
-    const Way forth(before_, after, tree, image), back(after, before_, tree_, origin);
-    const OneWay there = forth.ofPoints(points_), here = back.ofPoints(pointsByArea(after.positions, after.triangles, samples_, {seed_, 1}));
+    const OneWaySurfaces forth{before_, after, tree, image}, back{after, before_, tree_, origin};
+    const std::size_t stride = std::max<std::size_t>(1, points_.size() / std::max<std::uint32_t>(samples, 1));
+    const OneWay there = ofPoints(forth, points_, stride), here = ofPoints(back, pointsByArea(after.positions, after.triangles, samples, {seed_, 1}), 1);
     double max_squared = std::max(there.max_squared, here.max_squared);
-    if (vertices) max_squared = forth.farthest(back.farthest(max_squared));
+    if (search) max_squared = farthestSquared(forth, farthestSquared(back, max_squared));
     result.max_m = std::sqrt(max_squared);
     result.mean_m = 0.5 * (there.mean() + here.mean());
     result.turn_rad = there.meanTurn();
   }
   result.area_m2 = area_m2_;
   return result;
+}
+
+bool DeviationMeter::exceeds(const Shape& after, const std::vector<std::uint32_t>& image, double limit_m) const {
+  if (before_.triangles.empty()) return false;
+  if (after.triangles.empty()) return deviationOfDropped(before_, points_).max_m > limit_m;
+  const auto origin = inverseOf(image, after.triangles.size());
+  const TriangleTree tree(after.positions, after.triangles);
+  return isAnyFurther({after, before_, tree_, origin}, limit_m * limit_m) || isAnyFurther({before_, after, tree, image}, limit_m * limit_m);
 }
 
 }  // namespace standpoint

@@ -48,26 +48,30 @@ Way wayThrough(const Passage& passage, const Obstacles& obstacles, const Collide
   return way;
 }
 
-// What stops a body of this radius on the way nearest to the door's middle, or nothing where it passes on any.
-std::optional<std::uint32_t> blocker(const Obstacles& obstacles, const Passage& passage, const Way& way, double radius) {
+struct Attempt {
+  std::optional<Vector3d> beside;            // of the free way that is nearest to the door's middle
+  std::optional<std::uint32_t> blocked_by;   // the product that stops a body in the middle, where none is free
+};
+
+Attempt tryWays(const Obstacles& obstacles, const Passage& passage, const Way& way, double radius) {
   const Body body{radius - kTouch, way.upper.height_m};
-  std::optional<std::uint32_t> first;
+  Attempt attempt;
   for (int i = 0; i * kBesideStep <= 2 * kBeside; ++i) {
     const Vector3d beside = passage.across * ((i % 2 == 0 ? 0.5 : -0.5) * kBesideStep * (i + i % 2));
     auto met = obstacles.sweep(body, way.from + beside, way.to + beside);
     if (!met) met = obstacles.sweep(body, way.to + beside, way.from + beside);
-    if (!met) return std::nullopt;
-    if (!first) first = met->product;
+    if (!met) return {beside, std::nullopt};
+    if (!attempt.blocked_by) attempt.blocked_by = met->product;
   }
-  return first;
+  return attempt;
 }
 
 double clearWidth(const Obstacles& obstacles, const Passage& passage, const Way& way) {
   double passes = 0, stuck = std::min(kWidest, way.upper.height_m) / 2;
-  if (!blocker(obstacles, passage, way, stuck)) return 2 * stuck;
+  if (tryWays(obstacles, passage, way, stuck).beside) return 2 * stuck;
   while (stuck - passes > 0.0025) {
     const double radius = 0.5 * (passes + stuck);
-    (blocker(obstacles, passage, way, radius + kTouch) ? stuck : passes) = radius;
+    (tryWays(obstacles, passage, way, radius + kTouch).beside ? passes : stuck) = radius;
   }
   return passes < 0.01 ? 0 : 2 * passes;
 }
@@ -87,7 +91,7 @@ Verdict judge(const Environment& environment, std::uint32_t product, const Obsta
   const auto way = wayThrough(*passage, obstacles, options);
   verdict.door.position = passage->middle;
   verdict.door.floor = way.floor;
-  verdict.blocked_by = blocker(obstacles, *passage, way, options.agent_radius_m);
+  verdict.blocked_by = tryWays(obstacles, *passage, way, options.agent_radius_m).blocked_by;
   verdict.door.passable = !verdict.blocked_by;
   verdict.door.clear_width_m = clearWidth(obstacles, *passage, way);
   return verdict;
@@ -154,6 +158,14 @@ std::optional<Passage> passageOf(const Environment& environment, std::uint32_t p
   return passage;
 }
 
+std::optional<FreeWay> freeWay(const Obstacles& obstacles, const Passage& passage, const CollideOptions& options) {
+  const auto way = wayThrough(passage, obstacles, options);
+  const auto beside = tryWays(obstacles, passage, way, options.agent_radius_m).beside;
+  if (!beside) return std::nullopt;
+  const Vector3d down(0, 0, way.upper.height_m - options.agent_height_m);
+  return FreeWay{way.from + *beside + down, way.to + *beside + down};
+}
+
 std::vector<std::int32_t> doorOf(const Environment& environment) {
   std::vector<std::int32_t> result(environment.products.size(), -1);
   for (std::size_t i = 0; i < result.size(); ++i) {
@@ -184,7 +196,7 @@ void closeWhatIsOpen(const Environment& environment, const CollideOptions& optio
   std::vector<CollisionShape> plates;
   for (const auto door : doorsOf(environment)) {
     const auto passage = closed[door] ? passageOf(environment, door) : std::nullopt;
-    if (!passage || blocker(obstacles, *passage, wayThrough(*passage, obstacles, options), options.agent_radius_m)) continue;
+    if (!passage || !freeWay(obstacles, *passage, options)) continue;
     std::vector<Vector3d> bottom;
     for (const auto& [along, beside] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
       bottom.push_back(passage->middle + passage->through * (along * kPlate / 2) + passage->across * (beside * passage->half_width));

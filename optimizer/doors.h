@@ -22,6 +22,14 @@ struct Passage {
 // Nothing when the product has no geometry.
 std::optional<Passage> passageOf(const Environment& environment, std::uint32_t product);
 
+// Of the feet of an agent that comes straight through, level with the higher floor.
+struct FreeWay {
+  Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();
+};
+
+// The one nearest to the door's middle; nothing where none is free.
+std::optional<FreeWay> freeWay(const Obstacles& obstacles, const Passage& passage, const CollideOptions& options);
+
 // For each product the door that it is, or is a part of; -1 for all else.
 std::vector<std::int32_t> doorOf(const Environment& environment);
 

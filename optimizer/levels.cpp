@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
+
+#include <tbb/parallel_invoke.h>
 
 #include "optimizer/pieces.h"
 
@@ -134,7 +137,7 @@ std::vector<Point> measure(const Shape& shape, const TriangleTree& tree, const S
     if (left > next && i + 1 < made.log.size()) continue;
     if (progress.cancelled()) return points;
     const Shape& form = player.at(i + 1);
-    const auto deviation = meter.roughlyOf(form, player.image());
+    const auto deviation = meter.roughlyOf(form, kSamples);
     if (guard.refuses(form)) ++refused;
     else points.push_back({left, deviation.mean_m * deviation.area_m2, i + 1, -1, refused});
     next = target(left);
@@ -162,10 +165,12 @@ std::vector<Point> lowerHull(std::vector<Point> points) {
 
 }  // namespace
 
-ShapeLevels makeLevels(const Shape& shape, const TriangleTree& tree, const CollapseOptions& options, const Placement& placement, std::uint64_t seed, const Progress& progress) {
+ShapeLevels makeLevels(const Shape& shape, std::unique_ptr<TriangleTree>& tree, const CollapseOptions& options, const Placement& placement, std::uint64_t seed,
+                       const Progress& progress) {
   ShapeLevels made;
+  tbb::parallel_invoke([&] { made.log = recordCollapses(shape, options, progress); },
+                       [&] { if (!tree) tree = std::make_unique<TriangleTree>(shape.positions, shape.triangles); });
   if (shape.triangles.empty()) return made;
-  made.log = recordCollapses(shape, options, progress);
   if (made.log.empty() && options.lossless) return made;
   std::vector<Point> hull{{static_cast<std::uint32_t>(shape.triangles.size())}};
   if (options.lossless) {
@@ -174,7 +179,14 @@ ShapeLevels makeLevels(const Shape& shape, const TriangleTree& tree, const Colla
     hull.push_back({left, 0, static_cast<std::uint32_t>(made.log.size())});
   } else {
     if (shape.wedges.empty() && shape.triangles.size() <= kMostBoxed) made.stand_ins = standIns(shape);
-    hull = lowerHull(measure(shape, tree, made, options.max_deviation_m, placement, seed, progress));
+    auto points = measure(shape, *tree, made, options.max_deviation_m, placement, seed, progress);
+    const bool reached = std::any_of(points.begin(), points.end(), [&](const Point& p) { return p.collapses == made.log.size(); });
+    if (options.floor > 0 && !reached && !progress.cancelled()) {  // the last form was refused: a simpler one may do
+      auto whole = options;
+      whole.floor = 0;
+      return makeLevels(shape, tree, whole, placement, seed, progress);
+    }
+    hull = lowerHull(std::move(points));
   }
   for (std::size_t i = 0; i + 1 < hull.size(); ++i) {
     const double cost = std::max(0.0, slope(hull[i], hull[i + 1]));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "optimizer/collapse.h"
@@ -33,8 +34,9 @@ struct Placement {
 
 // Without loss every step of the log is a level that costs nothing. Else the deviation is measured at a few of the steps,
 // so that shapes compete by what one would see and not by their quadrics, which overrate thin and underrate folded parts.
-// Forms that close a doorway are left out, and stand-ins for what is painted. `tree` is the shape's.
-ShapeLevels makeLevels(const Shape& shape, const TriangleTree& tree, const CollapseOptions& options, const Placement& placement, std::uint64_t seed, const Progress& progress);
+// Forms that close a doorway are left out, and stand-ins for what is painted. `tree` becomes the shape's.
+ShapeLevels makeLevels(const Shape& shape, std::unique_ptr<TriangleTree>& tree, const CollapseOptions& options, const Placement& placement, std::uint64_t seed,
+                       const Progress& progress);
 
 // `levels` of them taken; 0 is the shape itself. `image` as for replay().
 Shape atLevel(const Shape& shape, const ShapeLevels& levels, std::size_t taken, std::vector<std::uint32_t>& image);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -81,6 +82,17 @@ Environment withDropped(const Environment& shared, const Environment& tangible, 
   return result;
 }
 
+// What bounds each instance's distance from the whole: that from what became of itself, if something did.
+std::vector<double> mostOf(const Environment& environment, const std::vector<Work>& works, const OptimizeOptions& options) {
+  std::vector<double> most_m;
+  for (const auto& instance : environment.instances) {
+    const Work& work = works[instance.mesh];
+    const bool gone = work.dropped() || allowanceOf(options, instance.product).drop;
+    most_m.push_back(gone ? std::numeric_limits<double>::infinity() : work.deviation.max_m * largestStretch(instance.world_from_mesh));
+  }
+  return most_m;
+}
+
 }  // namespace
 
 Environment withoutDropped(const Environment& environment, const OptimizeOptions& options) {
@@ -121,9 +133,12 @@ Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOp
   progress.stage("Measure the whole", 0.9, 1);
   // Of an empty one the products' own figures, to their centres, are all there is; of one mesh they are those of the whole.
   if (result.all.triangles_after > 0 && tangible.instances.size() > 1) {
-    std::vector<PlacedSurfaces::Known> known;
-    for (const auto& work : works) known.push_back({&work.shape, work.tree.get()});
-    const auto whole = sceneDeviation(withDropped(shared, tangible, options), result.environment, kDeviationSamples, known, progress);
+    KnownOfScene known;
+    for (const auto& work : works) known.meshes.push_back({&work.shape, work.tree.get()});
+    const auto original = withDropped(shared, tangible, options);
+    known.most_before_m = mostOf(original, works, options);
+    known.most_after_m = mostOf(result.environment, works, options);
+    const auto whole = sceneDeviation(original, result.environment, kDeviationSamples, known, progress);
     result.all.max_deviation_m = whole.max_m + *std::max_element(residual_m.begin(), residual_m.end());
     result.all.mean_deviation_m = whole.mean_m;
   }

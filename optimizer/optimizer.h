@@ -78,6 +78,7 @@ struct Door {
   bool floor = false;              // there is floor on both sides
   bool passable = false;           // the agent's capsule passes both ways
   bool closed = false;             // its leaf is in the way
+  bool led_through = false;        // the walkable surface leads through its opening
   double clear_width_m = 0;        // of the widest body of the agent's height that passes; 0 when none does, at most 2 m
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // the middle of its lower edge, local frame
 };

@@ -84,6 +84,7 @@ Partition partition(std::span<const Vector3d> positions, std::span<const Triangl
   std::vector<std::uint32_t> size(positions.size(), 0);
   for (const auto p : part) ++size[p];
   std::vector<Item> items;
+  items.reserve(static_cast<std::size_t>(std::count_if(part.begin(), part.end(), [&](std::uint32_t p) { return size[p] > most; })));
   std::vector<std::uint32_t> item_of_part(positions.size(), kNone), next(triangles.size(), kNone), last(positions.size(), kNone);
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     const auto& t = triangles[i];

@@ -29,6 +29,7 @@ constexpr double kCovered = 1e-4;                 // m; a point this near to a p
 constexpr double kSliver = 1e-4;                  // m; a triangle lower than this
 constexpr std::size_t kManyTriangles = 300;        // of a part that is flattened before it is cut
 constexpr double kCutShare = 0.4;                  // of the largest deviation
+constexpr double kSectionShare = 0.85;             // …
 constexpr double kFlattenShares[] = {0.4, 0.1, 0.05, 0.025};
 constexpr std::uint32_t kSamples = 2000, kLeastSamples = 150;  // of a part, and of each of its pieces
 
@@ -226,7 +227,10 @@ Attempt takeApart(Shape part, double max_deviation_m, bool cheaply, const Progre
     const double hull_volume = volumeOf(piece->positions, piece->triangles);
     if (!closed || hull_volume <= (1 + kSameVolume) * volume) take({std::move(*piece)});
   }
-  if (best.pieces.empty() && closed) take(prismPieces(part, volume));
+  if (closed && (best.pieces.empty() || best.pieces.size() > kFew)) {
+    take(prismPieces(part, volume, 0));
+    if (best.pieces.empty() || best.pieces.size() > kFew) take(prismPieces(part, volume, kSectionShare * max_deviation_m));
+  }
   if (cheaply || (!best.pieces.empty() && best.pieces.size() <= kFew)) return best;
   if (part.triangles.size() <= kManyTriangles) take(cutPieces(part, kCutShare * max_deviation_m));
   // Rounded parts have more planes than are worth a cut: these are cut as they look after a little flattening.

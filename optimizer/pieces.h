@@ -33,7 +33,8 @@ Pieces collisionPieces(const Shape& shape, double max_deviation_m, const Progres
 
 // The ways, each empty when it does not apply. `volume_m3` of the closed part tells whether nothing was lost.
 std::vector<Piece> boxPieces(const Shape& part, double volume_m3);
-std::vector<Piece> prismPieces(const Shape& part, double volume_m3);
+// Over a section that may be simplified by tolerance_m on either side, its ends cut off by planes.
+std::vector<Piece> prismPieces(const Shape& part, double volume_m3, double tolerance_m);
 // A part without a volume becomes a plate of a millimetre.
 std::vector<Piece> sheetPieces(const Shape& part);
 // Cut along the planes of its reflex faces until no face has anything more than tolerance_m before it.

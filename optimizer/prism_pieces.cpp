@@ -12,6 +12,7 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include "optimizer/pieces.h"
+#include "optimizer/section_cover.h"
 
 namespace standpoint {
 
@@ -33,13 +34,24 @@ constexpr std::size_t kMostSheetTriangles = 2000;
 constexpr double kHalfSheet = 0.0005;  // m
 constexpr std::size_t kMostDirections = 6;
 constexpr std::size_t kMostSegments = 4000;
+constexpr std::size_t kFewPolygons = 4;   // that need not become fewer
+constexpr std::size_t kMostOblique = 8;   // planes that cut off a prism's ends
+constexpr double kInside = 0.001;         // m from its caps where a prism with oblique ends is sliced
 
 using Key = std::array<long long, 2>;
+using Segment = std::pair<Key, Key>;
 using Polygon = std::vector<int>;
 
 struct Section {
   std::vector<Vector2d> points;
   std::vector<Polygon> polygons;  // convex, counter-clockwise
+  std::vector<Polygon> gaps;      // the rest of their hull, likewise
+};
+
+// A plane that a part lies behind of.
+struct Plane {
+  Vector3d normal;
+  double offset = 0;
 };
 
 struct Frame {
@@ -52,23 +64,33 @@ double cross(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return (b - a).x() * (c - b).y() - (b - a).y() * (c - b).x();
 }
 
-// Heights of the caps, or nothing when a face is neither cap nor side.
-std::vector<double> levels(const Shape& part, const Vector3d& axis) {
+// Heights of the caps, and the planes of faces that are neither cap nor side, such as mitred ends; no heights where the part
+// does not lie behind such planes.
+std::vector<double> levels(const Shape& part, const Vector3d& axis, std::vector<Plane>& oblique) {
   std::vector<double> heights;
   for (const auto& t : part.triangles) {
     const auto &a = part.positions[t[0]], &b = part.positions[t[1]], &c = part.positions[t[2]];
     const Vector3d normal = (b - a).cross(c - a);
     const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
     const auto [low, high] = std::minmax({axis.dot(a), axis.dot(b), axis.dot(c)});
-    if (high - low <= kFlat) heights.push_back(0.5 * (low + high));
-    else if (normal.norm() > kFlat * longest && std::abs(normal.normalized().dot(axis)) > kUpright) return {};
+    if (high - low <= kFlat) {
+      heights.push_back(0.5 * (low + high));
+      continue;
+    }
+    if (normal.norm() <= kFlat * longest || std::abs(normal.normalized().dot(axis)) <= kUpright) continue;
+    const Plane plane{normal.normalized(), normal.normalized().dot(a)};
+    if (std::any_of(oblique.begin(), oblique.end(), [&](const Plane& p) { return (p.normal - plane.normal).norm() < kFlat && std::abs(p.offset - plane.offset) < kFlat; }))
+      continue;
+    if (oblique.size() == kMostOblique || std::any_of(part.positions.begin(), part.positions.end(), [&](const Vector3d& p) { return plane.normal.dot(p) > plane.offset + kFlat; }))
+      return {};
+    oblique.push_back(plane);
   }
   return distinct(std::move(heights), kFlat);
 }
 
 // Where the sides cross the plane at `height`: segments between snapped points, each of which bounds the section.
-std::vector<std::pair<Key, Key>> slice(const Shape& part, const Frame& frame, double height) {
-  std::vector<std::pair<Key, Key>> segments;
+std::vector<Segment> slice(const Shape& part, const Frame& frame, double height) {
+  std::vector<Segment> segments;
   for (const auto& t : part.triangles) {
     std::vector<Key> ends;
     for (int k = 0; k < 3; ++k) {
@@ -81,7 +103,7 @@ std::vector<std::pair<Key, Key>> slice(const Shape& part, const Frame& frame, do
     if (ends.size() == 2 && ends[0] != ends[1]) segments.emplace_back(std::min(ends[0], ends[1]), std::max(ends[0], ends[1]));
   }
   std::sort(segments.begin(), segments.end());
-  std::vector<std::pair<Key, Key>> odd;  // two faces at one place bound nothing
+  std::vector<Segment> odd;  // two faces at one place bound nothing
   for (const auto& segment : segments) {
     if (!odd.empty() && odd.back() == segment) odd.pop_back();
     else odd.push_back(segment);
@@ -155,9 +177,36 @@ std::vector<Polygon> convexPartition(const std::vector<Vector2d>& points, std::v
   return polygons;
 }
 
-Section section(const Shape& part, const Frame& frame, double height) {
-  const auto segments = slice(part, frame, height);
+// Closed loops of segments with fewer sides that stay within tolerance_m; the segments as they are where they make no such loops.
+std::vector<Segment> withFewerSides(const std::vector<Segment>& segments, double tolerance_m) {
+  std::map<Key, std::vector<Key>> next;
+  for (const auto& [a, b] : segments) next[a].push_back(b), next[b].push_back(a);
+  std::vector<Segment> result;
+  while (!next.empty()) {
+    const Key start = next.begin()->first;
+    Outline loop;
+    for (Key at = start, before = start;;) {
+      const auto node = next.find(at);
+      if (node == next.end() || node->second.size() != 2) return segments;
+      loop.emplace_back(static_cast<double>(at[0]) * kSnap, static_cast<double>(at[1]) * kSnap);
+      const Key to = node->second[0] == before ? node->second[1] : node->second[0];
+      next.erase(node);
+      before = at, at = to;
+      if (at == start) break;
+    }
+    loop = simplified(loop, tolerance_m);
+    std::vector<Key> keys;
+    for (const auto& p : loop) keys.push_back({std::llround(p.x() / kSnap), std::llround(p.y() / kSnap)});
+    for (std::size_t i = 0; i < keys.size(); ++i)
+      if (const auto& to = keys[(i + 1) % keys.size()]; keys[i] != to) result.emplace_back(keys[i], to);
+  }
+  return result;
+}
+
+Section section(const Shape& part, const Frame& frame, double height, double tolerance_m) {
+  auto segments = slice(part, frame, height);
   if (segments.size() > kMostSegments) return {};
+  if (tolerance_m > 0) segments = withFewerSides(segments, tolerance_m);
   Triangulation triangulation;
   const auto point = [](const Key& key) { return Kernel::Point_2(static_cast<double>(key[0]) * kSnap, static_cast<double>(key[1]) * kSnap); };
   for (const auto& [a, b] : segments) triangulation.insert_constraint(point(a), point(b));
@@ -169,16 +218,26 @@ Section section(const Shape& part, const Frame& frame, double height) {
     result.points.emplace_back(vertex->point().x(), vertex->point().y());
   }
   for (const auto face : triangulation.finite_face_handles())
-    if (face->info() % 2 == 1) result.polygons.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+    (face->info() % 2 == 1 ? result.polygons : result.gaps).push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
   result.polygons = convexPartition(result.points, std::move(result.polygons));
+  result.gaps = convexPartition(result.points, std::move(result.gaps));
   return result;
 }
 
-Piece lift(const Section& section, const Polygon& polygon, const Frame& frame, double low, double high) {
+std::vector<Outline> outlinesOf(const Section& section, const std::vector<Polygon>& polygons) {
+  std::vector<Outline> result;
+  for (const auto& polygon : polygons) {
+    auto& outline = result.emplace_back();
+    for (const int i : polygon) outline.push_back(section.points[static_cast<std::size_t>(i)]);
+  }
+  return result;
+}
+
+Piece lift(const Outline& outline, const Frame& frame, double low, double high) {
   std::vector<Vector3d> bottom, top;
   std::vector<Vector2d> corners;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const auto &x = section.points[polygon[(i + polygon.size() - 1) % polygon.size()]], &y = section.points[polygon[i]], &z = section.points[polygon[(i + 1) % polygon.size()]];
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const auto &x = outline[(i + outline.size() - 1) % outline.size()], &y = outline[i], &z = outline[(i + 1) % outline.size()];
     if (std::abs(cross(x, y, z)) <= 1e-4 * (z - x).norm() * std::min((y - x).norm(), (z - y).norm())) continue;  // on a line
     bottom.push_back(frame.lifted(y, low));
     top.push_back(frame.lifted(y, high));
@@ -193,23 +252,60 @@ Piece lift(const Section& section, const Polygon& polygon, const Frame& frame, d
   return prism(bottom, top, square ? CollisionShapeKind::box : CollisionShapeKind::convex);
 }
 
-std::vector<Piece> prismsAlong(const Shape& part, const Vector3d& axis, double volume_m3) {
-  const auto heights = levels(part, axis);
-  if (heights.size() < 2) return {};
-  const Frame frame{axis.unitOrthogonal(), axis.cross(axis.unitOrthogonal()), axis};
-  std::vector<Piece> result;
-  double sum = 0;
-  for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
-    const auto cut = section(part, frame, 0.5 * (heights[i] + heights[i + 1]));
-    for (const auto& polygon : cut.polygons) {
-      auto piece = lift(cut, polygon, frame, heights[i], heights[i + 1]);
-      if (piece.triangles.empty()) continue;
-      sum += volumeOf(piece.positions, piece.triangles);
-      result.push_back(std::move(piece));
-      if (result.size() > kMostPieces) return {};
-    }
+// What of a convex piece is behind the planes.
+Piece cutOff(Piece piece, const std::vector<Plane>& planes) {
+  for (const auto& plane : planes) {
+    const auto above = [&](const Vector3d& p) { return plane.normal.dot(p) - plane.offset; };
+    if (std::all_of(piece.positions.begin(), piece.positions.end(), [&](const Vector3d& p) { return above(p) <= kSnap; })) continue;
+    std::vector<Vector3d> points;
+    for (const auto& p : piece.positions)
+      if (above(p) <= 0) points.push_back(p);
+    for (const auto& p : piece.positions)  // also of diagonals: they end within the face of the cut
+      for (const auto& q : piece.positions)
+        if (const double a = above(p), b = above(q); a < 0 && b > 0) points.push_back(p + (q - p) * (a / (a - b)));
+    auto rest = hullPiece(points);
+    if (!rest) return {};
+    piece = std::move(*rest);
   }
-  return std::abs(sum - std::abs(volume_m3)) <= 0.01 * std::abs(volume_m3) ? result : std::vector<Piece>{};
+  return piece;
+}
+
+// A layer of a part, parted or covered, whichever takes fewer pieces; `volume_m3` grows by what is parted.
+std::vector<Piece> layer(const Section& section, const Frame& frame, double low, double high, const std::vector<Plane>& oblique, double& volume_m3) {
+  const auto lifted = [&](const std::vector<Outline>& outlines) {
+    std::vector<Piece> pieces;
+    for (const auto& outline : outlines)
+      if (auto piece = cutOff(lift(outline, frame, low, high), oblique); !piece.triangles.empty()) pieces.push_back(std::move(piece));
+    return pieces;
+  };
+  const auto parts = outlinesOf(section, section.polygons);
+  auto pieces = lifted(parts);
+  for (const auto& piece : pieces) volume_m3 += volumeOf(piece.positions, piece.triangles);
+  if (pieces.size() <= kFewPolygons || pieces.size() > kMostPieces) return pieces;
+  auto covering = lifted(coverOf(parts, outlinesOf(section, section.gaps)));
+  return covering.empty() || covering.size() >= pieces.size() ? pieces : covering;
+}
+
+std::vector<Piece> prismsAlong(const Shape& part, const Vector3d& axis, double volume_m3, double tolerance_m) {
+  std::vector<Plane> oblique;
+  const auto heights = levels(part, axis, oblique);
+  if (heights.size() < 2 || (heights.size() > 2 && !oblique.empty())) return {};
+  const Frame frame{axis.unitOrthogonal(), axis.cross(axis.unitOrthogonal()), axis};
+  // With oblique ends, the section is as long as it gets beside one of the caps, and they are cut off afterwards.
+  const auto slices = oblique.empty() ? std::vector<double>{0} : std::vector<double>{heights[0] + kInside, heights[1] - kInside};
+  std::vector<Piece> best;
+  double least = 0.01 * std::abs(volume_m3);
+  for (const double beside : slices) {
+    std::vector<Piece> result;
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < heights.size() && result.size() <= kMostPieces; ++i) {
+      const double at = oblique.empty() ? 0.5 * (heights[i] + heights[i + 1]) : beside;
+      auto pieces = layer(section(part, frame, at, tolerance_m), frame, heights[i], heights[i + 1], oblique, sum);
+      std::move(pieces.begin(), pieces.end(), std::back_inserter(result));
+    }
+    if (const double off = std::abs(sum - std::abs(volume_m3)); result.size() <= kMostPieces && off <= least) least = off, best = std::move(result);
+  }
+  return best;
 }
 
 }  // namespace
@@ -238,18 +334,18 @@ std::vector<Piece> sheetPieces(const Shape& part) {
   }
   sheet.polygons = convexPartition(sheet.points, std::move(sheet.polygons));
   std::vector<Piece> result;
-  for (const auto& polygon : sheet.polygons)
-    if (auto piece = lift(sheet, polygon, frame, height - kHalfSheet, height + kHalfSheet); !piece.triangles.empty()) result.push_back(std::move(piece));
+  for (const auto& outline : outlinesOf(sheet, sheet.polygons))
+    if (auto piece = lift(outline, frame, height - kHalfSheet, height + kHalfSheet); !piece.triangles.empty()) result.push_back(std::move(piece));
   return result.size() > kMostPieces ? std::vector<Piece>{} : result;
 }
 
-std::vector<Piece> prismPieces(const Shape& part, double volume_m3) {
+std::vector<Piece> prismPieces(const Shape& part, double volume_m3, double tolerance_m) {
   std::vector<Piece> best;
   auto directions = faceDirections(part);
   directions.resize(std::min(directions.size(), kMostDirections));
   for (const auto& axis : directions) {
     try {
-      auto pieces = prismsAlong(part, axis, volume_m3);
+      auto pieces = prismsAlong(part, axis, volume_m3, tolerance_m);
       if (!pieces.empty() && (best.empty() || pieces.size() < best.size())) best = std::move(pieces);
     } catch (const std::exception&) {
       // CGAL refuses sections that cross themselves beyond repair; such a part is not prismatic along this axis.

@@ -22,14 +22,22 @@ using Eigen::Vector3d;
 constexpr double kStep = 0.1;        // m between the places that are asked
 constexpr double kBodyMiddle = 0.9;  // m above the floor: spaces begin on it or on the slab below it
 constexpr double kBeside = 0.3;      // m before and behind a door where its rooms are looked for
+constexpr double kNearDoor = 0.3;    // m from there to the surface that the door leads onto …
+constexpr double kSill = 0.35;       // … and above or below the door's lower edge
 constexpr double kGround = 1.5;      // m above the lowest entrance up to which a door is one
 constexpr double kLeast = 0.05;      // m² to stand on
+
+// What of an island lies in a space.
+struct Patch {
+  double area_m2 = 0;
+  double lowest = std::numeric_limits<double>::infinity();
+};
 
 struct Space {
   std::uint32_t product = 0;
   std::vector<Vector3d> corners;     // three for each triangle
   Bounds box;
-  std::map<std::uint32_t, double> area_by_island;
+  std::map<std::uint32_t, Patch> patches;  // by island
   double area_m2 = 0;
 };
 
@@ -80,43 +88,72 @@ void measure(const Walkable& walkable, Space& space) {
       for (int row = 0; row < rows; ++row) {
         const Vector3d p(low.x() + (column + 0.5) * (high.x() - low.x()) / columns, low.y() + (row + 0.5) * (high.y() - low.y()) / rows, z);
         if (!isInside(space, p)) continue;
-        space.area_by_island[walkable.island_of_triangle[i]] += share;
+        auto& patch = space.patches[walkable.island_of_triangle[i]];
+        patch.area_m2 += share;
+        patch.lowest = std::min(patch.lowest, low.z());
         space.area_m2 += share;
       }
   }
 }
 
-std::optional<std::uint32_t> islandOfMost(const std::vector<Space>& spaces) {
-  std::map<std::uint32_t, std::pair<int, double>> rooms;  // how many, and their area
+// The island that leads into most rooms, unless all of it is above `ceiling`.
+std::optional<std::uint32_t> islandOfMost(const std::vector<Space>& spaces, double ceiling) {
+  struct Sum {
+    int rooms = 0;
+    Patch patch;
+  };
+  std::map<std::uint32_t, Sum> islands;
   for (const auto& space : spaces)
-    for (const auto& [island, area] : space.area_by_island)
-      if (area > kLeast) ++rooms[island].first, rooms[island].second += area;
-  const auto most = std::max_element(rooms.begin(), rooms.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  return most == rooms.end() ? std::nullopt : std::optional(most->first);
+    for (const auto& [island, patch] : space.patches) {
+      if (patch.area_m2 <= kLeast) continue;
+      auto& sum = islands[island];
+      ++sum.rooms;
+      sum.patch.area_m2 += patch.area_m2;
+      sum.patch.lowest = std::min(sum.patch.lowest, patch.lowest);
+    }
+  std::erase_if(islands, [&](const auto& i) { return i.second.patch.lowest >= ceiling; });
+  const auto most = std::max_element(islands.begin(), islands.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.second.rooms, a.second.patch.area_m2) < std::pair(b.second.rooms, b.second.patch.area_m2);
+  });
+  return most == islands.end() ? std::nullopt : std::optional(most->first);
 }
 
-// The rooms that a passable door leads into from where no room is. An upper one may only lead to a balcony.
-std::vector<std::size_t> entrances(const Environment& environment, const std::vector<Space>& spaces, const std::vector<Door>& doors) {
-  struct Entrance {
-    std::size_t space;
-    double level;
-  };
-  std::vector<Entrance> found;
-  const auto spaceAt = [&](const Vector3d& p) { return std::find_if(spaces.begin(), spaces.end(), [&](const Space& space) { return isInside(space, p); }); };
+// The islands of the surface nearest to p, as far as that is within reach.
+void addIslandsAt(const Walkable& walkable, const Vector3d& p, std::set<std::uint32_t>& islands) {
+  const auto& mesh = walkable.mesh;
+  for (std::size_t i = 0; i + 1 < mesh.triangles.size(); i += 2) {
+    const Vector3d low = mesh.positions[mesh.triangles[i][0]].cast<double>(), high = mesh.positions[mesh.triangles[i][2]].cast<double>();
+    const Vector3d off = p - p.cwiseMax(low.cwiseMin(high)).cwiseMin(low.cwiseMax(high));
+    if (off.head<2>().norm() <= kNearDoor && std::abs(off.z()) <= kSill) islands.insert(walkable.island_of_triangle[i]);
+  }
+}
+
+// Just behind the passable doors that lead from where no room is into one, at their lower edge.
+std::vector<Vector3d> entrances(const Environment& environment, const std::vector<Space>& spaces, const std::vector<Door>& doors) {
+  std::vector<Vector3d> found;
+  const auto isInAny = [&](const Vector3d& p) { return std::any_of(spaces.begin(), spaces.end(), [&](const Space& space) { return isInside(space, p); }); };
   for (const auto& door : doors) {
     const auto passage = door.passable ? passageOf(environment, door.product) : std::nullopt;
     if (!passage) continue;
     const Vector3d reach = passage->through * (passage->half_depth + kBeside), up(0, 0, kBodyMiddle);
-    const auto before = spaceAt(passage->middle - reach + up), behind = spaceAt(passage->middle + reach + up);
-    if ((before == spaces.end()) != (behind == spaces.end()))
-      found.push_back({static_cast<std::size_t>((before == spaces.end() ? behind : before) - spaces.begin()), door.position.z()});
+    const bool before = isInAny(passage->middle - reach + up), behind = isInAny(passage->middle + reach + up);
+    if (before != behind) found.emplace_back(passage->middle + (behind ? reach : -reach));
   }
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const auto& entrance : found) lowest = std::min(lowest, entrance.level);
-  std::vector<std::size_t> result;
-  for (const auto& entrance : found)
-    if (entrance.level < lowest + kGround) result.push_back(entrance.space);
-  return result;
+  return found;
+}
+
+// The islands that one gets to. Behind an entrance not all islands of its room: the upper end of a stair that nobody climbs
+// may begin there too. An upper entrance may only lead from a balcony, an upper island hang together with many rooms and
+// with no way down.
+std::set<std::uint32_t> reachedIslands(const Environment& environment, const Walkable& walkable, const std::vector<Space>& spaces, const std::vector<Door>& doors) {
+  const auto entered = entrances(environment, spaces, doors);
+  double ceiling = std::numeric_limits<double>::infinity();
+  for (const auto& p : entered) ceiling = std::min(ceiling, p.z() + kGround);
+  std::set<std::uint32_t> islands;
+  for (const auto& p : entered)
+    if (p.z() < ceiling) addIslandsAt(walkable, p, islands);
+  if (const auto island = islandOfMost(spaces, ceiling)) islands.insert(*island);
+  return islands;
 }
 
 }  // namespace
@@ -124,15 +161,11 @@ std::vector<std::size_t> entrances(const Environment& environment, const std::ve
 std::vector<Room> checkRooms(const Environment& environment, const Walkable& walkable, const std::vector<Door>& doors, Report& report) {
   auto spaces = spacesOf(environment);
   tbb::parallel_for(std::size_t{0}, spaces.size(), [&](std::size_t i) { measure(walkable, spaces[i]); });
-  std::set<std::uint32_t> reached;
-  if (const auto island = islandOfMost(spaces)) reached.insert(*island);
-  for (const auto entered : entrances(environment, spaces, doors))
-    for (const auto& [island, area] : spaces[entered].area_by_island)
-      if (area > kLeast) reached.insert(island);
+  const auto reached = reachedIslands(environment, walkable, spaces, doors);
   std::vector<Room> rooms;
   for (const auto& space : spaces) {
     Room room{space.product, space.area_m2, false, 0.5 * (space.box.min + space.box.max)};
-    for (const auto& [island, area] : space.area_by_island) room.reached = room.reached || (area > kLeast && reached.contains(island));
+    for (const auto& [island, patch] : space.patches) room.reached = room.reached || (patch.area_m2 > kLeast && reached.contains(island));
     room.position.z() = space.box.min.z();
     const auto& product = environment.products[space.product];
     if (space.area_m2 <= kLeast) report.warn(product.id, fmt::format("room {} has no floor with room to stand", product.name));

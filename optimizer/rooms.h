@@ -8,8 +8,8 @@
 
 namespace standpoint {
 
-// Which IfcSpaces have a floor to walk on, and which of them can be walked to: from the island of the walkable surface that
-// leads into most rooms, and from every passable door between a room and the open, as far as it is not above the ground.
+// Which IfcSpaces have a floor to walk on, and which of them can be walked to: from behind every passable door between a room
+// and the open, and from the island of the walkable surface that leads into most rooms, as far as these are not above the ground.
 std::vector<Room> checkRooms(const Environment& environment, const Walkable& walkable, const std::vector<Door>& doors, Report& report);
 
 }  // namespace standpoint

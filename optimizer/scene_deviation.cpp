@@ -16,6 +16,8 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kMostVertices = 3'000'000;  // that are looked at for the maximum, each way
 constexpr int kSteps = 6;                         // along the edges of a long triangle
+constexpr double kSettled = 1.04 * 1.04;          // what can only be 4 % further than what was found is not looked at (farthest.h)
+constexpr std::size_t kFirstFew = 8;              // instances that are looked at before others are
 constexpr std::size_t kChunk = 1024;              // points that one task looks at
 
 struct OneWay {
@@ -83,42 +85,61 @@ OneWay ofPoints(const PlacedSurfaces& from, const PlacedSurfaces& to, const std:
   return result;
 }
 
-// The largest squared distance of any vertex, or `known`, if none is further: most are settled by a surface that is near enough.
-double farthest(const PlacedSurfaces& from, const PlacedSurfaces& to, const std::vector<bool>& same, double known, const Progress& progress) {
+// The largest squared distance of one instance's vertices, or `known`, if none is further: most are settled by a surface that is near enough.
+double farthestOf(const PlacedSurfaces& from, const PlacedSurfaces& to, std::size_t i, std::size_t stride, double known) {
+  const tbb::blocked_range<std::size_t> all(0, (from.vertices(i) + stride - 1) / stride, kChunk);
+  double most = tbb::parallel_reduce(all, known, [&](const auto& range, double so_far) {
+    for (auto k = range.begin(); k < range.end(); ++k)
+      if (const double s = to.squaredDistance(from.vertex(i, k * stride), so_far); std::isfinite(s)) so_far = std::max(so_far, s);
+    return so_far;
+  }, [](double a, double b) { return std::max(a, b); });  // the maximum is the same in any order
+  for (std::size_t k = 0; k < from.triangles(i) && stride == 1; ++k) {  // between its corners a long triangle may bulge away
+    const auto t = from.triangle(i, k);
+    if (std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()}) < 4 * most) continue;
+    for (int u = 0; u <= kSteps; ++u)
+      for (int v = 0; u + v <= kSteps; ++v) {
+        const Vector3d p = (t[0] * u + t[1] * v + t[2] * (kSteps - u - v)) / kSteps;
+        if (const double s = to.squaredDistance(p, most); std::isfinite(s)) most = std::max(most, s);
+      }
+  }
+  return most;
+}
+
+// Of all instances, or `known`. Those that can be furthest come first, so that most others need no look: `most_m` bounds each.
+double farthest(const PlacedSurfaces& from, const PlacedSurfaces& to, const std::vector<bool>& same, const std::vector<double>& most_m, double known,
+                const Progress& progress) {
   std::size_t vertices = 0;
-  for (std::size_t i = 0; i < from.instances(); ++i) vertices += same[i] ? 0 : from.vertices(i);
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t i = 0; i < from.instances(); ++i) {
+    if (same[i]) continue;
+    vertices += from.vertices(i);
+    order.push_back(i);
+  }
   const std::size_t stride = 1 + vertices / kMostVertices;
-  std::vector<double> parts(from.instances(), known);
-  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-    if (same[i] || progress.cancelled()) return;
-    parts[i] = tbb::parallel_reduce(tbb::blocked_range<std::size_t>(0, (from.vertices(i) + stride - 1) / stride, kChunk), known, [&](const auto& range, double most) {
-      for (auto k = range.begin(); k < range.end(); ++k)
-        if (const double s = to.squaredDistance(from.vertex(i, k * stride), most); std::isfinite(s)) most = std::max(most, s);
-      return most;
-    }, [](double a, double b) { return std::max(a, b); });  // the maximum is the same in any order
-    if (stride > 1) return;
-    for (std::size_t k = 0; k < from.triangles(i); ++k) {  // between its corners a long triangle may bulge away
-      const auto t = from.triangle(i, k);
-      if (std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()}) < 4 * parts[i]) continue;
-      for (int u = 0; u <= kSteps; ++u)
-        for (int v = 0; u + v <= kSteps; ++v) {
-          const Vector3d p = (t[0] * u + t[1] * v + t[2] * (kSteps - u - v)) / kSteps;
-          if (const double s = to.squaredDistance(p, parts[i]); std::isfinite(s)) parts[i] = std::max(parts[i], s);
-        }
-    }
-  });
-  return *std::max_element(parts.begin(), parts.end());
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return most_m[a] > most_m[b]; });
+  std::vector<double> parts;
+  for (std::size_t first = 0, count = kFirstFew; first < order.size(); first += count, count *= 4) {  // together, so that threads change nothing
+    count = std::min(count, order.size() - first);
+    parts.assign(count, known);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+      const auto i = order[first + k];
+      if (!progress.cancelled() && most_m[i] * most_m[i] > kSettled * known) parts[k] = farthestOf(from, to, i, stride, known);
+    });
+    known = *std::max_element(parts.begin(), parts.end());
+  }
+  return known;
 }
 
 }  // namespace
 
-Deviation sceneDeviation(const Environment& before, const Environment& after, std::uint32_t samples, const std::vector<PlacedSurfaces::Known>& known, const Progress& progress) {
+Deviation sceneDeviation(const Environment& before, const Environment& after, std::uint32_t samples, const KnownOfScene& known, const Progress& progress) {
   if (before.instances.empty() || after.instances.empty()) return {};
-  const PlacedSurfaces a(before, known), b(after);
+  const PlacedSurfaces a(before, known.meshes), b(after);
   const auto same_before = unchanged(before, after), same_after = unchanged(after, before);
   const OneWay there = ofPoints(a, b, same_before, samples, progress), back = ofPoints(b, a, same_after, samples, progress);
   double max_squared = std::max(there.max_squared, back.max_squared);
-  max_squared = farthest(a, b, same_before, farthest(b, a, same_after, max_squared, progress), progress);
+  max_squared = farthest(b, a, same_after, known.most_after_m, max_squared, progress);
+  max_squared = farthest(a, b, same_before, known.most_before_m, max_squared, progress);
   Deviation result;
   result.max_m = std::sqrt(max_squared);
   result.mean_m = 0.5 * (there.mean() + back.mean());

@@ -2,11 +2,15 @@
 #include "optimizer/shape.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <limits>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
-#include <tbb/parallel_sort.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 namespace standpoint {
 
@@ -14,14 +18,47 @@ namespace {
 
 constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
 
-// For each position the first one with an equal key.
-template <class Key>
-std::vector<std::uint32_t> firstWithKey(std::size_t count, Key key) {
-  std::vector<std::uint32_t> order(count);
-  std::iota(order.begin(), order.end(), 0U);
-  tbb::parallel_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
-  std::vector<std::uint32_t> first(count);
-  for (std::size_t i = 0; i < count; ++i) first[order[i]] = i > 0 && key(order[i - 1]) == key(order[i]) ? first[order[i - 1]] : order[i];
+constexpr std::uint32_t kPartBits = 6;   // what is looked up is told apart by hash into so many parts, that are looked at side by side
+constexpr std::size_t kChunk = 16'384;   // things that one task looks at
+
+template <class Task>
+void forEachIndex(std::size_t count, Task task) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kChunk), [&](const auto& range) {
+    for (auto i = range.begin(); i < range.end(); ++i) task(static_cast<std::uint32_t>(i));
+  });
+}
+
+template <class... Part>
+std::uint32_t hashOf(Part... parts) {
+  std::uint64_t hash = 0;
+  ((hash = (hash ^ parts) * 0x9E3779B97F4A7C15U, hash ^= hash >> 29U), ...);
+  return static_cast<std::uint32_t>(hash >> 32U);
+}
+
+std::uint32_t bitsOf(float f) { return std::bit_cast<std::uint32_t>(f + 0.0F); }  // both zeros are one
+
+// For each of `count` things the first one that is alike: of the same hash, and of the same key where hashes are equal.
+template <class Hash, class Key>
+std::vector<std::uint32_t> firstAlike(std::size_t count, Hash hash, Key key) {
+  std::vector<std::uint32_t> hashes(count), order(count), first(count);
+  forEachIndex(count, [&](std::uint32_t i) { hashes[i] = hash(i); });
+  const auto part = [&](std::size_t i) { return hashes[i] >> (32 - kPartBits); };
+  std::array<std::size_t, (1U << kPartBits) + 1> begin{};
+  for (std::size_t i = 0; i < count; ++i) ++begin[part(i) + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  auto next = begin;
+  for (std::size_t i = 0; i < count; ++i) order[next[part(i)]++] = static_cast<std::uint32_t>(i);
+  tbb::parallel_for(std::size_t{0}, begin.size() - 1, [&](std::size_t p) {  // each its own things, the first of them first
+    const auto size = std::bit_ceil(2 * (begin[p + 1] - begin[p]) + 1);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> table(size, {0, kNone});  // hash, thing
+    for (auto k = begin[p]; k < begin[p + 1]; ++k) {
+      const auto i = order[k];
+      auto at = hashes[i] & (size - 1);
+      while (table[at].second != kNone && (table[at].first != hashes[i] || key(table[at].second) != key(i))) at = (at + 1) & (size - 1);
+      if (table[at].second == kNone) table[at] = {hashes[i], i};
+      first[i] = table[at].second;
+    }
+  });
   return first;
 }
 
@@ -32,21 +69,22 @@ auto paintOf(const Mesh& mesh, std::uint32_t i) {
   return std::tuple(uv.x(), uv.y(), mesh.colours.empty() ? std::array<std::uint8_t, 4>{} : mesh.colours[i]);
 }
 
+std::uint32_t placeHash(const Mesh& mesh, std::uint32_t i) {
+  const auto& p = mesh.positions[i];
+  return hashOf(bitsOf(p.x()), bitsOf(p.y()), bitsOf(p.z()));
+}
+
 // Keeps the first of triangles that are equal up to rotation and have the same surface.
 void removeRepetitions(Shape& shape) {
   const auto turned = [&](std::uint32_t i) {
-    auto t = shape.triangles[i];
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    return std::tuple(t, shape.surface_of_triangle[i]);
+    const auto& t = shape.triangles[i];
+    const int k = t[0] < t[1] ? (t[0] < t[2] ? 0 : 2) : (t[1] < t[2] ? 1 : 2);
+    return std::tuple(t[k], t[(k + 1) % 3], t[(k + 2) % 3], shape.surface_of_triangle[i]);
   };
-  std::vector<std::uint32_t> order(shape.triangles.size());
-  std::iota(order.begin(), order.end(), 0U);
-  tbb::parallel_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return std::tuple(turned(a), a) < std::tuple(turned(b), b); });
-  std::vector<bool> again(order.size(), false);
-  for (std::size_t i = 1; i < order.size(); ++i) again[order[i]] = turned(order[i - 1]) == turned(order[i]);
+  const auto first = firstAlike(shape.triangles.size(), [&](std::uint32_t i) { return std::apply([](auto... part) { return hashOf(part...); }, turned(i)); }, turned);
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (again[i]) continue;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (first[i] != i) continue;
     shape.triangles[kept] = shape.triangles[i];
     if (!shape.wedges.empty()) shape.wedges[kept] = shape.wedges[i];
     shape.surface_of_triangle[kept++] = shape.surface_of_triangle[i];
@@ -67,9 +105,16 @@ bool isPainted(const Mesh& mesh) { return !mesh.texture_coordinates.empty() || !
 
 Shape weld(const Mesh& mesh, WeldCounts* counts) {
   Shape shape;
-  const auto first = firstWithKey(mesh.positions.size(), [&](std::uint32_t i) { return placeOf(mesh, i); });
+  const auto hash = [&](std::uint32_t i) { return placeHash(mesh, i); };
+  const auto first = firstAlike(mesh.positions.size(), hash, [&](std::uint32_t i) { return placeOf(mesh, i); });
   std::vector<std::uint32_t> wedge;
-  if (isPainted(mesh)) wedge = firstWithKey(mesh.positions.size(), [&](std::uint32_t i) { return std::tuple(placeOf(mesh, i), paintOf(mesh, i)); });
+  const auto painted_hash = [&](std::uint32_t i) {
+    const auto uv = mesh.texture_coordinates.empty() ? Eigen::Vector2f(0, 0) : mesh.texture_coordinates[i];
+    return hashOf(placeHash(mesh, i), bitsOf(uv.x()), bitsOf(uv.y()), mesh.colours.empty() ? 0U : std::bit_cast<std::uint32_t>(mesh.colours[i]));
+  };
+  if (isPainted(mesh)) wedge = firstAlike(mesh.positions.size(), painted_hash, [&](std::uint32_t i) { return std::tuple(placeOf(mesh, i), paintOf(mesh, i)); });
+  shape.triangles.reserve(mesh.triangles.size());
+  shape.surface_of_triangle.reserve(mesh.triangles.size());
   std::vector<std::uint32_t> index(mesh.positions.size(), kNone);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     Triangle t{};

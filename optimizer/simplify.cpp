@@ -15,6 +15,7 @@ namespace standpoint {
 namespace {
 
 constexpr std::uint32_t kRoughSamples = 5000;
+constexpr std::size_t kRefineFrom = 6;           // times the triangles that shall be left
 constexpr std::size_t kRefineMin = 300, kRefineMost = 200'000;  // triangles of a form that is worth refining, and of one whose last steps are few enough
 
 // Largest first, so that the last threads do not wait for the largest.
@@ -37,9 +38,12 @@ void forEachLargestFirst(std::vector<Work>& works, Progress& progress, Task task
   });
 }
 
+std::uint32_t stepsTaken(const Work& work, std::size_t taken) {
+  return taken > 0 && work.levels.levels[taken - 1].stand_in < 0 ? work.levels.levels[taken - 1].collapses : 0;
+}
+
 void takeLevel(Work& work, std::size_t taken, std::vector<std::uint32_t>& image) {
-  const auto steps = taken > 0 && work.levels.levels[taken - 1].stand_in < 0 ? work.levels.levels[taken - 1].collapses : 0;
-  work.steps.assign(work.levels.log.begin(), work.levels.log.begin() + steps);
+  work.steps.assign(work.levels.log.begin(), work.levels.log.begin() + stepsTaken(work, taken));
   work.lighter = atLevel(work.shape, work.levels, taken, image);
 }
 
@@ -49,23 +53,35 @@ void measure(Work& work, const DeviationMeter& meter, std::size_t taken) {
   work.deviation = taken > 0 ? meter.of(work.lighter, image) : meter.ofItself();
 }
 
-// The same count by steps that look at the surface as it is, which would not know seams. Only where that turns out nearer to the
-// original, and within the limit.
-bool refine(Work& work, const DeviationMeter& meter, std::uint32_t mesh, const Progress& progress) {
-  std::vector<std::uint32_t> image, refined_image;
-  takeLevel(work, work.taken, image);
-  const auto triangles = work.lighter.triangles.size();
-  if (work.lossless || work.steps.empty() || !work.shape.wedges.empty() || triangles < kRefineMin || triangles > kRefineMost || 2 * triangles > work.shape.triangles.size())
-    return false;
-  auto steps = refined(work.shape, work.levels.log, triangles, progress);
-  auto lighter = replay(work.shape, steps, steps.size(), &refined_image);
+// The same count by steps that look at the surface as it is. Only where that turns out nearer to the original, and within the limit.
+bool refine(Work& work, const DeviationMeter& meter, const Progress& progress) {
+  const auto taken = stepsTaken(work, work.taken);
+  if (work.lossless || taken == 0) return false;
+  const std::size_t triangles = work.levels.levels[work.taken - 1].triangles;
+  if (triangles < kRefineMin || triangles > kRefineMost || 2 * triangles > work.shape.triangles.size()) return false;
+  const auto& log = work.levels.log;
+  std::size_t first = 0;
+  for (auto left = work.shape.triangles.size(); first < taken && left > kRefineFrom * triangles; ++first) left -= log[first].triangles;
+  LogPlayer player(work.shape, log);
+  std::vector<std::uint32_t> names;
+  Shape start = withoutUnused(player.at(first), names);
+  start.wedges = player.wedges();
+  auto image = player.image();
+  auto steps = refined(start, triangles, progress);
+  LogPlayer refining(start, steps);
+  const Shape& lighter = refining.at(steps.size());
   if (progress.cancelled() || lighter.triangles.empty() || lighter.triangles.size() > triangles || 100 * lighter.triangles.size() < 99 * triangles) return false;
-  const DeviationMeter rough(work.shape, *work.tree, kRoughSamples, mesh);
-  if (rough.roughlyOf(lighter, refined_image).mean_m >= rough.roughlyOf(work.lighter, image).mean_m) return false;
-  const auto deviation = meter.of(lighter, refined_image);
-  if (deviation.max_m > work.cap_m) return false;
-  work.steps = std::move(steps);
-  work.lighter = std::move(lighter);
+  const auto last_image = refining.image();
+  for (auto& i : image) i = i < last_image.size() ? last_image[i] : i;
+  const auto deviation = meter.of(lighter, image);
+  if (deviation.max_m > work.cap_m || deviation.mean_m >= meter.roughlyOf(player.at(taken), kRoughSamples).mean_m) return false;
+  work.steps.assign(log.begin(), log.begin() + static_cast<std::ptrdiff_t>(first));
+  for (auto& step : steps) {
+    step.kept = names[step.kept];
+    step.removed = names[step.removed];
+    work.steps.push_back(step);
+  }
+  work.lighter = refining.take();
   work.deviation = deviation;
   return true;
 }
@@ -76,8 +92,9 @@ void shrinkToDeviation(Work& work, const DeviationMeter& meter) {
   std::size_t good = 0, bad = work.taken;
   while (bad - good > 1) {
     const std::size_t middle = good + (bad - good) / 2;
-    measure(work, meter, middle);
-    (work.deviation.max_m <= work.cap_m ? good : bad) = middle;
+    std::vector<std::uint32_t> image;
+    const Shape form = atLevel(work.shape, work.levels, middle, image);
+    (meter.exceeds(form, image, work.cap_m) ? bad : good) = middle;
   }
   work.limit = good;
   work.measured = false;
@@ -102,6 +119,17 @@ void shareOne(std::vector<Work>& works, std::uint32_t share, std::uint64_t budge
   }
 }
 
+// A shape that has most of what its share has keeps at least what the budget leaves when all others stay as they are.
+void findFloors(std::vector<Work>& works, const OptimizeOptions& options) {
+  std::vector<std::uint64_t> all(1 + options.further_budgets.size(), 0);
+  for (const auto& work : works) all[work.share] += work.shape.triangles.size() * work.copies;
+  for (auto& work : works) {
+    if (work.copies == 0 || work.lossless) continue;
+    const auto others = all[work.share] - work.shape.triangles.size() * work.copies, budget = budgetOf(options, work.share);
+    work.floor = budget > others ? (budget - others) / work.copies : 0;
+  }
+}
+
 }  // namespace
 
 void shareAll(std::vector<Work>& works, const OptimizeOptions& options) {
@@ -111,8 +139,11 @@ void shareAll(std::vector<Work>& works, const OptimizeOptions& options) {
 Result<void> makeAllLevels(std::vector<Work>& works, Progress& progress) {
   forEachLargestFirst(works, progress, [&](Work& work, std::uint32_t mesh) {
     if (work.copies == 0 || work.keep || !(work.scale > 0)) return;
-    work.tree = std::make_unique<TriangleTree>(work.shape.positions, work.shape.triangles);
-    work.levels = makeLevels(work.shape, *work.tree, {work.cap_m, work.lossless}, {work.scale, work.up}, mesh, progress);
+    CollapseOptions how;
+    how.max_deviation_m = work.cap_m;
+    how.lossless = work.lossless;
+    how.floor = work.floor;
+    work.levels = makeLevels(work.shape, work.tree, how, {work.scale, work.up}, mesh, progress);
     work.limit = work.levels.levels.size();
   });
   return progress.check();
@@ -120,6 +151,7 @@ Result<void> makeAllLevels(std::vector<Work>& works, Progress& progress) {
 
 Result<void> simplify(std::vector<Work>& works, const OptimizeOptions& options, Progress& progress) {
   progress.stage("Simplify", 0, 0.6);
+  findFloors(works, options);
   if (auto made = makeAllLevels(works, progress); !made) return made;
   progress.stage("Refine and measure", 0.6, 0.9);
   for (bool settled = false; !settled;) {
@@ -129,7 +161,7 @@ Result<void> simplify(std::vector<Work>& works, const OptimizeOptions& options, 
       if (work.measured) return;
       if (!work.tree) work.tree = std::make_unique<TriangleTree>(work.shape.positions, work.shape.triangles);
       const DeviationMeter meter(work.shape, *work.tree, work.samples, mesh);
-      if (!refine(work, meter, mesh, progress)) measure(work, meter, work.taken);
+      if (!refine(work, meter, progress)) measure(work, meter, work.taken);
       work.measured = true;
       if (!work.lossless && work.taken > 0 && work.deviation.max_m > work.cap_m) shrinkToDeviation(work, meter);
     });

@@ -56,18 +56,18 @@ TriangleTree::TriangleTree(std::span<const Eigen::Vector3d> positions, std::span
       items[i].triangle = i;
     }
   });
-  nodes_.resize(1 + below(static_cast<std::uint32_t>(items.size())).first);
-  nodes_[0] = {{}, {}, 0, static_cast<std::uint32_t>(items.size())};
-  build(0, 1, items);
+  pairs_.resize(1 + below(static_cast<std::uint32_t>(items.size())).first / 2);
+  node(0) = {{}, {}, 0, static_cast<std::uint32_t>(items.size())};
+  build(0, 2, items);
 }
 
 // The node's triangles are items [first, first + count); the nodes below it begin at `below`: its two children, then all below the
 // left one, then all below the right one. So each task has its own place, whoever runs it. A median split bounds the depth to log2 n.
-void TriangleTree::build(std::uint32_t node, std::uint32_t below_node, std::vector<Item>& items) {
-  const auto [first, count] = std::pair(nodes_[node].first, nodes_[node].count);
+void TriangleTree::build(std::uint32_t index, std::uint32_t below_node, std::vector<Item>& items) {
+  const auto [first, count] = std::pair(node(index).first, node(index).count);
   if (count <= kLeaf) {
     for (auto i = first; i < first + count; ++i) order_[i] = items[i].triangle;
-    fitLeaf(nodes_[node]);
+    fitLeaf(node(index));
     return;
   }
   Eigen::Vector3f low = items[first].centre, high = low;
@@ -81,13 +81,13 @@ void TriangleTree::build(std::uint32_t node, std::uint32_t below_node, std::vect
   std::nth_element(items.begin() + first, items.begin() + first + half, items.begin() + first + count, [axis](const Item& a, const Item& b) {
     return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis] : a.triangle < b.triangle;
   });
-  Node &left = nodes_[below_node], &right = nodes_[below_node + 1];
+  Node &left = node(below_node), &right = node(below_node + 1);
   left = {{}, {}, first, half};
   right = {{}, {}, first + half, count - half};
   const auto below_left = below_node + 2, below_right = below_left + below(half).first;
   if (count > kAlone) tbb::parallel_invoke([&] { build(below_node, below_left, items); }, [&] { build(below_node + 1, below_right, items); });
   else build(below_node, below_left, items), build(below_node + 1, below_right, items);
-  nodes_[node] = {left.low.cwiseMin(right.low), left.high.cwiseMax(right.high), below_node, 0};
+  node(index) = {left.low.cwiseMin(right.low), left.high.cwiseMax(right.high), below_node, 0};
 }
 
 void TriangleTree::fitLeaf(Node& node) const {

@@ -65,19 +65,19 @@ class TriangleTree {
   // Calls visit(triangle index) for each triangle whose box meets [low, high]; stops when visit returns false.
   template <class Visit>
   void inBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high, Visit visit) const {
-    if (nodes_.empty()) return;
+    if (pairs_.empty()) return;
     std::uint32_t stack[64];
     int top = 0;
     stack[top++] = 0;
     while (top > 0) {
-      const Node& node = nodes_[stack[--top]];
-      if ((node.low.cast<double>().array() > high.array()).any() || (node.high.cast<double>().array() < low.array()).any()) continue;
-      if (node.count > 0) {
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+      const Node& here = node(stack[--top]);
+      if ((here.low.cast<double>().array() > high.array()).any() || (here.high.cast<double>().array() < low.array()).any()) continue;
+      if (here.count > 0) {
+        for (std::uint32_t i = here.first; i < here.first + here.count; ++i)
           if (meetsBox(order_[i], low, high) && !visit(order_[i])) return;
       } else {
-        stack[top++] = node.first;
-        stack[top++] = node.first + 1;
+        stack[top++] = here.first;
+        stack[top++] = here.first + 1;
       }
     }
   }
@@ -88,6 +88,9 @@ class TriangleTree {
     std::uint32_t first = 0;  // of the children, or of the leaf's triangles in order_
     std::uint32_t count = 0;  // 0: inner node
   };
+  struct alignas(64) Pair {  // of children: one cache line
+    Node nodes[2];
+  };
   struct Item {
     Eigen::Vector3f centre;
     std::uint32_t triangle;
@@ -96,24 +99,24 @@ class TriangleTree {
   // ends at the first that is not above `enough`.
   template <class Cost, class From>
   double nearFirst(double bound, double enough, Cost cost, From from) const {
-    if (nodes_.empty()) return bound;
+    if (pairs_.empty()) return bound;
     struct Entry {
       double from;
       std::uint32_t node;
     };
     Entry stack[64];
     int top = 0;
-    stack[top++] = {from(nodes_[0]), 0};
+    stack[top++] = {from(node(0)), 0};
     while (top > 0) {
       const Entry entry = stack[--top];
       if (!(entry.from < bound)) continue;
-      const Node& node = nodes_[entry.node];
-      if (node.count > 0) {
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) bound = std::min(bound, cost(order_[i], bound));
+      const Node& here = node(entry.node);
+      if (here.count > 0) {
+        for (std::uint32_t i = here.first; i < here.first + here.count; ++i) bound = std::min(bound, cost(order_[i], bound));
         if (bound <= enough) return bound;
         continue;
       }
-      Entry left{from(nodes_[node.first]), node.first}, right{from(nodes_[node.first + 1]), node.first + 1};
+      Entry left{from(node(here.first)), here.first}, right{from(node(here.first + 1)), here.first + 1};
       if (left.from < right.from) std::swap(left, right);
       stack[top++] = left;
       stack[top++] = right;  // the nearer one is looked at first
@@ -121,13 +124,15 @@ class TriangleTree {
     return bound;
   }
 
-  void build(std::uint32_t node, std::uint32_t below, std::vector<Item>& items);
+  Node& node(std::uint32_t i) { return pairs_[i / 2].nodes[i % 2]; }
+  const Node& node(std::uint32_t i) const { return pairs_[i / 2].nodes[i % 2]; }
+  void build(std::uint32_t index, std::uint32_t below, std::vector<Item>& items);
   bool meetsBox(std::uint32_t triangle, const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
   void fitLeaf(Node& node) const;
 
   std::span<const Eigen::Vector3d> positions_;
   std::span<const Triangle> triangles_;
-  std::vector<Node> nodes_;
+  std::vector<Pair> pairs_;  // node i is that of pair i / 2; 0 is the root, 1 is none
   std::vector<std::uint32_t> order_;
 };
 

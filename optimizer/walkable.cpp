@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -18,6 +19,8 @@ namespace {
 
 constexpr double kMostColumns = 4e6;
 constexpr double kMostLevels = 8000;  // Recast keeps heights in 13 bits
+constexpr double kLeastOver = 1e-3;   // m, what rounding adds to a step of just the height that is climbed …
+constexpr double kLeastSteeper = 0.1; // degrees, … and to a slope that is just not too steep, as many roofs are
 
 using Heightfield = std::unique_ptr<rcHeightfield, decltype(&rcFreeHeightField)>;
 using CompactHeightfield = std::unique_ptr<rcCompactHeightfield, decltype(&rcFreeCompactHeightfield)>;
@@ -29,15 +32,62 @@ struct Grid {
   int width = 0, depth = 0;
 };
 
-Grid gridOver(const std::vector<CollisionShape>& shapes, const CollideOptions& options) {
+// Shapes so far from all others that nobody gets from one to the other, and that nothing of them is in the way there.
+struct Cluster {
+  std::vector<std::uint32_t> shapes;
   Bounds box;
-  for (const auto& shape : shapes)
-    for (const auto& p : shape.mesh.positions) box.extend(p.cast<double>());
+};
+
+std::vector<Cluster> clustersOf(const std::vector<CollisionShape>& shapes, const CollideOptions& options) {
+  const Eigen::Vector3d reach(2 * options.agent_radius_m + 0.5, 2 * options.agent_radius_m + 0.5, options.agent_height_m + kStepHeight);
+  std::vector<Cluster> done, open;  // by their lower end in x
+  std::vector<std::pair<double, std::uint32_t>> order;
+  std::vector<Bounds> boxes(shapes.size());
+  for (std::uint32_t i = 0; i < shapes.size(); ++i) {
+    for (const auto& p : shapes[i].mesh.positions) boxes[i].extend(p.cast<double>());
+    if (!boxes[i].empty()) order.emplace_back(boxes[i].min.x(), i);
+  }
+  std::sort(order.begin(), order.end());
+  const auto meet = [&](const Bounds& a, const Bounds& b) { return ((a.min - b.max).array() <= reach.array()).all() && ((b.min - a.max).array() <= reach.array()).all(); };
+  for (const auto& [x, i] : order) {
+    Cluster grown{{i}, boxes[i]};
+    for (bool more = true; more;) {  // a box that grew may meet others
+      more = false;
+      for (std::size_t k = 0; k < open.size();) {
+        if (!meet(open[k].box, grown.box)) {
+          ++k;
+          continue;
+        }
+        grown.shapes.insert(grown.shapes.end(), open[k].shapes.begin(), open[k].shapes.end());
+        grown.box.extend(open[k].box.min), grown.box.extend(open[k].box.max);
+        open.erase(open.begin() + static_cast<std::ptrdiff_t>(k));
+        more = true;
+      }
+    }
+    open.push_back(std::move(grown));
+    const auto past = std::partition(open.begin(), open.end(), [&, at = x](const Cluster& c) { return c.box.max.x() + reach.x() >= at; });
+    std::move(past, open.end(), std::back_inserter(done));
+    open.erase(past, open.end());
+  }
+  std::move(open.begin(), open.end(), std::back_inserter(done));
+  for (auto& cluster : done) std::sort(cluster.shapes.begin(), cluster.shapes.end());
+  std::sort(done.begin(), done.end(), [](const Cluster& a, const Cluster& b) { return a.shapes < b.shapes; });
+  return done;
+}
+
+// So that all grids together have no more columns than are affordable.
+double cellFor(const std::vector<Cluster>& clusters, const CollideOptions& options) {
+  double area = 0;
+  for (const auto& cluster : clusters) area += (cluster.box.max.x() - cluster.box.min.x() + 0.5) * (cluster.box.max.y() - cluster.box.min.y() + 0.5);
+  return std::max(options.agent_radius_m / 10, std::sqrt(area / kMostColumns));
+}
+
+Grid gridOver(const Bounds& box, double cell, const CollideOptions& options) {
   Grid grid;
-  if (box.empty()) return grid;
-  const Eigen::Vector3d size = box.max - box.min + Eigen::Vector3d::Constant(0.5);
-  const double cell = std::max(options.agent_radius_m / 10, std::sqrt(size.x() * size.y() / kMostColumns));
-  const double level = std::max(cell / 2, (size.z() + options.agent_height_m) / kMostLevels);
+  const double height = box.max.z() - box.min.z() + 0.5;
+  // A step is a whole number of levels, so that it does not matter where between two levels it begins.
+  const double finest = std::max(cell / 2, (height + options.agent_height_m) / kMostLevels), step = kStepHeight + kLeastOver;
+  const double level = finest < step ? step / std::floor(step / finest) : finest;
   grid.cell = static_cast<float>(cell);
   grid.level = static_cast<float>(level);
   const Eigen::Vector3d low(box.min.x(), box.min.z(), -box.max.y()), high(box.max.x(), box.max.z(), -box.min.y());
@@ -61,18 +111,22 @@ Soup soupOf(const Mesh& mesh, rcContext& context) {
   for (const auto& t : mesh.triangles)
     for (const auto v : t) soup.triangles.push_back(static_cast<int>(v));
   soup.areas.assign(mesh.triangles.size(), RC_NULL_AREA);
-  rcMarkWalkableTriangles(&context, static_cast<float>(kSteepestSlopeDeg), soup.corners.data(), static_cast<int>(mesh.positions.size()),
+  rcMarkWalkableTriangles(&context, static_cast<float>(kSteepestSlopeDeg + kLeastSteeper), soup.corners.data(), static_cast<int>(mesh.positions.size()),
                           soup.triangles.data(), static_cast<int>(mesh.triangles.size()), soup.areas.data());
   return soup;
 }
 
-bool addTriangles(const Soup& soup, rcHeightfield& field, int climb, rcContext& context) {
-  return rcRasterizeTriangles(&context, soup.corners.data(), static_cast<int>(soup.corners.size() / 3), soup.triangles.data(), soup.areas.data(),
-                              static_cast<int>(soup.areas.size()), field, climb);
+bool addTriangles(const Soup& soup, rcHeightfield& field, int climb, rcContext& context, const Progress& progress) {
+  constexpr std::size_t kAtOnce = 10'000;  // between looks at whether to go on
+  for (std::size_t first = 0; first < soup.areas.size() && !progress.cancelled(); first += kAtOnce)
+    if (!rcRasterizeTriangles(&context, soup.corners.data(), static_cast<int>(soup.corners.size() / 3), soup.triangles.data() + 3 * first,
+                              soup.areas.data() + first, static_cast<int>(std::min(kAtOnce, soup.areas.size() - first)), field, climb))
+      return false;
+  return true;
 }
 
 // Nobody stands inside of a wall: what is between the lowest and the highest voxel of a column is solid.
-bool addSolid(const Soup& soup, rcHeightfield& field, const Grid& grid, int climb, rcContext& context) {
+bool addSolid(const Soup& soup, rcHeightfield& field, const Grid& grid, int climb, rcContext& context, const Progress& progress) {
   int from[2] = {std::numeric_limits<int>::max(), std::numeric_limits<int>::max()}, to[2] = {0, 0};
   for (std::size_t i = 0; i < soup.corners.size(); i += 3)
     for (int k = 0; k < 2; ++k) {
@@ -84,7 +138,7 @@ bool addSolid(const Soup& soup, rcHeightfield& field, const Grid& grid, int clim
   const float high[3] = {grid.low[0] + static_cast<float>(to[0]) * grid.cell, grid.high[1], grid.low[2] + static_cast<float>(to[1]) * grid.cell};
   const Heightfield own(rcAllocHeightfield(), rcFreeHeightField);
   if (!own || !rcCreateHeightfield(&context, *own, to[0] - from[0], to[1] - from[1], low, high, grid.cell, grid.level)) return false;
-  if (!addTriangles(soup, *own, climb, context)) return false;
+  if (!addTriangles(soup, *own, climb, context, progress)) return false;
   for (int z = 0; z < own->height; ++z)
     for (int x = 0; x < own->width; ++x) {
       const rcSpan* span = own->spans[z * own->width + x];
@@ -99,10 +153,9 @@ bool addSolid(const Soup& soup, rcHeightfield& field, const Grid& grid, int clim
 
 constexpr std::uint32_t kNoIsland = std::numeric_limits<std::uint32_t>::max();
 
-// Numbers the islands, by span. Those on which the agent has no room are cleared.
-std::vector<std::uint32_t> findIslands(rcCompactHeightfield& field, double smallest_spans) {
+// Numbers the islands on from `number`, by span. Those on which the agent has no room are cleared.
+std::vector<std::uint32_t> findIslands(rcCompactHeightfield& field, double smallest_spans, std::uint32_t& number) {
   std::vector<std::uint32_t> result(static_cast<std::size_t>(field.spanCount), kNoIsland);
-  std::uint32_t number = 0;
   std::vector<std::array<int, 3>> island;  // x, z, span
   for (int z = 0; z < field.height; ++z)
     for (int x = 0; x < field.width; ++x) {
@@ -195,35 +248,55 @@ void addMesh(const rcCompactHeightfield& field, const std::vector<std::uint32_t>
   mesh.surface_of_triangle.assign(mesh.triangles.size(), 0);
 }
 
+
+// `done`: the share of all shapes that are in the grids of other clusters.
+Result<void> addCluster(const std::vector<CollisionShape>& shapes, const Cluster& cluster, double cell, const CollideOptions& options, std::size_t done,
+                        std::uint32_t& islands, Walkable& result, Progress& progress) {
+  const Grid grid = gridOver(cluster.box, cell, options);
+  const auto full = [] { return failure(ErrorKind::unusable, "not enough memory for the walkable surface", "collide"); };
+  rcContext context(false);
+  const int climb = static_cast<int>(std::floor((kStepHeight + kLeastOver) / grid.level + 1e-3));
+  const int height = static_cast<int>(std::ceil(options.agent_height_m / grid.level - 1e-3));
+  const Heightfield field(rcAllocHeightfield(), rcFreeHeightField);
+  if (!field || !rcCreateHeightfield(&context, *field, grid.width, grid.depth, grid.low, grid.high, grid.cell, grid.level)) return full();
+  for (const auto i : cluster.shapes) {
+    if (auto going = progress.check(); !going) return failure(going.error());
+    progress.advance(0.7 * static_cast<double>(done++) / static_cast<double>(shapes.size()));
+    const Soup soup = soupOf(shapes[i].mesh, context);
+    const bool solid = shapes[i].kind != CollisionShapeKind::mesh;
+    if (!(solid ? addSolid(soup, *field, grid, climb, context, progress) : addTriangles(soup, *field, climb, context, progress))) return full();
+  }
+  const CompactHeightfield compact(rcAllocCompactHeightfield(), rcFreeCompactHeightfield);
+  const int radius = std::min(127, static_cast<int>(std::ceil(options.agent_radius_m / grid.cell - 1e-3)));
+  std::vector<std::uint32_t> island_of_span;
+  const std::function<bool()> stages[] = {
+      [&] { return rcFilterLowHangingWalkableObstacles(&context, climb, *field), true; },
+      [&] { return rcFilterLedgeSpans(&context, height, climb, *field), true; },
+      [&] { return rcFilterWalkableLowHeightSpans(&context, height, *field), true; },
+      [&] { return compact && rcBuildCompactHeightfield(&context, height, climb, *field, *compact); },
+      [&] { return rcErodeWalkableArea(&context, radius, *compact); },
+      [&] { return island_of_span = findIslands(*compact, 4 * options.agent_radius_m * options.agent_radius_m / (grid.cell * grid.cell), islands), true; }};
+  for (const auto& stage : stages) {
+    if (auto going = progress.check(); !going) return failure(going.error());
+    if (!stage()) return full();
+  }
+  addMesh(*compact, island_of_span, result);
+  return {};
+}
+
 }  // namespace
 
 Result<Walkable> walkableSurface(const std::vector<CollisionShape>& shapes, const CollideOptions& options, Progress& progress) {
   Walkable result;
-  const Grid grid = gridOver(shapes, options);
-  if (grid.width == 0) return result;
-  result.cell_m = grid.cell;
-  const auto full = [] { return failure(ErrorKind::unusable, "not enough memory for the walkable surface", "collide"); };
-  rcContext context(false);
-  const int climb = static_cast<int>(std::floor(kStepHeight / grid.level + 1e-3));
-  const int height = static_cast<int>(std::ceil(options.agent_height_m / grid.level - 1e-3));
-  const Heightfield field(rcAllocHeightfield(), rcFreeHeightField);
-  if (!field || !rcCreateHeightfield(&context, *field, grid.width, grid.depth, grid.low, grid.high, grid.cell, grid.level)) return full();
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    if (auto going = progress.check(); !going) return failure(going.error());
-    progress.advance(0.7 * static_cast<double>(i) / static_cast<double>(shapes.size()));
-    const Soup soup = soupOf(shapes[i].mesh, context);
-    const bool solid = shapes[i].kind != CollisionShapeKind::mesh;
-    if (!(solid ? addSolid(soup, *field, grid, climb, context) : addTriangles(soup, *field, climb, context))) return full();
+  const auto clusters = clustersOf(shapes, options);
+  if (clusters.empty()) return result;
+  result.cell_m = cellFor(clusters, options);
+  std::size_t done = 0;
+  std::uint32_t islands = 0;
+  for (const auto& cluster : clusters) {
+    if (auto added = addCluster(shapes, cluster, result.cell_m, options, done, islands, result, progress); !added) return failure(added.error());
+    done += cluster.shapes.size();
   }
-  rcFilterLowHangingWalkableObstacles(&context, climb, *field);
-  rcFilterLedgeSpans(&context, height, climb, *field);
-  rcFilterWalkableLowHeightSpans(&context, height, *field);
-  const CompactHeightfield compact(rcAllocCompactHeightfield(), rcFreeCompactHeightfield);
-  if (!compact || !rcBuildCompactHeightfield(&context, height, climb, *field, *compact)) return full();
-  if (!rcErodeWalkableArea(&context, std::min(127, static_cast<int>(std::ceil(options.agent_radius_m / grid.cell - 1e-3))), *compact)) return full();
-  const double cell_area = static_cast<double>(grid.cell) * grid.cell;
-  const auto islands = findIslands(*compact, 4 * options.agent_radius_m * options.agent_radius_m / cell_area);
-  addMesh(*compact, islands, result);
   return result;
 }
 

@@ -22,6 +22,7 @@ struct Work {
   ShapeLevels levels;
   std::vector<Collapse> steps;         // that lead from shape to lighter; none where it stayed or is a stand-in
   std::size_t limit = 0, taken = 0;
+  std::size_t floor = 0;               // triangles that the budget leaves it anyway: simpler forms are not made
   std::uint64_t copies = 0;
   double scale = 0;      // of the largest copy: deviations are measured in its metres
   double placed_area_m2 = 0;

@@ -52,8 +52,12 @@ struct Treatment {
 };
 
 struct MaterialChoice {
-  std::string rules_file;                       // empty = the default rules
+  std::string rules_file;                       // name of the user's rules; empty = the default rules
+  std::string rules_text;                       // their content, so that they outlive their file
+  std::vector<PhysicalMaterial> own;            // materials of the user, by id; they stand in for the library's
   std::vector<MaterialOverride> overrides;
+  std::vector<AcceptedFinding> accepted;
+  std::string instrument;                       // at whose wavelength there must be figures; empty: those of the scans made
   MaterialResult result;
 };
 

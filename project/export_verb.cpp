@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "core/split_by_material.h"
 #include "core/unused_meshes.h"
+#include "core/visible_colour.h"
 #include "importers/importers.h"
 #include "project/answers.h"
 #include "project/file_verbs.h"
@@ -46,7 +50,7 @@ Result<std::vector<std::uint64_t>> budgetsOf(const std::vector<std::string>& tex
 
 // The levels with the environments that they point to.
 struct Levels {
-  std::vector<std::unique_ptr<const Environment>> environments;
+  std::vector<std::unique_ptr<Environment>> environments;
   std::vector<GltfLevel> levels;
   json answer = json::array();
 };
@@ -61,7 +65,7 @@ Result<Levels> makeLevels(const Document& document, const std::vector<std::uint6
     if (!plan) return failure(plan.error());
     auto lighter = optimize(*document.imported, plan->options, progress);
     if (!lighter) return failure(lighter.error());
-    result.environments.push_back(std::make_unique<const Environment>(sceneOf(lighter->environment)));
+    result.environments.push_back(std::make_unique<Environment>(sceneOf(lighter->environment)));
     GltfLevel level{fmt::format("LOD{}: {} triangles", result.levels.size() + 1, lighter->all.triangles_after), result.environments.back().get(), {}, {}};
     for (const auto& loss : lighter->products) {
       level.max_deviation_m.push_back(loss.max_deviation_m);
@@ -82,7 +86,17 @@ GltfCollision collisionOf(const CollideResult& collision, const Environment& sha
   return result;
 }
 
-Result<void> exportGltf(const Document& document, const Environment& scene, const fs::path& file, const json& options, Outcome& outcome,
+// One for each surface; empty where the project has no materials.
+std::vector<const PhysicalMaterial*> physicalSurfaces(const Document& document, std::span<Environment* const> environments, LooksOfSplit looks) {
+  std::vector<const PhysicalMaterial*> physical;
+  if (!document.materials) return physical;
+  const auto& assignment = document.materials->result.assignment;
+  for (const auto material : splitByMaterial(environments, assignment, looks))
+    physical.push_back(material < 0 ? nullptr : &assignment.materials[static_cast<std::size_t>(material)]);
+  return physical;
+}
+
+Result<void> exportGltf(const Document& document, Environment& scene, const fs::path& file, const json& options, Outcome& outcome,
                         Progress& progress) {
   GltfCompanions companions;
   const auto budgets = budgetsOf(options.value("levels", std::vector<std::string>{}), triangleCount(scene));
@@ -90,6 +104,9 @@ Result<void> exportGltf(const Document& document, const Environment& scene, cons
   auto levels = makeLevels(document, *budgets, outcome.report, progress);
   if (!levels) return failure(levels.error());
   companions.levels = std::move(levels->levels);
+  std::vector<Environment*> all = {&scene};
+  for (const auto& environment : levels->environments) all.push_back(environment.get());
+  companions.physical = physicalSurfaces(document, all, LooksOfSplit::kept);
   if (!levels->answer.empty()) outcome.answer["levels"] = std::move(levels->answer);
   Environment shapes;
   if (options.contains("collision")) {
@@ -101,22 +118,42 @@ Result<void> exportGltf(const Document& document, const Environment& scene, cons
   return exportEnvironmentGltf(scene, *document.georeference, file, progress, companions);
 }
 
+// The physical materials instead of the looks.
+Result<void> exportPhysical(const Document& document, Environment& scene, const fs::path& file, bool helios, Report& report, Progress& progress) {
+  if (!document.materials) return failure(ErrorKind::usage, "there are no materials yet: `materials` assigns them", file.string());
+  const std::array all = {&scene};
+  const auto physical = physicalSurfaces(document, all, LooksOfSplit::left_out);
+  if (helios) return writeHeliosScene(scene, physical, *document.georeference, file, report, progress);
+  for (std::size_t i = 0; i < physical.size(); ++i) {
+    if (physical[i] == nullptr) continue;
+    auto& surface = scene.surfaces[i];
+    surface.name = physical[i]->id;
+    surface.colour = visibleColour(*physical[i]);
+    if (!physical[i]->transmittance.empty()) surface.colour.a = 0.3F;
+  }
+  return writeEnvironmentObj(scene, *document.georeference, file, progress);
+}
+
 }  // namespace
 
 Result<Outcome> runExport(const Document& document, const json& options, Progress& progress) {
   const fs::path file = options.at("output").get<std::string>();
   progress.stage("Export " + file.filename().string());
   const auto extension = lowerExtension(file);
-  const bool gltf = extension == ".glb" || extension == ".gltf";
-  if (!gltf && extension != ".obj")
-    return failure(ErrorKind::usage, fmt::format("'{}' cannot be written; there is .glb, .gltf and .obj", extension), "--output");
+  const bool gltf = extension == ".glb" || extension == ".gltf", helios = extension == ".xml";
+  const bool physical = options.value("physical", false);
+  if (!gltf && !helios && extension != ".obj")
+    return failure(ErrorKind::usage, fmt::format("'{}' cannot be written; there is .glb, .gltf, .obj, and .xml for HELIOS++", extension), "--output");
+  if (physical && extension != ".obj")
+    return failure(ErrorKind::usage, "glTF and HELIOS++ scenes have the physical materials always; it is for .obj", "--physical");
   if (!gltf && (options.contains("levels") || options.contains("collision")))
     return failure(ErrorKind::usage, "levels of detail and collision shapes go into .glb or .gltf only", "--output");
   Environment scene = sceneOf(*document.environment());
   dropUnusedMeshes(scene);
   Outcome outcome{document, {{"file", file.string()}, {"triangles", triangleCount(scene)}}, {}, {}};
-  auto written = gltf ? exportGltf(document, scene, file, options, outcome, progress)
-                      : writeEnvironmentObj(scene, *document.georeference, file, progress);
+  auto written = gltf                 ? exportGltf(document, scene, file, options, outcome, progress)
+                 : helios || physical ? exportPhysical(document, scene, file, helios, outcome.report, progress)
+                                      : writeEnvironmentObj(scene, *document.georeference, file, progress);
   if (!written) return failure(written.error());
   if (const auto left_out = document.environment()->instances.size() - scene.instances.size(); left_out > 0)
     outcome.report.note("spaces", fmt::format("{} bodies that are not in the scene (spaces, what is excluded) are not exported", left_out));

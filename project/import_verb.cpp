@@ -304,7 +304,7 @@ Result<Outcome> addImported(const Document& document, Outcome imported, Progress
   d.lightening.reset();
   d.collision.reset();
   if (d.materials) {
-    auto assigned = assignDocumentMaterials(d, "", {}, progress);
+    auto assigned = assignDocumentMaterials(d, {}, progress);
     if (!assigned) return failure(assigned.error());
     d.materials = assigned->document.materials;
   }

@@ -2,6 +2,7 @@
 #include "project/measured_returns.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -13,7 +14,12 @@ namespace {
 
 constexpr std::size_t kBlock = 1 << 16;
 
-std::uint64_t pairKey(const MetSurface& met) { return std::uint64_t{met.product} << 32U | met.surface; }
+// Product, surface, and the index of what is assigned there: single faces may have a material of their own.
+using GroupKey = std::array<std::uint32_t, 3>;
+
+GroupKey keyOf(const MaterialAssignment& assignment, const MetSurface& met) {
+  return {met.product, met.surface, static_cast<std::uint32_t>(materialOf(assignment, met.product, met.surface, met.normal) + 1)};
+}
 
 }  // namespace
 
@@ -37,18 +43,16 @@ Result<MeasuredReturns> measuredReturns(const Document& document, const CloudSam
       counts[i] = 1;
     });
   }
-  std::map<std::uint64_t, std::uint32_t> group_of;
-  for (std::size_t i = 0; i < count; ++i)
-    if (counts[i] != 0 && met[i].meeting == BeamMeeting::met) group_of.emplace(pairKey(met[i]), 0);
   const auto& assignment = document.materials->result.assignment;
+  std::map<GroupKey, std::uint32_t> group_of;
+  for (std::size_t i = 0; i < count; ++i)
+    if (counts[i] != 0 && met[i].meeting == BeamMeeting::met) group_of.emplace(keyOf(assignment, met[i]), 0);
   std::map<std::string, std::int32_t> by_id;
   for (std::size_t m = 0; m < library.size(); ++m) by_id[library[m].id] = static_cast<std::int32_t>(m);
   for (auto& [key, group] : group_of) {
     group = static_cast<std::uint32_t>(result.groups.size());
-    const auto product = static_cast<std::uint32_t>(key >> 32U), surface = static_cast<std::uint32_t>(key);
-    const auto material = materialOf(assignment, product, surface);
-    const auto known = material < 0 ? by_id.end() : by_id.find(assignment.materials[static_cast<std::size_t>(material)].id);
-    result.groups.push_back({product, surface, known == by_id.end() ? -1 : known->second});
+    const auto known = key[2] == 0 ? by_id.end() : by_id.find(assignment.materials[key[2] - 1].id);
+    result.groups.push_back({key[0], key[1], known == by_id.end() ? -1 : known->second});
   }
   result.behind.assign(document.environment()->products.size(), 0);
   result.on.assign(result.behind.size(), 0);
@@ -67,7 +71,7 @@ Result<MeasuredReturns> measuredReturns(const Document& document, const CloudSam
     if (!on) continue;
     ++result.on[m.product];
     if (m.meeting == BeamMeeting::edge) continue;
-    result.returns.push_back({sample.intensity[i], static_cast<float>(m.range_m), static_cast<float>(m.cosine), group_of.at(pairKey(m))});
+    result.returns.push_back({sample.intensity[i], static_cast<float>(m.range_m), static_cast<float>(m.cosine), group_of.at(keyOf(assignment, m))});
   }
   if (!off.empty()) {
     const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);

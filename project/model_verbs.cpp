@@ -14,22 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-json materialAnswer(const Environment& environment, const MaterialChoice& choice) {
-  const auto& report = choice.result.report;
-  json uses = json::array();
-  for (const auto& use : report.uses) {
-    json ids = json::array();
-    for (const auto p : use.products) ids.push_back(environment.products[p].id);
-    uses.push_back({{"material", use.material.empty() ? json(nullptr) : json(use.material)},
-                    {"area_m2", use.area_m2},
-                    {"products", std::move(ids)}});
-  }
-  json findings = json::array();
-  for (const auto& f : report.findings)
-    findings.push_back({{"severity", f.severity}, {"source", f.source}, {"message", f.message}});
-  return {{"coverage", report.coverage}, {"area_m2", report.area_m2}, {"materials", uses}, {"findings", findings}};
-}
-
 // Which doors stand closed is a setting of each door: what was set last, or now with --closed.
 Result<void> setDoors(const Document& document, const json& options, CollideOptions& typed) {
   const auto doors = options.at("doors").get<std::string>();
@@ -82,6 +66,7 @@ Result<Outcome> collideDocument(const Document& document, const CollideOptions& 
     row["floor"] = d.floor;
     row["passable"] = d.passable;
     row["closed"] = d.closed;
+    row["led_through"] = d.led_through;
     row["clear_width_m"] = d.clear_width_m;
     row["at"] = toJson(d.position + shift);
     doors.push_back(std::move(row));
@@ -113,44 +98,6 @@ Result<Outcome> runCollide(const Document& document, const json& options, Progre
   typed.agent_height_m = options.at("agent-height").get<double>();
   if (auto set = setDoors(document, options, typed); !set) return failure(set.error());
   return collideDocument(document, typed, progress);
-}
-
-Result<Outcome> assignDocumentMaterials(const Document& document, const std::string& rules_file,
-                                        const std::vector<MaterialOverride>& overrides, Progress& progress) {
-  progress.stage("Materials");
-  auto library = readMaterialLibrary(dataFolder() / "materials" / "library");
-  if (!library) return failure(library.error());
-  MaterialChoice choice;
-  if (document.materials) {
-    choice.rules_file = document.materials->rules_file;
-    choice.overrides = document.materials->overrides;
-  }
-  if (!rules_file.empty()) choice.rules_file = rules_file;
-  choice.overrides.insert(choice.overrides.end(), overrides.begin(), overrides.end());
-  const auto file = choice.rules_file.empty() ? dataFolder() / "materials" / "rules" / "default.json"
-                                              : std::filesystem::path(choice.rules_file);
-  auto rules = readAssignmentRules(file, *library);
-  if (!rules) return failure(rules.error());
-  auto result = assignMaterials(*document.environment(), *library, *rules, choice.overrides, progress);
-  if (!result) return failure(result.error());
-  choice.result = *std::move(result);
-  Outcome outcome{document, materialAnswer(*document.environment(), choice), {}, {}};
-  const double coverage = choice.result.report.coverage;
-  outcome.description = overrides.empty()
-                            ? fmt::format("Assigned materials to {:.1f} % of the area", coverage * 100)
-                            : fmt::format("Assigned {} to {}", overrides.back().material, overrides.back().selector);
-  outcome.document.materials = std::make_shared<const MaterialChoice>(std::move(choice));
-  return outcome;
-}
-
-Result<Outcome> runMaterials(const Document& document, const json& options, Progress& progress) {
-  std::vector<MaterialOverride> overrides;
-  for (const auto& pair : options.value("assign", json::array())) {
-    const auto text = pair.get<std::string>();
-    const auto equals = text.rfind('=');
-    overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
-  }
-  return assignDocumentMaterials(document, options.value("rules", ""), overrides, progress);
 }
 
 }  // namespace standpoint

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "project/materials_json.h"
 #include "project/project_files.h"
 #include "project/treatments.h"
 
@@ -85,54 +86,13 @@ json lighteningToJson(const Lightening& l) {
   return part;
 }
 
-json physicalToJson(const PhysicalMaterial& m) {
-  return {{"id", m.id}, {"label", m.label}, {"reflectance", m.reflectance}, {"roughness_rad", m.roughness_rad},
-          {"gloss_slope", m.gloss_slope}, {"index_of_refraction", m.index_of_refraction}, {"thickness_m", m.thickness_m},
-          {"transmittance", m.transmittance}, {"source", m.source}};
-}
-
-PhysicalMaterial physicalFrom(const json& j) {
-  return {j.at("id"), j.at("label"), j.at("reflectance"), j.at("roughness_rad"), j.at("gloss_slope"),
-          j.at("index_of_refraction"), j.at("thickness_m"), j.at("transmittance"), j.at("source")};
-}
-
-json materialsToJson(const MaterialChoice& choice) {
-  json overrides = json::array();
-  for (const auto& o : choice.overrides) overrides.push_back({{"selector", o.selector}, {"material", o.material}});
-  json materials = json::array();
-  for (const auto& m : choice.result.assignment.materials) materials.push_back(physicalToJson(m));
-  json surfaces = json::array();
-  for (const auto& s : choice.result.assignment.surfaces) surfaces.push_back({s.product, s.surface, s.material, s.reason});
-  const auto& report = choice.result.report;
-  json uses = json::array();
-  for (const auto& u : report.uses) uses.push_back({{"material", u.material}, {"area_m2", u.area_m2}, {"products", u.products}});
-  json findings = json::array();
-  for (const auto& f : report.findings) findings.push_back({f.severity, f.source, f.message});
-  return {{"rules_file", choice.rules_file}, {"overrides", overrides}, {"materials", materials}, {"surfaces", surfaces},
-          {"report", {{"coverage", report.coverage}, {"area_m2", report.area_m2}, {"uses", uses}, {"findings", findings}}}};
-}
-
-MaterialChoice materialsFrom(const json& j) {
-  MaterialChoice choice;
-  choice.rules_file = j.at("rules_file");
-  for (const auto& o : j.at("overrides")) choice.overrides.push_back({o.at("selector"), o.at("material")});
-  for (const auto& m : j.at("materials")) choice.result.assignment.materials.push_back(physicalFrom(m));
-  for (const auto& s : j.at("surfaces")) choice.result.assignment.surfaces.push_back({s.at(0), s.at(1), s.at(2), s.at(3)});
-  const auto& report = j.at("report");
-  choice.result.report.coverage = report.at("coverage");
-  choice.result.report.area_m2 = report.at("area_m2");
-  for (const auto& u : report.at("uses")) choice.result.report.uses.push_back({u.at("material"), u.at("area_m2"), u.at("products")});
-  for (const auto& f : report.at("findings")) choice.result.report.findings.push_back({f.at(0), f.at(1), f.at(2)});
-  return choice;
-}
-
 json collisionToJson(const CollideResult& c) {
   json shapes = json::array();
   for (const auto& s : c.shapes) shapes.push_back({static_cast<int>(s.kind), s.product});
   json products = json::array();
   for (const auto& p : c.products) products.push_back({p.shapes, p.triangles, p.max_deviation_m});
   json doors = json::array();
-  for (const auto& d : c.doors) doors.push_back({d.product, d.floor, d.passable, d.closed, d.clear_width_m, toJson(d.position)});
+  for (const auto& d : c.doors) doors.push_back({d.product, d.floor, d.passable, d.closed, d.clear_width_m, toJson(d.position), d.led_through});
   json rooms = json::array();
   for (const auto& r : c.rooms) rooms.push_back({r.product, r.walkable_m2, r.reached, toJson(r.position)});
   return {{"shapes", shapes}, {"products", products}, {"doors", doors}, {"rooms", rooms}, {"walkable_area_m2", c.walkable_area_m2}};
@@ -266,6 +226,7 @@ std::shared_ptr<const CollideResult> collisionFrom(const json& part, const Envir
     c.doors.back().closed = d.at(3);
     c.doors.back().clear_width_m = d.at(4);
     c.doors.back().position = vectorFrom(d.at(5));
+    c.doors.back().led_through = d.size() > 6 ? d.at(6).get<bool>() : c.doors.back().passable;  // before it was looked for
   }
   for (const auto& r : part.value("rooms", json::array())) c.rooms.push_back({r.at(0), r.at(1), r.at(2), vectorFrom(r.at(3))});
   c.walkable_area_m2 = part.at("walkable_area_m2");
@@ -286,6 +247,13 @@ std::string inconsistency(const Document& d) {
       if (room.product >= products) return "/collision/rooms names a product that is not there";
   }
   if (d.materials) {
+    for (const auto& f : d.materials->result.assignment.faces)
+      if (f.product >= products || f.surface >= surfaces || f.material < 0 ||
+          f.material >= static_cast<std::int32_t>(d.materials->result.assignment.materials.size()))
+        return "/materials/faces has an index out of range";
+    for (const auto& f : d.materials->result.report.findings)
+      for (const auto p : f.products)
+        if (p >= products) return "/materials/report/findings names a product that is not there";
     const auto count = static_cast<std::int32_t>(d.materials->result.assignment.materials.size());
     for (const auto& s : d.materials->result.assignment.surfaces)
       if (s.product >= products || s.surface >= surfaces || s.material >= count || s.material < -1)

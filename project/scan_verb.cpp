@@ -219,7 +219,7 @@ Result<ScanCount> scanStation(const Document& document, const RayScene& scene, c
 Result<MaterialAssignment> assignmentOf(const Document& document, Report& report, Progress& progress) {
   if (document.materials) return document.materials->result.assignment;
   report.note("materials", "no materials were assigned yet; the default rules were used for this scan");
-  auto assigned = assignDocumentMaterials(document, "", {}, progress);
+  auto assigned = assignDocumentMaterials(document, {}, progress);
   if (!assigned) return failure(assigned.error());
   return assigned->document.materials->result.assignment;
 }

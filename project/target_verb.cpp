@@ -90,7 +90,7 @@ PhysicalMaterial paint(const char* id, const char* label, double reflectance) {
   m.id = id;
   m.label = label;
   m.reflectance = {{550, reflectance}};
-  m.source = {"unsourced: engineering value for matt target paint"};
+  m.sources = {{"reflectance", "unsourced: engineering value for matt target paint", ""}};
   return m;
 }
 
@@ -154,9 +154,9 @@ ScanWorld scanWorld(const Document& document, const MaterialAssignment& assignme
     environment->meshes.push_back(std::make_shared<const Mesh>(
         t.kind == TargetKind::sphere ? sphereMesh(size / 2, white) : checkerboardMesh(size, white, white + 1)));
     environment->instances.push_back(i);
-    world.assignment.surfaces.push_back({product, white, white_paint, "target"});
+    world.assignment.surfaces.push_back({product, white, white_paint, "target", 1});
     if (t.kind == TargetKind::checkerboard)
-      world.assignment.surfaces.push_back({product, white + 1, white_paint + 1, "target"});
+      world.assignment.surfaces.push_back({product, white + 1, white_paint + 1, "target", 1});
   }
   world.environment = std::move(environment);
   return world;

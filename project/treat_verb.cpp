@@ -55,7 +55,7 @@ Result<void> follow(Document& document, Report& report, Progress& progress) {
     report.note("collide", "the collision shapes were those of the scene before; compute them again");
   }
   if (!document.materials) return {};
-  auto assigned = assignDocumentMaterials(document, "", {}, progress);
+  auto assigned = assignDocumentMaterials(document, {}, progress);
   if (!assigned) return failure(assigned.error());
   document.materials = assigned->document.materials;
   return {};

@@ -80,13 +80,14 @@ struct Update {
 
   // What was said of a product that is gone stays in the list, so that it holds again when the product comes back.
   std::string follow(const Selectors& selectors, const std::string& selector, const char* what, const std::string& value) {
-    const Product* product = selectors.named(selector);
+    const std::string id(selectedProduct(selector));
+    const Product* product = selectors.named(id);
     if (product == nullptr) return selector;
-    if (selectors.gone(selector)) {
+    if (selectors.gone(id)) {
       kept.push_back({{"what", what}, {"selector", selector}, {what, value}, {"product", identity(*product)}});
       outcome.report.warn(selector, fmt::format("the product '{}' is gone; its {} {} is kept for when it comes back", product->name, what, value));
     }
-    return selectors.followed(selector);
+    return selectors.followed(id) + selector.substr(id.size());
   }
 
   void treatments() {
@@ -102,12 +103,10 @@ struct Update {
   Result<void> materials(Progress& progress) {
     if (!before.materials) return {};
     const Selectors selectors(*before.imported, *outcome.document.imported, match);
-    MaterialChoice choice;
-    choice.rules_file = before.materials->rules_file;
-    for (const MaterialOverride& o : before.materials->overrides)
-      choice.overrides.push_back({follow(selectors, o.selector, "material", o.material), o.material});
+    MaterialChoice choice = *before.materials;
+    for (MaterialOverride& o : choice.overrides) o.selector = follow(selectors, o.selector, "material", o.material);
     outcome.document.materials = std::make_shared<const MaterialChoice>(std::move(choice));
-    auto assigned = assignDocumentMaterials(outcome.document, "", {}, progress);
+    auto assigned = assignDocumentMaterials(outcome.document, {}, progress);
     if (!assigned) return failure(assigned.error());
     outcome.document.materials = assigned->document.materials;
     return {};

@@ -83,8 +83,8 @@ json materialRow(const VerifyFound& found, const MaterialEvidence& m) {
           {"outlying", std::move(outlying)}};
 }
 
-// What `materials --assign` takes. A product of several surfaces (a window) is not assigned as a whole: its surfaces are
-// named, where they have a name.
+// What `materials --assign` takes. Of a product of several surfaces (a window) only those that were measured are meant, where
+// they have a name.
 json assignWords(const VerifyFound& found, const MaterialProposal& p) {
   std::map<std::uint32_t, std::set<std::uint32_t>> surfaces_of;
   for (const auto& s : found.document->materials->result.assignment.surfaces) surfaces_of[s.product].insert(s.surface);
@@ -94,7 +94,7 @@ json assignWords(const VerifyFound& found, const MaterialProposal& p) {
     const auto& group = found.measured.groups[g];
     const auto& name = found.document->environment()->surfaces[group.surface].name;
     const bool whole = surfaces_of[group.product].size() <= 1 || name.empty();
-    const std::string word = (whole ? productOf(found, g).id : "material:" + name) + "=" + idOf(found, p.instead);
+    const std::string word = productOf(found, g).id + (whole ? "" : "&material:" + name) + "=" + idOf(found, p.instead);
     if (said.insert(word).second) words.push_back(word);
   }
   return words;

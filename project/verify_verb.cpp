@@ -160,7 +160,8 @@ Result<Outcome> runVerify(const Document& document, const json& options, Progres
   if (!sample) return failure(sample.error());
   const auto instrument = instrumentFor(options, *sample, outcome.report);
   if (!instrument) return failure(instrument.error());
-  auto f = found(document, **underlay, *sample, *instrument, *library, options, progress);
+  const auto all = withOwn(*std::move(library), document.materials->own);
+  auto f = found(document, **underlay, *sample, *instrument, all, options, progress);
   if (!f) return failure(f.error());
   judgePlacement(*f);
   outcome.answer = verifyAnswer(*f);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/face_normal.h"
 #include "scanners/pane_passage.h"
 
 namespace standpoint {
@@ -27,12 +28,20 @@ ColumnTracer::ColumnTracer(const ScanPlan& plan) : plan_(plan), cache_(std::size
   std::fill_n(packet_.signal.gain, kSignalLanes, 1.0F);
 }
 
+std::int32_t ColumnTracer::materialAt(const Facet& facet) const {
+  if (plan_.assignment.faces.empty()) return materialOf(plan_.assignment, facet.product, facet.surface);
+  const Environment& environment = plan_.scene.environment();
+  const Instance& instance = environment.instances[facet.instance];
+  const Mesh& mesh = *environment.meshes[instance.mesh];
+  return materialOf(plan_.assignment, facet.product, facet.surface, placedNormal(mesh, mesh.triangles[facet.triangle], instance.world_from_mesh));
+}
+
 const ColumnTracer::Met& ColumnTracer::met(std::uint64_t number) {
   Met& entry = cache_[slot(number)];
   if (entry.number == number) return entry;
   entry.number = number;
   entry.facet = plan_.scene.facet(number);
-  const std::int32_t material = materialOf(plan_.assignment, entry.facet.product, entry.facet.surface);
+  const std::int32_t material = materialAt(entry.facet);
   const bool assigned = material >= 0;
   entry.material = assigned ? static_cast<std::uint32_t>(material) : plan_.unassignedLabel();
   entry.optics = &plan_.optics[assigned ? entry.material : entry.material + entry.facet.surface];

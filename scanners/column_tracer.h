@@ -47,6 +47,7 @@ class ColumnTracer {
     PulseNoise noise;
   };
 
+  std::int32_t materialAt(const Facet& facet) const;
   const Met& met(std::uint64_t number);
   void startColumn(std::uint32_t column);
   void aim(std::uint32_t first_row);

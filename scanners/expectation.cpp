@@ -49,8 +49,8 @@ Expectation::Expectation(std::shared_ptr<const RayScene> scene, std::shared_ptr<
   for (const auto& surface : scene_->environment().surfaces) optics_.push_back(opticsOf(surface.colour));
 }
 
-const Optics& Expectation::opticsAt(std::uint32_t product, std::uint32_t surface) const {
-  const std::int32_t material = materialOf(*assignment_, product, surface);
+const Optics& Expectation::opticsAt(std::uint32_t product, std::uint32_t surface, const Eigen::Vector3d& normal) const {
+  const std::int32_t material = materialOf(*assignment_, product, surface, normal);
   return optics_[material >= 0 ? static_cast<std::size_t>(material) : assignment_->materials.size() + surface];
 }
 
@@ -71,14 +71,15 @@ Expectation::WayThere Expectation::walk(const Eigen::Vector3d& station, const Ei
       way.gain = passage.gain();
       if (!look_on) break;
     }
-    const Optics& optics = opticsAt(facet.product, facet.surface);
-    const double cosine = std::abs(facet.normal.dot(direction));
+    const double towards = facet.normal.dot(direction), cosine = std::abs(towards);
+    const Eigen::Vector3d met_side = towards < 0 ? facet.normal : Eigen::Vector3d(-facet.normal);
+    const Optics& optics = opticsAt(facet.product, facet.surface, met_side);
     if (!optics.transparent) {
       way.open = reached;
       if (reached) way.power_beyond = law_.of(optics, range, cosine, passage.gain()).power;
       break;
     }
-    const bool front = facet.normal.dot(direction) < 0;
+    const bool front = towards < 0;
     if (passage.isOtherFace(facet, front, range)) passage.leave();
     else passage.enter(optics, cosine, facet, front, range);
     from = hit.range_m + kBehindFace_m;
@@ -91,7 +92,7 @@ ExpectedReturn Expectation::from(const Eigen::Vector3d& station, const SurfacePl
   const double range = std::max(way.norm(), 1e-9);
   const Eigen::Vector3d direction = way / range;
   const double cosine = -place.normal.dot(direction);   // negative: the station is behind the side that is looked at
-  const Optics& optics = opticsAt(place.product, place.surface);
+  const Optics& optics = opticsAt(place.product, place.surface, place.normal);
   const WayThere there = cosine > 0 ? walk(station, direction, range, optics.transparent) : WayThere{false, 1, 0};
   ExpectedReturn expected = law_.of(optics, range, std::abs(cosine), there.gain);
   const bool measured = expected.fate == ReturnFate::returned || expected.fate == ReturnFate::too_weak;

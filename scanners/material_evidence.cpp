@@ -34,7 +34,10 @@ class Comparison {
   Comparison(const std::vector<MeasuredReturn>& returns, const std::vector<SurfaceGroup>& groups,
              const std::vector<PhysicalMaterial>& library, const Instrument& instrument, const EvidenceOptions& options)
       : returns_(returns), groups_(groups), instrument_(instrument), options_(options) {
-    for (const auto& material : library) optics_.push_back(opticsOf(material, instrument.wavelength_nm));
+    for (const auto& material : library) {
+      optics_.push_back(opticsOf(material, instrument.wavelength_nm));
+      known_.push_back(!isGap(material));
+    }
     grey_.diffuse = kUnassignedGrey;
   }
 
@@ -62,9 +65,11 @@ class Comparison {
   }
 
  private:
+  // A material that nobody measured is as good as none.
+  bool hasFigures(std::int32_t material) const { return material >= 0 && known_[static_cast<std::size_t>(material)]; }
   const Optics& opticsOfGroup(std::uint32_t group) const {
     const auto material = groups_[group].material;
-    return material < 0 ? grey_ : optics_[static_cast<std::size_t>(material)];
+    return hasFigures(material) ? optics_[static_cast<std::size_t>(material)] : grey_;
   }
   double expectedDb(const EvidenceCell& cell, const Optics& optics) const {
     return wayDb(instrument_, cell.range_m, result_.scale.range_compensated) + surfaceDb(optics, cell.cosine);
@@ -74,7 +79,7 @@ class Comparison {
   }
   // Of what a group is said to be; panes are no measure of anything.
   bool holdsScale(std::uint32_t group) const {
-    return groups_[group].material >= 0 && !opticsOfGroup(group).transparent && !set_aside_[group];
+    return hasFigures(groups_[group].material) && !opticsOfGroup(group).transparent && !set_aside_[group];
   }
   bool setOddAside();
 
@@ -94,6 +99,7 @@ class Comparison {
   const Instrument& instrument_;
   const EvidenceOptions& options_;
   std::vector<Optics> optics_;
+  std::vector<bool> known_;
   Optics grey_;
   std::vector<EvidenceCell> cells_;
   std::vector<std::size_t> first_cell_;   // of each group, and the end
@@ -207,7 +213,7 @@ double materialOff(const MaterialEvidence& evidence) {
 void Comparison::findLevel() {
   std::vector<Weighted> off;
   for (const auto& m : result_.materials)
-    if (m.supported && m.material >= 0 && !optics_[static_cast<std::size_t>(m.material)].transparent) {
+    if (m.supported && hasFigures(m.material) && !optics_[static_cast<std::size_t>(m.material)].transparent) {
       double points = 0;
       for (const auto& g : m.groups) points += g.supported ? static_cast<double>(g.points) : 0;
       off.push_back({materialOff(m), std::pow(points, 0.25)});
@@ -277,9 +283,9 @@ void Comparison::spread() {
 // The groups that are not what they are said to be, those together that are off by about the same.
 std::vector<std::vector<GroupEvidence>> Comparison::odd(const MaterialEvidence& evidence) const {
   std::vector<GroupEvidence> odd;
-  const bool pane = evidence.material >= 0 && optics_[static_cast<std::size_t>(evidence.material)].transparent;
+  const bool pane = hasFigures(evidence.material) && optics_[static_cast<std::size_t>(evidence.material)].transparent;
   for (const auto& g : evidence.groups)
-    if (g.supported && (evidence.material < 0 || (pane ? g.off_db > kBrighterThanDust_db : !g.agrees))) odd.push_back(g);
+    if (g.supported && (!hasFigures(evidence.material) || (pane ? g.off_db > kBrighterThanDust_db : !g.agrees))) odd.push_back(g);
   std::stable_sort(odd.begin(), odd.end(), [](const auto& a, const auto& b) { return a.off_db < b.off_db; });
   std::vector<std::vector<GroupEvidence>> together;
   for (const auto& g : odd) {
@@ -318,7 +324,7 @@ std::optional<MaterialProposal> Comparison::proposalFor(const MaterialEvidence& 
   p.misfit_db = misfit(cells, opticsOfGroup(groups.front().group));
   std::vector<Weighted> candidates;   // weight: index
   for (std::size_t m = 0; m < optics_.size(); ++m)
-    if (!optics_[m].transparent && static_cast<std::int32_t>(m) != p.material)
+    if (known_[m] && !optics_[m].transparent && static_cast<std::int32_t>(m) != p.material)
       candidates.push_back({misfit(cells, optics_[m]), static_cast<double>(m)});
   std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
   if (candidates.empty()) return std::nullopt;
@@ -326,7 +332,7 @@ std::optional<MaterialProposal> Comparison::proposalFor(const MaterialEvidence& 
   const double best = candidates.front().value;
   const double noise = std::max(result_.scale.scatter_db, 0.1);
   if (best > std::max(options_.agree_db, 2 * noise)) return std::nullopt;
-  if (evidence.material >= 0 && (best > p.misfit_db / 2 || p.misfit_db - best < options_.agree_db * 0.75)) return std::nullopt;
+  if (hasFigures(evidence.material) && (best > p.misfit_db / 2 || p.misfit_db - best < options_.agree_db * 0.75)) return std::nullopt;
   // What explains it as well: of those, one that the building has anyway is named first.
   std::set<std::int32_t> in_use;
   for (const auto& m : result_.materials)

@@ -45,14 +45,15 @@ MetSurface meetSurface(const Expectation& expectation, const Eigen::Vector3d& st
     const Facet facet = scene.facet(hit.facet);
     const double range = rangeOnPlane(facet, station, direction, hit.range_m);
     const double cosine = std::abs(facet.normal.dot(direction));
+    const Eigen::Vector3d met_side = facet.normal.dot(direction) < 0 ? facet.normal : Eigen::Vector3d(-facet.normal);
     const double off = (met.range_m - range) * cosine;
     if (off < -tolerance.window_m) break;
-    const bool pane = expectation.opticsAt(facet.product, facet.surface).transparent;
+    const bool pane = expectation.opticsAt(facet.product, facet.surface, met_side).transparent;
     if (off <= tolerance.window_m && (!pane || std::abs(off) <= tolerance.met_m)) {
       met.meeting = std::abs(off) > tolerance.met_m ? BeamMeeting::near : through_glass ? BeamMeeting::behind_pane : BeamMeeting::met;
       met.cosine = cosine;
       met.off_m = off;
-      met.normal = facet.normal.dot(direction) < 0 ? facet.normal : Eigen::Vector3d(-facet.normal);
+      met.normal = met_side;
       met.product = facet.product;
       met.surface = facet.surface;
       if (met.meeting == BeamMeeting::met && isEdge(scene, station, point, met, tolerance.edge_m)) met.meeting = BeamMeeting::edge;

@@ -22,9 +22,9 @@ class PanePassage {
     return product_ == facet.product && front != front_ && range_m - range_m_ < kThickestPane_m;
   }
   void enter(const Optics& optics, double cosine, const Facet& facet, bool front, double range_m) {
-    const double transmitted = slab(optics.index, optics.inner_transmittance, cosine).transmitted;
+    const double transmitted = stack(slab(optics.index, optics.inner_transmittance, cosine), optics.panes).transmitted;
     gain_ *= transmitted * transmitted;
-    excess_m_ += (optics.index - 1) * optics.thickness_m;
+    excess_m_ += optics.panes * (optics.index - 1) * optics.thickness_m;
     product_ = facet.product;
     front_ = front;
     range_m_ = range_m;

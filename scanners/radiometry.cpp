@@ -28,14 +28,14 @@ Optics opticsOf(const PhysicalMaterial& material, double wavelength_nm) {
   optics.oren_b = static_cast<float>(0.45 * variance / (variance + 0.09));
   optics.transparent = material.thickness_m > 0 && !material.transmittance.empty() && material.index_of_refraction > 1;
   const double slope = material.gloss_slope > 0 ? material.gloss_slope : optics.transparent ? kPaneSlope : 0;
-  if (slope > 0 && material.index_of_refraction > 1) {
-    const double root = (material.index_of_refraction - 1) / (material.index_of_refraction + 1);
+  if (const double specular = specularAtNormal(material, wavelength_nm); slope > 0 && specular > 0) {
     optics.lobe_slope = static_cast<float>(std::max(slope, kSharpestSlope));
-    optics.glint = static_cast<float>(root * root) / (4 * optics.lobe_slope * optics.lobe_slope);
+    optics.glint = static_cast<float>(specular) / (4 * optics.lobe_slope * optics.lobe_slope);
   }
   if (optics.transparent) {
     optics.index = material.index_of_refraction;
     optics.thickness_m = material.thickness_m;
+    optics.panes = material.panes;
     optics.inner_transmittance = innerTransmittance(optics.index, atWavelength(material.transmittance, wavelength_nm));
   }
   return optics;
@@ -72,6 +72,15 @@ SlabPower slab(double index, double inner_transmittance_at_normal, double cosine
     sum.reflected += (r + r * transmitted * t) / 2;
   }
   return sum;
+}
+
+SlabPower stack(SlabPower one, int panes) {
+  SlabPower all = one;
+  for (int pane = 1; pane < panes; ++pane) {
+    const double between = 1 - all.reflected * one.reflected;   // what runs to and fro between them
+    all = {all.reflected + all.transmitted * all.transmitted * one.reflected / between, all.transmitted * one.transmitted / between};
+  }
+  return all;
 }
 
 double innerTransmittance(double index, double transmittance) {

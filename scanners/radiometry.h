@@ -21,7 +21,8 @@ struct Optics {
   bool transparent = false;
   double index = 1;              // n of a pane
   double inner_transmittance = 1;  // of one way through its body at normal incidence
-  double thickness_m = 0;
+  double thickness_m = 0;        // of one pane
+  int panes = 1;
 };
 
 Optics opticsOf(const PhysicalMaterial& material, double wavelength_nm);
@@ -56,6 +57,8 @@ struct SlabPower {
   double reflected = 0, transmitted = 1;
 };
 SlabPower slab(double index, double inner_transmittance_at_normal, double cosine);
+// So many equal slabs behind one another, all reflections between them added: incoherent, the gaps are wide.
+SlabPower stack(SlabPower one, int panes);
 // The one-way inner transmittance that makes the whole slab transmit `transmittance` at normal incidence.
 double innerTransmittance(double index, double transmittance);
 

@@ -119,6 +119,9 @@ Result<ScanCount> scan(const RayScene& scene, const MaterialAssignment& assignme
   for (const auto& surface : assignment.surfaces)
     if (surface.material >= static_cast<std::int32_t>(assignment.materials.size()))
       return failure(ErrorKind::internal, "an assigned material is out of range", "material assignment");
+  for (const auto& faces : assignment.faces)
+    if (faces.material >= static_cast<std::int32_t>(assignment.materials.size()))
+      return failure(ErrorKind::internal, "an assigned material is out of range", "material assignment");
   try {
     const ScanPlan plan(*embree, assignment, instrument, settings, local_from_scanner, options);
     return Pipeline(plan, sink, progress).run(options.threads);

@@ -24,6 +24,7 @@ enum class ColourMode {
   model,
   material,
   reflectance,
+  confidence,
   deviation,
   // Of what a station gets (expected_view.h); the model below it is grey.
   expected_intensity,
@@ -74,5 +75,7 @@ class SceneView {
 // The colour that stands for a physical material: about what it looks like by its reflectance in the visible, with a tint
 // of its own to tell it from others that look the same. nullptr = nothing assigned.
 Colour materialColour(const PhysicalMaterial* material);
+// From red, a guess, to green; below 0: nothing is assigned.
+Colour confidenceColour(double confidence);
 
 }  // namespace standpoint

@@ -7,6 +7,7 @@
 #include <imgui_stdlib.h>
 
 #include "editor/editor.h"
+#include "editor/model/material_scope.h"
 #include "editor/panels/panels_list.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/icons.h"
@@ -129,9 +130,6 @@ std::vector<std::pair<std::int32_t, std::string>> materialsOf(const MaterialAssi
   return found;
 }
 
-// "#12" where the model's ids are numbers, else the GlobalId: what the verb's selectors understand.
-std::string selectorOf(const Product& product) { return product.id.rfind('#', 0) == 0 || product.global_id.empty() ? product.id : product.global_id; }
-
 void assign(Editor& editor, const PhysicalMaterial& material) {
   nlohmann::json pairs = nlohmann::json::array();
   for (const auto p : editor.selection.products())
@@ -156,7 +154,9 @@ void drawAssign(Editor& editor, const std::string& current) {
   }
   ui::searchField("material-filter", "Brick, glass, steel …", filter);
   ImGui::BeginChild("materials", {editor.px(300), editor.px(260)});
-  for (const auto& material : catalogue.materials) {
+  const auto& choice = editor.session.document().materials;
+  for (const auto& material : choice ? withOwn(catalogue.materials, choice->own) : catalogue.materials) {
+    if (isGap(material)) continue;
     Product searched;
     searched.name = material.label + " " + material.id;
     if (!matchesFilter(searched, filter)) continue;

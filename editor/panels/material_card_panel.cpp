@@ -11,8 +11,10 @@
 #include "editor/model/material_card.h"
 #include "editor/panels/panels_list.h"
 #include "editor/shell/icons.h"
+#include "editor/shell/material_brush.h"
 #include "editor/shell/theme.h"
 #include "editor/shell/widgets.h"
+#include "materials/materials.h"
 
 namespace standpoint {
 
@@ -25,7 +27,7 @@ class Plot {
  public:
   Plot(const Editor& editor, float height_pt) : list_(*ImGui::GetWindowDrawList()), scale_(editor.scale) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const float margin = ImGui::CalcTextSize("100 %").x + editor.px(6);
+    const float margin = ImGui::CalcTextSize("1000 %").x + editor.px(6);
     size_ = {ImGui::GetContentRegionAvail().x - margin - editor.px(4), editor.px(height_pt)};
     low_ = {corner.x + margin, corner.y + editor.px(4)};
     list_.AddRectFilled(low_, {low_.x + size_.x, low_.y + size_.y}, IM_COL32(22, 25, 30, 255));
@@ -169,24 +171,29 @@ void drawReported(Editor& editor, const PhysicalMaterial& m) {
   note("Intensity as stored, range noise 1 σ");
 }
 
+void drawGaps(const Editor& editor, const PhysicalMaterial& m) {
+  const auto gaps = gapsOf(m);
+  if (gaps.empty()) return;
+  ui::heading(editor, "Not known");
+  for (const auto& gap : gaps) note(gap.c_str());
+}
+
 void drawSources(Editor& editor, const PhysicalMaterial& m) {
   ui::heading(editor, "Sources");
-  for (const auto& source : m.source) {
-    const bool unsourced = source.starts_with("unsourced");
+  for (const auto& source : m.sources) {
+    const bool unsourced = source.text.starts_with("unsourced");
     ImGui::TextColored(colour(unsourced ? tone::kWarning : tone::kGood), "%s", unsourced ? ICON_WARNING : ICON_CHECK);
     ImGui::SameLine();
-    ui::wrapped(source);
+    ui::wrapped(fmt::format("{}: {}{}", source.figure, source.text, source.licence.empty() ? "" : " (" + source.licence + ")"));
   }
 }
 
 // The one that is chosen in the list, else that of what is selected.
-const PhysicalMaterial* shownMaterial(const Editor& editor) {
+const PhysicalMaterial* shownMaterial(Editor& editor) {
   const auto& choice = editor.session.document().materials;
   if (!choice) return nullptr;
   const auto& assignment = choice->result.assignment;
-  const auto& state = editor.panels.materials;
-  for (const auto& m : assignment.materials)
-    if (!state.chosen_unassigned && m.id == state.chosen) return &m;
+  if (const auto* chosen = knownMaterial(editor, editor.panels.materials.chosen)) return chosen;
   if (editor.selection.empty()) return nullptr;
   for (const auto& s : assignment.surfaces)
     if (s.product == editor.selection.primary() && s.material >= 0) return &assignment.materials[static_cast<std::size_t>(s.material)];
@@ -209,6 +216,7 @@ void drawMaterialCardPanel(Editor& editor) {
   drawSpectrum(editor, *material);
   drawAngles(editor, *material);
   drawReported(editor, *material);
+  drawGaps(editor, *material);
   drawSources(editor, *material);
   ImGui::EndChild();
 }

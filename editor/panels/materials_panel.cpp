@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_stdlib.h>
 
 #include "editor/editor.h"
 #include "editor/panels/panels_list.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/icons.h"
+#include "editor/shell/material_brush.h"
 #include "editor/shell/theme.h"
 #include "editor/shell/widgets.h"
 
@@ -26,7 +28,9 @@ void drawCoverage(Editor& editor, const MaterialReport& report) {
   ImGui::Text("%.1f %% of the area has a material", report.coverage * 100);
   if (editor.fonts.bold != nullptr) ImGui::PopFont();
   ui::meter(editor, report.coverage, tone);
-  ui::dimText(fmt::format("{:.0f} m² in all, {:.0f} m² without", report.area_m2, report.area_m2 * (1 - report.coverage)));
+  double weak = 0;
+  for (const auto& row : report.by_class) weak += row.weak_m2;
+  ui::dimText(fmt::format("{:.0f} m² in all, {:.0f} m² without, {:.0f} m² guessed", report.area_m2, report.area_m2 * (1 - report.coverage), weak));
 }
 
 void drawButtons(Editor& editor) {
@@ -41,35 +45,29 @@ void drawButtons(Editor& editor) {
     });
 }
 
-void drawUse(Editor& editor, const MaterialResult& result, const MaterialUse& use) {
-  const bool unassigned = use.material.empty();
-  const auto* material = unassigned ? nullptr : materialById(result.assignment, use.material);
-  const std::string label = unassigned ? "Unassigned" : material != nullptr ? material->label : use.material;
+// What one row of either list shows, and that it can be dragged onto a surface.
+bool drawMaterial(Editor& editor, const PhysicalMaterial* material, const std::string& id) {
+  const bool unassigned = id.empty();
   auto& state = editor.panels.materials;
-  const bool chosen = unassigned ? state.chosen_unassigned : state.chosen == use.material && !state.chosen_unassigned;
-  ImGui::PushID(use.material.c_str());
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  if (ImGui::Selectable("###use", chosen, ImGuiSelectableFlags_SpanAllColumns)) {
-    state.chosen = use.material;
+  const bool chosen = unassigned ? state.chosen_unassigned : state.chosen == id && !state.chosen_unassigned;
+  const bool pressed = ImGui::Selectable("###material", chosen, ImGuiSelectableFlags_SpanAllColumns);
+  if (pressed) {
+    state.chosen = id;
     state.chosen_unassigned = unassigned;
-    editor.selection.set(use.products);
-    editor.view.colour = ColourMode::material;
   }
-  if (material != nullptr && !material->source.empty()) ui::tooltip(fmt::format("{}\n{}", material->id, material->source.front()));
+  if (material != nullptr) dragMaterial(*material);
+  if (material != nullptr) ui::tooltip(material->id + "\nDrag it onto a surface");
   ImGui::SameLine(0, 0);
   ui::swatch(editor, materialColour(material));
   ImGui::SameLine();
   if (unassigned) ImGui::PushStyleColor(ImGuiCol_Text, tone::kUnassigned);
-  ui::fitted(label, ImGui::GetContentRegionAvail().x);
+  ui::fitted(unassigned ? "Unassigned" : material != nullptr ? material->label : id, ImGui::GetContentRegionAvail().x);
   if (unassigned) ImGui::PopStyleColor();
-  ImGui::TableNextColumn();
-  ui::textRightAligned(fmt::format("{:.1f}", use.area_m2));
-  ImGui::TableNextColumn();
-  if (material != nullptr) ui::textRightAligned(fmt::format("{:.0f} %", atWavelength(material->reflectance, kReflectanceWavelength_nm) * 100));
-  ImGui::TableNextColumn();
-  ui::textRightAligned(std::to_string(use.products.size()));
-  ImGui::PopID();
+  return pressed;
+}
+
+std::string reflectanceText(const Editor& editor, const PhysicalMaterial& material) {
+  return isGap(material) ? "–" : fmt::format("{:.0f} %", atWavelength(material.reflectance, editor.view.wavelength_nm) * 100);
 }
 
 void drawUses(Editor& editor, const MaterialResult& result, float height) {
@@ -78,40 +76,78 @@ void drawUses(Editor& editor, const MaterialResult& result, float height) {
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("Material", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("m²", ImGuiTableColumnFlags_WidthFixed, editor.px(52));
-  ImGui::TableSetupColumn("1550", ImGuiTableColumnFlags_WidthFixed, editor.px(40));
+  ImGui::TableSetupColumn(fmt::format("{:.0f}", editor.view.wavelength_nm).c_str(), ImGuiTableColumnFlags_WidthFixed, editor.px(40));
   ImGui::TableSetupColumn("n", ImGuiTableColumnFlags_WidthFixed, editor.px(30));
   ImGui::TableHeadersRow();
   auto uses = result.report.uses;
   std::stable_partition(uses.begin(), uses.end(), [](const MaterialUse& u) { return u.material.empty(); });
-  for (const auto& use : uses) drawUse(editor, result, use);
+  for (const auto& use : uses) {
+    const auto* material = use.material.empty() ? nullptr : materialById(result.assignment, use.material);
+    ImGui::PushID(use.material.c_str());
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    if (drawMaterial(editor, material, use.material)) {
+      editor.selection.set(use.products);
+      if (editor.view.colour == ColourMode::model) editor.view.colour = ColourMode::material;
+    }
+    ImGui::TableNextColumn();
+    ui::textRightAligned(fmt::format("{:.1f}", use.area_m2));
+    ImGui::TableNextColumn();
+    if (material != nullptr) ui::textRightAligned(reflectanceText(editor, *material));
+    ImGui::TableNextColumn();
+    ui::textRightAligned(std::to_string(use.products.size()));
+    ImGui::PopID();
+  }
   ImGui::EndTable();
 }
 
-void drawFindings(Editor& editor, const MaterialReport& report) {
-  ui::heading(editor, fmt::format("Findings  {}", report.findings.size()).c_str());
-  ImGui::BeginChild("findings");
-  ImGuiListClipper clipper;
-  clipper.Begin(static_cast<int>(report.findings.size()));
-  while (clipper.Step())
-    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-      const auto& finding = report.findings[static_cast<std::size_t>(i)];
-      ImGui::PushID(i);
-      if (ImGui::Selectable("###finding"))
-        if (const auto product = productOf(*editor.environment(), finding.source)) {
-          editor.select(*product, true);
-          editor.frameSelection();
-        }
-      ui::tooltip(finding.message);
-      ImGui::SameLine(0, 0);
-      const bool warning = finding.severity == "warning";
-      ImGui::TextColored(colour(warning ? tone::kWarning : tone::kDim), "%s", warning ? ICON_WARNING : ICON_INFO);
-      ImGui::SameLine();
-      ui::dimText(finding.source);
-      ImGui::SameLine();
-      ui::fitted(finding.message, ImGui::GetContentRegionAvail().x);
-      ImGui::PopID();
-    }
-  ImGui::EndChild();
+// All there are: the user's own first.
+void drawLibrary(Editor& editor, const MaterialChoice& choice, float height) {
+  auto& state = editor.panels.materials;
+  ui::searchField("library-filter", "Brick, glass, steel …", state.filter);
+  const float left = height - ImGui::GetFrameHeightWithSpacing();
+  const auto& catalogue = readCatalogue(editor.panels.catalogue);
+  if (catalogue.materials.empty()) return ui::wrapped(catalogue.problem.empty() ? "The library of materials is empty." : catalogue.problem);
+  if (!ImGui::BeginTable("library", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX, {0, left})) return;
+  ImGui::TableSetupColumn("Material", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("share", ImGuiTableColumnFlags_WidthFixed, editor.px(40));
+  for (const auto& material : withOwn(catalogue.materials, choice.own)) {
+    Product searched;
+    searched.name = material.label + " " + material.id;
+    if (!matchesFilter(searched, state.filter)) continue;
+    ImGui::PushID(material.id.c_str());
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    drawMaterial(editor, &material, material.id);
+    ImGui::TableNextColumn();
+    ui::textRightAligned(reflectanceText(editor, material));
+    ImGui::PopID();
+  }
+  ImGui::EndTable();
+}
+
+// Many at once: what a selector means gets the chosen material.
+void drawBulk(Editor& editor) {
+  auto& state = editor.panels.materials;
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  ImGui::InputTextWithHint("###bulk", "class:IfcWall & storey:EG & name:*außen*", &state.bulk);
+  if (state.bulk.empty()) return;
+  const auto meant = select(*editor.environment(), state.bulk);
+  const auto* material = knownMaterial(editor, state.chosen);
+  const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+  const std::string none = meant.empty() ? "It means no product of this model" : "";
+  if (ui::button(fmt::format("{}  Select {}###bulk-select", ICON_POINTER, meant.size()).c_str(), none, {width, 0})) editor.selection.set(meant);
+  ImGui::SameLine();
+  const auto why = !none.empty() ? none : material == nullptr ? "Choose a material in the list first" : editor.session.whyNot("materials");
+  if (ui::button(ICON_PAINT "  Assign the chosen###bulk-assign", why, {width, 0}))
+    editor.session.start("materials", {{"assign", {state.bulk + "=" + material->id}}}, fmt::format("Assign {} to {} products", material->label, meant.size()));
+}
+
+void drawListSwitch(Editor& editor) {
+  auto& whole = editor.panels.materials.whole_library;
+  if (ui::iconButton(ICON_LIST "  In use###in-use", "The materials of this model", {}, !whole)) whole = false;
+  ImGui::SameLine();
+  if (ui::iconButton(ICON_PAINT "  Library###library", "All materials there are", {}, whole)) whole = true;
 }
 
 }  // namespace
@@ -123,14 +159,16 @@ void drawMaterialsPanel(Editor& editor) {
     drawButtons(editor);
     return;
   }
-  const auto& result = choice->result;
-  drawCoverage(editor, result.report);
+  drawCoverage(editor, choice->result.report);
   ui::gap(editor, 2);
   drawButtons(editor);
   ui::gap(editor, 2);
-  const float findings = result.report.findings.empty() ? 0 : std::min(editor.px(180), ImGui::GetContentRegionAvail().y * 0.4F);
-  drawUses(editor, result, ImGui::GetContentRegionAvail().y - findings);
-  if (findings > 0) drawFindings(editor, result.report);
+  drawListSwitch(editor);
+  const float bulk = ImGui::GetFrameHeightWithSpacing() * (editor.panels.materials.bulk.empty() ? 1 : 2) + editor.px(2);
+  const float height = ImGui::GetContentRegionAvail().y - bulk;
+  if (editor.panels.materials.whole_library) drawLibrary(editor, *choice, height);
+  else drawUses(editor, choice->result, height);
+  drawBulk(editor);
 }
 
 }  // namespace standpoint

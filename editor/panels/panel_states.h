@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/physical_material.h"
@@ -15,6 +16,7 @@
 #include "editor/model/verification_view.h"
 #include "project/geodesy.h"
 #include "scanners/instrument.h"
+#include "scanners/ray_engine.h"
 
 namespace standpoint {
 
@@ -37,6 +39,14 @@ struct MaterialsPanelState {
   std::string chosen;               // material id; "" with chosen_unassigned
   bool chosen_unassigned = false;
   int incidence_deg = 0;            // of the card's readings
+  bool whole_library = false;       // listed, not only what is in use
+  std::string bulk;                 // selector of what gets the chosen material
+  std::pair<RayHit, std::string> painted;   // where a material was dropped, and its id: a menu asks how far it goes
+};
+
+struct FindingsPanelState {
+  std::string chosen;               // MaterialFinding::id
+  std::string because;              // what stands in the field
 };
 
 struct VerifyPanelState {
@@ -106,6 +116,7 @@ struct PanelStates {
   InspectorPanelState inspector;
   MaterialsPanelState materials;
   VerifyPanelState verify;
+  FindingsPanelState findings;
   OptimisePanelState optimise;
   CollisionPanelState collision;
   GeoreferencePanelState georeference;

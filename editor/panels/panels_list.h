@@ -6,6 +6,7 @@ namespace standpoint {
 struct Editor;
 
 void drawCollisionPanel(Editor& editor);
+void drawFindingsPanel(Editor& editor);
 void drawGeoreferencePanel(Editor& editor);
 void drawInspectorPanel(Editor& editor);
 void drawInstrumentPanel(Editor& editor);

@@ -109,6 +109,16 @@ std::string whyTreatNot(const Editor& e) {
   return e.session.whyNot("treat");
 }
 
+std::string whyNoMaterials(const Editor& e) {
+  if (auto why = whyNoModel(e); !why.empty()) return why;
+  return e.session.document().materials ? std::string() : "No materials have been assigned yet";
+}
+std::string whyPaintNot(const Editor& e) {
+  if (auto why = whyNoModel(e); !why.empty()) return why;
+  if (e.panels.materials.chosen.empty()) return "Choose a material in the list first";
+  return e.session.whyNot("materials");
+}
+
 std::string whySaveNot(const Editor& e) { return e.session.whyNotSave(); }
 std::string whyUndoNot(const Editor& e) { return e.session.whyNotUndo(); }
 std::string whyRedoNot(const Editor& e) { return e.session.whyNotRedo(); }
@@ -162,6 +172,7 @@ const std::array kActions = {
            [](Editor& e) { e.view.colour = ColourMode::material; }, whyNoModel},
     Action{"colour-reflectance", "Reflectance at a wavelength", "", {},
            [](Editor& e) { e.view.colour = ColourMode::reflectance; }, whyNoModel},
+    Action{"colour-confidence", "Confidence of the assignment", "", {}, [](Editor& e) { e.view.colour = ColourMode::confidence; }, whyNoModel},
     Action{"colour-intensity", "Intensity expected from a station", "", {}, [](Editor& e) { e.view.colour = ColourMode::expected_intensity; }, whyNoModel},
     Action{"colour-noise", "Range noise expected from a station", "", {}, [](Editor& e) { e.view.colour = ColourMode::expected_noise; }, whyNoModel},
     Action{"colour-fate", "What comes back to a station", "", {}, [](Editor& e) { e.view.colour = ColourMode::expected_fate; }, whyNoModel},
@@ -173,6 +184,10 @@ const std::array kActions = {
     Action{"add-target", "Add target by a click", ICON_TARGET, {},
            [](Editor& e) { e.view.tool = Tool::placeTarget; showWorkspace(e, Workspace::survey); }, whyTargetNot},
     Action{"remove", "Remove the chosen station or target", ICON_TRASH, {kKeyDelete}, removeChosen, whyRemoveNot},
+    Action{"take-material", "Choose the material of a surface by a click", ICON_DROP, {'E'},
+           [](Editor& e) { e.view.tool = Tool::takeMaterial; showWorkspace(e, Workspace::materials); }, whyNoMaterials},
+    Action{"paint-material", "Give the chosen material to surfaces by clicks", ICON_PAINT, {'P'},
+           [](Editor& e) { e.view.tool = Tool::paintMaterial; showWorkspace(e, Workspace::materials); }, whyPaintNot},
     Action{"measure", "Measure a distance", ICON_MEASURE, {'M'}, [](Editor& e) { e.view.tool = Tool::measure; }, whyNoModel},
     Action{"scan", "Scan…", ICON_PLAY, {'R', true},
            [](Editor& e) { showWorkspace(e, Workspace::survey); e.wanted_tab[1] = "scan"; }, whyScanNot},

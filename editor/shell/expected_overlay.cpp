@@ -111,7 +111,7 @@ void drawFates(Editor& editor, ImVec2 at, bool with_returned) {
 
 std::string materialName(const Editor& editor, const RayHit& hit) {
   const auto& choice = editor.session.document().materials;
-  const std::int32_t material = choice ? materialOf(choice->result.assignment, hit.product, hit.surface) : -1;
+  const std::int32_t material = choice ? materialOf(choice->result.assignment, hit.product, hit.surface, hit.normal) : -1;
   return material < 0 ? "No material" : choice->result.assignment.materials[static_cast<std::size_t>(material)].label;
 }
 
@@ -184,6 +184,8 @@ void drawExpectedLegend(Editor& editor, ImVec2 origin, ImVec2 size) {
   drawProbe(editor, origin);
   const bool fates_only = *quantity == ExpectedQuantity::fate;
   const float line = ImGui::GetTextLineHeight(), x = origin.x + editor.px(10);
+  const float top = origin.y + size.y - line - editor.px(12) - (fates_only ? 0 : 2 * line + editor.px(18));
+  ImGui::GetWindowDrawList()->AddRectFilled({x - editor.px(6), top}, {x + editor.px(fates_only ? 530 : 430), origin.y + size.y - editor.px(4)}, tone::kOverlay, editor.px(4));
   drawFates(editor, {x, origin.y + size.y - line - editor.px(8)}, fates_only);
   if (!fates_only) drawScale(editor, {{x, origin.y + size.y - 2 * line - editor.px(26)}, editor.px(220)}, *quantity, *instrument);
   if (ImGui::IsItemHovered()) drawReading(editor, *expectation);
@@ -200,9 +202,9 @@ void expectedChips(Editor& editor) {
       if (ImGui::Selectable(fmt::format("{} {}, {:.0f} nm###{}", i.maker, i.model, i.wavelength_nm, i.id).c_str(), i.id == probe.instrument)) probe.instrument = i.id;
     ImGui::EndCombo();
   }
-  const auto& job = editor.session.document().job;
-  if (!job || job->stations.empty()) return;
   ImGui::SameLine();
+  const auto& job = editor.session.document().job;
+  if (!job || job->stations.empty()) return ImGui::TextUnformatted("Drag the white dot: there the scanner stands");
   ImGui::SetNextItemWidth(editor.px(128));
   const auto standing = std::find_if(job->stations.begin(), job->stations.end(), [&](const Station& s) { return probe.position == s.true_pose.translation; });
   if (!ImGui::BeginCombo("###probe-place", fmt::format("{}  {}", ICON_STATION, standing != job->stations.end() ? standing->name : "Drag the dot").c_str(), ImGuiComboFlags_NoArrowButton)) return;

@@ -31,6 +31,7 @@ const char* colourName(ColourMode mode) {
     case ColourMode::model: return "Model colours";
     case ColourMode::material: return "Physical materials";
     case ColourMode::reflectance: return "Reflectance";
+    case ColourMode::confidence: return "Confidence";
     case ColourMode::deviation: return "Deviation";
     case ColourMode::expected_intensity: return "Expected intensity";
     case ColourMode::expected_noise: return "Expected noise";
@@ -42,7 +43,7 @@ const char* colourName(ColourMode mode) {
 void colourChip(Editor& editor) {
   ImGui::SetNextItemWidth(editor.px(166));
   if (!ImGui::BeginCombo("###colour", fmt::format("{}  {}", ICON_PAINT, colourName(editor.view.colour)).c_str(), ImGuiComboFlags_NoArrowButton)) return;
-  for (const auto mode : {ColourMode::model, ColourMode::material, ColourMode::reflectance, ColourMode::expected_intensity, ColourMode::expected_noise, ColourMode::expected_fate})
+  for (const auto mode : {ColourMode::model, ColourMode::material, ColourMode::reflectance, ColourMode::confidence, ColourMode::expected_intensity, ColourMode::expected_noise, ColourMode::expected_fate})
     if (ImGui::Selectable(colourName(mode), editor.view.colour == mode)) editor.view.colour = mode;
   if (editor.session.document().lightening && ImGui::Selectable(colourName(ColourMode::deviation), editor.view.colour == ColourMode::deviation))
     editor.view.colour = ColourMode::deviation;
@@ -145,6 +146,8 @@ void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
     case Tool::placeStation: hint = "Click on the floor to set up a station.   Esc to leave"; break;
     case Tool::placeTarget: hint = "Click where a target shall be.   Esc to leave"; break;
     case Tool::measure: hint = "Click two points.   Esc to leave"; break;
+    case Tool::takeMaterial: hint = "Click on a surface to choose its material.   Esc to leave"; break;
+    case Tool::paintMaterial: hint = "Click on what shall get the chosen material.   Esc to leave"; break;
     case Tool::walk: hint = "W A S D to walk, Shift to hurry, drag to look around.   Esc to leave"; break;
     case Tool::select: break;
   }
@@ -214,6 +217,19 @@ void drawReflectanceLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
   list.AddText({x + width - ImGui::CalcTextSize(most).x, y + height + editor.px(2)}, tone::kDim, most);
 }
 
+void drawConfidenceLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
+  if (editor.view.colour != ColourMode::confidence) return;
+  auto& list = *ImGui::GetWindowDrawList();
+  float x = origin.x + editor.px(kMargin);
+  const float y = origin.y + size.y - editor.px(24), swatch = editor.px(10);
+  for (const auto& [confidence, text] : {std::pair{1.0, "named"}, {0.65, "by a general word"}, {0.2, "a guess by class or colour"}, {-1.0, "no material"}}) {
+    const Colour c = confidenceColour(confidence);
+    list.AddRectFilled({x, y + editor.px(2)}, {x + swatch, y + editor.px(2) + swatch}, ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1}));
+    list.AddText({x + swatch + editor.px(5), y}, tone::kText, text);
+    x += swatch + editor.px(19) + ImGui::CalcTextSize(text).x;
+  }
+}
+
 void drawDeviationLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
   if (editor.view.colour != ColourMode::deviation) return;
   auto& list = *ImGui::GetWindowDrawList();
@@ -265,6 +281,7 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   ImGui::PopStyleColor();
   drawAxes(editor, origin, size);
   drawReflectanceLegend(editor, origin, size);
+  drawConfidenceLegend(editor, origin, size);
   drawDeviationLegend(editor, origin, size);
   drawToolHint(editor, origin, size);
 }

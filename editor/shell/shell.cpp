@@ -90,7 +90,7 @@ void runMenu(Editor& editor) {
 void viewMenu(Editor& editor) {
   items(editor, {"frame", "view-corner", "view-front", "view-back", "view-right", "view-left", "view-top", "view-parallel", "",
                  "hide", "isolate", "show-all", "", "edges", "grid", "labels", "walkable", "shapes", "walk", "", "colour-model",
-                 "colour-material", "colour-reflectance", "colour-intensity", "colour-noise", "colour-fate", "", "workspace-model", "workspace-materials", "workspace-survey",
+                 "colour-material", "colour-reflectance", "colour-confidence", "colour-intensity", "colour-noise", "colour-fate", "", "workspace-model", "workspace-materials", "workspace-survey",
                  "workspace-instrument"});
 }
 
@@ -106,7 +106,7 @@ void drawMenuBar(Editor& editor) {
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu("Edit")) {
-    items(editor, {"undo", "redo", "", "select-all", "select-none", "", "remove", "", "measure"});
+    items(editor, {"undo", "redo", "", "select-all", "select-none", "", "remove", "", "take-material", "paint-material", "", "measure"});
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu("View")) {

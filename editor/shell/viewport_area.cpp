@@ -9,6 +9,7 @@
 #include "editor/shell/actions.h"
 #include "editor/shell/expected_overlay.h"
 #include "editor/shell/icons.h"
+#include "editor/shell/material_brush.h"
 #include "editor/shell/overlay.h"
 #include "editor/shell/shell.h"
 #include "editor/shell/theme.h"
@@ -95,6 +96,12 @@ void click(Editor& editor) {
       return;
     case Tool::measure:
       if (hit) measure(editor, *hit);
+      return;
+    case Tool::takeMaterial:
+      if (hit) takeMaterial(editor, *hit);
+      return;
+    case Tool::paintMaterial:
+      if (hit) paintMaterial(editor, *hit);
       return;
     case Tool::walk: return;
     case Tool::select: break;
@@ -227,6 +234,7 @@ void drawViewport(Editor& editor) {
   ImGui::SetCursorScreenPos(origin);
   ImGui::InvisibleButton("###scene", whole, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   ImGui::SetItemAllowOverlap();
+  if (!previewed) acceptMaterial(editor, origin);
   const bool hovered = ImGui::IsItemHovered() && !overOverlay(editor, origin, whole);
   const ImVec2 right(origin.x + size.x, origin.y);
   if (!view.dragging) view.in_right_half = both && ImGui::GetIO().MousePos.x >= right.x;
@@ -238,6 +246,7 @@ void drawViewport(Editor& editor) {
   drawMarkers(editor, both ? right : origin);
   drawOverlay(editor, origin, whole);
   contextMenu(editor);
+  drawMaterialMenu(editor);
 }
 
 }  // namespace standpoint

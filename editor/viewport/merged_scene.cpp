@@ -5,6 +5,9 @@
 #include <cmath>
 #include <span>
 #include <unordered_map>
+#include <utility>
+
+#include "core/face_normal.h"
 
 namespace standpoint {
 
@@ -47,17 +50,32 @@ Colour physicalColour(const MaterialAssignment& assignment, std::int32_t materia
   return c;
 }
 
+double confidenceOf(const MaterialAssignment& assignment, std::uint32_t product, std::uint32_t surface) {
+  const auto before = [](const AssignedSurface& s, const std::pair<std::uint32_t, std::uint32_t>& key) { return std::pair(s.product, s.surface) < key; };
+  const auto found = std::lower_bound(assignment.surfaces.begin(), assignment.surfaces.end(), std::pair(product, surface), before);
+  const bool there = found != assignment.surfaces.end() && found->product == product && found->surface == surface && found->material >= 0;
+  return there ? found->confidence : -1;
+}
+
 class Painter {
  public:
   explicit Painter(const ViewState& state) : state_(state) {}
 
-  Rgba of(std::uint32_t product, std::uint32_t surface) const {
+  // Single faces of it have another material than the rest.
+  bool byFace(std::uint32_t product, std::uint32_t surface) const {
+    if (!state_.materials || (state_.colour != ColourMode::material && state_.colour != ColourMode::reflectance)) return false;
+    const auto& faces = state_.materials->result.assignment.faces;
+    return std::any_of(faces.begin(), faces.end(), [&](const AssignedFaces& f) { return f.product == product && f.surface == surface; });
+  }
+
+  Rgba of(std::uint32_t product, std::uint32_t surface, const Eigen::Vector3d& normal) const {
     if (state_.colour == ColourMode::deviation) return state_.deviation ? Rgba{255, 255, 255, 255} : deviationColour(0, 1);
     if (isExpected(state_.colour)) return deviationColour(0, 1);
     if (state_.colour != ColourMode::model) {
       if (!state_.materials) return rgba(materialColour(nullptr));
       const auto& assignment = state_.materials->result.assignment;
-      return rgba(physicalColour(assignment, materialOf(assignment, product, surface), state_));
+      if (state_.colour == ColourMode::confidence) return rgba(confidenceColour(confidenceOf(assignment, product, surface)));
+      return rgba(physicalColour(assignment, materialOf(assignment, product, surface, normal), state_));
     }
     Colour c = state_.environment->surfaces[surface].colour;
     if (c.a < 1) c.a = std::clamp(c.a, 0.15F, 0.85F);   // glass stays to be seen
@@ -183,9 +201,12 @@ MergedScene mergeVisible(const ViewState& state) {
     else if (state.colour == ColourMode::model) gradation = mesh.colours;
     MeshMerger merger(state, mesh, instance, gradation, scene);
     std::uint32_t surface = ~0U;
+    bool by_face = false;
     Rgba colour{};
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      if (mesh.surface_of_triangle[t] != surface) colour = painter.of(instance.product, surface = mesh.surface_of_triangle[t]);
+      const bool next = mesh.surface_of_triangle[t] != surface;
+      if (next) by_face = painter.byFace(instance.product, surface = mesh.surface_of_triangle[t]);
+      if (next || by_face) colour = painter.of(instance.product, surface, by_face ? placedNormal(mesh, mesh.triangles[t], instance.world_from_mesh) : Eigen::Vector3d::Zero());
       merger.add(t, colour);
     }
   }

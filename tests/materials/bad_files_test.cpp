@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <random>
 
+#include "tests/materials/bad_entries.h"
 #include "tests/materials/fixtures.h"
 
 namespace standpoint {
@@ -9,29 +10,12 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::string kGood = R"({"id": "stone", "label": "Stone", "reflectance": [[532, 0.3], [905, 0.4]],
-  "roughness_rad": 0.2, "source": {"reflectance": "measured", "roughness_rad": "unsourced"}})";
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const auto at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  return text.replace(at, what.size(), by);
-}
-
-struct BadEntry {
-  const char* name;
-  const char* what;
-  const char* by;
-  const char* source;   // where the error points to
-  const char* message;  // a part of it
-};
-
 class BadEntries : public testing::TestWithParam<BadEntry> {};
 
 TEST_P(BadEntries, AreRefusedWithTheirPlace) {
   const auto& bad = GetParam();
   const TemporaryFolder folder;
-  folder.write("stone.json", "[" + replaced(kGood, "stone", "rock") + ",\n" + replaced(kGood, bad.what, bad.by) + "]");
+  folder.write("stone.json", libraryWith(bad));
   const auto library = readMaterialLibrary(folder.path());
   ASSERT_FALSE(library.has_value());
   EXPECT_EQ(library.error().kind, ErrorKind::unusable);
@@ -41,50 +25,53 @@ TEST_P(BadEntries, AreRefusedWithTheirPlace) {
 
 INSTANTIATE_TEST_SUITE_P(
     Library, BadEntries,
-    testing::Values(
-        BadEntry{"unknownKey", "\"label\"", "\"colour\": 1, \"label\"", "stone.json /1/colour", "not a known key"},
-        BadEntry{"noId", "\"id\": \"stone\",", "", "stone.json /1/id", "missing"},
-        BadEntry{"idOfOtherLetters", "\"stone\"", "\"Stone 1\"", "stone.json /1/id", "a-z"},
-        BadEntry{"sameId", "\"stone\"", "\"rock\"", "stone.json /1/id", "already in stone.json /0"},
-        BadEntry{"emptyLabel", "\"Stone\"", "\" \"", "stone.json /1/label", "empty"},
-        BadEntry{"tooBright", "0.4", "1.4", "stone.json /1/reflectance/1/1", "1.4"},
-        BadEntry{"negative", "0.3", "-0.3", "stone.json /1/reflectance/0/1", "-0.3"},
-        BadEntry{"text", "0.3", "\"0.3\"", "stone.json /1/reflectance/0/1", "number"},
-        BadEntry{"nothing", "0.3", "null", "stone.json /1/reflectance/0/1", "number"},
-        BadEntry{"micrometres", "532", "0.532", "stone.json /1/reflectance/0/0", "0.532"},
-        BadEntry{"unsorted", "905", "532", "stone.json /1/reflectance/1/0", "rise"},
-        BadEntry{"noPair", "[532, 0.3]", "[532]", "stone.json /1/reflectance/0", "[wavelength_nm, share]"},
-        BadEntry{"emptySpectrum", "[[532, 0.3], [905, 0.4]]", "[]", "stone.json /1/reflectance", "list"},
-        BadEntry{"roughnessInDegrees", "0.2", "20", "stone.json /1/roughness_rad", "20"},
-        BadEntry{"noSource", "\"roughness_rad\": \"unsourced\"", "\"reflectance2\": \"x\"",
-                 "stone.json /1/source/reflectance2", "figure"},
-        BadEntry{"missingSource", ", \"roughness_rad\": \"unsourced\"", "", "stone.json /1/source/roughness_rad",
-                 "missing"},
-        BadEntry{"sourceOfNothing", "\"roughness_rad\": 0.2,", "", "stone.json /1/source/roughness_rad",
-                 "does not have"},
-        BadEntry{"noSources", ", \"roughness_rad\": \"unsourced\"}}", "}, \"source2\": 1}", "stone.json /1/source2",
-                 "not a known key"},
-        BadEntry{"moreThanAll", "\"roughness_rad\": 0.2, \"source\": {",
-                 "\"roughness_rad\": 0.2, \"index_of_refraction\": 30, \"source\": {\"index_of_refraction\": \"x\", ",
-                 "stone.json /1/reflectance/0", "exceed"},
-        BadEntry{"glossWithoutIndex", "\"roughness_rad\": 0.2, \"source\": {",
-                 "\"roughness_rad\": 0.2, \"gloss_slope\": 0.1, \"source\": {\"gloss_slope\": \"x\", ",
-                 "stone.json /1/gloss_slope", "needs index_of_refraction"},
-        BadEntry{"thickWithoutTransmittance", "\"roughness_rad\": 0.2, \"source\": {",
-                 "\"roughness_rad\": 0.2, \"thickness_m\": 0.01, \"source\": {\"thickness_m\": \"x\", ",
-                 "stone.json /1/thickness_m", "needs transmittance"},
-        BadEntry{"keyTwice", "\"label\": \"Stone\"", "\"label\": \"Stone\", \"label\": \"Rock\"", "stone.json",
-                 "'label' twice"},
-        BadEntry{"noObject", kGood.c_str(), "7", "stone.json /1", "object"},
-        BadEntry{"cutShort", "\"source\"", "\"sou", "stone.json line 4", "not JSON"}),
+    testing::ValuesIn(badEntries()),
     [](const auto& each) { return std::string(each.param.name); });
 
 TEST(BadLibraries, WithoutAFolderOrFilesSaySo) {
   const TemporaryFolder folder;
   EXPECT_EQ(readMaterialLibrary(folder.path() / "none").error().kind, ErrorKind::file_system);
   EXPECT_THAT(readMaterialLibrary(folder.path()).error().message, HasSubstr("no material library"));
-  folder.write("list.json", "{}");
-  EXPECT_THAT(readMaterialLibrary(folder.path()).error().message, HasSubstr("must be a list"));
+  folder.write("list.json", "[]");
+  EXPECT_THAT(readMaterialLibrary(folder.path()).error().message, HasSubstr("must be an object"));
+}
+
+TEST(BadLibraries, OfSourcesThatAreWrongAreRefusedWithTheirPlace) {
+  const TemporaryFolder folder;
+  for (const auto& [text, source, message] :
+       {std::tuple{R"({"sources": [{"id": "a", "text": "A", "licence": "own"}, {"id": "a", "text": "B", "licence": "own"}]})", "s.json /sources/1/id", "already there"},
+        {R"({"sources": [{"id": "a", "text": "A"}]})", "s.json /sources/0/licence", "missing"},
+        {R"({"sources": {}})", "s.json /sources", "list"},
+        {R"({"material": []})", "s.json /material", "not a known key"}}) {
+    folder.write("s.json", text);
+    const auto library = readMaterialLibrary(folder.path());
+    ASSERT_FALSE(library.has_value()) << text;
+    EXPECT_EQ(library.error().source, source);
+    EXPECT_THAT(library.error().message, HasSubstr(message));
+  }
+}
+
+TEST(BadLibraries, EmptyOrBinaryAreNamed) {
+  const TemporaryFolder folder;
+  folder.write("e.json", "");
+  EXPECT_EQ(readMaterialLibrary(folder.path()).error().source, "e.json line 1");
+  folder.write("e.json", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16));
+  EXPECT_THAT(readMaterialLibrary(folder.path()).error().message, HasSubstr("not JSON"));
+  folder.write("e.json", "{}");
+  EXPECT_THAT(readOwnMaterials(folder.path() / "e.json", SOURCE_DIR "/materials/library").error().message, HasSubstr("no material"));
+}
+
+TEST(OwnMaterials, MayReferToShippedSourcesAndStandInForShippedMaterials) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("own.json", R"({"materials": [
+    {"id": "bark", "label": "My bark", "reflectance": [[905, 0.4]], "source": {"reflectance": "measured: [usgs] my bark"}},
+    {"id": "brick_new_wet", "label": "Wet", "wet_of": "brick_red_bare", "source": {"wet_of": "unsourced"}}]})");
+  const auto own = orThrow(readOwnMaterials(file, SOURCE_DIR "/materials/library"));
+  ASSERT_EQ(own.size(), 2U);
+  EXPECT_EQ(own[0].sources[0].licence, "US public domain");
+  const auto library = withOwn(shippedLibrary(), own);
+  EXPECT_EQ(library.size(), shippedLibrary().size() + 1);
+  for (const auto& m : library) EXPECT_TRUE(m.id != "bark" || m.label == "My bark");
 }
 
 TEST(BadLibraries, NestedDeeplyOrHugeEndInAnErrorNotACrash) {
@@ -123,25 +110,86 @@ struct BadRule {
 
 TEST(BadRules, AreRefusedWithTheirPlace) {
   const TemporaryFolder folder;
-  const std::string good = R"([{"material": "*beton*", "assign": "concrete_construction"}, )";
+  const std::string good = R"({"rules": [{"material": "*beton*", "assign": "concrete_construction"}, )";
   for (const auto& [text, source, message] :
-       {BadRule{R"({"material": "x", "assign": "adamantium"})", "r.json /1/assign", "not in the library"},
-        BadRule{R"({"material": "x"})", "r.json /1/assign", "missing"},
-        BadRule{R"({"assign": "bark"})", "r.json /1", "fit everything"},
-        BadRule{R"({"material": "a||b", "assign": "bark"})", "r.json /1/material", "empty pattern"},
-        BadRule{R"({"material": "", "assign": "bark"})", "r.json /1/material", "empty"},
-        BadRule{R"({"material": 3, "assign": "bark"})", "r.json /1/material", "text"},
-        BadRule{R"({"colour": "red|mauve", "assign": "bark"})", "r.json /1/colour", "'mauve' is no colour"},
-        BadRule{R"({"material": "x", "assign": "bark", "hidden": 1})", "r.json /1/hidden", "true or false"},
-        BadRule{R"({"ifc_class": "x", "assign": "bark", "hidden": true})", "r.json /1/hidden", "needs a pattern"},
-        BadRule{R"({"class": "IfcWall", "assign": "bark"})", "r.json /1/class", "not a known key"}}) {
-    const auto rules = readAssignmentRules(folder.write("r.json", good + text + "]"), shippedLibrary());
+       {BadRule{R"({"material": "x", "assign": "adamantium"})", "r.json /rules/1/assign", "not in the library"},
+        BadRule{R"({"material": "x"})", "r.json /rules/1/assign", "missing"},
+        BadRule{R"({"assign": "bark"})", "r.json /rules/1", "fit everything"},
+        BadRule{R"({"material": "a||b", "assign": "bark"})", "r.json /rules/1/material", "empty pattern"},
+        BadRule{R"({"material": "", "assign": "bark"})", "r.json /rules/1/material", "empty"},
+        BadRule{R"({"material": 3, "assign": "bark"})", "r.json /rules/1/material", "text"},
+        BadRule{R"({"colour": "red|mauve", "assign": "bark"})", "r.json /rules/1/colour", "'mauve' is no colour"},
+        BadRule{R"({"material": "x", "assign": "bark", "hidden": 1})", "r.json /rules/1/hidden", "true or false"},
+        BadRule{R"({"ifc_class": "x", "assign": "bark", "hidden": true})", "r.json /rules/1/hidden", "needs a pattern"},
+        BadRule{R"({"material": "{stone}", "assign": "bark"})", "r.json /rules/1/material", "{stone}, which is not there"},
+        BadRule{R"({"material": "{stone", "assign": "bark"})", "r.json /rules/1/material", "brace"},
+        BadRule{R"({"material": "a&&b", "assign": "bark"})", "r.json /rules/1/material", "empty pattern"},
+        BadRule{R"({"material": "!", "assign": "bark"})", "r.json /rules/1/material", "empty pattern"},
+        BadRule{R"({"metallic": [0.5, 0.2], "assign": "bark"})", "r.json /rules/1/metallic/1", "0.2"},
+        BadRule{R"({"metallic": 1, "assign": "bark"})", "r.json /rules/1/metallic", "[from, to]"},
+        BadRule{R"({"material": "x", "assign": "bark", "confidence": 2})", "r.json /rules/1/confidence", "between 0.0 and 1.0"},
+        BadRule{R"({"class": "IfcWall", "assign": "bark"})", "r.json /rules/1/class", "not a known key"}}) {
+    const auto rules = readAssignmentRules(folder.write("r.json", good + text + "]}"), shippedLibrary());
     ASSERT_FALSE(rules.has_value()) << text;
     EXPECT_EQ(rules.error().kind, ErrorKind::unusable);
     EXPECT_EQ(rules.error().source, source);
     EXPECT_THAT(rules.error().message, HasSubstr(message));
   }
   EXPECT_EQ(readAssignmentRules(folder.path() / "none.json", shippedLibrary()).error().kind, ErrorKind::file_system);
+}
+
+TEST(BadRules, InTheRestOfTheFileAreRefusedWithTheirPlace) {
+  const TemporaryFolder folder;
+  for (const auto& [text, source, message] :
+       {BadRule{"", "r.json line 1", "not JSON"}, BadRule{"\x01\x02\xff", "r.json line 1", "not JSON"}, BadRule{"[]", "r.json", "object"},
+        BadRule{"{}", "r.json /rules", "missing"}, BadRule{R"({"rules": 1})", "r.json /rules", "list"},
+        BadRule{R"({"rules": [], "then": "others"})", "r.json /then", "default"},
+        BadRule{R"({"rules": [], "words": []})", "r.json /words", "object"},
+        BadRule{R"({"rules": [], "words": {"a": []}})", "r.json /words/a", "list of texts"},
+        BadRule{R"({"rules": [], "words": {"a": ["x|y"]}})", "r.json /words/a/0", "one word"},
+        BadRule{R"({"rules": [], "implausible": [{"assigned": "bark"}]})", "r.json /implausible/0/why", "missing"},
+        BadRule{R"({"rules": [], "words": {"glass": ["tumbler"]}, "then": "default"})", "r.json /words/glass", "another name"}}) {
+    const auto rules = readAssignmentRules(folder.write("r.json", text), shippedLibrary(), SOURCE_DIR "/materials/rules/default.json");
+    ASSERT_FALSE(rules.has_value()) << text;
+    EXPECT_EQ(rules.error().source, source);
+    EXPECT_THAT(rules.error().message, HasSubstr(message));
+  }
+}
+
+TEST(BadRules, ByTheMillionOrNestedDeeplyEndInAnErrorNotInAWait) {
+  const TemporaryFolder folder;
+  std::string many = R"({"rules": [)";
+  for (int i = 0; i < 1'000'000; ++i) many += R"({"name":"a","assign":"bark"},)";
+  EXPECT_THAT(readAssignmentRules(folder.write("r.json", many), shippedLibrary()).error().message, HasSubstr("1 MB"));
+  std::string some = R"({"rules": [{"name":"a","assign":"bark"})";
+  for (int i = 0; i < 20'000; ++i) some += R"(,{"name":"a","assign":"bark"})";
+  EXPECT_THAT(readAssignmentRules(folder.write("r.json", some + "]}"), shippedLibrary()).error().message, HasSubstr("more than 10000 rules"));
+  EXPECT_FALSE(readAssignmentRules(folder.write("r.json", std::string(900'000, '[')), shippedLibrary()).has_value());
+}
+
+TEST(OwnRules, ComeBeforeTheDefaultOnesAndMayUseTheirWords) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("mine.json", R"({"rules": [{"material": "{brick}", "assign": "marble_white_weathered"}], "then": "default"})");
+  const auto rules = orThrow(readAssignmentRules(file, shippedLibrary(), SOURCE_DIR "/materials/rules/default.json"));
+  EXPECT_EQ(rules.own, 1U);
+  Builder b;
+  b.product("IfcWall", "", {b.surface("Backstein"), b.surface("Beton")});
+  const auto result = b.assignBy(rules);
+  EXPECT_EQ(materialId(result, 0, 0), "marble_white_weathered");
+  EXPECT_EQ(materialId(result, 0, 1), "concrete_construction");
+  EXPECT_EQ(result.assignment.surfaces[0].reason, "material 'Backstein' (backstein), rule 0 of mine.json");
+}
+
+TEST(OwnRules, ThatDecideNothingAreAFinding) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("idle.json", R"({"rules": [{"material": "unobtainium", "assign": "bark"}], "then": "default"})");
+  const auto rules = orThrow(readAssignmentRules(file, shippedLibrary(), SOURCE_DIR "/materials/rules/default.json"));
+  Builder b;
+  b.product("IfcWall", "", {b.surface("Beton")});
+  const auto findings = b.assignBy(rules).report.findings;
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].kind, "idle-rules");
+  EXPECT_EQ(findings[0].source, "rule 0 of idle.json");
 }
 
 }  // namespace

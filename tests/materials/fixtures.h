@@ -19,13 +19,19 @@ inline std::filesystem::path sharedFolder() {
   return given ? std::filesystem::path(given) : std::filesystem::path(SOURCE_DIR "/../shared");
 }
 
+template <class T>
+T orThrow(Result<T> result) {
+  if (!result) ADD_FAILURE() << result.error().source << ": " << result.error().message;
+  return std::move(result).value();
+}
+
 inline const std::vector<PhysicalMaterial>& shippedLibrary() {
-  static const auto library = readMaterialLibrary(SOURCE_DIR "/materials/library").value();
+  static const auto library = orThrow(readMaterialLibrary(SOURCE_DIR "/materials/library"));
   return library;
 }
 
-inline const std::vector<AssignmentRule>& shippedRules() {
-  static const auto rules = readAssignmentRules(SOURCE_DIR "/materials/rules/default.json", shippedLibrary()).value();
+inline const RuleSet& shippedRules() {
+  static const auto rules = orThrow(readAssignmentRules(SOURCE_DIR "/materials/rules/default.json", shippedLibrary()));
   return rules;
 }
 
@@ -86,7 +92,7 @@ struct Builder {
     const auto index = static_cast<std::uint32_t>(environment.products.size());
     environment.products.emplace_back();
     auto& product = environment.products.back();
-    product.id = "#" + std::to_string(100 + index);
+    product.id = std::to_string(100 + index).insert(0, 1, '#');
     product.ifc_class = ifc_class;
     product.name = name;
     environment.meshes.push_back(unitSquares(std::move(surfaces)));
@@ -94,11 +100,14 @@ struct Builder {
         {static_cast<std::uint32_t>(environment.meshes.size() - 1), index, world_from_mesh});
     return product;
   }
-  MaterialResult assign(const std::vector<AssignmentRule>& rules = shippedRules(),
-                        const std::vector<MaterialOverride>& overrides = {}) const {
+  MaterialResult assign(std::vector<AssignmentRule> rules, const std::vector<MaterialOverride>& overrides = {}) const {
+    return assignBy(RuleSet(std::move(rules)), overrides);
+  }
+  MaterialResult assign() const { return assignBy(shippedRules()); }
+  MaterialResult assignBy(const RuleSet& rules, const std::vector<MaterialOverride>& overrides = {}, const AssignOptions& options = {}) const {
     Progress progress;
     EXPECT_EQ(validate(environment), "");
-    return assignMaterials(environment, shippedLibrary(), rules, overrides, progress).value();
+    return assignMaterials(environment, shippedLibrary(), rules, overrides, options, progress).value();
   }
 };
 

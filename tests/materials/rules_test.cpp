@@ -146,6 +146,7 @@ TEST(Patterns, AreGlobsWithoutCaseAndAccents) {
   EXPECT_TRUE(fits("?ラス", "ガラス"));
   EXPECT_TRUE(fits("*", ""));
   EXPECT_TRUE(fits("*бетон", "ЖЕЛЕЗОБЕТОН"));
+  EXPECT_TRUE(fits("*ґрунт*", "Рослинний грунт"));
   EXPECT_EQ(Pattern("a|b|c").fit("b"), 1);
 }
 
@@ -200,8 +201,8 @@ TEST(Rules, TellWhichOneDecided) {
   const auto result = b.assign({{"", "*brick*", "", "", "bark"},
                                 {"", "*holz*|*beton*", "", "", "concrete_construction"},
                                 {"IfcWall", "", "", "white", "plaster_render"}});
-  EXPECT_EQ(result.assignment.surfaces[0].reason, "rule /1: material *beton*");
-  EXPECT_EQ(result.assignment.surfaces[1].reason, "rule /2: class IfcWall, colour white");
+  EXPECT_EQ(result.assignment.surfaces[0].reason, "material 'Stahlbeton' (*beton*), rule 1");
+  EXPECT_EQ(result.assignment.surfaces[1].reason, "class IfcWall, colour white, rule 2");
 }
 
 }  // namespace

@@ -195,9 +195,9 @@ TEST(Deviation, StatedIsWhatExhaustiveSearchFinds) {
   for (const auto& before : {models::sphere(1, 20, 26), models::torus(1, 0.4, 30, 16)}) {
     const auto result = optimized(only(before), before.triangles.size() / 6, 1);
     const auto& after = *result.environment.meshes[0];
-    const double max_m = std::max(models::farthest(before, after, 2000), models::farthest(after, before, 2000));
+    const double max_m = std::max(models::farthest(before, after, 20'000), models::farthest(after, before, 20'000));
     const double mean_m = 0.5 * (models::meanDistance(before, after, 2000) + models::meanDistance(after, before, 2000));
-    EXPECT_GE(result.all.max_deviation_m, 0.999 * max_m);  // it looks at more points
+    EXPECT_GE(result.all.max_deviation_m, 0.96 * max_m);  // it does not search what can only be 4 % further
     EXPECT_LE(result.all.max_deviation_m, 1.15 * max_m);
     EXPECT_NEAR(result.all.mean_deviation_m / mean_m, 1, 0.05);
     EXPECT_LT(mean_m, 0.02);
@@ -254,6 +254,22 @@ TEST(Simplification, OfAShapeThatIsCutIntoCellsGivesTheSameBytesForAnyNumberOfTh
   }
 }
 
+// So much is left that the refinement is done in cells, too.
+TEST(Simplification, RefinedInCellsGivesTheSameBytesForAnyNumberOfThreads) {
+  const auto environment = only(models::torus(2, 0.5, 400, 150));  // 120 000 triangles
+  std::string first;
+  for (const std::size_t threads : {1, 2, 8}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const auto result = optimized(environment, 12'000, 0.1);
+    EXPECT_LE(result.all.triangles_after, 12'000U);
+    EXPECT_GE(result.all.triangles_after, 11'880U);
+    EXPECT_TRUE(isClosed(*result.environment.meshes[0]));
+    const auto now = bytes(result);
+    if (first.empty()) first = now;
+    EXPECT_TRUE(first == now) << threads << " threads";
+  }
+}
+
 TEST(Simplification, SurvivesDegenerateInput) {
   Mesh bad = models::box({1, 1, 1}, 3);
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -279,7 +295,9 @@ TEST(Simplification, SurvivesDegenerateInput) {
   for (const std::uint64_t budget : {0, 1000, 40, 10, 1}) {
     const auto result = optimized(environment, budget, 100);
     EXPECT_TRUE(result.budget_reached);
-    EXPECT_EQ(result.products[2].triangles_after, budget == 1 ? result.products[2].triangles_after : 1);
+    if (budget == 0 || budget > 10) {  // else it may be what costs least
+      EXPECT_EQ(result.products[2].triangles_after, 1);
+    }
   }
   EXPECT_EQ(optimized(Environment{}, 100).all.triangles_after, 0);
 }

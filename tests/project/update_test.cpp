@@ -104,6 +104,17 @@ TEST_F(Update, MaterialsFollowTheirProductsToOtherNumbers) {
   EXPECT_EQ(materialOf("b"), "wood_hardwood");
 }
 
+TEST_F(Update, MaterialsOfSingleFacesFollowTheirProducts) {
+  import(kBefore);
+  done("materials", {{"project", project()}, {"assign", {"#120@0,0,1=carpet", "#100&material:Brick=bark"}}});   // of b, and of a
+  update({kBefore[2], kBefore[1], kBefore[0]}, 100);   // now #120 is b again, and #140 is a
+  const Document d = document();
+  EXPECT_EQ(d.materials->overrides.at(1).selector, "#140&material:Brick");
+  EXPECT_EQ(materialOf("a"), "bark");
+  ASSERT_EQ(d.materials->result.assignment.faces.size(), 1U);
+  EXPECT_EQ(d.imported->products[d.materials->result.assignment.faces[0].product].global_id, "b");
+}
+
 TEST_F(Update, WhatHasNoProductAnyMoreIsKeptAndListedAndComesBack) {
   import(kBefore);
   done("materials", {{"project", project()}, {"assign", {"#160=carpet"}}});   // d

@@ -68,6 +68,24 @@ TEST(Pane, OfClearFloatTransmitsAsRubinMeasured) {   // V8: n 1.5152, k 3.77e-6,
   EXPECT_NEAR(innerTransmittance(1.5152, power.transmitted), inner, 1e-9);
 }
 
+// physics.md §4.6: a unit of two clear 4 mm panes at 1064 nm lets .285/.166/.016 through and back at 0/60/80°.
+TEST(Pane, BehindAnotherLetsThroughWhatTheBuildUpDoes) {
+  const double inner = std::exp(-4 * std::numbers::pi * 4.92e-6 * 4e-3 / 1064e-9);
+  for (const auto& [angle, squared] : {std::pair{0, 0.285}, {60, 0.166}, {80, 0.016}})
+    EXPECT_NEAR(std::pow(stack(slab(1.5129, inner, cosine(angle)), 2).transmitted, 2), squared, 2e-3) << angle;
+  const SlabPower one = slab(1.52, 1, cosine(40)), three = stack(one, 3);
+  EXPECT_NEAR(three.reflected + three.transmitted, 1, 1e-12);   // nothing is lost in lossless panes
+  EXPECT_NEAR(three.transmitted, one.transmitted / (one.transmitted + 3 * one.reflected), 1e-12);   // Stokes 1862: n equal plates
+}
+
+TEST(Metal, GlintsAtEachWavelengthAsItsIndexSays) {   // copper, Johnson and Christy: 0.602 at 532 nm, 0.966 at 905 nm
+  PhysicalMaterial copper = testing::lambert(0);
+  copper.complex_index = {{532, 1.1159, 2.6}, {905, 0.3028, 5.86}};
+  copper.gloss_slope = 0.5;
+  for (const auto& [wavelength, reflectance] : {std::pair{532, 0.602}, {905, 0.966}})
+    EXPECT_NEAR(opticsOf(copper, wavelength).glint, reflectance / (4 * 0.25), 2e-3) << wavelength;
+}
+
 TEST(Pane, NeitherGainsNorLosesPowerWithoutAbsorption) {
   for (int angle = 0; angle < 90; angle += 5) {
     const SlabPower power = slab(1.52, 1, cosine(angle));

@@ -290,5 +290,37 @@ TEST(Glass, SeenHeadOnGlintsInsteadOfLettingThrough) {
   }
 }
 
+TEST(Glass, OfTwoPanesInOneSolidDelaysAndDimsAsBoth) {
+  Instrument instrument = testing::instrument("leica-rtc360");
+  instrument.near_range_m = 0;
+  auto window = glazed(true, 30 * kRadPerDeg);
+  window.assignment.materials[1].panes = 2;
+  window.assignment.materials[1].gap_m = 0.016;
+  const auto result = scanned(*window.scene.build(), window.assignment, instrument, testing::window(instrument, -0.5, 0.5, -0.5, 0.5, 20, 20), {1, true});
+  ASSERT_EQ(result.points.size(), 400U);
+  const auto one = slab(1.507, innerTransmittance(1.507, 0.81), std::cos(30 * kRadPerDeg));
+  const double both = one.transmitted * one.transmitted / (1 - one.reflected * one.reflected);
+  for (std::size_t i = 0; i < result.points.size(); ++i) {
+    ASSERT_NEAR(point(result.points, i).x(), 8 + 2 * 0.507 * 0.004, 2e-5);
+    ASSERT_NEAR(decibels(instrument, result.points.intensity[i]), 10 * std::log10(0.6 / 64 * both * both), 0.03);
+  }
+}
+
+TEST(Faces, OfOneSurfaceSendBackWhatTheirOwnMaterialDoes) {
+  Instrument instrument = testing::instrument("leica-rtc360");
+  SceneBuilder scene;
+  const auto wall = scene.box({5, -3, -3}, {6, 3, 3}, false);
+  MaterialAssignment assignment;
+  assignment.materials = {lambert(0.6), lambert(0.1)};
+  assignment.surfaces = {{wall, 0, 0, "test", 1}};
+  const auto label = [&](const Eigen::Vector3d& direction) {
+    assignment.faces = {{wall, 0, direction, 1, "test"}};
+    const auto result = scanned(*scene.build(), assignment, instrument, testing::window(instrument, -0.5, 0.5, -0.5, 0.5, 4, 4), {1, true});
+    return result.points.material.at(0);
+  };
+  EXPECT_EQ(label(-Eigen::Vector3d::UnitX()), 1U);   // the side that the scanner sees
+  EXPECT_EQ(label(Eigen::Vector3d::UnitX()), 0U);
+}
+
 }  // namespace
 }  // namespace standpoint

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/physical_material.h"
+
+#include <algorithm>
+
+namespace standpoint {
+
+namespace {
+
+double normalReflectance(double n, double k) { return ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k); }
+
+}  // namespace
+
+double atWavelength(const Spectrum& table, double wavelength_nm) {
+  if (table.empty()) return 0;
+  if (wavelength_nm <= table.front().first) return table.front().second;
+  if (wavelength_nm >= table.back().first) return table.back().second;
+  const auto next = std::upper_bound(table.begin(), table.end(), wavelength_nm,
+                                     [](double w, const auto& entry) { return w < entry.first; });
+  const auto& [w0, r0] = *(next - 1);
+  const auto& [w1, r1] = *next;
+  return r0 + (r1 - r0) * (wavelength_nm - w0) / (w1 - w0);
+}
+
+// Between the tabulated wavelengths the reflectance is taken as linear, not n and k: it is what is sent back.
+double specularAtNormal(const PhysicalMaterial& material, double wavelength_nm) {
+  if (material.complex_index.empty())
+    return material.index_of_refraction > 0 ? normalReflectance(material.index_of_refraction, 0) : 0;
+  Spectrum table;
+  for (const auto& [wavelength, n, k] : material.complex_index) table.emplace_back(wavelength, normalReflectance(n, k));
+  return atWavelength(table, wavelength_nm);
+}
+
+double buildUpThickness(const PhysicalMaterial& material) {
+  return material.panes * material.thickness_m + (material.panes - 1) * material.gap_m;
+}
+
+std::int32_t materialOf(const MaterialAssignment& assignment, std::uint32_t product, std::uint32_t surface) {
+  const auto less = [](const AssignedSurface& a, const std::pair<std::uint32_t, std::uint32_t>& key) {
+    return std::pair(a.product, a.surface) < key;
+  };
+  const auto found = std::lower_bound(assignment.surfaces.begin(), assignment.surfaces.end(), std::pair(product, surface), less);
+  if (found == assignment.surfaces.end() || found->product != product || found->surface != surface) return -1;
+  return found->material;
+}
+
+std::int32_t materialOf(const MaterialAssignment& assignment, std::uint32_t product, std::uint32_t surface,
+                        const Eigen::Vector3d& normal) {
+  std::int32_t material = materialOf(assignment, product, surface);
+  const auto less = [](const AssignedFaces& a, const std::pair<std::uint32_t, std::uint32_t>& key) {
+    return std::pair(a.product, a.surface) < key;
+  };
+  auto face = std::lower_bound(assignment.faces.begin(), assignment.faces.end(), std::pair(product, surface), less);
+  for (; face != assignment.faces.end() && face->product == product && face->surface == surface; ++face)
+    if (face->direction.dot(normal) >= kFaceCone) material = face->material;
+  return material;
+}
+
+}  // namespace standpoint
