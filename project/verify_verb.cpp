@@ -136,6 +136,8 @@ Result<VerifyFound> found(const Document& document, const Underlay& underlay, co
 void judgePlacement(VerifyFound& f) {
   std::string wrong;
   if (!f.placement) wrong = "its placement cannot be checked: " + f.placement.error().message;
+  else if (f.placement->moved_m > kMisplaced_m && !f.placement->settled)
+    wrong = "its placement cannot be checked: a fit to the model's surface does not come to rest";
   else if (f.placement->moved_m > kMisplaced_m)
     wrong = fmt::format("the cloud lies {:.3f} m off the model: register it first, `standpoint underlay PROJECT --register {} --icp`",
                         f.placement->moved_m, f.underlay);

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kKnots = 12, kFewestCells = 8;
 constexpr int kReweightings = 15, kSweeps = 400;
 constexpr double kHuber = 1.345, kStiffness = 1e-3;
-constexpr double kBeyond_db = 1, kClearlyLess = 0.5;
+constexpr double kBeyond_db = 1, kBeyondSteps = 10, kClearlyLess = 0.5;
 constexpr double kStraight_db = 0.25;   // to which the curve is called a straight line
 
 double medianAbsolute(std::vector<double> values) {
@@ -116,8 +116,8 @@ Eigen::VectorXd IntensityScale::stepsAt(double figure) const {
   Eigen::VectorXd share(steps);
   for (Eigen::Index k = 0; k < steps; ++k) {
     const double from = t(measured[static_cast<std::size_t>(k)]), to = t(measured[static_cast<std::size_t>(k) + 1]);
-    // The first and the last go on beyond their knots.
-    share[k] = std::clamp((t(figure) - from) / (to - from), k == 0 ? -1e9 : 0.0, k + 1 == steps ? 1e9 : 1.0);
+    // The first and the last go on beyond their knots, but not far: nothing was learned there.
+    share[k] = std::clamp((t(figure) - from) / (to - from), k == 0 ? -kBeyondSteps : 0.0, k + 1 == steps ? 1 + kBeyondSteps : 1.0);
   }
   return share;
 }
