@@ -20,6 +20,7 @@ const std::array kPanels = {
     Panel{"scan", "Scan", ICON_PLAY, {N, N, R, N}, drawScanPanel},
     Panel{"instrument", "Instrument", ICON_TABLET, {N, N, N, R}, drawInstrumentPanel},
     Panel{"material", "Material", ICON_PAINT, {N, R, N, N}, drawMaterialCardPanel},
+    Panel{"verify", "Measured", ICON_CHECK_CIRCLE, {N, R, N, N}, drawVerifyPanel},
     Panel{"inspector", "Inspector", ICON_INFO, {R, R, R, N}, drawInspectorPanel},
     Panel{"optimise", "Optimise", ICON_COMPRESS, {R, N, N, N}, drawOptimisePanel},
     Panel{"collision", "Collision", ICON_WALK, {R, N, N, N}, drawCollisionPanel},

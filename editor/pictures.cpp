@@ -75,6 +75,17 @@ void materials(Editor& editor) {
   if (!uses.empty()) editor.panels.materials.chosen = uses.front().material;
 }
 
+// Held against a cloud, where one lies under the model.
+void measured(Editor& editor) {
+  materials(editor);
+  editor.wanted_tab[1] = "verify";
+  if (!editor.session.document().verification && !editor.session.document().underlays.empty()) {
+    editor.session.start("verify", {{"underlay", editor.session.document().underlays.front()->name}});
+    editor.session.wait();
+    editor.update();
+  }
+}
+
 void survey(Editor& editor) {
   editor.workspace = Workspace::survey;
   cutIntoStorey(editor);
@@ -136,6 +147,7 @@ constexpr std::array kPictures = {Picture{"1-overview", overview},     Picture{"
                                   Picture{"4-survey", survey},         Picture{"5-instrument", instrument}, Picture{"8-deviation", deviation},
                                   Picture{"9-expected-intensity", expectedIntensity},
                                   Picture{"10-expected-noise", expectedNoise}, Picture{"11-what-comes-back", expectedFate},
+                                  Picture{"12-measured", measured},
                                   Picture{"7-import-preview", importPreview},
                                   Picture{"6-palette", palette}};
 

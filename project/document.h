@@ -73,6 +73,8 @@ struct Underlay {
   bool visible = true;
 };
 
+struct Verification;   // of the materials, by a cloud: project/verification.h
+
 // The document is a value: every part is shared and immutable; two parts with the same pointer have not changed, so a
 // viewport or a ray engine rebuilds only what did. Parts that do not exist yet are null.
 struct Document {
@@ -87,6 +89,7 @@ struct Document {
   std::shared_ptr<const MaterialChoice> materials;
   std::shared_ptr<const Job> job;
   std::vector<std::shared_ptr<const Underlay>> underlays;
+  std::shared_ptr<const Verification> verification;
 
   // What is shown, walked in and scanned: the lighter environment where there is one.
   const std::shared_ptr<const Environment>& environment() const {

@@ -12,6 +12,7 @@
 #include "importers/importers.h"
 #include "project/project_json.h"
 #include "project/underlays.h"
+#include "project/verification.h"
 
 namespace standpoint {
 
@@ -129,6 +130,7 @@ Result<Document> fromJson(const json& project, const fs::path& folder, Progress&
     if (!shapes) return failure(shapes.error());
     d.collision = collisionFrom(part, *shapes);
   }
+  if (project.contains("verification")) d.verification = verificationFrom(project.at("verification"));
   if (project.contains("underlays")) d.underlays = underlaysFrom(project.at("underlays"), folder);
   return d;
 }
@@ -159,6 +161,7 @@ Result<void> saveProject(const Document& document, const fs::path& folder, Progr
 
   json project = documentToJson(document);
   if (!document.underlays.empty()) project["underlays"] = underlaysToJson(document.underlays, folder);
+  if (document.verification) project["verification"] = verificationToJson(*document.verification);
   std::set<std::string> named;
   const auto store = [&](json& at, const char* key, Result<std::string> name) -> Result<void> {
     if (!name) return failure(name.error());

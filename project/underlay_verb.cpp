@@ -8,6 +8,7 @@
 #include "pointclouds/formats.h"
 #include "project/answers.h"
 #include "project/project_json.h"
+#include "project/registering.h"
 #include "project/underlay_placing.h"
 #include "project/underlays.h"
 
@@ -18,7 +19,7 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr std::array kActions = {"add", "move", "remove", "show", "hide"};
+constexpr std::array kActions = {"add", "move", "register", "remove", "show", "hide"};
 
 json underlayRow(const Underlay& u) {
   std::error_code ignored;
@@ -90,7 +91,20 @@ Result<Underlay> addedUnderlay(const Document& document, const json& options, Re
   return u;
 }
 
-Result<void> change(Underlays& underlays, const char* action, const json& options, std::string& description) {
+Result<Underlay> registeredUnderlay(const Outcome& outcome, const Underlay& underlay, const json& options, json& answer,
+                                    Report& report, Progress& progress) {
+  RegisterRequest request;
+  auto pairs = placePairsFrom(options.value("pairs", json::array()));
+  if (!pairs) return failure(pairs.error());
+  request.pairs = *std::move(pairs);
+  request.to_surface = options.value("icp", false);
+  request.reach_m = options.at("reach").get<double>();
+  return registered(outcome.document, underlay, request, answer, report, progress);
+}
+
+Result<void> change(Outcome& outcome, const char* action, const json& options, Progress& progress) {
+  auto& underlays = outcome.document.underlays;
+  auto& description = outcome.description;
   const auto name = options[action].get<std::string>();
   const auto at = std::find_if(underlays.begin(), underlays.end(), [&](const auto& u) { return u->name == name; });
   if (at == underlays.end()) {
@@ -113,6 +127,13 @@ Result<void> change(Underlays& underlays, const char* action, const json& option
     const double by_m = (pose->translation - changed.file_from_cloud.translation).norm();
     changed.file_from_cloud = *pose;
     description = fmt::format("Moved underlay {} by {:.3f} m", name, by_m);
+  } else if (what == "register") {
+    json answer;
+    auto done = registeredUnderlay(outcome, changed, options, answer, outcome.report, progress);
+    if (!done) return failure(done.error());
+    changed = *std::move(done);
+    outcome.answer["registered"] = std::move(answer);
+    description = fmt::format("Registered underlay {}", name);
   } else {
     changed.visible = what == "show";
     description = fmt::format("{} underlay {}", changed.visible ? "Showed" : "Hid", name);
@@ -133,6 +154,8 @@ Result<Outcome> runUnderlay(const Document& document, const json& options, Progr
     if (action) return failure(ErrorKind::usage, fmt::format("say one of --{}", fmt::join(kActions, ", --")));
     action = each;
   }
+  if (!(action && std::string_view(action) == "register") && (options.contains("pairs") || options.value("icp", false)))
+    return failure(ErrorKind::usage, "--pairs and --icp belong to --register NAME");
   Outcome outcome{document, json::object(), {}, {}};
   auto& underlays = outcome.document.underlays;
   if (action && std::string_view(action) == "add") {
@@ -142,7 +165,7 @@ Result<Outcome> runUnderlay(const Document& document, const json& options, Progr
     outcome.description = fmt::format("Added underlay {}: {} points", added->name, added->points);
     underlays.push_back(std::make_shared<const Underlay>(*std::move(added)));
   } else if (action) {
-    if (auto changed = change(underlays, action, options, outcome.description); !changed) return failure(changed.error());
+    if (auto changed = change(outcome, action, options, progress); !changed) return failure(changed.error());
   }
   json rows = json::array();
   for (const auto& u : underlays) rows.push_back(underlayRow(*u));

@@ -21,7 +21,7 @@ Underlays underlaysFrom(const nlohmann::json& part, const std::filesystem::path&
 // Of the cloud in the model's file frame.
 Bounds boundsInFile(const Underlay& underlay);
 
-// Adds, moves, shows, hides, removes or lists clouds that lie under the model.
+// Adds, moves, registers, shows, hides, removes or lists clouds that lie under the model.
 Result<Outcome> runUnderlay(const Document& document, const nlohmann::json& options, Progress& progress);
 
 }  // namespace standpoint

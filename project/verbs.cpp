@@ -9,6 +9,7 @@
 #include "project/treatments.h"
 #include "project/underlays.h"
 #include "project/verb.h"
+#include "project/verification.h"
 
 namespace standpoint {
 
@@ -95,12 +96,23 @@ const std::vector<Verb>& table() {
        {{.name = "add", .kind = K::path, .help = "cloud file (.e57, .las, .ply, .ptx, .pts, .xyz)"},
         {.name = "name", .kind = K::text, .help = "of what is added (default: the file's)"},
         {.name = "move", .kind = K::text, .help = "name of the underlay to move"},
+        {.name = "register", .kind = K::text, .help = "name of the underlay to register to the model, by --pairs, --icp, or both in this order"},
+        {.name = "pairs", .kind = K::pairs, .help = "three or more x,y,z=X,Y,Z: a place as the cloud's file has it, and as the model's"},
+        {.name = "icp", .kind = K::flag, .help = "fit the cloud to the model's surface, from where it lies"},
+        {.name = "reach", .kind = K::number, .help = "of --icp: no point looks further for its surface", .unit = "m", .standard = 0.5, .minimum = 0.01, .maximum = 100},
         {.name = "remove", .kind = K::text, .help = "name of the underlay to remove"},
         {.name = "show", .kind = K::text, .help = "name of the underlay to show"},
         {.name = "hide", .kind = K::text, .help = "name of the underlay to hide"},
         {.name = "at", .kind = K::triple, .help = "X,Y,Z of the cloud's origin in the file's frame (default: by the map conversion, else as the cloud is)", .unit = "m"},
         {.name = "yaw-deg", .kind = K::number, .help = "from the file's X axis to the cloud's, counter-clockwise", .unit = "deg", .minimum = -360, .maximum = 360}},
        runUnderlay},
+      {"verify", "Holds the assigned materials against the intensities of a measured cloud that lies under the model", S::changes,
+       {{.name = "underlay", .kind = K::text, .help = "its name (default: the only one there is)", .positional = true},
+        {.name = "instrument", .kind = K::text, .help = "id of the instrument that measured, for its wavelength (default: as the cloud says)"},
+        {.name = "from", .kind = K::triple, .help = "X,Y,Z of the station in the model's file frame, where the cloud does not say it", .unit = "m"},
+        {.name = "tolerance", .kind = K::number, .help = "points further off their surface are not compared", .unit = "m", .standard = 0.03, .minimum = 0.001, .maximum = 0.2},
+        {.name = "points", .kind = K::integer, .help = "most that are drawn from the cloud, evenly", .standard = 2000000, .minimum = 1000, .maximum = 20000000}},
+       runVerify},
       {"scan", "Scans from the stations with an instrument into point-cloud files", S::changes,
        {{.name = "stations", .kind = K::text, .help = "all, or names separated by commas", .standard = "all"},
         {.name = "instrument", .kind = K::text, .help = "id of the instrument, such as leica-rtc360", .required = true},

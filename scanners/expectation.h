@@ -60,6 +60,7 @@ class Expectation {
   ExpectedReturn from(const Eigen::Vector3d& station, const SurfacePlace& place) const;
   // Of the side that `normal` points away from; of a solid that is its outside, which single faces are assigned by.
   const Optics& opticsAt(std::uint32_t product, std::uint32_t surface, const Eigen::Vector3d& normal) const;
+  const RayScene& scene() const { return *scene_; }
   const ReturnLaw& law() const { return law_; }
 
  private:

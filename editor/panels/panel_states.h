@@ -13,6 +13,7 @@
 #include "editor/model/log.h"
 #include "editor/model/option_form.h"
 #include "editor/model/outliner_rows.h"
+#include "editor/model/verification_view.h"
 #include "project/geodesy.h"
 #include "scanners/instrument.h"
 #include "scanners/ray_engine.h"
@@ -46,6 +47,13 @@ struct MaterialsPanelState {
 struct FindingsPanelState {
   std::string chosen;               // MaterialFinding::id
   std::string because;              // what stands in the field
+};
+
+struct VerifyPanelState {
+  std::string underlay, instrument; // instrument "": as the cloud says
+  std::string chosen;               // material id
+  std::uint64_t seen_revision = ~0ULL;
+  VerificationView view;            // of that revision
 };
 
 struct OptimisePanelState {
@@ -107,6 +115,7 @@ struct PanelStates {
   OutlinerPanelState outliner;
   InspectorPanelState inspector;
   MaterialsPanelState materials;
+  VerifyPanelState verify;
   FindingsPanelState findings;
   OptimisePanelState optimise;
   CollisionPanelState collision;

@@ -18,5 +18,6 @@ void drawOutlinerPanel(Editor& editor);
 void drawScanPanel(Editor& editor);
 void drawSurveyPanel(Editor& editor);
 void drawTasksPanel(Editor& editor);
+void drawVerifyPanel(Editor& editor);
 
 }  // namespace standpoint

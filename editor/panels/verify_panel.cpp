@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "editor/editor.h"
+#include "editor/panels/panels_list.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/theme.h"
+#include "editor/shell/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+std::string labelOf(const Editor& editor, const std::string& id) {
+  if (id.empty()) return "Unassigned";
+  for (const auto& m : editor.panels.catalogue.materials)
+    if (m.id == id) return m.label;
+  return id;
+}
+
+void chooseUnderlay(Editor& editor) {
+  auto& state = editor.panels.verify;
+  const auto& underlays = editor.session.document().underlays;
+  const bool there = std::any_of(underlays.begin(), underlays.end(), [&](const auto& u) { return u->name == state.underlay; });
+  if (!there) state.underlay = underlays.front()->name;
+  ImGui::SetNextItemWidth(-1);
+  if (!ImGui::BeginCombo("###underlay", state.underlay.c_str())) return;
+  for (const auto& u : underlays)
+    if (ImGui::Selectable(u->name.c_str(), u->name == state.underlay)) state.underlay = u->name;
+  ImGui::EndCombo();
+}
+
+void chooseInstrument(Editor& editor) {
+  auto& state = editor.panels.verify;
+  const char* as_said = "Instrument as the cloud says";
+  ImGui::SetNextItemWidth(-1);
+  if (!ImGui::BeginCombo("###instrument", state.instrument.empty() ? as_said : state.instrument.c_str())) return;
+  if (ImGui::Selectable(as_said, state.instrument.empty())) state.instrument.clear();
+  for (const auto& i : editor.panels.catalogue.instruments)
+    if (ImGui::Selectable(fmt::format("{} {}  ({:.0f} nm)###{}", i.maker, i.model, i.wavelength_nm, i.id).c_str(), i.id == state.instrument))
+      state.instrument = i.id;
+  ImGui::EndCombo();
+}
+
+void drawButtons(Editor& editor) {
+  const auto& state = editor.panels.verify;
+  const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+  const auto why = !editor.session.document().materials ? std::string("Assign materials first") : editor.session.whyNot("verify");
+  if (ui::primaryButton(ICON_CHECK "  Compare###verify", why, {width, 0})) {
+    nlohmann::json options = {{"underlay", state.underlay}};
+    if (!state.instrument.empty()) options["instrument"] = state.instrument;
+    editor.session.start("verify", options, "Hold the materials against " + state.underlay);
+  }
+  ImGui::SameLine();
+  if (ui::button(ICON_MOVE "  Fit to model###fit", editor.session.whyNot("underlay"), {width, 0},
+                 "Moves the cloud onto the model's surface, from where it lies (ICP)"))
+    editor.session.start("underlay", {{"register", state.underlay}, {"icp", true}}, "Fit " + state.underlay + " to the model");
+}
+
+// Whiskers at 5 and 95 %, the box between the quartiles, and a line where measured is as expected.
+void drawBox(const Editor& editor, const VerifiedMaterial& m, double reach_db) {
+  auto& list = *ImGui::GetWindowDrawList();
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight(), middle = corner.y + height / 2;
+  const auto x = [&](double db) { return corner.x + width * static_cast<float>(0.5 + 0.5 * std::clamp(db / reach_db, -1.0, 1.0)); };
+  const ImU32 tone = !m.judged ? tone::kDim : m.agrees ? tone::kGood : tone::kWarning;
+  list.AddLine({x(0), corner.y}, {x(0), corner.y + height}, tone::kLine, editor.scale);
+  list.AddLine({x(m.off_db[0]), middle}, {x(m.off_db[4]), middle}, tone, editor.scale);
+  const float half = height * 0.32F, least = editor.px(1);
+  list.AddRectFilled({x(m.off_db[1]) - least, middle - half}, {x(m.off_db[3]) + least, middle + half}, (tone & 0x00FFFFFFU) | 0x70000000U);
+  list.AddLine({x(m.off_db[2]), middle - half}, {x(m.off_db[2]), middle + half}, tone, 2 * editor.scale);
+  ImGui::Dummy({width, height});
+}
+
+void drawMaterial(Editor& editor, const VerifiedMaterial& m, double reach_db) {
+  auto& state = editor.panels.verify;
+  ImGui::PushID(m.material.c_str());
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  if (ImGui::Selectable("###row", state.chosen == m.material, ImGuiSelectableFlags_SpanAllColumns)) {
+    state.chosen = m.material;
+    editor.selection.set(m.products);
+  }
+  ui::tooltip(fmt::format("{}\n{} points\n5 % {:+.1f}, quartiles {:+.1f} and {:+.1f}, 95 % {:+.1f} dB{}", m.material, groupedDigits(m.points), m.off_db[0],
+                          m.off_db[1], m.off_db[3], m.off_db[4], m.judged ? "" : "\nnot enough points, ranges or angles to judge by"));
+  ImGui::SameLine(0, 0);
+  ui::fitted(labelOf(editor, m.material), ImGui::GetContentRegionAvail().x);
+  ImGui::TableNextColumn();
+  drawBox(editor, m, reach_db);
+  ImGui::TableNextColumn();
+  ui::textRightAligned(m.judged ? fmt::format("{:+.1f}", std::round(m.off_db[2] * 10) / 10 + 0.0) : "?");
+  ImGui::PopID();
+}
+
+void drawMaterials(Editor& editor, const VerificationView& view) {
+  ui::heading(editor, "Measured minus expected");
+  const auto flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX;
+  if (!ImGui::BeginTable("off", 3, flags)) return;
+  ImGui::TableSetupColumn("Material", ImGuiTableColumnFlags_WidthStretch, 1.1F);
+  ImGui::TableSetupColumn(fmt::format("−{0:.0f} … +{0:.0f} dB", view.reach_db).c_str(), ImGuiTableColumnFlags_WidthStretch, 1);
+  ImGui::TableSetupColumn("dB", ImGuiTableColumnFlags_WidthFixed, editor.px(38));
+  ImGui::TableHeadersRow();
+  for (const auto& m : view.materials) drawMaterial(editor, m, view.reach_db);
+  ImGui::EndTable();
+}
+
+std::string titleOf(const Editor& editor, const VerifiedProposal& p) {
+  const auto count = p.whole_material ? std::string() : fmt::format(" ({} product{})", p.products.size(), p.products.size() == 1 ? "" : "s");
+  return fmt::format("{}{} behaves like {}", labelOf(editor, p.material), count, labelOf(editor, p.behaves_like));
+}
+
+void drawProposal(Editor& editor, const VerifiedProposal& p, int index) {
+  ImGui::PushID(index);
+  ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
+  ImGui::SameLine();
+  ui::wrapped(titleOf(editor, p));
+  ImGui::PushTextWrapPos(0);
+  ui::dimText(p.evidence);
+  std::vector<std::string> alike;
+  for (const auto& id : p.alike) alike.push_back(labelOf(editor, id));
+  if (!alike.empty()) ui::dimText(fmt::format("As well as: {}", fmt::join(alike, "; ")));
+  ImGui::PopTextWrapPos();
+  if (ui::button(ICON_PAINT "  Assign###assign", editor.session.whyNot("materials"), {0, 0}, "Assigns it to these products; undo takes it back"))
+    editor.session.start("materials", {{"assign", p.assign}}, "Assign what was measured");
+  ImGui::SameLine();
+  if (ui::button(ICON_POINTER "  Select###select", {}, {0, 0})) {
+    editor.selection.set(p.products);
+    editor.frameSelection();
+  }
+  ui::gap(editor, 4);
+  ImGui::PopID();
+}
+
+void drawVerdict(Editor& editor, const VerificationView& view) {
+  if (!view.current) {
+    ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
+    ImGui::SameLine();
+    ui::wrapped("The materials, or the cloud's placement, have changed since: compare again.");
+  }
+  if (!view.no_verdict.empty()) {
+    ImGui::TextColored(colour(tone::kBad), "%s", ICON_WARNING);
+    ImGui::SameLine();
+    ui::wrapped("No verdict: " + view.no_verdict);
+  } else if (view.proposals.empty()) {
+    ImGui::TextColored(colour(tone::kGood), "%s", ICON_CHECK);
+    ImGui::SameLine();
+    ui::wrapped("Nothing that was measured speaks against a material.");
+  }
+  for (std::size_t i = 0; i < view.proposals.size(); ++i) drawProposal(editor, view.proposals[i], static_cast<int>(i));
+}
+
+void drawBasis(const Editor& editor, const VerificationView& view) {
+  ui::heading(editor, "By");
+  if (!ui::beginProperties("basis")) return;
+  ui::property("Cloud", view.underlay);
+  ui::property("Instrument", view.instrument);
+  ui::property("Points", groupedDigits(view.compared));
+  if (!view.scale.empty()) ui::property("Vendor's scale", view.scale);
+  if (view.moved_m >= 0) ui::property("Off the model", fmt::format("{:.1f} mm", view.moved_m * 1000));
+  ui::endProperties();
+}
+
+}  // namespace
+
+void drawVerifyPanel(Editor& editor) {
+  const auto& document = editor.session.document();
+  if (!editor.environment() || document.underlays.empty()) {
+    ui::emptyState(editor, ICON_CHECK_CIRCLE, "No measured cloud",
+                   "Drop a real scan of the building here (E57, PTX): its intensities then tell whether the materials are right.");
+    return;
+  }
+  readCatalogue(editor.panels.catalogue);
+  chooseUnderlay(editor);
+  chooseInstrument(editor);
+  drawButtons(editor);
+  ui::gap(editor, 4);
+  auto& state = editor.panels.verify;
+  if (state.seen_revision != editor.session.revision()) {
+    state.seen_revision = editor.session.revision();
+    state.view = verificationView(document);
+  }
+  if (!state.view.there) {
+    ImGui::PushTextWrapPos(0);
+    ui::dimText("Compares what each surface sent back with what its material should, and proposes a better one where they disagree.");
+    ImGui::PopTextWrapPos();
+    return;
+  }
+  ImGui::BeginChild("verified");
+  drawVerdict(editor, state.view);
+  drawMaterials(editor, state.view);
+  drawBasis(editor, state.view);
+  ImGui::EndChild();
+}
+
+}  // namespace standpoint

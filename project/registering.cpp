@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/registering.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "core/units.h"
+#include "project/answers.h"
+#include "project/model_surface.h"
+#include "project/project_json.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+using Eigen::Vector3d;
+
+constexpr double kThinning_m = 0.05;
+constexpr std::size_t kPointsOfFit = 40000;
+// Where fewer of the points see their triangle from the front, the model's faces are not oriented at all.
+constexpr double kOriented = 0.7;
+
+struct Points {
+  std::vector<Vector3d> place;                   // cloud's frame
+  std::vector<std::optional<Vector3d>> station;  // the same frame
+};
+
+Points pointsOfFit(const CloudSample& sample) {
+  Points points;
+  for (const auto i : thinned(sample.position, kThinning_m, kPointsOfFit)) {
+    points.place.push_back(sample.position[i]);
+    points.station.push_back(sample.scans[sample.scan[i]].station);
+  }
+  return points;
+}
+
+bool facesAreOriented(const ModelSurface& surface, const Points& points, const Pose& local_from_cloud, double reach_m) {
+  std::size_t front = 0, met = 0;
+  const std::size_t step = std::max<std::size_t>(1, points.place.size() / 2000);
+  for (std::size_t i = 0; i < points.place.size(); i += step) {
+    if (!points.station[i]) continue;
+    const Vector3d p = local_from_cloud * points.place[i];
+    const SurfaceTouch touch = surface.nearest(p, reach_m);
+    if (touch.normal.isZero()) continue;
+    ++met;
+    front += touch.normal.dot(local_from_cloud * *points.station[i] - p) > 0 ? 1 : 0;
+  }
+  return static_cast<double>(front) >= kOriented * static_cast<double>(met);
+}
+
+Result<PlacePair> placePairFrom(const std::string& text) {
+  const auto equals = text.find('=');
+  const auto cloud = parseNumbers(text.substr(0, equals));
+  const auto model = parseNumbers(equals == std::string::npos ? "" : text.substr(equals + 1));
+  if (!cloud || !model || cloud->size() != 3 || model->size() != 3)
+    return failure(ErrorKind::usage, fmt::format("'{}' is not X,Y,Z in the cloud = X,Y,Z in the model", text), "--pairs");
+  return PlacePair{vectorFrom(*cloud), vectorFrom(*model)};
+}
+
+std::string unitFor(double scale) {
+  struct Unit {
+    double scale;
+    const char* what;
+  };
+  constexpr std::array units = {Unit{0.001, "millimetres"}, Unit{0.01, "centimetres"}, Unit{0.3048, "feet"}, Unit{0.0254, "inches"}};
+  for (const auto& unit : units)
+    if (std::abs(scale / unit.scale - 1) < 0.01) return fmt::format(": the cloud seems to be in {}", unit.what);
+  return {};
+}
+
+// Three standard deviations, and more than a millimetre over the pairs' extent.
+bool scaleDiffers(const RigidFit& fit, const std::vector<PlacePair>& pairs) {
+  double extent_m = 0;
+  for (const auto& p : pairs) extent_m = std::max(extent_m, (p.cloud_m - pairs.front().cloud_m).norm());
+  const double off = std::abs(fit.scale - 1);
+  return off > 3 * fit.scale_sigma && off * extent_m > 0.001;
+}
+
+Result<Pose> byPairs(const std::vector<PlacePair>& pairs, const std::string& name, json& answer, Report& report) {
+  std::vector<Vector3d> cloud, model;
+  for (const auto& p : pairs) cloud.push_back(p.cloud_m), model.push_back(p.model_m);
+  const auto fit = fitRigid(cloud, model);
+  if (!fit) return failure(fit.error().kind, fit.error().message, "--pairs");
+  json rows = json::array();
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    rows.push_back({{"cloud", toJson(cloud[i])}, {"model", toJson(model[i])}, {"residual_m", fit->residual_m[i]}});
+  answer["pairs"] = std::move(rows);
+  answer["pairs_rms_m"] = fit->rms_m;
+  answer["scale"] = fit->scale;
+  answer["scale_sigma"] = fit->scale_sigma;
+  if (scaleDiffers(*fit, pairs))
+    report.warn(name, fmt::format("the pairs fit best with a scale of {:.6f} ± {:.6f}, which is not applied{}", fit->scale,
+                                  fit->scale_sigma, unitFor(fit->scale)));
+  if (fit->breadth < 0.02)
+    report.warn(name, "the pairs lie nearly on one line, which hardly holds the turn about it: add a pair beside it");
+  if (pairs.size() == 3) report.note(name, "three pairs leave little to judge them by: a fourth would show a wrong one");
+  const auto worst = std::max_element(fit->residual_m.begin(), fit->residual_m.end());
+  report.note(name, fmt::format("the pairs fit to {:.4f} m, the worst is pair {} with {:.4f} m", fit->rms_m,
+                                worst - fit->residual_m.begin() + 1, *worst));
+  return fit->to_from;
+}
+
+void tell(const SurfaceFit& fit, const std::string& name, Report& report) {
+  report.note(name, fmt::format("fitted to the surface in {} iterations: {:.4f} m RMS along its normals over {:.1f} % of the "
+                                "points, placed to {:.4f} m (1 σ)",
+                                fit.iterations, fit.rms_m, fit.used_share * 100, fit.sigma_shift_m.norm()));
+  for (const auto& motion : fit.free)
+    report.warn(name, fmt::format("the surface does not hold the cloud {}: there it stays as it was placed", describe(motion)));
+  if (!fit.settled)
+    report.warn(name, fmt::format("it still moved after {} iterations: start nearer, by pairs", fit.iterations));
+  if (fit.used_share < 0.5)
+    report.warn(name, fmt::format("only {:.1f} % of the points lie on the model: it may sit in a wrong place, or the model "
+                                  "lacks what was scanned", fit.used_share * 100));
+}
+
+}  // namespace
+
+Result<std::vector<PlacePair>> placePairsFrom(const json& texts) {
+  std::vector<PlacePair> pairs;
+  for (const auto& text : texts) {
+    auto pair = placePairFrom(text.get<std::string>());
+    if (!pair) return failure(pair.error());
+    pairs.push_back(*pair);
+  }
+  return pairs;
+}
+
+Result<SurfaceFit> fitCloudToModel(const Document& document, const CloudSample& sample, const Pose& file_from_cloud,
+                                   double reach_m, Progress& progress) {
+  const ModelSurface surface(*document.environment());
+  if (surface.empty()) return failure(ErrorKind::unusable, "the model has no surface");
+  const Points points = pointsOfFit(sample);
+  Pose local_from_cloud = file_from_cloud;
+  local_from_cloud.translation -= document.georeference->shift_m;
+  const bool oriented = facesAreOriented(surface, points, local_from_cloud, reach_m);
+  // Stations move with the cloud; how it is placed at first is good enough to tell the side of a wall.
+  std::vector<std::optional<Vector3d>> station(points.place.size());
+  if (oriented)
+    for (std::size_t i = 0; i < station.size(); ++i)
+      if (points.station[i]) station[i] = local_from_cloud * *points.station[i];
+  const SurfaceSearch search = [&](std::span<const Vector3d> placed, double reach, std::span<SurfaceTouch> touches) {
+    tbb::parallel_for(std::size_t{0}, placed.size(), [&](std::size_t i) {
+      touches[i] = surface.nearest(placed[i], reach, station[i] ? &*station[i] : nullptr);
+    });
+  };
+  SurfaceFitOptions options;
+  options.reach_m = reach_m;
+  auto fit = fitToSurface(points.place, local_from_cloud, search, options, progress);
+  if (fit) fit->to_from.translation += document.georeference->shift_m;
+  return fit;
+}
+
+std::string describe(const FreeMotion& motion) {
+  const auto text = [](const Vector3d& v) { return fmt::format("({:.2f}, {:.2f}, {:.2f})", v.x(), v.y(), v.z()); };
+  if (motion.axis.isZero()) return "along " + text(motion.shift);
+  if (motion.shift.isZero()) return "about " + text(motion.axis);
+  return "along " + text(motion.shift) + " with a turn about " + text(motion.axis);
+}
+
+json toJson(const SurfaceFit& fit) {
+  json free = json::array();
+  for (const auto& motion : fit.free)
+    free.push_back({{"along", motion.shift.isZero() ? json(nullptr) : toJson(motion.shift)},
+                    {"about", motion.axis.isZero() ? json(nullptr) : toJson(motion.axis)},
+                    {"held_share", motion.held_share}});
+  return {{"iterations", fit.iterations},
+          {"settled", fit.settled},
+          {"rms_m", fit.rms_m},
+          {"used_share", fit.used_share},
+          {"moved_m", fit.moved_m},
+          {"sigma_shift_m", toJson(fit.sigma_shift_m)},
+          {"sigma_turn_deg", toJson(Vector3d(fit.sigma_turn_rad / kRadPerDeg))},
+          {"not_held", std::move(free)}};
+}
+
+Result<Underlay> registered(const Document& document, const Underlay& underlay, const RegisterRequest& request, json& answer,
+                            Report& report, Progress& progress) {
+  Underlay result = underlay;
+  if (request.pairs.empty() && !request.to_surface)
+    return failure(ErrorKind::usage, "say by what: --pairs x,y,z=X,Y,Z … (three or more), --icp, or both", "--register");
+  if (!request.pairs.empty()) {
+    auto pose = byPairs(request.pairs, underlay.name, answer, report);
+    if (!pose) return failure(pose.error());
+    result.file_from_cloud = *pose;
+  }
+  if (request.to_surface) {
+    progress.stage("Reading " + underlay.name, 0, 0.4);
+    const auto sample = sampleCloud(underlay.file, kSampleForFit, progress);
+    if (!sample) return failure(sample.error());
+    progress.stage("Fitting " + underlay.name + " to the model", 0.4, 1);
+    const auto fit = fitCloudToModel(document, *sample, result.file_from_cloud, request.reach_m, progress);
+    if (!fit) return failure(fit.error().kind, fit.error().message, underlay.name);
+    result.file_from_cloud = fit->to_from;
+    answer["icp"] = toJson(*fit);
+    tell(*fit, underlay.name, report);
+  }
+  answer["pose"] = poseToJson(result.file_from_cloud);
+  return result;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "materials/materials.h"
+#include "project/answers.h"
+#include "project/registering.h"
+#include "project/verification.h"
+#include "project/verify_answer.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+
+// A fit that would move the cloud by more than this says that it lies wrong.
+constexpr double kMisplaced_m = 0.02;
+constexpr double kPlacementReach_m = 0.3;
+// Of the points that have a station: with fewer on the model it is not the model's cloud, or it lies elsewhere.
+constexpr double kFewOnModel = 0.02;
+
+std::string lower(std::string text) {
+  for (auto& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+Result<std::shared_ptr<const Underlay>> underlayFor(const Document& document, const json& options) {
+  const auto& all = document.underlays;
+  if (all.empty())
+    return failure(ErrorKind::usage, "no cloud lies under the model: add one with `standpoint underlay PROJECT --add FILE`", "verify");
+  if (!options.contains("underlay") && all.size() == 1) return all.front();
+  const auto name = options.value("underlay", std::string());
+  std::vector<std::string> names;
+  for (const auto& u : all) {
+    if (u->name == name) return u;
+    names.push_back(u->name);
+  }
+  return failure(ErrorKind::usage, name.empty() ? fmt::format("say which cloud: {}", fmt::join(names, ", "))
+                                                : fmt::format("there is no underlay '{}'; there is {}", name, fmt::join(names, ", ")), "verify");
+}
+
+// The one that is named, else the one whose maker and model the cloud's scans name.
+Result<Instrument> instrumentFor(const json& options, const CloudSample& sample, Report& report) {
+  auto all = readInstruments(dataFolder() / "scanners" / "instruments");
+  if (!all) return failure(all.error());
+  const auto id = options.value("instrument", std::string());
+  std::vector<std::string> ids;
+  for (auto& i : *all) {
+    if (i.id == id) return std::move(i);
+    ids.push_back(i.id);
+  }
+  if (!id.empty())
+    return failure(ErrorKind::usage, fmt::format("there is no instrument '{}'; there is {}", id, fmt::join(ids, ", ")), "--instrument");
+  // The longest model that fits: "Focus S350" before "Focus".
+  const Instrument* best = nullptr;
+  for (const auto& scan : sample.scans) {
+    const auto said = lower(scan.sensor_vendor + " " + scan.sensor_model);
+    for (const auto& i : *all)
+      if (said.find(lower(i.maker)) != std::string::npos && said.find(lower(i.model)) != std::string::npos &&
+          (best == nullptr || i.model.size() > best->model.size()))
+        best = &i;
+  }
+  if (best == nullptr)
+    return failure(ErrorKind::usage, fmt::format("the cloud does not say which instrument measured it: name the one whose wavelength "
+                                                 "is nearest with --instrument; there is {}", fmt::join(ids, ", ")), "--instrument");
+  report.note("instrument", fmt::format("{} {} at {:.0f} nm, as the cloud says", best->maker, best->model, best->wavelength_nm));
+  return *best;
+}
+
+Result<CloudSample> usableSample(const Underlay& underlay, const json& options, Progress& progress) {
+  auto sample = sampleCloud(underlay.file, options.at("points").get<std::size_t>(), progress);
+  if (!sample) return failure(sample.error());
+  if (sample->intensity.empty())
+    return failure(ErrorKind::unusable, "the cloud has no intensity: export it with intensity from the scanner's software", underlay.name);
+  if (!(sample->most_intensity > sample->least_intensity))
+    return failure(ErrorKind::unusable, fmt::format("every point has the same intensity, {}: it was lost on the way; export the cloud again",
+                                                    sample->least_intensity), underlay.name);
+  std::size_t without = 0;
+  for (auto& scan : sample->scans) {
+    if (options.contains("from")) {
+      if (options["from"].size() != 3) return failure(ErrorKind::usage, "it takes X,Y,Z in metres", "--from");
+      const Pose& pose = underlay.file_from_cloud;
+      if (!scan.station) scan.station = pose.rotation.conjugate() * (vectorFrom(options["from"]) - pose.translation);
+    }
+    without += scan.station ? 0 : 1;
+  }
+  if (without == sample->scans.size())
+    return failure(ErrorKind::unusable, "the cloud does not say where its scanner stood: import the single scans with their poses (E57 or "
+                                        "PTX with grid), or say it with --from X,Y,Z", underlay.name);
+  return sample;
+}
+
+Result<VerifyFound> found(const Document& document, const Underlay& underlay, const CloudSample& sample, const Instrument& instrument,
+                          const std::vector<PhysicalMaterial>& library, const json& options, Progress& progress) {
+  VerifyFound f;
+  f.underlay = underlay.name;
+  f.instrument = &instrument;
+  f.library = &library;
+  f.document = &document;
+  auto settings = resolveSettings(instrument, {});
+  if (!settings) return failure(settings.error());
+  progress.stage("Rays of the model", 0.4, 0.45);
+  auto scene = RayScene::build(document.environment(), progress);
+  if (!scene) return failure(scene.error());
+  // A part of the document: it outlives the expectation.
+  const std::shared_ptr<const MaterialAssignment> assignment(document.materials, &document.materials->result.assignment);
+  const Expectation expectation(*scene, assignment, ReturnLaw(instrument, *settings));
+  MeetingTolerance tolerance;
+  tolerance.met_m = options.at("tolerance").get<double>();
+  tolerance.window_m = std::max(tolerance.window_m, tolerance.met_m);
+  progress.stage("Beams to the points", 0.45, 0.6);
+  auto measured = measuredReturns(document, sample, underlay.file_from_cloud, expectation, library, tolerance, progress);
+  if (!measured) return failure(measured.error());
+  f.measured = *std::move(measured);
+  std::uint64_t with_station = 0;
+  for (const auto n : f.measured.meetings) with_station += n;
+  const auto of = [&](BeamMeeting meeting) { return f.measured.meetings[static_cast<std::size_t>(meeting)]; };
+  const auto near = of(BeamMeeting::met) + of(BeamMeeting::near) + of(BeamMeeting::edge);
+  if (near < 100 || static_cast<double>(near) < kFewOnModel * static_cast<double>(with_station))
+    return failure(ErrorKind::unusable, fmt::format("{} of {} points lie on the model: register the cloud first, `standpoint underlay PROJECT "
+                                                    "--register {} --pairs … --icp`", near, with_station, underlay.name), underlay.name);
+  progress.stage("Placement of the cloud", 0.6, 0.85);
+  f.placement = fitCloudToModel(document, sample, underlay.file_from_cloud, kPlacementReach_m, progress);
+  if (!f.placement && f.placement.error().kind == ErrorKind::cancelled) return failure(f.placement.error());
+  progress.stage("Materials by intensity", 0.85, 1);
+  auto comparison = compareMaterials(f.measured.returns, f.measured.groups, library, instrument, {}, progress);
+  if (!comparison) return failure(comparison.error());
+  f.comparison = *std::move(comparison);
+  return f;
+}
+
+// A cloud that lies wrong has points on the wrong products: what they seem to be made of is no evidence.
+void judgePlacement(VerifyFound& f) {
+  std::string wrong;
+  if (!f.placement) wrong = "its placement cannot be checked: " + f.placement.error().message;
+  else if (f.placement->moved_m > kMisplaced_m)
+    wrong = fmt::format("the cloud lies {:.3f} m off the model: register it first, `standpoint underlay PROJECT --register {} --icp`",
+                        f.placement->moved_m, f.underlay);
+  if (wrong.empty()) return;
+  f.comparison.no_verdict = wrong;
+  f.comparison.proposals.clear();
+}
+
+}  // namespace
+
+Result<Outcome> runVerify(const Document& document, const json& options, Progress& progress) {
+  progress.stage("Verify", 0, 0.4);
+  auto underlay = underlayFor(document, options);
+  if (!underlay) return failure(underlay.error());
+  if (!document.materials)
+    return failure(ErrorKind::usage, "no materials are assigned yet: `standpoint materials PROJECT` does it", "verify");
+  auto library = readMaterialLibrary(dataFolder() / "materials" / "library");
+  if (!library) return failure(library.error());
+  Outcome outcome{document, json::object(), {}, {}};
+  progress.stage("Reading " + (*underlay)->name, 0, 0.4);
+  const auto sample = usableSample(**underlay, options, progress);
+  if (!sample) return failure(sample.error());
+  const auto instrument = instrumentFor(options, *sample, outcome.report);
+  if (!instrument) return failure(instrument.error());
+  const auto all = withOwn(*std::move(library), document.materials->own);
+  auto f = found(document, **underlay, *sample, *instrument, all, options, progress);
+  if (!f) return failure(f.error());
+  judgePlacement(*f);
+  outcome.answer = verifyAnswer(*f);
+  tellVerified(*f, outcome.report);
+  const auto proposals = f->comparison.proposals.size();
+  outcome.description = f->comparison.no_verdict.empty()
+                            ? fmt::format("Held the materials against {}: {} proposal{}", f->underlay, proposals, proposals == 1 ? "" : "s")
+                            : fmt::format("Held the materials against {}: no verdict", f->underlay);
+  Verification verification{verificationBasis(document, f->underlay), outcome.answer};
+  outcome.document.verification = std::make_shared<const Verification>(std::move(verification));
+  return outcome;
+}
+
+}  // namespace standpoint
