@@ -34,6 +34,7 @@ struct Surface {
   std::optional<float> specular;              // 0..1
   bool unlit = false;                         // KHR_materials_unlit: the colour has the light in it (photogrammetry)
   std::int32_t image = -1;                    // what is painted on it: index into Environment::images; -1 = plain
+  std::string physical_material;              // PhysicalMaterial::id that the file itself states; empty where it is silent
   bool operator==(const Surface&) const = default;
 };
 

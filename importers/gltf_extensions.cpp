@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "importers/gltf_extensions.h"
 
+#include "importers/gltf_physical_material.h"
+
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -12,7 +14,8 @@ namespace {
 using Json = nlohmann::json;
 
 // Read, or named where they are met: a file may require them.
-constexpr std::array<std::string_view, 22> kUnderstood = {"KHR_mesh_quantization",
+constexpr std::array<std::string_view, 23> kUnderstood = {"KHR_mesh_quantization",
+                                                          kGltfPhysicalMaterial,
                                                           "KHR_draco_mesh_compression",
                                                           "EXT_meshopt_compression",
                                                           "KHR_meshopt_compression",

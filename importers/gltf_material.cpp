@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "importers/gltf_physical_material.h"
+
 namespace standpoint {
 
 namespace {
@@ -13,7 +15,8 @@ namespace {
 using Json = nlohmann::json;
 
 // Material extensions of which a surface keeps the factors; of any other the name is reported.
-constexpr std::array<std::string_view, 8> kKept = {"KHR_materials_transmission", "KHR_materials_ior",
+constexpr std::array<std::string_view, 9> kKept = {kGltfPhysicalMaterial,
+                                                   "KHR_materials_transmission", "KHR_materials_ior",
                                                    "KHR_materials_volume",       "KHR_materials_clearcoat",
                                                    "KHR_materials_unlit",        "KHR_materials_pbrSpecularGlossiness",
                                                    "KHR_materials_specular",     "KHR_materials_emissive_strength"};
@@ -173,6 +176,7 @@ class MaterialReader {
     const auto& specular = memberOf(extensions, "KHR_materials_specular");
     if (specular.is_object()) surface.specular = floatOr(specular, "specularFactor", 1);
     surface.unlit = memberOf(extensions, "KHR_materials_unlit").is_object();
+    surface.physical_material = file_.text(memberOf(extensions, kGltfPhysicalMaterial), "id");
   }
 
   void listWhatIsNotKept(const Json& json) {
@@ -229,6 +233,7 @@ class MaterialReader {
     surface.source = file_.text(stored, "source");
     for (const auto& figure : kGltfSurfaceFigures) surface.*figure.value = floatIn(stored, figure.key);
     surface.unlit = memberOf(stored, "unlit") == true;
+    if (surface.physical_material.empty()) surface.physical_material = file_.text(stored, "physical_material");
     if (const auto image = file_.index(stored, "image", place_ + "/extras/standpoint"); image && ours_) {
       if (*image >= result_.images.size()) return file_.fail(place_ + "/extras/standpoint/image", "does not exist");
       surface.image = static_cast<std::int32_t>(*image);

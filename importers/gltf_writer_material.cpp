@@ -20,6 +20,7 @@ Json extrasOf(const Surface& s) {
     if (s.*figure.value) extras[figure.key] = *(s.*figure.value);
   if (s.unlit) extras["unlit"] = true;
   if (s.image >= 0) extras["image"] = s.image;
+  if (!s.physical_material.empty()) extras["physical_material"] = s.physical_material;
   return extras;
 }
 

@@ -48,7 +48,7 @@ class Assigner {
     const bool in_scene = environment_.products[pair.product].inScene();
     const auto said = table_.of(pair);
     if (said.whole >= 0) byUser(said.whole, result);
-    else if (in_scene) byRules(pair, result);
+    else if (in_scene && !byFile(pair, result)) byRules(pair, result);
     if (result.material >= 0 && isGap(material(result.material))) {
       if (in_scene) checks_.gap(pair, material(result.material));
       result.material = -1;
@@ -99,6 +99,16 @@ class Assigner {
     result.material = by_id_.at(o.material);
     result.reason = "override " + o.selector;
     result.confidence = 1;
+  }
+
+  // What an exported environment says of itself; an id that the library lacks is the rules' again.
+  bool byFile(const SurfaceOfProduct& pair, AssignedSurface& result) const {
+    const auto found = by_id_.find(environment_.surfaces[pair.surface].physical_material);
+    if (found == by_id_.end()) return false;
+    result.material = found->second;
+    result.reason = "stated by the file";
+    result.confidence = 1;
+    return true;
   }
 
   void byRules(const SurfaceOfProduct& pair, AssignedSurface& result) {

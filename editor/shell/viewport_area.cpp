@@ -87,24 +87,19 @@ void measure(Editor& editor, const RayHit& hit) {
 void click(Editor& editor) {
   const auto& hit = editor.view.hover;
   const bool add = ImGui::GetIO().KeyCtrl;
+  void (*act)(Editor&, const RayHit&) = nullptr;
   switch (editor.view.tool) {
-    case Tool::placeStation:
-      if (hit) placeStation(editor, *hit);
-      return;
-    case Tool::placeTarget:
-      if (hit) placeTarget(editor, *hit);
-      return;
-    case Tool::measure:
-      if (hit) measure(editor, *hit);
-      return;
-    case Tool::takeMaterial:
-      if (hit) takeMaterial(editor, *hit);
-      return;
-    case Tool::paintMaterial:
-      if (hit) paintMaterial(editor, *hit);
-      return;
+    case Tool::placeStation: act = placeStation; break;
+    case Tool::placeTarget: act = placeTarget; break;
+    case Tool::measure: act = measure; break;
+    case Tool::takeMaterial: act = takeMaterial; break;
+    case Tool::paintMaterial: act = paintMaterial; break;
     case Tool::walk: return;
     case Tool::select: break;
+  }
+  if (act != nullptr) {
+    if (hit) act(editor, *hit);
+    return;
   }
   if (hit && add)
     editor.selection.toggle(hit->product);

@@ -28,6 +28,23 @@ TEST(ExportPhysical, CarriesTheMaterialsInAGltfAsAnExtension) {
   EXPECT_EQ(gltf.at("materials")[0].at("name"), "Concrete");
 }
 
+TEST(ExportPhysical, ComesBackWithAGltfThatIsImported) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "house.glb";
+  ASSERT_TRUE(run("export", assigned(), {{"output", file.string()}}));
+  const auto imported = run("import", {}, {{"files", {file.string()}}});
+  ASSERT_TRUE(imported) << describe(imported.error());
+  const auto outcome = run("materials", imported->document, json::object());
+  ASSERT_TRUE(outcome) << describe(outcome.error());
+  std::size_t slabs = 0;
+  const auto& assignment = outcome->document.materials->result.assignment;
+  for (const auto& s : assignment.surfaces) {
+    EXPECT_EQ(s.reason, "stated by the file");
+    slabs += assignment.materials[static_cast<std::size_t>(s.material)].id == "granite_grey" ? 1 : 0;
+  }
+  EXPECT_EQ(slabs, 3U);
+}
+
 TEST(ExportPhysical, NamesTheMaterialsOfAnObjWhereThatIsAskedFor) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "house.obj";
