@@ -163,7 +163,7 @@ class MaterialReader {
       not_kept_.add("that its image does not repeat beyond its edges (" + where + ")", place_);
   }
 
-  static void optics(const Json& extensions, Surface& surface) {
+  void optics(const Json& extensions, Surface& surface) {
     const auto& transmission = memberOf(extensions, "KHR_materials_transmission");
     if (transmission.is_object()) surface.transmission = floatOr(transmission, "transmissionFactor", 0);
     const auto& ior = memberOf(extensions, "KHR_materials_ior");
