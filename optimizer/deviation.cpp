@@ -102,11 +102,13 @@ std::vector<SurfacePoint> spread(std::span<const Vector3d> positions, std::span<
   const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
   if (!(total > 0)) return points;
   points.reserve(count);
+  // A start by chance: with few points on each of many equal instances a fixed one would look at the same triangles of all.
+  const double start = uniform(philox(key, std::numeric_limits<std::uint32_t>::max(), 0, 0)[0]);
   double walked = 0;
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     const auto& t = triangles[i];
     walked += areas[i];
-    while (points.size() < count && (static_cast<double>(points.size()) + 0.5) * total <= walked * count) {
+    while (points.size() < count && (static_cast<double>(points.size()) + start) * total <= walked * count) {
       const auto block = philox(key, static_cast<std::uint32_t>(points.size()), 0, 0);
       const double r = std::sqrt(uniform(block[0])), s = uniform(block[1]);
       points.push_back({i, (1 - r) * positions[t[0]] + r * (1 - s) * positions[t[1]] + r * s * positions[t[2]]});

@@ -12,7 +12,7 @@
 
 namespace standpoint {
 
-inline constexpr std::uint32_t kDeviationSamples = 50'000;  // on all placed surfaces, each way: the mean to half a percent
+inline constexpr std::uint32_t kDeviationSamples = 50'000;  // on all placed surfaces, each way; of the whole more where few places hold the loss
 
 struct SurfacePoint {
   std::uint32_t triangle = 0;

@@ -188,7 +188,7 @@ void tellVerified(const VerifyFound& found, Report& report) {
                             tenths(m.off_db.lower), tenths(m.off_db.upper), !m.supported ? ", which is not enough to judge by" : m.agrees ? "" : ", does not agree"));
   for (const auto& p : c.proposals)
     report.warn(idOf(found, p.material),
-                fmt::format("{} behaves like '{}': {}",
+                fmt::format("behaves like '{1}' ({0}): {2}",
                             p.whole_material ? "all that can be judged of it" : fmt::format("{} of its products", productIds(found, p.groups).size()),
                             idOf(found, p.instead), evidenceOf(found, p)));
   if (!c.no_verdict.empty()) report.warn(found.underlay, "nothing is proposed: " + c.no_verdict);

@@ -41,7 +41,7 @@ const char* colourName(ColourMode mode) {
 }
 
 void colourChip(Editor& editor) {
-  ImGui::SetNextItemWidth(editor.px(166));
+  ImGui::SetNextItemWidth(editor.px(152));
   if (!ImGui::BeginCombo("###colour", fmt::format("{}  {}", ICON_PAINT, colourName(editor.view.colour)).c_str(), ImGuiComboFlags_NoArrowButton)) return;
   for (const auto mode : {ColourMode::model, ColourMode::material, ColourMode::reflectance, ColourMode::confidence, ColourMode::expected_intensity, ColourMode::expected_noise, ColourMode::expected_fate})
     if (ImGui::Selectable(colourName(mode), editor.view.colour == mode)) editor.view.colour = mode;
@@ -73,7 +73,7 @@ const char* sideName(ModelSide side) {
 void sideChip(Editor& editor) {
   if (!editor.session.document().lightening || isExpected(editor.view.colour)) return;
   ImGui::SameLine();
-  ImGui::SetNextItemWidth(editor.px(118));
+  ImGui::SetNextItemWidth(editor.px(112));
   if (!ImGui::BeginCombo("###side", fmt::format("{}  {}", ICON_COMPRESS, sideName(editor.view.side)).c_str(), ImGuiComboFlags_NoArrowButton)) return;
   for (const auto side : {ModelSide::lighter, ModelSide::original, ModelSide::both})
     if (ImGui::Selectable(sideName(side), editor.view.side == side)) editor.view.side = side;
@@ -92,7 +92,7 @@ void cutChip(Editor& editor) {
   auto& cut = editor.visibility.cut_height_m;
   const double shift = editor.shift_m().z();
   const std::string label = cut ? fmt::format("{}  Cut at {:.2f} m", ICON_CUT, *cut + shift) : std::string(ICON_CUT) + "  No cut";
-  ImGui::SetNextItemWidth(editor.px(128));
+  ImGui::SetNextItemWidth(editor.px(116));
   if (ImGui::BeginCombo("###cut", label.c_str(), ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton)) {
     if (ImGui::Selectable("No cut", !cut)) cut.reset();
     const auto& storeys = editor.storeys();
