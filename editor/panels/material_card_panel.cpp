@@ -203,6 +203,7 @@ const PhysicalMaterial* shownMaterial(Editor& editor) {
 }  // namespace
 
 void drawMaterialCardPanel(Editor& editor) {
+  if (editor.panels.materials.edit) return drawMaterialForm(editor);
   const auto* material = shownMaterial(editor);
   if (material == nullptr) {
     ui::emptyState(editor, ICON_PAINT, "No material chosen", "Choose one in the list of materials, or a surface in the view, to see its spectrum, how it fades when it turns away, and what scanners report of it.");
@@ -213,6 +214,8 @@ void drawMaterialCardPanel(Editor& editor) {
   ui::wrapped(material->label);
   if (editor.fonts.bold != nullptr) ImGui::PopFont();
   ui::dimText(material->id);
+  const std::string metal = material->complex_index.empty() ? "" : "A metal has tables of n and k: write a library file (docs/materials.md)";
+  if (ui::button(ICON_PENCIL "  Copy and edit###edit-material", metal)) editor.panels.materials.edit = editOf(*material);
   drawSpectrum(editor, *material);
   drawAngles(editor, *material);
   drawReported(editor, *material);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 
 #include "core/physical_material.h"
 #include "editor/model/log.h"
+#include "editor/model/material_edit.h"
 #include "editor/model/option_form.h"
 #include "editor/model/outliner_rows.h"
 #include "editor/model/verification_view.h"
@@ -40,6 +42,7 @@ struct MaterialsPanelState {
   bool chosen_unassigned = false;
   int incidence_deg = 0;            // of the card's readings
   bool whole_library = false;       // listed, not only what is in use
+  std::optional<MaterialEdit> edit; // the card shows its fields
   std::string bulk;                 // selector of what gets the chosen material
   std::pair<RayHit, std::string> painted;   // where a material was dropped, and its id: a menu asks how far it goes
 };

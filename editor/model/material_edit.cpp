@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/model/material_edit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+
+// A tenth of a per cent is what people write; what the tables have beyond it is lost with the copy.
+std::array<double, 7> percentOf(const Spectrum& spectrum) {
+  std::array<double, 7> result{};
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = std::round(1000 * atWavelength(spectrum, MaterialEdit::kWavelengths_nm[i])) / 10;
+  return result;
+}
+
+json spectrumOf(const std::array<double, 7>& percent) {
+  json spectrum = json::array();
+  for (std::size_t i = 0; i < percent.size(); ++i) spectrum.push_back({MaterialEdit::kWavelengths_nm[i], percent[i] / 100});
+  return spectrum;
+}
+
+}  // namespace
+
+MaterialEdit editOf(const PhysicalMaterial& m) {
+  MaterialEdit edit;
+  edit.from = m.id;
+  edit.id = m.id + "_own";
+  edit.label = m.label + ", own";
+  edit.reflectance_percent = percentOf(m.reflectance);
+  edit.roughness_deg = m.roughness_rad / kRadPerDeg;
+  edit.gloss_slope = m.gloss_slope;
+  edit.index_of_refraction = m.index_of_refraction;
+  edit.pane = transmits(m);
+  edit.transmittance_percent = percentOf(m.transmittance);
+  edit.thickness_mm = m.thickness_m * 1000;
+  edit.panes = m.panes;
+  edit.gap_mm = m.gap_m * 1000;
+  return edit;
+}
+
+json libraryFileOf(const MaterialEdit& edit) {
+  json entry = {{"id", edit.id}, {"label", edit.label}, {"reflectance", spectrumOf(edit.reflectance_percent)}};
+  if (edit.roughness_deg > 0) entry["roughness_rad"] = edit.roughness_deg * kRadPerDeg;
+  if (edit.index_of_refraction > 0) entry["index_of_refraction"] = edit.index_of_refraction;
+  if (edit.gloss_slope > 0) entry["gloss_slope"] = edit.gloss_slope;
+  if (edit.pane) {
+    entry["transmittance"] = spectrumOf(edit.transmittance_percent);
+    entry["thickness_m"] = edit.thickness_mm / 1000;
+    if (edit.panes > 1) {
+      entry["panes"] = edit.panes;
+      entry["gap_m"] = edit.gap_mm / 1000;
+    }
+  }
+  json sources = json::object();
+  for (const auto& [key, value] : entry.items())
+    if (key != "id" && key != "label") sources[key] = edit.source.empty() ? "unsourced: by the user, from a copy of " + edit.from : "by the user: [own]";
+  entry["source"] = std::move(sources);
+  json file = {{"materials", {std::move(entry)}}};
+  if (!edit.source.empty()) file["sources"] = {{{"id", "own"}, {"text", edit.source}, {"licence", "the user's own"}}};
+  return file;
+}
+
+std::string flawOf(const MaterialEdit& edit) {
+  const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
+  if (edit.id.empty() || !std::all_of(edit.id.begin(), edit.id.end(), allowed)) return "The id is made of a-z, 0-9 and _";
+  if (edit.label.find_first_not_of(' ') == std::string::npos) return "It needs a name";
+  if (edit.gloss_slope > 0 && !(edit.index_of_refraction > 1)) return "Gloss needs an index of refraction above 1";
+  if (edit.pane && !(edit.index_of_refraction > 1)) return "A pane needs an index of refraction above 1";
+  if (edit.pane && !(edit.thickness_mm > 0)) return "A pane needs a thickness";
+  if (edit.pane && edit.panes > 1 && !(edit.gap_mm >= 1)) return "Panes need a gap of 1 mm or more";
+  return {};
+}
+
+}  // namespace standpoint

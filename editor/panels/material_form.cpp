@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "editor/editor.h"
+#include "editor/panels/panels_list.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+void text(const char* label, const char* id, const char* hint, std::string& value) {
+  ui::propertyLabel(label);
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  ImGui::InputTextWithHint(id, hint, &value);
+}
+
+void number(const char* label, const char* id, double& value, double most, const char* format) {
+  constexpr double kZero = 0;
+  ui::propertyLabel(label);
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  ImGui::SliderScalar(id, ImGuiDataType_Double, &value, &kZero, &most, format, ImGuiSliderFlags_AlwaysClamp);
+}
+
+void spectrum(const char* title, const char* id, std::array<double, 7>& percent) {
+  for (std::size_t i = 0; i < percent.size(); ++i)
+    number(fmt::format("{}{:.0f} nm", i == 0 ? title : "", MaterialEdit::kWavelengths_nm[i]).c_str(), fmt::format("###{}{}", id, i).c_str(), percent[i], 100, "%.1f %%");
+}
+
+void drawFields(MaterialEdit& edit) {
+  if (!ui::beginProperties("material-fields", 0.42F)) return;
+  text("Name", "###label", "Plaster of the hall", edit.label);
+  text("Id", "###id", "plaster_of_the_hall", edit.id);
+  spectrum("Reflects, ", "reflectance", edit.reflectance_percent);
+  number("Roughness σ", "###roughness", edit.roughness_deg, 60, "%.1f°");
+  number("Gloss slope", "###gloss", edit.gloss_slope, 1, "%.3f");
+  number("Index n", "###index", edit.index_of_refraction, 3, "%.3f");
+  ui::propertyLabel("Lets light through");
+  ImGui::Checkbox("###pane", &edit.pane);
+  if (edit.pane) {
+    spectrum("Lets through, ", "transmittance", edit.transmittance_percent);
+    number("Thickness", "###thickness", edit.thickness_mm, 50, "%.1f mm");
+    ui::propertyLabel("Panes");
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    ImGui::SliderInt("###panes", &edit.panes, 1, 4);
+    if (edit.panes > 1) number("Gap", "###gap", edit.gap_mm, 100, "%.0f mm");
+  }
+  text("Source", "###source", "who measured it; empty: unsourced", edit.source);
+  ui::endProperties();
+}
+
+// By a file, as every material comes: the verb's reader is the one judge of its figures.
+void keep(Editor& editor, const MaterialEdit& edit) {
+  const auto file = std::filesystem::temp_directory_path() / fmt::format("standpoint-{}-{}.json", getpid(), edit.id);
+  std::ofstream out(file);
+  out << libraryFileOf(edit).dump(1);
+  out.close();
+  if (!out) {
+    editor.session.errors().push_back({"The material cannot be kept", {ErrorKind::file_system, "cannot write", file.string()}});
+    return;
+  }
+  if (!editor.session.start("materials", {{"library", {file.string()}}}, "Keep the material " + edit.label)) return;
+  editor.panels.materials.chosen = edit.id;
+  editor.panels.materials.chosen_unassigned = false;
+  editor.panels.materials.edit.reset();
+}
+
+}  // namespace
+
+void drawMaterialForm(Editor& editor) {
+  MaterialEdit& edit = *editor.panels.materials.edit;
+  const auto flaw = flawOf(edit);
+  const auto why = flaw.empty() ? editor.session.whyNot("materials") : flaw;
+  const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+  const bool kept = ui::primaryButton(ICON_CHECK "  Keep###keep-material", why, {width, 0});
+  ImGui::SameLine();
+  const bool given_up = ui::button(ICON_CLOSE "  Cancel###cancel-material", {}, {width, 0});
+  ImGui::BeginChild("fields");
+  drawFields(edit);
+  ImGui::EndChild();
+  if (kept) keep(editor, edit);
+  else if (given_up) editor.panels.materials.edit.reset();
+}
+
+}  // namespace standpoint
