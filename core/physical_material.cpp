@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/assigned.h"
+
 namespace standpoint {
 
 namespace {
@@ -36,23 +38,15 @@ double buildUpThickness(const PhysicalMaterial& material) {
 }
 
 std::int32_t materialOf(const MaterialAssignment& assignment, std::uint32_t product, std::uint32_t surface) {
-  const auto less = [](const AssignedSurface& a, const std::pair<std::uint32_t, std::uint32_t>& key) {
-    return std::pair(a.product, a.surface) < key;
-  };
-  const auto found = std::lower_bound(assignment.surfaces.begin(), assignment.surfaces.end(), std::pair(product, surface), less);
-  if (found == assignment.surfaces.end() || found->product != product || found->surface != surface) return -1;
-  return found->material;
+  const auto* assigned = assignedSurface(assignment, product, surface);
+  return assigned == nullptr ? -1 : assigned->material;
 }
 
 std::int32_t materialOf(const MaterialAssignment& assignment, std::uint32_t product, std::uint32_t surface,
                         const Eigen::Vector3d& normal) {
   std::int32_t material = materialOf(assignment, product, surface);
-  const auto less = [](const AssignedFaces& a, const std::pair<std::uint32_t, std::uint32_t>& key) {
-    return std::pair(a.product, a.surface) < key;
-  };
-  auto face = std::lower_bound(assignment.faces.begin(), assignment.faces.end(), std::pair(product, surface), less);
-  for (; face != assignment.faces.end() && face->product == product && face->surface == surface; ++face)
-    if (face->direction.dot(normal) >= kFaceCone) material = face->material;
+  for (const auto& face : assignedFaces(assignment, product, surface))
+    if (face.direction.dot(normal) >= kFaceCone) material = face.material;
   return material;
 }
 

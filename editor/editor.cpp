@@ -172,9 +172,8 @@ ViewState Editor::viewState() const {
 }
 
 std::shared_ptr<const Expectation> Editor::expectation() {
-  const auto& all = readCatalogue(panels.catalogue).instruments;
-  const auto chosen = std::find_if(all.begin(), all.end(), [&](const Instrument& i) { return i.id == view.probe.instrument; });
-  return chosen == all.end() ? nullptr : kept_expectation_.of(picker.scene(), session.document().materials, *chosen);
+  const auto* chosen = instrumentIn(readCatalogue(panels.catalogue), view.probe.instrument);
+  return chosen == nullptr ? nullptr : kept_expectation_.of(picker.scene(), session.document().materials, *chosen);
 }
 
 ViewState Editor::originalState() const {

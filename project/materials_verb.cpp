@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "project/answers.h"
+#include "project/instruments.h"
 #include "project/materials_report.h"
 #include "project/model_verbs.h"
 #include "scanners/instrument.h"
@@ -151,7 +152,7 @@ Result<std::vector<double>> wavelengths(const Document& document, const std::str
     for (const auto& station : document.job->stations)
       for (const auto& scan : station.scans) ids.push_back(scan.instrument);
   if (ids.empty()) return std::vector<double>();
-  const auto instruments = readInstruments(dataFolder() / "scanners" / "instruments");
+  const auto instruments = shippedInstruments();
   if (!instruments) return failure(instruments.error());
   std::vector<double> result;
   for (const auto& each : *instruments)

@@ -9,6 +9,7 @@
 #include "pointclouds/formats.h"
 #include "project/answers.h"
 #include "project/geodesy.h"
+#include "project/instruments.h"
 #include "project/model_verbs.h"
 #include "project/survey_verbs.h"
 
@@ -32,18 +33,6 @@ struct ScanRequest {
   fs::path output;
   bool one_file = false;               // all stations in `output`; else a file each
 };
-
-Result<Instrument> instrumentById(const std::string& id) {
-  auto all = readInstruments(dataFolder() / "scanners" / "instruments");
-  if (!all) return failure(all.error());
-  std::vector<std::string> ids;
-  for (auto& i : *all) {
-    if (i.id == id) return std::move(i);
-    ids.push_back(i.id);
-  }
-  return failure(ErrorKind::usage, fmt::format("there is no instrument '{}'; there is {}", id, fmt::join(ids, ", ")),
-                 "--instrument");
-}
 
 Result<std::vector<std::size_t>> stationsFrom(const Job& job, const std::string& wanted) {
   std::vector<std::size_t> result;

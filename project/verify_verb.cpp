@@ -6,6 +6,7 @@
 
 #include "materials/materials.h"
 #include "project/answers.h"
+#include "project/instruments.h"
 #include "project/registering.h"
 #include "project/verification.h"
 #include "project/verify_answer.h"
@@ -44,16 +45,9 @@ Result<std::shared_ptr<const Underlay>> underlayFor(const Document& document, co
 
 // The one that is named, else the one whose maker and model the cloud's scans name.
 Result<Instrument> instrumentFor(const json& options, const CloudSample& sample, Report& report) {
-  auto all = readInstruments(dataFolder() / "scanners" / "instruments");
+  if (const auto id = options.value("instrument", std::string()); !id.empty()) return instrumentById(id);
+  const auto all = shippedInstruments();
   if (!all) return failure(all.error());
-  const auto id = options.value("instrument", std::string());
-  std::vector<std::string> ids;
-  for (auto& i : *all) {
-    if (i.id == id) return std::move(i);
-    ids.push_back(i.id);
-  }
-  if (!id.empty())
-    return failure(ErrorKind::usage, fmt::format("there is no instrument '{}'; there is {}", id, fmt::join(ids, ", ")), "--instrument");
   // The longest model that fits: "Focus S350" before "Focus".
   const Instrument* best = nullptr;
   for (const auto& scan : sample.scans) {
@@ -65,7 +59,7 @@ Result<Instrument> instrumentFor(const json& options, const CloudSample& sample,
   }
   if (best == nullptr)
     return failure(ErrorKind::usage, fmt::format("the cloud does not say which instrument measured it: name the one whose wavelength "
-                                                 "is nearest with --instrument; there is {}", fmt::join(ids, ", ")), "--instrument");
+                                                 "is nearest with --instrument; there is {}", idsOf(*all)), "--instrument");
   report.note("instrument", fmt::format("{} {} at {:.0f} nm, as the cloud says", best->maker, best->model, best->wavelength_nm));
   return *best;
 }

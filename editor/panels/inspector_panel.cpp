@@ -154,8 +154,7 @@ void drawAssign(Editor& editor, const std::string& current) {
   }
   ui::searchField("material-filter", "Brick, glass, steel …", filter);
   ImGui::BeginChild("materials", {editor.px(300), editor.px(260)});
-  const auto& choice = editor.session.document().materials;
-  for (const auto& material : choice ? withOwn(catalogue.materials, choice->own) : catalogue.materials) {
+  for (const auto& material : offeredMaterials(editor.panels.catalogue, editor.session.document().materials)) {
     if (isGap(material)) continue;
     Product searched;
     searched.name = material.label + " " + material.id;

@@ -101,8 +101,8 @@ void drawUses(Editor& editor, const MaterialResult& result, float height) {
   ImGui::EndTable();
 }
 
-// All there are: the user's own first.
-void drawLibrary(Editor& editor, const MaterialChoice& choice, float height) {
+// All there are, the user's own among them.
+void drawLibrary(Editor& editor, float height) {
   auto& state = editor.panels.materials;
   ui::searchField("library-filter", "Brick, glass, steel …", state.filter);
   const float left = height - ImGui::GetFrameHeightWithSpacing();
@@ -111,7 +111,7 @@ void drawLibrary(Editor& editor, const MaterialChoice& choice, float height) {
   if (!ImGui::BeginTable("library", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX, {0, left})) return;
   ImGui::TableSetupColumn("Material", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("share", ImGuiTableColumnFlags_WidthFixed, editor.px(40));
-  for (const auto& material : withOwn(catalogue.materials, choice.own)) {
+  for (const auto& material : offeredMaterials(editor.panels.catalogue, editor.session.document().materials)) {
     Product searched;
     searched.name = material.label + " " + material.id;
     if (!matchesFilter(searched, state.filter)) continue;
@@ -166,7 +166,7 @@ void drawMaterialsPanel(Editor& editor) {
   drawListSwitch(editor);
   const float bulk = ImGui::GetFrameHeightWithSpacing() * (editor.panels.materials.bulk.empty() ? 1 : 2) + editor.px(2);
   const float height = ImGui::GetContentRegionAvail().y - bulk;
-  if (editor.panels.materials.whole_library) drawLibrary(editor, *choice, height);
+  if (editor.panels.materials.whole_library) drawLibrary(editor, height);
   else drawUses(editor, choice->result, height);
   drawBulk(editor);
 }

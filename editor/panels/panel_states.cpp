@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/panels/panel_states.h"
 
+#include <algorithm>
+
 #include "materials/materials.h"
 #include "project/verb.h"
 
@@ -19,6 +21,19 @@ const Catalogue& readCatalogue(Catalogue& catalogue) {
   else
     catalogue.problem += (catalogue.problem.empty() ? "" : "\n") + describe(instruments.error());
   return catalogue;
+}
+
+const Instrument* instrumentIn(const Catalogue& catalogue, const std::string& id) {
+  const auto found = std::find_if(catalogue.instruments.begin(), catalogue.instruments.end(), [&](const Instrument& i) { return i.id == id; });
+  return found == catalogue.instruments.end() ? nullptr : &*found;
+}
+
+const std::vector<PhysicalMaterial>& offeredMaterials(Catalogue& catalogue, const std::shared_ptr<const MaterialChoice>& choice) {
+  const auto& shipped = readCatalogue(catalogue).materials;
+  if (!choice || choice->own.empty()) return shipped;
+  if (catalogue.offered_for != choice) catalogue.offered = withOwn(shipped, choice->own);
+  catalogue.offered_for = choice;
+  return catalogue.offered;
 }
 
 }  // namespace standpoint

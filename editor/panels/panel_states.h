@@ -16,6 +16,7 @@
 #include "editor/model/option_form.h"
 #include "editor/model/outliner_rows.h"
 #include "editor/model/verification_view.h"
+#include "project/document.h"
 #include "project/geodesy.h"
 #include "scanners/instrument.h"
 #include "scanners/ray_engine.h"
@@ -112,6 +113,8 @@ struct Catalogue {
   std::vector<PhysicalMaterial> materials;
   std::vector<Instrument> instruments;
   std::string problem;              // why something could not be read
+  std::vector<PhysicalMaterial> offered;                  // with the user's own in place of those that have their id …
+  std::shared_ptr<const MaterialChoice> offered_for;      // … of this document
 };
 
 struct PanelStates {
@@ -130,5 +133,9 @@ struct PanelStates {
 };
 
 const Catalogue& readCatalogue(Catalogue& catalogue);
+// Null where there is no such id.
+const Instrument* instrumentIn(const Catalogue& catalogue, const std::string& id);
+// All materials that can be assigned in a document: made anew only when its own have changed.
+const std::vector<PhysicalMaterial>& offeredMaterials(Catalogue& catalogue, const std::shared_ptr<const MaterialChoice>& choice);
 
 }  // namespace standpoint

@@ -8,6 +8,7 @@
 #include "editor/editor.h"
 #include "editor/panels/panels_list.h"
 #include "editor/shell/icons.h"
+#include "editor/shell/material_brush.h"
 #include "editor/shell/theme.h"
 #include "editor/shell/widgets.h"
 
@@ -15,11 +16,10 @@ namespace standpoint {
 
 namespace {
 
-std::string labelOf(const Editor& editor, const std::string& id) {
+std::string labelOf(Editor& editor, const std::string& id) {
   if (id.empty()) return "Unassigned";
-  for (const auto& m : editor.panels.catalogue.materials)
-    if (m.id == id) return m.label;
-  return id;
+  const auto* material = knownMaterial(editor, id);
+  return material == nullptr ? id : material->label;
 }
 
 void chooseUnderlay(Editor& editor) {
@@ -40,7 +40,7 @@ void chooseInstrument(Editor& editor) {
   ImGui::SetNextItemWidth(-1);
   if (!ImGui::BeginCombo("###instrument", state.instrument.empty() ? as_said : state.instrument.c_str())) return;
   if (ImGui::Selectable(as_said, state.instrument.empty())) state.instrument.clear();
-  for (const auto& i : editor.panels.catalogue.instruments)
+  for (const auto& i : readCatalogue(editor.panels.catalogue).instruments)
     if (ImGui::Selectable(fmt::format("{} {}  ({:.0f} nm)###{}", i.maker, i.model, i.wavelength_nm, i.id).c_str(), i.id == state.instrument))
       state.instrument = i.id;
   ImGui::EndCombo();
@@ -108,7 +108,7 @@ void drawMaterials(Editor& editor, const VerificationView& view) {
   ImGui::EndTable();
 }
 
-std::string titleOf(const Editor& editor, const VerifiedProposal& p) {
+std::string titleOf(Editor& editor, const VerifiedProposal& p) {
   const auto count = p.whole_material ? std::string() : fmt::format(" ({} product{})", p.products.size(), p.products.size() == 1 ? "" : "s");
   return fmt::format("{}{} behaves like {}", labelOf(editor, p.material), count, labelOf(editor, p.behaves_like));
 }

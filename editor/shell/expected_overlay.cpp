@@ -22,12 +22,6 @@ constexpr double kFloor = 0.7;   // upward part of a normal that can be stood on
 
 ImU32 packed(const std::array<std::uint8_t, 4>& c) { return IM_COL32(c[0], c[1], c[2], c[3]); }
 
-const Instrument* instrumentOf(Editor& editor) {
-  const auto& all = readCatalogue(editor.panels.catalogue).instruments;
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Instrument& i) { return i.id == editor.view.probe.instrument; });
-  return found == all.end() ? nullptr : &*found;
-}
-
 // At the chosen station, else the first, else above the floor in the middle of what is looked at.
 void placeProbe(Editor& editor) {
   auto& probe = editor.view.probe;
@@ -176,8 +170,7 @@ void drawExpectedLegend(Editor& editor, ImVec2 origin, ImVec2 size) {
   const auto quantity = expectedQuantity(editor.view.colour);
   if (!quantity) return;
   const auto expectation = editor.expectation();
-  const auto* instrument = instrumentOf(editor);
-  if (!expectation || instrument == nullptr || !editor.view.probe.position) {
+  if (!expectation || !editor.view.probe.position) {
     ImGui::GetWindowDrawList()->AddText({origin.x + editor.px(10), origin.y + size.y - editor.px(24)}, tone::kDim, "One moment: the model is being prepared for rays");
     return;
   }
@@ -187,14 +180,14 @@ void drawExpectedLegend(Editor& editor, ImVec2 origin, ImVec2 size) {
   const float top = origin.y + size.y - line - editor.px(12) - (fates_only ? 0 : 2 * line + editor.px(18));
   ImGui::GetWindowDrawList()->AddRectFilled({x - editor.px(6), top}, {x + editor.px(fates_only ? 530 : 430), origin.y + size.y - editor.px(4)}, tone::kOverlay, editor.px(4));
   drawFates(editor, {x, origin.y + size.y - line - editor.px(8)}, fates_only);
-  if (!fates_only) drawScale(editor, {{x, origin.y + size.y - 2 * line - editor.px(26)}, editor.px(220)}, *quantity, *instrument);
+  if (!fates_only) drawScale(editor, {{x, origin.y + size.y - 2 * line - editor.px(26)}, editor.px(220)}, *quantity, expectation->law().instrument());
   if (ImGui::IsItemHovered()) drawReading(editor, *expectation);
 }
 
 void expectedChips(Editor& editor) {
   if (!expectedQuantity(editor.view.colour)) return;
   auto& probe = editor.view.probe;
-  const auto* instrument = instrumentOf(editor);
+  const auto* instrument = instrumentIn(readCatalogue(editor.panels.catalogue), probe.instrument);
   ImGui::NewLine();
   ImGui::SetNextItemWidth(editor.px(166));
   if (ImGui::BeginCombo("###probe-instrument", fmt::format("{}  {}", ICON_TABLET, instrument != nullptr ? instrument->model : "Instrument").c_str(), ImGuiComboFlags_NoArrowButton)) {

@@ -25,13 +25,9 @@ void ask(Editor& editor, const RayHit& hit, std::string material) {
 }  // namespace
 
 const PhysicalMaterial* knownMaterial(Editor& editor, const std::string& id) {
-  const auto in = [&](const std::vector<PhysicalMaterial>& list) -> const PhysicalMaterial* {
-    const auto found = std::find_if(list.begin(), list.end(), [&](const PhysicalMaterial& m) { return m.id == id; });
-    return found == list.end() ? nullptr : &*found;
-  };
-  const auto& choice = editor.session.document().materials;
-  if (const auto* own = choice ? in(choice->own) : nullptr) return own;
-  return in(readCatalogue(editor.panels.catalogue).materials);
+  const auto& all = offeredMaterials(editor.panels.catalogue, editor.session.document().materials);
+  const auto found = std::find_if(all.begin(), all.end(), [&](const PhysicalMaterial& m) { return m.id == id; });
+  return found == all.end() ? nullptr : &*found;
 }
 
 void dragMaterial(const PhysicalMaterial& material) {

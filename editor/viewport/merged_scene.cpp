@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/assigned.h"
 #include "core/face_normal.h"
 
 namespace standpoint {
@@ -51,10 +52,8 @@ Colour physicalColour(const MaterialAssignment& assignment, std::int32_t materia
 }
 
 double confidenceOf(const MaterialAssignment& assignment, std::uint32_t product, std::uint32_t surface) {
-  const auto before = [](const AssignedSurface& s, const std::pair<std::uint32_t, std::uint32_t>& key) { return std::pair(s.product, s.surface) < key; };
-  const auto found = std::lower_bound(assignment.surfaces.begin(), assignment.surfaces.end(), std::pair(product, surface), before);
-  const bool there = found != assignment.surfaces.end() && found->product == product && found->surface == surface && found->material >= 0;
-  return there ? found->confidence : -1;
+  const auto* assigned = assignedSurface(assignment, product, surface);
+  return assigned != nullptr && assigned->material >= 0 ? assigned->confidence : -1;
 }
 
 class Painter {
@@ -64,8 +63,7 @@ class Painter {
   // Single faces of it have another material than the rest.
   bool byFace(std::uint32_t product, std::uint32_t surface) const {
     if (!state_.materials || (state_.colour != ColourMode::material && state_.colour != ColourMode::reflectance)) return false;
-    const auto& faces = state_.materials->result.assignment.faces;
-    return std::any_of(faces.begin(), faces.end(), [&](const AssignedFaces& f) { return f.product == product && f.surface == surface; });
+    return !assignedFaces(state_.materials->result.assignment, product, surface).empty();
   }
 
   Rgba of(std::uint32_t product, std::uint32_t surface, const Eigen::Vector3d& normal) const {

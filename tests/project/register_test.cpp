@@ -13,12 +13,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-std::string said(const Report& report) {
-  std::string text;
-  for (const auto& i : report.issues) text += i.message + "\n";
-  return text;
-}
-
 // The test model without its table, scanned without noise from one place in the lower room (frame of the file: 500 000, 5 600 000).
 Document scannedRoom(const fs::path& file, bool ideal = true) {
   Document d = run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500002, 5600001.5, 1.6}}})->document;

@@ -80,6 +80,13 @@ inline Document twoStoreyDocument() {
   return d;
 }
 
+// All that a report says, a line each.
+inline std::string said(const Report& report) {
+  std::string text;
+  for (const auto& i : report.issues) text += i.source + ": " + i.message + "\n";
+  return text;
+}
+
 inline Result<Outcome> run(const char* verb, const Document& d, const nlohmann::json& options) {
   Progress progress;
   const Verb* found = findVerb(verbs(), verb);

@@ -22,11 +22,6 @@ fs::path cloudFile(const fs::path& file, const Eigen::Vector3d& at) {
   return file;
 }
 
-std::string said(const Report& report) {
-  std::string text;
-  for (const auto& i : report.issues) text += std::string(name(i.severity)) + " " + i.source + ": " + i.message + "\n";
-  return text;
-}
 
 // A model whose X axis points to the map's north, 50 m above the map's zero.
 Document turnedDocument() {

@@ -17,12 +17,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-std::string said(const Report& report) {
-  std::string text;
-  for (const auto& i : report.issues) text += i.source + ": " + i.message + "\n";
-  return text;
-}
-
 // The lower room with unlike walls: brick in the west, wood in the east, plaster north and south, concrete above and below.
 const json kWalls = {"class:IfcSlab=concrete_construction", "south0=plaster_gypsum", "north0=plaster_gypsum",
                      "west0=brick_paving_red", "east0=wood_hardwood", "table=paint_black_matt"};
