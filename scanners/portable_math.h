@@ -50,4 +50,31 @@ inline double expNegative(double x) {
   return sum;
 }
 
+// ln of a positive normal number, relative error below 1e-15 of max(1, |ln|).
+inline double log(double x) {
+  int exponent = 0;
+  double mantissa = std::frexp(x, &exponent);                // [1/2, 1)
+  if (mantissa < 0.7071067811865476) {
+    mantissa *= 2;
+    --exponent;
+  }
+  const double s = (mantissa - 1) / (mantissa + 1);          // ln m = 2 artanh s, |s| < 0.172
+  const double q = s * s;
+  double sum = 0;
+  for (int k = 21; k > 0; k -= 2) sum = sum * q + 1.0 / k;
+  return exponent * 0.6931471805599453 + 2 * s * sum;
+}
+
+// e^x for |x| up to 700, relative error below 2e-16 (1 + |x|).
+inline double exp(double x) {
+  const double turns = std::floor(x * 1.4426950408889634 + 0.5);   // 1 / ln 2
+  const double rest = x - turns * 0.6931471805599453;
+  double sum = 1;
+  for (int k = 17; k > 0; --k) sum = 1 + sum * rest / k;
+  return std::ldexp(sum, static_cast<int>(turns));
+}
+
+// base^exponent of a positive base.
+inline double pow(double base, double exponent) { return exp(exponent * log(base)); }
+
 }  // namespace standpoint::portable
