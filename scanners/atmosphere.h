@@ -25,8 +25,8 @@ Result<Weather> weatherFrom(std::string_view text);
 // The key that is out of its bounds as the error's source.
 Result<void> check(const Weather& weather);
 
-// α of the extinction e^(-αr), one way: Kim et al. 2001 for the air, drops and flakes twice their cross-section, fog and
-// dust alike at all wavelengths (physics.md §2.5, §2.6).
+// α of the extinction e^(-αr), one way: Kim et al. 2001 for the air, drops and flakes twice their cross-section, fog
+// and dust alike at all wavelengths (physics.md §2.5, §2.6).
 double extinction_per_m(const Weather& weather, double wavelength_nm);
 
 // N(D) = n0 e^(-ΛD): drops by Marshall and Palmer 1948, flakes by Gunn and Marshall 1958 with D of the melted flake.
@@ -39,5 +39,9 @@ DropSizes snowFlakes(double mm_h);
 double extinction_per_m(const DropSizes& sizes);
 // α of a fog or dust of this optical range.
 double extinctionOfRange(double mor_m);
+
+constexpr int kAirLanes = 16;
+// Multiplies the gains of sixteen returns by the air's two-way transmittance e^(-2αR).
+void attenuate(double extinction_per_m, const float* range_m, float* gain);
 
 }  // namespace standpoint

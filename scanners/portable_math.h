@@ -40,6 +40,18 @@ STANDPOINT_INLINE void sinCosTurn(float u, float& sine, float& cosine) {
   cosine = ((quarter + 1) & 2) != 0 ? -cosine_of_turn : cosine_of_turn;
 }
 
+// 2^x for x from -120 to 120, relative error below 3e-7.
+STANDPOINT_INLINE float exp2(float x) {
+  const auto shifted = static_cast<std::int32_t>(x + 127.5F);    // truncation is rounding of what is positive
+  const float rest = (x - static_cast<float>(shifted - 127)) * 0.6931471805599453F;   // |rest| < 0.35
+  const float upper = 1.0F / 6 + rest * (1.0F / 24 + rest * (1.0F / 120 + rest * (1.0F / 720)));
+  const float series = 1 + rest * (1 + rest * (1.0F / 2 + rest * upper));
+  const std::int32_t bits = shifted * (1 << 23);
+  float power;
+  std::memcpy(&power, &bits, sizeof power);
+  return power * series;
+}
+
 // e^x for x in [-60, 0], relative error below 1e-12.
 inline double expNegative(double x) {
   // Halved six times the argument is below 1 in size, where eighteen terms of the series are enough; squared back again.
