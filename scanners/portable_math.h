@@ -54,7 +54,7 @@ STANDPOINT_INLINE float exp2(float x) {
 
 // e^x for x in [-60, 0], relative error below 1e-12.
 inline double expNegative(double x) {
-  // Halved six times the argument is below 1 in size, where eighteen terms of the series are enough; squared back again.
+  // Halved six times the argument is below 1 in size, where eighteen terms of the series are enough; then squared back.
   const double y = x / 64;
   double term = 1, sum = 1;
   for (int k = 1; k < 19; ++k) sum += term *= y / k;
