@@ -18,8 +18,8 @@ class ColumnNoise {
   ColumnNoise(const Instrument& instrument, std::uint32_t columns, const std::vector<double>& elevation_rad,
               const RandomKey& key);
 
-  // Square roots of shares of the sheet's variance; their squares add up to 1. What of the noise with long memory differs
-  // from row to row is white and counted there.
+  // Square roots of shares of the sheet's variance; their squares add up to 1. What of the noise with long memory
+  // differs from row to row is white and counted there.
   float white() const { return white_; }
   float along() const { return along_; }
   float common() const { return common_; }
@@ -33,8 +33,8 @@ class ColumnNoise {
 
   // The buffer that a column takes: all rows, in full sixteens.
   std::size_t paddedRows() const { return wobble_sine_.size(); }
-  // a_i of all rows of a column. With its share of the white noise it has the instrument's Hurst exponent: the variance of
-  // a mean over m rows falls as m^(2H-2).
+  // a_i of all rows of a column. With its share of the white noise it has the instrument's Hurst exponent: the variance
+  // of a mean over m rows falls as m^(2H-2).
   void along(std::uint32_t column, float* rows) const;
   // s_ij = sin(2πk v_i + φ_j) of sixteen rows from a multiple of sixteen on; v is the turn of the mirror.
   void wobble(std::uint32_t column, std::uint32_t first_row, float* sixteen) const;
