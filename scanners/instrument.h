@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -70,6 +71,18 @@ struct Saturation {
   double pedestal = 0;             // share of the beam's power in its wide wings: the halo of a reflector
 };
 
+// What turns on an instrument that is carried or driven: laser heads that sweep whole turns, each with its channels.
+struct MovingHead {
+  std::string mount;               // what carries it: "hand", "body", "vehicle", "aircraft" or "any"
+  int heads = 1;
+  std::vector<double> channel_elevations_rad;   // of one head, in the order in which they fire
+  double points_per_s = 0;         // of all heads, one return each
+  double least_rotation_hz = 0, most_rotation_hz = 0;
+  double second_rotation_hz = 0;   // of the head about another axis; 0 = none
+  double turn_rad = 0;             // the part of a turn that is measured
+  double cloud_accuracy_m = 0;     // of a whole cloud with the maker's trajectory, 1 σ; 0 = not stated
+};
+
 // An instrument from scanners/instruments/<id>.json: data, no code.
 struct Instrument {
   std::string id, maker, model;
@@ -100,6 +113,7 @@ struct Instrument {
   Waveform waveform;
   CorrelatedNoise correlated;
   Saturation saturation;
+  std::optional<MovingHead> moving;      // then it has no mirror, stand and pictures, and scanning needs a trajectory
 };
 
 Result<Instrument> readInstrument(const std::filesystem::path& file);

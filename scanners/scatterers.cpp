@@ -113,8 +113,8 @@ void Scatterers::drops(const Population& population, std::uint32_t column, std::
       number -= portable::log(uniform(block[k]));
       if (number >= total) return;
       const double range_m = rangeOf(population, number);
-      const double diameter =
-          leastDiameter(population, range_m) - 1e-3 / population.sizes.lambda_per_mm * portable::log(uniform(block[k + 1]));
+      const double above_m = -1e-3 / population.sizes.lambda_per_mm * portable::log(uniform(block[k + 1]));
+      const double diameter = leastDiameter(population, range_m) + above_m;
       const double share = std::min(diameter / beamDiameter(range_m), 1.0);
       const double x = population.backscatter * white(range_m) * share * share;
       if (x > best.x) best = {population.kind, range_m, x};
@@ -141,7 +141,8 @@ double Scatterers::softPower(double range_m, double pulse_length_m, double backs
 // A phase scanner has no pulse: what its finest tone cannot tell apart takes its place.
 void Scatterers::tabulateFog(const Weather& weather) {
   const auto& waveform = instrument_.waveform;
-  const double length_m = waveform.pulse_width_s > 0 ? kSpeedOfLight_m_s * waveform.pulse_width_s : waveform.fine_wavelength_m;
+  const double length_m =
+      waveform.pulse_width_s > 0 ? kSpeedOfLight_m_s * waveform.pulse_width_s : waveform.fine_wavelength_m;
   double backscatter = 0;
   if (weather.fog_mor_m > 0) backscatter += kFogBackscatter / weather.fog_mor_m;
   if (weather.dust_mor_m > 0) backscatter += kFogBackscatter / weather.dust_mor_m;

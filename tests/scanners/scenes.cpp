@@ -111,14 +111,20 @@ Result<void> PointsKept::write(const PointBlock& block) {
   return {};
 }
 
-std::vector<Instrument> instruments() {
+std::vector<Instrument> everyInstrument() {
   auto read = readInstruments(SOURCE_DIR "/scanners/instruments");
   if (!read) throw std::runtime_error(describe(read.error()));
   return *read;
 }
 
+std::vector<Instrument> instruments() {
+  auto all = everyInstrument();
+  std::erase_if(all, [](const Instrument& i) { return i.moving.has_value(); });
+  return all;
+}
+
 Instrument instrument(const std::string& id) {
-  for (auto& candidate : instruments())
+  for (auto& candidate : everyInstrument())
     if (candidate.id == id) return candidate;
   throw std::runtime_error("no instrument " + id);
 }
