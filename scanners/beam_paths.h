@@ -17,7 +17,9 @@ struct PathEnd {
   Eigen::Vector3f place = Eigen::Vector3f::Zero();   // local frame
   const Optics* optics = nullptr;
   std::uint32_t product = 0, surface = 0, material = 0;
+  float known_x = -1;        // received power of what is no surface; else below 0
 };
+constexpr std::uint32_t kNoSurface = ~0U;   // of drops, flakes, fog and dust
 
 // Follows light through panes (physics.md §4.6) and by way of mirrors (§4.7): of every surface on its way the return is an
 // end. A mirror image is followed while it could be detected at all, over at most two mirrors.

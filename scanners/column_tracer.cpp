@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scanners/portable_math.h"
+#include "scanners/surface_texture.h"
 
 namespace standpoint {
 
@@ -13,6 +14,7 @@ namespace {
 
 // Noise of the second and further returns of a pulse: a channel each.
 constexpr std::uint32_t kFurtherReturns = 16;
+constexpr std::array<std::uint8_t, 3> kWhite = {255, 255, 255};
 
 Pose relative(const Pose& from, const Pose& to) {
   const Eigen::Quaterniond back = from.rotation.conjugate();
@@ -30,6 +32,7 @@ ColumnTracer::ColumnTracer(const ScanPlan& plan)
       sub_rays_{},
       signal_{},
       noise_{} {
+  if (plan.column_noise) along_.resize(plan.column_noise->paddedRows());
   std::fill_n(signal_.range_m, kSignalLanes, 1.0F);
   std::fill_n(signal_.cosine, kSignalLanes, 1.0F);
   std::fill_n(signal_.variation, kSignalLanes, 1.0F);
@@ -52,6 +55,7 @@ void ColumnTracer::traceColumn(PointBlock& block) {
   const double azimuth = plan_.azimuth_rad(column);
   ahead_ = {std::cos(azimuth), -std::sin(azimuth), 0};     // clockwise seen from above
   lateral_ = {-std::sin(azimuth), -std::cos(azimuth), 0};
+  if (plan_.column_noise) plan_.column_noise->along(column, along_.data());
   const bool wide = plan_.options.effects.has(Effect::footprint);
   for (std::uint32_t first = 0; first < plan_.settings.rows; first += kPacket) {
     const std::uint32_t end = std::min(plan_.settings.rows, first + kPacket);
@@ -59,20 +63,23 @@ void ColumnTracer::traceColumn(PointBlock& block) {
     for (std::uint32_t row = first; row < end; ++row) {
       const NearestHit hit = current_->hit(row);
       const bool suspect = (unlike >> (row - first) & 1U) != 0;
-      if (hit.facet == kNoFacet && !suspect) continue;
+      if (hit.facet == kNoFacet && !suspect && !plan_.scatterers) continue;
       const Beam beam = current_->beam(row);
       const bool edge = suspect && atEdge(row) && probe(beam, hit);
-      if (!edge && hit.facet == kNoFacet) continue;
-      if (!edge)
+      if (!edge && !plan_.scatterers) {
+        if (hit.facet == kNoFacet) continue;
         if (const MetFacet& met = facets_.of(hit.facet); met.plain) {
           addSurface(row, beam, hit, met);
           continue;
         }
+      }
       gatherEnds(beam, hit, edge);
+      if (plan_.scatterers) addScatterer(row, beam);
       addEchoes(row);
     }
     if (targets_.empty()) continue;
     drawNoise(first, 0);
+    if (plan_.column_noise) plan_.column_noise->wobble(column, first, wobble_);
     receiveAll(block);
   }
 }
@@ -209,7 +216,24 @@ void ColumnTracer::addSurface(std::uint32_t row, const Beam& beam, const Nearest
   target.end.product = met.facet.product, target.end.surface = met.facet.surface, target.end.material = met.material;
 }
 
+// What the air sends back, from before the nearest surface.
+void ColumnTracer::addScatterer(std::uint32_t row, const Beam& beam) {
+  double nearest = plan_.settings.max_range_m;
+  for (const PathEnd& end : ends_) nearest = std::min(nearest, end.path_m);
+  const auto found = plan_.scatterers->strongest(current_->column(), row, nearest, detectionThreshold(plan_.settings, 0));
+  if (!found) return;
+  static const Optics kDrop;
+  PathEnd& end = ends_.emplace_back();
+  end.path_m = found->range_m;
+  end.flags = point_flag::kWeather;
+  end.place = (beam.origin + found->range_m * beam.direction).cast<float>();
+  end.optics = &kDrop;
+  end.product = plan_.nothingLabel(), end.surface = kNoSurface, end.material = plan_.unassignedLabel();
+  end.known_x = static_cast<float>(found->x);
+}
+
 float ColumnTracer::powerOf(const PathEnd& end) const {
+  if (end.known_x >= 0) return end.known_x;
   const auto range = static_cast<float>(end.path_m);
   const float near = plan_.options.effects.has(Effect::near_range) ? nearRangeFactor(plan_.instrument, range) : 1;
   const float air = portable::exp2(std::max(-100.0F, plan_.receiver.decay_per_m * range));
@@ -277,6 +301,7 @@ void ColumnTracer::receiveSome(std::size_t first, int count, PointBlock& block) 
     signal_.gain[k] = target.end.gain;
     signal_.known_x[k] = target.known_x;
   }
+  if (plan_.varies) varySurfaces(first, count);
   receive(signal_, plan_.receiver);
   int found[kSignalLanes];
   int returns = 0;
@@ -294,6 +319,17 @@ void ColumnTracer::receiveSome(std::size_t first, int count, PointBlock& block) 
   }
 }
 
+void ColumnTracer::varySurfaces(std::size_t first, int count) {
+  float x[kTextureLanes] = {}, y[kTextureLanes] = {}, z[kTextureLanes] = {}, coefficient[kTextureLanes] = {}, scale[kTextureLanes] = {};
+  for (int k = 0; k < count; ++k) {
+    const PathEnd& end = targets_[first + static_cast<std::size_t>(k)].end;
+    x[k] = end.place.x(), y[k] = end.place.y(), z[k] = end.place.z();
+    coefficient[k] = end.optics->variation;
+    scale[k] = end.optics->texture_scale_m;
+  }
+  variation(x, y, z, coefficient, scale, signal_.variation);
+}
+
 // P_d = ½ erfc((x_min - x) / √2 σ), drawn (§2.7).
 bool ColumnTracer::detected(const Target& target, float x) const {
   const double chance = plan_.softness > 0 ? plan_.softness * static_cast<double>(target.detection) : 0;
@@ -305,13 +341,22 @@ Eigen::Vector3d ColumnTracer::place(const Target& target, float x, float sigma_m
   const double cosine = plan_.cosine[target.row], sine = plan_.sine[target.row];
   Eigen::Vector3d direction = cosine * ahead_;
   direction.z() = sine;
-  const double lateral = plan_.jitter_rad * static_cast<double>(target.lateral) + face_ * plan_.bias.collimation_rad;
-  const double lift = plan_.jitter_rad * static_cast<double>(target.elevation) + face_ * plan_.bias.index_rad;
+  double lateral = plan_.jitter_rad * static_cast<double>(target.lateral) + face_ * plan_.bias.collimation_rad;
+  double lift = plan_.jitter_rad * static_cast<double>(target.elevation) + face_ * plan_.bias.index_rad;
+  double noise = plan_.white_share * static_cast<double>(target.range_noise), extra = 0;
+  if (plan_.column_noise) {
+    const CorrelatedNoise& figures = plan_.instrument.correlated;
+    const ColumnNoise::Column& column = plan_.column_noise->column(current_->column());
+    const auto wobble = static_cast<double>(wobble_[target.row % kPacket]);
+    noise += static_cast<double>(plan_.column_noise->along() * along_[target.row] + plan_.column_noise->common() * column.common);
+    extra = figures.column_extra_m * static_cast<double>(column.extra) + figures.wobble_m * wobble;
+    lateral += static_cast<double>(column.azimuth_rad) * cosine;
+    lift += figures.elevation_wobble_rad * wobble;
+  }
   // To first order, which at 60 arcsec and 100 m is right to 4 µm.
   direction += lateral * lateral_ - (lift * sine) * ahead_;
   direction.z() += lift * cosine;
-  double range = target.range_m * plan_.bias.scale + plan_.bias.range_m +
-                 plan_.noise_scale * static_cast<double>(sigma_m * target.range_noise);
+  double range = target.range_m * plan_.bias.scale + plan_.bias.range_m + plan_.noise_scale * static_cast<double>(sigma_m) * noise + extra;
   if (x > plan_.saturation) range += plan_.instrument.saturation.walk_m_per_decade * std::log10(x / plan_.saturation);
   const Eigen::Vector3d point = range * direction;
   if (!plan_.moves()) return point;
@@ -329,7 +374,7 @@ void ColumnTracer::append(const Target& target, int lane, PointBlock& block) con
   block.product.push_back(target.end.product);
   block.material.push_back(target.end.material);
   if (plan_.settings.imaging) {
-    const auto& colour = plan_.colours[target.end.surface];
+    const auto& colour = target.end.surface == kNoSurface ? kWhite : plan_.colours[target.end.surface];
     block.red.push_back(colour[0]);
     block.green.push_back(colour[1]);
     block.blue.push_back(colour[2]);

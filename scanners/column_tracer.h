@@ -52,7 +52,9 @@ class ColumnTracer {
   void gatherEnds(const Beam& beam, const NearestHit& axis, bool edge);
   void addEnds(const RayLine& line, const NearestHit& hit, float weight);
   void addSurface(std::uint32_t row, const Beam& beam, const NearestHit& hit, const MetFacet& met);
+  void addScatterer(std::uint32_t row, const Beam& beam);
   void addEchoes(std::uint32_t row);
+  void varySurfaces(std::size_t first, int count);
   void drawNoise(std::uint32_t first_row, std::size_t first_target);
   void receiveAll(PointBlock& block);
   void receiveSome(std::size_t first, int count, PointBlock& block);
@@ -81,6 +83,8 @@ class ColumnTracer {
   std::vector<Echo> echoes_;
   std::vector<Target> targets_;
   SignalLanes signal_;
+  float wobble_[kPacket] = {};
+  std::vector<float> along_;                            // noise of the column, by row
   PulseNoise noise_;
 };
 

@@ -36,7 +36,8 @@ ExpectedReturn ReturnLaw::of(const Optics& optics, double range_m, double cosine
   expected.power = std::max(1e-30, equivalent * gain * near * air / (range_m * range_m));
   const double share = (10 * std::log10(expected.power) - instrument_.intensity_low_db) / (instrument_.intensity_high_db - instrument_.intensity_low_db);
   expected.intensity = std::clamp(share, 0.0, 1.0);
-  expected.sigma_m = noise_scale_ * noise_law_.sigma(expected.power, std::max(equivalent, 1e-6));
+  expected.sigma_m = std::hypot(noise_scale_ * noise_law_.sigma(expected.power, std::max(equivalent, 1e-6)),
+                                instrument_.correlated.column_extra_m);
   const double margin = expected.power - threshold_;
   expected.probability = softness_ > 0 ? 0.5 * std::erfc(-margin / (std::numbers::sqrt2 * softness_)) : margin >= 0 ? 1 : 0;
   if (range_m < instrument_.min_range_m) expected.fate = ReturnFate::too_near;

@@ -69,7 +69,7 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
       noise_law(instrument_) {
   const Effects effects = options.effects;
   const double average = 1 / std::sqrt(static_cast<double>(settings.passes));
-  if (effects.has(Effect::range_noise)) noise_scale = settings.noise_factor * average;
+  noise_scale = settings.noise_factor * average;
   if (effects.has(Effect::angle_noise)) jitter_rad = instrument.angle_jitter_rad * average;
   Weather weather = options.weather;
   if (!effects.has(Effect::weather)) weather = {.visibility_km = weather.visibility_km};
@@ -81,11 +81,21 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
                                                : std::numeric_limits<float>::infinity();
   receiver = receiverOf(instrument, noise_law, effects, extinction_per_m(weather, instrument.wavelength_nm));
   if (effects.has(Effect::footprint)) reach_ = mostReach();
+  std::vector<double> elevations;
+  for (std::uint32_t row = 0; row < settings.rows; ++row) elevations.push_back(elevation_rad(row));
+  const RandomKey key{options.seed, options.station_key};
+  if (effects.has(Effect::striping)) column_noise.emplace(instrument, settings.columns, elevations, key);
+  if (effects.has(Effect::range_noise)) white_share = column_noise ? static_cast<double>(column_noise->white()) : 1;
+  if (weather.rain_mm_h > 0 || weather.snow_mm_h > 0 || weather.fog_mor_m > 0 || weather.dust_mor_m > 0)
+    scatterers.emplace(instrument, weather, detectionThreshold(settings, 0), settings.max_range_m, key);
   for (std::uint32_t row = 0; row < settings.rows; ++row) {
     sine.push_back(std::sin(elevation_rad(row)));
     cosine.push_back(std::cos(elevation_rad(row)));
   }
-  for (const auto& material : assignment.materials) optics.push_back(opticsOf(material, instrument.wavelength_nm));
+  for (const auto& material : assignment.materials) {
+    optics.push_back(opticsOf(material, instrument.wavelength_nm));
+    varies |= effects.has(Effect::variation) && optics.back().variation > 0;
+  }
   for (const auto& surface : scene.environment().surfaces) {
     optics.push_back(opticsOf(surface.colour));
     colours.push_back({byte(surface.colour.r), byte(surface.colour.g), byte(surface.colour.b)});

@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "core/physical_material.h"
 #include "core/survey.h"
+#include "scanners/correlated_noise.h"
 #include "scanners/embree_scene.h"
 #include "scanners/radiometry.h"
 #include "scanners/ray_engine.h"
+#include "scanners/scatterers.h"
 #include "scanners/signal_lanes.h"
 
 namespace standpoint {
@@ -46,11 +49,15 @@ struct ScanPlan {
   ScanBias bias;
   RangeNoiseLaw noise_law;
   Receiver receiver;
-  double noise_scale = 0;          // noise_factor / √passes; 0 = no noise of the range
+  double noise_scale = 0;          // of σ: noise_factor / √passes
   double jitter_rad = 0;
   double threshold = 0;            // x_min; 0 = all that is met returns
   double softness = 0;             // σ of the threshold, absolute
   float saturation = 0;            // x from which the receiver saturates
+  double white_share = 0;          // of σ, of the noise that is each pulse's own
+  std::optional<ColumnNoise> column_noise;
+  std::optional<Scatterers> scatterers;
+  bool varies = false;             // some material is not the same everywhere
   std::vector<double> sine, cosine;          // of each row's elevation
   std::vector<Optics> optics;                // materials, then surfaces without one
   std::vector<std::array<std::uint8_t, 3>> colours;   // sRGB of each surface: what the camera sees, unshaded
@@ -69,6 +76,7 @@ struct ScanPlan {
   std::uint32_t reach() const { return reach_; }
   // Of the part of the grid that is asked for.
   std::uint32_t endColumn() const { return std::min(options.end_column, settings.columns); }
+  std::uint32_t nothingLabel() const { return static_cast<std::uint32_t>(scene.environment().products.size()); }
   std::uint32_t unassignedLabel() const { return static_cast<std::uint32_t>(assignment.materials.size()); }
 
  private:
