@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/face_normal.h"
 #include "scanners/pane_passage.h"
 
 namespace standpoint {
@@ -30,10 +29,7 @@ ColumnTracer::ColumnTracer(const ScanPlan& plan) : plan_(plan), cache_(std::size
 
 std::int32_t ColumnTracer::materialAt(const Facet& facet) const {
   if (plan_.assignment.faces.empty()) return materialOf(plan_.assignment, facet.product, facet.surface);
-  const Environment& environment = plan_.scene.environment();
-  const Instance& instance = environment.instances[facet.instance];
-  const Mesh& mesh = *environment.meshes[instance.mesh];
-  return materialOf(plan_.assignment, facet.product, facet.surface, placedNormal(mesh, mesh.triangles[facet.triangle], instance.world_from_mesh));
+  return plan_.triangles.materialOf(facet.instance, facet.triangle);
 }
 
 const ColumnTracer::Met& ColumnTracer::met(std::uint64_t number) {

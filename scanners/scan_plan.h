@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "core/face_patches.h"
 #include "core/physical_material.h"
 #include "core/survey.h"
 #include "scanners/embree_scene.h"
@@ -36,6 +37,7 @@ struct ScanBias {
 struct ScanPlan {
   const EmbreeScene& scene;
   const MaterialAssignment& assignment;
+  AssignedTriangles triangles;               // what single faces are assigned
   const Instrument& instrument;
   const ScanSettings& settings;
   const Trajectory& trajectory;
