@@ -48,7 +48,7 @@ void drawComplexIndex(MaterialEdit& edit) {
   if (edit.complex_index.empty() && ui::button(ICON_ADD "  Row###add-first")) add = 0;
   if (ImGui::BeginTable("complex-index", 4, ImGuiTableFlags_RowBg)) {
     for (const char* title : {"nm", "n", "k"}) ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthStretch, 1);
-    ImGui::TableSetupColumn("###rows", ImGuiTableColumnFlags_WidthStretch, 0.7F);
+    ImGui::TableSetupColumn("###rows", ImGuiTableColumnFlags_WidthFixed, 2.6F * ImGui::GetFrameHeight());
     ImGui::TableHeadersRow();
     for (std::size_t i = 0; i < edit.complex_index.size(); ++i) {
       auto& [wavelength, n, k] = edit.complex_index[i];
@@ -58,7 +58,7 @@ void drawComplexIndex(MaterialEdit& edit) {
       cell(fmt::format("###k{}", i).c_str(), k, "%.3f");
       ImGui::TableNextColumn();
       if (ui::iconButton(fmt::format("{}###add{}", ICON_ADD, i).c_str(), "A row below this one")) add = i;
-      ImGui::SameLine();
+      ImGui::SameLine(0, 0);
       if (ui::iconButton(fmt::format("{}###take{}", ICON_TRASH, i).c_str(), "Take this row away")) take = i;
     }
     ImGui::EndTable();
