@@ -8,6 +8,7 @@
 #include "project/answers.h"
 #include "project/instruments.h"
 #include "project/materials_report.h"
+#include "project/materials_text.h"
 #include "project/model_verbs.h"
 #include "scanners/instrument.h"
 
@@ -214,7 +215,7 @@ Result<Outcome> assignDocumentMaterials(const Document& document, const Material
   if (!rules) return failure(rules.error());
   auto waves = wavelengths(document, choice.instrument);
   if (!waves) return failure(waves.error());
-  AssignOptions options{choice.accepted, std::move(*waves)};
+  AssignOptions options{choice.accepted, std::move(*waves), document.georeference ? document.georeference->shift_m : Eigen::Vector3d::Zero()};
   const auto& environment = *document.environment();
   auto result = assignMaterials(environment, library, *rules, choice.overrides, options, progress);
   if (!result) return failure(result.error());
@@ -232,6 +233,7 @@ Result<Outcome> assignDocumentMaterials(const Document& document, const Material
     news["used"] = std::move(used);
   }
   if (!taken.empty()) outcome.answer["libraries"] = std::move(taken);
+  outcome.text = materialsText(environment, choice.result.report) + libraryText(outcome.answer);
   outcome.document.materials = std::make_shared<const MaterialChoice>(std::move(choice));
   return outcome;
 }
@@ -259,6 +261,7 @@ Result<Outcome> runMaterials(const Document& document, const json& options, Prog
     if (std::none_of(library.begin(), library.end(), [&](const PhysicalMaterial& m) { return m.id == id; }))
       return failure(ErrorKind::usage, "it is not in the library of materials", id);
     outcome->answer["where"] = whereAnswer(*document.environment(), choice.result, id);
+    outcome->text = whereText(outcome->answer["where"]);
   }
   if (const auto file = options.value("report", ""); !file.empty())
     if (auto written = writeMaterialReport(outcome->document, file); !written) return failure(written.error());

@@ -17,9 +17,7 @@ constexpr std::size_t kBlock = 1 << 16;
 // Product, surface, and the index of what is assigned there: single faces may have a material of their own.
 using GroupKey = std::array<std::uint32_t, 3>;
 
-GroupKey keyOf(const MaterialAssignment& assignment, const MetSurface& met) {
-  return {met.product, met.surface, static_cast<std::uint32_t>(materialOf(assignment, met.product, met.surface, met.normal) + 1)};
-}
+GroupKey keyOf(const MetSurface& met) { return {met.product, met.surface, static_cast<std::uint32_t>(met.material + 1)}; }
 
 }  // namespace
 
@@ -46,7 +44,7 @@ Result<MeasuredReturns> measuredReturns(const Document& document, const CloudSam
   const auto& assignment = document.materials->result.assignment;
   std::map<GroupKey, std::uint32_t> group_of;
   for (std::size_t i = 0; i < count; ++i)
-    if (counts[i] != 0 && met[i].meeting == BeamMeeting::met) group_of.emplace(keyOf(assignment, met[i]), 0);
+    if (counts[i] != 0 && met[i].meeting == BeamMeeting::met) group_of.emplace(keyOf(met[i]), 0);
   std::map<std::string, std::int32_t> by_id;
   for (std::size_t m = 0; m < library.size(); ++m) by_id[library[m].id] = static_cast<std::int32_t>(m);
   for (auto& [key, group] : group_of) {
@@ -71,7 +69,7 @@ Result<MeasuredReturns> measuredReturns(const Document& document, const CloudSam
     if (!on) continue;
     ++result.on[m.product];
     if (m.meeting == BeamMeeting::edge) continue;
-    result.returns.push_back({sample.intensity[i], static_cast<float>(m.range_m), static_cast<float>(m.cosine), group_of.at(keyOf(assignment, m))});
+    result.returns.push_back({sample.intensity[i], static_cast<float>(m.range_m), static_cast<float>(m.cosine), group_of.at(keyOf(m))});
   }
   if (!off.empty()) {
     const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);

@@ -68,7 +68,7 @@ const std::vector<Verb>& table() {
        {{.name = "rules", .kind = K::path, .help = "file of own assignment rules, or `default`; kept in the project"},
         {.name = "library", .kind = K::list, .help = "files of own materials; kept in the project"},
         {.name = "forget", .kind = K::list, .help = "ids of own materials to take out again"},
-        {.name = "assign", .kind = K::pairs, .help = "SELECTOR=MATERIAL, or =rules to take it back; a selector is #id, a GlobalId, or conditions joined by &: class:IfcWall, type:…, name:*glass*, storey:…, group:…, material:…, colour:red; @0,0,1 behind it: only faces that look that way"},
+        {.name = "assign", .kind = K::pairs, .help = "SELECTOR=MATERIAL, or =rules to take it back; a selector is #id, a GlobalId, or conditions joined by &: class:IfcWall, type:…, name:*glass*, storey:…, group:…, layer:…, material:…, colour:red; @0,0,1 behind it: only faces that look that way; @0,0,1@X,Y,Z: of them only the one at this point of the model's own frame"},
         {.name = "where", .kind = K::text, .help = "id of a material: answers where it is used"},
         {.name = "accept", .kind = K::list, .help = "ids of findings that may stand, with --because"},
         {.name = "because", .kind = K::text, .help = "why they may stand; kept in the project until their cause changes"},

@@ -23,8 +23,10 @@ std::uint64_t verificationBasis(const Document& document, const std::string& und
   const auto& assignment = document.materials->result.assignment;
   for (const auto& m : assignment.materials) mix(m.id);
   for (const auto& s : assignment.surfaces) mix(fmt::format("{} {} {}", s.product, s.surface, s.material));
-  for (const auto& f : assignment.faces)
+  for (const auto& f : assignment.faces) {
     mix(fmt::format("{} {} {} {} {} {}", f.product, f.surface, f.material, f.direction.x(), f.direction.y(), f.direction.z()));
+    if (f.point) mix(fmt::format("{} {} {}", f.point->x(), f.point->y(), f.point->z()));
+  }
   return hash;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scanners/facet_cache.h"
 
-#include "core/face_normal.h"
-
 namespace standpoint {
 
 namespace {
@@ -17,10 +15,7 @@ FacetCache::FacetCache(const ScanPlan& plan) : plan_(plan), entries_(std::size_t
 
 std::int32_t FacetCache::materialAt(const Facet& facet) const {
   if (plan_.assignment.faces.empty()) return materialOf(plan_.assignment, facet.product, facet.surface);
-  const Environment& environment = plan_.scene.environment();
-  const Instance& instance = environment.instances[facet.instance];
-  const Mesh& mesh = *environment.meshes[instance.mesh];
-  return materialOf(plan_.assignment, facet.product, facet.surface, placedNormal(mesh, mesh.triangles[facet.triangle], instance.world_from_mesh));
+  return plan_.triangles.materialOf(facet.instance, facet.triangle);
 }
 
 const MetFacet& FacetCache::of(std::uint64_t number) {

@@ -27,6 +27,7 @@ struct MetSurface {
   double off_m = 0;                // of the point along the normal, positive behind the surface; met and near only
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();   // unit, towards the station
   std::uint32_t product = 0, surface = 0;   // met, near, and what it lies behind
+  std::int32_t material = -1;               // assigned to the face that it met; single faces may have one of their own
 };
 
 struct MeetingTolerance {

@@ -60,6 +60,7 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
                    const ScanSettings& settings_, const Trajectory& trajectory_, const ScanOptions& options_)
     : scene(scene_),
       assignment(assignment_),
+      triangles(scene_.environment(), assignment_),
       instrument(instrument_),
       settings(settings_),
       trajectory(trajectory_),

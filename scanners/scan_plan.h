@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/face_patches.h"
 #include "core/physical_material.h"
 #include "core/survey.h"
 #include "scanners/correlated_noise.h"
@@ -41,6 +42,7 @@ struct ScanBias {
 struct ScanPlan {
   const EmbreeScene& scene;
   const MaterialAssignment& assignment;
+  AssignedTriangles triangles;               // what single faces are assigned
   const Instrument& instrument;
   const ScanSettings& settings;
   const Trajectory& trajectory;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -443,12 +444,42 @@ TEST(Faces, OfOneSurfaceSendBackWhatTheirOwnMaterialDoes) {
   assignment.materials = {lambert(0.6), lambert(0.1)};
   assignment.surfaces = {{wall, 0, 0, "test", 1}};
   const auto label = [&](const Eigen::Vector3d& direction) {
-    assignment.faces = {{wall, 0, direction, 1, "test"}};
+    assignment.faces = {{wall, 0, direction, 1, "test", {}}};
     const auto result = scanned(*scene.build(), assignment, instrument, testing::window(instrument, -0.5, 0.5, -0.5, 0.5, 4, 4), {1, kGlass});
     return result.points.material.at(0);
   };
   EXPECT_EQ(label(-Eigen::Vector3d::UnitX()), 1U);   // the side that the scanner sees
   EXPECT_EQ(label(Eigen::Vector3d::UnitX()), 0U);
+}
+
+// Two panels of one surface in one plane, 1 m apart.
+TEST(Faces, AtAPointAreLabelledAndTheirCoplanarNeighbourIsNot) {
+  const Instrument instrument = testing::instrument("leica-rtc360");
+  auto mesh = std::make_shared<Mesh>();
+  mesh->positions = {{5, 0.5, -1}, {5, 2.5, -1}, {5, 2.5, 1}, {5, 0.5, 1}, {5, -2.5, -1}, {5, -0.5, -1}, {5, -0.5, 1}, {5, -2.5, 1}};
+  mesh->triangles = {{0, 2, 1}, {0, 3, 2}, {4, 6, 5}, {4, 7, 6}};   // look to -x
+  mesh->surface_of_triangle.assign(4, 0);
+  auto environment = std::make_shared<Environment>();
+  environment->meshes = {mesh};
+  environment->surfaces.resize(1);
+  environment->products.resize(1);
+  environment->instances = {{0, 0, Eigen::Affine3d::Identity()}};
+  MaterialAssignment assignment;
+  assignment.materials = {lambert(0.6), lambert(0.1)};
+  assignment.surfaces = {{0, 0, 0, "test", 1}};
+  assignment.faces = {{0, 0, -Eigen::Vector3d::UnitX(), 1, "test", Eigen::Vector3d(5, 1.5, 0)}};
+  Progress progress;
+  const auto scene = RayScene::build(environment, progress);
+  ASSERT_TRUE(scene);
+  const auto result = scanned(**scene, assignment, instrument, testing::window(instrument, -20, 20, -5, 5, 60, 20), {1, kGlass});
+  std::array<std::size_t, 2> counted{};
+  for (std::size_t i = 0; i < result.points.size(); ++i) {
+    const auto expected = point(result.points, i).y() > 0 ? 1U : 0U;
+    EXPECT_EQ(result.points.material[i], expected);
+    ++counted[expected];
+  }
+  EXPECT_GT(counted[0], 300U);
+  EXPECT_GT(counted[1], 300U);
 }
 
 }  // namespace
