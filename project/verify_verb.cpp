@@ -166,8 +166,7 @@ Result<Outcome> runVerify(const Document& document, const json& options, Progres
   outcome.description = f->comparison.no_verdict.empty()
                             ? fmt::format("Held the materials against {}: {} proposal{}", f->underlay, proposals, proposals == 1 ? "" : "s")
                             : fmt::format("Held the materials against {}: no verdict", f->underlay);
-  Verification verification{verificationBasis(document, f->underlay), outcome.answer};
-  outcome.document.verification = std::make_shared<const Verification>(std::move(verification));
+  outcome.document.verification = std::make_shared<const Verification>(verificationOf(document, outcome.answer));
   return outcome;
 }
 
