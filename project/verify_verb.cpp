@@ -112,7 +112,7 @@ Result<VerifyFound> found(const Document& document, const Underlay& underlay, co
   std::uint64_t with_station = 0;
   for (const auto n : f.measured.meetings) with_station += n;
   const auto of = [&](BeamMeeting meeting) { return f.measured.meetings[static_cast<std::size_t>(meeting)]; };
-  const auto near = of(BeamMeeting::met) + of(BeamMeeting::near) + of(BeamMeeting::edge);
+  const auto near = of(BeamMeeting::met) + of(BeamMeeting::near) + of(BeamMeeting::edge) + of(BeamMeeting::shared);
   if (near < 100 || static_cast<double>(near) < kFewOnModel * static_cast<double>(with_station))
     return failure(ErrorKind::unusable, fmt::format("{} of {} points lie on the model: register the cloud first, `standpoint underlay PROJECT "
                                                     "--register {} --pairs … --icp`", near, with_station, underlay.name), underlay.name);
