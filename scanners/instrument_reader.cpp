@@ -51,6 +51,9 @@ class Reader {
     readAngles(root);
     readSignal(root);
     readNoise(root);
+    readWaveform(root);
+    readCorrelated(root);
+    readSaturation(root);
     readSettings(root);
     close(root);
     if (!error_) checkWhole();
@@ -143,6 +146,12 @@ class Reader {
     return number;
   }
 
+  int count(Group& group, const std::string& key, const Domain& domain) {
+    const double number = figure(group, key, domain);
+    if (number != std::floor(number)) fail(group.pointer + "/" + key, "must be a whole number");
+    return static_cast<int>(number);
+  }
+
   void readSources(Group& root) {
     Group group = child(root, "sources");
     for (const auto& item : group.object->items()) sources_[item.key()] = text(group, item.key());
@@ -222,6 +231,39 @@ class Reader {
     }
   }
 
+  // The other technology's figure is an unknown key.
+  void readWaveform(Group& root) {
+    Group group = child(root, "waveform");
+    if (instrument_.technology == "phase_shift") instrument_.waveform.fine_wavelength_m = figure(group, "fine_wavelength_m", {0.01, 1000});
+    else instrument_.waveform.pulse_width_s = figure(group, "pulse_width_ns", {0.01, 1000, 1e-9});
+    instrument_.waveform.most_returns = count(group, "most_returns", {1, 255});
+    close(group);
+  }
+
+  void readCorrelated(Group& root) {
+    Group group = child(root, "correlated_noise");
+    auto& noise = instrument_.correlated;
+    noise.column_share = figure(group, "column_share", {0, 1});
+    noise.along_share = figure(group, "along_share", {0, 1});
+    noise.column_correlation = figure(group, "column_correlation", {0, 0.999});
+    noise.hurst = figure(group, "hurst", {0.5, 0.95});
+    noise.column_extra_m = figure(group, "column_extra_mm", {0, 1000, 1e-3});
+    noise.wobble_m = figure(group, "wobble_mm", {0, 1000, 1e-3});
+    noise.wobble_order = count(group, "wobble_order", {1, 64});
+    noise.elevation_wobble_rad = figure(group, "elevation_wobble_arcsec", {0, 3600, kRadPerArcsec});
+    noise.azimuth_flicker_rad = figure(group, "azimuth_flicker_arcsec", {0, 3600, kRadPerArcsec});
+    noise.clock_jitter_s = figure(group, "clock_jitter_ns", {0, 1e6, 1e-9});
+    close(group);
+  }
+
+  void readSaturation(Group& root) {
+    Group group = child(root, "saturation");
+    instrument_.saturation.level_db = figure(group, "level_db", {-100, 100});
+    instrument_.saturation.walk_m_per_decade = figure(group, "walk_mm_per_decade", {-1000, 1000, 1e-3});
+    instrument_.saturation.pedestal = figure(group, "pedestal", {0, 0.1});
+    close(group);
+  }
+
   void readSettings(Group& root) {
     const Json& list = member(root, "settings");
     if (!list.is_array() || list.empty() || list.size() > 100) return fail("/settings", "must be a list of 1 to 100 entries");
@@ -294,9 +336,23 @@ class Reader {
       fail("/signal/intensity_high_db", "must be above intensity_low_db");
     if (instrument_.angle_jitter_rad > instrument_.angle_sigma_rad)
       fail("/angles/jitter_arcsec", "must not be above accuracy_arcsec, of which it is a part");
+    checkShares();
     if (!error_)
       if (const auto standard = resolveSettings(instrument_, {}); !standard)
         fail("/settings", "the standard values are not a valid scan: " + standard.error().message);
+  }
+
+  // Parts cannot be more than the whole.
+  void checkShares() {
+    const auto& noise = instrument_.correlated;
+    if (noise.column_share + noise.along_share > 1)
+      fail("/correlated_noise/along_share", "must not be above 1 together with column_share: they are shares of one variance");
+    const double rest = instrument_.angle_sigma_rad * instrument_.angle_sigma_rad -
+                        instrument_.angle_jitter_rad * instrument_.angle_jitter_rad;
+    if (noise.azimuth_flicker_rad * noise.azimuth_flicker_rad > rest)
+      fail("/correlated_noise/azimuth_flicker_arcsec", "must not be above accuracy_arcsec together with jitter_arcsec");
+    if (noise.elevation_wobble_rad * noise.elevation_wobble_rad / 2 > rest)   // the variance of a sine is half its amplitude squared
+      fail("/correlated_noise/elevation_wobble_arcsec", "must not be above accuracy_arcsec together with jitter_arcsec");
   }
 
   std::string file_;

@@ -150,6 +150,38 @@ TEST(Instruments, EachHaveASourceForEveryFigure) {
   EXPECT_EQ(testing::instrument("leica-rtc360").evidence.at("/beam/wavelength_nm").mark, "unsourced");
 }
 
+TEST(Instruments, SpreadTheirNoiseWithoutAddingToTheSheet) {
+  for (const auto& instrument : testing::instruments()) {
+    const auto& noise = instrument.correlated;
+    EXPECT_LE(noise.column_share + noise.along_share, 1) << instrument.id;
+    EXPECT_GT(noise.column_share + noise.column_extra_m, 0) << instrument.id << " has no stripes";
+    for (const auto& figure : instrument.range_noise)
+      EXPECT_LT(noise.wobble_m * noise.wobble_m / 2, 0.02 * figure.sigma_m * figure.sigma_m) << instrument.id;
+  }
+}
+
+TEST(Instruments, TellTwoSurfacesApartByPulseOrByTone) {
+  for (const auto& instrument : testing::instruments()) {
+    EXPECT_EQ(instrument.waveform.pulse_width_s > 0, instrument.technology == "time_of_flight") << instrument.id;
+    EXPECT_EQ(instrument.waveform.fine_wavelength_m > 0, instrument.technology == "phase_shift") << instrument.id;
+    EXPECT_EQ(instrument.waveform.most_returns, instrument.id == "riegl-vz-400i" ? 15 : 1);
+  }
+}
+
+// physics.md §0, finding 3; the accuracy of its sheet is 4 mm at 10 m and 7 mm at 20 m.
+TEST(Blk360, HasTheNoiseThatWasSimulatedAndTheStripesThatWereMissing) {
+  const auto instrument = testing::instrument("leica-blk360-g1");
+  const auto& noise = instrument.correlated;
+  EXPECT_EQ(noise.column_share, 0);
+  EXPECT_NEAR(std::hypot(instrument.range_noise[0].sigma_m, noise.column_extra_m), 0.00229, 5e-6);
+  const double accuracy_mm[] = {4, 7};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& figure = instrument.range_noise[i];
+    const double bias = std::hypot(instrument.range_bias_m, 1e-6 * instrument.range_bias_ppm * figure.range_m);
+    EXPECT_NEAR(1e3 * std::hypot(bias, figure.sigma_m, noise.column_extra_m), accuracy_mm[i], 0.05);
+  }
+}
+
 // Reads the RTC360 with one piece of its text exchanged.
 class ChangedInstrument : public ::testing::Test {
  protected:
@@ -187,6 +219,32 @@ TEST_F(ChangedInstrument, WithAValueOutOfRangeIsRefusedWithItsPlace) {
   EXPECT_EQ(errorOf("\"columns\": 5084", "\"columns\": 5e9").source, "leica-rtc360.json /settings/0/choices/0/columns");
   EXPECT_EQ(errorOf("\"standard\": \"6mm\"", "\"standard\": \"7mm\"").source, "leica-rtc360.json /settings/0/standard");
   EXPECT_EQ(errorOf("\"id\": \"leica-rtc360\"", "\"id\": \"leica\"").source, "leica-rtc360.json /id");
+}
+
+TEST_F(ChangedInstrument, WhosePartsAreMoreThanTheWholeIsRefusedWithItsPlace) {
+  EXPECT_EQ(errorOf("\"along_share\": 0.3", "\"along_share\": 0.95").source, "leica-rtc360.json /correlated_noise/along_share");
+  EXPECT_EQ(errorOf("\"azimuth_flicker_arcsec\": { \"value\": 3", "\"azimuth_flicker_arcsec\": { \"value\": 18").source,
+            "leica-rtc360.json /correlated_noise/azimuth_flicker_arcsec");
+  EXPECT_EQ(errorOf("\"elevation_wobble_arcsec\": { \"value\": 3", "\"elevation_wobble_arcsec\": { \"value\": 26").source,
+            "leica-rtc360.json /correlated_noise/elevation_wobble_arcsec");
+}
+
+TEST_F(ChangedInstrument, WithNoiseThatCannotBeIsRefusedWithItsPlace) {
+  EXPECT_EQ(errorOf("\"hurst\": 0.75", "\"hurst\": 1").source, "leica-rtc360.json /correlated_noise/hurst");
+  EXPECT_EQ(errorOf("\"column_correlation\": 0.5", "\"column_correlation\": 1").source,
+            "leica-rtc360.json /correlated_noise/column_correlation");
+  EXPECT_EQ(errorOf("\"column_share\": 0.1", "\"column_share\": -0.1").source, "leica-rtc360.json /correlated_noise/column_share");
+  EXPECT_EQ(errorOf("\"pedestal\": 0.0003", "\"pedestal\": 0.5").source, "leica-rtc360.json /saturation/pedestal");
+  EXPECT_THAT(errorOf("\"wobble_order\": 2", "\"wobble_order\": 2.5").message, HasSubstr("whole number"));
+  EXPECT_EQ(errorOf("\"most_returns\": { \"value\": 1", "\"most_returns\": { \"value\": 0").source,
+            "leica-rtc360.json /waveform/most_returns/value");
+}
+
+TEST_F(ChangedInstrument, WithTheFigureOfTheOtherTechnologyIsRefusedWithItsPlace) {
+  EXPECT_EQ(errorOf("\"technology\": { \"value\": \"time_of_flight\"", "\"technology\": { \"value\": \"phase_shift\"").source,
+            "leica-rtc360.json /waveform/fine_wavelength_m");
+  EXPECT_EQ(errorOf("\"most_returns\":", "\"fine_wavelength_m\": 1.2, \"most_returns\":").source,
+            "leica-rtc360.json /waveform/fine_wavelength_m");
 }
 
 TEST_F(ChangedInstrument, CutAnywhereIsAnError) {
