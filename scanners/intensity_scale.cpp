@@ -19,7 +19,9 @@ constexpr double kBeyond_db = 1, kBeyondSteps = 10, kClearlyLess = 0.5;
 constexpr double kStraight_db = 0.25;   // to which the curve is called a straight line
 
 // What the curve is taken over.
-double axis(const IntensityScale& scale, double measured) { return scale.logarithmic ? std::log10(std::max(measured, 1e-12)) : measured; }
+double axis(const IntensityScale& scale, double measured) {
+  return scale.logarithmic ? std::log10(std::max(measured, 1e-12)) : measured;
+}
 
 double medianAbsolute(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -79,10 +81,10 @@ Eigen::VectorXd nonNegative(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) 
 // cells hold, stand far from the next.
 Eigen::MatrixXd stiffness(const IntensityScale& scale, double strength) {
   const auto steps = static_cast<Eigen::Index>(scale.measured.size()) - 1;
-  const double mean_width = (axis(scale, scale.measured.back()) - axis(scale, scale.measured.front())) / static_cast<double>(steps);
+  const auto at = [&](Eigen::Index k) { return axis(scale, scale.measured[static_cast<std::size_t>(k)]); };
+  const double mean_width = (at(steps) - at(0)) / static_cast<double>(steps);
   Eigen::VectorXd per_width(steps);
-  for (Eigen::Index k = 0; k < steps; ++k)
-    per_width[k] = mean_width / (axis(scale, scale.measured[static_cast<std::size_t>(k) + 1]) - axis(scale, scale.measured[static_cast<std::size_t>(k)]));
+  for (Eigen::Index k = 0; k < steps; ++k) per_width[k] = mean_width / (at(k + 1) - at(k));
   Eigen::MatrixXd s = Eigen::MatrixXd::Identity(steps, steps) * (strength * 1e-6);
   for (Eigen::Index k = 0; k + 1 < steps; ++k) {
     const double here = per_width[k], next = per_width[k + 1];
@@ -124,9 +126,11 @@ Eigen::VectorXd IntensityScale::stepsAt(double figure) const {
   const auto steps = static_cast<Eigen::Index>(measured.size()) - 1;
   Eigen::VectorXd share(steps);
   for (Eigen::Index k = 0; k < steps; ++k) {
-    const double from = axis(*this, measured[static_cast<std::size_t>(k)]), to = axis(*this, measured[static_cast<std::size_t>(k) + 1]);
+    const double from = axis(*this, measured[static_cast<std::size_t>(k)]);
+    const double to = axis(*this, measured[static_cast<std::size_t>(k) + 1]);
     // The first and the last go on beyond their knots, but not far: nothing was learned there.
-    share[k] = std::clamp((axis(*this, figure) - from) / (to - from), k == 0 ? -kBeyondSteps : 0.0, k + 1 == steps ? 1 + kBeyondSteps : 1.0);
+    share[k] = std::clamp((axis(*this, figure) - from) / (to - from), k == 0 ? -kBeyondSteps : 0.0,
+                          k + 1 == steps ? 1 + kBeyondSteps : 1.0);
   }
   return share;
 }
