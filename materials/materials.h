@@ -111,7 +111,11 @@ struct Remedy {
   std::string text;           // "take them for glass"
   std::string selector;
   std::string material;
+  std::vector<std::string> more = {};   // selectors that it goes for as well
 };
+// What the verb `materials` takes as `assign` to follow it with that material.
+std::vector<std::string> assignWords(const Remedy& remedy, const std::string& material);
+
 struct MaterialFinding {
   std::string severity;       // "warning", "note"
   std::string source;         // "#1234", the first product

@@ -17,8 +17,9 @@ enum class BeamMeeting {
   behind,       // an opaque surface, which the beam should not have passed
   behind_pane,  // as met, but through glass
   edge,         // as met, but beside it the beam would meet something else: its light is of both
+  shared,       // as met, but a face of another material lies in the same place; meetSurface knows no materials
 };
-constexpr int kBeamMeetings = 6;
+constexpr int kBeamMeetings = 7;
 
 struct MetSurface {
   BeamMeeting meeting = BeamMeeting::in_front;
