@@ -29,7 +29,6 @@ class Writer final : public CloudWriter {
   Result<void> write(const PointBlock& block) override;
   Result<void> end() override;
   Result<void> close() override;
-  const Report& report() const override { return report_; }
 
  private:
   std::string headerText() const;
@@ -42,7 +41,6 @@ class Writer final : public CloudWriter {
   void putPoint(const PointBlock& block, std::size_t i);
 
   PartFile file_;
-  Report report_;
   std::optional<ScanHeader> header_;
   bool ended_ = false;
   std::uint64_t points_ = 0;

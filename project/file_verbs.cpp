@@ -49,7 +49,7 @@ Result<Outcome> runConvert(const Document& document, const json& options, Progre
   if (auto ok = mustExist(in); !ok) return failure(ok.error());
   progress.stage("Convert " + in.filename().string());
   Outcome outcome{document, json::object(), {}, {}};
-  auto files = convertCloud(in, options.at("out").get<std::string>(), outcome.report, progress);
+  auto files = convertCloud(in, options.at("out").get<std::string>(), options.value("as", ""), outcome.report, progress);
   if (!files) return failure(files.error());
   json names = json::array();
   for (const auto& f : *files) names.push_back(f.string());

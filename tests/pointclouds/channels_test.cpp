@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
+#include "pointclouds/e57.h"
+#include "tests/pointclouds/kept_scans.h"
+#include "tests/pointclouds/made_up_picture.h"
+#include "tests/pointclouds/made_up_scan.h"
+#include "tests/pointclouds/same_points.h"
+
+namespace standpoint {
+namespace {
+
+using testing::allPoints;
+using testing::expectPlacesWithin;
+using testing::expectSameLabels;
+using testing::expectSamePoints;
+using testing::KeptScans;
+using testing::madeUpHeader;
+using testing::madeUpPicture;
+using testing::TemporaryFolder;
+using testing::writeFile;
+using testing::writeScan;
+using Projection = StationPicture::Projection;
+
+TEST(E57, ReturnsTimesReturnsAndTruthBitForBit) {
+  const TemporaryFolder folder;
+  const std::vector<ScanHeader> headers = {madeUpHeader({100, 50, true, true, "A", true}),
+                                           madeUpHeader({70, 40, false, false, "B", true}),
+                                           madeUpHeader({70, 40, false, false, "C", false})};
+  writeFile(folder / "a.e57", headers);
+  KeptScans kept;
+  const auto report = readAll(folder / "a.e57", kept);
+  ASSERT_OK(report);
+  EXPECT_TRUE(report->issues.empty()) << testing::said(*report);
+  ASSERT_EQ(kept.scans.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(kept.scans[i].header.has_truth, headers[i].has_truth);
+    expectSamePoints(kept.scans[i].points, allPoints(headers[i]));
+  }
+}
+
+TEST(E57, ReturnsThePicturesOfEachStation) {
+  const TemporaryFolder folder;
+  auto writer = e57::createWriter(folder / "a.e57");
+  ASSERT_OK(writer);
+  const StationPicture panorama = madeUpPicture(Projection::spherical), front = madeUpPicture(Projection::pinhole, 4003);
+  for (const char* name : {"A", "B"}) {
+    ScanHeader header = madeUpHeader({20, 30, true, true, name});
+    ASSERT_OK((*writer)->begin(header));
+    ASSERT_OK((*writer)->picture(panorama));
+    ASSERT_OK((*writer)->write(allPoints(header)));
+    if (*name == 'B') ASSERT_OK((*writer)->picture(front));
+    ASSERT_OK((*writer)->end());
+  }
+  ASSERT_OK((*writer)->close());
+  KeptScans kept;
+  const auto report = readAll(folder / "a.e57", kept);
+  ASSERT_OK(report);
+  EXPECT_TRUE(report->issues.empty()) << testing::said(*report);
+  ASSERT_EQ(kept.pictures.size(), 2u);
+  ASSERT_EQ(kept.pictures[0].size(), 1u);
+  ASSERT_EQ(kept.pictures[1].size(), 2u);
+  const auto expectSame = [](const StationPicture& a, const StationPicture& b) {
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.projection, b.projection);
+    EXPECT_EQ(a.media_type, b.media_type);
+    EXPECT_EQ(a.bytes, b.bytes);
+    EXPECT_EQ(a.width, b.width);
+    EXPECT_EQ(a.height, b.height);
+    EXPECT_EQ(a.pixel_width, b.pixel_width);
+    EXPECT_EQ(a.pixel_height, b.pixel_height);
+    EXPECT_EQ(a.focal_length_m, b.focal_length_m);
+    EXPECT_EQ(a.principal_x, b.principal_x);
+    EXPECT_EQ(a.principal_y, b.principal_y);
+    EXPECT_EQ(a.file_from_camera.translation, b.file_from_camera.translation);
+    EXPECT_EQ(a.file_from_camera.rotation.coeffs(), b.file_from_camera.rotation.coeffs());
+    EXPECT_EQ(a.acquired_gps_s, b.acquired_gps_s);
+  };
+  expectSame(kept.pictures[0][0], panorama);
+  expectSame(kept.pictures[1][0], panorama);
+  expectSame(kept.pictures[1][1], front);
+  expectSamePoints(kept.scans[1].points, allPoints(madeUpHeader({20, 30, true, true, "B"})));
+}
+
+void writeAs(const std::filesystem::path& file, e57::Coordinates kind, const ScanHeader& header) {
+  auto writer = e57::createWriter(file, kind);
+  ASSERT_OK(writer);
+  ASSERT_OK(writeScan(**writer, header));
+  ASSERT_OK((*writer)->close());
+}
+
+TEST(E57, OfScaledIntegersIsRightToHalfAStepAndSmaller) {
+  const TemporaryFolder folder;
+  ScanHeader header = madeUpHeader({100, 500, true, true, "A", false});
+  header.intensity_min = -2;
+  writeAs(folder / "scaled.e57", e57::Coordinates::scaled, header);
+  writeFile(folder / "floats.e57", {header});
+  KeptScans kept;
+  ASSERT_OK(readAll(folder / "scaled.e57", kept));
+  const PointBlock points = allPoints(header);
+  const auto& scan = kept.scans.at(0);
+  ASSERT_EQ(scan.points.size(), points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    ASSERT_NEAR(scan.points.x_m[i], points.x_m[i], 0.51e-4);
+    ASSERT_NEAR(scan.points.z_m[i], points.z_m[i], 0.51e-4);
+    ASSERT_NEAR(scan.points.intensity[i], points.intensity[i], 3 / 65535.0);
+  }
+  EXPECT_EQ(scan.points.row, points.row);
+  EXPECT_EQ(scan.header.intensity_min, -2);
+  expectSameLabels(scan, header, points);
+  EXPECT_LT(std::filesystem::file_size(folder / "scaled.e57"), 0.85 * std::filesystem::file_size(folder / "floats.e57"));
+}
+
+TEST(E57, OfScaledIntegersRefusesWhatTheyDoNotReach) {
+  const TemporaryFolder folder;
+  const ScanHeader header = madeUpHeader({4, 4, false, false, "far"});
+  PointBlock points = allPoints(header);
+  points.y_m[3] = 3400;
+  auto writer = e57::createWriter(folder / "a.e57", e57::Coordinates::scaled);
+  ASSERT_OK(writer);
+  ASSERT_OK((*writer)->begin(header));
+  const auto written = (*writer)->write(points);
+  ASSERT_FALSE(written.has_value());
+  EXPECT_THAT(describe(written.error()), ::testing::HasSubstr("more than 3355 m"));
+}
+
+TEST(E57, OfSphericalCoordinatesIsRightToAMicrometre) {
+  const TemporaryFolder folder;
+  ScanHeader header = madeUpHeader({100, 50, true, true, "A", true});
+  header.file_from_scanner = {};
+  writeAs(folder / "a.e57", e57::Coordinates::spherical, header);
+  KeptScans kept;
+  const auto report = readAll(folder / "a.e57", kept);
+  ASSERT_OK(report);
+  const PointBlock points = allPoints(header);
+  expectPlacesWithin(kept.scans.at(0), header, points, 3e-6);
+  EXPECT_EQ(kept.scans[0].points.truth.x_m, points.truth.x_m);
+  EXPECT_EQ(kept.scans[0].points.time_s, points.time_s);
+}
+
+TEST(CloudWriters, ListTheChannelsThatTheyHaveNoPlaceFor) {
+  const TemporaryFolder folder;
+  const ScanHeader header = madeUpHeader({4, 4, true, true, "A", true});
+  auto writer = cloudFormatFor("a.ptx")->writer(folder / "a.ptx");
+  ASSERT_OK(writer);
+  ASSERT_OK((*writer)->begin(header));
+  ASSERT_OK((*writer)->picture(madeUpPicture(Projection::spherical)));
+  const std::string said = testing::said((*writer)->report());
+  for (const char* word : {"labels", "times", "return numbers", "true places", "picture"})
+    EXPECT_THAT(said, ::testing::HasSubstr(word));
+}
+
+}  // namespace
+}  // namespace standpoint
