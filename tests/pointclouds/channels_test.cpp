@@ -138,6 +138,78 @@ TEST(E57, OfSphericalCoordinatesIsRightToAMicrometre) {
   EXPECT_EQ(kept.scans[0].points.time_s, points.time_s);
 }
 
+// Whole scans out of a format that stores places in the file's frame: half a step of 0.1 mm.
+void expectBack(const std::filesystem::path& file, const std::vector<ScanHeader>& headers) {
+  KeptScans kept;
+  const auto report = readAll(file, kept);
+  ASSERT_OK(report);
+  EXPECT_EQ(report->losses(), 0u) << testing::said(*report);
+  ASSERT_EQ(kept.scans.size(), headers.size());
+  for (std::size_t i = 0; i < headers.size(); ++i) {
+    const PointBlock points = allPoints(headers[i]);
+    const KeptScans::Scan& scan = kept.scans[i];
+    ASSERT_EQ(scan.points.size(), points.size());
+    testing::expectSameHeader(scan.header, headers[i]);
+    expectPlacesWithin(scan, headers[i], points, 0.51e-4);
+    EXPECT_EQ(scan.points.row, points.row);
+    EXPECT_EQ(scan.points.column, points.column);
+    EXPECT_EQ(scan.points.red, points.red);
+    EXPECT_EQ(scan.points.blue, points.blue);
+    EXPECT_EQ(scan.points.return_number, points.return_number);
+    EXPECT_EQ(scan.points.return_count, points.return_count);
+    EXPECT_EQ(scan.points.truth.flags, points.truth.flags);
+    EXPECT_EQ(scan.points.truth.incidence_rad, points.truth.incidence_rad);
+    EXPECT_EQ(scan.points.truth.received_db, points.truth.received_db);
+    ASSERT_EQ(scan.points.time_s.size(), points.time_s.size());
+    for (std::size_t k = 0; k < points.time_s.size(); ++k) {
+      ASSERT_NEAR(scan.points.time_s[k], points.time_s[k], 1e-7);  // a double of 4e8 s has steps of 6e-8
+      ASSERT_NEAR(scan.points.truth.x_m[k], points.truth.x_m[k], 1e-4);
+      ASSERT_NEAR(scan.points.truth.z_m[k], points.truth.z_m[k], 1e-4);
+    }
+    for (std::size_t k = 0; k < points.size(); ++k)
+      ASSERT_NEAR(scan.points.intensity[k], points.intensity[k], 1.0 / 65535);
+    if (headers[i].has_labels) expectSameLabels(scan, headers[i], points);
+  }
+}
+
+TEST(Las, ReturnsTheStationsOfAFileOfOurs) {
+  const TemporaryFolder folder;
+  std::vector<ScanHeader> headers = {madeUpHeader({100, 50, true, true, "A", true}),
+                                     madeUpHeader({70, 40, true, true, "B\t2", true})};
+  headers[1].file_from_scanner.translation += Eigen::Vector3d(150000, -3000, 50);
+  for (auto& header : headers) header.coordinate_metadata = "PROJCRS[\"made up\"]";
+  writeFile(folder / "a.las", headers);
+  expectBack(folder / "a.las", headers);
+}
+
+TEST(Las, OfAnotherTableOfLabelsPutsItBehindTheFirst) {
+  const TemporaryFolder folder;
+  std::vector<ScanHeader> headers = {madeUpHeader({10, 20, false, true, "A"}), madeUpHeader({10, 20, false, true, "B"}),
+                                     madeUpHeader({10, 20, false, true, "C"})};
+  headers[1].products = {{"#77", "g", "IfcSlab", "floor"}};
+  writeFile(folder / "a.las", headers);
+  KeptScans kept;
+  ASSERT_OK(readAll(folder / "a.las", kept));
+  ASSERT_EQ(kept.scans.size(), 3u);
+  const auto& scan = kept.scans[1];
+  EXPECT_EQ(scan.header.products.at(scan.points.product.at(0)).id, "#77");
+  const PointBlock points = allPoints(headers[2]);
+  EXPECT_EQ(kept.scans[2].points.product, points.product);   // the table of the first
+  EXPECT_EQ(kept.scans[2].header.products.at(points.product[5]).name, headers[2].products.at(points.product[5]).name);
+}
+
+TEST(Las, RefusesAStationBeyondItsIntegers) {
+  const TemporaryFolder folder;
+  std::vector<ScanHeader> headers = {madeUpHeader({10, 20, false, true, "A"}), madeUpHeader({10, 20, false, true, "B"})};
+  headers[1].file_from_scanner.translation.x() += 220000;
+  auto writer = cloudFormatFor("a.las")->writer(folder / "a.las");
+  ASSERT_OK(writer);
+  ASSERT_OK(writeScan(**writer, headers[0]));
+  const auto written = writeScan(**writer, headers[1]);
+  ASSERT_FALSE(written.has_value());
+  EXPECT_THAT(describe(written.error()), ::testing::HasSubstr("more than 214 km"));
+}
+
 TEST(CloudWriters, ListTheChannelsThatTheyHaveNoPlaceFor) {
   const TemporaryFolder folder;
   const ScanHeader header = madeUpHeader({4, 4, true, true, "A", true});

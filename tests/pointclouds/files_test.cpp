@@ -159,7 +159,7 @@ TEST(ConvertCloud, NamesWhatItCannotDo) {
   ASSERT_FALSE(unknown.has_value());
   EXPECT_EQ(unknown.error().kind, ErrorKind::usage);
   EXPECT_THAT(unknown.error().message, ::testing::HasSubstr(".ptx"));
-  EXPECT_EQ(convertCloud(folder / "a.e57", folder / "b.las", "", report, progress).error().kind, ErrorKind::usage);
+  EXPECT_EQ(convertCloud(folder / "a.e57", folder / "b.laz", "", report, progress).error().kind, ErrorKind::usage);
   const auto variant = convertCloud(folder / "a.e57", folder / "b.e57", "short", report, progress);
   ASSERT_FALSE(variant.has_value());
   EXPECT_THAT(describe(variant.error()), ::testing::HasSubstr("there is scaled, spherical"));
