@@ -9,6 +9,7 @@
 
 #include "pointclouds/e57.h"
 #include "pointclouds/las.h"
+#include "pointclouds/pcd.h"
 #include "pointclouds/ply.h"
 #include "pointclouds/ptx.h"
 #include "pointclouds/text_points.h"
@@ -117,7 +118,7 @@ Result<CloudFormat::Writer> writerOf(const CloudFormat& format, const std::strin
 }  // namespace
 
 std::span<const CloudFormat> cloudFormats() {
-  static const std::array formats = {kE57, kPtx, kPly, kLas, kLaz, kPts, kXyz};
+  static const std::array formats = {kE57, kPtx, kPly, kPcd, kLas, kLaz, kPts, kXyz, kCsv};
   return formats;
 }
 

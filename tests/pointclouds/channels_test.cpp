@@ -182,6 +182,93 @@ TEST(Las, ReturnsTheStationsOfAFileOfOurs) {
   expectBack(folder / "a.las", headers);
 }
 
+TEST(Ply, ReturnsTheScanWithAllChannels) {
+  const TemporaryFolder folder;
+  ScanHeader header = madeUpHeader({100, 50, true, true, "A\n1", true});
+  header.coordinate_metadata = "PROJCRS[\"made up\"]";
+  writeFile(folder / "a.ply", {header});
+  expectBack(folder / "a.ply", {header});
+}
+
+TEST(Pcd, ReturnsTheScanWithAllChannelsAsAGridAndAsAList) {
+  const TemporaryFolder folder;
+  ScanHeader header = madeUpHeader({100, 50, true, true, "A\n1", true});
+  header.coordinate_metadata = "PROJCRS[\"made up\"]";
+  writeFile(folder / "grid.pcd", {header});
+  expectBack(folder / "grid.pcd", {header});
+  auto writer = cloudFormatFor("a.pcd")->variants[0].writer(folder / "list.pcd");
+  ASSERT_OK(writer);
+  ASSERT_OK(writeScan(**writer, header));
+  ASSERT_OK((*writer)->close());
+  expectBack(folder / "list.pcd", {header});
+  KeptScans grid, list;
+  ASSERT_OK(readAll(folder / "grid.pcd", grid));
+  ASSERT_OK(readAll(folder / "list.pcd", list));
+  expectSamePoints(grid.scans.at(0).points, allPoints(header));   // to the last bit
+  expectSamePoints(list.scans.at(0).points, allPoints(header));
+}
+
+TEST(Pcd, OfAGridCountsTheReturnsThatShareACell) {
+  const TemporaryFolder folder;
+  const ScanHeader header = madeUpHeader({4, 4, false, false, "S"});
+  PointBlock points;
+  for (const std::uint32_t row : {0u, 0u, 2u, 2u, 2u}) {
+    points.x_m.push_back(1), points.y_m.push_back(2), points.z_m.push_back(3);
+    points.intensity.push_back(0.25f), points.row.push_back(row), points.column.push_back(1);
+  }
+  auto writer = cloudFormatFor("a.pcd")->writer(folder / "s.pcd");
+  ASSERT_OK(writer);
+  ASSERT_OK((*writer)->begin(header));
+  ASSERT_OK((*writer)->write(points));
+  ASSERT_OK((*writer)->end());
+  ASSERT_OK((*writer)->close());
+  EXPECT_THAT(testing::said((*writer)->report()), ::testing::HasSubstr("3 further returns"));
+  KeptScans kept;
+  ASSERT_OK(readAll(folder / "s.pcd", kept));
+  EXPECT_THAT(kept.scans.at(0).points.row, ::testing::ElementsAre(0u, 2u));
+}
+
+TEST(Pcd, OfOthersIsReadAsTextAndBinary) {
+  const TemporaryFolder folder;
+  testing::putBytes(folder / "a.pcd",
+                    "# .PCD v.7\nVERSION .7\nFIELDS x y z rgb normal\nSIZE 4 4 4 4 4\nTYPE F F F F F\nCOUNT 1 1 1 1 3\n"
+                    "WIDTH 3\nHEIGHT 1\nVIEWPOINT 1 2 3 1 0 0 0\nPOINTS 3\nDATA ascii\n"
+                    "1 2 3 4.2108e+06 0 0 1\nnan nan nan 0 0 0 0\n-1 0.5 2 3.57331e-43 1 0 0\n");
+  KeptScans kept;
+  const auto report = readAll(folder / "a.pcd", kept);
+  ASSERT_OK(report);
+  EXPECT_THAT(testing::said(*report), ::testing::HasSubstr("not read: normal"));
+  const auto& scan = kept.scans.at(0);
+  ASSERT_EQ(scan.points.size(), 2u);
+  EXPECT_EQ(scan.header.file_from_scanner.translation, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(scan.points.red[0], 0x80);    // 4.2108e+06 are the bits 4A808000
+  EXPECT_EQ(scan.points.green[0], 0x80);
+  EXPECT_EQ(scan.points.blue[1], 255);
+}
+
+TEST(TextClouds, KeepANationalGridToAHundredthOfAMillimetre) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.pts", "a.xyz", "a.csv"}) {
+    SCOPED_TRACE(name);
+    ScanHeader header = madeUpHeader({30, 50, true, false, "A", true});
+    header.file_from_scanner.translation = {3456789.5, 5600000.123456, -0.25};
+    writeFile(folder / name, {header});
+    KeptScans kept;
+    const auto report = readAll(folder / name, kept);
+    ASSERT_OK(report);
+    const PointBlock points = allPoints(header);
+    expectPlacesWithin(kept.scans.at(0), header, points, 0.6e-5);
+    EXPECT_EQ(kept.scans[0].points.green, points.green);
+    const bool csv = std::string(name) == "a.csv";
+    EXPECT_EQ(kept.scans[0].points.time_s, csv ? points.time_s : std::vector<double>{});
+    EXPECT_EQ(kept.scans[0].points.truth.flags, csv ? points.truth.flags : std::vector<std::uint8_t>{});
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const float read = kept.scans[0].points.intensity[i];
+      ASSERT_NEAR(*name == 'a' && std::string(name) == "a.pts" ? (read + 2048) / 4095 : read, points.intensity[i], 2e-4);
+    }
+  }
+}
+
 TEST(Las, OfAnotherTableOfLabelsPutsItBehindTheFirst) {
   const TemporaryFolder folder;
   std::vector<ScanHeader> headers = {madeUpHeader({10, 20, false, true, "A"}), madeUpHeader({10, 20, false, true, "B"}),

@@ -165,7 +165,10 @@ TEST(OutsideReaders, CloudCompareFindsThePointsOfOurPtxAndPly) {
     const std::string points = std::to_string(write(folder / (kind.name + ".ptx"), {kind}));
     write(folder / (kind.name + ".ply"), {kind});
     EXPECT_THAT(look(kind.name + ".ptx"), ::testing::HasSubstr("with " + points + " points"));
-    EXPECT_THAT(look(kind.name + ".ply"), ::testing::HasSubstr("with " + points + " points"));
+    for (const char* extension : {".ply", ".pts", ".xyz", ".csv"}) {
+      write(folder / (kind.name + extension), {kind});
+      EXPECT_THAT(look(kind.name + extension), ::testing::HasSubstr("with " + points + " points")) << extension;
+    }
   }
   write(folder / "both.ptx", scans);
   EXPECT_THAT(look("both.ptx"),
@@ -183,6 +186,42 @@ TEST(OutsideReaders, CloudCompareFindsThePointsOfOurPtxAndPly) {
   ASSERT_OK((*writer)->end());
   ASSERT_OK((*writer)->close());
   EXPECT_THAT(look("s.ptx"), ::testing::HasSubstr("with " + std::to_string(points.size()) + " points"));
+}
+
+// Number of points and the mean of their places.
+TEST(OutsideReaders, Open3dFindsThePlacesOfOurPlyPcdAndText) {
+  const std::string python = "/usr/bin/python3";
+  if (output(python + " -c 'import open3d; print(1)'").find("1\n") != 0) GTEST_SKIP() << "python3-open3d is not installed";
+  const TemporaryFolder folder;
+  testing::putBytes(folder / "look.py",
+                    "import sys, numpy as np, open3d as o3d\n"
+                    "for f in sys.argv[1:]:\n"
+                    "  t = o3d.t.io.read_point_cloud(f); p = t.point['positions'].numpy().astype(float)\n"
+                    "  p = p[np.isfinite(p).all(1)]\n"
+                    "  print(len(p), '%.5f %.5f %.5f' % tuple(p.mean(0)), *sorted(k for k, _ in t.point.items()))\n");
+  const ScanKind kind{40, 30, true, true, "A", true};
+  const ScanHeader header = madeUpHeader(kind);
+  const PointBlock points = testing::allPoints(header);
+  Eigen::Vector3d local = Eigen::Vector3d::Zero(), far = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d p(points.x_m[i], points.y_m[i], points.z_m[i]);
+    local += p / static_cast<double>(points.size());
+    far += (header.file_from_scanner * p) / static_cast<double>(points.size());
+  }
+  for (const char* name : {"a.ply", "a.pcd", "a.pts", "a.xyz"}) {
+    write(folder / name, {kind});
+    const std::string said = output(python + " " + (folder / "look.py").string() + " " + (folder / name).string());
+    SCOPED_TRACE(std::string(name) + ": " + said);
+    std::istringstream stream(said.substr(said.find_last_of('\n', said.size() - 2) + 1));
+    std::size_t count = 0;
+    Eigen::Vector3d mean;
+    stream >> count >> mean.x() >> mean.y() >> mean.z();
+    EXPECT_EQ(count, points.size());
+    const bool pcd = std::string(name) == "a.pcd";
+    const bool single = name == std::string("a.pts") || name == std::string("a.xyz");   // Open3D keeps these as floats
+    EXPECT_LE((mean - (pcd ? local : far)).cwiseAbs().maxCoeff(), single ? 0.3 : 2e-5);
+    if (pcd) { EXPECT_THAT(said, ::testing::HasSubstr("intensity")); }
+  }
 }
 
 }  // namespace
