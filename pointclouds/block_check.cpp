@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace standpoint {
 namespace {
@@ -25,11 +26,31 @@ bool sizedAs(const std::vector<T>& column, std::size_t wanted) {
   return column.size() == wanted;
 }
 
+bool truthFits(const PointTruth& t, std::size_t n) {
+  return sizedAs(t.x_m, n) && sizedAs(t.y_m, n) && sizedAs(t.z_m, n) && sizedAs(t.range_m, n) &&
+         sizedAs(t.incidence_rad, n) && sizedAs(t.received_db, n) && sizedAs(t.flags, n);
+}
+
 bool columnsFit(const ScanHeader& header, const PointBlock& b) {
   const std::size_t n = b.size(), colours = header.has_colour ? n : 0, labels = header.has_labels ? n : 0;
+  const std::size_t times = header.has_time ? n : 0, returns = header.has_returns ? n : 0;
   return sizedAs(b.y_m, n) && sizedAs(b.z_m, n) && sizedAs(b.intensity, n) && sizedAs(b.row, n) &&
          sizedAs(b.column, n) && sizedAs(b.red, colours) && sizedAs(b.green, colours) && sizedAs(b.blue, colours) &&
-         sizedAs(b.product, labels) && sizedAs(b.material, labels);
+         sizedAs(b.product, labels) && sizedAs(b.material, labels) && sizedAs(b.time_s, times) &&
+         sizedAs(b.return_number, returns) && sizedAs(b.return_count, returns) &&
+         truthFits(b.truth, header.has_truth ? n : 0);
+}
+
+// What is optional: finite, and returns that are counted from 1.
+const char* faultOfChannels(const PointBlock& b) {
+  const PointTruth& t = b.truth;
+  for (const double time : b.time_s)
+    if (!std::isfinite(time)) return "a time is not finite";
+  for (const auto* column : {&t.x_m, &t.y_m, &t.z_m, &t.range_m, &t.incidence_rad, &t.received_db})
+    if (!allFinite(*column)) return "a true value is not finite";
+  for (std::size_t i = 0; i < b.return_number.size(); ++i)
+    if (b.return_number[i] < 1 || b.return_number[i] > b.return_count[i]) return "a return is not one of its pulse";
+  return nullptr;
 }
 
 tl::unexpected<Error> broken(const ScanHeader& header, const std::string& what) {
@@ -72,7 +93,22 @@ Result<BlockExtent> checkBlock(const ScanHeader& header, const PointBlock& block
   if (header.has_labels &&
       (largest(block.product) >= header.products.size() || largest(block.material) >= header.materials.size()))
     return broken(header, "a label lies outside the header's table");
+  if (const char* fault = faultOfChannels(block)) return broken(header, fault);
   return extent;
+}
+
+void listUnheld(const ScanHeader& header, const char* format, const Channels& held, Report& report) {
+  const std::pair<bool, const char*> all[] = {
+      {header.has_colour && !held.colour, "colours"},
+      {header.has_labels && !held.labels, "product and material labels"},
+      {header.has_time && !held.time, "the points' times"},
+      {header.has_returns && !held.returns, "return numbers"},
+      {header.has_truth && !held.truth, "true places and flags"},
+      {!header.coordinate_metadata.empty() && !held.crs, "the coordinate reference system"}};
+  std::string names;
+  for (const auto& [unheld, name] : all)
+    if (unheld) names += (names.empty() ? "" : ", ") + std::string(name);
+  if (!names.empty()) report.warn(header.name, std::string(format) + " has no place for " + names);
 }
 
 }  // namespace standpoint

@@ -6,26 +6,21 @@
 
 namespace standpoint {
 
-const CloudFormat kE57 = {"e57",
-                          "ASTM E57: structured scans with poses, intensity, colour and labels",
-                          ".e57",
-                          true,
-                          e57::createWriter,
-                          e57::read,
-                          e57::info};
-
 namespace e57 {
 namespace {
+
+template <Coordinates kind>
+Result<std::unique_ptr<CloudWriter>> writerOf(const std::filesystem::path& file) {
+  return createWriter(file, kind);
+}
+
+constexpr CloudVariant kVariants[] = {
+    {"scaled", "integers of 0.1 mm: three quarters of the size", writerOf<Coordinates::scaled>},
+    {"spherical", "range, azimuth and elevation", writerOf<Coordinates::spherical>}};
 
 std::size_t scanCount(const Document& document) {
   const Element* const scans = document.root->child("data3D");
   return scans ? scans->children.size() : 0;
-}
-
-void listImages(const Document& document, Report& report) {
-  const Element* const images = document.root->child("images2D");
-  if (images && !images->children.empty())
-    report.lose(document.file.name(), std::to_string(images->children.size()) + " images are not read");
 }
 
 struct FoundScan {
@@ -50,14 +45,14 @@ Result<Report> read(const std::filesystem::path& file, PointSink& sink, Progress
   auto document = openDocument(file);
   if (!document) return failure(document.error());
   Report report;
-  listImages(*document, report);
   const std::size_t scans = scanCount(*document);
+  const auto pictures = picturesOfScans(*document, scans, report);
   for (std::size_t i = 0; i < scans; ++i) {
     auto found = findScan(*document, i, report);
     if (!found) return failure(found.error());
     const auto share = [&](std::size_t n) { return static_cast<double>(n) / static_cast<double>(scans); };
     progress.stage("Reading " + found->plan.header.name, share(i), share(i + 1));
-    if (auto done = readScan(document->file, *found->points, std::move(found->plan), sink, report, progress); !done)
+    if (auto done = readScan(document->file, *found->points, std::move(found->plan), pictures[i], sink, report, progress); !done)
       return failure(done.error());
   }
   return report;
@@ -67,7 +62,6 @@ Result<CloudInfo> info(const std::filesystem::path& file) {
   auto document = openDocument(file);
   if (!document) return failure(document.error());
   CloudInfo info{.format = kE57.name};
-  listImages(*document, info.report);
   for (std::size_t i = 0; i < scanCount(*document); ++i) {
     auto found = findScan(*document, i, info.report);
     if (!found) return failure(found.error());
@@ -78,4 +72,14 @@ Result<CloudInfo> info(const std::filesystem::path& file) {
 }
 
 }  // namespace e57
+
+const CloudFormat kE57 = {"e57",
+                          "ASTM E57: structured scans with poses, intensity, colour, labels, truth and pictures",
+                          ".e57",
+                          true,
+                          e57::writerOf<e57::Coordinates::cartesian>,
+                          e57::read,
+                          e57::info,
+                          e57::kVariants};
+
 }  // namespace standpoint

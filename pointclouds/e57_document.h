@@ -4,6 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "core/report.h"
+#include "core/survey.h"
 #include "pointclouds/e57_paged_file.h"
 #include "pointclouds/e57_xml.h"
 
@@ -19,6 +21,8 @@ Result<Document> openDocument(const std::filesystem::path& path);
 // Value of an Integer, ScaledInteger or Float element; an empty one is 0 (E2807 8.3.1), a missing or garbled one
 // `otherwise`.
 double real(const Element* element, double otherwise);
+// The pose that a scan or a picture has; what is missing or senseless of it is mended with a warning.
+Pose readPose(const Element& holder, const std::string& source, Report& report);
 std::string text(const Element& parent, std::string_view name);
 
 }  // namespace standpoint::e57

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,14 @@ namespace standpoint::e57 {
 // with a line for each index, from 0: a product's line is id, GlobalId, IFC class and name with tabs between them, a
 // material's its name. Inside a value a tab stands as \t, a line feed as \n, a backslash as \\ and any other byte
 // that XML cannot carry as \xNN. As Python: products = [line.split("\t") for line in text.split("\n")[:-1]].
+// What else is known of a point because it was simulated (core/points.h, PointTruth) stands in the fields of
+// kTruthFields, all of them or none: single floats in the scanner's frame, metres, radians and decibels, and an integer
+// of flags.
 inline constexpr const char* kLabelNamespace = "urn:standpoint:e57:ground-truth:1";
 inline constexpr const char* kLabelPrefix = "gt";
+
+inline constexpr std::array<const char*, 7> kTruthFields = {
+    "trueX", "trueY", "trueZ", "trueRange", "incidence", "receivedPower", "flags"};
 
 std::string productsText(const std::vector<LabelledProduct>& products);
 std::string materialsText(const std::vector<std::string>& materials);

@@ -37,16 +37,16 @@ Result<void> PacketWriter::begin(PagedWriter& out) {
   return out.append(std::array<std::uint8_t, kSectionHeader>{});
 }
 
-void PacketWriter::put(std::size_t stream, std::span<const float> values) {
-  Stream& s = streams_[stream];
-  std::memcpy(packet_.data() + s.start + s.bytes, values.data(), values.size_bytes());
-  s.bytes += values.size_bytes();
-}
-
-void PacketWriter::put(std::size_t stream, std::span<const std::uint8_t> values) {
+void PacketWriter::putBytes(std::size_t stream, std::span<const std::byte> values) {
   Stream& s = streams_[stream];
   std::memcpy(packet_.data() + s.start + s.bytes, values.data(), values.size());
   s.bytes += values.size();
+}
+
+void PacketWriter::put(std::size_t stream, std::span<const float> values) { putBytes(stream, std::as_bytes(values)); }
+void PacketWriter::put(std::size_t stream, std::span<const double> values) { putBytes(stream, std::as_bytes(values)); }
+void PacketWriter::put(std::size_t stream, std::span<const std::uint8_t> values) {
+  putBytes(stream, std::as_bytes(values));
 }
 
 void PacketWriter::putBits(Stream& s, std::uint32_t value, unsigned bits) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -19,13 +20,14 @@ constexpr std::uint64_t largestOf(unsigned bits) { return (std::uint64_t{1} << b
 // A packet holds a multiple of 32 records, so that every stream ends on a byte.
 class PacketWriter {
  public:
-  // Bits per record of each stream: 32 for a single-precision float, else what bitsFor() says (at most 63).
+  // Bits per record of each stream: 32 or 64 for a float, else what bitsFor() says (at most 63).
   explicit PacketWriter(std::vector<unsigned> stream_bits);
 
   Result<void> begin(PagedWriter& out);
   // How many records fit before the packet is full. Put at most so many into every stream, then advance by them.
   std::size_t room() const { return capacity_ - pending_; }
   void put(std::size_t stream, std::span<const float> values);
+  void put(std::size_t stream, std::span<const double> values);
   void put(std::size_t stream, std::span<const std::uint8_t> values);   // of 8 bits
   void put(std::size_t stream, std::span<const std::uint32_t> values);  // each fits the stream's bits
   void putWide(std::size_t stream, std::uint64_t value);
@@ -43,6 +45,7 @@ class PacketWriter {
     std::uint64_t waiting = 0;  // bits that do not fill 32 yet
     unsigned waiting_bits = 0;
   };
+  void putBytes(std::size_t stream, std::span<const std::byte> values);
   void putBits(Stream& stream, std::uint32_t value, unsigned bits);
   Result<void> emit(PagedWriter& out);
 

@@ -15,8 +15,10 @@ constexpr double kLargestGridSide = 1 << 30;
 
 const Element* childOf(const Element* parent, std::string_view name) { return parent ? parent->child(name) : nullptr; }
 
-Pose readPose(const Element& scan, const std::string& source, Report& report) {
-  const Element* const pose = scan.child("pose");
+}  // namespace
+
+Pose readPose(const Element& holder, const std::string& source, Report& report) {
+  const Element* const pose = holder.child("pose");
   const Element* const q = childOf(pose, "rotation");
   const Element* const t = childOf(pose, "translation");
   if (pose && (!q || !t)) report.warn(source, "the pose is not whole: the missing half is taken as none");
@@ -36,6 +38,8 @@ Pose readPose(const Element& scan, const std::string& source, Report& report) {
   if (result.rotation.w() < 0) result.rotation.coeffs() *= -1;
   return result;
 }
+
+namespace {
 
 // The declared limits, else those of the prototype, else `standard`.
 std::pair<double, double> limits(const Element* element, const std::string& name, const StoredField& field,
@@ -94,7 +98,7 @@ std::string labelPrefix(const Element& root) {
 
 void readLabels(const Element& root, const Element& scan, const std::vector<StoredField>& fields, ScanPlan& plan,
                 Report& report) {
-  const std::string prefix = labelPrefix(root);
+  const std::string& prefix = plan.prefix;
   if (prefix.empty() || !fieldNamed(fields, prefix + "product") || !fieldNamed(fields, prefix + "material")) return;
   const Element* const tables = root.child(prefix + "labelTables");
   const double index = real(scan.child(prefix + "labelTable"), -1);
@@ -103,10 +107,23 @@ void readLabels(const Element& root, const Element& scan, const std::vector<Stor
     return;
   }
   const Element& table = *tables->children[static_cast<std::size_t>(index)];
-  plan.label_prefix = prefix;
   plan.header.has_labels = true;
   plan.header.products = productsFrom(text(table, prefix + "products"));
   plan.header.materials = materialsFrom(text(table, prefix + "materials"));
+}
+
+void readChannels(const Element& root, const std::vector<StoredField>& fields, ScanPlan& plan, Report& report) {
+  ScanHeader& header = plan.header;
+  header.has_time = fieldNamed(fields, "timeStamp").has_value();
+  const bool number = fieldNamed(fields, "returnIndex").has_value();
+  header.has_returns = number && fieldNamed(fields, "returnCount").has_value();
+  const std::string prefix = labelPrefix(root);
+  if (prefix.empty()) return;
+  plan.prefix = prefix;
+  const auto there = static_cast<std::size_t>(std::count_if(
+      kTruthFields.begin(), kTruthFields.end(), [&](const char* f) { return fieldNamed(fields, prefix + f).has_value(); }));
+  header.has_truth = there == kTruthFields.size();
+  if (there > 0 && !header.has_truth) report.lose(plan.source, "the true values of its points are not complete");
 }
 
 double time(const Element& scan, const char* name) { return real(childOf(scan.child(name), "dateTimeValue"), 0); }
@@ -127,11 +144,14 @@ void listUnread(const std::vector<StoredField>& fields, const ScanPlan& plan, Re
                                         "cartesianInvalidState",
                                         "sphericalInvalidState",
                                         "isIntensityInvalid",
-                                        "isColorInvalid"};
+                                        "isColorInvalid",
+                                        "timeStamp",
+                                        "isTimeStampInvalid"};
   std::string unread;
   for (const auto& field : fields)
     if (std::find(std::begin(kRead), std::end(kRead), field.name) == std::end(kRead) &&
-        (plan.label_prefix.empty() || !field.name.starts_with(plan.label_prefix)))
+        !(plan.header.has_returns && (field.name == "returnIndex" || field.name == "returnCount")) &&
+        (plan.prefix.empty() || !field.name.starts_with(plan.prefix)))
       unread += (unread.empty() ? "" : ", ") + field.name;
   if (!unread.empty()) report.lose(plan.source, "fields that are not read: " + unread);
 }
@@ -164,6 +184,7 @@ ScanPlan planScan(const Element& root, const Element& scan, const std::vector<St
   header.file_from_scanner = readPose(scan, plan.source, report);
   readLimits(scan, fields, plan);
   readGrid(scan, fields, plan, report);
+  readChannels(root, fields, plan, report);
   readLabels(root, scan, fields, plan, report);
   listUnread(fields, plan, report);
   return plan;

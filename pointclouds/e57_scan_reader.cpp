@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 
 #include "pointclouds/block_check.h"
+#include "pointclouds/e57_labels.h"
 
 namespace standpoint::e57 {
 namespace {
@@ -16,38 +19,42 @@ using Place = std::optional<std::size_t>;
 struct Roles {
   Place x, y, z;
   bool spherical = false;
-  Place intensity, colour[3], row, column, product, material;
-  Place cartesian_state, spherical_state, intensity_invalid, colour_invalid;
+  Place intensity, colour[3], row, column, product, material, time, return_index, return_count, truth[7];
+  Place cartesian_state, spherical_state, intensity_invalid, colour_invalid, time_invalid;
+
+  template <class F>
+  void forEach(F f) const {
+    for (const Place& place : {x, y, z, intensity, colour[0], colour[1], colour[2], row, column, product, material, time,
+                               return_index, return_count, truth[0], truth[1], truth[2], truth[3], truth[4], truth[5],
+                               truth[6], cartesian_state, spherical_state, intensity_invalid, colour_invalid, time_invalid})
+      if (place) f(*place);
+  }
 };
 
 struct Tally {
-  std::uint64_t invalid = 0, no_intensity = 0, no_colour = 0, outside_grid = 0;
+  std::uint64_t invalid = 0, no_intensity = 0, no_colour = 0, no_time = 0, outside_grid = 0, no_return = 0, no_truth = 0;
 };
 
 Roles rolesOf(const std::vector<StoredField>& fields, const ScanPlan& plan) {
   const auto at = [&](std::string_view name) { return fieldNamed(fields, name); };
+  const ScanHeader& header = plan.header;
   Roles r{.x = at("cartesianX"), .y = at("cartesianY"), .z = at("cartesianZ")};
   r.spherical = !(r.x && r.y && r.z);
   if (r.spherical) r.x = at("sphericalRange"), r.y = at("sphericalAzimuth"), r.z = at("sphericalElevation");
   r.intensity = at("intensity");
-  if (plan.header.has_colour) {
+  if (header.has_colour) {
     r.colour[0] = at("colorRed"), r.colour[1] = at("colorGreen"), r.colour[2] = at("colorBlue");
     r.colour_invalid = at("isColorInvalid");
   }
-  if (hasGrid(plan.header)) r.row = at("rowIndex"), r.column = at("columnIndex");
-  if (plan.header.has_labels)
-    r.product = at(plan.label_prefix + "product"), r.material = at(plan.label_prefix + "material");
-  r.cartesian_state = at("cartesianInvalidState");
-  r.spherical_state = at("sphericalInvalidState");
+  if (hasGrid(header)) r.row = at("rowIndex"), r.column = at("columnIndex");
+  if (header.has_labels) r.product = at(plan.prefix + "product"), r.material = at(plan.prefix + "material");
+  if (header.has_time) r.time = at("timeStamp"), r.time_invalid = at("isTimeStampInvalid");
+  if (header.has_returns) r.return_index = at("returnIndex"), r.return_count = at("returnCount");
+  if (header.has_truth)
+    for (std::size_t i = 0; i < kTruthFields.size(); ++i) r.truth[i] = at(plan.prefix + kTruthFields[i]);
+  (r.spherical ? r.spherical_state : r.cartesian_state) = at(r.spherical ? "sphericalInvalidState" : "cartesianInvalidState");
   r.intensity_invalid = at("isIntensityInvalid");
   return r;
-}
-
-void want(VectorReader& reader, const Roles& r) {
-  for (const Place& place :
-       {r.x, r.y, r.z, r.intensity, r.colour[0], r.colour[1], r.colour[2], r.row, r.column, r.product, r.material,
-        r.cartesian_state, r.spherical_state, r.intensity_invalid, r.colour_invalid})
-    if (place) reader.want(*place);
 }
 
 // Without indexBounds the grid is as large as the indices that occur.
@@ -75,77 +82,172 @@ Result<void> measureGrid(PagedReader& file, const Element& points, ScanPlan& pla
   return {};
 }
 
+// Turns the file's columns into those of a block, column by column.
 class ScanReading {
  public:
   ScanReading(const ScanPlan& plan, const Roles& roles) : plan_(plan), roles_(roles) {}
-  Result<void> take(const Columns& from, std::size_t records, FoundPoints& to);
+  // Uses `from` up.
+  Result<void> take(Columns& from, std::size_t records, FoundPoints& to);
   const Tally& tally() const { return tally_; }
 
  private:
-  static bool set(const Columns& from, const Place& place, std::size_t i) { return place && from[*place][i] != 0; }
-  bool kept(const Columns& from, std::size_t i);
-  void takePosition(const Columns& from, std::size_t i, FoundPoints& to) const;
-  void takeColour(const Columns& from, std::size_t i, PointBlock& to);
-  Result<void> takeLabels(const Columns& from, std::size_t i, PointBlock& to) const;
+  void dropInvalid(Columns& from, std::size_t& records);
+  void takePlaces(Columns& from, FoundPoints& to) const;
+  void takeColours(Columns& from, PointBlock& to);
+  Result<void> takeLabels(const Columns& from, PointBlock& to) const;
+  void takeReturns(const Columns& from, PointBlock& to);
+  void takeTruth(Columns& from, FoundPoints& to);
+  // Values that the file marks as invalid become 0; how many there are.
+  std::uint64_t blank(Columns& from, const Place& marks, std::span<const Place> places) const;
   const ScanPlan& plan_;
   const Roles& roles_;
   Tally tally_;
+  std::vector<std::uint8_t> dropped_;
 };
 
-bool ScanReading::kept(const Columns& from, std::size_t i) {
-  if (set(from, roles_.spherical ? roles_.spherical_state : roles_.cartesian_state, i)) return ++tally_.invalid, false;
-  if (!roles_.row) return true;
-  const double row = from[*roles_.row][i] - plan_.first_row, column = from[*roles_.column][i] - plan_.first_column;
-  if (row >= 0 && row < plan_.header.rows && column >= 0 && column < plan_.header.columns) return true;
-  return ++tally_.outside_grid, false;
+template <class T>
+void convert(const std::vector<double>& from, double shift, std::vector<T>& to) {
+  to.resize(from.size());
+  for (std::size_t i = 0; i < from.size(); ++i) to[i] = static_cast<T>(from[i] - shift);
 }
 
-void ScanReading::takePosition(const Columns& from, std::size_t i, FoundPoints& to) const {
-  const double a = from[*roles_.x][i], b = from[*roles_.y][i], c = from[*roles_.z][i];
-  to.x.push_back(roles_.spherical ? a * std::cos(c) * std::cos(b) : a);
-  to.y.push_back(roles_.spherical ? a * std::cos(c) * std::sin(b) : b);
-  to.z.push_back(roles_.spherical ? a * std::sin(c) : c);
+std::uint64_t ScanReading::blank(Columns& from, const Place& marks, std::span<const Place> places) const {
+  if (!marks) return 0;
+  std::uint64_t marked = 0;
+  for (std::size_t i = 0; i < from[*marks].size(); ++i) {
+    if (from[*marks][i] == 0) continue;
+    ++marked;
+    for (const Place& place : places) from[*place][i] = 0;
+  }
+  return marked;
 }
 
-void ScanReading::takeColour(const Columns& from, std::size_t i, PointBlock& to) {
-  const bool invalid = set(from, roles_.colour_invalid, i);
-  tally_.no_colour += invalid;
+void ScanReading::dropInvalid(Columns& from, std::size_t& records) {
+  const Place& state = roles_.spherical ? roles_.spherical_state : roles_.cartesian_state;
+  dropped_.assign(records, 0);
+  std::uint64_t invalid = 0, outside = 0;
+  if (state)
+    for (std::size_t i = 0; i < records; ++i) invalid += dropped_[i] = from[*state][i] != 0;
+  if (roles_.row)
+    for (std::size_t i = 0; i < records; ++i) {
+      const double row = from[*roles_.row][i] - plan_.first_row, column = from[*roles_.column][i] - plan_.first_column;
+      const bool inside = row >= 0 && row < plan_.header.rows && column >= 0 && column < plan_.header.columns;
+      outside += !inside && !dropped_[i];
+      dropped_[i] |= !inside;
+    }
+  tally_.invalid += invalid;
+  tally_.outside_grid += outside;
+  if (invalid + outside == 0) return;
+  roles_.forEach([&](std::size_t place) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < records; ++i)
+      if (!dropped_[i]) from[place][kept++] = from[place][i];
+    from[place].resize(kept);
+  });
+  records -= invalid + outside;
+}
+
+void ScanReading::takePlaces(Columns& from, FoundPoints& to) const {
+  to.x.swap(from[*roles_.x]), to.y.swap(from[*roles_.y]), to.z.swap(from[*roles_.z]);
+  if (!roles_.spherical) return;
+  for (std::size_t i = 0; i < to.x.size(); ++i) {
+    const double range = to.x[i], azimuth = to.y[i], elevation = to.z[i];
+    to.x[i] = range * std::cos(elevation) * std::cos(azimuth);
+    to.y[i] = range * std::cos(elevation) * std::sin(azimuth);
+    to.z[i] = range * std::sin(elevation);
+  }
+}
+
+void ScanReading::takeColours(Columns& from, PointBlock& to) {
+  tally_.no_colour += blank(from, roles_.colour_invalid, {});
   std::vector<std::uint8_t>* const colours[3] = {&to.red, &to.green, &to.blue};
   for (int k = 0; k < 3; ++k) {
-    const double share =
-        (from[*roles_.colour[k]][i] - plan_.colour_least[k]) / (plan_.colour_most[k] - plan_.colour_least[k]);
-    // Written so that a NaN becomes 0.
-    colours[k]->push_back(!invalid && share > 0 ? static_cast<std::uint8_t>(std::lround(std::min(share, 1.0) * 255))
-                                                : 0);
+    const std::vector<double>& column = from[*roles_.colour[k]];
+    const double least = plan_.colour_least[k], most = plan_.colour_most[k];
+    if (least == 0 && most == 255) {
+      colours[k]->resize(column.size());
+      // Written so that a NaN becomes 0.
+      for (std::size_t i = 0; i < column.size(); ++i)
+        (*colours[k])[i] = column[i] > 0 ? static_cast<std::uint8_t>(static_cast<int>(std::min(column[i], 255.0) + 0.5)) : 0;
+    } else {
+      colours[k]->clear();
+      for (const double value : column) {
+        const double share = (value - least) / (most - least);
+        colours[k]->push_back(share > 0 ? static_cast<std::uint8_t>(std::lround(std::min(share, 1.0) * 255)) : 0);
+      }
+    }
+    if (roles_.colour_invalid)
+      for (std::size_t i = 0; i < column.size(); ++i)
+        if (from[*roles_.colour_invalid][i] != 0) (*colours[k])[i] = 0;
   }
 }
 
-Result<void> ScanReading::takeLabels(const Columns& from, std::size_t i, PointBlock& to) const {
-  const double product = from[*roles_.product][i], material = from[*roles_.material][i];
-  const ScanHeader& header = plan_.header;
-  if (!(product >= 0 && product < static_cast<double>(header.products.size()) && material >= 0 &&
-        material < static_cast<double>(header.materials.size())))
-    return failure(ErrorKind::unusable, "a point's label lies outside the label table", plan_.source);
-  to.product.push_back(static_cast<std::uint32_t>(product));
-  to.material.push_back(static_cast<std::uint32_t>(material));
+Result<void> ScanReading::takeLabels(const Columns& from, PointBlock& to) const {
+  const auto products = static_cast<double>(plan_.header.products.size());
+  const auto materials = static_cast<double>(plan_.header.materials.size());
+  bool inside = true;
+  for (const double v : from[*roles_.product]) inside &= v >= 0 && v < products;
+  for (const double v : from[*roles_.material]) inside &= v >= 0 && v < materials;
+  if (!inside) return failure(ErrorKind::unusable, "a point's label lies outside the label table", plan_.source);
+  convert(from[*roles_.product], 0, to.product);
+  convert(from[*roles_.material], 0, to.material);
   return {};
 }
 
-Result<void> ScanReading::take(const Columns& from, std::size_t records, FoundPoints& to) {
+void ScanReading::takeReturns(const Columns& from, PointBlock& to) {
+  const std::vector<double>&index = from[*roles_.return_index], &count = from[*roles_.return_count];
+  to.return_number.resize(index.size());
+  to.return_count.resize(index.size());
+  for (std::size_t i = 0; i < index.size(); ++i) {
+    const bool sensible = index[i] >= 0 && index[i] < count[i] && count[i] <= 255;
+    tally_.no_return += !sensible;
+    to.return_number[i] = sensible ? static_cast<std::uint8_t>(index[i] + 1) : 1;  // the file counts from 0
+    to.return_count[i] = sensible ? static_cast<std::uint8_t>(count[i]) : 1;
+  }
+}
+
+void ScanReading::takeTruth(Columns& from, FoundPoints& to) {
+  for (int k = 0; k < 7; ++k)
+    for (double& value : from[*roles_.truth[k]]) {
+      const bool sensible = k == 6 ? value >= 0 && value <= 255 : std::abs(value) <= std::numeric_limits<float>::max();
+      tally_.no_truth += !sensible;
+      if (!sensible) value = 0;
+    }
+  to.true_x.swap(from[*roles_.truth[0]]), to.true_y.swap(from[*roles_.truth[1]]), to.true_z.swap(from[*roles_.truth[2]]);
+  PointTruth& truth = to.columns.truth;
+  convert(from[*roles_.truth[3]], 0, truth.range_m);
+  convert(from[*roles_.truth[4]], 0, truth.incidence_rad);
+  convert(from[*roles_.truth[5]], 0, truth.received_db);
+  convert(from[*roles_.truth[6]], 0, truth.flags);
+}
+
+Result<void> ScanReading::take(Columns& from, std::size_t records, FoundPoints& to) {
+  dropInvalid(from, records);
   PointBlock& block = to.columns;
-  for (std::size_t i = 0; i < records; ++i) {
-    if (!kept(from, i)) continue;
-    takePosition(from, i, to);
-    const bool no_intensity = !roles_.intensity || set(from, roles_.intensity_invalid, i);
-    tally_.no_intensity += no_intensity && roles_.intensity;
-    block.intensity.push_back(no_intensity ? 0.0f : static_cast<float>(from[*roles_.intensity][i]));
-    block.row.push_back(roles_.row ? static_cast<std::uint32_t>(from[*roles_.row][i] - plan_.first_row) : 0);
-    block.column.push_back(roles_.row ? static_cast<std::uint32_t>(from[*roles_.column][i] - plan_.first_column) : 0);
-    if (plan_.header.has_colour) takeColour(from, i, block);
-    if (plan_.header.has_labels)
-      if (auto taken = takeLabels(from, i, block); !taken) return taken;
+  takePlaces(from, to);
+  if (roles_.intensity) {
+    tally_.no_intensity += blank(from, roles_.intensity_invalid, {{roles_.intensity}});
+    convert(from[*roles_.intensity], 0, block.intensity);
+  } else {
+    block.intensity.assign(records, 0);
   }
-  return {};
+  if (roles_.row) {
+    convert(from[*roles_.row], plan_.first_row, block.row);
+    convert(from[*roles_.column], plan_.first_column, block.column);
+  } else {
+    block.row.assign(records, 0);
+    block.column.assign(records, 0);
+  }
+  if (plan_.header.has_colour) takeColours(from, block);
+  if (roles_.time) {
+    tally_.no_time += blank(from, roles_.time_invalid, {{roles_.time}});
+    block.time_s.swap(from[*roles_.time]);
+    for (double& time : block.time_s)
+      if (!std::isfinite(time)) ++tally_.no_time, time = 0;
+  }
+  if (roles_.return_index) takeReturns(from, block);
+  if (plan_.header.has_truth) takeTruth(from, to);
+  return plan_.header.has_labels ? takeLabels(from, block) : Result<void>{};
 }
 
 void list(const Tally& tally, const std::string& source, Report& report) {
@@ -156,14 +258,19 @@ void list(const Tally& tally, const std::string& source, Report& report) {
     report.note(source, count(tally.no_intensity) + " intensities are marked as invalid: 0 stands for them");
   if (tally.no_colour > 0)
     report.note(source, count(tally.no_colour) + " colours are marked as invalid: black stands for them");
+  if (tally.no_time > 0)
+    report.note(source, count(tally.no_time) + " times are marked as invalid: 0 stands for them");
+  if (tally.no_return > 0)
+    report.warn(source, count(tally.no_return) + " return numbers are none of their pulse: 1 of 1 stands for them");
+  if (tally.no_truth > 0) report.lose(source, count(tally.no_truth) + " true values are no numbers: 0 stands for them");
   if (tally.outside_grid > 0)
     report.lose(source, count(tally.outside_grid) + " points lie outside the file's indexBounds");
 }
 
 }  // namespace
 
-Result<void> readScan(PagedReader& file, const Element& points, ScanPlan plan, PointSink& sink, Report& report,
-                      Progress& progress) {
+Result<void> readScan(PagedReader& file, const Element& points, ScanPlan plan,
+                      const std::vector<ListedPicture>& pictures, PointSink& sink, Report& report, Progress& progress) {
   if (!plan.has_index_bounds)
     if (auto measured = measureGrid(file, points, plan); !measured) return measured;
   auto reader = VectorReader::open(file, points, plan.source);
@@ -171,7 +278,7 @@ Result<void> readScan(PagedReader& file, const Element& points, ScanPlan plan, P
   const Roles roles = rolesOf(reader->fields(), plan);
   if (!roles.x || !roles.y || !roles.z)
     return failure(ErrorKind::unusable, "the points have neither cartesian nor spherical coordinates", plan.source);
-  want(*reader, roles);
+  roles.forEach([&](std::size_t place) { reader->want(place); });
   const auto single = [&](const Place& place) {
     return reader->fields()[*place].kind == StoredField::Kind::single_float;
   };
@@ -190,6 +297,15 @@ Result<void> readScan(PagedReader& file, const Element& points, ScanPlan plan, P
     if (auto going = progress.check(); !going) return going;
   }
   list(reading.tally(), plan.source, report);
+  for (const ListedPicture& listed : pictures) {
+    const auto picture = readPicture(file, listed, report);
+    if (!picture) {  // the points are worth having without it
+      report.lose(picture.error().source, picture.error().message);
+      continue;
+    }
+    if (auto passed = local.picture(*picture); !passed) return passed;
+    if (auto going = progress.check(); !going) return going;
+  }
   return local.finish(report);
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/progress.h"
 #include "pointclouds/e57_document.h"
+#include "pointclouds/e57_pictures.h"
 #include "pointclouds/e57_vector_reader.h"
 #include "pointclouds/local_points.h"
 
@@ -15,7 +16,7 @@ namespace standpoint::e57 {
 struct ScanPlan {
   ScanHeader header;
   std::string source;        // "name.e57 data3D/0"
-  std::string label_prefix;  // "gt:", or empty when the file has no labels of ours
+  std::string prefix;        // of our namespace: "gt:", or empty when the file does not have it
   bool has_index_bounds = false;
   double first_row = 0, first_column = 0;
   double colour_least[3] = {0, 0, 0}, colour_most[3] = {255, 255, 255};
@@ -25,9 +26,9 @@ struct ScanPlan {
 ScanPlan planScan(const Element& root, const Element& scan, const std::vector<StoredField>& fields, std::string source,
                   Report& report);
 
-// All points of one scan: begin, write…, end.
-Result<void> readScan(PagedReader& file, const Element& points, ScanPlan plan, PointSink& sink, Report& report,
-                      Progress& progress);
+// All points of one scan: begin, write…, picture…, end.
+Result<void> readScan(PagedReader& file, const Element& points, ScanPlan plan,
+                      const std::vector<ListedPicture>& pictures, PointSink& sink, Report& report, Progress& progress);
 
 std::optional<std::size_t> fieldNamed(const std::vector<StoredField>& fields, std::string_view name);
 

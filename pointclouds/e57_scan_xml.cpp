@@ -22,35 +22,17 @@ void appendVector(XmlWriter& xml, const char* name, const WrittenVector& vector)
   xml.close(name);
 }
 
-void appendPose(XmlWriter& xml, const Pose& pose) {
-  // E2807 8.4.9: |q| within 10 * 2^-53 of 1 and w not negative; long double keeps the norm's rounding out of it.
-  using Quaternion = Eigen::Quaternion<long double>;
-  Quaternion q = pose.rotation.cast<long double>();
-  if (std::abs(q.norm() - 1) > 0x5p-53L) q.normalize();  // else as it is: a pose comes back to the last bit
-  if (q.w() < 0) q.coeffs() = -q.coeffs();
-  xml.open("pose", kStructure);
-  xml.open("rotation", kStructure);
-  xml.real("w", static_cast<double>(q.w()));
-  xml.real("x", static_cast<double>(q.x()));
-  xml.real("y", static_cast<double>(q.y()));
-  xml.real("z", static_cast<double>(q.z()));
-  xml.close("rotation");
-  xml.open("translation", kStructure);
-  xml.real("x", pose.translation.x());
-  xml.real("y", pose.translation.y());
-  xml.real("z", pose.translation.z());
-  xml.close("translation");
-  xml.close("pose");
-}
-
 void appendBounds(XmlWriter& xml, const WrittenScan& scan) {
-  xml.open("cartesianBounds", kStructure);
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::string name(1, "xyz"[axis]);
-    xml.real(name + "Minimum", scan.low[static_cast<std::size_t>(axis)]);
-    xml.real(name + "Maximum", scan.high[static_cast<std::size_t>(axis)]);
+  const char* const kind = scan.spherical ? "sphericalBounds" : "cartesianBounds";
+  constexpr const char* kSpherical[3][2] = {{"rangeMinimum", "rangeMaximum"}, {"azimuthStart", "azimuthEnd"}, {"elevationMinimum", "elevationMaximum"}};
+  constexpr const char* kCartesian[3][2] = {{"xMinimum", "xMaximum"}, {"yMinimum", "yMaximum"}, {"zMinimum", "zMaximum"}};
+  xml.open(kind, kStructure);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto& names = scan.spherical ? kSpherical[axis] : kCartesian[axis];
+    xml.real(names[0], scan.bounds.low[axis]);
+    xml.real(names[1], scan.bounds.high[axis]);
   }
-  xml.close("cartesianBounds");
+  xml.close(kind);
   if (!hasGrid(scan.header)) return;
   // CloudCompare 2.13 sizes its grid by these and crashes when a point lies outside: they are the true ones, from 0.
   xml.open("indexBounds", kStructure);
@@ -92,7 +74,29 @@ void appendSensor(XmlWriter& xml, const ScanHeader& header) {
 
 }  // namespace
 
+void appendPose(XmlWriter& xml, const Pose& pose) {
+  // E2807 8.4.9: |q| within 10 * 2^-53 of 1 and w not negative; long double keeps the norm's rounding out of it.
+  using Quaternion = Eigen::Quaternion<long double>;
+  Quaternion q = pose.rotation.cast<long double>();
+  if (std::abs(q.norm() - 1) > 0x5p-53L) q.normalize();  // else as it is: a pose comes back to the last bit
+  if (q.w() < 0) q.coeffs() = -q.coeffs();
+  xml.open("pose", kStructure);
+  xml.open("rotation", kStructure);
+  xml.real("w", static_cast<double>(q.w()));
+  xml.real("x", static_cast<double>(q.x()));
+  xml.real("y", static_cast<double>(q.y()));
+  xml.real("z", static_cast<double>(q.z()));
+  xml.close("rotation");
+  xml.open("translation", kStructure);
+  xml.real("x", pose.translation.x());
+  xml.real("y", pose.translation.y());
+  xml.real("z", pose.translation.z());
+  xml.close("translation");
+  xml.close("pose");
+}
+
 Field floatField(std::string name) { return {std::move(name), "type=\"Float\" precision=\"single\"", 32}; }
+Field doubleField(std::string name) { return {std::move(name), "type=\"Float\" precision=\"double\"", 64}; }
 
 Field integerField(std::string name, unsigned bits) {
   return {std::move(name), "type=\"Integer\" minimum=\"0\" maximum=\"" + numberText(largestOf(bits)) + "\"", bits};

@@ -19,7 +19,13 @@ struct Field {
   unsigned bits = 32;
 };
 Field floatField(std::string name);
+Field doubleField(std::string name);
 Field integerField(std::string name, unsigned bits);
+
+// Between which the places of points lie: x y z, or range, azimuth, elevation.
+struct PlaceBounds {
+  std::array<double, 3> low{}, high{};
+};
 
 struct WrittenVector {
   std::vector<Field> fields;
@@ -30,7 +36,8 @@ struct WrittenVector {
 struct WrittenScan {
   ScanHeader header;
   std::string guid;
-  std::array<double, 3> low{}, high{};  // of the points, in the scanner's frame
+  bool spherical = false;
+  PlaceBounds bounds;  // of the points, in the scanner's frame
   std::uint32_t largest_row = 0, largest_column = 0;
   WrittenVector points;
   std::optional<WrittenVector> lines;  // groupingByLine
@@ -38,6 +45,7 @@ struct WrittenScan {
 };
 
 void appendScan(XmlWriter& xml, const WrittenScan& scan);
+void appendPose(XmlWriter& xml, const Pose& pose);
 void appendTime(XmlWriter& xml, std::string_view name, double gps_s);
 
 }  // namespace standpoint::e57

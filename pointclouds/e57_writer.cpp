@@ -11,6 +11,7 @@
 #include "pointclouds/e57_bytes.h"
 #include "pointclouds/e57_labels.h"
 #include "pointclouds/e57_packet_writer.h"
+#include "pointclouds/e57_pictures.h"
 #include "pointclouds/e57_scan_xml.h"
 
 namespace standpoint::e57 {
@@ -28,20 +29,26 @@ std::string guidFrom(const std::string& text) {
   return guid;
 }
 
-std::vector<Field> pointFields(const ScanHeader& header) {
-  std::vector<Field> fields = {floatField("cartesianX"), floatField("cartesianY"), floatField("cartesianZ")};
-  if (hasIntensity(header)) fields.push_back(floatField("intensity"));
+std::vector<Field> pointFields(const ScanHeader& header, Coordinates kind) {
+  std::vector<Field> fields = coordinateFields(kind);
+  if (hasIntensity(header)) fields.push_back(intensityField(kind, header));
   if (header.has_colour)
     for (const char* name : {"colorRed", "colorGreen", "colorBlue"}) fields.push_back(integerField(name, 8));
   if (hasGrid(header)) {
     fields.push_back(integerField("rowIndex", bitsFor(header.rows - 1)));
     fields.push_back(integerField("columnIndex", bitsFor(header.columns - 1)));
   }
+  if (header.has_returns)
+    for (const char* name : {"returnIndex", "returnCount"}) fields.push_back(integerField(name, 8));
+  if (header.has_time) fields.push_back(doubleField("timeStamp"));
+  const std::string prefix = std::string(kLabelPrefix) + ":";
   if (header.has_labels) {
-    const std::string prefix = std::string(kLabelPrefix) + ":";
     fields.push_back(integerField(prefix + "product", bitsFor(std::max<std::size_t>(header.products.size(), 1) - 1)));
     fields.push_back(integerField(prefix + "material", bitsFor(std::max<std::size_t>(header.materials.size(), 1) - 1)));
   }
+  if (header.has_truth)
+    for (const char* name : kTruthFields)
+      fields.push_back(name == kTruthFields.back() ? integerField(prefix + name, 8) : floatField(prefix + name));
   return fields;
 }
 
@@ -77,31 +84,38 @@ struct Lines {
 
 class Writer final : public CloudWriter {
  public:
-  explicit Writer(PartFile file) : out_(std::move(file)) {}
+  Writer(PartFile file, Coordinates kind) : out_(std::move(file)), kind_(kind) {}
   Result<void> start() { return out_.append(std::array<std::uint8_t, kFileHeader>{}); }
 
   Result<void> begin(const ScanHeader& header) override;
   Result<void> write(const PointBlock& block) override;
+  Result<void> picture(const StationPicture& picture) override;
   Result<void> end() override;
   Result<void> close() override;
-  const Report& report() const override { return report_; }
 
  private:
   struct OpenScan {
     WrittenScan scan;
     PacketWriter packets;
     Lines lines;
+    StoredPlaces places;
+    std::vector<StationPicture> pictures;  // their blobs have no place inside the section of points
   };
-  std::string uniqueGuid(const ScanHeader& header) const;
+  std::string uniqueGuid(const std::string& wanted, const std::string& name);
   std::size_t labelTable(const ScanHeader& header);
   Result<void> putRecords(const PointBlock& block);
+  void putExtras(const PointBlock& block, std::size_t stream, std::size_t from, std::size_t n);
   Result<void> writeLines();
+  Result<void> writePictures();
   std::string document() const;
 
   PagedWriter out_;
-  Report report_;
+  Coordinates kind_;
   std::optional<OpenScan> open_;
-  XmlWriter scans_;
+  XmlWriter scans_, pictures_;
+  bool uses_namespace_ = false;
+  std::size_t scan_count_ = 0;
+  std::vector<std::uint8_t> return_index_;
   std::set<std::string> guids_;
   std::string guid_seed_;
   std::string coordinate_metadata_;
@@ -109,10 +123,12 @@ class Writer final : public CloudWriter {
   double created_gps_s_ = 0;
 };
 
-std::string Writer::uniqueGuid(const ScanHeader& header) const {
-  std::string guid = header.guid;
+std::string Writer::uniqueGuid(const std::string& wanted, const std::string& name) {
+  std::string guid = wanted;
   for (int attempt = 0; guid.empty() || guids_.contains(guid); ++attempt)
-    guid = guidFrom(guid_seed_ + header.guid + header.name + std::to_string(attempt));
+    guid = guidFrom(guid_seed_ + wanted + name + std::to_string(attempt));
+  guids_.insert(guid);
+  guid_seed_ += guid;
   return guid;
 }
 
@@ -129,11 +145,12 @@ Result<void> Writer::begin(const ScanHeader& header) {
   if (auto checked = checkHeader(header); !checked) return checked;
   WrittenScan scan;
   scan.header = header;
-  scan.guid = uniqueGuid(header);
-  guids_.insert(scan.guid);
-  guid_seed_ += scan.guid;
-  if (header.name.empty()) scan.header.name = "Scan " + std::to_string(guids_.size());
-  scan.points.fields = pointFields(header);
+  scan.guid = uniqueGuid(header.guid, header.name);
+  scan.spherical = kind_ == Coordinates::spherical;
+  ++scan_count_;
+  if (header.name.empty()) scan.header.name = "Scan " + std::to_string(scan_count_);
+  scan.points.fields = pointFields(header, kind_);
+  uses_namespace_ |= header.has_labels || header.has_truth;
   if (header.has_labels) scan.label_table = labelTable(header);
   if (coordinate_metadata_.empty())
     coordinate_metadata_ = header.coordinate_metadata;
@@ -142,7 +159,7 @@ Result<void> Writer::begin(const ScanHeader& header) {
   if (header.acquisition_start_gps_s > 0)
     created_gps_s_ = std::max(created_gps_s_, header.acquisition_start_gps_s + header.acquisition_seconds);
   PacketWriter packets = packetsFor(scan.points.fields);
-  open_.emplace(OpenScan{std::move(scan), std::move(packets), {}});
+  open_.emplace(OpenScan{std::move(scan), std::move(packets), {}, StoredPlaces(kind_), {}});
   return open_->packets.begin(out_);
 }
 
@@ -152,11 +169,7 @@ Result<void> Writer::write(const PointBlock& block) {
   WrittenScan& scan = open_->scan;
   const auto extent = checkBlock(scan.header, block);
   if (!extent) return failure(extent.error());
-  const bool first = open_->packets.records() == 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    scan.low[axis] = first ? extent->low[axis] : std::min<double>(scan.low[axis], extent->low[axis]);
-    scan.high[axis] = first ? extent->high[axis] : std::max<double>(scan.high[axis], extent->high[axis]);
-  }
+  if (auto taken = open_->places.take(scan.header, block, *extent); !taken) return taken;
   scan.largest_row = std::max(scan.largest_row, extent->row);
   scan.largest_column = std::max(scan.largest_column, extent->column);
   if (hasGrid(scan.header)) open_->lines.add(open_->packets.records(), block.column);
@@ -168,15 +181,48 @@ Result<void> Writer::putRecords(const PointBlock& b) {
   const ScanHeader& header = open_->scan.header;
   for (std::size_t from = 0; from < b.size();) {
     const std::size_t n = std::min(packets.room(), b.size() - from);
-    std::size_t stream = 0;  // in the order of pointFields()
+    std::size_t stream = open_->places.put(packets, 0, b, from, n);  // in the order of pointFields()
     const auto put = [&](const auto& column) { packets.put(stream++, std::span(column).subspan(from, n)); };
-    put(b.x_m), put(b.y_m), put(b.z_m);
-    if (hasIntensity(header)) put(b.intensity);
     if (header.has_colour) put(b.red), put(b.green), put(b.blue);
     if (hasGrid(header)) put(b.row), put(b.column);
-    if (header.has_labels) put(b.product), put(b.material);
+    putExtras(b, stream, from, n);
     if (auto advanced = packets.advance(out_, n); !advanced) return advanced;
     from += n;
+  }
+  return {};
+}
+
+void Writer::putExtras(const PointBlock& b, std::size_t stream, std::size_t from, std::size_t n) {
+  const ScanHeader& header = open_->scan.header;
+  PacketWriter& packets = open_->packets;
+  const auto put = [&](const auto& column) { packets.put(stream++, std::span(column).subspan(from, n)); };
+  if (header.has_returns) {
+    return_index_.resize(n);  // the file counts from 0
+    for (std::size_t i = 0; i < n; ++i) return_index_[i] = static_cast<std::uint8_t>(b.return_number[from + i] - 1);
+    packets.put(stream++, std::span<const std::uint8_t>(return_index_));
+    put(b.return_count);
+  }
+  if (header.has_time) put(b.time_s);
+  if (header.has_labels) put(b.product), put(b.material);
+  if (!header.has_truth) return;
+  const PointTruth& t = b.truth;
+  for (const auto* column : {&t.x_m, &t.y_m, &t.z_m, &t.range_m, &t.incidence_rad, &t.received_db}) put(*column);
+  put(t.flags);
+}
+
+Result<void> Writer::picture(const StationPicture& picture) {
+  if (!open_) return failure(ErrorKind::internal, "a picture outside a scan", out_.file().string());
+  if (picture.media_type != "image/jpeg" && picture.media_type != "image/png")
+    return failure(ErrorKind::internal, "an E57 holds pictures as JPEG or PNG, not " + picture.media_type, picture.name);
+  open_->pictures.push_back(picture);
+  return {};
+}
+
+Result<void> Writer::writePictures() {
+  for (const StationPicture& picture : open_->pictures) {
+    const auto offset = writeBlob(out_, picture.bytes);
+    if (!offset) return failure(offset.error());
+    appendPicture(pictures_, picture, *offset, uniqueGuid({}, "picture " + picture.name), open_->scan.guid);
   }
   return {};
 }
@@ -207,9 +253,17 @@ Result<void> Writer::end() {
   WrittenScan& scan = open_->scan;
   scan.points.offset = open_->packets.physicalOffset();
   scan.points.records = open_->packets.records();
+  scan.bounds = open_->places.bounds;
   if (hasGrid(scan.header) && open_->lines.ascending)
     if (auto written = writeLines(); !written) return written;
   appendScan(scans_, scan);
+  if (auto written = writePictures(); !written) return written;
+  if (const auto clamped = open_->places.clamped(); clamped > 0)
+    report_.lose(scan.header.name,
+                 std::to_string(clamped) + " intensities lay outside the sensor's range and were clamped");
+  if (kind_ != Coordinates::cartesian)
+    report_.note(scan.header.name, kind_ == Coordinates::scaled ? "coordinates were rounded to 0.1 mm"
+                                                                : "coordinates were rounded to 1e-7 of the range");
   open_.reset();
   return {};
 }
@@ -219,7 +273,7 @@ std::string Writer::document() const {
   xml.append("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
   std::string root = "type=\"Structure\" xmlns=\"http://www.astm.org/COMMIT/E57/2010-e57-v1.0\"";
   const std::string prefix = kLabelPrefix;
-  if (!label_tables_.empty()) root += " xmlns:" + prefix + "=\"" + kLabelNamespace + "\"";
+  if (uses_namespace_) root += " xmlns:" + prefix + "=\"" + kLabelNamespace + "\"";
   xml.open("e57Root", root);
   xml.string("formatName", "ASTM E57 3D Imaging Data File");
   xml.string("guid", guidFrom("file " + guid_seed_));
@@ -232,7 +286,9 @@ std::string Writer::document() const {
   xml.open("data3D", vector);
   xml.append(scans_.text());
   xml.close("data3D");
-  xml.leaf("images2D", vector);  // readers refuse a file without it
+  xml.open("images2D", vector);  // readers refuse a file without it
+  xml.append(pictures_.text());
+  xml.close("images2D");
   if (!label_tables_.empty()) {
     xml.open(prefix + ":labelTables", vector);
     for (const auto& [products, materials] : label_tables_) {
@@ -266,10 +322,10 @@ Result<void> Writer::close() {
 
 }  // namespace
 
-Result<std::unique_ptr<CloudWriter>> createWriter(const std::filesystem::path& file) {
+Result<std::unique_ptr<CloudWriter>> createWriter(const std::filesystem::path& file, Coordinates kind) {
   auto part = PartFile::create(file);
   if (!part) return failure(part.error());
-  auto writer = std::make_unique<Writer>(std::move(*part));
+  auto writer = std::make_unique<Writer>(std::move(*part), kind);
   if (auto started = writer->start(); !started) return failure(started.error());
   return writer;
 }

@@ -9,6 +9,7 @@
 
 #include "pointclouds/e57.h"
 #include "pointclouds/las.h"
+#include "pointclouds/pcd.h"
 #include "pointclouds/ply.h"
 #include "pointclouds/ptx.h"
 #include "pointclouds/text_points.h"
@@ -31,11 +32,11 @@ std::string asFileName(const std::string& name) {
 // Passes scans on to one file, or each to a file of its own.
 class Distributor final : public PointSink {
  public:
-  Distributor(const CloudFormat& format, std::filesystem::path out, bool one_each)
-      : format_(format), out_(std::move(out)), one_each_(one_each) {}
+  Distributor(CloudFormat::Writer writer_of, std::filesystem::path out, bool one_each)
+      : writer_of_(writer_of), out_(std::move(out)), one_each_(one_each) {}
 
   Result<void> open(const std::filesystem::path& file) {
-    auto writer = format_.writer(file);
+    auto writer = writer_of_(file);
     if (!writer) return failure(writer.error());
     writer_ = std::move(*writer);
     pending_ = file;
@@ -47,6 +48,7 @@ class Distributor final : public PointSink {
     return writer_->begin(header);
   }
   Result<void> write(const PointBlock& block) override { return writer_->write(block); }
+  Result<void> picture(const StationPicture& picture) override { return writer_->picture(picture); }
   Result<void> end() override {
     auto ended = writer_->end();
     return ended && one_each_ ? finish() : ended;
@@ -71,7 +73,7 @@ class Distributor final : public PointSink {
     files.push_back(pending_);
     return {};
   }
-  const CloudFormat& format_;
+  CloudFormat::Writer writer_of_;
   std::filesystem::path out_, pending_;
   bool one_each_;
   std::unique_ptr<CloudWriter> writer_;
@@ -102,10 +104,21 @@ Result<const CloudFormat*> known(const std::filesystem::path& file) {
   return failure(ErrorKind::usage, "no point-cloud format has this extension; known are" + extensions, file.string());
 }
 
+Result<CloudFormat::Writer> writerOf(const CloudFormat& format, const std::string& as) {
+  if (as.empty()) return format.writer;
+  std::string names;
+  for (const CloudVariant& variant : format.variants) {
+    if (as == variant.name) return variant.writer;
+    names += std::string(names.empty() ? "" : ", ") + variant.name;
+  }
+  return failure(ErrorKind::usage, std::string(format.name) + " has no variant '" + as + "'" +
+                                       (names.empty() ? "" : "; there is " + names), "--as");
+}
+
 }  // namespace
 
 std::span<const CloudFormat> cloudFormats() {
-  static const std::array formats = {kE57, kPtx, kPly, kLas, kLaz, kPts, kXyz};
+  static const std::array formats = {kE57, kPtx, kPly, kPcd, kLas, kLaz, kPts, kXyz, kCsv};
   return formats;
 }
 
@@ -138,21 +151,23 @@ Result<CloudExtent> measureCloud(const std::filesystem::path& file, Progress& pr
 }
 
 Result<std::vector<std::filesystem::path>> convertCloud(const std::filesystem::path& in,
-                                                        const std::filesystem::path& out, Report& report,
-                                                        Progress& progress) {
+                                                        const std::filesystem::path& out, const std::string& as,
+                                                        Report& report, Progress& progress) {
   const auto from = known(in), to = known(out);
   if (!from) return failure(from.error());
   if (!to) return failure(to.error());
   if (!(*from)->read)
     return failure(ErrorKind::usage, std::string((*from)->name) + " files are only written", in.string());
   if (!(*to)->writer) return failure(ErrorKind::usage, std::string((*to)->name) + " files are only read", out.string());
+  const auto writer = writerOf(**to, as);
+  if (!writer) return failure(writer.error());
   bool one_each = false;
   if (!(*to)->many_scans) {
     const auto info = (*from)->info(in);
     if (!info) return failure(info.error());
     one_each = info->scans.size() > 1;
   }
-  Distributor distributor(**to, out, one_each);
+  Distributor distributor(*writer, out, one_each);
   if (!one_each)
     if (auto opened = distributor.open(out); !opened) return failure(opened.error());
   const auto lost = (*from)->read(in, distributor, progress);

@@ -32,7 +32,21 @@ struct CloudInfo {
 // the row and column of its points are not used; intensity_min == intensity_max says that there is no intensity.
 class CloudWriter : public PointSink {
  public:
-  virtual const Report& report() const = 0;   // what the format could not hold; complete after close()
+  const Report& report() const { return report_; }   // what the format could not hold; complete after close()
+  Result<void> picture(const StationPicture& picture) override {   // of most formats
+    report_.warn(picture.name, "the format has no place for a station's picture");
+    return {};
+  }
+
+ protected:
+  Report report_;
+};
+
+// Another way to write a format, for who needs it: `convert --as NAME`.
+struct CloudVariant {
+  const char* name;                // "scaled"
+  const char* description;
+  Result<std::unique_ptr<CloudWriter>> (*writer)(const std::filesystem::path&);
 };
 
 struct CloudFormat {
@@ -40,10 +54,12 @@ struct CloudFormat {
   const char* description;
   const char* extension;           // ".e57"
   bool many_scans;                 // one file holds several stations
-  Result<std::unique_ptr<CloudWriter>> (*writer)(const std::filesystem::path&);   // null when it cannot be written
+  using Writer = Result<std::unique_ptr<CloudWriter>> (*)(const std::filesystem::path&);
+  Writer writer;                   // null when it cannot be written
   // Streams every scan of a file to `sink` (begin, write…, end for each; not close). Null when it cannot be read.
   Result<Report> (*read)(const std::filesystem::path&, PointSink& sink, Progress&);
   Result<CloudInfo> (*info)(const std::filesystem::path&);
+  std::span<const CloudVariant> variants{};
 };
 
 // The table of formats; a new one is one file and one line in formats.cpp.
@@ -65,8 +81,8 @@ Result<CloudExtent> measureCloud(const std::filesystem::path& file, Progress& pr
 // Writers create `file` + ".part" and rename it in close(), so a full disk or a crash leaves the old file as it was.
 
 // Copies all scans of IN to OUT; OUT's format must be writable. When OUT cannot hold many scans and IN has several, each
-// gets its own file: name-<station>.ext. Returns the files written.
+// gets its own file: name-<station>.ext. `as` names a variant of OUT's format, or is empty. Returns the files written.
 Result<std::vector<std::filesystem::path>> convertCloud(const std::filesystem::path& in, const std::filesystem::path& out,
-                                                        Report& report, Progress& progress);
+                                                        const std::string& as, Report& report, Progress& progress);
 
 }  // namespace standpoint

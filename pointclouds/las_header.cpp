@@ -6,7 +6,12 @@
 #include <cmath>
 #include <cstring>
 #include <span>
+#include <string_view>
 #include <vector>
+
+#include "pointclouds/escaped_text.h"
+#include "pointclouds/number_text.h"
+#include "pointclouds/scan_text.h"
 
 namespace standpoint::las {
 namespace {
@@ -14,29 +19,27 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "LAS numbers are little-endian and copied as they stand");
 
 constexpr std::uint64_t kLongestRecord = 1 << 20;  // of a coordinate system; real ones have some kilobytes
+constexpr std::uint64_t kLongestText = 1 << 26;   // of the stations and labels of a file of ours
+constexpr std::size_t kMostScans = 65535, kMostEntries = std::size_t{1} << 24;
 constexpr std::uint32_t kMostRecords = 100000;
 constexpr std::uint16_t kGeoKeys = 34735, kWkt = 2112;
 constexpr std::size_t kRecordHead = 54, kExtendedHead = 60;
 
-constexpr const char* kOld = "return numbers, classification, scan angle, user data, point source";
-constexpr const char* kOldTime = "return numbers, classification, scan angle, user data, point source, GPS time";
-constexpr const char* kWaves =
-    "return numbers, classification, scan angle, user data, point source, GPS time, waveform";
-constexpr const char* kInfrared =
-    "return numbers, classification, scan angle, user data, point source, GPS time, near infrared";
-constexpr const char* kAll =
-    "return numbers, classification, scan angle, user data, point source, GPS time, near infrared, waveform";
-constexpr std::array<PointFormat, 11> kFormats = {{{20, 0, kOld},
-                                                   {28, 0, kOldTime},
-                                                   {26, 20, kOld},
-                                                   {34, 28, kOldTime},
-                                                   {57, 0, kWaves},
-                                                   {63, 28, kWaves},
-                                                   {30, 0, kOldTime},
-                                                   {36, 30, kOldTime},
-                                                   {38, 30, kInfrared},
-                                                   {59, 0, kWaves},
-                                                   {67, 30, kAll}}};
+constexpr const char* kPlain = "classification, scan angle, user data, point source";
+constexpr const char* kWaves = "classification, scan angle, user data, point source, waveform";
+constexpr const char* kInfrared = "classification, scan angle, user data, point source, near infrared";
+constexpr const char* kAll = "classification, scan angle, user data, point source, near infrared, waveform";
+constexpr std::array<PointFormat, 11> kFormats = {{{20, 0, 0, kPlain},
+                                                   {28, 0, 20, kPlain},
+                                                   {26, 20, 0, kPlain},
+                                                   {34, 28, 20, kPlain},
+                                                   {57, 0, 20, kWaves},
+                                                   {63, 28, 20, kWaves},
+                                                   {30, 0, 22, kPlain},
+                                                   {36, 30, 22, kPlain},
+                                                   {38, 30, 22, kInfrared},
+                                                   {59, 0, 22, kWaves},
+                                                   {67, 30, 22, kAll}}};
 
 template <class T>
 T load(std::span<const std::uint8_t> bytes, std::size_t at) {
@@ -73,6 +76,9 @@ class HeaderReader {
   Result<void> readRecords();
   Result<void> readExtendedRecords();
   Result<void> take(const std::string& user, std::uint16_t id, std::uint64_t at, std::uint64_t length);
+  void takeExtras(std::span<const std::uint8_t> bytes);
+  void takeOurs(std::string_view text);
+  void checkScans();
   void takeGeoKeys(std::span<const std::uint8_t> keys);
 
   const InputFile& file_;
@@ -95,6 +101,7 @@ Result<void> HeaderReader::readFormat() {
   if (header_.record_bytes < least)
     return broken("a point record has " + std::to_string(header_.record_bytes) + " bytes, point format " +
                   std::to_string(raw) + " needs " + std::to_string(least));
+  header_.unread_extra_bytes = header_.record_bytes - least;
   return {};
 }
 
@@ -139,17 +146,77 @@ void HeaderReader::takeGeoKeys(std::span<const std::uint8_t> keys) {
     report_.warn(place_, "its GeoTIFF keys name no EPSG code: the coordinate system is not known");
 }
 
+// Only what is called and stored as ours; the rest is counted.
+void HeaderReader::takeExtras(std::span<const std::uint8_t> bytes) {
+  constexpr std::uint8_t kBytes[11] = {0, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
+  std::uint32_t at = pointFormat(header_).bytes;
+  for (std::size_t i = 0; i + 192 <= bytes.size(); i += 192) {
+    const std::uint8_t type = bytes[i + 2], options = bytes[i + 3];
+    const std::uint32_t size = type == 0 ? options : type <= 30 ? kBytes[(type - 1) % 10 + 1] * (1u + (type - 1) / 10) : 0;
+    if (size == 0 || size > header_.record_bytes - at) return;
+    const std::string name = textOf(bytes.subspan(i + 4, 32));
+    for (std::size_t k = 0; k < kExtraKinds; ++k) {
+      if (name != kExtras[k].name || type != kExtras[k].type) continue;
+      header_.extras.at[k] = at;
+      header_.unread_extra_bytes -= std::min(size, header_.unread_extra_bytes);
+      const auto axis = k - static_cast<std::size_t>(Extra::true_x);
+      if (axis > 2) continue;
+      header_.true_scale[axis] = (options & 8) != 0 ? load<double>(bytes, i + 112) : 1;
+      header_.true_offset[axis] = (options & 16) != 0 ? load<double>(bytes, i + 136) : 0;
+    }
+    at += size;
+  }
+}
+
+void HeaderReader::takeOurs(std::string_view text) {
+  ScanHeader tables;
+  for (const std::string_view line : split(text, '\n')) {
+    const auto parts = split(line, '\t');
+    if (parts[0] == "scan" && parts.size() >= 2 && header_.scans.size() < kMostScans) {
+      header_.scans.push_back({numberFrom<std::uint64_t>(parts[1]).value_or(0), {}});
+      header_.scans.back().header.has_time = parts.size() == 3;
+    } else if (parts[0] == "product" || parts[0] == "material" || header_.scans.empty()) {
+      takeScanLine(line, tables);
+    } else {
+      takeScanLine(line, header_.scans.back().header);
+    }
+  }
+  header_.products = std::move(tables.products);
+  header_.materials = std::move(tables.materials);
+}
+
+// Of a file that others have cut or joined the stations are no longer known.
+void HeaderReader::checkScans() {
+  std::uint64_t points = 0;
+  bool fits = true;
+  for (const OurScan& scan : header_.scans) {
+    fits &= scan.points <= header_.points - points;
+    if (fits) points += scan.points;
+  }
+  // Each scan has the tables: what they come to is bounded, too.
+  fits &= header_.scans.size() * (header_.products.size() + header_.materials.size()) <= kMostEntries;
+  if (fits && points == header_.points) return;
+  if (!header_.scans.empty()) report_.warn(place_, "its stations do not have the points that are there: it is read as one scan");
+  header_.scans.clear();
+}
+
 Result<void> HeaderReader::take(const std::string& user, std::uint16_t id, std::uint64_t at, std::uint64_t length) {
-  if (user != "LASF_Projection" || (id != kGeoKeys && id != kWkt)) return {};
-  if (length > kLongestRecord) {
-    report_.warn(place_, "a coordinate system of " + std::to_string(length) + " bytes is not read");
+  const bool system = user == "LASF_Projection" && (id == kGeoKeys || id == kWkt), extras = user == "LASF_Spec" && id == 4;
+  const bool ours = user == kOurRecord && id == kOurRecordId;
+  if (!system && !extras && !ours) return {};
+  if (length > (ours ? kLongestText : kLongestRecord)) {
+    report_.warn(place_, "a record '" + user + "' of " + std::to_string(length) + " bytes is not read");
     return {};
   }
   std::vector<std::uint8_t> bytes(length);
   const auto n = file_.read(at, bytes);
   if (!n) return failure(n.error());
   bytes.resize(*n);
-  if (id == kWkt)
+  if (ours)
+    takeOurs({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  else if (extras)
+    takeExtras(bytes);
+  else if (id == kWkt)
     header_.wkt = textOf(bytes);
   else
     takeGeoKeys(bytes);
@@ -198,6 +265,7 @@ Result<Header> HeaderReader::read() {
   if (*n < 4 || std::memcmp(block_.data(), "LASF", 4) != 0) return broken("is not a LAS file");
   if (*n < kOldest) return broken("the file is truncated: it ends inside its header");
   header_.minor = block_[25];
+  header_.adjusted_time = (load<std::uint16_t>(block_, 6) & 1) != 0;
   if (block_[24] != 1 || header_.minor > 4)
     return broken("LAS " + std::to_string(block_[24]) + "." + std::to_string(header_.minor) +
                   " is not known, only 1.0 to 1.4");
@@ -213,6 +281,7 @@ Result<Header> HeaderReader::read() {
   for (const auto step : {&HeaderReader::readFormat, &HeaderReader::readScale, &HeaderReader::readCount,
                           &HeaderReader::readRecords, &HeaderReader::readExtendedRecords})
     if (auto done = (this->*step)(); !done) return failure(done.error());
+  checkScans();
   return header_;
 }
 

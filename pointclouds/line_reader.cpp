@@ -4,7 +4,7 @@
 namespace standpoint {
 namespace {
 constexpr std::size_t kPiece = 1 << 20;
-constexpr std::size_t kLongestLine = 4096;
+constexpr std::size_t kLongestLine = 65536;
 }  // namespace
 
 double LineReader::share() const {

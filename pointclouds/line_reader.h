@@ -15,7 +15,7 @@ namespace standpoint {
 class LineReader {
  public:
   explicit LineReader(InputFile file) : file_(std::move(file)) {}
-  // Without its line end; nothing at the end of the file. The view holds until the next call. A line of 4 KiB or more
+  // Without its line end; nothing at the end of the file. The view holds until the next call. A line of 64 KiB or more
   // is an error: no such text is a point.
   Result<std::optional<std::string_view>> next();
   std::uint64_t line() const { return line_; }  // number of the last line, from 1

@@ -17,8 +17,9 @@ constexpr double kLoss_m = 1e-5;
 
 bool usable(const FoundPoints& p, std::size_t i) {
   constexpr double kMost = std::numeric_limits<float>::max();
-  return std::abs(p.x[i]) <= kMost && std::abs(p.y[i]) <= kMost && std::abs(p.z[i]) <= kMost &&
-         std::isfinite(p.columns.intensity[i]);
+  // No short cuts: a loop of this has no branches.
+  return (std::abs(p.x[i]) <= kMost) & (std::abs(p.y[i]) <= kMost) & (std::abs(p.z[i]) <= kMost) &
+         (std::abs(p.columns.intensity[i]) <= std::numeric_limits<float>::max());
 }
 
 template <class T>
@@ -32,20 +33,29 @@ void keepWhere(std::vector<T>& values, const std::vector<bool>& kept) {
 
 // How many were dropped.
 std::uint64_t dropUnusable(FoundPoints& p) {
+  bool all = true;
+  for (std::size_t i = 0; i < p.size(); ++i) all &= usable(p, i);
+  if (all) return 0;
   std::vector<bool> kept(p.size());
   for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = usable(p, i);
   const auto dropped = static_cast<std::uint64_t>(std::count(kept.begin(), kept.end(), false));
-  if (dropped == 0) return 0;
-  for (auto* c : {&p.x, &p.y, &p.z}) keepWhere(*c, kept);
-  keepWhere(p.columns.intensity, kept);
-  for (auto* c : {&p.columns.row, &p.columns.column, &p.columns.product, &p.columns.material}) keepWhere(*c, kept);
-  for (auto* c : {&p.columns.red, &p.columns.green, &p.columns.blue}) keepWhere(*c, kept);
+  PointBlock& b = p.columns;
+  PointTruth& t = b.truth;
+  for (auto* c : {&p.x, &p.y, &p.z, &p.true_x, &p.true_y, &p.true_z, &b.time_s}) keepWhere(*c, kept);
+  for (auto* c : {&b.intensity, &t.range_m, &t.incidence_rad, &t.received_db}) keepWhere(*c, kept);
+  for (auto* c : {&b.row, &b.column, &b.product, &b.material}) keepWhere(*c, kept);
+  for (auto* c : {&b.red, &b.green, &b.blue, &b.return_number, &b.return_count, &t.flags}) keepWhere(*c, kept);
   return dropped;
 }
 
-double toFloats(const std::vector<double>& from, double move, std::vector<float>& to) {
+// `measured`: whether the rounding is of interest, else 0 comes back.
+double toFloats(const std::vector<double>& from, double move, bool measured, std::vector<float>& to) {
   double worst = 0;
   to.resize(from.size());
+  if (!measured) {
+    for (std::size_t i = 0; i < from.size(); ++i) to[i] = static_cast<float>(from[i] - move);
+    return worst;
+  }
   for (std::size_t i = 0; i < from.size(); ++i) {
     const double local = from[i] - move;
     to[i] = static_cast<float>(local);
@@ -57,7 +67,7 @@ double toFloats(const std::vector<double>& from, double move, std::vector<float>
 }  // namespace
 
 void FoundPoints::clear() {
-  for (auto* c : {&x, &y, &z}) c->clear();
+  for (auto* c : {&x, &y, &z, &true_x, &true_y, &true_z}) c->clear();
   columns.clear();
 }
 
@@ -80,13 +90,23 @@ Result<void> LocalPoints::write(FoundPoints& points) {
     if (!begun_)
       if (auto begun = begin(&points); !begun) return begun;
     PointBlock& block = points.columns;
-    for (const double worst : {toFloats(points.x, move_.x(), block.x_m), toFloats(points.y, move_.y(), block.y_m),
-                               toFloats(points.z, move_.z(), block.z_m)})
+    for (const double worst :
+         {toFloats(points.x, move_.x(), moves_frame_, block.x_m), toFloats(points.y, move_.y(), moves_frame_, block.y_m),
+          toFloats(points.z, move_.z(), moves_frame_, block.z_m)})
       worst_rounding_m_ = std::max(worst_rounding_m_, worst);
+    toFloats(points.true_x, move_.x(), false, block.truth.x_m);
+    toFloats(points.true_y, move_.y(), false, block.truth.y_m);
+    toFloats(points.true_z, move_.z(), false, block.truth.z_m);
     if (auto written = sink_.write(block); !written) return written;
   }
   points.clear();
   return {};
+}
+
+Result<void> LocalPoints::picture(const StationPicture& picture) {
+  if (!begun_)
+    if (auto begun = begin(nullptr); !begun) return begun;
+  return sink_.picture(picture);
 }
 
 Result<void> LocalPoints::finish(Report& report) {

@@ -14,6 +14,7 @@ namespace standpoint {
 // What a reader found, before the coordinates become floats.
 struct FoundPoints {
   std::vector<double> x, y, z;
+  std::vector<double> true_x, true_y, true_z;  // where the scan has truth: in the frame of x, y, z
   PointBlock columns;  // all but the coordinates
   std::size_t size() const { return x.size(); }
   void clear();
@@ -27,6 +28,7 @@ class LocalPoints {
   // step of the file's own coordinates, loses nothing.
   LocalPoints(PointSink& sink, ScanHeader header, bool moves_frame, double fineness_m = 0);
   Result<void> write(FoundPoints& points);  // drops points that are not finite; clears `points`
+  Result<void> picture(const StationPicture& picture);   // after the last point
   Result<void> finish(Report& report);
 
  private:

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +17,26 @@ template <class T>
 void appendNumber(std::string& text, T value) {
   char digits[40];
   text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+
+// `decimals` digits behind the point (at most 9), rounded; for many numbers, as fast as can be.
+inline void appendFixed(std::string& text, double value, unsigned decimals) {
+  constexpr double kPower[10] = {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
+  const double scaled = std::abs(value) * kPower[decimals] + 0.5;
+  char digits[64];
+  if (!(scaled < 9e15)) {   // a double has no finer steps
+    text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+    return;
+  }
+  auto rest = static_cast<std::uint64_t>(scaled);
+  char* at = digits + sizeof digits;
+  const bool negative = value < 0 && rest > 0;
+  for (unsigned i = 0; i < decimals; ++i, rest /= 10) *--at = static_cast<char>('0' + rest % 10);
+  if (decimals > 0) *--at = '.';
+  do *--at = static_cast<char>('0' + rest % 10);
+  while ((rest /= 10) > 0);
+  if (negative) *--at = '-';
+  text.append(at, digits + sizeof digits);
 }
 
 template <class T>

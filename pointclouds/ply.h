@@ -10,9 +10,10 @@ namespace standpoint {
 extern const CloudFormat kPly;
 
 namespace ply {
-// Properties: double x y z, float scalar_Intensity, uchar red green blue, int scalar_Label (the material's index) and
-// int scalar_Product, int scalar_Row and scalar_Column. CloudCompare takes no others than "scalar_…", Open3D neither
-// uint nor short; comments in the header name the labels.
+// Properties: double x y z, uchar red green blue, and what CloudCompare takes for scalars: float scalar_Intensity, int
+// scalar_Label (the material's index), scalar_Product, scalar_Row and scalar_Column, double scalar_Time, uchar
+// scalar_ReturnNumber and scalar_NumberOfReturns, double scalar_TrueX … and float scalar_TrueRange … (PointTruth). Open3D
+// takes neither uint nor short. Comments hold the lines of scan_text.h, so that the scan comes back.
 Result<std::unique_ptr<CloudWriter>> createWriter(const std::filesystem::path& file);
 
 // The vertices' x y z, intensity and colour in any order and type; the report names what else they have. Of a mesh the

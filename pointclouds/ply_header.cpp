@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "pointclouds/number_text.h"
+#include "pointclouds/scan_text.h"
 
 namespace standpoint::ply {
 namespace {
@@ -88,6 +89,7 @@ Result<void> HeaderReader::takeProperty(const std::vector<std::string_view>& par
 }
 
 Result<bool> HeaderReader::takeLine(std::string_view line) {
+  if (line.starts_with(kOurComment)) return header_.ours |= takeScanLine(line.substr(std::string_view(kOurComment).size()), header_.scan), true;
   const auto parts = words(line);
   if (parts.empty() || parts[0] == "comment" || parts[0] == "obj_info") return true;
   if (parts[0] == "end_header") return false;
@@ -128,23 +130,31 @@ Result<void> HeaderReader::place() {
 }
 
 Result<void> HeaderReader::assignRoles() {
+  using F = PointField;
   const auto& properties = header_.properties;
-  const std::array axes = {named(properties, {"x"}), named(properties, {"y"}), named(properties, {"z"})};
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (!axes[k]) return broken(std::string("a vertex has no property '") + "xyz"[k] + "'");
-    header_.position[k] = *axes[k];
-  }
-  header_.intensity = named(properties, {"scalar_intensity", "intensity", "scalar_reflectance", "reflectance"});
-  const auto red = named(properties, {"red", "r", "diffuse_red"});
-  const auto green = named(properties, {"green", "g", "diffuse_green"});
-  const auto blue = named(properties, {"blue", "b", "diffuse_blue"});
-  if (red && green && blue) header_.colour = {*red, *green, *blue};
-  for (std::size_t i = 0; i < properties.size(); ++i) {
-    const auto& c = header_.colour;
-    const bool read = i == header_.position[0] || i == header_.position[1] || i == header_.position[2] ||
-                      header_.intensity == i || (c && ((*c)[0] == i || (*c)[1] == i || (*c)[2] == i));
-    if (!read) header_.unread += (header_.unread.empty() ? "" : ", ") + properties[i].name;
-  }
+  constexpr std::pair<F, std::array<const char*, 4>> kNames[] = {
+      {F::x, {"x"}}, {F::y, {"y"}}, {F::z, {"z"}},
+      {F::intensity, {"scalar_intensity", "intensity", "scalar_reflectance", "reflectance"}},
+      {F::red, {"red", "r", "diffuse_red"}}, {F::green, {"green", "g", "diffuse_green"}},
+      {F::blue, {"blue", "b", "diffuse_blue"}},
+      {F::label, {"scalar_label"}}, {F::product, {"scalar_product"}}, {F::row, {"scalar_row"}}, {F::column, {"scalar_column"}},
+      {F::time, {"scalar_time"}}, {F::return_number, {"scalar_returnnumber"}}, {F::return_count, {"scalar_numberofreturns"}},
+      {F::true_x, {"scalar_truex"}}, {F::true_y, {"scalar_truey"}}, {F::true_z, {"scalar_truez"}},
+      {F::true_range, {"scalar_truerange"}}, {F::incidence, {"scalar_incidence"}},
+      {F::received_power, {"scalar_receivedpower"}}, {F::flags, {"scalar_flags"}}};
+  for (const auto& [field, names] : kNames)
+    for (const char* name : names)
+      if (name && !header_.places[field]) header_.places[field] = named(properties, {name});
+  for (int k = 0; k < 3; ++k)
+    if (!header_.places.at[static_cast<std::size_t>(k)])
+      return broken(std::string("a vertex has no property '") + "xyz"[k] + "'");
+  // Colours are bytes, 16 bits or shares of 1.
+  for (std::size_t k = 0; k < 3; ++k)
+    if (const auto at = header_.places.at[static_cast<std::size_t>(F::red) + k]) {
+      const PlyType type = properties[*at].type;
+      const bool is_real = type == PlyType::float32 || type == PlyType::float64;
+      header_.places.colour_scale[k] = is_real ? 255 : type == PlyType::uint16 ? 1.0 / 257 : 1;
+    }
   return {};
 }
 

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "core/ply_number.h"
+#include "core/points.h"
 #include "pointclouds/line_reader.h"
+#include "pointclouds/point_fields.h"
 
 namespace standpoint::ply {
 
@@ -28,12 +30,13 @@ struct Header {
   std::uint64_t faces = 0;
   std::vector<Property> properties;  // of a vertex
   std::size_t vertex_bytes = 0;
-  // Into `properties`.
-  std::array<std::size_t, 3> position{};
-  std::optional<std::size_t> intensity;
-  std::optional<std::array<std::size_t, 3>> colour;
-  std::string unread;                // properties that are none of these, for the report
+  FieldPlaces places;                // into `properties`
+  ScanHeader scan;                   // what the comments of a file of ours say
+  bool ours = false;
 };
+
+// Begins a comment with a line of scan_text.h.
+inline constexpr const char* kOurComment = "comment standpoint ";
 
 // Reads up to the line after end_header. Checks counts against what is left of the file.
 Result<Header> readHeader(LineReader& lines);

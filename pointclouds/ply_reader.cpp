@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "pointclouds/local_points.h"
 #include "pointclouds/measure.h"
@@ -14,36 +12,10 @@ namespace {
 
 constexpr std::uint64_t kChunk = 65536, kChunkBytes = 8 << 20;
 
-bool isReal(PlyType type) { return type == PlyType::float32 || type == PlyType::float64; }
-
-// Colours are bytes, 16 bits or shares of 1.
-double colourScale(PlyType type) {
-  if (isReal(type)) return 255;
-  return type == PlyType::uint16 ? 1.0 / 257 : 1;
-}
-
-void takeVertex(const std::vector<double>& values, const Header& header, FoundPoints& to) {
-  to.x.push_back(values[header.position[0]]);
-  to.y.push_back(values[header.position[1]]);
-  to.z.push_back(values[header.position[2]]);
-  PointBlock& block = to.columns;
-  block.intensity.push_back(header.intensity ? static_cast<float>(values[*header.intensity]) : 0.0F);
-  block.row.push_back(0);
-  block.column.push_back(0);
-  if (!header.colour) return;
-  std::vector<std::uint8_t>* const colours[3] = {&block.red, &block.green, &block.blue};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto i = (*header.colour)[k];
-    const double value = values[i] * colourScale(header.properties[i].type);
-    // Written so that a NaN becomes 0.
-    colours[k]->push_back(value > 0 ? static_cast<std::uint8_t>(std::lround(std::min(value, 255.0))) : 0);
-  }
-}
-
 class Reading {
  public:
   Reading(const std::filesystem::path& path, const Header& header, ScanHeader scan)
-      : path_(path), header_(header), scan_(std::move(scan)) {}
+      : path_(path), header_(header), scan_(std::move(scan)), taker_(header.places, scan_, header.ours) {}
   Result<void> run(PointSink& sink, Report& report, Progress& progress);
 
  private:
@@ -52,6 +24,7 @@ class Reading {
   const std::filesystem::path& path_;
   const Header& header_;
   ScanHeader scan_;
+  FieldTaker taker_;
 };
 
 Result<void> Reading::readBinary(LocalPoints& local, Progress& progress) {
@@ -74,7 +47,8 @@ Result<void> Reading::readBinary(LocalPoints& local, Progress& progress) {
       for (std::size_t k = 0; k < values.size(); ++k)
         values[k] = plyNumber(header_.properties[k].type, bytes.data() + i * header_.vertex_bytes + header_.properties[k].at,
                          turned);
-      takeVertex(values, header_, found);
+      if (auto taken = taker_.take(values, found); !taken)
+        return failure(ErrorKind::unusable, taken.error().message, file->name() + " vertex " + std::to_string(done + i));
     }
     if (auto written = local.write(found); !written) return written;
     done += count;
@@ -101,7 +75,8 @@ Result<void> Reading::readText(LocalPoints& local, Progress& progress) {
       if (!numbersOf(**line, header_.properties.size(), values) || values.size() != header_.properties.size())
         return failure(ErrorKind::unusable,
                        "a vertex has " + std::to_string(header_.properties.size()) + " numbers here", lines.place());
-      takeVertex(values, header_, found);
+      if (auto taken = taker_.take(values, found); !taken)
+        return failure(ErrorKind::unusable, taken.error().message, lines.place());
     }
     if (i % kChunk != kChunk - 1 && i + 1 != all) continue;
     if (auto written = local.write(found); !written) return written;
@@ -113,11 +88,12 @@ Result<void> Reading::readText(LocalPoints& local, Progress& progress) {
 
 Result<void> Reading::run(PointSink& sink, Report& report, Progress& progress) {
   const auto single = [&](std::size_t k) {
-    return header_.encoding != Encoding::ascii && header_.properties[header_.position[k]].type == PlyType::float32;
+    return header_.encoding != Encoding::ascii && header_.properties[*header_.places.at[k]].type == PlyType::float32;
   };
   LocalPoints local(sink, scan_, !(single(0) && single(1) && single(2)));
   const auto read = header_.encoding == Encoding::ascii ? readText(local, progress) : readBinary(local, progress);
   if (!read) return read;
+  taker_.list(path_.filename().string(), report);
   return local.finish(report);
 }
 
@@ -125,6 +101,7 @@ struct Opened {
   Header header;
   ScanHeader scan;
   std::string name;
+  std::string unread;   // properties that have no place here
 };
 
 Result<Opened> open(const std::filesystem::path& path) {
@@ -133,24 +110,28 @@ Result<Opened> open(const std::filesystem::path& path) {
   LineReader lines(std::move(*file));
   auto header = readHeader(lines);
   if (!header) return failure(header.error());
-  ScanHeader scan;
-  scan.name = path.stem().string();
-  scan.has_colour = header->colour.has_value();
-  if (!header->intensity) scan.intensity_max = 0;
-  return Opened{*std::move(header), std::move(scan), lines.name()};
+  ScanHeader scan = header->scan;
+  if (scan.name.empty()) scan.name = path.stem().string();
+  if (!header->places[PointField::intensity]) scan.intensity_max = scan.intensity_min = 0;
+  const FieldTaker taker(header->places, scan, header->ours);
+  std::string unread;
+  for (std::size_t i = 0; i < header->properties.size(); ++i)
+    if (!taker.isRead(i)) unread += (unread.empty() ? "" : ", ") + header->properties[i].name;
+  return Opened{*std::move(header), std::move(scan), lines.name(), std::move(unread)};
 }
 
 void listUnread(const Opened& opened, Report& report) {
-  if (!opened.header.unread.empty())
-    report.lose(opened.name, "properties of the vertices that are not read: " + opened.header.unread);
+  if (!opened.unread.empty())
+    report.lose(opened.name, "properties of the vertices that are not read: " + opened.unread);
   if (opened.header.faces > 0)
     report.lose(opened.name, std::to_string(opened.header.faces) + " faces are not read: the vertices are the points");
 }
 
 // What the type says; real numbers have to be looked at.
 Result<void> setIntensityLimits(const std::filesystem::path& path, Opened& opened, Progress& progress) {
-  if (!opened.header.intensity) return {};
-  const PlyType type = opened.header.properties[*opened.header.intensity].type;
+  const auto& intensity = opened.header.places[PointField::intensity];
+  if (!intensity || opened.header.ours) return {};
+  const PlyType type = opened.header.properties[*intensity].type;
   if (type == PlyType::uint8 || type == PlyType::uint16) {
     opened.scan.intensity_max = type == PlyType::uint8 ? 255 : 65535;
     return {};

@@ -5,6 +5,8 @@
 #include "pointclouds/block_check.h"
 #include "pointclouds/file_access.h"
 #include "pointclouds/ply.h"
+#include "pointclouds/ply_header.h"
+#include "pointclouds/scan_text.h"
 
 namespace standpoint {
 
@@ -15,13 +17,6 @@ const CloudFormat kPly = {
 namespace ply {
 namespace {
 
-// A comment is one line of printable text.
-std::string commentText(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-  return text;
-}
-
 class Writer final : public CloudWriter {
  public:
   explicit Writer(PartFile file) : file_(std::move(file)) {}
@@ -29,7 +24,6 @@ class Writer final : public CloudWriter {
   Result<void> write(const PointBlock& block) override;
   Result<void> end() override;
   Result<void> close() override;
-  const Report& report() const override { return report_; }
 
  private:
   std::string headerText() const;
@@ -42,7 +36,6 @@ class Writer final : public CloudWriter {
   void putPoint(const PointBlock& block, std::size_t i);
 
   PartFile file_;
-  Report report_;
   std::optional<ScanHeader> header_;
   bool ended_ = false;
   std::uint64_t points_ = 0;
@@ -52,22 +45,23 @@ class Writer final : public CloudWriter {
 // Always as long: the number of points is known last.
 std::string Writer::headerText() const {
   const std::string digits = std::to_string(points_);
-  std::string text = "ply\nformat binary_little_endian 1.0\ncomment " + commentText(header_->name) + "\n";
-  if (header_->has_labels) {
-    for (std::size_t i = 0; i < header_->materials.size(); ++i)
-      text += "comment label " + std::to_string(i) + " " + commentText(header_->materials[i]) + "\n";
-    for (std::size_t i = 0; i < header_->products.size(); ++i) {
-      const LabelledProduct& p = header_->products[i];
-      text += "comment product " + std::to_string(i) + " " +
-              commentText(p.id + " " + p.global_id + " " + p.ifc_class + " " + p.name) + "\n";
-    }
-  }
+  std::string text = "ply\nformat binary_little_endian 1.0\n";
+  for (const auto& line : scanLines(*header_)) text += kOurComment + line + "\n";
+  if (header_->has_labels)
+    for (const auto& line : tableLines(header_->products, header_->materials)) text += kOurComment + line + "\n";
   text += "element vertex " + std::string(20 - digits.size(), '0') + digits + "\n";
   text += "property double x\nproperty double y\nproperty double z\n";
   if (hasIntensity(*header_)) text += "property float scalar_Intensity\n";
   if (header_->has_colour) text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   if (header_->has_labels) text += "property int scalar_Label\nproperty int scalar_Product\n";
   if (hasGrid(*header_)) text += "property int scalar_Row\nproperty int scalar_Column\n";
+  if (header_->has_time) text += "property double scalar_Time\n";
+  if (header_->has_returns) text += "property uchar scalar_ReturnNumber\nproperty uchar scalar_NumberOfReturns\n";
+  if (header_->has_truth) {
+    for (const char axis : {'X', 'Y', 'Z'}) text += std::string("property double scalar_True") + axis + "\n";
+    for (const char* name : {"TrueRange", "Incidence", "ReceivedPower"}) text += std::string("property float scalar_") + name + "\n";
+    text += "property uchar scalar_Flags\n";
+  }
   return text + "end_header\n";
 }
 
@@ -75,8 +69,6 @@ Result<void> Writer::begin(const ScanHeader& header) {
   if (header_) return failure(ErrorKind::internal, "a PLY file holds one scan", file_.file().string());
   if (auto checked = checkHeader(header); !checked) return checked;
   header_ = header;
-  if (!header.coordinate_metadata.empty())
-    report_.warn(header.name, "PLY has no place for the coordinate reference system");
   const std::string text = headerText();
   return file_.append({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
@@ -88,6 +80,13 @@ void Writer::putPoint(const PointBlock& b, std::size_t i) {
   if (header_->has_colour) put(b.red[i]), put(b.green[i]), put(b.blue[i]);
   if (header_->has_labels) put(static_cast<std::int32_t>(b.material[i])), put(static_cast<std::int32_t>(b.product[i]));
   if (hasGrid(*header_)) put(static_cast<std::int32_t>(b.row[i])), put(static_cast<std::int32_t>(b.column[i]));
+  if (header_->has_time) put(b.time_s[i]);
+  if (header_->has_returns) put(b.return_number[i]), put(b.return_count[i]);
+  if (!header_->has_truth) return;
+  const PointTruth& t = b.truth;
+  const Eigen::Vector3d true_place = header_->file_from_scanner * Eigen::Vector3d(t.x_m[i], t.y_m[i], t.z_m[i]);
+  for (int axis = 0; axis < 3; ++axis) put(true_place[axis]);
+  put(t.range_m[i]), put(t.incidence_rad[i]), put(t.received_db[i]), put(t.flags[i]);
 }
 
 Result<void> Writer::write(const PointBlock& block) {

@@ -40,7 +40,6 @@ class Writer final : public CloudWriter {
   Result<void> write(const PointBlock& block) override;
   Result<void> end() override;
   Result<void> close() override;
-  const Report& report() const override { return report_; }
 
  private:
   void appendHeader();
@@ -49,7 +48,6 @@ class Writer final : public CloudWriter {
   Result<void> flushFrom(std::size_t enough);
 
   PartFile file_;
-  Report report_;
   std::string text_;
   std::optional<ScanHeader> header_;
   std::uint64_t start_ = 0;      // of the scan, in the file
@@ -83,9 +81,7 @@ Result<void> Writer::begin(const ScanHeader& header) {
   header_ = header;
   next_cell_ = points_ = crowded_ = clamped_ = 0;
   appendHeader();
-  if (header.has_labels) report_.warn(header.name, "PTX has no place for product and material labels");
-  if (!header.coordinate_metadata.empty())
-    report_.warn(header.name, "PTX has no place for the coordinate reference system");
+  listUnheld(header, "PTX", {}, report_);
   return {};
 }
 

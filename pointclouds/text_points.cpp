@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pointclouds/text_points.h"
 
+#include <cctype>
 #include <cmath>
 
 #include "pointclouds/line_reader.h"
 #include "pointclouds/local_points.h"
 #include "pointclouds/measure.h"
 #include "pointclouds/number_text.h"
+#include "pointclouds/point_fields.h"
 
 namespace standpoint {
 
-const CloudFormat kPts = {"pts", "Leica PTS: text, a count and points", ".pts", false, nullptr, text_points::readPts,
-                          text_points::infoPts};
-const CloudFormat kXyz = {"xyz", "Text: a point per line", ".xyz", false, nullptr, text_points::readXyz,
-                          text_points::infoXyz};
+const CloudFormat kPts = {"pts", "Leica PTS: text, a count and points", ".pts", false, text_points::createPtsWriter,
+                          text_points::readPts, text_points::infoPts};
+const CloudFormat kXyz = {"xyz", "Text: a point per line", ".xyz", false, text_points::createXyzWriter,
+                          text_points::readXyz, text_points::infoXyz};
+const CloudFormat kCsv = {"csv", "Text with the names of its columns first", ".csv", false, text_points::createCsvWriter,
+                          text_points::readXyz, text_points::infoCsv};
 
 namespace text_points {
 namespace {
@@ -32,9 +36,10 @@ class Reader {
     return failure(ErrorKind::unusable, what, lines_.place());
   }
   Result<bool> takeHead(std::string_view line);  // true when the line was no point
+  void takeNames(std::string_view line);
+  Result<void> beginPoints();
   Result<void> takePoint();
   Result<void> flush();
-  bool hasIntensity() const { return width_ != 3 && width_ != 6; }
 
   LineReader lines_;
   bool counted_;
@@ -44,6 +49,9 @@ class Reader {
   std::optional<LocalPoints> local_;
   FoundPoints found_;
   std::vector<double> numbers_;
+  FieldPlaces places_;
+  std::vector<std::string> names_;   // of the columns, where the file says them
+  std::optional<FieldTaker> taker_;
   std::size_t width_ = 0;      // numbers of each point, as of the first
   std::uint64_t missing_ = 0;  // points of the block that are still to come
   std::uint64_t surplus_ = 0;
@@ -62,36 +70,67 @@ Result<bool> Reader::takeHead(std::string_view line) {
     return true;
   }
   if (numbers) return false;
-  if (!counted_ && width_ == 0 && lines_.line() <= kHeadLines) return true;
+  if (!counted_ && width_ == 0 && lines_.line() <= kHeadLines) return takeNames(line), true;
   return broken("a point is a line of numbers");
 }
 
-Result<void> Reader::takePoint() {
-  if (width_ == 0) {
-    width_ = numbers_.size();
-    if (width_ < 3) return broken("a point has at least x y z");
-    scan_.has_colour = width_ == 6 || width_ == 7;
-    if (!hasIntensity()) scan_.intensity_min = scan_.intensity_max = 0;
-    local_.emplace(sink_, scan_, true);
+// "//X Y Z R G B Intensity", "x,y,z" and their like; other words are no names of columns.
+void Reader::takeNames(std::string_view line) {
+  using F = PointField;
+  constexpr std::pair<const char*, F> kNames[] = {
+      {"x", F::x}, {"y", F::y}, {"z", F::z}, {"r", F::red}, {"g", F::green}, {"b", F::blue}, {"red", F::red},
+      {"green", F::green}, {"blue", F::blue}, {"intensity", F::intensity}, {"i", F::intensity}, {"time", F::time},
+      {"returnnumber", F::return_number}, {"numberofreturns", F::return_count}, {"truex", F::true_x}, {"truey", F::true_y},
+      {"truez", F::true_z}, {"truerange", F::true_range}, {"incidence", F::incidence},
+      {"receivedpower", F::received_power}, {"flags", F::flags}};
+  FieldPlaces places;
+  std::vector<std::string> names;
+  constexpr std::string_view kBetween = " \t\r,;/#\"";
+  for (std::size_t from = line.find_first_not_of(kBetween); from < line.size(); from = line.find_first_not_of(kBetween, from)) {
+    const std::size_t end = std::min(line.find_first_of(kBetween, from), line.size());
+    std::string name;
+    for (const char c : line.substr(from, end - from)) name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    for (const auto& [known, field] : kNames)
+      if (name == known && !places[field]) places[field] = names.size();
+    names.push_back(std::move(name));
+    from = end;
   }
+  if (!places.all(F::x, F::z) || names.size() > kMostNumbers) return;
+  places_ = places;
+  names_ = std::move(names);
+}
+
+// Without names the width says what the numbers are.
+Result<void> Reader::beginPoints() {
+  using F = PointField;
+  width_ = numbers_.size();
+  if (width_ < 3) return broken("a point has at least x y z");
+  if (names_.size() != width_) {
+    names_.clear();
+    places_ = {};
+    for (std::size_t k = 0; k < 3; ++k) places_.at[k] = k;
+    if (width_ != 3 && width_ != 6) places_[F::intensity] = 3;
+    if (width_ == 6 || width_ == 7)
+      for (std::size_t k = 0; k < 3; ++k) places_.at[static_cast<std::size_t>(F::red) + k] = width_ - 3 + k;
+  }
+  if (!places_[F::intensity]) scan_.intensity_min = scan_.intensity_max = 0;
+  taker_.emplace(places_, scan_, false);
+  local_.emplace(sink_, scan_, true);
+  return {};
+}
+
+Result<void> Reader::takePoint() {
+  if (width_ == 0)
+    if (auto begun = beginPoints(); !begun) return begun;
   if (numbers_.size() != width_)
     return broken("this point has " + std::to_string(numbers_.size()) + " numbers, those before it " +
                   std::to_string(width_));
-  found_.x.push_back(numbers_[0]);
-  found_.y.push_back(numbers_[1]);
-  found_.z.push_back(numbers_[2]);
-  PointBlock& block = found_.columns;
-  block.intensity.push_back(hasIntensity() ? static_cast<float>(numbers_[3]) : 0.0F);
-  block.row.push_back(0);
-  block.column.push_back(0);
-  if (!scan_.has_colour) return {};
-  std::vector<std::uint8_t>* const colours[3] = {&block.red, &block.green, &block.blue};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double value = numbers_[width_ - 3 + k];
-    if (!(value >= 0 && value <= 255)) return broken("a colour lies outside 0 to 255");
-    colours[k]->push_back(static_cast<std::uint8_t>(std::lround(value)));
-  }
-  return {};
+  if (scan_.has_colour)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double value = numbers_[*places_.at[static_cast<std::size_t>(PointField::red) + k]];
+      if (!(value >= 0 && value <= 255)) return broken("a colour lies outside 0 to 255");
+    }
+  return taker_->take(numbers_, found_);
 }
 
 Result<void> Reader::flush() {
@@ -116,7 +155,12 @@ Result<void> Reader::run(Report& report) {
   if (missing_ > 0) return broken("the file ends " + std::to_string(missing_) + " points too early: it is truncated");
   if (!local_) return broken("the file holds no point");
   if (auto flushed = flush(); !flushed) return flushed;
-  if (width_ != 3 && width_ != 4 && width_ != 6 && width_ != 7)
+  std::string unread;
+  for (std::size_t i = 0; i < names_.size(); ++i)
+    if (!taker_->isRead(i)) unread += (unread.empty() ? "" : ", ") + names_[i];
+  if (!unread.empty()) report.lose(lines_.name(), "columns that are not read: " + unread);
+  taker_->list(lines_.name(), report);
+  if (names_.empty() && width_ != 3 && width_ != 4 && width_ != 6 && width_ != 7)
     report.lose(lines_.name(), "points have " + std::to_string(width_) + " numbers, of which x y z and the fourth, as "
                                    "intensity, are read: what the others are is not stated");
   if (surplus_ > 0)
@@ -167,6 +211,7 @@ Result<Report> readXyz(const std::filesystem::path& file, PointSink& sink, Progr
 }
 Result<CloudInfo> infoPts(const std::filesystem::path& file) { return info(file, true, kPts.name); }
 Result<CloudInfo> infoXyz(const std::filesystem::path& file) { return info(file, false, kXyz.name); }
+Result<CloudInfo> infoCsv(const std::filesystem::path& file) { return info(file, false, kCsv.name); }
 
 }  // namespace text_points
 }  // namespace standpoint

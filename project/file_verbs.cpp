@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "importers/importers.h"
+#include "pointclouds/datasets.h"
 #include "pointclouds/formats.h"
 #include "project/answers.h"
 #include "project/project_files.h"
@@ -42,6 +43,24 @@ Result<void> mustExist(const fs::path& file) {
   return {};
 }
 
+// IN into a labelled set, a folder.
+Result<Outcome> convertTo(const json& options, Outcome outcome, Progress& progress) {
+  const fs::path in = options.at("in").get<std::string>(), out = options.at("out").get<std::string>();
+  if (options.contains("as")) return failure(ErrorKind::usage, "--as is for a file, --dataset for a folder", "convert");
+  const auto name = options.at("dataset").get<std::string>();
+  const auto set = std::find_if(datasets().begin(), datasets().end(), [&](const Dataset& d) { return name == d.name; });
+  if (set == datasets().end()) return failure(ErrorKind::usage, "there is no set '" + name + "'", "--dataset");
+  auto map = readClassMap(options.contains("classes") ? fs::path(options["classes"].get<std::string>())
+                                                      : dataFolder() / "pointclouds" / "classes" / (name + ".json"));
+  if (!map) return failure(map.error());
+  auto report = convertToDataset(in, out, *set, *std::move(map), progress);
+  if (!report) return failure(report.error());
+  outcome.report = *std::move(report);
+  outcome.answer["files"] = {out.string()};
+  outcome.description = "Converted " + in.filename().string() + " to " + set->description;
+  return outcome;
+}
+
 }  // namespace
 
 Result<Outcome> runConvert(const Document& document, const json& options, Progress& progress) {
@@ -49,7 +68,8 @@ Result<Outcome> runConvert(const Document& document, const json& options, Progre
   if (auto ok = mustExist(in); !ok) return failure(ok.error());
   progress.stage("Convert " + in.filename().string());
   Outcome outcome{document, json::object(), {}, {}};
-  auto files = convertCloud(in, options.at("out").get<std::string>(), outcome.report, progress);
+  if (options.contains("dataset")) return convertTo(options, std::move(outcome), progress);
+  auto files = convertCloud(in, options.at("out").get<std::string>(), options.value("as", ""), outcome.report, progress);
   if (!files) return failure(files.error());
   json names = json::array();
   for (const auto& f : *files) names.push_back(f.string());

@@ -113,8 +113,8 @@ TEST(ConvertCloud, OfE57ToPtxAndBackKeepsPointsAndPoses) {
   writeThree(folder / "a.e57");
   Report report;
   Progress progress;
-  ASSERT_OK(convertCloud(folder / "a.e57", folder / "b.ptx", report, progress));
-  ASSERT_OK(convertCloud(folder / "b.ptx", folder / "c.e57", report, progress));
+  ASSERT_OK(convertCloud(folder / "a.e57", folder / "b.ptx", "", report, progress));
+  ASSERT_OK(convertCloud(folder / "b.ptx", folder / "c.e57", "", report, progress));
   EXPECT_EQ(report.losses(), 0u) << testing::said(report);
   EXPECT_THAT(testing::said(report), ::testing::HasSubstr("labels"));
   KeptScans before, after;
@@ -135,7 +135,7 @@ TEST(ConvertCloud, GivesEachStationItsOwnFileWhereAFormatHoldsOne) {
   writeThree(folder / "a.e57");
   Report report;
   Progress progress;
-  const auto files = convertCloud(folder / "a.e57", folder / "out.ply", report, progress);
+  const auto files = convertCloud(folder / "a.e57", folder / "out.ply", "", report, progress);
   ASSERT_OK(files);
   EXPECT_THAT(*files, ::testing::ElementsAre(folder / "out-A.ply", folder / "out-B_1_2.ply", folder / "out-C.ply"));
   // 24 bytes of coordinates, 4 of intensity, 3 of colour, 8 of labels, 8 of indices for each point.
@@ -155,12 +155,15 @@ TEST(ConvertCloud, NamesWhatItCannotDo) {
   const TemporaryFolder folder;
   Report report;
   Progress progress;
-  const auto unknown = convertCloud(folder / "a.e57", folder / "b.xyzzy", report, progress);
+  const auto unknown = convertCloud(folder / "a.e57", folder / "b.xyzzy", "", report, progress);
   ASSERT_FALSE(unknown.has_value());
   EXPECT_EQ(unknown.error().kind, ErrorKind::usage);
   EXPECT_THAT(unknown.error().message, ::testing::HasSubstr(".ptx"));
-  EXPECT_EQ(convertCloud(folder / "a.e57", folder / "b.las", report, progress).error().kind, ErrorKind::usage);
-  EXPECT_EQ(convertCloud(folder / "none.e57", folder / "b.ptx", report, progress).error().kind, ErrorKind::file_system);
+  EXPECT_EQ(convertCloud(folder / "a.e57", folder / "b.laz", "", report, progress).error().kind, ErrorKind::usage);
+  const auto variant = convertCloud(folder / "a.e57", folder / "b.e57", "short", report, progress);
+  ASSERT_FALSE(variant.has_value());
+  EXPECT_THAT(describe(variant.error()), ::testing::HasSubstr("there is scaled, spherical"));
+  EXPECT_EQ(convertCloud(folder / "none.e57", folder / "b.ptx", "", report, progress).error().kind, ErrorKind::file_system);
   EXPECT_TRUE(filesIn(folder).empty());
 }
 
@@ -170,7 +173,7 @@ TEST(ConvertCloud, CanBeCancelled) {
   Report report;
   Progress progress;
   progress.cancel();
-  const auto files = convertCloud(folder / "a.e57", folder / "b.ptx", report, progress);
+  const auto files = convertCloud(folder / "a.e57", folder / "b.ptx", "", report, progress);
   ASSERT_FALSE(files.has_value());
   EXPECT_EQ(files.error().kind, ErrorKind::cancelled);
   EXPECT_EQ(filesIn(folder).size(), 1u);

@@ -6,6 +6,7 @@
 #include "pointclouds/e57.h"
 #include "pointclouds/ptx.h"
 #include "tests/pointclouds/kept_scans.h"
+#include "tests/pointclouds/made_up_picture.h"
 #include "tests/pointclouds/made_up_scan.h"
 
 namespace standpoint {
@@ -16,11 +17,17 @@ using testing::madeUpHeader;
 using testing::TemporaryFolder;
 using testing::writeScan;
 
+Result<void> writePictured(CloudWriter& writer) {
+  return writer.begin(madeUpHeader({2, 2, false, false, "P"}))
+      .and_then([&] { return writer.picture(testing::madeUpPicture(StationPicture::Projection::spherical, 600)); })
+      .and_then([&] { return writer.end(); });
+}
+
 std::string smallFile(const std::filesystem::path& file) {
   auto writer = cloudFormatFor(file)->writer(file);
-  const auto done = writeScan(**writer, madeUpHeader({12, 9, true, file.extension() == ".e57", "S"})).and_then([&] {
-    return (*writer)->close();
-  });
+  const auto done = writeScan(**writer, madeUpHeader({12, 9, true, file.extension() != ".ptx", "S", true}))
+                        .and_then([&] { return file.extension() == ".e57" ? writePictured(**writer) : Result<void>{}; })
+                        .and_then([&] { return (*writer)->close(); });
   EXPECT_TRUE(done.has_value()) << describe(done.error());
   return testing::bytesOf(file);
 }
@@ -54,6 +61,23 @@ void expectAnAnswer(const std::filesystem::path& file) {
   EXPECT_TRUE(told || !told.error().source.empty()) << told.error().message;
 }
 
+// Replaces text in the XML, which must keep its length, and mends the checksums.
+void edit(const std::filesystem::path& file, const std::string& from, const std::string& to) {
+  std::string bytes = testing::bytesOf(file);
+  ASSERT_EQ(from.size(), to.size());
+  std::size_t hits = 0;
+  // The text may straddle a checksum: this looks at the payload alone.
+  std::string payload;
+  for (std::size_t page = 0; page < bytes.size(); page += 1024) payload += bytes.substr(page, 1020);
+  for (std::size_t at = payload.find(from); at != std::string::npos; at = payload.find(from, at + 1), ++hits)
+    payload.replace(at, to.size(), to);
+  ASSERT_GT(hits, 0u) << from;
+  for (std::size_t page = 0; page < bytes.size(); page += 1024)
+    bytes.replace(page, 1020, payload.substr(page / 1024 * 1020, 1020));
+  seal(bytes);
+  testing::putBytes(file, bytes);
+}
+
 TEST(HostileE57, IsAnsweredWhateverByteChanged) {
   const TemporaryFolder folder;
   const std::string good = smallFile(folder / "good.e57");
@@ -77,12 +101,83 @@ TEST(HostilePtx, IsAnsweredWhateverByteChanged) {
   }
 }
 
+TEST(HostileClouds, AreAnsweredWhateverByteChanged) {
+  const TemporaryFolder folder;
+  for (const char* name : {"s.las", "s.ply", "s.pcd", "s.csv", "s.pts", "s.xyz"}) {
+    const std::string good = smallFile(folder / name);
+    for (std::uint32_t round = 0; round < 1500; ++round) {
+      std::string bad = good;
+      // Half of the changes in the header, where they matter most.
+      if (round % 2 == 0) {
+        mutate(bad, round);
+      } else {
+        std::string head = bad.substr(0, std::min<std::size_t>(bad.size(), 1500));
+        mutate(head, round);
+        bad.replace(0, head.size(), head);
+      }
+      testing::putBytes(folder / name, bad);
+      expectAnAnswer(folder / name);
+    }
+  }
+}
+
+TEST(HostilePcd, IsRefusedAtOnceWithTheReason) {
+  const TemporaryFolder folder;
+  const auto file = [](const std::string& lines) {
+    return "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n" + lines;
+  };
+  const std::pair<std::string, const char*> faults[] = {
+      {file("WIDTH 1000000000\nHEIGHT 1000\nPOINTS 1000000000000\nDATA binary\nabc"), "no room for 1000000000000"},
+      {file("WIDTH 99999999999999999999\nDATA binary\n"), "WIDTH is no number"},
+      {file("WIDTH 1099511627776\nHEIGHT 1099511627776\nDATA binary\n"), "too large"},
+      {file("WIDTH 2\nHEIGHT 1\nPOINTS 3\nDATA ascii\n1 2 3\n1 2 3\n1 2 3\n"), "POINTS is not"},
+      {file("WIDTH 1\nHEIGHT 1\nVIEWPOINT 0 0 0 0 0 0 0\nPOINTS 1\nDATA ascii\n1 2 3\n"), "VIEWPOINT"},
+      {file("WIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA binary_compressed\n123456789012"), "compressed"},
+      {"# .PCD v0.7\nFIELDS x y z\nSIZE 4 4\n", "2 entries for 3"},
+      {"# .PCD v0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 4000000000\n", "no size or count"},
+      {"# .PCD v0.7\nFIELDS x y z\nSIZE 4 4 3\nTYPE F F F\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1 2 3\n", "no known type"},
+      {"# .PCD v0.7\nFIELDS x y\nSIZE 4 4\nTYPE F F\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1 2\n", "x y z"},
+      {"no such file\n", "no 'no'"}};
+  for (const auto& [text, says] : faults) {
+    testing::putBytes(folder / "bad.pcd", text);
+    KeptScans kept;
+    const auto read = readAll(folder / "bad.pcd", kept);
+    ASSERT_FALSE(read.has_value()) << says;
+    EXPECT_EQ(read.error().kind, ErrorKind::unusable);
+    EXPECT_THAT(describe(read.error()), ::testing::AllOf(::testing::StartsWith("bad.pcd line"), ::testing::HasSubstr(says)));
+  }
+}
+
+// The points of a file are worth having without a picture whose blob is wrong.
+TEST(HostileE57, WithAPictureOutsideOfItselfKeepsItsPoints) {
+  const TemporaryFolder folder;
+  smallFile(folder / "s.e57");
+  edit(folder / "s.e57", "length=\"600\"", "length=\"999\"");
+  KeptScans kept;
+  const auto longer = readAll(folder / "s.e57", kept);   // reaches into the next section: nobody can tell
+  ASSERT_OK(longer);
+  for (const auto& [from, to] : {std::pair("pngImage type=\"Blob\" fileOffset=\"", "pngImage type=\"Blob\" fileOffset=\"9"),
+                                 std::pair("sphericalRepresentation", "cylindricRepresentation")}) {
+    smallFile(folder / "s.e57");
+    const std::string wanted = from;
+    std::string other = to;
+    if (other.size() > wanted.size()) other = "pngImage type=\"Bl0b\" filOOffset=\"";
+    edit(folder / "s.e57", wanted, other);
+    KeptScans found;
+    const auto report = readAll(folder / "s.e57", found);
+    ASSERT_OK(report);
+    EXPECT_EQ(report->losses(), 1u) << testing::said(*report);
+    EXPECT_EQ(found.scans.size(), 2u);
+  }
+}
+
 TEST(HostileClouds, CutAnywhereAreErrorsWithAPlace) {
   const TemporaryFolder folder;
-  for (const char* name : {"s.e57", "s.ptx"}) {
+  for (const char* name : {"s.e57", "s.ptx", "s.pts", "s.ply", "s.pcd"}) {
     const std::string good = smallFile(folder / name);
     // Nobody can tell that the last number of a text has lost a digit, or the last point its colour.
-    const std::size_t end = std::string(name).ends_with("ptx") ? good.rfind('\n', good.size() - 2) : good.size();
+    const bool text = std::string(name).ends_with("ptx") || std::string(name).ends_with("pts");
+    const std::size_t end = text ? good.rfind('\n', good.size() - 2) : good.size();
     for (std::size_t size = 0; size < end; size += 1 + size / 20) {
       testing::putBytes(folder / name, good.substr(0, size));
       KeptScans kept;
@@ -104,23 +199,6 @@ TEST(HostileE57, WithAWrongChecksumNamesThePage) {
   ASSERT_FALSE(read.has_value());
   EXPECT_THAT(describe(read.error()),
               ::testing::AllOf(::testing::HasSubstr("s.e57 page 1"), ::testing::HasSubstr("checksum")));
-}
-
-// Replaces text in the XML, which must keep its length, and mends the checksums.
-void edit(const std::filesystem::path& file, const std::string& from, const std::string& to) {
-  std::string bytes = testing::bytesOf(file);
-  ASSERT_EQ(from.size(), to.size());
-  std::size_t hits = 0;
-  // The text may straddle a checksum: this looks at the payload alone.
-  std::string payload;
-  for (std::size_t page = 0; page < bytes.size(); page += 1024) payload += bytes.substr(page, 1020);
-  for (std::size_t at = payload.find(from); at != std::string::npos; at = payload.find(from, at + 1), ++hits)
-    payload.replace(at, to.size(), to);
-  ASSERT_GT(hits, 0u) << from;
-  for (std::size_t page = 0; page < bytes.size(); page += 1024)
-    bytes.replace(page, 1020, payload.substr(page / 1024 * 1020, 1020));
-  seal(bytes);
-  testing::putBytes(file, bytes);
 }
 
 struct Edit {

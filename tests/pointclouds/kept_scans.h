@@ -21,6 +21,7 @@ class KeptScans final : public PointSink {
     bool ended = false;
   };
   std::vector<Scan> scans;
+  std::vector<std::vector<StationPicture>> pictures;   // of the scans that have any
 
   Result<void> begin(const ScanHeader& header) override { return scans.push_back({header, {}, false}), Result<void>{}; }
   Result<void> write(const PointBlock& b) override {
@@ -30,7 +31,15 @@ class KeptScans final : public PointSink {
     append(all.row, b.row), append(all.column, b.column);
     append(all.red, b.red), append(all.green, b.green), append(all.blue, b.blue);
     append(all.product, b.product), append(all.material, b.material);
+    append(all.time_s, b.time_s), append(all.return_number, b.return_number), append(all.return_count, b.return_count);
+    PointTruth& truth = all.truth;
+    append(truth.x_m, b.truth.x_m), append(truth.y_m, b.truth.y_m), append(truth.z_m, b.truth.z_m);
+    append(truth.range_m, b.truth.range_m), append(truth.incidence_rad, b.truth.incidence_rad);
+    append(truth.received_db, b.truth.received_db), append(truth.flags, b.truth.flags);
     return {};
+  }
+  Result<void> picture(const StationPicture& picture) override {
+    return pictures.resize(scans.size()), pictures.back().push_back(picture), Result<void>{};
   }
   Result<void> end() override { return scans.back().ended = true, Result<void>{}; }
   Result<void> close() override { return {}; }

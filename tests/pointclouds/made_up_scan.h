@@ -35,6 +35,7 @@ struct ScanKind {
   std::uint32_t rows = 100, columns = 50;
   bool colour = true, labels = true;
   std::string name = "S1";
+  bool all_channels = false;   // times, returns, truth
 };
 
 inline ScanHeader madeUpHeader(const ScanKind& kind) {
@@ -51,6 +52,7 @@ inline ScanHeader madeUpHeader(const ScanKind& kind) {
   header.columns = kind.columns;
   header.has_colour = kind.colour;
   header.has_labels = kind.labels;
+  header.has_time = header.has_returns = header.has_truth = kind.all_channels;
   header.acquisition_start_gps_s = 1400000000.25;
   header.acquisition_seconds = 61.5;
   if (kind.labels) {
@@ -80,6 +82,19 @@ inline void appendColumn(PointBlock& block, const ScanHeader& header, std::uint3
       block.red.push_back(static_cast<std::uint8_t>(random[3]));
       block.green.push_back(static_cast<std::uint8_t>(random[3] >> 8));
       block.blue.push_back(static_cast<std::uint8_t>(random[3] >> 16));
+    }
+    if (header.has_time) block.time_s.push_back(60.0 * column / header.columns + 1e-5 * row + 1e-7);
+    if (header.has_returns) {
+      block.return_count.push_back(static_cast<std::uint8_t>(1 + random[0] / 8 % 5));
+      block.return_number.push_back(static_cast<std::uint8_t>(1 + random[0] / 64 % block.return_count.back()));
+    }
+    if (header.has_truth) {
+      PointTruth& truth = block.truth;
+      truth.x_m.push_back(block.x_m.back() + 0.001F), truth.y_m.push_back(block.y_m.back() - 0.002F);
+      truth.z_m.push_back(block.z_m.back()), truth.range_m.push_back(static_cast<float>(range));
+      truth.incidence_rad.push_back(static_cast<float>(1.5 * uniform(random[2])));
+      truth.received_db.push_back(static_cast<float>(-40 * uniform(random[1])));
+      truth.flags.push_back(static_cast<std::uint8_t>(random[3] & 127));
     }
     if (header.has_labels) {
       block.product.push_back((random[3] >> 24) % static_cast<std::uint32_t>(header.products.size()));
