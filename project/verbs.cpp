@@ -10,6 +10,7 @@
 #include "project/underlays.h"
 #include "project/verb.h"
 #include "project/verification.h"
+#include "scanners/effects.h"
 
 namespace standpoint {
 
@@ -17,6 +18,11 @@ namespace {
 
 using K = ParameterKind;
 using S = VerbScope;
+
+const char* effectHelp() {
+  static const std::string help = "effects to leave out: " + effectList();
+  return help.c_str();
+}
 
 // The table: a new verb is a typed function in this folder and one entry here. Command line, help, job files and the
 // editor's forms follow from it.
@@ -118,7 +124,10 @@ const std::vector<Verb>& table() {
         {.name = "instrument", .kind = K::text, .help = "id of the instrument, such as leica-rtc360", .required = true},
         {.name = "set", .kind = K::pairs, .help = "settings in the device's own words, such as resolution=12mm"},
         {.name = "seed", .kind = K::integer, .help = "of the noise", .standard = 1, .minimum = 0, .maximum = 9007199254740991.0},
-        {.name = "ideal", .kind = K::flag, .help = "no noise at all: the truth"},
+        {.name = "ideal", .kind = K::flag, .help = "without any effect: the first surface on the axis of each pulse, exactly"},
+        {.name = "without", .kind = K::text, .help = effectHelp()},
+        {.name = "weather", .kind = K::text, .help = "visibility=KM rain=MM/H snow=MM/H fog=M dust=M, separated by spaces or commas"},
+        {.name = "truth", .kind = K::flag, .help = "with what is known of each point: time, return, true place, range, incidence, power, how it came about"},
         {.name = "threads", .kind = K::integer, .help = "0 = all; the result is the same", .standard = 0, .minimum = 0, .maximum = 1024},
         {.name = "shard", .kind = K::text, .help = "i/n: only every n-th station from the i-th, for a batch on several machines"},
         {.name = "output", .kind = K::path, .help = "a folder, or a file (.e57, .ptx); an E57 holds all stations", .required = true}},

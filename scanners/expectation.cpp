@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scanners/atmosphere.h"
 #include "scanners/pane_passage.h"
 
 namespace standpoint {
@@ -20,7 +21,8 @@ ReturnLaw::ReturnLaw(const Instrument& instrument, const ScanSettings& settings)
     : instrument_(instrument),
       settings_(settings),
       noise_law_(instrument),
-      threshold_(detectionThreshold(settings)),
+      clear_air_per_m_(extinction_per_m(Weather{}, instrument.wavelength_nm)),
+      threshold_(detectionThreshold(settings, clear_air_per_m_)),
       softness_(threshold_ * instrument.detection_softness),
       noise_scale_(settings.noise_factor / std::sqrt(static_cast<double>(settings.passes))) {}
 
@@ -30,7 +32,8 @@ ExpectedReturn ReturnLaw::of(const Optics& optics, double range_m, double cosine
   expected.incidence_rad = std::acos(std::clamp(cosine, 0.0, 1.0));
   const double equivalent = static_cast<double>(lambertEquivalent(optics, static_cast<float>(std::max(cosine, 1e-6))));
   const double near = static_cast<double>(nearRangeFactor(instrument_, static_cast<float>(range_m)));
-  expected.power = std::max(1e-30, equivalent * gain * near / (range_m * range_m));
+  const double air = std::exp(-2 * clear_air_per_m_ * range_m);
+  expected.power = std::max(1e-30, equivalent * gain * near * air / (range_m * range_m));
   const double share = (10 * std::log10(expected.power) - instrument_.intensity_low_db) / (instrument_.intensity_high_db - instrument_.intensity_low_db);
   expected.intensity = std::clamp(share, 0.0, 1.0);
   expected.sigma_m = noise_scale_ * noise_law_.sigma(expected.power, std::max(equivalent, 1e-6));

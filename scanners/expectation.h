@@ -42,7 +42,7 @@ class ReturnLaw {
   Instrument instrument_;
   ScanSettings settings_;
   RangeNoiseLaw noise_law_;
-  double threshold_ = 0, softness_ = 0, noise_scale_ = 1;
+  double clear_air_per_m_ = 0, threshold_ = 0, softness_ = 0, noise_scale_ = 1;
 };
 
 // A place on a surface that somebody looks at; local frame.

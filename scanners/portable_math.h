@@ -52,14 +52,24 @@ STANDPOINT_INLINE float exp2(float x) {
   return power * series;
 }
 
-// e^x for x in [-60, 0], relative error below 1e-12.
-inline double expNegative(double x) {
-  // Halved six times the argument is below 1 in size, where eighteen terms of the series are enough; then squared back.
-  const double y = x / 64;
-  double term = 1, sum = 1;
-  for (int k = 1; k < 19; ++k) sum += term *= y / k;
-  for (int k = 0; k < 6; ++k) sum *= sum;
-  return sum;
+// The angle of (x, y) in turns, -1/2 to 1/2, absolute error below 1e-12.
+inline double turnOf(double y, double x) {
+  if (x == 0 && y == 0) return 0;
+  // Halving the angle three times leaves less than π/8, where sixteen terms of the series are enough.
+  for (int k = 0; k < 3; ++k) {
+    const double length = std::sqrt(x * x + y * y);
+    if (x < 0) {                                   // without cancellation: (x + length) = y² / (length - x)
+      const double sum = y * y / (length - x);
+      x = sum;
+      if (sum == 0) y = std::copysign(1.0, y);     // half of a half turn is a quarter
+    } else {
+      x += length;
+    }
+  }
+  const double z = y / x, q = z * z;
+  double sum = 0;
+  for (int k = 33; k > 0; k -= 2) sum = 1.0 / k - q * sum;
+  return 8 * z * sum / (2 * 3.14159265358979323846);
 }
 
 // ln of a positive normal number, relative error below 1e-15 of max(1, |ln|).

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "scanners/embree_scene.h"
 #include "scanners/radiometry.h"
 #include "scanners/ray_engine.h"
+#include "scanners/signal_lanes.h"
 
 namespace standpoint {
 
@@ -43,10 +45,12 @@ struct ScanPlan {
   PulseClock clock;
   ScanBias bias;
   RangeNoiseLaw noise_law;
-  double noise_scale = 0;          // noise_factor / √passes; 0 = ideal
+  Receiver receiver;
+  double noise_scale = 0;          // noise_factor / √passes; 0 = no noise of the range
   double jitter_rad = 0;
-  double threshold = 0;            // x_min
+  double threshold = 0;            // x_min; 0 = all that is met returns
   double softness = 0;             // σ of the threshold, absolute
+  float saturation = 0;            // x from which the receiver saturates
   std::vector<double> sine, cosine;          // of each row's elevation
   std::vector<Optics> optics;                // materials, then surfaces without one
   std::vector<std::array<std::uint8_t, 3>> colours;   // sRGB of each surface: what the camera sees, unshaded
@@ -57,7 +61,19 @@ struct ScanPlan {
   double azimuth_rad(std::uint32_t column) const;
   double elevation_rad(std::uint32_t row) const;
   bool moves() const { return trajectory.pose.size() > 1; }
+  bool passes(const Optics& surface) const { return surface.transparent && options.effects.has(Effect::panes); }
+  bool mirrors(const Optics& surface) const { return surface.smooth && options.effects.has(Effect::mirrors); }
+  double rowStep_rad() const { return (settings.elevation_to_rad - settings.elevation_from_rad) / settings.rows; }
+  double columnStep_rad() const { return (settings.azimuth_to_rad - settings.azimuth_from_rad) / settings.columns; }
+  // Pulses aside that a beam can reach, at most: 0 where beams have no width.
+  std::uint32_t reach() const { return reach_; }
+  // Of the part of the grid that is asked for.
+  std::uint32_t endColumn() const { return std::min(options.end_column, settings.columns); }
   std::uint32_t unassignedLabel() const { return static_cast<std::uint32_t>(assignment.materials.size()); }
+
+ private:
+  std::uint32_t mostReach() const;
+  std::uint32_t reach_ = 0;
 };
 
 }  // namespace standpoint

@@ -173,7 +173,7 @@ TEST(Fog, AnswersWithTheBackscatterWithinThePulse) {
 
 TEST(Fog, IsSeenNearerThanAWallInItAndNotAtAllWhenThin) {
   const auto instrument = testing::instrument("leica-rtc360");
-  const double least = detectionThreshold(*resolveSettings(instrument, {}));
+  const double least = detectionThreshold(*resolveSettings(instrument, {}), 0);
   const Scatterers thick(instrument, {23, 0, 0, 30, 0}, least, 130, {1, 1});
   const Scatterers thin(instrument, {23, 0, 0, 2000, 0}, least, 130, {1, 1});
   const Scatterers dust(instrument, {23, 0, 0, 0, 30}, least, 130, {1, 1});
