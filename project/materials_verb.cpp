@@ -154,7 +154,7 @@ Result<std::vector<double>> wavelengths(const Document& document, const std::str
     for (const auto& station : document.job->stations)
       for (const auto& scan : station.scans) ids.push_back(scan.instrument);
   if (ids.empty()) return std::vector<double>();
-  const auto instruments = shippedInstruments();
+  const auto instruments = knownInstruments();
   if (!instruments) return failure(instruments.error());
   std::vector<double> result;
   for (const auto& each : *instruments)

@@ -46,7 +46,7 @@ Result<std::shared_ptr<const Underlay>> underlayFor(const Document& document, co
 // The one that is named, else the one whose maker and model the cloud's scans name.
 Result<Instrument> instrumentFor(const json& options, const CloudSample& sample, Report& report) {
   if (const auto id = options.value("instrument", std::string()); !id.empty()) return instrumentById(id);
-  const auto all = shippedInstruments();
+  const auto all = knownInstruments();
   if (!all) return failure(all.error());
   // The longest model that fits: "Focus S350" before "Focus".
   const Instrument* best = nullptr;
