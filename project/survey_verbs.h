@@ -24,6 +24,8 @@ struct ScanWorld {
 };
 ScanWorld scanWorld(const Document& document, const MaterialAssignment& assignment);
 
+// What the stations' scans would bring, before they are made: coverage, overlap, points, time, and a place for another one.
+Result<Outcome> runPlan(const Document& document, const nlohmann::json& options, Progress& progress);
 Result<Outcome> runScan(const Document& document, const nlohmann::json& options, Progress& progress);
 
 }  // namespace standpoint
