@@ -50,7 +50,7 @@ std::string productText(const Environment& environment, std::uint32_t product) {
 
 double slopeOf(const RayHit& hit) { return std::acos(std::clamp(std::abs(hit.normal.z()), 0.0, 1.0)); }
 
-Placement::Placement(const RayScene& scene, const TripodStand& stand, double trunnion_m)
+StationPlacement::StationPlacement(const RayScene& scene, const TripodStand& stand, double trunnion_m)
     : scene_(scene), stand_(stand), trunnion_m_(trunnion_m) {
   const auto& environment = scene.environment();
   instances_.resize(environment.instances.size());
@@ -62,14 +62,14 @@ Placement::Placement(const RayScene& scene, const TripodStand& stand, double tru
   }
 }
 
-std::optional<Refusal> Placement::badHeight(double height_m) const {
+std::optional<Refusal> StationPlacement::badHeight(double height_m) const {
   if (height_m >= lowest_m() - 1e-9 && height_m <= highest_m() + 1e-9) return std::nullopt;
   return Refusal{fmt::format("a tripod holds the instrument's centre {:.2f} to {:.2f} m above the ground, not {:.2f} m", lowest_m(),
                              highest_m(), height_m),
                  "say another --height, or --stand free for what hangs or is held"};
 }
 
-std::optional<Refusal> Placement::tooNear(const Eigen::Vector3d& centre) const {
+std::optional<Refusal> StationPlacement::tooNear(const Eigen::Vector3d& centre) const {
   const auto& environment = scene_.environment();
   double reach = stand_.clearance_m;
   std::optional<std::uint32_t> nearest;
@@ -83,7 +83,7 @@ std::optional<Refusal> Placement::tooNear(const Eigen::Vector3d& centre) const {
                  fmt::format("move it {:.0f} mm away from there", std::ceil((stand_.clearance_m - reach) * 1000 - 0.01))};
 }
 
-bool Placement::worthTrying(const Eigen::Vector3d& centre) const {
+bool StationPlacement::worthTrying(const Eigen::Vector3d& centre) const {
   for (const double elevation : {-0.6, 0.0, 0.6})
     for (int k = 0; k < 8; ++k) {
       const double azimuth = k * std::numbers::pi / 4 + 0.01;
@@ -94,7 +94,7 @@ bool Placement::worthTrying(const Eigen::Vector3d& centre) const {
   return !scene_.intersect(centre, kUp, stand_.headroom_m);
 }
 
-std::optional<Refusal> Placement::noHeadroom(const Eigen::Vector3d& centre) const {
+std::optional<Refusal> StationPlacement::noHeadroom(const Eigen::Vector3d& centre) const {
   const auto above = scene_.intersect(centre, kUp, stand_.headroom_m);
   if (!above) return std::nullopt;
   return Refusal{fmt::format("{} is {:.2f} m above the instrument's centre; it needs {:.2f} m of headroom",
@@ -102,7 +102,7 @@ std::optional<Refusal> Placement::noHeadroom(const Eigen::Vector3d& centre) cons
                  fmt::format("lower it by {:.2f} m, or choose another place", stand_.headroom_m - above->range_m)};
 }
 
-std::optional<Ground> Placement::groundBelow(const Eigen::Vector3d& centre) const {
+std::optional<Ground> StationPlacement::groundBelow(const Eigen::Vector3d& centre) const {
   if (all_.empty()) return std::nullopt;
   if (const auto hit = scene_.intersect(centre, kDown, centre.z() - all_.min.z() + 1))
     return Ground{hit->position.z(), slopeOf(*hit), productText(scene_.environment(), hit->product)};
@@ -110,7 +110,7 @@ std::optional<Ground> Placement::groundBelow(const Eigen::Vector3d& centre) cons
   return Ground{all_.min.z(), 0, {}};
 }
 
-std::optional<Refusal> Placement::badGround(const Eigen::Vector3d& centre) const {
+std::optional<Refusal> StationPlacement::badGround(const Eigen::Vector3d& centre) const {
   const auto ground = groundBelow(centre);
   const char* elsewhere = "say --on X,Y[,Z] with a point of a floor, or --stand free for what hangs or is held";
   if (!ground) return Refusal{"it would float: the whole model is above it or there is none", elsewhere};
@@ -132,7 +132,7 @@ std::optional<Refusal> Placement::badGround(const Eigen::Vector3d& centre) const
 }
 
 // Turned by any of a few angles the three feet must find ground that their legs reach.
-std::optional<Refusal> Placement::noFooting(const Eigen::Vector3d& centre, const Ground& ground) const {
+std::optional<Refusal> StationPlacement::noFooting(const Eigen::Vector3d& centre, const Ground& ground) const {
   if (!ground.modelled()) return std::nullopt;
   constexpr int kTurns = 12;
   constexpr int kSteps = 3 * kTurns;
@@ -152,7 +152,7 @@ std::optional<Refusal> Placement::noFooting(const Eigen::Vector3d& centre, const
 
 // A product with a class of its own is a body whichever way its faces look; of a mesh that only draws a room from inside,
 // the faces look inwards.
-std::optional<std::uint32_t> Placement::bodyRound(const Eigen::Vector3d& centre) const {
+std::optional<std::uint32_t> StationPlacement::bodyRound(const Eigen::Vector3d& centre) const {
   const auto& environment = scene_.environment();
   for (std::uint32_t i = 0; i < instances_.size();) {
     const auto product = environment.instances[i].product;
@@ -170,7 +170,7 @@ std::optional<std::uint32_t> Placement::bodyRound(const Eigen::Vector3d& centre)
   return std::nullopt;
 }
 
-std::optional<Refusal> Placement::whyNotOn(const RayHit& hit, double height_m) const {
+std::optional<Refusal> StationPlacement::whyNotOn(const RayHit& hit, double height_m) const {
   const double slope = slopeOf(hit);
   if (slope > stand_.steepest_rad)
     return Refusal{fmt::format("that is {} of {:.0f} degrees, {}; a tripod stands on {:.0f} degrees at most",
@@ -181,7 +181,7 @@ std::optional<Refusal> Placement::whyNotOn(const RayHit& hit, double height_m) c
 }
 
 // In a body that has no class a tripod may stand where all else is well: many draw a room as a single box.
-std::optional<Refusal> Placement::whyNot(const Eigen::Vector3d& centre) const {
+std::optional<Refusal> StationPlacement::whyNot(const Eigen::Vector3d& centre) const {
   if (auto why = tooNear(centre)) return why;
   const auto& environment = scene_.environment();
   const auto body = bodyRound(centre);
@@ -193,7 +193,7 @@ std::optional<Refusal> Placement::whyNot(const Eigen::Vector3d& centre) const {
                  "move it out of the body; if a room was drawn as one body, say --stand free"};
 }
 
-std::optional<std::string> Placement::remark(const Eigen::Vector3d& centre) const {
+std::optional<std::string> StationPlacement::remark(const Eigen::Vector3d& centre) const {
   const auto body = bodyRound(centre);
   if (!body) return std::nullopt;
   return fmt::format("it is inside {}, a closed body, which is taken for a room drawn as one skin", productText(scene_.environment(), *body));

@@ -24,10 +24,10 @@ struct Ground {
 };
 
 // Whether an instrument can stand at a place of a scene. Built once for a scene, asked often; thread-safe.
-class Placement {
+class StationPlacement {
  public:
   // `trunnion_m`: of the tilting axis above the tripod's plate. The scene must outlive this.
-  Placement(const RayScene& scene, const TripodStand& stand, double trunnion_m);
+  StationPlacement(const RayScene& scene, const TripodStand& stand, double trunnion_m);
 
   // All checks of a station on a tripod: clearance, headroom, ground, feet, bodies.
   std::optional<Refusal> whyNot(const Eigen::Vector3d& centre) const;

@@ -130,7 +130,7 @@ Result<json> proposalFor(const Document& document, const RayScene& scene, const 
                          Progress& progress) {
   const auto stand = readTripodStand(tripodStandFile());
   if (!stand) return failure(stand.error());
-  const Placement placement(scene, *stand, request.instrument.trunnion_height_m);
+  const StationPlacement placement(scene, *stand, request.instrument.trunnion_height_m);
   std::vector<std::uint8_t> seen(plan.samples.samples.size(), 0);
   for (const auto& f : plan.forecasts)
     for (std::size_t k = 0; k < seen.size(); ++k) seen[k] |= f.seen[k];

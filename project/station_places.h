@@ -24,7 +24,7 @@ double roomAround(const RayScene& scene, const Eigen::Vector3d& centre);
 
 // Of the places the one that is worth most (more than nothing), where a tripod can stand at least 2.5 m from every station
 // that is there already. The instrument's centre; none where there is no such place.
-std::optional<Eigen::Vector3d> bestOf(const std::vector<Eigen::Vector3d>& grounds, const Job& job, const Placement& placement,
+std::optional<Eigen::Vector3d> bestOf(const std::vector<Eigen::Vector3d>& grounds, const Job& job, const StationPlacement& placement,
                                       double height_m, const std::function<double(const Eigen::Vector3d&)>& worth,
                                       Progress& progress);
 

@@ -23,8 +23,6 @@ using nlohmann::json;
 
 constexpr double kRoomAbove_m = 0.3;        // of the tilting axis, for a height to count as a floor
 constexpr double kFloorSearch_m = 0.5;      // how far a stated floor height may be off
-constexpr double kUsualHeight_m = 1.6;      // of the instrument's centre, where no instrument says its own
-constexpr double kUsualTrunnion_m = 0.2;    // above the tripod's plate, likewise
 
 // What a station stands on and how it stands, as the options say it.
 struct Setup {
@@ -52,7 +50,7 @@ Result<Setup> setupFrom(const json& options) {
   return setup;
 }
 
-constexpr double kNoFloor_rad = 60 * kRadPerDeg;   // a wall; whether it is too steep a floor, Placement says
+constexpr double kNoFloor_rad = 60 * kRadPerDeg;   // a wall; whether it is too steep a floor, StationPlacement says
 
 std::vector<double> heightsBelow(const RayScene& scene, double x, double y) {
   const Bounds b = bounds(scene.environment());
@@ -94,7 +92,7 @@ json stationRow(const Station& s, const Georeference& g) {
 }
 
 // Beside other stations: what is not seen from any of them yet.
-Result<std::optional<NextStation>> addingMost(const Document& document, const Placement& placement, double height_m,
+Result<std::optional<NextStation>> addingMost(const Document& document, const StationPlacement& placement, double height_m,
                                               Progress& progress) {
   constexpr std::size_t kSamples = 12000;
   const auto samples = sampleSurfaces(placement.scene(), kSamples, 1, progress);
@@ -108,7 +106,7 @@ Result<std::optional<NextStation>> addingMost(const Document& document, const Pl
 }
 
 // Where nothing was said.
-Result<Eigen::Vector3d> bestPlace(const Document& document, const Placement& placement, double height_m, Report& report,
+Result<Eigen::Vector3d> bestPlace(const Document& document, const StationPlacement& placement, double height_m, Report& report,
                                   Progress& progress) {
   const auto& scene = placement.scene();
   if (!document.job->stations.empty()) {
@@ -166,7 +164,7 @@ Result<Station> place(const Document& document, const std::string& name, const j
   if (!setup) return failure(setup.error());
   auto scene = RayScene::build(document.environment(), progress);
   if (!scene) return failure(scene.error());
-  const Placement placement(**scene, setup->stand, setup->trunnion_m);
+  const StationPlacement placement(**scene, setup->stand, setup->trunnion_m);
   const bool somewhere = options.contains("at") || options.contains("on");
   const bool stays = !somewhere && before != nullptr && saysLevel(options);
   if (!setup->free && !options.contains("at") && !stays)

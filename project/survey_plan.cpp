@@ -105,7 +105,7 @@ Result<SurveyPlan> planSurvey(const Job& job, std::shared_ptr<const RayScene> sc
   return plan;
 }
 
-std::optional<NextStation> nextStation(const Document& document, const Placement& placement, const SurfaceSamples& samples,
+std::optional<NextStation> nextStation(const Document& document, const StationPlacement& placement, const SurfaceSamples& samples,
                                        const std::vector<std::uint8_t>& seen, const SightLimits& limits, double height_m,
                                        Progress& progress) {
   constexpr std::size_t kMost = 3000;   // of the places that are not seen yet: evenly taken

@@ -56,8 +56,8 @@ struct NextStation {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double adds_m2 = 0;
 };
-class Placement;
-std::optional<NextStation> nextStation(const Document& document, const Placement& placement, const SurfaceSamples& samples,
+class StationPlacement;
+std::optional<NextStation> nextStation(const Document& document, const StationPlacement& placement, const SurfaceSamples& samples,
                                        const std::vector<std::uint8_t>& seen, const SightLimits& limits, double height_m,
                                        Progress& progress);
 

@@ -63,7 +63,7 @@ ScanForecast forecastScan(const Expectation& expectation, const Pose& local_from
   ScanForecast forecast;
   forecast.seen.assign(samples.samples.size(), 0);
   tbb::parallel_for(std::size_t{0}, samples.samples.size(), [&](std::size_t k) {   // each into its own slot
-    forecast.seen[k] = static_cast<std::uint8_t>(isSeen(expectation, local_from_scanner, samples.samples[k].place, wanted));
+    forecast.seen[k] = static_cast<std::uint8_t>(samples.samples[k].exposed && isSeen(expectation, local_from_scanner, samples.samples[k].place, wanted));
   });
   std::vector<double> of_column(kColumns, 0);
   tbb::parallel_for(0, kColumns, [&](int j) {

@@ -18,7 +18,7 @@ struct SeenWhen {
 
 // What a scan would bring, without scanning. `local_from_scanner` may lean.
 struct ScanForecast {
-  std::vector<std::uint8_t> seen;  // of each sample: it would return points as wanted
+  std::vector<std::uint8_t> seen;  // of each sample: it is exposed and would return points as wanted
   double points = 0;               // of the whole scan, one return of a pulse
   double seconds = 0;              // of the instrument, with its pictures
 };

@@ -66,6 +66,27 @@ bool reachesLight(const EmbreeScene& scene, const Eigen::Vector3d& from, const E
   return (facet.normal.dot(direction) < 0) != mirrored;
 }
 
+// Bodies that share a face would count it twice: it belongs to the first of them. Which of two faces in one place a ray
+// meets is a matter of rounding, so several look.
+bool belongsToEarlier(const EmbreeScene& scene, const SurfaceSample& sample, const Eigen::Vector3d& normal) {
+  constexpr double kAbove_m = 5e-3;
+  constexpr int kRays = 8;
+  const Eigen::Vector3d across = normal.unitOrthogonal();
+  const Eigen::Vector3d along = normal.cross(across);
+  for (int k = 0; k < kRays; ++k) {
+    const double azimuth = 2.4 * k;
+    const Eigen::Vector3d aside = 0.5 * kAbove_m * (std::cos(azimuth) * across + std::sin(azimuth) * along);
+    const Eigen::Vector3d way = aside - kAbove_m * normal;
+    const double range = way.norm();
+    const NearestHit hit = scene.nearest(sample.place.position - way, way / range, 0, 1.2 * range);
+    if (hit.facet == kNoFacet) continue;
+    const Facet facet = scene.facet(hit.facet);
+    const double off = std::abs(facet.normal.dot(sample.place.position) - facet.offset);
+    if (facet.product < sample.product && off < kOffSurface_m && std::abs(facet.normal.dot(normal)) > 0.999) return true;
+  }
+  return false;
+}
+
 bool sideIsOpen(const EmbreeScene& scene, const Eigen::Vector3d& place, const Eigen::Vector3d& normal) {
   const Eigen::Vector3d across = normal.unitOrthogonal();
   const Eigen::Vector3d along = normal.cross(across);
@@ -106,7 +127,8 @@ Result<SurfaceSamples> sampleSurfaces(const RayScene& scene, std::size_t count, 
   const auto& rays = static_cast<const EmbreeScene&>(scene);
   tbb::parallel_for(std::size_t{0}, result.samples.size(), [&](std::size_t k) {   // each into its own slot
     auto& s = result.samples[k];
-    s.exposed = sideIsOpen(rays, s.place.position, s.place.normal) || sideIsOpen(rays, s.place.position, -s.place.normal);
+    for (const Eigen::Vector3d& side : {s.place.normal, Eigen::Vector3d(-s.place.normal)})
+      s.exposed |= sideIsOpen(rays, s.place.position, side) && !belongsToEarlier(rays, s, side);
   });
   return result;
 }

@@ -13,7 +13,7 @@ namespace standpoint {
 struct SurfaceSample {
   SurfacePlace place;              // its normal is that of the triangle, whichever side is looked at
   std::uint32_t product = 0;
-  bool exposed = false;            // light gets there: not where bodies touch, nor inside of one
+  bool exposed = false;            // light gets there: not where bodies touch, nor inside of one; a face of two is the first's
 };
 
 struct SurfaceSamples {
