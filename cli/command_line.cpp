@@ -144,6 +144,8 @@ void printText(const Outcome& outcome, const Streams& streams) {
   for (const auto& issue : outcome.report.issues)
     streams.err << fmt::format("{}: {}{}{}\n", name(issue.severity), issue.source, issue.source.empty() ? "" : ": ", issue.message);
   if (!outcome.description.empty()) streams.out << outcome.description << "\n";
+  streams.out << outcome.text;
+  if (!outcome.text.empty()) return;
   for (const auto& [key, value] : outcome.answer.items())
     if (value.is_primitive() && key != "seconds") streams.out << fmt::format("  {}: {}\n", key, asText(value));
 }

@@ -42,12 +42,4 @@ std::int32_t materialOf(const MaterialAssignment& assignment, std::uint32_t prod
   return assigned == nullptr ? -1 : assigned->material;
 }
 
-std::int32_t materialOf(const MaterialAssignment& assignment, std::uint32_t product, std::uint32_t surface,
-                        const Eigen::Vector3d& normal) {
-  std::int32_t material = materialOf(assignment, product, surface);
-  for (const auto& face : assignedFaces(assignment, product, surface))
-    if (face.direction.dot(normal) >= kFaceCone) material = face.material;
-  return material;
-}
-
 }  // namespace standpoint

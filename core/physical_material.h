@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -72,13 +73,15 @@ struct AssignedSurface {
   double confidence = 0;       // 0..1, of the rule; 1 where the user said so
 };
 
-// Faces of a surface that the user gave another material: those that look within kFaceCone of a direction.
+// Faces of a surface that the user gave another material: those that look within kFaceCone of a direction, or of them only
+// what hangs together with the one at a point (AssignedTriangles finds it).
 struct AssignedFaces {
   std::uint32_t product = 0;
   std::uint32_t surface = 0;
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();   // unit, local frame
   std::int32_t material = -1;
   std::string reason;
+  std::optional<Eigen::Vector3d> point;   // local frame
 };
 constexpr double kFaceCone = 0.984807753012208;   // cos 10°
 
@@ -88,11 +91,7 @@ struct MaterialAssignment {
   std::vector<AssignedFaces> faces;          // sorted by (product, surface); of several that fit, the last one holds
 };
 
-// -1 when the pair is not assigned.
+// -1 when the pair is not assigned. Of the surface as a whole: single faces are asked of AssignedTriangles.
 std::int32_t materialOf(const MaterialAssignment& assignment, std::uint32_t product, std::uint32_t surface);
-
-// The same for one face with its unit normal in the local frame.
-std::int32_t materialOf(const MaterialAssignment& assignment, std::uint32_t product, std::uint32_t surface,
-                        const Eigen::Vector3d& normal);
 
 }  // namespace standpoint

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "core/face_normal.h"
+#include "core/face_patches.h"
 
 namespace standpoint {
 
@@ -19,10 +19,11 @@ class Splitter {
   void split(Environment& environment) {
     std::map<std::pair<std::uint32_t, std::vector<std::uint32_t>>, std::uint32_t> mesh_of;
     std::vector<std::shared_ptr<const Mesh>> meshes;
+    const AssignedTriangles triangles(environment, assignment_);
     for (auto& instance : environment.instances) {
       const auto& mesh = environment.meshes[instance.mesh];
       if (hasFaces(instance.product)) {
-        auto own = byFace(environment, instance);
+        auto own = byFace(environment, instance, triangles);
         instance.mesh = static_cast<std::uint32_t>(meshes.size());
         meshes.push_back(std::move(own));
         continue;
@@ -57,12 +58,12 @@ class Splitter {
     return found != faces.end() && found->product == product;
   }
 
-  std::shared_ptr<const Mesh> byFace(const Environment& environment, const Instance& instance) {
+  std::shared_ptr<const Mesh> byFace(const Environment& environment, const Instance& instance, const AssignedTriangles& triangles) {
     auto copy = std::make_shared<Mesh>(*environment.meshes[instance.mesh]);
-    for (std::size_t i = 0; i < copy->triangles.size(); ++i) {
+    const auto index = static_cast<std::uint32_t>(&instance - environment.instances.data());
+    for (std::uint32_t i = 0; i < copy->triangles.size(); ++i) {
       auto& surface = copy->surface_of_triangle[i];
-      const auto normal = placedNormal(*copy, copy->triangles[i], instance.world_from_mesh);
-      surface = surfaceFor(environment, surface, materialOf(assignment_, instance.product, surface, normal));
+      surface = surfaceFor(environment, surface, triangles.materialOf(index, i));
     }
     sortTriangles(*copy);
     return copy;

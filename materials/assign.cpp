@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/face_normal.h"
+#include "core/face_patches.h"
 #include "materials/areas.h"
 #include "materials/checks.h"
 #include "materials/colour.h"
@@ -22,13 +23,13 @@ namespace {
 class Assigner {
  public:
   Assigner(const Environment& environment, const std::vector<PhysicalMaterial>& library, const RuleSet& rules,
-           const std::vector<MaterialOverride>& overrides)
+           const std::vector<MaterialOverride>& overrides, const Eigen::Vector3d& shift_m)
       : environment_(environment),
         library_(library),
         rules_(rules),
         overrides_(overrides),
         matcher_(rules),
-        table_(environment, overrides),
+        table_(environment, overrides, shift_m),
         checks_(environment, library, rules, findings_) {
     for (std::size_t i = 0; i < library.size(); ++i) by_id_.emplace(library[i].id, static_cast<std::int32_t>(i));
   }
@@ -127,26 +128,24 @@ class Assigner {
     if (!isGap(material(result.material))) checks_.byRule(pair, material(result.material), decision, result.reason);
   }
 
-  // Of several directions that a face fits, the last holds.
   void assignFaces(const SurfaceOfProduct& pair, const std::vector<int>& said, const AssignedSurface& whole, bool in_scene) {
+    MaterialAssignment own;   // what is said of this surface, in indices of the library
+    own.surfaces.push_back(whole);
     for (const int index : said) {
       const auto& o = overrides_[static_cast<std::size_t>(index)];
-      faces_.push_back({pair.product, pair.surface, table_.direction(index), by_id_.at(o.material), "override " + o.selector});
+      own.faces.push_back({pair.product, pair.surface, table_.direction(index), by_id_.at(o.material), "override " + o.selector, table_.point(index)});
     }
+    faces_.insert(faces_.end(), own.faces.begin(), own.faces.end());
     if (!in_scene) return;
+    const AssignedTriangles triangles(environment_, own);
     std::map<std::int32_t, double> area;
     const auto& instances = environment_.instances;
     auto i = std::lower_bound(instances.begin(), instances.end(), pair.product, [](const Instance& a, std::uint32_t p) { return a.product < p; });
     for (; i != instances.end() && i->product == pair.product; ++i) {
       const Mesh& mesh = *environment_.meshes[i->mesh];
-      for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (mesh.surface_of_triangle[t] != pair.surface) continue;
-        const auto normal = placedNormal(mesh, mesh.triangles[t], i->world_from_mesh);
-        std::int32_t material = whole.material;
-        for (const int index : said)
-          if (table_.direction(index).dot(normal) >= kFaceCone) material = by_id_.at(overrides_[static_cast<std::size_t>(index)].material);
-        area[material] += placedArea(mesh, mesh.triangles[t], i->world_from_mesh);
-      }
+      for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        if (mesh.surface_of_triangle[t] == pair.surface)
+          area[triangles.materialOf(static_cast<std::uint32_t>(i - instances.begin()), t)] += placedArea(mesh, mesh.triangles[t], i->world_from_mesh);
     }
     for (const auto& [material, m2] : area) account(pair.product, material, material == whole.material ? whole.confidence : 1, m2);
   }
@@ -247,7 +246,7 @@ Result<MaterialResult> assignMaterials(const Environment& environment, const std
   progress.stage("Measuring surfaces", 0, 0.7);
   const auto pairs = measuredSurfaces(environment, progress);
   if (!pairs) return failure(pairs.error());
-  Assigner assigner(environment, library, rules, overrides);
+  Assigner assigner(environment, library, rules, overrides, options.shift_m);
   if (auto checked = assigner.checkIds(); !checked) return failure(checked.error());
   assigner.prepare();
   progress.stage("Assigning materials", 0.7, 1);

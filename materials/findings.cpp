@@ -81,11 +81,21 @@ std::vector<MaterialFinding> FindingCollector::findings(const Environment& envir
       if (seen.finding == finding.id && seen.cause == finding.cause) finding.because = seen.because;
     result.push_back(std::move(finding));
   }
-  std::stable_sort(result.begin(), result.end(), [](const MaterialFinding& a, const MaterialFinding& b) {
+  putInOrder(result);
+  return result;
+}
+
+void putInOrder(std::vector<MaterialFinding>& findings) {
+  std::stable_sort(findings.begin(), findings.end(), [](const MaterialFinding& a, const MaterialFinding& b) {
     const auto order = [](const MaterialFinding& f) { return std::tuple(!f.because.empty(), f.severity != "warning", -f.area_m2); };
     return order(a) < order(b);
   });
-  return result;
+}
+
+std::vector<std::string> assignWords(const Remedy& remedy, const std::string& material) {
+  std::vector<std::string> words{remedy.selector + "=" + material};
+  for (const auto& selector : remedy.more) words.push_back(selector + "=" + material);
+  return words;
 }
 
 }  // namespace standpoint

@@ -35,11 +35,13 @@ class FindingCollector {
   static void add(Extent& extent, std::uint32_t product, double area_m2);
   // One that no product stands for: it is about what the user said.
   void addAbout(Cause cause, std::string source);
-  // Those that nobody accepted first; of them warnings first, then by falling area.
   std::vector<MaterialFinding> findings(const Environment& environment, const std::vector<AcceptedFinding>& accepted) const;
 
  private:
   std::map<std::pair<std::string, std::string>, Extent> extents_;   // by kind and subject
 };
+
+// Those that nobody accepted first; of them warnings first, then by falling area.
+void putInOrder(std::vector<MaterialFinding>& findings);
 
 }  // namespace standpoint

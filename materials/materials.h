@@ -46,6 +46,7 @@ struct AssignmentRule {
   std::string type;           // name of the product's type
   std::string storey;
   std::string group;          // "IfcSystem Heating", or what else the product is assigned to
+  std::string layer;          // one of the drawing's, on which the product's shape lies: "A-WALL"
   std::optional<ValueRange> metallic, roughness, transmission;   // of the surface; where the file is silent, it does not fit
   std::string place;          // "rule 14 of default.json"
 };
@@ -79,7 +80,8 @@ Result<std::string> readRulesText(const std::filesystem::path& file);
 
 // What the user says for some products or surfaces; later ones win over earlier ones and all win over rules.
 // A selector is `#id`, a GlobalId, or conditions joined by `&`: class:IfcWall, type:…, name:*glass*, storey:…, group:…,
-// material:…, colour:red. With @x,y,z behind it, it means only the faces that look within 10° of that direction.
+// layer:…, material:…, colour:red. With @x,y,z behind it, it means only the faces that look within 10° of that direction;
+// with @x,y,z@X,Y,Z only that one of them which is at this point of the file frame, as far as it reaches over shared edges.
 struct MaterialOverride {
   std::string selector;
   std::string material;       // PhysicalMaterial::id
@@ -109,7 +111,11 @@ struct Remedy {
   std::string text;           // "take them for glass"
   std::string selector;
   std::string material;
+  std::vector<std::string> more = {};   // selectors that it goes for as well
 };
+// What the verb `materials` takes as `assign` to follow it with that material.
+std::vector<std::string> assignWords(const Remedy& remedy, const std::string& material);
+
 struct MaterialFinding {
   std::string severity;       // "warning", "note"
   std::string source;         // "#1234", the first product
@@ -149,6 +155,7 @@ constexpr double kWeakConfidence = 0.5;
 struct AssignOptions {
   std::vector<AcceptedFinding> accepted;
   std::vector<double> wavelengths_nm;     // of the instruments that shall scan: a material without data there is a finding
+  Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();   // Georeference::shift_m: selectors name points of the file frame
 };
 
 Result<MaterialResult> assignMaterials(const Environment& environment, const std::vector<PhysicalMaterial>& library,

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/presentation_layers.h"
 #include "materials/colour.h"
 
 namespace standpoint {
@@ -32,7 +33,7 @@ RuleMatcher::RuleMatcher(const RuleSet& set) : set_(set), words_(set.words) {
   for (const auto& rule : set.rules) {
     const auto pattern = [&](const std::string& text) { return Pattern(text, words_); };
     patterns_.push_back({pattern(rule.ifc_class), pattern(rule.material), pattern(rule.name), pattern(rule.type),
-                         pattern(rule.storey), pattern(rule.group), pattern(rule.colour)});
+                         pattern(rule.storey), pattern(rule.group), pattern(rule.layer), pattern(rule.colour)});
   }
   all_pass_.assign(patterns_.size(), true);
   asks_name_ = asks(&RulePatterns::name);
@@ -101,6 +102,11 @@ bool RuleMatcher::passesGroups(std::size_t rule, const Product& product) {
                      [&](const std::string& group) { return passes(groups_, &RulePatterns::group, group)[rule]; });
 }
 
+bool RuleMatcher::passesLayers(std::size_t rule, const Product& product) {
+  return patterns_[rule].layer.empty() ||
+         anyPresentationLayer(product, [&](const std::string& name) { return passes(layers_, &RulePatterns::layer, name)[rule]; });
+}
+
 RuleMatcher::Decision RuleMatcher::decide(const Product& product, const Surface& surface, bool by_names) {
   const auto band = colourBand(surface);
   auto decision = knownMaterial(product, surface, by_names);
@@ -110,7 +116,7 @@ RuleMatcher::Decision RuleMatcher::decide(const Product& product, const Surface&
   const auto& by_type = asks_type_ ? passes(types_, &RulePatterns::type, product.type_name) : all_pass_;
   const auto& by_storey = passes(storeys_, &RulePatterns::storey, product.storey);
   for (std::size_t i = 0; i < patterns_.size(); ++i) {
-    if (!by_class[i] || !by_material[i] || !by_name[i] || !by_type[i] || !by_storey[i] || !passesGroups(i, product)) continue;
+    if (!by_class[i] || !by_material[i] || !by_name[i] || !by_type[i] || !by_storey[i] || !passesGroups(i, product) || !passesLayers(i, product)) continue;
     const auto& rule = set_.rules[i];
     if (!rule.colour.empty() && (band.empty() || patterns_[i].colour.fit(band) < 0)) continue;
     if (!within(rule.metallic, surface.metallic) || !within(rule.roughness, surface.roughness) || !within(rule.transmission, surface.transmission)) continue;
@@ -140,6 +146,7 @@ std::string RuleMatcher::reason(const Decision& decision, const Product& product
   if (!rule.type.empty()) add(fmt::format("type '{}' ({})", product.type_name, found(patterns.type, product.type_name)));
   if (!rule.storey.empty()) add("storey '" + product.storey + "'");
   if (!rule.group.empty()) add("group " + rule.group);
+  if (!rule.layer.empty()) add("layer " + rule.layer);
   if (!rule.colour.empty()) {
     std::string colour = "colour " + std::string(colourBand(surface));
     if (isTransparent(surface) && !isTransparent(surface.colour)) {

@@ -37,7 +37,7 @@ class RuleMatcher {
 
  private:
   struct RulePatterns {
-    Pattern ifc_class, material, name, type, storey, group, colour;
+    Pattern ifc_class, material, name, type, storey, group, layer, colour;
   };
   using Field = Pattern RulePatterns::*;
   using Memo = std::map<std::string, std::vector<bool>, std::less<>>;   // by name: for each rule, whether it lets that pass
@@ -45,6 +45,7 @@ class RuleMatcher {
   const std::vector<bool>& passes(Memo& memo, Field field, const std::string& text);
   bool asks(Field field) const;
   bool passesGroups(std::size_t rule, const Product& product);
+  bool passesLayers(std::size_t rule, const Product& product);
   // By the first rule that asks for a material and fits the name.
   enum class Known { no, hidden, visible };
   Known known(const std::string& material_name);
@@ -55,7 +56,7 @@ class RuleMatcher {
   std::vector<RulePatterns> patterns_;
   std::vector<bool> all_pass_;          // for what no rule asks of
   bool asks_name_ = false, asks_type_ = false;
-  Memo classes_, materials_, names_, types_, storeys_, groups_;
+  Memo classes_, materials_, names_, types_, storeys_, groups_, layers_;
   std::map<std::string, Known, std::less<>> known_;
 };
 

@@ -108,7 +108,7 @@ class RulesReader {
   }
 
   Result<AssignmentRule> readRule(const nlohmann::json& entry, const JsonPlace& at) const {
-    if (auto checked = checkKeys(entry, at, {"ifc_class", "material", "name", "type", "storey", "group", "colour", "metallic", "roughness",
+    if (auto checked = checkKeys(entry, at, {"ifc_class", "material", "name", "type", "storey", "group", "layer", "colour", "metallic", "roughness",
                                              "transmission", "assign", "hidden", "confidence"});
         !checked)
       return failure(checked.error());
@@ -116,7 +116,8 @@ class RulesReader {
     bool asks = false;
     for (const auto& [key, field] :
          {std::pair{"ifc_class", &AssignmentRule::ifc_class}, {"material", &AssignmentRule::material}, {"name", &AssignmentRule::name},
-          {"type", &AssignmentRule::type}, {"storey", &AssignmentRule::storey}, {"group", &AssignmentRule::group}, {"colour", &AssignmentRule::colour}}) {
+          {"type", &AssignmentRule::type}, {"storey", &AssignmentRule::storey}, {"group", &AssignmentRule::group},
+          {"layer", &AssignmentRule::layer}, {"colour", &AssignmentRule::colour}}) {
       auto pattern = readPattern(entry, at, key);
       if (!pattern) return failure(pattern.error());
       asks = asks || !pattern->empty();

@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 
+#include "core/presentation_layers.h"
 #include "materials/colour.h"
 #include "materials/materials.h"
 
@@ -12,7 +13,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> kKinds = {"class", "type", "name", "storey", "group", "material", "colour"};
+constexpr std::array<std::string_view, 8> kKinds = {"class", "type", "name", "storey", "group", "layer", "material", "colour"};
 
 struct Condition {
   std::string_view kind;  // "class", …; empty: an id or a GlobalId
@@ -33,22 +34,44 @@ std::size_t endOfCondition(std::string_view text) {
   return text.size();
 }
 
-// "@0,0,1" at the end; nothing when what follows an @ is no direction.
-std::optional<Eigen::Vector3d> takeDirection(std::string_view& text) {
+// "@1,2,3" at the end; nothing when what follows an @ is none.
+std::optional<Eigen::Vector3d> takeTriple(std::string_view& text) {
   const auto at = text.rfind('@');
   if (at == std::string_view::npos) return std::nullopt;
-  Eigen::Vector3d direction;
+  Eigen::Vector3d triple;
   const char* place = text.data() + at + 1;
   const char* const end = text.data() + text.size();
   for (int k = 0; k < 3; ++k) {
-    const auto [next, error] = std::from_chars(place, end, direction[k]);
+    const auto [next, error] = std::from_chars(place, end, triple[k]);
     if (error != std::errc() || (k < 2 ? next == end || *next != ',' : next != end)) return std::nullopt;
     place = next + 1;
   }
-  const double length = direction.norm();
-  if (!(length > 1e-9 && length < 1e9)) return std::nullopt;
+  if (!(triple.norm() < 1e9)) return std::nullopt;
   text = text.substr(0, at);
-  return direction / length;
+  return triple;
+}
+
+struct Faces {
+  std::optional<Eigen::Vector3d> direction, point;
+};
+
+// "@0,0,1", or with a point "@0,0,1@4.5,2,0.8"; both empty when what stands there is no direction.
+Faces takeFaces(std::string_view& text) {
+  const auto whole = text;
+  Faces faces;
+  faces.direction = takeTriple(text);
+  if (!faces.direction) return {};
+  if (auto before = takeTriple(text)) {
+    faces.point = faces.direction;
+    faces.direction = before;
+  }
+  const double length = faces.direction->norm();
+  if (length > 1e-9) {
+    *faces.direction /= length;
+    return faces;
+  }
+  text = whole;
+  return {};
 }
 
 bool fitsAny(const Pattern& pattern, const std::vector<std::string>& names) {
@@ -61,6 +84,7 @@ bool fits(const Condition& condition, const Pattern& pattern, const Product& pro
   if (condition.kind == "name") return pattern.fit(folded(product.name)) >= 0;
   if (condition.kind == "storey") return pattern.fit(folded(product.storey)) >= 0;
   if (condition.kind == "group") return fitsAny(pattern, product.groups);
+  if (condition.kind == "layer") return anyPresentationLayer(product, [&](const std::string& name) { return pattern.fit(folded(name)) >= 0; });
   return !condition.value.empty() && (product.id == condition.value || product.global_id == condition.value);
 }
 
@@ -68,7 +92,9 @@ bool fits(const Condition& condition, const Pattern& pattern, const Product& pro
 
 Selector::Selector(const Environment& environment, std::string_view text)
     : environment_(environment), of_product_(environment.products.size(), true) {
-  direction_ = takeDirection(text);
+  const auto faces = takeFaces(text);
+  direction_ = faces.direction;
+  point_ = faces.point;
   for (;;) {
     const auto end = endOfCondition(text);
     add(text.substr(0, end));
@@ -121,7 +147,7 @@ std::vector<std::uint32_t> select(const Environment& environment, const std::str
 }
 
 std::string_view selectedProduct(std::string_view selector) {
-  takeDirection(selector);
+  takeFaces(selector);
   const auto first = selector.substr(0, endOfCondition(selector));
   return parsed(first).kind.empty() ? first : std::string_view();
 }

@@ -23,6 +23,7 @@ class Selector {
   bool fits(std::uint32_t product, std::uint32_t surface) const;
   bool asksSurface() const { return !materials_.empty() || !colours_.empty(); }
   const std::optional<Eigen::Vector3d>& direction() const { return direction_; }   // unit
+  const std::optional<Eigen::Vector3d>& point() const { return point_; }           // file frame; only with a direction
 
  private:
   struct Named {
@@ -34,7 +35,7 @@ class Selector {
   std::vector<bool> of_product_;
   std::vector<Named> materials_;
   std::vector<std::vector<bool>> colours_;   // by surface
-  std::optional<Eigen::Vector3d> direction_;
+  std::optional<Eigen::Vector3d> direction_, point_;
 };
 
 }  // namespace standpoint

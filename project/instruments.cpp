@@ -1,13 +1,100 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "project/instruments.h"
 
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "project/verb.h"
 
 namespace standpoint {
 
-Result<std::vector<Instrument>> shippedInstruments() { return readInstruments(dataFolder() / "scanners" / "instruments"); }
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path environmentPath(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value == nullptr ? fs::path() : fs::path(value);
+}
+
+Result<void> addFrom(std::vector<KnownInstrument>& known, const fs::path& folder, bool own) {
+  auto instruments = readInstruments(folder);
+  if (!instruments) {
+    Error error = instruments.error();
+    if (own) error.message += fmt::format(" (in your own instruments, {})", folder.string());
+    return failure(std::move(error));
+  }
+  for (auto& i : *instruments) {
+    const fs::path file = folder / (i.id + ".json");
+    for (const auto& k : known)
+      if (k.instrument.id == i.id)
+        return failure(ErrorKind::unusable, fmt::format("the id '{}' is that of {}, too: give one of the files another",
+                                                        i.id, k.file.string()), file.string());
+    known.push_back({std::move(i), file, own});
+  }
+  return {};
+}
+
+// A file's name on every system, and a word on the command line.
+bool isId(const std::string& id) {
+  constexpr std::string_view kFit = "abcdefghijklmnopqrstuvwxyz0123456789-_";
+  return !id.empty() && id.size() <= 64 && id.front() != '-' && id.find_first_not_of(kFit) == id.npos && id != "schema";
+}
+
+// The value of the first "id" is the instrument's own: its other groups have none.
+bool exchangeId(std::string& text, const std::string& id, const std::string& new_id) {
+  const auto key = text.find("\"id\"");
+  const auto value = key == text.npos ? text.npos : text.find('"' + id + '"', key + 4);
+  if (value == text.npos) return false;
+  text.replace(value + 1, id.size(), new_id);
+  return true;
+}
+
+Result<void> writeNew(const fs::path& file, const std::string& text) {
+  std::error_code code;
+  fs::create_directories(file.parent_path(), code);
+  if (code) return failure(ErrorKind::file_system, "cannot be created: " + code.message(), file.parent_path().string());
+  if (fs::exists(file, code)) return failure(ErrorKind::usage, "there is such a file already", file.string());
+  std::ofstream stream(file, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (stream) return {};
+  fs::remove(file, code);
+  return failure(ErrorKind::file_system, "cannot be written", file.string());
+}
+
+}  // namespace
+
+fs::path shippedInstrumentsFolder() { return dataFolder() / "scanners" / "instruments"; }
+
+fs::path ownInstrumentsFolder() {
+  if (auto folder = environmentPath("STANDPOINT_INSTRUMENTS"); !folder.empty()) return folder;
+  if (auto config = environmentPath("XDG_CONFIG_HOME"); !config.empty()) return config / "standpoint" / "instruments";
+  const auto home = environmentPath("HOME");
+  return home.empty() ? fs::path() : home / ".config" / "standpoint" / "instruments";
+}
+
+Result<std::vector<KnownInstrument>> instrumentsWithFiles() {
+  std::vector<KnownInstrument> known;
+  if (auto shipped = addFrom(known, shippedInstrumentsFolder(), false); !shipped) return failure(shipped.error());
+  std::error_code code;
+  if (const auto own = ownInstrumentsFolder(); !own.empty() && fs::is_directory(own, code))
+    if (auto added = addFrom(known, own, true); !added) return failure(added.error());
+  return known;
+}
+
+Result<std::vector<Instrument>> knownInstruments() {
+  auto known = instrumentsWithFiles();
+  if (!known) return failure(known.error());
+  std::vector<Instrument> instruments;
+  for (auto& k : *known) instruments.push_back(std::move(k.instrument));
+  return instruments;
+}
 
 std::string idsOf(const std::vector<Instrument>& instruments) {
   std::string ids;
@@ -16,11 +103,37 @@ std::string idsOf(const std::vector<Instrument>& instruments) {
 }
 
 Result<Instrument> instrumentById(const std::string& id) {
-  auto all = shippedInstruments();
+  auto all = knownInstruments();
   if (!all) return failure(all.error());
   for (auto& i : *all)
     if (i.id == id) return std::move(i);
   return failure(ErrorKind::usage, fmt::format("there is no instrument '{}'; there is {}", id, idsOf(*all)), "--instrument");
+}
+
+Result<fs::path> copyInstrument(const std::string& id, const std::string& new_id) {
+  const auto known = instrumentsWithFiles();
+  if (!known) return failure(known.error());
+  const auto named = [&](const std::string& wanted) {
+    const auto is = [&](const KnownInstrument& k) { return k.instrument.id == wanted; };
+    return std::find_if(known->begin(), known->end(), is);
+  };
+  const auto original = named(id);
+  if (original == known->end())
+    return failure(ErrorKind::usage, fmt::format("there is no instrument '{}'", id), "--copy");
+  if (!isId(new_id))
+    return failure(ErrorKind::usage, "an id has small letters, digits, - and _, and 64 of them at most", "--as");
+  if (const auto taken = named(new_id); taken != known->end())
+    return failure(ErrorKind::usage, fmt::format("'{}' is the id of {}", new_id, taken->file.string()), "--as");
+  const fs::path folder = ownInstrumentsFolder();
+  if (folder.empty())
+    return failure(ErrorKind::usage, "there is no folder for own instruments: set STANDPOINT_INSTRUMENTS", "--copy");
+  std::ifstream stream(original->file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (!exchangeId(text, id, new_id))
+    return failure(ErrorKind::internal, "its id was not found", original->file.string());
+  const fs::path file = folder / (new_id + ".json");
+  if (auto written = writeNew(file, text); !written) return failure(written.error());
+  return file;
 }
 
 }  // namespace standpoint

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -9,10 +10,23 @@
 
 namespace standpoint {
 
-Result<std::vector<Instrument>> shippedInstruments();
+std::filesystem::path shippedInstrumentsFolder();
+// Where the user's own lie: STANDPOINT_INSTRUMENTS, else XDG_CONFIG_HOME/standpoint/instruments. It need not be there.
+std::filesystem::path ownInstrumentsFolder();
+
+struct KnownInstrument {
+  Instrument instrument;
+  std::filesystem::path file;
+  bool own = false;
+};
+// The shipped ones, then the user's own. An id in both folders is an error that names both files.
+Result<std::vector<KnownInstrument>> instrumentsWithFiles();
+Result<std::vector<Instrument>> knownInstruments();
 // "leica-p40, leica-rtc360, …": what an error offers.
 std::string idsOf(const std::vector<Instrument>& instruments);
 // By id; an unknown one is an error of --instrument that lists those there are.
 Result<Instrument> instrumentById(const std::string& id);
+// Writes the file of an instrument under another id into the user's folder; gives the new file.
+Result<std::filesystem::path> copyInstrument(const std::string& id, const std::string& new_id);
 
 }  // namespace standpoint

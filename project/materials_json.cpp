@@ -142,8 +142,10 @@ json materialsToJson(const MaterialChoice& choice) {
   Reasons reasons;
   json surfaces = json::array(), faces = json::array();
   for (const auto& s : assignment.surfaces) surfaces.push_back({s.product, s.surface, s.material, reasons.place(s.reason), s.confidence});
-  for (const auto& f : assignment.faces)
+  for (const auto& f : assignment.faces) {
     faces.push_back({f.product, f.surface, toJson(f.direction), f.material, reasons.place(f.reason)});
+    if (f.point) faces.back().push_back(toJson(*f.point));
+  }
   return {{"rules_file", choice.rules_file}, {"rules_text", choice.rules_text}, {"own", own}, {"overrides", overrides},
           {"accepted", accepted}, {"instrument", choice.instrument}, {"materials", materials}, {"surfaces", surfaces},
           {"faces", faces}, {"reasons", reasons.texts()}, {"report", reportToJson(choice.result.report)}};
@@ -162,8 +164,10 @@ MaterialChoice materialsFrom(const json& j) {
   const json reasons = j.value("reasons", json::array());
   for (const auto& s : j.at("surfaces"))
     assignment.surfaces.push_back({s.at(0), s.at(1), s.at(2), reasonFrom(s.at(3), reasons), s.size() > 4 ? s.at(4).get<double>() : 1.0});
-  for (const auto& f : j.value("faces", json::array()))
-    assignment.faces.push_back({f.at(0), f.at(1), vectorFrom(f.at(2)), f.at(3), reasonFrom(f.at(4), reasons)});
+  for (const auto& f : j.value("faces", json::array())) {
+    assignment.faces.push_back({f.at(0), f.at(1), vectorFrom(f.at(2)), f.at(3), reasonFrom(f.at(4), reasons), {}});
+    if (f.size() > 5) assignment.faces.back().point = vectorFrom(f.at(5));   // later than faces by direction
+  }
   choice.result.report = reportFrom(j.at("report"));
   return choice;
 }

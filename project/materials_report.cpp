@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "project/material_findings.h"
+
 namespace standpoint {
 
 namespace {
@@ -68,7 +70,7 @@ std::string htmlReport(const Document& document) {
   for (const auto& use : report.uses) text += materialRow(use, materialOfUse(result, use));
   text += "</table>\n<p>Diffuse reflectance at normal incidence; F0: specular reflectance; T: panes × transmittance of one.</p>\n";
   text += "<h2>Findings</h2>\n<table><tr><th>Kind<th>Finding<th>Why<th>State</tr>\n";
-  for (const auto& f : report.findings)
+  for (const auto& f : materialFindings(document))
     text += fmt::format("<tr><td>{}<td>{}<td>{}<td>{}</tr>\n", html(f.kind), html(f.message), html(f.why),
                         f.because.empty() ? "open (" + f.severity + ")" : "accepted: " + html(f.because));
   return text + "</table>\n</body></html>\n";

@@ -7,7 +7,9 @@
 
 #include "project/answers.h"
 #include "project/instruments.h"
+#include "project/material_findings.h"
 #include "project/materials_report.h"
+#include "project/materials_text.h"
 #include "project/model_verbs.h"
 #include "scanners/instrument.h"
 
@@ -31,7 +33,7 @@ json findingAnswer(const Environment& environment, const MaterialFinding& f) {
   json remedies = json::array();
   for (const auto& r : f.remedies) {
     json remedy = {{"text", r.text}, {"selector", r.selector}};
-    if (!r.material.empty()) remedy["options"] = {{"assign", {r.selector + "=" + r.material}}};   // of this verb: one click
+    if (!r.material.empty()) remedy["options"] = {{"assign", assignWords(r, r.material)}};   // of this verb: one click
     remedies.push_back(std::move(remedy));
   }
   json row = {{"id", f.id}, {"kind", f.kind}, {"severity", f.severity}, {"source", f.source}, {"message", f.message}, {"why", f.why},
@@ -73,7 +75,7 @@ json surfaceReasons(const Environment& environment, const MaterialAssignment& as
   return result;
 }
 
-json materialAnswer(const Environment& environment, const MaterialChoice& choice) {
+json materialAnswer(const Environment& environment, const MaterialChoice& choice, const std::vector<MaterialFinding>& all) {
   const auto& report = choice.result.report;
   json uses = json::array();
   for (const auto& use : report.uses)
@@ -82,7 +84,7 @@ json materialAnswer(const Environment& environment, const MaterialChoice& choice
                     {"products", productIds(environment, use.products)}});
   json findings = json::array();
   std::size_t open = 0;
-  for (const auto& f : report.findings) {
+  for (const auto& f : all) {
     findings.push_back(findingAnswer(environment, f));
     open += f.because.empty() ? 1 : 0;
   }
@@ -152,7 +154,7 @@ Result<std::vector<double>> wavelengths(const Document& document, const std::str
     for (const auto& station : document.job->stations)
       for (const auto& scan : station.scans) ids.push_back(scan.instrument);
   if (ids.empty()) return std::vector<double>();
-  const auto instruments = shippedInstruments();
+  const auto instruments = knownInstruments();
   if (!instruments) return failure(instruments.error());
   std::vector<double> result;
   for (const auto& each : *instruments)
@@ -164,11 +166,10 @@ Result<std::vector<double>> wavelengths(const Document& document, const std::str
 }
 
 // Takes up or lets go of what the user accepted. Acceptances whose finding has another cause by now do not hold.
-Result<bool> judge(MaterialChoice& choice, const MaterialRequest& request) {
+Result<bool> judge(MaterialChoice& choice, const std::vector<MaterialFinding>& findings, const MaterialRequest& request) {
   if (request.accept.empty() && request.reopen.empty()) return false;
   if (!request.accept.empty() && request.because.find_first_not_of(" \t\n") == std::string::npos)
     return failure(ErrorKind::usage, "a finding is accepted because of something: say what", "because");
-  const auto& findings = choice.result.report.findings;
   for (const auto& id : request.reopen)
     if (std::erase_if(choice.accepted, [&](const AcceptedFinding& a) { return a.finding == id; }) == 0)
       return failure(ErrorKind::usage, "no such finding was accepted", id);
@@ -214,25 +215,31 @@ Result<Outcome> assignDocumentMaterials(const Document& document, const Material
   if (!rules) return failure(rules.error());
   auto waves = wavelengths(document, choice.instrument);
   if (!waves) return failure(waves.error());
-  AssignOptions options{choice.accepted, std::move(*waves)};
+  AssignOptions options{choice.accepted, std::move(*waves), document.georeference ? document.georeference->shift_m : Eigen::Vector3d::Zero()};
   const auto& environment = *document.environment();
   auto result = assignMaterials(environment, library, *rules, choice.overrides, options, progress);
   if (!result) return failure(result.error());
   choice.result = *std::move(result);
-  const auto judged = judge(choice, request);
+  Document done = document;
+  done.materials = std::make_shared<const MaterialChoice>(choice);
+  const auto judged = judge(choice, materialFindings(done), request);
   if (!judged) return failure(judged.error());
   if (*judged) {
     options.accepted = choice.accepted;
     choice.result = assignMaterials(environment, library, *rules, choice.overrides, options, progress).value();
+    done.materials = std::make_shared<const MaterialChoice>(choice);
   }
-  Outcome outcome{document, materialAnswer(environment, choice), {}, description(request, choice.result.report)};
+  Outcome outcome{std::move(done), {}, {}, description(request, choice.result.report)};
+  outcome.answer = materialAnswer(environment, choice, materialFindings(outcome.document));
   for (auto& news : taken) {
     json used = json::array();
     for (const auto& id : news["changed"]) used.push_back(whereAnswer(environment, choice.result, id));
     news["used"] = std::move(used);
   }
   if (!taken.empty()) outcome.answer["libraries"] = std::move(taken);
-  outcome.document.materials = std::make_shared<const MaterialChoice>(std::move(choice));
+  MaterialReport shown = choice.result.report;
+  shown.findings = materialFindings(outcome.document);
+  outcome.text = materialsText(environment, shown) + libraryText(outcome.answer);
   return outcome;
 }
 
@@ -259,6 +266,7 @@ Result<Outcome> runMaterials(const Document& document, const json& options, Prog
     if (std::none_of(library.begin(), library.end(), [&](const PhysicalMaterial& m) { return m.id == id; }))
       return failure(ErrorKind::usage, "it is not in the library of materials", id);
     outcome->answer["where"] = whereAnswer(*document.environment(), choice.result, id);
+    outcome->text = whereText(outcome->answer["where"]);
   }
   if (const auto file = options.value("report", ""); !file.empty())
     if (auto written = writeMaterialReport(outcome->document, file); !written) return failure(written.error());

@@ -8,6 +8,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "project/shared_faces.h"
+
 namespace standpoint {
 
 namespace {
@@ -17,9 +19,7 @@ constexpr std::size_t kBlock = 1 << 16;
 // Product, surface, and the index of what is assigned there: single faces may have a material of their own.
 using GroupKey = std::array<std::uint32_t, 3>;
 
-GroupKey keyOf(const MaterialAssignment& assignment, const MetSurface& met) {
-  return {met.product, met.surface, static_cast<std::uint32_t>(materialOf(assignment, met.product, met.surface, met.normal) + 1)};
-}
+GroupKey keyOf(const MetSurface& met) { return {met.product, met.surface, static_cast<std::uint32_t>(met.material + 1)}; }
 
 }  // namespace
 
@@ -31,6 +31,8 @@ Result<MeasuredReturns> measuredReturns(const Document& document, const CloudSam
   const auto count = sample.position.size();
   std::vector<MetSurface> met(count);
   std::vector<std::uint8_t> counts(count, 0);   // of what has a station and is a number
+  const auto& assignment = document.materials->result.assignment;
+  const SharedFaces shared(*document.environment(), assignment);
   MeasuredReturns result;
   for (std::size_t from = 0; from < count; from += kBlock) {
     if (auto go_on = progress.check(); !go_on) return failure(go_on.error());
@@ -41,12 +43,15 @@ Result<MeasuredReturns> measuredReturns(const Document& document, const CloudSam
       if (!station || !sample.position[i].allFinite() || !std::isfinite(sample.intensity[i])) return;
       met[i] = meetSurface(expectation, local_from_cloud * *station, local_from_cloud * sample.position[i], tolerance);
       counts[i] = 1;
+      if (met[i].meeting != BeamMeeting::met) return;
+      const Eigen::Vector3d place = local_from_cloud * sample.position[i] + met[i].normal * met[i].off_m;
+      if (shared.at(place, met[i].normal, met[i].material))
+        met[i].meeting = BeamMeeting::shared;
     });
   }
-  const auto& assignment = document.materials->result.assignment;
   std::map<GroupKey, std::uint32_t> group_of;
   for (std::size_t i = 0; i < count; ++i)
-    if (counts[i] != 0 && met[i].meeting == BeamMeeting::met) group_of.emplace(keyOf(assignment, met[i]), 0);
+    if (counts[i] != 0 && met[i].meeting == BeamMeeting::met) group_of.emplace(keyOf(met[i]), 0);
   std::map<std::string, std::int32_t> by_id;
   for (std::size_t m = 0; m < library.size(); ++m) by_id[library[m].id] = static_cast<std::int32_t>(m);
   for (auto& [key, group] : group_of) {
@@ -65,13 +70,13 @@ Result<MeasuredReturns> measuredReturns(const Document& document, const CloudSam
     const auto& m = met[i];
     ++result.meetings[static_cast<std::size_t>(m.meeting)];
     if (m.meeting == BeamMeeting::behind) ++result.behind[m.product];
-    const bool on = m.meeting == BeamMeeting::met || m.meeting == BeamMeeting::edge;
+    const bool on = m.meeting == BeamMeeting::met || m.meeting == BeamMeeting::edge || m.meeting == BeamMeeting::shared;
     if (!on && m.meeting != BeamMeeting::near) continue;
     off.push_back(static_cast<float>(std::abs(m.off_m)));
     if (!on) continue;
     ++result.on[m.product];
-    if (m.meeting == BeamMeeting::edge) continue;
-    result.returns.push_back({sample.intensity[i], static_cast<float>(m.range_m), static_cast<float>(m.cosine), group_of.at(keyOf(assignment, m))});
+    if (m.meeting != BeamMeeting::met) continue;
+    result.returns.push_back({sample.intensity[i], static_cast<float>(m.range_m), static_cast<float>(m.cosine), group_of.at(keyOf(m))});
   }
   if (!off.empty()) {
     const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);

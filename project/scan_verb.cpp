@@ -97,12 +97,30 @@ fs::path fileOf(const ScanRequest& request, const Station& station) {
 
 std::uint64_t mix(std::uint64_t hash, const std::string& text) { return stableHash(text.c_str(), hash); }
 
+Result<Effects> effectsFrom(const json& options) {
+  if (options.value("ideal", false)) {
+    if (options.contains("without"))
+      return failure(ErrorKind::usage, "an ideal scan is without all effects already", "--without");
+    return Effects::none();
+  }
+  return options.contains("without") ? effectsWithout(options["without"].get<std::string>()) : Result<Effects>(Effects());
+}
+
+// ", ideal", ", without striping, footprint", or nothing.
+std::string withoutText(Effects effects) {
+  if (effects == Effects::none()) return ", ideal";
+  std::string text;
+  for (const auto& [effect, name, description] : effectNames())
+    if (!effects.has(effect)) text += (text.empty() ? ", without " : ", ") + std::string(name);
+  return text;
+}
+
 // 128 bits of what the scan is, written as a version-8 UUID: the same scan has the same guid, another has another.
 std::string guidOf(const ScanWorld& world, const Station& station, const ScanRequest& request) {
   std::uint64_t a = stableHash("standpoint scan");
   a = mix(a, request.instrument.id);
   for (const auto& [key, value] : request.settings.values) a = mix(mix(a, key), value);
-  a = mix(a, fmt::format("{} {} {}", request.options.seed, request.options.ideal, station.name));
+  a = mix(a, fmt::format("{} {} {}", request.options.seed, request.options.effects.bits(), station.name));
   std::uint64_t b = mix(a, fmt::format("{} {} {}", station.true_pose.translation.x(), station.true_pose.translation.y(),
                                        station.true_pose.translation.z()));
   for (const auto& i : world.environment->instances) {
@@ -126,18 +144,22 @@ ScanHeader headerOf(const Document& document, const ScanWorld& world, const Stat
   for (const auto& [key, value] : request.settings.values) words.push_back(key + "=" + value);
   h.description = fmt::format("Simulated by Standpoint: {} {}, {}, seed {}{}", request.instrument.maker,
                               request.instrument.model, fmt::join(words, " "), request.options.seed,
-                              request.options.ideal ? ", ideal" : "");
+                              withoutText(request.options.effects));
   h.file_from_scanner = station.true_pose;
   h.file_from_scanner.translation += g.shift_m;
   h.rows = request.settings.rows;
   h.columns = request.settings.columns;
   h.has_colour = request.settings.imaging;
   h.has_labels = true;
+  h.has_time = request.options.channels.time;
+  h.has_returns = request.options.channels.returns;
+  h.has_truth = request.options.channels.truth;
   h.acquisition_start_gps_s = start_gps_s;
   h.acquisition_seconds = request.settings.scan_seconds + request.settings.imaging_seconds;
   if (!g.crs.empty() && !g.map_from_file)
     if (const auto crs = findCrs(g.crs)) h.coordinate_metadata = crs->wkt;
   for (const auto& p : world.environment->products) h.products.push_back({p.id, p.global_id, p.ifc_class, p.name});
+  h.products.push_back({"", "", "Nothing", "no surface"});   // the label of a drop, or of the receiver's own noise
   for (const auto& m : world.assignment.materials) h.materials.push_back(m.id);
   h.materials.emplace_back("unassigned");  // the label of a point whose surface has no material
   return h;
@@ -157,7 +179,15 @@ Result<ScanRequest> requestFrom(const Document& document, const json& options) {
   if (!settings) return failure(settings.error());
   request.settings = *std::move(settings);
   request.options.seed = options.at("seed").get<std::uint64_t>();
-  request.options.ideal = options.value("ideal", false);
+  if (auto effects = effectsFrom(options); effects) request.options.effects = *effects;
+  else return failure(effects.error());
+  if (options.contains("weather")) {
+    auto weather = weatherFrom(options["weather"].get<std::string>());
+    if (!weather) return failure(weather.error());
+    request.options.weather = *weather;
+  }
+  const bool truth = options.value("truth", false);
+  request.options.channels = {.time = truth, .returns = truth || request.instrument.waveform.most_returns > 1, .truth = truth};
   request.options.threads = options.at("threads").get<int>();
   auto stations = stationsFrom(*document.job, options.at("stations").get<std::string>());
   if (!stations) return failure(stations.error());

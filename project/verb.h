@@ -48,12 +48,14 @@ enum class VerbScope {
   files,     // no document at all
 };
 
-// What a verb gives back. `answer` is what --json prints; `description` is the undo list's line ("Moved station S2 by 0.35 m").
+// What a verb gives back. `answer` is what --json prints; `description` is the undo list's line ("Moved station S2 by 0.35 m");
+// `text` is what people read below it on the command line, where the plain figures of `answer` do not say enough.
 struct Outcome {
   Document document;
   nlohmann::json answer = nlohmann::json::object();
   Report report;
   std::string description;
+  std::string text = {};
 };
 
 // A verb never changes its argument: undo is the previous value.

@@ -10,6 +10,7 @@
 #include "project/underlays.h"
 #include "project/verb.h"
 #include "project/verification.h"
+#include "scanners/effects.h"
 
 namespace standpoint {
 
@@ -17,6 +18,11 @@ namespace {
 
 using K = ParameterKind;
 using S = VerbScope;
+
+const char* effectHelp() {
+  static const std::string help = "effects to leave out: " + effectList();
+  return help.c_str();
+}
 
 // The table: a new verb is a typed function in this folder and one entry here. Command line, help, job files and the
 // editor's forms follow from it.
@@ -62,7 +68,7 @@ const std::vector<Verb>& table() {
        {{.name = "rules", .kind = K::path, .help = "file of own assignment rules, or `default`; kept in the project"},
         {.name = "library", .kind = K::list, .help = "files of own materials; kept in the project"},
         {.name = "forget", .kind = K::list, .help = "ids of own materials to take out again"},
-        {.name = "assign", .kind = K::pairs, .help = "SELECTOR=MATERIAL, or =rules to take it back; a selector is #id, a GlobalId, or conditions joined by &: class:IfcWall, type:…, name:*glass*, storey:…, group:…, material:…, colour:red; @0,0,1 behind it: only faces that look that way"},
+        {.name = "assign", .kind = K::pairs, .help = "SELECTOR=MATERIAL, or =rules to take it back; a selector is #id, a GlobalId, or conditions joined by &: class:IfcWall, type:…, name:*glass*, storey:…, group:…, layer:…, material:…, colour:red; @0,0,1 behind it: only faces that look that way; @0,0,1@X,Y,Z: of them only the one at this point of the model's own frame"},
         {.name = "where", .kind = K::text, .help = "id of a material: answers where it is used"},
         {.name = "accept", .kind = K::list, .help = "ids of findings that may stand, with --because"},
         {.name = "because", .kind = K::text, .help = "why they may stand; kept in the project until their cause changes"},
@@ -118,7 +124,10 @@ const std::vector<Verb>& table() {
         {.name = "instrument", .kind = K::text, .help = "id of the instrument, such as leica-rtc360", .required = true},
         {.name = "set", .kind = K::pairs, .help = "settings in the device's own words, such as resolution=12mm"},
         {.name = "seed", .kind = K::integer, .help = "of the noise", .standard = 1, .minimum = 0, .maximum = 9007199254740991.0},
-        {.name = "ideal", .kind = K::flag, .help = "no noise at all: the truth"},
+        {.name = "ideal", .kind = K::flag, .help = "without any effect: the first surface on the axis of each pulse, exactly"},
+        {.name = "without", .kind = K::text, .help = effectHelp()},
+        {.name = "weather", .kind = K::text, .help = "visibility=KM rain=MM/H snow=MM/H fog=M dust=M, separated by spaces or commas"},
+        {.name = "truth", .kind = K::flag, .help = "with what is known of each point: time, return, true place, range, incidence, power, how it came about"},
         {.name = "threads", .kind = K::integer, .help = "0 = all; the result is the same", .standard = 0, .minimum = 0, .maximum = 1024},
         {.name = "shard", .kind = K::text, .help = "i/n: only every n-th station from the i-th, for a batch on several machines"},
         {.name = "output", .kind = K::path, .help = "a folder, or a file (.e57, .ptx, .las, .pcd, …); an E57, PTX or LAS holds all stations", .required = true}},
@@ -142,6 +151,10 @@ const std::vector<Verb>& table() {
        {{.name = "a", .kind = K::path, .help = "first cloud", .positional = true, .required = true},
         {.name = "b", .kind = K::path, .help = "second cloud", .positional = true, .required = true}},
        runCompare},
+      {"instruments", "Lists the instruments and where their files lie, or copies one to edit it", S::files,
+       {{.name = "copy", .kind = K::text, .help = "id of the instrument to copy into the folder of own ones"},
+        {.name = "as", .kind = K::text, .help = "id of the copy"}},
+       runInstruments},
       {"run", "Replays a job: a list of verbs with their options", S::files,
        {{.name = "job", .kind = K::path, .help = "JSON file: [{\"verb\": …, option: value, …}, …]", .positional = true, .required = true}},
        runJob},

@@ -139,6 +139,7 @@ json meetingRow(const MeasuredReturns& m) {
   const auto of = [&](BeamMeeting meeting) { return m.meetings[static_cast<std::size_t>(meeting)]; };
   return {{"met", of(BeamMeeting::met)}, {"near", of(BeamMeeting::near)}, {"in_front", of(BeamMeeting::in_front)},
           {"behind", of(BeamMeeting::behind)}, {"behind_pane", of(BeamMeeting::behind_pane)}, {"edge", of(BeamMeeting::edge)},
+          {"shared", of(BeamMeeting::shared)},
           {"without_station", m.without_station}, {"not_a_number", m.not_a_number}, {"median_off_m", m.median_off_m}};
 }
 

@@ -26,6 +26,4 @@ nlohmann::json verifyAnswer(const VerifyFound& found);
 // One line for each material and each proposal.
 void tellVerified(const VerifyFound& found, Report& report);
 
-std::uint64_t verificationBasis(const Document& document, const std::string& underlay);
-
 }  // namespace standpoint

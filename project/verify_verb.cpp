@@ -46,7 +46,7 @@ Result<std::shared_ptr<const Underlay>> underlayFor(const Document& document, co
 // The one that is named, else the one whose maker and model the cloud's scans name.
 Result<Instrument> instrumentFor(const json& options, const CloudSample& sample, Report& report) {
   if (const auto id = options.value("instrument", std::string()); !id.empty()) return instrumentById(id);
-  const auto all = shippedInstruments();
+  const auto all = knownInstruments();
   if (!all) return failure(all.error());
   // The longest model that fits: "Focus S350" before "Focus".
   const Instrument* best = nullptr;
@@ -112,7 +112,7 @@ Result<VerifyFound> found(const Document& document, const Underlay& underlay, co
   std::uint64_t with_station = 0;
   for (const auto n : f.measured.meetings) with_station += n;
   const auto of = [&](BeamMeeting meeting) { return f.measured.meetings[static_cast<std::size_t>(meeting)]; };
-  const auto near = of(BeamMeeting::met) + of(BeamMeeting::near) + of(BeamMeeting::edge);
+  const auto near = of(BeamMeeting::met) + of(BeamMeeting::near) + of(BeamMeeting::edge) + of(BeamMeeting::shared);
   if (near < 100 || static_cast<double>(near) < kFewOnModel * static_cast<double>(with_station))
     return failure(ErrorKind::unusable, fmt::format("{} of {} points lie on the model: register the cloud first, `standpoint underlay PROJECT "
                                                     "--register {} --pairs … --icp`", near, with_station, underlay.name), underlay.name);
@@ -166,8 +166,7 @@ Result<Outcome> runVerify(const Document& document, const json& options, Progres
   outcome.description = f->comparison.no_verdict.empty()
                             ? fmt::format("Held the materials against {}: {} proposal{}", f->underlay, proposals, proposals == 1 ? "" : "s")
                             : fmt::format("Held the materials against {}: no verdict", f->underlay);
-  Verification verification{verificationBasis(document, f->underlay), outcome.answer};
-  outcome.document.verification = std::make_shared<const Verification>(std::move(verification));
+  outcome.document.verification = std::make_shared<const Verification>(verificationOf(document, outcome.answer));
   return outcome;
 }
 

@@ -2,18 +2,19 @@
 #include "scanners/column_tracer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "core/face_normal.h"
-#include "scanners/pane_passage.h"
+#include "scanners/portable_math.h"
+#include "scanners/surface_texture.h"
 
 namespace standpoint {
 
 namespace {
 
-constexpr std::size_t kCacheBits = 11;
-
-std::size_t slot(std::uint64_t facet) { return (facet * 0x9E3779B97F4A7C15ULL) >> (64U - kCacheBits); }
+// Noise of the second and further returns of a pulse: a channel each.
+constexpr std::uint32_t kFurtherReturns = 16;
+constexpr std::array<std::uint8_t, 3> kWhite = {255, 255, 255};
 
 Pose relative(const Pose& from, const Pose& to) {
   const Eigen::Quaterniond back = from.rotation.conjugate();
@@ -22,203 +23,378 @@ Pose relative(const Pose& from, const Pose& to) {
 
 }  // namespace
 
-ColumnTracer::ColumnTracer(const ScanPlan& plan) : plan_(plan), cache_(std::size_t{1} << kCacheBits), pose_(at(plan.trajectory, 0)) {
-  std::fill_n(packet_.signal.range_m, kSignalLanes, 1.0F);
-  std::fill_n(packet_.signal.equivalent, kSignalLanes, 1.0F);
-  std::fill_n(packet_.signal.gain, kSignalLanes, 1.0F);
+ColumnTracer::ColumnTracer(const ScanPlan& plan)
+    : plan_(plan),
+      facets_(plan),
+      paths_(plan, facets_),
+      columns_(2 * plan.reach() + 1, ColumnHits(plan)),
+      start_(at(plan.trajectory, 0)),
+      sub_rays_{},
+      signal_{},
+      noise_{} {
+  if (plan.column_noise) along_.resize(plan.column_noise->paddedRows());
+  std::fill_n(signal_.range_m, kSignalLanes, 1.0F);
+  std::fill_n(signal_.cosine, kSignalLanes, 1.0F);
+  std::fill_n(signal_.variation, kSignalLanes, 1.0F);
 }
 
-std::int32_t ColumnTracer::materialAt(const Facet& facet) const {
-  if (plan_.assignment.faces.empty()) return materialOf(plan_.assignment, facet.product, facet.surface);
-  const Environment& environment = plan_.scene.environment();
-  const Instance& instance = environment.instances[facet.instance];
-  const Mesh& mesh = *environment.meshes[instance.mesh];
-  return materialOf(plan_.assignment, facet.product, facet.surface, placedNormal(mesh, mesh.triangles[facet.triangle], instance.world_from_mesh));
-}
-
-const ColumnTracer::Met& ColumnTracer::met(std::uint64_t number) {
-  Met& entry = cache_[slot(number)];
-  if (entry.number == number) return entry;
-  entry.number = number;
-  entry.facet = plan_.scene.facet(number);
-  const std::int32_t material = materialAt(entry.facet);
-  const bool assigned = material >= 0;
-  entry.material = assigned ? static_cast<std::uint32_t>(material) : plan_.unassignedLabel();
-  entry.optics = &plan_.optics[assigned ? entry.material : entry.material + entry.facet.surface];
-  return entry;
-}
-
-void ColumnTracer::trace(std::uint32_t column, PointBlock& block) {
-  startColumn(column);
-  for (std::uint32_t row = 0; row < plan_.settings.rows; row += kPacket) {
-    packet_.pulses = static_cast<int>(std::min<std::uint32_t>(kPacket, plan_.settings.rows - row));
-    aim(row);
-    plan_.scene.intersect(packet_.rays, packet_.pulses, static_cast<float>(plan_.settings.max_range_m), packet_.hits);
-    gather();
-    if (packet_.targets == 0) continue;
-    receiveAll(row);
-    emit(row, block);
+void ColumnTracer::trace(std::uint32_t from, std::uint32_t to, PointBlock& block) {
+  const std::uint32_t reach = plan_.reach();
+  const std::uint32_t columns = plan_.settings.columns;
+  for (std::uint32_t c = from - std::min(from, reach); c < std::min(columns, from + reach); ++c) column(c).trace(c);
+  for (std::uint32_t c = from; c < to; ++c) {
+    if (c + reach < columns) column(c + reach).trace(c + reach);
+    current_ = &column(c);
+    traceColumn(block);
   }
 }
 
-void ColumnTracer::startColumn(std::uint32_t column) {
-  column_ = column;
+void ColumnTracer::traceColumn(PointBlock& block) {
+  const std::uint32_t column = current_->column();
   face_ = plan_.clock.behind(column) ? -1 : 1;
   const double azimuth = plan_.azimuth_rad(column);
   ahead_ = {std::cos(azimuth), -std::sin(azimuth), 0};     // clockwise seen from above
   lateral_ = {-std::sin(azimuth), -std::cos(azimuth), 0};
-}
-
-void ColumnTracer::aim(std::uint32_t first_row) {
-  Eigen::Vector3d ahead = pose_.rotation * ahead_;
-  Eigen::Vector3d up = pose_.rotation * Eigen::Vector3d::UnitZ();
-  Eigen::Vector3d origin = pose_.translation;
-  for (int k = 0; k < packet_.pulses; ++k) {
-    const std::uint32_t row = first_row + static_cast<std::uint32_t>(k);
-    if (plan_.moves()) {
-      const Pose pose = at(plan_.trajectory, plan_.clock.time_s(column_, plan_.elevation_rad(row)));
-      ahead = pose.rotation * ahead_;
-      up = pose.rotation * Eigen::Vector3d::UnitZ();
-      origin = pose.translation;
+  if (plan_.column_noise) plan_.column_noise->along(column, along_.data());
+  const bool wide = plan_.options.effects.has(Effect::footprint);
+  for (std::uint32_t first = 0; first < plan_.settings.rows; first += kPacket) {
+    const std::uint32_t end = std::min(plan_.settings.rows, first + kPacket);
+    const std::uint32_t unlike = wide ? unlikeNeighbours(first) : 0;
+    for (std::uint32_t row = first; row < end; ++row) {
+      const NearestHit hit = current_->hit(row);
+      const bool suspect = (unlike >> (row - first) & 1U) != 0;
+      if (hit.facet == kNoFacet && !suspect && !plan_.scatterers) continue;
+      const Beam beam = current_->beam(row);
+      const bool edge = suspect && atEdge(row) && probe(beam, hit);
+      if (!edge && !plan_.scatterers) {
+        if (hit.facet == kNoFacet) continue;
+        if (const MetFacet& met = facets_.of(hit.facet); met.plain) {
+          addSurface(row, beam, hit, met);
+          continue;
+        }
+      }
+      gatherEnds(beam, hit, edge);
+      if (plan_.scatterers) addScatterer(row, beam);
+      addEchoes(row);
     }
-    const Eigen::Vector3d direction = plan_.cosine[row] * ahead + plan_.sine[row] * up;
-    packet_.beam[k] = {origin, direction};
-    packet_.rays.origin_x[k] = static_cast<float>(origin.x());
-    packet_.rays.origin_y[k] = static_cast<float>(origin.y());
-    packet_.rays.origin_z[k] = static_cast<float>(origin.z());
-    packet_.rays.direction_x[k] = static_cast<float>(direction.x());
-    packet_.rays.direction_y[k] = static_cast<float>(direction.y());
-    packet_.rays.direction_z[k] = static_cast<float>(direction.z());
+    if (targets_.empty()) continue;
+    drawNoise(first, 0);
+    if (plan_.column_noise) plan_.column_noise->wobble(column, first, wobble_);
+    receiveAll(block);
   }
 }
 
-ColumnTracer::Target ColumnTracer::meet(const Beam& beam, double range_m, const Met& met) const {
-  Target target;
-  target.range_m = range_m;
-  target.cosine = static_cast<float>(std::min(1.0, std::abs(met.facet.normal.dot(beam.direction))));
-  target.equivalent = lambertEquivalent(*met.optics, target.cosine);
-  target.product = met.facet.product;
-  target.surface = met.facet.surface;
-  target.material = met.material;
-  return target;
+ColumnTracer::Reach ColumnTracer::reachAt(double range_m, std::uint32_t row) const {
+  const double radius = kOuterShare * beamRadius(plan_.instrument, range_m) / range_m;
+  const auto pulses = [&](double step) {
+    return static_cast<std::uint32_t>(std::clamp(std::ceil(radius / step), 1.0, static_cast<double>(plan_.reach())));
+  };
+  return {pulses(plan_.rowStep_rad()), pulses(plan_.columnStep_rad() * std::max(1e-3, plan_.cosine[row]))};
 }
 
-void ColumnTracer::gather() {
-  packet_.targets = 0;
-  for (int k = 0; k < packet_.pulses; ++k) {
-    const NearestHit& hit = packet_.hits[k];
-    if (hit.facet == kNoFacet) continue;
-    const Beam& beam = packet_.beam[k];
-    const Met& surface = met(hit.facet);
-    Target& target = packet_.target[packet_.targets];
-    target = surface.optics->transparent ? lookThrough(beam, hit)
-                                         : meet(beam, rangeOnPlane(surface.facet, beam.origin, beam.direction, hit.range_m), surface);
-    target.lane = k;
-    if (target.range_m >= plan_.instrument.min_range_m && target.range_m <= plan_.settings.max_range_m) ++packet_.targets;
+namespace {
+
+// Next to the axis, at the beam's edge, and half-way.
+std::array<std::uint32_t, 3> places(std::uint32_t reach) { return {1, (reach + 1) / 2, reach}; }
+
+}  // namespace
+
+// Rows, from `first_row` on, of which a neighbour up, down, left or right meets another facet.
+std::uint32_t ColumnTracer::unlikeNeighbours(std::uint32_t first_row) {
+  float nearest = static_cast<float>(plan_.settings.max_range_m);
+  for (std::uint32_t row = first_row; row < std::min(plan_.settings.rows, first_row + kPacket); ++row)
+    if (const NearestHit hit = current_->hit(row); hit.facet != kNoFacet) nearest = std::min(nearest, hit.range_m);
+  const Reach reach = reachAt(std::max(0.01, static_cast<double>(nearest)), first_row);
+  const std::uint32_t own_column = current_->column();
+  const std::uint64_t* own = current_->facets(first_row);
+  std::uint64_t differs[kPacket] = {};
+  const auto compare = [&](const std::uint64_t* other) {
+    for (int k = 0; k < kPacket; ++k) differs[k] |= own[k] ^ other[k];
+  };
+  std::uint32_t done = 0;
+  for (const std::uint32_t apart : places(reach.rows)) {
+    if (apart == done) continue;
+    compare(own - apart), compare(own + apart);
+    done = apart;
+  }
+  done = 0;
+  for (const std::uint32_t apart : places(reach.columns)) {
+    if (apart == done) continue;
+    if (own_column >= apart) compare(column(own_column - apart).facets(first_row));
+    if (own_column + apart < plan_.settings.columns) compare(column(own_column + apart).facets(first_row));
+    done = apart;
+  }
+  std::uint32_t unlike = 0;
+  for (int k = 0; k < kPacket; ++k) unlike |= static_cast<std::uint32_t>(differs[k] != 0) << static_cast<unsigned>(k);
+  return unlike;
+}
+
+// Is a neighbour's axis on another surface than this one's, or on none?
+bool ColumnTracer::atEdge(std::uint32_t row) {
+  const NearestHit own = current_->hit(row);
+  MetFacet met;
+  double tolerance = 0;
+  Reach reach{plan_.reach(), plan_.reach()};
+  if (own.facet != kNoFacet) {
+    met = facets_.of(own.facet);
+    const auto range = std::max(0.01, static_cast<double>(own.range_m));
+    tolerance = edgeTolerance(plan_.instrument, range);
+    reach = reachAt(range, row);
+  }
+  const auto differs = [&](const ColumnHits& column, std::uint32_t there) {
+    const NearestHit hit = column.hit(there);
+    if (hit.facet == own.facet) return false;
+    if (hit.facet == kNoFacet || own.facet == kNoFacet) return true;
+    const Beam beam = column.beam(there);
+    return !onSameSurface(met, {beam.origin, beam.direction}, hit, tolerance);
+  };
+  for (const std::uint32_t apart : places(reach.rows))
+    if ((row >= apart && differs(*current_, row - apart)) || (row + apart < plan_.settings.rows && differs(*current_, row + apart)))
+      return true;
+  const std::uint32_t own_column = current_->column();
+  for (const std::uint32_t apart : places(reach.columns))
+    if ((own_column >= apart && differs(column(own_column - apart), row)) ||
+        (own_column + apart < plan_.settings.columns && differs(column(own_column + apart), row)))
+      return true;
+  return false;
+}
+
+// A facet beside it that lies in the same plane, or bends away from it gently, is the same surface to a beam.
+bool ColumnTracer::onSameSurface(const MetFacet& surface, const RayLine& line, const NearestHit& hit, double tolerance_m) const {
+  if (hit.facet == kNoFacet) return false;
+  if (hit.facet == surface.number) return true;
+  const double slope = surface.facet.normal.dot(line.direction);
+  const double range = (surface.facet.offset - surface.facet.normal.dot(line.origin)) / slope;
+  return std::abs(range - static_cast<double>(hit.range_m)) < tolerance_m;
+}
+
+// Does the beam meet anything else than its axis?
+bool ColumnTracer::probe(const Beam& beam, const NearestHit& axis) {
+  traceRays(beam, 0, kProbes);
+  if (axis.facet == kNoFacet)
+    return std::any_of(sub_hits_, sub_hits_ + kProbes, [](const NearestHit& hit) { return hit.facet != kNoFacet; });
+  const MetFacet met = facets_.of(axis.facet);
+  const double tolerance = edgeTolerance(plan_.instrument, static_cast<double>(axis.range_m));
+  for (int k = 0; k < kProbes; ++k)
+    if (!onSameSurface(met, sub_lines_[k], sub_hits_[k], tolerance)) return true;
+  return false;
+}
+
+void ColumnTracer::traceRays(const Beam& beam, int from, int to) {
+  for (int k = from; k < to; ++k) {
+    const RayLine& line = sub_lines_[k] = lineOf(beam, subRays()[static_cast<std::size_t>(k)], plan_.instrument);
+    const int lane = k - from;
+    sub_rays_.origin_x[lane] = static_cast<float>(line.origin.x());
+    sub_rays_.origin_y[lane] = static_cast<float>(line.origin.y());
+    sub_rays_.origin_z[lane] = static_cast<float>(line.origin.z());
+    sub_rays_.direction_x[lane] = static_cast<float>(line.direction.x());
+    sub_rays_.direction_y[lane] = static_cast<float>(line.direction.y());
+    sub_rays_.direction_z[lane] = static_cast<float>(line.direction.z());
+  }
+  plan_.scene.intersect(sub_rays_, to - from, static_cast<float>(plan_.settings.max_range_m), sub_hits_ + from);
+}
+
+void ColumnTracer::gatherEnds(const Beam& beam, const NearestHit& axis, bool edge) {
+  ends_.clear();
+  if (axis.facet != kNoFacet) paths_.follow(beam.origin, beam.direction, axis, edge ? kAxisWeight : 1, ends_);
+  if (!edge) return;
+  traceRays(beam, kProbes, kSubRays);
+  for (int k = 0; k < kSubRays; ++k)
+    if (sub_hits_[k].facet != kNoFacet)
+      paths_.follow(sub_lines_[k].origin, sub_lines_[k].direction, sub_hits_[k], subRays()[static_cast<std::size_t>(k)].weight, ends_);
+}
+
+void ColumnTracer::addSurface(std::uint32_t row, const Beam& beam, const NearestHit& hit, const MetFacet& met) {
+  const double range = rangeOnPlane(met.facet, beam.origin, beam.direction, hit.range_m);
+  if (!inRange(range)) return;
+  Target& target = targets_.emplace_back();
+  target.row = row;
+  target.range_m = target.end.path_m = range;
+  target.end.cosine = static_cast<float>(std::min(1.0, std::abs(met.facet.normal.dot(beam.direction))));
+  target.end.place = (beam.origin + range * beam.direction).cast<float>();
+  target.end.optics = met.optics;
+  target.end.product = met.facet.product, target.end.surface = met.facet.surface, target.end.material = met.material;
+}
+
+// What the air sends back, from before the nearest surface.
+void ColumnTracer::addScatterer(std::uint32_t row, const Beam& beam) {
+  double nearest = plan_.settings.max_range_m;
+  for (const PathEnd& end : ends_) nearest = std::min(nearest, end.path_m);
+  const auto found = plan_.scatterers->strongest(current_->column(), row, nearest, detectionThreshold(plan_.settings, 0));
+  if (!found) return;
+  static const Optics kDrop;
+  PathEnd& end = ends_.emplace_back();
+  end.path_m = found->range_m;
+  end.flags = point_flag::kWeather;
+  end.place = (beam.origin + found->range_m * beam.direction).cast<float>();
+  end.optics = &kDrop;
+  end.product = plan_.nothingLabel(), end.surface = kNoSurface, end.material = plan_.unassignedLabel();
+  end.known_x = static_cast<float>(found->x);
+}
+
+float ColumnTracer::powerOf(const PathEnd& end) const {
+  if (end.known_x >= 0) return end.known_x;
+  const auto range = static_cast<float>(end.path_m);
+  const float near = plan_.options.effects.has(Effect::near_range) ? nearRangeFactor(plan_.instrument, range) : 1;
+  const float air = portable::exp2(std::max(-100.0F, plan_.receiver.decay_per_m * range));
+  return lambertEquivalent(*end.optics, end.cosine) * end.gain * near * air / (range * range);
+}
+
+void ColumnTracer::addEchoes(std::uint32_t row) {
+  contributions_.clear();
+  for (const PathEnd& end : ends_) contributions_.push_back({end.path_m + end.excess_m, powerOf(end)});
+  receiveEchoes(plan_.instrument.waveform, contributions_, order_, echoes_);
+  for (const Echo& echo : echoes_) {
+    const PathEnd& end = ends_[static_cast<std::size_t>(echo.strongest)];
+    if (!inRange(echo.range_m)) continue;
+    Target& target = targets_.emplace_back();
+    target.row = row;
+    target.range_m = echo.range_m;
+    target.known_x = echo.x;
+    target.end = end;
+    target.flags = end.flags;
+    if (static_cast<double>(echo.spread_m) > edgeTolerance(plan_.instrument, end.path_m)) target.flags |= point_flag::kMixed;
   }
 }
 
-float ColumnTracer::receivedPower(const Target& target) const {
-  const auto range = static_cast<float>(target.range_m);
-  return target.equivalent * target.gain * nearRangeFactor(plan_.instrument, range) / (range * range);
+// By row, not by target: a pulse's numbers are its own.
+void ColumnTracer::drawNoise(std::uint32_t first_row, std::size_t first_target) {
+  const RandomKey key{plan_.options.seed, plan_.options.station_key};
+  pulseNoise(key, current_->column(), first_row, NoiseChannel::pulse, noise_);
+  std::uint32_t further = 0;
+  for (std::size_t i = first_target; i < targets_.size(); ++i) {
+    Target& target = targets_[i];
+    const std::uint32_t lane = target.row - first_row;
+    further = i > first_target && targets_[i - 1].row == target.row ? further + 1 : 0;
+    PulseNoise own;
+    if (further > 0) pulseNoise(key, current_->column(), first_row, static_cast<NoiseChannel>(kFurtherReturns + further), own);
+    const PulseNoise& noise = further > 0 ? own : noise_;
+    target.range_noise = noise.range[lane];
+    target.lateral = noise.lateral[lane];
+    target.elevation = noise.elevation[lane];
+    target.detection = noise.detection[lane];
+  }
 }
 
-// The stronger of the pane's own return (dirt and glint) and of what lies behind.
-ColumnTracer::Target ColumnTracer::lookThrough(const Beam& beam, const NearestHit& first) {
-  Target best;
-  best.range_m = -1;
-  PanePassage passage;
-  NearestHit hit = first;
-  for (int face = 0; face < kMostPanes && hit.facet != kNoFacet; ++face) {
-    const Met& surface = met(hit.facet);
-    const double range = rangeOnPlane(surface.facet, beam.origin, beam.direction, hit.range_m);
-    const bool front = surface.facet.normal.dot(beam.direction) < 0;
-    if (!surface.optics->transparent || !passage.isOtherFace(surface.facet, front, range)) {
-      Target target = meet(beam, range, surface);
-      target.gain = static_cast<float>(passage.gain());
-      target.excess_m = passage.excess_m();
-      if (range >= plan_.instrument.min_range_m && (best.range_m < 0 || receivedPower(target) > receivedPower(best))) best = target;
-      if (!surface.optics->transparent) break;
-      passage.enter(*surface.optics, target.cosine, surface.facet, front, range);
-    } else {
-      passage.leave();
-    }
-    hit = plan_.scene.nearest(beam.origin, beam.direction, hit.range_m + kBehindFace_m, plan_.settings.max_range_m);
+// Sixteen at a time, the returns of a pulse together.
+void ColumnTracer::receiveAll(PointBlock& block) {
+  for (std::size_t first = 0; first < targets_.size();) {
+    std::size_t end = std::min(targets_.size(), first + kSignalLanes);
+    while (end < targets_.size() && targets_[end].row == targets_[end - 1].row && targets_[first].row != targets_[end].row) --end;
+    receiveSome(first, static_cast<int>(end - first), block);
+    first = end;
   }
-  return best;
+  targets_.clear();
 }
 
-void ColumnTracer::receiveAll(std::uint32_t first_row) {
-  for (int k = 0; k < packet_.targets; ++k) {
-    packet_.signal.range_m[k] = static_cast<float>(packet_.target[k].range_m);
-    packet_.signal.equivalent[k] = packet_.target[k].equivalent;
-    packet_.signal.gain[k] = packet_.target[k].gain;
+void ColumnTracer::receiveSome(std::size_t first, int count, PointBlock& block) {
+  for (int k = 0; k < count; ++k) {
+    const Target& target = targets_[first + static_cast<std::size_t>(k)];
+    const Optics& optics = *target.end.optics;
+    signal_.range_m[k] = static_cast<float>(target.end.path_m);
+    signal_.cosine[k] = target.end.cosine;
+    signal_.diffuse[k] = optics.diffuse;
+    signal_.oren_a[k] = optics.oren_a;
+    signal_.oren_b[k] = optics.oren_b;
+    signal_.glint[k] = optics.glint;
+    signal_.steepness[k] = optics.steepness;
+    signal_.gain[k] = target.end.gain;
+    signal_.known_x[k] = target.known_x;
   }
-  receive(packet_.signal, plan_.instrument, plan_.noise_law);
-  // By row, not by target: a pulse's numbers are its own.
-  if (!plan_.options.ideal)
-    pulseNoise({plan_.options.seed, plan_.options.station_key}, column_, first_row, NoiseChannel::pulse, packet_.noise);
+  if (plan_.varies) varySurfaces(first, count);
+  receive(signal_, plan_.receiver);
+  int found[kSignalLanes];
+  int returns = 0;
+  for (int k = 0; k < count; ++k)
+    if (detected(targets_[first + static_cast<std::size_t>(k)], signal_.x[k])) found[returns++] = k;
+  for (int i = 0; i < returns; ++i) {
+    Target& target = targets_[first + static_cast<std::size_t>(found[i])];
+    const auto sameRow = [&](int other) { return targets_[first + static_cast<std::size_t>(found[other])].row == target.row; };
+    int from = i, to = i + 1;
+    while (from > 0 && sameRow(from - 1)) --from;
+    while (to < returns && sameRow(to)) ++to;
+    target.return_number = static_cast<std::uint8_t>(i - from + 1);
+    target.return_count = static_cast<std::uint8_t>(to - from);
+    append(target, found[i], block);
+  }
+}
+
+void ColumnTracer::varySurfaces(std::size_t first, int count) {
+  float x[kTextureLanes] = {}, y[kTextureLanes] = {}, z[kTextureLanes] = {}, coefficient[kTextureLanes] = {}, scale[kTextureLanes] = {};
+  for (int k = 0; k < count; ++k) {
+    const PathEnd& end = targets_[first + static_cast<std::size_t>(k)].end;
+    x[k] = end.place.x(), y[k] = end.place.y(), z[k] = end.place.z();
+    coefficient[k] = end.optics->variation;
+    scale[k] = end.optics->texture_scale_m;
+  }
+  variation(x, y, z, coefficient, scale, signal_.variation);
 }
 
 // P_d = ½ erfc((x_min - x) / √2 σ), drawn (§2.7).
-bool ColumnTracer::detected(int k) const {
-  const double chance = plan_.softness > 0 ? plan_.softness * static_cast<double>(packet_.noise.detection[packet_.target[k].lane]) : 0;
-  return static_cast<double>(packet_.signal.x[k]) + chance >= plan_.threshold;
+bool ColumnTracer::detected(const Target& target, float x) const {
+  const double chance = plan_.softness > 0 ? plan_.softness * static_cast<double>(target.detection) : 0;
+  return static_cast<double>(x) + chance >= plan_.threshold;
 }
 
 // Where the instrument believes the target to be, in its own frame at the start of the scan.
-Eigen::Vector3d ColumnTracer::place(int k, std::uint32_t row) const {
-  const Target& target = packet_.target[k];
-  double range = target.range_m + target.excess_m;
-  Eigen::Vector3d direction = plan_.cosine[row] * ahead_;
-  direction.z() = plan_.sine[row];
-  if (!plan_.options.ideal) {
-    const double lateral = plan_.jitter_rad * static_cast<double>(packet_.noise.lateral[target.lane]) + face_ * plan_.bias.collimation_rad;
-    const double lift = plan_.jitter_rad * static_cast<double>(packet_.noise.elevation[target.lane]) + face_ * plan_.bias.index_rad;
-    // To first order, which at 60 arcsec and 100 m is right to 4 µm.
-    direction += lateral * lateral_ - (lift * plan_.sine[row]) * ahead_;
-    direction.z() += lift * plan_.cosine[row];
-    range = range * plan_.bias.scale + plan_.bias.range_m +
-            plan_.noise_scale * static_cast<double>(packet_.signal.sigma_m[k] * packet_.noise.range[target.lane]);
+Eigen::Vector3d ColumnTracer::place(const Target& target, float x, float sigma_m) const {
+  const double cosine = plan_.cosine[target.row], sine = plan_.sine[target.row];
+  Eigen::Vector3d direction = cosine * ahead_;
+  direction.z() = sine;
+  double lateral = plan_.jitter_rad * static_cast<double>(target.lateral) + face_ * plan_.bias.collimation_rad;
+  double lift = plan_.jitter_rad * static_cast<double>(target.elevation) + face_ * plan_.bias.index_rad;
+  double noise = plan_.white_share * static_cast<double>(target.range_noise), extra = 0;
+  if (plan_.column_noise) {
+    const CorrelatedNoise& figures = plan_.instrument.correlated;
+    const ColumnNoise::Column& column = plan_.column_noise->column(current_->column());
+    const auto wobble = static_cast<double>(wobble_[target.row % kPacket]);
+    noise += static_cast<double>(plan_.column_noise->along() * along_[target.row] + plan_.column_noise->common() * column.common);
+    extra = figures.column_extra_m * static_cast<double>(column.extra) + figures.wobble_m * wobble;
+    lateral += static_cast<double>(column.azimuth_rad) * cosine;
+    lift += figures.elevation_wobble_rad * wobble;
   }
+  // To first order, which at 60 arcsec and 100 m is right to 4 µm.
+  direction += lateral * lateral_ - (lift * sine) * ahead_;
+  direction.z() += lift * cosine;
+  double range = target.range_m * plan_.bias.scale + plan_.bias.range_m + plan_.noise_scale * static_cast<double>(sigma_m) * noise + extra;
+  if (x > plan_.saturation) range += plan_.instrument.saturation.walk_m_per_decade * std::log10(x / plan_.saturation);
   const Eigen::Vector3d point = range * direction;
   if (!plan_.moves()) return point;
-  return relative(pose_, at(plan_.trajectory, plan_.clock.time_s(column_, plan_.elevation_rad(row)))) * point;
+  return relative(start_, at(plan_.trajectory, plan_.clock.time_s(current_->column(), plan_.elevation_rad(target.row)))) * point;
 }
 
-void ColumnTracer::emit(std::uint32_t first_row, PointBlock& block) {
-  float x[kPacket], y[kPacket], z[kPacket], intensity[kPacket];
-  std::uint32_t rows[kPacket], product[kPacket], material[kPacket];
-  std::uint8_t red[kPacket], green[kPacket], blue[kPacket];
-  int count = 0;
-  for (int k = 0; k < packet_.targets; ++k) {
-    if (!detected(k)) continue;
-    const Target& target = packet_.target[k];
-    rows[count] = first_row + static_cast<std::uint32_t>(target.lane);
-    const Eigen::Vector3d point = place(k, rows[count]);
-    x[count] = static_cast<float>(point.x());
-    y[count] = static_cast<float>(point.y());
-    z[count] = static_cast<float>(point.z());
-    intensity[count] = packet_.signal.intensity[k];
-    product[count] = target.product;
-    material[count] = target.material;
-    const auto& colour = plan_.colours[target.surface];
-    red[count] = colour[0], green[count] = colour[1], blue[count] = colour[2];
-    ++count;
+void ColumnTracer::append(const Target& target, int lane, PointBlock& block) const {
+  const Eigen::Vector3d point = place(target, signal_.x[lane], signal_.sigma_m[lane]);
+  block.x_m.push_back(static_cast<float>(point.x()));
+  block.y_m.push_back(static_cast<float>(point.y()));
+  block.z_m.push_back(static_cast<float>(point.z()));
+  block.intensity.push_back(signal_.intensity[lane]);
+  block.row.push_back(target.row);
+  block.column.push_back(current_->column());
+  block.product.push_back(target.end.product);
+  block.material.push_back(target.end.material);
+  if (plan_.settings.imaging) {
+    const auto& colour = target.end.surface == kNoSurface ? kWhite : plan_.colours[target.end.surface];
+    block.red.push_back(colour[0]);
+    block.green.push_back(colour[1]);
+    block.blue.push_back(colour[2]);
   }
-  const auto append = [count](auto& column, const auto* values) { column.insert(column.end(), values, values + count); };
-  append(block.x_m, x);
-  append(block.y_m, y);
-  append(block.z_m, z);
-  append(block.intensity, intensity);
-  append(block.row, rows);
-  block.column.insert(block.column.end(), static_cast<std::size_t>(count), column_);
-  append(block.product, product);
-  append(block.material, material);
-  if (!plan_.settings.imaging) return;
-  append(block.red, red);
-  append(block.green, green);
-  append(block.blue, blue);
+  const ScanChannels& channels = plan_.options.channels;
+  if (channels.time) block.time_s.push_back(plan_.clock.time_s(current_->column(), plan_.elevation_rad(target.row)));
+  if (channels.returns) {
+    block.return_number.push_back(target.return_number);
+    block.return_count.push_back(target.return_count);
+  }
+  if (!channels.truth) return;
+  const Eigen::Vector3d true_place = start_.rotation.conjugate() * (target.end.place.cast<double>() - start_.translation);
+  block.truth.x_m.push_back(static_cast<float>(true_place.x()));
+  block.truth.y_m.push_back(static_cast<float>(true_place.y()));
+  block.truth.z_m.push_back(static_cast<float>(true_place.z()));
+  block.truth.range_m.push_back(static_cast<float>(target.end.path_m));
+  block.truth.incidence_rad.push_back(std::acos(std::min(1.0F, target.end.cosine)));
+  block.truth.received_db.push_back(3.0102999566398120F * portable::log2(signal_.x[lane]));
+  const bool saturated = signal_.x[lane] > plan_.saturation;
+  block.truth.flags.push_back(static_cast<std::uint8_t>(target.flags | (saturated ? point_flag::kSaturated : 0)));
 }
 
 }  // namespace standpoint

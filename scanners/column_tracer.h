@@ -1,73 +1,91 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "core/points.h"
+#include "scanners/beam_paths.h"
+#include "scanners/column_hits.h"
 #include "scanners/pulse_noise.h"
-#include "scanners/scan_plan.h"
-#include "scanners/signal_lanes.h"
+#include "scanners/waveform.h"
 
 namespace standpoint {
 
-// Traces columns of a plan into a block: sixteen pulses at a time from ray to point. One per thread; it only remembers
-// facets, so what it yields depends on the arguments alone.
+// Traces columns of a plan into a block, from ray to point. One per thread; it only remembers facets, so what it yields
+// depends on the arguments alone, and a column's points on the column alone.
+//
+// A pulse whose axis and whose neighbours' axes meet one surface is that surface's return; most are, and they are dealt
+// with sixteen at a time. Where a neighbour meets another one, the beam's other rays are traced (footprint.h), and where
+// the surface is a pane or a mirror the light is followed (beam_paths.h); the receiver makes echoes of what comes back
+// (waveform.h). What is thinner than the distance of two pulses and lies between them is not met.
+// Neighbours are those that the beam's edge reaches, up to kMostReach pulses away.
 class ColumnTracer {
  public:
   explicit ColumnTracer(const ScanPlan& plan);
-  void trace(std::uint32_t column, PointBlock& block);
+  void trace(std::uint32_t from, std::uint32_t to, PointBlock& block);
 
  private:
-  // A facet with what belongs to it.
-  struct Met {
-    std::uint64_t number = kNoFacet;
-    Facet facet;
-    const Optics* optics = nullptr;
-    std::uint32_t material = 0;
-  };
-  // The beam that a pulse sends, in the local frame.
-  struct Beam {
-    Eigen::Vector3d origin, direction;
-  };
-  // The surface whose return a pulse yields.
+  // A return of a pulse.
   struct Target {
-    int lane = 0;                  // of the pulse
-    double range_m = 0;            // true
-    double excess_m = 0;           // of the optical path, behind glass
-    float cosine = 1, equivalent = 1, gain = 1;
-    std::uint32_t product = 0, surface = 0, material = 0;
-  };
-  struct Packet {
-    int pulses = 0, targets = 0;
-    Beam beam[kPacket];
-    RayPacket rays;
-    NearestHit hits[kPacket];
-    Target target[kPacket];
-    SignalLanes signal;
-    PulseNoise noise;
+    std::uint32_t row = 0;
+    std::uint8_t return_number = 1, return_count = 1;
+    std::uint8_t flags = 0;
+    double range_m = 0;            // as the light takes it, glass included
+    PathEnd end;                   // of the strongest surface
+    float known_x = -1;            // of an echo of several surfaces
+    float range_noise = 0, lateral = 0, elevation = 0, detection = 0;
   };
 
-  std::int32_t materialAt(const Facet& facet) const;
-  const Met& met(std::uint64_t number);
-  void startColumn(std::uint32_t column);
-  void aim(std::uint32_t first_row);
-  void gather();
-  Target meet(const Beam& beam, double range_m, const Met& met) const;
-  Target lookThrough(const Beam& beam, const NearestHit& first);
-  float receivedPower(const Target& target) const;
-  void receiveAll(std::uint32_t first_row);
-  void emit(std::uint32_t first_row, PointBlock& block);
-  bool detected(int k) const;
-  Eigen::Vector3d place(int k, std::uint32_t row) const;
+  void traceColumn(PointBlock& block);
+  ColumnHits& column(std::uint32_t number) { return columns_[number % columns_.size()]; }
+  // How many pulses apart the axes are that the beam's edge reaches, up and across; at least 1.
+  struct Reach {
+    std::uint32_t rows = 1, columns = 1;
+  };
+  Reach reachAt(double range_m, std::uint32_t row) const;
+  std::uint32_t unlikeNeighbours(std::uint32_t first_row);
+  bool atEdge(std::uint32_t row);
+  bool onSameSurface(const MetFacet& surface, const RayLine& line, const NearestHit& hit, double tolerance_m) const;
+  bool probe(const Beam& beam, const NearestHit& axis);
+  void traceRays(const Beam& beam, int from, int to);
+  void gatherEnds(const Beam& beam, const NearestHit& axis, bool edge);
+  void addEnds(const RayLine& line, const NearestHit& hit, float weight);
+  void addSurface(std::uint32_t row, const Beam& beam, const NearestHit& hit, const MetFacet& met);
+  void addScatterer(std::uint32_t row, const Beam& beam);
+  void addEchoes(std::uint32_t row);
+  void varySurfaces(std::size_t first, int count);
+  void drawNoise(std::uint32_t first_row, std::size_t first_target);
+  void receiveAll(PointBlock& block);
+  void receiveSome(std::size_t first, int count, PointBlock& block);
+  bool detected(const Target& target, float x) const;
+  Eigen::Vector3d place(const Target& target, float x, float sigma_m) const;
+  void append(const Target& target, int lane, PointBlock& block) const;
+  float powerOf(const PathEnd& end) const;
+  bool inRange(double range_m) const {
+    return range_m >= plan_.instrument.min_range_m && range_m <= plan_.settings.max_range_m;
+  }
 
   const ScanPlan& plan_;
-  std::vector<Met> cache_;
-  Packet packet_{};
-  // Of the column at work:
-  std::uint32_t column_ = 0;
+  FacetCache facets_;
+  BeamPaths paths_;
+  std::vector<ColumnHits> columns_;                     // those about the current one, by their number
+  ColumnHits* current_ = nullptr;
   double face_ = 1;                                     // -1 behind
-  Eigen::Vector3d ahead_, lateral_;                     // horizontal unit vectors of the scanner's frame; up is its z
-  Pose pose_;                                           // of a scanner that stands still
+  Eigen::Vector3d ahead_, lateral_;                     // of the column, in the scanner's frame
+  Pose start_;                                          // of the scanner at time 0
+  RayPacket sub_rays_;
+  RayLine sub_lines_[kSubRays];
+  NearestHit sub_hits_[kSubRays];
+  std::vector<PathEnd> ends_;
+  std::vector<Contribution> contributions_;
+  std::vector<int> order_;
+  std::vector<Echo> echoes_;
+  std::vector<Target> targets_;
+  SignalLanes signal_;
+  float wobble_[kPacket] = {};
+  std::vector<float> along_;                            // noise of the column, by row
+  PulseNoise noise_;
 };
 
 }  // namespace standpoint

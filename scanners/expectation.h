@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/face_patches.h"
 #include "scanners/radiometry.h"
 #include "scanners/ray_engine.h"
 
@@ -42,14 +43,14 @@ class ReturnLaw {
   Instrument instrument_;
   ScanSettings settings_;
   RangeNoiseLaw noise_law_;
-  double threshold_ = 0, softness_ = 0, noise_scale_ = 1;
+  double clear_air_per_m_ = 0, threshold_ = 0, softness_ = 0, noise_scale_ = 1;
 };
 
 // A place on a surface that somebody looks at; local frame.
 struct SurfacePlace {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   // unit, of the side that is looked at
-  std::uint32_t product = 0, surface = 0;
+  std::uint32_t instance = 0, triangle = 0;            // of the environment
 };
 
 // What a station would get from places of a scene. Immutable; `from` is thread-safe.
@@ -58,8 +59,8 @@ class Expectation {
   // `scene` is one that RayScene::build made.
   Expectation(std::shared_ptr<const RayScene> scene, std::shared_ptr<const MaterialAssignment> assignment, ReturnLaw law);
   ExpectedReturn from(const Eigen::Vector3d& station, const SurfacePlace& place) const;
-  // Of the side that `normal` points away from; of a solid that is its outside, which single faces are assigned by.
-  const Optics& opticsAt(std::uint32_t product, std::uint32_t surface, const Eigen::Vector3d& normal) const;
+  const Optics& opticsAt(std::uint32_t instance, std::uint32_t triangle) const;
+  std::int32_t materialAt(std::uint32_t instance, std::uint32_t triangle) const { return triangles_.materialOf(instance, triangle); }
   const RayScene& scene() const { return *scene_; }
   const ReturnLaw& law() const { return law_; }
 
@@ -73,6 +74,7 @@ class Expectation {
 
   std::shared_ptr<const RayScene> scene_;
   std::shared_ptr<const MaterialAssignment> assignment_;
+  AssignedTriangles triangles_;
   ReturnLaw law_;
   std::vector<Optics> optics_;   // materials, then surfaces without one
 };

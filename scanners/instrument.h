@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,6 +42,47 @@ struct RangeNoise {
   double sigma_m = 0;
 };
 
+// How the instrument answers to more than one surface in its beam (physics.md §4.3, §4.4).
+struct Waveform {
+  double pulse_width_s = 0;        // FWHM; time of flight
+  double fine_wavelength_m = 0;    // L: half of the finest tone's modulation wavelength; phase shift
+  int most_returns = 1;            // that are reported of one pulse; the strongest where it is one
+};
+
+// How the sheet's noise is spread over columns and rows (§3.5). The shares are of the sheet's variance, so that its σ
+// stays: what they leave is white. column_extra and the wobble come on top of the sheet.
+struct CorrelatedNoise {
+  double column_share = 0;         // common to all pulses of a column
+  double along_share = 0;          // with long memory along a column
+  double column_correlation = 0;   // ρ of one column to the next: AR(1)
+  double hurst = 0.5;              // H of the part along a column; 0.5 = no memory
+  double column_extra_m = 0;       // σ of another part common to a column, with the same ρ
+  double wobble_m = 0;             // p in p sin(2πk v + φ_j): range, along the mirror's turn v
+  int wobble_order = 1;            // k
+  double elevation_wobble_rad = 0; // the same sine's amplitude in elevation
+  double azimuth_flicker_rad = 0;  // σ, one value for each column
+  double clock_jitter_s = 0;       // σ of a pulse's time stamp: moves it along the turn of the head
+};
+
+// A receiver that gets too much light (§4.9).
+struct Saturation {
+  double level_db = 0;             // 10 lg x from which it saturates
+  double walk_m_per_decade = 0;    // range bias b lg(x / x_sat) above that
+  double pedestal = 0;             // share of the beam's power in its wide wings: the halo of a reflector
+};
+
+// What turns on an instrument that is carried or driven: laser heads that sweep whole turns, each with its channels.
+struct MovingHead {
+  std::string mount;               // what carries it: "hand", "body", "vehicle", "aircraft" or "any"
+  int heads = 1;
+  std::vector<double> channel_elevations_rad;   // of one head, in the order in which they fire
+  double points_per_s = 0;         // of all heads, one return each
+  double least_rotation_hz = 0, most_rotation_hz = 0;
+  double second_rotation_hz = 0;   // of the head about another axis; 0 = none
+  double turn_rad = 0;             // the part of a turn that is measured
+  double cloud_accuracy_m = 0;     // of a whole cloud with the maker's trajectory, 1 σ; 0 = not stated
+};
+
 // An instrument from scanners/instruments/<id>.json: data, no code.
 struct Instrument {
   std::string id, maker, model;
@@ -68,6 +110,10 @@ struct Instrument {
   double imaging_seconds = 0;
   std::vector<InstrumentSetting> settings;
   std::map<std::string, Evidence> evidence;      // by JSON pointer
+  Waveform waveform;
+  CorrelatedNoise correlated;
+  Saturation saturation;
+  std::optional<MovingHead> moving;      // then it has no mirror, stand and pictures, and scanning needs a trajectory
 };
 
 Result<Instrument> readInstrument(const std::filesystem::path& file);

@@ -4,13 +4,12 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <optional>
 #include <set>
-#include <sstream>
 
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
+#include "scanners/figure_reader.h"
 #include "scanners/instrument.h"
 
 namespace standpoint {
@@ -21,24 +20,9 @@ using Json = nlohmann::json;
 
 constexpr std::uintmax_t kLargestFile = 1U << 20U;
 
-// An object of the file, with what has been read of it: what has not is an unknown key.
-struct Group {
-  const Json* object = nullptr;
-  std::string pointer;
-  std::string source;   // of its figures that state none themselves
-  std::string note{};
-  std::set<std::string> seen{};
-};
-
-struct Domain {
-  double low, high;
-  double scale = 1;     // from the file's unit to ours
-};
-
-// Reads an instrument with one sticky error, the first; after it every answer is a harmless default.
-class Reader {
+class Reader : FigureReader {
  public:
-  Reader(std::string file, const Json& document) : file_(std::move(file)), document_(document) {}
+  Reader(std::string file, const Json& document) : FigureReader(std::move(file)), document_(document) {}
 
   Result<Instrument> read() {
     Group root = open(document_, "");
@@ -46,118 +30,25 @@ class Reader {
     instrument_.maker = text(root, "maker");
     instrument_.model = text(root, "model");
     readSources(root);
-    instrument_.technology = technology(root);
+    instrument_.technology = word(root, "technology", {"time_of_flight", "phase_shift"});
     readOptics(root);
+    if (root.object->contains("moving")) readMoving(root);
+    else readTripod(root);
     readAngles(root);
     readSignal(root);
     readNoise(root);
+    readWaveform(root);
+    readCorrelated(root);
+    readSaturation(root);
     readSettings(root);
     close(root);
-    if (!error_) checkWhole();
-    if (error_) return failure(*error_);
+    if (!error()) checkWhole();
+    if (error()) return failure(*error());
+    instrument_.evidence = evidence();
     return std::move(instrument_);
   }
 
  private:
-  void fail(const std::string& pointer, std::string message) {
-    if (!error_) error_ = Error{ErrorKind::unusable, std::move(message), file_ + " " + (pointer.empty() ? "/" : pointer)};
-  }
-
-  Group open(const Json& value, std::string pointer) {
-    static const Json kEmpty = Json::object();
-    Group group{&value, std::move(pointer), {}};
-    if (!value.is_object()) {
-      fail(group.pointer, "must be an object");
-      group.object = &kEmpty;
-    }
-    if (group.object->contains("source")) group.source = text(group, "source");
-    if (group.object->contains("note")) group.note = text(group, "note");
-    return group;
-  }
-
-  Group child(Group& parent, const std::string& key) { return open(member(parent, key), parent.pointer + "/" + key); }
-
-  void close(const Group& group) {
-    for (const auto& item : group.object->items())
-      if (!group.seen.contains(item.key())) fail(group.pointer + "/" + item.key(), "unknown key");
-  }
-
-  const Json& member(Group& group, const std::string& key) {
-    static const Json kEmpty = Json::object();
-    group.seen.insert(key);
-    const auto found = group.object->find(key);
-    if (found != group.object->end()) return *found;
-    fail(group.pointer + "/" + key, "is missing");
-    return kEmpty;
-  }
-
-  std::string text(Group& group, const std::string& key) {
-    const Json& value = member(group, key);
-    if (value.is_string()) return value.get<std::string>();
-    fail(group.pointer + "/" + key, "must be a text");
-    return {};
-  }
-
-  // Every key must be in the file's table of sources; "derived" and "unsourced" stand for themselves.
-  void cite(const std::string& pointer, const std::string& mark, const std::string& note) {
-    if (mark.empty()) return fail(pointer, "has no source");
-    std::istringstream keys(mark);
-    std::string key, cited;
-    while (keys >> key) {
-      const auto found = sources_.find(key);
-      if (found == sources_.end() && key != "derived" && key != "unsourced")
-        return fail(pointer, "source \"" + key + "\" is not in /sources");
-      if (!cited.empty()) cited += "; ";
-      cited += found == sources_.end() ? key : found->second;
-    }
-    instrument_.evidence[pointer] = {mark, note.empty() ? cited : cited + " (" + note + ")"};
-  }
-
-  double checked(const std::string& pointer, const Json& value, const Domain& domain) {
-    const double number = value.is_number() ? value.get<double>() : std::nan("");
-    if (!std::isfinite(number)) {
-      fail(pointer, "must be a number");
-      return domain.low * domain.scale;
-    }
-    if (number < domain.low || number > domain.high) {
-      std::ostringstream message;
-      message << number << " is out of range: from " << domain.low << " to " << domain.high;
-      fail(pointer, message.str());
-    }
-    return number * domain.scale;
-  }
-
-  // A figure: a number with its group's source, or {value, source, note} with its own.
-  double figure(Group& group, const std::string& key, const Domain& domain) {
-    const Json& value = member(group, key);
-    const std::string pointer = group.pointer + "/" + key;
-    if (error_) return domain.low * domain.scale;
-    if (!value.is_object()) {
-      cite(pointer, group.source, group.note);
-      return checked(pointer, value, domain);
-    }
-    Group own = open(value, pointer);
-    cite(pointer, own.source, own.note);
-    const double number = checked(pointer + "/value", member(own, "value"), domain);
-    close(own);
-    return number;
-  }
-
-  void readSources(Group& root) {
-    Group group = child(root, "sources");
-    for (const auto& item : group.object->items()) sources_[item.key()] = text(group, item.key());
-  }
-
-  std::string technology(Group& root) {
-    Group group = child(root, "technology");
-    cite(group.pointer, group.source, group.note);
-    std::string value = text(group, "value");
-    if (value != "time_of_flight" && value != "phase_shift")
-      fail(group.pointer + "/value", "must be \"time_of_flight\" or \"phase_shift\"");
-    close(group);
-    return value;
-  }
-
   void readOptics(Group& root) {
     Group beam = child(root, "beam");
     instrument_.wavelength_nm = figure(beam, "wavelength_nm", {200, 3000});
@@ -175,16 +66,50 @@ class Reader {
 
   void readAngles(Group& root) {
     Group angles = child(root, "angles");
-    instrument_.min_elevation_rad = figure(angles, "min_elevation_deg", {-90, 90, kRadPerDeg});
-    instrument_.max_elevation_rad = figure(angles, "max_elevation_deg", {-90, 90, kRadPerDeg});
+    if (!instrument_.moving) {
+      instrument_.min_elevation_rad = figure(angles, "min_elevation_deg", {-90, 90, kRadPerDeg});
+      instrument_.max_elevation_rad = figure(angles, "max_elevation_deg", {-90, 90, kRadPerDeg});
+    }
     instrument_.angle_sigma_rad = figure(angles, "accuracy_arcsec", {0, 3600, kRadPerArcsec});
     instrument_.angle_jitter_rad = figure(angles, "jitter_arcsec", {0, 3600, kRadPerArcsec});
     close(angles);
+  }
+
+  void readTripod(Group& root) {
     Group mirror = child(root, "mirror");
     instrument_.mirror_max_hz = figure(mirror, "max_hz", {0, 10000});
     instrument_.column_factor = figure(mirror, "column_factor", {1, 2});
     instrument_.overhead_s = figure(mirror, "overhead_s", {0, 3600});
     close(mirror);
+    Group stand = child(root, "stand");
+    instrument_.trunnion_height_m = figure(stand, "trunnion_height_m", {0, 2});
+    instrument_.tripod_height_m = figure(stand, "tripod_height_m", {0.1, 10});
+    close(stand);
+    Group imaging = child(root, "imaging");
+    instrument_.imaging_seconds = figure(imaging, "seconds", {0, 3600});
+    close(imaging);
+  }
+
+  void readMoving(Group& root) {
+    Group group = child(root, "moving");
+    MovingHead head;
+    head.mount = word(group, "mount", {"hand", "body", "vehicle", "aircraft", "any"});
+    head.heads = count(group, "heads", {1, 16});
+    head.channel_elevations_rad = figures(group, "channel_elevations_deg", {-90, 90, kRadPerDeg}, 1024);
+    head.points_per_s = figure(group, "points_per_s", {1, 1e9});
+    head.least_rotation_hz = figure(group, "least_rotation_hz", {0.01, 10000});
+    head.most_rotation_hz = figure(group, "most_rotation_hz", {0.01, 10000});
+    head.second_rotation_hz = figure(group, "second_rotation_hz", {0, 10000});
+    head.turn_rad = figure(group, "turn_deg", {1, 360, kRadPerDeg});
+    head.cloud_accuracy_m = figure(group, "cloud_accuracy_mm", {0, 10000, 1e-3});
+    close(group);
+    if (head.least_rotation_hz > head.most_rotation_hz) fail("/moving/most_rotation_hz", "must not be below least_rotation_hz");
+    const auto& elevations = head.channel_elevations_rad;
+    if (!elevations.empty()) {
+      instrument_.min_elevation_rad = *std::min_element(elevations.begin(), elevations.end());
+      instrument_.max_elevation_rad = *std::max_element(elevations.begin(), elevations.end());
+    }
+    instrument_.moving = std::move(head);
   }
 
   void readSignal(Group& root) {
@@ -196,20 +121,12 @@ class Reader {
     instrument_.intensity_high_db = figure(signal, "intensity_high_db", {-200, 100});
     instrument_.intensity_levels = static_cast<int>(figure(signal, "intensity_levels", {2, 65536}));
     close(signal);
-    Group stand = child(root, "stand");
-    instrument_.trunnion_height_m = figure(stand, "trunnion_height_m", {0, 2});
-    instrument_.tripod_height_m = figure(stand, "tripod_height_m", {0.1, 10});
-    close(stand);
-    Group imaging = child(root, "imaging");
-    instrument_.imaging_seconds = figure(imaging, "seconds", {0, 3600});
-    close(imaging);
   }
 
   void readNoise(Group& root) {
-    const Json& list = member(root, "range_noise");
-    if (!list.is_array() || list.empty() || list.size() > 100) return fail("/range_noise", "must be a list of 1 to 100 entries");
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      Group entry = open(list[i], "/range_noise/" + std::to_string(i));
+    const Json& entries = list(root, "range_noise", 100);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      Group entry = open(entries[i], "/range_noise/" + std::to_string(i));
       RangeNoise noise;
       noise.range_m = figure(entry, "range_m", {0.1, 10000});
       noise.reflectivity = figure(entry, "reflectivity", {0.001, 1});
@@ -222,11 +139,44 @@ class Reader {
     }
   }
 
+  // The other technology's figure is an unknown key.
+  void readWaveform(Group& root) {
+    Group group = child(root, "waveform");
+    auto& waveform = instrument_.waveform;
+    if (instrument_.technology == "phase_shift") waveform.fine_wavelength_m = figure(group, "fine_wavelength_m", {0.01, 1000});
+    else waveform.pulse_width_s = figure(group, "pulse_width_ns", {0.01, 1000, 1e-9});
+    waveform.most_returns = count(group, "most_returns", {1, 255});
+    close(group);
+  }
+
+  void readCorrelated(Group& root) {
+    Group group = child(root, "correlated_noise");
+    auto& noise = instrument_.correlated;
+    noise.column_share = figure(group, "column_share", {0, 1});
+    noise.along_share = figure(group, "along_share", {0, 1});
+    noise.column_correlation = figure(group, "column_correlation", {0, 0.999});
+    noise.hurst = figure(group, "hurst", {0.5, 0.95});
+    noise.column_extra_m = figure(group, "column_extra_mm", {0, 1000, 1e-3});
+    noise.wobble_m = figure(group, "wobble_mm", {0, 1000, 1e-3});
+    noise.wobble_order = count(group, "wobble_order", {1, 64});
+    noise.elevation_wobble_rad = figure(group, "elevation_wobble_arcsec", {0, 3600, kRadPerArcsec});
+    noise.azimuth_flicker_rad = figure(group, "azimuth_flicker_arcsec", {0, 3600, kRadPerArcsec});
+    noise.clock_jitter_s = figure(group, "clock_jitter_ns", {0, 1e6, 1e-9});
+    close(group);
+  }
+
+  void readSaturation(Group& root) {
+    Group group = child(root, "saturation");
+    instrument_.saturation.level_db = figure(group, "level_db", {-100, 100});
+    instrument_.saturation.walk_m_per_decade = figure(group, "walk_mm_per_decade", {-1000, 1000, 1e-3});
+    instrument_.saturation.pedestal = figure(group, "pedestal", {0, 0.1});
+    close(group);
+  }
+
   void readSettings(Group& root) {
-    const Json& list = member(root, "settings");
-    if (!list.is_array() || list.empty() || list.size() > 100) return fail("/settings", "must be a list of 1 to 100 entries");
-    for (std::size_t i = 0; i < list.size() && !error_; ++i)
-      readSetting(open(list[i], "/settings/" + std::to_string(i)));
+    const Json& entries = list(root, "settings", 100);
+    for (std::size_t i = 0; i < entries.size() && !error(); ++i)
+      readSetting(open(entries[i], "/settings/" + std::to_string(i)));
   }
 
   void readSetting(Group group) {
@@ -250,16 +200,15 @@ class Reader {
     setting.minimum = figure(group, "minimum", {-360, 360});
     setting.maximum = figure(group, "maximum", {-360, 360});
     const Json standard = Json::parse(setting.standard, nullptr, false);
-    if (!error_) checked(group.pointer + "/standard", standard, {setting.minimum, setting.maximum});
+    if (!error()) checked(group.pointer + "/standard", standard, {setting.minimum, setting.maximum});
   }
 
   void readChoices(Group& group, InstrumentSetting& setting) {
-    const Json& list = member(group, "choices");
+    const Json& entries = list(group, "choices", 100);
     const std::string pointer = group.pointer + "/choices";
-    if (!list.is_array() || list.empty() || list.size() > 100) return fail(pointer, "must be a list of 1 to 100 entries");
     bool has_standard = false;
-    for (std::size_t i = 0; i < list.size() && !error_; ++i) {
-      Group entry = open(list[i], pointer + "/" + std::to_string(i));
+    for (std::size_t i = 0; i < entries.size() && !error(); ++i) {
+      Group entry = open(entries[i], pointer + "/" + std::to_string(i));
       if (entry.source.empty()) entry.source = group.source;
       if (entry.note.empty()) entry.note = group.note;
       setting.choices.push_back(readChoice(entry));
@@ -274,7 +223,8 @@ class Reader {
     static const std::map<std::string, Domain> kEffects = {
         {"columns", {2, 1e6}},      {"rows", {1, 1e6}},   {"scan_seconds", {0.01, 1e5}}, {"rate_hz", {1, 1e9}},
         {"noise_factor", {0.01, 100}}, {"passes", {1, 16}},  {"imaging", {0, 1}},           {"imaging_seconds", {0, 1e4}},
-        {"area", {0, 1}},           {"max_range_m", {1, 10000}}, {"reference_reflectivity", {0.001, 1}}};
+        {"area", {0, 1}},           {"max_range_m", {1, 10000}}, {"reference_reflectivity", {0.001, 1}},
+        {"rotation_hz", {0.01, 10000}}, {"most_returns", {1, 255}}};
     SettingChoice choice;
     choice.value = text(entry, "value");
     choice.label = text(entry, "label");
@@ -287,23 +237,44 @@ class Reader {
   }
 
   void checkWhole() {
-    if (instrument_.min_elevation_rad >= instrument_.max_elevation_rad)
+    if (!instrument_.moving && instrument_.min_elevation_rad >= instrument_.max_elevation_rad)
       fail("/angles/max_elevation_deg", "must be above min_elevation_deg");
     if (instrument_.min_range_m >= instrument_.max_range_m) fail("/range/max_m", "must be above min_m");
     if (instrument_.intensity_low_db >= instrument_.intensity_high_db)
       fail("/signal/intensity_high_db", "must be above intensity_low_db");
     if (instrument_.angle_jitter_rad > instrument_.angle_sigma_rad)
       fail("/angles/jitter_arcsec", "must not be above accuracy_arcsec, of which it is a part");
-    if (!error_)
+    checkShares();
+    checkRotations();
+    if (!error() && !instrument_.moving)
       if (const auto standard = resolveSettings(instrument_, {}); !standard)
         fail("/settings", "the standard values are not a valid scan: " + standard.error().message);
   }
 
-  std::string file_;
+  void checkRotations() {
+    for (const auto& setting : instrument_.settings)
+      for (const auto& choice : setting.choices)
+        if (const auto rotation = choice.effects.find("rotation_hz"); rotation != choice.effects.end())
+          if (!instrument_.moving || rotation->second < instrument_.moving->least_rotation_hz ||
+              rotation->second > instrument_.moving->most_rotation_hz)
+            fail("/settings", "\"" + choice.value + "\" of " + setting.key + " turns the head as /moving does not allow");
+  }
+
+  // Parts cannot be more than the whole.
+  void checkShares() {
+    const auto& noise = instrument_.correlated;
+    if (noise.column_share + noise.along_share > 1)
+      fail("/correlated_noise/along_share", "must not be above 1 together with column_share: they are shares of one variance");
+    const double rest = instrument_.angle_sigma_rad * instrument_.angle_sigma_rad -
+                        instrument_.angle_jitter_rad * instrument_.angle_jitter_rad;
+    if (noise.azimuth_flicker_rad * noise.azimuth_flicker_rad > rest)
+      fail("/correlated_noise/azimuth_flicker_arcsec", "must not be above accuracy_arcsec together with jitter_arcsec");
+    if (noise.elevation_wobble_rad * noise.elevation_wobble_rad / 2 > rest)   // the variance of a sine is half its amplitude squared
+      fail("/correlated_noise/elevation_wobble_arcsec", "must not be above accuracy_arcsec together with jitter_arcsec");
+  }
+
   const Json& document_;
   Instrument instrument_;
-  std::map<std::string, std::string> sources_;
-  std::optional<Error> error_;
 };
 
 }  // namespace

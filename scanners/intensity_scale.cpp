@@ -18,6 +18,11 @@ constexpr double kHuber = 1.345, kStiffness = 1e-3;
 constexpr double kBeyond_db = 1, kBeyondSteps = 10, kClearlyLess = 0.5;
 constexpr double kStraight_db = 0.25;   // to which the curve is called a straight line
 
+// What the curve is taken over.
+double axis(const IntensityScale& scale, double measured) {
+  return scale.logarithmic ? std::log10(std::max(measured, 1e-12)) : measured;
+}
+
 double medianAbsolute(std::vector<double> values) {
   if (values.empty()) return 0;
   for (auto& v : values) v = std::abs(v);
@@ -72,12 +77,19 @@ Eigen::VectorXd nonNegative(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) 
   return u;
 }
 
-// Neighbouring steps are alike where the cells do not say otherwise.
-Eigen::MatrixXd stiffness(Eigen::Index steps, double strength) {
+// Neighbouring slopes are alike where the cells do not say otherwise. Slopes, not steps: the outermost knots, which few
+// cells hold, stand far from the next.
+Eigen::MatrixXd stiffness(const IntensityScale& scale, double strength) {
+  const auto steps = static_cast<Eigen::Index>(scale.measured.size()) - 1;
+  const auto at = [&](Eigen::Index k) { return axis(scale, scale.measured[static_cast<std::size_t>(k)]); };
+  const double mean_width = (at(steps) - at(0)) / static_cast<double>(steps);
+  Eigen::VectorXd per_width(steps);
+  for (Eigen::Index k = 0; k < steps; ++k) per_width[k] = mean_width / (at(k + 1) - at(k));
   Eigen::MatrixXd s = Eigen::MatrixXd::Identity(steps, steps) * (strength * 1e-6);
   for (Eigen::Index k = 0; k + 1 < steps; ++k) {
-    s(k, k) += strength, s(k + 1, k + 1) += strength;
-    s(k, k + 1) -= strength, s(k + 1, k) -= strength;
+    const double here = per_width[k], next = per_width[k + 1];
+    s(k, k) += strength * here * here, s(k + 1, k + 1) += strength * next * next;
+    s(k, k + 1) -= strength * here * next, s(k + 1, k) -= strength * here * next;
   }
   return s;
 }
@@ -112,12 +124,13 @@ double offLine(const std::vector<double>& x, const std::vector<double>& y, doubl
 
 Eigen::VectorXd IntensityScale::stepsAt(double figure) const {
   const auto steps = static_cast<Eigen::Index>(measured.size()) - 1;
-  const auto t = [&](double m) { return logarithmic ? std::log10(std::max(m, 1e-12)) : m; };
   Eigen::VectorXd share(steps);
   for (Eigen::Index k = 0; k < steps; ++k) {
-    const double from = t(measured[static_cast<std::size_t>(k)]), to = t(measured[static_cast<std::size_t>(k) + 1]);
+    const double from = axis(*this, measured[static_cast<std::size_t>(k)]);
+    const double to = axis(*this, measured[static_cast<std::size_t>(k) + 1]);
     // The first and the last go on beyond their knots, but not far: nothing was learned there.
-    share[k] = std::clamp((t(figure) - from) / (to - from), k == 0 ? -kBeyondSteps : 0.0, k + 1 == steps ? 1 + kBeyondSteps : 1.0);
+    share[k] = std::clamp((axis(*this, figure) - from) / (to - from), k == 0 ? -kBeyondSteps : 0.0,
+                          k + 1 == steps ? 1 + kBeyondSteps : 1.0);
   }
   return share;
 }
@@ -166,7 +179,7 @@ IntensityScale fitIntensityScale(const std::vector<IntensityCell>& cells, bool l
     centre(problem, weight, rows, expected);
     if (round == 0) scale.spread_db = 1.4826 * medianAbsolute({expected.data(), expected.data() + expected.size()});
     Eigen::MatrixXd a = rows.transpose() * weight.asDiagonal() * rows;
-    a += stiffness(a.rows(), kStiffness * std::max(1e-12, a.trace() / static_cast<double>(a.rows())));
+    a += stiffness(scale, kStiffness * std::max(1e-12, a.trace() / static_cast<double>(a.rows())));
     steps = nonNegative(a, rows.transpose() * weight.asDiagonal() * expected);
     residual = expected - rows * steps;
     scatter = 1.4826 * medianAbsolute({residual.data(), residual.data() + residual.size()});

@@ -48,7 +48,7 @@ MetSurface meetSurface(const Expectation& expectation, const Eigen::Vector3d& st
     const Eigen::Vector3d met_side = facet.normal.dot(direction) < 0 ? facet.normal : Eigen::Vector3d(-facet.normal);
     const double off = (met.range_m - range) * cosine;
     if (off < -tolerance.window_m) break;
-    const bool pane = expectation.opticsAt(facet.product, facet.surface, met_side).transparent;
+    const bool pane = expectation.opticsAt(facet.instance, facet.triangle).transparent;
     if (off <= tolerance.window_m && (!pane || std::abs(off) <= tolerance.met_m)) {
       met.meeting = std::abs(off) > tolerance.met_m ? BeamMeeting::near : through_glass ? BeamMeeting::behind_pane : BeamMeeting::met;
       met.cosine = cosine;
@@ -56,6 +56,7 @@ MetSurface meetSurface(const Expectation& expectation, const Eigen::Vector3d& st
       met.normal = met_side;
       met.product = facet.product;
       met.surface = facet.surface;
+      met.material = expectation.materialAt(facet.instance, facet.triangle);
       if (met.meeting == BeamMeeting::met && isEdge(scene, station, point, met, tolerance.edge_m)) met.meeting = BeamMeeting::edge;
       return met;
     }

@@ -17,8 +17,9 @@ enum class BeamMeeting {
   behind,       // an opaque surface, which the beam should not have passed
   behind_pane,  // as met, but through glass
   edge,         // as met, but beside it the beam would meet something else: its light is of both
+  shared,       // as met, but a face of another material lies in the same place; meetSurface knows no materials
 };
-constexpr int kBeamMeetings = 6;
+constexpr int kBeamMeetings = 7;
 
 struct MetSurface {
   BeamMeeting meeting = BeamMeeting::in_front;
@@ -27,6 +28,7 @@ struct MetSurface {
   double off_m = 0;                // of the point along the normal, positive behind the surface; met and near only
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();   // unit, towards the station
   std::uint32_t product = 0, surface = 0;   // met, near, and what it lies behind
+  std::int32_t material = -1;               // assigned to the face that it met; single faces may have one of their own
 };
 
 struct MeetingTolerance {

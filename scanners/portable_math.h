@@ -40,14 +40,63 @@ STANDPOINT_INLINE void sinCosTurn(float u, float& sine, float& cosine) {
   cosine = ((quarter + 1) & 2) != 0 ? -cosine_of_turn : cosine_of_turn;
 }
 
-// e^x for x in [-60, 0], relative error below 1e-12.
-inline double expNegative(double x) {
-  // Halved six times the argument is below 1 in size, where eighteen terms of the series are enough; squared back again.
-  const double y = x / 64;
-  double term = 1, sum = 1;
-  for (int k = 1; k < 19; ++k) sum += term *= y / k;
-  for (int k = 0; k < 6; ++k) sum *= sum;
-  return sum;
+// 2^x for x from -120 to 120, relative error below 3e-7.
+STANDPOINT_INLINE float exp2(float x) {
+  const auto shifted = static_cast<std::int32_t>(x + 127.5F);    // truncation is rounding of what is positive
+  const float rest = (x - static_cast<float>(shifted - 127)) * 0.6931471805599453F;   // |rest| < 0.35
+  const float upper = 1.0F / 6 + rest * (1.0F / 24 + rest * (1.0F / 120 + rest * (1.0F / 720)));
+  const float series = 1 + rest * (1 + rest * (1.0F / 2 + rest * upper));
+  const std::int32_t bits = shifted * (1 << 23);
+  float power;
+  std::memcpy(&power, &bits, sizeof power);
+  return power * series;
 }
+
+// The angle of (x, y) in turns, -1/2 to 1/2, absolute error below 1e-12.
+inline double turnOf(double y, double x) {
+  if (x == 0 && y == 0) return 0;
+  // Halving the angle three times leaves less than π/8, where sixteen terms of the series are enough.
+  for (int k = 0; k < 3; ++k) {
+    const double length = std::sqrt(x * x + y * y);
+    if (x < 0) {                                   // without cancellation: (x + length) = y² / (length - x)
+      const double sum = y * y / (length - x);
+      x = sum;
+      if (sum == 0) y = std::copysign(1.0, y);     // half of a half turn is a quarter
+    } else {
+      x += length;
+    }
+  }
+  const double z = y / x, q = z * z;
+  double sum = 0;
+  for (int k = 33; k > 0; k -= 2) sum = 1.0 / k - q * sum;
+  return 8 * z * sum / (2 * 3.14159265358979323846);
+}
+
+// ln of a positive normal number, relative error below 1e-15 of max(1, |ln|).
+inline double log(double x) {
+  int exponent = 0;
+  double mantissa = std::frexp(x, &exponent);                // [1/2, 1)
+  if (mantissa < 0.7071067811865476) {
+    mantissa *= 2;
+    --exponent;
+  }
+  const double s = (mantissa - 1) / (mantissa + 1);          // ln m = 2 artanh s, |s| < 0.172
+  const double q = s * s;
+  double sum = 0;
+  for (int k = 21; k > 0; k -= 2) sum = sum * q + 1.0 / k;
+  return exponent * 0.6931471805599453 + 2 * s * sum;
+}
+
+// e^x for |x| up to 700, relative error below 2e-16 (1 + |x|).
+inline double exp(double x) {
+  const double turns = std::floor(x * 1.4426950408889634 + 0.5);   // 1 / ln 2
+  const double rest = x - turns * 0.6931471805599453;
+  double sum = 1;
+  for (int k = 17; k > 0; --k) sum = 1 + sum * rest / k;
+  return std::ldexp(sum, static_cast<int>(turns));
+}
+
+// base^exponent of a positive base.
+inline double pow(double base, double exponent) { return exp(exponent * log(base)); }
 
 }  // namespace standpoint::portable

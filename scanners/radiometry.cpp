@@ -15,6 +15,8 @@ namespace {
 constexpr double kSharpestSlope = 0.005;
 // Float glass, physics.md §1.4: at most 0.01.
 constexpr double kPaneSlope = 0.01;
+// A rougher surface spreads a mirror image over more than the beam is wide.
+constexpr double kSmoothestSlope = 0.0105;
 
 double linear(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }
 
@@ -29,7 +31,10 @@ Optics opticsOf(const PhysicalMaterial& material, double wavelength_nm) {
   optics.transparent = material.thickness_m > 0 && !material.transmittance.empty() && material.index_of_refraction > 1;
   const double slope = material.gloss_slope > 0 ? material.gloss_slope : optics.transparent ? kPaneSlope : 0;
   if (const double specular = specularAtNormal(material, wavelength_nm); slope > 0 && specular > 0) {
+    optics.smooth = slope <= kSmoothestSlope;
+    optics.mirror_f0 = static_cast<float>(specular);
     optics.lobe_slope = static_cast<float>(std::max(slope, kSharpestSlope));
+    optics.steepness = 1 / (optics.lobe_slope * optics.lobe_slope);
     optics.glint = static_cast<float>(specular) / (4 * optics.lobe_slope * optics.lobe_slope);
   }
   if (optics.transparent) {
@@ -37,6 +42,10 @@ Optics opticsOf(const PhysicalMaterial& material, double wavelength_nm) {
     optics.thickness_m = material.thickness_m;
     optics.panes = material.panes;
     optics.inner_transmittance = innerTransmittance(optics.index, atWavelength(material.transmittance, wavelength_nm));
+  }
+  if (material.texture_scale_m > 0) {
+    optics.variation = static_cast<float>(material.variation);
+    optics.texture_scale_m = static_cast<float>(material.texture_scale_m);
   }
   return optics;
 }
@@ -48,20 +57,27 @@ Optics opticsOf(const Colour& colour) {
   return optics;
 }
 
-float glossEquivalent(const Optics& optics, float cosine) {
-  const float square = cosine * cosine;
-  const float exponent = (1 - square) / (square * optics.lobe_slope * optics.lobe_slope);   // tan²θ / m²
-  if (!(exponent < 40)) return 0;
-  return optics.glint * static_cast<float>(portable::expNegative(-exponent)) / (square * square * cosine);
+double mirrorReflectance(const Optics& optics, double cosine) {
+  if (optics.transparent) return stack(slab(optics.index, optics.inner_transmittance, cosine), optics.panes).reflected;
+  const double f0 = optics.mirror_f0, away = 1 - cosine;
+  return f0 + (1 - f0) * away * away * away * away * away;
 }
 
-double detectionThreshold(const ScanSettings& settings) {
-  return settings.reference_reflectivity / (settings.max_range_m * settings.max_range_m);
+float glossEquivalent(const Optics& optics, float cosine) {
+  const float square = cosine * cosine;
+  const float exponent = (1 - square) / square * optics.steepness;   // tan²θ / m²
+  if (!(exponent < 40)) return 0;
+  return optics.glint * portable::exp2(-1.4426950408889634F * exponent) / (square * square * cosine);
+}
+
+double detectionThreshold(const ScanSettings& settings, double clear_air_extinction_per_m) {
+  return settings.reference_reflectivity / (settings.max_range_m * settings.max_range_m) *
+         portable::exp(-2 * clear_air_extinction_per_m * settings.max_range_m);
 }
 
 SlabPower slab(double index, double inner_transmittance_at_normal, double cosine) {
   const double cosine_inside = std::sqrt(1 - (1 - cosine * cosine) / (index * index));
-  const double t = std::pow(inner_transmittance_at_normal, 1 / cosine_inside);
+  const double t = (inner_transmittance_at_normal > 0 ? portable::pow(inner_transmittance_at_normal, 1 / cosine_inside) : 0);
   SlabPower sum{0, 0};
   const double across = (cosine - index * cosine_inside) / (cosine + index * cosine_inside);
   const double along = (index * cosine - cosine_inside) / (index * cosine + cosine_inside);

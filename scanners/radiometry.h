@@ -18,11 +18,16 @@ struct Optics {
   float oren_a = 1, oren_b = 0;  // Oren–Nayar 1994, monostatic: ρ (A cos θ + B sin² θ)
   float glint = 0;               // F0 / 4m²: height of the Beckmann lobe; 0 = no lobe
   float lobe_slope = 0;          // m
+  float steepness = 0;           // 1 / m²
   bool transparent = false;
   double index = 1;              // n of a pane
   double inner_transmittance = 1;  // of one way through its body at normal incidence
   double thickness_m = 0;        // of one pane
   int panes = 1;
+  bool smooth = false;           // shows mirror images
+  float mirror_f0 = 0;           // of an opaque smooth surface at normal incidence
+  float variation = 0;           // coefficient of variation of the reflectance …
+  float texture_scale_m = 0;     // … over this length; 0 = none
 };
 
 Optics opticsOf(const PhysicalMaterial& material, double wavelength_nm);
@@ -41,6 +46,10 @@ inline float lambertEquivalent(const Optics& optics, float cosine) {
   return optics.glint > 0 ? diffuse + glossEquivalent(optics, cosine) : diffuse;
 }
 
+// What a smooth surface mirrors of unpolarised light: a pane by its slabs, an opaque body by Schlick's approximation (1994)
+// of Fresnel's law from its F0.
+double mirrorReflectance(const Optics& optics, double cosine);
+
 // η_opt(R) of the instrument.
 inline float nearRangeFactor(const Instrument& instrument, float range_m) {
   const float ratio = static_cast<float>(instrument.near_range_m) / range_m;
@@ -49,8 +58,8 @@ inline float nearRangeFactor(const Instrument& instrument, float range_m) {
   return 1 / (1 + power);
 }
 
-// x_min = ρ_ref / R_max² of the data sheet (§2.7).
-double detectionThreshold(const ScanSettings& settings);
+// x_min = ρ_ref / R_max² · air of the data sheet (§2.7): its range holds in clear air.
+double detectionThreshold(const ScanSettings& settings, double clear_air_extinction_per_m);
 
 // A slab in air, both polarisations averaged, all inner reflections added (§4.6).
 struct SlabPower {

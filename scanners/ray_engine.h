@@ -12,6 +12,8 @@
 #include "core/points.h"
 #include "core/progress.h"
 #include "core/result.h"
+#include "scanners/atmosphere.h"
+#include "scanners/effects.h"
 #include "scanners/instrument.h"
 
 namespace standpoint {
@@ -34,11 +36,21 @@ class RayScene {
   virtual const Environment& environment() const = 0;
 };
 
+// Which optional channels the points have (core/points.h).
+struct ScanChannels {
+  bool time = false;
+  bool returns = false;
+  bool truth = false;
+};
+
 struct ScanOptions {
   std::uint64_t seed = 1;
-  bool ideal = false;              // no noise at all: the truth
+  Effects effects;
   int threads = 0;                 // 0 = all
   std::uint32_t station_key = 0;   // random numbers belong to the station: a stable hash of its name
+  ScanChannels channels;
+  Weather weather;
+  std::uint32_t first_column = 0, end_column = ~0U;   // of the grid: a part of a scan has the points that the whole has
 };
 
 struct ScanCount {
@@ -48,7 +60,9 @@ struct ScanCount {
 // Scans from `local_from_scanner` (a function of time; one sample for a tripod) and streams the points to `sink`, which
 // has been begun with `header`. Blocks arrive in column order whatever the number of threads; the same arguments give
 // the same bytes. Points carry labels always (material = materials.size() where none is assigned) and colour when the
-// settings take images. Of a scanner that moves, points are in the frame it had at time 0. Received power: physics.md §2.1 (x = ρ_eq(θ)/R² · η_opt), detection §2.7, noise §3.
+// settings take images; of one pulse that meets several surfaces the label is that of the strongest. Of a scanner that
+// moves, points are in the frame it had at time 0. Received power: physics.md §2.1 (x = ρ_eq(θ)/R² · η_opt · air),
+// detection §2.7, noise §3, beam and edges §4.1–4.4, panes and mirrors §4.6–4.7, saturation §4.9.
 Result<ScanCount> scan(const RayScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
                        const ScanSettings& settings, const Trajectory& local_from_scanner, const ScanOptions& options,
                        PointSink& sink, Progress& progress);

@@ -17,7 +17,9 @@ namespace standpoint {
 
 namespace {
 
-constexpr std::uint32_t kPulsesPerBlock = 1U << 16U;
+// Each block traces columns on either side of it, too, to know its neighbours: as many as a beam can reach.
+constexpr std::uint32_t kColumnsPerReach = 8;
+constexpr std::uint32_t kPulsesPerBlock = 1U << 17U;
 
 Result<void> checkArguments(const ScanSettings& settings, const Trajectory& trajectory) {
   if (settings.columns == 0 || settings.rows == 0) return failure(ErrorKind::usage, "the grid has no columns or no rows", "settings");
@@ -39,8 +41,9 @@ class Pipeline {
       : plan_(plan),
         sink_(sink),
         progress_(progress),
-        columns_per_block_(std::max(1U, kPulsesPerBlock / plan.settings.rows)),
-        tracers_([&plan] { return ColumnTracer(plan); }) {}
+        columns_per_block_(std::max({1U, kPulsesPerBlock / plan.settings.rows, kColumnsPerReach * plan.reach()})),
+        tracers_([&plan] { return ColumnTracer(plan); }),
+        next_column_(std::min(plan.options.first_column, plan.endColumn())) {}
 
   Result<ScanCount> run(int threads) {
     tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
@@ -63,13 +66,13 @@ class Pipeline {
   };
 
   Work next(tbb::flow_control& flow) {
-    if (stop_.load(std::memory_order_relaxed) || progress_.cancelled() || next_column_ >= plan_.settings.columns) {
+    if (stop_.load(std::memory_order_relaxed) || progress_.cancelled() || next_column_ >= plan_.endColumn()) {
       flow.stop();
       return {};
     }
     Work work;
     work.from = next_column_;
-    work.to = next_column_ = std::min(plan_.settings.columns, next_column_ + columns_per_block_);
+    work.to = next_column_ = std::min(plan_.endColumn(), next_column_ + columns_per_block_);
     if (!spare_.try_pop(work.block)) work.block = std::make_shared<PointBlock>();
     return work;
   }
@@ -77,7 +80,7 @@ class Pipeline {
   Work trace(Work work) {
     work.block->clear();
     ColumnTracer& tracer = tracers_.local();
-    for (std::uint32_t column = work.from; column < work.to && !progress_.cancelled(); ++column) tracer.trace(column, *work.block);
+    if (!progress_.cancelled()) tracer.trace(work.from, work.to, *work.block);
     return work;
   }
 
@@ -102,7 +105,7 @@ class Pipeline {
   const std::uint32_t columns_per_block_;
   tbb::enumerable_thread_specific<ColumnTracer> tracers_;
   tbb::concurrent_queue<std::shared_ptr<PointBlock>> spare_;
-  std::uint32_t next_column_ = 0;
+  std::uint32_t next_column_;
   std::atomic<bool> stop_{false};
   std::optional<Error> error_;
   ScanCount count_;

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "scanners/column_hits.h"
+#include "scanners/footprint.h"
 #include "scanners/pulse_noise.h"
 
 namespace standpoint {
@@ -14,7 +17,7 @@ namespace {
 std::uint8_t byte(float share) { return static_cast<std::uint8_t>(std::clamp(share, 0.0F, 1.0F) * 255 + 0.5F); }
 
 ScanBias drawBias(const Instrument& instrument, const ScanOptions& options) {
-  if (options.ideal) return {};
+  if (!options.effects.has(Effect::bias)) return {};
   PulseNoise draw;
   pulseNoise({options.seed, options.station_key}, 0, 0, NoiseChannel::scan, draw);
   const double systematic = std::sqrt(instrument.angle_sigma_rad * instrument.angle_sigma_rad -
@@ -46,10 +49,18 @@ double ScanPlan::elevation_rad(std::uint32_t row) const {
   return settings.elevation_from_rad + (row + 0.5) * (settings.elevation_to_rad - settings.elevation_from_rad) / settings.rows;
 }
 
+// At the shortest range a beam is wide beside the steps between pulses.
+std::uint32_t ScanPlan::mostReach() const {
+  const double nearest = std::max(0.3, instrument.min_range_m);
+  const double radius = kOuterShare * beamRadius(instrument, nearest) / nearest;
+  return static_cast<std::uint32_t>(std::clamp(std::ceil(radius / std::min(rowStep_rad(), columnStep_rad())), 1.0, static_cast<double>(kMostReach)));
+}
+
 ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignment_, const Instrument& instrument_,
                    const ScanSettings& settings_, const Trajectory& trajectory_, const ScanOptions& options_)
     : scene(scene_),
       assignment(assignment_),
+      triangles(scene_.environment(), assignment_),
       instrument(instrument_),
       settings(settings_),
       trajectory(trajectory_),
@@ -57,16 +68,35 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
       clock(instrument_, settings_),
       bias(drawBias(instrument_, options_)),
       noise_law(instrument_) {
+  const Effects effects = options.effects;
   const double average = 1 / std::sqrt(static_cast<double>(settings.passes));
-  noise_scale = options.ideal ? 0 : settings.noise_factor * average;
-  jitter_rad = options.ideal ? 0 : instrument.angle_jitter_rad * average;
-  threshold = detectionThreshold(settings);
-  softness = options.ideal ? 0 : threshold * instrument.detection_softness;
+  noise_scale = settings.noise_factor * average;
+  if (effects.has(Effect::angle_noise)) jitter_rad = instrument.angle_jitter_rad * average;
+  Weather weather = options.weather;
+  if (!effects.has(Effect::weather)) weather = {.visibility_km = weather.visibility_km};
+  if (!effects.has(Effect::atmosphere)) weather = kNoAir;
+  const Weather clear = effects.has(Effect::atmosphere) ? Weather{} : kNoAir;
+  if (effects.has(Effect::detection)) threshold = detectionThreshold(settings, extinction_per_m(clear, instrument.wavelength_nm));
+  if (effects.has(Effect::chance)) softness = threshold * instrument.detection_softness;
+  saturation = effects.has(Effect::saturation) ? std::pow(10.0F, static_cast<float>(instrument.saturation.level_db) / 10)
+                                               : std::numeric_limits<float>::infinity();
+  receiver = receiverOf(instrument, noise_law, effects, extinction_per_m(weather, instrument.wavelength_nm));
+  if (effects.has(Effect::footprint)) reach_ = mostReach();
+  std::vector<double> elevations;
+  for (std::uint32_t row = 0; row < settings.rows; ++row) elevations.push_back(elevation_rad(row));
+  const RandomKey key{options.seed, options.station_key};
+  if (effects.has(Effect::striping)) column_noise.emplace(instrument, settings.columns, elevations, key);
+  if (effects.has(Effect::range_noise)) white_share = column_noise ? static_cast<double>(column_noise->white()) : 1;
+  if (weather.rain_mm_h > 0 || weather.snow_mm_h > 0 || weather.fog_mor_m > 0 || weather.dust_mor_m > 0)
+    scatterers.emplace(instrument, weather, detectionThreshold(settings, 0), settings.max_range_m, key);
   for (std::uint32_t row = 0; row < settings.rows; ++row) {
     sine.push_back(std::sin(elevation_rad(row)));
     cosine.push_back(std::cos(elevation_rad(row)));
   }
-  for (const auto& material : assignment.materials) optics.push_back(opticsOf(material, instrument.wavelength_nm));
+  for (const auto& material : assignment.materials) {
+    optics.push_back(opticsOf(material, instrument.wavelength_nm));
+    varies |= effects.has(Effect::variation) && optics.back().variation > 0;
+  }
   for (const auto& surface : scene.environment().surfaces) {
     optics.push_back(opticsOf(surface.colour));
     colours.push_back({byte(surface.colour.r), byte(surface.colour.g), byte(surface.colour.b)});

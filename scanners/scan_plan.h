@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <optional>
 #include <vector>
 
+#include "core/face_patches.h"
 #include "core/physical_material.h"
 #include "core/survey.h"
+#include "scanners/correlated_noise.h"
 #include "scanners/embree_scene.h"
 #include "scanners/radiometry.h"
 #include "scanners/ray_engine.h"
+#include "scanners/scatterers.h"
+#include "scanners/signal_lanes.h"
 
 namespace standpoint {
 
@@ -36,6 +42,7 @@ struct ScanBias {
 struct ScanPlan {
   const EmbreeScene& scene;
   const MaterialAssignment& assignment;
+  AssignedTriangles triangles;               // what single faces are assigned
   const Instrument& instrument;
   const ScanSettings& settings;
   const Trajectory& trajectory;
@@ -43,10 +50,16 @@ struct ScanPlan {
   PulseClock clock;
   ScanBias bias;
   RangeNoiseLaw noise_law;
-  double noise_scale = 0;          // noise_factor / √passes; 0 = ideal
+  Receiver receiver;
+  double noise_scale = 0;          // of σ: noise_factor / √passes
   double jitter_rad = 0;
-  double threshold = 0;            // x_min
+  double threshold = 0;            // x_min; 0 = all that is met returns
   double softness = 0;             // σ of the threshold, absolute
+  float saturation = 0;            // x from which the receiver saturates
+  double white_share = 0;          // of σ, of the noise that is each pulse's own
+  std::optional<ColumnNoise> column_noise;
+  std::optional<Scatterers> scatterers;
+  bool varies = false;             // some material is not the same everywhere
   std::vector<double> sine, cosine;          // of each row's elevation
   std::vector<Optics> optics;                // materials, then surfaces without one
   std::vector<std::array<std::uint8_t, 3>> colours;   // sRGB of each surface: what the camera sees, unshaded
@@ -57,7 +70,20 @@ struct ScanPlan {
   double azimuth_rad(std::uint32_t column) const;
   double elevation_rad(std::uint32_t row) const;
   bool moves() const { return trajectory.pose.size() > 1; }
+  bool passes(const Optics& surface) const { return surface.transparent && options.effects.has(Effect::panes); }
+  bool mirrors(const Optics& surface) const { return surface.smooth && options.effects.has(Effect::mirrors); }
+  double rowStep_rad() const { return (settings.elevation_to_rad - settings.elevation_from_rad) / settings.rows; }
+  double columnStep_rad() const { return (settings.azimuth_to_rad - settings.azimuth_from_rad) / settings.columns; }
+  // Pulses aside that a beam can reach, at most: 0 where beams have no width.
+  std::uint32_t reach() const { return reach_; }
+  // Of the part of the grid that is asked for.
+  std::uint32_t endColumn() const { return std::min(options.end_column, settings.columns); }
+  std::uint32_t nothingLabel() const { return static_cast<std::uint32_t>(scene.environment().products.size()); }
   std::uint32_t unassignedLabel() const { return static_cast<std::uint32_t>(assignment.materials.size()); }
+
+ private:
+  std::uint32_t mostReach() const;
+  std::uint32_t reach_ = 0;
 };
 
 }  // namespace standpoint

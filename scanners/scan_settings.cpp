@@ -139,6 +139,9 @@ Result<Area> areaOf(const Instrument& instrument, const SettingValues& values, b
 }  // namespace
 
 Result<ScanSettings> resolveSettings(const Instrument& instrument, const SettingValues& values) {
+  if (instrument.moving)
+    return failure(ErrorKind::usage, "the " + instrument.maker + " " + instrument.model + " scans while it moves: it needs a "
+                   "trajectory, and a station has none; choose an instrument for a tripod", instrument.id);
   auto filled = complete(instrument, values);
   if (!filled) return failure(filled.error());
   const Effects effects = gather(instrument, *filled);

@@ -2,6 +2,7 @@
 #include "scanners/signal_lanes.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "scanners/portable_math.h"
 #include "scanners/target_clones.h"
@@ -10,7 +11,18 @@ namespace standpoint {
 
 namespace {
 
-STANDPOINT_INLINE void power(SignalLanes& lanes, float near_range, int exponent) {
+STANDPOINT_INLINE void reflect(SignalLanes& lanes) {
+  for (int k = 0; k < kSignalLanes; ++k) {
+    const float cosine = lanes.cosine[k] > 1e-4F ? lanes.cosine[k] : 1e-4F;
+    const float square = cosine * cosine;
+    const float tail = (1 - square) / square * lanes.steepness[k];                // tan²θ / m²
+    const float kept = tail < 40 ? tail : 40;
+    const float lobe = lanes.glint[k] * portable::exp2(-1.4426950408889634F * kept) / (square * square * cosine);
+    lanes.equivalent[k] = lanes.diffuse[k] * (lanes.oren_a[k] * cosine + lanes.oren_b[k] * (1 - square)) + (tail < 40 ? lobe : 0);
+  }
+}
+
+STANDPOINT_INLINE void power(SignalLanes& lanes, float near_range, int exponent, float decay) {
   float ratio[kSignalLanes], blur[kSignalLanes];
   for (int k = 0; k < kSignalLanes; ++k) {
     ratio[k] = near_range / lanes.range_m[k];
@@ -19,8 +31,11 @@ STANDPOINT_INLINE void power(SignalLanes& lanes, float near_range, int exponent)
   for (int n = 0; n < exponent; ++n)
     for (int k = 0; k < kSignalLanes; ++k) blur[k] *= ratio[k];
   for (int k = 0; k < kSignalLanes; ++k) {
-    const float near = 1 / (1 + blur[k]);
-    const float x = lanes.equivalent[k] * lanes.gain[k] * near / (lanes.range_m[k] * lanes.range_m[k]);
+    const float loss = decay * lanes.range_m[k];
+    const float air = portable::exp2(loss > -100 ? loss : -100);
+    const float near = air / (1 + blur[k]);
+    const float one = lanes.equivalent[k] * lanes.gain[k] * near / (lanes.range_m[k] * lanes.range_m[k]);
+    const float x = (lanes.known_x[k] < 0 ? one : lanes.known_x[k]) * lanes.variation[k];
     lanes.x[k] = x > 1e-30F ? x : 1e-30F;
   }
 }
@@ -29,9 +44,11 @@ STANDPOINT_INLINE void store(SignalLanes& lanes, float low_db, float high_db, fl
   for (int k = 0; k < kSignalLanes; ++k) {
     const float share = (3.0102999566398120F * portable::log2(lanes.x[k]) - low_db) / (high_db - low_db);
     const float least = share < 0 ? 0 : share;
-    const float clipped = least > 1 ? 1 : least;
-    lanes.intensity[k] = static_cast<float>(static_cast<std::int32_t>(clipped * steps + 0.5F)) / steps;
+    lanes.intensity[k] = least > 1 ? 1 : least;
   }
+  if (steps > 0)
+    for (int k = 0; k < kSignalLanes; ++k)
+      lanes.intensity[k] = static_cast<float>(static_cast<std::int32_t>(lanes.intensity[k] * steps + 0.5F)) / steps;
 }
 
 STANDPOINT_INLINE void noise(SignalLanes& lanes, const RangeNoiseLaw::Curve* curves, int count) {
@@ -52,25 +69,28 @@ STANDPOINT_INLINE void noise(SignalLanes& lanes, const RangeNoiseLaw::Curve* cur
   }
 }
 
-// The instrument's figures as the lanes need them.
-struct Receiver {
-  float near_range, low_db, high_db, steps;
-  int exponent, curve_count;
-  const RangeNoiseLaw::Curve* curves;
-};
-
 STANDPOINT_CLONES void receiveLanes(SignalLanes& lanes, const Receiver& receiver) {
-  power(lanes, receiver.near_range, receiver.exponent);
-  store(lanes, receiver.low_db, receiver.high_db, receiver.steps);
+  reflect(lanes);
+  power(lanes, receiver.near_range_m, receiver.near_range_power, receiver.decay_per_m);
+  store(lanes, receiver.low_db, receiver.high_db, receiver.levels);
   noise(lanes, receiver.curves, receiver.curve_count);
 }
 
 }  // namespace
 
-void receive(SignalLanes& lanes, const Instrument& instrument, const RangeNoiseLaw& law) {
-  receiveLanes(lanes, {static_cast<float>(instrument.near_range_m), static_cast<float>(instrument.intensity_low_db),
-                       static_cast<float>(instrument.intensity_high_db), static_cast<float>(instrument.intensity_levels - 1),
-                       instrument.near_range_power, static_cast<int>(law.curves().size()), law.curves().data()});
+Receiver receiverOf(const Instrument& instrument, const RangeNoiseLaw& law, Effects effects, double extinction_per_m) {
+  Receiver receiver;
+  receiver.near_range_m = effects.has(Effect::near_range) ? static_cast<float>(instrument.near_range_m) : 0;
+  receiver.near_range_power = instrument.near_range_power;
+  receiver.decay_per_m = static_cast<float>(-2 * extinction_per_m / std::numbers::ln2);
+  receiver.low_db = static_cast<float>(instrument.intensity_low_db);
+  receiver.high_db = static_cast<float>(instrument.intensity_high_db);
+  receiver.levels = effects.has(Effect::quantisation) ? static_cast<float>(instrument.intensity_levels - 1) : 0;
+  receiver.curves = law.curves().data();
+  receiver.curve_count = static_cast<int>(law.curves().size());
+  return receiver;
 }
+
+void receive(SignalLanes& lanes, const Receiver& receiver) { receiveLanes(lanes, receiver); }
 
 }  // namespace standpoint

@@ -165,7 +165,7 @@ bool ExpectedView::look(const ExpectedRequest& request, std::uint64_t revision, 
     for (int x = 0; x < raster.width; ++x) {
       const auto ray = rayThrough(request.view.camera, {(x + 0.5) * raster.step, (y + 0.5) * raster.step}, {request.width, request.height});
       const auto hit = firstShown(*request.scene, ray, request.view);
-      if (hit) seen[static_cast<std::size_t>(y) * static_cast<std::size_t>(raster.width) + static_cast<std::size_t>(x)] = {hit->position.cast<float>(), hit->normal.cast<float>(), hit->product, hit->surface, true};
+      if (hit) seen[static_cast<std::size_t>(y) * static_cast<std::size_t>(raster.width) + static_cast<std::size_t>(x)] = {hit->position.cast<float>(), hit->normal.cast<float>(), hit->product, hit->instance, hit->triangle, true};
     }
   });
   if (late) return false;
@@ -189,7 +189,7 @@ std::shared_ptr<const PixelPicture> ExpectedView::paint(const ExpectedRequest& r
     for (std::size_t x = 0; x < width; ++x) {
       const Seen& seen = raster.seen[y * width + x];
       if (!seen.any) continue;
-      const auto expected = request.expectation->from(request.station, {seen.position.cast<double>(), seen.normal.cast<double>(), seen.product, seen.surface});
+      const auto expected = request.expectation->from(request.station, {seen.position.cast<double>(), seen.normal.cast<double>(), seen.instance, seen.triangle});
       float light = 0.72F + 0.28F * std::abs(seen.normal.dot(forward));
       const bool edge = (x + 1 < width && parted(seen, raster.seen[y * width + x + 1])) || (y + 1 < static_cast<std::size_t>(raster.height) && parted(seen, raster.seen[(y + 1) * width + x]));
       if (request.view.edges && edge) light *= 0.6F;

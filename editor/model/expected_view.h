@@ -71,7 +71,7 @@ class ExpectedView {
  private:
   struct Seen {
     Eigen::Vector3f position = Eigen::Vector3f::Zero(), normal = Eigen::Vector3f::Zero();
-    std::uint32_t product = 0, surface = 0;
+    std::uint32_t product = 0, instance = 0, triangle = 0;
     bool any = false;
   };
   // What the camera sees, a ray for each square of `step` pixels.

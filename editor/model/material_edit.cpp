@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "core/units.h"
 
 namespace standpoint {
@@ -25,6 +27,25 @@ json spectrumOf(const std::array<double, 7>& percent) {
   return spectrum;
 }
 
+json rowsOf(const std::vector<ComplexIndex>& index) {
+  json rows = json::array();
+  for (const auto& row : index) rows.push_back({row.wavelength_nm, row.n, row.k});
+  return rows;
+}
+
+// The reader's own ranges, said before the file is written.
+std::string flawOfIndex(const std::vector<ComplexIndex>& index) {
+  if (index.empty()) return "A metal needs n and k at one wavelength or more";
+  for (std::size_t i = 0; i < index.size(); ++i) {
+    const auto& [wavelength, n, k] = index[i];
+    if (!(wavelength >= 200 && wavelength <= 20000)) return fmt::format("Row {}: a wavelength is from 200 to 20 000 nm", i + 1);
+    if (i > 0 && !(wavelength > index[i - 1].wavelength_nm)) return fmt::format("Row {}: wavelengths must rise from row to row", i + 1);
+    if (!(n >= 0.001 && n <= 1000)) return fmt::format("Row {}: n is from 0.001 to 1000", i + 1);
+    if (!(k >= 0 && k <= 1000)) return fmt::format("Row {}: k is from 0 to 1000", i + 1);
+  }
+  return {};
+}
+
 }  // namespace
 
 MaterialEdit editOf(const PhysicalMaterial& m) {
@@ -36,6 +57,8 @@ MaterialEdit editOf(const PhysicalMaterial& m) {
   edit.roughness_deg = m.roughness_rad / kRadPerDeg;
   edit.gloss_slope = m.gloss_slope;
   edit.index_of_refraction = m.index_of_refraction;
+  edit.metal = !m.complex_index.empty();
+  edit.complex_index = m.complex_index;
   edit.pane = transmits(m);
   edit.transmittance_percent = percentOf(m.transmittance);
   edit.thickness_mm = m.thickness_m * 1000;
@@ -47,9 +70,10 @@ MaterialEdit editOf(const PhysicalMaterial& m) {
 json libraryFileOf(const MaterialEdit& edit) {
   json entry = {{"id", edit.id}, {"label", edit.label}, {"reflectance", spectrumOf(edit.reflectance_percent)}};
   if (edit.roughness_deg > 0) entry["roughness_rad"] = edit.roughness_deg * kRadPerDeg;
-  if (edit.index_of_refraction > 0) entry["index_of_refraction"] = edit.index_of_refraction;
+  if (edit.metal) entry["complex_index"] = rowsOf(edit.complex_index);
+  else if (edit.index_of_refraction > 0) entry["index_of_refraction"] = edit.index_of_refraction;
   if (edit.gloss_slope > 0) entry["gloss_slope"] = edit.gloss_slope;
-  if (edit.pane) {
+  if (edit.pane && !edit.metal) {
     entry["transmittance"] = spectrumOf(edit.transmittance_percent);
     entry["thickness_m"] = edit.thickness_mm / 1000;
     if (edit.panes > 1) {
@@ -66,10 +90,29 @@ json libraryFileOf(const MaterialEdit& edit) {
   return file;
 }
 
+void addIndexRow(MaterialEdit& edit, std::size_t below) {
+  auto& index = edit.complex_index;
+  if (index.empty()) {
+    index.push_back({905, 2, 5});
+    return;
+  }
+  ComplexIndex row = index[below];
+  if (below + 1 < index.size()) {
+    const auto& next = index[below + 1];
+    row = {(row.wavelength_nm + next.wavelength_nm) / 2, (row.n + next.n) / 2, (row.k + next.k) / 2};
+  } else {
+    row.wavelength_nm = std::min(row.wavelength_nm + 100, 20000.0);
+  }
+  index.insert(index.begin() + static_cast<std::ptrdiff_t>(below) + 1, row);
+}
+
+void takeIndexRow(MaterialEdit& edit, std::size_t row) { edit.complex_index.erase(edit.complex_index.begin() + static_cast<std::ptrdiff_t>(row)); }
+
 std::string flawOf(const MaterialEdit& edit) {
   const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
   if (edit.id.empty() || !std::all_of(edit.id.begin(), edit.id.end(), allowed)) return "The id is made of a-z, 0-9 and _";
   if (edit.label.find_first_not_of(' ') == std::string::npos) return "It needs a name";
+  if (edit.metal) return flawOfIndex(edit.complex_index);
   if (edit.gloss_slope > 0 && !(edit.index_of_refraction > 1)) return "Gloss needs an index of refraction above 1";
   if (edit.pane && !(edit.index_of_refraction > 1)) return "A pane needs an index of refraction above 1";
   if (edit.pane && !(edit.thickness_mm > 0)) return "A pane needs a thickness";

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -18,6 +20,8 @@ struct MaterialEdit {
   std::array<double, 7> reflectance_percent = {};
   double roughness_deg = 0;
   double gloss_slope = 0, index_of_refraction = 0;
+  bool metal = false;                            // n and k at wavelengths instead of one index
+  std::vector<ComplexIndex> complex_index;
   bool pane = false;
   std::array<double, 7> transmittance_percent = {};
   double thickness_mm = 0;
@@ -29,6 +33,10 @@ struct MaterialEdit {
 MaterialEdit editOf(const PhysicalMaterial& material);
 // A library file of this one material, as `materials --library` reads it.
 nlohmann::json libraryFileOf(const MaterialEdit& edit);
+// A row of n and k below that one (or the first), halfway to the next; behind the last at a wavelength beyond it.
+void addIndexRow(MaterialEdit& edit, std::size_t below);
+void takeIndexRow(MaterialEdit& edit, std::size_t row);
+
 // Why it cannot be kept; empty when it can. What the reader of libraries refuses beyond that comes as the verb's error.
 std::string flawOf(const MaterialEdit& edit);
 

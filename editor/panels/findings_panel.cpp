@@ -11,6 +11,7 @@
 #include "editor/shell/material_brush.h"
 #include "editor/shell/theme.h"
 #include "editor/shell/widgets.h"
+#include "project/material_findings.h"
 
 namespace standpoint {
 
@@ -65,7 +66,7 @@ void drawRemedy(Editor& editor, const Remedy& remedy, const std::string& why) {
   const std::string blocked = !why.empty() ? why : known == nullptr ? "Choose a material in the list first" : "";
   const std::string text = open ? fmt::format("{}: {}", remedy.text, known == nullptr ? "choose a material" : known->label) : remedy.text;
   if (ui::button(fmt::format("{}  {}###{}{}", ICON_MAGIC, text, remedy.selector, remedy.material).c_str(), blocked, {-FLT_MIN, 0}))
-    editor.session.start("materials", {{"assign", {remedy.selector + "=" + material}}}, remedy.text);
+    editor.session.start("materials", {{"assign", assignWords(remedy, material)}}, remedy.text);
 }
 
 void drawAcceptance(Editor& editor, const MaterialFinding& finding, const std::string& why) {
@@ -102,14 +103,18 @@ void drawFinding(Editor& editor, const MaterialFinding& finding) {
 void drawFindingsPanel(Editor& editor) {
   const auto& choice = editor.session.document().materials;
   if (!choice) return ui::dimText("Findings come when materials have been assigned.");
-  const auto& findings = choice->result.report.findings;
+  auto& state = editor.panels.findings;
+  if (state.seen_revision != editor.session.revision()) {
+    state.seen_revision = editor.session.revision();
+    state.all = materialFindings(editor.session.document());
+  }
+  const auto& findings = state.all;
   const auto open = std::count_if(findings.begin(), findings.end(), [](const MaterialFinding& f) { return f.because.empty(); });
   if (findings.empty()) {
     ImGui::TextColored(colour(tone::kGood), "%s", ICON_CHECK);
     ImGui::SameLine();
     return ImGui::TextUnformatted("Nothing is doubtful.");
   }
-  auto& state = editor.panels.findings;
   const auto chosen = std::find_if(findings.begin(), findings.end(), [&](const MaterialFinding& f) { return f.id == state.chosen; });
   const float width = ImGui::GetContentRegionAvail().x;
   ImGui::BeginChild("list", {chosen == findings.end() ? width : width * 0.52F, 0});

@@ -214,8 +214,7 @@ void drawMaterialCardPanel(Editor& editor) {
   ui::wrapped(material->label);
   if (editor.fonts.bold != nullptr) ImGui::PopFont();
   ui::dimText(material->id);
-  const std::string metal = material->complex_index.empty() ? "" : "A metal has tables of n and k: write a library file (docs/materials.md)";
-  if (ui::button(ICON_PENCIL "  Copy and edit###edit-material", metal)) editor.panels.materials.edit = editOf(*material);
+  if (ui::button(ICON_PENCIL "  Copy and edit###edit-material")) editor.panels.materials.edit = editOf(*material);
   drawSpectrum(editor, *material);
   drawAngles(editor, *material);
   drawReported(editor, *material);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -35,6 +36,37 @@ void spectrum(const char* title, const char* id, std::array<double, 7>& percent)
     number(fmt::format("{}{:.0f} nm", i == 0 ? title : "", MaterialEdit::kWavelengths_nm[i]).c_str(), fmt::format("###{}{}", id, i).c_str(), percent[i], 100, "%.1f %%");
 }
 
+void cell(const char* id, double& value, const char* format) {
+  ImGui::TableNextColumn();
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  ImGui::InputDouble(id, &value, 0, 0, format);
+}
+
+// A row for each wavelength; what is added or taken away is so only when all are drawn.
+void drawComplexIndex(MaterialEdit& edit) {
+  std::optional<std::size_t> add, take;
+  if (edit.complex_index.empty() && ui::button(ICON_ADD "  Row###add-first")) add = 0;
+  if (ImGui::BeginTable("complex-index", 4, ImGuiTableFlags_RowBg)) {
+    for (const char* title : {"nm", "n", "k"}) ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthStretch, 1);
+    ImGui::TableSetupColumn("###rows", ImGuiTableColumnFlags_WidthFixed, 2.6F * ImGui::GetFrameHeight());
+    ImGui::TableHeadersRow();
+    for (std::size_t i = 0; i < edit.complex_index.size(); ++i) {
+      auto& [wavelength, n, k] = edit.complex_index[i];
+      ImGui::TableNextRow();
+      cell(fmt::format("###wavelength{}", i).c_str(), wavelength, "%.0f");
+      cell(fmt::format("###n{}", i).c_str(), n, "%.3f");
+      cell(fmt::format("###k{}", i).c_str(), k, "%.3f");
+      ImGui::TableNextColumn();
+      if (ui::iconButton(fmt::format("{}###add{}", ICON_ADD, i).c_str(), "A row below this one")) add = i;
+      ImGui::SameLine(0, 0);
+      if (ui::iconButton(fmt::format("{}###take{}", ICON_TRASH, i).c_str(), "Take this row away")) take = i;
+    }
+    ImGui::EndTable();
+  }
+  if (add) addIndexRow(edit, *add);
+  if (take) takeIndexRow(edit, *take);
+}
+
 void drawFields(MaterialEdit& edit) {
   if (!ui::beginProperties("material-fields", 0.42F)) return;
   text("Name", "###label", "Plaster of the hall", edit.label);
@@ -42,10 +74,15 @@ void drawFields(MaterialEdit& edit) {
   spectrum("Reflects, ", "reflectance", edit.reflectance_percent);
   number("Roughness σ", "###roughness", edit.roughness_deg, 60, "%.1f°");
   number("Gloss slope", "###gloss", edit.gloss_slope, 1, "%.3f");
-  number("Index n", "###index", edit.index_of_refraction, 3, "%.3f");
-  ui::propertyLabel("Lets light through");
-  ImGui::Checkbox("###pane", &edit.pane);
-  if (edit.pane) {
+  ui::propertyLabel("Metal");
+  ImGui::Checkbox("###metal", &edit.metal);
+  ui::tooltip("With n and k at wavelengths, instead of one index of refraction");
+  if (!edit.metal) {
+    number("Index n", "###index", edit.index_of_refraction, 3, "%.3f");
+    ui::propertyLabel("Lets light through");
+    ImGui::Checkbox("###pane", &edit.pane);
+  }
+  if (edit.pane && !edit.metal) {
     spectrum("Lets through, ", "transmittance", edit.transmittance_percent);
     number("Thickness", "###thickness", edit.thickness_mm, 50, "%.1f mm");
     ui::propertyLabel("Panes");
@@ -55,6 +92,7 @@ void drawFields(MaterialEdit& edit) {
   }
   text("Source", "###source", "who measured it; empty: unsourced", edit.source);
   ui::endProperties();
+  if (edit.metal) drawComplexIndex(edit);
 }
 
 // By a file, as every material comes: the verb's reader is the one judge of its figures.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "materials/materials.h"
+#include "project/instruments.h"
 #include "project/verb.h"
 
 namespace standpoint {
@@ -16,7 +17,7 @@ const Catalogue& readCatalogue(Catalogue& catalogue) {
     catalogue.materials = std::move(*library);
   else
     catalogue.problem = describe(library.error());
-  if (auto instruments = readInstruments(data / "scanners" / "instruments"))
+  if (auto instruments = knownInstruments())
     catalogue.instruments = std::move(*instruments);
   else
     catalogue.problem += (catalogue.problem.empty() ? "" : "\n") + describe(instruments.error());

@@ -51,6 +51,8 @@ struct MaterialsPanelState {
 struct FindingsPanelState {
   std::string chosen;               // MaterialFinding::id
   std::string because;              // what stands in the field
+  std::uint64_t seen_revision = ~0ULL;
+  std::vector<MaterialFinding> all; // of that revision
 };
 
 struct VerifyPanelState {

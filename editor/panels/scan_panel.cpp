@@ -23,9 +23,10 @@ namespace {
 const Instrument* chosenInstrument(Editor& editor) {
   auto& state = editor.panels.scan;
   const auto& all = readCatalogue(editor.panels.catalogue).instruments;
-  if (all.empty()) return nullptr;
-  auto found = std::find_if(all.begin(), all.end(), [&](const Instrument& i) { return i.id == state.instrument; });
-  if (found == all.end()) found = all.begin();
+  const auto on_tripod = [](const Instrument& i) { return !i.moving; };   // a station has no trajectory
+  auto found = std::find_if(all.begin(), all.end(), [&](const Instrument& i) { return on_tripod(i) && i.id == state.instrument; });
+  if (found == all.end()) found = std::find_if(all.begin(), all.end(), on_tripod);
+  if (found == all.end()) return nullptr;
   if (state.instrument == found->id) return &*found;
   state.instrument = found->id;
   state.settings.clear();
@@ -37,7 +38,7 @@ void drawInstrumentChoice(Editor& editor, const Instrument& chosen) {
   ui::propertyLabel("Instrument");
   if (!ImGui::BeginCombo("###instrument", fmt::format("{} {}", chosen.maker, chosen.model).c_str())) return;
   for (const auto& i : editor.panels.catalogue.instruments)
-    if (ImGui::Selectable(fmt::format("{} {}###{}", i.maker, i.model, i.id).c_str(), i.id == chosen.id)) {
+    if (!i.moving && ImGui::Selectable(fmt::format("{} {}###{}", i.maker, i.model, i.id).c_str(), i.id == chosen.id)) {
       editor.panels.scan.instrument = i.id;
       editor.panels.scan.settings.clear();
       for (const auto& setting : i.settings) editor.panels.scan.settings.emplace_back(setting.key, setting.standard);

@@ -113,6 +113,15 @@ std::string titleOf(Editor& editor, const VerifiedProposal& p) {
   return fmt::format("{}{} behaves like {}", labelOf(editor, p.material), count, labelOf(editor, p.behaves_like));
 }
 
+// What it proposes is among what the user said: nothing is left to press.
+bool isTaken(const Document& document, const VerifiedProposal& p) {
+  if (!document.materials) return false;
+  const auto& said = document.materials->overrides;
+  return std::all_of(p.assign.begin(), p.assign.end(), [&](const std::string& assign) {
+    return std::any_of(said.begin(), said.end(), [&](const MaterialOverride& o) { return o.selector + "=" + o.material == assign; });
+  });
+}
+
 void drawProposal(Editor& editor, const VerifiedProposal& p, int index) {
   ImGui::PushID(index);
   ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
@@ -124,7 +133,8 @@ void drawProposal(Editor& editor, const VerifiedProposal& p, int index) {
   for (const auto& id : p.alike) alike.push_back(labelOf(editor, id));
   if (!alike.empty()) ui::dimText(fmt::format("As well as: {}", fmt::join(alike, "; ")));
   ImGui::PopTextWrapPos();
-  if (ui::button(ICON_PAINT "  Assign###assign", editor.session.whyNot("materials"), {0, 0}, "Assigns it to these products; undo takes it back"))
+  const std::string why = isTaken(editor.session.document(), p) ? "It is assigned: compare again to see what that changes" : editor.session.whyNot("materials");
+  if (ui::button(ICON_PAINT "  Assign###assign", why, {0, 0}, "Assigns it to these products; undo takes it back"))
     editor.session.start("materials", {{"assign", p.assign}}, "Assign what was measured");
   ImGui::SameLine();
   if (ui::button(ICON_POINTER "  Select###select", {}, {0, 0})) {

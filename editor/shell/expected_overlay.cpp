@@ -103,17 +103,13 @@ void drawFates(Editor& editor, ImVec2 at, bool with_returned) {
   }
 }
 
-std::string materialName(const Editor& editor, const RayHit& hit) {
-  const auto& choice = editor.session.document().materials;
-  const std::int32_t material = choice ? materialOf(choice->result.assignment, hit.product, hit.surface, hit.normal) : -1;
-  return material < 0 ? "No material" : choice->result.assignment.materials[static_cast<std::size_t>(material)].label;
-}
-
 void drawReading(Editor& editor, const Expectation& expectation) {
   const auto& hit = editor.view.hover;
   if (!hit || editor.view.probe.dragged || editor.view.dragging) return;
-  const auto expected = expectation.from(*editor.view.probe.position, {hit->position, hit->normal, hit->product, hit->surface});
-  auto text = fmt::format("{}\n{:.2f} m, {:.0f}° off normal", materialName(editor, *hit), expected.range_m, expected.incidence_rad / kRadPerDeg);
+  const auto expected = expectation.from(*editor.view.probe.position, {hit->position, hit->normal, hit->instance, hit->triangle});
+  const auto& choice = editor.session.document().materials;
+  const std::int32_t material = choice ? expectation.materialAt(hit->instance, hit->triangle) : -1;
+  auto text = fmt::format("{}\n{:.2f} m, {:.0f}° off normal", material < 0 ? "No material" : choice->result.assignment.materials[static_cast<std::size_t>(material)].label, expected.range_m, expected.incidence_rad / kRadPerDeg);
   if (expected.fate == ReturnFate::returned)
     text += fmt::format("\nintensity {:.3f}, σ {:.2f} mm, {:.0f} % come back", expected.intensity, expected.sigma_m * 1000, expected.probability * 100);
   else

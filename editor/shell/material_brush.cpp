@@ -53,9 +53,9 @@ void paintMaterial(Editor& editor, const RayHit& hit) {
 
 void takeMaterial(Editor& editor, const RayHit& hit) {
   const auto& choice = editor.session.document().materials;
-  const std::int32_t material = choice ? materialOf(choice->result.assignment, hit.product, hit.surface, hit.normal) : -1;
-  editor.panels.materials.chosen_unassigned = material < 0;
-  editor.panels.materials.chosen = material < 0 ? std::string() : choice->result.assignment.materials[static_cast<std::size_t>(material)].id;
+  const auto* material = choice ? materialAt(*editor.environment(), choice->result.assignment, hit) : nullptr;
+  editor.panels.materials.chosen_unassigned = material == nullptr;
+  editor.panels.materials.chosen = material == nullptr ? std::string() : material->id;
   editor.wanted_tab[1] = "material";
 }
 
@@ -70,7 +70,7 @@ void drawMaterialMenu(Editor& editor) {
     return;
   }
   ui::dimText(fmt::format("{} on", material->label));
-  for (const auto& scope : materialScopes(*editor.environment(), hit)) {
+  for (const auto& scope : materialScopes(*editor.environment(), hit, editor.session.document().georeference->shift_m)) {
     const auto label = scope.products > 1 ? fmt::format("{}   {} products###{}", scope.title, scope.products, scope.selector) : fmt::format("{}###{}", scope.title, scope.selector);
     if (ImGui::MenuItem(label.c_str(), nullptr, false, why.empty()))
       editor.session.start("materials", {{"assign", {scope.selector + "=" + material->id}}}, fmt::format("Assign {} to {}", material->label, scope.title));

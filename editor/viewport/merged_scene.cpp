@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <utility>
 
 #include "core/assigned.h"
-#include "core/face_normal.h"
+#include "core/face_patches.h"
 
 namespace standpoint {
 
@@ -58,22 +59,27 @@ double confidenceOf(const MaterialAssignment& assignment, std::uint32_t product,
 
 class Painter {
  public:
-  explicit Painter(const ViewState& state) : state_(state) {}
+  explicit Painter(const ViewState& state) : state_(state) {
+    if (state.materials && showsMaterials()) triangles_.emplace(*state.environment, state.materials->result.assignment);
+  }
 
   // Single faces of it have another material than the rest.
   bool byFace(std::uint32_t product, std::uint32_t surface) const {
-    if (!state_.materials || (state_.colour != ColourMode::material && state_.colour != ColourMode::reflectance)) return false;
-    return !assignedFaces(state_.materials->result.assignment, product, surface).empty();
+    return triangles_ && !assignedFaces(state_.materials->result.assignment, product, surface).empty();
   }
 
-  Rgba of(std::uint32_t product, std::uint32_t surface, const Eigen::Vector3d& normal) const {
+  Rgba ofFace(PlacedTriangle face) const {
+    return rgba(physicalColour(state_.materials->result.assignment, triangles_->materialOf(face.instance, face.triangle), state_));
+  }
+
+  Rgba of(std::uint32_t product, std::uint32_t surface) const {
     if (state_.colour == ColourMode::deviation) return state_.deviation ? Rgba{255, 255, 255, 255} : deviationColour(0, 1);
     if (isExpected(state_.colour)) return deviationColour(0, 1);
     if (state_.colour != ColourMode::model) {
       if (!state_.materials) return rgba(materialColour(nullptr));
       const auto& assignment = state_.materials->result.assignment;
       if (state_.colour == ColourMode::confidence) return rgba(confidenceColour(confidenceOf(assignment, product, surface)));
-      return rgba(physicalColour(assignment, materialOf(assignment, product, surface, normal), state_));
+      return rgba(physicalColour(assignment, materialOf(assignment, product, surface), state_));
     }
     Colour c = state_.environment->surfaces[surface].colour;
     if (c.a < 1) c.a = std::clamp(c.a, 0.15F, 0.85F);   // glass stays to be seen
@@ -81,7 +87,10 @@ class Painter {
   }
 
  private:
+  bool showsMaterials() const { return state_.colour == ColourMode::material || state_.colour == ColourMode::reflectance; }
+
   const ViewState& state_;
+  std::optional<AssignedTriangles> triangles_;
 };
 
 // Takes one placed mesh into the parts of the scene, its vertices once into each part that needs them. A vertex whose
@@ -204,11 +213,43 @@ MergedScene mergeVisible(const ViewState& state) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const bool next = mesh.surface_of_triangle[t] != surface;
       if (next) by_face = painter.byFace(instance.product, surface = mesh.surface_of_triangle[t]);
-      if (next || by_face) colour = painter.of(instance.product, surface, by_face ? placedNormal(mesh, mesh.triangles[t], instance.world_from_mesh) : Eigen::Vector3d::Zero());
+      if (by_face) colour = painter.ofFace({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(t)});
+      else if (next) colour = painter.of(instance.product, surface);
       merger.add(t, colour);
     }
   }
   return scene;
+}
+
+std::optional<MergedColours> mergeColours(const ViewState& state) {
+  const auto& environment = *state.environment;
+  if (state.colour == ColourMode::deviation && state.deviation) return std::nullopt;
+  if (state.colour == ColourMode::model &&
+      (!environment.images.empty() || std::any_of(environment.meshes.begin(), environment.meshes.end(), [](const auto& m) { return !m->colours.empty(); })))
+    return std::nullopt;
+  MergedColours merged;
+  merged.runs.push_back(0);
+  const Painter painter(state);
+  const auto append = [&](Rgba colour, std::uint32_t count) {
+    const bool opaque = colour[3] == 255;
+    auto& colours = opaque ? merged.opaque : merged.transparent;
+    colours.insert(colours.end(), count, colour);
+    if (opaque != (merged.runs.size() % 2 == 1)) merged.runs.push_back(0);
+    merged.runs.back() += count;
+  };
+  for (std::size_t i = 0; i < environment.instances.size(); ++i) {
+    const auto& instance = environment.instances[i];
+    if (!visible(state, instance.product)) continue;
+    const auto& of = environment.meshes[instance.mesh]->surface_of_triangle;
+    for (std::size_t t = 0; t < of.size();) {
+      const auto end = static_cast<std::size_t>(std::upper_bound(of.begin() + static_cast<std::ptrdiff_t>(t), of.end(), of[t]) - of.begin());
+      if (!painter.byFace(instance.product, of[t])) append(painter.of(instance.product, of[t]), static_cast<std::uint32_t>(end - t));
+      else
+        for (auto face = t; face < end; ++face) append(painter.ofFace({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(face)}), 1);
+      t = end;
+    }
+  }
+  return merged;
 }
 
 MergedTriangles mergeProducts(const Environment& environment, const std::vector<std::uint32_t>& products, Rgba colour) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -43,6 +44,17 @@ struct MergedScene {
 };
 
 MergedScene mergeVisible(const ViewState& state);
+
+// The colours of mergeVisible() without the geometry, for a view that shows the same triangles in another paint.
+struct MergedColours {
+  std::vector<Rgba> opaque, transparent;
+  std::vector<std::uint32_t> runs;       // triangles that go to `opaque`, then to `transparent`, and on in turns: where these are
+                                         // equal, every triangle is where it was
+  bool operator==(const MergedColours&) const = default;
+};
+// Nothing where images or vertex colours are shown: their geometry depends on what is painted.
+std::optional<MergedColours> mergeColours(const ViewState& state);
+
 MergedTriangles mergeProducts(const Environment& environment, const std::vector<std::uint32_t>& products, Rgba colour);
 MergedTriangles mergeShapes(const CollideResult& collision);
 MergedTriangles mergeMesh(const Mesh& mesh, Rgba colour, float lift_m);

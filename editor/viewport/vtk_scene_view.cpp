@@ -147,6 +147,10 @@ struct Layer {
     actor->SetMapper(mapper);
     actor->SetVisibility(empty ? 0 : 1);
   }
+  // The same triangles in other colours: their places stay where the graphics card has them.
+  void paint(const std::vector<Rgba>& colours) {
+    if (!colours.empty()) mapper->GetInput()->GetCellData()->SetScalars(coloursOf(colours));
+  }
   void hide() { actor->SetVisibility(0); }
 };
 
@@ -356,7 +360,8 @@ class VtkSceneView : public SceneView {
     const bool environment = last == nullptr || last->environment != state.environment;
     const bool shown = environment || last->hidden != state.hidden || last->shapes != state.shapes || last->cloud != state.cloud;
     if (environment) bounds_ = state.environment ? bounds(*state.environment) : Bounds();
-    if (shown || last->materials != state.materials || last->colour != state.colour || last->wavelength_nm != state.wavelength_nm || last->deviation != state.deviation) updateSurfaces(state);
+    const bool painted = shown || last->materials != state.materials || last->colour != state.colour || last->wavelength_nm != state.wavelength_nm || last->deviation != state.deviation;
+    if (painted) updateSurfaces(state, !shown);
     if (shown || last->edges != state.edges) updateEdges(state);
     if (shown || last->selected != state.selected) updateSelection(state);
     if (last == nullptr || last->collision != state.collision || last->walkable != state.walkable || last->shapes != state.shapes) updateCollision(state);
@@ -368,7 +373,15 @@ class VtkSceneView : public SceneView {
     updateCamera(state.camera);
   }
 
-  void updateSurfaces(const ViewState& state) {
+  void updateSurfaces(const ViewState& state, bool same_triangles) {
+    auto colours = state.environment && !state.shapes && !state.cloud ? mergeColours(state) : std::nullopt;
+    const bool repaint = same_triangles && colours && runs_ == colours->runs;
+    if (repaint) {
+      opaque_.paint(colours->opaque);
+      transparent_.paint(colours->transparent);
+      return;
+    }
+    runs_ = colours ? std::move(colours->runs) : std::vector<std::uint32_t>();
     opaque_.hide();
     transparent_.hide();
     graded_.hide();
@@ -504,6 +517,7 @@ class VtkSceneView : public SceneView {
   vtkNew<vtkRenderer> renderer_;
   Layer opaque_, transparent_, graded_, graded_transparent_, shapes_, selected_, walkable_, edges_, outline_, grid_, cloud_;
   std::vector<std::unique_ptr<Layer>> painted_;   // one for each image in sight
+  std::vector<std::uint32_t> runs_;               // of what opaque_ and transparent_ show; empty: their colours cannot be changed alone
   TextureCache textures_;
   EdgeCache edge_cache_;
   struct UnderlayLayer {

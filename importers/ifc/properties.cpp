@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/presentation_layers.h"
 #include "importers/ifc/attribute_sets.h"
 #include "importers/ifc/entities.h"
 #include "importers/ifc/property_value.h"
@@ -117,7 +118,7 @@ void appendPresentationLayers(Properties& out, const Entity& object, const Relat
   if (!relations.hasPresentationLayers()) return;
   LayerNames names(relations);
   for (const Entity& representation : object.ref(6).refs(2)) names.look(representation);
-  for (const Id id : names.ids()) add(out, "Presentation layer", "Name", model.file.entity(id)[0].text());
+  for (const Id id : names.ids()) add(out, kPresentationLayer, "Name", model.file.entity(id)[0].text());
 }
 
 Properties propertiesOfType(const Entity& type, const Relations& relations, const Model& model) {
@@ -153,8 +154,8 @@ Properties propertiesOf(const Entity& object, const Relations& relations, const 
     for (Property& p : propertiesOfType(type, relations, model))
       if (!own.contains({p.set, p.name})) properties.push_back(std::move(p));
   }
-  appendPresentationLayers(properties, object, relations, model);
   if (properties.size() > kMostProperties) properties.resize(kMostProperties);
+  appendPresentationLayers(properties, object, relations, model);   // selectors ask for them: they are not cut
   return properties;
 }
 

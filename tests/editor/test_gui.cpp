@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -135,6 +136,44 @@ TEST_F(Gui, AssignsAMaterialThroughTheVerb) {
   const auto material = materialOf(assignment, table, 3);
   ASSERT_GE(material, 0);
   EXPECT_EQ(assignment.materials[static_cast<std::size_t>(material)].id, library.front().id);
+}
+
+TEST_F(Gui, EditsTheRowsOfAMetalAndUndoTakesItOutAgain) {
+  open();
+  const auto& library = readCatalogue(editor.panels.catalogue).materials;
+  const auto metal = std::find_if(library.begin(), library.end(), [](const PhysicalMaterial& m) { return m.complex_index.size() > 2; });
+  if (metal == library.end()) GTEST_SKIP() << editor.panels.catalogue.problem;
+  ASSERT_TRUE(editor.session.start("materials", nlohmann::json::object()));
+  gui.settle();
+  editor.workspace = Workspace::materials;
+  editor.panels.materials.chosen = metal->id;
+  editor.wanted_tab[1] = "material";
+  gui.frames(3);
+  ASSERT_TRUE(gui.click("###edit-material"));
+  gui.frames(2);
+  auto& edit = editor.panels.materials.edit;
+  ASSERT_TRUE(edit && edit->metal);
+  for (const char* button : {"###take0", "###add0"}) {
+    const auto rows = edit->complex_index.size();
+    const auto* item = gui.find(button);
+    ASSERT_NE(item, nullptr) << button;
+    if (auto* fields = ImGui::FindWindowByName(item->window.c_str())) ImGui::SetScrollY(fields, fields->ScrollMax.y);   // the rows are below the fold
+    gui.frames(2);
+    ASSERT_TRUE(gui.click(button));
+    gui.frames(2);
+    EXPECT_NE(edit->complex_index.size(), rows) << button;
+  }
+  EXPECT_EQ(edit->complex_index.size(), metal->complex_index.size());
+  const auto id = edit->id;
+  ASSERT_TRUE(gui.click("###keep-material"));
+  gui.settle();
+  ASSERT_TRUE(editor.session.errors().empty()) << describe(editor.session.errors().front().error);
+  ASSERT_EQ(editor.session.document().materials->own.size(), 1U);
+  EXPECT_EQ(editor.session.document().materials->own[0].id, id);
+  EXPECT_EQ(editor.session.document().materials->own[0].complex_index.size(), metal->complex_index.size());
+  editor.session.undo();
+  gui.frames(2);
+  EXPECT_TRUE(editor.session.document().materials->own.empty());
 }
 
 TEST_F(Gui, FindsAnActionInThePaletteByWords) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -21,11 +22,11 @@ Result<std::vector<PhysicalMaterial>> readBack(const MaterialEdit& edit) {
   return own;
 }
 
-TEST(MaterialEdit, OfEveryShippedMaterialThatIsNoMetalOrGapReadsBackAsALibrary) {
+TEST(MaterialEdit, OfEveryShippedMaterialThatIsNoGapReadsBackAsALibrary) {
   const auto shipped = readMaterialLibrary(library());
   ASSERT_TRUE(shipped);
   for (const auto& m : *shipped) {
-    if (!m.complex_index.empty() || isGap(m)) continue;
+    if (isGap(m)) continue;
     const auto edit = editOf(m);
     ASSERT_EQ(flawOf(edit), "") << m.id;
     const auto own = readBack(edit);
@@ -33,6 +34,8 @@ TEST(MaterialEdit, OfEveryShippedMaterialThatIsNoMetalOrGapReadsBackAsALibrary) 
     ASSERT_EQ(own->size(), 1U);
     EXPECT_NEAR(atWavelength(own->front().reflectance, 905), atWavelength(m.reflectance, 905), 0.0006) << m.id;
     EXPECT_EQ(own->front().panes, m.panes) << m.id;
+    EXPECT_DOUBLE_EQ(own->front().gap_m, m.gap_m) << m.id;
+    EXPECT_EQ(own->front().complex_index, m.complex_index) << m.id;
   }
 }
 
@@ -47,6 +50,55 @@ TEST(MaterialEdit, KeepsWhatTheUserSaysOfItsFigures) {
   EXPECT_NE(own->front().sources.front().text.find("sample 7"), std::string::npos);
   edit.source.clear();
   EXPECT_EQ(readBack(edit)->front().sources.front().text.rfind("unsourced", 0), 0U);
+}
+
+// Gold at 1000 nm: n = 0.257, k = 6.82 (Johnson and Christy), of which F0 = ((n - 1)² + k²) / ((n + 1)² + k²) = 0.979.
+TEST(MaterialEdit, OfAMetalHasRowsOfNAndK) {
+  MaterialEdit edit;
+  edit.id = "gold";
+  edit.label = "Gold";
+  edit.metal = true;
+  EXPECT_NE(flawOf(edit), "");
+  addIndexRow(edit, 0);
+  edit.complex_index[0] = {1000, 0.257, 6.82};
+  EXPECT_EQ(flawOf(edit), "");
+  edit.index_of_refraction = 1.5;   // of before it was called a metal: it does not come along
+  edit.pane = true;
+  const auto own = readBack(edit);
+  ASSERT_TRUE(own) << describe(own.error());
+  EXPECT_NEAR(specularAtNormal(own->front(), 905), 0.979, 0.0005);
+  EXPECT_EQ(own->front().index_of_refraction, 0);
+}
+
+TEST(MaterialEdit, AddsRowsHalfwayAndBehindAndTakesThemAway) {
+  MaterialEdit edit;
+  edit.complex_index = {{600, 1, 4}, {800, 2, 6}};
+  addIndexRow(edit, 0);
+  EXPECT_EQ(edit.complex_index, (std::vector<ComplexIndex>{{600, 1, 4}, {700, 1.5, 5}, {800, 2, 6}}));
+  addIndexRow(edit, 2);
+  EXPECT_EQ(edit.complex_index.back(), (ComplexIndex{900, 2, 6}));
+  takeIndexRow(edit, 1);
+  EXPECT_EQ(edit.complex_index, (std::vector<ComplexIndex>{{600, 1, 4}, {800, 2, 6}, {900, 2, 6}}));
+}
+
+TEST(MaterialEdit, OfAMetalSaysWhichRowIsWrong) {
+  MaterialEdit edit;
+  edit.id = "metal";
+  edit.label = "Metal";
+  edit.metal = true;
+  const auto flaw = [&](std::vector<ComplexIndex> rows) {
+    edit.complex_index = std::move(rows);
+    const auto said = flawOf(edit);
+    EXPECT_EQ(said.empty(), readBack(edit).has_value()) << said;   // no more and no less than the reader
+    return said;
+  };
+  EXPECT_EQ(flaw({{532, 1, 1}, {905, 1, 1}}), "");
+  EXPECT_NE(flaw({{905, 1, 1}, {532, 1, 1}}).find("Row 2: wavelengths must rise"), std::string::npos);
+  EXPECT_NE(flaw({{905, 1, 1}, {905, 1, 1}}).find("Row 2"), std::string::npos);
+  EXPECT_NE(flaw({{100, 1, 1}}).find("Row 1: a wavelength"), std::string::npos);
+  EXPECT_NE(flaw({{905, 0, 1}}).find("n is from"), std::string::npos);
+  EXPECT_NE(flaw({{905, 1, -1}}).find("k is from"), std::string::npos);
+  EXPECT_NE(flaw({{905, 1, std::nan("")}}).find("k is from"), std::string::npos);
 }
 
 TEST(MaterialEdit, SaysWhatIsWrongBeforeItIsKept) {

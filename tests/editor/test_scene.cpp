@@ -138,6 +138,68 @@ TEST(MergedScene, PaintsWhatHasNoMaterialInAColourThatNoMaterialHas) {
     }
 }
 
+// Two squares in one plane, of one surface: one has a material of its own.
+TEST(MergedScene, ShowsAFaceAtAPointAndNotItsCoplanarNeighbour) {
+  Environment e;
+  e.surfaces = {{"panel"}};
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {3, 0, 0}, {3, 1, 0}, {2, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+  mesh.surface_of_triangle.assign(4, 0);
+  e.meshes = {std::make_shared<Mesh>(mesh)};
+  e.products.resize(1);
+  e.instances = {{0, 0, Eigen::Affine3d::Identity()}};
+  MaterialChoice choice;
+  auto& assignment = choice.result.assignment;
+  assignment.materials.resize(2);
+  assignment.materials[0].reflectance = {{905, 0.2}};
+  assignment.materials[1].reflectance = {{905, 0.8}};
+  assignment.surfaces = {{0, 0, 0, "", 1}};
+  assignment.faces = {{0, 0, Eigen::Vector3d::UnitZ(), 1, "", Eigen::Vector3d(2.5, 0.5, 0)}};
+  ViewState state;
+  state.environment = std::make_shared<const Environment>(e);
+  state.materials = std::make_shared<const MaterialChoice>(choice);
+  state.colour = ColourMode::reflectance;
+  const Rgba dark = {51, 51, 51, 255}, bright = {204, 204, 204, 255};   // 0.2 and 0.8 of 255
+  EXPECT_EQ(mergeVisible(state).opaque.colours, (std::vector<Rgba>{dark, dark, bright, bright}));
+}
+
+TEST(MergedColours, AreThoseOfTheMergedSceneAndTellWhetherATriangleMoved) {
+  const auto document = demoHouse();   // with glass, which is transparent by the model's colours
+  auto state = demoState(document);
+  std::vector<MergedColours> of_mode;
+  for (const auto mode : {ColourMode::model, ColourMode::material, ColourMode::reflectance, ColourMode::confidence, ColourMode::expected_noise}) {
+    state.colour = mode;
+    const auto merged = mergeVisible(state);
+    const auto colours = mergeColours(state);
+    ASSERT_TRUE(colours);
+    EXPECT_EQ(colours->opaque, merged.opaque.colours);
+    EXPECT_EQ(colours->transparent, merged.transparent.colours);
+    of_mode.push_back(*colours);
+  }
+  EXPECT_NE(of_mode[0].runs, of_mode[1].runs);   // without materials, nothing is transparent
+  EXPECT_EQ(of_mode[1].runs, of_mode[3].runs);
+  EXPECT_NE(of_mode[1].opaque, of_mode[4].opaque);
+}
+
+TEST(MergedColours, AreNotToldWhereTheGeometryDependsOnThem) {
+  Environment e;
+  e.surfaces.resize(1);
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  mesh.surface_of_triangle = {0};
+  mesh.colours.resize(3);
+  e.meshes = {std::make_shared<Mesh>(mesh)};
+  e.products.resize(1);
+  e.instances = {{0, 0, Eigen::Affine3d::Identity()}};
+  ViewState state;
+  state.environment = std::make_shared<const Environment>(e);
+  EXPECT_FALSE(mergeColours(state));
+  state.colour = ColourMode::material;
+  EXPECT_TRUE(mergeColours(state));
+}
+
 TEST(EdgeCache, PlacesTheEdgesOfEveryInstance) {
   Document document = demoHouse();
   EdgeCache cache;

@@ -76,6 +76,14 @@ TEST(IfcProperties, ClassificationsDocumentsAndPresentationLayersAreProperties) 
   EXPECT_EQ(text(productOf(model, "#110").properties), "Classification.Uniclass=Ss_25_10 Framed walls\nPresentation layer.Name=A-WALL\n");
 }
 
+TEST(IfcProperties, PresentationLayersOfItemsRepresentationsAndMapsAreToldOnceEach) {
+  const ImportedModel model = importText(ifcText(boxSolid(100, "4.", "0.3", "3.") + product(110, "IFCWALL", "#102") +
+      "#113=IFCREPRESENTATIONMAP(#2,#112);\n#114=IFCCARTESIANTRANSFORMATIONOPERATOR3D($,$,#1,$,$);\n#115=IFCMAPPEDITEM(#113,#114);\n" + product(120, "IFCWALL", "#115", "MappedRepresentation") +
+      "#130=IFCPRESENTATIONLAYERASSIGNMENT('A-WALL',$,(#112,#102),$);\n#131=IFCPRESENTATIONLAYERWITHSTYLE('A-MAPPED',$,(#115),$,.T.,.F.,.F.,());\n"));
+  EXPECT_EQ(text(productOf(model, "#110").properties), "Presentation layer.Name=A-WALL\n");
+  EXPECT_EQ(text(productOf(model, "#120").properties), "Presentation layer.Name=A-MAPPED\nPresentation layer.Name=A-WALL\n");
+}
+
 TEST(IfcProperties, APlaceHasItsPropertiesToo) {
   const ImportedModel model = importText(ifcText("#110=IFCSPACE('s',$,'101',$,$,#3,$,'Kitchen',.ELEMENT.,.INTERNAL.,$);\n#111=IFCRELAGGREGATES('a',$,$,$,#22,(#110));\n"
       "#120=IFCQUANTITYAREA('NetFloorArea',$,$,12.5,$);\n#121=IFCELEMENTQUANTITY('q',$,'Qto_SpaceBaseQuantities',$,$,(#120));\n#122=IFCRELDEFINESBYPROPERTIES('r',$,$,$,(#110),#121);\n"));

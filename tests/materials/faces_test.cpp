@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gmock/gmock.h>
 
+#include "core/face_patches.h"
 #include "tests/materials/fixtures.h"
 
 namespace standpoint {
@@ -8,8 +9,17 @@ namespace {
 
 using testing::ElementsAre;
 
+// Of one triangle of the surface that looks to `normal`.
 std::string idOf(const MaterialResult& result, std::uint32_t product, std::uint32_t surface, const Eigen::Vector3d& normal) {
-  const auto index = materialOf(result.assignment, product, surface, normal);
+  auto mesh = std::make_shared<Mesh>();
+  const Eigen::Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
+  mesh->positions = {{0, 0, 0}, u.cast<float>(), v.cast<float>()};
+  mesh->triangles = {{0, 1, 2}};
+  mesh->surface_of_triangle = {surface};
+  Environment one;
+  one.meshes = {mesh};
+  one.instances = {{0, product, Eigen::Affine3d::Identity()}};
+  const auto index = AssignedTriangles(one, result.assignment).materialOf(0, 0);
   return index < 0 ? "" : result.assignment.materials[static_cast<std::size_t>(index)].id;
 }
 
@@ -61,6 +71,52 @@ TEST(Faces, FollowTheOrderOfWhatTheUserSaid) {
   EXPECT_EQ(idOf(result, 0, b.concrete, {0, 0, -1}), "bark");
 }
 
+// A floor of 2 by 3 m with a table top of 1 by 1 m above it, one mesh and one surface.
+struct FloorAndTable : OneBox {
+  FloorAndTable() {
+    auto both = std::make_shared<Mesh>(*environment.meshes[0]);
+    const auto top = box(1, 1, 0.05F, concrete);
+    const auto first = static_cast<std::uint32_t>(both->positions.size());
+    for (const auto& p : top->positions) both->positions.emplace_back(p + Eigen::Vector3f(0.5F, 0.5F, 1.2F));
+    for (const auto& [i, j, k] : top->triangles) both->triangles.push_back({first + i, first + j, first + k});
+    both->surface_of_triangle.assign(both->triangles.size(), concrete);
+    environment.meshes[0] = both;
+  }
+};
+
+TEST(Faces, AtAPointAreToldFromThoseThatLookTheSameWay) {
+  FloorAndTable b;
+  AssignOptions options;
+  options.shift_m = {500000, 5600000, 100};
+  const auto area = [&](const std::string& selector) {
+    const auto result = b.assignBy(shippedRules(), {{selector, "carpet"}}, options);
+    for (const auto& use : result.report.uses)
+      if (use.material == "carpet") return use.area_m2;
+    EXPECT_EQ(result.report.findings.front().kind, "selector") << selector;
+    return 0.0;
+  };
+  EXPECT_NEAR(area("#100@0,0,1"), 6 + 1, 1e-5);
+  EXPECT_NEAR(area("#100@0,0,1@500000.75,5600000.75,101.25"), 1, 1e-5);   // the table's top
+  EXPECT_NEAR(area("#100@0,0,1@500000.75,5600000.75,100.5"), 6, 1e-5);    // the floor under it
+  EXPECT_NEAR(area("class:IfcSlab&material:Beton@0,0,2@500000.75,5600000.75,100.5"), 6, 1e-5);
+  EXPECT_EQ(area("#100@0,0,1@500000.75,5600000.75,100.9"), 0);            // in the air
+  EXPECT_EQ(area("#100@0,0,1@0.75,0.75,0.5"), 0);                         // of another frame
+}
+
+TEST(Faces, OfAnotherSurfaceBesideThePointAreNotMeant) {
+  Builder b;
+  const auto left = b.surface("Beton"), right = b.surface("Beton, glatt");
+  b.product("IfcSlab", "Decke", {left});
+  auto mesh = std::make_shared<Mesh>();
+  mesh->positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {2, 1, 0}};
+  mesh->triangles = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
+  mesh->surface_of_triangle = {left, left, right, right};
+  b.environment.meshes[0] = mesh;
+  const auto result = b.assignBy(shippedRules(), {{"#100@0,0,1@0.98,0.5,0", "carpet"}});   // 2 cm from the other
+  ASSERT_EQ(result.assignment.faces.size(), 1U);
+  EXPECT_EQ(result.assignment.faces[0].surface, left);
+}
+
 TEST(Faces, OfAMirroredOrTurnedPlacementAreThoseThatLookThatWayInTheScene) {
   OneBox b;
   b.environment.instances[0].world_from_mesh = Eigen::Affine3d(Eigen::Scaling(1.0, 1.0, -1.0));
@@ -91,6 +147,10 @@ TEST(WiderSelectors, JoinConditionsAndAskForColours) {
   EXPECT_EQ(selectedProduct("#12&material:x@0,0,1"), "#12");
   EXPECT_EQ(selectedProduct("class:IfcWall"), "");
   EXPECT_EQ(selectedProduct("o a&b@home"), "o a&b@home");   // an OBJ's name may hold anything
+  EXPECT_EQ(selectedProduct("#12@0,0,1@500000.25,-3,1e1"), "#12");
+  EXPECT_EQ(selectedProduct("o a@1,2,3,4"), "o a@1,2,3,4");
+  EXPECT_EQ(selectedProduct("o a@0,0,0"), "o a@0,0,0");   // no direction
+  EXPECT_EQ(selectedProduct("o a@0,0,0@1,2,3"), "o a@0,0,0@1,2,3");
 }
 
 TEST(WiderSelectors, OfANameThatHoldsTheSignsOfPatternsFitIt) {

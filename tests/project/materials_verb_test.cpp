@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/face_normal.h"
+#include "core/face_patches.h"
 #include "project/materials_json.h"
 #include "project/project_files.h"
 #include "tests/project/support.h"
@@ -32,6 +34,21 @@ std::string materialOfProduct(const Document& d, const std::string& id) {
   for (const auto& s : assignment.surfaces)
     if (d.imported->products[s.product].id == id) return s.material < 0 ? "" : assignment.materials[static_cast<std::size_t>(s.material)].id;
   return "no such product";
+}
+
+// By the triangles of a product in the environment that is shown and scanned.
+double areaOf(const Document& d, const std::string& material, std::uint32_t product) {
+  const auto& assignment = d.materials->result.assignment;
+  const AssignedTriangles triangles(*d.environment(), assignment);
+  double area = 0;
+  for (std::uint32_t i = 0; i < d.environment()->instances.size(); ++i) {
+    const auto& instance = d.environment()->instances[i];
+    const Mesh& mesh = *d.environment()->meshes[instance.mesh];
+    for (std::uint32_t t = 0; t < mesh.triangles.size() && instance.product == product; ++t)
+      if (const auto m = triangles.materialOf(i, t); m >= 0 && assignment.materials[static_cast<std::size_t>(m)].id == material)
+        area += placedArea(mesh, mesh.triangles[t], instance.world_from_mesh);
+  }
+  return area;
 }
 
 const char* const kOwn = R"({"sources": [{"id": "lab", "text": "Own laboratory", "licence": "own"}], "materials": [
@@ -150,6 +167,34 @@ TEST(MaterialsVerb, WritesAReportToPrintAndATable) {
   EXPECT_FALSE(run("materials", d, {{"report", (folder.path() / "r.pdf").string()}}));
 }
 
+TEST(MaterialsVerb, TellsPeopleWhatIsThereAndHowToGoOn) {
+  const auto d = twoStoreyDocument();   // slabs of 28 m² each side and rim: 3 · 52 m², walls, a table of 5 m²
+  const auto outcome = run("materials", d, {{"assign", {"table=retroreflective_foil", "slab0=mirror_household"}}});
+  ASSERT_TRUE(outcome) << describe(outcome.error());
+  const auto& text = outcome->text;
+  EXPECT_THAT(text, HasSubstr("\n  mirror_household"));
+  EXPECT_THAT(text, HasSubstr("52.0 m²"));   // 2 · 6 · 4 + 2 · 0.2 · (6 + 4)
+  EXPECT_THAT(text, HasSubstr("\n  (none)"));
+  EXPECT_THAT(text, HasSubstr("5.0 m²"));    // 2 · 1 · 1 + 4 · 0.75
+  EXPECT_THAT(text, HasSubstr("  5.0 m² of 5.0 m² of IfcFurniture\n"));
+  EXPECT_THAT(text, HasSubstr("    1 implausible"));
+  EXPECT_THAT(text, HasSubstr("--because"));
+  const auto& first = d.imported->products.back();
+  EXPECT_EQ(first.name, "table");
+  for (const auto& f : outcome->answer.at("findings"))   // each kind's first can be named
+    if (f.at("kind") == "gap") EXPECT_THAT(text, HasSubstr(f.at("id").get<std::string>()));
+}
+
+TEST(MaterialsVerb, QuotesSelectorsForTheShell) {
+  Document d = twoStoreyDocument();
+  auto e = std::make_shared<Environment>(*d.imported);
+  e->surfaces[0].name = "Joe's stuff";
+  d.imported = e;
+  const auto outcome = run("materials", d, json::object());
+  ASSERT_TRUE(outcome);
+  EXPECT_THAT(outcome->text, HasSubstr("'\\''s stuff"));
+}
+
 TEST(MaterialsVerb, OpensProjectsOfBeforeFindingsAndSourcesHadParts) {
   const json old = {{"rules_file", ""}, {"overrides", json::array()},
                     {"materials", {{{"id", "a"}, {"label", "A"}, {"reflectance", {{532, 0.3}}}, {"roughness_rad", 0}, {"gloss_slope", 0}, {"index_of_refraction", 0},
@@ -173,10 +218,51 @@ TEST(MaterialsVerb, KeepsFacesThroughTheDiskAndTheOptimizer) {
   const auto lighter = run("optimize", d, json::object());
   ASSERT_TRUE(lighter) << describe(lighter.error());
   d = done(lighter->document, json::object());
-  const auto& assignment = d.materials->result.assignment;
-  const auto up = materialOf(assignment, 0, 0, {0, 0, 1}), down = materialOf(assignment, 0, 0, {0, 0, -1});
-  EXPECT_EQ(assignment.materials.at(static_cast<std::size_t>(up)).id, "carpet");
-  EXPECT_EQ(assignment.materials.at(static_cast<std::size_t>(down)).id, "concrete_construction");
+  EXPECT_NEAR(areaOf(d, "carpet", 0), 24, 1e-4);
+  EXPECT_NEAR(areaOf(d, "concrete_construction", 0), 24 + 2 * 0.2 * (6 + 4), 1e-4);
+}
+
+// A floor of 6 by 4 m that is two meshes' worth of triangles: itself, and a table top of 1 m² that looks up as it does.
+Document withTableInTheSlab() {
+  Document d = twoStoreyDocument();
+  auto e = std::make_shared<Environment>(*d.imported);
+  auto mesh = std::make_shared<Mesh>(*e->meshes[0]);
+  const Mesh& table = *e->meshes[e->instances.back().mesh];
+  for (const auto& t : table.triangles) mesh->triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+  for (const auto& p : table.positions) mesh->positions.emplace_back(p + Eigen::Vector3f(2, 2, 0.2F));
+  mesh->surface_of_triangle.assign(mesh->triangles.size(), 0);
+  e->meshes[0] = mesh;
+  d.imported = e;
+  return d;
+}
+
+TEST(MaterialsVerb, KeepsAFaceAtAPointThroughTheDiskAndTheOptimizer) {
+  const TemporaryFolder folder;
+  Progress progress;
+  auto d = done(withTableInTheSlab(), {{"assign", {"slab0@0,0,1@500002.5,5600002.5,0.75=carpet"}}});   // the table's top
+  EXPECT_NEAR(areaOf(d, "carpet", 0), 1, 1e-4);
+  ASSERT_TRUE(saveProject(d, folder.path() / "p", progress));
+  d = *loadProject(folder.path() / "p", progress);
+  EXPECT_NEAR(areaOf(d, "carpet", 0), 1, 1e-4);
+  const auto lighter = run("optimize", d, {{"max-deviation", 0.05}});
+  ASSERT_TRUE(lighter) << describe(lighter.error());
+  EXPECT_NE(lighter->document.environment(), d.imported);
+  EXPECT_NEAR(areaOf(lighter->document, "carpet", 0), 1, 1e-4);   // by what was assigned before
+  EXPECT_NEAR(areaOf(done(lighter->document, json::object()), "carpet", 0), 1, 1e-4);
+}
+
+TEST(MaterialsVerb, WritesAFaceAtAPointIntoWhatItExports) {
+  const TemporaryFolder folder;
+  const auto d = done(withTableInTheSlab(), {{"assign", {"slab0@0,0,1@500002.5,5600002.5,0.75=carpet"}}});
+  const auto file = (folder.path() / "m.glb").string();
+  ASSERT_TRUE(run("export", d, {{"output", file}}));
+  auto back = run("import", Document(), {{"files", {file}}});
+  ASSERT_TRUE(back) << describe(back.error());
+  back->document = done(back->document, json::object());
+  const auto& uses = back->document.materials->result.report.uses;
+  const auto carpet = std::find_if(uses.begin(), uses.end(), [](const MaterialUse& u) { return u.material == "carpet"; });
+  ASSERT_NE(carpet, uses.end());
+  EXPECT_NEAR(carpet->area_m2, 1, 1e-4);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A changed model in place of the old one: what the user made stays, what changed is told.
+#include <algorithm>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -113,6 +114,25 @@ TEST_F(Update, MaterialsOfSingleFacesFollowTheirProducts) {
   EXPECT_EQ(materialOf("a"), "bark");
   ASSERT_EQ(d.materials->result.assignment.faces.size(), 1U);
   EXPECT_EQ(d.imported->products[d.materials->result.assignment.faces[0].product].global_id, "b");
+}
+
+TEST_F(Update, AFaceAtAPointStaysWhereTheModelStillHasIt) {
+  import(kBefore, 100, {{"shift", "100,200,0"}});
+  done("materials", {{"project", project()}, {"assign", {"#120@0,1,0@0.5,2.15,1=carpet"}}});   // the north side of b
+  update({kBefore[2], {"b", "B", 4, 2.05}, kBefore[0]});                                       // 5 cm further north
+  const auto material = document().materials;
+  EXPECT_EQ(material->overrides.at(0).selector, "#1020@0,1,0@0.5,2.15,1");
+  const auto carpet = [](const MaterialChoice& choice) {
+    for (const auto& use : choice.result.report.uses)
+      if (use.material == "carpet") return use.area_m2;
+    return 0.0;
+  };
+  EXPECT_NEAR(carpet(*material), 12, 1e-4);
+  update({kBefore[2], {"b", "B", 4, 2.3}, kBefore[0]}, 3000);   // too far: it is kept, and a finding tells
+  const auto lost = document().materials;
+  EXPECT_EQ(lost->overrides.size(), 1U);
+  EXPECT_EQ(carpet(*lost), 0);
+  EXPECT_EQ(std::count_if(lost->result.report.findings.begin(), lost->result.report.findings.end(), [](const MaterialFinding& f) { return f.kind == "selector"; }), 1);
 }
 
 TEST_F(Update, WhatHasNoProductAnyMoreIsKeptAndListedAndComesBack) {

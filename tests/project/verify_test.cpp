@@ -160,6 +160,57 @@ TEST_F(Verify, IsKeptInTheProjectUntilSomethingElseIsTrue) {
   EXPECT_FALSE(isCurrent(*back->verification, run("underlay", *back, {{"move", "cloud"}, {"at", {1, 0, 0}}})->document));
 }
 
+// Of the findings that `materials` answers.
+std::vector<json> measuredOtherwise(const Document& d, json options = json::object()) {
+  std::vector<json> found;
+  const auto done = run("materials", d, options);
+  EXPECT_TRUE(done) << describe(done.error());
+  if (done)
+    for (const auto& f : done->answer.at("findings"))
+      if (f.at("kind") == "measured-otherwise") found.push_back(f);
+  return found;
+}
+
+TEST_F(Verify, PutsItsProposalsAmongTheFindingsWithARemedyOfOneClick) {
+  const Document wrong = swapped(laid(path("scan.ptx")), "east0=rubber_black");
+  EXPECT_TRUE(measuredOtherwise(wrong).empty()) << "nothing was measured yet";
+  const auto done = verified(wrong);
+  ASSERT_TRUE(done) << describe(done.error());
+  auto findings = measuredOtherwise(done->document);
+  ASSERT_EQ(findings.size(), 1U);
+  const json f = findings[0];
+  EXPECT_EQ(f.at("products"), json({"east0"}));
+  EXPECT_EQ(f.at("severity"), "warning");
+  EXPECT_THAT(f.at("message").get<std::string>(), HasSubstr("'rubber_black' was measured otherwise on IfcWall"));
+  EXPECT_THAT(f.at("why").get<std::string>(), HasSubstr("By the cloud 'cloud': "));
+  for (const auto& use : done->document.materials->result.report.uses)
+    if (use.material == "rubber_black") {
+      EXPECT_NEAR(f.at("area_m2").get<double>(), use.area_m2, 1e-9) << "nothing else is of rubber";
+    }
+  const auto mended = run("materials", done->document, f.at("remedies")[0].at("options"));
+  ASSERT_TRUE(mended) << describe(mended.error());
+  EXPECT_TRUE(measuredOtherwise(mended->document).empty()) << "it was followed";
+  EXPECT_TRUE(measuredOtherwise(swapped(done->document, "south0=bark")).empty()) << "another wall is of something else than when it was measured";
+  EXPECT_TRUE(measuredOtherwise(run("underlay", done->document, {{"move", "cloud"}, {"at", {1, 0, 0}}})->document).empty());
+}
+
+TEST_F(Verify, LetsAFindingStandBecauseOfSomething) {
+  const auto done = verified(swapped(laid(path("scan.ptx")), "east0=rubber_black"));
+  ASSERT_TRUE(done) << describe(done.error());
+  const auto id = measuredOtherwise(done->document).at(0).at("id");
+  const auto accepted = run("materials", done->document, {{"accept", {id}}, {"because", "a curtain hung there"}});
+  ASSERT_TRUE(accepted) << describe(accepted.error());
+  Progress progress;
+  ASSERT_TRUE(saveProject(accepted->document, path("accepted"), progress));
+  const auto back = loadProject(path("accepted"), progress);
+  ASSERT_TRUE(back) << describe(back.error());
+  EXPECT_EQ(measuredOtherwise(*back).at(0).at("accepted"), "a curtain hung there");
+  const auto again = verified(*back);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(measuredOtherwise(again->document).at(0).at("accepted"), "a curtain hung there") << "measured again, the same came out";
+  EXPECT_FALSE(measuredOtherwise(again->document, {{"reopen", {id}}}).at(0).contains("accepted"));
+}
+
 TEST_F(Verify, OfAListOfPointsAsksForTheStation) {
   // PTS of the same points: they are in the scanner's frame.
   const auto file = rewritten("list.xyz", false, [](double x, double y, double z, double i) {

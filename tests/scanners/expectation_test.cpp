@@ -102,7 +102,7 @@ TEST(Expectation, LooksThroughPanesAndTakesTheirTollTwice) {
   glass.transmittance = {{1550, 0.81}};
   MaterialAssignment assignment;
   assignment.materials = {lambert(0.6), glass};
-  assignment.surfaces = {{wall.place.product, 0, 0, "test"}, {pane, 0, 1, "test"}};
+  assignment.surfaces = {{wall.place.instance, 0, 0, "test"}, {pane, 0, 1, "test"}};
   const auto law = expectation(wall.scene, assignment, instrument);
   const auto behind = law.from(kStation, wall.place);
   EXPECT_EQ(behind.fate, ReturnFate::returned);

@@ -137,8 +137,8 @@ TEST(Settings, AreCompletedInTheOrderOfTheInstrument) {
 }
 
 TEST(Instruments, EachHaveASourceForEveryFigure) {
-  const auto all = testing::instruments();
-  ASSERT_GE(all.size(), 3U);
+  const auto all = testing::everyInstrument();
+  ASSERT_EQ(all.size(), 25U);
   for (const auto& instrument : all) {
     EXPECT_GT(instrument.evidence.size(), 25U) << instrument.id;
     for (const auto& [pointer, evidence] : instrument.evidence) {
@@ -150,11 +150,78 @@ TEST(Instruments, EachHaveASourceForEveryFigure) {
   EXPECT_EQ(testing::instrument("leica-rtc360").evidence.at("/beam/wavelength_nm").mark, "unsourced");
 }
 
+TEST(Instruments, SpreadTheirNoiseWithoutAddingToTheSheet) {
+  for (const auto& instrument : testing::instruments()) {
+    const auto& noise = instrument.correlated;
+    EXPECT_LE(noise.column_share + noise.along_share, 1) << instrument.id;
+    EXPECT_GT(noise.column_share + noise.column_extra_m, 0) << instrument.id << " has no stripes";
+    for (const auto& figure : instrument.range_noise)
+      EXPECT_LT(noise.wobble_m * noise.wobble_m / 2, 0.02 * figure.sigma_m * figure.sigma_m) << instrument.id;
+  }
+}
+
+TEST(Instruments, TellTwoSurfacesApartByPulseOrByTone) {
+  for (const auto& instrument : testing::instruments()) {
+    EXPECT_EQ(instrument.waveform.pulse_width_s > 0, instrument.technology == "time_of_flight") << instrument.id;
+    EXPECT_EQ(instrument.waveform.fine_wavelength_m > 0, instrument.technology == "phase_shift") << instrument.id;
+    EXPECT_EQ(instrument.waveform.most_returns, instrument.id == "riegl-vz-400i" ? 15 : 1);
+  }
+}
+
+TEST(MovingInstruments, HaveTheFiguresOfTheirSheets) {
+  const auto moving = [](const char* id) { return testing::instrument(id).moving.value(); };
+  const auto vlp = moving("velodyne-vlp-16");
+  EXPECT_EQ(vlp.channel_elevations_rad.size(), 16U);
+  EXPECT_NEAR(vlp.channel_elevations_rad[1], 1 * kRadPerDeg, 1e-12);   // the second that fires
+  EXPECT_EQ(vlp.points_per_s, 300000);
+  EXPECT_EQ(vlp.least_rotation_hz, 5);
+  EXPECT_EQ(vlp.most_rotation_hz, 20);
+  EXPECT_EQ(testing::instrument("velodyne-vlp-16").waveform.most_returns, 2);
+  EXPECT_NEAR(testing::instrument("velodyne-vlp-16").min_elevation_rad, -15 * kRadPerDeg, 1e-12);
+  EXPECT_EQ(moving("ouster-os1-128").channel_elevations_rad.size(), 128U);
+  EXPECT_EQ(moving("hesai-xt32").channel_elevations_rad.size(), 32U);
+  EXPECT_EQ(moving("navvis-vlx2").heads, 2);
+  EXPECT_EQ(moving("navvis-vlx3").points_per_s, 1280000);
+  EXPECT_EQ(moving("riegl-vux-1uav").mount, "aircraft");
+  EXPECT_NEAR(moving("riegl-vux-1uav").turn_rad, 330 * kRadPerDeg, 1e-12);
+  EXPECT_EQ(testing::instrument("leica-blk2go").max_range_m, 25);
+  EXPECT_EQ(testing::instrument("geoslam-zeb-horizon").evidence.at("/moving/points_per_s").mark, "S42");
+  EXPECT_EQ(testing::instrument("faro-orbis").evidence.at("/moving/mount").mark, "unsourced");
+}
+
+TEST(MovingInstruments, ThatAreAskedToScanFromAStationSayWhatTheyNeed) {
+  int refused_ones = 0;
+  for (const auto& instrument : testing::everyInstrument()) {
+    if (!instrument.moving) continue;
+    ++refused_ones;
+    const auto settings = resolveSettings(instrument, {});
+    ASSERT_FALSE(settings) << instrument.id;
+    EXPECT_EQ(settings.error().kind, ErrorKind::usage);
+    EXPECT_THAT(settings.error().message, HasSubstr("needs a trajectory"));
+    EXPECT_EQ(settings.error().source, instrument.id);
+  }
+  EXPECT_EQ(refused_ones, 9);
+}
+
+// physics.md §0, finding 3; the accuracy of its sheet is 4 mm at 10 m and 7 mm at 20 m.
+TEST(Blk360, HasTheNoiseThatWasSimulatedAndTheStripesThatWereMissing) {
+  const auto instrument = testing::instrument("leica-blk360-g1");
+  const auto& noise = instrument.correlated;
+  EXPECT_EQ(noise.column_share, 0);
+  EXPECT_NEAR(std::hypot(instrument.range_noise[0].sigma_m, noise.column_extra_m), 0.00229, 5e-6);
+  const double accuracy_mm[] = {4, 7};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& figure = instrument.range_noise[i];
+    const double bias = std::hypot(instrument.range_bias_m, 1e-6 * instrument.range_bias_ppm * figure.range_m);
+    EXPECT_NEAR(1e3 * std::hypot(bias, figure.sigma_m, noise.column_extra_m), accuracy_mm[i], 0.05);
+  }
+}
+
 // Reads the RTC360 with one piece of its text exchanged.
 class ChangedInstrument : public ::testing::Test {
  protected:
-  Error errorOf(const std::string& from, const std::string& to) {
-    std::ifstream stream(SOURCE_DIR "/scanners/instruments/leica-rtc360.json");
+  Error errorOf(const std::string& from, const std::string& to, const std::string& id = "leica-rtc360") {
+    std::ifstream stream(SOURCE_DIR "/scanners/instruments/" + id + ".json");
     std::string text{std::istreambuf_iterator<char>(stream), {}};
     const auto place = text.find(from);
     EXPECT_NE(place, std::string::npos) << from;
@@ -162,7 +229,7 @@ class ChangedInstrument : public ::testing::Test {
     const auto folder = std::filesystem::path(::testing::TempDir()) /
                         ::testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::create_directories(folder);
-    std::ofstream(folder / "leica-rtc360.json") << text;
+    std::ofstream(folder / (id + ".json")) << text;
     const auto read = readInstruments(folder);
     std::filesystem::remove_all(folder);
     return read ? Error{ErrorKind::internal, "accepted", ""} : read.error();
@@ -187,6 +254,45 @@ TEST_F(ChangedInstrument, WithAValueOutOfRangeIsRefusedWithItsPlace) {
   EXPECT_EQ(errorOf("\"columns\": 5084", "\"columns\": 5e9").source, "leica-rtc360.json /settings/0/choices/0/columns");
   EXPECT_EQ(errorOf("\"standard\": \"6mm\"", "\"standard\": \"7mm\"").source, "leica-rtc360.json /settings/0/standard");
   EXPECT_EQ(errorOf("\"id\": \"leica-rtc360\"", "\"id\": \"leica\"").source, "leica-rtc360.json /id");
+}
+
+TEST_F(ChangedInstrument, WhosePartsAreMoreThanTheWholeIsRefusedWithItsPlace) {
+  EXPECT_EQ(errorOf("\"along_share\": 0.3", "\"along_share\": 0.95").source, "leica-rtc360.json /correlated_noise/along_share");
+  EXPECT_EQ(errorOf("\"azimuth_flicker_arcsec\": { \"value\": 3", "\"azimuth_flicker_arcsec\": { \"value\": 18").source,
+            "leica-rtc360.json /correlated_noise/azimuth_flicker_arcsec");
+  EXPECT_EQ(errorOf("\"elevation_wobble_arcsec\": { \"value\": 3", "\"elevation_wobble_arcsec\": { \"value\": 26").source,
+            "leica-rtc360.json /correlated_noise/elevation_wobble_arcsec");
+}
+
+TEST_F(ChangedInstrument, WithNoiseThatCannotBeIsRefusedWithItsPlace) {
+  EXPECT_EQ(errorOf("\"hurst\": 0.75", "\"hurst\": 1").source, "leica-rtc360.json /correlated_noise/hurst");
+  EXPECT_EQ(errorOf("\"column_correlation\": 0.5", "\"column_correlation\": 1").source,
+            "leica-rtc360.json /correlated_noise/column_correlation");
+  EXPECT_EQ(errorOf("\"column_share\": 0.1", "\"column_share\": -0.1").source, "leica-rtc360.json /correlated_noise/column_share");
+  EXPECT_EQ(errorOf("\"pedestal\": 0.0003", "\"pedestal\": 0.5").source, "leica-rtc360.json /saturation/pedestal");
+  EXPECT_THAT(errorOf("\"wobble_order\": 2", "\"wobble_order\": 2.5").message, HasSubstr("whole number"));
+  EXPECT_EQ(errorOf("\"most_returns\": { \"value\": 1", "\"most_returns\": { \"value\": 0").source,
+            "leica-rtc360.json /waveform/most_returns/value");
+}
+
+TEST_F(ChangedInstrument, WithTheFigureOfTheOtherTechnologyIsRefusedWithItsPlace) {
+  EXPECT_EQ(errorOf("\"technology\": { \"value\": \"time_of_flight\"", "\"technology\": { \"value\": \"phase_shift\"").source,
+            "leica-rtc360.json /waveform/fine_wavelength_m");
+  EXPECT_EQ(errorOf("\"most_returns\":", "\"fine_wavelength_m\": 1.2, \"most_returns\":").source,
+            "leica-rtc360.json /waveform/fine_wavelength_m");
+}
+
+TEST_F(ChangedInstrument, ThatMovesIsRefusedWithItsPlaceWhenItCannotBe) {
+  const auto vlp = [this](const char* from, const char* to) { return errorOf(from, to, "velodyne-vlp-16").source; };
+  EXPECT_EQ(vlp("[-15, 1,", "[-95, 1,"), "velodyne-vlp-16.json /moving/channel_elevations_deg/value/0");
+  EXPECT_EQ(vlp("[-15, 1, -13, 3, -11, 5, -9, 7, -7, 9, -5, 11, -3, 13, -1, 15]", "[]"),
+            "velodyne-vlp-16.json /moving/channel_elevations_deg/value");
+  EXPECT_EQ(vlp("\"most_rotation_hz\": { \"value\": 20", "\"most_rotation_hz\": { \"value\": 2"),
+            "velodyne-vlp-16.json /moving/most_rotation_hz");
+  EXPECT_EQ(vlp("\"rotation_hz\": 5.0", "\"rotation_hz\": 50"), "velodyne-vlp-16.json /settings");
+  EXPECT_EQ(vlp("\"value\": \"any\"", "\"value\": \"mast\""), "velodyne-vlp-16.json /moving/mount/value");
+  EXPECT_EQ(vlp("\"moving\"", "\"stand\": {}, \"moving\""), "velodyne-vlp-16.json /stand");
+  EXPECT_EQ(vlp("\"moving\"", "\"moves\""), "velodyne-vlp-16.json /mirror");
 }
 
 TEST_F(ChangedInstrument, CutAnywhereIsAnError) {

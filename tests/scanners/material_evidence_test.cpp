@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "core/random.h"
+#include "scanners/intensity_scale.h"
 #include "tests/scanners/scenes.h"
 
 namespace standpoint {
@@ -95,6 +96,19 @@ TEST(MaterialEvidence, ReadsTheVendorsScale) {
   EXPECT_THAT(scale.describe(), HasSubstr("linear in dB: 0.014"));   // 1/70
   EXPECT_NEAR(scale.dbAt(0.7) - scale.dbAt(0.5), 0.2 * 70, 0.1);
   EXPECT_EQ(MadeUp(kFive, gamma).compared().scale.describe(), "power law: measured ~ power^0.45");
+}
+
+// 60 dB for the whole scale, exactly; but below 0.5 stand only a few cells, of little weight, that differ by 1.2 dB.
+TEST(IntensityScale, GoesOnAsItsNeighboursDoWhereFewCellsHoldIt) {
+  std::vector<IntensityCell> cells;
+  for (int i = 0; i < 400; ++i) {
+    const double m = 0.5 + 0.2 * i / 400;
+    cells.push_back({m, 60 * m, static_cast<std::uint32_t>(i % 8), 30});
+  }
+  for (const double m : {0.35, 0.36, 0.37}) cells.push_back({m, 60 * m, 8, 1});
+  const auto scale = fitIntensityScale(cells, false);
+  EXPECT_NEAR(scale.dbAt(0.5) - scale.dbAt(0.36), 60 * 0.14, 0.1);
+  EXPECT_NEAR(scale.dbAt(0.7) - scale.dbAt(0.5), 60 * 0.2, 0.1);
 }
 
 TEST(MaterialEvidence, KnowsAScaleThatDoesNotFallWithTheRange) {

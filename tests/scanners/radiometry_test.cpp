@@ -17,8 +17,12 @@ float cosine(double degrees) { return static_cast<float>(std::cos(degrees * kRad
 
 SignalLanes received(const Instrument& instrument, float equivalent, float range) {
   SignalLanes lanes{};
-  for (int k = 0; k < kSignalLanes; ++k) lanes.equivalent[k] = equivalent, lanes.range_m[k] = range, lanes.gain[k] = 1;
-  receive(lanes, instrument, RangeNoiseLaw(instrument));
+  for (int k = 0; k < kSignalLanes; ++k) {
+    lanes.diffuse[k] = equivalent, lanes.oren_a[k] = 1, lanes.cosine[k] = 1;
+    lanes.range_m[k] = range, lanes.gain[k] = 1, lanes.variation[k] = 1, lanes.known_x[k] = -1;
+  }
+  const RangeNoiseLaw law(instrument);
+  receive(lanes, receiverOf(instrument, law, Effects(), 0));
   return lanes;
 }
 
@@ -128,7 +132,7 @@ TEST(PortableMath, AgreesWithTheLibrary) {
     EXPECT_NEAR(sine, std::sin(2 * std::numbers::pi * u), 5e-7);
     EXPECT_NEAR(cos, std::cos(2 * std::numbers::pi * u), 5e-7);
   }
-  for (double x = 0; x > -60; x -= 0.37) EXPECT_NEAR(portable::expNegative(x) / std::exp(x), 1, 1e-12);
+  for (float x = 0; x > -100; x -= 0.37F) EXPECT_NEAR(portable::exp2(x) / std::exp2(x), 1, 4e-7);
 }
 
 }  // namespace

@@ -104,17 +104,27 @@ Result<void> PointsKept::write(const PointBlock& block) {
   append(all.intensity, block.intensity), append(all.row, block.row), append(all.column, block.column);
   append(all.red, block.red), append(all.green, block.green), append(all.blue, block.blue);
   append(all.product, block.product), append(all.material, block.material);
+  append(all.time_s, block.time_s), append(all.return_number, block.return_number), append(all.return_count, block.return_count);
+  append(all.truth.x_m, block.truth.x_m), append(all.truth.y_m, block.truth.y_m), append(all.truth.z_m, block.truth.z_m);
+  append(all.truth.range_m, block.truth.range_m), append(all.truth.incidence_rad, block.truth.incidence_rad);
+  append(all.truth.received_db, block.truth.received_db), append(all.truth.flags, block.truth.flags);
   return {};
 }
 
-std::vector<Instrument> instruments() {
+std::vector<Instrument> everyInstrument() {
   auto read = readInstruments(SOURCE_DIR "/scanners/instruments");
   if (!read) throw std::runtime_error(describe(read.error()));
   return *read;
 }
 
+std::vector<Instrument> instruments() {
+  auto all = everyInstrument();
+  std::erase_if(all, [](const Instrument& i) { return i.moving.has_value(); });
+  return all;
+}
+
 Instrument instrument(const std::string& id) {
-  for (auto& candidate : instruments())
+  for (auto& candidate : everyInstrument())
     if (candidate.id == id) return candidate;
   throw std::runtime_error("no instrument " + id);
 }

@@ -48,7 +48,8 @@ struct Scanned {
   ScanCount count;
 };
 
-std::vector<Instrument> instruments();
+std::vector<Instrument> everyInstrument();
+std::vector<Instrument> instruments();   // those for a tripod
 Instrument instrument(const std::string& id);
 
 // A small grid over a window of the dome with the instrument's own noise at its best quality.

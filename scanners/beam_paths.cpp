@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scanners/beam_paths.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/points.h"
+#include "scanners/pane_passage.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr int kMostMirrors = 2;
+// The brightest return that a surface gives apart from a glint: a white one, seen head-on.
+constexpr double kBrightest = 1;
+
+}  // namespace
+
+void BeamPaths::follow(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit, const NearestHit& first,
+                       float share, std::vector<PathEnd>& ends) {
+  follow({.origin = origin, .direction = direction_unit, .gain = share}, first, ends);
+}
+
+void BeamPaths::follow(const Ray& ray, NearestHit hit, std::vector<PathEnd>& ends) {
+  PanePassage passage;
+  const double farthest = plan_.settings.max_range_m - ray.travelled_m;
+  for (int face = 0; face < kMostPanes && hit.facet != kNoFacet; ++face) {
+    const MetFacet met = facets_.of(hit.facet);
+    const double range = rangeOnPlane(met.facet, ray.origin, ray.direction, hit.range_m);
+    if (range > farthest) return;
+    const bool front = met.facet.normal.dot(ray.direction) < 0;
+    const bool passes = plan_.passes(*met.optics);
+    if (passes && passage.isOtherFace(met.facet, front, range)) {
+      passage.leave();
+    } else {
+      PathEnd end;
+      end.path_m = ray.travelled_m + range;
+      end.excess_m = ray.excess_m + passage.excess_m();
+      end.gain = static_cast<float>(ray.gain * passage.gain());
+      end.cosine = static_cast<float>(std::min(1.0, std::abs(met.facet.normal.dot(ray.direction))));
+      end.flags = static_cast<std::uint8_t>(ray.flags | (passage.gain() < 1 ? point_flag::kThroughPane : 0));
+      end.place = (ray.origin + range * ray.direction).cast<float>();
+      end.optics = met.optics;
+      end.product = met.facet.product, end.surface = met.facet.surface, end.material = met.material;
+      if (end.path_m >= plan_.instrument.min_range_m) ends.push_back(end);
+      if (plan_.mirrors(*met.optics))
+        reflect(ray, met, range, end.cosine, ray.gain * passage.gain(), end.excess_m, ends);
+      if (!passes) return;
+      passage.enter(*met.optics, end.cosine, met.facet, front, range);
+    }
+    hit = plan_.scene.nearest(ray.origin, ray.direction, hit.range_m + kBehindFace_m, farthest);
+  }
+}
+
+void BeamPaths::reflect(const Ray& ray, const MetFacet& met, double range_m, double cosine, double gain, double excess_m,
+                        std::vector<PathEnd>& ends) {
+  if (ray.mirrors >= kMostMirrors) return;
+  const double reflected = mirrorReflectance(*met.optics, cosine);
+  Ray image{.origin = ray.origin + range_m * ray.direction,
+            .direction = ray.direction - 2 * met.facet.normal.dot(ray.direction) * met.facet.normal,
+            .travelled_m = ray.travelled_m + range_m,
+            .excess_m = excess_m,
+            .gain = gain * reflected * reflected,
+            .flags = static_cast<std::uint8_t>(ray.flags | point_flag::kMirrored),
+            .mirrors = ray.mirrors + 1};
+  if (kBrightest * image.gain < plan_.threshold * image.travelled_m * image.travelled_m) return;
+  const double left = plan_.settings.max_range_m - image.travelled_m;
+  if (left <= kBehindFace_m) return;
+  follow(image, plan_.scene.nearest(image.origin, image.direction, kBehindFace_m, left), ends);
+}
+
+}  // namespace standpoint

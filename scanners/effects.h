@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/result.h"
+
+namespace standpoint {
+
+// What makes a scan differ from the geometry, each to be switched off alone. Without any of them a pulse returns the
+// first surface on its axis, exactly, whatever it is made of.
+enum class Effect : std::uint32_t {
+  range_noise = 1U << 0U,    // white, by received power
+  angle_noise = 1U << 1U,    // jitter of the two angles
+  bias = 1U << 2U,           // systematic errors of range and angles, drawn once for a scan
+  striping = 1U << 3U,       // noise that neighbours share: along a column, from column to column, the mirror's wobble
+  detection = 1U << 4U,      // what sends back too little is lost
+  chance = 1U << 5U,         // near that threshold a return is lost or found by chance
+  near_range = 1U << 6U,     // the receiver does not see all that comes from close by
+  atmosphere = 1U << 7U,     // extinction of the air
+  weather = 1U << 8U,        // returns from drops, flakes, fog and dust
+  footprint = 1U << 9U,      // the beam has a width: mixed points at edges
+  panes = 1U << 10U,         // glass lets light pass
+  mirrors = 1U << 11U,       // what is smooth shows mirror images
+  variation = 1U << 12U,     // a material is not the same everywhere
+  saturation = 1U << 13U,    // too much light bends the range
+  quantisation = 1U << 14U,  // the intensity is stored in steps
+};
+
+class Effects {
+ public:
+  constexpr Effects() = default;                          // all
+  static constexpr Effects none() { return Effects(0); }
+  constexpr bool has(Effect effect) const { return (bits_ & static_cast<std::uint32_t>(effect)) != 0; }
+  constexpr Effects with(Effect effect) const { return Effects(bits_ | static_cast<std::uint32_t>(effect)); }
+  constexpr Effects without(Effect effect) const { return Effects(bits_ & ~static_cast<std::uint32_t>(effect)); }
+  constexpr std::uint32_t bits() const { return bits_; }
+  constexpr bool operator==(const Effects&) const = default;
+
+ private:
+  explicit constexpr Effects(std::uint32_t bits) : bits_(bits) {}
+  std::uint32_t bits_ = (1U << 15U) - 1;
+};
+
+struct EffectName {
+  Effect effect;
+  std::string_view name;         // "range-noise"
+  std::string_view description;  // what is left out without it
+};
+const std::array<EffectName, 15>& effectNames();
+
+std::string effectList();   // the names, separated by commas
+// Everything but the listed ones: "striping,footprint". An unknown name is an error that lists the known ones.
+Result<Effects> effectsWithout(std::string_view names);
+
+}  // namespace standpoint

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scanners/scatterers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "scanners/radiometry.h"
+#include "tests/scanners/scenes.h"
+
+namespace standpoint {
+namespace {
+
+constexpr double kLeast = 1e-5, kFar_m = 20;
+constexpr int kPulses = 40000;
+
+Weather rain(double mm_h) { return {23, mm_h, 0, 0, 0}; }
+
+double beam(const Instrument& instrument, double r) {
+  return std::hypot(instrument.exit_diameter_m, instrument.divergence_rad * r);
+}
+
+double power(const Instrument& instrument, double alpha, double r, double diameter) {
+  const double near = 1 / (1 + std::pow(instrument.near_range_m / r, instrument.near_range_power));
+  return 0.02 * near * std::exp(-2 * alpha * r) * std::min(1.0, std::pow(diameter / beam(instrument, r), 2)) / (r * r);
+}
+
+// The moments that two ways of making drops are compared by.
+struct Seen {
+  double share = 0, range_m = 0, log_x = 0, log_x_deviation = 0;
+};
+
+Seen summary(const std::vector<Scatterer>& found) {
+  Seen seen;
+  const auto n = static_cast<double>(found.size());
+  for (const auto& s : found) seen.range_m += s.range_m / n, seen.log_x += std::log(s.x) / n;
+  for (const auto& s : found) seen.log_x_deviation += std::pow(std::log(s.x) - seen.log_x, 2) / n;
+  seen.log_x_deviation = std::sqrt(seen.log_x_deviation);
+  seen.share = n / kPulses;
+  return seen;
+}
+
+Seen drawn(const Instrument& instrument, const Weather& weather, double far_m, double least_x) {
+  const Scatterers air(instrument, weather, kLeast, 100, {7, 3});
+  std::vector<Scatterer> found;
+  for (std::uint32_t p = 0; p < kPulses; ++p)
+    if (const auto s = air.strongest(p / 200, p % 200, far_m, least_x)) found.push_back(*s);
+  return summary(found);
+}
+
+// As physics.md §2.6 says it: every drop above 0.05 mm in the beam, wherever and however small; the strongest counts.
+Seen simulated(const Instrument& instrument, double mm_h, double far_m, double least_x) {
+  std::mt19937_64 generator(11);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const double lambda = 4.1 * std::pow(mm_h, -0.21);
+  const double alpha = extinction_per_m(rain(mm_h), instrument.wavelength_nm);
+  const double widest = beam(instrument, far_m);
+  const double cylinder = std::numbers::pi / 4 * widest * widest * (far_m - instrument.min_range_m);
+  std::poisson_distribution<int> number(8000 / lambda * std::exp(-lambda * 0.05) * cylinder);
+  std::exponential_distribution<double> larger(lambda);
+  std::vector<Scatterer> found;
+  for (int p = 0; p < kPulses; ++p) {
+    Scatterer best;
+    for (int k = number(generator); k > 0; --k) {
+      const double r = instrument.min_range_m + unit(generator) * (far_m - instrument.min_range_m);
+      const double diameter = 1e-3 * (0.05 + larger(generator));
+      if (unit(generator) * widest * widest > std::pow(beam(instrument, r), 2)) continue;   // beside the beam
+      const double x = power(instrument, alpha, r, diameter);
+      if (x > best.x) best = {ScattererKind::drop, r, x};
+    }
+    if (best.x >= least_x) found.push_back(best);
+  }
+  return summary(found);
+}
+
+void expectAlike(const Seen& a, const Seen& b) {
+  const double n = kPulses * b.share;
+  EXPECT_NEAR(a.share, b.share, 5 * std::sqrt(2 * b.share / kPulses));
+  EXPECT_NEAR(a.log_x, b.log_x, 5 * b.log_x_deviation * std::sqrt(2 / n));
+  EXPECT_NEAR(a.log_x_deviation / b.log_x_deviation, 1, 5 / std::sqrt(n));
+  EXPECT_NEAR(a.range_m / b.range_m, 1, 0.03);
+}
+
+TEST(Drops, AreThoseOfAnExhaustiveSimulation) {
+  const auto instrument = testing::instrument("leica-rtc360");
+  expectAlike(drawn(instrument, rain(25), kFar_m, kLeast), simulated(instrument, 25, kFar_m, kLeast));
+  expectAlike(drawn(instrument, rain(100), 5, 4 * kLeast), simulated(instrument, 100, 5, 4 * kLeast));
+}
+
+// The share of pulses that see one is 1 - e^(-M); M from the formulas by another integration.
+TEST(Drops, AreAsManyAsTheirDistributionSays) {
+  const auto instrument = testing::instrument("trimble-x7");
+  const double alpha = extinction_per_m(rain(50), instrument.wavelength_nm);
+  const double lambda = 4.1 * std::pow(50, -0.21);
+  double number = 0;
+  for (double r = instrument.min_range_m + 5e-4; r < kFar_m; r += 1e-3) {
+    const double share = kLeast / power(instrument, alpha, r, 1);   // of a drop as wide as the beam
+    if (share > 1) continue;
+    const double diameter_mm = std::max(1e3 * beam(instrument, r) * std::sqrt(share), 0.05);
+    const double cross_section = std::numbers::pi / 4 * std::pow(beam(instrument, r), 2);
+    number += 8000 / lambda * std::exp(-lambda * diameter_mm) * cross_section * 1e-3;
+  }
+  const Scatterers air(instrument, rain(50), kLeast, 100, {1, 1});
+  EXPECT_NEAR(air.expected(kFar_m) / number, 1, 2e-3);
+  const double share = 1 - std::exp(-number);
+  EXPECT_NEAR(drawn(instrument, rain(50), kFar_m, kLeast).share, share, 5 * std::sqrt(share / kPulses));
+}
+
+TEST(Drops, LieBeforeTheTargetAndAboveTheThreshold) {
+  const auto instrument = testing::instrument("leica-p50");
+  const Scatterers air(instrument, {23, 100, 10, 0, 0}, 1e-7, 200, {5, 5});
+  int found = 0, flakes = 0;
+  for (std::uint32_t p = 0; p < 5000; ++p) {
+    const double far = 0.2 + 0.01 * p;
+    const auto s = air.strongest(0, p, far, 2e-7);
+    if (!s) continue;
+    ++found;
+    flakes += s->kind == ScattererKind::flake ? 1 : 0;
+    EXPECT_GE(s->range_m, instrument.min_range_m);
+    EXPECT_LE(s->range_m, far);
+    EXPECT_GE(s->x, 2e-7);
+  }
+  EXPECT_GT(found, 1000);
+  EXPECT_GT(flakes, 100);
+  EXPECT_LT(flakes, found - 100);
+}
+
+TEST(Drops, AreTheSameForTheSamePulseOnly) {
+  const auto instrument = testing::instrument("leica-p50");
+  const Scatterers air(instrument, rain(100), 1e-6, 50, {5, 5}), again(instrument, rain(100), 1e-6, 50, {5, 5}),
+      other(instrument, rain(100), 1e-6, 50, {5, 6});
+  int differ = 0;
+  for (std::uint32_t row = 0; row < 2000; ++row) {
+    const auto a = air.strongest(3, row, 50, 0), b = again.strongest(3, row, 50, 0), c = other.strongest(3, row, 50, 0);
+    ASSERT_EQ(a.has_value(), b.has_value());
+    if (a) {
+      EXPECT_EQ(a->range_m, b->range_m);
+    }
+    differ += a.has_value() != c.has_value() || (a && a->range_m != c->range_m) ? 1 : 0;
+  }
+  EXPECT_GT(differ, 100);
+}
+
+TEST(Air, ThatIsClearSendsNothingBack) {
+  const auto instrument = testing::instrument("leica-rtc360");
+  const Scatterers air(instrument, {}, 1e-12, 100, {1, 1});
+  for (std::uint32_t row = 0; row < 100; ++row) EXPECT_FALSE(air.strongest(0, row, 100, 0));
+  const Scatterers wet(instrument, rain(50), 1e-9, 100, {1, 1});
+  EXPECT_FALSE(wet.strongest(0, 0, instrument.min_range_m, 0));
+  EXPECT_FALSE(wet.strongest(0, 0, 0, 0));
+  EXPECT_FALSE(wet.strongest(0, 0, std::numeric_limits<double>::quiet_NaN(), 0));
+}
+
+// Beyond the near range the convolution with so short a pulse is its area, c τ / 2, times the backscatter there.
+TEST(Fog, AnswersWithTheBackscatterWithinThePulse) {
+  auto instrument = testing::instrument("riegl-vz-400i");
+  instrument.near_range_m = 0;
+  instrument.min_range_m = 30;
+  const Scatterers air(instrument, {kNoAir.visibility_km, 0, 0, 100, 0}, 1e-9, 100, {1, 1});
+  const auto soft = air.strongest(0, 0, 60, 0);
+  ASSERT_TRUE(soft);
+  EXPECT_EQ(soft->kind, ScattererKind::fog);
+  EXPECT_NEAR(soft->range_m, 30, 0.01);
+  const double half_pulse_m = 299792458.0 * instrument.waveform.pulse_width_s / 2;
+  const double at = 30 - half_pulse_m;   // in the middle of the pulse
+  const double x = std::numbers::pi * 0.046 / 100 * half_pulse_m * std::exp(-2 * std::log(20) / 100 * at) / (at * at);
+  EXPECT_NEAR(soft->x / x, 1, 0.01);
+}
+
+TEST(Fog, IsSeenNearerThanAWallInItAndNotAtAllWhenThin) {
+  const auto instrument = testing::instrument("leica-rtc360");
+  const double least = detectionThreshold(*resolveSettings(instrument, {}), 0);
+  const Scatterers thick(instrument, {23, 0, 0, 30, 0}, least, 130, {1, 1});
+  const Scatterers thin(instrument, {23, 0, 0, 2000, 0}, least, 130, {1, 1});
+  const Scatterers dust(instrument, {23, 0, 0, 0, 30}, least, 130, {1, 1});
+  const auto soft = thick.strongest(0, 0, 20, least);
+  ASSERT_TRUE(soft);
+  EXPECT_LT(soft->range_m, 3);
+  EXPECT_EQ(soft->x, dust.strongest(0, 0, 20, least)->x);
+  EXPECT_FALSE(thin.strongest(0, 0, 20, least));
+  const double wall = 0.5 / 400 / (1 + std::pow(1.5 / 20, 2)) * std::exp(-2 * 20 * std::log(20) / 30);
+  EXPECT_LT(wall, soft->x);   // a wall at 20 m is lost in a fog of 30 m
+}
+
+}  // namespace
+}  // namespace standpoint
