@@ -203,7 +203,8 @@ Result<std::vector<Part>> partsOf(const std::filesystem::path& path, const Input
   whole.header.intensity_max = 65535;
   whole.header.has_time = pointFormat(header).time_at != 0;
   if (whole.header.has_time && header.adjusted_time && header.points > 0) {
-    const auto first = Records(file, header).at(0, 1);
+    Records records(file, header);
+    const auto first = records.at(0, 1);
     if (!first) return failure(first.error());
     const double start = std::floor(load<double>(*first + pointFormat(header).time_at));
     if (std::abs(start) < 1e10) whole.time_shift_s = -start, whole.header.acquisition_start_gps_s = start + kAdjustedGps_s;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <type_traits>
 
 #include "pointclouds/block_check.h"
 #include "pointclouds/file_access.h"
@@ -35,7 +36,10 @@ class Writer final : public CloudWriter {
   template <class T>
   void next(T value) {
     text_ += kind_ == Kind::csv ? ',' : ' ';
-    appendNumber(text_, value);
+    if constexpr (std::is_same_v<T, float>)
+      appendFloat(text_, value);
+    else
+      appendNumber(text_, value);
   }
   Result<void> flushFrom(std::size_t enough);
 
