@@ -47,7 +47,8 @@ std::vector<PointBlock> columns() {
       b.intensity.push_back(static_cast<float>(uniform(random[1])));
       b.row.push_back(r);
       b.column.push_back(c);
-      b.red.push_back(static_cast<std::uint8_t>(random[2])), b.green.push_back(static_cast<std::uint8_t>(random[2] >> 8));
+      b.red.push_back(static_cast<std::uint8_t>(random[2])),
+          b.green.push_back(static_cast<std::uint8_t>(random[2] >> 8));
       b.blue.push_back(static_cast<std::uint8_t>(random[2] >> 16));
     }
   return blocks;
@@ -101,8 +102,9 @@ double printPtx(const std::vector<PointBlock>& blocks, const fs::path& file) {
     for (std::uint32_t c = 0; c < kColumns; ++c) {
       const PointBlock& b = blocks[c % blocks.size()];
       for (std::size_t i = 0; i < b.size(); ++i)
-        std::fprintf(out, "%.6f %.6f %.6f %.6f %d %d %d\n", static_cast<double>(b.x_m[i]), static_cast<double>(b.y_m[i]),
-                     static_cast<double>(b.z_m[i]), static_cast<double>(b.intensity[i]), b.red[i], b.green[i], b.blue[i]);
+        std::fprintf(out, "%.6f %.6f %.6f %.6f %d %d %d\n", static_cast<double>(b.x_m[i]),
+                     static_cast<double>(b.y_m[i]), static_cast<double>(b.z_m[i]), static_cast<double>(b.intensity[i]),
+                     b.red[i], b.green[i], b.blue[i]);
     }
     return std::fclose(out) == 0;
   });
@@ -115,10 +117,14 @@ void measure(const char* name, CloudFormat::Writer writer, const fs::path& file,
   const double read = seconds([&] {
     Nothing sink;
     Progress progress;
-    return cloudFormatFor(file)->read(file, sink, progress).has_value() && sink.points == static_cast<std::uint64_t>(kPoints);
+    return cloudFormatFor(file)->read(file, sink, progress).has_value() &&
+           sink.points == static_cast<std::uint64_t>(kPoints);
   });
-  std::printf("%-14s write %6.2f M/s  read %6.2f M/s  %5.1f B/pt  fwrite of as many bytes %6.2f M/s (we need %.2f of its time)\n", name,
-              kPoints / written / 1e6, kPoints / read / 1e6, static_cast<double>(bytes) / kPoints, kPoints / disk / 1e6, written / disk);
+  std::printf(
+      "%-14s write %6.2f M/s  read %6.2f M/s  %5.1f B/pt  fwrite of as many bytes %6.2f M/s (we need %.2f of its "
+      "time)\n",
+      name, kPoints / written / 1e6, kPoints / read / 1e6, static_cast<double>(bytes) / kPoints, kPoints / disk / 1e6,
+      written / disk);
   fs::remove(file);
   fs::remove(file.string() + ".raw");
 }
@@ -134,7 +140,8 @@ int main(int argc, char** argv) {
     if (!format.writer) continue;
     measure(format.name, format.writer, folder / (std::string("bench") + format.extension), blocks);
     for (const CloudVariant& v : format.variants)
-      measure((std::string(format.name) + " " + v.name).c_str(), v.writer, folder / (std::string("bench") + format.extension), blocks);
+      measure((std::string(format.name) + " " + v.name).c_str(), v.writer,
+              folder / (std::string("bench") + format.extension), blocks);
   }
   std::printf("PTX by fprintf %6.2f M/s\n", kPoints / printPtx(blocks, folder / "bench.txt") / 1e6);
   fs::remove(folder / "bench.txt");

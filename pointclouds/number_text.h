@@ -36,8 +36,8 @@ inline void appendFixed(std::string& text, double value, unsigned decimals) {
   text.append(at, digits + sizeof digits);
 }
 
-// Reads back as the same float to the last bit, as appendNumber's shortest text does, in half the time: as many decimals
-// as make a step smaller than that between floats of this size.
+// Reads back as the same float to the last bit, as appendNumber's shortest text does, in half the time: as many
+// decimals as make a step smaller than that between floats of this size.
 inline void appendFloat(std::string& text, float value) {
   const float size = std::abs(value);
   if (!(size >= 0x1p-6F && size < 0x1p20F)) return appendNumber(text, value);

@@ -80,7 +80,8 @@ TEST(Las, OfEveryPointFormatGivesItsCoordinates) {
     ASSERT_EQ(kept.scans.size(), 1u);
     const auto& [header, points, ended] = kept.scans[0];
     ASSERT_EQ(points.size(), 3u);
-    const Eigen::Vector3d last = header.file_from_scanner * Eigen::Vector3d(points.x_m[2], points.y_m[2], points.z_m[2]);
+    const Eigen::Vector3d last =
+        header.file_from_scanner * Eigen::Vector3d(points.x_m[2], points.y_m[2], points.z_m[2]);
     EXPECT_NEAR(last.x(), 500002.0, 1e-6);
     EXPECT_NEAR(last.y(), 5399999.75, 1e-6);
     EXPECT_NEAR(last.z(), 100.007, 1e-6);

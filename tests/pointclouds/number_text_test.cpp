@@ -44,7 +44,9 @@ TEST(NumberText, OfFixedDecimalsIsThatOfPrintf) {
     std::snprintf(printed, sizeof printed, "%.5f", value);
     std::string text;
     appendFixed(text, value, 5);
-    EXPECT_NEAR(*numberFrom<double>(text), std::atof(printed), 1.01e-5 * (std::fmod(std::abs(value) * 1e5, 1) > 0.4999999)) << text;
+    EXPECT_NEAR(*numberFrom<double>(text), std::atof(printed),
+                1.01e-5 * (std::fmod(std::abs(value) * 1e5, 1) > 0.4999999))
+        << text;
   }
   std::string text;
   appendFixed(text, -0.000001, 5);
