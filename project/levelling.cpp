@@ -31,7 +31,8 @@ std::string angleText(double rad) {
 Eigen::Quaterniond rotationOf(double yaw_rad, const Tilt& tilt) {
   Eigen::Quaterniond rotation(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()));
   if (tilt.angle_rad != 0) {
-    const Eigen::Vector3d axis(-std::sin(tilt.towards_rad), std::cos(tilt.towards_rad), 0);   // Z turns about it towards there
+    const Eigen::Vector3d axis(-std::sin(tilt.towards_rad), std::cos(tilt.towards_rad),
+                               0);  // Z turns about it towards there
     rotation = Eigen::Quaterniond(Eigen::AngleAxisd(tilt.angle_rad, axis)) * rotation;
   }
   if (rotation.w() < 0) rotation.coeffs() *= -1;
@@ -51,24 +52,27 @@ Tilt drawnTilt(double most_rad, std::uint64_t seed, const std::string& station) 
   return {most_rad * std::sqrt(uniform(block[0])), 2 * std::numbers::pi * uniform(block[1])};
 }
 
-Result<Pose> believedPose(const Station& station, const Instrument& instrument, const Levelling& levelling, Report& report) {
+Result<Pose> believedPose(const Station& station, const Instrument& instrument, const Levelling& levelling,
+                          Report& report) {
   Pose pose = station.true_pose;
   const Tilt tilt = tiltOf(pose.rotation);
   if (tilt.angle_rad == 0) return pose;
   const double yaw = yawOf(pose.rotation);
   if (!levelling.compensator || !instrument.compensator) {
-    report.warn(station.name, fmt::format("it stands {} out of level and {}: its points come tilted", angleText(tilt.angle_rad),
-                                          instrument.compensator ? "the compensator is off" : "the instrument has no compensator"));
+    report.warn(station.name,
+                fmt::format("it stands {} out of level and {}: its points come tilted", angleText(tilt.angle_rad),
+                            instrument.compensator ? "the compensator is off" : "the instrument has no compensator"));
     pose.rotation = rotationOf(yaw, {});
     return pose;
   }
   const auto& compensator = *instrument.compensator;
   if (compensator.range_rad > 0 && tilt.angle_rad > compensator.range_rad)
-    return failure(ErrorKind::unusable,
-                   fmt::format("station {} stands {} out of level, and the compensator of the {} {} works up to {}; level it "
-                               "(station --move {} --tilt-deg 0) or switch the compensator off (--compensator off)",
-                               station.name, angleText(tilt.angle_rad), instrument.maker, instrument.model,
-                               angleText(compensator.range_rad), station.name));
+    return failure(
+        ErrorKind::unusable,
+        fmt::format("station {} stands {} out of level, and the compensator of the {} {} works up to {}; level it "
+                    "(station --move {} --tilt-deg 0) or switch the compensator off (--compensator off)",
+                    station.name, angleText(tilt.angle_rad), instrument.maker, instrument.model,
+                    angleText(compensator.range_rad), station.name));
   if (levelling.exact) return pose;
   const auto drawn = normals(philox(keyOf(levelling.seed, station.name), kOfTheStand, kOfTheStand, kCompensator));
   const double x = tilt.angle_rad * std::cos(tilt.towards_rad) + compensator.accuracy_rad * drawn[0];

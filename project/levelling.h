@@ -25,14 +25,15 @@ Tilt drawnTilt(double most_rad, std::uint64_t seed, const std::string& station);
 
 // What the device knows of its tilt.
 struct Levelling {
-  bool compensator = true;         // switched on
-  bool exact = false;              // it measures without error
+  bool compensator = true;  // switched on
+  bool exact = false;       // it measures without error
   std::uint64_t seed = 1;
 };
 
 // The pose that the device believes in: the true one where it stands level; else with the tilt that its compensator
 // measures, with the compensator's error; upright where there is none or it is off, so that its points come tilted.
 // Beyond the compensator's range it is refused.
-Result<Pose> believedPose(const Station& station, const Instrument& instrument, const Levelling& levelling, Report& report);
+Result<Pose> believedPose(const Station& station, const Instrument& instrument, const Levelling& levelling,
+                          Report& report);
 
 }  // namespace standpoint

@@ -15,18 +15,18 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kInside = 0.95;   // of the winding: a body that is closed, but for rounding and hair gaps
+constexpr double kInside = 0.95;  // of the winding: a body that is closed, but for rounding and hair gaps
 
-double distanceTo(const Bounds& b, const Eigen::Vector3d& p) {
-  return (p - p.cwiseMax(b.min).cwiseMin(b.max)).norm();
-}
+double distanceTo(const Bounds& b, const Eigen::Vector3d& p) { return (p - p.cwiseMax(b.min).cwiseMin(b.max)).norm(); }
 
 // The nearest point of an instance, no farther than `reach_m`, which shrinks.
 bool nearestOf(const Environment& environment, const Instance& instance, const Eigen::Vector3d& p, double& reach_m) {
   const auto& mesh = *environment.meshes[instance.mesh];
   bool found = false;
   for (const auto& t : mesh.triangles) {
-    const auto corner = [&](int k) -> Eigen::Vector3d { return instance.world_from_mesh * mesh.positions[t[k]].cast<double>(); };
+    const auto corner = [&](int k) -> Eigen::Vector3d {
+      return instance.world_from_mesh * mesh.positions[t[k]].cast<double>();
+    };
     const Eigen::Vector3d a = corner(0), b = corner(1), c = corner(2);
     if (distanceTo({a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)}, p) >= reach_m) continue;
     const double distance = (closestPoint(p, a, b, c) - p).norm();
@@ -64,8 +64,8 @@ StationPlacement::StationPlacement(const RayScene& scene, const TripodStand& sta
 
 std::optional<Refusal> StationPlacement::badHeight(double height_m) const {
   if (height_m >= lowest_m() - 1e-9 && height_m <= highest_m() + 1e-9) return std::nullopt;
-  return Refusal{fmt::format("a tripod holds the instrument's centre {:.2f} to {:.2f} m above the ground, not {:.2f} m", lowest_m(),
-                             highest_m(), height_m),
+  return Refusal{fmt::format("a tripod holds the instrument's centre {:.2f} to {:.2f} m above the ground, not {:.2f} m",
+                             lowest_m(), highest_m(), height_m),
                  "say another --height, or --stand free for what hangs or is held"};
 }
 
@@ -78,9 +78,10 @@ std::optional<Refusal> StationPlacement::tooNear(const Eigen::Vector3d& centre) 
         nearestOf(environment, environment.instances[i], centre, reach))
       nearest = environment.instances[i].product;
   if (!nearest) return std::nullopt;
-  return Refusal{fmt::format("the instrument's centre would be {:.0f} mm from {}; it needs {:.0f} mm all round", reach * 1000,
-                             productText(environment, *nearest), stand_.clearance_m * 1000),
-                 fmt::format("move it {:.0f} mm away from there", std::ceil((stand_.clearance_m - reach) * 1000 - 0.01))};
+  return Refusal{
+      fmt::format("the instrument's centre would be {:.0f} mm from {}; it needs {:.0f} mm all round", reach * 1000,
+                  productText(environment, *nearest), stand_.clearance_m * 1000),
+      fmt::format("move it {:.0f} mm away from there", std::ceil((stand_.clearance_m - reach) * 1000 - 0.01))};
 }
 
 bool StationPlacement::worthTrying(const Eigen::Vector3d& centre) const {
@@ -116,17 +117,20 @@ std::optional<Refusal> StationPlacement::badGround(const Eigen::Vector3d& centre
   if (!ground) return Refusal{"it would float: the whole model is above it or there is none", elsewhere};
   const double height = centre.z() - ground->z;
   if (height > highest_m() + 1e-3)
-    return Refusal{fmt::format("it would float: {} is {:.2f} m below the instrument's centre, and a tripod reaches {:.2f} m",
-                               ground->modelled() ? ground->product : "nothing but the model's lowest height", height, highest_m()),
-                   fmt::format("lower it by {:.2f} m at least, or {}", height - highest_m(), elsewhere)};
+    return Refusal{
+        fmt::format("it would float: {} is {:.2f} m below the instrument's centre, and a tripod reaches {:.2f} m",
+                    ground->modelled() ? ground->product : "nothing but the model's lowest height", height,
+                    highest_m()),
+        fmt::format("lower it by {:.2f} m at least, or {}", height - highest_m(), elsewhere)};
   if (height < lowest_m() - 1e-3)
-    return Refusal{fmt::format("{} is only {:.2f} m below the instrument's centre, and a tripod is {:.2f} m high at least",
-                               ground->modelled() ? ground->product : "the model's lowest height", height, lowest_m()),
-                   fmt::format("raise it by {:.2f} m, or {}", lowest_m() - height, elsewhere)};
+    return Refusal{
+        fmt::format("{} is only {:.2f} m below the instrument's centre, and a tripod is {:.2f} m high at least",
+                    ground->modelled() ? ground->product : "the model's lowest height", height, lowest_m()),
+        fmt::format("raise it by {:.2f} m, or {}", lowest_m() - height, elsewhere)};
   if (ground->slope_rad > stand_.steepest_rad)
     return Refusal{fmt::format("below it is {} of {:.0f} degrees, {}; a tripod stands on {:.0f} degrees at most",
-                               ground->slope_rad > stand_.wall_rad ? "a wall" : "a slope", ground->slope_rad / kRadPerDeg,
-                               ground->product, stand_.steepest_rad / kRadPerDeg),
+                               ground->slope_rad > stand_.wall_rad ? "a wall" : "a slope",
+                               ground->slope_rad / kRadPerDeg, ground->product, stand_.steepest_rad / kRadPerDeg),
                    elsewhere};
   return noFooting(centre, *ground);
 }
@@ -145,18 +149,20 @@ std::optional<Refusal> StationPlacement::noFooting(const Eigen::Vector3d& centre
   }
   for (int k = 0; k < kTurns; ++k)
     if (stands[k] && stands[k + kTurns] && stands[k + 2 * kTurns]) return std::nullopt;
-  return Refusal{fmt::format("the three feet of a tripod, {:.2f} m from its middle, do not find ground round it: {} is too small there",
-                             stand_.foot_radius_m, ground.product),
-                 "move it away from the edge, or --stand free for what hangs or is held"};
+  return Refusal{
+      fmt::format(
+          "the three feet of a tripod, {:.2f} m from its middle, do not find ground round it: {} is too small there",
+          stand_.foot_radius_m, ground.product),
+      "move it away from the edge, or --stand free for what hangs or is held"};
 }
 
-// A product with a class of its own is a body whichever way its faces look; of a mesh that only draws a room from inside,
-// the faces look inwards.
+// A product with a class of its own is a body whichever way its faces look; of a mesh that only draws a room from
+// inside, the faces look inwards.
 std::optional<std::uint32_t> StationPlacement::bodyRound(const Eigen::Vector3d& centre) const {
   const auto& environment = scene_.environment();
   for (std::uint32_t i = 0; i < instances_.size();) {
     const auto product = environment.instances[i].product;
-    std::vector<std::uint32_t> parts;   // together they may be closed where each has holes
+    std::vector<std::uint32_t> parts;  // together they may be closed where each has holes
     Bounds whole;
     for (; i < instances_.size() && environment.instances[i].product == product; ++i) {
       if (instances_[i].empty()) continue;
@@ -196,7 +202,8 @@ std::optional<Refusal> StationPlacement::whyNot(const Eigen::Vector3d& centre) c
 std::optional<std::string> StationPlacement::remark(const Eigen::Vector3d& centre) const {
   const auto body = bodyRound(centre);
   if (!body) return std::nullopt;
-  return fmt::format("it is inside {}, a closed body, which is taken for a room drawn as one skin", productText(scene_.environment(), *body));
+  return fmt::format("it is inside {}, a closed body, which is taken for a room drawn as one skin",
+                     productText(scene_.environment(), *body));
 }
 
 }  // namespace standpoint

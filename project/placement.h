@@ -17,9 +17,9 @@ struct Refusal {
 
 // What is straight below an instrument.
 struct Ground {
-  double z = 0;                    // local frame
+  double z = 0;  // local frame
   double slope_rad = 0;
-  std::string product;             // "IfcSlab #12 'Floor'"; empty where the model ends and its lowest height stands in
+  std::string product;  // "IfcSlab #12 'Floor'"; empty where the model ends and its lowest height stands in
   bool modelled() const { return !product.empty(); }
 };
 
@@ -38,7 +38,8 @@ class StationPlacement {
   // A quick look for many places: what passes may still be refused by whyNot().
   bool worthTrying(const Eigen::Vector3d& centre) const;
 
-  // What is odd about a place that is not refused: it lies in a body without a class, which may be a room drawn as one skin.
+  // What is odd about a place that is not refused: it lies in a body without a class, which may be a room drawn as one
+  // skin.
   std::optional<std::string> remark(const Eigen::Vector3d& centre) const;
 
   std::optional<Ground> groundBelow(const Eigen::Vector3d& centre) const;

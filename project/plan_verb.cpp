@@ -18,8 +18,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kHoles = 30;        // that are listed
-constexpr double kLowOverlap = 0.3;       // of what field practice asks for between neighbours
+constexpr std::size_t kHoles = 30;   // that are listed
+constexpr double kLowOverlap = 0.3;  // of what field practice asks for between neighbours
 
 json shareJson(const SurfaceShare& share, double each_m2) {
   return {{"exposed_m2", each_m2 * static_cast<double>(share.exposed)},
@@ -54,7 +54,8 @@ json answerOf(const SurveyPlan& plan, const Environment& environment) {
   answer["area_m2"] = plan.samples.area_m2;
   answer["samples"] = plan.samples.samples.size();
   const double share = plan.all.coverage();
-  answer["coverage_sigma"] = plan.all.exposed == 0 ? 0 : std::sqrt(share * (1 - share) / static_cast<double>(plan.all.exposed));
+  answer["coverage_sigma"] =
+      plan.all.exposed == 0 ? 0 : std::sqrt(share * (1 - share) / static_cast<double>(plan.all.exposed));
   answer["classes"] = rowsOf(plan.classes, "class", each);
   answer["storeys"] = rowsOf(plan.storeys, "storey", each);
   answer["holes"] = holesOf(plan, environment);
@@ -62,8 +63,11 @@ json answerOf(const SurveyPlan& plan, const Environment& environment) {
   answer["stations"] = json::array();
   for (std::size_t k = 0; k < plan.stations.size(); ++k) {
     const auto& f = plan.forecasts[k];
-    answer["stations"].push_back({{"station", plan.stations[k]}, {"seen_m2", plan.seen_m2[k]}, {"points", std::llround(f.points)},
-                                  {"instrument_seconds", f.seconds}, {"bytes", std::llround(plan.bytes[k])}});
+    answer["stations"].push_back({{"station", plan.stations[k]},
+                                  {"seen_m2", plan.seen_m2[k]},
+                                  {"points", std::llround(f.points)},
+                                  {"instrument_seconds", f.seconds},
+                                  {"bytes", std::llround(plan.bytes[k])}});
     points += f.points;
     seconds += f.seconds;
     bytes += plan.bytes[k];
@@ -73,8 +77,12 @@ json answerOf(const SurveyPlan& plan, const Environment& environment) {
   answer["bytes"] = std::llround(bytes);
   answer["pairs"] = json::array();
   for (const auto& p : plan.pairs)
-    answer["pairs"].push_back({{"a", plan.stations[p.a]}, {"b", plan.stations[p.b]}, {"common_m2", p.common_m2}, {"of_a", p.of_a},
-                               {"of_b", p.of_b}, {"overlap", p.overlap()}});
+    answer["pairs"].push_back({{"a", plan.stations[p.a]},
+                               {"b", plan.stations[p.b]},
+                               {"common_m2", p.common_m2},
+                               {"of_a", p.of_a},
+                               {"of_b", p.of_b},
+                               {"overlap", p.overlap()}});
   return answer;
 }
 
@@ -86,21 +94,23 @@ std::string minutes(double seconds) {
 std::string textOf(const SurveyPlan& plan, const json& answer) {
   std::string text;
   for (std::size_t k = 0; k < plan.stations.size(); ++k)
-    text += fmt::format("{:12} sees {:8.1f} m2   {:7.2f} M points   {:>6} min   {:7.1f} MB\n", plan.stations[k], plan.seen_m2[k],
-                        plan.forecasts[k].points / 1e6, minutes(plan.forecasts[k].seconds), plan.bytes[k] / 1e6);
+    text += fmt::format("{:12} sees {:8.1f} m2   {:7.2f} M points   {:>6} min   {:7.1f} MB\n", plan.stations[k],
+                        plan.seen_m2[k], plan.forecasts[k].points / 1e6, minutes(plan.forecasts[k].seconds),
+                        plan.bytes[k] / 1e6);
   if (plan.stations.size() > 1)
-    text += fmt::format("{:12}                     {:7.2f} M points   {:>6} min   {:7.1f} MB\n", "all", answer["points"].get<double>() / 1e6,
-                        minutes(answer["instrument_seconds"]), answer["bytes"].get<double>() / 1e6);
+    text += fmt::format("{:12}                     {:7.2f} M points   {:>6} min   {:7.1f} MB\n", "all",
+                        answer["points"].get<double>() / 1e6, minutes(answer["instrument_seconds"]),
+                        answer["bytes"].get<double>() / 1e6);
   for (const auto& share : plan.storeys)
     text += fmt::format("storey {:30} {:5.1f} %\n", share.name.empty() ? "(none)" : share.name, share.coverage() * 100);
   for (const auto& share : plan.classes)
     text += fmt::format("class  {:30} {:5.1f} %\n", share.name.empty() ? "(none)" : share.name, share.coverage() * 100);
   for (const auto& pair : plan.pairs)
-    text += fmt::format("overlap {} - {}: {:.0f} %{}\n", plan.stations[pair.a], plan.stations[pair.b], pair.overlap() * 100,
-                        pair.overlap() < kLowOverlap ? ", little to register by" : "");
+    text += fmt::format("overlap {} - {}: {:.0f} %{}\n", plan.stations[pair.a], plan.stations[pair.b],
+                        pair.overlap() * 100, pair.overlap() < kLowOverlap ? ", little to register by" : "");
   for (const auto& hole : answer["holes"])
-    text += fmt::format("not seen: {:8.2f} m2 of {} {} {}\n", hole["unseen_m2"].get<double>(), hole.value("class", ""), hole.value("id", ""),
-                        hole.value("name", ""));
+    text += fmt::format("not seen: {:8.2f} m2 of {} {} {}\n", hole["unseen_m2"].get<double>(), hole.value("class", ""),
+                        hole.value("id", ""), hole.value("name", ""));
   return text;
 }
 
@@ -118,7 +128,8 @@ Result<PlanRequest> requestFrom(const Document& document, const json& options) {
     request.stations = *std::move(stations);
   }
   if (options.contains("spacing")) request.wanted.most_spacing_m = options["spacing"].get<double>();
-  if (options.contains("max-incidence-deg")) request.wanted.most_incidence_rad = options["max-incidence-deg"].get<double>() * kRadPerDeg;
+  if (options.contains("max-incidence-deg"))
+    request.wanted.most_incidence_rad = options["max-incidence-deg"].get<double>() * kRadPerDeg;
   if (options.contains("max-range")) request.wanted.most_range_m = options["max-range"].get<double>();
   request.samples = options.at("samples").get<std::size_t>();
   request.seed = options.at("seed").get<std::uint64_t>();
@@ -126,8 +137,8 @@ Result<PlanRequest> requestFrom(const Document& document, const json& options) {
 }
 
 // The place that adds most to what these stations see.
-Result<json> proposalFor(const Document& document, const RayScene& scene, const SurveyPlan& plan, const PlanRequest& request,
-                         Progress& progress) {
+Result<json> proposalFor(const Document& document, const RayScene& scene, const SurveyPlan& plan,
+                         const PlanRequest& request, Progress& progress) {
   const auto stand = readTripodStand(tripodStandFile());
   if (!stand) return failure(stand.error());
   const StationPlacement placement(scene, *stand, request.instrument.trunnion_height_m);
@@ -138,7 +149,8 @@ Result<json> proposalFor(const Document& document, const RayScene& scene, const 
                            std::max(SightLimits{}.least_cosine, std::cos(request.wanted.most_incidence_rad)),
                            request.settings.elevation_from_rad, request.settings.elevation_to_rad};
   progress.stage("Look for another station", 0.7, 1);
-  const auto next = nextStation(document, placement, plan.samples, seen, limits, request.instrument.tripod_height_m, progress);
+  const auto next =
+      nextStation(document, placement, plan.samples, seen, limits, request.instrument.tripod_height_m, progress);
   if (auto go_on = progress.check(); !go_on) return failure(go_on.error());
   if (!next) return json();
   return json{{"at", toJson(next->centre + document.georeference->shift_m)}, {"adds_m2", next->adds_m2}};
@@ -154,10 +166,12 @@ Result<Outcome> runPlan(const Document& document, const json& options, Progress&
   if (!assignment) return failure(assignment.error());
   const ScanWorld world = scanWorld(document, *assignment);
   if (sceneTriangleCount(*world.environment) == 0)
-    return failure(ErrorKind::unusable, "there is nothing in the scene to plan for; import a model, or take products back with `treat`");
+    return failure(ErrorKind::unusable,
+                   "there is nothing in the scene to plan for; import a model, or take products back with `treat`");
   auto scene = RayScene::build(world.environment, progress);
   if (!scene) return failure(scene.error());
-  auto plan = planSurvey(*document.job, *scene, std::make_shared<const MaterialAssignment>(world.assignment), *request, progress);
+  auto plan = planSurvey(*document.job, *scene, std::make_shared<const MaterialAssignment>(world.assignment), *request,
+                         progress);
   if (!plan) return failure(plan.error());
   auto proposal = proposalFor(document, **scene, *plan, *request, progress);
   if (!proposal) return failure(proposal.error());
@@ -168,8 +182,9 @@ Result<Outcome> runPlan(const Document& document, const json& options, Progress&
                                     outcome.answer["exposed_m2"].get<double>());
   outcome.text = textOf(*plan, outcome.answer);
   if (proposal->is_object())
-    outcome.text += fmt::format("another station at {:.2f},{:.2f},{:.2f} would add {:.1f} m2\n", (*proposal)["at"][0].get<double>(),
-                                (*proposal)["at"][1].get<double>(), (*proposal)["at"][2].get<double>(), (*proposal)["adds_m2"].get<double>());
+    outcome.text += fmt::format("another station at {:.2f},{:.2f},{:.2f} would add {:.1f} m2\n",
+                                (*proposal)["at"][0].get<double>(), (*proposal)["at"][1].get<double>(),
+                                (*proposal)["at"][2].get<double>(), (*proposal)["adds_m2"].get<double>());
   return outcome;
 }
 

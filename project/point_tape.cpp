@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A tape is a run of pieces, each: kind, length, CRC-32C, bytes. It is read on the machine that wrote it, so numbers are
-// as memory has them.
+// A tape is a run of pieces, each: kind, length, CRC-32C, bytes. It is read on the machine that wrote it, so numbers
+// are as memory has them.
 enum Piece : std::uint8_t { kBlock = 1, kPicture = 2, kEnd = 3 };
 
 struct PieceHead {
@@ -29,7 +29,9 @@ class Packer {
  public:
   explicit Packer(std::vector<std::uint8_t>& bytes) : bytes_(bytes) { bytes_.clear(); }
   template <class T>
-  void operator()(const T& value) requires std::is_trivially_copyable_v<T> { put(&value, sizeof value); }
+  void operator()(const T& value) requires std::is_trivially_copyable_v<T> {
+    put(&value, sizeof value);
+  }
   template <class T>
   void operator()(const std::vector<T>& column) {
     (*this)(static_cast<std::uint64_t>(column.size()));
@@ -55,7 +57,9 @@ class Unpacker {
   explicit Unpacker(const std::vector<std::uint8_t>& bytes) : bytes_(bytes) {}
   bool whole() const { return good_ && at_ == bytes_.size(); }
   template <class T>
-  void operator()(T& value) requires std::is_trivially_copyable_v<T> { take(&value, sizeof value); }
+  void operator()(T& value) requires std::is_trivially_copyable_v<T> {
+    take(&value, sizeof value);
+  }
   template <class T>
   void operator()(std::vector<T>& column) {
     column.resize(count(sizeof(T)));
@@ -94,20 +98,23 @@ void visitBlock(Archive& archive, Block& b) {
   archive(b.red), archive(b.green), archive(b.blue), archive(b.product), archive(b.material), archive(b.time_s);
   archive(b.return_number), archive(b.return_count);
   auto& t = b.truth;
-  archive(t.x_m), archive(t.y_m), archive(t.z_m), archive(t.range_m), archive(t.incidence_rad), archive(t.received_db), archive(t.flags);
+  archive(t.x_m), archive(t.y_m), archive(t.z_m), archive(t.range_m), archive(t.incidence_rad), archive(t.received_db),
+      archive(t.flags);
 }
 
 template <class Archive, class Picture, class Double>
 void visitPicture(Archive& archive, Picture& p, Double* rotation, Double* translation) {
   archive(p.name), archive(p.projection), archive(p.media_type), archive(p.bytes), archive(p.width), archive(p.height);
-  archive(p.pixel_width), archive(p.pixel_height), archive(p.focal_length_m), archive(p.principal_x), archive(p.principal_y);
+  archive(p.pixel_width), archive(p.pixel_height), archive(p.focal_length_m), archive(p.principal_x),
+      archive(p.principal_y);
   for (int k = 0; k < 4; ++k) archive(rotation[k]);
   for (int k = 0; k < 3; ++k) archive(translation[k]);
   archive(p.acquired_gps_s);
 }
 
 tl::unexpected<Error> damaged(const fs::path& file) {
-  return failure(ErrorKind::unusable, "is damaged: scan anew without --resume, after removing its folder", file.string());
+  return failure(ErrorKind::unusable, "is damaged: scan anew without --resume, after removing its folder",
+                 file.string());
 }
 
 }  // namespace
@@ -139,7 +146,8 @@ Result<void> PointTape::write(const PointBlock& block) {
 
 Result<void> PointTape::picture(const StationPicture& picture) {
   Packer pack(buffer_);
-  visitPicture(pack, picture, picture.file_from_camera.rotation.coeffs().data(), picture.file_from_camera.translation.data());
+  visitPicture(pack, picture, picture.file_from_camera.rotation.coeffs().data(),
+               picture.file_from_camera.translation.data());
   if (auto ok = put(kPicture); !ok) return ok;
   return behind_.picture(picture);
 }
@@ -181,7 +189,8 @@ Result<void> playTape(const fs::path& file, PointSink& sink, Progress& progress)
       if (auto ok = sink.write(block); !ok) return ok;
     } else if (head.kind == kPicture) {
       StationPicture picture;
-      visitPicture(unpack, picture, picture.file_from_camera.rotation.coeffs().data(), picture.file_from_camera.translation.data());
+      visitPicture(unpack, picture, picture.file_from_camera.rotation.coeffs().data(),
+                   picture.file_from_camera.translation.data());
       if (!unpack.whole()) return damaged(file);
       if (auto ok = sink.picture(picture); !ok) return ok;
     } else {

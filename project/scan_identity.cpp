@@ -44,8 +44,8 @@ std::uint64_t mix(std::uint64_t hash, const Spectrum& spectrum) {
 std::uint64_t mix(std::uint64_t hash, const PhysicalMaterial& m) {
   hash = mix(mix(mix(hash, m.id), m.reflectance), m.transmittance);
   for (const auto& c : m.complex_index) hash = mix(hash, fmt::format("{} {} {}", c.wavelength_nm, c.n, c.k));
-  return mix(hash, fmt::format("{} {} {} {} {} {} {} {}", m.roughness_rad, m.gloss_slope, m.index_of_refraction, m.thickness_m,
-                               m.panes, m.gap_m, m.variation, m.texture_scale_m));
+  return mix(hash, fmt::format("{} {} {} {} {} {} {} {}", m.roughness_rad, m.gloss_slope, m.index_of_refraction,
+                               m.thickness_m, m.panes, m.gap_m, m.variation, m.texture_scale_m));
 }
 
 }  // namespace
@@ -62,10 +62,13 @@ std::uint64_t fingerprintOf(const ScanWorld& world) {
     hash = mix(mix(hash, i.mesh), i.product);
     hash = mixAll(hash, std::span<const double>(i.world_from_mesh.matrix().data(), 16));
   }
-  for (const auto& p : e.products) hash = mix(mix(hash, p.id + p.global_id + p.ifc_class + p.name), static_cast<std::uint64_t>(p.inScene()));
-  for (const auto& s : e.surfaces) hash = mix(hash, fmt::format("{} {} {} {}", s.colour.r, s.colour.g, s.colour.b, s.colour.a));
+  for (const auto& p : e.products)
+    hash = mix(mix(hash, p.id + p.global_id + p.ifc_class + p.name), static_cast<std::uint64_t>(p.inScene()));
+  for (const auto& s : e.surfaces)
+    hash = mix(hash, fmt::format("{} {} {} {}", s.colour.r, s.colour.g, s.colour.b, s.colour.a));
   for (const auto& m : world.assignment.materials) hash = mix(hash, m);
-  for (const auto& s : world.assignment.surfaces) hash = mix(hash, fmt::format("{} {} {}", s.product, s.surface, s.material));
+  for (const auto& s : world.assignment.surfaces)
+    hash = mix(hash, fmt::format("{} {} {}", s.product, s.surface, s.material));
   for (const auto& f : world.assignment.faces) {
     hash = mix(hash, fmt::format("{} {} {}", f.product, f.surface, f.material));
     hash = mixAll(hash, std::span<const double>(f.direction.data(), 3));
@@ -74,12 +77,14 @@ std::uint64_t fingerprintOf(const ScanWorld& world) {
   return hash;
 }
 
-std::string guidOf(std::uint64_t world_fingerprint, const Station& station, const Pose& believed, const ScanRequest& request) {
+std::string guidOf(std::uint64_t world_fingerprint, const Station& station, const Pose& believed,
+                   const ScanRequest& request) {
   const auto& o = request.options;
   std::uint64_t a = stableHash("standpoint scan");
   a = mix(a, request.instrument.id);
   for (const auto& [key, value] : request.settings.values) a = mix(mix(a, key), value);
-  a = mix(a, fmt::format("{} {} {} {} {} {}", o.seed, o.effects.bits(), station.name, o.channels.time, o.channels.returns, o.channels.truth));
+  a = mix(a, fmt::format("{} {} {} {} {} {}", o.seed, o.effects.bits(), station.name, o.channels.time,
+                         o.channels.returns, o.channels.truth));
   const auto& w = o.weather;
   a = mix(a, fmt::format("{} {} {} {} {}", w.visibility_km, w.rain_mm_h, w.snow_mm_h, w.fog_mor_m, w.dust_mor_m));
   std::uint64_t b = mix(mix(a, world_fingerprint), station.true_pose);

@@ -19,7 +19,7 @@ constexpr std::uintmax_t kLargestRecord = 1U << 16U;
 
 ScanParts::ScanParts(const fs::path& output) {
   fs::path file = output.lexically_normal();
-  if (!file.has_filename()) file = file.parent_path();   // "scans/"
+  if (!file.has_filename()) file = file.parent_path();  // "scans/"
   folder_ = file;
   folder_ += ".parts";
 }
@@ -38,7 +38,9 @@ std::optional<ScanParts::Finished> ScanParts::finished(const std::string& statio
   std::ifstream stream(recordOf(station), std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   const json row = json::parse(text, nullptr, false);
-  const auto number = [&](const char* key) { return row.contains(key) && row[key].is_number_unsigned() ? row[key].get<std::uint64_t>() : 0; };
+  const auto number = [&](const char* key) {
+    return row.contains(key) && row[key].is_number_unsigned() ? row[key].get<std::uint64_t>() : 0;
+  };
   if (!row.is_object() || row.value("guid", json()) != json(guid)) return std::nullopt;
   return Finished{{number("pulses"), number("returns"), number("points")}, number("bytes")};
 }
@@ -48,8 +50,13 @@ Result<void> ScanParts::record(const std::string& station, const std::string& gu
   fs::create_directories(folder_, code);
   auto file = PartFile::create(recordOf(station));
   if (!file) return failure(file.error());
-  const auto text = json{{"guid", guid}, {"pulses", finished.count.pulses}, {"returns", finished.count.returns},
-                         {"points", finished.count.points}, {"bytes", finished.bytes}}.dump(2);
+  const auto text = json{
+      {"guid", guid},
+      {"pulses", finished.count.pulses},
+      {"returns", finished.count.returns},
+      {"points", finished.count.points},
+      {"bytes",
+       finished.bytes}}.dump(2);
   if (auto ok = file->append({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}); !ok) return ok;
   return file->commit();
 }
@@ -58,7 +65,7 @@ void ScanParts::remove(const std::string& station) const {
   std::error_code ignored;
   fs::remove(recordOf(station), ignored);
   fs::remove(pointsOf(station), ignored);
-  fs::remove(folder_, ignored);   // when it is empty: another machine's shard may have its records there
+  fs::remove(folder_, ignored);  // when it is empty: another machine's shard may have its records there
 }
 
 }  // namespace standpoint

@@ -13,16 +13,16 @@
 
 namespace standpoint {
 
-// What a run over several stations has finished, beside its output in OUTPUT.parts, so that neither a crash nor a cancel
-// loses a station: a record of each, and where all go into one file its points as they went there. A record is written
-// after the points are, whole or not at all.
+// What a run over several stations has finished, beside its output in OUTPUT.parts, so that neither a crash nor a
+// cancel loses a station: a record of each, and where all go into one file its points as they went there. A record is
+// written after the points are, whole or not at all.
 class ScanParts {
  public:
   explicit ScanParts(const std::filesystem::path& output);
 
   struct Finished {
     ScanCount count;
-    std::uint64_t bytes = 0;       // of the station's own file, or of its points here
+    std::uint64_t bytes = 0;  // of the station's own file, or of its points here
   };
   // Nothing when the station is not finished, or was scanned otherwise: the guid says so.
   std::optional<Finished> finished(const std::string& station, const std::string& guid) const;
@@ -48,12 +48,12 @@ class PointTape : public PointSink {
   Result<void> write(const PointBlock& block) override;
   Result<void> picture(const StationPicture& picture) override;
   Result<void> end() override;
-  Result<void> close() override;   // of the tape only
+  Result<void> close() override;  // of the tape only
   std::uint64_t size() const { return file_.size(); }
 
  private:
   PointTape(PartFile file, PointSink& behind) : file_(std::move(file)), behind_(behind) {}
-  Result<void> put(std::uint8_t kind);   // what `buffer_` holds
+  Result<void> put(std::uint8_t kind);  // what `buffer_` holds
 
   PartFile file_;
   PointSink& behind_;

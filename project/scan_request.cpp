@@ -16,8 +16,8 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-// --shard i/n keeps the stations i, i+n, i+2n, …; every random number belongs to its station, so shards together give the
-// same bytes as the whole.
+// --shard i/n keeps the stations i, i+n, i+2n, …; every random number belongs to its station, so shards together give
+// the same bytes as the whole.
 Result<void> shard(std::vector<std::size_t>& stations, const std::string& text) {
   unsigned i = 0;
   unsigned n = 0;
@@ -37,8 +37,10 @@ Result<void> chooseOutput(ScanRequest& request, const fs::path& output) {
       std::vector<std::string> names;
       for (const auto& f : cloudFormats())
         if (f.writer != nullptr) names.emplace_back(f.extension);
-      return failure(ErrorKind::usage, fmt::format("'{}' cannot be written; there is {}, or name a folder",
-                                                   output.extension().string(), fmt::join(names, ", ")), "--output");
+      return failure(ErrorKind::usage,
+                     fmt::format("'{}' cannot be written; there is {}, or name a folder", output.extension().string(),
+                                 fmt::join(names, ", ")),
+                     "--output");
     }
     request.one_file = request.format->many_scans || request.stations.size() == 1;
     return {};
@@ -56,7 +58,8 @@ Result<Effects> effectsFrom(const json& options) {
       return failure(ErrorKind::usage, "an ideal scan is without all effects already", "--without");
     return Effects::none();
   }
-  return options.contains("without") ? effectsWithout(options["without"].get<std::string>()) : Result<Effects>(Effects());
+  return options.contains("without") ? effectsWithout(options["without"].get<std::string>())
+                                     : Result<Effects>(Effects());
 }
 
 }  // namespace
@@ -64,7 +67,8 @@ Result<Effects> effectsFrom(const json& options) {
 Result<std::vector<std::size_t>> stationsFrom(const Job& job, const std::string& wanted) {
   std::vector<std::size_t> result;
   if (job.stations.empty())
-    return failure(ErrorKind::usage, "there is no station yet: add one with `standpoint station PROJECT --add S1 --on X,Y`",
+    return failure(ErrorKind::usage,
+                   "there is no station yet: add one with `standpoint station PROJECT --add S1 --on X,Y`",
                    "--stations");
   if (wanted == "all") {
     for (std::size_t i = 0; i < job.stations.size(); ++i) result.push_back(i);
@@ -73,8 +77,10 @@ Result<std::vector<std::size_t>> stationsFrom(const Job& job, const std::string&
   for (std::size_t from = 0; from <= wanted.size();) {
     const auto comma = std::min(wanted.find(',', from), wanted.size());
     const auto name = wanted.substr(from, comma - from);
-    const auto at = std::find_if(job.stations.begin(), job.stations.end(), [&](const Station& s) { return s.name == name; });
-    if (at == job.stations.end()) return failure(ErrorKind::usage, fmt::format("there is no station '{}'", name), "--stations");
+    const auto at =
+        std::find_if(job.stations.begin(), job.stations.end(), [&](const Station& s) { return s.name == name; });
+    if (at == job.stations.end())
+      return failure(ErrorKind::usage, fmt::format("there is no station '{}'", name), "--stations");
     result.push_back(static_cast<std::size_t>(at - job.stations.begin()));
     from = comma + 1;
   }
@@ -93,7 +99,8 @@ Result<ScanSettings> settingsFrom(const Instrument& instrument, const json& opti
 fs::path fileOf(const ScanRequest& request, const Station& station) {
   if (request.one_file) return request.output;
   if (request.output.has_extension() && !fs::is_directory(request.output))
-    return request.output.parent_path() / (request.output.stem().string() + "-" + station.name + request.format->extension);
+    return request.output.parent_path() /
+           (request.output.stem().string() + "-" + station.name + request.format->extension);
   return request.output / (station.name + request.format->extension);
 }
 
@@ -106,17 +113,21 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const json& option
   if (!settings) return failure(settings.error());
   request.settings = *std::move(settings);
   request.options.seed = options.at("seed").get<std::uint64_t>();
-  if (auto effects = effectsFrom(options); effects) request.options.effects = *effects;
-  else return failure(effects.error());
+  if (auto effects = effectsFrom(options); effects)
+    request.options.effects = *effects;
+  else
+    return failure(effects.error());
   if (options.contains("weather")) {
     auto weather = weatherFrom(options["weather"].get<std::string>());
     if (!weather) return failure(weather.error());
     request.options.weather = *weather;
   }
   request.levelling = {.compensator = options.at("compensator") == "on",
-                       .exact = !request.options.effects.has(Effect::levelling), .seed = request.options.seed};
+                       .exact = !request.options.effects.has(Effect::levelling),
+                       .seed = request.options.seed};
   const bool truth = options.value("truth", false);
-  request.options.channels = {.time = truth, .returns = truth || request.instrument.waveform.most_returns > 1, .truth = truth};
+  request.options.channels = {
+      .time = truth, .returns = truth || request.instrument.waveform.most_returns > 1, .truth = truth};
   request.options.threads = options.at("threads").get<int>();
   auto stations = stationsFrom(*document.job, options.at("stations").get<std::string>());
   if (!stations) return failure(stations.error());

@@ -19,12 +19,12 @@ struct ScanRequest {
   Instrument instrument;
   ScanSettings settings;
   ScanOptions options;
-  std::vector<std::size_t> stations;   // indices into the job
+  std::vector<std::size_t> stations;  // indices into the job
   const CloudFormat* format = nullptr;
   std::filesystem::path output;
-  bool one_file = false;               // all stations in `output`; else a file each
+  bool one_file = false;  // all stations in `output`; else a file each
   Levelling levelling;
-  bool resume = false;                 // stations that an earlier run finished are not scanned again
+  bool resume = false;  // stations that an earlier run finished are not scanned again
 };
 
 Result<ScanRequest> scanRequestFrom(const Document& document, const nlohmann::json& options);

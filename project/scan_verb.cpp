@@ -45,9 +45,9 @@ ScanHeader headerOf(const Document& document, const ScanWorld& world, const Stat
   h.sensor_serial = "simulated";
   std::vector<std::string> words;
   for (const auto& [key, value] : request.settings.values) words.push_back(key + "=" + value);
-  h.description = fmt::format("Simulated by Standpoint: {} {}, {}, seed {}{}", request.instrument.maker,
-                              request.instrument.model, fmt::join(words, " "), request.options.seed,
-                              withoutText(request.options.effects));
+  h.description =
+      fmt::format("Simulated by Standpoint: {} {}, {}, seed {}{}", request.instrument.maker, request.instrument.model,
+                  fmt::join(words, " "), request.options.seed, withoutText(request.options.effects));
   h.file_from_scanner = believed;
   h.file_from_scanner.translation += g.shift_m;
   h.rows = request.settings.rows;
@@ -62,13 +62,14 @@ ScanHeader headerOf(const Document& document, const ScanWorld& world, const Stat
   if (!g.crs.empty() && !g.map_from_file)
     if (const auto crs = findCrs(g.crs)) h.coordinate_metadata = crs->wkt;
   for (const auto& p : world.environment->products) h.products.push_back({p.id, p.global_id, p.ifc_class, p.name});
-  h.products.push_back({"", "", "Nothing", "no surface"});   // the label of a drop, or of the receiver's own noise
+  h.products.push_back({"", "", "Nothing", "no surface"});  // the label of a drop, or of the receiver's own noise
   for (const auto& m : world.assignment.materials) h.materials.push_back(m.id);
   h.materials.emplace_back("unassigned");  // the label of a point whose surface has no material
   return h;
 }
 
-json scanRow(const Station& station, const ScanCount& count, double seconds, const ScanRequest& request, const fs::path& file) {
+json scanRow(const Station& station, const ScanCount& count, double seconds, const ScanRequest& request,
+             const fs::path& file) {
   return {{"station", station.name},
           {"points", count.points},
           {"pulses", count.pulses},
@@ -92,8 +93,9 @@ Scan record(const ScanCount& count, const ScanRequest& request, const fs::path& 
 }
 
 // One station into an open sink.
-Result<ScanCount> scanStation(const RayScene& scene, const ScanWorld& world, const Station& station, const ScanHeader& header,
-                              const ScanRequest& request, PointSink& sink, Progress& progress) {
+Result<ScanCount> scanStation(const RayScene& scene, const ScanWorld& world, const Station& station,
+                              const ScanHeader& header, const ScanRequest& request, PointSink& sink,
+                              Progress& progress) {
   if (auto ok = sink.begin(header); !ok) return failure(ok.error());
   ScanOptions options = request.options;
   options.station_key = static_cast<std::uint32_t>(stableHash(station.name.c_str()));
@@ -109,8 +111,14 @@ class ScanRun {
  public:
   ScanRun(const Document& document, const ScanRequest& request, const ScanWorld& world, const RayScene& scene,
           std::vector<Pose> believed)
-      : document_(document), request_(request), world_(world), scene_(scene), believed_(std::move(believed)),
-        fingerprint_(fingerprintOf(world)), parts_(request.output), job_(*document.job) {}
+      : document_(document),
+        request_(request),
+        world_(world),
+        scene_(scene),
+        believed_(std::move(believed)),
+        fingerprint_(fingerprintOf(world)),
+        parts_(request.output),
+        job_(*document.job) {}
 
   Result<void> run(Progress& progress) {
     if (auto ok = checkEarlier(); !ok) return ok;
@@ -136,13 +144,16 @@ class ScanRun {
     for (const auto index : request_.stations)
       if (parts_.hasRecord(job_.stations[index].name)) names.push_back(job_.stations[index].name);
     if (names.empty()) return {};
-    return failure(ErrorKind::usage, fmt::format("an earlier run has finished {}: go on with --resume, or remove that folder first",
-                                                 fmt::join(names, ", ")), parts_.folder().string());
+    return failure(ErrorKind::usage,
+                   fmt::format("an earlier run has finished {}: go on with --resume, or remove that folder first",
+                               fmt::join(names, ", ")),
+                   parts_.folder().string());
   }
 
   tl::unexpected<Error> withHint(Error error) const {
     if (!finished_.empty())
-      error.message += fmt::format("; finished and kept: {}; the same command with --resume goes on from there", fmt::join(finished_, ", "));
+      error.message += fmt::format("; finished and kept: {}; the same command with --resume goes on from there",
+                                   fmt::join(finished_, ", "));
     return tl::unexpected<Error>(std::move(error));
   }
 
@@ -162,7 +173,8 @@ class ScanRun {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     rows.push_back(scanRow(station, *count, seconds, request_, file));
     if (is_there) rows.back()["resumed"] = true;
-    if (count->points == 0) report.warn(station.name, whyNothing(scene_, station.true_pose, request_.instrument, request_.settings));
+    if (count->points == 0)
+      report.warn(station.name, whyNothing(scene_, station.true_pose, request_.instrument, request_.settings));
     station.scans.push_back(record(*count, request_, file));
     return {};
   }
@@ -179,8 +191,8 @@ class ScanRun {
   }
 
   // Of a station that was finished before.
-  Result<ScanCount> taken(std::size_t k, const fs::path& file, const std::string& guid, const ScanParts::Finished& earlier,
-                          Progress& progress) {
+  Result<ScanCount> taken(std::size_t k, const fs::path& file, const std::string& guid,
+                          const ScanParts::Finished& earlier, Progress& progress) {
     if (!isJoined()) return earlier.count;
     const auto& name = job_.stations[request_.stations[k]].name;
     if (auto ok = open(file); !ok) return failure(ok.error());
@@ -261,8 +273,9 @@ Result<Outcome> runScan(const Document& document, const json& options, Progress&
   ScanRun scan_run(document, *request, world, **scene, std::move(believed));
   if (auto ok = scan_run.run(progress); !ok) return failure(ok.error());
   outcome.report.append(scan_run.report);
-  outcome.description = fmt::format("Scanned {} station{} with {} {}", scan_run.rows.size(), scan_run.rows.size() == 1 ? "" : "s",
-                                    request->instrument.maker, request->instrument.model);
+  outcome.description =
+      fmt::format("Scanned {} station{} with {} {}", scan_run.rows.size(), scan_run.rows.size() == 1 ? "" : "s",
+                  request->instrument.maker, request->instrument.model);
   outcome.answer["stations"] = std::move(scan_run.rows);
   outcome.document.job = std::make_shared<const Job>(std::move(scan_run.job()));
   return outcome;

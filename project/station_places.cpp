@@ -73,9 +73,9 @@ double roomAround(const RayScene& scene, const Eigen::Vector3d& centre) {
   return sum / kDirections;
 }
 
-std::optional<Eigen::Vector3d> bestOf(const std::vector<Eigen::Vector3d>& grounds, const Job& job, const StationPlacement& placement,
-                                      double height_m, const std::function<double(const Eigen::Vector3d&)>& worth,
-                                      Progress& progress) {
+std::optional<Eigen::Vector3d> bestOf(const std::vector<Eigen::Vector3d>& grounds, const Job& job,
+                                      const StationPlacement& placement, double height_m,
+                                      const std::function<double(const Eigen::Vector3d&)>& worth, Progress& progress) {
   constexpr double kApart_m = 2.5;
   double best = 0;
   std::optional<Eigen::Vector3d> chosen;

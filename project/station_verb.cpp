@@ -21,14 +21,14 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kRoomAbove_m = 0.3;        // of the tilting axis, for a height to count as a floor
-constexpr double kFloorSearch_m = 0.5;      // how far a stated floor height may be off
+constexpr double kRoomAbove_m = 0.3;    // of the tilting axis, for a height to count as a floor
+constexpr double kFloorSearch_m = 0.5;  // how far a stated floor height may be off
 
 // What a station stands on and how it stands, as the options say it.
 struct Setup {
   TripodStand stand;
   double trunnion_m = kUsualTrunnion_m, height_m = kUsualHeight_m;
-  bool free = false;                        // it hangs or is held: no ground is asked for
+  bool free = false;  // it hangs or is held: no ground is asked for
 };
 
 Result<Setup> setupFrom(const json& options) {
@@ -40,7 +40,8 @@ Result<Setup> setupFrom(const json& options) {
     const auto instrument = instrumentById(options["instrument"].get<std::string>());
     if (!instrument) return failure(instrument.error());
     if (instrument->moving)
-      return failure(ErrorKind::usage, fmt::format("the {} {} is carried and stands on no tripod", instrument->maker, instrument->model),
+      return failure(ErrorKind::usage,
+                     fmt::format("the {} {} is carried and stands on no tripod", instrument->maker, instrument->model),
                      "--instrument");
     setup.trunnion_m = instrument->trunnion_height_m;
     setup.height_m = instrument->tripod_height_m;
@@ -50,7 +51,7 @@ Result<Setup> setupFrom(const json& options) {
   return setup;
 }
 
-constexpr double kNoFloor_rad = 60 * kRadPerDeg;   // a wall; whether it is too steep a floor, StationPlacement says
+constexpr double kNoFloor_rad = 60 * kRadPerDeg;  // a wall; whether it is too steep a floor, StationPlacement says
 
 std::vector<double> heightsBelow(const RayScene& scene, double x, double y) {
   const Bounds b = bounds(scene.environment());
@@ -71,7 +72,8 @@ bool saysLevel(const json& options) { return options.contains("tilt-deg") || opt
 Eigen::Quaterniond standingRotation(const json& options, const std::string& name) {
   Tilt tilt{options.value("tilt-deg", 0.0) * kRadPerDeg, options.value("tilt-towards-deg", 0.0) * kRadPerDeg};
   if (options.contains("levelling-error-deg"))
-    tilt = drawnTilt(options["levelling-error-deg"].get<double>() * kRadPerDeg, options.at("seed").get<std::uint64_t>(), name);
+    tilt = drawnTilt(options["levelling-error-deg"].get<double>() * kRadPerDeg, options.at("seed").get<std::uint64_t>(),
+                     name);
   const double yaw = options.at("yaw-deg").get<double>() * kRadPerDeg;
   return rotationOf(yaw, tilt);
 }
@@ -82,32 +84,32 @@ json stationRow(const Station& s, const Georeference& g) {
     scans.push_back({{"instrument", scan.instrument}, {"file", scan.file}, {"points", scan.points}});
   const Tilt tilt = tiltOf(s.true_pose.rotation);
   json row{{"name", s.name},
-          {"at", toJson(s.true_pose.translation + g.shift_m)},
-          {"instrument_height", s.instrument_height_m},
-          {"yaw_deg", yawOf(s.true_pose.rotation) / kRadPerDeg},
-          {"scans", std::move(scans)}};
+           {"at", toJson(s.true_pose.translation + g.shift_m)},
+           {"instrument_height", s.instrument_height_m},
+           {"yaw_deg", yawOf(s.true_pose.rotation) / kRadPerDeg},
+           {"scans", std::move(scans)}};
   row["tilt_deg"] = tilt.angle_rad / kRadPerDeg;
   if (tilt.angle_rad > 0) row["tilt_towards_deg"] = tilt.towards_rad / kRadPerDeg;
   return row;
 }
 
 // Beside other stations: what is not seen from any of them yet.
-Result<std::optional<NextStation>> addingMost(const Document& document, const StationPlacement& placement, double height_m,
-                                              Progress& progress) {
+Result<std::optional<NextStation>> addingMost(const Document& document, const StationPlacement& placement,
+                                              double height_m, Progress& progress) {
   constexpr std::size_t kSamples = 12000;
   const auto samples = sampleSurfaces(placement.scene(), kSamples, 1, progress);
   if (!samples) return failure(samples.error());
   std::vector<std::uint8_t> seen;
   for (const auto& sample : samples->samples)
-    seen.push_back(static_cast<std::uint8_t>(std::any_of(document.job->stations.begin(), document.job->stations.end(), [&](const Station& s) {
-      return inSight(placement.scene(), s.true_pose.translation, sample.place, {});
-    })));
+    seen.push_back(static_cast<std::uint8_t>(std::any_of(
+        document.job->stations.begin(), document.job->stations.end(),
+        [&](const Station& s) { return inSight(placement.scene(), s.true_pose.translation, sample.place, {}); })));
   return nextStation(document, placement, *samples, seen, {}, height_m, progress);
 }
 
 // Where nothing was said.
-Result<Eigen::Vector3d> bestPlace(const Document& document, const StationPlacement& placement, double height_m, Report& report,
-                                  Progress& progress) {
+Result<Eigen::Vector3d> bestPlace(const Document& document, const StationPlacement& placement, double height_m,
+                                  Report& report, Progress& progress) {
   const auto& scene = placement.scene();
   if (!document.job->stations.empty()) {
     auto next = addingMost(document, placement, height_m, progress);
@@ -115,14 +117,17 @@ Result<Eigen::Vector3d> bestPlace(const Document& document, const StationPlaceme
     if (*next) return (*next)->centre;
   }
   const auto worth = [&](const Eigen::Vector3d& centre) { return roomAround(scene, centre); };
-  if (const auto chosen = bestOf(floorsToTry(document, scene, height_m), *document.job, placement, height_m, worth, progress))
+  if (const auto chosen =
+          bestOf(floorsToTry(document, scene, height_m), *document.job, placement, height_m, worth, progress))
     return *chosen;
   if (const auto beside = bestOf(groundBeside(scene), *document.job, placement, height_m, worth, progress)) {
-    report.warn("station", "the model has no free floor for it: the tripod stands beside the model, on its lowest height");
+    report.warn("station",
+                "the model has no free floor for it: the tripod stands beside the model, on its lowest height");
     return *beside;
   }
   if (auto go_on = progress.check(); !go_on) return failure(go_on.error());
-  return failure(ErrorKind::unusable, "no free place was found for the tripod; say where with --at X,Y,Z or --on X,Y[,Z]");
+  return failure(ErrorKind::unusable,
+                 "no free place was found for the tripod; say where with --at X,Y,Z or --on X,Y[,Z]");
 }
 
 // The instrument's centre in the local frame, from --at or --on.
@@ -136,18 +141,20 @@ Result<Eigen::Vector3d> centreFrom(const RayScene& scene, const Georeference& g,
   const double y = on[1].get<double>() - g.shift_m.y();
   const auto floors = floorsAt(scene, x, y, height);
   if (floors.empty())
-    return failure(ErrorKind::unusable,
-                   fmt::format("there is no floor at ({}, {}) with {:.2f} m of room for the tripod; choose another place, "
-                               "or give the instrument's centre with --at X,Y,Z",
-                               on[0].get<double>(), on[1].get<double>(), height + kRoomAbove_m));
+    return failure(
+        ErrorKind::unusable,
+        fmt::format("there is no floor at ({}, {}) with {:.2f} m of room for the tripod; choose another place, "
+                    "or give the instrument's centre with --at X,Y,Z",
+                    on[0].get<double>(), on[1].get<double>(), height + kRoomAbove_m));
   if (on.size() == 2) return Eigen::Vector3d(x, y, floors.front() + height);
   const double z = on[2].get<double>() - g.shift_m.z();
   const auto nearest = *std::min_element(floors.begin(), floors.end(),
                                          [z](double a, double b) { return std::abs(a - z) < std::abs(b - z); });
   if (std::abs(nearest - z) > kFloorSearch_m)
-    return failure(ErrorKind::unusable,
-                   fmt::format("there is no floor within {} m of height {} (a wall, or the open); the nearest is at {:.3f}",
-                               kFloorSearch_m, on[2].get<double>(), nearest + g.shift_m.z()));
+    return failure(
+        ErrorKind::unusable,
+        fmt::format("there is no floor within {} m of height {} (a wall, or the open); the nearest is at {:.3f}",
+                    kFloorSearch_m, on[2].get<double>(), nearest + g.shift_m.z()));
   return Eigen::Vector3d(x, y, nearest + height);
 }
 
@@ -159,7 +166,8 @@ tl::unexpected<Error> refused(const std::string& name, const Refusal& why) {
 Result<Station> place(const Document& document, const std::string& name, const json& options, const Station* before,
                       Report& report, Progress& progress) {
   if (options.contains("at") && options.contains("on"))
-    return failure(ErrorKind::usage, "say where with either --at X,Y,Z (the instrument's centre) or --on X,Y[,Z] (the floor)");
+    return failure(ErrorKind::usage,
+                   "say where with either --at X,Y,Z (the instrument's centre) or --on X,Y[,Z] (the floor)");
   const auto setup = setupFrom(options);
   if (!setup) return failure(setup.error());
   auto scene = RayScene::build(document.environment(), progress);
@@ -225,7 +233,8 @@ Result<Outcome> runStation(const Document& document, const json& options, Progre
     if (name.empty() || name.find_first_of(",/\\") != std::string::npos)
       return failure(ErrorKind::usage, fmt::format("'{}' cannot be a station's name: no comma or slash, please", name));
     if (find(job, name) != job.stations.end())
-      return failure(ErrorKind::usage, fmt::format("there is a station '{}' already; use --move, or another name", name));
+      return failure(ErrorKind::usage,
+                     fmt::format("there is a station '{}' already; use --move, or another name", name));
     auto station = place(document, name, options, nullptr, outcome.report, progress);
     if (!station) return failure(station.error());
     outcome.answer["placed"] = stationRow(*station, g);

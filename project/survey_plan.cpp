@@ -15,11 +15,12 @@ namespace standpoint {
 
 namespace {
 
-// Of a point in an E57 of ours: four floats, the grid, the labels, the colour; of each 1024 bytes of a page 4 are its sum.
+// Of a point in an E57 of ours: four floats, the grid, the labels, the colour; of each 1024 bytes of a page 4 are its
+// sum.
 double bytesPerPoint(const ScanSettings& settings, const Environment& environment, std::size_t materials) {
   using e57::bitsFor;
-  const double bits = 4 * 32 + bitsFor(settings.rows - 1) + bitsFor(settings.columns - 1) + bitsFor(environment.products.size()) +
-                      bitsFor(materials) + (settings.imaging ? 24 : 0);
+  const double bits = 4 * 32 + bitsFor(settings.rows - 1) + bitsFor(settings.columns - 1) +
+                      bitsFor(environment.products.size()) + bitsFor(materials) + (settings.imaging ? 24 : 0);
   return bits / 8 * 1024 / 1020;
 }
 
@@ -61,7 +62,8 @@ void countShares(SurveyPlan& plan, const Environment& environment) {
       products[p].name = environment.products[p].id;
       plan.holes.push_back(products[p]);
     }
-  std::stable_sort(plan.holes.begin(), plan.holes.end(), [](const auto& a, const auto& b) { return a.exposed - a.seen > b.exposed - b.seen; });
+  std::stable_sort(plan.holes.begin(), plan.holes.end(),
+                   [](const auto& a, const auto& b) { return a.exposed - a.seen > b.exposed - b.seen; });
 }
 
 void countPairs(SurveyPlan& plan) {
@@ -71,7 +73,8 @@ void countPairs(SurveyPlan& plan) {
   for (std::size_t a = 0; a < plan.forecasts.size(); ++a)
     for (std::size_t b = a + 1; b < plan.forecasts.size(); ++b) {
       std::uint64_t common = 0;
-      for (std::size_t k = 0; k < plan.samples.samples.size(); ++k) common += plan.forecasts[a].seen[k] & plan.forecasts[b].seen[k];
+      for (std::size_t k = 0; k < plan.samples.samples.size(); ++k)
+        common += plan.forecasts[a].seen[k] & plan.forecasts[b].seen[k];
       const double area = each * static_cast<double>(common);
       const auto share = [area](double of) { return of > 0 ? area / of : 0; };
       plan.pairs.push_back({a, b, area, share(plan.seen_m2[a]), share(plan.seen_m2[b])});
@@ -105,10 +108,10 @@ Result<SurveyPlan> planSurvey(const Job& job, std::shared_ptr<const RayScene> sc
   return plan;
 }
 
-std::optional<NextStation> nextStation(const Document& document, const StationPlacement& placement, const SurfaceSamples& samples,
-                                       const std::vector<std::uint8_t>& seen, const SightLimits& limits, double height_m,
-                                       Progress& progress) {
-  constexpr std::size_t kMost = 3000;   // of the places that are not seen yet: evenly taken
+std::optional<NextStation> nextStation(const Document& document, const StationPlacement& placement,
+                                       const SurfaceSamples& samples, const std::vector<std::uint8_t>& seen,
+                                       const SightLimits& limits, double height_m, Progress& progress) {
+  constexpr std::size_t kMost = 3000;  // of the places that are not seen yet: evenly taken
   std::vector<const SurfacePlace*> unseen;
   for (std::size_t k = 0; k < samples.samples.size(); ++k)
     if (samples.samples[k].exposed && seen[k] == 0) unseen.push_back(&samples.samples[k].place);
@@ -117,7 +120,7 @@ std::optional<NextStation> nextStation(const Document& document, const StationPl
   const auto& scene = placement.scene();
   const double each = samples.each_m2() * static_cast<double>(step);
   const auto worth = [&](const Eigen::Vector3d& centre) {
-    tbb::parallel_for(std::size_t{0}, gained.size(), [&](std::size_t k) {   // each into its own slot
+    tbb::parallel_for(std::size_t{0}, gained.size(), [&](std::size_t k) {  // each into its own slot
       gained[k] = static_cast<std::uint8_t>(inSight(scene, centre, *unseen[k * step], limits));
     });
     return each * static_cast<double>(std::count(gained.begin(), gained.end(), 1));

@@ -25,7 +25,9 @@ struct TriangleInPlace {
 TriangleInPlace placed(const Environment& environment, const Instance& instance, std::uint32_t triangle) {
   const auto& mesh = *environment.meshes[instance.mesh];
   const auto& t = mesh.triangles[triangle];
-  const auto corner = [&](int k) -> Eigen::Vector3d { return instance.world_from_mesh * mesh.positions[t[k]].cast<double>(); };
+  const auto corner = [&](int k) -> Eigen::Vector3d {
+    return instance.world_from_mesh * mesh.positions[t[k]].cast<double>();
+  };
   const Eigen::Vector3d a = corner(0);
   return {a, corner(1) - a, corner(2) - a};
 }
@@ -41,8 +43,8 @@ void eachTriangle(const Environment& environment, const Visit& visit) {
   }
 }
 
-SurfaceSample sampleOf(const Environment& environment, std::uint32_t instance, std::uint32_t triangle, const TriangleInPlace& t,
-                       double u, double v) {
+SurfaceSample sampleOf(const Environment& environment, std::uint32_t instance, std::uint32_t triangle,
+                       const TriangleInPlace& t, double u, double v) {
   if (u + v > 1) {
     u = 1 - u;
     v = 1 - v;
@@ -82,7 +84,8 @@ bool belongsToEarlier(const EmbreeScene& scene, const SurfaceSample& sample, con
     if (hit.facet == kNoFacet) continue;
     const Facet facet = scene.facet(hit.facet);
     const double off = std::abs(facet.normal.dot(sample.place.position) - facet.offset);
-    if (facet.product < sample.product && off < kOffSurface_m && std::abs(facet.normal.dot(normal)) > 0.999) return true;
+    if (facet.product < sample.product && off < kOffSurface_m && std::abs(facet.normal.dot(normal)) > 0.999)
+      return true;
   }
   return false;
 }
@@ -94,18 +97,21 @@ bool sideIsOpen(const EmbreeScene& scene, const Eigen::Vector3d& place, const Ei
   int open = 0;
   constexpr int kRays = 7;
   for (int k = 0; k < kRays; ++k) {
-    const double azimuth = 2.4 * k;   // the golden angle, about
-    open += static_cast<int>(reachesLight(scene, from, (normal + 0.7 * (std::cos(azimuth) * across + std::sin(azimuth) * along)).normalized()));
+    const double azimuth = 2.4 * k;  // the golden angle, about
+    open += static_cast<int>(reachesLight(
+        scene, from, (normal + 0.7 * (std::cos(azimuth) * across + std::sin(azimuth) * along)).normalized()));
   }
   return 2 * open > kRays;
 }
 
 }  // namespace
 
-Result<SurfaceSamples> sampleSurfaces(const RayScene& scene, std::size_t count, std::uint64_t seed, Progress& progress) {
+Result<SurfaceSamples> sampleSurfaces(const RayScene& scene, std::size_t count, std::uint64_t seed,
+                                      Progress& progress) {
   const auto& environment = scene.environment();
   SurfaceSamples result;
-  eachTriangle(environment, [&](std::uint32_t, std::uint32_t, const TriangleInPlace& t) { result.area_m2 += t.area(); });
+  eachTriangle(environment,
+               [&](std::uint32_t, std::uint32_t, const TriangleInPlace& t) { result.area_m2 += t.area(); });
   if (auto go_on = progress.check(); !go_on) return failure(go_on.error());
   if (!(result.area_m2 > 0) || !std::isfinite(result.area_m2)) return SurfaceSamples{};
   const RandomKey key{seed, static_cast<std::uint32_t>(stableHash("surface samples"))};
@@ -116,8 +122,9 @@ Result<SurfaceSamples> sampleSurfaces(const RayScene& scene, std::size_t count, 
   auto next = drawn(0);
   eachTriangle(environment, [&](std::uint32_t instance, std::uint32_t triangle, const TriangleInPlace& t) {
     passed += t.area();
-    double u = uniform(next[1]), v = uniform(next[2]);   // where the triangle's own sequence begins
-    while (result.samples.size() < count && (static_cast<double>(result.samples.size()) + uniform(next[0])) * stratum < passed) {
+    double u = uniform(next[1]), v = uniform(next[2]);  // where the triangle's own sequence begins
+    while (result.samples.size() < count &&
+           (static_cast<double>(result.samples.size()) + uniform(next[0])) * stratum < passed) {
       result.samples.push_back(sampleOf(environment, instance, triangle, t, u, v));
       next = drawn(result.samples.size());
       u = std::fmod(u + kEvenly[0], 1);
@@ -125,7 +132,7 @@ Result<SurfaceSamples> sampleSurfaces(const RayScene& scene, std::size_t count, 
     }
   });
   const auto& rays = static_cast<const EmbreeScene&>(scene);
-  tbb::parallel_for(std::size_t{0}, result.samples.size(), [&](std::size_t k) {   // each into its own slot
+  tbb::parallel_for(std::size_t{0}, result.samples.size(), [&](std::size_t k) {  // each into its own slot
     auto& s = result.samples[k];
     for (const Eigen::Vector3d& side : {s.place.normal, Eigen::Vector3d(-s.place.normal)})
       s.exposed |= sideIsOpen(rays, s.place.position, side) && !belongsToEarlier(rays, s, side);
@@ -141,7 +148,7 @@ bool inSight(const RayScene& scene, const Eigen::Vector3d& eye, const SurfacePla
   if (std::abs(direction.dot(place.normal)) < limits.least_cosine) return false;
   const double elevation = std::asin(std::clamp(direction.z(), -1.0, 1.0));
   if (elevation < limits.least_elevation_rad || elevation > limits.most_elevation_rad) return false;
-  const double before = 1e-3 + 1e-4 * range;   // float trees put a surface a little off
+  const double before = 1e-3 + 1e-4 * range;  // float trees put a surface a little off
   return !scene.intersect(eye, direction, range - before);
 }
 

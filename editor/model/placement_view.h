@@ -8,8 +8,8 @@
 
 namespace standpoint {
 
-// Whether a station could stand where the pointer is, asked anew in each frame: the checks of the verb, live. The answer
-// is kept while the pointer rests.
+// Whether a station could stand where the pointer is, asked anew in each frame: the checks of the verb, live. The
+// answer is kept while the pointer rests.
 class PlacementView {
  public:
   // Null: nothing can be asked yet. Cheap while the scene is the same.

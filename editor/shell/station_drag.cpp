@@ -12,7 +12,7 @@ namespace standpoint {
 namespace {
 
 constexpr float kGrip_pt = 9;
-constexpr float kSlack_pt = 4;   // less than this is a click
+constexpr float kSlack_pt = 4;  // less than this is a click
 
 // The station whose instrument is under the pointer and not behind something.
 int stationAt(Editor& editor, ImVec2 origin) {
@@ -22,8 +22,10 @@ int stationAt(Editor& editor, ImVec2 origin) {
     const auto& centre = job->stations[static_cast<std::size_t>(i)].true_pose.translation;
     const auto pixel = project(editor.view.camera, centre, editor.view.size);
     if (!pixel) continue;
-    const float away = std::hypot(p.x - origin.x - static_cast<float>(pixel->x()), p.y - origin.y - static_cast<float>(pixel->y()));
-    if (away < editor.px(kGrip_pt) && editor.picker.sees(editor.view.camera.eye(), centre, editor.viewState())) return i;
+    const float away =
+        std::hypot(p.x - origin.x - static_cast<float>(pixel->x()), p.y - origin.y - static_cast<float>(pixel->y()));
+    if (away < editor.px(kGrip_pt) && editor.picker.sees(editor.view.camera.eye(), centre, editor.viewState()))
+      return i;
   }
   return -1;
 }
@@ -31,7 +33,8 @@ int stationAt(Editor& editor, ImVec2 origin) {
 void follow(Editor& editor, ImVec2 origin) {
   auto& view = editor.view;
   const ImVec2 p = ImGui::GetIO().MousePos;
-  view.hover = editor.picker.pick(rayThrough(view.camera, {p.x - origin.x, p.y - origin.y}, view.size), editor.viewState());
+  view.hover =
+      editor.picker.pick(rayThrough(view.camera, {p.x - origin.x, p.y - origin.y}, view.size), editor.viewState());
 }
 
 void drop(Editor& editor, const Station& station) {
@@ -39,7 +42,9 @@ void drop(Editor& editor, const Station& station) {
   if (!hit || editor.placement.whyNotOn(*hit, station.instrument_height_m)) return;
   const Eigen::Vector3d p = hit->position + editor.shift_m();
   const Tilt tilt = tiltOf(station.true_pose.rotation);
-  nlohmann::json options = {{"move", station.name}, {"on", {p.x(), p.y(), p.z()}}, {"height", station.instrument_height_m},
+  nlohmann::json options = {{"move", station.name},
+                            {"on", {p.x(), p.y(), p.z()}},
+                            {"height", station.instrument_height_m},
                             {"yaw-deg", yawOf(station.true_pose.rotation) / kRadPerDeg}};
   if (tilt.angle_rad > 0) {
     options["tilt-deg"] = tilt.angle_rad / kRadPerDeg;
