@@ -257,8 +257,8 @@ TEST_F(ChangedInstrument, WithAValueOutOfRangeIsRefusedWithItsPlace) {
 }
 
 TEST_F(ChangedInstrument, WhoseCompensatorCannotBeIsRefusedWithItsPlace) {
-  EXPECT_EQ(errorOf("\"value\": \"imu\"", "\"value\": \"spirit\"").source, "leica-rtc360.json /compensator/kind");
-  EXPECT_EQ(errorOf("\"range_deg\": { \"value\": 5", "\"range_deg\": { \"value\": 95").source, "leica-rtc360.json /compensator/range_deg");
+  EXPECT_EQ(errorOf("\"value\": \"imu\"", "\"value\": \"spirit\"").source, "leica-rtc360.json /compensator/kind/value");
+  EXPECT_EQ(errorOf("\"range_deg\": { \"value\": 5", "\"range_deg\": { \"value\": 95").source, "leica-rtc360.json /compensator/range_deg/value");
   EXPECT_EQ(errorOf("\"accuracy_arcsec\": { \"value\": 180", "\"accuracy\": { \"value\": 180").source, "leica-rtc360.json /compensator/accuracy_arcsec");
 }
 
