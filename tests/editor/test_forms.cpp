@@ -47,7 +47,8 @@ TEST(OptionForm, NamesWhatIsMissing) {
 }
 
 TEST(OptionForm, TakesWhatAJobFileSaysAndGivesItBack) {
-  const json options = {{"add", "S7"}, {"on", {1.5, 2.5, 0.0}}, {"height", 1.8}, {"yaw-deg", 90.0}};
+  const json options = {{"add", "S7"}, {"on", {1.5, 2.5, 0.0}}, {"height", 1.8}, {"yaw-deg", 90.0},
+                        {"stand", "tripod"}, {"tilt-towards-deg", 0.0}, {"seed", 1}};
   OptionForm form(*findVerb(verbs(), "station"));
   form.fill(options);
   EXPECT_EQ(form.options(), options);
