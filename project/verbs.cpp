@@ -5,6 +5,7 @@
 #include "project/import_verb.h"
 #include "project/model_verbs.h"
 #include "project/optimize_verb.h"
+#include "project/registration.h"
 #include "project/survey_verbs.h"
 #include "project/treatments.h"
 #include "project/underlays.h"
@@ -140,6 +141,16 @@ const std::vector<Verb>& table() {
         {.name = "shard", .kind = K::text, .help = "i/n: only every n-th station from the i-th, for a batch on several machines"},
         {.name = "output", .kind = K::path, .help = "a folder, or a file (.e57, .ptx, .las, .pcd, …); an E57, PTX or LAS holds all stations", .required = true}},
        runScan},
+      {"register", "Solves the stations' poses from their scans, by targets or cloud to cloud, and tells residuals and true errors", S::changes,
+       {{.name = "files", .kind = K::list, .help = "the scans (E57, PTX), one of each station", .positional = true, .required = true},
+        {.name = "fix", .kind = K::text, .help = "station that is held where it is (default: the first)"},
+        {.name = "by", .kind = K::choice, .help = "how targets find their partners: their names, or the distances between them", .standard = "names", .choices = {"names", "geometry"}},
+        {.name = "control", .kind = K::path, .help = "text file of known targets, that hold all stations: name X Y Z [sigma in mm]"},
+        {.name = "cloud", .kind = K::flag, .help = "cloud to cloud instead of by targets"},
+        {.name = "reach", .kind = K::number, .help = "of --cloud: no point looks further for its surface", .unit = "m", .standard = 0.5, .minimum = 0.01, .maximum = 100},
+        {.name = "click", .kind = K::number, .help = "how far the operator's click is from a target at most; where it is measured starts there", .unit = "m", .standard = 0.2, .minimum = 0, .maximum = 0.5},
+        {.name = "seed", .kind = K::integer, .help = "of the operator's hand", .standard = 1, .minimum = 0, .maximum = 9007199254740991.0}},
+       runRegister},
       {"export", "Writes the model as glTF, as OBJ, or as a scene for HELIOS++", S::reads,
        {{.name = "output", .kind = K::path, .help = "file to write (.glb, .gltf, .obj; .xml for HELIOS++)", .required = true},
         {.name = "physical", .kind = K::flag, .help = "the materials of the .obj are the physical ones, not the looks"},
