@@ -17,7 +17,8 @@ namespace standpoint {
 
 struct SampledScan {
   std::string name, sensor_vendor, sensor_model;
-  // Where its scanner stood, in the frame of the cloud's file; nothing where the file does not say (a LAS, a merged cloud).
+  // Where its scanner stood, in the frame of the cloud's file; nothing where the file does not say (a LAS, a merged
+  // cloud).
   std::optional<Eigen::Vector3d> station;
   std::uint64_t points = 0;        // that the file holds
 };

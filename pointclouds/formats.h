@@ -27,9 +27,9 @@ struct CloudInfo {
   std::string crs;                 // that the file states: OGC WKT or "EPSG:n"; empty when it says nothing
 };
 
-// A PointSink that writes a file. Needs what core/points.h promises: coordinates are finite, indices lie in the grid of the
-// header and labels in its tables; anything else is an error. A header with rows == 0 or columns == 0 has no grid, and
-// the row and column of its points are not used; intensity_min == intensity_max says that there is no intensity.
+// A PointSink that writes a file. Needs what core/points.h promises: coordinates are finite, indices lie in the grid of
+// the header and labels in its tables; anything else is an error. A header with rows == 0 or columns == 0 has no grid,
+// and the row and column of its points are not used; intensity_min == intensity_max says that there is no intensity.
 class CloudWriter : public PointSink {
  public:
   const Report& report() const { return report_; }   // what the format could not hold; complete after close()
@@ -80,9 +80,11 @@ Result<CloudExtent> measureCloud(const std::filesystem::path& file, Progress& pr
 
 // Writers create `file` + ".part" and rename it in close(), so a full disk or a crash leaves the old file as it was.
 
-// Copies all scans of IN to OUT; OUT's format must be writable. When OUT cannot hold many scans and IN has several, each
-// gets its own file: name-<station>.ext. `as` names a variant of OUT's format, or is empty. Returns the files written.
-Result<std::vector<std::filesystem::path>> convertCloud(const std::filesystem::path& in, const std::filesystem::path& out,
-                                                        const std::string& as, Report& report, Progress& progress);
+// Copies all scans of IN to OUT; OUT's format must be writable. When OUT cannot hold many scans and IN has several,
+// each gets its own file: name-<station>.ext. `as` names a variant of OUT's format, or is empty. Returns the files
+// written.
+Result<std::vector<std::filesystem::path>> convertCloud(const std::filesystem::path& in,
+                                                        const std::filesystem::path& out, const std::string& as,
+                                                        Report& report, Progress& progress);
 
 }  // namespace standpoint

@@ -295,6 +295,14 @@ TEST_F(ChangedInstrument, ThatMovesIsRefusedWithItsPlaceWhenItCannotBe) {
   EXPECT_EQ(vlp("\"moving\"", "\"moves\""), "velodyne-vlp-16.json /mirror");
 }
 
+TEST_F(ChangedInstrument, WithAValueFarOutOrNestedDeeplyIsRefusedAndNoMore) {
+  EXPECT_EQ(errorOf("\"wobble_order\": 2", "\"wobble_order\": 1e300").source, "leica-rtc360.json /correlated_noise/wobble_order");
+  EXPECT_EQ(errorOf("\"near_range_power\": 2", "\"near_range_power\": -1e300").source, "leica-rtc360.json /signal/near_range_power");
+  EXPECT_EQ(errorOf("\"wobble_order\": 2", "\"wobble_order\": " + std::string(500000, '[') + std::string(500000, ']')).source,
+            "leica-rtc360.json /correlated_noise/wobble_order");
+  EXPECT_EQ(errorOf("\"wobble_order\": 2", "\"wobble_order\": " + std::string(500000, '[')).source, "leica-rtc360.json");
+}
+
 TEST_F(ChangedInstrument, CutAnywhereIsAnError) {
   std::ifstream stream(SOURCE_DIR "/scanners/instruments/leica-rtc360.json");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
