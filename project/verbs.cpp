@@ -5,6 +5,7 @@
 #include "project/import_verb.h"
 #include "project/model_verbs.h"
 #include "project/optimize_verb.h"
+#include "project/registration.h"
 #include "project/survey_verbs.h"
 #include "project/treatments.h"
 #include "project/underlays.h"
@@ -96,13 +97,21 @@ const std::vector<Verb>& table() {
         {.name = "seed", .kind = K::integer, .help = "of that tilt", .standard = 1, .minimum = 0, .maximum = 9007199254740991.0},
         {.name = "yaw-deg", .kind = K::number, .help = "of the instrument's X axis, counter-clockwise from the file's X", .unit = "deg", .standard = 0, .minimum = -360, .maximum = 360}},
        runStation},
-      {"target", "Adds, removes or lists targets", S::changes,
+      {"target", "Adds, removes or lists targets, and tells which stations can measure them", S::changes,
        {{.name = "add", .kind = K::text, .help = "name of a new target"},
         {.name = "remove", .kind = K::text, .help = "name of the target to remove"},
         {.name = "at", .kind = K::triple, .help = "X,Y,Z of its centre, in the file's frame", .unit = "m"},
-        {.name = "kind", .kind = K::choice, .help = "what it is", .standard = "sphere", .choices = {"sphere", "checkerboard"}},
-        {.name = "size", .kind = K::number, .help = "diameter or side", .unit = "m", .standard = 0.145, .minimum = 0.01, .maximum = 2},
-        {.name = "normal", .kind = K::triple, .help = "where a checkerboard faces"}},
+        {.name = "on", .kind = K::triple, .help = "X,Y[,Z] of the floor that its tripod or pole stands on; without Z the lowest with room", .unit = "m"},
+        {.name = "height", .kind = K::number, .help = "of its centre above that floor", .unit = "m", .standard = 1.5, .minimum = 0.05, .maximum = 5},
+        {.name = "on-surface", .kind = K::triple, .help = "X,Y,Z near a wall, column or ceiling that it sticks to", .unit = "m"},
+        {.name = "stand-off", .kind = K::number, .help = "of a magnetic base or a bracket between surface and target", .unit = "m", .standard = 0, .minimum = 0, .maximum = 1},
+        {.name = "type", .kind = K::text, .help = "article of scanners/targets/kinds.json: sphere-145, sphere-200, sphere-139, paper-150, bw-114, bw-152"},
+        {.name = "kind", .kind = K::choice, .help = "what it is, where no article is named", .choices = {"sphere", "checkerboard"}},
+        {.name = "size", .kind = K::number, .help = "diameter or side (default: the article's)", .unit = "m", .minimum = 0.01, .maximum = 2},
+        {.name = "normal", .kind = K::triple, .help = "where a checkerboard faces (default on a tripod: to the nearest station)"},
+        {.name = "sight", .kind = K::flag, .help = "list how each station sees each target"},
+        {.name = "instrument", .kind = K::text, .help = "id of the instrument that shall measure them (default: those that scanned)"},
+        {.name = "set", .kind = K::pairs, .help = "its settings, as of scan"}},
        runTarget},
       {"underlay", "Lays point clouds under the model, or lists those that do; the points stay in their files", S::changes,
        {{.name = "add", .kind = K::path, .help = "cloud file (.e57, .las, .ply, .ptx, .pts, .xyz)"},
@@ -150,6 +159,16 @@ const std::vector<Verb>& table() {
         {.name = "shard", .kind = K::text, .help = "i/n: only every n-th station from the i-th, for a batch on several machines"},
         {.name = "output", .kind = K::path, .help = "a folder, or a file (.e57, .ptx, .las, .pcd, …); an E57, PTX or LAS holds all stations", .required = true}},
        runScan},
+      {"register", "Solves the stations' poses from their scans, by targets or cloud to cloud, and tells residuals and true errors", S::changes,
+       {{.name = "files", .kind = K::list, .help = "the scans (E57, PTX), one of each station", .positional = true, .required = true},
+        {.name = "fix", .kind = K::text, .help = "station that is held where it is (default: the first)"},
+        {.name = "by", .kind = K::choice, .help = "how targets find their partners: their names, or the distances between them", .standard = "names", .choices = {"names", "geometry"}},
+        {.name = "control", .kind = K::path, .help = "text file of known targets, that hold all stations: name X Y Z [sigma in mm]"},
+        {.name = "cloud", .kind = K::flag, .help = "cloud to cloud instead of by targets"},
+        {.name = "reach", .kind = K::number, .help = "of --cloud: no point looks further for its surface", .unit = "m", .standard = 0.5, .minimum = 0.01, .maximum = 100},
+        {.name = "click", .kind = K::number, .help = "how far the operator's click is from a target at most; where it is measured starts there", .unit = "m", .standard = 0.2, .minimum = 0, .maximum = 0.5},
+        {.name = "seed", .kind = K::integer, .help = "of the operator's hand", .standard = 1, .minimum = 0, .maximum = 9007199254740991.0}},
+       runRegister},
       {"export", "Writes the model as glTF, as OBJ, or as a scene for HELIOS++", S::reads,
        {{.name = "output", .kind = K::path, .help = "file to write (.glb, .gltf, .obj; .xml for HELIOS++)", .required = true},
         {.name = "physical", .kind = K::flag, .help = "the materials of the .obj are the physical ones, not the looks"},

@@ -70,9 +70,9 @@ void placeTarget(Editor& editor, const RayHit& hit) {
   if (const auto& job = editor.session.document().job)
     for (const auto& t : job->targets) names.push_back(t.name);
   const auto name = nextName("T", names);
-  constexpr double kRadius_m = 0.0725;   // of the standard sphere: it touches what was clicked
-  const Eigen::Vector3d p = hit.position + hit.normal * kRadius_m + editor.shift_m();
-  editor.session.start("target", {{"add", name}, {"at", {p.x(), p.y(), p.z()}}}, "Add target " + name);
+  constexpr double kBefore_m = 0.05;     // says on which side of what was clicked it sticks
+  const Eigen::Vector3d p = hit.position + hit.normal * kBefore_m + editor.shift_m();
+  editor.session.start("target", {{"add", name}, {"on-surface", {p.x(), p.y(), p.z()}}}, "Add target " + name);
 }
 
 void measure(Editor& editor, const RayHit& hit) {
