@@ -85,9 +85,20 @@ class Reader : FigureReader {
     instrument_.trunnion_height_m = figure(stand, "trunnion_height_m", {0, 2});
     instrument_.tripod_height_m = figure(stand, "tripod_height_m", {0.1, 10});
     close(stand);
+    if (root.object->contains("compensator")) readCompensator(root);
     Group imaging = child(root, "imaging");
     instrument_.imaging_seconds = figure(imaging, "seconds", {0, 3600});
     close(imaging);
+  }
+
+  void readCompensator(Group& root) {
+    Group group = child(root, "compensator");
+    Compensator compensator;
+    compensator.kind = word(group, "kind", {"liquid", "inclinometer", "imu", "self_levelling"});
+    compensator.range_rad = figure(group, "range_deg", {0, 90, kRadPerDeg});
+    compensator.accuracy_rad = figure(group, "accuracy_arcsec", {0, 36000, kRadPerArcsec});
+    close(group);
+    instrument_.compensator = std::move(compensator);
   }
 
   void readMoving(Group& root) {

@@ -12,6 +12,7 @@
 #include "editor/shell/material_brush.h"
 #include "editor/shell/overlay.h"
 #include "editor/shell/shell.h"
+#include "editor/shell/station_drag.h"
 #include "editor/shell/theme.h"
 #include "editor/shell/widgets.h"
 
@@ -234,7 +235,9 @@ void drawViewport(Editor& editor) {
   const ImVec2 right(origin.x + size.x, origin.y);
   if (!view.dragging) view.in_right_half = both && ImGui::GetIO().MousePos.x >= right.x;
   const bool on_probe = !previewed && !view.dragging && dragProbe(editor, origin, hovered);
-  if (!on_probe) handleMouse(editor, view.in_right_half ? right : origin, hovered);
+  editor.placement.follow(editor.picker.scene());
+  const bool on_station = !previewed && !on_probe && dragStation(editor, view.in_right_half ? right : origin, hovered);
+  if (!on_probe && !on_station) handleMouse(editor, view.in_right_half ? right : origin, hovered);
   handleWalking(editor);
   if (previewed) return;
   drawExpectedLegend(editor, origin, size);

@@ -256,6 +256,12 @@ TEST_F(ChangedInstrument, WithAValueOutOfRangeIsRefusedWithItsPlace) {
   EXPECT_EQ(errorOf("\"id\": \"leica-rtc360\"", "\"id\": \"leica\"").source, "leica-rtc360.json /id");
 }
 
+TEST_F(ChangedInstrument, WhoseCompensatorCannotBeIsRefusedWithItsPlace) {
+  EXPECT_EQ(errorOf("\"value\": \"imu\"", "\"value\": \"spirit\"").source, "leica-rtc360.json /compensator/kind/value");
+  EXPECT_EQ(errorOf("\"range_deg\": { \"value\": 5", "\"range_deg\": { \"value\": 95").source, "leica-rtc360.json /compensator/range_deg/value");
+  EXPECT_EQ(errorOf("\"accuracy_arcsec\": { \"value\": 180", "\"accuracy\": { \"value\": 180").source, "leica-rtc360.json /compensator/accuracy_arcsec");
+}
+
 TEST_F(ChangedInstrument, WhosePartsAreMoreThanTheWholeIsRefusedWithItsPlace) {
   EXPECT_EQ(errorOf("\"along_share\": 0.3", "\"along_share\": 0.95").source, "leica-rtc360.json /correlated_noise/along_share");
   EXPECT_EQ(errorOf("\"azimuth_flicker_arcsec\": { \"value\": 3", "\"azimuth_flicker_arcsec\": { \"value\": 18").source,
