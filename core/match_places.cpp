@@ -75,7 +75,8 @@ class Search {
     const auto start = matchBy(from_, to_, three);
     if (!start) return;
     const Pairs pairs = together(from_, to_, start->to_from, 2 * tolerance_m_);
-    if (pairs.size() < 3 || (!best.empty() && pairs.size() < best.front().pairs.size()) || !tried_.insert(pairs).second) return;
+    if (pairs.size() < 3 || (!best.empty() && pairs.size() < best.front().pairs.size()) || !tried_.insert(pairs).second)
+      return;
     const auto match = matchBy(from_, to_, pairs);
     if (!match || match->rms_m > tolerance_m_) return;
     if (!best.empty() && pairs.size() > best.front().pairs.size()) best.clear();
@@ -91,7 +92,8 @@ class Search {
 
 Result<PlaceMatch> matchPlaces(Places from, Places to, double tolerance_m) {
   if (std::max(from.size(), to.size()) > kMostPlacesToMatch)
-    return failure(ErrorKind::unusable, "more than " + std::to_string(kMostPlacesToMatch) + " places: match them by their names");
+    return failure(ErrorKind::unusable,
+                   "more than " + std::to_string(kMostPlacesToMatch) + " places: match them by their names");
   Search search(from, to, tolerance_m);
   search.run();
   if (search.best.empty())

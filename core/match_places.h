@@ -23,6 +23,7 @@ struct PlaceMatch {
 // with the same distances propose a motion, and the one that brings most places together within the tolerance wins.
 // Errors: fewer than three come together; another assignment does as well (the arrangement is symmetric).
 constexpr std::size_t kMostPlacesToMatch = 30;   // of each list
-Result<PlaceMatch> matchPlaces(std::span<const Eigen::Vector3d> from, std::span<const Eigen::Vector3d> to, double tolerance_m);
+Result<PlaceMatch> matchPlaces(std::span<const Eigen::Vector3d> from, std::span<const Eigen::Vector3d> to,
+                               double tolerance_m);
 
 }  // namespace standpoint

@@ -35,14 +35,16 @@ void spread(const TargetNetwork& network, std::size_t station, Chain& chain) {
 Result<RigidFit> tie(const TargetNetwork& network, const Chain& chain, std::size_t station, std::size_t& shared) {
   std::vector<Vector3d> from, to;
   for (const auto& s : network.sightings)
-    if (s.station == station && chain.target[s.target]) from.push_back(s.place_m), to.push_back(*chain.target[s.target]);
+    if (s.station == station && chain.target[s.target])
+      from.push_back(s.place_m), to.push_back(*chain.target[s.target]);
   shared = from.size();
   return fitRigid(from, to);
 }
 
 // The station that shares most targets with those that are placed comes next.
 Result<Chain> chained(const TargetNetwork& network, NetworkProblem* problem) {
-  Chain chain{std::vector<std::optional<Pose>>(network.stations), std::vector<std::optional<Vector3d>>(network.targets)};
+  Chain chain{std::vector<std::optional<Pose>>(network.stations),
+              std::vector<std::optional<Vector3d>>(network.targets)};
   for (const auto& k : network.known) chain.target[k.target] = k.place_m;
   std::size_t placed = 0;
   if (network.held) {
@@ -144,11 +146,14 @@ void move(Chain& chain, const Unknowns& u, const Eigen::VectorXd& step) {
 }
 
 bool sound(const TargetNetwork& n) {
-  const auto in = [&](std::size_t target, const Vector3d& p, double sigma) { return target < n.targets && p.allFinite() && sigma > 0; };
+  const auto in = [&](std::size_t target, const Vector3d& p, double sigma) {
+    return target < n.targets && p.allFinite() && sigma > 0;
+  };
   return (!n.held || n.held->first < n.stations) &&
          std::all_of(n.sightings.begin(), n.sightings.end(),
                      [&](const Sighting& s) { return s.station < n.stations && in(s.target, s.place_m, s.sigma_m); }) &&
-         std::all_of(n.known.begin(), n.known.end(), [&](const KnownPlace& k) { return in(k.target, k.place_m, k.sigma_m); });
+         std::all_of(n.known.begin(), n.known.end(),
+                     [&](const KnownPlace& k) { return in(k.target, k.place_m, k.sigma_m); });
 }
 
 }  // namespace
@@ -174,7 +179,8 @@ Result<NetworkFit> fitNetwork(const TargetNetwork& network, NetworkProblem* prob
   fit.redundancy = e.observations - static_cast<int>(unknowns.count);
   fit.sigma_factor = fit.redundancy > 0 ? std::sqrt(e.squares / fit.redundancy) : 0;
   const Eigen::VectorXd sigma =
-      fit.sigma_factor * factor.solve(Eigen::MatrixXd::Identity(unknowns.count, unknowns.count)).diagonal().cwiseMax(0).cwiseSqrt();
+      fit.sigma_factor *
+      factor.solve(Eigen::MatrixXd::Identity(unknowns.count, unknowns.count)).diagonal().cwiseMax(0).cwiseSqrt();
   for (std::size_t i = 0; i < network.stations; ++i) {
     const Index at = unknowns.station[i];
     fit.pose.push_back(*chain->pose[i]);
@@ -182,7 +188,8 @@ Result<NetworkFit> fitNetwork(const TargetNetwork& network, NetworkProblem* prob
     fit.sigma_turn_rad.push_back(at < 0 ? Vector3d::Zero() : Vector3d(sigma.segment<3>(at + 3)));
   }
   fit.target = chain->target;
-  for (const auto& s : network.sightings) fit.residual_m.push_back(fit.pose[s.station] * s.place_m - *fit.target[s.target]);
+  for (const auto& s : network.sightings)
+    fit.residual_m.push_back(fit.pose[s.station] * s.place_m - *fit.target[s.target]);
   return fit;
 }
 
@@ -197,7 +204,8 @@ std::vector<NetworkLink> linksOf(const TargetNetwork& network, const NetworkFit&
             link.rows.push_back({from.target, fit.pose[a] * from.place_m - fit.pose[b] * to.place_m});
       if (link.rows.empty()) continue;
       const auto n = static_cast<double>(link.rows.size());
-      for (const auto& row : link.rows) link.rms_m += row.difference_m.squaredNorm() / n, link.mean_m += row.difference_m.norm() / n;
+      for (const auto& row : link.rows)
+        link.rms_m += row.difference_m.squaredNorm() / n, link.mean_m += row.difference_m.norm() / n;
       link.rms_m = std::sqrt(link.rms_m);
       if (link.rows.size() > 2) link.unbiased_m = link.rms_m * std::sqrt(3 * n / (3 * n - 6));
       links.push_back(std::move(link));

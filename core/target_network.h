@@ -39,7 +39,7 @@ struct NetworkFit {
   std::vector<Eigen::Vector3d> sigma_shift_m, sigma_turn_rad;   // of each, 1 σ by what the fit leaves; zero where held
   std::vector<std::optional<Eigen::Vector3d>> target;           // nothing where nobody saw it
   std::vector<Eigen::Vector3d> residual_m;       // of each sighting, in the common frame: as placed less the target
-  double sigma_factor = 0;                       // the sightings scatter by this times their stated σ; 0: nothing left over
+  double sigma_factor = 0;  // the sightings scatter by this times their stated σ; 0: nothing left over
   int redundancy = 0;                            // observations less unknowns
   int iterations = 0;
 };
@@ -51,8 +51,8 @@ struct NetworkProblem {
   bool on_one_line = false;
 };
 
-// Chains the stations by three and more shared targets, then adjusts all at once (Gauss–Newton over stations and targets).
-// Errors: fewer than three shared targets or all on one line (then `problem` says where), nothing held.
+// Chains the stations by three and more shared targets, then adjusts all at once (Gauss–Newton over stations and
+// targets). Errors: fewer than three shared targets or all on one line (then `problem` says where), nothing held.
 Result<NetworkFit> fitNetwork(const TargetNetwork& network, NetworkProblem* problem = nullptr);
 
 // How far two stations disagree about a target that both saw: as one places it less as the other does.

@@ -90,7 +90,8 @@ struct Candidate {
   Vector3d place = Vector3d::Zero();
 };
 
-std::vector<Candidate> candidates(const std::vector<Vector3d>& seeds, const std::vector<float>& intensity, double side_m) {
+std::vector<Candidate> candidates(const std::vector<Vector3d>& seeds, const std::vector<float>& intensity,
+                                  double side_m) {
   const double look_m = kLook * side_m;
   const PlaceGrid grid(seeds, look_m);
   std::vector<Candidate> all;
@@ -150,9 +151,11 @@ PatternFit refine(const std::vector<Vector2d>& places, const std::vector<float>&
       const Vector2d q = turned(p, places[i]);
       if (q.cwiseAbs().maxCoeff() > kUsed * side_m) continue;
       const double x = q.x() / p.width_m, y = q.y() / p.width_m;
-      const double along_x = p.contrast * slope(x) * edge(y) / p.width_m, along_y = p.contrast * edge(x) * slope(y) / p.width_m;
+      const double along_x = p.contrast * slope(x) * edge(y) / p.width_m,
+                   along_y = p.contrast * edge(x) * slope(y) / p.width_m;
       Vector5d row;
-      row << -c * along_x + s * along_y, -s * along_x - c * along_y, q.y() * along_x - q.x() * along_y, 1, edge(x) * edge(y);
+      row << -c * along_x + s * along_y, -s * along_x - c * along_y, q.y() * along_x - q.x() * along_y, 1,
+          edge(x) * edge(y);
       const double r = intensity[i] - p.mean - p.contrast * edge(x) * edge(y);
       normal += row * row.transpose();
       right += row * r;
@@ -166,7 +169,8 @@ PatternFit refine(const std::vector<Vector2d>& places, const std::vector<float>&
     const Eigen::LDLT<Eigen::Matrix<double, 5, 5>> factor(normal);
     const Vector5d step = factor.solve(right);
     if (!step.allFinite() || p.centre.norm() > side_m) return fit.points = 0, fit;
-    fit.covariance = fit.squares / (n - 5) * factor.solve(Eigen::Matrix<double, 5, 5>::Identity()).topLeftCorner<2, 2>();
+    fit.covariance =
+        fit.squares / (n - 5) * factor.solve(Eigen::Matrix<double, 5, 5>::Identity()).topLeftCorner<2, 2>();
     // Never further than an edge is wide: beyond, its slope says nothing.
     const double most = p.width_m / std::max(p.width_m, step.head<2>().norm());
     p.centre += most * step.head<2>();
@@ -216,7 +220,9 @@ PatternFit fitPattern(const std::vector<Vector2d>& places, const std::vector<flo
     narrower.width_m = width * spacing;
     if (narrower.width_m > side_m / 8) continue;
     const PatternFit next = refine(places, intensity, narrower, side_m);
-    if (next.points > 0 && next.squares / static_cast<double>(next.points) < best.squares / static_cast<double>(best.points)) best = next;
+    if (next.points > 0 &&
+        next.squares / static_cast<double>(next.points) < best.squares / static_cast<double>(best.points))
+      best = next;
   }
   addEmptyStrips(places, side_m, best);
   return best;
@@ -257,25 +263,29 @@ Result<TargetFit> fitAt(const std::vector<Vector3d>& points, const std::vector<f
   fit.residual_m = std::sqrt(squares / static_cast<double>(flat.size()));
   fit.incidence_rad = std::acos(std::clamp(-plane.normal.dot(fit.centre.normalized()), -1.0, 1.0));
   const Eigen::Matrix<double, 3, 2> in_plane = (Eigen::Matrix<double, 3, 2>() << u, v).finished();
-  fit.covariance_m2 = in_plane * pattern.covariance * in_plane.transpose() +
-                      plane.normal * plane.normal.transpose() * (fit.residual_m * fit.residual_m / static_cast<double>(fit.points));
+  fit.covariance_m2 =
+      in_plane * pattern.covariance * in_plane.transpose() +
+      plane.normal * plane.normal.transpose() * (fit.residual_m * fit.residual_m / static_cast<double>(fit.points));
   return fit;
 }
 
 }  // namespace
 
-Result<TargetFit> findCheckerboard(std::span<const Vector3d> points, std::span<const float> intensity, const Vector3d& predicted,
-                                   const CheckerboardSearch& search) {
+Result<TargetFit> findCheckerboard(std::span<const Vector3d> points, std::span<const float> intensity,
+                                   const Vector3d& predicted, const CheckerboardSearch& search) {
   if (intensity.size() != points.size())
-    return failure(ErrorKind::unusable, "there is no intensity, and without it a checkerboard is a blank plate: use spheres, or a "
-                                        "file that keeps intensity");
+    return failure(ErrorKind::unusable,
+                   "there is no intensity, and without it a checkerboard is a blank plate: use spheres, or a "
+                   "file that keeps intensity");
   std::vector<Vector3d> region, seeds;
   std::vector<float> bright, seed_bright;
   for (std::size_t i = 0; i < points.size(); ++i)
-    if ((points[i] - predicted).norm() <= search.search_m + search.side_m) region.push_back(points[i]), bright.push_back(intensity[i]);
+    if ((points[i] - predicted).norm() <= search.search_m + search.side_m)
+      region.push_back(points[i]), bright.push_back(intensity[i]);
   if (region.size() < search.least_points)
     return failure(ErrorKind::unusable, "too few points near its predicted place: " + std::to_string(region.size()));
-  for (const auto i : thinned(region, search.side_m / 12, kMostSeeds)) seeds.push_back(region[i]), seed_bright.push_back(bright[i]);
+  for (const auto i : thinned(region, search.side_m / 12, kMostSeeds))
+    seeds.push_back(region[i]), seed_bright.push_back(bright[i]);
   std::vector<TargetFit> found;
   Error first{ErrorKind::unusable, "no checkerboard is seen near its predicted place", {}};
   bool tried = false;

@@ -43,7 +43,8 @@ struct Solved {
   bool settled = false;
 };
 
-Solved solve(std::span<const Vector3d> points, const Vector3d& start, double radius_m, bool free_radius, double captured_m) {
+Solved solve(std::span<const Vector3d> points, const Vector3d& start, double radius_m, bool free_radius,
+             double captured_m) {
   Solved s;
   s.fit.centre = start;
   s.fit.radius_m = radius_m;
@@ -110,7 +111,8 @@ int emptySectors(std::span<const Vector3d> points, const TargetFit& fit) {
     ++count[std::min<std::size_t>(kSectors - 1, static_cast<std::size_t>(turn * kSectors))];
     ++all;
   }
-  return static_cast<int>(std::count_if(count.begin(), count.end(), [&](std::size_t n) { return n * kSectors * 4 < all || all == 0; }));
+  return static_cast<int>(
+      std::count_if(count.begin(), count.end(), [&](std::size_t n) { return n * kSectors * 4 < all || all == 0; }));
 }
 
 // Votes for the centre: a known radius beneath each place of the surface, along its normal.
@@ -149,7 +151,9 @@ std::vector<Vector3d> peaks(const std::vector<Vector3d>& all, double radius_m) {
   std::vector<Vector3d> result;
   for (const auto& [n, i] : ranked) {
     if (static_cast<int>(result.size()) == kMostCandidates || n * 4 > ranked.front().first) break;
-    if (std::any_of(result.begin(), result.end(), [&, at = i](const Vector3d& r) { return (r - all[at]).norm() < radius_m; })) continue;
+    if (std::any_of(result.begin(), result.end(),
+                    [&, at = i](const Vector3d& r) { return (r - all[at]).norm() < radius_m; }))
+      continue;
     Vector3d sum = Vector3d::Zero();
     grid.near(all[i], near_m, [&](std::size_t k) { sum += all[k]; });
     result.emplace_back(sum / -n);
@@ -169,12 +173,15 @@ Result<TargetFit> fitSphere(std::span<const Vector3d> points, const Vector3d& st
   const double off = loose.fit.radius_m - radius;
   const bool is_ball = loose.settled && emptySectors(points, loose.fit) <= 2 &&
                        static_cast<double>(loose.fit.points) > kLeastShare * static_cast<double>(loose.met);
-  if (is_ball && std::abs(off) > search.radius_tolerance_m + 3 * loose.fit.radius_sigma_m && loose.fit.residual_m < 0.1 * radius)
-    return failure(ErrorKind::unusable, "wrong radius: the points make " + mm(loose.fit.radius_m) + ", the target has " + mm(radius));
+  if (is_ball && std::abs(off) > search.radius_tolerance_m + 3 * loose.fit.radius_sigma_m &&
+      loose.fit.residual_m < 0.1 * radius)
+    return failure(ErrorKind::unusable,
+                   "wrong radius: the points make " + mm(loose.fit.radius_m) + ", the target has " + mm(radius));
   const double share = static_cast<double>(fixed.fit.points) / static_cast<double>(std::max<std::size_t>(1, fixed.met));
   if (share < kLeastShare)
-    return failure(ErrorKind::unusable, "mixed with its background or hidden in part: " +
-                                            std::to_string(static_cast<int>(share * 100)) + " % of the beams that should meet it do");
+    return failure(ErrorKind::unusable,
+                   "mixed with its background or hidden in part: " + std::to_string(static_cast<int>(share * 100)) +
+                       " % of the beams that should meet it do");
   if (emptySectors(points, fixed.fit) > 2)
     return failure(ErrorKind::unusable, "the points are no ball of that radius: only some sides of one are there");
   return search.free_radius ? loose.fit : fixed.fit;

@@ -10,11 +10,12 @@
 
 namespace standpoint {
 
-// A target as office software measures it in the points of one scan. All coordinates are in the scanner's own frame: the
-// beams come from its origin.
+// A target as office software measures it in the points of one scan. All coordinates are in the scanner's own frame:
+// the beams come from its origin.
 struct TargetFit {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();   // of the centre, by the scatter of the points: no bias is in it
+  Eigen::Matrix3d covariance_m2 =
+      Eigen::Matrix3d::Zero();     // of the centre, by the scatter of the points: no bias is in it
   std::size_t points = 0;          // used
   double residual_m = 0;           // root mean square, across the surface
   double radius_m = 0;             // of a sphere: as given, or as fitted
@@ -28,17 +29,19 @@ struct TargetSearch {
   std::size_t least_points = 20;   // fewer are no measurement
 };
 
-// Sphere of a known radius: found by votes of the surface's normals within reach of the prediction, then least squares of
-// the distances to its surface with Tukey's weights, on beams that meet it within 60° of its normal.
-// Errors are `unusable` and say why: no or too few points, another radius, mixed with what is around it, two candidates.
+// Sphere of a known radius: found by votes of the surface's normals within reach of the prediction, then least squares
+// of the distances to its surface with Tukey's weights, on beams that meet it within 60° of its normal. Errors are
+// `unusable` and say why: no or too few points, another radius, mixed with what is around it, two candidates.
 struct SphereSearch : TargetSearch {
   double radius_m = 0.0725;
-  bool free_radius = false;        // the radius is a result, too; it moves the centre towards the scanner (physics.md §6)
+  bool free_radius = false;  // the radius is a result, too; it moves the centre towards the scanner (physics.md §6)
   double radius_tolerance_m = 0.002;   // as office software has it: sets differ by that much
 };
-Result<TargetFit> findSphere(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& predicted, const SphereSearch& search);
+Result<TargetFit> findSphere(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& predicted,
+                             const SphereSearch& search);
 // The same from a centre that is known to a quarter of the radius.
-Result<TargetFit> fitSphere(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& start, const SphereSearch& search);
+Result<TargetFit> fitSphere(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& start,
+                            const SphereSearch& search);
 
 // Centre of a plate of two by two squares, white and black in turn: where its edges cross, by the intensities of the
 // beams in the plane of its points. Errors as above, and: no intensity, no such pattern.

@@ -35,7 +35,8 @@ void addPatch(Mesh& mesh, const std::vector<Vector3d>& points, const Vector3d& s
   if (normal.dot(seen_from - middle) < 0) normal = -normal;
   const Vector3d u = kCell_m / 2 * axes.eigenvectors().col(2), v = normal.cross(u);
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  for (const Vector3d& corner : {Vector3d(middle - u - v), Vector3d(middle + u - v), Vector3d(middle + u + v), Vector3d(middle - u + v)})
+  for (const Vector3d& corner :
+       {Vector3d(middle - u - v), Vector3d(middle + u - v), Vector3d(middle + u + v), Vector3d(middle - u + v)})
     mesh.positions.push_back(corner.cast<float>());
   mesh.triangles.push_back({first, first + 1, first + 2});
   mesh.triangles.push_back({first, first + 2, first + 3});
@@ -71,8 +72,8 @@ Environment environmentOf(Mesh mesh) {
 
 }  // namespace
 
-Result<SurfaceFit> fitCloudToClouds(std::span<const Vector3d> points, const Pose& start, std::span<const PlacedCloud> others,
-                                    double reach_m, Progress& progress) {
+Result<SurfaceFit> fitCloudToClouds(std::span<const Vector3d> points, const Pose& start,
+                                    std::span<const PlacedCloud> others, double reach_m, Progress& progress) {
   Mesh mesh;
   for (const auto& cloud : others) addPatches(mesh, cloud);
   if (mesh.triangles.empty()) return failure(ErrorKind::unusable, "the other scans have no flat surface to fit it to");
@@ -81,7 +82,8 @@ Result<SurfaceFit> fitCloudToClouds(std::span<const Vector3d> points, const Pose
   for (const auto i : thinned(all, kThinning_m, kPointsOfFit)) thin.push_back(all[i]);
   const Vector3d station = start.translation;
   const SurfaceSearch search = [&](std::span<const Vector3d> placed, double reach, std::span<SurfaceTouch> touches) {
-    tbb::parallel_for(std::size_t{0}, placed.size(), [&](std::size_t i) { touches[i] = surface.nearest(placed[i], reach, &station); });
+    tbb::parallel_for(std::size_t{0}, placed.size(),
+                      [&](std::size_t i) { touches[i] = surface.nearest(placed[i], reach, &station); });
   };
   SurfaceFitOptions options;
   options.reach_m = reach_m;

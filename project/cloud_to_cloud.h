@@ -16,7 +16,7 @@ struct PlacedCloud {
 };
 
 // Fits a station's points to the surface that others show: planes of their points in cells of 15 cm.
-Result<SurfaceFit> fitCloudToClouds(std::span<const Eigen::Vector3d> points, const Pose& start, std::span<const PlacedCloud> others,
-                                    double reach_m, Progress& progress);
+Result<SurfaceFit> fitCloudToClouds(std::span<const Eigen::Vector3d> points, const Pose& start,
+                                    std::span<const PlacedCloud> others, double reach_m, Progress& progress);
 
 }  // namespace standpoint

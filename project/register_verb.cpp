@@ -38,8 +38,8 @@ Result<std::size_t> heldStation(const Job& job, const TargetMeasurements& measur
 }
 
 // Station by station, each to all that are placed already; the held one first.
-Result<json> byClouds(Job& job, const TargetMeasurements& measured, std::size_t held, const json& options, const Vector3d& shift_m,
-                      Report& report, Progress& progress) {
+Result<json> byClouds(Job& job, const TargetMeasurements& measured, std::size_t held, const json& options,
+                      const Vector3d& shift_m, Report& report, Progress& progress) {
   std::vector<PlacedCloud> placed;
   std::vector<const ScannedStation*> waiting;
   for (const auto& s : measured.scans) {
@@ -50,19 +50,24 @@ Result<json> byClouds(Job& job, const TargetMeasurements& measured, std::size_t 
     placed.push_back({job.stations[held].true_pose, s.sample});
     job.stations[held].solved_pose = job.stations[held].true_pose;
   }
-  if (placed.empty()) return failure(ErrorKind::usage, fmt::format("station {} is in none of these files", job.stations[held].name), "--fix");
+  if (placed.empty())
+    return failure(ErrorKind::usage, fmt::format("station {} is in none of these files", job.stations[held].name),
+                   "--fix");
   json stations = json::array({stationRow(job.stations[held], job.stations[held].true_pose, shift_m)});
   for (const auto* scan : waiting) {
     Station& station = job.stations[scan->station];
     progress.stage("Fitting " + station.name, 0.9, 1);
     const Pose start = laidByEye(station, options.at("seed").get<std::uint64_t>());
     const auto fit = fitCloudToClouds(scan->sample, start, placed, options.at("reach").get<double>(), progress);
-    if (!fit) return failure(fit.error().kind, fmt::format("station {}: {}", station.name, fit.error().message), scan->file);
+    if (!fit)
+      return failure(fit.error().kind, fmt::format("station {}: {}", station.name, fit.error().message), scan->file);
     for (const auto& motion : fit->free)
-      report.warn(station.name, fmt::format("the other scans do not hold it {}: there it stays as it was laid", describe(motion)));
+      report.warn(station.name,
+                  fmt::format("the other scans do not hold it {}: there it stays as it was laid", describe(motion)));
     if (!fit->settled) report.warn(station.name, fmt::format("it still moved after {} iterations", fit->iterations));
     if (fit->used_share < 0.3)
-      report.warn(station.name, fmt::format("only {:.0f} % of its points lie on the other scans: too little overlap", fit->used_share * 100));
+      report.warn(station.name, fmt::format("only {:.0f} % of its points lie on the other scans: too little overlap",
+                                            fit->used_share * 100));
     json row = stationRow(station, fit->to_from, shift_m);
     row["fit"] = toJson(*fit);
     stations.push_back(std::move(row));
@@ -72,8 +77,8 @@ Result<json> byClouds(Job& job, const TargetMeasurements& measured, std::size_t 
   return json{{"stations", std::move(stations)}};
 }
 
-Result<json> byTargets(Job& job, const TargetMeasurements& measured, std::size_t held, const json& options, const Vector3d& shift_m,
-                       Report& report) {
+Result<json> byTargets(Job& job, const TargetMeasurements& measured, std::size_t held, const json& options,
+                       const Vector3d& shift_m, Report& report) {
   RegistrationRequest request;
   request.held = held;
   request.matching = options.at("by") == "geometry" ? TargetMatching::by_geometry : TargetMatching::by_names;
@@ -98,8 +103,11 @@ Result<Outcome> runRegister(const Document& document, const json& options, Progr
   if (cloud && options.contains("control"))
     return failure(ErrorKind::usage, "clouds have no control points: leave --cloud or --control out", "--control");
   if (!cloud && document.job->targets.size() < 3)
-    return failure(ErrorKind::usage, fmt::format("the project has {} targets, and three are needed: add them with `target` before scanning, or "
-                                                 "register with --cloud", document.job->targets.size()));
+    return failure(
+        ErrorKind::usage,
+        fmt::format("the project has {} targets, and three are needed: add them with `target` before scanning, or "
+                    "register with --cloud",
+                    document.job->targets.size()));
   MeasuringRequest request;
   for (const auto& file : options.at("files")) request.files.emplace_back(file.get<std::string>());
   request.seed = options.at("seed").get<std::uint64_t>();
@@ -108,7 +116,8 @@ Result<Outcome> runRegister(const Document& document, const json& options, Progr
   const auto measured = measureTargets(document, request, progress);
   if (!measured) return failure(measured.error());
   if (measured->scans.size() < (options.contains("control") ? 1U : 2U))
-    return failure(ErrorKind::usage, "one station alone cannot be registered: give the scans of two, or --control", "files");
+    return failure(ErrorKind::usage, "one station alone cannot be registered: give the scans of two, or --control",
+                   "files");
   Outcome outcome{document, json::object(), measured->report, {}};
   Job job = *document.job;
   const auto held = heldStation(job, *measured, options);
@@ -119,7 +128,8 @@ Result<Outcome> runRegister(const Document& document, const json& options, Progr
   if (!answer) return failure(answer.error());
   outcome.answer = *std::move(answer);
   outcome.text = textOf(outcome.answer);
-  outcome.description = fmt::format("Registered {} stations {}", measured->scans.size(), cloud ? "cloud to cloud" : "by targets");
+  outcome.description =
+      fmt::format("Registered {} stations {}", measured->scans.size(), cloud ? "cloud to cloud" : "by targets");
   outcome.document.job = std::make_shared<const Job>(std::move(job));
   return outcome;
 }

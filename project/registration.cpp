@@ -34,7 +34,8 @@ std::vector<Seen> seenBy(const TargetMeasurements& measured) {
   for (const auto& scan : measured.scans) {
     Seen seen{scan.station, {}, {}};
     for (std::size_t i = 0; i < measured.found.size(); ++i)
-      if (measured.found[i].station == scan.station) seen.found.push_back(i), seen.places.push_back(measured.found[i].fit.centre);
+      if (measured.found[i].station == scan.station)
+        seen.found.push_back(i), seen.places.push_back(measured.found[i].fit.centre);
     all.push_back(std::move(seen));
   }
   return all;
@@ -51,7 +52,8 @@ double sigmaOf(const TargetFit& fit) { return std::sqrt(kSighting_m * kSighting_
 
 class Numbering {
  public:
-  Numbering(const Job& job, const TargetMeasurements& measured, TargetRegistration& r) : job_(job), measured_(measured), r_(r) {}
+  Numbering(const Job& job, const TargetMeasurements& measured, TargetRegistration& r)
+      : job_(job), measured_(measured), r_(r) {}
 
   void byNames(const std::vector<Seen>& all, const RegistrationRequest& request, Report& report) {
     for (const auto& t : job_.targets) r_.target_names.push_back(t.name);
@@ -87,7 +89,8 @@ class Numbering {
 
  private:
   void add(std::size_t station, std::size_t target, std::size_t found) {
-    r_.network.sightings.push_back({station, target, measured_.found[found].fit.centre, sigmaOf(measured_.found[found].fit)});
+    r_.network.sightings.push_back(
+        {station, target, measured_.found[found].fit.centre, sigmaOf(measured_.found[found].fit)});
     r_.found.push_back(found);
   }
   void enter(const Vector3d& place, const std::string& name, std::optional<std::size_t> truth) {
@@ -100,7 +103,9 @@ class Numbering {
     for (std::size_t s = 0; s < all.size(); ++s) {
       if (done[s]) continue;
       auto match = matchPlaces(all[s].places, common_, kSameDistance_m);
-      if (!match) why += fmt::format("{}{}: {}", why.empty() ? "" : "; ", job_.stations[all[s].station].name, match.error().message);
+      if (!match)
+        why +=
+            fmt::format("{}{}: {}", why.empty() ? "" : "; ", job_.stations[all[s].station].name, match.error().message);
       else if (!best || match->pairs.size() > best->second.pairs.size()) best = {s, *std::move(match)};
     }
     if (!best) return failure(ErrorKind::unusable, "the targets cannot be told apart by their distances: " + why);
@@ -130,37 +135,46 @@ class Numbering {
 
 void judge(const Job& job, const TargetRegistration& r, Report& report) {
   for (const auto& link : r.links) {
-    const auto name = fmt::format("{}-{}", job.stations[r.station_of[link.from]].name, job.stations[r.station_of[link.to]].name);
-    if (link.rows.size() == 3) report.note(name, "three targets leave little to judge the link by: a fourth would show a wrong one");
+    const auto name =
+        fmt::format("{}-{}", job.stations[r.station_of[link.from]].name, job.stations[r.station_of[link.to]].name);
+    if (link.rows.size() == 3)
+      report.note(name, "three targets leave little to judge the link by: a fourth would show a wrong one");
     if (link.mean_m <= kOfficeWarning_m) continue;
     const auto worst = std::max_element(link.rows.begin(), link.rows.end(), [](const LinkRow& a, const LinkRow& b) {
       return a.difference_m.norm() < b.difference_m.norm();
     });
-    report.warn(name, fmt::format("the targets disagree by {:.1f} mm on average, where office software warns from 5 mm; the worst is {} with {:.1f} mm",
-                                  link.mean_m * 1000, r.target_names[worst->target], worst->difference_m.norm() * 1000));
+    report.warn(name,
+                fmt::format("the targets disagree by {:.1f} mm on average, where office software warns from 5 mm; the "
+                            "worst is {} with {:.1f} mm",
+                            link.mean_m * 1000, r.target_names[worst->target], worst->difference_m.norm() * 1000));
   }
   if (r.wrong_matches > 0)
-    report.warn("geometry", fmt::format("{} sightings were matched to another target than they are of: match by names", r.wrong_matches));
+    report.warn("geometry", fmt::format("{} sightings were matched to another target than they are of: match by names",
+                                        r.wrong_matches));
 }
 
 }  // namespace
 
-Result<TargetRegistration> registerByTargets(const Job& job, const TargetMeasurements& measured, const RegistrationRequest& request,
-                                             Report& report) {
+Result<TargetRegistration> registerByTargets(const Job& job, const TargetMeasurements& measured,
+                                             const RegistrationRequest& request, Report& report) {
   TargetRegistration r;
   const std::vector<Seen> all = seenBy(measured);
   for (std::size_t s = 0; s < all.size(); ++s) {
     const auto& name = job.stations[all[s].station].name;
     if (all[s].found.size() < 3)
       return failure(ErrorKind::unusable,
-                     fmt::format("{} targets were measured from station {}, and three are needed; add targets that it sees, scan finer, or "
-                                 "register with --cloud{}", all[s].found.size(), name, whyMissed(job, measured, all[s].station)),
+                     fmt::format("{} targets were measured from station {}, and three are needed; add targets that it "
+                                 "sees, scan finer, or "
+                                 "register with --cloud{}",
+                                 all[s].found.size(), name, whyMissed(job, measured, all[s].station)),
                      measured.scans[s].file);
     r.station_of.push_back(all[s].station);
-    if (request.control.empty() && all[s].station == request.held) r.network.held = {s, job.stations[request.held].true_pose};
+    if (request.control.empty() && all[s].station == request.held)
+      r.network.held = {s, job.stations[request.held].true_pose};
   }
   if (request.control.empty() && !r.network.held)
-    return failure(ErrorKind::usage, fmt::format("station {} is in none of these files", job.stations[request.held].name), "--fix");
+    return failure(ErrorKind::usage,
+                   fmt::format("station {} is in none of these files", job.stations[request.held].name), "--fix");
   Numbering numbering(job, measured, r);
   if (request.matching == TargetMatching::by_names) numbering.byNames(all, request, report);
   else if (auto ok = numbering.byGeometry(all, request); !ok) return failure(ok.error());
@@ -170,12 +184,13 @@ Result<TargetRegistration> registerByTargets(const Job& job, const TargetMeasure
   auto fit = fitNetwork(r.network, &problem);
   if (!fit && problem.station) {
     const std::size_t station = r.station_of[*problem.station];
-    return failure(ErrorKind::unusable,
-                   fmt::format("station {} shares {} targets with the others{}; {}{}", job.stations[station].name, problem.shared,
-                               problem.on_one_line ? ", and they lie on one line" : ", and three are needed",
-                               problem.on_one_line ? "add a target beside the line" : "add targets that both see",
-                               whyMissed(job, measured, station)),
-                   measured.scans[*problem.station].file);
+    return failure(
+        ErrorKind::unusable,
+        fmt::format("station {} shares {} targets with the others{}; {}{}", job.stations[station].name, problem.shared,
+                    problem.on_one_line ? ", and they lie on one line" : ", and three are needed",
+                    problem.on_one_line ? "add a target beside the line" : "add targets that both see",
+                    whyMissed(job, measured, station)),
+        measured.scans[*problem.station].file);
   }
   if (!fit) return failure(fit.error());
   r.fit = *std::move(fit);
@@ -188,7 +203,8 @@ Result<std::vector<ControlPoint>> readControlPoints(const std::filesystem::path&
   std::error_code code;
   const auto size = std::filesystem::file_size(file, code);
   if (code) return failure(ErrorKind::file_system, "cannot be read: " + code.message(), file.string());
-  if (size > kLargestControlFile) return failure(ErrorKind::unusable, "is too large for a list of control points", file.string());
+  if (size > kLargestControlFile)
+    return failure(ErrorKind::unusable, "is too large for a list of control points", file.string());
   std::ifstream in(file);
   std::vector<ControlPoint> points;
   std::set<std::string> names;
@@ -203,17 +219,21 @@ Result<std::vector<ControlPoint>> readControlPoints(const std::filesystem::path&
     const bool whole = words.eof() && (numbers.size() == 3 || numbers.size() == 4);
     const double sigma_mm = numbers.size() == 4 ? numbers[3] : 1;
     if (!whole || !(sigma_mm > 0 && sigma_mm < 1e4))
-      return failure(ErrorKind::unusable, "is not: name X Y Z [sigma in mm]", fmt::format("{} line {}", file.string(), number));
+      return failure(ErrorKind::unusable, "is not: name X Y Z [sigma in mm]",
+                     fmt::format("{} line {}", file.string(), number));
     p.position = {numbers[0], numbers[1], numbers[2]};
-    if (!p.position.allFinite()) return failure(ErrorKind::unusable, "is not finite", fmt::format("{} line {}", file.string(), number));
+    if (!p.position.allFinite())
+      return failure(ErrorKind::unusable, "is not finite", fmt::format("{} line {}", file.string(), number));
     if (!names.insert(p.name).second)
-      return failure(ErrorKind::unusable, fmt::format("control point {} is there twice", p.name), fmt::format("{} line {}", file.string(), number));
+      return failure(ErrorKind::unusable, fmt::format("control point {} is there twice", p.name),
+                     fmt::format("{} line {}", file.string(), number));
     p.position -= shift_m;
     p.sigma_m = sigma_mm / 1000;
     points.push_back(std::move(p));
   }
   if (points.size() < 3)
-    return failure(ErrorKind::unusable, fmt::format("holds {} control points, and three are needed", points.size()), file.string());
+    return failure(ErrorKind::unusable, fmt::format("holds {} control points, and three are needed", points.size()),
+                   file.string());
   return points;
 }
 

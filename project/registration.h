@@ -32,8 +32,8 @@ struct RegistrationRequest {
   std::vector<ControlPoint> control;       // local frame
 };
 
-Result<TargetRegistration> registerByTargets(const Job& job, const TargetMeasurements& measured, const RegistrationRequest& request,
-                                             Report& report);
+Result<TargetRegistration> registerByTargets(const Job& job, const TargetMeasurements& measured,
+                                             const RegistrationRequest& request, Report& report);
 
 // One line each: name X Y Z [σ in mm], in the file's frame; # begins a comment.
 Result<std::vector<ControlPoint>> readControlPoints(const std::filesystem::path& file, const Eigen::Vector3d& shift_m);

@@ -45,9 +45,15 @@ json targetRows(const Job& job, const TargetRegistration& r, const Vector3d& shi
       const auto& s = r.network.sightings[i];
       if (s.target != t) continue;
       const Vector3d& d = r.fit.residual_m[i];
-      from.push_back({{"station", job.stations[r.station_of[s.station]].name}, {"dx_m", d.x()}, {"dy_m", d.y()}, {"dz_m", d.z()}, {"d3_m", d.norm()}});
+      from.push_back({{"station", job.stations[r.station_of[s.station]].name},
+                      {"dx_m", d.x()},
+                      {"dy_m", d.y()},
+                      {"dz_m", d.z()},
+                      {"d3_m", d.norm()}});
     }
-    json row = {{"name", r.target_names[t]}, {"at", toJson(Vector3d(*r.fit.target[t] + shift_m))}, {"residuals", std::move(from)}};
+    json row = {{"name", r.target_names[t]},
+                {"at", toJson(Vector3d(*r.fit.target[t] + shift_m))},
+                {"residuals", std::move(from)}};
     for (const auto& target : job.targets)
       if (target.name == r.target_names[t]) row["true_error_m"] = (*r.fit.target[t] - target.centre).norm();
     rows.push_back(std::move(row));
@@ -73,7 +79,8 @@ json measuredRows(const Job& job, const TargetMeasurements& measured) {
     found.push_back(std::move(row));
   }
   for (const auto& m : measured.missed)
-    missed.push_back({{"station", job.stations[m.station].name}, {"target", job.targets[m.target].name}, {"why", m.why}});
+    missed.push_back(
+        {{"station", job.stations[m.station].name}, {"target", job.targets[m.target].name}, {"why", m.why}});
   return {{"found", std::move(found)}, {"missed", std::move(missed)}};
 }
 
@@ -112,13 +119,16 @@ json registrationRows(const Job& job, const TargetRegistration& r, const Vector3
 // What people read: links as office software lists them, and what only a simulation can say beside it. Millimetres.
 std::string textOf(const json& answer) {
   std::string text;
-  const auto mm = [](const json& metres) { return metres.is_null() ? std::string("–") : fmt::format("{:.2f}", metres.get<double>() * 1000); };
+  const auto mm = [](const json& metres) {
+    return metres.is_null() ? std::string("–") : fmt::format("{:.2f}", metres.get<double>() * 1000);
+  };
   for (const auto& link : answer.value("links", json::array())) {
-    text += fmt::format("{} – {}: {} targets, {} mm RMS, mean {} mm, without the fit's freedom {} mm\n", link["from"].get<std::string>(),
-                        link["to"].get<std::string>(), link["targets"].get<int>(), mm(link["rms_m"]), mm(link["mean_m"]), mm(link["unbiased_m"]));
+    text += fmt::format("{} – {}: {} targets, {} mm RMS, mean {} mm, without the fit's freedom {} mm\n",
+                        link["from"].get<std::string>(), link["to"].get<std::string>(), link["targets"].get<int>(),
+                        mm(link["rms_m"]), mm(link["mean_m"]), mm(link["unbiased_m"]));
     for (const auto& d : link["differences"])
-      text += fmt::format("    {:12}  dx {:>7}  dy {:>7}  dz {:>7}  3D {:>7} mm\n", d["target"].get<std::string>(), mm(d["dx_m"]), mm(d["dy_m"]),
-                          mm(d["dz_m"]), mm(d["d3_m"]));
+      text += fmt::format("    {:12}  dx {:>7}  dy {:>7}  dz {:>7}  3D {:>7} mm\n", d["target"].get<std::string>(),
+                          mm(d["dx_m"]), mm(d["dy_m"]), mm(d["dz_m"]), mm(d["d3_m"]));
   }
   for (const auto& s : answer.at("stations"))
     text += fmt::format("{}: off the truth by {} mm and {:.4f}°\n", s["name"].get<std::string>(), mm(s["true_error_m"]),

@@ -28,7 +28,8 @@ struct Crossings {
   bool first_from_behind = false;
 };
 
-std::map<std::uint32_t, Crossings> crossed(const RayScene& scene, Vector3d from, const Vector3d& direction, double far_m) {
+std::map<std::uint32_t, Crossings> crossed(const RayScene& scene, Vector3d from, const Vector3d& direction,
+                                           double far_m) {
   std::map<std::uint32_t, Crossings> products;
   for (int i = 0; i < kMostFaces; ++i) {
     const auto hit = scene.intersect(from, direction, far_m);
@@ -44,8 +45,9 @@ std::map<std::uint32_t, Crossings> crossed(const RayScene& scene, Vector3d from,
 
 std::optional<std::uint32_t> solidAround(const RayScene& scene, const Vector3d& place) {
   // Askew, so that no ray runs along a face or through an edge of what is built square.
-  const std::array<Vector3d, 5> directions = {Vector3d(0.31, 0.47, 0.83), Vector3d(-0.71, 0.29, 0.64), Vector3d(0.53, -0.79, 0.31),
-                                              Vector3d(-0.37, -0.43, -0.82), Vector3d(0.91, 0.17, -0.38)};
+  const std::array<Vector3d, 5> directions = {Vector3d(0.31, 0.47, 0.83), Vector3d(-0.71, 0.29, 0.64),
+                                              Vector3d(0.53, -0.79, 0.31), Vector3d(-0.37, -0.43, -0.82),
+                                              Vector3d(0.91, 0.17, -0.38)};
   const double far_m = bounds(scene.environment()).diagonal() + 1;
   // Most of them decide: where two bodies share a face (a table on its floor) a ray meets only one of the two.
   std::map<std::uint32_t, int> inside;

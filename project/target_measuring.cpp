@@ -63,9 +63,11 @@ struct StationPoints {
 // Where the operator clicks: beside the target by up to so much, drawn for each station and target.
 Vector3d clicked(const Station& station, const Target& target, std::size_t number, const MeasuringRequest& request) {
   const Vector3d place = station.true_pose.rotation.conjugate() * (target.centre - station.true_pose.translation);
-  const auto r = philox({request.seed, static_cast<std::uint32_t>(stableHash(station.name.c_str()))}, static_cast<std::uint32_t>(number), 0, 601);
+  const auto r = philox({request.seed, static_cast<std::uint32_t>(stableHash(station.name.c_str()))},
+                        static_cast<std::uint32_t>(number), 0, 601);
   const double z = 2 * uniform(r[0]) - 1, azimuth = 2 * M_PI * uniform(r[1]), flat = std::sqrt(1 - z * z);
-  return place + request.click_m * std::cbrt(uniform(r[2])) * Vector3d(flat * std::cos(azimuth), flat * std::sin(azimuth), z);
+  return place +
+         request.click_m * std::cbrt(uniform(r[2])) * Vector3d(flat * std::cos(azimuth), flat * std::sin(azimuth), z);
 }
 
 class NearSink final : public PointSink {
@@ -74,19 +76,23 @@ class NearSink final : public PointSink {
       : job_(job), request_(request), file_(file), all_(all) {
     for (std::size_t i = 0; i < job.stations.size(); ++i)
       for (const auto& scan : job.stations[i].scans)
-        if (fs::path(scan.file).filename() == file.filename() && (in_file_.empty() || in_file_.back() != i)) in_file_.push_back(i);
+        if (fs::path(scan.file).filename() == file.filename() && (in_file_.empty() || in_file_.back() != i))
+          in_file_.push_back(i);
   }
   Result<void> begin(const ScanHeader& header) override {
     auto station = stationOf(header);
     if (!station) return failure(station.error());
     for (const auto& s : all_)
       if (s.scan.station == *station)
-        return failure(ErrorKind::usage, fmt::format("station {} is in {}, too: give one scan of each", job_.stations[*station].name, s.scan.file),
-                       file_.string());
+        return failure(
+            ErrorKind::usage,
+            fmt::format("station {} is in {}, too: give one scan of each", job_.stations[*station].name, s.scan.file),
+            file_.string());
     StationPoints points;
     points.scan = {*station, file_.string(), header.intensity_max > header.intensity_min, {}};
     for (std::size_t t = 0; request_.targets && t < job_.targets.size(); ++t)
-      points.near.push_back({t, clicked(job_.stations[*station], job_.targets[t], t, request_), kSearch_m + job_.targets[t].size_m});
+      points.near.push_back(
+          {t, clicked(job_.stations[*station], job_.targets[t], t, request_), kSearch_m + job_.targets[t].size_m});
     all_.push_back(std::move(points));
     return {};
   }
@@ -108,16 +114,21 @@ class NearSink final : public PointSink {
  private:
   Result<std::size_t> stationOf(const ScanHeader& header) const {
     if (header.rows == 0 || header.columns == 0)
-      return failure(ErrorKind::unusable, fmt::format("scan '{}' has no grid of a scanner, so nothing says from where its points were seen: "
-                                                      "give an E57 or a PTX as it was scanned", header.name), file_.string());
+      return failure(ErrorKind::unusable,
+                     fmt::format("scan '{}' has no grid of a scanner, so nothing says from where its points were seen: "
+                                 "give an E57 or a PTX as it was scanned",
+                                 header.name),
+                     file_.string());
     for (std::size_t i = 0; i < job_.stations.size(); ++i)
       if (job_.stations[i].name == header.name) return i;
     if (scans_ < in_file_.size()) return in_file_[scans_];
     std::vector<std::string> names;
     for (const auto& s : job_.stations) names.push_back(s.name);
-    return failure(ErrorKind::usage, fmt::format("scan '{}' is of no station of this project ({}): scan it here, or name a station so",
-                                                 header.name, names.empty() ? "there is none" : fmt::format("{}", fmt::join(names, ", "))),
-                   file_.string());
+    return failure(
+        ErrorKind::usage,
+        fmt::format("scan '{}' is of no station of this project ({}): scan it here, or name a station so", header.name,
+                    names.empty() ? "there is none" : fmt::format("{}", fmt::join(names, ", "))),
+        file_.string());
   }
 
   const Job& job_;
@@ -136,7 +147,8 @@ Result<TargetFit> measured(const Target& target, const Near& near, bool has_inte
   }
   CheckerboardSearch search;
   search.search_m = kSearch_m, search.side_m = target.size_m;
-  return findCheckerboard(near.points.points, has_intensity ? std::span<const float>(near.points.bright) : std::span<const float>(),
+  return findCheckerboard(near.points.points,
+                          has_intensity ? std::span<const float>(near.points.bright) : std::span<const float>(),
                           near.predicted, search);
 }
 
@@ -153,7 +165,8 @@ void measure(const Job& job, StationPoints& station, TargetMeasurements& result)
 
 }  // namespace
 
-Result<TargetMeasurements> measureTargets(const Document& document, const MeasuringRequest& request, Progress& progress) {
+Result<TargetMeasurements> measureTargets(const Document& document, const MeasuringRequest& request,
+                                          Progress& progress) {
   TargetMeasurements result;
   std::vector<StationPoints> all;
   for (std::size_t i = 0; i < request.files.size(); ++i) {
@@ -161,14 +174,17 @@ Result<TargetMeasurements> measureTargets(const Document& document, const Measur
     const CloudFormat* const format = readableCloudFormat(file);
     if (format == nullptr || format->read == nullptr)
       return failure(ErrorKind::usage, "no readable point-cloud format has this extension", file.string());
-    const auto share = [&](std::size_t k) { return 0.8 * static_cast<double>(k) / static_cast<double>(request.files.size()); };
+    const auto share = [&](std::size_t k) {
+      return 0.8 * static_cast<double>(k) / static_cast<double>(request.files.size());
+    };
     progress.stage("Reading " + file.filename().string(), share(i), share(i + 1));
     NearSink sink(*document.job, request, file, all);
     auto read = format->read(file, sink, progress);
     if (!read) return failure(read.error());
     result.report.append(*read);
   }
-  std::sort(all.begin(), all.end(), [](const StationPoints& a, const StationPoints& b) { return a.scan.station < b.scan.station; });
+  std::sort(all.begin(), all.end(),
+            [](const StationPoints& a, const StationPoints& b) { return a.scan.station < b.scan.station; });
   progress.stage("Measuring targets", 0.8, 0.95);
   for (auto& station : all) {
     if (auto ok = progress.check(); !ok) return failure(ok.error());

@@ -42,6 +42,7 @@ struct MeasuringRequest {
 
 // Reads every file once; keeps only points near where targets are, and a sample. Which station a scan is says its name,
 // else the file that the job says its scans are in.
-Result<TargetMeasurements> measureTargets(const Document& document, const MeasuringRequest& request, Progress& progress);
+Result<TargetMeasurements> measureTargets(const Document& document, const MeasuringRequest& request,
+                                          Progress& progress);
 
 }  // namespace standpoint

@@ -73,22 +73,26 @@ std::optional<RayHit> whatCuts(const RayScene& scene, const Target& t) {
 Result<void> fits(const Document& document, const RayScene& scene, const Target& t) {
   const auto& products = scene.environment().products;
   if (const auto solid = solidAround(scene, t.centre); solid && !stationSees(document, scene, t.centre))
-    return failure(ErrorKind::unusable, fmt::format("target {} is refused: it would be inside of {}; choose a place in the open",
-                                                    t.name, nameOf(products[*solid])));
-  if (const auto hit = whatCuts(scene, t))
     return failure(ErrorKind::unusable,
-                   fmt::format("target {} is refused: {} is {:.0f} mm from its centre and it needs {:.0f} mm; choose a place "
-                               "further off, or stick it to the surface with --on-surface",
-                               t.name, nameOf(products[hit->product]), hit->range_m * 1000, t.size_m * 500));
+                   fmt::format("target {} is refused: it would be inside of {}; choose a place in the open", t.name,
+                               nameOf(products[*solid])));
+  if (const auto hit = whatCuts(scene, t))
+    return failure(
+        ErrorKind::unusable,
+        fmt::format("target {} is refused: {} is {:.0f} mm from its centre and it needs {:.0f} mm; choose a place "
+                    "further off, or stick it to the surface with --on-surface",
+                    t.name, nameOf(products[hit->product]), hit->range_m * 1000, t.size_m * 500));
   return {};
 }
 
 Result<double> floorFor(const RayScene& scene, const json& on, const Vector3d& shift, double height) {
   const auto floors = floorsAt(scene, on[0].get<double>() - shift.x(), on[1].get<double>() - shift.y(), height);
   if (floors.empty())
-    return failure(ErrorKind::unusable,
-                   fmt::format("there is nothing to stand on at ({}, {}) with {:.2f} m of room for the target's tripod; choose "
-                               "another place or a smaller --height", on[0].get<double>(), on[1].get<double>(), height));
+    return failure(
+        ErrorKind::unusable,
+        fmt::format("there is nothing to stand on at ({}, {}) with {:.2f} m of room for the target's tripod; choose "
+                    "another place or a smaller --height",
+                    on[0].get<double>(), on[1].get<double>(), height));
   if (on.size() == 2) return floors.front();
   const double z = on[2].get<double>() - shift.z();
   const double nearest = *std::min_element(floors.begin(), floors.end(),
@@ -110,13 +114,15 @@ Vector3d towardsNearestStation(const Document& document, const Vector3d& centre)
   return way.norm() > 1e-6 ? Vector3d(way.normalized()) : Vector3d::UnitX();
 }
 
-Result<void> stick(const Document& document, const RayScene& scene, const Vector3d& place, double stand_off_m, Target& t,
-                   std::string& stands, Report& report) {
+Result<void> stick(const Document& document, const RayScene& scene, const Vector3d& place, double stand_off_m,
+                   Target& t, std::string& stands, Report& report) {
   const ModelSurface surface(around(scene.environment(), place, kSurfaceSearch_m));
   const SurfaceTouch touch = surface.empty() ? SurfaceTouch{} : surface.nearest(place, kSurfaceSearch_m);
   if (touch.normal.isZero())
-    return failure(ErrorKind::unusable, fmt::format("target {} is refused: there is no surface within {} m of that place; put it "
-                                                    "on a tripod with --on", t.name, kSurfaceSearch_m));
+    return failure(ErrorKind::unusable,
+                   fmt::format("target {} is refused: there is no surface within {} m of that place; put it "
+                               "on a tripod with --on",
+                               t.name, kSurfaceSearch_m));
   const Vector3d out = freeSide(document, scene, place, touch);
   t.normal = out;
   t.centre = touch.position + out * (stand_off_m + (t.kind == TargetKind::sphere ? t.size_m / 2 : kPlate_m));
@@ -153,7 +159,8 @@ Result<Target> targetArticleFrom(const TargetKinds& kinds, const json& options) 
   Target t;
   t.name = options.at("add").get<std::string>();
   if (t.name.empty() || t.name.find_first_of(",= \t") != std::string::npos)
-    return failure(ErrorKind::usage, fmt::format("'{}' cannot be a target's name: no space, comma or equals sign, please", t.name));
+    return failure(ErrorKind::usage,
+                   fmt::format("'{}' cannot be a target's name: no space, comma or equals sign, please", t.name));
   const auto type = options.value("type", std::string()), kind = options.value("kind", std::string());
   const auto found = std::find_if(kinds.articles.begin(), kinds.articles.end(), [&](const TargetArticle& a) {
     if (!type.empty()) return a.id == type;
@@ -162,7 +169,8 @@ Result<Target> targetArticleFrom(const TargetKinds& kinds, const json& options) 
   if (found == kinds.articles.end()) {
     std::vector<std::string> ids;
     for (const auto& a : kinds.articles) ids.push_back(a.id);
-    return failure(ErrorKind::usage, fmt::format("there is no target '{}'; there is {}", type, fmt::join(ids, ", ")), "--type");
+    return failure(ErrorKind::usage, fmt::format("there is no target '{}'; there is {}", type, fmt::join(ids, ", ")),
+                   "--type");
   }
   if (!type.empty() && !kind.empty() && (kind == "sphere") != (found->shape == TargetKind::sphere))
     return failure(ErrorKind::usage, fmt::format("'{}' is no {}: leave --kind out", type, kind), "--kind");
@@ -177,8 +185,9 @@ Result<Target> placedTarget(const Document& document, const RayScene& scene, Tar
   const int ways = static_cast<int>(options.contains("at")) + static_cast<int>(options.contains("on")) +
                    static_cast<int>(options.contains("on-surface"));
   if (ways != 1)
-    return failure(ErrorKind::usage, "say where it is by one of --at X,Y,Z (its centre), --on X,Y[,Z] (a floor for its tripod), "
-                                     "--on-surface X,Y,Z (stuck to what is nearest)");
+    return failure(ErrorKind::usage,
+                   "say where it is by one of --at X,Y,Z (its centre), --on X,Y[,Z] (a floor for its tripod), "
+                   "--on-surface X,Y,Z (stuck to what is nearest)");
   if (options.contains("on")) {
     const auto& on = options["on"];
     const double height = options.at("height").get<double>();
@@ -189,12 +198,14 @@ Result<Target> placedTarget(const Document& document, const RayScene& scene, Tar
     stands = fmt::format("a tripod of {:.2f} m", height);
   } else {
     const char* way = options.contains("at") ? "at" : "on-surface";
-    if (options[way].size() != 3) return failure(ErrorKind::usage, fmt::format("--{} takes three numbers X,Y,Z in metres", way));
+    if (options[way].size() != 3)
+      return failure(ErrorKind::usage, fmt::format("--{} takes three numbers X,Y,Z in metres", way));
     t.centre = vectorFrom(options[way]) - shift;
   }
   if (options.contains("on-surface")) {
     const Vector3d place = t.centre;
-    if (auto ok = stick(document, scene, place, options.at("stand-off").get<double>(), t, stands, report); !ok) return failure(ok.error());
+    if (auto ok = stick(document, scene, place, options.at("stand-off").get<double>(), t, stands, report); !ok)
+      return failure(ok.error());
   } else if (options.contains("normal")) {
     if (options["normal"].size() != 3 || vectorFrom(options["normal"]).norm() < 1e-9)
       return failure(ErrorKind::usage, "--normal takes three numbers, not all zero");
@@ -202,7 +213,8 @@ Result<Target> placedTarget(const Document& document, const RayScene& scene, Tar
   }
   if (auto ok = fits(document, scene, t); !ok) return failure(ok.error());
   if (options.contains("at") && !isHeld(scene, t))
-    report.warn(t.name, fmt::format("it hangs in the air: nothing beside it, and no floor within {} m beneath", kTallestPole_m));
+    report.warn(t.name, fmt::format("it hangs in the air: nothing beside it, and no floor within {} m beneath",
+                                    kTallestPole_m));
   return t;
 }
 

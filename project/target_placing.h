@@ -15,8 +15,8 @@ Result<Target> targetArticleFrom(const TargetKinds& kinds, const nlohmann::json&
 // Where the target comes to be by --at (its centre), --on (a floor below its tripod) or --on-surface (stuck to what is
 // nearest), in the local frame. `stands` says on what. Refused where it does not fit, is inside a solid, or has nothing
 // to stand on.
-Result<Target> placedTarget(const Document& document, const RayScene& scene, Target target, const nlohmann::json& options,
-                            std::string& stands, Report& report);
+Result<Target> placedTarget(const Document& document, const RayScene& scene, Target target,
+                            const nlohmann::json& options, std::string& stands, Report& report);
 
 // "IfcWall #12 'west'"
 std::string nameOf(const Product& product);

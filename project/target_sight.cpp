@@ -59,7 +59,8 @@ void look(const RayScene& scene, const Target& t, const Vector3d& from, TargetSi
 
 std::string whyNot(const TargetSight& s, const Target& t, const TargetRules& rules) {
   if (s.seen_share < 1e-9) return "hidden by " + s.hidden_by;
-  if (s.seen_share < kEnoughSeen) return fmt::format("only {:.0f} % of it is seen past {}", s.seen_share * 100, s.hidden_by);
+  if (s.seen_share < kEnoughSeen)
+    return fmt::format("only {:.0f} % of it is seen past {}", s.seen_share * 100, s.hidden_by);
   if (t.kind == TargetKind::checkerboard && s.incidence_rad > rules.most_incidence_rad)
     return fmt::format("seen at {:.0f}°, and a plate is measured up to {:.0f}°", s.incidence_rad / kRadPerDeg,
                        rules.most_incidence_rad / kRadPerDeg);
@@ -89,7 +90,8 @@ Result<std::vector<TargetSight>> sightsOf(const Document& document, const RaySce
     s.most_distance_m = rules.most_distance_m;
     if (*settings) {
       s.points = pointsOn(target, s.distance_m, s.incidence_rad, **settings);
-      s.most_distance_m = std::min({s.most_distance_m, (*settings)->max_range_m, distanceFor(target, rules.least_points, **settings)});
+      s.most_distance_m =
+          std::min({s.most_distance_m, (*settings)->max_range_m, distanceFor(target, rules.least_points, **settings)});
     }
     s.why_not = whyNot(s, target, rules);
     sights.push_back(std::move(s));
@@ -112,12 +114,14 @@ json toJson(const std::vector<TargetSight>& sights) {
 
 void tell(const Target& target, const std::vector<TargetSight>& sights, Report& report) {
   if (sights.empty()) return;
-  const bool hidden = std::all_of(sights.begin(), sights.end(), [](const TargetSight& s) { return s.seen_share < 1e-9; });
+  const bool hidden =
+      std::all_of(sights.begin(), sights.end(), [](const TargetSight& s) { return s.seen_share < 1e-9; });
   const auto good = std::count_if(sights.begin(), sights.end(), [](const TargetSight& s) { return s.why_not.empty(); });
   if (hidden) report.warn(target.name, "it is hidden from every station");
   else if (good == 0) report.warn(target.name, "no station can measure it");
   for (const auto& s : sights)
-    if (!s.why_not.empty() && !hidden) report.note(target.name, fmt::format("not measurable from {}: {}", s.station, s.why_not));
+    if (!s.why_not.empty() && !hidden)
+      report.note(target.name, fmt::format("not measurable from {}: {}", s.station, s.why_not));
 }
 
 }  // namespace standpoint

@@ -26,8 +26,8 @@ json targetRow(const Target& t, const Georeference& g) {
 }
 
 // Builds the rays' scene, which only adding and looking need.
-Result<json> sightRows(const Document& document, const RayScene& scene, const TargetKinds& kinds, const std::vector<Target>& targets,
-                       const json& options, Report& report) {
+Result<json> sightRows(const Document& document, const RayScene& scene, const TargetKinds& kinds,
+                       const std::vector<Target>& targets, const json& options, Report& report) {
   SightRequest request;
   request.instrument = options.value("instrument", std::string());
   for (const auto& pair : options.value("set", json::array())) {
@@ -51,7 +51,8 @@ Result<Target> addedTarget(const Document& document, const json& options, Outcom
   if (!article) return failure(article.error());
   const auto& targets = document.job->targets;
   if (std::any_of(targets.begin(), targets.end(), [&](const Target& t) { return t.name == article->name; }))
-    return failure(ErrorKind::usage, fmt::format("there is a target '{}' already; remove it, or take another name", article->name));
+    return failure(ErrorKind::usage,
+                   fmt::format("there is a target '{}' already; remove it, or take another name", article->name));
   auto scene = RayScene::build(document.environment(), progress);
   if (!scene) return failure(scene.error());
   std::string stands;
@@ -107,7 +108,8 @@ Mesh checkerboardMesh(float size, std::uint32_t white, std::uint32_t black) {
   Mesh m;
   const float h = size / 2;
   for (int j = 0; j < 3; ++j)
-    for (int i = 0; i < 3; ++i) m.positions.emplace_back(0, static_cast<float>(i - 1) * h, static_cast<float>(j - 1) * h);
+    for (int i = 0; i < 3; ++i)
+      m.positions.emplace_back(0, static_cast<float>(i - 1) * h, static_cast<float>(j - 1) * h);
   for (std::uint32_t j = 0; j < 2; ++j)
     for (std::uint32_t i = 0; i < 2; ++i) {
       const std::uint32_t a = j * 3 + i;

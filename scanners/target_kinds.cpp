@@ -21,7 +21,8 @@ TargetArticle readArticle(FigureReader& in, const FigureReader::Json& value, con
   article.id = in.text(group, "id");
   article.label = in.text(group, "label");
   const std::string shape = in.text(group, "shape");
-  if (shape != "sphere" && shape != "checkerboard") in.fail(pointer + "/shape", "must be \"sphere\" or \"checkerboard\"");
+  if (shape != "sphere" && shape != "checkerboard")
+    in.fail(pointer + "/shape", "must be \"sphere\" or \"checkerboard\"");
   article.shape = shape == "sphere" ? TargetKind::sphere : TargetKind::checkerboard;
   article.size_m = in.figure(group, "size_mm", {10, 2000, 1e-3});
   in.close(group);
@@ -50,7 +51,8 @@ TargetKinds readKinds(FigureReader& in, const FigureReader::Json& json) {
 }
 
 double solidAngle(const ScanSettings& s) {
-  return (s.elevation_to_rad - s.elevation_from_rad) / s.rows * std::abs(s.azimuth_to_rad - s.azimuth_from_rad) / s.columns;
+  return (s.elevation_to_rad - s.elevation_from_rad) / s.rows * std::abs(s.azimuth_to_rad - s.azimuth_from_rad) /
+         s.columns;
 }
 
 double crossSection(const Target& target) {

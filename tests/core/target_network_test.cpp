@@ -33,18 +33,23 @@ Vector3d noise(std::uint32_t run, std::uint32_t station, std::uint32_t target) {
   return {n[0], n[1], n[2]};
 }
 
-TargetNetwork seen(const std::vector<Vector3d>& targets, const std::vector<Pose>& stations, double sigma_m, std::uint32_t run) {
+TargetNetwork seen(const std::vector<Vector3d>& targets, const std::vector<Pose>& stations, double sigma_m,
+                   std::uint32_t run) {
   TargetNetwork network{stations.size(), targets.size(), {}, {}, std::pair{std::size_t{0}, stations[0]}};
   for (std::size_t s = 0; s < stations.size(); ++s)
     for (std::size_t t = 0; t < targets.size(); ++t)
-      network.sightings.push_back({s, t, stations[s].rotation.conjugate() * (targets[t] - stations[s].translation) +
-                                             sigma_m * noise(run, static_cast<std::uint32_t>(s), static_cast<std::uint32_t>(t)), 0.001});
+      network.sightings.push_back(
+          {s, t,
+           stations[s].rotation.conjugate() * (targets[t] - stations[s].translation) +
+               sigma_m * noise(run, static_cast<std::uint32_t>(s), static_cast<std::uint32_t>(t)),
+           0.001});
   return network;
 }
 
 // physics.md §6: σ√6 √((3n − 6)/3n), that is 1.41, 1.73, 2.00, 2.19 mm for 3, 4, 6, 10 targets at σ = 1 mm.
 TEST(V15_Registration, LeavesTheResidualsThatTheNumberOfTargetsAllows) {
-  for (const auto& [n, expected_mm] : {std::pair{3, 1.414}, std::pair{4, 1.732}, std::pair{6, 2.0}, std::pair{10, 2.191}}) {
+  for (const auto& [n, expected_mm] :
+       {std::pair{3, 1.414}, std::pair{4, 1.732}, std::pair{6, 2.0}, std::pair{10, 2.191}}) {
     double rigid = 0, network_mm = 0, unbiased = 0;
     const auto targets = places(static_cast<std::size_t>(n));
     constexpr std::uint32_t kRuns = 500;
@@ -66,7 +71,8 @@ TEST(V15_Registration, LeavesTheResidualsThatTheNumberOfTargetsAllows) {
     rigid = std::sqrt(rigid_squares), network_mm = std::sqrt(network_mm);
     EXPECT_NEAR(rigid, expected_mm, 0.03 * expected_mm) << n;
     EXPECT_NEAR(network_mm, rigid, 0.001) << "two stations are a rigid fit";
-    EXPECT_NEAR(std::sqrt(unbiased), std::sqrt(6.0), 0.03 * std::sqrt(6.0)) << "tied to the true error: σ√6 of any number";
+    EXPECT_NEAR(std::sqrt(unbiased), std::sqrt(6.0), 0.03 * std::sqrt(6.0))
+        << "tied to the true error: σ√6 of any number";
   }
 }
 
@@ -75,7 +81,8 @@ TEST(TargetNetwork, OfExactSightingsComesBackExactlyThroughAChain) {
   const std::vector<Pose> stations = {poseOf(0, 0, 0.3), poseOf(6, 1, 2), poseOf(12, -4, -1), poseOf(-3, 8, 3)};
   auto network = seen(targets, stations, 0, 1);
   // Each station sees four or so; neighbours in the chain share three, the ends nothing.
-  std::erase_if(network.sightings, [](const Sighting& s) { return s.target < 2 * s.station || s.target > 2 * s.station + 4; });
+  std::erase_if(network.sightings,
+                [](const Sighting& s) { return s.target < 2 * s.station || s.target > 2 * s.station + 4; });
   const auto fit = fitNetwork(network);
   ASSERT_TRUE(fit) << fit.error().message;
   for (std::size_t i = 0; i < stations.size(); ++i) {
@@ -129,7 +136,8 @@ TEST(MatchPlaces, ByDistancesFindsWhichIsWhichAmongStrangers) {
   const Pose motion = poseOf(4, -7, 2.2);
   std::vector<Vector3d> from;
   for (const std::size_t i : {5U, 2U, 7U, 0U})
-    from.emplace_back(motion.rotation.conjugate() * (to[i] - motion.translation) + 0.001 * noise(1, 0, static_cast<std::uint32_t>(i)));
+    from.emplace_back(motion.rotation.conjugate() * (to[i] - motion.translation) +
+                      0.001 * noise(1, 0, static_cast<std::uint32_t>(i)));
   from.insert(from.begin() + 1, Vector3d(3, 3, 30));
   const auto match = matchPlaces(from, to, 0.01);
   ASSERT_TRUE(match) << match.error().message;

@@ -46,10 +46,12 @@ class Bench {
     for (int i = -n; i <= n; ++i)
       for (int j = -n; j <= n; ++j) {
         const double azimuth = (i + uniform(dither[0])) * step, elevation = (j + uniform(dither[1])) * step;
-        const Vector3d beam(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+        const Vector3d beam(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                            std::sin(elevation));
         const auto [range, bright] = met(beam);
         if (!(range < 1e3)) continue;
-        const auto noise = normals(philox({run, 5}, static_cast<std::uint32_t>(i + n), static_cast<std::uint32_t>(j + n), 1));
+        const auto noise =
+            normals(philox({run, 5}, static_cast<std::uint32_t>(i + n), static_cast<std::uint32_t>(j + n), 1));
         s.points.push_back(beam * (range + sigma_m * noise[0]));
         s.intensity.push_back(static_cast<float>(bright + intensity_sigma * noise[1]));
       }
@@ -65,7 +67,8 @@ class Bench {
     if (pipe_radius > 0) {
       const double flat = std::hypot(beam.x(), beam.y());
       const Vector3d level(beam.x() / flat, beam.y() / flat, 0);
-      if (const auto r = sphereRange(level, Vector3d(pipe.x(), pipe.y(), 0), pipe_radius); r && *r / flat < range) range = *r / flat;
+      if (const auto r = sphereRange(level, Vector3d(pipe.x(), pipe.y(), 0), pipe_radius); r && *r / flat < range)
+        range = *r / flat;
     }
     for (const auto& b : boards) {
       const double r = b.normal.dot(b.centre) / b.normal.dot(beam);
@@ -202,8 +205,9 @@ Bench boardBench(const Vector3d& centre, double tilt_deg, double turn_deg) {
   return bench;
 }
 
-// physics.md §6: σ_edge ≈ increment/√12/√n_edge, which is 0.36 mm here (5.8 mm between points, some 22 along each edge).
-// Where the edges run along the columns, all points of an edge are as far off: increment/√12 for each axis, 2.4 mm.
+// physics.md §6: σ_edge ≈ increment/√12/√n_edge, which is 0.36 mm here (5.8 mm between points, some 22 along each
+// edge). Where the edges run along the columns, all points of an edge are as far off: increment/√12 for each axis, 2.4
+// mm.
 TEST(CheckerboardFit, FindsTheMiddleFromAPredictionHalfAMetreOff) {
   for (const double tilt : {0.0, 40.0})
     for (const double turn : {0.0, 17.0, 70.0}) {
@@ -237,11 +241,13 @@ TEST(CheckerboardFit, IsRefusedWithTheReason) {
   Bench bench = boardBench(centre, 0, 0);
   const auto s = bench.scan(30, 0.07);
   EXPECT_THAT(findCheckerboard(s.points, {}, centre, {}).error().message, HasSubstr("no intensity"));
-  EXPECT_THAT(findCheckerboard(s.points, s.intensity, {20, 0, 0}, {}).error().message, HasSubstr("too few points near"));
+  EXPECT_THAT(findCheckerboard(s.points, s.intensity, {20, 0, 0}, {}).error().message,
+              HasSubstr("too few points near"));
   bench.boards.push_back(bench.boards[0]);
   bench.boards[1].centre.y() = 0.4;
   const auto two = bench.scan(30, 0.07);
-  EXPECT_THAT(findCheckerboard(two.points, two.intensity, {8, 0.2, 0}, {}).error().message, HasSubstr("two candidates"));
+  EXPECT_THAT(findCheckerboard(two.points, two.intensity, {8, 0.2, 0}, {}).error().message,
+              HasSubstr("two candidates"));
   bench.boards.clear();
   bench.wall_x = 8;
   const auto blank = bench.scan(30, 0.07);

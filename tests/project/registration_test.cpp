@@ -20,10 +20,11 @@ class Registration : public ::testing::Test {
     Document d = twoStoreyDocument();
     d = run("station", d, {{"add", "S1"}, {"at", {500001.5, 5600001, 1.6}}})->document;
     d = run("station", d, {{"add", "S2"}, {"at", {500004.5, 5600001.8, 1.6}}, {"yaw-deg", 140}})->document;
-    const std::vector<json> targets = {{{"add", "K1"}, {"on", {500003, 5600001}}, {"height", 1.4}, {"type", "sphere-200"}},
-                                       {{"add", "K2"}, {"on", {500002.2, 5600003.4}}, {"height", 2.2}, {"type", "sphere-200"}},
-                                       {{"add", "K3"}, {"on", {500003.3, 5600003.2}}, {"height", 0.5}, {"type", "sphere-200"}},
-                                       {{"add", "K4"}, {"on-surface", {500003.6, 5600000.1, 2.1}}, {"type", "sphere-200"}}};
+    const std::vector<json> targets = {
+        {{"add", "K1"}, {"on", {500003, 5600001}}, {"height", 1.4}, {"type", "sphere-200"}},
+        {{"add", "K2"}, {"on", {500002.2, 5600003.4}}, {"height", 2.2}, {"type", "sphere-200"}},
+        {{"add", "K3"}, {"on", {500003.3, 5600003.2}}, {"height", 0.5}, {"type", "sphere-200"}},
+        {{"add", "K4"}, {"on-surface", {500003.6, 5600000.1, 2.1}}, {"type", "sphere-200"}}};
     for (const auto& t : targets) d = run("target", d, t)->document;
     scanned_ = new Document(*scan(d, "ideal.e57", true));
     noisy_ = new Document(*scan(d, "noisy.e57", false));
@@ -31,7 +32,9 @@ class Registration : public ::testing::Test {
   static void TearDownTestSuite() { delete scanned_, delete noisy_, delete folder_; }
 
   static std::optional<Document> scan(const Document& d, const std::string& file, bool ideal) {
-    const auto done = run("scan", d, {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/16"}}, {"ideal", ideal}, {"output", path(file)}});
+    const auto done = run(
+        "scan", d,
+        {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/16"}}, {"ideal", ideal}, {"output", path(file)}});
     EXPECT_TRUE(done) << describe(done.error());
     return done ? std::optional(done->document) : std::nullopt;
   }
@@ -72,7 +75,8 @@ TEST_F(Registration, WithNoiseTellsResidualsSmallerThanItsTrueErrors) {
   EXPECT_GT(off, 1e-5);
   EXPECT_DOUBLE_EQ(done->answer.at("stations").at(1).at("true_error_m").get<double>(), off);
   const json& link = done->answer.at("links").at(0);
-  EXPECT_NEAR(link.at("unbiased_m").get<double>(), link.at("rms_m").get<double>() * std::sqrt(2.0), 1e-12) << "√(3n / (3n − 6)), n = 4";
+  EXPECT_NEAR(link.at("unbiased_m").get<double>(), link.at("rms_m").get<double>() * std::sqrt(2.0), 1e-12)
+      << "√(3n / (3n − 6)), n = 4";
   EXPECT_THAT(done->text, HasSubstr("S1 – S2: 4 targets"));
 }
 
@@ -103,7 +107,8 @@ TEST_F(Registration, ByControlPointsHoldsNoStationAndKeepsThePoints) {
   for (const auto& s : done->document.job->stations) EXPECT_LT(shiftError(s), 2e-4);
   EXPECT_EQ(done->document.job->control_points.size(), 5U);
   std::ofstream(path("bad.txt")) << "K1 1 2 3\nK2 1 2\n";
-  EXPECT_THAT(refused(*scanned_, {{"files", {path("ideal.e57")}}, {"control", path("bad.txt")}}), HasSubstr("bad.txt line 2"));
+  EXPECT_THAT(refused(*scanned_, {{"files", {path("ideal.e57")}}, {"control", path("bad.txt")}}),
+              HasSubstr("bad.txt line 2"));
 }
 
 TEST_F(Registration, SaysWhatIsWrong) {
