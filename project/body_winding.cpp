@@ -8,6 +8,8 @@ namespace standpoint {
 
 namespace {
 
+constexpr double kInside = 0.95;  // of the winding: a body that is closed, but for rounding and hair gaps
+
 // Solid angle of a triangle seen from the origin, signed (van Oosterom and Strackee 1983).
 double solidAngle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
   const double la = a.norm();
@@ -33,6 +35,34 @@ double windingOf(const Environment& environment, const std::vector<std::uint32_t
         instance.world_from_mesh.linear().determinant() < 0 ? -angle : angle;  // a mirrored mesh is turned inside out
   }
   return sum / (4 * std::numbers::pi);
+}
+
+std::vector<Bounds> instanceBounds(const Environment& environment) {
+  std::vector<Bounds> all(environment.instances.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto& instance = environment.instances[i];
+    if (environment.products[instance.product].inScene())
+      all[i] = bounds(*environment.meshes[instance.mesh], instance.world_from_mesh);
+  }
+  return all;
+}
+
+std::optional<std::uint32_t> bodyRound(const Environment& environment, const std::vector<Bounds>& instances,
+                                       const Eigen::Vector3d& place) {
+  for (std::uint32_t i = 0; i < instances.size();) {
+    const auto product = environment.instances[i].product;
+    std::vector<std::uint32_t> parts;  // together they may be closed where each has holes
+    Bounds whole;
+    for (; i < instances.size() && environment.instances[i].product == product; ++i) {
+      if (instances[i].empty()) continue;
+      parts.push_back(i);
+      whole.extend(instances[i]);
+    }
+    if (whole.empty() || (place.array() < whole.min.array()).any() || (place.array() > whole.max.array()).any()) continue;
+    const double winding = windingOf(environment, parts, place);
+    if ((environment.products[product].ifc_class.empty() ? winding : std::abs(winding)) >= kInside) return product;
+  }
+  return std::nullopt;
 }
 
 }  // namespace standpoint

@@ -15,7 +15,6 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kInside = 0.95;  // of the winding: a body that is closed, but for rounding and hair gaps
 
 double distanceTo(const Bounds& b, const Eigen::Vector3d& p) { return (p - p.cwiseMax(b.min).cwiseMin(b.max)).norm(); }
 
@@ -51,15 +50,8 @@ std::string productText(const Environment& environment, std::uint32_t product) {
 double slopeOf(const RayHit& hit) { return std::acos(std::clamp(std::abs(hit.normal.z()), 0.0, 1.0)); }
 
 StationPlacement::StationPlacement(const RayScene& scene, const TripodStand& stand, double trunnion_m)
-    : scene_(scene), stand_(stand), trunnion_m_(trunnion_m) {
-  const auto& environment = scene.environment();
-  instances_.resize(environment.instances.size());
-  for (std::size_t i = 0; i < instances_.size(); ++i) {
-    const auto& instance = environment.instances[i];
-    if (!environment.products[instance.product].inScene()) continue;
-    instances_[i] = bounds(*environment.meshes[instance.mesh], instance.world_from_mesh);
-    all_.extend(instances_[i]);
-  }
+    : scene_(scene), stand_(stand), trunnion_m_(trunnion_m), instances_(instanceBounds(scene.environment())) {
+  for (const auto& each : instances_) all_.extend(each);
 }
 
 std::optional<Refusal> StationPlacement::badHeight(double height_m) const {
@@ -156,26 +148,6 @@ std::optional<Refusal> StationPlacement::noFooting(const Eigen::Vector3d& centre
       "move it away from the edge, or --stand free for what hangs or is held"};
 }
 
-// A product with a class of its own is a body whichever way its faces look; of a mesh that only draws a room from
-// inside, the faces look inwards.
-std::optional<std::uint32_t> StationPlacement::bodyRound(const Eigen::Vector3d& centre) const {
-  const auto& environment = scene_.environment();
-  for (std::uint32_t i = 0; i < instances_.size();) {
-    const auto product = environment.instances[i].product;
-    std::vector<std::uint32_t> parts;  // together they may be closed where each has holes
-    Bounds whole;
-    for (; i < instances_.size() && environment.instances[i].product == product; ++i) {
-      if (instances_[i].empty()) continue;
-      parts.push_back(i);
-      whole.extend(instances_[i]);
-    }
-    if (whole.empty() || distanceTo(whole, centre) > 0) continue;
-    const double winding = windingOf(environment, parts, centre);
-    if ((environment.products[product].ifc_class.empty() ? winding : std::abs(winding)) >= kInside) return product;
-  }
-  return std::nullopt;
-}
-
 std::optional<Refusal> StationPlacement::whyNotOn(const RayHit& hit, double height_m) const {
   const double slope = slopeOf(hit);
   if (slope > stand_.steepest_rad)
@@ -190,7 +162,7 @@ std::optional<Refusal> StationPlacement::whyNotOn(const RayHit& hit, double heig
 std::optional<Refusal> StationPlacement::whyNot(const Eigen::Vector3d& centre) const {
   if (auto why = tooNear(centre)) return why;
   const auto& environment = scene_.environment();
-  const auto body = bodyRound(centre);
+  const auto body = bodyRound(scene_.environment(), instances_, centre);
   const bool solid = body && !environment.products[*body].ifc_class.empty();
   auto why = solid ? std::nullopt : noHeadroom(centre);
   if (!why && !solid) why = badGround(centre);
@@ -200,7 +172,7 @@ std::optional<Refusal> StationPlacement::whyNot(const Eigen::Vector3d& centre) c
 }
 
 std::optional<std::string> StationPlacement::remark(const Eigen::Vector3d& centre) const {
-  const auto body = bodyRound(centre);
+  const auto body = bodyRound(scene_.environment(), instances_, centre);
   if (!body) return std::nullopt;
   return fmt::format("it is inside {}, a closed body, which is taken for a room drawn as one skin",
                      productText(scene_.environment(), *body));

@@ -53,7 +53,6 @@ class StationPlacement {
   std::optional<Refusal> noHeadroom(const Eigen::Vector3d& centre) const;
   std::optional<Refusal> badGround(const Eigen::Vector3d& centre) const;
   std::optional<Refusal> noFooting(const Eigen::Vector3d& centre, const Ground& ground) const;
-  std::optional<std::uint32_t> bodyRound(const Eigen::Vector3d& centre) const;
 
   const RayScene& scene_;
   TripodStand stand_;

@@ -11,7 +11,7 @@
 
 #include "project/answers.h"
 #include "project/model_surface.h"
-#include "project/solid.h"
+#include "project/body_winding.h"
 #include "project/survey_verbs.h"
 
 namespace standpoint {
@@ -72,7 +72,7 @@ std::optional<RayHit> whatCuts(const RayScene& scene, const Target& t) {
 
 Result<void> fits(const Document& document, const RayScene& scene, const Target& t) {
   const auto& products = scene.environment().products;
-  if (const auto solid = solidAround(scene, t.centre); solid && !stationSees(document, scene, t.centre))
+  if (const auto solid = bodyRound(scene.environment(), instanceBounds(scene.environment()), t.centre); solid && !stationSees(document, scene, t.centre))
     return failure(ErrorKind::unusable,
                    fmt::format("target {} is refused: it would be inside of {}; choose a place in the open", t.name,
                                nameOf(products[*solid])));
