@@ -74,7 +74,8 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> surfacesOf(const json& prop
     const auto equals = std::min(word.rfind('='), word.size());
     words.push_back({word.substr(0, equals), word.substr(std::min(equals + 1, word.size()))});
   }
-  OverrideTable table(*document.environment(), words, document.georeference->shift_m);
+  const Eigen::Vector3d shift_m = document.georeference ? document.georeference->shift_m : Eigen::Vector3d::Zero();
+  OverrideTable table(*document.environment(), words, shift_m);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
   for (const auto& s : document.materials->result.assignment.surfaces)
     if (table.of({s.product, s.surface, 0}).whole >= 0) pairs.emplace_back(s.product, s.surface);
