@@ -12,6 +12,7 @@
 #include "project/instruments.h"
 #include "project/model_verbs.h"
 #include "project/survey_verbs.h"
+#include "scanners/panorama.h"
 
 namespace standpoint {
 
@@ -32,6 +33,7 @@ struct ScanRequest {
   const CloudFormat* format = nullptr;
   fs::path output;
   bool one_file = false;               // all stations in `output`; else a file each
+  bool panorama = false;
 };
 
 Result<std::vector<std::size_t>> stationsFrom(const Job& job, const std::string& wanted) {
@@ -186,6 +188,9 @@ Result<ScanRequest> requestFrom(const Document& document, const json& options) {
     if (!weather) return failure(weather.error());
     request.options.weather = *weather;
   }
+  request.panorama = options.value("panorama", false);
+  if (request.panorama && !request.settings.imaging)
+    return failure(ErrorKind::usage, "these settings take no images: a panorama needs them", "--panorama");
   const bool truth = options.value("truth", false);
   request.options.channels = {.time = truth, .returns = truth || request.instrument.waveform.most_returns > 1, .truth = truth};
   request.options.threads = options.at("threads").get<int>();
@@ -223,8 +228,15 @@ Scan record(const ScanCount& count, const ScanRequest& request, const fs::path& 
 
 // One station into an open sink.
 Result<ScanCount> scanStation(const Document& document, const RayScene& scene, const ScanWorld& world,
-                              const Station& station, const ScanRequest& request, double start_gps_s, PointSink& sink,
-                              Progress& progress) {
+                              const Station& station, const ScanRequest& request, double start_gps_s, PointSink& file,
+                              Report& report, Progress& progress) {
+  std::unique_ptr<PointSink> coloured;
+  if (request.panorama) {
+    auto panorama = takePanorama(scene, request.instrument, station.true_pose, request.options.threads, report, progress);
+    if (!panorama) return failure(panorama.error());
+    coloured = colouring(file, std::make_shared<const Panorama>(*std::move(panorama)));
+  }
+  PointSink& sink = coloured ? *coloured : file;
   if (auto ok = sink.begin(headerOf(document, world, station, request, start_gps_s)); !ok) return failure(ok.error());
   ScanOptions options = request.options;
   options.station_key = static_cast<std::uint32_t>(stableHash(station.name.c_str()));
@@ -271,7 +283,7 @@ Result<Outcome> runScan(const Document& document, const json& options, Progress&
     progress.stage("Scan " + station.name, static_cast<double>(k) * each, static_cast<double>(k + 1) * each);
     const double start = kFirstStart_gps_s + static_cast<double>(request->stations[k]) *
                                                  (request->settings.scan_seconds + request->settings.imaging_seconds);
-    auto count = scanStation(document, **scene, world, station, *request, start, *sink, progress);
+    auto count = scanStation(document, **scene, world, station, *request, start, *sink, outcome.report, progress);
     if (!count) return failure(count.error());
     if (!request->one_file || k + 1 == request->stations.size()) {
       if (auto ok = sink->close(); !ok) return failure(ok.error());

@@ -133,6 +133,7 @@ const std::vector<Verb>& table() {
         {.name = "ideal", .kind = K::flag, .help = "without any effect: the first surface on the axis of each pulse, exactly"},
         {.name = "without", .kind = K::text, .help = effectHelp()},
         {.name = "weather", .kind = K::text, .help = "visibility=KM rain=MM/H snow=MM/H fog=M dust=M, separated by spaces or commas"},
+        {.name = "panorama", .kind = K::flag, .help = "a picture all around from each station, and the points coloured from it"},
         {.name = "truth", .kind = K::flag, .help = "with what is known of each point: time, return, true place, range, incidence, power, how it came about"},
         {.name = "threads", .kind = K::integer, .help = "0 = all; the result is the same", .standard = 0, .minimum = 0, .maximum = 1024},
         {.name = "shard", .kind = K::text, .help = "i/n: only every n-th station from the i-th, for a batch on several machines"},
