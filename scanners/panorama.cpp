@@ -49,7 +49,7 @@ class Renderer {
       const SurfaceColours::Look look = colours_.at(*hit);
       light += left * look.opacity * look.colour * (look.unlit ? 1.0F : brightness(*hit, direction, way_m));
       left *= 1 - look.opacity;
-      way_m += 1e-4 + 1e-6 * way_m;
+      way_m += 1e-3;   // beyond the float error of the ray, within a pane
     }
     return light;
   }
