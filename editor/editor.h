@@ -17,6 +17,7 @@
 #include "editor/model/cloud.h"
 #include "editor/model/expected_view.h"
 #include "editor/model/picker.h"
+#include "editor/model/placement_view.h"
 #include "editor/model/selection.h"
 #include "editor/model/session.h"
 #include "editor/model/settings.h"
@@ -69,6 +70,7 @@ struct ViewportState {
   bool dragging = false;
   bool dragged = false;
   bool in_right_half = false;              // where the pointer is, or began to drag, when both models are shown
+  int dragged_station = -1;                // by the pointer
   bool frame_wanted = false;
 };
 
@@ -82,6 +84,7 @@ struct Editor {
   Visibility visibility;
   ViewportState view;
   Picker picker;
+  PlacementView placement;                 // of what is picked
   Walk walk;                               // while the tool is Tool::walk
   ImportPreview preview;
   Selection preview_selection;             // products of what the preview shows

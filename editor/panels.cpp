@@ -18,6 +18,7 @@ const std::array kPanels = {
     Panel{"survey", "Survey", ICON_STATION, {N, N, L, L}, drawSurveyPanel},
     Panel{"outliner", "Outliner", ICON_LIST, {L, L, L, N}, drawOutlinerPanel},
     Panel{"scan", "Scan", ICON_PLAY, {N, N, R, N}, drawScanPanel},
+    Panel{"plan", "Plan", ICON_EYE, {N, N, R, N}, drawPlanPanel},
     Panel{"instrument", "Instrument", ICON_TABLET, {N, N, N, R}, drawInstrumentPanel},
     Panel{"material", "Material", ICON_PAINT, {N, R, N, N}, drawMaterialCardPanel},
     Panel{"verify", "Measured", ICON_CHECK_CIRCLE, {N, R, N, N}, drawVerifyPanel},

@@ -40,7 +40,8 @@ Result<std::size_t> MapReader::classNamed(const json& value, const std::string& 
 Result<void> MapReader::takeClasses(const json& classes) {
   if (!classes.is_object() || classes.empty()) return broken("classes", "is an object of names and ids");
   for (const auto& [name, id] : classes.items()) {
-    if (!id.is_number_unsigned() || id.get<std::uint64_t>() > 65535) return broken("classes/" + name, "is an id from 0 to 65535");
+    if (!id.is_number_unsigned() || id.get<std::uint64_t>() > 65535)
+      return broken("classes/" + name, "is an id from 0 to 65535");
     map_.classes.push_back({name, id.get<std::uint32_t>()});
   }
   std::stable_sort(map_.classes.begin(), map_.classes.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
@@ -84,7 +85,8 @@ Result<ClassMap> MapReader::read(const json& root) {
 std::array<std::size_t, 2> ClassMap::classesOf(std::string_view ifc_class) const {
   const Rule* best = nullptr;
   for (const Rule& rule : rules)
-    if (ifc_class.starts_with(rule.ifc_class) && (!best || best->ifc_class.size() < rule.ifc_class.size())) best = &rule;
+    if (ifc_class.starts_with(rule.ifc_class) && (!best || best->ifc_class.size() < rule.ifc_class.size()))
+      best = &rule;
   return best ? best->of_point : std::array<std::size_t, 2>{unknown, unknown};
 }
 

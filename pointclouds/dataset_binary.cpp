@@ -43,8 +43,9 @@ class SemanticKitti final : public LabelledFolder {
   }
   Result<void> endStation() override {
     if (without_instance_ > 0)
-      report_.lose(header().name, std::to_string(without_instance_) + " points are of products beyond 65535, of which SemanticKITTI "
-                                                                      "has no instance");
+      report_.lose(header().name, std::to_string(without_instance_) +
+                                      " points are of products beyond 65535, of which SemanticKITTI "
+                                      "has no instance");
     if (auto finished = points_->finish(); !finished) return finished;
     return labels_->finish();
   }
@@ -67,8 +68,10 @@ class SemanticKitti final : public LabelledFolder {
       }
       if (poses.empty()) continue;
       std::string calibration;
-      for (const char* name : {"P0", "P1", "P2", "P3", "Tr"}) calibration += std::string(name) + ": 1 0 0 0 0 1 0 0 0 0 1 0\n";
-      for (const auto& [name, text] : {std::pair("poses.txt", &poses), std::pair("times.txt", &times), std::pair("calib.txt", &calibration)}) {
+      for (const char* name : {"P0", "P1", "P2", "P3", "Tr"})
+        calibration += std::string(name) + ": 1 0 0 0 0 1 0 0 0 0 1 0\n";
+      for (const auto& [name, text] :
+           {std::pair("poses.txt", &poses), std::pair("times.txt", &times), std::pair("calib.txt", &calibration)}) {
         auto file = create(sequence(validation) + name);
         if (!file) return failure(file.error());
         file->text() = *text;

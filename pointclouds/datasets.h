@@ -15,8 +15,8 @@ struct Dataset {
 std::span<const Dataset> datasets();
 
 // All scans of IN, which must have labels, into a new folder. What stands there already is an error.
-Result<Report> convertToDataset(const std::filesystem::path& in, const std::filesystem::path& folder, const Dataset& set,
-                                ClassMap map, Progress& progress);
+Result<Report> convertToDataset(const std::filesystem::path& in, const std::filesystem::path& folder,
+                                const Dataset& set, ClassMap map, Progress& progress);
 
 namespace dataset {
 std::unique_ptr<CloudWriter> s3dis(const std::filesystem::path& folder, ClassMap map);

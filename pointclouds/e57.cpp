@@ -52,7 +52,9 @@ Result<Report> read(const std::filesystem::path& file, PointSink& sink, Progress
     if (!found) return failure(found.error());
     const auto share = [&](std::size_t n) { return static_cast<double>(n) / static_cast<double>(scans); };
     progress.stage("Reading " + found->plan.header.name, share(i), share(i + 1));
-    if (auto done = readScan(document->file, *found->points, std::move(found->plan), pictures[i], sink, report, progress); !done)
+    if (auto done =
+            readScan(document->file, *found->points, std::move(found->plan), pictures[i], sink, report, progress);
+        !done)
       return failure(done.error());
   }
   return report;

@@ -37,8 +37,8 @@ std::vector<Field> coordinateFields(Coordinates kind) {
     fields.push_back(kind == Coordinates::cartesian
                          ? floatField(name)
                          : Field{name,
-                                 scaledAttributes(-static_cast<long>(kFarthestStep), static_cast<long>(kFarthestStep) - 1,
-                                                  1 / kStepsPerMetre, 0),
+                                 scaledAttributes(-static_cast<long>(kFarthestStep),
+                                                  static_cast<long>(kFarthestStep) - 1, 1 / kStepsPerMetre, 0),
                                  kStepBits});
   return fields;
 }
@@ -46,7 +46,8 @@ std::vector<Field> coordinateFields(Coordinates kind) {
 Field intensityField(Coordinates kind, const ScanHeader& header) {
   if (kind != Coordinates::scaled) return floatField("intensity");
   const double scale = (header.intensity_max - header.intensity_min) / kIntensitySteps;
-  return {"intensity", scaledAttributes(0, static_cast<long>(kIntensitySteps), scale, header.intensity_min), kIntensityBits};
+  return {"intensity", scaledAttributes(0, static_cast<long>(kIntensitySteps), scale, header.intensity_min),
+          kIntensityBits};
 }
 
 Result<void> StoredPlaces::takeSteps(const ScanHeader& header, const PointBlock& block, const BlockExtent& extent) {
@@ -62,8 +63,8 @@ Result<void> StoredPlaces::takeSteps(const ScanHeader& header, const PointBlock&
     bounds.high[k] = any_ ? std::max(bounds.high[k], high / kStepsPerMetre) : high / kStepsPerMetre;
     steps_[k].resize(block.size());
     for (std::size_t i = 0; i < block.size(); ++i)
-      steps_[k][i] =
-          static_cast<std::uint32_t>(std::llround((*axes[k])[i] * kStepsPerMetre) + static_cast<long long>(kFarthestStep));
+      steps_[k][i] = static_cast<std::uint32_t>(std::llround((*axes[k])[i] * kStepsPerMetre) +
+                                                static_cast<long long>(kFarthestStep));
   }
   if (!(intensities_ = hasIntensity(header))) return {};
   const double scale = kIntensitySteps / (header.intensity_max - header.intensity_min);

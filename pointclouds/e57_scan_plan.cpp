@@ -120,8 +120,10 @@ void readChannels(const Element& root, const std::vector<StoredField>& fields, S
   const std::string prefix = labelPrefix(root);
   if (prefix.empty()) return;
   plan.prefix = prefix;
-  const auto there = static_cast<std::size_t>(std::count_if(
-      kTruthFields.begin(), kTruthFields.end(), [&](const char* f) { return fieldNamed(fields, prefix + f).has_value(); }));
+  const auto there =
+      static_cast<std::size_t>(std::count_if(kTruthFields.begin(), kTruthFields.end(), [&](const char* f) {
+        return fieldNamed(fields, prefix + f).has_value();
+      }));
   header.has_truth = there == kTruthFields.size();
   if (there > 0 && !header.has_truth) report.lose(plan.source, "the true values of its points are not complete");
 }

@@ -24,15 +24,39 @@ struct Roles {
 
   template <class F>
   void forEach(F f) const {
-    for (const Place& place : {x, y, z, intensity, colour[0], colour[1], colour[2], row, column, product, material, time,
-                               return_index, return_count, truth[0], truth[1], truth[2], truth[3], truth[4], truth[5],
-                               truth[6], cartesian_state, spherical_state, intensity_invalid, colour_invalid, time_invalid})
+    for (const Place& place : {x,
+                               y,
+                               z,
+                               intensity,
+                               colour[0],
+                               colour[1],
+                               colour[2],
+                               row,
+                               column,
+                               product,
+                               material,
+                               time,
+                               return_index,
+                               return_count,
+                               truth[0],
+                               truth[1],
+                               truth[2],
+                               truth[3],
+                               truth[4],
+                               truth[5],
+                               truth[6],
+                               cartesian_state,
+                               spherical_state,
+                               intensity_invalid,
+                               colour_invalid,
+                               time_invalid})
       if (place) f(*place);
   }
 };
 
 struct Tally {
-  std::uint64_t invalid = 0, no_intensity = 0, no_colour = 0, no_time = 0, outside_grid = 0, no_return = 0, no_truth = 0;
+  std::uint64_t invalid = 0, no_intensity = 0, no_colour = 0, no_time = 0, outside_grid = 0, no_return = 0,
+                no_truth = 0;
 };
 
 Roles rolesOf(const std::vector<StoredField>& fields, const ScanPlan& plan) {
@@ -52,7 +76,8 @@ Roles rolesOf(const std::vector<StoredField>& fields, const ScanPlan& plan) {
   if (header.has_returns) r.return_index = at("returnIndex"), r.return_count = at("returnCount");
   if (header.has_truth)
     for (std::size_t i = 0; i < kTruthFields.size(); ++i) r.truth[i] = at(plan.prefix + kTruthFields[i]);
-  (r.spherical ? r.spherical_state : r.cartesian_state) = at(r.spherical ? "sphericalInvalidState" : "cartesianInvalidState");
+  (r.spherical ? r.spherical_state : r.cartesian_state) =
+      at(r.spherical ? "sphericalInvalidState" : "cartesianInvalidState");
   r.intensity_invalid = at("isIntensityInvalid");
   return r;
 }
@@ -168,7 +193,8 @@ void ScanReading::takeColours(Columns& from, PointBlock& to) {
       colours[k]->resize(column.size());
       // Written so that a NaN becomes 0.
       for (std::size_t i = 0; i < column.size(); ++i)
-        (*colours[k])[i] = column[i] > 0 ? static_cast<std::uint8_t>(static_cast<int>(std::min(column[i], 255.0) + 0.5)) : 0;
+        (*colours[k])[i] =
+            column[i] > 0 ? static_cast<std::uint8_t>(static_cast<int>(std::min(column[i], 255.0) + 0.5)) : 0;
     } else {
       colours[k]->clear();
       for (const double value : column) {
@@ -213,7 +239,8 @@ void ScanReading::takeTruth(Columns& from, FoundPoints& to) {
       tally_.no_truth += !sensible;
       if (!sensible) value = 0;
     }
-  to.true_x.swap(from[*roles_.truth[0]]), to.true_y.swap(from[*roles_.truth[1]]), to.true_z.swap(from[*roles_.truth[2]]);
+  to.true_x.swap(from[*roles_.truth[0]]), to.true_y.swap(from[*roles_.truth[1]]),
+      to.true_z.swap(from[*roles_.truth[2]]);
   PointTruth& truth = to.columns.truth;
   convert(from[*roles_.truth[3]], 0, truth.range_m);
   convert(from[*roles_.truth[4]], 0, truth.incidence_rad);

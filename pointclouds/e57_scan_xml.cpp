@@ -24,8 +24,10 @@ void appendVector(XmlWriter& xml, const char* name, const WrittenVector& vector)
 
 void appendBounds(XmlWriter& xml, const WrittenScan& scan) {
   const char* const kind = scan.spherical ? "sphericalBounds" : "cartesianBounds";
-  constexpr const char* kSpherical[3][2] = {{"rangeMinimum", "rangeMaximum"}, {"azimuthStart", "azimuthEnd"}, {"elevationMinimum", "elevationMaximum"}};
-  constexpr const char* kCartesian[3][2] = {{"xMinimum", "xMaximum"}, {"yMinimum", "yMaximum"}, {"zMinimum", "zMaximum"}};
+  constexpr const char* kSpherical[3][2] = {
+      {"rangeMinimum", "rangeMaximum"}, {"azimuthStart", "azimuthEnd"}, {"elevationMinimum", "elevationMaximum"}};
+  constexpr const char* kCartesian[3][2] = {
+      {"xMinimum", "xMaximum"}, {"yMinimum", "yMaximum"}, {"zMinimum", "zMaximum"}};
   xml.open(kind, kStructure);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto& names = scan.spherical ? kSpherical[axis] : kCartesian[axis];

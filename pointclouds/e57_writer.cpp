@@ -213,7 +213,8 @@ void Writer::putExtras(const PointBlock& b, std::size_t stream, std::size_t from
 Result<void> Writer::picture(const StationPicture& picture) {
   if (!open_) return failure(ErrorKind::internal, "a picture outside a scan", out_.file().string());
   if (picture.media_type != "image/jpeg" && picture.media_type != "image/png")
-    return failure(ErrorKind::internal, "an E57 holds pictures as JPEG or PNG, not " + picture.media_type, picture.name);
+    return failure(ErrorKind::internal, "an E57 holds pictures as JPEG or PNG, not " + picture.media_type,
+                   picture.name);
   open_->pictures.push_back(picture);
   return {};
 }

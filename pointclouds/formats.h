@@ -27,9 +27,9 @@ struct CloudInfo {
   std::string crs;                 // that the file states: OGC WKT or "EPSG:n"; empty when it says nothing
 };
 
-// A PointSink that writes a file. Needs what core/points.h promises: coordinates are finite, indices lie in the grid of the
-// header and labels in its tables; anything else is an error. A header with rows == 0 or columns == 0 has no grid, and
-// the row and column of its points are not used; intensity_min == intensity_max says that there is no intensity.
+// A PointSink that writes a file. Needs what core/points.h promises: coordinates are finite, indices lie in the grid of
+// the header and labels in its tables; anything else is an error. A header with rows == 0 or columns == 0 has no grid,
+// and the row and column of its points are not used; intensity_min == intensity_max says that there is no intensity.
 class CloudWriter : public PointSink {
  public:
   const Report& report() const { return report_; }   // what the format could not hold; complete after close()

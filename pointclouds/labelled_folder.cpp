@@ -48,7 +48,8 @@ Result<void> BufferedFile::finish(const std::string& head) {
   return file_.commit();
 }
 
-LabelledFolder::LabelledFolder(fs::path folder, ClassMap map) : folder_(std::move(folder)), part_(folder_), map_(std::move(map)) {
+LabelledFolder::LabelledFolder(fs::path folder, ClassMap map)
+    : folder_(std::move(folder)), part_(folder_), map_(std::move(map)) {
   if (!folder_.has_filename()) part_ = folder_ = folder_.parent_path();
   part_ += ".part";
 }
@@ -89,7 +90,8 @@ Result<void> LabelledFolder::begin(const ScanHeader& header) {
   if (header_) return failure(ErrorKind::internal, "a scan begins before the last one has ended", header.name);
   if (auto checked = checkHeader(header); !checked) return checked;
   if (!header.has_labels)
-    return failure(ErrorKind::unusable, "its points have no labels: a labelled set is made of simulated scans", "scan " + header.name);
+    return failure(ErrorKind::unusable, "its points have no labels: a labelled set is made of simulated scans",
+                   "scan " + header.name);
   header_ = header;
   first_product_ = table_.add(header).product;
   class_of_product_.clear();
@@ -108,7 +110,8 @@ Result<void> LabelledFolder::write(const PointBlock& block) {
   if (block.size() == 0) return {};
   if (const auto extent = checkBlock(*header_, block); !extent) return failure(extent.error());
   for (std::size_t i = 0; i < block.size(); ++i) {
-    const bool surfaceless = header_->has_truth && (block.truth.flags[i] & (point_flag::kNoise | point_flag::kWeather)) != 0;
+    const bool surfaceless =
+        header_->has_truth && (block.truth.flags[i] & (point_flag::kNoise | point_flag::kWeather)) != 0;
     const bool above = block.z_m[i] > 0;
     const Point point{block, i, surfaceless ? map_.noise : class_of_product_[block.product[i]][above],
                       surfaceless ? 0 : first_product_ + block.product[i] + 1};
@@ -130,7 +133,8 @@ Eigen::Vector3d LabelledFolder::place(const Point& p) const {
 
 float LabelledFolder::share(const Point& p) const {
   if (!hasIntensity(*header_)) return 0.5F;
-  const double share = (p.block.intensity[p.i] - header_->intensity_min) / (header_->intensity_max - header_->intensity_min);
+  const double share =
+      (p.block.intensity[p.i] - header_->intensity_min) / (header_->intensity_max - header_->intensity_min);
   return static_cast<float>(std::clamp(share, 0.0, 1.0));
 }
 
@@ -167,8 +171,8 @@ Result<void> LabelledFolder::close() {
   std::string instances = "instance,id,global_id,ifc_class,name\n";
   for (std::size_t i = 0; i < table_.products.size(); ++i) {
     const LabelledProduct& p = table_.products[i];
-    instances += std::to_string(i + 1) + "," + quoted(p.id) + "," + quoted(p.global_id) + "," + quoted(p.ifc_class) + "," +
-                 quoted(p.name) + "\n";
+    instances += std::to_string(i + 1) + "," + quoted(p.id) + "," + quoted(p.global_id) + "," + quoted(p.ifc_class) +
+                 "," + quoted(p.name) + "\n";
   }
   if (auto written = writeText("instances.csv", instances); !written) return written;
   if (auto written = writeText("dataset.json", description()); !written) return written;

@@ -11,8 +11,9 @@ extern const CloudFormat kLas;
 extern const CloudFormat kLaz;
 
 namespace las {
-// All scans in one file, in the file's frame and steps of 0.1 mm; a point's source is its station's number from 1. Labels,
-// grid and truth are extra bytes, and a record of ours behind the points says the rest, so that the scans come back.
+// All scans in one file, in the file's frame and steps of 0.1 mm; a point's source is its station's number from 1.
+// Labels, grid and truth are extra bytes, and a record of ours behind the points says the rest, so that the scans come
+// back.
 Result<std::unique_ptr<CloudWriter>> createWriter(const std::filesystem::path& file);
 // Position, intensity, colour, time, returns; the report names the fields that stay behind. One scan, without a grid,
 // unless the file is ours.

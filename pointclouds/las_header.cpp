@@ -152,7 +152,9 @@ void HeaderReader::takeExtras(std::span<const std::uint8_t> bytes) {
   std::uint32_t at = pointFormat(header_).bytes;
   for (std::size_t i = 0; i + 192 <= bytes.size(); i += 192) {
     const std::uint8_t type = bytes[i + 2], options = bytes[i + 3];
-    const std::uint32_t size = type == 0 ? options : type <= 30 ? kBytes[(type - 1) % 10 + 1] * (1u + (type - 1) / 10) : 0;
+    const std::uint32_t size = type == 0    ? options
+                               : type <= 30 ? kBytes[(type - 1) % 10 + 1] * (1u + (type - 1) / 10)
+                                            : 0;
     if (size == 0 || size > header_.record_bytes - at) return;
     const std::string name = textOf(bytes.subspan(i + 4, 32));
     for (std::size_t k = 0; k < kExtraKinds; ++k) {
@@ -196,12 +198,14 @@ void HeaderReader::checkScans() {
   // Each scan has the tables: what they come to is bounded, too.
   fits &= header_.scans.size() * (header_.products.size() + header_.materials.size()) <= kMostEntries;
   if (fits && points == header_.points) return;
-  if (!header_.scans.empty()) report_.warn(place_, "its stations do not have the points that are there: it is read as one scan");
+  if (!header_.scans.empty())
+    report_.warn(place_, "its stations do not have the points that are there: it is read as one scan");
   header_.scans.clear();
 }
 
 Result<void> HeaderReader::take(const std::string& user, std::uint16_t id, std::uint64_t at, std::uint64_t length) {
-  const bool system = user == "LASF_Projection" && (id == kGeoKeys || id == kWkt), extras = user == "LASF_Spec" && id == 4;
+  const bool system = user == "LASF_Projection" && (id == kGeoKeys || id == kWkt),
+             extras = user == "LASF_Spec" && id == 4;
   const bool ours = user == kOurRecord && id == kOurRecordId;
   if (!system && !extras && !ours) return {};
   if (length > (ours ? kLongestText : kLongestRecord)) {
@@ -233,7 +237,9 @@ Result<void> HeaderReader::readList(const RecordList& list) {
     const auto n = inside ? file_.read(at, head) : Result<std::size_t>(0);
     if (!n) return failure(n.error());
     const bool whole = *n == head.size();
-    const std::uint64_t length = !whole ? 0 : list.extended ? load<std::uint64_t>(head, 20) : load<std::uint16_t>(head, 20);
+    const std::uint64_t length = !whole          ? 0
+                                 : list.extended ? load<std::uint64_t>(head, 20)
+                                                 : load<std::uint16_t>(head, 20);
     if (!whole || length > list.ends_at - at - head.size()) {
       report_.warn(place_, "it states " + std::to_string(list.records) + (list.extended ? " extended" : "") +
                                " variable-length records, of which " + std::to_string(i) + " lie " +
@@ -249,12 +255,14 @@ Result<void> HeaderReader::readList(const RecordList& list) {
 }
 
 Result<void> HeaderReader::readRecords() {
-  return readList({load<std::uint16_t>(block_, 94), load<std::uint32_t>(block_, 100), kRecordHead, header_.points_at, false});
+  return readList(
+      {load<std::uint16_t>(block_, 94), load<std::uint32_t>(block_, 100), kRecordHead, header_.points_at, false});
 }
 
 Result<void> HeaderReader::readExtendedRecords() {
   if (header_.minor < 4) return {};
-  return readList({load<std::uint64_t>(block_, 235), load<std::uint32_t>(block_, 243), kExtendedHead, file_.size(), true});
+  return readList(
+      {load<std::uint64_t>(block_, 235), load<std::uint32_t>(block_, 243), kExtendedHead, file_.size(), true});
 }
 
 Result<Header> HeaderReader::read() {

@@ -9,8 +9,13 @@
 
 namespace standpoint {
 
-const CloudFormat kLas = {"las", "ASPRS LAS: read 1.0 to 1.4, written 1.4 with labels and truth as extra bytes", ".las", true,
-                          las::createWriter, las::read, las::info};
+const CloudFormat kLas = {"las",
+                          "ASPRS LAS: read 1.0 to 1.4, written 1.4 with labels and truth as extra bytes",
+                          ".las",
+                          true,
+                          las::createWriter,
+                          las::read,
+                          las::info};
 const CloudFormat kLaz = {"laz", "LASzip: recognised only", ".laz", false, nullptr, las::read, las::info};
 
 namespace las {
@@ -142,7 +147,8 @@ void RecordTaker::takeTruth(const std::uint8_t* record, FoundPoints& to) {
     return good ? v : 0;
   };
   const auto real = [&](Extra kind) { return static_cast<float>(sensible(load<float>(record + *h_.extras[kind]))); };
-  to.true_x.push_back(sensible(place.x())), to.true_y.push_back(sensible(place.y())), to.true_z.push_back(sensible(place.z()));
+  to.true_x.push_back(sensible(place.x())), to.true_y.push_back(sensible(place.y())),
+      to.true_z.push_back(sensible(place.z()));
   PointTruth& truth = to.columns.truth;
   truth.range_m.push_back(real(Extra::true_range));
   truth.incidence_rad.push_back(real(Extra::incidence));
@@ -203,10 +209,12 @@ Result<std::vector<Part>> partsOf(const std::filesystem::path& path, const Input
   whole.header.intensity_max = 65535;
   whole.header.has_time = pointFormat(header).time_at != 0;
   if (whole.header.has_time && header.adjusted_time && header.points > 0) {
-    const auto first = Records(file, header).at(0, 1);
+    Records records(file, header);
+    const auto first = records.at(0, 1);
     if (!first) return failure(first.error());
     const double start = std::floor(load<double>(*first + pointFormat(header).time_at));
-    if (std::abs(start) < 1e10) whole.time_shift_s = -start, whole.header.acquisition_start_gps_s = start + kAdjustedGps_s;
+    if (std::abs(start) < 1e10)
+      whole.time_shift_s = -start, whole.header.acquisition_start_gps_s = start + kAdjustedGps_s;
   }
   complete(whole, header);
   parts.push_back(std::move(whole));
@@ -245,8 +253,10 @@ Result<void> readPart(const InputFile& file, const Header& header, const Part& p
   }
   const auto number = [](std::uint64_t n) { return std::to_string(n); };
   if (taker.senseless_returns > 0)
-    report.warn(file.name(), number(taker.senseless_returns) + " return numbers are none of their pulse: 1 of 1 stands for them");
-  if (taker.senseless_times > 0) report.lose(file.name(), number(taker.senseless_times) + " times are no numbers: 0 stands for them");
+    report.warn(file.name(),
+                number(taker.senseless_returns) + " return numbers are none of their pulse: 1 of 1 stands for them");
+  if (taker.senseless_times > 0)
+    report.lose(file.name(), number(taker.senseless_times) + " times are no numbers: 0 stands for them");
   if (taker.senseless_truth > 0)
     report.lose(file.name(), number(taker.senseless_truth) + " true values are no numbers: 0 stands for them");
   return local.finish(report);
@@ -272,7 +282,8 @@ Result<Report> read(const std::filesystem::path& path, PointSink& sink, Progress
   const auto parts = partsOf(path, *file, *header);
   if (!parts) return failure(parts.error());
   for (const Part& part : *parts)
-    if (auto done = readPart(*file, *header, part, colour_shift, sink, report, progress); !done) return failure(done.error());
+    if (auto done = readPart(*file, *header, part, colour_shift, sink, report, progress); !done)
+      return failure(done.error());
   return report;
 }
 

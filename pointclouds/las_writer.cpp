@@ -33,8 +33,8 @@ void putText(std::uint8_t* to, std::size_t room, const std::string& text) {
 }
 
 // Variable-length records before the points, and the extended one behind them.
-void appendRecordHead(std::vector<std::uint8_t>& bytes, const char* user, std::uint16_t id, std::uint64_t length, bool extended,
-                      const char* description) {
+void appendRecordHead(std::vector<std::uint8_t>& bytes, const char* user, std::uint16_t id, std::uint64_t length,
+                      bool extended, const char* description) {
   const std::size_t at = bytes.size();
   bytes.resize(at + (extended ? kExtendedHead : kRecordHead));
   putText(bytes.data() + at + 2, 16, user);
@@ -53,7 +53,8 @@ struct Layout {
 };
 
 Layout layoutFor(const ScanHeader& header) {
-  Layout layout{.colour = header.has_colour, .labels = header.has_labels, .grid = hasGrid(header), .truth = header.has_truth};
+  Layout layout{
+      .colour = header.has_colour, .labels = header.has_labels, .grid = hasGrid(header), .truth = header.has_truth};
   layout.extras.end = layout.colour ? 36 : 30;
   for (std::size_t i = 0; i < kExtraKinds; ++i) {
     const auto kind = static_cast<Extra>(i);
@@ -127,7 +128,8 @@ Result<void> Writer::start(const ScanHeader& header) {
   layout_ = layoutFor(header);
   wkt_ = header.coordinate_metadata;
   system_ = header.sensor_vendor + (header.sensor_vendor.empty() ? "" : " ") + header.sensor_model;
-  for (std::size_t k = 0; k < 3; ++k) offset_[k] = std::round(header.file_from_scanner.translation[static_cast<int>(k)]);
+  for (std::size_t k = 0; k < 3; ++k)
+    offset_[k] = std::round(header.file_from_scanner.translation[static_cast<int>(k)]);
   std::vector<std::uint8_t> bytes(kHeaderBytes);
   const auto extras = extraRecords();
   if (!extras.empty()) {
@@ -220,7 +222,8 @@ Result<void> Writer::putPoint(const PointBlock& b, std::size_t i, std::uint8_t* 
     clamped_ += share < 0 || share > 1;
     store(record + 12, static_cast<std::uint16_t>(std::lround(std::clamp(share, 0.0, 1.0) * 65535)));
   }
-  const std::uint8_t number = header.has_returns ? b.return_number[i] : 1, count = header.has_returns ? b.return_count[i] : 1;
+  const std::uint8_t number = header.has_returns ? b.return_number[i] : 1,
+                     count = header.has_returns ? b.return_count[i] : 1;
   beyond_returns_ += count > 15;
   record[14] = static_cast<std::uint8_t>(std::min<int>(number, 15) | std::min<int>(count, 15) << 4);
   ++by_return_[std::min<std::size_t>(number, 15) - 1];

@@ -90,9 +90,9 @@ Result<void> LocalPoints::write(FoundPoints& points) {
     if (!begun_)
       if (auto begun = begin(&points); !begun) return begun;
     PointBlock& block = points.columns;
-    for (const double worst :
-         {toFloats(points.x, move_.x(), moves_frame_, block.x_m), toFloats(points.y, move_.y(), moves_frame_, block.y_m),
-          toFloats(points.z, move_.z(), moves_frame_, block.z_m)})
+    for (const double worst : {toFloats(points.x, move_.x(), moves_frame_, block.x_m),
+                               toFloats(points.y, move_.y(), moves_frame_, block.y_m),
+                               toFloats(points.z, move_.z(), moves_frame_, block.z_m)})
       worst_rounding_m_ = std::max(worst_rounding_m_, worst);
     toFloats(points.true_x, move_.x(), false, block.truth.x_m);
     toFloats(points.true_y, move_.y(), false, block.truth.y_m);

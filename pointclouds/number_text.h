@@ -23,12 +23,9 @@ void appendNumber(std::string& text, T value) {
 inline void appendFixed(std::string& text, double value, unsigned decimals) {
   constexpr double kPower[10] = {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
   const double scaled = std::abs(value) * kPower[decimals] + 0.5;
-  char digits[64];
-  if (!(scaled < 9e15)) {   // a double has no finer steps
-    text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-    return;
-  }
+  if (!(scaled < 9e15)) return appendNumber(text, value);   // a double has no finer steps
   auto rest = static_cast<std::uint64_t>(scaled);
+  char digits[32];
   char* at = digits + sizeof digits;
   const bool negative = value < 0 && rest > 0;
   for (unsigned i = 0; i < decimals; ++i, rest /= 10) *--at = static_cast<char>('0' + rest % 10);
@@ -37,6 +34,15 @@ inline void appendFixed(std::string& text, double value, unsigned decimals) {
   while ((rest /= 10) > 0);
   if (negative) *--at = '-';
   text.append(at, digits + sizeof digits);
+}
+
+// Reads back as the same float to the last bit, as appendNumber's shortest text does, in half the time: as many
+// decimals as make a step smaller than that between floats of this size.
+inline void appendFloat(std::string& text, float value) {
+  const float size = std::abs(value);
+  if (!(size >= 0x1p-6F && size < 0x1p20F)) return appendNumber(text, value);
+  appendFixed(text, static_cast<double>(value),
+              size < 0x1p-3F ? 9 : size < 1 ? 8 : size < 16 ? 7 : size < 128 ? 6 : size < 1024 ? 5 : 4);
 }
 
 template <class T>

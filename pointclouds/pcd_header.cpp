@@ -26,8 +26,9 @@ std::vector<std::string_view> words(std::string_view line) {
 
 std::optional<PlyType> typeOf(char kind, std::uint32_t bytes) {
   constexpr std::pair<std::pair<char, std::uint32_t>, PlyType> kTypes[] = {
-      {{'F', 4}, PlyType::float32}, {{'F', 8}, PlyType::float64}, {{'U', 1}, PlyType::uint8}, {{'U', 2}, PlyType::uint16},
-      {{'U', 4}, PlyType::uint32},  {{'I', 1}, PlyType::int8},    {{'I', 2}, PlyType::int16}, {{'I', 4}, PlyType::int32}};
+      {{'F', 4}, PlyType::float32}, {{'F', 8}, PlyType::float64}, {{'U', 1}, PlyType::uint8},
+      {{'U', 2}, PlyType::uint16},  {{'U', 4}, PlyType::uint32},  {{'I', 1}, PlyType::int8},
+      {{'I', 2}, PlyType::int16},   {{'I', 4}, PlyType::int32}};
   for (const auto& [key, type] : kTypes)
     if (key == std::pair(kind, bytes)) return type;
   return std::nullopt;
@@ -73,7 +74,8 @@ Result<void> HeaderReader::takeList(const Words& parts) {
       continue;
     }
     const auto number = numberFrom<std::uint32_t>(parts[i]);
-    if (!number || *number == 0 || *number > kMostPointBytes) return broken("no size or count of a field: " + std::string(parts[i].substr(0, 40)));
+    if (!number || *number == 0 || *number > kMostPointBytes)
+      return broken("no size or count of a field: " + std::string(parts[i].substr(0, 40)));
     (parts[0] == "SIZE" ? field.bytes : field.count) = *number;
   }
   return {};
@@ -112,7 +114,8 @@ Result<bool> HeaderReader::takeLine(std::string_view line) {
   const std::string_view key = parts[0];
   const auto more = [](Result<void> taken) { return taken.map([] { return true; }); };
   if (key == "VERSION") return true;
-  if (key == "FIELDS" || key == "COLUMNS" || key == "SIZE" || key == "TYPE" || key == "COUNT") return more(takeList(parts));
+  if (key == "FIELDS" || key == "COLUMNS" || key == "SIZE" || key == "TYPE" || key == "COUNT")
+    return more(takeList(parts));
   if (key == "WIDTH" || key == "HEIGHT" || key == "POINTS") return more(takeNumber(parts));
   if (key == "VIEWPOINT") return more(takeViewpoint(parts));
   if (key == "DATA") return takeData(parts).map([] { return false; });
@@ -120,12 +123,14 @@ Result<bool> HeaderReader::takeLine(std::string_view line) {
 }
 
 Result<void> HeaderReader::layOut() {
-  if (header_.fields.empty() || types_.size() != header_.fields.size()) return broken("the header lacks FIELDS or TYPE");
+  if (header_.fields.empty() || types_.size() != header_.fields.size())
+    return broken("the header lacks FIELDS or TYPE");
   for (std::size_t i = 0; i < header_.fields.size(); ++i) {
     Field& field = header_.fields[i];
     const auto type = typeOf(types_[i], field.bytes);
     field.wide_integer = !type && field.bytes == 8 && (types_[i] == 'U' || types_[i] == 'I');
-    if (!type && !field.wide_integer && field.name != "_") return broken("field " + field.name.substr(0, 40) + " has no known type");
+    if (!type && !field.wide_integer && field.name != "_")
+      return broken("field " + field.name.substr(0, 40) + " has no known type");
     field.type = type.value_or(PlyType::uint8);
     field.at = header_.point_bytes;
     field.word = header_.words;
@@ -133,10 +138,12 @@ Result<void> HeaderReader::layOut() {
     header_.words += field.count;
     if (header_.point_bytes > kMostPointBytes) return broken("a point has more than 64 KiB");
   }
-  if (header_.width > 0 && header_.height > (std::uint64_t{1} << 40) / header_.width) return broken("WIDTH times HEIGHT is too large");
+  if (header_.width > 0 && header_.height > (std::uint64_t{1} << 40) / header_.width)
+    return broken("WIDTH times HEIGHT is too large");
   if (!has_points_) header_.points = header_.width * header_.height;
   if (header_.points != header_.width * header_.height) return broken("POINTS is not WIDTH times HEIGHT");
-  const std::uint64_t each = header_.binary ? header_.point_bytes : 2 * header_.words;   // the last line may lack its end
+  const std::uint64_t each =
+      header_.binary ? header_.point_bytes : 2 * header_.words;  // the last line may lack its end
   if (header_.points > (lines_.left() + (header_.binary ? 0 : 1)) / each)
     return broken("the file is truncated: it has no room for " + std::to_string(header_.points) + " points");
   header_.points_at = lines_.at();
@@ -145,15 +152,30 @@ Result<void> HeaderReader::layOut() {
 
 void HeaderReader::assignPlaces() {
   using F = PointField;
-  constexpr std::pair<const char*, F> kNames[] = {
-      {"x", F::x}, {"y", F::y}, {"z", F::z}, {"intensity", F::intensity}, {"rgb", F::packed_colour}, {"rgba", F::packed_colour},
-      {"label", F::label}, {"instance", F::product}, {"row", F::row}, {"column", F::column}, {"time", F::time},
-      {"return_number", F::return_number}, {"return_count", F::return_count}, {"true_x", F::true_x}, {"true_y", F::true_y},
-      {"true_z", F::true_z}, {"true_range", F::true_range}, {"incidence", F::incidence},
-      {"received_power", F::received_power}, {"flags", F::flags}};
+  constexpr std::pair<const char*, F> kNames[] = {{"x", F::x},
+                                                  {"y", F::y},
+                                                  {"z", F::z},
+                                                  {"intensity", F::intensity},
+                                                  {"rgb", F::packed_colour},
+                                                  {"rgba", F::packed_colour},
+                                                  {"label", F::label},
+                                                  {"instance", F::product},
+                                                  {"row", F::row},
+                                                  {"column", F::column},
+                                                  {"time", F::time},
+                                                  {"return_number", F::return_number},
+                                                  {"return_count", F::return_count},
+                                                  {"true_x", F::true_x},
+                                                  {"true_y", F::true_y},
+                                                  {"true_z", F::true_z},
+                                                  {"true_range", F::true_range},
+                                                  {"incidence", F::incidence},
+                                                  {"received_power", F::received_power},
+                                                  {"flags", F::flags}};
   for (std::size_t i = 0; i < header_.fields.size(); ++i)
     for (const auto& [name, place] : kNames)
-      if (header_.fields[i].name == name && !header_.fields[i].wide_integer && !header_.places[place]) header_.places[place] = i;
+      if (header_.fields[i].name == name && !header_.fields[i].wide_integer && !header_.places[place])
+        header_.places[place] = i;
 }
 
 Result<Header> HeaderReader::read() {

@@ -15,14 +15,21 @@ constexpr std::uint64_t kChunk = 65536, kChunkBytes = 8 << 20;
 
 // A colour is packed into an integer, or into the bits of a float.
 double packed(const Field& field, double value) {
-  if (field.type != PlyType::float32) return field.type == PlyType::int32 ? static_cast<double>(static_cast<std::uint32_t>(static_cast<std::int64_t>(value))) : value;
+  if (field.type != PlyType::float32)
+    return field.type == PlyType::int32
+               ? static_cast<double>(static_cast<std::uint32_t>(static_cast<std::int64_t>(value)))
+               : value;
   return std::bit_cast<std::uint32_t>(static_cast<float>(value));
 }
 
 class Reading {
  public:
   Reading(const std::filesystem::path& path, const Header& header, ScanHeader scan)
-      : path_(path), header_(header), scan_(std::move(scan)), places_(placesOf(header)), taker_(places_, scan_, false) {}
+      : path_(path),
+        header_(header),
+        scan_(std::move(scan)),
+        places_(placesOf(header)),
+        taker_(places_, scan_, false) {}
   Result<void> run(PointSink& sink, Report& report, Progress& progress);
   bool isRead(std::size_t field) const { return taker_.isRead(field); }
   const ScanHeader& scan() const { return scan_; }
@@ -82,7 +89,8 @@ Result<void> Reading::readBinary(LocalPoints& local, Progress& progress) {
                      file->name() + " point " + std::to_string(done));
     for (std::uint64_t i = 0; i < count; ++i) {
       for (std::size_t k = 0; k < header_.fields.size(); ++k)
-        values_[k] = plyNumber(header_.fields[k].type, bytes.data() + i * header_.point_bytes + header_.fields[k].at, false);
+        values_[k] =
+            plyNumber(header_.fields[k].type, bytes.data() + i * header_.point_bytes + header_.fields[k].at, false);
       if (auto taken = take(done + i, file->name() + " point " + std::to_string(done + i), found); !taken) return taken;
     }
     done += count;
@@ -101,9 +109,11 @@ Result<void> Reading::readText(LocalPoints& local, Progress& progress) {
   for (std::uint64_t i = 0; i < header_.points; ++i) {
     const auto line = lines.next();
     if (!line) return failure(line.error());
-    if (!*line) return failure(ErrorKind::unusable, "the file ends before its last point: it is truncated", lines.place());
+    if (!*line)
+      return failure(ErrorKind::unusable, "the file ends before its last point: it is truncated", lines.place());
     if (!numbersOf(**line, header_.words, numbers) || numbers.size() != header_.words)
-      return failure(ErrorKind::unusable, "a point has " + std::to_string(header_.words) + " numbers here", lines.place());
+      return failure(ErrorKind::unusable, "a point has " + std::to_string(header_.words) + " numbers here",
+                     lines.place());
     for (std::size_t k = 0; k < header_.fields.size(); ++k) values_[k] = numbers[header_.fields[k].word];
     if (auto taken = take(i, lines.place(), found); !taken) return taken;
     if (i % kChunk == kChunk - 1 || i + 1 == header_.points)
@@ -148,7 +158,8 @@ Result<Opened> open(const std::filesystem::path& path) {
   const Reading reading(path, *header, scan);
   std::string unread;
   for (std::size_t i = 0; i < header->fields.size(); ++i)
-    if (header->fields[i].name != "_" && !reading.isRead(i)) unread += (unread.empty() ? "" : ", ") + header->fields[i].name;
+    if (header->fields[i].name != "_" && !reading.isRead(i))
+      unread += (unread.empty() ? "" : ", ") + header->fields[i].name;
   scan = reading.scan();
   return Opened{*std::move(header), std::move(scan), std::move(unread)};
 }
@@ -170,11 +181,13 @@ Result<Report> read(const std::filesystem::path& path, PointSink& sink, Progress
     IntensityRange range;
     Report ignored;
     progress.stage("Measuring " + name, 0, 0.5);
-    if (auto run = Reading(path, opened->header, opened->scan).run(range, ignored, progress); !run) return failure(run.error());
+    if (auto run = Reading(path, opened->header, opened->scan).run(range, ignored, progress); !run)
+      return failure(run.error());
     range.putInto(opened->scan);
   }
   progress.stage("Reading " + name, ours ? 0 : 0.5, 1);
-  if (auto run = Reading(path, opened->header, opened->scan).run(sink, report, progress); !run) return failure(run.error());
+  if (auto run = Reading(path, opened->header, opened->scan).run(sink, report, progress); !run)
+    return failure(run.error());
   return report;
 }
 

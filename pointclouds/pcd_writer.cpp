@@ -53,7 +53,8 @@ std::string Writer::fieldLines() const {
   const auto add = [&](bool wanted, std::initializer_list<const char*> fields, const char* size, const char* type) {
     if (!wanted) return;
     for (const char* field : fields)
-      names += std::string(" ") + field, sizes += std::string(" ") + size, types += std::string(" ") + type, counts += " 1";
+      names += std::string(" ") + field, sizes += std::string(" ") + size, types += std::string(" ") + type,
+          counts += " 1";
   };
   add(hasIntensity(h), {"intensity"}, "4", "F");
   add(h.has_colour, {"rgb"}, "4", "F");
@@ -108,10 +109,12 @@ Result<void> Writer::begin(const ScanHeader& header) {
   header_ = header;
   organised_ = wants_grid_ && hasGrid(header);
   if (organised_ && std::uint64_t{header.rows} * header.columns > kMostCells)
-    return failure(ErrorKind::unusable, "the grid has more cells than a PCD file can sensibly hold: write it `--as points`",
+    return failure(ErrorKind::unusable,
+                   "the grid has more cells than a PCD file can sensibly hold: write it `--as points`",
                    "scan " + header.name);
-  missing_.resize(std::size_t{12} + (hasIntensity(header) ? 4 : 0) + (header.has_colour ? 4 : 0) + (header.has_labels ? 8 : 0) +
-                  (header.has_time ? 8 : 0) + (header.has_returns ? 2 : 0) + (header.has_truth ? 25 : 0));
+  missing_.resize(std::size_t{12} + (hasIntensity(header) ? 4 : 0) + (header.has_colour ? 4 : 0) +
+                  (header.has_labels ? 8 : 0) + (header.has_time ? 8 : 0) + (header.has_returns ? 2 : 0) +
+                  (header.has_truth ? 25 : 0));
   const float none = std::numeric_limits<float>::quiet_NaN();
   for (std::size_t k = 0; k < 3; ++k) std::memcpy(missing_.data() + 4 * k, &none, 4);
   const std::string text = headerText();
@@ -168,8 +171,9 @@ Result<void> Writer::end() {
     if (auto filled = fillTo(std::uint64_t{header_->rows} * header_->columns); !filled) return filled;
   if (auto flushed = flushFrom(0); !flushed) return flushed;
   if (crowded_ > 0)
-    report_.lose(header_->name, std::to_string(crowded_) + " further returns of a pulse: a cell of an organised PCD holds "
-                                                           "one point; `--as points` holds them all");
+    report_.lose(header_->name, std::to_string(crowded_) +
+                                    " further returns of a pulse: a cell of an organised PCD holds "
+                                    "one point; `--as points` holds them all");
   const std::string text = headerText();
   return file_.overwrite(0, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
@@ -179,7 +183,9 @@ Result<void> Writer::close() {
   return file_.commit();
 }
 
-Result<std::unique_ptr<CloudWriter>> createOrganised(const std::filesystem::path& file) { return createWriter(file, true); }
+Result<std::unique_ptr<CloudWriter>> createOrganised(const std::filesystem::path& file) {
+  return createWriter(file, true);
+}
 Result<std::unique_ptr<CloudWriter>> createList(const std::filesystem::path& file) { return createWriter(file, false); }
 
 constexpr CloudVariant kVariants[] = {{"points", "a list of points, with every return of a pulse", createList}};

@@ -89,7 +89,8 @@ Result<void> HeaderReader::takeProperty(const std::vector<std::string_view>& par
 }
 
 Result<bool> HeaderReader::takeLine(std::string_view line) {
-  if (line.starts_with(kOurComment)) return header_.ours |= takeScanLine(line.substr(std::string_view(kOurComment).size()), header_.scan), true;
+  if (line.starts_with(kOurComment))
+    return header_.ours |= takeScanLine(line.substr(std::string_view(kOurComment).size()), header_.scan), true;
   const auto parts = words(line);
   if (parts.empty() || parts[0] == "comment" || parts[0] == "obj_info") return true;
   if (parts[0] == "end_header") return false;
@@ -133,15 +134,27 @@ Result<void> HeaderReader::assignRoles() {
   using F = PointField;
   const auto& properties = header_.properties;
   constexpr std::pair<F, std::array<const char*, 4>> kNames[] = {
-      {F::x, {"x"}}, {F::y, {"y"}}, {F::z, {"z"}},
+      {F::x, {"x"}},
+      {F::y, {"y"}},
+      {F::z, {"z"}},
       {F::intensity, {"scalar_intensity", "intensity", "scalar_reflectance", "reflectance"}},
-      {F::red, {"red", "r", "diffuse_red"}}, {F::green, {"green", "g", "diffuse_green"}},
+      {F::red, {"red", "r", "diffuse_red"}},
+      {F::green, {"green", "g", "diffuse_green"}},
       {F::blue, {"blue", "b", "diffuse_blue"}},
-      {F::label, {"scalar_label"}}, {F::product, {"scalar_product"}}, {F::row, {"scalar_row"}}, {F::column, {"scalar_column"}},
-      {F::time, {"scalar_time"}}, {F::return_number, {"scalar_returnnumber"}}, {F::return_count, {"scalar_numberofreturns"}},
-      {F::true_x, {"scalar_truex"}}, {F::true_y, {"scalar_truey"}}, {F::true_z, {"scalar_truez"}},
-      {F::true_range, {"scalar_truerange"}}, {F::incidence, {"scalar_incidence"}},
-      {F::received_power, {"scalar_receivedpower"}}, {F::flags, {"scalar_flags"}}};
+      {F::label, {"scalar_label"}},
+      {F::product, {"scalar_product"}},
+      {F::row, {"scalar_row"}},
+      {F::column, {"scalar_column"}},
+      {F::time, {"scalar_time"}},
+      {F::return_number, {"scalar_returnnumber"}},
+      {F::return_count, {"scalar_numberofreturns"}},
+      {F::true_x, {"scalar_truex"}},
+      {F::true_y, {"scalar_truey"}},
+      {F::true_z, {"scalar_truez"}},
+      {F::true_range, {"scalar_truerange"}},
+      {F::incidence, {"scalar_incidence"}},
+      {F::received_power, {"scalar_receivedpower"}},
+      {F::flags, {"scalar_flags"}}};
   for (const auto& [field, names] : kNames)
     for (const char* name : names)
       if (name && !header_.places[field]) header_.places[field] = named(properties, {name});

@@ -45,10 +45,11 @@ Result<void> Reading::readBinary(LocalPoints& local, Progress& progress) {
                      file->name() + " vertex " + std::to_string(done));
     for (std::uint64_t i = 0; i < count; ++i) {
       for (std::size_t k = 0; k < values.size(); ++k)
-        values[k] = plyNumber(header_.properties[k].type, bytes.data() + i * header_.vertex_bytes + header_.properties[k].at,
-                         turned);
+        values[k] = plyNumber(header_.properties[k].type,
+                              bytes.data() + i * header_.vertex_bytes + header_.properties[k].at, turned);
       if (auto taken = taker_.take(values, found); !taken)
-        return failure(ErrorKind::unusable, taken.error().message, file->name() + " vertex " + std::to_string(done + i));
+        return failure(ErrorKind::unusable, taken.error().message,
+                       file->name() + " vertex " + std::to_string(done + i));
     }
     if (auto written = local.write(found); !written) return written;
     done += count;

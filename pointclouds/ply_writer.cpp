@@ -59,7 +59,8 @@ std::string Writer::headerText() const {
   if (header_->has_returns) text += "property uchar scalar_ReturnNumber\nproperty uchar scalar_NumberOfReturns\n";
   if (header_->has_truth) {
     for (const char axis : {'X', 'Y', 'Z'}) text += std::string("property double scalar_True") + axis + "\n";
-    for (const char* name : {"TrueRange", "Incidence", "ReceivedPower"}) text += std::string("property float scalar_") + name + "\n";
+    for (const char* name : {"TrueRange", "Incidence", "ReceivedPower"})
+      text += std::string("property float scalar_") + name + "\n";
     text += "property uchar scalar_Flags\n";
   }
   return text + "end_header\n";

@@ -133,7 +133,8 @@ Result<void> FieldTaker::take(const std::vector<double>& numbers, FoundPoints& t
 
 void FieldTaker::list(const std::string& source, Report& report) const {
   if (senseless_returns_ > 0)
-    report.warn(source, std::to_string(senseless_returns_) + " return numbers are none of their pulse: 1 of 1 stands for them");
+    report.warn(source,
+                std::to_string(senseless_returns_) + " return numbers are none of their pulse: 1 of 1 stands for them");
   if (senseless_values_ > 0)
     report.lose(source, std::to_string(senseless_values_) + " times or true values are no numbers: 0 stands for them");
 }

@@ -106,14 +106,14 @@ Result<void> Writer::fillTo(std::uint64_t cell) {
 
 void Writer::appendPoint(const PointBlock& b, std::size_t i) {
   for (const float v : {b.x_m[i], b.y_m[i], b.z_m[i]}) {
-    appendNumber(text_, v);
+    appendFloat(text_, v);
     text_ += ' ';
   }
   // A file without intensities says 0.5 for each of them.
   const double range = header_->intensity_max - header_->intensity_min;
   const double share = hasIntensity(*header_) ? (b.intensity[i] - header_->intensity_min) / range : 0.5;
   clamped_ += share < 0 || share > 1;
-  appendNumber(text_, static_cast<float>(std::clamp(share, 0.0, 1.0)));
+  appendFloat(text_, static_cast<float>(std::clamp(share, 0.0, 1.0)));
   if (header_->has_colour)
     for (const std::uint8_t colour : {b.red[i], b.green[i], b.blue[i]}) {
       text_ += ' ';

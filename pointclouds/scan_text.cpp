@@ -104,7 +104,8 @@ std::vector<std::string> scanLines(const ScanHeader& header) {
   return lines;
 }
 
-std::vector<std::string> tableLines(const std::vector<LabelledProduct>& products, const std::vector<std::string>& materials) {
+std::vector<std::string> tableLines(const std::vector<LabelledProduct>& products,
+                                    const std::vector<std::string>& materials) {
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < materials.size(); ++i) {
     lines.push_back("material\t" + std::to_string(i));
@@ -112,7 +113,8 @@ std::vector<std::string> tableLines(const std::vector<LabelledProduct>& products
   }
   for (std::size_t i = 0; i < products.size(); ++i) {
     lines.push_back("product\t" + std::to_string(i));
-    for (const std::string* value : {&products[i].id, &products[i].global_id, &products[i].ifc_class, &products[i].name})
+    for (const std::string* value :
+         {&products[i].id, &products[i].global_id, &products[i].ifc_class, &products[i].name})
       appendValue(lines.back(), *value, kLongestLabel);
   }
   return lines;
@@ -148,7 +150,8 @@ JointTable::Offset JointTable::add(const ScanHeader& header) {
   known_.push_back({products.size(), header.products.size(), materials.size(), header.materials.size()});
   products.insert(products.end(), header.products.begin(), header.products.end());
   materials.insert(materials.end(), header.materials.begin(), header.materials.end());
-  return {static_cast<std::uint32_t>(known_.back().first_product), static_cast<std::uint32_t>(known_.back().first_material)};
+  return {static_cast<std::uint32_t>(known_.back().first_product),
+          static_cast<std::uint32_t>(known_.back().first_material)};
 }
 
 }  // namespace standpoint

@@ -16,8 +16,13 @@ const CloudFormat kPts = {"pts", "Leica PTS: text, a count and points", ".pts", 
                           text_points::readPts, text_points::infoPts};
 const CloudFormat kXyz = {"xyz", "Text: a point per line", ".xyz", false, text_points::createXyzWriter,
                           text_points::readXyz, text_points::infoXyz};
-const CloudFormat kCsv = {"csv", "Text with the names of its columns first", ".csv", false, text_points::createCsvWriter,
-                          text_points::readXyz, text_points::infoCsv};
+const CloudFormat kCsv = {"csv",
+                          "Text with the names of its columns first",
+                          ".csv",
+                          false,
+                          text_points::createCsvWriter,
+                          text_points::readXyz,
+                          text_points::infoCsv};
 
 namespace text_points {
 namespace {
@@ -77,19 +82,36 @@ Result<bool> Reader::takeHead(std::string_view line) {
 // "//X Y Z R G B Intensity", "x,y,z" and their like; other words are no names of columns.
 void Reader::takeNames(std::string_view line) {
   using F = PointField;
-  constexpr std::pair<const char*, F> kNames[] = {
-      {"x", F::x}, {"y", F::y}, {"z", F::z}, {"r", F::red}, {"g", F::green}, {"b", F::blue}, {"red", F::red},
-      {"green", F::green}, {"blue", F::blue}, {"intensity", F::intensity}, {"i", F::intensity}, {"time", F::time},
-      {"returnnumber", F::return_number}, {"numberofreturns", F::return_count}, {"truex", F::true_x}, {"truey", F::true_y},
-      {"truez", F::true_z}, {"truerange", F::true_range}, {"incidence", F::incidence},
-      {"receivedpower", F::received_power}, {"flags", F::flags}};
+  constexpr std::pair<const char*, F> kNames[] = {{"x", F::x},
+                                                  {"y", F::y},
+                                                  {"z", F::z},
+                                                  {"r", F::red},
+                                                  {"g", F::green},
+                                                  {"b", F::blue},
+                                                  {"red", F::red},
+                                                  {"green", F::green},
+                                                  {"blue", F::blue},
+                                                  {"intensity", F::intensity},
+                                                  {"i", F::intensity},
+                                                  {"time", F::time},
+                                                  {"returnnumber", F::return_number},
+                                                  {"numberofreturns", F::return_count},
+                                                  {"truex", F::true_x},
+                                                  {"truey", F::true_y},
+                                                  {"truez", F::true_z},
+                                                  {"truerange", F::true_range},
+                                                  {"incidence", F::incidence},
+                                                  {"receivedpower", F::received_power},
+                                                  {"flags", F::flags}};
   FieldPlaces places;
   std::vector<std::string> names;
   constexpr std::string_view kBetween = " \t\r,;/#\"";
-  for (std::size_t from = line.find_first_not_of(kBetween); from < line.size(); from = line.find_first_not_of(kBetween, from)) {
+  for (std::size_t from = line.find_first_not_of(kBetween); from < line.size();
+       from = line.find_first_not_of(kBetween, from)) {
     const std::size_t end = std::min(line.find_first_of(kBetween, from), line.size());
     std::string name;
-    for (const char c : line.substr(from, end - from)) name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    for (const char c : line.substr(from, end - from))
+      name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     for (const auto& [known, field] : kNames)
       if (name == known && !places[field]) places[field] = names.size();
     names.push_back(std::move(name));

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <type_traits>
 
 #include "pointclouds/block_check.h"
 #include "pointclouds/file_access.h"
@@ -35,7 +36,10 @@ class Writer final : public CloudWriter {
   template <class T>
   void next(T value) {
     text_ += kind_ == Kind::csv ? ',' : ' ';
-    appendNumber(text_, value);
+    if constexpr (std::is_same_v<T, float>)
+      appendFloat(text_, value);
+    else
+      appendNumber(text_, value);
   }
   Result<void> flushFrom(std::size_t enough);
 
@@ -140,7 +144,8 @@ Result<void> Writer::end() {
   if (!header_ || ended_) return failure(ErrorKind::internal, "a scan ends that did not begin", file_.file().string());
   ended_ = true;
   if (clamped_ > 0)
-    report_.lose(header_->name, std::to_string(clamped_) + " intensities lay outside the sensor's range and were clamped");
+    report_.lose(header_->name,
+                 std::to_string(clamped_) + " intensities lay outside the sensor's range and were clamped");
   if (auto flushed = flushFrom(0); !flushed || kind_ != Kind::pts) return flushed;
   const std::string count = countLine();
   return file_.overwrite(0, {reinterpret_cast<const std::uint8_t*>(count.data()), count.size()});
@@ -159,8 +164,14 @@ Result<std::unique_ptr<CloudWriter>> create(const std::filesystem::path& file, K
 
 }  // namespace
 
-Result<std::unique_ptr<CloudWriter>> createPtsWriter(const std::filesystem::path& file) { return create(file, Kind::pts); }
-Result<std::unique_ptr<CloudWriter>> createXyzWriter(const std::filesystem::path& file) { return create(file, Kind::xyz); }
-Result<std::unique_ptr<CloudWriter>> createCsvWriter(const std::filesystem::path& file) { return create(file, Kind::csv); }
+Result<std::unique_ptr<CloudWriter>> createPtsWriter(const std::filesystem::path& file) {
+  return create(file, Kind::pts);
+}
+Result<std::unique_ptr<CloudWriter>> createXyzWriter(const std::filesystem::path& file) {
+  return create(file, Kind::xyz);
+}
+Result<std::unique_ptr<CloudWriter>> createCsvWriter(const std::filesystem::path& file) {
+  return create(file, Kind::csv);
+}
 
 }  // namespace standpoint::text_points

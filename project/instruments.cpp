@@ -72,6 +72,8 @@ Result<void> writeNew(const fs::path& file, const std::string& text) {
 
 fs::path shippedInstrumentsFolder() { return dataFolder() / "scanners" / "instruments"; }
 
+fs::path tripodStandFile() { return dataFolder() / "scanners" / "stands" / "tripod.json"; }
+
 fs::path ownInstrumentsFolder() {
   if (auto folder = environmentPath("STANDPOINT_INSTRUMENTS"); !folder.empty()) return folder;
   if (auto config = environmentPath("XDG_CONFIG_HOME"); !config.empty()) return config / "standpoint" / "instruments";

@@ -7,6 +7,8 @@
 
 #include "project/answers.h"
 #include "project/survey_verbs.h"
+#include "project/target_placing.h"
+#include "project/target_sight.h"
 
 namespace standpoint {
 
@@ -23,20 +25,52 @@ json targetRow(const Target& t, const Georeference& g) {
   return row;
 }
 
-Result<Target> targetFrom(const json& options, const Georeference& g) {
-  Target t;
-  t.name = options["add"].get<std::string>();
-  if (!options.contains("at") || options["at"].size() != 3)
-    return failure(ErrorKind::usage, "say where its centre is: --at X,Y,Z in metres");
-  t.centre = vectorFrom(options["at"]) - g.shift_m;
-  t.kind = options.at("kind") == "sphere" ? TargetKind::sphere : TargetKind::checkerboard;
-  t.size_m = options.at("size").get<double>();
-  if (options.contains("normal")) {
-    if (options["normal"].size() != 3 || vectorFrom(options["normal"]).norm() < 1e-9)
-      return failure(ErrorKind::usage, "--normal takes three numbers, not all zero");
-    t.normal = vectorFrom(options["normal"]).normalized();
+// Builds the rays' scene, which only adding and looking need.
+Result<json> sightRows(const Document& document, const RayScene& scene, const TargetKinds& kinds, const std::vector<Target>& targets,
+                       const json& options, Report& report) {
+  SightRequest request;
+  request.instrument = options.value("instrument", std::string());
+  for (const auto& pair : options.value("set", json::array())) {
+    const auto text = pair.get<std::string>();
+    request.settings.emplace_back(text.substr(0, text.find('=')), text.substr(text.find('=') + 1));
   }
-  return t;
+  json rows = json::object();
+  for (const auto& t : targets) {
+    const auto sights = sightsOf(document, scene, t, kinds.rules, request);
+    if (!sights) return failure(sights.error());
+    tell(t, *sights, report);
+    rows[t.name] = toJson(*sights);
+  }
+  return rows;
+}
+
+Result<Target> addedTarget(const Document& document, const json& options, Outcome& outcome, Progress& progress) {
+  const auto kinds = readTargetKinds(dataFolder() / "scanners" / "targets" / "kinds.json");
+  if (!kinds) return failure(kinds.error());
+  auto article = targetArticleFrom(*kinds, options);
+  if (!article) return failure(article.error());
+  const auto& targets = document.job->targets;
+  if (std::any_of(targets.begin(), targets.end(), [&](const Target& t) { return t.name == article->name; }))
+    return failure(ErrorKind::usage, fmt::format("there is a target '{}' already; remove it, or take another name", article->name));
+  auto scene = RayScene::build(document.environment(), progress);
+  if (!scene) return failure(scene.error());
+  std::string stands;
+  auto target = placedTarget(document, **scene, *std::move(article), options, stands, outcome.report);
+  if (!target) return target;
+  auto sights = sightRows(document, **scene, *kinds, {*target}, options, outcome.report);
+  if (!sights) return failure(sights.error());
+  outcome.answer["placed"] = targetRow(*target, *document.georeference);
+  if (!stands.empty()) outcome.answer["placed"]["stands_on"] = stands;
+  outcome.answer["seen_from"] = std::move((*sights)[target->name]);
+  return target;
+}
+
+Result<json> sightsOfAll(const Document& document, const json& options, Report& report, Progress& progress) {
+  const auto kinds = readTargetKinds(dataFolder() / "scanners" / "targets" / "kinds.json");
+  if (!kinds) return failure(kinds.error());
+  auto scene = RayScene::build(document.environment(), progress);
+  if (!scene) return failure(scene.error());
+  return sightRows(document, **scene, *kinds, document.job->targets, options, report);
 }
 
 // A unit sphere by subdividing an icosahedron: faceting error 0.06 mm on a 145 mm sphere at 4 levels.
@@ -107,11 +141,8 @@ Result<Outcome> runTarget(const Document& document, const json& options, Progres
     return std::find_if(job.targets.begin(), job.targets.end(), [&](const Target& t) { return t.name == wanted; });
   };
   if (options.contains("add")) {
-    auto target = targetFrom(options, g);
+    auto target = addedTarget(document, options, outcome, progress);
     if (!target) return failure(target.error());
-    if (find(target->name) != job.targets.end())
-      return failure(ErrorKind::usage, fmt::format("there is a target '{}' already", target->name));
-    outcome.answer["placed"] = targetRow(*target, g);
     outcome.description = "Added target " + target->name;
     job.targets.push_back(*std::move(target));
   } else if (options.contains("remove")) {
@@ -120,6 +151,10 @@ Result<Outcome> runTarget(const Document& document, const json& options, Progres
       return failure(ErrorKind::usage, fmt::format("there is no target '{}'", options["remove"].get<std::string>()));
     outcome.description = "Removed target " + at->name;
     job.targets.erase(at);
+  } else if (options.value("sight", false)) {
+    auto sights = sightsOfAll(document, options, outcome.report, progress);
+    if (!sights) return failure(sights.error());
+    outcome.answer["seen_from"] = *std::move(sights);
   }
   json rows = json::array();
   for (const auto& t : job.targets) rows.push_back(targetRow(t, g));

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "scanners/portable_math.h"
-#include "scanners/target_clones.h"
 
 namespace standpoint {
 
@@ -75,13 +74,6 @@ Result<void> take(Weather& weather, std::string_view word, std::array<bool, kQua
   return failure(ErrorKind::usage, quoted(key) + " is no weather: " + keys, "weather");
 }
 
-STANDPOINT_CLONES void attenuateLanes(float octaves_per_m, const float* range_m, float* gain) {
-  for (int k = 0; k < kAirLanes; ++k) {
-    const float octaves = octaves_per_m * range_m[k];
-    gain[k] *= portable::exp2(octaves > -100 ? octaves : -100.0F);
-  }
-}
-
 }  // namespace
 
 Result<Weather> weatherFrom(std::string_view text) {
@@ -128,9 +120,5 @@ double extinction_per_m(const DropSizes& sizes) {
 }
 
 double extinctionOfRange(double mor_m) { return mor_m > 0 ? 2.995732273553991 / mor_m : 0; }   // ln 20
-
-void attenuate(double extinction_per_m, const float* range_m, float* gain) {
-  attenuateLanes(static_cast<float>(-2 * 1.4426950408889634 * extinction_per_m), range_m, gain);   // 1 / ln 2
-}
 
 }  // namespace standpoint

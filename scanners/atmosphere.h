@@ -40,8 +40,4 @@ double extinction_per_m(const DropSizes& sizes);
 // α of a fog or dust of this optical range.
 double extinctionOfRange(double mor_m);
 
-constexpr int kAirLanes = 16;
-// Multiplies the gains of sixteen returns by the air's two-way transmittance e^(-2αR).
-void attenuate(double extinction_per_m, const float* range_m, float* gain);
-
 }  // namespace standpoint

@@ -46,6 +46,14 @@ ColumnHits::Axes ColumnHits::axes(std::uint32_t row) const {
   return {pose.translation, pose.rotation * ahead_, pose.rotation * lateral_, pose.rotation * Eigen::Vector3d::UnitZ()};
 }
 
+RayLine ColumnHits::axis(std::uint32_t row) const {
+  if (plan_->moves()) {
+    const Beam moved = beam(row);
+    return {moved.origin, moved.direction};
+  }
+  return {still_.origin, plan_->cosine[row] * still_.ahead + plan_->sine[row] * still_.up};
+}
+
 Beam ColumnHits::beam(std::uint32_t row) const {
   const Axes axes = this->axes(row);
   return {axes.origin, plan_->cosine[row] * axes.ahead + plan_->sine[row] * axes.up, axes.across,

@@ -20,6 +20,7 @@ class ColumnHits {
   NearestHit hit(std::uint32_t row) const { return {facets_[row + kMostReach], ranges_[row]}; }
   // Facets from a row on; kMostReach before the first row and as many beyond the last packet are there, without a facet.
   const std::uint64_t* facets(std::uint32_t row) const { return facets_.data() + row + kMostReach; }
+  RayLine axis(std::uint32_t row) const;
   Beam beam(std::uint32_t row) const;
 
  private:

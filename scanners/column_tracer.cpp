@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "scanners/portable_math.h"
 #include "scanners/surface_texture.h"
@@ -28,6 +29,8 @@ ColumnTracer::ColumnTracer(const ScanPlan& plan)
       facets_(plan),
       paths_(plan, facets_),
       columns_(2 * plan.reach() + 1, ColumnHits(plan)),
+      row_step_(plan.rowStep_rad()),
+      column_step_(plan.columnStep_rad()),
       start_(at(plan.trajectory, 0)),
       sub_rays_{},
       signal_{},
@@ -64,15 +67,15 @@ void ColumnTracer::traceColumn(PointBlock& block) {
       const NearestHit hit = current_->hit(row);
       const bool suspect = (unlike >> (row - first) & 1U) != 0;
       if (hit.facet == kNoFacet && !suspect && !plan_.scatterers) continue;
-      const Beam beam = current_->beam(row);
-      const bool edge = suspect && atEdge(row) && probe(beam, hit);
+      const bool edge = suspect && atEdge(row) && probe(current_->beam(row), hit);
       if (!edge && !plan_.scatterers) {
         if (hit.facet == kNoFacet) continue;
         if (const MetFacet& met = facets_.of(hit.facet); met.plain) {
-          addSurface(row, beam, hit, met);
+          addSurface(row, current_->axis(row), hit, met);
           continue;
         }
       }
+      const Beam beam = current_->beam(row);
       gatherEnds(beam, hit, edge);
       if (plan_.scatterers) addScatterer(row, beam);
       addEchoes(row);
@@ -85,11 +88,14 @@ void ColumnTracer::traceColumn(PointBlock& block) {
 }
 
 ColumnTracer::Reach ColumnTracer::reachAt(double range_m, std::uint32_t row) const {
-  const double radius = kOuterShare * beamRadius(plan_.instrument, range_m) / range_m;
+  const double start = plan_.instrument.exit_diameter_m / range_m, spread = plan_.instrument.divergence_rad;
+  const double square = 0.25 * kOuterShare * kOuterShare * (start * start + spread * spread);   // of the beam's edge, in rad
   const auto pulses = [&](double step) {
-    return static_cast<std::uint32_t>(std::clamp(std::ceil(radius / step), 1.0, static_cast<double>(plan_.reach())));
+    std::uint32_t n = 1;
+    while (n < plan_.reach() && n * step * n * step < square) ++n;
+    return n;
   };
-  return {pulses(plan_.rowStep_rad()), pulses(plan_.columnStep_rad() * std::max(1e-3, plan_.cosine[row]))};
+  return {pulses(row_step_), pulses(column_step_ * std::max(1e-3, plan_.cosine[row]))};
 }
 
 namespace {
@@ -145,8 +151,7 @@ bool ColumnTracer::atEdge(std::uint32_t row) {
     const NearestHit hit = column.hit(there);
     if (hit.facet == own.facet) return false;
     if (hit.facet == kNoFacet || own.facet == kNoFacet) return true;
-    const Beam beam = column.beam(there);
-    return !onSameSurface(met, {beam.origin, beam.direction}, hit, tolerance);
+    return !onSameSurface(met, column.axis(there), hit, tolerance);
   };
   for (const std::uint32_t apart : places(reach.rows))
     if ((row >= apart && differs(*current_, row - apart)) || (row + apart < plan_.settings.rows && differs(*current_, row + apart)))
@@ -204,14 +209,14 @@ void ColumnTracer::gatherEnds(const Beam& beam, const NearestHit& axis, bool edg
       paths_.follow(sub_lines_[k].origin, sub_lines_[k].direction, sub_hits_[k], subRays()[static_cast<std::size_t>(k)].weight, ends_);
 }
 
-void ColumnTracer::addSurface(std::uint32_t row, const Beam& beam, const NearestHit& hit, const MetFacet& met) {
-  const double range = rangeOnPlane(met.facet, beam.origin, beam.direction, hit.range_m);
+void ColumnTracer::addSurface(std::uint32_t row, const RayLine& axis, const NearestHit& hit, const MetFacet& met) {
+  const double range = rangeOnPlane(met.facet, axis.origin, axis.direction, hit.range_m);
   if (!inRange(range)) return;
   Target& target = targets_.emplace_back();
   target.row = row;
   target.range_m = target.end.path_m = range;
-  target.end.cosine = static_cast<float>(std::min(1.0, std::abs(met.facet.normal.dot(beam.direction))));
-  target.end.place = (beam.origin + range * beam.direction).cast<float>();
+  target.end.cosine = static_cast<float>(std::min(1.0, std::abs(met.facet.normal.dot(axis.direction))));
+  target.end.place = (axis.origin + range * axis.direction).cast<float>();
   target.end.optics = met.optics;
   target.end.product = met.facet.product, target.end.surface = met.facet.surface, target.end.material = met.material;
 }
@@ -307,6 +312,8 @@ void ColumnTracer::receiveSome(std::size_t first, int count, PointBlock& block) 
   int returns = 0;
   for (int k = 0; k < count; ++k)
     if (detected(targets_[first + static_cast<std::size_t>(k)], signal_.x[k])) found[returns++] = k;
+  const std::size_t first_point = block.size();
+  grow(block, first_point + static_cast<std::size_t>(returns));
   for (int i = 0; i < returns; ++i) {
     Target& target = targets_[first + static_cast<std::size_t>(found[i])];
     const auto sameRow = [&](int other) { return targets_[first + static_cast<std::size_t>(found[other])].row == target.row; };
@@ -315,7 +322,7 @@ void ColumnTracer::receiveSome(std::size_t first, int count, PointBlock& block) 
     while (to < returns && sameRow(to)) ++to;
     target.return_number = static_cast<std::uint8_t>(i - from + 1);
     target.return_count = static_cast<std::uint8_t>(to - from);
-    append(target, found[i], block);
+    write(target, found[i], first_point + static_cast<std::size_t>(i), block);
   }
 }
 
@@ -357,44 +364,57 @@ Eigen::Vector3d ColumnTracer::place(const Target& target, float x, float sigma_m
   direction += lateral * lateral_ - (lift * sine) * ahead_;
   direction.z() += lift * cosine;
   double range = target.range_m * plan_.bias.scale + plan_.bias.range_m + plan_.noise_scale * static_cast<double>(sigma_m) * noise + extra;
-  if (x > plan_.saturation) range += plan_.instrument.saturation.walk_m_per_decade * std::log10(x / plan_.saturation);
+  if (x > plan_.saturation) range += plan_.instrument.saturation.walk_m_per_decade * static_cast<double>(portable::log2(x / plan_.saturation)) * std::numbers::ln2 / std::numbers::ln10;
   const Eigen::Vector3d point = range * direction;
   if (!plan_.moves()) return point;
   return relative(start_, at(plan_.trajectory, plan_.clock.time_s(current_->column(), plan_.elevation_rad(target.row)))) * point;
 }
 
-void ColumnTracer::append(const Target& target, int lane, PointBlock& block) const {
+void ColumnTracer::grow(PointBlock& block, std::size_t size) const {
+  for (auto* column : {&block.x_m, &block.y_m, &block.z_m, &block.intensity}) column->resize(size);
+  for (auto* column : {&block.row, &block.column, &block.product, &block.material}) column->resize(size);
+  if (plan_.settings.imaging)
+    for (auto* column : {&block.red, &block.green, &block.blue}) column->resize(size);
+  const ScanChannels& channels = plan_.options.channels;
+  if (channels.time) block.time_s.resize(size);
+  if (channels.returns)
+    for (auto* column : {&block.return_number, &block.return_count}) column->resize(size);
+  if (!channels.truth) return;
+  PointTruth& truth = block.truth;
+  for (auto* column : {&truth.x_m, &truth.y_m, &truth.z_m, &truth.range_m, &truth.incidence_rad, &truth.received_db}) column->resize(size);
+  truth.flags.resize(size);
+}
+
+void ColumnTracer::write(const Target& target, int lane, std::size_t i, PointBlock& block) const {
   const Eigen::Vector3d point = place(target, signal_.x[lane], signal_.sigma_m[lane]);
-  block.x_m.push_back(static_cast<float>(point.x()));
-  block.y_m.push_back(static_cast<float>(point.y()));
-  block.z_m.push_back(static_cast<float>(point.z()));
-  block.intensity.push_back(signal_.intensity[lane]);
-  block.row.push_back(target.row);
-  block.column.push_back(current_->column());
-  block.product.push_back(target.end.product);
-  block.material.push_back(target.end.material);
+  block.x_m[i] = static_cast<float>(point.x());
+  block.y_m[i] = static_cast<float>(point.y());
+  block.z_m[i] = static_cast<float>(point.z());
+  block.intensity[i] = signal_.intensity[lane];
+  block.row[i] = target.row;
+  block.column[i] = current_->column();
+  block.product[i] = target.end.product;
+  block.material[i] = target.end.material;
   if (plan_.settings.imaging) {
     const auto& colour = target.end.surface == kNoSurface ? kWhite : plan_.colours[target.end.surface];
-    block.red.push_back(colour[0]);
-    block.green.push_back(colour[1]);
-    block.blue.push_back(colour[2]);
+    block.red[i] = colour[0], block.green[i] = colour[1], block.blue[i] = colour[2];
   }
   const ScanChannels& channels = plan_.options.channels;
-  if (channels.time) block.time_s.push_back(plan_.clock.time_s(current_->column(), plan_.elevation_rad(target.row)));
-  if (channels.returns) {
-    block.return_number.push_back(target.return_number);
-    block.return_count.push_back(target.return_count);
-  }
-  if (!channels.truth) return;
-  const Eigen::Vector3d true_place = start_.rotation.conjugate() * (target.end.place.cast<double>() - start_.translation);
-  block.truth.x_m.push_back(static_cast<float>(true_place.x()));
-  block.truth.y_m.push_back(static_cast<float>(true_place.y()));
-  block.truth.z_m.push_back(static_cast<float>(true_place.z()));
-  block.truth.range_m.push_back(static_cast<float>(target.end.path_m));
-  block.truth.incidence_rad.push_back(std::acos(std::min(1.0F, target.end.cosine)));
-  block.truth.received_db.push_back(3.0102999566398120F * portable::log2(signal_.x[lane]));
-  const bool saturated = signal_.x[lane] > plan_.saturation;
-  block.truth.flags.push_back(static_cast<std::uint8_t>(target.flags | (saturated ? point_flag::kSaturated : 0)));
+  if (channels.time) block.time_s[i] = plan_.clock.time_s(current_->column(), plan_.elevation_rad(target.row));
+  if (channels.returns) block.return_number[i] = target.return_number, block.return_count[i] = target.return_count;
+  if (channels.truth) writeTruth(target, lane, i, block.truth);
+}
+
+void ColumnTracer::writeTruth(const Target& target, int lane, std::size_t i, PointTruth& truth) const {
+  const Eigen::Vector3d place = start_.rotation.conjugate() * (target.end.place.cast<double>() - start_.translation);
+  truth.x_m[i] = static_cast<float>(place.x());
+  truth.y_m[i] = static_cast<float>(place.y());
+  truth.z_m[i] = static_cast<float>(place.z());
+  truth.range_m[i] = static_cast<float>(target.end.path_m);
+  const double cosine = std::min(1.0, static_cast<double>(target.end.cosine));
+  truth.incidence_rad[i] = static_cast<float>(2 * std::numbers::pi * portable::turnOf(std::sqrt(1 - cosine * cosine), cosine));
+  truth.received_db[i] = 3.0102999566398120F * portable::log2(signal_.x[lane]);
+  truth.flags[i] = static_cast<std::uint8_t>(target.flags | (signal_.x[lane] > plan_.saturation ? point_flag::kSaturated : 0));
 }
 
 }  // namespace standpoint

@@ -51,7 +51,7 @@ class ColumnTracer {
   void traceRays(const Beam& beam, int from, int to);
   void gatherEnds(const Beam& beam, const NearestHit& axis, bool edge);
   void addEnds(const RayLine& line, const NearestHit& hit, float weight);
-  void addSurface(std::uint32_t row, const Beam& beam, const NearestHit& hit, const MetFacet& met);
+  void addSurface(std::uint32_t row, const RayLine& axis, const NearestHit& hit, const MetFacet& met);
   void addScatterer(std::uint32_t row, const Beam& beam);
   void addEchoes(std::uint32_t row);
   void varySurfaces(std::size_t first, int count);
@@ -60,7 +60,9 @@ class ColumnTracer {
   void receiveSome(std::size_t first, int count, PointBlock& block);
   bool detected(const Target& target, float x) const;
   Eigen::Vector3d place(const Target& target, float x, float sigma_m) const;
-  void append(const Target& target, int lane, PointBlock& block) const;
+  void grow(PointBlock& block, std::size_t size) const;
+  void write(const Target& target, int lane, std::size_t i, PointBlock& block) const;
+  void writeTruth(const Target& target, int lane, std::size_t i, PointTruth& truth) const;
   float powerOf(const PathEnd& end) const;
   bool inRange(double range_m) const {
     return range_m >= plan_.instrument.min_range_m && range_m <= plan_.settings.max_range_m;
@@ -73,6 +75,7 @@ class ColumnTracer {
   ColumnHits* current_ = nullptr;
   double face_ = 1;                                     // -1 behind
   Eigen::Vector3d ahead_, lateral_;                     // of the column, in the scanner's frame
+  double row_step_, column_step_;                       // rad
   Pose start_;                                          // of the scanner at time 0
   RayPacket sub_rays_;
   RayLine sub_lines_[kSubRays];

@@ -6,8 +6,8 @@
 
 namespace standpoint {
 
-const std::array<EffectName, 15>& effectNames() {
-  static constexpr std::array<EffectName, 15> kNames = {{
+const std::array<EffectName, 16>& effectNames() {
+  static constexpr std::array<EffectName, 16> kNames = {{
       {Effect::range_noise, "range-noise", "white noise of the range"},
       {Effect::angle_noise, "angle-noise", "jitter of the angles"},
       {Effect::bias, "bias", "systematic errors of range and angles"},
@@ -23,6 +23,7 @@ const std::array<EffectName, 15>& effectNames() {
       {Effect::variation, "variation", "the variation of a material from place to place"},
       {Effect::saturation, "saturation", "range errors by too much light"},
       {Effect::quantisation, "quantisation", "the steps of the intensity"},
+      {Effect::levelling, "levelling", "the error of the compensator where a station leans"},
   }};
   return kNames;
 }

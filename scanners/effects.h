@@ -28,6 +28,7 @@ enum class Effect : std::uint32_t {
   variation = 1U << 12U,     // a material is not the same everywhere
   saturation = 1U << 13U,    // too much light bends the range
   quantisation = 1U << 14U,  // the intensity is stored in steps
+  levelling = 1U << 15U,     // the compensator's error: the file's pose is not the true one
 };
 
 class Effects {
@@ -42,7 +43,7 @@ class Effects {
 
  private:
   explicit constexpr Effects(std::uint32_t bits) : bits_(bits) {}
-  std::uint32_t bits_ = (1U << 15U) - 1;
+  std::uint32_t bits_ = (1U << 16U) - 1;
 };
 
 struct EffectName {
@@ -50,7 +51,7 @@ struct EffectName {
   std::string_view name;         // "range-noise"
   std::string_view description;  // what is left out without it
 };
-const std::array<EffectName, 15>& effectNames();
+const std::array<EffectName, 16>& effectNames();
 
 std::string effectList();   // the names, separated by commas
 // Everything but the listed ones: "striping,footprint". An unknown name is an error that lists the known ones.

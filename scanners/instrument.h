@@ -79,6 +79,13 @@ struct Camera {
   double offset_up_m = 0;          // of the camera above the laser's centre
 };
 
+// What tells an instrument on a tripod how far it leans.
+struct Compensator {
+  std::string kind;                // "liquid", "inclinometer", "imu" or "self_levelling"
+  double range_rad = 0;            // of the tilt that it corrects; 0 = no limit is known
+  double accuracy_rad = 0;         // 1 σ of each of its two axes
+};
+
 // What turns on an instrument that is carried or driven: laser heads that sweep whole turns, each with its channels.
 struct MovingHead {
   std::string mount;               // what carries it: "hand", "body", "vehicle", "aircraft" or "any"
@@ -122,6 +129,7 @@ struct Instrument {
   Waveform waveform;
   CorrelatedNoise correlated;
   Saturation saturation;
+  std::optional<Compensator> compensator;
   std::optional<MovingHead> moving;      // then it has no mirror, stand and pictures, and scanning needs a trajectory
 };
 

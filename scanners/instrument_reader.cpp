@@ -85,6 +85,7 @@ class Reader : FigureReader {
     instrument_.trunnion_height_m = figure(stand, "trunnion_height_m", {0, 2});
     instrument_.tripod_height_m = figure(stand, "tripod_height_m", {0.1, 10});
     close(stand);
+    if (root.object->contains("compensator")) readCompensator(root);
     Group imaging = child(root, "imaging");
     instrument_.imaging_seconds = figure(imaging, "seconds", {0, 3600});
     instrument_.camera.columns = static_cast<std::uint32_t>(count(imaging, "columns", {16, 32768})) / 2 * 2;
@@ -92,6 +93,16 @@ class Reader : FigureReader {
     instrument_.camera.hdr = count(imaging, "hdr", {0, 1}) == 1;
     instrument_.camera.offset_up_m = figure(imaging, "offset_up_mm", {-500, 500, 1e-3});
     close(imaging);
+  }
+
+  void readCompensator(Group& root) {
+    Group group = child(root, "compensator");
+    Compensator compensator;
+    compensator.kind = word(group, "kind", {"liquid", "inclinometer", "imu", "self_levelling"});
+    compensator.range_rad = figure(group, "range_deg", {0, 90, kRadPerDeg});
+    compensator.accuracy_rad = figure(group, "accuracy_arcsec", {0, 36000, kRadPerArcsec});
+    close(group);
+    instrument_.compensator = std::move(compensator);
   }
 
   void readMoving(Group& root) {

@@ -82,8 +82,10 @@ inline double log(double x) {
   }
   const double s = (mantissa - 1) / (mantissa + 1);          // ln m = 2 artanh s, |s| < 0.172
   const double q = s * s;
+  constexpr double kSeries[] = {1.0 / 21, 1.0 / 19, 1.0 / 17, 1.0 / 15, 1.0 / 13, 1.0 / 11,
+                                1.0 / 9,  1.0 / 7,  1.0 / 5,  1.0 / 3,  1};
   double sum = 0;
-  for (int k = 21; k > 0; k -= 2) sum = sum * q + 1.0 / k;
+  for (const double coefficient : kSeries) sum = sum * q + coefficient;
   return exponent * 0.6931471805599453 + 2 * s * sum;
 }
 
@@ -91,8 +93,10 @@ inline double log(double x) {
 inline double exp(double x) {
   const double turns = std::floor(x * 1.4426950408889634 + 0.5);   // 1 / ln 2
   const double rest = x - turns * 0.6931471805599453;
-  double sum = 1;
-  for (int k = 17; k > 0; --k) sum = 1 + sum * rest / k;
+  constexpr double kInverse[] = {1.0 / 15, 1.0 / 14, 1.0 / 13, 1.0 / 12, 1.0 / 11, 1.0 / 10, 1.0 / 9, 1.0 / 8,
+                                 1.0 / 7,  1.0 / 6,  1.0 / 5,  1.0 / 4,  1.0 / 3,  1.0 / 2,  1};
+  double sum = 1;                                            // |rest| < 0.35
+  for (const double inverse : kInverse) sum = 1 + sum * rest * inverse;
   return std::ldexp(sum, static_cast<int>(turns));
 }
 

@@ -18,6 +18,11 @@ constexpr double kPaneSlope = 0.01;
 // A rougher surface spreads a mirror image over more than the beam is wide.
 constexpr double kSmoothestSlope = 0.0105;
 
+// A class varies from building to building; on one surface by half of that (physics.md §2.9, an engineering figure).
+constexpr double kOnOneSurface = 0.5;
+// Of weathering, 0.3 to 1 m there: for materials of which nobody measured it, which are all so far.
+constexpr double kUsualScale_m = 0.5;
+
 double linear(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }
 
 }  // namespace
@@ -43,10 +48,8 @@ Optics opticsOf(const PhysicalMaterial& material, double wavelength_nm) {
     optics.panes = material.panes;
     optics.inner_transmittance = innerTransmittance(optics.index, atWavelength(material.transmittance, wavelength_nm));
   }
-  if (material.texture_scale_m > 0) {
-    optics.variation = static_cast<float>(material.variation);
-    optics.texture_scale_m = static_cast<float>(material.texture_scale_m);
-  }
+  optics.variation = static_cast<float>(kOnOneSurface * material.variation);
+  optics.texture_scale_m = static_cast<float>(material.texture_scale_m > 0 ? material.texture_scale_m : kUsualScale_m);
   return optics;
 }
 

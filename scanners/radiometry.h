@@ -26,8 +26,8 @@ struct Optics {
   int panes = 1;
   bool smooth = false;           // shows mirror images
   float mirror_f0 = 0;           // of an opaque smooth surface at normal incidence
-  float variation = 0;           // coefficient of variation of the reflectance …
-  float texture_scale_m = 0;     // … over this length; 0 = none
+  float variation = 0;           // coefficient of variation of the reflectance on one surface …
+  float texture_scale_m = 0;     // … over this length
 };
 
 Optics opticsOf(const PhysicalMaterial& material, double wavelength_nm);

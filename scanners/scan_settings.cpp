@@ -43,7 +43,8 @@ Result<SettingValues> complete(const Instrument& instrument, const SettingValues
   SettingValues result;
   for (const auto& setting : instrument.settings) result.emplace_back(setting.key, setting.standard);
   std::vector<bool> given(result.size(), false);
-  for (const auto& [key, value] : values) {
+  for (const auto& pair : values) {
+    const std::string &key = pair.first, &value = pair.second;
     const auto found = std::find_if(instrument.settings.begin(), instrument.settings.end(), [&](const auto& s) { return s.key == key; });
     if (found == instrument.settings.end()) {
       std::vector<std::string> keys;

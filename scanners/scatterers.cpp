@@ -51,8 +51,8 @@ double Scatterers::white(double range_m) const {
 }
 
 // x = F white(r) min(D / beam, 1)²: the smallest D that reaches the least x.
-double Scatterers::leastDiameter(const Population& population, double range_m) const {
-  const double share = least_x_ / (population.backscatter * white(range_m));
+double Scatterers::leastDiameter(const Population& population, double range_m, double white_x) const {
+  const double share = least_x_ / (population.backscatter * white_x);
   if (share > 1) return std::numeric_limits<double>::infinity();
   return std::max(beamDiameter(range_m) * std::sqrt(share), kSmallest_m);
 }
@@ -60,7 +60,7 @@ double Scatterers::leastDiameter(const Population& population, double range_m) c
 // N(> D) of an exponential distribution is n0/Λ e^(-ΛD); the beam sweeps its cross-section.
 void Scatterers::count(Population& population) const {
   const auto per_m = [&](double range_m) {
-    const double diameter = leastDiameter(population, range_m);
+    const double diameter = leastDiameter(population, range_m, white(range_m));
     if (std::isinf(diameter)) return 0.0;
     const double exponent = std::min(1e3 * population.sizes.lambda_per_mm * diameter, 600.0);
     const double beam = beamDiameter(range_m);
@@ -114,9 +114,10 @@ void Scatterers::drops(const Population& population, std::uint32_t column, std::
       if (number >= total) return;
       const double range_m = rangeOf(population, number);
       const double above_m = -1e-3 / population.sizes.lambda_per_mm * portable::log(uniform(block[k + 1]));
-      const double diameter = leastDiameter(population, range_m) + above_m;
+      const double white_x = white(range_m);
+      const double diameter = leastDiameter(population, range_m, white_x) + above_m;
       const double share = std::min(diameter / beamDiameter(range_m), 1.0);
-      const double x = population.backscatter * white(range_m) * share * share;
+      const double x = population.backscatter * white_x * share * share;
       if (x > best.x) best = {population.kind, range_m, x};
     }
   }

@@ -48,7 +48,8 @@ class Scatterers {
 
   double beamDiameter(double range_m) const;
   double white(double range_m) const;                     // x of a white target that fills the beam
-  double leastDiameter(const Population& population, double range_m) const;   // m; infinity: none is large enough
+  // m; infinity: none is large enough. `white_x` is white() there.
+  double leastDiameter(const Population& population, double range_m, double white_x) const;
   void count(Population& population) const;
   std::size_t nodeBefore(double range_m) const;
   double numberBefore(const Population& population, double range_m) const;

@@ -104,6 +104,11 @@ struct ScanPanelState {
   std::string folder;
 };
 
+struct PlanPanelState {
+  double spacing_mm = 0;            // 0: any
+  double max_incidence_deg = 90;
+};
+
 struct LogPanelState {
   LogFilter filter;
   std::size_t seen = 0;             // entries when it was drawn last: new ones scroll into view
@@ -130,6 +135,7 @@ struct PanelStates {
   GeoreferencePanelState georeference;
   SurveyPanelState survey;
   ScanPanelState scan;
+  PlanPanelState plan;
   LogPanelState log;
   Catalogue catalogue;
 };

@@ -16,6 +16,7 @@ void drawMaterialForm(Editor& editor);   // in the card's place, while a materia
 void drawMaterialsPanel(Editor& editor);
 void drawOptimisePanel(Editor& editor);
 void drawOutlinerPanel(Editor& editor);
+void drawPlanPanel(Editor& editor);
 void drawScanPanel(Editor& editor);
 void drawSurveyPanel(Editor& editor);
 void drawTasksPanel(Editor& editor);

@@ -136,6 +136,7 @@ void start(Editor& editor, const std::filesystem::path& folder, const CloudForma
   std::filesystem::create_directories(folder, error);
   nlohmann::json options = {{"stations", stations}, {"instrument", state.instrument}, {"set", std::move(set)}, {"seed", state.seed}, {"output", file.string()}};
   if (state.ideal) options["ideal"] = true;
+  options["resume"] = true;   // what a cancelled run has finished is taken where it is the same
   editor.session.start("scan", std::move(options), stations == "all" ? "Scan all stations" : "Scan station " + stations);
 }
 

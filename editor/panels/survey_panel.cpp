@@ -5,6 +5,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "core/units.h"
 #include "editor/editor.h"
 #include "editor/panels/panels_list.h"
 #include "editor/shell/actions.h"
@@ -91,6 +92,11 @@ void drawChosenStation(Editor& editor, const Station& station) {
       ImGui::InputDouble(fmt::format("###move{}", i).c_str(), &state.move_to[i], 0, 0, "%.3f m");
     }
     ui::property("Above floor", metres(station.instrument_height_m));
+    if (station.solved_pose) {
+      const Pose& solved = *station.solved_pose;
+      ui::property("Registered", fmt::format("{:.1f} mm and {:.4f}° off", (solved.translation - station.true_pose.translation).norm() * 1000,
+                                             solved.rotation.angularDistance(station.true_pose.rotation) / kRadPerDeg));
+    }
     ui::endProperties();
   }
   const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;

@@ -11,6 +11,7 @@
 #include "editor/shell/overlay.h"
 #include "editor/shell/theme.h"
 #include "editor/shell/widgets.h"
+#include "project/survey_verbs.h"
 
 namespace standpoint {
 
@@ -114,17 +115,27 @@ void drawMeasure(Editor& editor, const Pen& pen) {
   pen.label(*to, fmt::format("{:.3f} m   (Δ {:.3f}  {:.3f}  {:.3f})", d.norm(), d.x(), d.y(), d.z()), tone::kText);
 }
 
+// A tripod under the pointer, red and with the reason where it cannot stand.
+void drawWouldStand(Editor& editor, const Pen& pen, double height_m) {
+  const RayHit& hit = *editor.view.hover;
+  const auto& refusal = editor.placement.whyNotOn(hit, height_m);
+  const ImU32 tone = faded(refusal ? tone::kBad : tone::kStation, 0.8F);
+  const Eigen::Vector3d centre = hit.position + Eigen::Vector3d(0, 0, height_m);
+  drawTripod(pen, centre, height_m, tone, 2);
+  const auto place = pen.at(centre);
+  if (!place) return;
+  pen.circle(*place, 5, IM_COL32(20, 22, 26, 200), tone);
+  if (refusal) pen.label(*place, refusal->reason, tone::kBad);
+}
+
 void drawPreview(Editor& editor, const Pen& pen) {
   const auto& view = editor.view;
   if (!view.hover) return;
   if (view.tool == Tool::placeStation) {
-    constexpr double kHeight_m = 1.6;
-    const bool flat = view.hover->normal.z() > 0.7;
-    const ImU32 tone = faded(flat ? tone::kStation : tone::kBad, 0.8F);
-    const Eigen::Vector3d centre = view.hover->position + Eigen::Vector3d(0, 0, kHeight_m);
-    drawTripod(pen, centre, kHeight_m, tone, 2);
-    if (const auto place = pen.at(centre)) pen.circle(*place, 5, IM_COL32(20, 22, 26, 200), tone);
+    drawWouldStand(editor, pen, kUsualHeight_m);
   }
+  if (const auto& job = editor.session.document().job; job && view.dragged_station >= 0 && view.dragged_station < static_cast<int>(job->stations.size()))
+    drawWouldStand(editor, pen, job->stations[static_cast<std::size_t>(view.dragged_station)].instrument_height_m);
   if (view.tool == Tool::placeTarget)
     if (const auto place = pen.at(view.hover->position + view.hover->normal * 0.0725)) pen.circle(*place, 5, IM_COL32(245, 245, 245, 200), tone::kGood);
 }

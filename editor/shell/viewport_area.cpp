@@ -12,6 +12,7 @@
 #include "editor/shell/material_brush.h"
 #include "editor/shell/overlay.h"
 #include "editor/shell/shell.h"
+#include "editor/shell/station_drag.h"
 #include "editor/shell/theme.h"
 #include "editor/shell/widgets.h"
 
@@ -69,9 +70,9 @@ void placeTarget(Editor& editor, const RayHit& hit) {
   if (const auto& job = editor.session.document().job)
     for (const auto& t : job->targets) names.push_back(t.name);
   const auto name = nextName("T", names);
-  constexpr double kRadius_m = 0.0725;   // of the standard sphere: it touches what was clicked
-  const Eigen::Vector3d p = hit.position + hit.normal * kRadius_m + editor.shift_m();
-  editor.session.start("target", {{"add", name}, {"at", {p.x(), p.y(), p.z()}}}, "Add target " + name);
+  constexpr double kBefore_m = 0.05;     // says on which side of what was clicked it sticks
+  const Eigen::Vector3d p = hit.position + hit.normal * kBefore_m + editor.shift_m();
+  editor.session.start("target", {{"add", name}, {"on-surface", {p.x(), p.y(), p.z()}}}, "Add target " + name);
 }
 
 void measure(Editor& editor, const RayHit& hit) {
@@ -234,7 +235,9 @@ void drawViewport(Editor& editor) {
   const ImVec2 right(origin.x + size.x, origin.y);
   if (!view.dragging) view.in_right_half = both && ImGui::GetIO().MousePos.x >= right.x;
   const bool on_probe = !previewed && !view.dragging && dragProbe(editor, origin, hovered);
-  if (!on_probe) handleMouse(editor, view.in_right_half ? right : origin, hovered);
+  editor.placement.follow(editor.picker.scene());
+  const bool on_station = !previewed && !on_probe && dragStation(editor, view.in_right_half ? right : origin, hovered);
+  if (!on_probe && !on_station) handleMouse(editor, view.in_right_half ? right : origin, hovered);
   handleWalking(editor);
   if (previewed) return;
   drawExpectedLegend(editor, origin, size);

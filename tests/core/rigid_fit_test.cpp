@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/rigid_fit.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
+
+#include "core/random.h"
 
 namespace standpoint {
 namespace {
@@ -69,6 +73,29 @@ TEST(RigidFit, SharesAnErrorOutAsLeastSquaresDo) {
   const auto fit = fitRigid(from, to);
   ASSERT_TRUE(fit);
   for (const double r : fit->residual_m) EXPECT_NEAR(r, h, 1e-7);
+}
+
+// V15 of physics.md §7: what is left of errors of 1 mm in each coordinate of both frames, of 3n - 6 degrees of freedom.
+TEST(RigidFit, V15_LeavesTheResidualThatItsDegreesOfFreedomSay) {
+  constexpr double kSigma_m = 0.001;
+  constexpr std::uint32_t kRuns = 500;
+  const std::vector<Vector3d> places = {{0, 0, 0}, {12, 1, 2}, {10, 9, -1}, {-1, 11, 3}};
+  for (const std::size_t n : {std::size_t{3}, std::size_t{4}}) {
+    double squares = 0;
+    for (std::uint32_t run = 0; run < kRuns; ++run) {
+      std::vector<Vector3d> from(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(n));
+      auto to = moved(from, kMotion);
+      for (std::uint32_t i = 0; i < n; ++i) {
+        const auto a = normals(philox({15, 0}, run, i, 0)), b = normals(philox({15, 0}, run, i, 1));
+        from[i] += kSigma_m * Vector3d(a[0], a[1], a[2]);
+        to[i] += kSigma_m * Vector3d(b[0], b[1], b[2]);
+      }
+      const auto fit = fitRigid(from, to);
+      ASSERT_TRUE(fit);
+      squares += fit->rms_m * fit->rms_m / kRuns;
+    }
+    EXPECT_NEAR(std::sqrt(squares) / (kSigma_m * (n == 3 ? 1.41 : 1.73)), 1, 0.03) << n;
+  }
 }
 
 TEST(RigidFit, RefusesWhatHoldsNothing) {

@@ -43,7 +43,8 @@ TEST(E57, ReturnsThePicturesOfEachStation) {
   const TemporaryFolder folder;
   auto writer = e57::createWriter(folder / "a.e57");
   ASSERT_OK(writer);
-  const StationPicture panorama = madeUpPicture(Projection::spherical), front = madeUpPicture(Projection::pinhole, 4003);
+  const StationPicture panorama = madeUpPicture(Projection::spherical),
+                       front = madeUpPicture(Projection::pinhole, 4003);
   for (const char* name : {"A", "B"}) {
     ScanHeader header = madeUpHeader({20, 30, true, true, name});
     ASSERT_OK((*writer)->begin(header));
@@ -108,7 +109,8 @@ TEST(E57, OfScaledIntegersIsRightToHalfAStepAndSmaller) {
   EXPECT_EQ(scan.points.row, points.row);
   EXPECT_EQ(scan.header.intensity_min, -2);
   expectSameLabels(scan, header, points);
-  EXPECT_LT(std::filesystem::file_size(folder / "scaled.e57"), 0.85 * std::filesystem::file_size(folder / "floats.e57"));
+  EXPECT_LT(std::filesystem::file_size(folder / "scaled.e57"),
+            0.85 * std::filesystem::file_size(folder / "floats.e57"));
 }
 
 TEST(E57, OfScaledIntegersRefusesWhatTheyDoNotReach) {
@@ -264,7 +266,8 @@ TEST(TextClouds, KeepANationalGridToAHundredthOfAMillimetre) {
     EXPECT_EQ(kept.scans[0].points.truth.flags, csv ? points.truth.flags : std::vector<std::uint8_t>{});
     for (std::size_t i = 0; i < points.size(); ++i) {
       const float read = kept.scans[0].points.intensity[i];
-      ASSERT_NEAR(*name == 'a' && std::string(name) == "a.pts" ? (read + 2048) / 4095 : read, points.intensity[i], 2e-4);
+      ASSERT_NEAR(*name == 'a' && std::string(name) == "a.pts" ? (read + 2048) / 4095 : read, points.intensity[i],
+                  2e-4);
     }
   }
 }
@@ -287,7 +290,8 @@ TEST(Las, OfAnotherTableOfLabelsPutsItBehindTheFirst) {
 
 TEST(Las, RefusesAStationBeyondItsIntegers) {
   const TemporaryFolder folder;
-  std::vector<ScanHeader> headers = {madeUpHeader({10, 20, false, true, "A"}), madeUpHeader({10, 20, false, true, "B"})};
+  std::vector<ScanHeader> headers = {madeUpHeader({10, 20, false, true, "A"}),
+                                     madeUpHeader({10, 20, false, true, "B"})};
   headers[1].file_from_scanner.translation.x() += 220000;
   auto writer = cloudFormatFor("a.las")->writer(folder / "a.las");
   ASSERT_OK(writer);

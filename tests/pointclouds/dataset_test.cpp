@@ -28,7 +28,10 @@ const Dataset& setNamed(const std::string& name) {
 // Two stations: walls, a door, and slabs below and above the scanner.
 std::vector<ScanHeader> headers() {
   std::vector<ScanHeader> all = {madeUpHeader({20, 30, true, true, "A_1"}), madeUpHeader({20, 30, false, true, "B"})};
-  for (auto& h : all) h.products = {{"#1", "gidWall", "IfcWallStandardCase", "w, \"1\""}, {"#2", "gidDoor", "IfcDoor", ""}, {"#3", "gidSlab", "IfcSlab", ""}};
+  for (auto& h : all)
+    h.products = {{"#1", "gidWall", "IfcWallStandardCase", "w, \"1\""},
+                  {"#2", "gidDoor", "IfcDoor", ""},
+                  {"#3", "gidSlab", "IfcSlab", ""}};
   return all;
 }
 
@@ -70,11 +73,13 @@ TEST(Datasets, S3disHasAFileForEachInstanceAndTheRoomIsTheirSum) {
   int r = 0, g = 0, b = 0;
   first >> x >> y >> z >> r >> g >> b;
   const Eigen::Vector3d shift(5000000, -5000000, 0);   // whole metres of the first station's place
-  const Eigen::Vector3d p = headers()[0].file_from_scanner * Eigen::Vector3d(points.x_m[0], points.y_m[0], points.z_m[0]) - shift;
+  const Eigen::Vector3d p =
+      headers()[0].file_from_scanner * Eigen::Vector3d(points.x_m[0], points.y_m[0], points.z_m[0]) - shift;
   EXPECT_LE((p - Eigen::Vector3d(x, y, z)).cwiseAbs().maxCoeff(), 0.6e-5);
   EXPECT_EQ(r, points.red[0]);
   EXPECT_EQ(b, points.blue[0]);
-  EXPECT_THAT(bytesOf(folder / "out/instances.csv"), HasSubstr("1,\"#1\",\"gidWall\",\"IfcWallStandardCase\",\"w, \"\"1\"\"\"\n"));
+  EXPECT_THAT(bytesOf(folder / "out/instances.csv"),
+              HasSubstr("1,\"#1\",\"gidWall\",\"IfcWallStandardCase\",\"w, \"\"1\"\"\"\n"));
   EXPECT_THAT(bytesOf(folder / "out/dataset.json"), HasSubstr("5000000.0"));
 }
 
@@ -104,7 +109,8 @@ TEST(Datasets, Semantic3dAndCustom3dHaveALabelForEachPoint) {
   const TemporaryFolder folder;
   ASSERT_OK(convert(folder, "semantic3d"));
   const PointBlock points = allPoints(headers()[0]);
-  for (const char* end : {".txt", ".labels", ".instances"}) EXPECT_EQ(linesOf(folder / (std::string("out/A-1") + end)), points.size());
+  for (const char* end : {".txt", ".labels", ".instances"})
+    EXPECT_EQ(linesOf(folder / (std::string("out/A-1") + end)), points.size());
   std::filesystem::remove_all(folder / "out");
   ASSERT_OK(convert(folder, "custom3d"));
   const std::string numpy = bytesOf(folder / "out/train/A-1.npy");
@@ -144,7 +150,8 @@ TEST(ClassMaps, NameWhatIsWrongWithThem) {
       {"{\"name\":\"a\",\"unknown\":\"x\",\"noise\":\"x\",\"classes\":{\"x\":1},\"ifc\":{},\"more\":1}", "/more"},
       {"{\"name\":\"a\",\"unknown\":\"x\",\"classes\":{\"x\":1},\"ifc\":{}}", "/noise"},
       {"{\"name\":\"a\",\"unknown\":\"x\",\"noise\":\"x\",\"classes\":{\"x\":70000},\"ifc\":{}}", "/classes/x"},
-      {"{\"name\":\"a\",\"unknown\":\"x\",\"noise\":\"x\",\"classes\":{\"x\":1},\"ifc\":{\"IfcWall\":\"y\"}}", "'y' is none"},
+      {"{\"name\":\"a\",\"unknown\":\"x\",\"noise\":\"x\",\"classes\":{\"x\":1},\"ifc\":{\"IfcWall\":\"y\"}}",
+       "'y' is none"},
       {"{\"name\":", "parse error"}};
   for (const auto& [text, says] : faults) {
     testing::putBytes(folder / "map.json", text);

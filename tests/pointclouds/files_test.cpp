@@ -163,7 +163,8 @@ TEST(ConvertCloud, NamesWhatItCannotDo) {
   const auto variant = convertCloud(folder / "a.e57", folder / "b.e57", "short", report, progress);
   ASSERT_FALSE(variant.has_value());
   EXPECT_THAT(describe(variant.error()), ::testing::HasSubstr("there is scaled, spherical"));
-  EXPECT_EQ(convertCloud(folder / "none.e57", folder / "b.ptx", "", report, progress).error().kind, ErrorKind::file_system);
+  EXPECT_EQ(convertCloud(folder / "none.e57", folder / "b.ptx", "", report, progress).error().kind,
+            ErrorKind::file_system);
   EXPECT_TRUE(filesIn(folder).empty());
 }
 

@@ -144,7 +144,8 @@ TEST(HostilePcd, IsRefusedAtOnceWithTheReason) {
     const auto read = readAll(folder / "bad.pcd", kept);
     ASSERT_FALSE(read.has_value()) << says;
     EXPECT_EQ(read.error().kind, ErrorKind::unusable);
-    EXPECT_THAT(describe(read.error()), ::testing::AllOf(::testing::StartsWith("bad.pcd line"), ::testing::HasSubstr(says)));
+    EXPECT_THAT(describe(read.error()),
+                ::testing::AllOf(::testing::StartsWith("bad.pcd line"), ::testing::HasSubstr(says)));
   }
 }
 
@@ -156,8 +157,9 @@ TEST(HostileE57, WithAPictureOutsideOfItselfKeepsItsPoints) {
   KeptScans kept;
   const auto longer = readAll(folder / "s.e57", kept);   // reaches into the next section: nobody can tell
   ASSERT_OK(longer);
-  for (const auto& [from, to] : {std::pair("pngImage type=\"Blob\" fileOffset=\"", "pngImage type=\"Blob\" fileOffset=\"9"),
-                                 std::pair("sphericalRepresentation", "cylindricRepresentation")}) {
+  for (const auto& [from, to] :
+       {std::pair("pngImage type=\"Blob\" fileOffset=\"", "pngImage type=\"Blob\" fileOffset=\"9"),
+        std::pair("sphericalRepresentation", "cylindricRepresentation")}) {
     smallFile(folder / "s.e57");
     const std::string wanted = from;
     std::string other = to;

@@ -80,7 +80,8 @@ TEST(Las, OfEveryPointFormatGivesItsCoordinates) {
     ASSERT_EQ(kept.scans.size(), 1u);
     const auto& [header, points, ended] = kept.scans[0];
     ASSERT_EQ(points.size(), 3u);
-    const Eigen::Vector3d last = header.file_from_scanner * Eigen::Vector3d(points.x_m[2], points.y_m[2], points.z_m[2]);
+    const Eigen::Vector3d last =
+        header.file_from_scanner * Eigen::Vector3d(points.x_m[2], points.y_m[2], points.z_m[2]);
     EXPECT_NEAR(last.x(), 500002.0, 1e-6);
     EXPECT_NEAR(last.y(), 5399999.75, 1e-6);
     EXPECT_NEAR(last.z(), 100.007, 1e-6);
@@ -116,6 +117,25 @@ TEST(Las, NamesTheCoordinateSystemOfItsKeysAndOfItsText) {
   ASSERT_OK(by_text);
   EXPECT_EQ(by_text->crs, wkt);
   EXPECT_EQ(by_text->scans[0].header.coordinate_metadata, wkt);
+}
+
+TEST(Las, OfAdjustedTimesBeginsAtTheSecondOfItsFirstPoint) {
+  const TemporaryFolder folder;
+  std::string bytes = las({});
+  put<std::uint16_t>(bytes, 6, 1);
+  for (std::size_t i = 0; i < 3; ++i) {
+    put<double>(bytes, 375 + 36 * i + 22, 450000000.75 + 2.5 * static_cast<double>(i));
+    bytes[375 + 36 * i + 14] = static_cast<char>(i == 2 ? 0x00 : 0x31);   // 1 of 3; of the last the bits make no sense
+  }
+  testing::putBytes(folder / "a.las", bytes);
+  KeptScans kept;
+  const auto report = readAll(folder / "a.las", kept);
+  ASSERT_OK(report);
+  const auto& [header, points, ended] = kept.scans.at(0);
+  EXPECT_EQ(header.acquisition_start_gps_s, 1450000000.0);
+  EXPECT_THAT(points.time_s, ::testing::ElementsAre(0.75, 3.25, 5.75));
+  EXPECT_THAT(points.return_count, ::testing::ElementsAre(3, 3, 1));
+  EXPECT_THAT(testing::said(*report), HasSubstr("1 return numbers are none of their pulse"));
 }
 
 TEST(Las, ReadsTheCoordinateSystemBehindThePoints) {

@@ -41,7 +41,8 @@ Result<void> writeWithPictures(CloudWriter& writer, const ScanHeader& header) {
       .and_then([&] { return writer.end(); });
 }
 
-std::uint64_t write(const std::filesystem::path& file, const std::vector<ScanKind>& kinds, const CloudVariant* as = nullptr) {
+std::uint64_t write(const std::filesystem::path& file, const std::vector<ScanKind>& kinds,
+                    const CloudVariant* as = nullptr) {
   auto writer = (as ? as->writer : cloudFormatFor(file)->writer)(file);
   std::uint64_t points = 0;
   for (const ScanKind& kind : kinds) {
@@ -191,7 +192,8 @@ TEST(OutsideReaders, CloudCompareFindsThePointsOfOurPtxAndPly) {
 // Number of points and the mean of their places.
 TEST(OutsideReaders, Open3dFindsThePlacesOfOurPlyPcdAndText) {
   const std::string python = "/usr/bin/python3";
-  if (output(python + " -c 'import open3d; print(1)'").find("1\n") != 0) GTEST_SKIP() << "python3-open3d is not installed";
+  if (output(python + " -c 'import open3d; print(1)'").find("1\n") != 0)
+    GTEST_SKIP() << "python3-open3d is not installed";
   const TemporaryFolder folder;
   testing::putBytes(folder / "look.py",
                     "import sys, numpy as np, open3d as o3d\n"

@@ -86,9 +86,10 @@ TEST(PlyCloud, ReadsWhatItWrote) {
 
 TEST(PlyCloud, OfAMeshIsItsVerticesAndTheFacesAreLostAloud) {
   const TemporaryFolder folder;
-  testing::putBytes(folder / "m.ply",
-                    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-                    "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  testing::putBytes(
+      folder / "m.ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   EXPECT_TRUE(ply::hasFaces(folder / "m.ply"));
   EXPECT_EQ(readableCloudFormat(folder / "m.ply"), nullptr);
   KeptScans kept;
@@ -102,8 +103,10 @@ TEST(HostilePlyCloud, IsRefusedAtOnceWithLineAndReason) {
   const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
   const std::pair<std::string, const char*> bad[] = {
       {"plyx\n", "is not a PLY file"},
-      {"ply\nformat ascii 1.0\nelement vertex 1000000000000\n" + xyz + "end_header\n1 2 3\n", "no room for 1000000000000"},
-      {"ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\n" + xyz + "end_header\nabc", "no room"},
+      {"ply\nformat ascii 1.0\nelement vertex 1000000000000\n" + xyz + "end_header\n1 2 3\n",
+       "no room for 1000000000000"},
+      {"ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\n" + xyz + "end_header\nabc",
+       "no room"},
       {"ply\nformat binary_little_endian 1.0\nelement edge 9999999999\nproperty int a\nelement vertex 1\n" + xyz +
            "end_header\nabc",
        "no room for 9999999999 elements 'edge'"},

@@ -58,13 +58,15 @@ inline void expectSameLabels(const KeptScans::Scan& scan, const ScanHeader& head
 }
 
 // As what a file holds that has no scanner of its own: places in the file's frame to a tolerance.
-inline void expectPlacesWithin(const KeptScans::Scan& scan, const ScanHeader& header, const PointBlock& points, double within_m) {
+inline void expectPlacesWithin(const KeptScans::Scan& scan, const ScanHeader& header, const PointBlock& points,
+                               double within_m) {
   ASSERT_EQ(scan.points.size(), points.size());
   double worst = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const PointBlock& p = scan.points;
     const Eigen::Vector3d read = scan.header.file_from_scanner * Eigen::Vector3d(p.x_m[i], p.y_m[i], p.z_m[i]);
-    const Eigen::Vector3d made = header.file_from_scanner * Eigen::Vector3d(points.x_m[i], points.y_m[i], points.z_m[i]);
+    const Eigen::Vector3d made =
+        header.file_from_scanner * Eigen::Vector3d(points.x_m[i], points.y_m[i], points.z_m[i]);
     worst = std::max(worst, (read - made).cwiseAbs().maxCoeff());
   }
   EXPECT_LE(worst, within_m);

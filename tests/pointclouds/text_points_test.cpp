@@ -16,8 +16,8 @@ TEST(TextPoints, HaveTheColumnsThatTheirNumberSays) {
     const char* line;
     bool intensity, colour;
   };
-  for (const Case& c : {Case{"1 2 3", false, false}, Case{"1,2,3,-77", true, false}, Case{"1;2;3;10;20;30", false, true},
-                        Case{"1\t2\t3\t-77\t10\t20\t30", true, true}}) {
+  for (const Case& c : {Case{"1 2 3", false, false}, Case{"1,2,3,-77", true, false},
+                        Case{"1;2;3;10;20;30", false, true}, Case{"1\t2\t3\t-77\t10\t20\t30", true, true}}) {
     SCOPED_TRACE(c.line);
     testing::putBytes(folder / "a.xyz", std::string("//X Y Z\n") + c.line + "\r\n" + c.line + "\n");
     KeptScans kept;

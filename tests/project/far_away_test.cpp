@@ -27,7 +27,7 @@ TEST(FarAway, AScanOfARoomAtFiveThousandKilometresHasItsWallsWhereTheFileSays) {
     EXPECT_TRUE(outcome) << describe(outcome.error());
   };
   done("import", {{"files", {(folder.path() / "room.ifc").string()}}, {"output", project}});
-  done("station", {{"project", project}, {"add", "S1"}, {"at", {5012345.5, 5432110.0, 125.0}}});
+  done("station", {{"project", project}, {"add", "S1"}, {"at", {5012345.5, 5432110.0, 125.0}}, {"stand", "free"}});
   const auto file = folder.path() / "room.e57";
   done("scan", {{"project", project}, {"instrument", "leica-rtc360"}, {"set", {"resolution=12mm"}}, {"ideal", true}, {"output", file.string()}});
   const auto extent = measureCloud(file, progress);

@@ -57,20 +57,6 @@ TEST(Atmosphere, AddsUpWhatIsInTheAir) {
   EXPECT_NEAR(extinctionOfRange(50), 0.06, 1e-4);   // §2.6
 }
 
-TEST(Atmosphere, WeakensAHardTargetByBeerAndLambert) {
-  float range[kAirLanes], gain[kAirLanes];
-  for (int k = 0; k < kAirLanes; ++k) {
-    range[k] = 0.5F + 60.0F * static_cast<float>(k);
-    gain[k] = 0.5F;
-  }
-  attenuate(13.04e-3, range, gain);
-  for (int k = 0; k < kAirLanes; ++k)
-    EXPECT_NEAR(gain[k] / (0.5 * std::exp(-2 * 13.04e-3 * static_cast<double>(range[k]))), 1, 5e-6) << k;
-  const float far[kAirLanes] = {1e9F};
-  attenuate(1, far, gain);
-  EXPECT_LT(gain[0], 1e-29F);
-}
-
 TEST(Weather, IsReadFromItsWords) {
   EXPECT_EQ(weatherFrom("rain=10 fog=200 visibility=5").value(), (Weather{5, 10, 0, 200, 0}));
   EXPECT_EQ(weatherFrom("snow=2.5,dust=60").value(), (Weather{23, 0, 2.5, 0, 60}));

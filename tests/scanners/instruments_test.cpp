@@ -256,6 +256,12 @@ TEST_F(ChangedInstrument, WithAValueOutOfRangeIsRefusedWithItsPlace) {
   EXPECT_EQ(errorOf("\"id\": \"leica-rtc360\"", "\"id\": \"leica\"").source, "leica-rtc360.json /id");
 }
 
+TEST_F(ChangedInstrument, WhoseCompensatorCannotBeIsRefusedWithItsPlace) {
+  EXPECT_EQ(errorOf("\"value\": \"imu\"", "\"value\": \"spirit\"").source, "leica-rtc360.json /compensator/kind/value");
+  EXPECT_EQ(errorOf("\"range_deg\": { \"value\": 5", "\"range_deg\": { \"value\": 95").source, "leica-rtc360.json /compensator/range_deg/value");
+  EXPECT_EQ(errorOf("\"accuracy_arcsec\": { \"value\": 180", "\"accuracy\": { \"value\": 180").source, "leica-rtc360.json /compensator/accuracy_arcsec");
+}
+
 TEST_F(ChangedInstrument, WhosePartsAreMoreThanTheWholeIsRefusedWithItsPlace) {
   EXPECT_EQ(errorOf("\"along_share\": 0.3", "\"along_share\": 0.95").source, "leica-rtc360.json /correlated_noise/along_share");
   EXPECT_EQ(errorOf("\"azimuth_flicker_arcsec\": { \"value\": 3", "\"azimuth_flicker_arcsec\": { \"value\": 18").source,
@@ -293,6 +299,14 @@ TEST_F(ChangedInstrument, ThatMovesIsRefusedWithItsPlaceWhenItCannotBe) {
   EXPECT_EQ(vlp("\"value\": \"any\"", "\"value\": \"mast\""), "velodyne-vlp-16.json /moving/mount/value");
   EXPECT_EQ(vlp("\"moving\"", "\"stand\": {}, \"moving\""), "velodyne-vlp-16.json /stand");
   EXPECT_EQ(vlp("\"moving\"", "\"moves\""), "velodyne-vlp-16.json /mirror");
+}
+
+TEST_F(ChangedInstrument, WithAValueFarOutOrNestedDeeplyIsRefusedAndNoMore) {
+  EXPECT_EQ(errorOf("\"wobble_order\": 2", "\"wobble_order\": 1e300").source, "leica-rtc360.json /correlated_noise/wobble_order");
+  EXPECT_EQ(errorOf("\"near_range_power\": 2", "\"near_range_power\": -1e300").source, "leica-rtc360.json /signal/near_range_power");
+  EXPECT_EQ(errorOf("\"wobble_order\": 2", "\"wobble_order\": " + std::string(500000, '[') + std::string(500000, ']')).source,
+            "leica-rtc360.json /correlated_noise/wobble_order");
+  EXPECT_EQ(errorOf("\"wobble_order\": 2", "\"wobble_order\": " + std::string(500000, '[')).source, "leica-rtc360.json");
 }
 
 TEST_F(ChangedInstrument, CutAnywhereIsAnError) {

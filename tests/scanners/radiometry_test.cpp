@@ -112,14 +112,18 @@ TEST(RangeNoise, MeetsEveryFigureOfEverySheet) {
     }
 }
 
+// From where the power falls with range: 1 / (R² + near^p R^(2-p)) is largest at near (p/2 - 1)^(1/p).
 TEST(RangeNoise, NeverFallsWithRangeNorRisesWithReflectivity) {
-  for (const auto& instrument : testing::instruments())
-    for (float range = 2; range < 60; range *= 1.2F)
+  for (const auto& instrument : testing::instruments()) {
+    const double power = instrument.near_range_power;
+    const double peak = power > 2 ? instrument.near_range_m * std::pow(power / 2 - 1, 1 / power) : 0;
+    for (float range = std::max(2.0F, static_cast<float>(peak)); range < 60; range *= 1.2F)
       for (float reflectivity = 0.02F; reflectivity < 0.9F; reflectivity *= 1.3F) {
         const float sigma = received(instrument, reflectivity, range).sigma_m[0];
         EXPECT_LE(sigma, received(instrument, reflectivity, range * 1.2F).sigma_m[0] * 1.0001F) << instrument.id;
         EXPECT_GE(sigma * 1.0001F, received(instrument, reflectivity * 1.3F, range).sigma_m[0]) << instrument.id;
       }
+  }
 }
 
 TEST(PortableMath, AgreesWithTheLibrary) {

@@ -92,6 +92,32 @@ TEST(Scan, IsTheSameOnOneTwoAndSevenThreads) {
   }
 }
 
+// Edges, chance and weather included: what a column sees of its neighbours is traced anew for each part.
+TEST(Scan, ColumnByColumnIsTheSameAsTheWhole) {
+  const auto scene = room();
+  const auto rays = scene.build();
+  const auto instrument = testing::instrument("riegl-vz-400i");
+  auto settings = window(instrument, -50, -20, -20, 20, 60, 300);
+  const auto assignment = allOf(*scene.environment(), 0.5);
+  ScanOptions options{7};
+  options.weather.rain_mm_h = 20;
+  options.channels = {.time = true, .returns = true, .truth = true};
+  const auto whole = scanned(*rays, assignment, instrument, settings, options);
+  EXPECT_TRUE(std::any_of(whole.points.truth.flags.begin(), whole.points.truth.flags.end(), [](int f) { return (f & point_flag::kMixed) != 0; }));
+  for (const std::uint32_t width : {1U, 7U}) {
+    PointsKept sink;
+    Progress progress;
+    for (std::uint32_t from = 0; from < settings.columns; from += width) {
+      options.first_column = from;
+      options.end_column = from + width;
+      ASSERT_TRUE(scan(*rays, assignment, instrument, settings, {{0}, {Pose{}}}, options, sink, progress));
+    }
+    EXPECT_TRUE(same(whole.points, sink.all)) << width;
+    EXPECT_EQ(whole.points.truth.flags, sink.all.truth.flags);
+    EXPECT_EQ(whole.points.truth.received_db, sink.all.truth.received_db);
+  }
+}
+
 TEST(Scan, OfARebuiltSceneIsTheSame) {
   const auto scene = room();
   const auto instrument = testing::instrument("trimble-x7");

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/model/placement_view.h"
+
+#include "project/instruments.h"
+#include "project/survey_verbs.h"
+
+namespace standpoint {
+
+void PlacementView::follow(std::shared_ptr<const RayScene> scene) {
+  if (scene == scene_) return;
+  placement_.reset();
+  scene_ = std::move(scene);
+  asked_.reset();
+  if (!scene_) return;
+  const auto stand = readTripodStand(tripodStandFile());
+  if (stand) placement_ = std::make_unique<StationPlacement>(*scene_, *stand, kUsualTrunnion_m);
+}
+
+const std::optional<Refusal>& PlacementView::whyNotOn(const RayHit& hit, double height_m) {
+  if (!placement_ || (asked_ && *asked_ == hit.position && asked_height_m_ == height_m)) return answer_;
+  asked_ = hit.position;
+  asked_height_m_ = height_m;
+  answer_ = placement_->whyNotOn(hit, height_m);
+  return answer_;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "editor/editor.h"
+#include "editor/panels/panels_list.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/theme.h"
+#include "editor/shell/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr double kLowOverlap = 0.3;
+
+std::string percent(double share) { return fmt::format("{:.0f} %", share * 100); }
+std::string minutes(double seconds) {
+  const auto whole = std::llround(seconds);
+  return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+}
+
+void start(Editor& editor) {
+  const auto& scan = editor.panels.scan;
+  const auto& state = editor.panels.plan;
+  json options = {{"instrument", scan.instrument}, {"set", json::array()}};
+  for (const auto& [key, value] : scan.settings) options["set"].push_back(key + "=" + value);
+  if (state.spacing_mm > 0) options["spacing"] = state.spacing_mm / 1000;
+  if (state.max_incidence_deg < 90) options["max-incidence-deg"] = state.max_incidence_deg;
+  editor.session.start("plan", std::move(options), "Plan the scans");
+}
+
+void drawWishes(Editor& editor) {
+  auto& state = editor.panels.plan;
+  if (!ui::beginProperties("wishes", 0.46F)) return;
+  ui::propertyLabel("Point spacing");
+  ImGui::InputDouble("###spacing", &state.spacing_mm, 0, 0, state.spacing_mm > 0 ? "%.1f mm" : "any");
+  ui::tooltip("Seen is what gets a point for each square of this side; 0 = whatever returns a point");
+  state.spacing_mm = std::max(0.0, state.spacing_mm);
+  ui::propertyLabel("Incidence up to");
+  ImGui::InputDouble("###incidence", &state.max_incidence_deg, 0, 0, "%.0f °");
+  state.max_incidence_deg = std::clamp(state.max_incidence_deg, 1.0, 90.0);
+  ui::endProperties();
+}
+
+void drawShares(Editor& editor, const json& rows, const char* key, const char* title) {
+  ui::heading(editor, title);
+  if (!ui::beginProperties(title, 0.56F)) return;
+  for (const auto& row : rows) {
+    const auto name = row.at(key).get<std::string>();
+    ui::property(name.empty() ? "(none)" : name.c_str(), fmt::format("{}  of {:.1f} m²", percent(row.at("coverage")), row.at("exposed_m2").get<double>()));
+  }
+  ui::endProperties();
+}
+
+void drawStations(Editor& editor, const json& answer) {
+  ui::heading(editor, "Stations");
+  if (!ImGui::BeginTable("planned", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
+  for (const char* title : {"Station", "Sees", "Points", "File"}) ImGui::TableSetupColumn(title);
+  ImGui::TableHeadersRow();
+  const auto row = [](const std::string& name, const std::string& sees, double points, double bytes) {
+    ImGui::TableNextRow();
+    for (const auto& text : {name, sees, fmt::format("{:.1f} M", points / 1e6), fmt::format("{:.0f} MB", bytes / 1e6)}) {
+      ImGui::TableNextColumn();
+      ui::fitted(text, ImGui::GetContentRegionAvail().x);
+    }
+  };
+  for (const auto& s : answer.at("stations"))
+    row(s.at("station"), fmt::format("{:.0f} m²", s.at("seen_m2").get<double>()), s.at("points"), s.at("bytes"));
+  row("all", percent(answer.at("coverage")), answer.at("points"), answer.at("bytes"));
+  ImGui::EndTable();
+  ui::dimText("On site: " + minutes(answer.at("instrument_seconds")));
+}
+
+void drawPairs(Editor& editor, const json& pairs) {
+  if (pairs.empty()) return;
+  ui::heading(editor, "Overlap");
+  if (!ui::beginProperties("pairs", 0.56F)) return;
+  for (const auto& pair : pairs) {
+    const double overlap = pair.at("overlap");
+    ui::property(fmt::format("{} – {}", pair.at("a").get<std::string>(), pair.at("b").get<std::string>()).c_str(),
+                 percent(overlap) + (overlap < kLowOverlap ? "   little to register by" : ""));
+  }
+  ui::endProperties();
+}
+
+void drawHoles(Editor& editor, const json& holes) {
+  if (holes.empty()) return;
+  ui::heading(editor, "Not seen");
+  const auto& products = editor.environment()->products;
+  for (std::size_t k = 0; k < holes.size(); ++k) {
+    const auto id = holes[k].at("id").get<std::string>();
+    ImGui::PushID(static_cast<int>(k));
+    if (ImGui::Selectable(fmt::format("{:.1f} m²   {} {}###hole", holes[k].at("unseen_m2").get<double>(), holes[k].value("class", ""), holes[k].value("name", id)).c_str()))
+      for (std::uint32_t p = 0; p < products.size(); ++p)
+        if (products[p].id == id) editor.select(p, true);
+    ImGui::PopID();
+  }
+}
+
+void drawProposal(Editor& editor, const json& proposed) {
+  if (!proposed.is_object()) return;
+  const auto text = fmt::format(ICON_STATION "  Another station: +{:.0f} m²###add-proposed", proposed.at("adds_m2").get<double>());
+  if (!ui::button(text.c_str(), editor.session.whyNot("station"), {-FLT_MIN, 0}, "Sets one up where it adds most to what is seen")) return;
+  const auto& stations = editor.session.document().job->stations;
+  for (std::size_t i = stations.size() + 1;; ++i) {
+    const auto name = fmt::format("S{}", i);
+    if (std::any_of(stations.begin(), stations.end(), [&](const Station& s) { return s.name == name; })) continue;
+    editor.session.start("station", {{"add", name}, {"at", proposed.at("at")}}, "Add station " + name);
+    return;
+  }
+}
+
+}  // namespace
+
+void drawPlanPanel(Editor& editor) {
+  if (!editor.environment() || !editor.session.document().job) {
+    ui::emptyState(editor, ICON_EYE, "Nothing to plan", "Import a model first.");
+    return;
+  }
+  const auto* instrument = instrumentIn(readCatalogue(editor.panels.catalogue), editor.panels.scan.instrument);
+  ui::dimText(instrument == nullptr ? "Choose an instrument under Scan" : fmt::format("{} {}, as set under Scan", instrument->maker, instrument->model));
+  drawWishes(editor);
+  const std::string why = instrument == nullptr ? "Choose an instrument under Scan first" : editor.session.whyNot("plan");
+  if (ui::primaryButton(ICON_EYE "  What will they see?###run-plan", why, {-FLT_MIN, editor.px(28)})) start(editor);
+  const auto* last = editor.session.lastOf("plan");
+  if (last == nullptr || !last->answer.contains("coverage")) return;
+  const auto& answer = last->answer;
+  ui::meter(editor, answer.at("coverage"), tone::kGood);
+  ui::dimText(fmt::format("{} of {:.0f} m² that light reaches", percent(answer.at("coverage")), answer.at("exposed_m2").get<double>()));
+  drawProposal(editor, answer.at("proposed"));
+  drawStations(editor, answer);
+  drawPairs(editor, answer.at("pairs"));
+  drawShares(editor, answer.at("storeys"), "storey", "By storey");
+  drawShares(editor, answer.at("classes"), "class", "By class");
+  drawHoles(editor, answer.at("holes"));
+}
+
+}  // namespace standpoint

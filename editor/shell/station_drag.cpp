@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/shell/station_drag.h"
+
+#include <cmath>
+
+#include "core/units.h"
+#include "editor/editor.h"
+#include "project/levelling.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr float kGrip_pt = 9;
+constexpr float kSlack_pt = 4;  // less than this is a click
+
+// The station whose instrument is under the pointer and not behind something.
+int stationAt(Editor& editor, ImVec2 origin) {
+  const auto& job = editor.session.document().job;
+  const ImVec2 p = ImGui::GetIO().MousePos;
+  for (int i = 0; job && i < static_cast<int>(job->stations.size()); ++i) {
+    const auto& centre = job->stations[static_cast<std::size_t>(i)].true_pose.translation;
+    const auto pixel = project(editor.view.camera, centre, editor.view.size);
+    if (!pixel) continue;
+    const float away =
+        std::hypot(p.x - origin.x - static_cast<float>(pixel->x()), p.y - origin.y - static_cast<float>(pixel->y()));
+    if (away < editor.px(kGrip_pt) && editor.picker.sees(editor.view.camera.eye(), centre, editor.viewState()))
+      return i;
+  }
+  return -1;
+}
+
+void follow(Editor& editor, ImVec2 origin) {
+  auto& view = editor.view;
+  const ImVec2 p = ImGui::GetIO().MousePos;
+  view.hover =
+      editor.picker.pick(rayThrough(view.camera, {p.x - origin.x, p.y - origin.y}, view.size), editor.viewState());
+}
+
+void drop(Editor& editor, const Station& station) {
+  const auto& hit = editor.view.hover;
+  if (!hit || editor.placement.whyNotOn(*hit, station.instrument_height_m)) return;
+  const Eigen::Vector3d p = hit->position + editor.shift_m();
+  const Tilt tilt = tiltOf(station.true_pose.rotation);
+  nlohmann::json options = {{"move", station.name},
+                            {"on", {p.x(), p.y(), p.z()}},
+                            {"height", station.instrument_height_m},
+                            {"yaw-deg", yawOf(station.true_pose.rotation) / kRadPerDeg}};
+  if (tilt.angle_rad > 0) {
+    options["tilt-deg"] = tilt.angle_rad / kRadPerDeg;
+    options["tilt-towards-deg"] = tilt.towards_rad / kRadPerDeg;
+  }
+  editor.session.start("station", std::move(options), "Move station " + station.name);
+}
+
+}  // namespace
+
+bool dragStation(Editor& editor, ImVec2 origin, bool hovered) {
+  auto& dragged = editor.view.dragged_station;
+  const auto& job = editor.session.document().job;
+  if (editor.view.tool != Tool::select || !job || !editor.session.whyNot("station").empty()) dragged = -1;
+  if (dragged >= 0 && dragged < static_cast<int>(job->stations.size())) {
+    ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    follow(editor, origin);
+    if (ImGui::IsMouseDown(0)) return true;
+    const ImVec2 way = ImGui::GetMouseDragDelta(0, 0);
+    if (std::hypot(way.x, way.y) > editor.px(kSlack_pt)) drop(editor, job->stations[static_cast<std::size_t>(dragged)]);
+    dragged = -1;
+    return true;
+  }
+  dragged = -1;
+  if (!hovered || editor.view.dragging || editor.view.tool != Tool::select || !ImGui::IsMouseClicked(0)) return false;
+  dragged = stationAt(editor, origin);
+  if (dragged < 0) return false;
+  editor.panels.survey.station = dragged;
+  editor.panels.survey.target = -1;
+  return true;
+}
+
+}  // namespace standpoint

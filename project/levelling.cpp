@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/levelling.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/random.h"
+#include "core/units.h"
+
+namespace standpoint {
+
+namespace {
+
+// No scan draws for a column or row like these, so nothing else shares the numbers.
+constexpr std::uint32_t kOfTheStand = 0xFFFFFFFFU;
+constexpr std::uint32_t kSettingUp = 0, kCompensator = 1;
+
+RandomKey keyOf(std::uint64_t seed, const std::string& station) {
+  return {seed, static_cast<std::uint32_t>(stableHash(station.c_str()))};
+}
+
+std::string angleText(double rad) {
+  const double arcmin = rad / kRadPerDeg * 60;
+  return arcmin < 60 ? fmt::format("{:.3g} arc minutes", arcmin) : fmt::format("{:.3g} degrees", arcmin / 60);
+}
+
+}  // namespace
+
+Eigen::Quaterniond rotationOf(double yaw_rad, const Tilt& tilt) {
+  Eigen::Quaterniond rotation(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()));
+  if (tilt.angle_rad != 0) {
+    const Eigen::Vector3d axis(-std::sin(tilt.towards_rad), std::cos(tilt.towards_rad),
+                               0);  // Z turns about it towards there
+    rotation = Eigen::Quaterniond(Eigen::AngleAxisd(tilt.angle_rad, axis)) * rotation;
+  }
+  if (rotation.w() < 0) rotation.coeffs() *= -1;
+  return rotation;
+}
+
+double yawOf(const Eigen::Quaterniond& rotation) { return 2 * std::atan2(rotation.z(), rotation.w()); }
+
+Tilt tiltOf(const Eigen::Quaterniond& rotation) {
+  const Eigen::Vector3d axis = rotation * Eigen::Vector3d::UnitZ();
+  const double aside = std::hypot(axis.x(), axis.y());
+  return {std::atan2(aside, axis.z()), aside > 0 ? std::atan2(axis.y(), axis.x()) : 0};
+}
+
+Tilt drawnTilt(double most_rad, std::uint64_t seed, const std::string& station) {
+  const auto block = philox(keyOf(seed, station), kOfTheStand, kOfTheStand, kSettingUp);
+  return {most_rad * std::sqrt(uniform(block[0])), 2 * std::numbers::pi * uniform(block[1])};
+}
+
+Result<Pose> believedPose(const Station& station, const Instrument& instrument, const Levelling& levelling,
+                          Report& report) {
+  Pose pose = station.true_pose;
+  const Tilt tilt = tiltOf(pose.rotation);
+  if (tilt.angle_rad == 0) return pose;
+  const double yaw = yawOf(pose.rotation);
+  if (!levelling.compensator || !instrument.compensator) {
+    report.warn(station.name,
+                fmt::format("it stands {} out of level and {}: its points come tilted", angleText(tilt.angle_rad),
+                            instrument.compensator ? "the compensator is off" : "the instrument has no compensator"));
+    pose.rotation = rotationOf(yaw, {});
+    return pose;
+  }
+  const auto& compensator = *instrument.compensator;
+  if (compensator.range_rad > 0 && tilt.angle_rad > compensator.range_rad)
+    return failure(
+        ErrorKind::unusable,
+        fmt::format("station {} stands {} out of level, and the compensator of the {} {} works up to {}; level it "
+                    "(station --move {} --tilt-deg 0) or switch the compensator off (--compensator off)",
+                    station.name, angleText(tilt.angle_rad), instrument.maker, instrument.model,
+                    angleText(compensator.range_rad), station.name));
+  if (levelling.exact) return pose;
+  const auto drawn = normals(philox(keyOf(levelling.seed, station.name), kOfTheStand, kOfTheStand, kCompensator));
+  const double x = tilt.angle_rad * std::cos(tilt.towards_rad) + compensator.accuracy_rad * drawn[0];
+  const double y = tilt.angle_rad * std::sin(tilt.towards_rad) + compensator.accuracy_rad * drawn[1];
+  pose.rotation = rotationOf(yaw, {std::hypot(x, y), std::atan2(y, x)});
+  return pose;
+}
+
+}  // namespace standpoint

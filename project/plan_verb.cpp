@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "project/answers.h"
+#include "project/instruments.h"
+#include "project/placement.h"
+#include "project/scan_request.h"
+#include "project/survey_plan.h"
+#include "project/survey_verbs.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kHoles = 30;   // that are listed
+constexpr double kLowOverlap = 0.3;  // of what field practice asks for between neighbours
+
+json shareJson(const SurfaceShare& share, double each_m2) {
+  return {{"exposed_m2", each_m2 * static_cast<double>(share.exposed)},
+          {"seen_m2", each_m2 * static_cast<double>(share.seen)},
+          {"twice_m2", each_m2 * static_cast<double>(share.twice)},
+          {"coverage", share.coverage()}};
+}
+
+json rowsOf(const std::vector<SurfaceShare>& shares, const char* key, double each_m2) {
+  json rows = json::array();
+  for (const auto& share : shares) {
+    rows.push_back(shareJson(share, each_m2));
+    rows.back()[key] = share.name;
+  }
+  return rows;
+}
+
+json holesOf(const SurveyPlan& plan, const Environment& environment) {
+  json rows = json::array();
+  for (std::size_t k = 0; k < std::min(kHoles, plan.holes.size()); ++k) {
+    json row = identity(environment.products[plan.holes[k].product]);
+    row.update(shareJson(plan.holes[k], plan.samples.each_m2()));
+    row["unseen_m2"] = plan.samples.each_m2() * static_cast<double>(plan.holes[k].exposed - plan.holes[k].seen);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+json answerOf(const SurveyPlan& plan, const Environment& environment) {
+  const double each = plan.samples.each_m2();
+  json answer = shareJson(plan.all, each);
+  answer["area_m2"] = plan.samples.area_m2;
+  answer["samples"] = plan.samples.samples.size();
+  const double share = plan.all.coverage();
+  answer["coverage_sigma"] =
+      plan.all.exposed == 0 ? 0 : std::sqrt(share * (1 - share) / static_cast<double>(plan.all.exposed));
+  answer["classes"] = rowsOf(plan.classes, "class", each);
+  answer["storeys"] = rowsOf(plan.storeys, "storey", each);
+  answer["holes"] = holesOf(plan, environment);
+  double points = 0, seconds = 0, bytes = 0;
+  answer["stations"] = json::array();
+  for (std::size_t k = 0; k < plan.stations.size(); ++k) {
+    const auto& f = plan.forecasts[k];
+    answer["stations"].push_back({{"station", plan.stations[k]},
+                                  {"seen_m2", plan.seen_m2[k]},
+                                  {"points", std::llround(f.points)},
+                                  {"instrument_seconds", f.seconds},
+                                  {"bytes", std::llround(plan.bytes[k])}});
+    points += f.points;
+    seconds += f.seconds;
+    bytes += plan.bytes[k];
+  }
+  answer["points"] = std::llround(points);
+  answer["instrument_seconds"] = seconds;
+  answer["bytes"] = std::llround(bytes);
+  answer["pairs"] = json::array();
+  for (const auto& p : plan.pairs)
+    answer["pairs"].push_back({{"a", plan.stations[p.a]},
+                               {"b", plan.stations[p.b]},
+                               {"common_m2", p.common_m2},
+                               {"of_a", p.of_a},
+                               {"of_b", p.of_b},
+                               {"overlap", p.overlap()}});
+  return answer;
+}
+
+std::string minutes(double seconds) {
+  const auto whole = std::llround(seconds);
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+std::string textOf(const SurveyPlan& plan, const json& answer) {
+  std::string text;
+  for (std::size_t k = 0; k < plan.stations.size(); ++k)
+    text += fmt::format("{:12} sees {:8.1f} m2   {:7.2f} M points   {:>6} min   {:7.1f} MB\n", plan.stations[k],
+                        plan.seen_m2[k], plan.forecasts[k].points / 1e6, minutes(plan.forecasts[k].seconds),
+                        plan.bytes[k] / 1e6);
+  if (plan.stations.size() > 1)
+    text += fmt::format("{:12}                     {:7.2f} M points   {:>6} min   {:7.1f} MB\n", "all",
+                        answer["points"].get<double>() / 1e6, minutes(answer["instrument_seconds"]),
+                        answer["bytes"].get<double>() / 1e6);
+  for (const auto& share : plan.storeys)
+    text += fmt::format("storey {:30} {:5.1f} %\n", share.name.empty() ? "(none)" : share.name, share.coverage() * 100);
+  for (const auto& share : plan.classes)
+    text += fmt::format("class  {:30} {:5.1f} %\n", share.name.empty() ? "(none)" : share.name, share.coverage() * 100);
+  for (const auto& pair : plan.pairs)
+    text += fmt::format("overlap {} - {}: {:.0f} %{}\n", plan.stations[pair.a], plan.stations[pair.b],
+                        pair.overlap() * 100, pair.overlap() < kLowOverlap ? ", little to register by" : "");
+  for (const auto& hole : answer["holes"])
+    text += fmt::format("not seen: {:8.2f} m2 of {} {} {}\n", hole["unseen_m2"].get<double>(), hole.value("class", ""),
+                        hole.value("id", ""), hole.value("name", ""));
+  return text;
+}
+
+Result<PlanRequest> requestFrom(const Document& document, const json& options) {
+  PlanRequest request;
+  auto instrument = instrumentById(options.at("instrument").get<std::string>());
+  if (!instrument) return failure(instrument.error());
+  request.instrument = *std::move(instrument);
+  auto settings = settingsFrom(request.instrument, options);
+  if (!settings) return failure(settings.error());
+  request.settings = *std::move(settings);
+  if (!document.job->stations.empty()) {
+    auto stations = stationsFrom(*document.job, options.at("stations").get<std::string>());
+    if (!stations) return failure(stations.error());
+    request.stations = *std::move(stations);
+  }
+  if (options.contains("spacing")) request.wanted.most_spacing_m = options["spacing"].get<double>();
+  if (options.contains("max-incidence-deg"))
+    request.wanted.most_incidence_rad = options["max-incidence-deg"].get<double>() * kRadPerDeg;
+  if (options.contains("max-range")) request.wanted.most_range_m = options["max-range"].get<double>();
+  request.samples = options.at("samples").get<std::size_t>();
+  request.seed = options.at("seed").get<std::uint64_t>();
+  return request;
+}
+
+// The place that adds most to what these stations see.
+Result<json> proposalFor(const Document& document, const RayScene& scene, const SurveyPlan& plan,
+                         const PlanRequest& request, Progress& progress) {
+  const auto stand = readTripodStand(tripodStandFile());
+  if (!stand) return failure(stand.error());
+  const StationPlacement placement(scene, *stand, request.instrument.trunnion_height_m);
+  std::vector<std::uint8_t> seen(plan.samples.samples.size(), 0);
+  for (const auto& f : plan.forecasts)
+    for (std::size_t k = 0; k < seen.size(); ++k) seen[k] |= f.seen[k];
+  const SightLimits limits{std::min(request.wanted.most_range_m, request.settings.max_range_m),
+                           std::max(SightLimits{}.least_cosine, std::cos(request.wanted.most_incidence_rad)),
+                           request.settings.elevation_from_rad, request.settings.elevation_to_rad};
+  progress.stage("Look for another station", 0.7, 1);
+  const auto next =
+      nextStation(document, placement, plan.samples, seen, limits, request.instrument.tripod_height_m, progress);
+  if (auto go_on = progress.check(); !go_on) return failure(go_on.error());
+  if (!next) return json();
+  return json{{"at", toJson(next->centre + document.georeference->shift_m)}, {"adds_m2", next->adds_m2}};
+}
+
+}  // namespace
+
+Result<Outcome> runPlan(const Document& document, const json& options, Progress& progress) {
+  auto request = requestFrom(document, options);
+  if (!request) return failure(request.error());
+  Outcome outcome{document, json::object(), {}, {}};
+  auto assignment = scanAssignment(document, outcome.report, progress);
+  if (!assignment) return failure(assignment.error());
+  const ScanWorld world = scanWorld(document, *assignment);
+  if (sceneTriangleCount(*world.environment) == 0)
+    return failure(ErrorKind::unusable,
+                   "there is nothing in the scene to plan for; import a model, or take products back with `treat`");
+  auto scene = RayScene::build(world.environment, progress);
+  if (!scene) return failure(scene.error());
+  auto plan = planSurvey(*document.job, *scene, std::make_shared<const MaterialAssignment>(world.assignment), *request,
+                         progress);
+  if (!plan) return failure(plan.error());
+  auto proposal = proposalFor(document, **scene, *plan, *request, progress);
+  if (!proposal) return failure(proposal.error());
+  outcome.answer = answerOf(*plan, *world.environment);
+  outcome.answer["proposed"] = *proposal;
+  outcome.description = fmt::format("{} station{} would see {:.1f} % of {:.0f} m2", plan->stations.size(),
+                                    plan->stations.size() == 1 ? "" : "s", plan->all.coverage() * 100,
+                                    outcome.answer["exposed_m2"].get<double>());
+  outcome.text = textOf(*plan, outcome.answer);
+  if (proposal->is_object())
+    outcome.text += fmt::format("another station at {:.2f},{:.2f},{:.2f} would add {:.1f} m2\n",
+                                (*proposal)["at"][0].get<double>(), (*proposal)["at"][1].get<double>(),
+                                (*proposal)["at"][2].get<double>(), (*proposal)["adds_m2"].get<double>());
+  return outcome;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/random.h"
+#include "core/units.h"
+#include "project/cloud_to_cloud.h"
+#include "project/registering.h"
+#include "project/registration.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+using Eigen::Vector3d;
+
+// How an operator lays one cloud beside another by eye, before the fit.
+constexpr double kByEye_m = 0.15, kByEye_rad = 1.5 * kRadPerDeg;
+
+Pose laidByEye(const Station& station, std::uint64_t seed) {
+  const auto r = philox({seed, static_cast<std::uint32_t>(stableHash(station.name.c_str()))}, 0, 0, 602);
+  const auto either = [](std::uint32_t x) { return 2 * uniform(x) - 1; };
+  Pose pose = station.true_pose;
+  pose.translation += kByEye_m * Vector3d(either(r[0]), either(r[1]), either(r[2]));
+  pose.rotation = Eigen::AngleAxisd(kByEye_rad * either(r[3]), Vector3d::UnitZ()) * pose.rotation;
+  return pose;
+}
+
+Result<std::size_t> heldStation(const Job& job, const TargetMeasurements& measured, const json& options) {
+  if (!options.contains("fix")) return measured.scans.front().station;
+  const auto name = options["fix"].get<std::string>();
+  for (std::size_t i = 0; i < job.stations.size(); ++i)
+    if (job.stations[i].name == name) return i;
+  return failure(ErrorKind::usage, fmt::format("there is no station '{}'", name), "--fix");
+}
+
+// Station by station, each to all that are placed already; the held one first.
+Result<json> byClouds(Job& job, const TargetMeasurements& measured, std::size_t held, const json& options, const Vector3d& shift_m,
+                      Report& report, Progress& progress) {
+  std::vector<PlacedCloud> placed;
+  std::vector<const ScannedStation*> waiting;
+  for (const auto& s : measured.scans) {
+    if (s.station != held) {
+      waiting.push_back(&s);
+      continue;
+    }
+    placed.push_back({job.stations[held].true_pose, s.sample});
+    job.stations[held].solved_pose = job.stations[held].true_pose;
+  }
+  if (placed.empty()) return failure(ErrorKind::usage, fmt::format("station {} is in none of these files", job.stations[held].name), "--fix");
+  json stations = json::array({stationRow(job.stations[held], job.stations[held].true_pose, shift_m)});
+  for (const auto* scan : waiting) {
+    Station& station = job.stations[scan->station];
+    progress.stage("Fitting " + station.name, 0.9, 1);
+    const Pose start = laidByEye(station, options.at("seed").get<std::uint64_t>());
+    const auto fit = fitCloudToClouds(scan->sample, start, placed, options.at("reach").get<double>(), progress);
+    if (!fit) return failure(fit.error().kind, fmt::format("station {}: {}", station.name, fit.error().message), scan->file);
+    for (const auto& motion : fit->free)
+      report.warn(station.name, fmt::format("the other scans do not hold it {}: there it stays as it was laid", describe(motion)));
+    if (!fit->settled) report.warn(station.name, fmt::format("it still moved after {} iterations", fit->iterations));
+    if (fit->used_share < 0.3)
+      report.warn(station.name, fmt::format("only {:.0f} % of its points lie on the other scans: too little overlap", fit->used_share * 100));
+    json row = stationRow(station, fit->to_from, shift_m);
+    row["fit"] = toJson(*fit);
+    stations.push_back(std::move(row));
+    station.solved_pose = fit->to_from;
+    placed.push_back({fit->to_from, scan->sample});
+  }
+  return json{{"stations", std::move(stations)}};
+}
+
+Result<json> byTargets(Job& job, const TargetMeasurements& measured, std::size_t held, const json& options, const Vector3d& shift_m,
+                       Report& report) {
+  RegistrationRequest request;
+  request.held = held;
+  request.matching = options.at("by") == "geometry" ? TargetMatching::by_geometry : TargetMatching::by_names;
+  if (options.contains("control")) {
+    auto control = readControlPoints(options["control"].get<std::string>(), shift_m);
+    if (!control) return failure(control.error());
+    request.control = *std::move(control);
+    job.control_points = request.control;
+  }
+  const auto r = registerByTargets(job, measured, request, report);
+  if (!r) return failure(r.error());
+  json answer = registrationRows(job, *r, shift_m);
+  answer["measured"] = measuredRows(job, measured);
+  for (std::size_t i = 0; i < r->station_of.size(); ++i) job.stations[r->station_of[i]].solved_pose = r->fit.pose[i];
+  return answer;
+}
+
+}  // namespace
+
+Result<Outcome> runRegister(const Document& document, const json& options, Progress& progress) {
+  const bool cloud = options.value("cloud", false);
+  if (cloud && options.contains("control"))
+    return failure(ErrorKind::usage, "clouds have no control points: leave --cloud or --control out", "--control");
+  if (!cloud && document.job->targets.size() < 3)
+    return failure(ErrorKind::usage, fmt::format("the project has {} targets, and three are needed: add them with `target` before scanning, or "
+                                                 "register with --cloud", document.job->targets.size()));
+  MeasuringRequest request;
+  for (const auto& file : options.at("files")) request.files.emplace_back(file.get<std::string>());
+  request.seed = options.at("seed").get<std::uint64_t>();
+  request.click_m = options.at("click").get<double>();
+  request.targets = !cloud, request.sample = cloud;
+  const auto measured = measureTargets(document, request, progress);
+  if (!measured) return failure(measured.error());
+  if (measured->scans.size() < (options.contains("control") ? 1U : 2U))
+    return failure(ErrorKind::usage, "one station alone cannot be registered: give the scans of two, or --control", "files");
+  Outcome outcome{document, json::object(), measured->report, {}};
+  Job job = *document.job;
+  const auto held = heldStation(job, *measured, options);
+  if (!held) return failure(held.error());
+  const Vector3d& shift_m = document.georeference->shift_m;
+  auto answer = cloud ? byClouds(job, *measured, *held, options, shift_m, outcome.report, progress)
+                      : byTargets(job, *measured, *held, options, shift_m, outcome.report);
+  if (!answer) return failure(answer.error());
+  outcome.answer = *std::move(answer);
+  outcome.text = textOf(outcome.answer);
+  outcome.description = fmt::format("Registered {} stations {}", measured->scans.size(), cloud ? "cloud to cloud" : "by targets");
+  outcome.document.job = std::make_shared<const Job>(std::move(job));
+  return outcome;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/scan_request.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "project/instruments.h"
+#include "project/model_verbs.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+// --shard i/n keeps the stations i, i+n, i+2n, …; every random number belongs to its station, so shards together give
+// the same bytes as the whole.
+Result<void> shard(std::vector<std::size_t>& stations, const std::string& text) {
+  unsigned i = 0;
+  unsigned n = 0;
+  if (std::sscanf(text.c_str(), "%u/%u", &i, &n) != 2 || n == 0 || i == 0 || i > n)
+    return failure(ErrorKind::usage, fmt::format("'{}' is not i/n with 1 <= i <= n", text), "--shard");
+  std::vector<std::size_t> kept;
+  for (std::size_t k = i - 1; k < stations.size(); k += n) kept.push_back(stations[k]);
+  stations = std::move(kept);
+  return {};
+}
+
+Result<void> chooseOutput(ScanRequest& request, const fs::path& output) {
+  request.output = output;
+  if (output.has_extension() && !fs::is_directory(output)) {
+    request.format = cloudFormatFor(output);
+    if (request.format == nullptr || request.format->writer == nullptr) {
+      std::vector<std::string> names;
+      for (const auto& f : cloudFormats())
+        if (f.writer != nullptr) names.emplace_back(f.extension);
+      return failure(ErrorKind::usage,
+                     fmt::format("'{}' cannot be written; there is {}, or name a folder", output.extension().string(),
+                                 fmt::join(names, ", ")),
+                     "--output");
+    }
+    request.one_file = request.format->many_scans || request.stations.size() == 1;
+    return {};
+  }
+  request.format = cloudFormatFor("x.e57");
+  std::error_code error;
+  fs::create_directories(output, error);
+  if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), output.string());
+  return {};
+}
+
+Result<Effects> effectsFrom(const json& options) {
+  if (options.value("ideal", false)) {
+    if (options.contains("without"))
+      return failure(ErrorKind::usage, "an ideal scan is without all effects already", "--without");
+    return Effects::none();
+  }
+  return options.contains("without") ? effectsWithout(options["without"].get<std::string>())
+                                     : Result<Effects>(Effects());
+}
+
+}  // namespace
+
+Result<std::vector<std::size_t>> stationsFrom(const Job& job, const std::string& wanted) {
+  std::vector<std::size_t> result;
+  if (job.stations.empty())
+    return failure(ErrorKind::usage,
+                   "there is no station yet: add one with `standpoint station PROJECT --add S1 --on X,Y`",
+                   "--stations");
+  if (wanted == "all") {
+    for (std::size_t i = 0; i < job.stations.size(); ++i) result.push_back(i);
+    return result;
+  }
+  for (std::size_t from = 0; from <= wanted.size();) {
+    const auto comma = std::min(wanted.find(',', from), wanted.size());
+    const auto name = wanted.substr(from, comma - from);
+    const auto at =
+        std::find_if(job.stations.begin(), job.stations.end(), [&](const Station& s) { return s.name == name; });
+    if (at == job.stations.end())
+      return failure(ErrorKind::usage, fmt::format("there is no station '{}'", name), "--stations");
+    result.push_back(static_cast<std::size_t>(at - job.stations.begin()));
+    from = comma + 1;
+  }
+  return result;
+}
+
+Result<ScanSettings> settingsFrom(const Instrument& instrument, const json& options) {
+  SettingValues values;
+  for (const auto& pair : options.value("set", json::array())) {
+    const auto text = pair.get<std::string>();
+    values.emplace_back(text.substr(0, text.find('=')), text.substr(text.find('=') + 1));
+  }
+  return resolveSettings(instrument, values);
+}
+
+fs::path fileOf(const ScanRequest& request, const Station& station) {
+  if (request.one_file) return request.output;
+  if (request.output.has_extension() && !fs::is_directory(request.output))
+    return request.output.parent_path() /
+           (request.output.stem().string() + "-" + station.name + request.format->extension);
+  return request.output / (station.name + request.format->extension);
+}
+
+Result<ScanRequest> scanRequestFrom(const Document& document, const json& options) {
+  ScanRequest request;
+  auto instrument = instrumentById(options.at("instrument").get<std::string>());
+  if (!instrument) return failure(instrument.error());
+  request.instrument = *std::move(instrument);
+  auto settings = settingsFrom(request.instrument, options);
+  if (!settings) return failure(settings.error());
+  request.settings = *std::move(settings);
+  request.options.seed = options.at("seed").get<std::uint64_t>();
+  if (auto effects = effectsFrom(options); effects)
+    request.options.effects = *effects;
+  else
+    return failure(effects.error());
+  if (options.contains("weather")) {
+    auto weather = weatherFrom(options["weather"].get<std::string>());
+    if (!weather) return failure(weather.error());
+    request.options.weather = *weather;
+  }
+  request.levelling = {.compensator = options.at("compensator") == "on",
+                       .exact = !request.options.effects.has(Effect::levelling),
+                       .seed = request.options.seed};
+  request.panorama = options.value("panorama", false);
+  if (request.panorama && !request.settings.imaging)
+    return failure(ErrorKind::usage, "these settings take no images: a panorama needs them", "--panorama");
+  const bool truth = options.value("truth", false);
+  request.options.channels = {
+      .time = truth, .returns = truth || request.instrument.waveform.most_returns > 1, .truth = truth};
+  request.options.threads = options.at("threads").get<int>();
+  auto stations = stationsFrom(*document.job, options.at("stations").get<std::string>());
+  if (!stations) return failure(stations.error());
+  request.stations = *std::move(stations);
+  if (options.contains("shard"))
+    if (auto ok = shard(request.stations, options["shard"].get<std::string>()); !ok) return failure(ok.error());
+  if (auto ok = chooseOutput(request, options.at("output").get<std::string>()); !ok) return failure(ok.error());
+  request.resume = options.value("resume", false);
+  return request;
+}
+
+Result<MaterialAssignment> scanAssignment(const Document& document, Report& report, Progress& progress) {
+  if (document.materials) return document.materials->result.assignment;
+  report.note("materials", "no materials were assigned yet; the default rules were used for this scan");
+  auto assigned = assignDocumentMaterials(document, {}, progress);
+  if (!assigned) return failure(assigned.error());
+  return assigned->document.materials->result.assignment;
+}
+
+}  // namespace standpoint

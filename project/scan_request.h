@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "pointclouds/formats.h"
+#include "project/document.h"
+#include "project/levelling.h"
+#include "scanners/ray_engine.h"
+
+namespace standpoint {
+
+// What the options of `scan` ask for, checked.
+struct ScanRequest {
+  Instrument instrument;
+  ScanSettings settings;
+  ScanOptions options;
+  std::vector<std::size_t> stations;  // indices into the job
+  const CloudFormat* format = nullptr;
+  std::filesystem::path output;
+  bool one_file = false;  // all stations in `output`; else a file each
+  Levelling levelling;
+  bool panorama = false;  // each station takes its pictures, and the points are coloured from them
+  bool resume = false;  // stations that an earlier run finished are not scanned again
+};
+
+Result<ScanRequest> scanRequestFrom(const Document& document, const nlohmann::json& options);
+
+// "all", or names separated by commas: indices into the job.
+Result<std::vector<std::size_t>> stationsFrom(const Job& job, const std::string& wanted);
+// The instrument with what --set says.
+Result<ScanSettings> settingsFrom(const Instrument& instrument, const nlohmann::json& options);
+// What the document assigns, else what the default rules would, which is then noted.
+Result<MaterialAssignment> scanAssignment(const Document& document, Report& report, Progress& progress);
+
+// Where the station's points go.
+std::filesystem::path fileOf(const ScanRequest& request, const Station& station);
+
+}  // namespace standpoint

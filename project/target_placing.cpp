@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/target_placing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "project/answers.h"
+#include "project/model_surface.h"
+#include "project/solid.h"
+#include "project/survey_verbs.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+using Eigen::Vector3d;
+
+constexpr double kFloorSearch_m = 0.5;     // how far a stated floor height may be off, as for stations
+constexpr double kSurfaceSearch_m = 0.5;   // of --on-surface
+constexpr double kPlate_m = 0.002;         // a plate in front of its wall
+constexpr double kTallestPole_m = 2.5;
+constexpr double kTouch = 0.98;            // of its radius: what it stands on touches it
+
+// The environment's instances whose product reaches into the ball: a search there need not build a tree of the whole.
+Environment around(const Environment& environment, const Vector3d& place, double radius_m) {
+  Environment part = environment;
+  const auto each = productBounds(environment);
+  std::erase_if(part.instances, [&](const Instance& i) {
+    const Bounds& b = each[i.product];
+    return b.empty() || (place - place.cwiseMax(b.min).cwiseMin(b.max)).norm() > radius_m;
+  });
+  return part;
+}
+
+bool stationSees(const Document& document, const RayScene& scene, const Vector3d& place) {
+  return std::any_of(document.job->stations.begin(), document.job->stations.end(), [&](const Station& s) {
+    const Vector3d way = place - s.true_pose.translation;
+    return !scene.intersect(s.true_pose.translation, way.normalized(), way.norm() - 1e-3);
+  });
+}
+
+// The side of a surface on which a target stuck to it is: where the place lies; of a place right on the surface where a
+// station stands, else where the face looks.
+Vector3d freeSide(const Document& document, const RayScene& scene, const Vector3d& place, const SurfaceTouch& touch) {
+  const double off = touch.normal.dot(place - touch.position);
+  if (std::abs(off) > 1e-3) return off > 0 ? touch.normal : Vector3d(-touch.normal);
+  constexpr double kBefore_m = 0.02;
+  const bool front = stationSees(document, scene, touch.position + kBefore_m * touch.normal);
+  const bool back = stationSees(document, scene, touch.position - kBefore_m * touch.normal);
+  return back && !front ? Vector3d(-touch.normal) : touch.normal;
+}
+
+// What cuts the target's body: rays over its sphere, or along its plate.
+std::optional<RayHit> whatCuts(const RayScene& scene, const Target& t) {
+  const double reach = t.size_m / 2 * kTouch;
+  constexpr int kRays = 128;
+  const Vector3d u = t.normal.unitOrthogonal(), v = t.normal.cross(u);
+  for (int i = 0; i < kRays; ++i) {
+    const double azimuth = i * std::numbers::pi * (3 - std::sqrt(5.0));
+    const double z = t.kind == TargetKind::sphere ? 1 - (2 * i + 1.0) / kRays : 0;
+    const Vector3d direction = z * t.normal + std::sqrt(1 - z * z) * (std::cos(azimuth) * u + std::sin(azimuth) * v);
+    if (const auto hit = scene.intersect(t.centre, direction, reach)) return hit;
+  }
+  return std::nullopt;
+}
+
+Result<void> fits(const Document& document, const RayScene& scene, const Target& t) {
+  const auto& products = scene.environment().products;
+  if (const auto solid = solidAround(scene, t.centre); solid && !stationSees(document, scene, t.centre))
+    return failure(ErrorKind::unusable, fmt::format("target {} is refused: it would be inside of {}; choose a place in the open",
+                                                    t.name, nameOf(products[*solid])));
+  if (const auto hit = whatCuts(scene, t))
+    return failure(ErrorKind::unusable,
+                   fmt::format("target {} is refused: {} is {:.0f} mm from its centre and it needs {:.0f} mm; choose a place "
+                               "further off, or stick it to the surface with --on-surface",
+                               t.name, nameOf(products[hit->product]), hit->range_m * 1000, t.size_m * 500));
+  return {};
+}
+
+Result<double> floorFor(const RayScene& scene, const json& on, const Vector3d& shift, double height) {
+  const auto floors = floorsAt(scene, on[0].get<double>() - shift.x(), on[1].get<double>() - shift.y(), height);
+  if (floors.empty())
+    return failure(ErrorKind::unusable,
+                   fmt::format("there is nothing to stand on at ({}, {}) with {:.2f} m of room for the target's tripod; choose "
+                               "another place or a smaller --height", on[0].get<double>(), on[1].get<double>(), height));
+  if (on.size() == 2) return floors.front();
+  const double z = on[2].get<double>() - shift.z();
+  const double nearest = *std::min_element(floors.begin(), floors.end(),
+                                           [z](double a, double b) { return std::abs(a - z) < std::abs(b - z); });
+  if (std::abs(nearest - z) <= kFloorSearch_m) return nearest;
+  return failure(ErrorKind::unusable,
+                 fmt::format("there is nothing to stand on within {} m of height {}; the nearest floor is at {:.3f}",
+                             kFloorSearch_m, on[2].get<double>(), nearest + shift.z()));
+}
+
+// A plate on a tripod is turned and tilted to the nearest station.
+Vector3d towardsNearestStation(const Document& document, const Vector3d& centre) {
+  const auto& stations = document.job->stations;
+  if (stations.empty()) return Vector3d::UnitX();
+  const auto nearest = std::min_element(stations.begin(), stations.end(), [&](const Station& a, const Station& b) {
+    return (a.true_pose.translation - centre).norm() < (b.true_pose.translation - centre).norm();
+  });
+  const Vector3d way = nearest->true_pose.translation - centre;
+  return way.norm() > 1e-6 ? Vector3d(way.normalized()) : Vector3d::UnitX();
+}
+
+Result<void> stick(const Document& document, const RayScene& scene, const Vector3d& place, double stand_off_m, Target& t,
+                   std::string& stands, Report& report) {
+  const ModelSurface surface(around(scene.environment(), place, kSurfaceSearch_m));
+  const SurfaceTouch touch = surface.empty() ? SurfaceTouch{} : surface.nearest(place, kSurfaceSearch_m);
+  if (touch.normal.isZero())
+    return failure(ErrorKind::unusable, fmt::format("target {} is refused: there is no surface within {} m of that place; put it "
+                                                    "on a tripod with --on", t.name, kSurfaceSearch_m));
+  const Vector3d out = freeSide(document, scene, place, touch);
+  t.normal = out;
+  t.centre = touch.position + out * (stand_off_m + (t.kind == TargetKind::sphere ? t.size_m / 2 : kPlate_m));
+  const auto behind = scene.intersect(t.centre, -out, t.size_m + stand_off_m);
+  stands = behind ? nameOf(scene.environment().products[behind->product]) : "a surface";
+  if (t.kind == TargetKind::sphere) return {};
+  const Vector3d u = t.normal.unitOrthogonal(), v = t.normal.cross(u);
+  const double deep = stand_off_m + kPlate_m + 0.005;
+  for (const auto& [a, b] : std::array{std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}})
+    if (!scene.intersect(t.centre + 0.5 * kTouch * t.size_m * (a * u + b * v), -out, deep)) {
+      report.warn(t.name, "its plate reaches over an edge or lies on a bent surface: it is taken as flat");
+      break;
+    }
+  return {};
+}
+
+bool isHeld(const RayScene& scene, const Target& t) {
+  if (scene.intersect(t.centre, -Vector3d::UnitZ(), kTallestPole_m)) return true;
+  for (int i = 0; i < 6; ++i) {
+    Vector3d axis = Vector3d::Zero();
+    axis[i / 2] = i % 2 == 0 ? 1 : -1;
+    if (scene.intersect(t.centre, axis, t.size_m / 2 + 0.05)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string nameOf(const Product& p) {
+  return fmt::format("{} {} '{}'", p.ifc_class.empty() ? "object" : p.ifc_class, p.id, p.name);
+}
+
+Result<Target> targetArticleFrom(const TargetKinds& kinds, const json& options) {
+  Target t;
+  t.name = options.at("add").get<std::string>();
+  if (t.name.empty() || t.name.find_first_of(",= \t") != std::string::npos)
+    return failure(ErrorKind::usage, fmt::format("'{}' cannot be a target's name: no space, comma or equals sign, please", t.name));
+  const auto type = options.value("type", std::string()), kind = options.value("kind", std::string());
+  const auto found = std::find_if(kinds.articles.begin(), kinds.articles.end(), [&](const TargetArticle& a) {
+    if (!type.empty()) return a.id == type;
+    return kind.empty() || (kind == "sphere") == (a.shape == TargetKind::sphere);
+  });
+  if (found == kinds.articles.end()) {
+    std::vector<std::string> ids;
+    for (const auto& a : kinds.articles) ids.push_back(a.id);
+    return failure(ErrorKind::usage, fmt::format("there is no target '{}'; there is {}", type, fmt::join(ids, ", ")), "--type");
+  }
+  if (!type.empty() && !kind.empty() && (kind == "sphere") != (found->shape == TargetKind::sphere))
+    return failure(ErrorKind::usage, fmt::format("'{}' is no {}: leave --kind out", type, kind), "--kind");
+  t.kind = found->shape;
+  t.size_m = options.value("size", found->size_m);
+  return t;
+}
+
+Result<Target> placedTarget(const Document& document, const RayScene& scene, Target t, const json& options,
+                            std::string& stands, Report& report) {
+  const Vector3d& shift = document.georeference->shift_m;
+  const int ways = static_cast<int>(options.contains("at")) + static_cast<int>(options.contains("on")) +
+                   static_cast<int>(options.contains("on-surface"));
+  if (ways != 1)
+    return failure(ErrorKind::usage, "say where it is by one of --at X,Y,Z (its centre), --on X,Y[,Z] (a floor for its tripod), "
+                                     "--on-surface X,Y,Z (stuck to what is nearest)");
+  if (options.contains("on")) {
+    const auto& on = options["on"];
+    const double height = options.at("height").get<double>();
+    const auto floor = floorFor(scene, on, shift, height);
+    if (!floor) return failure(floor.error());
+    t.centre = {on[0].get<double>() - shift.x(), on[1].get<double>() - shift.y(), *floor + height};
+    t.normal = towardsNearestStation(document, t.centre);
+    stands = fmt::format("a tripod of {:.2f} m", height);
+  } else {
+    const char* way = options.contains("at") ? "at" : "on-surface";
+    if (options[way].size() != 3) return failure(ErrorKind::usage, fmt::format("--{} takes three numbers X,Y,Z in metres", way));
+    t.centre = vectorFrom(options[way]) - shift;
+  }
+  if (options.contains("on-surface")) {
+    const Vector3d place = t.centre;
+    if (auto ok = stick(document, scene, place, options.at("stand-off").get<double>(), t, stands, report); !ok) return failure(ok.error());
+  } else if (options.contains("normal")) {
+    if (options["normal"].size() != 3 || vectorFrom(options["normal"]).norm() < 1e-9)
+      return failure(ErrorKind::usage, "--normal takes three numbers, not all zero");
+    t.normal = vectorFrom(options["normal"]).normalized();
+  }
+  if (auto ok = fits(document, scene, t); !ok) return failure(ok.error());
+  if (options.contains("at") && !isHeld(scene, t))
+    report.warn(t.name, fmt::format("it hangs in the air: nothing beside it, and no floor within {} m beneath", kTallestPole_m));
+  return t;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "project/verb.h"
+#include "scanners/ray_engine.h"
+#include "scanners/target_kinds.h"
+
+namespace standpoint {
+
+// How a station would see a target.
+struct TargetSight {
+  std::string station;
+  double distance_m = 0, incidence_rad = 0;
+  double seen_share = 0;           // of its face
+  std::string hidden_by;           // where not all is seen
+  std::optional<double> points;    // that the instrument lays on it, hidden or not; nothing where none is known
+  double most_distance_m = 0;      // at which this instrument's grid, or the rule, still does
+  std::string why_not;             // empty: it can be measured from there
+};
+
+struct SightRequest {
+  std::string instrument;          // id; empty: those that scanned from each station
+  SettingValues settings;
+};
+
+Result<std::vector<TargetSight>> sightsOf(const Document& document, const RayScene& scene, const Target& target,
+                                          const TargetRules& rules, const SightRequest& request);
+nlohmann::json toJson(const std::vector<TargetSight>& sights);
+void tell(const Target& target, const std::vector<TargetSight>& sights, Report& report);
+
+}  // namespace standpoint
