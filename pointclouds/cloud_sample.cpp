@@ -10,8 +10,6 @@
 
 namespace standpoint {
 
-namespace {
-
 // A pose is a scanner's when the scan has its grid, or when it is more than the whole metres by which readers keep far
 // coordinates fine (local_points.h).
 std::optional<Eigen::Vector3d> stationOf(const ScanHeader& header) {
@@ -22,6 +20,8 @@ std::optional<Eigen::Vector3d> stationOf(const ScanHeader& header) {
   if (grid || turned || !whole_metres) return pose.translation;
   return std::nullopt;
 }
+
+namespace {
 
 class SampleSink final : public PointSink {
  public:

@@ -9,17 +9,19 @@
 
 #include <Eigen/Core>
 
+#include "core/points.h"
 #include "core/progress.h"
 #include "core/report.h"
 #include "core/result.h"
 
 namespace standpoint {
 
+// Where a scan's scanner stood, in the frame of the cloud's file; nothing where the file does not say (a LAS, a merged cloud).
+std::optional<Eigen::Vector3d> stationOf(const ScanHeader& header);
+
 struct SampledScan {
   std::string name, sensor_vendor, sensor_model;
-  // Where its scanner stood, in the frame of the cloud's file; nothing where the file does not say (a LAS, a merged
-  // cloud).
-  std::optional<Eigen::Vector3d> station;
+  std::optional<Eigen::Vector3d> station;   // stationOf
   std::uint64_t points = 0;        // that the file holds
 };
 

@@ -152,7 +152,8 @@ Result<CloudExtent> measureCloud(const std::filesystem::path& file, Progress& pr
 
 Result<std::vector<std::filesystem::path>> convertCloud(const std::filesystem::path& in,
                                                         const std::filesystem::path& out, const std::string& as,
-                                                        Report& report, Progress& progress) {
+                                                        Report& report, Progress& progress,
+                                                        const SinkBefore& through) {
   const auto from = known(in), to = known(out);
   if (!from) return failure(from.error());
   if (!to) return failure(to.error());
@@ -170,9 +171,11 @@ Result<std::vector<std::filesystem::path>> convertCloud(const std::filesystem::p
   Distributor distributor(*writer, out, one_each);
   if (!one_each)
     if (auto opened = distributor.open(out); !opened) return failure(opened.error());
-  const auto lost = (*from)->read(in, distributor, progress);
+  const std::unique_ptr<PointSink> before = through ? through(distributor) : nullptr;
+  PointSink& sink = before ? *before : distributor;
+  const auto lost = (*from)->read(in, sink, progress);
   if (!lost) return failure(lost.error());
-  if (auto closed = distributor.close(); !closed) return failure(closed.error());
+  if (auto closed = sink.close(); !closed) return failure(closed.error());
   report.append(*lost);
   report.append(distributor.report);
   return distributor.files;

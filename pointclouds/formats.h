@@ -80,11 +80,12 @@ Result<CloudExtent> measureCloud(const std::filesystem::path& file, Progress& pr
 
 // Writers create `file` + ".part" and rename it in close(), so a full disk or a crash leaves the old file as it was.
 
-// Copies all scans of IN to OUT; OUT's format must be writable. When OUT cannot hold many scans and IN has several,
-// each gets its own file: name-<station>.ext. `as` names a variant of OUT's format, or is empty. Returns the files
-// written.
-Result<std::vector<std::filesystem::path>> convertCloud(const std::filesystem::path& in,
-                                                        const std::filesystem::path& out, const std::string& as,
-                                                        Report& report, Progress& progress);
+// Copies all scans of IN to OUT; OUT's format must be writable. When OUT cannot hold many scans and IN has several, each
+// gets its own file: name-<station>.ext. `as` names a variant of OUT's format, or is empty. `through` may put a sink of its
+// own before the writer's, which passes on what it wants. Returns the files written.
+using SinkBefore = std::function<std::unique_ptr<PointSink>(PointSink& writer)>;
+Result<std::vector<std::filesystem::path>> convertCloud(const std::filesystem::path& in, const std::filesystem::path& out,
+                                                        const std::string& as, Report& report, Progress& progress,
+                                                        const SinkBefore& through = {});
 
 }  // namespace standpoint

@@ -125,6 +125,9 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const json& option
   request.levelling = {.compensator = options.at("compensator") == "on",
                        .exact = !request.options.effects.has(Effect::levelling),
                        .seed = request.options.seed};
+  request.panorama = options.value("panorama", false);
+  if (request.panorama && !request.settings.imaging)
+    return failure(ErrorKind::usage, "these settings take no images: a panorama needs them", "--panorama");
   const bool truth = options.value("truth", false);
   request.options.channels = {
       .time = truth, .returns = truth || request.instrument.waveform.most_returns > 1, .truth = truth};

@@ -24,6 +24,7 @@ struct ScanRequest {
   std::filesystem::path output;
   bool one_file = false;  // all stations in `output`; else a file each
   Levelling levelling;
+  bool panorama = false;  // each station takes its pictures, and the points are coloured from them
   bool resume = false;  // stations that an earlier run finished are not scanned again
 };
 

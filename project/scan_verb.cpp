@@ -13,6 +13,7 @@
 #include "project/scan_parts.h"
 #include "project/scan_request.h"
 #include "project/survey_verbs.h"
+#include "scanners/panorama.h"
 
 namespace standpoint {
 
@@ -94,8 +95,15 @@ Scan record(const ScanCount& count, const ScanRequest& request, const fs::path& 
 
 // One station into an open sink.
 Result<ScanCount> scanStation(const RayScene& scene, const ScanWorld& world, const Station& station,
-                              const ScanHeader& header, const ScanRequest& request, PointSink& sink,
-                              Progress& progress) {
+                              const ScanHeader& header, const ScanRequest& request, PointSink& file,
+                              Report& report, Progress& progress) {
+  std::unique_ptr<PointSink> coloured;
+  if (request.panorama) {
+    auto panorama = takePanorama(scene, request.instrument, station.true_pose, request.options.threads, report, progress);
+    if (!panorama) return failure(panorama.error());
+    coloured = colouring(file, std::make_shared<const Panorama>(*std::move(panorama)));
+  }
+  PointSink& sink = coloured ? *coloured : file;
   if (auto ok = sink.begin(header); !ok) return failure(ok.error());
   ScanOptions options = request.options;
   options.station_key = static_cast<std::uint32_t>(stableHash(station.name.c_str()));
@@ -213,7 +221,7 @@ class ScanRun {
       tape = *std::move(made);
     }
     PointSink& sink = tape ? static_cast<PointSink&>(*tape) : *sink_;
-    auto count = scanStation(scene_, world_, station, header(k, guid), request_, sink, progress);
+    auto count = scanStation(scene_, world_, station, header(k, guid), request_, sink, report, progress);
     if (!count) return count;
     if (tape)
       if (auto ok = tape->close(); !ok) return failure(ok.error());

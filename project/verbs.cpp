@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdlib>
 
+#include "pointclouds/point_filter.h"
 #include "project/file_verbs.h"
 #include "project/import_verb.h"
 #include "project/model_verbs.h"
@@ -22,6 +23,11 @@ using S = VerbScope;
 
 const char* effectHelp() {
   static const std::string help = "effects to leave out: " + effectList();
+  return help.c_str();
+}
+
+const char* filterHelp() {
+  static const std::string help = "in this order, NAME or NAME:KEY=VALUE,…, in metres and degrees: " + filterList();
   return help.c_str();
 }
 
@@ -152,6 +158,7 @@ const std::vector<Verb>& table() {
         {.name = "ideal", .kind = K::flag, .help = "without any effect: the first surface on the axis of each pulse, exactly"},
         {.name = "without", .kind = K::text, .help = effectHelp()},
         {.name = "weather", .kind = K::text, .help = "visibility=KM rain=MM/H snow=MM/H fog=M dust=M, separated by spaces or commas"},
+        {.name = "panorama", .kind = K::flag, .help = "a picture all around from each station, and the points coloured from it"},
         {.name = "compensator", .kind = K::choice, .help = "off: a station out of level gives tilted points", .standard = "on", .choices = {"on", "off"}},
         {.name = "truth", .kind = K::flag, .help = "with what is known of each point: time, return, true place, range, incidence, power, how it came about"},
         {.name = "threads", .kind = K::integer, .help = "0 = all; the result is the same", .standard = 0, .minimum = 0, .maximum = 1024},
@@ -182,6 +189,12 @@ const std::vector<Verb>& table() {
         {.name = "dataset", .kind = K::choice, .help = "OUT is the new folder of a set to train on; the scans must have labels", .choices = {"s3dis", "semantic3d", "semantickitti", "custom3d"}},
         {.name = "classes", .kind = K::path, .help = "of --dataset: JSON file that says which of its classes an IFC class is (default: pointclouds/classes)"}},
        runConvert},
+      {"clean", "Filters a point cloud, and tells what each filter took of the truth where the file has it", S::files,
+       {{.name = "in", .kind = K::path, .help = "cloud to read", .positional = true, .required = true},
+        {.name = "output", .kind = K::path, .help = "cloud to write", .required = true},
+        {.name = "filters", .kind = K::list, .help = filterHelp(), .required = true},
+        {.name = "report", .kind = K::path, .help = "file for the figures of each filter (.json, .csv)"}},
+       runClean},
       {"info", "Tells what is in a point cloud, a model or a project", S::files,
        {{.name = "file", .kind = K::path, .help = "the file, or the folder of a project", .positional = true, .required = true}}, runInfo},
       {"compare", "Compares two point clouds: noise on planes, roughness, intensity, coverage", S::files,

@@ -71,6 +71,14 @@ struct Saturation {
   double pedestal = 0;             // share of the beam's power in its wide wings: the halo of a reflector
 };
 
+// What takes its pictures.
+struct Camera {
+  std::uint32_t columns = 0;       // of the panorama that is delivered
+  int shots = 1;                   // around the horizon, each with its own exposure …
+  bool hdr = false;                // … unless brackets make one of all
+  double offset_up_m = 0;          // of the camera above the laser's centre
+};
+
 // What tells an instrument on a tripod how far it leans.
 struct Compensator {
   std::string kind;                // "liquid", "inclinometer", "imu" or "self_levelling"
@@ -115,6 +123,7 @@ struct Instrument {
   double trunnion_height_m = 0;    // of the tilting axis above the tripod plate
   double tripod_height_m = 0;      // default height of the axis above the ground
   double imaging_seconds = 0;
+  Camera camera;
   std::vector<InstrumentSetting> settings;
   std::map<std::string, Evidence> evidence;      // by JSON pointer
   Waveform waveform;

@@ -88,6 +88,10 @@ class Reader : FigureReader {
     if (root.object->contains("compensator")) readCompensator(root);
     Group imaging = child(root, "imaging");
     instrument_.imaging_seconds = figure(imaging, "seconds", {0, 3600});
+    instrument_.camera.columns = static_cast<std::uint32_t>(count(imaging, "columns", {16, 32768})) / 2 * 2;
+    instrument_.camera.shots = count(imaging, "shots", {1, 360});
+    instrument_.camera.hdr = count(imaging, "hdr", {0, 1}) == 1;
+    instrument_.camera.offset_up_m = figure(imaging, "offset_up_mm", {-500, 500, 1e-3});
     close(imaging);
   }
 

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/points.h"
+#include "core/result.h"
+
+namespace standpoint {
+
+// What became of each point of a file, by its number there: 0 = it is still there, else which filter took it, from 1.
+using Fates = std::vector<std::uint8_t>;
+
+// The points that the filters before have left, and what this one takes of them.
+class Remaining {
+ public:
+  Remaining(Fates& fates, std::uint8_t filter) : fates_(fates), filter_(filter) {}
+  bool has(std::uint64_t point) const { return fates_[point] == 0; }
+  void take(std::uint64_t point) { fates_[point] = filter_; }
+
+ private:
+  Fates& fates_;
+  std::uint8_t filter_;
+};
+
+struct FilterScan {
+  std::string name;
+  std::optional<Eigen::Vector3d> station;   // where its scanner stood, file frame, if the file says so
+};
+
+// One filter at work: it sees the file's points as often as it asks for, and takes what it does not want. What it takes
+// it must not look at again; points keep their numbers in every pass.
+class PointFilter {
+ public:
+  virtual ~PointFilter() = default;
+  virtual Result<void> know(const std::vector<FilterScan>& /*scans of the file*/) { return {}; }
+  virtual Result<void> beginScan(const ScanHeader&) { return {}; }     // an error where the filter does not apply
+  virtual Result<void> see(const PointBlock& block, std::uint64_t first, Remaining& remaining) = 0;
+  virtual Result<void> endScan(Remaining&) { return {}; }
+  virtual bool endPass(Remaining&) { return false; }   // true: another pass, please
+};
+
+// A value that a filter takes: "angle=10". Lengths in metres, angles in degrees.
+struct FilterKey {
+  enum class Kind { number, integer, triple, word };
+  const char* name;
+  Kind kind;
+  const char* help;
+  const char* standard = nullptr;      // null: none
+  bool required = false;
+  double minimum = std::numeric_limits<double>::lowest(), maximum = std::numeric_limits<double>::max();
+  std::vector<const char*> words = {};
+};
+
+class FilterValues {
+ public:
+  bool has(const std::string& key) const { return text_.contains(key); }
+  double number(const std::string& key) const { return numbers_.at(key)[0]; }
+  Eigen::Vector3d triple(const std::string& key) const { return numbers_.at(key); }
+  const std::string& word(const std::string& key) const { return text_.at(key); }
+  Result<void> set(const FilterKey& key, const std::string& text);   // errors without a place
+
+ private:
+  std::map<std::string, std::string> text_;
+  std::map<std::string, Eigen::Vector3d> numbers_;
+};
+
+struct FilterKind {
+  const char* name;                    // "mixed"
+  const char* description;
+  std::vector<FilterKey> keys;
+  Result<std::unique_ptr<PointFilter>> (*make)(const FilterValues&);
+};
+
+// The table of filters; a new one is a function and one line in point_filters.cpp.
+std::span<const FilterKind> filterKinds();
+std::string filterList();              // names, keys and what they are, for help
+
+// "mixed" or "range:from=0.5,to=30"; an error says what there is instead.
+struct ChosenFilter {
+  std::string text;
+  const FilterKind* kind = nullptr;
+  FilterValues values;
+};
+Result<ChosenFilter> filterFrom(const std::string& text);
+
+}  // namespace standpoint

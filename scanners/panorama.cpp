@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scanners/panorama.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <numbers>
+
+#include <jpeglib.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "scanners/surface_colours.h"
+
+namespace standpoint {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kFarthest_m = 2000;
+constexpr int kMostPanes = 8;               // that a ray is followed through
+constexpr float kMiddleGrey = 0.18F;        // that an exposure brings the mean brightness to
+constexpr float kAdaptation = 0.6F;         // how much of that it does: a dark wall stays darker than a white one
+constexpr double kBlend_rad = 3 * kPi / 180;
+constexpr double kInPixel[4][2] = {{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}};   // a turned grid
+
+using Light = Eigen::Array3f;   // linear
+
+Light sky(const Eigen::Vector3d& direction) {
+  const auto up = static_cast<float>(std::max(0.0, direction.z()));
+  if (direction.z() < 0) return Light(0.18F, 0.17F, 0.15F);
+  return Light(0.80F, 0.87F, 0.95F) * (1 - up) + Light(0.25F, 0.45F, 0.80F) * up;
+}
+
+class Renderer {
+ public:
+  Renderer(const RayScene& scene, const Pose& local_from_camera, Report& report)
+      : scene_(scene), pose_(local_from_camera), colours_(scene.environment(), report) {}
+
+  Light along(const Eigen::Vector3d& direction_camera) const {
+    const Eigen::Vector3d direction = pose_.rotation * direction_camera;
+    Light light = Light::Zero();
+    float left = 1;   // of what lies behind the panes so far
+    double way_m = 0;
+    for (int pane = 0; pane < kMostPanes && left > 0.02F; ++pane) {
+      const auto hit = scene_.intersect(pose_.translation + way_m * direction, direction, kFarthest_m);
+      if (!hit) return light + left * sky(direction);
+      way_m += hit->range_m;
+      const SurfaceColours::Look look = colours_.at(*hit);
+      light += left * look.opacity * look.colour * (look.unlit ? 1.0F : brightness(*hit, direction, way_m));
+      left *= 1 - look.opacity;
+      way_m += 1e-3;   // beyond the float error of the ray, within a pane
+    }
+    return light;
+  }
+
+ private:
+  // Light from above and all around, and some that falls off with the distance from the camera.
+  static float brightness(const RayHit& hit, const Eigen::Vector3d& direction, double way_m) {
+    const double above = 0.5 + 0.5 * hit.normal.z(), facing = -hit.normal.dot(direction);
+    return static_cast<float>(0.35 + 0.3 * above + 0.35 * facing / (1 + 0.02 * way_m * way_m));
+  }
+  const RayScene& scene_;
+  Pose pose_;
+  SurfaceColours colours_;
+};
+
+// The exposure of each column, from the mean brightness of each shot: sectors of azimuth.
+std::vector<float> exposures(const std::vector<Light>& pixels, std::uint32_t width, std::uint32_t height, int shots, bool hdr) {
+  const auto count = static_cast<std::size_t>(hdr ? 1 : std::max(1, shots));
+  std::vector<double> sum(count, 0), weight(count, 0);
+  for (std::uint32_t y = 0; y < height; ++y)
+    for (std::uint32_t x = 0; x < width; ++x) {
+      const double area = std::sin((y + 0.5) * kPi / height);   // a row near a pole is short
+      const std::size_t shot = x * count / width;
+      sum[shot] += area * static_cast<double>(pixels[std::size_t{y} * width + x].min(1).mean());
+      weight[shot] += area;
+    }
+  std::vector<float> gain;
+  for (std::size_t k = 0; k < count; ++k)
+    gain.push_back(std::clamp(std::pow(kMiddleGrey / std::max(0.01F, static_cast<float>(sum[k] / weight[k])), kAdaptation), 0.25F, 4.0F));
+  std::vector<float> of_column(width);
+  const double shot_wide = static_cast<double>(width) / static_cast<double>(count);
+  const double blend = std::min(kBlend_rad * width / (2 * kPi), 0.5 * shot_wide);
+  for (std::uint32_t x = 0; x < width; ++x) {
+    const std::size_t shot = std::min(count - 1, static_cast<std::size_t>(x / shot_wide));
+    const double from = x + 0.5 - static_cast<double>(shot) * shot_wide, to = shot_wide - from;
+    const std::size_t other = from < to ? (shot + count - 1) % count : (shot + 1) % count;
+    const auto share = static_cast<float>(std::max(0.0, 0.5 - std::min(from, to) / blend));   // half at the seam
+    of_column[x] = (1 - share) * gain[shot] + share * gain[other];
+  }
+  return of_column;
+}
+
+class ColouringSink final : public PointSink {
+ public:
+  ColouringSink(PointSink& to, std::shared_ptr<const Panorama> panorama) : to_(to), panorama_(std::move(panorama)) {}
+  Result<void> begin(const ScanHeader& header) override {
+    header_ = header;
+    header_.has_colour = true;
+    return to_.begin(header_);
+  }
+  Result<void> write(const PointBlock& block) override {
+    coloured_ = block;
+    for (auto* channel : {&coloured_.red, &coloured_.green, &coloured_.blue}) channel->resize(block.size());
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const auto& colour = panorama_->at({block.x_m[i], block.y_m[i], block.z_m[i]});
+      coloured_.red[i] = colour[0], coloured_.green[i] = colour[1], coloured_.blue[i] = colour[2];
+    }
+    return to_.write(coloured_);
+  }
+  Result<void> picture(const StationPicture& picture) override { return to_.picture(picture); }
+  Result<void> end() override {
+    auto picture = pictureOf(*panorama_, header_, header_.acquisition_start_gps_s + header_.acquisition_seconds);
+    if (!picture) return failure(picture.error());
+    if (auto given = to_.picture(*picture); !given) return given;
+    return to_.end();
+  }
+  Result<void> close() override { return to_.close(); }
+
+ private:
+  PointSink& to_;
+  std::shared_ptr<const Panorama> panorama_;
+  ScanHeader header_;
+  PointBlock coloured_;
+};
+
+}  // namespace
+
+const std::array<std::uint8_t, 3>& Panorama::at(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d p = point - camera_m;
+  const double azimuth = std::atan2(p.y(), p.x()), elevation = std::atan2(p.z(), std::hypot(p.x(), p.y()));
+  const auto cell = [](double at, std::uint32_t size) {
+    return static_cast<std::size_t>(std::clamp(at * size, 0.0, static_cast<double>(size) - 1));
+  };
+  return pixels[cell(0.5 - elevation / kPi, height) * width + cell(0.5 - azimuth / (2 * kPi), width)];
+}
+
+Result<Panorama> takePanorama(const RayScene& scene, const Instrument& instrument, const Pose& local_from_scanner,
+                              int threads, Report& report, Progress& progress) {
+  Panorama panorama;
+  panorama.width = instrument.camera.columns;
+  panorama.height = panorama.width / 2;
+  panorama.camera_m = {0, 0, instrument.camera.offset_up_m};
+  const std::uint32_t width = panorama.width, height = panorama.height;
+  const Renderer renderer(scene, {local_from_scanner.rotation, local_from_scanner * panorama.camera_m}, report);
+  std::vector<Light> light(std::size_t{width} * height);
+  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  arena.execute([&] {
+    tbb::parallel_for(std::uint32_t{0}, height, [&](std::uint32_t y) {
+      if (progress.cancelled()) return;
+      for (std::uint32_t x = 0; x < width; ++x) {
+        Light sum = Light::Zero();
+        for (const auto& place : kInPixel) {
+          const double azimuth = kPi - 2 * kPi * (x + place[0]) / width, elevation = kPi / 2 - kPi * (y + place[1]) / height;
+          sum += renderer.along({std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)});
+        }
+        light[std::size_t{y} * width + x] = sum / 4;
+      }
+    });
+  });
+  if (auto on = progress.check(); !on) return failure(on.error());
+  const std::vector<float> exposure = exposures(light, width, height, instrument.camera.shots, instrument.camera.hdr);
+  panorama.pixels.resize(light.size());
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    const Light l = light[i] * exposure[i % width];
+    panorama.pixels[i] = {srgbOf(l[0]), srgbOf(l[1]), srgbOf(l[2])};
+  }
+  return panorama;
+}
+
+Result<StationPicture> pictureOf(const Panorama& panorama, const ScanHeader& header, double acquired_gps_s) {
+  StationPicture picture;
+  picture.name = header.name + " panorama";
+  picture.media_type = "image/jpeg";
+  picture.width = panorama.width, picture.height = panorama.height;
+  picture.pixel_width = 2 * kPi / panorama.width, picture.pixel_height = kPi / panorama.height;
+  picture.file_from_camera = {header.file_from_scanner.rotation, header.file_from_scanner * panorama.camera_m};
+  picture.acquired_gps_s = acquired_gps_s;
+  // libjpeg's own handler ends the program on an error; writing into memory, all that can fail is the memory itself.
+  jpeg_compress_struct jpeg{};
+  jpeg_error_mgr errors{};
+  jpeg.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&jpeg);
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;
+  jpeg_mem_dest(&jpeg, &bytes, &size);
+  jpeg.image_width = panorama.width, jpeg.image_height = panorama.height;
+  jpeg.input_components = 3, jpeg.in_color_space = JCS_RGB;
+  jpeg_set_defaults(&jpeg);
+  jpeg_set_quality(&jpeg, 90, TRUE);
+  jpeg_start_compress(&jpeg, TRUE);
+  while (jpeg.next_scanline < jpeg.image_height) {
+    auto* row = const_cast<JSAMPROW>(panorama.pixels[std::size_t{jpeg.next_scanline} * panorama.width].data());
+    jpeg_write_scanlines(&jpeg, &row, 1);
+  }
+  jpeg_finish_compress(&jpeg);
+  jpeg_destroy_compress(&jpeg);
+  picture.bytes.assign(bytes, bytes + size);
+  std::free(bytes);
+  return picture;
+}
+
+std::unique_ptr<PointSink> colouring(PointSink& sink, std::shared_ptr<const Panorama> panorama) {
+  return std::make_unique<ColouringSink>(sink, std::move(panorama));
+}
+
+}  // namespace standpoint

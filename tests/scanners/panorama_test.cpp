@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scanners/panorama.h"
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include <gtest/gtest.h>
+#include <jpeglib.h>
+
+#include "tests/scanners/scenes.h"
+
+namespace standpoint {
+namespace {
+
+using testing::SceneBuilder;
+constexpr double kPi = std::numbers::pi;
+
+Instrument withCamera(std::uint32_t columns, double offset_up_m, bool hdr, int shots) {
+  Instrument instrument;
+  instrument.camera = {columns, shots, hdr, offset_up_m};
+  return instrument;
+}
+
+Panorama taken(const RayScene& scene, const Instrument& instrument, int threads = 1, const Pose& pose = {}) {
+  Report report;
+  Progress progress;
+  auto panorama = takePanorama(scene, instrument, pose, threads, report, progress);
+  EXPECT_TRUE(panorama.has_value());
+  return *std::move(panorama);
+}
+
+// A dark board 1 m across, 2 m along +Y, in a white room.
+std::shared_ptr<const RayScene> boardInRoom() {
+  SceneBuilder builder;
+  const auto white = builder.surface(0.9F), black = builder.surface(0.02F);
+  builder.box({-5, -5, -5}, {5, 5, 5}, true, white);
+  builder.quad({-0.5, 2, -0.5}, {1, 0, 0}, {0, 0, 1}, black);
+  return builder.build();
+}
+
+TEST(Panorama, ShowsWhatStandsToTheLeftOfItsMiddle) {
+  const auto scene = boardInRoom();
+  const Panorama p = taken(*scene, withCamera(360, 0, true, 1));
+  // Azimuth 90° is a quarter of the width left of the middle; the board reaches atan(0.5 / 2) = 14.04° to each side.
+  const std::size_t row = 90 * 360;
+  const auto dark = [&](int column) { return p.pixels[row + static_cast<std::size_t>(column)][1] < 90; };
+  for (int column = 0; column < 360; ++column) {
+    const double azimuth_deg = 180 - (column + 0.5);
+    if (std::abs(std::abs(azimuth_deg - 90) - 14.036) < 0.5) continue;   // a pixel of both
+    EXPECT_EQ(dark(column), std::abs(azimuth_deg - 90) < 14.036) << azimuth_deg;
+  }
+  EXPECT_LT(p.at({0, 3, 0})[1], 90);
+  EXPECT_GT(p.at({0, -3, 0})[1], 90);
+  EXPECT_GT(p.at({0, 1, 3})[1], 90);
+}
+
+TEST(Panorama, TurnsWithTheScanner) {
+  const auto scene = boardInRoom();
+  Pose turned;
+  turned.rotation = Eigen::AngleAxisd(kPi / 2, Eigen::Vector3d::UnitZ());   // its X axis looks along +Y
+  const Panorama p = taken(*scene, withCamera(360, 0, true, 1), 1, turned);
+  EXPECT_LT(p.pixels[90 * 360 + 180][1], 90);
+}
+
+TEST(Panorama, IsTheSameForAnyNumberOfThreads) {
+  const auto scene = boardInRoom();
+  EXPECT_EQ(taken(*scene, withCamera(256, 0.04, false, 5), 1).pixels, taken(*scene, withCamera(256, 0.04, false, 5), 2).pixels);
+}
+
+// From 20 cm above the laser the upper edge of the board hides another part of the wall: the line from the camera over the
+// edge (2 m off, 0.5 m up) meets the wall 5 m off at 0.2 + 0.3 · 2.5 = 0.95 m, that from the laser at 1.25 m; under the board
+// it is 0.2 - 0.7 · 2.5 = -1.55 m and -1.25 m.
+TEST(Panorama, ColoursPointsWithTheParallaxOfItsCamera) {
+  const auto scene = boardInRoom();
+  const Panorama at_laser = taken(*scene, withCamera(360, 0, true, 1)), above = taken(*scene, withCamera(360, 0.2, true, 1));
+  const Eigen::Vector3d over(0, 5, 1.1), under(0, 5, -1.4);   // hidden from the laser; seen by it
+  EXPECT_LT(at_laser.at(over)[1], 90);
+  EXPECT_GT(above.at(over)[1], 90);
+  EXPECT_GT(at_laser.at(under)[1], 90);
+  EXPECT_LT(above.at(under)[1], 90);
+}
+
+TEST(Panorama, HasAnExposureForEachShotUnlessBracketsMakeOne) {
+  SceneBuilder builder;
+  const auto bright = builder.surface(0.95F), dark = builder.surface(0.3F);
+  builder.box({-5, -5, -5}, {5, 5, 5}, true, bright);
+  builder.quad({-4.9, -4, -4}, {0, 0, 8}, {0, 8, 0}, dark);   // behind, around azimuth 180°
+  const auto scene = builder.build();
+  const Panorama one = taken(*scene, withCamera(360, 0, true, 4)), each = taken(*scene, withCamera(360, 0, false, 4));
+  // The dark wall fills the outer shots, and with its own exposure it is brighter than with the one for all.
+  EXPECT_GT(each.pixels[90 * 360 + 5][1], one.pixels[90 * 360 + 5][1]);
+  // Straight up is the same ceiling on both sides of a seam.
+  const auto step = [](const Panorama& p) { return std::abs(p.pixels[60 * 360 + 60][1] - p.pixels[60 * 360 + 120][1]); };
+  EXPECT_GT(step(each), step(one) + 3);
+}
+
+TEST(Panorama, BecomesAJpegThatAnotherReaderUnderstands) {
+  const auto scene = boardInRoom();
+  const Panorama p = taken(*scene, withCamera(360, 0.04, true, 1));
+  ScanHeader header;
+  header.name = "S1";
+  header.file_from_scanner.translation = {500000, 5600000, 2};
+  const auto picture = pictureOf(p, header, 1234);
+  ASSERT_TRUE(picture.has_value());
+  EXPECT_EQ(picture->media_type, "image/jpeg");
+  EXPECT_DOUBLE_EQ(picture->pixel_width * picture->width, 2 * kPi);
+  EXPECT_DOUBLE_EQ(picture->pixel_height * picture->height, kPi);
+  EXPECT_EQ(picture->file_from_camera.translation, Eigen::Vector3d(500000, 5600000, 2.04));
+  jpeg_decompress_struct jpeg{};
+  jpeg_error_mgr errors{};
+  jpeg.err = jpeg_std_error(&errors);
+  jpeg_create_decompress(&jpeg);
+  jpeg_mem_src(&jpeg, picture->bytes.data(), picture->bytes.size());
+  ASSERT_EQ(jpeg_read_header(&jpeg, TRUE), JPEG_HEADER_OK);
+  EXPECT_EQ(jpeg.image_width, 360U);
+  EXPECT_EQ(jpeg.image_height, 180U);
+  jpeg_destroy_decompress(&jpeg);
+}
+
+TEST(Panorama, GoesBehindThePointsThatItColours) {
+  const auto scene = boardInRoom();
+  struct Watch final : PointSink {
+    std::string order;
+    PointBlock last;
+    Result<void> begin(const ScanHeader& h) override { return order += h.has_colour ? "B" : "b", Result<void>{}; }
+    Result<void> write(const PointBlock& b) override { return last = b, order += "w", Result<void>{}; }
+    Result<void> picture(const StationPicture&) override { return order += "p", Result<void>{}; }
+    Result<void> end() override { return order += "e", Result<void>{}; }
+    Result<void> close() override { return {}; }
+  } watch;
+  const auto sink = colouring(watch, std::make_shared<const Panorama>(taken(*scene, withCamera(360, 0, true, 1))));
+  PointBlock block;
+  block.x_m = {0, 0}, block.y_m = {2, -5}, block.z_m = {0, 0}, block.intensity = {0, 0};
+  ASSERT_TRUE(sink->begin({}));
+  ASSERT_TRUE(sink->write(block));
+  ASSERT_TRUE(sink->end());
+  EXPECT_EQ(watch.order, "Bwpe");
+  ASSERT_EQ(watch.last.green.size(), 2U);
+  EXPECT_LT(watch.last.green[0] + 50, watch.last.green[1]);
+}
+
+}  // namespace
+}  // namespace standpoint
