@@ -72,7 +72,7 @@ struct Saturation {
 };
 
 // What takes its pictures.
-struct Camera {
+struct PanoramaCamera {
   std::uint32_t columns = 0;       // of the panorama that is delivered
   int shots = 1;                   // around the horizon, each with its own exposure …
   bool hdr = false;                // … unless brackets make one of all
@@ -123,7 +123,7 @@ struct Instrument {
   double trunnion_height_m = 0;    // of the tilting axis above the tripod plate
   double tripod_height_m = 0;      // default height of the axis above the ground
   double imaging_seconds = 0;
-  Camera camera;
+  PanoramaCamera camera;
   std::vector<InstrumentSetting> settings;
   std::map<std::string, Evidence> evidence;      // by JSON pointer
   Waveform waveform;
