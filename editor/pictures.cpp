@@ -42,16 +42,16 @@ std::int64_t richestProduct(const Editor& editor) {
   return best;
 }
 
-// Into the lowest storey that is not below the ground.
+// Into the storey that the first station stands in; without one into the lowest that is not below the ground.
 void cutIntoStorey(Editor& editor) {
   const auto bounds = editor.buildingBounds();
-  double height = (bounds.min.z() + bounds.max.z()) / 2;
+  const auto& job = editor.session.document().job;
+  const bool stands = job && !job->stations.empty();
+  const double most = stands ? job->stations.front().true_pose.translation.z() : bounds.min.z() + 0.5;
+  std::optional<double> height;
   for (const auto& level : editor.storeys())
-    if (level.elevation_m > bounds.min.z() - 0.5) {
-      height = level.elevation_m + 1.6;
-      break;
-    }
-  editor.visibility.cut_height_m = height;
+    if (level.elevation_m > bounds.min.z() - 0.5 && (!height || level.elevation_m < most)) height = level.elevation_m + 1.6;
+  editor.visibility.cut_height_m = height.value_or((bounds.min.z() + bounds.max.z()) / 2);
   editor.view.camera.elevation_rad = 0.95;
   editor.view.frame_wanted = true;
 }
