@@ -39,7 +39,7 @@ def placed(project):
     run("station", project, "--add", "S1")
     run("station", project, "--add", "S2")
     low, high = run("info", project)["bounds"]
-    run("station", project, "--add", "S3", "--at", f"{low[0] - 3},{(low[1] + high[1]) / 2},{max(low[2], 0) + 1.7}")
+    run("station", project, "--add", "S3", "--stand", "free", "--at", f"{low[0] - 3},{(low[1] + high[1]) / 2},{max(low[2], 0) + 1.7}")
 
 
 def verified(project, scanned, instrument, setting, folder):
