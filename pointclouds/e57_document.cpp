@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "pointclouds/e57_bytes.h"
 #include "pointclouds/number_text.h"
+#include "pointclouds/raw_bytes.h"
 
 namespace standpoint::e57 {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <utility>
 
-#include "pointclouds/e57_bytes.h"
+#include "pointclouds/raw_bytes.h"
 
 namespace standpoint::e57 {
 namespace {

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "pointclouds/e57_bytes.h"
 #include "pointclouds/e57_scan_xml.h"
 #include "pointclouds/number_text.h"
+#include "pointclouds/raw_bytes.h"
 
 namespace standpoint::e57 {
 namespace {

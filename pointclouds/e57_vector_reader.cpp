@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "pointclouds/e57_bytes.h"
 #include "pointclouds/number_text.h"
+#include "pointclouds/raw_bytes.h"
 
 namespace standpoint::e57 {
 namespace {

@@ -8,11 +8,11 @@
 #include "core/random.h"
 #include "pointclouds/block_check.h"
 #include "pointclouds/e57.h"
-#include "pointclouds/e57_bytes.h"
 #include "pointclouds/e57_labels.h"
 #include "pointclouds/e57_packet_writer.h"
 #include "pointclouds/e57_pictures.h"
 #include "pointclouds/e57_scan_xml.h"
+#include "pointclouds/raw_bytes.h"
 
 namespace standpoint::e57 {
 namespace {

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "pointclouds/raw_bytes.h"
 
 namespace standpoint::las {
 
@@ -42,16 +43,5 @@ struct ExtraPlaces {
 inline constexpr const char* kOurRecord = "Standpoint";   // user id of the record with the lines of scan_text.h
 inline constexpr std::uint16_t kOurRecordId = 1;
 inline constexpr double kAdjustedGps_s = 1e9;             // "adjusted standard GPS time" is less by that
-
-template <class T>
-T load(const std::uint8_t* bytes) {
-  T value;
-  std::memcpy(&value, bytes, sizeof value);
-  return value;
-}
-template <class T>
-void store(std::uint8_t* bytes, T value) {
-  std::memcpy(bytes, &value, sizeof value);
-}
 
 }  // namespace standpoint::las

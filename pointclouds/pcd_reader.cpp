@@ -7,11 +7,10 @@
 #include "pointclouds/number_text.h"
 #include "pointclouds/pcd.h"
 #include "pointclouds/pcd_header.h"
+#include "pointclouds/record_points.h"
 
 namespace standpoint::pcd {
 namespace {
-
-constexpr std::uint64_t kChunk = 65536, kChunkBytes = 8 << 20;
 
 // A colour is packed into an integer, or into the bits of a float.
 double packed(const Field& field, double value) {
@@ -45,8 +44,7 @@ class Reading {
   }
   Result<void> readText(LocalPoints& local, Progress& progress);
   Result<void> readBinary(LocalPoints& local, Progress& progress);
-  Result<void> take(std::uint64_t index, const std::string& place, FoundPoints& to);
-  Result<void> flush(LocalPoints& local, FoundPoints& found, std::uint64_t done, Progress& progress) const;
+  Result<void> take(std::uint64_t index, FoundPoints& to);   // of values_
   const std::filesystem::path& path_;
   const Header& header_;
   ScanHeader scan_;
@@ -55,7 +53,7 @@ class Reading {
   std::vector<double> values_;
 };
 
-Result<void> Reading::take(std::uint64_t index, const std::string& place, FoundPoints& to) {
+Result<void> Reading::take(std::uint64_t index, FoundPoints& to) {
   for (const PointField axis : {PointField::x, PointField::y, PointField::z})
     if (!std::isfinite(values_[*places_[axis]])) return {};   // a cell without a point
   if (const auto& rgb = places_[PointField::packed_colour]) values_[*rgb] = packed(header_.fields[*rgb], values_[*rgb]);
@@ -63,40 +61,17 @@ Result<void> Reading::take(std::uint64_t index, const std::string& place, FoundP
     values_[header_.fields.size()] = static_cast<double>(index % header_.width);
     values_[header_.fields.size() + 1] = static_cast<double>(index / header_.width);
   }
-  if (auto taken = taker_.take(values_, to); !taken) return failure(ErrorKind::unusable, taken.error().message, place);
-  return {};
-}
-
-Result<void> Reading::flush(LocalPoints& local, FoundPoints& found, std::uint64_t done, Progress& progress) const {
-  if (auto written = local.write(found); !written) return written;
-  progress.advance(static_cast<double>(done) / static_cast<double>(header_.points));
-  return progress.check();
+  return taker_.take(values_, to);
 }
 
 Result<void> Reading::readBinary(LocalPoints& local, Progress& progress) {
-  auto file = InputFile::open(path_);
-  if (!file) return failure(file.error());
-  const std::uint64_t at_once = std::clamp<std::uint64_t>(kChunkBytes / header_.point_bytes, 1, kChunk);
-  std::vector<std::uint8_t> bytes;
-  FoundPoints found;
-  for (std::uint64_t done = 0; done < header_.points;) {
-    const std::uint64_t count = std::min(at_once, header_.points - done);
-    bytes.resize(count * header_.point_bytes);
-    const auto n = file->read(header_.points_at + done * header_.point_bytes, bytes);
-    if (!n) return failure(n.error());
-    if (*n < bytes.size())
-      return failure(ErrorKind::unusable, "the file became shorter while it was read",
-                     file->name() + " point " + std::to_string(done));
-    for (std::uint64_t i = 0; i < count; ++i) {
-      for (std::size_t k = 0; k < header_.fields.size(); ++k)
-        values_[k] =
-            plyNumber(header_.fields[k].type, bytes.data() + i * header_.point_bytes + header_.fields[k].at, false);
-      if (auto taken = take(done + i, file->name() + " point " + std::to_string(done + i), found); !taken) return taken;
-    }
-    done += count;
-    if (auto flushed = flush(local, found, done, progress); !flushed) return flushed;
-  }
-  return {};
+  const PointRecords records{"point", header_.points_at, header_.points, header_.point_bytes};
+  return readRecordPoints(path_, records, local, progress,
+                          [&](std::uint64_t index, const std::uint8_t* bytes, FoundPoints& to) {
+                            for (std::size_t k = 0; k < header_.fields.size(); ++k)
+                              values_[k] = plyNumber(header_.fields[k].type, bytes + header_.fields[k].at, false);
+                            return take(index, to);
+                          });
 }
 
 Result<void> Reading::readText(LocalPoints& local, Progress& progress) {
@@ -115,9 +90,11 @@ Result<void> Reading::readText(LocalPoints& local, Progress& progress) {
       return failure(ErrorKind::unusable, "a point has " + std::to_string(header_.words) + " numbers here",
                      lines.place());
     for (std::size_t k = 0; k < header_.fields.size(); ++k) values_[k] = numbers[header_.fields[k].word];
-    if (auto taken = take(i, lines.place(), found); !taken) return taken;
-    if (i % kChunk == kChunk - 1 || i + 1 == header_.points)
-      if (auto flushed = flush(local, found, i + 1, progress); !flushed) return flushed;
+    if (auto taken = take(i, found); !taken) return failure(ErrorKind::unusable, taken.error().message, lines.place());
+    if (i % kPointsAtOnce != kPointsAtOnce - 1 && i + 1 != header_.points) continue;
+    if (auto written = local.write(found); !written) return written;
+    progress.advance(static_cast<double>(i + 1) / static_cast<double>(header_.points));
+    if (auto going = progress.check(); !going) return going;
   }
   return {};
 }

@@ -7,6 +7,7 @@
 #include "pointclouds/block_check.h"
 #include "pointclouds/file_access.h"
 #include "pointclouds/number_text.h"
+#include "pointclouds/raw_bytes.h"
 #include "pointclouds/pcd.h"
 #include "pointclouds/scan_text.h"
 
@@ -29,12 +30,6 @@ class Writer final : public CloudWriter {
  private:
   std::string headerText() const;
   std::string fieldLines() const;
-  template <class T>
-  void put(T value) {
-    const std::size_t at = bytes_.size();
-    bytes_.resize(at + sizeof value);
-    std::memcpy(bytes_.data() + at, &value, sizeof value);
-  }
   void putPoint(const PointBlock& block, std::size_t i);
   Result<void> fillTo(std::uint64_t cell);
   Result<void> flushFrom(std::size_t enough);
@@ -90,17 +85,17 @@ std::string Writer::headerText() const {
 
 void Writer::putPoint(const PointBlock& b, std::size_t i) {
   const ScanHeader& h = *header_;
-  put(b.x_m[i]), put(b.y_m[i]), put(b.z_m[i]);
-  if (hasIntensity(h)) put(b.intensity[i]);
-  if (h.has_colour) put(std::uint32_t{b.red[i]} << 16 | std::uint32_t{b.green[i]} << 8 | b.blue[i]);
-  if (h.has_labels) put(b.material[i]), put(b.product[i]);
-  if (hasGrid(h) && !organised_) put(b.row[i]), put(b.column[i]);
-  if (h.has_time) put(b.time_s[i]);
-  if (h.has_returns) put(b.return_number[i]), put(b.return_count[i]);
+  append(bytes_, b.x_m[i]), append(bytes_, b.y_m[i]), append(bytes_, b.z_m[i]);
+  if (hasIntensity(h)) append(bytes_, b.intensity[i]);
+  if (h.has_colour) append(bytes_, std::uint32_t{b.red[i]} << 16 | std::uint32_t{b.green[i]} << 8 | b.blue[i]);
+  if (h.has_labels) append(bytes_, b.material[i]), append(bytes_, b.product[i]);
+  if (hasGrid(h) && !organised_) append(bytes_, b.row[i]), append(bytes_, b.column[i]);
+  if (h.has_time) append(bytes_, b.time_s[i]);
+  if (h.has_returns) append(bytes_, b.return_number[i]), append(bytes_, b.return_count[i]);
   if (!h.has_truth) return;
   const PointTruth& t = b.truth;
-  put(t.x_m[i]), put(t.y_m[i]), put(t.z_m[i]), put(t.range_m[i]), put(t.incidence_rad[i]), put(t.received_db[i]);
-  put(t.flags[i]);
+  append(bytes_, t.x_m[i]), append(bytes_, t.y_m[i]), append(bytes_, t.z_m[i]), append(bytes_, t.range_m[i]), append(bytes_, t.incidence_rad[i]), append(bytes_, t.received_db[i]);
+  append(bytes_, t.flags[i]);
 }
 
 Result<void> Writer::begin(const ScanHeader& header) {

@@ -6,11 +6,10 @@
 #include "pointclouds/number_text.h"
 #include "pointclouds/ply.h"
 #include "pointclouds/ply_header.h"
+#include "pointclouds/record_points.h"
 
 namespace standpoint::ply {
 namespace {
-
-constexpr std::uint64_t kChunk = 65536, kChunkBytes = 8 << 20;
 
 class Reading {
  public:
@@ -28,35 +27,15 @@ class Reading {
 };
 
 Result<void> Reading::readBinary(LocalPoints& local, Progress& progress) {
-  auto file = InputFile::open(path_);
-  if (!file) return failure(file.error());
   const bool turned = header_.encoding == Encoding::big_endian;
-  const std::uint64_t at_once = std::clamp<std::uint64_t>(kChunkBytes / header_.vertex_bytes, 1, kChunk);
-  std::vector<std::uint8_t> bytes;
   std::vector<double> values(header_.properties.size());
-  FoundPoints found;
-  for (std::uint64_t done = 0; done < header_.vertices;) {
-    const std::uint64_t count = std::min(at_once, header_.vertices - done);
-    bytes.resize(count * header_.vertex_bytes);
-    const auto n = file->read(header_.vertices_at + done * header_.vertex_bytes, bytes);
-    if (!n) return failure(n.error());
-    if (*n < bytes.size())
-      return failure(ErrorKind::unusable, "the file became shorter while it was read",
-                     file->name() + " vertex " + std::to_string(done));
-    for (std::uint64_t i = 0; i < count; ++i) {
-      for (std::size_t k = 0; k < values.size(); ++k)
-        values[k] = plyNumber(header_.properties[k].type,
-                              bytes.data() + i * header_.vertex_bytes + header_.properties[k].at, turned);
-      if (auto taken = taker_.take(values, found); !taken)
-        return failure(ErrorKind::unusable, taken.error().message,
-                       file->name() + " vertex " + std::to_string(done + i));
-    }
-    if (auto written = local.write(found); !written) return written;
-    done += count;
-    progress.advance(static_cast<double>(done) / static_cast<double>(header_.vertices));
-    if (auto going = progress.check(); !going) return going;
-  }
-  return {};
+  const PointRecords records{"vertex", header_.vertices_at, header_.vertices, header_.vertex_bytes};
+  return readRecordPoints(path_, records, local, progress,
+                          [&](std::uint64_t, const std::uint8_t* bytes, FoundPoints& to) {
+                            for (std::size_t k = 0; k < values.size(); ++k)
+                              values[k] = plyNumber(header_.properties[k].type, bytes + header_.properties[k].at, turned);
+                            return taker_.take(values, to);
+                          });
 }
 
 Result<void> Reading::readText(LocalPoints& local, Progress& progress) {
@@ -79,7 +58,7 @@ Result<void> Reading::readText(LocalPoints& local, Progress& progress) {
       if (auto taken = taker_.take(values, found); !taken)
         return failure(ErrorKind::unusable, taken.error().message, lines.place());
     }
-    if (i % kChunk != kChunk - 1 && i + 1 != all) continue;
+    if (i % kPointsAtOnce != kPointsAtOnce - 1 && i + 1 != all) continue;
     if (auto written = local.write(found); !written) return written;
     progress.advance(lines.share());
     if (auto going = progress.check(); !going) return going;

@@ -6,6 +6,7 @@
 #include "pointclouds/file_access.h"
 #include "pointclouds/ply.h"
 #include "pointclouds/ply_header.h"
+#include "pointclouds/raw_bytes.h"
 #include "pointclouds/scan_text.h"
 
 namespace standpoint {
@@ -27,12 +28,6 @@ class Writer final : public CloudWriter {
 
  private:
   std::string headerText() const;
-  template <class T>
-  void put(T value) {
-    const std::size_t at = bytes_.size();
-    bytes_.resize(at + sizeof value);
-    std::memcpy(bytes_.data() + at, &value, sizeof value);
-  }
   void putPoint(const PointBlock& block, std::size_t i);
 
   PartFile file_;
@@ -76,18 +71,18 @@ Result<void> Writer::begin(const ScanHeader& header) {
 
 void Writer::putPoint(const PointBlock& b, std::size_t i) {
   const Eigen::Vector3d p = header_->file_from_scanner * Eigen::Vector3d(b.x_m[i], b.y_m[i], b.z_m[i]);
-  for (int axis = 0; axis < 3; ++axis) put(p[axis]);
-  if (hasIntensity(*header_)) put(b.intensity[i]);
-  if (header_->has_colour) put(b.red[i]), put(b.green[i]), put(b.blue[i]);
-  if (header_->has_labels) put(static_cast<std::int32_t>(b.material[i])), put(static_cast<std::int32_t>(b.product[i]));
-  if (hasGrid(*header_)) put(static_cast<std::int32_t>(b.row[i])), put(static_cast<std::int32_t>(b.column[i]));
-  if (header_->has_time) put(b.time_s[i]);
-  if (header_->has_returns) put(b.return_number[i]), put(b.return_count[i]);
+  for (int axis = 0; axis < 3; ++axis) append(bytes_, p[axis]);
+  if (hasIntensity(*header_)) append(bytes_, b.intensity[i]);
+  if (header_->has_colour) append(bytes_, b.red[i]), append(bytes_, b.green[i]), append(bytes_, b.blue[i]);
+  if (header_->has_labels) append(bytes_, static_cast<std::int32_t>(b.material[i])), append(bytes_, static_cast<std::int32_t>(b.product[i]));
+  if (hasGrid(*header_)) append(bytes_, static_cast<std::int32_t>(b.row[i])), append(bytes_, static_cast<std::int32_t>(b.column[i]));
+  if (header_->has_time) append(bytes_, b.time_s[i]);
+  if (header_->has_returns) append(bytes_, b.return_number[i]), append(bytes_, b.return_count[i]);
   if (!header_->has_truth) return;
   const PointTruth& t = b.truth;
   const Eigen::Vector3d true_place = header_->file_from_scanner * Eigen::Vector3d(t.x_m[i], t.y_m[i], t.z_m[i]);
-  for (int axis = 0; axis < 3; ++axis) put(true_place[axis]);
-  put(t.range_m[i]), put(t.incidence_rad[i]), put(t.received_db[i]), put(t.flags[i]);
+  for (int axis = 0; axis < 3; ++axis) append(bytes_, true_place[axis]);
+  append(bytes_, t.range_m[i]), append(bytes_, t.incidence_rad[i]), append(bytes_, t.received_db[i]), append(bytes_, t.flags[i]);
 }
 
 Result<void> Writer::write(const PointBlock& block) {
