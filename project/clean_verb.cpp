@@ -25,10 +25,9 @@ json figuresJson(const FilterFigures& f) {
   if (f.has_truth) {
     json flags = json::object();
     for (std::size_t bit = 0; bit < f.flags.size(); ++bit)
-      if (const char* const name = flagNames()[bit])
-        flags[name] = {{"in", f.flags[bit].in}, {"removed", f.flags[bit].taken},
-                       {"recall", shareOf(f.flags[bit].taken, f.flags[bit].in)},
-                       {"precision", shareOf(f.flags[bit].taken, f.with_truth.taken)}};
+      flags[flagNames()[bit]] = {{"in", f.flags[bit].in}, {"removed", f.flags[bit].taken},
+                                 {"recall", shareOf(f.flags[bit].taken, f.flags[bit].in)},
+                                 {"precision", shareOf(f.flags[bit].taken, f.with_truth.taken)}};
     row["truth"] = std::move(flags);
     row["mixed_by_over_1cm"] = takenJson(f.plainly_mixed);
     row["good"] = takenJson(f.good);
@@ -58,7 +57,7 @@ std::string csv(const Cleaning& cleaning) {
     line(f, "all", f.points);
     if (f.has_truth) {
       for (std::size_t bit = 0; bit < f.flags.size(); ++bit)
-        if (const char* const name = flagNames()[bit]) line(f, name, f.flags[bit]);
+        line(f, flagNames()[bit], f.flags[bit]);
       line(f, "mixed by over 1 cm", f.plainly_mixed);
       line(f, "good", f.good);
     }
