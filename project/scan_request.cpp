@@ -122,6 +122,12 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const json& option
     if (!weather) return failure(weather.error());
     request.options.weather = *weather;
   }
+  if (options.contains("sun")) {
+    auto sun = sunFrom(options["sun"].get<std::string>());
+    if (!sun) return failure(sun.error());
+    request.options.sun = *sun;
+  }
+  request.options.interference = options.value("interference", 0.0);
   request.levelling = {.compensator = options.at("compensator") == "on",
                        .exact = !request.options.effects.has(Effect::levelling),
                        .seed = request.options.seed};

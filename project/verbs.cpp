@@ -158,6 +158,8 @@ const std::vector<Verb>& table() {
         {.name = "ideal", .kind = K::flag, .help = "without any effect: the first surface on the axis of each pulse, exactly"},
         {.name = "without", .kind = K::text, .help = effectHelp()},
         {.name = "weather", .kind = K::text, .help = "visibility=KM rain=MM/H snow=MM/H fog=M dust=M, separated by spaces or commas"},
+        {.name = "sun", .kind = K::text, .help = "AZIMUTH,ELEVATION[,W/m2] in degrees, clockwise from the file's Y; lux too: 135,40,80000lux"},
+        {.name = "interference", .kind = K::number, .help = "chance that a pulse takes another instrument's light for its own", .standard = 0, .minimum = 0, .maximum = 1},
         {.name = "panorama", .kind = K::flag, .help = "a picture all around from each station, and the points coloured from it"},
         {.name = "compensator", .kind = K::choice, .help = "off: a station out of level gives tilted points", .standard = "on", .choices = {"on", "off"}},
         {.name = "truth", .kind = K::flag, .help = "with what is known of each point: time, return, true place, range, incidence, power, how it came about"},

@@ -14,6 +14,8 @@ namespace {
 constexpr int kMostMirrors = 2;
 // The brightest return that a surface gives apart from a glint: a white one, seen head-on.
 constexpr double kBrightest = 1;
+// A rough mirror shows what is near; what is nearer still cannot be told from the mirror itself.
+constexpr double kShortestImage_m = 0.05;
 
 }  // namespace
 
@@ -24,7 +26,7 @@ void BeamPaths::follow(const Eigen::Vector3d& origin, const Eigen::Vector3d& dir
 
 void BeamPaths::follow(const Ray& ray, NearestHit hit, std::vector<PathEnd>& ends) {
   PanePassage passage;
-  const double farthest = plan_.settings.max_range_m - ray.travelled_m;
+  const double farthest = plan_.farthest_m - ray.travelled_m;
   for (int face = 0; face < kMostPanes && hit.facet != kNoFacet; ++face) {
     const MetFacet met = facets_.of(hit.facet);
     const double range = rangeOnPlane(met.facet, ray.origin, ray.direction, hit.range_m);
@@ -42,6 +44,7 @@ void BeamPaths::follow(const Ray& ray, NearestHit hit, std::vector<PathEnd>& end
       end.flags = static_cast<std::uint8_t>(ray.flags | (passage.gain() < 1 ? point_flag::kThroughPane : 0));
       end.place = (ray.origin + range * ray.direction).cast<float>();
       end.optics = met.optics;
+      if (plan_.daylight) end.normal = (met.facet.normal * (front ? 1 : -1)).cast<float>();
       end.product = met.facet.product, end.surface = met.facet.surface, end.material = met.material;
       if (end.path_m >= plan_.instrument.min_range_m) ends.push_back(end);
       if (plan_.mirrors(*met.optics))
@@ -65,9 +68,20 @@ void BeamPaths::reflect(const Ray& ray, const MetFacet& met, double range_m, dou
             .flags = static_cast<std::uint8_t>(ray.flags | point_flag::kMirrored),
             .mirrors = ray.mirrors + 1};
   if (kBrightest * image.gain < plan_.threshold * image.travelled_m * image.travelled_m) return;
-  const double left = plan_.settings.max_range_m - image.travelled_m;
+  double left = plan_.farthest_m - image.travelled_m;
+  const double beam = beamRadius(plan_.instrument, image.travelled_m);
+  if (!met.optics->smooth && plan_.threshold > 0) {
+    // By roughMirrorShare: at this way beyond the mirror nothing is bright enough any more.
+    const double least = plan_.threshold * image.travelled_m * image.travelled_m * 8 / (kBrightest * image.gain);
+    left = std::min(left, beam / (met.optics->lobe_slope * std::sqrt(least)));
+    if (left < kShortestImage_m) return;
+  }
   if (left <= kBehindFace_m) return;
-  follow(image, plan_.scene.nearest(image.origin, image.direction, kBehindFace_m, left), ends);
+  const NearestHit hit = plan_.scene.nearest(image.origin, image.direction, kBehindFace_m, left);
+  if (hit.facet == kNoFacet) return;
+  if (!met.optics->smooth)
+    image.gain *= roughMirrorShare(met.optics->lobe_slope, beam, image.travelled_m, std::max(1e-3, static_cast<double>(hit.range_m)));
+  follow(image, hit, ends);
 }
 
 }  // namespace standpoint

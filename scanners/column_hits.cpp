@@ -32,7 +32,7 @@ void ColumnHits::trace(std::uint32_t column) {
       rays.direction_y[k] = static_cast<float>(direction.y());
       rays.direction_z[k] = static_cast<float>(direction.z());
     }
-    plan_->scene.intersect(rays, count, static_cast<float>(plan_->settings.max_range_m), hits);
+    plan_->scene.intersect(rays, count, static_cast<float>(plan_->farthest_m), hits);
     for (int k = 0; k < count; ++k) {
       facets_[first + static_cast<std::uint32_t>(k) + kMostReach] = hits[k].facet;
       ranges_[first + static_cast<std::uint32_t>(k)] = hits[k].range_m;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "scanners/portable_math.h"
@@ -15,6 +16,7 @@ namespace {
 
 // Noise of the second and further returns of a pulse: a channel each.
 constexpr std::uint32_t kFurtherReturns = 16;
+constexpr std::uint32_t kInterferenceChannel = 8;
 constexpr std::array<std::uint8_t, 3> kWhite = {255, 255, 255};
 
 Pose relative(const Pose& from, const Pose& to) {
@@ -59,16 +61,19 @@ void ColumnTracer::traceColumn(PointBlock& block) {
   ahead_ = {std::cos(azimuth), -std::sin(azimuth), 0};     // clockwise seen from above
   lateral_ = {-std::sin(azimuth), -std::cos(azimuth), 0};
   if (plan_.column_noise) plan_.column_noise->along(column, along_.data());
+  azimuth_error_ = plan_.errors.azimuthError_rad(azimuth);
   const bool wide = plan_.options.effects.has(Effect::footprint);
+  const bool stray = plan_.scatterers || plan_.interference > 0;
   for (std::uint32_t first = 0; first < plan_.settings.rows; first += kPacket) {
     const std::uint32_t end = std::min(plan_.settings.rows, first + kPacket);
     const std::uint32_t unlike = wide ? unlikeNeighbours(first) : 0;
     for (std::uint32_t row = first; row < end; ++row) {
       const NearestHit hit = current_->hit(row);
       const bool suspect = (unlike >> (row - first) & 1U) != 0;
-      if (hit.facet == kNoFacet && !suspect && !plan_.scatterers) continue;
+      const bool wings = plan_.halo && plan_.halo->reaches(column, row);
+      if (hit.facet == kNoFacet && !suspect && !stray && !wings) continue;
       const bool edge = suspect && atEdge(row) && probe(current_->beam(row), hit);
-      if (!edge && !plan_.scatterers) {
+      if (!edge && !stray && !wings) {
         if (hit.facet == kNoFacet) continue;
         if (const MetFacet& met = facets_.of(hit.facet); met.plain) {
           addSurface(row, current_->axis(row), hit, met);
@@ -77,7 +82,8 @@ void ColumnTracer::traceColumn(PointBlock& block) {
       }
       const Beam beam = current_->beam(row);
       gatherEnds(beam, hit, edge);
-      if (plan_.scatterers) addScatterer(row, beam);
+      if (wings) gatherWings(beam);
+      if (stray) addStray(row, beam);
       addEchoes(row);
     }
     if (targets_.empty()) continue;
@@ -107,7 +113,7 @@ std::array<std::uint32_t, 3> places(std::uint32_t reach) { return {1, (reach + 1
 
 // Rows, from `first_row` on, of which a neighbour up, down, left or right meets another facet.
 std::uint32_t ColumnTracer::unlikeNeighbours(std::uint32_t first_row) {
-  float nearest = static_cast<float>(plan_.settings.max_range_m);
+  float nearest = static_cast<float>(plan_.farthest_m);
   for (std::uint32_t row = first_row; row < std::min(plan_.settings.rows, first_row + kPacket); ++row)
     if (const NearestHit hit = current_->hit(row); hit.facet != kNoFacet) nearest = std::min(nearest, hit.range_m);
   const Reach reach = reachAt(std::max(0.01, static_cast<double>(nearest)), first_row);
@@ -196,7 +202,7 @@ void ColumnTracer::traceRays(const Beam& beam, int from, int to) {
     sub_rays_.direction_y[lane] = static_cast<float>(line.direction.y());
     sub_rays_.direction_z[lane] = static_cast<float>(line.direction.z());
   }
-  plan_.scene.intersect(sub_rays_, to - from, static_cast<float>(plan_.settings.max_range_m), sub_hits_ + from);
+  plan_.scene.intersect(sub_rays_, to - from, static_cast<float>(plan_.farthest_m), sub_hits_ + from);
 }
 
 void ColumnTracer::gatherEnds(const Beam& beam, const NearestHit& axis, bool edge) {
@@ -211,30 +217,58 @@ void ColumnTracer::gatherEnds(const Beam& beam, const NearestHit& axis, bool edg
 
 void ColumnTracer::addSurface(std::uint32_t row, const RayLine& axis, const NearestHit& hit, const MetFacet& met) {
   const double range = rangeOnPlane(met.facet, axis.origin, axis.direction, hit.range_m);
-  if (!inRange(range)) return;
+  if (!plan_.reports(range)) return;
   Target& target = targets_.emplace_back();
   target.row = row;
   target.range_m = target.end.path_m = range;
   target.end.cosine = static_cast<float>(std::min(1.0, std::abs(met.facet.normal.dot(axis.direction))));
   target.end.place = (axis.origin + range * axis.direction).cast<float>();
   target.end.optics = met.optics;
+  if (plan_.daylight) target.end.normal = (met.facet.normal * (met.facet.normal.dot(axis.direction) < 0 ? 1 : -1)).cast<float>();
+  if (plan_.unambiguous_m > 0 && range >= plan_.unambiguous_m) target.flags = point_flag::kMirrored;
   target.end.product = met.facet.product, target.end.surface = met.facet.surface, target.end.material = met.material;
 }
 
-// What the air sends back, from before the nearest surface.
-void ColumnTracer::addScatterer(std::uint32_t row, const Beam& beam) {
-  double nearest = plan_.settings.max_range_m;
-  for (const PathEnd& end : ends_) nearest = std::min(nearest, end.path_m);
-  const auto found = plan_.scatterers->strongest(current_->column(), row, nearest, detectionThreshold(plan_.settings, 0));
-  if (!found) return;
-  static const Optics kDrop;
+// What the beam's wings find of retroreflectors.
+void ColumnTracer::gatherWings(const Beam& beam) {
+  const std::size_t before = ends_.size();
+  const auto share = static_cast<float>(plan_.instrument.saturation.pedestal);
+  for (const SubRay& ray : wingRays()) {
+    const RayLine line = lineOf(beam, ray, plan_.instrument);
+    const NearestHit hit = plan_.scene.nearest(line.origin, line.direction, 0, plan_.farthest_m);
+    if (hit.facet != kNoFacet && facets_.of(hit.facet).optics->retro_gain > 0)
+      paths_.follow(line.origin, line.direction, hit, share * ray.weight, ends_);
+  }
+  for (std::size_t i = before; i < ends_.size(); ++i) ends_[i].flags |= point_flag::kMirrored;
+}
+
+// What is no surface: the air's return, from before the nearest surface, and another instrument's light.
+void ColumnTracer::addStray(std::uint32_t row, const Beam& beam) {
+  const double least = detectionThreshold(plan_.settings, 0);
+  if (plan_.scatterers) {
+    double nearest = plan_.settings.max_range_m;
+    for (const PathEnd& end : ends_) nearest = std::min(nearest, end.path_m);
+    if (const auto found = plan_.scatterers->strongest(current_->column(), row, nearest, least))
+      addSurfaceless(beam, found->range_m, found->x, point_flag::kWeather);
+  }
+  if (plan_.interference <= 0) return;
+  // At any time of the listening window, as strong as it may be: the power of a source at an unknown distance is above the
+  // threshold by a factor f with the chance 1/f.
+  const auto draw = philox({plan_.options.seed, plan_.options.station_key}, current_->column(), row, kInterferenceChannel);
+  if (uniform(draw[0]) >= plan_.interference) return;
+  const double range = plan_.instrument.min_range_m + uniform(draw[1]) * (plan_.settings.max_range_m - plan_.instrument.min_range_m);
+  addSurfaceless(beam, range, least / std::max(1e-3, uniform(draw[2])), point_flag::kNoise);
+}
+
+void ColumnTracer::addSurfaceless(const Beam& beam, double range_m, double x, std::uint8_t flag) {
+  static const Optics kNothing;
   PathEnd& end = ends_.emplace_back();
-  end.path_m = found->range_m;
-  end.flags = point_flag::kWeather;
-  end.place = (beam.origin + found->range_m * beam.direction).cast<float>();
-  end.optics = &kDrop;
+  end.path_m = range_m;
+  end.flags = flag;
+  end.place = (beam.origin + range_m * beam.direction).cast<float>();
+  end.optics = &kNothing;
   end.product = plan_.nothingLabel(), end.surface = kNoSurface, end.material = plan_.unassignedLabel();
-  end.known_x = static_cast<float>(found->x);
+  end.known_x = static_cast<float>(x);
 }
 
 float ColumnTracer::powerOf(const PathEnd& end) const {
@@ -251,13 +285,15 @@ void ColumnTracer::addEchoes(std::uint32_t row) {
   receiveEchoes(plan_.instrument.waveform, contributions_, order_, echoes_);
   for (const Echo& echo : echoes_) {
     const PathEnd& end = ends_[static_cast<std::size_t>(echo.strongest)];
-    if (!inRange(echo.range_m)) continue;
+    if (!plan_.reports(echo.range_m)) continue;
     Target& target = targets_.emplace_back();
     target.row = row;
     target.range_m = echo.range_m;
     target.known_x = echo.x;
     target.end = end;
     target.flags = end.flags;
+    target.deviation_m = echo.deviation_m;
+    if (plan_.unambiguous_m > 0 && echo.range_m >= plan_.unambiguous_m) target.flags |= point_flag::kMirrored;
     if (static_cast<double>(echo.spread_m) > edgeTolerance(plan_.instrument, end.path_m)) target.flags |= point_flag::kMixed;
   }
 }
@@ -305,13 +341,19 @@ void ColumnTracer::receiveSome(std::size_t first, int count, PointBlock& block) 
     signal_.steepness[k] = optics.steepness;
     signal_.gain[k] = target.end.gain;
     signal_.known_x[k] = target.known_x;
+    signal_.fluctuation[k] = target.detection;
   }
   if (plan_.varies) varySurfaces(first, count);
+  if (plan_.daylight) light(first, count);
   receive(signal_, plan_.receiver);
   int found[kSignalLanes];
   int returns = 0;
-  for (int k = 0; k < count; ++k)
-    if (detected(targets_[first + static_cast<std::size_t>(k)], signal_.x[k])) found[returns++] = k;
+  for (int k = 0; k < count; ++k) {
+    Target& target = targets_[first + static_cast<std::size_t>(k)];
+    if (!detected(target, k) || faulted(target, signal_.x[k], plan_.drops)) continue;
+    if (faulted(target, signal_.x[k], plan_.flags)) target.flags |= point_flag::kFiltered;
+    found[returns++] = k;
+  }
   const std::size_t first_point = block.size();
   grow(block, first_point + static_cast<std::size_t>(returns));
   for (int i = 0; i < returns; ++i) {
@@ -337,10 +379,40 @@ void ColumnTracer::varySurfaces(std::size_t first, int count) {
   variation(x, y, z, coefficient, scale, signal_.variation);
 }
 
-// P_d = ½ erfc((x_min - x) / √2 σ), drawn (§2.7).
-bool ColumnTracer::detected(const Target& target, float x) const {
+// Daylight on what the returns come from, and in the beam's direction; shadows by rays towards the sun.
+void ColumnTracer::light(std::size_t first, int count) {
+  RayPacket rays{};
+  NearestHit shade[kPacket];
+  const Eigen::Vector3f sun = plan_.daylight->towards().cast<float>();
+  constexpr float kOff_m = 0.002F;
+  for (int k = 0; k < count; ++k) {
+    const PathEnd& end = targets_[first + static_cast<std::size_t>(k)].end;
+    const Eigen::Vector3f from = end.place + kOff_m * end.normal;
+    rays.origin_x[k] = from.x(), rays.origin_y[k] = from.y(), rays.origin_z[k] = from.z();
+    rays.direction_x[k] = sun.x(), rays.direction_y[k] = sun.y(), rays.direction_z[k] = sun.z();
+  }
+  plan_.scene.intersect(rays, count, std::numeric_limits<float>::infinity(), shade);
+  for (int k = 0; k < count; ++k) {
+    const Target& target = targets_[first + static_cast<std::size_t>(k)];
+    Eigen::Vector3d direction = plan_.cosine[target.row] * ahead_;
+    direction.z() = plan_.sine[target.row];
+    signal_.background[k] = plan_.daylight->ofDirection(start_.rotation * direction);
+    const bool lit = shade[k].facet == kNoFacet || plan_.passes(*facets_.of(shade[k].facet).optics);
+    if (lit) signal_.background[k] += plan_.daylight->ofSurface(target.end.optics->diffuse, target.end.normal);
+  }
+}
+
+// P_d = ½ erfc((x_min - x) / √2 σ), drawn (§2.7). In daylight the threshold keeps its distance to the noise.
+bool ColumnTracer::detected(const Target& target, int lane) const {
   const double chance = plan_.softness > 0 ? plan_.softness * static_cast<double>(target.detection) : 0;
-  return static_cast<double>(x) + chance >= plan_.threshold;
+  const double noise = plan_.daylight ? std::sqrt(1 + static_cast<double>(signal_.background[lane])) : 1;
+  return static_cast<double>(signal_.x[lane]) + noise * chance >= noise * plan_.threshold;
+}
+
+bool ColumnTracer::faulted(const Target& target, float x, const PointFilters& filters) const {
+  if (filters.deviation_m > 0 && static_cast<double>(target.deviation_m) > filters.deviation_m) return true;
+  if (filters.weak_factor > 0 && static_cast<double>(x) < filters.weak_factor * plan_.threshold) return true;
+  return filters.overload && x > plan_.saturation;
 }
 
 // Where the instrument believes the target to be, in its own frame at the start of the scan.
@@ -348,8 +420,8 @@ Eigen::Vector3d ColumnTracer::place(const Target& target, float x, float sigma_m
   const double cosine = plan_.cosine[target.row], sine = plan_.sine[target.row];
   Eigen::Vector3d direction = cosine * ahead_;
   direction.z() = sine;
-  double lateral = plan_.jitter_rad * static_cast<double>(target.lateral) + face_ * plan_.bias.collimation_rad;
-  double lift = plan_.jitter_rad * static_cast<double>(target.elevation) + face_ * plan_.bias.index_rad;
+  double lateral = plan_.jitter_rad * static_cast<double>(target.lateral) + plan_.errors.faceLateral_rad(face_, sine) + azimuth_error_ * cosine;
+  double lift = plan_.jitter_rad * static_cast<double>(target.elevation) + plan_.errors.elevationError_rad(face_, sine, cosine);
   double noise = plan_.white_share * static_cast<double>(target.range_noise), extra = 0;
   if (plan_.column_noise) {
     const CorrelatedNoise& figures = plan_.instrument.correlated;
@@ -363,9 +435,9 @@ Eigen::Vector3d ColumnTracer::place(const Target& target, float x, float sigma_m
   // To first order, which at 60 arcsec and 100 m is right to 4 µm.
   direction += lateral * lateral_ - (lift * sine) * ahead_;
   direction.z() += lift * cosine;
-  double range = target.range_m * plan_.bias.scale + plan_.bias.range_m + plan_.noise_scale * static_cast<double>(sigma_m) * noise + extra;
+  double range = plan_.errors.range_m(target.range_m, sine) + plan_.noise_scale * static_cast<double>(sigma_m) * noise + extra;
   if (x > plan_.saturation) range += plan_.instrument.saturation.walk_m_per_decade * static_cast<double>(portable::log2(x / plan_.saturation)) * std::numbers::ln2 / std::numbers::ln10;
-  const Eigen::Vector3d point = range * direction;
+  const Eigen::Vector3d point = plan_.folded(range) * direction;
   if (!plan_.moves()) return point;
   return relative(start_, at(plan_.trajectory, plan_.clock.time_s(current_->column(), plan_.elevation_rad(target.row)))) * point;
 }

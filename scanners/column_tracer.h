@@ -34,6 +34,7 @@ class ColumnTracer {
     double range_m = 0;            // as the light takes it, glass included
     PathEnd end;                   // of the strongest surface
     float known_x = -1;            // of an echo of several surfaces
+    float deviation_m = 0;         // of that echo
     float range_noise = 0, lateral = 0, elevation = 0, detection = 0;
   };
 
@@ -52,21 +53,22 @@ class ColumnTracer {
   void gatherEnds(const Beam& beam, const NearestHit& axis, bool edge);
   void addEnds(const RayLine& line, const NearestHit& hit, float weight);
   void addSurface(std::uint32_t row, const RayLine& axis, const NearestHit& hit, const MetFacet& met);
-  void addScatterer(std::uint32_t row, const Beam& beam);
+  void gatherWings(const Beam& beam);
+  void addStray(std::uint32_t row, const Beam& beam);
+  void addSurfaceless(const Beam& beam, double range_m, double x, std::uint8_t flag);
   void addEchoes(std::uint32_t row);
   void varySurfaces(std::size_t first, int count);
   void drawNoise(std::uint32_t first_row, std::size_t first_target);
   void receiveAll(PointBlock& block);
   void receiveSome(std::size_t first, int count, PointBlock& block);
-  bool detected(const Target& target, float x) const;
+  void light(std::size_t first, int count);
+  bool detected(const Target& target, int lane) const;
+  bool faulted(const Target& target, float x, const PointFilters& filters) const;
   Eigen::Vector3d place(const Target& target, float x, float sigma_m) const;
   void grow(PointBlock& block, std::size_t size) const;
   void write(const Target& target, int lane, std::size_t i, PointBlock& block) const;
   void writeTruth(const Target& target, int lane, std::size_t i, PointTruth& truth) const;
   float powerOf(const PathEnd& end) const;
-  bool inRange(double range_m) const {
-    return range_m >= plan_.instrument.min_range_m && range_m <= plan_.settings.max_range_m;
-  }
 
   const ScanPlan& plan_;
   FacetCache facets_;
@@ -75,6 +77,7 @@ class ColumnTracer {
   ColumnHits* current_ = nullptr;
   double face_ = 1;                                     // -1 behind
   Eigen::Vector3d ahead_, lateral_;                     // of the column, in the scanner's frame
+  double azimuth_error_ = 0;                            // rad
   double row_step_, column_step_;                       // rad
   Pose start_;                                          // of the scanner at time 0
   RayPacket sub_rays_;

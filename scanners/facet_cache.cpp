@@ -27,7 +27,8 @@ const MetFacet& FacetCache::of(std::uint64_t number) {
   const bool assigned = material >= 0;
   entry.material = assigned ? static_cast<std::uint32_t>(material) : plan_.unassignedLabel();
   entry.optics = &plan_.optics[assigned ? entry.material : entry.material + entry.facet.surface];
-  entry.plain = !plan_.passes(*entry.optics) && !plan_.mirrors(*entry.optics);
+  // A retroreflector's gain is no figure of the lanes (signal_lanes.h).
+  entry.plain = !plan_.passes(*entry.optics) && !plan_.mirrors(*entry.optics) && entry.optics->retro_gain == 0;
   return entry;
 }
 

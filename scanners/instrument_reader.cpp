@@ -40,6 +40,7 @@ class Reader : FigureReader {
     readWaveform(root);
     readCorrelated(root);
     readSaturation(root);
+    if (root.object->contains("filters")) readFilters(root);
     readSettings(root);
     close(root);
     if (!error()) checkWhole();
@@ -61,6 +62,8 @@ class Reader : FigureReader {
     instrument_.reference_reflectivity = figure(range, "reference_reflectivity", {0.001, 1});
     instrument_.range_bias_m = figure(range, "bias_mm", {0, 1000, 1e-3});
     instrument_.range_bias_ppm = figure(range, "bias_ppm", {0, 10000});
+    if (instrument_.technology == "phase_shift" && range.object->contains("unambiguous_m"))
+      instrument_.unambiguous_m = figure(range, "unambiguous_m", {0, 100000});
     close(range);
   }
 
@@ -135,7 +138,29 @@ class Reader : FigureReader {
     instrument_.intensity_low_db = figure(signal, "intensity_low_db", {-200, 100});
     instrument_.intensity_high_db = figure(signal, "intensity_high_db", {-200, 100});
     instrument_.intensity_levels = static_cast<int>(figure(signal, "intensity_levels", {2, 65536}));
+    instrument_.amplitude.aperture_m = figure(signal, "receiver_aperture_mm", {0.1, 1000, 1e-3});
+    instrument_.amplitude.jitter = figure(signal, "amplitude_jitter", {0, 0.5});
+    instrument_.sun_noise = figure(signal, "sun_noise", {0, 1000});
+    if (signal.object->contains("near_range_curve")) readNearRangeCurve(signal);
     close(signal);
+  }
+
+  void readNearRangeCurve(Group& signal) {
+    Group group = child(signal, "near_range_curve");
+    auto& curve = instrument_.near_range_curve;
+    curve.below_m = figure(group, "below_m", {0.1, 1000});
+    curve.amplitude_db = figures(group, "amplitude_db", {-1000, 1000}, 4);
+    curve.far_db = figure(group, "far_db", {-1000, 1000});
+    close(group);
+  }
+
+  void readFilters(Group& root) {
+    Group group = child(root, "filters");
+    auto& filters = instrument_.filters;
+    filters.deviation_m = figure(group, "deviation_mm", {0, 10000, 1e-3});
+    filters.weak_factor = figure(group, "weak_factor", {0, 1000});
+    filters.overload = count(group, "overload", {0, 1}) == 1;
+    close(group);
   }
 
   void readNoise(Group& root) {
@@ -210,10 +235,13 @@ class Reader : FigureReader {
   }
 
   void readNumber(Group& group, InstrumentSetting& setting) {
-    static const std::set<std::string> kKnown = {"horizontal_from", "horizontal_to", "vertical_from", "vertical_to"};
-    if (!kKnown.contains(setting.key)) return fail(group.pointer + "/key", "only the edges of an area are numbers; a setting needs choices");
-    setting.minimum = figure(group, "minimum", {-360, 360});
-    setting.maximum = figure(group, "maximum", {-360, 360});
+    static const std::set<std::string> kKnown = {"horizontal_from", "horizontal_to", "vertical_from", "vertical_to",
+                                                "nearest_m", "farthest_m"};
+    if (!kKnown.contains(setting.key)) return fail(group.pointer + "/key", "only the edges of an area and of the range are numbers; a setting needs choices");
+    const bool angle = setting.key.ends_with("_from") || setting.key.ends_with("_to");
+    const Domain domain = angle ? Domain{-360, 360} : Domain{0, 10000};
+    setting.minimum = figure(group, "minimum", domain);
+    setting.maximum = figure(group, "maximum", domain);
     const Json standard = Json::parse(setting.standard, nullptr, false);
     if (!error()) checked(group.pointer + "/standard", standard, {setting.minimum, setting.maximum});
   }
@@ -239,7 +267,8 @@ class Reader : FigureReader {
         {"columns", {2, 1e6}},      {"rows", {1, 1e6}},   {"scan_seconds", {0.01, 1e5}}, {"rate_hz", {1, 1e9}},
         {"noise_factor", {0.01, 100}}, {"passes", {1, 16}},  {"imaging", {0, 1}},           {"imaging_seconds", {0, 1e4}},
         {"area", {0, 1}},           {"max_range_m", {1, 10000}}, {"reference_reflectivity", {0.001, 1}},
-        {"rotation_hz", {0.01, 10000}}, {"most_returns", {1, 255}}};
+        {"rotation_hz", {0.01, 10000}}, {"most_returns", {1, 255}}, {"unambiguous_m", {0, 100000}},
+        {"drop_mixed_mm", {0, 10000}}, {"drop_weak", {0, 1000}}, {"drop_overload", {0, 1}}};
     SettingChoice choice;
     choice.value = text(entry, "value");
     choice.label = text(entry, "label");
