@@ -19,6 +19,10 @@ constexpr std::uint32_t kFurtherReturns = 16;
 constexpr std::uint32_t kInterferenceChannel = 8;
 constexpr std::array<std::uint8_t, 3> kWhite = {255, 255, 255};
 
+std::array<std::uint32_t, 4> interferenceDraw(const ScanOptions& options, std::uint32_t column, std::uint32_t row) {
+  return philox({options.seed, options.station_key}, column, row, kInterferenceChannel);
+}
+
 Pose relative(const Pose& from, const Pose& to) {
   const Eigen::Quaterniond back = from.rotation.conjugate();
   return {back * to.rotation, back * (to.translation - from.translation)};
@@ -63,7 +67,6 @@ void ColumnTracer::traceColumn(PointBlock& block) {
   if (plan_.column_noise) plan_.column_noise->along(column, along_.data());
   azimuth_error_ = plan_.errors.azimuthError_rad(azimuth);
   const bool wide = plan_.options.effects.has(Effect::footprint);
-  const bool stray = plan_.scatterers || plan_.interference > 0;
   for (std::uint32_t first = 0; first < plan_.settings.rows; first += kPacket) {
     const std::uint32_t end = std::min(plan_.settings.rows, first + kPacket);
     const std::uint32_t unlike = wide ? unlikeNeighbours(first) : 0;
@@ -71,6 +74,7 @@ void ColumnTracer::traceColumn(PointBlock& block) {
       const NearestHit hit = current_->hit(row);
       const bool suspect = (unlike >> (row - first) & 1U) != 0;
       const bool wings = plan_.halo && plan_.halo->reaches(column, row);
+      const bool stray = plan_.scatterers || (plan_.interference > 0 && struck(row));
       if (hit.facet == kNoFacet && !suspect && !stray && !wings) continue;
       const bool edge = suspect && atEdge(row) && probe(current_->beam(row), hit);
       if (!edge && !stray && !wings) {
@@ -242,6 +246,11 @@ void ColumnTracer::gatherWings(const Beam& beam) {
   for (std::size_t i = before; i < ends_.size(); ++i) ends_[i].flags |= point_flag::kMirrored;
 }
 
+// Does another instrument's light come in while this pulse is listened for?
+bool ColumnTracer::struck(std::uint32_t row) const {
+  return uniform(interferenceDraw(plan_.options, current_->column(), row)[0]) < plan_.interference;
+}
+
 // What is no surface: the air's return, from before the nearest surface, and another instrument's light.
 void ColumnTracer::addStray(std::uint32_t row, const Beam& beam) {
   const double least = detectionThreshold(plan_.settings, 0);
@@ -251,11 +260,10 @@ void ColumnTracer::addStray(std::uint32_t row, const Beam& beam) {
     if (const auto found = plan_.scatterers->strongest(current_->column(), row, nearest, least))
       addSurfaceless(beam, found->range_m, found->x, point_flag::kWeather);
   }
-  if (plan_.interference <= 0) return;
+  if (plan_.interference <= 0 || !struck(row)) return;
   // At any time of the listening window, as strong as it may be: the power of a source at an unknown distance is above the
   // threshold by a factor f with the chance 1/f.
-  const auto draw = philox({plan_.options.seed, plan_.options.station_key}, current_->column(), row, kInterferenceChannel);
-  if (uniform(draw[0]) >= plan_.interference) return;
+  const auto draw = interferenceDraw(plan_.options, current_->column(), row);
   const double range = plan_.instrument.min_range_m + uniform(draw[1]) * (plan_.settings.max_range_m - plan_.instrument.min_range_m);
   addSurfaceless(beam, range, least / std::max(1e-3, uniform(draw[2])), point_flag::kNoise);
 }

@@ -54,6 +54,7 @@ class ColumnTracer {
   void addEnds(const RayLine& line, const NearestHit& hit, float weight);
   void addSurface(std::uint32_t row, const RayLine& axis, const NearestHit& hit, const MetFacet& met);
   void gatherWings(const Beam& beam);
+  bool struck(std::uint32_t row) const;
   void addStray(std::uint32_t row, const Beam& beam);
   void addSurfaceless(const Beam& beam, double range_m, double x, std::uint8_t flag);
   void addEchoes(std::uint32_t row);

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kRings = 4, kOnRing = kWingRays / kRings;
 constexpr double kWings = 8;   // radius, in w
+constexpr int kOnEdge = 8;     // places that stand for an edge
 constexpr double kPi = std::numbers::pi;
 
 std::array<SubRay, kWingRays> pattern() {
@@ -58,19 +59,23 @@ ReflectorHalo::ReflectorHalo(const ScanPlan& plan) {
       add(plan, corners);
     }
   }
+  mergeRows();
 }
 
-// The window of azimuth and elevation about the corners and as far as the wings reach, to whole pulses; a triangle above
+// The window of azimuth and elevation about a triangle and as far as the wings reach, to whole pulses; a triangle above
 // or below the instrument is in all columns.
 void ReflectorHalo::add(const ScanPlan& plan, const std::array<Eigen::Vector3d, 3>& corners) {
   const ScanSettings& s = plan.settings;
   double nearest = corners[0].norm(), low = kPi, high = -kPi, least_turn = 0, most_turn = 0, steepest = 1;
   const double first = std::atan2(-corners[0].y(), corners[0].x());   // clockwise seen from above
-  for (const auto& corner : corners) {
-    nearest = std::min(nearest, corner.norm());
-    const double elevation = std::atan2(corner.z(), std::hypot(corner.x(), corner.y()));
+  for (int step = 0; step < 3 * kOnEdge; ++step) {   // an edge rises above its ends as a great circle does
+    const auto from = static_cast<std::size_t>(step / kOnEdge);
+    const double share = static_cast<double>(step % kOnEdge) / kOnEdge;
+    const Eigen::Vector3d place = (1 - share) * corners[from] + share * corners[(from + 1) % 3];
+    nearest = std::min(nearest, place.norm());
+    const double elevation = std::atan2(place.z(), std::hypot(place.x(), place.y()));
     low = std::min(low, elevation), high = std::max(high, elevation);
-    const double turn = std::remainder(std::atan2(-corner.y(), corner.x()) - first, 2 * kPi);
+    const double turn = std::remainder(std::atan2(-place.y(), place.x()) - first, 2 * kPi);
     least_turn = std::min(least_turn, turn), most_turn = std::max(most_turn, turn);
     steepest = std::min(steepest, std::cos(elevation));
   }
@@ -83,14 +88,27 @@ void ReflectorHalo::add(const ScanPlan& plan, const std::array<Eigen::Vector3d, 
   if (rows.from >= rows.to) return;
   const double aside = margin / std::max(steepest, 1e-3);
   const bool all = most_turn - least_turn + 2 * aside > kPi;
-  for (std::uint32_t column = 0; column < s.columns; ++column) {
-    const double turn = std::remainder(plan.azimuth_rad(column) - first, 2 * kPi);
-    if (!all && (turn < least_turn - aside || turn > most_turn + aside)) continue;
-    auto& in_column = columns_[column];
-    // Triangles of one reflector overlap: they are one window.
-    if (!in_column.empty() && rows.from <= in_column.back().to && in_column.back().from <= rows.to)
-      in_column.back() = {std::min(rows.from, in_column.back().from), std::max(rows.to, in_column.back().to)};
-    else in_column.push_back(rows);
+  const auto column = [&](double azimuth) {
+    return std::clamp(all ? 0 : (azimuth - s.azimuth_from_rad) / plan.columnStep_rad(), 0.0, static_cast<double>(s.columns));
+  };
+  for (int turn = -2; turn <= 2; ++turn) {   // the grid begins and ends anywhere within two turns
+    const double from = first + 2 * kPi * turn + least_turn - aside, to = first + 2 * kPi * turn + most_turn + aside;
+    const auto end = all ? s.columns : static_cast<std::uint32_t>(std::ceil(column(to)));
+    for (auto c = static_cast<std::uint32_t>(std::floor(column(from))); c < end; ++c) columns_[c].push_back(rows);
+    if (all) break;
+  }
+}
+
+// Triangles of one reflector overlap: they are one window.
+void ReflectorHalo::mergeRows() {
+  for (auto& rows : columns_) {
+    std::sort(rows.begin(), rows.end(), [](const Rows& a, const Rows& b) { return a.from != b.from ? a.from < b.from : a.to < b.to; });
+    std::size_t kept = 0;
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      if (rows[i].from <= rows[kept].to) rows[kept].to = std::max(rows[kept].to, rows[i].to);
+      else rows[++kept] = rows[i];
+    }
+    rows.resize(std::min(rows.size(), kept + 1));
   }
 }
 

@@ -32,6 +32,7 @@ class ReflectorHalo {
     std::uint32_t from, to;
   };
   void add(const ScanPlan& plan, const std::array<Eigen::Vector3d, 3>& corners);
+  void mergeRows();
 
   std::vector<std::vector<Rows>> columns_;
 };
