@@ -12,8 +12,6 @@ namespace standpoint {
 namespace {
 
 constexpr int kMostMirrors = 2;
-// The brightest return that a surface gives apart from a glint: a white one, seen head-on.
-constexpr double kBrightest = 1;
 
 }  // namespace
 
@@ -26,7 +24,7 @@ void BeamPaths::follow(const Ray& ray, NearestHit hit, std::vector<PathEnd>& end
   PanePassage passage;
   const double farthest = plan_.settings.max_range_m - ray.travelled_m;
   for (int face = 0; face < kMostPanes && hit.facet != kNoFacet; ++face) {
-    const MetFacet met = facets_.of(hit.facet);
+    const MetFacet met = facets_.of(hit.facet);   // a copy: a mirror's image asks for others
     const double range = rangeOnPlane(met.facet, ray.origin, ray.direction, hit.range_m);
     if (range > farthest) return;
     const bool front = met.facet.normal.dot(ray.direction) < 0;
@@ -64,7 +62,8 @@ void BeamPaths::reflect(const Ray& ray, const MetFacet& met, double range_m, dou
             .gain = gain * reflected * reflected,
             .flags = static_cast<std::uint8_t>(ray.flags | point_flag::kMirrored),
             .mirrors = ray.mirrors + 1};
-  if (kBrightest * image.gain < plan_.threshold * image.travelled_m * image.travelled_m) return;
+  // The brightest return that a surface gives apart from a glint is 1: a white one, seen head-on.
+  if (image.gain < plan_.threshold * image.travelled_m * image.travelled_m) return;
   const double left = plan_.settings.max_range_m - image.travelled_m;
   if (left <= kBehindFace_m) return;
   follow(image, plan_.scene.nearest(image.origin, image.direction, kBehindFace_m, left), ends);

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "scanners/column_hits.h"
+
+namespace standpoint {
+
+// The columns about the current one: those that its beams reach.
+class ColumnWindow {
+ public:
+  explicit ColumnWindow(const ScanPlan& plan) : columns_(2 * plan.reach() + 1, ColumnHits(plan)) {}
+  ColumnHits& operator[](std::uint32_t number) { return columns_[number % columns_.size()]; }
+  const ColumnHits& operator[](std::uint32_t number) const { return columns_[number % columns_.size()]; }
+
+ private:
+  std::vector<ColumnHits> columns_;     // by their number
+};
+
+// Finds the pulses beside whose axis, as far aside as the beam is wide, another axis meets something else. That is where
+// the beam may meet several surfaces. Looked at are the pulses next to the axis, at the beam's edge and half-way.
+class EdgeFinder {
+ public:
+  EdgeFinder(const ScanPlan& plan, const ColumnWindow& columns, FacetCache& facets)
+      : plan_(plan), columns_(columns), facets_(facets), row_step_(plan.rowStep_rad()), column_step_(plan.columnStep_rad()) {}
+  // Of the sixteen rows from `first_row` on of a column, as bits.
+  std::uint32_t find(std::uint32_t column, std::uint32_t first_row);
+
+ private:
+  // How many pulses apart the axes are that the beam's edge reaches, up and across; at least 1.
+  struct Reach {
+    std::uint32_t rows = 1, columns = 1;
+  };
+  Reach reachAt(double range_m, std::uint32_t row) const;
+  std::uint32_t unlike(const ColumnHits& own, std::uint32_t first_row) const;
+  bool atEdge(const ColumnHits& own, std::uint32_t row);
+
+  const ScanPlan& plan_;
+  const ColumnWindow& columns_;
+  FacetCache& facets_;
+  double row_step_, column_step_;       // rad
+};
+
+}  // namespace standpoint
