@@ -19,18 +19,14 @@ ColumnTracer::ColumnTracer(const ScanPlan& plan)
     : plan_(plan),
       facets_(plan),
       paths_(plan, facets_),
-      columns_(plan),
+      columns_(plan, facets_),
       edges_(plan, columns_, facets_),
       wide_(plan, facets_),
       points_(plan),
       writer_(plan) {}
 
 void ColumnTracer::trace(std::uint32_t from, std::uint32_t to, PointBlock& block) {
-  const std::uint32_t reach = plan_.reach();
-  const std::uint32_t columns = plan_.settings.columns;
-  for (std::uint32_t c = from - std::min(from, reach); c < std::min(columns, from + reach); ++c) columns_[c].trace(c, facets_);
   for (std::uint32_t c = from; c < to; ++c) {
-    if (c + reach < columns) columns_[c + reach].trace(c + reach, facets_);
     current_ = &columns_[c];
     traceColumn(block);
   }

@@ -50,7 +50,7 @@ EdgeFinder::Reach EdgeFinder::reachAt(double range_m, std::uint32_t row) const {
 }
 
 // Rows of which a neighbour up, down, left or right meets another plane.
-std::uint32_t EdgeFinder::unlike(const ColumnHits& own, std::uint32_t first_row) const {
+std::uint32_t EdgeFinder::unlike(const ColumnHits& own, std::uint32_t first_row) {
   const auto nearest = static_cast<double>(least(own.ranges_m(first_row)));
   const Reach reach = reachAt(std::max(0.01, nearest), first_row);
   const std::uint32_t* planes = own.planes(first_row);

@@ -5,14 +5,19 @@
 
 namespace standpoint {
 
-// The columns about the current one: those that its beams reach.
+// The columns about the current one, traced when they are asked for: those that its beams reach.
 class ColumnWindow {
  public:
-  explicit ColumnWindow(const ScanPlan& plan) : columns_(2 * plan.reach() + 1, ColumnHits(plan)) {}
-  ColumnHits& operator[](std::uint32_t number) { return columns_[number % columns_.size()]; }
-  const ColumnHits& operator[](std::uint32_t number) const { return columns_[number % columns_.size()]; }
+  ColumnWindow(const ScanPlan& plan, FacetCache& facets) : facets_(facets), columns_(2 * plan.reach() + 1, ColumnHits(plan)) {}
+  // Good until one is asked for that is farther away than beams reach.
+  const ColumnHits& operator[](std::uint32_t number) {
+    ColumnHits& column = columns_[number % columns_.size()];
+    if (column.column() != number) column.trace(number, facets_);
+    return column;
+  }
 
  private:
+  FacetCache& facets_;
   std::vector<ColumnHits> columns_;     // by their number
 };
 
@@ -20,7 +25,7 @@ class ColumnWindow {
 // the beam may meet several surfaces. Looked at are the pulses next to the axis, at the beam's edge and half-way.
 class EdgeFinder {
  public:
-  EdgeFinder(const ScanPlan& plan, const ColumnWindow& columns, FacetCache& facets)
+  EdgeFinder(const ScanPlan& plan, ColumnWindow& columns, FacetCache& facets)
       : plan_(plan), columns_(columns), facets_(facets), row_step_(plan.rowStep_rad()), column_step_(plan.columnStep_rad()) {}
   // Of the sixteen rows from `first_row` on of a column, as bits.
   std::uint32_t find(std::uint32_t column, std::uint32_t first_row);
@@ -31,11 +36,11 @@ class EdgeFinder {
     std::uint32_t rows = 1, columns = 1;
   };
   Reach reachAt(double range_m, std::uint32_t row) const;
-  std::uint32_t unlike(const ColumnHits& own, std::uint32_t first_row) const;
+  std::uint32_t unlike(const ColumnHits& own, std::uint32_t first_row);
   bool atEdge(const ColumnHits& own, std::uint32_t row);
 
   const ScanPlan& plan_;
-  const ColumnWindow& columns_;
+  ColumnWindow& columns_;
   FacetCache& facets_;
   double row_step_, column_step_;       // rad
 };
