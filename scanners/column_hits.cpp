@@ -11,7 +11,8 @@ namespace standpoint {
 namespace {
 
 // Directions cosine · ahead + sine · up of sixteen rows.
-STANDPOINT_CLONES void turn(const double* cosine, const double* sine, const double* ahead, const double* up, AxisLanes& lanes) {
+STANDPOINT_CLONES void turn(const double* cosine, const double* sine, const double* ahead, const double* up,
+                            AxisLanes& lanes) {
   for (int k = 0; k < kPacket; ++k) {
     lanes.direction_x[k] = cosine[k] * ahead[0] + sine[k] * up[0];
     lanes.direction_y[k] = cosine[k] * ahead[1] + sine[k] * up[1];
@@ -46,14 +47,16 @@ void ColumnHits::trace(std::uint32_t column, FacetCache& facets) {
   ahead_ = {std::cos(azimuth), -std::sin(azimuth), 0};
   lateral_ = {-std::sin(azimuth), -std::cos(azimuth), 0};
   const Pose pose = at(plan_->trajectory, 0);
-  still_ = {pose.translation, pose.rotation * ahead_, pose.rotation * lateral_, pose.rotation * Eigen::Vector3d::UnitZ()};
+  still_ = {pose.translation, pose.rotation * ahead_, pose.rotation * lateral_,
+            pose.rotation * Eigen::Vector3d::UnitZ()};
   RayPacket rays;
   AxisLanes lanes;
   for (std::uint32_t first = 0; first < plan_->settings.rows; first += kPacket) {
     const int count = static_cast<int>(std::min<std::uint32_t>(kPacket, plan_->settings.rows - first));
     axes(first, lanes);
     round(lanes, rays);
-    plan_->scene.intersect(rays, count, static_cast<float>(plan_->settings.max_range_m), facets_.data() + first, ranges_.data() + first);
+    plan_->scene.intersect(rays, count, static_cast<float>(plan_->settings.max_range_m), facets_.data() + first,
+                           ranges_.data() + first);
   }
   if (!planes_.empty()) findPlanes(facets);
 }
@@ -63,7 +66,8 @@ void ColumnHits::axes(std::uint32_t first_row, AxisLanes& lanes) const {
     std::fill_n(lanes.origin_x, kPacket, still_.origin.x());
     std::fill_n(lanes.origin_y, kPacket, still_.origin.y());
     std::fill_n(lanes.origin_z, kPacket, still_.origin.z());
-    turn(plan_->cosine.data() + first_row, plan_->sine.data() + first_row, still_.ahead.data(), still_.up.data(), lanes);
+    turn(plan_->cosine.data() + first_row, plan_->sine.data() + first_row, still_.ahead.data(), still_.up.data(),
+         lanes);
     return;
   }
   for (std::uint32_t k = 0; k < std::min<std::uint32_t>(kPacket, plan_->settings.rows - first_row); ++k) {

@@ -28,8 +28,8 @@ class ColumnHits {
   // From a row on; there is a whole packet's worth, beyond the last row without a facet and at the longest range.
   const std::uint64_t* facets(std::uint32_t row) const { return facets_.data() + row; }
   const float* ranges_m(std::uint32_t row) const { return ranges_.data() + row; }
-  // Planes from a row on, where beams have a width; kMostReach before the first row and as many beyond the last packet are
-  // there, without a plane.
+  // Planes from a row on, where beams have a width; kMostReach before the first row and as many beyond the last packet
+  // are there, without a plane.
   const std::uint32_t* planes(std::uint32_t row) const { return planes_.data() + row + kMostReach; }
   RayLine axis(std::uint32_t row) const;
   // The same of the rows from one on.
@@ -46,10 +46,10 @@ class ColumnHits {
   Axes axes(std::uint32_t row) const;
   void findPlanes(FacetCache& facets);
 
-  const ScanPlan* plan_;                // they change places
+  const ScanPlan* plan_;  // they change places
   std::uint32_t column_ = ~0U;
-  Eigen::Vector3d ahead_, lateral_;     // up is the scanner's z
-  Axes still_;                          // of a scanner that does not move
+  Eigen::Vector3d ahead_, lateral_;  // up is the scanner's z
+  Axes still_;                       // of a scanner that does not move
   std::vector<std::uint64_t> facets_;
   std::vector<float> ranges_;
   std::vector<std::uint32_t> planes_;

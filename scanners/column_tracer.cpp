@@ -27,7 +27,8 @@ ColumnTracer::ColumnTracer(const ScanPlan& plan)
 
 void ColumnTracer::trace(std::uint32_t from, std::uint32_t to, PointBlock& block) {
   for (std::uint32_t c = from; c < to; ++c) {
-    current_ = &columns_[c];
+    columns_.moveTo(c);
+    current_ = &columns_.current();
     traceColumn(block);
   }
 }
@@ -46,7 +47,8 @@ void ColumnTracer::traceRows(std::uint32_t first_row) {
   std::uint32_t present = 0;
   if (met.plain != 0) {
     current_->axes(first_row, axes_);
-    present = meetPlanes(planes_, axes_, current_->ranges_m(first_row), plan_.instrument.min_range_m, plan_.settings.max_range_m, returns_);
+    present = meetPlanes(planes_, axes_, current_->ranges_m(first_row), plan_.instrument.min_range_m,
+                         plan_.settings.max_range_m, returns_);
   }
   const std::uint32_t rows = std::min<std::uint32_t>(kPacket, plan_.settings.rows - first_row);
   const std::uint32_t special = plan_.scatterers ? (1U << rows) - 1 : met.other | edges;
@@ -62,8 +64,10 @@ void ColumnTracer::traceRows(std::uint32_t first_row) {
   if (present == 0) return;
   points_.drawRows(first_row, returns_);
   const std::uint32_t detected = points_.receive(returns_, kReturnLanes) & present;
-  if (further_.empty()) writer_.write(returns_, detected);
-  else writeSeveral(detected);
+  if (further_.empty())
+    writer_.write(returns_, detected);
+  else
+    writeSeveral(detected);
 }
 
 // Neighbouring rows mostly meet the same facet.
@@ -76,14 +80,15 @@ ColumnTracer::Surfaces ColumnTracer::setSurfaces(std::uint32_t first_row) {
     const MetFacet& met = facets_.of(facets[from]);
     planes_.set(from, to, met.facet);
     returns_.setSurface(plan_, from, to, met);
-    (met.plain ? surfaces.plain : surfaces.other) |= (1U << static_cast<unsigned>(to)) - (1U << static_cast<unsigned>(from));
+    (met.plain ? surfaces.plain : surfaces.other) |=
+        (1U << static_cast<unsigned>(to)) - (1U << static_cast<unsigned>(from));
   }
   return surfaces;
 }
 
 std::uint32_t ColumnTracer::traceEdges(std::uint32_t first_row) {
   wide_.clear();
-  for (std::uint32_t left = edges_.find(current_->column(), first_row); left != 0; left &= left - 1) {
+  for (std::uint32_t left = edges_.find(first_row); left != 0; left &= left - 1) {
     const std::uint32_t row = first_row + static_cast<std::uint32_t>(std::countr_zero(left));
     wide_.add(row, current_->hit(row), current_->beam(row));
   }
@@ -99,10 +104,10 @@ void ColumnTracer::gatherEnds(std::uint32_t row, const WideBeam* wide) {
   const NearestHit hit = current_->hit(row);
   const RayLine axis = current_->axis(row);
   if (hit.facet != kNoFacet) paths_.follow(axis.origin, axis.direction, hit, wide != nullptr ? kAxisWeight : 1, ends_);
-  if (wide != nullptr)
-    for (int k = 0; k < kSubRays; ++k)
-      if (wide->hits[k].facet != kNoFacet)
-        paths_.follow(wide->lines[k].origin, wide->lines[k].direction, wide->hits[k], subRays()[static_cast<std::size_t>(k)].weight, ends_);
+  const auto& sub_rays = subRays();
+  for (std::size_t k = 0; wide != nullptr && k < kSubRays; ++k)
+    if (wide->hits[k].facet != kNoFacet)
+      paths_.follow(wide->lines[k].origin, wide->lines[k].direction, wide->hits[k], sub_rays[k].weight, ends_);
   if (plan_.scatterers) addScatterer(row, axis);
 }
 
@@ -139,8 +144,10 @@ bool ColumnTracer::addEchoes(int lane) {
   for (const Echo& echo : echoes_) {
     if (!inRange(echo.range_m)) continue;
     const PathEnd& end = ends_[static_cast<std::size_t>(echo.strongest)];
-    if (returns == 0) returns_.setEcho(plan_, lane, end, echo);
-    else further_.push_back({lane, returns, end, echo});
+    if (returns == 0)
+      returns_.setEcho(plan_, lane, end, echo);
+    else
+      further_.push_back({lane, returns, end, echo});
     ++returns;
   }
   return returns > 0;
@@ -153,7 +160,8 @@ void ColumnTracer::writeSeveral(std::uint32_t detected) {
   for (std::size_t i = 0; i < further_.size(); ++i) {
     ReturnLanes& lanes = further_lanes_[i / kReturnLanes];
     const int lane = static_cast<int>(i % kReturnLanes);
-    points_.drawFurther(returns_, further_[i].pulse, static_cast<NoiseChannel>(kFurtherReturns + further_[i].number), lanes, lane);
+    points_.drawFurther(returns_, further_[i].pulse, static_cast<NoiseChannel>(kFurtherReturns + further_[i].number),
+                        lanes, lane);
     lanes.setEcho(plan_, lane, further_[i].end, further_[i].echo);
   }
   further_detected_.clear();

@@ -19,7 +19,8 @@ namespace standpoint {
 // A pulse whose axis and whose neighbours' axes meet one surface is that surface's return; most are, and they are dealt
 // with sixteen at a time. Where a neighbour meets another one (edge_finder.h), the beam's other rays are traced
 // (wide_beams.h), and where the surface is a pane or a mirror the light is followed (beam_paths.h); the receiver makes
-// echoes of what comes back (waveform.h). What is thinner than the distance of two pulses and lies between them is not met.
+// echoes of what comes back (waveform.h). What is thinner than the distance of two pulses and lies between them is not
+// met.
 class ColumnTracer {
  public:
   explicit ColumnTracer(const ScanPlan& plan);
@@ -28,7 +29,7 @@ class ColumnTracer {
  private:
   // A return of a pulse that is not its first.
   struct Further {
-    int pulse = 0;                      // its lane
+    int pulse = 0;  // its lane
     std::uint32_t number = 1;
     PathEnd end;
     Echo echo;
@@ -61,7 +62,7 @@ class ColumnTracer {
   const ColumnHits* current_ = nullptr;
   AxisLanes axes_;
   PlaneLanes planes_;
-  ReturnLanes returns_;                 // a row each
+  ReturnLanes returns_;  // a row each
   std::vector<PathEnd> ends_;
   std::vector<Contribution> contributions_;
   std::vector<int> order_;

@@ -14,7 +14,8 @@ namespace {
 // Next to the axis, half-way, and at the beam's edge.
 std::array<std::uint32_t, 3> places(std::uint32_t reach) { return {1, (reach + 1) / 2, reach}; }
 
-STANDPOINT_CLONES void compare(const std::uint32_t* own, const std::uint32_t* one, const std::uint32_t* other, std::uint32_t* differs) {
+STANDPOINT_CLONES void compare(const std::uint32_t* own, const std::uint32_t* one, const std::uint32_t* other,
+                               std::uint32_t* differs) {
   for (int k = 0; k < kPacket; ++k) differs[k] |= (own[k] ^ one[k]) | (own[k] ^ other[k]);
 }
 
@@ -28,8 +29,8 @@ STANDPOINT_CLONES float least(const float* ranges_m) {
 
 }  // namespace
 
-std::uint32_t EdgeFinder::find(std::uint32_t column, std::uint32_t first_row) {
-  const ColumnHits& own = columns_[column];
+std::uint32_t EdgeFinder::find(std::uint32_t first_row) {
+  const ColumnHits& own = columns_.current();
   std::uint32_t edges = 0;
   for (std::uint32_t left = unlike(own, first_row); left != 0; left &= left - 1) {
     const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
@@ -40,7 +41,8 @@ std::uint32_t EdgeFinder::find(std::uint32_t column, std::uint32_t first_row) {
 
 EdgeFinder::Reach EdgeFinder::reachAt(double range_m, std::uint32_t row) const {
   const double start = plan_.instrument.exit_diameter_m / range_m, spread = plan_.instrument.divergence_rad;
-  const double square = 0.25 * kOuterShare * kOuterShare * (start * start + spread * spread);   // of the beam's edge, in rad
+  const double square =
+      0.25 * kOuterShare * kOuterShare * (start * start + spread * spread);  // of the beam's edge, in rad
   const auto pulses = [&](double step) {
     std::uint32_t n = 1;
     while (n < plan_.reach() && n * step * n * step < square) ++n;
@@ -64,8 +66,8 @@ std::uint32_t EdgeFinder::unlike(const ColumnHits& own, std::uint32_t first_row)
   for (const std::uint32_t apart : places(reach.columns)) {
     if (apart == done) continue;
     const bool before = own.column() >= apart, after = own.column() + apart < plan_.settings.columns;
-    compare(planes, before ? columns_[own.column() - apart].planes(first_row) : planes,
-            after ? columns_[own.column() + apart].planes(first_row) : planes, differs);
+    compare(planes, before ? columns_.before(apart).planes(first_row) : planes,
+            after ? columns_.after(apart).planes(first_row) : planes, differs);
     done = apart;
   }
   std::uint32_t rows = 0;
@@ -81,7 +83,7 @@ bool EdgeFinder::atEdge(const ColumnHits& own, std::uint32_t row) {
   double tolerance = 0;
   Reach reach{plan_.reach(), plan_.reach()};
   if (hit.facet != kNoFacet) {
-    met = facets_.of(hit.facet);
+    met = facets_.of(hit.facet);  // a copy: a column that is traced asks for others
     const auto range = std::max(0.01, static_cast<double>(hit.range_m));
     tolerance = edgeTolerance(plan_.instrument, range);
     reach = reachAt(range, row);
@@ -93,11 +95,12 @@ bool EdgeFinder::atEdge(const ColumnHits& own, std::uint32_t row) {
     return other.facet == kNoFacet || hit.facet == kNoFacet || !met.holds(column.axis(there), other, tolerance);
   };
   for (const std::uint32_t apart : places(reach.rows))
-    if ((row >= apart && differs(own, row - apart)) || (row + apart < plan_.settings.rows && differs(own, row + apart))) return true;
+    if ((row >= apart && differs(own, row - apart)) || (row + apart < plan_.settings.rows && differs(own, row + apart)))
+      return true;
   const std::uint32_t number = own.column();
   for (const std::uint32_t apart : places(reach.columns))
-    if ((number >= apart && differs(columns_[number - apart], row)) ||
-        (number + apart < plan_.settings.columns && differs(columns_[number + apart], row)))
+    if ((number >= apart && differs(columns_.before(apart), row)) ||
+        (number + apart < plan_.settings.columns && differs(columns_.after(apart), row)))
       return true;
   return false;
 }

@@ -11,12 +11,13 @@ namespace standpoint {
 namespace {
 
 // rangeOnPlane() in lanes.
-STANDPOINT_CLONES void meet(const PlaneLanes& planes, const AxisLanes& axes, const float* hits_m, ReturnLanes& returns) {
+STANDPOINT_CLONES void meet(const PlaneLanes& planes, const AxisLanes& axes, const float* hits_m,
+                            ReturnLanes& returns) {
   for (int k = 0; k < kPacket; ++k) {
-    const double slope =
-        planes.normal_x[k] * axes.direction_x[k] + planes.normal_y[k] * axes.direction_y[k] + planes.normal_z[k] * axes.direction_z[k];
-    const double origin =
-        planes.normal_x[k] * axes.origin_x[k] + planes.normal_y[k] * axes.origin_y[k] + planes.normal_z[k] * axes.origin_z[k];
+    const double slope = planes.normal_x[k] * axes.direction_x[k] + planes.normal_y[k] * axes.direction_y[k] +
+                         planes.normal_z[k] * axes.direction_z[k];
+    const double origin = planes.normal_x[k] * axes.origin_x[k] + planes.normal_y[k] * axes.origin_y[k] +
+                          planes.normal_z[k] * axes.origin_z[k];
     const double on_plane = (planes.offset[k] - origin) / slope;
     const auto hit = static_cast<double>(hits_m[k]);
     const double range = std::abs(on_plane - hit) <= 1e-3 + 1e-4 * hit ? on_plane : hit;
@@ -32,8 +33,8 @@ STANDPOINT_CLONES void meet(const PlaneLanes& planes, const AxisLanes& axes, con
 
 }  // namespace
 
-std::uint32_t meetPlanes(const PlaneLanes& planes, const AxisLanes& axes, const float* hits_m, double min_range_m, double max_range_m,
-                         ReturnLanes& returns) {
+std::uint32_t meetPlanes(const PlaneLanes& planes, const AxisLanes& axes, const float* hits_m, double min_range_m,
+                         double max_range_m, ReturnLanes& returns) {
   meet(planes, axes, hits_m, returns);
   std::uint32_t within = 0;
   for (unsigned k = 0; k < kPacket; ++k)

@@ -6,7 +6,8 @@
 
 namespace standpoint {
 
-// The planes that the axes of sixteen rows meet, and where: in double, so that a range does not suffer from the float BVH.
+// The planes that the axes of sixteen rows meet, and where: in double, so that a range does not suffer from the float
+// BVH.
 struct alignas(64) PlaneLanes {
   double normal_x[kPacket] = {}, normal_y[kPacket] = {}, normal_z[kPacket] = {}, offset[kPacket] = {};
 
@@ -18,9 +19,9 @@ struct alignas(64) PlaneLanes {
   }
 };
 
-// Gives the lanes their range, incidence and place; `hits_m` are the ranges of the float BVH. The lanes with a range between
-// the limits are the bits of the result.
-std::uint32_t meetPlanes(const PlaneLanes& planes, const AxisLanes& axes, const float* hits_m, double min_range_m, double max_range_m,
-                         ReturnLanes& returns);
+// Gives the lanes their range, incidence and place; `hits_m` are the ranges of the float BVH. The lanes with a range
+// between the limits are the bits of the result.
+std::uint32_t meetPlanes(const PlaneLanes& planes, const AxisLanes& axes, const float* hits_m, double min_range_m,
+                         double max_range_m, ReturnLanes& returns);
 
 }  // namespace standpoint

@@ -22,13 +22,17 @@ STANDPOINT_CLONES void place(const PointLanes::Figures& f, ReturnLanes& r) {
   for (int k = 0; k < kReturnLanes; ++k) {
     const double cosine = r.cosine[k], sine = r.sine[k];
     const auto wobble = static_cast<double>(r.wobble[k]);
-    const double lateral = f.jitter_rad * static_cast<double>(r.noise.lateral[k]) + f.lateral_rad + f.azimuth_rad * cosine;
-    const double lift = f.jitter_rad * static_cast<double>(r.noise.elevation[k]) + f.lift_rad + f.lift_by_wobble_rad * wobble;
-    const double noise = f.white_share * static_cast<double>(r.noise.range[k]) + f.along_share * static_cast<double>(r.along[k]) + f.common;
+    const double lateral =
+        f.jitter_rad * static_cast<double>(r.noise.lateral[k]) + f.lateral_rad + f.azimuth_rad * cosine;
+    const double lift =
+        f.jitter_rad * static_cast<double>(r.noise.elevation[k]) + f.lift_rad + f.lift_by_wobble_rad * wobble;
+    const double noise = f.white_share * static_cast<double>(r.noise.range[k]) +
+                         f.along_share * static_cast<double>(r.along[k]) + f.common;
     const double over = static_cast<double>(portable::log2(r.signal.x[k] / f.saturation));
     const double walk = r.signal.x[k] > f.saturation ? f.walk_m_per_octave * over : 0;
-    const double range = r.range_m[k] * f.scale + f.bias_m + f.noise_scale * static_cast<double>(r.signal.sigma_m[k]) * noise +
-                         f.extra_m + f.wobble_m * wobble + walk;
+    const double range = r.range_m[k] * f.scale + f.bias_m +
+                         f.noise_scale * static_cast<double>(r.signal.sigma_m[k]) * noise + f.extra_m +
+                         f.wobble_m * wobble + walk;
     const double outward = cosine - lift * sine;
     r.x_m[k] = static_cast<float>(range * (outward * f.ahead_x + lateral * f.lateral_x));
     r.y_m[k] = static_cast<float>(range * (outward * f.ahead_y + lateral * f.lateral_y));
@@ -76,7 +80,8 @@ void PointLanes::drawRows(std::uint32_t first_row, ReturnLanes& returns) const {
   plan_.column_noise->wobble(column_, first_row, returns.wobble);
 }
 
-void PointLanes::drawFurther(const ReturnLanes& first, int pulse, NoiseChannel channel, ReturnLanes& returns, int lane) const {
+void PointLanes::drawFurther(const ReturnLanes& first, int pulse, NoiseChannel channel, ReturnLanes& returns,
+                             int lane) const {
   PulseNoise noise;
   pulseNoise({plan_.options.seed, plan_.options.station_key}, column_, first.row[0], channel, noise);
   returns.noise.range[lane] = noise.range[pulse];
@@ -90,7 +95,8 @@ void PointLanes::drawFurther(const ReturnLanes& first, int pulse, NoiseChannel c
 
 std::uint32_t PointLanes::receive(ReturnLanes& returns, int count) const {
   if (plan_.varies)
-    variation(returns.place_x, returns.place_y, returns.place_z, returns.variation, returns.texture_scale_m, returns.signal.variation);
+    variation(returns.place_x, returns.place_y, returns.place_z, returns.variation, returns.texture_scale_m,
+              returns.signal.variation);
   standpoint::receive(returns.signal, plan_.receiver);
   place(figures_, returns);
   if (plan_.moves()) moveBack(returns, count);

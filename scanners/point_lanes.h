@@ -14,15 +14,15 @@ class PointLanes {
   void drawRows(std::uint32_t first_row, ReturnLanes& returns) const;
   // The same for one more return of a pulse, which has a lane in `first`.
   void drawFurther(const ReturnLanes& first, int pulse, NoiseChannel channel, ReturnLanes& returns, int lane) const;
-  // From what is met to the points, in the scanner's frame at the start of the scan; the lanes detected of the first `count`
-  // are the bits of the result.
+  // From what is met to the points, in the scanner's frame at the start of the scan; the lanes detected of the first
+  // `count` are the bits of the result.
   std::uint32_t receive(ReturnLanes& returns, int count) const;
 
   // What all lanes of a column share.
   struct Figures {
     double ahead_x = 1, ahead_y = 0, lateral_x = 0, lateral_y = -1;
     double jitter_rad = 0;
-    double lateral_rad = 0, azimuth_rad = 0;   // that does not, and that does shrink towards the zenith
+    double lateral_rad = 0, azimuth_rad = 0;  // that does not, and that does shrink towards the zenith
     double lift_rad = 0, lift_by_wobble_rad = 0;
     double scale = 1, bias_m = 0;
     double noise_scale = 0, white_share = 0, along_share = 0, common = 0;

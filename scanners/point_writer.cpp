@@ -42,7 +42,8 @@ void PointWriter::resize(std::size_t size) {
     for (auto* column : {&block.return_number, &block.return_count}) column->resize(size);
   if (!channels.truth) return;
   PointTruth& truth = block.truth;
-  for (auto* column : {&truth.x_m, &truth.y_m, &truth.z_m, &truth.range_m, &truth.incidence_rad, &truth.received_db}) column->resize(size);
+  for (auto* column : {&truth.x_m, &truth.y_m, &truth.z_m, &truth.range_m, &truth.incidence_rad, &truth.received_db})
+    column->resize(size);
   truth.flags.resize(size);
 }
 
@@ -80,7 +81,8 @@ void PointWriter::write(const std::vector<Place>& places) {
     block.row[i] = lanes.row[k];
     block.column[i] = column_;
     block.product[i] = lanes.product[k], block.material[i] = lanes.material[k];
-    if (plan_.settings.imaging) block.red[i] = lanes.red[k], block.green[i] = lanes.green[k], block.blue[i] = lanes.blue[k];
+    if (plan_.settings.imaging)
+      block.red[i] = lanes.red[k], block.green[i] = lanes.green[k], block.blue[i] = lanes.blue[k];
     if (channels.time) block.time_s[i] = plan_.clock.time_s(column_, plan_.elevation_rad(lanes.row[k]));
     if (channels.returns) block.return_number[i] = place.return_number, block.return_count[i] = place.return_count;
     if (channels.truth) writeTruth(lanes, k, i, block.truth);
@@ -95,7 +97,8 @@ void PointWriter::writeTruth(const ReturnLanes& lanes, int lane, std::size_t i, 
   truth.z_m[i] = static_cast<float>(place.z());
   truth.range_m[i] = lanes.signal.range_m[lane];
   const double cosine = std::min(1.0, static_cast<double>(lanes.signal.cosine[lane]));
-  truth.incidence_rad[i] = static_cast<float>(2 * std::numbers::pi * portable::turnOf(std::sqrt(1 - cosine * cosine), cosine));
+  truth.incidence_rad[i] =
+      static_cast<float>(2 * std::numbers::pi * portable::turnOf(std::sqrt(1 - cosine * cosine), cosine));
   truth.received_db[i] = 3.0102999566398120F * portable::log2(lanes.signal.x[lane]);
   const bool saturated = lanes.signal.x[lane] > plan_.saturation;
   truth.flags[i] = static_cast<std::uint8_t>(lanes.flags[lane] | (saturated ? point_flag::kSaturated : 0));

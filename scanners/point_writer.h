@@ -30,10 +30,10 @@ class PointWriter {
   void writeTruth(const ReturnLanes& lanes, int lane, std::size_t i, PointTruth& truth) const;
 
   const ScanPlan& plan_;
-  Pose start_;                          // of the scanner at time 0
+  Pose start_;  // of the scanner at time 0
   std::uint32_t column_ = 0;
   PointBlock* block_ = nullptr;
-  std::size_t size_ = 0, room_ = 0;     // points written, and that the block has entries for
+  std::size_t size_ = 0, room_ = 0;  // points written, and that the block has entries for
   std::vector<Place> places_;
 };
 

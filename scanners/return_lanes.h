@@ -17,18 +17,19 @@ static_assert(kReturnLanes == kPacket && kReturnLanes == kNoiseLanes);
 // computed with the others, whatever they hold, and left out when points are written.
 struct alignas(64) ReturnLanes {
   std::uint32_t row[kReturnLanes] = {};
-  double cosine[kReturnLanes] = {}, sine[kReturnLanes] = {};   // of the row's elevation
-  double range_m[kReturnLanes] = {};          // as the light takes it, glass included
-  float place_x[kReturnLanes] = {}, place_y[kReturnLanes] = {}, place_z[kReturnLanes] = {};   // on the surface, local frame
-  const Optics* optics[kReturnLanes] = {};    // whose figures `signal` has
-  float variation[kReturnLanes] = {}, texture_scale_m[kReturnLanes] = {};   // of the optics
+  double cosine[kReturnLanes] = {}, sine[kReturnLanes] = {};  // of the row's elevation
+  double range_m[kReturnLanes] = {};                          // as the light takes it, glass included
+  float place_x[kReturnLanes] = {}, place_y[kReturnLanes] = {},
+        place_z[kReturnLanes] = {};                                        // on the surface, local frame
+  const Optics* optics[kReturnLanes] = {};                                 // whose figures `signal` has
+  float variation[kReturnLanes] = {}, texture_scale_m[kReturnLanes] = {};  // of the optics
   std::uint32_t product[kReturnLanes] = {}, material[kReturnLanes] = {};
   std::uint8_t red[kReturnLanes] = {}, green[kReturnLanes] = {}, blue[kReturnLanes] = {};
   std::uint8_t flags[kReturnLanes] = {};
   PulseNoise noise{};
-  float along[kReturnLanes] = {}, wobble[kReturnLanes] = {};   // of the row
+  float along[kReturnLanes] = {}, wobble[kReturnLanes] = {};  // of the row
   SignalLanes signal;
-  float x_m[kReturnLanes] = {}, y_m[kReturnLanes] = {}, z_m[kReturnLanes] = {};   // the point
+  float x_m[kReturnLanes] = {}, y_m[kReturnLanes] = {}, z_m[kReturnLanes] = {};  // the point
 
   ReturnLanes();
   // The rows from `first_row` on, a lane each.

@@ -27,10 +27,11 @@ void WideBeams::trace() {
 }
 
 void WideBeams::traceRays(int from, int to) {
+  const auto& sub_rays = subRays();
   for (std::size_t i = 0; i < count_; ++i) {
     WideBeam& beam = beams_[i];
     for (int k = from; k < to; ++k) {
-      const RayLine& line = beam.lines[k] = lineOf(beam.beam, subRays()[static_cast<std::size_t>(k)], plan_.instrument);
+      const RayLine& line = beam.lines[k] = lineOf(beam.beam, sub_rays[static_cast<std::size_t>(k)], plan_.instrument);
       packet_.set(waiting_count_, line.origin, line.direction);
       waiting_[waiting_count_++] = &beam.hits[k];
       if (waiting_count_ == kPacket) traceWaiting();

@@ -35,10 +35,10 @@ class WideBeams {
 
   const ScanPlan& plan_;
   FacetCache& facets_;
-  std::vector<WideBeam> beams_;         // the first `count_`; the others are kept for their memory
+  std::vector<WideBeam> beams_;  // the first `count_`; the others are kept for their memory
   std::size_t count_ = 0;
   RayPacket packet_{};
-  NearestHit* waiting_[kPacket] = {};   // for the rays in the packet
+  NearestHit* waiting_[kPacket] = {};  // for the rays in the packet
   int waiting_count_ = 0;
 };
 
