@@ -51,6 +51,7 @@ struct ScanPlan {
   double noise_scale = 0;          // of σ: noise_factor / √passes
   double jitter_rad = 0;
   double threshold = 0;            // x_min; 0 = all that is met returns
+  double drop_threshold = 0;       // of what the air sends back
   double softness = 0;             // σ of the threshold, absolute
   float saturation = 0;            // x from which the receiver saturates
   double white_share = 0;          // of σ, of the noise that is each pulse's own
@@ -61,9 +62,10 @@ struct ScanPlan {
   double interference = 0;         // chance that a pulse finds another instrument's light
   double unambiguous_m = 0;        // longer ranges are folded by it; 0 = they are not
   double farthest_m = 0;           // that light is followed
+  double nearest_reported_m = 0, farthest_reported_m = 0;   // of measured ranges
   PointFilters flags, drops;       // of the points that the instrument's filters find fault with
   bool varies = false;             // some material is not the same everywhere
-  std::vector<double> sine, cosine;          // of each row's elevation
+  std::vector<double> sine, cosine;          // of each row's elevation, in full packets
   std::vector<Optics> optics;                // materials, then surfaces without one
   std::vector<std::array<std::uint8_t, 3>> colours;   // sRGB of each surface: what the camera sees, unshaded
 
@@ -78,7 +80,7 @@ struct ScanPlan {
   }
   bool reports(double range_m) const {
     const double measured = folded(range_m);
-    return measured >= nearest_m_ && measured <= farthest_reported_m_;
+    return measured >= nearest_reported_m && measured <= farthest_reported_m;
   }
   bool moves() const { return trajectory.pose.size() > 1; }
   bool passes(const Optics& surface) const { return surface.transparent && options.effects.has(Effect::panes); }
@@ -97,7 +99,6 @@ struct ScanPlan {
  private:
   std::uint32_t mostReach() const;
   std::uint32_t reach_ = 0;
-  double nearest_m_ = 0, farthest_reported_m_ = 0;
 };
 
 }  // namespace standpoint

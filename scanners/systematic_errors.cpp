@@ -41,15 +41,12 @@ SystematicErrors SystematicErrors::drawn(const Instrument& instrument, const Ran
   return errors;
 }
 
-double SystematicErrors::range_m(double range_m, double sine_v) const {
-  double measured = range_m * scale + offset_m + lift_m * sine_v;
-  if (cycle_m > 0) {
-    const double turns = range_m / cycle_m;
-    float sine, cosine;
-    portable::sinCosTurn(static_cast<float>(turns - std::floor(turns)), sine, cosine);
-    measured += cyclic_sine_m * static_cast<double>(sine) + cyclic_cosine_m * static_cast<double>(cosine);
-  }
-  return measured;
+double SystematicErrors::cyclic_m(double range_m) const {
+  if (cycle_m <= 0) return 0;
+  const double turns = range_m / cycle_m;
+  float sine, cosine;
+  portable::sinCosTurn(static_cast<float>(turns - std::floor(turns)), sine, cosine);
+  return cyclic_sine_m * static_cast<double>(sine) + cyclic_cosine_m * static_cast<double>(cosine);
 }
 
 double SystematicErrors::azimuthError_rad(double hz_rad) const {

@@ -27,7 +27,9 @@ struct SystematicErrors {
   // and a4 a third of a0, which makes up for a3 and a4; nobody states shares (engineering).
   static SystematicErrors drawn(const Instrument& instrument, const RandomKey& key);
 
-  double range_m(double range_m, double sine_v) const;
+  // The part of Δρ that repeats with the fine tone.
+  double cyclic_m(double range_m) const;
+  double range_m(double range_m, double sine_v) const { return range_m * scale + offset_m + lift_m * sine_v + cyclic_m(range_m); }
   // Δhz without the terms of the face, of a column; times cos v it is the way across the beam.
   double azimuthError_rad(double hz_rad) const;
   // The face's part of Δhz cos v; `face` is 1 or -1.
