@@ -45,6 +45,15 @@ STANDPOINT_CLONES void place(const PointLanes::Figures& f, const double* cyclic_
   }
 }
 
+// Whether any lane can be faulted at all: most sixteens hold plain surfaces of moderate power.
+STANDPOINT_CLONES bool suspicious(const ReturnLanes& r, float weak, float saturation) {
+  std::int32_t any = 0;
+  for (int k = 0; k < kReturnLanes; ++k)
+    any |= static_cast<std::int32_t>(r.deviation_m[k] > 0) | static_cast<std::int32_t>(r.signal.x[k] <= weak) |
+           static_cast<std::int32_t>(r.signal.x[k] > saturation);
+  return any != 0;
+}
+
 }  // namespace
 
 PointLanes::PointLanes(const ScanPlan& plan) : plan_(plan), start_(at(plan.trajectory, 0)) {
@@ -140,6 +149,8 @@ bool PointLanes::faulted(const ReturnLanes& returns, int lane, const PointFilter
 
 // Flags what the instrument's filters find fault with, and leaves out what they drop.
 std::uint32_t PointLanes::filtered(ReturnLanes& returns, std::uint32_t lanes) const {
+  const auto weak = static_cast<float>(std::max(plan_.flags.weak_factor, plan_.drops.weak_factor) * plan_.threshold);
+  if (!suspicious(returns, weak, plan_.saturation)) return lanes;
   std::uint32_t kept = lanes;
   for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
     const int lane = std::countr_zero(left);
