@@ -161,6 +161,7 @@ const std::vector<Verb>& table() {
         {.name = "panorama", .kind = K::flag, .help = "a picture all around from each station, and the points coloured from it"},
         {.name = "compensator", .kind = K::choice, .help = "off: a station out of level gives tilted points", .standard = "on", .choices = {"on", "off"}},
         {.name = "truth", .kind = K::flag, .help = "with what is known of each point: time, return, true place, range, incidence, power, how it came about"},
+        {.name = "as", .kind = K::choice, .help = "an E57 of integers of 0.1 mm, or of range and angles; a PCD as a list of points instead of a grid", .choices = {"scaled", "spherical", "points"}},
         {.name = "threads", .kind = K::integer, .help = "0 = all; the result is the same", .standard = 0, .minimum = 0, .maximum = 1024},
         {.name = "resume", .kind = K::flag, .help = "go on with a run that was cancelled or crashed: its finished stations are taken as they are"},
         {.name = "shard", .kind = K::text, .help = "i/n: only every n-th station from the i-th, for a batch on several machines"},
