@@ -159,6 +159,7 @@ const std::vector<Verb>& table() {
         {.name = "without", .kind = K::text, .help = effectHelp()},
         {.name = "weather", .kind = K::text, .help = "visibility=KM rain=MM/H snow=MM/H fog=M dust=M, separated by spaces or commas"},
         {.name = "panorama", .kind = K::flag, .help = "a picture all around from each station, and the points coloured from it"},
+        {.name = "panorama-size", .kind = K::integer, .help = "of --panorama: its width, twice its height (default: as the instrument's camera delivers it)", .unit = "pixels", .minimum = 256, .maximum = 32768},
         {.name = "compensator", .kind = K::choice, .help = "off: a station out of level gives tilted points", .standard = "on", .choices = {"on", "off"}},
         {.name = "truth", .kind = K::flag, .help = "with what is known of each point: time, return, true place, range, incidence, power, how it came about"},
         {.name = "threads", .kind = K::integer, .help = "0 = all; the result is the same", .standard = 0, .minimum = 0, .maximum = 1024},

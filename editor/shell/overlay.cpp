@@ -136,8 +136,12 @@ void cloudChip(Editor& editor) {
     editor.showCloud({});
     return;
   }
-  ui::tooltip(fmt::format("{}: {} of {} points are shown", cloud.file.filename().string(), groupedDigits(cloud.colours.size()),
-                          groupedDigits(cloud.points_in_file)));
+  const std::string name = cloud.file.empty() ? "The scan" : cloud.file.filename().string();
+  ui::tooltip(fmt::format("{}: {} of {} points are shown", name, groupedDigits(cloud.colours.size()), groupedDigits(cloud.points_in_file)));
+  if (!editor.showsLiveScan()) return;
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(fmt::format("{:.1f} million points so far", static_cast<double>(cloud.points_in_file) / 1e6).c_str());
 }
 
 void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
