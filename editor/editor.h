@@ -116,6 +116,7 @@ struct Editor {
   bool quit = false;                       // confirmed
 
   Eigen::Vector2f overlay_size = {0, 0};   // of the controls over the viewport, as drawn last
+  float overlay_end = 0;                   // where they must end on the right, on the screen
 
   float px(float points) const { return points * scale; }
   const std::shared_ptr<const Environment>& environment() const { return session.document().environment(); }
