@@ -159,6 +159,7 @@ const std::vector<Verb>& table() {
         {.name = "without", .kind = K::text, .help = effectHelp()},
         {.name = "weather", .kind = K::text, .help = "visibility=KM rain=MM/H snow=MM/H fog=M dust=M, separated by spaces or commas"},
         {.name = "panorama", .kind = K::flag, .help = "a picture all around from each station, and the points coloured from it"},
+        {.name = "panorama-size", .kind = K::integer, .help = "of --panorama: its width, twice its height (default: as the instrument's camera delivers it)", .unit = "pixels", .minimum = 256, .maximum = 32768},
         {.name = "compensator", .kind = K::choice, .help = "off: a station out of level gives tilted points", .standard = "on", .choices = {"on", "off"}},
         {.name = "truth", .kind = K::flag, .help = "with what is known of each point: time, return, true place, range, incidence, power, how it came about"},
         {.name = "as", .kind = K::choice, .help = "an E57 of integers of 0.1 mm, or of range and angles; a PCD as a list of points instead of a grid; a LAS of point format 8", .choices = {"scaled", "spherical", "points", "pdrf8"}},

@@ -32,6 +32,14 @@ json options(const fs::path& output) {
   return {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/32", "quality=4x"}}, {"seed", 5}, {"truth", true}, {"output", output.string()}};
 }
 
+json withPanorama(const fs::path& output) {
+  auto o = options(output);
+  o["set"] = {"resolution=1/32", "quality=4x", "colour=on"};
+  o["panorama"] = true;
+  o["panorama-size"] = 256;
+  return o;
+}
+
 Result<Outcome> scanUntil(const Document& d, const json& options, const std::string& station, const std::function<void(Progress&)>& act) {
   Progress progress;
   progress.onChange([&] {
@@ -43,7 +51,7 @@ Result<Outcome> scanUntil(const Document& d, const json& options, const std::str
 void cancel(Progress& progress) { progress.cancel(); }
 
 // Cancels at the third of three stations and goes on; the output must be that of a run without a break.
-void resumes(const char* name) {
+void resumes(const char* name, json (*options)(const fs::path&) = options) {
   const TemporaryFolder folder;
   const Document d = threeStations();
   const fs::path whole = folder.path() / "whole" / name;
@@ -120,6 +128,21 @@ TEST(Batch, GoesOnOnlyWithStationsThatWereWrittenInTheSameWay) {
   const auto again = run("scan", d, scaled);
   ASSERT_TRUE(again) << describe(again.error());
   EXPECT_FALSE(again->answer["stations"][0].contains("resumed"));
+}
+
+TEST(Batch, ResumedWithPanoramasHasTheBytesOfARunWithoutABreak) { resumes("all.e57", withPanorama); }
+
+TEST(Batch, ScansAgainWhereThePanoramaHasAnotherSize) {
+  const TemporaryFolder folder;
+  const Document d = threeStations();
+  const auto file = folder.path() / "all.e57";
+  ASSERT_FALSE(scanUntil(d, withPanorama(file), "S3", cancel));
+  auto again = withPanorama(file);
+  again["panorama-size"] = 258;
+  again["resume"] = true;
+  const auto resumed = run("scan", d, again);
+  ASSERT_TRUE(resumed) << describe(resumed.error());
+  for (const auto& row : resumed->answer["stations"]) EXPECT_FALSE(row.contains("resumed")) << row;
 }
 
 TEST(Batch, SurvivesBeingKilled) {
