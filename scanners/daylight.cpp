@@ -16,15 +16,16 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kLuxPerWatt = 120;          // luminous efficacy of sunlight, 110 to 130 lm/W
-constexpr double kDisc_rad = 0.00465;        // half of the sun's diameter
+constexpr double kLuxPerWatt = 120;    // luminous efficacy of sunlight, 110 to 130 lm/W
+constexpr double kDisc_rad = 0.00465;  // half of the sun's diameter
 constexpr double kScatterAtOneDegree = 1e-3;
 constexpr double kFarthest_m = 1e6;
 
 Error noSun(std::string_view text) {
   return {ErrorKind::usage,
-          "\"" + std::string(text) + "\" is no sun: AZIMUTH,ELEVATION[,W/m2] in degrees, clockwise from the file's Y and above "
-          "the horizon, 0 to 1500 W/m2 or a number of lux such as 80000lux",
+          "\"" + std::string(text) +
+              "\" is no sun: AZIMUTH,ELEVATION[,W/m2] in degrees, clockwise from the file's Y and above "
+              "the horizon, 0 to 1500 W/m2 or a number of lux such as 80000lux",
           "--sun"};
 }
 
@@ -47,14 +48,16 @@ Result<Sun> sunFrom(std::string_view text) {
     number[count] *= scale;
   }
   const auto [azimuth, elevation, irradiance] = number;
-  const bool possible = azimuth >= -360 && azimuth <= 360 && elevation > 0 && elevation <= 90 && irradiance >= 0 && irradiance <= 1500;
+  const bool possible =
+      azimuth >= -360 && azimuth <= 360 && elevation > 0 && elevation <= 90 && irradiance >= 0 && irradiance <= 1500;
   if (count < 2 || !possible) return failure(noSun(text));
   return Sun{azimuth * kRadPerDeg, elevation * kRadPerDeg, irradiance};
 }
 
-Daylight::Daylight(const EmbreeScene& scene, const Instrument& instrument, const Sun& sun, const Eigen::Vector3d& station)
-    : towards_(std::cos(sun.elevation_rad) * std::sin(sun.azimuth_rad), std::cos(sun.elevation_rad) * std::cos(sun.azimuth_rad),
-               std::sin(sun.elevation_rad)),
+Daylight::Daylight(const EmbreeScene& scene, const Instrument& instrument, const Sun& sun,
+                   const Eigen::Vector3d& station)
+    : towards_(std::cos(sun.elevation_rad) * std::sin(sun.azimuth_rad),
+               std::cos(sun.elevation_rad) * std::cos(sun.azimuth_rad), std::sin(sun.elevation_rad)),
       white_(instrument.sun_noise * sun.irradiance_W_m2 / 1000),
       station_lit_(scene.nearest(station, towards_, 0, kFarthest_m).facet == kNoFacet) {}
 
@@ -64,8 +67,8 @@ float Daylight::ofSurface(float reflectance, const Eigen::Vector3f& normal) cons
 
 float Daylight::ofDirection(const Eigen::Vector3d& direction) const {
   if (!station_lit_ || !(direction.dot(towards_) > 0)) return 0;
-  const double angle = direction.cross(towards_).norm();   // its sine, which is enough where it counts
-  const double disc = white_ / (kDisc_rad * kDisc_rad);    // π / Ω_sun
+  const double angle = direction.cross(towards_).norm();  // its sine, which is enough where it counts
+  const double disc = white_ / (kDisc_rad * kDisc_rad);   // π / Ω_sun
   if (angle < kDisc_rad) return static_cast<float>(disc);
   const double degrees = std::max(angle, kDisc_rad) / kRadPerDeg;
   return static_cast<float>(disc * kScatterAtOneDegree / (degrees * degrees));

@@ -13,8 +13,8 @@ namespace standpoint {
 namespace {
 
 constexpr int kRings = 4, kOnRing = kWingRays / kRings;
-constexpr double kWings = 8;   // radius, in w
-constexpr int kOnEdge = 8;     // places that stand for an edge
+constexpr double kWings = 8;  // radius, in w
+constexpr int kOnEdge = 8;    // places that stand for an edge
 constexpr double kPi = std::numbers::pi;
 
 std::array<SubRay, kWingRays> pattern() {
@@ -41,7 +41,8 @@ const std::array<SubRay, kWingRays>& wingRays() {
 ReflectorHalo::ReflectorHalo(const ScanPlan& plan) {
   const auto& materials = plan.assignment.materials;
   if (plan.moves() || plan.instrument.saturation.pedestal <= 0) return;
-  if (std::none_of(materials.begin(), materials.end(), [](const PhysicalMaterial& m) { return m.retro_gain > 0; })) return;
+  if (std::none_of(materials.begin(), materials.end(), [](const PhysicalMaterial& m) { return m.retro_gain > 0; }))
+    return;
   const Environment& environment = plan.scene.environment();
   const Pose pose = at(plan.trajectory, 0);
   columns_.resize(plan.settings.columns);
@@ -54,8 +55,9 @@ ReflectorHalo::ReflectorHalo(const ScanPlan& plan) {
       if (material < 0 || !(materials[static_cast<std::size_t>(material)].retro_gain > 0)) continue;
       std::array<Eigen::Vector3d, 3> corners;
       for (std::size_t k = 0; k < 3; ++k)
-        corners[k] = pose.rotation.conjugate() *
-                     (instance.world_from_mesh * mesh.positions[mesh.triangles[t][k]].cast<double>() - pose.translation);
+        corners[k] =
+            pose.rotation.conjugate() *
+            (instance.world_from_mesh * mesh.positions[mesh.triangles[t][k]].cast<double>() - pose.translation);
       add(plan, corners);
     }
   }
@@ -67,8 +69,8 @@ ReflectorHalo::ReflectorHalo(const ScanPlan& plan) {
 void ReflectorHalo::add(const ScanPlan& plan, const std::array<Eigen::Vector3d, 3>& corners) {
   const ScanSettings& s = plan.settings;
   double nearest = corners[0].norm(), low = kPi, high = -kPi, least_turn = 0, most_turn = 0, steepest = 1;
-  const double first = std::atan2(-corners[0].y(), corners[0].x());   // clockwise seen from above
-  for (int step = 0; step < 3 * kOnEdge; ++step) {   // an edge rises above its ends as a great circle does
+  const double first = std::atan2(-corners[0].y(), corners[0].x());  // clockwise seen from above
+  for (int step = 0; step < 3 * kOnEdge; ++step) {  // an edge rises above its ends as a great circle does
     const auto from = static_cast<std::size_t>(step / kOnEdge);
     const double share = static_cast<double>(step % kOnEdge) / kOnEdge;
     const Eigen::Vector3d place = (1 - share) * corners[from] + share * corners[(from + 1) % 3];
@@ -84,14 +86,16 @@ void ReflectorHalo::add(const ScanPlan& plan, const std::array<Eigen::Vector3d, 
   const auto row = [&](double elevation) {
     return std::clamp((elevation - s.elevation_from_rad) / plan.rowStep_rad(), 0.0, static_cast<double>(s.rows));
   };
-  const Rows rows{static_cast<std::uint32_t>(std::floor(row(low - margin))), static_cast<std::uint32_t>(std::ceil(row(high + margin)))};
+  const Rows rows{static_cast<std::uint32_t>(std::floor(row(low - margin))),
+                  static_cast<std::uint32_t>(std::ceil(row(high + margin)))};
   if (rows.from >= rows.to) return;
   const double aside = margin / std::max(steepest, 1e-3);
   const bool all = most_turn - least_turn + 2 * aside > kPi;
   const auto column = [&](double azimuth) {
-    return std::clamp(all ? 0 : (azimuth - s.azimuth_from_rad) / plan.columnStep_rad(), 0.0, static_cast<double>(s.columns));
+    return std::clamp(all ? 0 : (azimuth - s.azimuth_from_rad) / plan.columnStep_rad(), 0.0,
+                      static_cast<double>(s.columns));
   };
-  for (int turn = -2; turn <= 2; ++turn) {   // the grid begins and ends anywhere within two turns
+  for (int turn = -2; turn <= 2; ++turn) {  // the grid begins and ends anywhere within two turns
     const double from = first + 2 * kPi * turn + least_turn - aside, to = first + 2 * kPi * turn + most_turn + aside;
     const auto end = all ? s.columns : static_cast<std::uint32_t>(std::ceil(column(to)));
     for (auto c = static_cast<std::uint32_t>(std::floor(column(from))); c < end; ++c) columns_[c].push_back(rows);
@@ -102,11 +106,14 @@ void ReflectorHalo::add(const ScanPlan& plan, const std::array<Eigen::Vector3d, 
 // Triangles of one reflector overlap: they are one window.
 void ReflectorHalo::mergeRows() {
   for (auto& rows : columns_) {
-    std::sort(rows.begin(), rows.end(), [](const Rows& a, const Rows& b) { return a.from != b.from ? a.from < b.from : a.to < b.to; });
+    std::sort(rows.begin(), rows.end(),
+              [](const Rows& a, const Rows& b) { return a.from != b.from ? a.from < b.from : a.to < b.to; });
     std::size_t kept = 0;
     for (std::size_t i = 1; i < rows.size(); ++i) {
-      if (rows[i].from <= rows[kept].to) rows[kept].to = std::max(rows[kept].to, rows[i].to);
-      else rows[++kept] = rows[i];
+      if (rows[i].from <= rows[kept].to)
+        rows[kept].to = std::max(rows[kept].to, rows[i].to);
+      else
+        rows[++kept] = rows[i];
     }
     rows.resize(std::min(rows.size(), kept + 1));
   }

@@ -11,10 +11,10 @@ namespace standpoint {
 
 struct ScanPlan;
 
-// Wings of the beam: a pedestal of the instrument's share of the power out to 8 w, in four rings of eight rays with equal
-// power for equal area (physics.md §4.9). They matter where they meet a retroreflector beside the beam.
+// Wings of the beam: a pedestal of the instrument's share of the power out to 8 w, in four rings of eight rays with
+// equal power for equal area (physics.md §4.9). They matter where they meet a retroreflector beside the beam.
 constexpr int kWingRays = 32;
-const std::array<SubRay, kWingRays>& wingRays();   // weights add up to 1: times the pedestal
+const std::array<SubRay, kWingRays>& wingRays();  // weights add up to 1: times the pedestal
 
 // Pulses whose wings may meet a retroreflector; empty where the scene has none, and of a scanner that moves.
 class ReflectorHalo {

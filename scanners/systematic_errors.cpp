@@ -10,7 +10,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kFurtherShare = 1.0 / 3;   // of a0
+constexpr double kFurtherShare = 1.0 / 3;  // of a0
 
 }  // namespace
 
@@ -20,7 +20,8 @@ SystematicErrors SystematicErrors::drawn(const Instrument& instrument, const Ran
   SystematicErrors errors;
   const bool cyclic = instrument.waveform.fine_wavelength_m > 0;
   const double further = kFurtherShare * instrument.range_bias_m;
-  const double offset = cyclic ? std::sqrt(1 - kFurtherShare * kFurtherShare) * instrument.range_bias_m : instrument.range_bias_m;
+  const double offset =
+      cyclic ? std::sqrt(1 - kFurtherShare * kFurtherShare) * instrument.range_bias_m : instrument.range_bias_m;
   errors.offset_m = offset * static_cast<double>(draw.range[0]);
   errors.scale = 1 + 1e-6 * instrument.range_bias_ppm * static_cast<double>(draw.detection[0]);
   errors.lift_m = further * static_cast<double>(draw.range[1]);
@@ -30,7 +31,8 @@ SystematicErrors SystematicErrors::drawn(const Instrument& instrument, const Ran
     errors.cyclic_cosine_m = further * static_cast<double>(draw.range[3]);
   }
   const double each = std::sqrt((instrument.angle_sigma_rad * instrument.angle_sigma_rad -
-                                 instrument.angle_jitter_rad * instrument.angle_jitter_rad) / 3);
+                                 instrument.angle_jitter_rad * instrument.angle_jitter_rad) /
+                                3);
   errors.collimation_rad = each * static_cast<double>(draw.lateral[0]);
   errors.trunnion_rad = each * static_cast<double>(draw.lateral[1]);
   errors.index_rad = each * static_cast<double>(draw.elevation[0]);

@@ -19,10 +19,12 @@ double contrast(const Instrument& instrument, double distance, double reflectanc
   scene.quad({distance, -0.2 * distance, -0.2 * distance}, {0, 0.4 * distance, 0}, {0, 0, 0.4 * distance});
   auto settings = window(instrument, -1, 1, -1, 1, 200, 100);
   settings.passes = passes;
-  const auto points = scanned(*scene.build(), allOf(*scene.environment(), reflectance), instrument, settings, {1, effects}).points;
+  const auto points =
+      scanned(*scene.build(), allOf(*scene.environment(), reflectance), instrument, settings, {1, effects}).points;
   double n = 0, sum = 0, squares = 0;
   for (const float stored : points.intensity) {
-    const double db = instrument.intensity_low_db + static_cast<double>(stored) * (instrument.intensity_high_db - instrument.intensity_low_db);
+    const double db = instrument.intensity_low_db +
+                      static_cast<double>(stored) * (instrument.intensity_high_db - instrument.intensity_low_db);
     const double x = std::pow(10, db / 10);
     n += 1, sum += x, squares += x * x;
   }
@@ -55,12 +57,12 @@ TEST(AmplitudeNoise, IsTheSpeckleThatTheReceiversOpeningAverages) {
 
 TEST(AmplitudeNoise, HasTheJitterOfThePulse) {
   auto instrument = p40();
-  instrument.amplitude = {.aperture_m = 1000, .jitter = 0.04};   // no speckle is left
+  instrument.amplitude = {.aperture_m = 1000, .jitter = 0.04};  // no speckle is left
   EXPECT_NEAR(contrast(instrument, 10, 0.5, kAmplitude) / 0.04, 1, 0.03);
 }
 
-// Without light there is the noise that softens the threshold, here a tenth of x_min, so that a return of k x_min has it
-// as 0.1 / k.
+// Without light there is the noise that softens the threshold, here a tenth of x_min, so that a return of k x_min has
+// it as 0.1 / k.
 TEST(AmplitudeNoise, GrowsTowardsTheThreshold) {
   auto instrument = p40();
   instrument.amplitude.aperture_m = 1000;
@@ -73,7 +75,8 @@ TEST(AmplitudeNoise, GrowsTowardsTheThreshold) {
 }
 
 TEST(AmplitudeNoise, IsNoneWhenItIsSwitchedOff) {
-  EXPECT_LT(contrast(testing::instrument("leica-p40"), 10, 0.5, Effects::none()), 1e-3);   // the window's own fall-off: cos 1.4°
+  EXPECT_LT(contrast(testing::instrument("leica-p40"), 10, 0.5, Effects::none()),
+            1e-3);  // the window's own fall-off: cos 1.4°
 }
 
 }  // namespace

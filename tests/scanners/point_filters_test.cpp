@@ -34,8 +34,11 @@ Counted counted(const SceneBuilder& scene, const MaterialAssignment& assignment,
 
 // Two surfaces 0.2 m apart, half the light on each: σ = 0.1 m, five times what the filters bear.
 TEST(MixedPointFilter, FlagsWhatItWouldTakeAndTakesItWhenItIsSwitchedOn) {
-  for (const auto& [id, key] : {std::pair{"faro-focus-s350", "clear_contour"}, {"leica-p40", "mixed_pixels"}, {"riegl-vz-400i", "deviation"},
-                                {"zf-imager-5016", "mixed_pixels"}, {"trimble-x7", "mixed_points"}}) {
+  for (const auto& [id, key] : {std::pair{"faro-focus-s350", "clear_contour"},
+                                {"leica-p40", "mixed_pixels"},
+                                {"riegl-vz-400i", "deviation"},
+                                {"zf-imager-5016", "mixed_pixels"},
+                                {"trimble-x7", "mixed_points"}}) {
     const auto instrument = testing::instrument(id);
     SceneBuilder scene;
     scene.quad({10, 0, -2}, {0, 2, 0}, {0, 0, 4});
@@ -51,7 +54,9 @@ TEST(MixedPointFilter, FlagsWhatItWouldTakeAndTakesItWhenItIsSwitchedOn) {
     EXPECT_LE(kept.filtered, kept.mixed) << id;
     EXPECT_EQ(dropped.points, kept.points - kept.filtered) << id;
     EXPECT_EQ(dropped.filtered, 0U) << id;
-    EXPECT_EQ(counted(scene, assignment, instrument, settings, {{key, on}}, effects.without(Effect::filters)).points, 243U) << id;
+    EXPECT_EQ(counted(scene, assignment, instrument, settings, {{key, on}}, effects.without(Effect::filters)).points,
+              243U)
+        << id;
   }
 }
 
@@ -59,7 +64,7 @@ TEST(MixedPointFilter, FlagsWhatItWouldTakeAndTakesItWhenItIsSwitchedOn) {
 TEST(WeakPointFilter, TakesWhatIsNearTheThreshold) {
   auto instrument = testing::instrument("faro-focus-s350");
   instrument.near_range_m = 0;
-  for (const double share : {0.8, 0.83}) {   // 1/√1.5 = 0.816
+  for (const double share : {0.8, 0.83}) {  // 1/√1.5 = 0.816
     const double distance = share * instrument.max_range_m;
     SceneBuilder scene;
     scene.quad({distance, -10, -10}, {0, 20, 0}, {0, 0, 20});
@@ -67,7 +72,8 @@ TEST(WeakPointFilter, TakesWhatIsNearTheThreshold) {
     const auto settings = window(instrument, -0.05, 0.05, -0.05, 0.05, 10, 10);
     const Effects effects = kLaw.with(Effect::filters);
     EXPECT_EQ(counted(scene, assignment, instrument, settings, {}, effects).filtered, share < 0.816 ? 0U : 100U);
-    EXPECT_EQ(counted(scene, assignment, instrument, settings, {{"clear_sky", "on"}}, effects).points, share < 0.816 ? 100U : 0U);
+    EXPECT_EQ(counted(scene, assignment, instrument, settings, {{"clear_sky", "on"}}, effects).points,
+              share < 0.816 ? 100U : 0U);
   }
 }
 
@@ -76,7 +82,7 @@ TEST(OverloadFilter, TakesWhatSaturates) {
   SceneBuilder scene;
   scene.quad({10, -2, -2}, {0, 4, 0}, {0, 0, 4});
   auto reflector = lambert(0.5);
-  reflector.retro_gain = 500;   // x = 5 at 10 m
+  reflector.retro_gain = 500;  // x = 5 at 10 m
   const auto assignment = allOf(*scene.environment(), reflector);
   const auto settings = window(instrument, -0.5, 0.5, -0.5, 0.5, 10, 10);
   const Effects effects = kLaw.with(Effect::filters).with(Effect::saturation);
@@ -131,15 +137,17 @@ TEST(RangeAmbiguity, FoldsWhatIsFartherThanThePhaseTells) {
 
 // Only a retroreflector is bright enough beyond an interval that is longer than the sheet's range.
 TEST(RangeAmbiguity, NeedsLightFromBeyondTheSheetsRange) {
-  const auto instrument = testing::instrument("faro-focus-s70");   // 70 m, 614 m
+  const auto instrument = testing::instrument("faro-focus-s70");  // 70 m, 614 m
   SceneBuilder scene;
   scene.quad({640, -10, -10}, {0, 20, 0}, {0, 0, 20});
   const auto settings = window(instrument, -0.05, 0.05, -0.05, 0.05, 4, 4);
   const Effects effects = kLaw.with(Effect::ambiguity);
-  EXPECT_EQ(scanned(*scene.build(), allOf(*scene.environment(), 0.9), instrument, settings, {1, effects}).points.size(), 0U);
+  EXPECT_EQ(scanned(*scene.build(), allOf(*scene.environment(), 0.9), instrument, settings, {1, effects}).points.size(),
+            0U);
   auto reflector = lambert(0.5);
   reflector.retro_gain = 1000;
-  const auto points = scanned(*scene.build(), allOf(*scene.environment(), reflector), instrument, settings, {1, effects}).points;
+  const auto points =
+      scanned(*scene.build(), allOf(*scene.environment(), reflector), instrument, settings, {1, effects}).points;
   ASSERT_EQ(points.size(), 16U);
   EXPECT_NEAR(points.x_m[0], 640 - 614, 1e-3);
 }

@@ -34,15 +34,16 @@ TEST(Sun, IsReadAsAnglesAndIrradiance) {
   EXPECT_EQ(sun->irradiance_W_m2, 600);
   EXPECT_EQ(sunFrom("0,90")->irradiance_W_m2, 1000);
   EXPECT_NEAR(sunFrom("0,90,60000lux")->irradiance_W_m2, 500, 1e-9);
-  for (const char* text : {"", "135", "135,", "135,0", "135,91", "135,40,2000", "135,40,-1", "a,b", "135,40,600,1", "135,40,lux", "nan,40", "135,nan"}) {
+  for (const char* text : {"", "135", "135,", "135,0", "135,91", "135,40,2000", "135,40,-1", "a,b", "135,40,600,1",
+                           "135,40,lux", "nan,40", "135,nan"}) {
     const auto bad = sunFrom(text);
     ASSERT_FALSE(bad) << text;
     EXPECT_EQ(bad.error().source, "--sun");
   }
 }
 
-// A wall of ρ = 0.34 that faces a sun of 45° takes the threshold up by √(1 + β), β = s ρ cos 45°, and so the range down by
-// the fourth root; in the shade of a roof it does not.
+// A wall of ρ = 0.34 that faces a sun of 45° takes the threshold up by √(1 + β), β = s ρ cos 45°, and so the range down
+// by the fourth root; in the shade of a roof it does not.
 TEST(Sun, TakesRangeFromWhatItLights) {
   auto instrument = testing::instrument("leica-p40");
   instrument.near_range_m = 0;
@@ -54,10 +55,11 @@ TEST(Sun, TakesRangeFromWhatItLights) {
       scene.quad({share * limit, -5, -5}, {0, 10, 0}, {0, 0, 10});
       if (shaded) scene.quad({share * limit - 40, -20, 30}, {0, 40, 0}, {30, 0, 0});
       ScanOptions options{1, kLaw.with(Effect::sun)};
-      options.sun = Sun{-90 * kRadPerDeg, 45 * kRadPerDeg, 1000};   // from -X
+      options.sun = Sun{-90 * kRadPerDeg, 45 * kRadPerDeg, 1000};  // from -X
       const auto settings = window(instrument, -0.02, 0.02, -0.02, 0.02, 8, 8);
       const auto assignment = allOf(*scene.environment(), 0.34);
-      EXPECT_EQ(lit(scene, assignment, instrument, settings, options).size(), shaded || share < 1 ? 64U : 0U) << shaded << share;
+      EXPECT_EQ(lit(scene, assignment, instrument, settings, options).size(), shaded || share < 1 ? 64U : 0U)
+          << shaded << share;
       options.effects = options.effects.without(Effect::sun);
       EXPECT_EQ(lit(scene, assignment, instrument, settings, options).size(), 64U);
     }
@@ -72,7 +74,8 @@ TEST(Sun, AddsToTheRangeNoiseThatFallsWithPower) {
   scene.quad({figure.range_m, -5, -5}, {0, 10, 0}, {0, 0, 10});
   ScanOptions options{1, Effects::none().with(Effect::range_noise).with(Effect::sun).with(Effect::near_range)};
   options.sun = Sun{-90 * kRadPerDeg, 30 * kRadPerDeg, 500};
-  const auto points = lit(scene, allOf(*scene.environment(), figure.reflectivity), instrument, window(instrument, -1, 1, -1, 1, 200, 100), options);
+  const auto points = lit(scene, allOf(*scene.environment(), figure.reflectivity), instrument,
+                          window(instrument, -1, 1, -1, 1, 200, 100), options);
   ASSERT_EQ(points.size(), 20000U);
   double squares = 0;
   for (const float x : points.x_m) squares += std::pow(static_cast<double>(x) - figure.range_m, 2) / 20000;
@@ -87,9 +90,9 @@ TEST(Sun, InTheFieldOfViewBlindsTheReceiver) {
   instrument.near_range_m = 0;
   instrument.sun_noise = 1;
   SceneBuilder scene;
-  scene.quad({135, -40, -40}, {0, 80, 0}, {0, 0, 79.9});   // ends below the sun
+  scene.quad({135, -40, -40}, {0, 80, 0}, {0, 0, 79.9});  // ends below the sun
   ScanOptions options{1, kLaw.with(Effect::sun)};
-  options.sun = Sun{90 * kRadPerDeg, 17 * kRadPerDeg, 1000};   // towards +X
+  options.sun = Sun{90 * kRadPerDeg, 17 * kRadPerDeg, 1000};  // towards +X
   const auto settings = window(instrument, -5, 5, 6, 16.4, 40, 200);
   const auto assignment = allOf(*scene.environment(), 0.34);
   const auto points = lit(scene, assignment, instrument, settings, options);
@@ -100,16 +103,20 @@ TEST(Sun, InTheFieldOfViewBlindsTheReceiver) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3d way(points.x_m[i], points.y_m[i], points.z_m[i]);
     const double cosine = 135 / way.norm(), margin = 4 * cosine * std::pow(135 / way.norm(), 2);
-    const double angle = std::acos(std::clamp(way.normalized().dot(Eigen::Vector3d(std::cos(17 * kRadPerDeg), 0, std::sin(17 * kRadPerDeg))), -1.0, 1.0)) / kRadPerDeg;
+    const double angle =
+        std::acos(
+            std::clamp(way.normalized().dot(Eigen::Vector3d(std::cos(17 * kRadPerDeg), 0, std::sin(17 * kRadPerDeg))),
+                       -1.0, 1.0)) /
+        kRadPerDeg;
     nearest = std::min(nearest, angle - std::sqrt(1e-3 / std::pow(0.00465, 2) / (margin * margin - 1)));
   }
-  EXPECT_NEAR(nearest, 0, 0.06);   // a step of the grid
+  EXPECT_NEAR(nearest, 0, 0.06);  // a step of the grid
 }
 
 TEST(Interference, LeavesPointsAtRandomRangesInTheAir) {
   const auto instrument = testing::instrument("leica-p40");
   SceneBuilder scene;
-  scene.quad({-5, -1, -1}, {0, 2, 0}, {0, 0, 2});   // elsewhere
+  scene.quad({-5, -1, -1}, {0, 2, 0}, {0, 0, 2});  // elsewhere
   ScanOptions options{1, kLaw.with(Effect::interference)};
   options.interference = 0.05;
   const auto settings = window(instrument, -20, 20, -20, 20, 200, 200);
@@ -118,7 +125,7 @@ TEST(Interference, LeavesPointsAtRandomRangesInTheAir) {
   double mean = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_EQ(points.truth.flags[i], point_flag::kNoise);
-    EXPECT_EQ(points.product[i], 1U);   // "Nothing"
+    EXPECT_EQ(points.product[i], 1U);  // "Nothing"
     mean += static_cast<double>(points.truth.range_m[i]) / static_cast<double>(points.size());
   }
   EXPECT_NEAR(mean, (0.4 + 270) / 2, 5 * 270 / std::sqrt(12.0 * 2000));
@@ -143,13 +150,14 @@ TEST(Halo, StandsAroundAReflectorAsFarAsTheWingsOfTheBeam) {
   const auto farthest = [](const PointBlock& points) {
     double most = 0;
     for (std::size_t i = 0; i < points.size(); ++i)
-      most = std::max({most, std::abs(static_cast<double>(points.y_m[i])) - 0.02, std::abs(static_cast<double>(points.z_m[i])) - 0.02});
+      most = std::max({most, std::abs(static_cast<double>(points.y_m[i])) - 0.02,
+                       std::abs(static_cast<double>(points.z_m[i])) - 0.02});
     return most;
   };
   EXPECT_GT(plain.size(), 100U);
   EXPECT_LT(farthest(plain), 1.2 * radius);
   EXPECT_GT(haloed.size(), 2 * plain.size());
-  EXPECT_NEAR(farthest(haloed) / radius, 7, 0.5);   // the outermost ring of rays
+  EXPECT_NEAR(farthest(haloed) / radius, 7, 0.5);  // the outermost ring of rays
   std::size_t outside = 0;
   for (std::size_t i = 0; i < haloed.size(); ++i) {
     ASSERT_NEAR(haloed.x_m[i], 20, 0.01);
@@ -159,8 +167,9 @@ TEST(Halo, StandsAroundAReflectorAsFarAsTheWingsOfTheBeam) {
   }
   EXPECT_GT(outside, 200U);
   auto dim = reflector;
-  dim.retro_gain = 1;   // 0.0003 / 400 is below the threshold of 0.34 / 270²
-  EXPECT_EQ(lit(scene, allOf(*scene.environment(), dim), instrument, settings, {1, effects.with(Effect::halo)}).size(), plain.size());
+  dim.retro_gain = 1;  // 0.0003 / 400 is below the threshold of 0.34 / 270²
+  EXPECT_EQ(lit(scene, allOf(*scene.environment(), dim), instrument, settings, {1, effects.with(Effect::halo)}).size(),
+            plain.size());
 }
 
 TEST(Halo, HasTheWholePedestalInItsRays) {
@@ -172,7 +181,8 @@ TEST(Halo, HasTheWholePedestalInItsRays) {
 TEST(RoughMirror, IsTheMirrorWhereItsLobeIsNarrowerThanTheBeam) {
   EXPECT_EQ(roughMirrorShare(1e-4, 3e-3, 5, 5), 1);
   // A (R1 + R2)² / (R1² R2² 8π m²) with A = π w².
-  EXPECT_NEAR(roughMirrorShare(0.05, 3e-3, 5, 0.5), std::numbers::pi * 9e-6 * 5.5 * 5.5 / (25 * 0.25 * 8 * std::numbers::pi * 0.0025), 1e-9);
+  EXPECT_NEAR(roughMirrorShare(0.05, 3e-3, 5, 0.5),
+              std::numbers::pi * 9e-6 * 5.5 * 5.5 / (25 * 0.25 * 8 * std::numbers::pi * 0.0025), 1e-9);
 }
 
 // A post on wet ground is seen again below the ground, as high as the image is bright enough; on dry ground not.
