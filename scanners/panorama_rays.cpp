@@ -81,7 +81,10 @@ void PanoramaRays::trace(std::uint32_t row, std::uint32_t first, Light* pixels) 
       rays.origin_y[k] = static_cast<float>(from.y()), rays.direction_y[k] = static_cast<float>(d.y());
       rays.origin_z[k] = static_cast<float>(from.z()), rays.direction_z[k] = static_cast<float>(d.z());
     }
-    scene_.intersect(rays, beams.count, kFarthest_m, hits);
+    std::uint64_t facets[kPacket];
+    float ranges_m[kPacket];
+    scene_.intersect(rays, beams.count, kFarthest_m, facets, ranges_m);
+    for (int k = 0; k < beams.count; ++k) hits[k] = {facets[k], ranges_m[k]};
     coincident_.choose(rays, beams.count, hits);
     shade(hits, beams);
   }
