@@ -64,6 +64,25 @@ Result<Effects> effectsFrom(const json& options) {
 
 }  // namespace
 
+std::string leftOut(Effects effects) {
+  std::string names;
+  for (const auto& e : effectNames())
+    if (!effects.has(e.effect)) names += (names.empty() ? "" : ",") + std::string(e.name);
+  return names;
+}
+
+ScanChoice choiceOf(const ScanRequest& request) {
+  return {.instrument = request.instrument.id,
+          .settings = request.settings.values,
+          .seed = request.options.seed,
+          .effects = request.options.effects,
+          .weather = request.options.weather,
+          .truth = request.options.channels.truth,
+          .compensator = request.levelling.compensator,
+          .panorama = request.panorama,
+          .panorama_columns = request.panorama_columns};
+}
+
 Result<std::vector<std::size_t>> stationsFrom(const Job& job, const std::string& wanted) {
   std::vector<std::size_t> result;
   if (job.stations.empty())
@@ -128,6 +147,15 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const json& option
   request.panorama = options.value("panorama", false);
   if (request.panorama && !request.settings.imaging)
     return failure(ErrorKind::usage, "these settings take no images: a panorama needs them", "--panorama");
+  if (options.contains("panorama-size")) {
+    const auto columns = options["panorama-size"].get<std::uint32_t>();
+    if (!request.panorama)
+      return failure(ErrorKind::usage, "there is no panorama to have a size: add --panorama", "--panorama-size");
+    if (columns % 2 != 0)
+      return failure(ErrorKind::usage, fmt::format("{} is odd: the height is half of it", columns), "--panorama-size");
+    request.instrument.camera.columns = columns;
+    request.panorama_columns = columns;
+  }
   const bool truth = options.value("truth", false);
   request.options.channels = {
       .time = truth, .returns = truth || request.instrument.waveform.most_returns > 1, .truth = truth};
@@ -138,13 +166,21 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const json& option
   if (options.contains("shard"))
     if (auto ok = shard(request.stations, options["shard"].get<std::string>()); !ok) return failure(ok.error());
   if (auto ok = chooseOutput(request, options.at("output").get<std::string>()); !ok) return failure(ok.error());
+  request.as = options.value("as", "");
+  const auto writer = writerOf(*request.format, request.as);
+  if (!writer) return failure(writer.error());
+  request.writer = *writer;
   request.resume = options.value("resume", false);
   return request;
 }
 
-Result<MaterialAssignment> scanAssignment(const Document& document, Report& report, Progress& progress) {
+void noteDefaultRules(const Document& document, Report& report) {
+  if (!document.materials)
+    report.note("materials", "no materials were assigned yet; the default rules were used for this scan");
+}
+
+Result<MaterialAssignment> scanAssignment(const Document& document, Progress& progress) {
   if (document.materials) return document.materials->result.assignment;
-  report.note("materials", "no materials were assigned yet; the default rules were used for this scan");
   auto assigned = assignDocumentMaterials(document, {}, progress);
   if (!assigned) return failure(assigned.error());
   return assigned->document.materials->result.assignment;

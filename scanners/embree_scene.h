@@ -65,6 +65,8 @@ class EmbreeScene final : public RayScene {
   NearestHit nearest(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit, double min_range_m,
                      double max_range_m) const;
   Facet facet(std::uint64_t number) const;
+  std::size_t placementCount() const { return placements_.size(); }
+  const Instance& placed(std::size_t placement) const { return environment_->instances[placements_[placement]]; }
 
  private:
   void attachPlaced(std::uint32_t placement);

@@ -20,6 +20,7 @@ namespace {
 // Each block traces columns on either side of it, too, to know its neighbours: as many as a beam can reach.
 constexpr std::uint32_t kColumnsPerReach = 8;
 constexpr std::uint32_t kPulsesPerBlock = 1U << 17U;
+constexpr std::uint32_t kFirstColumns = 4;   // of the first block: whoever watches shall see points soon
 
 Result<void> checkArguments(const ScanSettings& settings, const Trajectory& trajectory) {
   if (settings.columns == 0 || settings.rows == 0) return failure(ErrorKind::usage, "the grid has no columns or no rows", "settings");
@@ -73,7 +74,8 @@ class Pipeline {
     }
     Work work;
     work.from = next_column_;
-    work.to = next_column_ = std::min(plan_.endColumn(), next_column_ + columns_per_block_);
+    const bool first = work.from == plan_.options.first_column;
+    work.to = next_column_ = std::min(plan_.endColumn(), next_column_ + (first ? kFirstColumns : columns_per_block_));
     if (!spare_.try_pop(work.block)) work.block = std::make_shared<PointBlock>();
     return work;
   }

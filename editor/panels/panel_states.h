@@ -95,12 +95,12 @@ struct SurveyPanelState {
 };
 
 struct ScanPanelState {
-  std::string instrument;           // id
-  std::vector<std::pair<std::string, std::string>> settings;   // key, value
+  ScanChoice asked{.instrument = "leica-rtc360"};
+  std::shared_ptr<const ScanChoice> remembered;   // the document's, that `asked` was last filled from
+  std::optional<ScanChoice> started;              // with the last press of "Scan"
   bool all_stations = true;
+  bool resume = true;               // what a cancelled run has finished is taken where it is the same
   int format = 0;
-  std::int64_t seed = 1;
-  bool ideal = false;
   std::string folder;
 };
 

@@ -27,8 +27,8 @@ std::string minutes(double seconds) {
 void start(Editor& editor) {
   const auto& scan = editor.panels.scan;
   const auto& state = editor.panels.plan;
-  json options = {{"instrument", scan.instrument}, {"set", json::array()}};
-  for (const auto& [key, value] : scan.settings) options["set"].push_back(key + "=" + value);
+  json options = {{"instrument", scan.asked.instrument}, {"set", json::array()}};
+  for (const auto& [key, value] : scan.asked.settings) options["set"].push_back(key + "=" + value);
   if (state.spacing_mm > 0) options["spacing"] = state.spacing_mm / 1000;
   if (state.max_incidence_deg < 90) options["max-incidence-deg"] = state.max_incidence_deg;
   editor.session.start("plan", std::move(options), "Plan the scans");
@@ -122,7 +122,7 @@ void drawPlanPanel(Editor& editor) {
     ui::emptyState(editor, ICON_EYE, "Nothing to plan", "Import a model first.");
     return;
   }
-  const auto* instrument = instrumentIn(readCatalogue(editor.panels.catalogue), editor.panels.scan.instrument);
+  const auto* instrument = instrumentIn(readCatalogue(editor.panels.catalogue), editor.panels.scan.asked.instrument);
   ui::dimText(instrument == nullptr ? "Choose an instrument under Scan" : fmt::format("{} {}, as set under Scan", instrument->maker, instrument->model));
   drawWishes(editor);
   const std::string why = instrument == nullptr ? "Choose an instrument under Scan first" : editor.session.whyNot("plan");

@@ -192,6 +192,7 @@ void expectedChips(Editor& editor) {
     ImGui::EndCombo();
   }
   ImGui::SameLine();
+  if (ImGui::GetCursorScreenPos().x + editor.px(128) > editor.overlay_end) ImGui::NewLine();
   const auto& job = editor.session.document().job;
   if (!job || job->stations.empty()) return ImGui::TextUnformatted("Drag the white dot: there the scanner stands");
   ImGui::SetNextItemWidth(editor.px(128));

@@ -89,19 +89,18 @@ class EglOffscreen : public Offscreen {
     editor.fine_picture = true;
   }
 
+  void frame(Editor& editor) override {
+    layOut(editor);
+    paint();
+    glFinish();
+  }
+
   Result<void> picture(Editor& editor, const std::filesystem::path& png) override {
     for (int i = 0; i < kFramesUntilStill; ++i) {
-      ImGui_ImplOpenGL3_NewFrame();
-      ImGui::NewFrame();
-      drawShell(editor);
-      ImGui::Render();
+      layOut(editor);
       editor.expected.wait();
     }
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-    glViewport(0, 0, width_, height_);
-    glClearColor(0.1F, 0.1F, 0.1F, 1);
-    glClear(GL_COLOR_BUFFER_BIT);
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    paint();
     std::vector<unsigned char> pixels(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 3);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
@@ -112,6 +111,21 @@ class EglOffscreen : public Offscreen {
   }
 
  private:
+  static void layOut(Editor& editor) {
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui::NewFrame();
+    drawShell(editor);
+    ImGui::Render();
+  }
+
+  void paint() {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+    glViewport(0, 0, width_, height_);
+    glClearColor(0.1F, 0.1F, 0.1F, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  }
+
   void makeTarget() {
     glGenTextures(1, &texture_);
     glBindTexture(GL_TEXTURE_2D, texture_);

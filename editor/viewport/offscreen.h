@@ -18,6 +18,8 @@ class Offscreen {
   virtual ~Offscreen() = default;
   // Fonts, scale and the scene view of this context.
   virtual void adopt(Editor& editor) = 0;
+  // Draws one frame, as the window does.
+  virtual void frame(Editor& editor) = 0;
   // Draws until nothing moves any more, then writes the picture.
   virtual Result<void> picture(Editor& editor, const std::filesystem::path& png) = 0;
 };
