@@ -61,6 +61,7 @@ class EmbreeScene final : public RayScene {
 
   // The first `count` rays of the packet; they should point to about the same side (coherent).
   void intersect(const RayPacket& rays, int count, float max_range_m, std::uint64_t* facets, float* ranges_m) const;
+  void intersect(const RayPacket& rays, int count, float max_range_m, NearestHit* hits) const;
   // One ray from `min_range_m` on.
   NearestHit nearest(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit, double min_range_m,
                      double max_range_m) const;

@@ -75,11 +75,8 @@ void PanoramaRays::trace(std::uint32_t row, std::uint32_t first, Light* pixels) 
   NearestHit hits[kPacket];
   for (int pane = 0; pane < kMostPanes && beams.count > 0; ++pane) {
     for (int k = 0; k < beams.count; ++k) {
-      const Eigen::Vector3d& d = beams.direction[k];
-      const Eigen::Vector3d from = origin_ + beams.way_m[k] * d;
-      rays.origin_x[k] = static_cast<float>(from.x()), rays.direction_x[k] = static_cast<float>(d.x());
-      rays.origin_y[k] = static_cast<float>(from.y()), rays.direction_y[k] = static_cast<float>(d.y());
-      rays.origin_z[k] = static_cast<float>(from.z()), rays.direction_z[k] = static_cast<float>(d.z());
+      const Eigen::Vector3d& direction = beams.direction[k];
+      rays.set(k, origin_ + beams.way_m[k] * direction, direction);
     }
     std::uint64_t facets[kPacket];
     float ranges_m[kPacket];

@@ -152,6 +152,13 @@ void EmbreeScene::intersect(const RayPacket& rays, int count, float max_range_m,
   std::copy_n(query.ray.tfar, count, ranges_m);
 }
 
+void EmbreeScene::intersect(const RayPacket& rays, int count, float max_range_m, NearestHit* hits) const {
+  std::uint64_t facets[kPacket];
+  float ranges_m[kPacket];
+  intersect(rays, count, max_range_m, facets, ranges_m);
+  for (int k = 0; k < count; ++k) hits[k] = {facets[k], ranges_m[k]};
+}
+
 NearestHit EmbreeScene::nearest(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit, double min_range_m,
                                 double max_range_m) const {
   RTCRayHit query{};

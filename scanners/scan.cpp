@@ -49,7 +49,8 @@ class Pipeline {
   Result<ScanCount> run(int threads) {
     tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
     arena.execute([&] {
-      const auto tokens = static_cast<std::size_t>(2 * arena.max_concurrency() + 1);
+      // A block for each thread, one that is written and one that waits for its turn: a block of the finest grid has 90 MB.
+      const auto tokens = static_cast<std::size_t>(arena.max_concurrency() + 2);
       tbb::parallel_pipeline(
           tokens, tbb::make_filter<void, Work>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& flow) { return next(flow); }) &
                       tbb::make_filter<Work, Work>(tbb::filter_mode::parallel, [&](Work work) { return trace(work); }) &

@@ -41,10 +41,9 @@ void WideBeams::traceRays(int from, int to) {
 }
 
 void WideBeams::traceWaiting() {
-  std::uint64_t facets[kPacket];
-  float ranges[kPacket];
-  plan_.scene.intersect(packet_, waiting_count_, static_cast<float>(plan_.farthest_m), facets, ranges);
-  for (int k = 0; k < waiting_count_; ++k) *waiting_[k] = {facets[k], ranges[k]};
+  NearestHit hits[kPacket];
+  plan_.scene.intersect(packet_, waiting_count_, static_cast<float>(plan_.farthest_m), hits);
+  for (int k = 0; k < waiting_count_; ++k) *waiting_[k] = hits[k];
   waiting_count_ = 0;
 }
 
