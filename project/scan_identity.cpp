@@ -88,6 +88,7 @@ std::string guidOf(std::uint64_t world_fingerprint, const Station& station, cons
   const auto& w = o.weather;
   a = mix(a, fmt::format("{} {} {} {} {}", w.visibility_km, w.rain_mm_h, w.snow_mm_h, w.fog_mor_m, w.dust_mor_m));
   if (request.panorama) a = mix(a, "panorama");
+  if (!request.as.empty()) a = mix(a, request.as);   // a run that goes on takes no station that was written otherwise
   if (request.panorama_columns > 0) a = mix(a, std::uint64_t{request.panorama_columns});
   std::uint64_t b = mix(mix(a, world_fingerprint), station.true_pose);
   b = mix(b, believed);

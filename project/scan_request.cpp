@@ -167,6 +167,10 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const json& option
   if (options.contains("shard"))
     if (auto ok = shard(request.stations, options["shard"].get<std::string>()); !ok) return failure(ok.error());
   if (auto ok = chooseOutput(request, options.at("output").get<std::string>()); !ok) return failure(ok.error());
+  request.as = options.value("as", "");
+  const auto writer = writerOf(*request.format, request.as);
+  if (!writer) return failure(writer.error());
+  request.writer = *writer;
   request.resume = options.value("resume", false);
   return request;
 }

@@ -21,6 +21,8 @@ struct ScanRequest {
   ScanOptions options;
   std::vector<std::size_t> stations;  // indices into the job
   const CloudFormat* format = nullptr;
+  std::string as;                     // variant of the format, or empty
+  CloudFormat::Writer writer = nullptr;
   std::filesystem::path output;
   bool one_file = false;  // all stations in `output`; else a file each
   Levelling levelling;

@@ -264,7 +264,7 @@ class ScanRun {
 
   Result<void> open(const fs::path& file) {
     if (sink_) return {};
-    auto opened = request_.format->writer(file);
+    auto opened = request_.writer(file);
     if (!opened) return failure(opened.error());
     sink_ = *std::move(opened);
     return {};

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "scanners/facet_cache.h"
+#include "scanners/pane_passage.h"
 
 namespace standpoint {
 
@@ -38,6 +39,8 @@ class BeamPaths {
     int mirrors = 0;
   };
   void follow(const Ray& ray, NearestHit hit, std::vector<PathEnd>& ends);
+  void addEnd(const Ray& ray, const PanePassage& passage, const MetFacet& met, double range_m,
+              std::vector<PathEnd>& ends) const;
   void reflect(const Ray& ray, const MetFacet& met, double range_m, double cosine, double gain, double excess_m,
                std::vector<PathEnd>& ends);
 

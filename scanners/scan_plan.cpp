@@ -82,14 +82,15 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
                                                : std::numeric_limits<float>::infinity();
   receiver = receiverOf(instrument, noise_law, effects, extinction_per_m(weather, instrument.wavelength_nm));
   if (effects.has(Effect::footprint)) reach_ = mostReach();
+  drop_threshold = detectionThreshold(settings, 0);
   std::vector<double> elevations;
   for (std::uint32_t row = 0; row < settings.rows; ++row) elevations.push_back(elevation_rad(row));
   const RandomKey key{options.seed, options.station_key};
   if (effects.has(Effect::striping)) column_noise.emplace(instrument, settings.columns, elevations, key);
   if (effects.has(Effect::range_noise)) white_share = column_noise ? static_cast<double>(column_noise->white()) : 1;
   if (weather.rain_mm_h > 0 || weather.snow_mm_h > 0 || weather.fog_mor_m > 0 || weather.dust_mor_m > 0)
-    scatterers.emplace(instrument, weather, detectionThreshold(settings, 0), settings.max_range_m, key);
-  for (std::uint32_t row = 0; row < settings.rows; ++row) {
+    scatterers.emplace(instrument, weather, drop_threshold, settings.max_range_m, key);
+  for (std::uint32_t row = 0; row < settings.rows + kPacket; ++row) {
     sine.push_back(std::sin(elevation_rad(row)));
     cosine.push_back(std::cos(elevation_rad(row)));
   }

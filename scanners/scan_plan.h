@@ -54,13 +54,14 @@ struct ScanPlan {
   double noise_scale = 0;          // of σ: noise_factor / √passes
   double jitter_rad = 0;
   double threshold = 0;            // x_min; 0 = all that is met returns
+  double drop_threshold = 0;       // of what the air sends back
   double softness = 0;             // σ of the threshold, absolute
   float saturation = 0;            // x from which the receiver saturates
   double white_share = 0;          // of σ, of the noise that is each pulse's own
   std::optional<ColumnNoise> column_noise;
   std::optional<Scatterers> scatterers;
   bool varies = false;             // some material is not the same everywhere
-  std::vector<double> sine, cosine;          // of each row's elevation
+  std::vector<double> sine, cosine;          // of each row's elevation, in full packets
   std::vector<Optics> optics;                // materials, then surfaces without one
   std::vector<std::array<std::uint8_t, 3>> colours;   // sRGB of each surface: what the camera sees, unshaded
 

@@ -52,8 +52,9 @@ STANDPOINT_INLINE void store(SignalLanes& lanes, float low_db, float high_db, fl
 }
 
 STANDPOINT_INLINE void noise(SignalLanes& lanes, const RangeNoiseLaw::Curve* curves, int count) {
-  float place[kSignalLanes];
-  for (int k = 0; k < kSignalLanes; ++k) place[k] = portable::log2(lanes.equivalent[k] > 1e-6F ? lanes.equivalent[k] : 1e-6F);
+  float place[kSignalLanes] = {};
+  if (count > 1)   // one curve is that of every reflectivity
+    for (int k = 0; k < kSignalLanes; ++k) place[k] = portable::log2(lanes.equivalent[k] > 1e-6F ? lanes.equivalent[k] : 1e-6F);
   for (int i = 0; i < count; ++i) {
     const float floor = curves[i].floor_m2;
     const float slope = curves[i].slope_m2;
