@@ -194,7 +194,7 @@ ViewState Editor::viewState() const {
   state.walkable = view.walkable && document.collision;
   state.shapes = view.shapes && document.collision;
   state.cloud = cloud_;
-  state.underlays = underlays.shown(document);
+  if (!visibility.alone()) state.underlays = underlays.shown(document);
   return state;
 }
 

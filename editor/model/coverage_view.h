@@ -33,7 +33,7 @@ struct PlaceCoverage {
 };
 PlaceCoverage coverageAt(std::span<const SeenFrom> scans, const SurfacePlace& place, const SeenWhen& wanted);
 
-constexpr std::array<std::uint8_t, 4> kHoleColour = {205, 40, 140, 255};   // of what no station sees
+constexpr std::array<std::uint8_t, 4> kHoleColour = {178, 52, 122, 255};   // of what no station sees
 constexpr int kMostCounted = 4;                                            // stations: more have the same colour
 constexpr double kFinestSpacing_m = 0.001, kCoarsestSpacing_m = 0.1;       // of the scale, which is logarithmic
 std::array<std::uint8_t, 4> countColour(int stations);
