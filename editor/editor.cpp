@@ -11,7 +11,7 @@
 namespace standpoint {
 
 Editor::Editor(std::vector<Verb> verbs, std::function<void()> wake_up)
-    : session(std::move(verbs), wake_up), budget_preview(wake_up), expected(wake_up), scan_outlook(wake_up), wake(std::move(wake_up)) {}
+    : session(std::move(verbs), wake_up), budget_preview(wake_up), expected(wake_up), scan_outlook(wake_up), target_list(wake_up), wake(std::move(wake_up)) {}
 
 const Document& Editor::shownDocument() const {
   return preview.outcome() != nullptr ? preview.outcome()->document : session.document();
@@ -194,7 +194,7 @@ ViewState Editor::viewState() const {
   state.walkable = view.walkable && document.collision;
   state.shapes = view.shapes && document.collision;
   state.cloud = cloud_;
-  state.underlays = underlays.shown(document);
+  if (!visibility.alone()) state.underlays = underlays.shown(document);
   return state;
 }
 

@@ -24,6 +24,7 @@
 #include "editor/model/selection.h"
 #include "editor/model/session.h"
 #include "editor/model/settings.h"
+#include "editor/model/target_list.h"
 #include "editor/model/underlay_view.h"
 #include "editor/model/view_state.h"
 #include "editor/model/visibility.h"
@@ -63,6 +64,7 @@ struct ViewportState {
   ModelSide side = ModelSide::lighter;
   double wavelength_nm = kReflectanceWavelength_nm;   // at which reflectance is shown
   Probe probe;
+  bool coverage_made = false;              // the map of coverage shows scans that were made, not the stations as planned
   bool edges = true, grid = true, walkable = false, shapes = false, labels = true;
   Tool tool = Tool::select;
   std::optional<RayHit> hover;             // under the pointer
@@ -95,9 +97,11 @@ struct Editor {
   BudgetPreview budget_preview;
   std::optional<LighteningRequest> previewed;   // what a panel asks for
   DeviationView deviation;
+  KeptCoverage coverage;
   ExpectedView expected;
   ScanOutlookView scan_outlook;
   ScanReadiness scan_readiness;
+  TargetList target_list;
   bool wants_deviation = false;            // a panel shows it
   std::deque<std::filesystem::path> waiting_clouds;   // dropped, each to become an underlay when the document is free
   PanelStates panels;
@@ -174,5 +178,8 @@ struct Editor {
   mutable std::vector<const Treatment*> treatment_of_product_;
   void derive() const;
 };
+
+// What the scan panel is set to; nothing when that cannot be scanned with.
+std::optional<ScanSettings> plannedSettings(Editor& editor);
 
 }  // namespace standpoint

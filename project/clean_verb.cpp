@@ -5,6 +5,7 @@
 
 #include "pointclouds/cleaning.h"
 #include "project/file_verbs.h"
+#include "project/output_place.h"
 
 namespace standpoint {
 
@@ -110,6 +111,10 @@ Result<Outcome> runClean(const Document& document, const json& options, Progress
   const fs::path report = options.value("report", "");
   if (!report.empty() && report.extension() != ".json" && report.extension() != ".csv")
     return failure(ErrorKind::usage, "a report is a .json or a .csv", "--report");
+  for (const char* option : {"output", "report"})
+    if (const fs::path file = options.value(option, ""); !file.empty())
+      if (auto there = checkFolderOf(file, option == std::string_view("output") ? "--output" : "--report"); !there)
+        return failure(there.error());
   std::vector<ChosenFilter> filters;
   for (const auto& text : options.at("filters")) {
     auto chosen = filterFrom(text.get<std::string>());

@@ -7,6 +7,7 @@
 #include "core/random.h"
 #include "core/units.h"
 #include "project/cloud_to_cloud.h"
+#include "project/registered_clouds.h"
 #include "project/registering.h"
 #include "project/registration.h"
 
@@ -110,6 +111,12 @@ Result<Outcome> runRegister(const Document& document, const json& options, Progr
                     document.job->targets.size()));
   MeasuringRequest request;
   for (const auto& file : options.at("files")) request.files.emplace_back(file.get<std::string>());
+  std::vector<std::filesystem::path> written;
+  if (options.contains("output")) {
+    auto to = registeredFiles(request.files, options["output"].get<std::string>());
+    if (!to) return failure(to.error());
+    written = *std::move(to);
+  }
   request.seed = options.at("seed").get<std::uint64_t>();
   request.click_m = options.at("click").get<double>();
   request.targets = !cloud, request.sample = cloud;
@@ -128,6 +135,11 @@ Result<Outcome> runRegister(const Document& document, const json& options, Progr
   if (!answer) return failure(answer.error());
   outcome.answer = *std::move(answer);
   outcome.text = textOf(outcome.answer);
+  if (!written.empty()) {
+    if (auto ok = writeRegistered(job, shift_m, request.files, written, outcome.report, progress); !ok)
+      return failure(ok.error());
+    for (const auto& file : written) outcome.answer["files"].push_back(file.string());
+  }
   outcome.description =
       fmt::format("Registered {} stations {}", measured->scans.size(), cloud ? "cloud to cloud" : "by targets");
   outcome.document.job = std::make_shared<const Job>(std::move(job));

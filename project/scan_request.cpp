@@ -8,6 +8,7 @@
 
 #include "project/instruments.h"
 #include "project/model_verbs.h"
+#include "project/output_place.h"
 
 namespace standpoint {
 
@@ -43,7 +44,7 @@ Result<void> chooseOutput(ScanRequest& request, const fs::path& output) {
                      "--output");
     }
     request.one_file = request.format->many_scans || request.stations.size() == 1;
-    return {};
+    return checkFolderOf(output, "--output");
   }
   request.format = cloudFormatFor("x.e57");
   std::error_code error;

@@ -89,6 +89,7 @@ struct GeoreferencePanelState {
 struct SurveyPanelState {
   int station = -1;                 // chosen, index into Job::stations
   int target = -1;
+  bool copies_of_registered = true; // registering writes the scans with their solved poses
   std::array<double, 3> move_to = {0, 0, 0};
   int move_of = -1;                 // station that `move_to` was filled from
   Eigen::Vector3d move_from = Eigen::Vector3d::Zero();

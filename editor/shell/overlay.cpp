@@ -9,6 +9,7 @@
 
 #include "editor/editor.h"
 #include "editor/shell/actions.h"
+#include "editor/shell/coverage_overlay.h"
 #include "editor/shell/expected_overlay.h"
 #include "editor/shell/icons.h"
 #include "editor/shell/theme.h"
@@ -42,6 +43,9 @@ const char* colourName(ColourMode mode) {
     case ColourMode::expected_intensity: return "Expected intensity";
     case ColourMode::expected_noise: return "Expected noise";
     case ColourMode::expected_fate: return "What comes back";
+    case ColourMode::coverage: return "Stations that see it";
+    case ColourMode::coverage_spacing: return "Point spacing";
+    case ColourMode::coverage_incidence: return "Incidence";
   }
   return "";
 }
@@ -49,7 +53,8 @@ const char* colourName(ColourMode mode) {
 void colourChip(Editor& editor) {
   ImGui::SetNextItemWidth(editor.px(152));
   if (!ImGui::BeginCombo("###colour", fmt::format("{}  {}", ICON_PAINT, colourName(editor.view.colour)).c_str(), ImGuiComboFlags_NoArrowButton)) return;
-  for (const auto mode : {ColourMode::model, ColourMode::material, ColourMode::reflectance, ColourMode::confidence, ColourMode::expected_intensity, ColourMode::expected_noise, ColourMode::expected_fate})
+  for (const auto mode : {ColourMode::model, ColourMode::material, ColourMode::reflectance, ColourMode::confidence, ColourMode::expected_intensity, ColourMode::expected_noise, ColourMode::expected_fate,
+                          ColourMode::coverage, ColourMode::coverage_spacing, ColourMode::coverage_incidence})
     if (ImGui::Selectable(colourName(mode), editor.view.colour == mode)) editor.view.colour = mode;
   if (editor.session.document().lightening && ImGui::Selectable(colourName(ColourMode::deviation), editor.view.colour == ColourMode::deviation))
     editor.view.colour = ColourMode::deviation;
@@ -286,6 +291,7 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   toggle(editor, ICON_CUBES, "shapes", editor.view.shapes);
   toggle(editor, ICON_EYE, "show-all", false);
   expectedChips(editor);
+  coverageChips(editor);
   ImGui::EndGroup();
   const ImVec2 drawn = ImGui::GetItemRectSize();
   editor.overlay_size = {drawn.x, drawn.y};

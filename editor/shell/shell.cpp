@@ -90,7 +90,7 @@ void runMenu(Editor& editor) {
 void viewMenu(Editor& editor) {
   items(editor, {"frame", "view-corner", "view-front", "view-back", "view-right", "view-left", "view-top", "view-parallel", "",
                  "hide", "isolate", "show-all", "", "edges", "grid", "labels", "walkable", "shapes", "walk", "", "colour-model",
-                 "colour-material", "colour-reflectance", "colour-confidence", "colour-intensity", "colour-noise", "colour-fate", "", "workspace-model", "workspace-materials", "workspace-survey",
+                 "colour-material", "colour-reflectance", "colour-confidence", "colour-intensity", "colour-noise", "colour-fate", "colour-coverage", "colour-spacing", "colour-incidence", "", "workspace-model", "workspace-materials", "workspace-survey",
                  "workspace-instrument"});
 }
 

@@ -251,6 +251,16 @@ TEST_F(Verify, OfAHeapAtOnePlaceProposesNothing) {
   EXPECT_FALSE(done->answer.at("no_verdict").is_null());
 }
 
+TEST_F(Verify, OfAHandfulOfPointsSaysThatTheyAreTooFewAndNotThatTheyLieWrong) {
+  int n = 0;
+  const auto few = rewritten("few.ptx", true, [&](double x, double y, double z, double intensity) {
+    return n++ < 40 ? text(x, y, z, intensity) : std::string("0 0 0 0.5");
+  });
+  const auto said = refusal(laid(few));
+  EXPECT_THAT(said, AllOf(HasSubstr("it has 40 points"), HasSubstr("fewer than 100"), HasSubstr("underlay PROJECT --add FILE")));
+  EXPECT_THAT(said, Not(HasSubstr("--register")));
+}
+
 TEST_F(Verify, StopsWhenItIsCancelled) {
   Progress progress;
   progress.cancel();
