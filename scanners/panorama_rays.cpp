@@ -73,6 +73,8 @@ void PanoramaRays::trace(std::uint32_t row, std::uint32_t first, Light* pixels) 
   std::fill_n(pixels, count, Light::Zero());
   RayPacket rays{};
   NearestHit hits[kPacket];
+  std::uint64_t facets[kPacket];
+  float ranges_m[kPacket];
   for (int pane = 0; pane < kMostPanes && beams.count > 0; ++pane) {
     for (int k = 0; k < beams.count; ++k) {
       const Eigen::Vector3d& d = beams.direction[k];
@@ -81,7 +83,8 @@ void PanoramaRays::trace(std::uint32_t row, std::uint32_t first, Light* pixels) 
       rays.origin_y[k] = static_cast<float>(from.y()), rays.direction_y[k] = static_cast<float>(d.y());
       rays.origin_z[k] = static_cast<float>(from.z()), rays.direction_z[k] = static_cast<float>(d.z());
     }
-    scene_.intersect(rays, beams.count, kFarthest_m, hits);
+    scene_.intersect(rays, beams.count, kFarthest_m, facets, ranges_m);
+    for (int k = 0; k < beams.count; ++k) hits[k] = {facets[k], ranges_m[k]};
     coincident_.choose(rays, beams.count, hits);
     shade(hits, beams);
   }
