@@ -8,6 +8,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -17,6 +18,7 @@
 #include "editor/shell/widgets.h"
 #include "emulated-ui/draw.h"
 #include "emulated-ui/host.h"
+#include "emulated-ui/menus.h"
 
 namespace standpoint {
 
@@ -63,10 +65,11 @@ class InstrumentPanel {
     adoptProject(editor);
     if (!host_) return ui::emptyState(editor, ICON_TABLET, "The device cannot start", problem_.c_str());
     drawControls(editor);
+    if (!host_) return;
     advance(editor);   // before drawing: the last state of a clock that then stops is on the screen
-    drawMenu(host_->menu(), kLeicaSkin, ImGui::GetContentRegionAvail().x, ImGui::GetContentRegionAvail().y - editor.px(44), refused_);
+    drawDevice(host_->device(), kLeicaSkin, ImGui::GetContentRegionAvail().x, ImGui::GetContentRegionAvail().y - editor.px(44), refused_);
     ImGui::Dummy({0, editor.px(2)});
-    ui::dimText(refused_.empty() ? "Screens are ours; not affiliated with Leica Geosystems." : refused_);
+    ui::dimText(refused_.empty() ? "Screens are ours; not affiliated with or endorsed by the makers." : refused_);
     was_busy_ = host_->busy();
     ticker_.run(was_busy_);
   }
@@ -79,14 +82,19 @@ class InstrumentPanel {
     const bool moved_only = host_ && key.second == project_.second;
     project_ = key;
     if (moved_only) return;   // saved elsewhere: the same instrument goes on
-    auto menu = makeMenu(emulatedInstruments().front());
-    if (!menu) {
-      host_.reset();
-      problem_ = describe(menu.error());
+    chooseDevice(editor, device_);
+    last_ = std::chrono::steady_clock::now();
+  }
+
+  void chooseDevice(Editor& editor, const EmulatedDevice* device) {
+    device_ = device;
+    host_.reset();
+    auto type = loadDevice(*device);
+    if (!type) {
+      problem_ = describe(type.error());
       return;
     }
-    host_ = std::make_unique<InstrumentHost>(emulatedInstruments().front(), *std::move(menu), editor.session.document(), editor.wake);
-    last_ = std::chrono::steady_clock::now();
+    host_ = std::make_unique<DeviceHost>(*std::move(type), editor.session.document(), editor.wake);
   }
 
   void drawControls(Editor& editor) {
@@ -105,6 +113,15 @@ class InstrumentPanel {
           if (ImGui::Selectable(s.name.c_str(), s.name == standing)) standing = s.name;
       ImGui::EndCombo();
     }
+    ui::propertyLabel("Device");
+    ImGui::SetNextItemWidth(-1);
+    ImGui::BeginDisabled(host_->busy());
+    if (ImGui::BeginCombo("##device", device_->title)) {
+      for (const auto& device : emulatedDevices())
+        if (ImGui::Selectable(device.title, &device == device_)) wanted_ = &device;
+      ImGui::EndCombo();
+    }
+    ImGui::EndDisabled();
     ui::propertyLabel("Clock");
     ImGui::SetNextItemWidth(-1);
     if (ImGui::BeginCombo("##clock", clockName(host_->time_factor).c_str())) {
@@ -113,7 +130,8 @@ class InstrumentPanel {
       ImGui::EndCombo();
     }
     ui::endProperties();
-    host_->menu().standAt(standing);
+    if (wanted_ != nullptr) chooseDevice(editor, std::exchange(wanted_, nullptr));
+    if (host_ && host_->device().state().around.station != standing) (void)host_->device().hand("stand_at", standing);
   }
 
   static std::string clockName(double factor) { return factor == 1 ? "real time" : fmt::format("{:.0f} times faster", factor); }
@@ -126,11 +144,13 @@ class InstrumentPanel {
     const auto scans = editor.session.folder().empty() ? std::filesystem::path() : editor.session.folder() / "scans";
     const bool may_store = editor.session.whyNotAdopt().empty();
     if (auto stored = host_->update(editor.session.document(), scans, seconds, may_store)) editor.session.adopt(*std::move(stored));
-    if (const auto view = host_->menu().takeView()) editor.showCloud(view->file);
+    if (const auto view = host_->device().takeView()) editor.showCloud(view->file);
   }
 
   Ticker ticker_;
-  std::unique_ptr<InstrumentHost> host_;
+  std::unique_ptr<DeviceHost> host_;
+  const EmulatedDevice* device_ = &emulatedDevices().front();
+  const EmulatedDevice* wanted_ = nullptr;
   std::pair<std::filesystem::path, const Environment*> project_{"?", nullptr};
   std::string problem_, refused_, station_;
   std::chrono::steady_clock::time_point last_;

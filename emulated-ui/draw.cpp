@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -50,15 +51,26 @@ class Display {
     switch (w.kind) {
       case WidgetKind::status: break;
       case WidgetKind::readout: readout(w); break;
-      case WidgetKind::button: tile(w, false); break;
+      case WidgetKind::button: tile(w); break;
       case WidgetKind::key: key(w); break;
-      case WidgetKind::choice: choice(w); break;
+      case WidgetKind::lamp: lamp(w); break;
+      case WidgetKind::choice:
+      case WidgetKind::toggle: choice(w); break;
       case WidgetKind::text: text(w, 0); break;
       case WidgetKind::number: text(w, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CharsDecimal); break;
       case WidgetKind::list: rows(w); break;
       case WidgetKind::progress: progress(w); break;
-      case WidgetKind::message: message(w); break;
+      case WidgetKind::note: paragraph(w.label); break;
+      case WidgetKind::area:
+      case WidgetKind::level:
+      case WidgetKind::preview:
+      case WidgetKind::plan: break;
     }
+  }
+
+  void dialog(const Dialog& d) {
+    paragraph(d.text);
+    for (const auto& button : d.buttons) tile(button);
   }
 
  private:
@@ -74,10 +86,10 @@ class Display {
     }
   }
 
-  void tile(const Widget& w, bool selected) {
+  void tile(const Widget& w) {
     ImGui::SetCursorPosX(unit_);
     ImGui::PushID(w.id.c_str());
-    ImGui::PushStyleColor(ImGuiCol_Button, selected ? skin_.tile_hover : skin_.tile);
+    ImGui::PushStyleColor(ImGuiCol_Button, skin_.tile);
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, skin_.tile_hover);
     ImGui::PushStyleColor(ImGuiCol_ButtonActive, skin_.tile_hover);
     ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, {0, 0.5F});
@@ -115,17 +127,19 @@ class Display {
     const float gap = 0.3F * unit_;
     const float whole = ImGui::GetWindowWidth() - 2 * unit_;
     float widest = 0;
-    for (const auto& option : w.options) widest = std::max(widest, ImGui::CalcTextSize(option.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x);
+    for (const auto& option : w.options) widest = std::max(widest, ImGui::CalcTextSize(option.label.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x);
     const bool stacked = widest > (whole - gap * (count - 1)) / count;   // too wide for a row: one below the other
     const float width = stacked ? whole : (whole - gap * (count - 1)) / count;
     for (const auto& option : w.options) {
       if (stacked) ImGui::SetCursorPosX(unit_);
-      const bool chosen = option == w.value;
+      const bool chosen = option.label == w.value || (w.kind == WidgetKind::toggle && option.value == w.value);
       ImGui::PushStyleColor(ImGuiCol_Button, chosen ? skin_.accent : skin_.tile);
       ImGui::PushStyleColor(ImGuiCol_ButtonHovered, chosen ? skin_.accent : skin_.tile_hover);
       ImGui::PushStyleColor(ImGuiCol_ButtonActive, skin_.accent);
       ImGui::PushStyleColor(ImGuiCol_Text, chosen ? IM_COL32_WHITE : skin_.text);
-      if (ImGui::Button(option.c_str(), {width, 2.4F * unit_})) press = Press{w.id, option};
+      ImGui::BeginDisabled(!option.enabled);
+      if (ImGui::Button((option.label + "###" + option.value).c_str(), {width, 2.4F * unit_})) press = Press{w.id, option.value};
+      ImGui::EndDisabled();
       ImGui::PopStyleColor(4);
       if (!stacked && &option != &w.options.back()) ImGui::SameLine(0, gap);
     }
@@ -147,10 +161,14 @@ class Display {
 
   void rows(const Widget& w) {
     ImGui::PushID(w.id.c_str());
-    for (std::size_t i = 0; i < w.options.size(); ++i) {
-      Widget row{std::to_string(i), WidgetKind::button, w.options[i], "", {}, w.enabled, w.why_not};
+    for (const auto& option : w.options) {
+      Widget row;
+      row.id = option.value;
+      row.kind = WidgetKind::button;
+      row.label = option.label;
+      row.enabled = w.enabled && option.enabled;
       const auto before = press;
-      tile(row, false);
+      tile(row);
       if (press && !before) press = Press{w.id, row.id};
     }
     ImGui::PopID();
@@ -160,20 +178,25 @@ class Display {
     ImGui::SetCursorPosX(unit_);
     ImGui::PushStyleColor(ImGuiCol_PlotHistogram, skin_.accent);
     ImGui::PushStyleColor(ImGuiCol_FrameBg, skin_.tile_hover);
-    ImGui::ProgressBar(std::strtof(w.value.c_str(), nullptr) / 100, {ImGui::GetWindowWidth() - 2 * unit_, 0.8F * unit_}, "");
+    ImGui::ProgressBar(static_cast<float>(w.number), {ImGui::GetWindowWidth() - 2 * unit_, 0.8F * unit_}, "");
     ImGui::PopStyleColor(2);
-    const std::string text = w.value + " %";
+    const std::string& text = w.value;
     ImGui::SetCursorPosX(ImGui::GetWindowWidth() - unit_ - ImGui::CalcTextSize(text.c_str()).x);
     ImGui::TextUnformatted(text.c_str());
   }
 
-  void message(const Widget& w) {
+  void paragraph(const std::string& text) {
     ImGui::Dummy({0, unit_});
     ImGui::SetCursorPosX(unit_);
     ImGui::PushTextWrapPos(ImGui::GetWindowWidth() - unit_);
-    ImGui::TextUnformatted(w.label.c_str());
+    ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
     ImGui::Dummy({0, unit_});
+  }
+
+  void lamp(const Widget& w) {
+    ImGui::SetCursorPosX(unit_);
+    ImGui::TextUnformatted((w.label + ": " + w.value).c_str());
   }
 
   static void reason(const Widget& w) {
@@ -186,35 +209,40 @@ class Display {
 
 }  // namespace
 
-void drawMenu(Menu& menu, const Skin& skin, float width, float height, std::string& error) {
-  const Screen screen = menu.screen();
+void drawDevice(Device& device, const Skin& skin, float width, float height, std::string& error) {
+  const Screen screen = device.screen();
   const float unit = ImGui::GetFontSize() * 0.8F;
   const float bezel = 1.2F * unit;
+  const float keys = 5 * unit;
   const float display_width = std::max(10 * unit, std::min(width, height * skin.display_aspect) - 2 * bezel);
-  const float display_height = std::max(10 * unit, height - 2 * bezel);
+  const float display_height = std::max(10 * unit, height - 2 * bezel - keys);
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + display_width + 2 * bezel, at.y + display_height + 2 * bezel}, skin.body, 1.5F * unit);
+  ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + display_width + 2 * bezel, at.y + display_height + 2 * bezel + keys}, skin.body, 1.5F * unit);
   ImGui::SetCursorScreenPos({at.x + bezel, at.y + bezel});
-  const bool dark = screen.id == "off";
+  const bool dark = screen.id.empty();
   ImGui::PushStyleColor(ImGuiCol_ChildBg, dark ? IM_COL32(12, 13, 14, 255) : skin.display);
   ImGui::PushStyleColor(ImGuiCol_Text, skin.text);
   ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, 0.3F * unit);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.4F * unit, 0.5F * unit});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-  if (ImGui::BeginChild("display", {display_width, display_height}, false)) {
-    Display display(skin, unit);
-    if (!dark) display.titleBar(screen);
-    if (dark) ImGui::SetCursorPosY(display_height - 5 * unit);
-    for (const auto& w : screen.widgets) display.widget(w);
+  Display display(skin, unit);
+  if (ImGui::BeginChild("display", {display_width, display_height}, false) && !dark) {
+    display.titleBar(screen);
+    if (screen.has_dialog) display.dialog(screen.dialog);
+    else
+      for (const auto& w : screen.widgets) display.widget(w);
     ImGui::Dummy({0, 0.5F * unit});
-    if (display.press) {
-      const auto done = menu.act(display.press->widget, display.press->value);
-      error = done ? std::string() : done.error().message;
-    }
   }
+  ImGui::EndChild();
+  ImGui::SetCursorScreenPos({at.x + bezel, at.y + bezel + display_height});
+  if (ImGui::BeginChild("keys", {display_width, keys}, false))
+    for (const auto& w : screen.body) display.widget(w);
   ImGui::EndChild();
   ImGui::PopStyleVar(3);
   ImGui::PopStyleColor(2);
+  if (!display.press) return;
+  const auto done = device.act(display.press->widget, display.press->value);
+  error = done ? std::string() : done.error().message;
 }
 
 }  // namespace standpoint

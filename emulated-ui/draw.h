@@ -3,9 +3,7 @@
 
 #include <string>
 
-#include "emulated-ui/menu.h"
-
-struct ImFont;
+#include "emulated-ui/device/device.h"
 
 namespace standpoint {
 
@@ -16,8 +14,8 @@ struct Skin {
 };
 extern const Skin kLeicaSkin;
 
-// Draws the instrument's display into the current ImGui window at most `width` × `height` pixels, and acts on the menu when
-// something is pressed. `error` receives what the menu refused.
-void drawMenu(Menu& menu, const Skin& skin, float width, float height, std::string& error);
+// Draws the device into the current ImGui window at most `width` × `height` pixels, and acts on it when something is
+// pressed. `error` receives what it refused.
+void drawDevice(Device& device, const Skin& skin, float width, float height, std::string& error);
 
 }  // namespace standpoint
