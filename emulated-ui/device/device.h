@@ -38,6 +38,8 @@ class Device {
   const DeviceState& state() const { return state_; }
 
   Screen screen() const;
+  // What a widget of the present screen does, what its choices cost, and where it is on the device.
+  std::string help(const std::string& widget) const;
   // Presses, chooses, types. What is not there or is grey is an error of kind usage; what the device itself refuses, it
   // says in a dialogue.
   Result<void> act(const std::string& widget, const std::string& value = {});

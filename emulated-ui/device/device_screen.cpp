@@ -118,8 +118,12 @@ std::optional<Widget> Device::widget(const WidgetRow& row) const {
   if (row.kind == WidgetKind::preview && shownSetup() != nullptr) w.value = shownSetup()->file;
   w.enabled = row.enabled.holds(facts());
   if ((!w.enabled || (!row.warns.empty() && row.warns.holds(facts()))) && !row.why_not.empty()) w.why_not = word(row.why_not);
-  w.help = widgetHelp(*this, row);
   return w;
+}
+
+std::string Device::help(const std::string& widget) const {
+  const auto* row = rowOf(widget);
+  return row == nullptr ? std::string() : widgetHelp(*this, *row);
 }
 
 Screen Device::screen() const {

@@ -45,7 +45,6 @@ struct Widget {
   std::string unit;
   bool enabled = true;
   std::string why_not;                  // when it is not enabled; a warning when it is
-  std::string help;                     // what it does, what it costs, where it is on the device
 };
 
 struct Dialog {

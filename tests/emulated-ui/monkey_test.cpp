@@ -30,6 +30,10 @@ class Monkey {
   }
 
   void turn() {
+    if (d_->busy() && next(3) == 0) {   // it has patience now and then
+      work();
+      d_->tick(60);
+    }
     switch (next(20)) {
       case 0: (void)d_->hand(handRows()[next(handRows().size())].id, next(2) == 0 ? "S" + std::to_string(next(3)) : "0.1,0.2"); break;
       case 1:

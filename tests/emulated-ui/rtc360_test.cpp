@@ -327,8 +327,7 @@ TEST_F(Rtc360, SpeaksTheLanguageThatIsChosen) {
 TEST_F(Rtc360, ExplainsEachWidgetWithWhatItCostsAndWhereItIs) {
   ready();
   ASSERT_TRUE(d.press({"settings"}));
-  const auto screen = d->screen();
-  const auto help = findWidget(screen, "resolution")->help;
+  const auto help = d->help("resolution");
   EXPECT_NE(help.find("High (3 mm @ 10 m): 2:42"), std::string::npos) << help;
   EXPECT_NE(help.find("169.4 M"), std::string::npos) << help;
   EXPECT_NE(help.find("Home › Scan settings"), std::string::npos) << help;
