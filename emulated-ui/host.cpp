@@ -2,11 +2,14 @@
 #include "emulated-ui/host.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include <fmt/format.h>
 
+#include "core/units.h"
 #include "emulated-ui/preview.h"
+#include "project/levelling.h"
 #include "project/target_measuring.h"
 
 namespace standpoint {
@@ -161,9 +164,27 @@ void DeviceHost::startScan(const ScanOrder& order, const Document& document, con
   json options = {{"instrument", order.instrument}, {"set", settings}, {"stations", order.station}, {"seed", seed}, {"output", file_.string()}};
   if (order.panorama) options["panorama"] = true;
   if (!order.compensator) options["compensator"] = "off";
+  json mishap = json::array();
+  if (order.until_share < 1) mishap.push_back(fmt::format("until={}", order.until_share));
+  if (order.noise_factor > 1) mishap.push_back(fmt::format("noise={}", order.noise_factor));
+  if (order.bumped_at_share) mishap.push_back(fmt::format("push={}", *order.bumped_at_share));
+  if (!mishap.empty()) options["mishap"] = mishap;
   if (truth) options["truth"] = true;
   task_ = std::make_unique<Task>(fmt::format("{}: {} at {}", device_.type().definition.title, order.name, order.station),
-                                 *findVerb(verbs(), "scan"), document, options, wake_);
+                                 *findVerb(verbs(), "scan"), leaning(document, order.station), options, wake_);
+}
+
+// The station leans as the device does: what its hands and the ground made of it.
+Document DeviceHost::leaning(Document document, const std::string& station_name) const {
+  const auto& around = device_.state().around;
+  if (!document.job) return document;
+  Job job = *document.job;
+  for (auto& station : job.stations)
+    if (station.name == station_name && (around.tilt_x_deg != 0 || around.tilt_y_deg != 0))
+      station.true_pose.rotation =
+          rotationOf(yawOf(station.true_pose.rotation), {device_.tilt() * kRadPerDeg, std::atan2(around.tilt_y_deg, around.tilt_x_deg)});
+  document.job = std::make_shared<const Job>(std::move(job));
+  return document;
 }
 
 void DeviceHost::startWork(const std::string& title, const Document& document, Task::Work work) {

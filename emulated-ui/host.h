@@ -44,6 +44,7 @@ class DeviceHost {
  private:
   void start(const Order& order, const Document& document, const std::filesystem::path& scans_folder);
   void startScan(const ScanOrder& order, const Document& document, const std::filesystem::path& scans_folder);
+  Document leaning(Document document, const std::string& station) const;
   void startWork(const std::string& title, const Document& document, Task::Work work);
   void collect(const Document& document);
   void takeResult(Outcome outcome, const Document& document);

@@ -122,6 +122,11 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const json& option
     if (!weather) return failure(weather.error());
     request.options.weather = *weather;
   }
+  if (options.contains("mishap")) {
+    auto mishap = mishapFrom(options["mishap"].get<std::vector<std::string>>());
+    if (!mishap) return failure(mishap.error());
+    request.mishap = *mishap;
+  }
   request.levelling = {.compensator = options.at("compensator") == "on",
                        .exact = !request.options.effects.has(Effect::levelling),
                        .seed = request.options.seed};

@@ -10,6 +10,7 @@
 #include "pointclouds/formats.h"
 #include "project/document.h"
 #include "project/levelling.h"
+#include "project/mishap.h"
 #include "scanners/ray_engine.h"
 
 namespace standpoint {
@@ -25,6 +26,7 @@ struct ScanRequest {
   bool one_file = false;  // all stations in `output`; else a file each
   Levelling levelling;
   bool panorama = false;  // each station takes its pictures, and the points are coloured from them
+  Mishap mishap;
   bool resume = false;  // stations that an earlier run finished are not scanned again
 };
 
