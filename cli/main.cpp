@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "cli/command_line.h"
+#include "emulated-ui/verbs.h"
 
 namespace {
 
@@ -33,5 +34,5 @@ int main(int count, char** arguments) {
   std::signal(SIGINT, cancelOnSignal);
   std::signal(SIGTERM, cancelOnSignal);
   const std::vector<std::string> words(arguments + 1, arguments + count);
-  return standpoint::runCommandLine(standpoint::verbs(), words, {std::cout, std::cerr, isatty(STDERR_FILENO) == 1}, progress);
+  return standpoint::runCommandLine(standpoint::allVerbs(), words, {std::cout, std::cerr, isatty(STDERR_FILENO) == 1}, progress);
 }

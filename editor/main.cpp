@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "editor/editor.h"
-#include "editor/instrument.h"
+#include "editor/instrument/instrument.h"
 #include "editor/pictures.h"
 #include "editor/shell/actions.h"
 #include "editor/viewport/offscreen.h"

@@ -2,36 +2,24 @@
 #include "emulated-ui/host.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include <fmt/format.h>
 
+#include "core/units.h"
+#include "emulated-ui/preview.h"
+#include "project/levelling.h"
+#include "project/target_measuring.h"
+
 namespace standpoint {
 
 namespace fs = std::filesystem;
-
-fs::path scanFile(const fs::path& scans_folder, const ScanRequest& request) {
-  return scans_folder / request.job / fmt::format("Setup {:03d}.e57", request.setup);
-}
-
-std::vector<StoredScan> storedScans(const Document& document, const std::string& instrument) {
-  std::vector<StoredScan> stored;
-  if (!document.job) return stored;
-  for (const auto& station : document.job->stations)
-    for (const auto& scan : station.scans) {
-      const fs::path file = scan.file;
-      int setup = 0;
-      if (scan.instrument != instrument || std::sscanf(file.stem().string().c_str(), "Setup %d", &setup) != 1) continue;
-      stored.push_back({file.parent_path().filename().string(), setup, station.name, scan.settings, scan.file, scan.points,
-                        scan.instrument_seconds});
-    }
-  std::stable_sort(stored.begin(), stored.end(), [](const StoredScan& a, const StoredScan& b) {
-    return std::pair(a.job, a.setup) < std::pair(b.job, b.setup);
-  });
-  return stored;
-}
+using nlohmann::json;
 
 namespace {
+
+const char* const kCopies = "office";   // folder beside the scans, where copies go
 
 // Adds a scan to a station of the document as it is now.
 Document withScan(Document document, const std::string& station_name, const Scan& scan) {
@@ -42,64 +30,254 @@ Document withScan(Document document, const std::string& station_name, const Scan
   return document;
 }
 
+const Station* stationOf(const Document& document, const std::string& name) {
+  if (!document.job) return nullptr;
+  const auto found = std::find_if(document.job->stations.begin(), document.job->stations.end(), [&](const Station& s) { return s.name == name; });
+  return found == document.job->stations.end() ? nullptr : &*found;
+}
+
+// The last number in a setup's name.
+int numberIn(const std::string& name) {
+  auto from = name.find_last_not_of("0123456789");
+  from = from == std::string::npos ? 0 : from + 1;
+  int number = 0;
+  return std::sscanf(name.c_str() + from, "%9d", &number) == 1 ? number : 0;
+}
+
+Result<Outcome> targetsIn(const Document& document, const std::string& file, std::uint64_t seed, Progress& progress) {
+  MeasuringRequest request;
+  request.files = {file};
+  request.seed = seed;
+  const auto measured = measureTargets(document, request, progress);
+  if (!measured) return failure(measured.error());
+  Outcome outcome{document, json::array(), measured->report, {}, {}};
+  const auto& job = *document.job;
+  for (const auto& m : measured->found) {
+    const auto& target = job.targets[m.target];
+    const auto truth = job.stations[m.station].true_pose.rotation.conjugate() * (target.centre - job.stations[m.station].true_pose.translation);
+    outcome.answer.push_back({{"name", target.name}, {"kind", target.kind == TargetKind::sphere ? "sphere" : "checkerboard"}, {"points", m.fit.points},
+                              {"range_m", m.fit.centre.norm()}, {"residual_m", m.fit.residual_m}, {"error_m", (m.fit.centre - truth).norm()}, {"found", true}});
+  }
+  for (const auto& m : measured->missed)
+    outcome.answer.push_back({{"name", job.targets[m.target].name}, {"found", false}, {"why", m.why}});
+  return outcome;
+}
+
+std::vector<FittedTarget> targetsFrom(const json& rows) {
+  std::vector<FittedTarget> targets;
+  for (const auto& row : rows) {
+    FittedTarget t;
+    t.name = row.at("name");
+    t.found = row.at("found");
+    if (t.found) {
+      t.kind = row.at("kind");
+      t.points = row.at("points");
+      t.range_m = row.at("range_m");
+      t.residual_m = row.at("residual_m");
+      t.error_m = row.at("error_m");
+    } else {
+      t.why_not = row.at("why");
+    }
+    targets.push_back(std::move(t));
+  }
+  return targets;
+}
+
+LinkResult linkFrom(const json& answer) {
+  const auto& row = answer.at("stations").back();
+  LinkResult link;
+  if (!row.contains("fit")) return link;
+  link.error_m = row["fit"].at("rms_m");
+  link.overlap = row["fit"].at("used_share");
+  link.true_error_m = row.at("true_error_m");
+  link.true_error_deg = row.at("true_turn_error_deg");
+  link.joined = row["fit"].at("settled").get<bool>() && row["fit"].at("not_held").empty();
+  return link;
+}
+
+// Copies byte for byte and looks at the sizes afterwards.
+Result<Outcome> copyFiles(const Document& document, const TransferOrder& order, const fs::path& folder, Progress& progress) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder.string());
+  json copied = json::array();
+  for (const auto& file : order.files) {
+    if (auto going = progress.check(); !going) return failure(going.error());
+    const fs::path to = folder / (fs::path(file).parent_path().filename().string() + " - " + fs::path(file).filename().string());
+    fs::copy_file(file, to, fs::copy_options::overwrite_existing, error);
+    if (error) return failure(ErrorKind::file_system, "cannot copy: " + error.message(), file);
+    if (fs::file_size(file, error) != fs::file_size(to, error)) return failure(ErrorKind::file_system, "the copy has another size", to.string());
+    copied.push_back(file);
+    progress.advance(static_cast<double>(copied.size()) / static_cast<double>(order.files.size()));
+  }
+  return Outcome{document, copied, {}, {}, {}};
+}
+
 }  // namespace
 
-InstrumentHost::InstrumentHost(const EmulatedInstrument& emulated, std::unique_ptr<Menu> menu, const Document& document,
-                               std::function<void()> wake)
-    : emulated_(emulated), menu_(std::move(menu)), wake_(std::move(wake)) {
-  menu_->load(storedScans(document, emulated_.instrument));
+fs::path scanFile(const fs::path& scans_folder, const ScanOrder& order) {
+  const fs::path folder = order.folder.empty() ? scans_folder / order.project : scans_folder / order.project / order.folder;
+  return folder / (order.name + ".e57");
 }
 
-void InstrumentHost::start(const ScanRequest& request, const Document& document, const fs::path& scans_folder) {
-  if (scans_folder.empty()) return menu_->scanFailed("Save the project first: the scan needs a folder.");
-  request_ = request;
-  file_ = scanFile(scans_folder, request);
+std::vector<StoredSetup> storedSetups(const Document& document, const DeviceType& type) {
+  std::vector<StoredSetup> stored;
+  if (!document.job) return stored;
+  for (const auto& station : document.job->stations)
+    for (const auto& scan : station.scans) {
+      const fs::path file = scan.file;
+      const int number = numberIn(file.stem().string());
+      if (scan.instrument != type.instrument.id || number == 0) continue;
+      StoredSetup s;
+      s.project = file.parent_path().filename().string();
+      s.number = number;
+      s.name = file.stem().string();
+      s.station = station.name;
+      s.settings = scan.settings;
+      s.file = scan.file;
+      s.points = scan.points;
+      s.bytes = static_cast<double>(scan.points) * type.definition.body.bytes_per_point;
+      s.instrument_seconds = scan.instrument_seconds;
+      const auto& pose = station.solved_pose ? *station.solved_pose : station.true_pose;
+      s.plan_x_m = pose.translation.x();
+      s.plan_y_m = pose.translation.y();
+      stored.push_back(std::move(s));
+    }
+  std::stable_sort(stored.begin(), stored.end(), [](const StoredSetup& a, const StoredSetup& b) {
+    return std::pair(a.project, a.number) < std::pair(b.project, b.number);
+  });
+  return stored;
+}
+
+DeviceHost::DeviceHost(std::shared_ptr<const DeviceType> type, const Document& document, std::function<void()> wake)
+    : device_(std::move(type)), wake_(std::move(wake)) {
+  device_.load(storedSetups(document, device_.type()));
+}
+
+void DeviceHost::startScan(const ScanOrder& order, const Document& document, const fs::path& scans_folder) {
+  file_ = scanFile(scans_folder, order);
   std::error_code error;
   fs::create_directories(file_.parent_path(), error);
-  if (error) return menu_->scanFailed("Cannot create " + file_.parent_path().string() + ": " + error.message());
-  nlohmann::json settings = nlohmann::json::array();
-  for (const auto& [key, value] : request.settings) settings.push_back(key + "=" + value);
-  const nlohmann::json options = {{"instrument", request.instrument}, {"set", settings},       {"stations", request.station},
-                                  {"seed", seed},                     {"output", file_.string()}};
-  task_ = std::make_unique<Task>(fmt::format("{}: setup {} at {}", emulated_.device, request.setup, request.station),
-                                 *findVerb(verbs(), "scan"), document, options, wake_);
+  if (error) return device_.orderFailed("Cannot create " + file_.parent_path().string() + ": " + error.message());
+  json settings = json::array();
+  for (const auto& [key, value] : order.settings) settings.push_back(key + "=" + value);
+  json options = {{"instrument", order.instrument}, {"set", settings}, {"stations", order.station}, {"seed", seed}, {"output", file_.string()}};
+  if (order.panorama) options["panorama"] = true;
+  if (!order.compensator) options["compensator"] = "off";
+  json mishap = json::array();
+  if (order.until_share < 1) mishap.push_back(fmt::format("until={}", order.until_share));
+  if (order.noise_factor > 1) mishap.push_back(fmt::format("noise={}", order.noise_factor));
+  if (order.bumped_at_share) mishap.push_back(fmt::format("push={}", *order.bumped_at_share));
+  if (!mishap.empty()) options["mishap"] = mishap;
+  if (truth) options["truth"] = true;
+  task_ = std::make_unique<Task>(fmt::format("{}: {} at {}", device_.type().definition.title, order.name, order.station),
+                                 *findVerb(verbs(), "scan"), leaning(document, order.station), options, wake_);
 }
 
-// Takes the simulation's result to the menu.
-void InstrumentHost::collect() {
+// The station leans as the device does: what its hands and the ground made of it.
+Document DeviceHost::leaning(Document document, const std::string& station_name) const {
+  const auto& around = device_.state().around;
+  if (!document.job) return document;
+  Job job = *document.job;
+  for (auto& station : job.stations)
+    if (station.name == station_name && (around.tilt_x_deg != 0 || around.tilt_y_deg != 0))
+      station.true_pose.rotation =
+          rotationOf(yawOf(station.true_pose.rotation), {device_.tilt() * kRadPerDeg, std::atan2(around.tilt_y_deg, around.tilt_x_deg)});
+  document.job = std::make_shared<const Job>(std::move(job));
+  return document;
+}
+
+void DeviceHost::startWork(const std::string& title, const Document& document, Task::Work work) {
+  task_ = std::make_unique<Task>(title, *findVerb(verbs(), "register"), document, json{{"files", json::array({"-"})}}, wake_, std::move(work));
+}
+
+void DeviceHost::start(const Order& order, const Document& document, const fs::path& scans_folder) {
+  if (scans_folder.empty()) return device_.orderFailed("Save the project first: the scan needs a folder.");
+  running_ = order;
+  if (const auto* scan = std::get_if<ScanOrder>(&order)) return startScan(*scan, document, scans_folder);
+  if (const auto* link = std::get_if<LinkOrder>(&order)) {
+    const json options = {{"files", {link->to_file, link->from_file}}, {"cloud", true}, {"seed", seed}};
+    task_ = std::make_unique<Task>("Link", *findVerb(verbs(), "register"), document, options, wake_);
+  } else if (const auto* targets = std::get_if<TargetOrder>(&order)) {
+    startWork("Targets", document, [file = targets->file, s = seed](const Document& d, Progress& p) { return targetsIn(d, file, s, p); });
+  } else if (const auto* preview = std::get_if<PreviewOrder>(&order)) {
+    startWork("Preview", document, [this, file = preview->file](const Document& d, Progress& p) -> Result<Outcome> {
+      auto read = readPreview(file, p);
+      if (!read) return failure(read.error());
+      preview_ = *std::move(read);
+      return Outcome{d, json::object(), {}, {}, {}};
+    });
+  } else if (const auto* transfer = std::get_if<TransferOrder>(&order)) {
+    startWork("Transfer", document, [order = *transfer, folder = scans_folder.parent_path() / kCopies](const Document& d, Progress& p) {
+      return copyFiles(d, order, folder, p);
+    });
+  }
+}
+
+void DeviceHost::takeResult(Outcome outcome, const Document& document) {
+  if (const auto* scan = std::get_if<ScanOrder>(&*running_)) {
+    const auto& row = outcome.answer.at("stations").at(0);
+    StoredSetup s;
+    s.project = scan->project;
+    s.number = scan->number;
+    s.name = scan->name;
+    s.station = scan->station;
+    s.settings = scan->settings;
+    s.file = file_.string();
+    s.points = row.at("points").get<std::uint64_t>();
+    s.bytes = static_cast<double>(s.points) * device_.type().definition.body.bytes_per_point;
+    s.instrument_seconds = row.at("instrument_seconds").get<double>();
+    if (const auto* station = stationOf(document, scan->station)) {
+      s.plan_x_m = station->true_pose.translation.x();
+      s.plan_y_m = station->true_pose.translation.y();
+    }
+    station_ = scan->station;
+    if (const auto* station = stationOf(outcome.document, scan->station)) finished_ = station->scans.back();
+    device_.scanDone(std::move(s));
+  } else if (std::holds_alternative<LinkOrder>(*running_)) {
+    device_.linkDone(linkFrom(outcome.answer));
+  } else if (std::holds_alternative<TargetOrder>(*running_)) {
+    device_.targetsDone(targetsFrom(outcome.answer));
+  } else if (const auto* preview = std::get_if<PreviewOrder>(&*running_)) {
+    device_.previewDone(preview->file, std::move(preview_));
+  } else if (const auto* transfer = std::get_if<TransferOrder>(&*running_)) {
+    device_.transferDone(transfer->files);
+  }
+}
+
+// Takes the task's result to the device.
+void DeviceHost::collect(const Document& document) {
   if (!task_) return;
-  menu_->scanMoved(task_->progress().fraction());
+  device_.orderMoved(task_->progress().fraction());
   if (!task_->done()) return;
   auto outcome = task_->take();
   task_.reset();
-  if (!outcome) {
-    if (outcome.error().kind != ErrorKind::cancelled) menu_->scanFailed(describe(outcome.error()));
-    return;
-  }
-  const auto& row = outcome->answer.at("stations").at(0);
-  menu_->scanDone({request_.job, request_.setup, request_.station, request_.settings, file_.string(),
-                   row.at("points").get<std::uint64_t>(), row.at("instrument_seconds").get<double>()});
-  for (const auto& station : outcome->document.job->stations)
-    if (station.name == request_.station) finished_ = station.scans.back();
+  if (outcome) return takeResult(*std::move(outcome), document);
+  if (outcome.error().kind == ErrorKind::cancelled) return;
+  if (std::holds_alternative<LinkOrder>(*running_)) return device_.linkDone({});   // nothing in common: no link
+  device_.orderFailed(describe(outcome.error()));
 }
 
-std::optional<Outcome> InstrumentHost::update(const Document& document, const fs::path& scans_folder, double seconds,
-                                              bool may_store) {
-  if (const auto request = menu_->takeRequest()) start(*request, document, scans_folder);
-  if (menu_->takeCancel()) {
-    if (task_) task_->progress().cancel();
+std::optional<Outcome> DeviceHost::update(const Document& document, const fs::path& scans_folder, double seconds, bool may_store) {
+  if (device_.takeCancel()) {
+    if (task_) {
+      task_->progress().cancel();
+      (void)task_->take();
+      task_.reset();
+    }
     if (finished_) {
       std::error_code ignored;
       fs::remove(file_, ignored);
       finished_.reset();
     }
   }
-  collect();
-  menu_->tick(seconds * time_factor);
-  if (!may_store || !menu_->takeStored() || !finished_) return std::nullopt;
-  Outcome outcome{withScan(document, request_.station, *finished_), nlohmann::json::object(), {}, {}};
-  outcome.description = fmt::format("Scanned setup {} of '{}' at {} with {}", request_.setup, request_.job,
-                                    request_.station, emulated_.device);
+  if (!task_)
+    if (const auto order = device_.takeOrder()) start(*order, document, scans_folder);
+  collect(document);
+  device_.tick(seconds * time_factor);
+  if (!may_store || !finished_ || !device_.takeStored()) return std::nullopt;
+  Outcome outcome{withScan(document, station_, *finished_), json::object(), {}, {}, {}};
+  outcome.description = fmt::format("Scanned '{}' at {} with {}", fs::path(finished_->file).stem().string(), station_, device_.type().definition.title);
   finished_.reset();
   return outcome;
 }

@@ -6,53 +6,57 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "emulated-ui/menus.h"
+#include "emulated-ui/device/device.h"
 #include "project/task.h"
 
 namespace standpoint {
 
-// Where an instrument's setup is stored in a project: scans/<job>/Setup 001.e57. The names are the record: a project that
-// is opened again fills the instrument's memory from them.
-std::filesystem::path scanFile(const std::filesystem::path& scans_folder, const ScanRequest& request);
-std::vector<StoredScan> storedScans(const Document& document, const std::string& instrument);
+// Where a device's setup is stored in a project: scans/<project>/[<cluster>/]<name>.e57. The names are the record: a project
+// that is opened again fills the device's memory from them.
+std::filesystem::path scanFile(const std::filesystem::path& scans_folder, const ScanOrder& order);
+std::vector<StoredSetup> storedSetups(const Document& document, const DeviceType& type);
 
-// Runs an emulated instrument against a document: its requests become the verb `scan` (as a Task), its clock goes as fast
-// as the user wants, and a setup enters the document only when the instrument has stored it.
-class InstrumentHost {
+// Runs an emulated device against a document: its orders become tasks, its clock goes as fast as the user wants, and a setup
+// enters the document only when the device has stored it.
+class DeviceHost {
  public:
-  InstrumentHost(const EmulatedInstrument& emulated, std::unique_ptr<Menu> menu, const Document& document,
-                 std::function<void()> wake);
+  DeviceHost(std::shared_ptr<const DeviceType> type, const Document& document, std::function<void()> wake);
 
-  Menu& menu() { return *menu_; }
-  const char* device() const { return emulated_.device; }
+  Device& device() { return device_; }
+  const Device& device() const { return device_; }
 
-  // Instrument seconds per second: 1 is rehearsal in real time.
-  double time_factor = 20;
+  double time_factor = 20;         // device seconds per second: 1 is rehearsal in real time
   std::uint64_t seed = 1;
+  bool truth = false;              // the files hold what is known of each point
 
   // Call once per frame. `seconds` since the last call; `scans_folder` empty while the project has no folder.
-  // Gives `document` with the setup in it, and the undo line, when the instrument has stored one; whatever else was done
-  // to the document while the instrument was scanning stays. `may_store` false: something else is changing the document
-  // just now, so a finished setup waits.
+  // Gives `document` with the setup in it, and the undo line, when the device has stored one; whatever else was done to the
+  // document meanwhile stays. `may_store` false: something else is changing the document just now, so a finished setup waits.
   std::optional<Outcome> update(const Document& document, const std::filesystem::path& scans_folder, double seconds,
                                 bool may_store = true);
 
-  // The simulation that runs behind the instrument's screen; null when none does.
+  // The simulation that runs behind the device's screen; null when none does.
   Task* task() { return task_.get(); }
-  bool busy() const { return menu_->busy() || task_ != nullptr; }
+  bool busy() const { return device_.busy() || task_ != nullptr; }
 
  private:
-  void start(const ScanRequest& request, const Document& document, const std::filesystem::path& scans_folder);
-  void collect();
+  void start(const Order& order, const Document& document, const std::filesystem::path& scans_folder);
+  void startScan(const ScanOrder& order, const Document& document, const std::filesystem::path& scans_folder);
+  Document leaning(Document document, const std::string& station) const;
+  void startWork(const std::string& title, const Document& document, Task::Work work);
+  void collect(const Document& document);
+  void takeResult(Outcome outcome, const Document& document);
 
-  EmulatedInstrument emulated_;
-  std::unique_ptr<Menu> menu_;
+  Device device_;
   std::function<void()> wake_;
   std::unique_ptr<Task> task_;
-  ScanRequest request_;
+  std::optional<Order> running_;
   std::filesystem::path file_;
-  std::optional<Scan> finished_;      // waits for the instrument to store it
+  std::optional<Scan> finished_;   // waits for the device to store it
+  std::string station_;            // of the finished scan
+  std::shared_ptr<const ScanPreview> preview_;   // that a task has read
 };
 
 }  // namespace standpoint

@@ -4,31 +4,45 @@
 #include <algorithm>
 #include <array>
 
+#include "emulated-ui/faro/focus.h"
 #include "emulated-ui/leica/rtc360.h"
+#include "project/instruments.h"
 #include "project/verb.h"
 
 namespace standpoint {
 
 namespace {
 
-constexpr std::array kEmulated = {
-    EmulatedInstrument{"leica-rtc360", "Leica RTC360", makeRtc360},
+constexpr std::array kDevices = {
+    EmulatedDevice{"leica-rtc360", "Leica RTC360", rtc360Program},
+    EmulatedDevice{"faro-focus", "FARO Focus", focusProgram},
 };
 
 }  // namespace
 
-std::span<const EmulatedInstrument> emulatedInstruments() { return kEmulated; }
+std::span<const EmulatedDevice> emulatedDevices() { return kDevices; }
 
-Result<std::unique_ptr<Menu>> makeMenu(const EmulatedInstrument& emulated) {
-  auto instrument =
-      readInstrument(dataFolder() / "scanners" / "instruments" / (std::string(emulated.instrument) + ".json"));
-  if (!instrument) return failure(instrument.error());
-  return emulated.make(*instrument);
+const EmulatedDevice* findDevice(const std::string& id) {
+  const auto found = std::find_if(kDevices.begin(), kDevices.end(), [&](const EmulatedDevice& d) { return id == d.id; });
+  return found == kDevices.end() ? nullptr : &*found;
 }
 
-const Widget* findWidget(const Screen& screen, const std::string& id) {
-  const auto found = std::find_if(screen.widgets.begin(), screen.widgets.end(), [&](const Widget& w) { return w.id == id; });
-  return found == screen.widgets.end() ? nullptr : &*found;
+Result<std::shared_ptr<const DeviceType>> loadDevice(const EmulatedDevice& device, const std::string& instrument) {
+  const auto folder = dataFolder() / "emulated-ui";
+  auto definition = readDefinition(folder / device.program().definition);
+  if (!definition) return failure(definition.error());
+  auto words = Words::read(folder / "words");
+  if (!words) return failure(words.error());
+  auto found = instrumentById(instrument.empty() ? definition->instruments.front() : instrument);
+  if (!found) return failure(found.error());
+  return makeDeviceType(*std::move(definition), device.program(), *std::move(found), std::make_shared<const Words>(*std::move(words)));
+}
+
+const EmulatedDevice& deviceFor(const std::string& instrument) {
+  for (const auto& device : kDevices)
+    if (const auto definition = readDefinition(dataFolder() / "emulated-ui" / device.program().definition))
+      if (std::find(definition->instruments.begin(), definition->instruments.end(), instrument) != definition->instruments.end()) return device;
+  return kDevices.back();
 }
 
 }  // namespace standpoint

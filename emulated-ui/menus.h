@@ -3,21 +3,25 @@
 
 #include <memory>
 #include <span>
+#include <string>
 
-#include "emulated-ui/menu.h"
+#include "emulated-ui/device/device.h"
 
 namespace standpoint {
 
-struct EmulatedInstrument {
-  const char* instrument;   // id of the data sheet
-  const char* device;       // what is emulated, for the editor's list
-  Result<std::unique_ptr<Menu>> (*make)(const Instrument&);
+struct EmulatedDevice {
+  const char* id;                          // "leica-rtc360"
+  const char* title;                       // "Leica RTC360"
+  const DeviceProgram& (*program)();
 };
 
-// The table of emulated instruments; a new one is a folder and one line in menus.cpp.
-std::span<const EmulatedInstrument> emulatedInstruments();
+// The table of emulated devices; a new one is a folder, a data file and one line in menus.cpp.
+std::span<const EmulatedDevice> emulatedDevices();
+const EmulatedDevice* findDevice(const std::string& id);
 
-// Reads the instrument's data sheet and labels from the program's data and makes its menu.
-Result<std::unique_ptr<Menu>> makeMenu(const EmulatedInstrument& emulated);
+// Reads its data file, the words and the scanner's data sheet. `instrument` empty: the first that it drives.
+Result<std::shared_ptr<const DeviceType>> loadDevice(const EmulatedDevice& device, const std::string& instrument = {});
+// The device that drives this scanner; the generic one where no other does.
+const EmulatedDevice& deviceFor(const std::string& instrument);
 
 }  // namespace standpoint

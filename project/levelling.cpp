@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "project/levelling.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -66,17 +67,20 @@ Result<Pose> believedPose(const Station& station, const Instrument& instrument, 
     return pose;
   }
   const auto& compensator = *instrument.compensator;
-  if (compensator.range_rad > 0 && tilt.angle_rad > compensator.range_rad)
+  const double limit_rad = std::max(compensator.range_rad, compensator.reduced_range_rad);
+  if (compensator.range_rad > 0 && tilt.angle_rad > limit_rad)
     return failure(
         ErrorKind::unusable,
         fmt::format("station {} stands {} out of level, and the compensator of the {} {} works up to {}; level it "
                     "(station --move {} --tilt-deg 0) or switch the compensator off (--compensator off)",
                     station.name, angleText(tilt.angle_rad), instrument.maker, instrument.model,
-                    angleText(compensator.range_rad), station.name));
+                    angleText(limit_rad), station.name));
   if (levelling.exact) return pose;
+  const double accuracy_rad = tilt.angle_rad > compensator.range_rad && compensator.reduced_range_rad > 0 ? compensator.reduced_accuracy_rad
+                                                                                                         : compensator.accuracy_rad;
   const auto drawn = normals(philox(keyOf(levelling.seed, station.name), kOfTheStand, kOfTheStand, kCompensator));
-  const double x = tilt.angle_rad * std::cos(tilt.towards_rad) + compensator.accuracy_rad * drawn[0];
-  const double y = tilt.angle_rad * std::sin(tilt.towards_rad) + compensator.accuracy_rad * drawn[1];
+  const double x = tilt.angle_rad * std::cos(tilt.towards_rad) + accuracy_rad * drawn[0];
+  const double y = tilt.angle_rad * std::sin(tilt.towards_rad) + accuracy_rad * drawn[1];
   pose.rotation = rotationOf(yaw, {std::hypot(x, y), std::atan2(y, x)});
   return pose;
 }

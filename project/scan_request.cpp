@@ -148,6 +148,11 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const json& option
     request.options.sun = *sun;
   }
   request.options.interference = options.value("interference", 0.0);
+  if (options.contains("mishap")) {
+    auto mishap = mishapFrom(options["mishap"].get<std::vector<std::string>>());
+    if (!mishap) return failure(mishap.error());
+    request.mishap = *mishap;
+  }
   request.levelling = {.compensator = options.at("compensator") == "on",
                        .exact = !request.options.effects.has(Effect::levelling),
                        .seed = request.options.seed};

@@ -10,6 +10,7 @@
 #include "pointclouds/formats.h"
 #include "project/document.h"
 #include "project/levelling.h"
+#include "project/mishap.h"
 #include "scanners/ray_engine.h"
 
 namespace standpoint {
@@ -28,6 +29,7 @@ struct ScanRequest {
   Levelling levelling;
   bool panorama = false;  // each station takes its pictures, and the points are coloured from them
   std::uint32_t panorama_columns = 0;  // that were asked for; 0: the instrument's own
+  Mishap mishap;
   bool resume = false;  // stations that an earlier run finished are not scanned again
 };
 

@@ -127,8 +127,8 @@ Result<ScanCount> scanStation(const RayScene& scene, const ScanWorld& world, con
   if (auto ok = sink.begin(header); !ok) return failure(ok.error());
   ScanOptions options = request.options;
   options.station_key = static_cast<std::uint32_t>(stableHash(station.name.c_str()));
-  const Trajectory tripod{{0}, {station.true_pose}};
-  auto count = scan(scene, world.assignment, request.instrument, request.settings, tripod, options, sink, progress);
+  auto count = scanWithMishap(scene, world.assignment, request.instrument, request.settings, station.true_pose, options,
+                              request.mishap, sink, progress);
   if (!count) return count;
   if (auto ok = sink.end(); !ok) return failure(ok.error());
   return count;

@@ -105,6 +105,8 @@ struct Compensator {
   std::string kind;                // "liquid", "inclinometer", "imu" or "self_levelling"
   double range_rad = 0;            // of the tilt that it corrects; 0 = no limit is known
   double accuracy_rad = 0;         // 1 σ of each of its two axes
+  double reduced_range_rad = 0;    // up to here it still works, less well; 0 = there is no such range
+  double reduced_accuracy_rad = 0;
 };
 
 // What turns on an instrument that is carried or driven: laser heads that sweep whole turns, each with its channels.

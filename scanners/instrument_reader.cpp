@@ -104,6 +104,10 @@ class Reader : FigureReader {
     compensator.kind = word(group, "kind", {"liquid", "inclinometer", "imu", "self_levelling"});
     compensator.range_rad = figure(group, "range_deg", {0, 90, kRadPerDeg});
     compensator.accuracy_rad = figure(group, "accuracy_arcsec", {0, 36000, kRadPerArcsec});
+    if (group.object->contains("reduced_range_deg")) {
+      compensator.reduced_range_rad = figure(group, "reduced_range_deg", {0, 90, kRadPerDeg});
+      compensator.reduced_accuracy_rad = figure(group, "reduced_accuracy_arcsec", {0, 36000, kRadPerArcsec});
+    }
     close(group);
     instrument_.compensator = std::move(compensator);
   }

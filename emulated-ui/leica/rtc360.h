@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <memory>
-
-#include "emulated-ui/menu.h"
+#include "emulated-ui/device/program.h"
 
 namespace standpoint {
 
-// The RTC360's touch display: home, jobs, scan settings, scanning, stored setups, status.
-// States: off → booting → ready → scanning (one or two passes) → photographing → storing → ready.
-Result<std::unique_ptr<Menu>> makeRtc360(const Instrument& instrument);
+// Leica RTC360 with its touch display and what FIELD 360 adds: off, booting, idle, one or two passes of the laser, pictures,
+// storing, and the tracking of the way to the next setup. Transitions: instrument facts, section 2.2.
+const DeviceProgram& rtc360Program();
 
 }  // namespace standpoint

@@ -3,9 +3,8 @@
 #include <fstream>
 #include <thread>
 
-#include <gtest/gtest.h>
-
 #include "emulated-ui/host.h"
+#include "tests/emulated-ui/support.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -18,76 +17,102 @@ std::string bytes(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-class HostTest : public testing::Test {
+class Host : public testing::Test {
  protected:
-  HostTest()
+  Host()
       : document_(run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500002.5, 5600002, 1.6}}})->document),
-        host_(emulatedInstruments()[0], *makeMenu(emulatedInstruments()[0]), document_, nullptr) {
-    auto& menu = host_.menu();
-    (void)menu.act("power");
-    menu.tick(60);
-    menu.standAt("S1");
-    (void)menu.act("job");
-    (void)menu.act("new_job");
-    (void)menu.act("name", "House");
-    (void)menu.act("create");
-    (void)menu.act("settings");
-    (void)menu.act("resolution", "12mm");
-    (void)menu.act("images", "off");
-    (void)menu.act("back");
+        host_(*loadDevice(*findDevice("leica-rtc360")), document_, nullptr) {
+    press({"power"});
+    device().tick(60);
+    (void)device().hand("stand_at", "S1");
+    press({"job", "new_job", "name=House", "create", "settings", "resolution=12mm", "images=off", "back"});
   }
 
+  Device& device() { return host_.device(); }
+  void press(const std::vector<std::string>& widgets) {
+    for (const auto& text : widgets) {
+      const auto equals = text.find('=');
+      const auto done = device().act(text.substr(0, equals), equals == std::string::npos ? "" : text.substr(equals + 1));
+      EXPECT_TRUE(done) << text << ": " << describe(done.error());
+    }
+  }
   std::optional<Outcome> runUntilIdle(double seconds_a_step) {
     for (int i = 0; i < 10000; ++i) {
-      if (auto stored = host_.update(document_, folder_.path(), seconds_a_step)) return stored;
+      if (auto stored = host_.update(document_, folder_.path() / "scans", seconds_a_step)) return stored;
       if (!host_.busy()) return std::nullopt;
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     return std::nullopt;
   }
+  void runOrder() {
+    for (int i = 0; i < 10000; ++i) {
+      (void)host_.update(document_, folder_.path() / "scans", 0.001);
+      if (host_.task() == nullptr) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  }
 
   TemporaryFolder folder_;
   Document document_;
-  InstrumentHost host_;
+  DeviceHost host_;
 };
 
-TEST_F(HostTest, AScanThroughTheMenuGivesTheSameBytesAsTheVerb) {
-  ASSERT_TRUE(host_.menu().act("scan"));
+TEST_F(Host, AScanThroughTheDeviceGivesTheSameBytesAsTheVerb) {
+  press({"scan"});
   const auto stored = runUntilIdle(1);
   ASSERT_TRUE(stored);
   const auto& scan = stored->document.job->stations[0].scans.at(0);
-  EXPECT_EQ(fs::path(scan.file), folder_.path() / "House" / "Setup 001.e57");
-  EXPECT_EQ(stored->description, "Scanned setup 1 of 'House' at S1 with Leica RTC360");
+  EXPECT_EQ(fs::path(scan.file), folder_.path() / "scans" / "House" / "Setup 001.e57");
+  EXPECT_EQ(stored->description, "Scanned 'Setup 001' at S1 with Leica RTC360");
   const auto direct = folder_.path() / "direct.e57";
   ASSERT_TRUE(run("scan", document_, {{"instrument", "leica-rtc360"}, {"set", {"resolution=12mm", "images=off"}}, {"seed", 1}, {"output", direct.string()}}));
   EXPECT_TRUE(bytes(scan.file) == bytes(direct));
 }
 
-TEST_F(HostTest, AStoppedScanLeavesNoFileAndNoSetup) {
-  ASSERT_TRUE(host_.menu().act("scan"));
+TEST_F(Host, ShowsMeasuresAndHandsOverTheScanAtOnce) {
+  press({"scan"});
+  const auto stored = runUntilIdle(1);
+  ASSERT_TRUE(stored);
+  document_ = stored->document;
+  press({"look"});
+  runOrder();
+  ASSERT_NE(device().shownSetup()->preview, nullptr);
+  EXPECT_EQ(device().shownSetup()->preview->columns, 509U);
+  // Opposite directions, level: the room's inner length, 6 - 2 x 0.2 m, between two of its walls.
+  press({"preview=0.001,0.42", "preview=0.501,0.42"});
+  const double along = device().fact("measured")->number.value();
+  EXPECT_GT(along, 3.5);
+  EXPECT_LT(along, 7.5);
+  press({"home", "tools", "transfer", "by_cable"});
+  runOrder();
+  EXPECT_EQ(device().state().dialog, "transferred");
+  EXPECT_TRUE(bytes(folder_.path() / "office" / "House - Setup 001.e57") == bytes(device().state().projects[0].setups[0].file));
+}
+
+TEST_F(Host, AStoppedScanLeavesNoFileAndNoSetup) {
+  press({"scan"});
   host_.time_factor = 0.001;
-  (void)host_.update(document_, folder_.path(), 0.01);
-  ASSERT_TRUE(host_.menu().act("stop"));
-  ASSERT_TRUE(host_.menu().act("yes"));
+  (void)host_.update(document_, folder_.path() / "scans", 0.01);
+  press({"stop", "yes"});
   EXPECT_FALSE(runUntilIdle(0.01));
   for (const auto& entry : fs::recursive_directory_iterator(folder_.path())) EXPECT_FALSE(entry.is_regular_file()) << entry.path();
 }
 
-TEST_F(HostTest, WithoutAProjectFolderTheInstrumentSaysWhatToDo) {
-  ASSERT_TRUE(host_.menu().act("scan"));
+TEST_F(Host, WithoutAProjectFolderTheDeviceSaysWhatToDo) {
+  press({"scan"});
   EXPECT_FALSE(host_.update(document_, {}, 0.1));
-  EXPECT_NE(findWidget(host_.menu().screen(), "message")->label.find("Save the project"), std::string::npos);
+  EXPECT_NE(device().screen().dialog.text.find("Save the project"), std::string::npos);
 }
 
-TEST_F(HostTest, TheInstrumentsMemoryIsFilledFromTheProject) {
-  ASSERT_TRUE(host_.menu().act("scan"));
+TEST_F(Host, TheDevicesMemoryIsFilledFromTheProject) {
+  press({"scan"});
   const auto stored = runUntilIdle(1);
   ASSERT_TRUE(stored);
-  const auto scans = storedScans(stored->document, "leica-rtc360");
-  ASSERT_EQ(scans.size(), 1U);
-  EXPECT_EQ(scans[0].job, "House");
-  EXPECT_EQ(scans[0].setup, 1);
-  EXPECT_EQ(scans[0].station, "S1");
+  const auto setups = storedSetups(stored->document, device().type());
+  ASSERT_EQ(setups.size(), 1U);
+  EXPECT_EQ(setups[0].project, "House");
+  EXPECT_EQ(setups[0].number, 1);
+  EXPECT_EQ(setups[0].station, "S1");
 }
 
 }  // namespace

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "emulated-ui/device/check.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include <fmt/format.h>
+
+namespace standpoint {
+
+namespace {
+
+// What the engine, the host and the hands send by themselves.
+const std::set<std::string> kOwnEvents = {"elapsed", "data", "linked", "targets_measured", "transferred", "failed",
+                                          "battery_low", "battery_critical", "battery_empty", "card_inserted", "card_removed",
+                                          "moved", "blocked", "temperature", "tilted", "tracking_lost", "wlan_lost", "set_down"};
+// What every device has to know, whatever it answers.
+const std::set<std::string> kOwnDialogs = {"refused", "failed"};
+
+using Graph = std::map<std::string, std::set<std::string>>;
+
+std::set<std::string> reached(const Graph& graph, const std::set<std::string>& from) {
+  std::set<std::string> seen = from;
+  std::vector<std::string> open(from.begin(), from.end());
+  while (!open.empty()) {
+    const auto at = open.back();
+    open.pop_back();
+    if (const auto next = graph.find(at); next != graph.end())
+      for (const auto& to : next->second)
+        if (seen.insert(to).second) open.push_back(to);
+  }
+  return seen;
+}
+
+Graph turned(const Graph& graph) {
+  Graph other;
+  for (const auto& [from, tos] : graph)
+    for (const auto& to : tos) other[to].insert(from);
+  return other;
+}
+
+std::vector<std::string> split(const char* text) {
+  std::istringstream words(text);
+  std::vector<std::string> found;
+  for (std::string word; words >> word;) found.push_back(word);
+  return found;
+}
+
+// "Low (12 mm @ 10 m)" has a word to translate; "1/4", "3x" and "6 mm @ 10 m" have none.
+bool hasWord(const std::string& text) {
+  int letters = 0;
+  for (const char c : text) {
+    letters = std::isalpha(static_cast<unsigned char>(c)) != 0 ? letters + 1 : 0;
+    if (letters >= 4) return true;
+  }
+  return false;
+}
+
+class Checker {
+ public:
+  explicit Checker(const DeviceType& type)
+      : type_(type), device_(std::make_shared<const DeviceType>(type)), lookup_([this](const std::string& name) { return device_.domain(name); }) {}
+
+  std::vector<Error> check() {
+    collectEvents();
+    for (const auto& screen : d().screens) checkScreen(screen);
+    for (const auto& key : d().keys) checkWidget(key, "/keys/" + key.id);
+    checkTransitions();
+    checkPhases();
+    checkDialogs();
+    checkReach();
+    checkWords();
+    return std::move(faults_);
+  }
+
+ private:
+  const DeviceDefinition& d() const { return type_.definition; }
+  void fault(const std::string& place, const std::string& message) {
+    faults_.push_back({ErrorKind::unusable, message, d().id + " " + place});
+  }
+
+  void collectEvents() {
+    for (const auto& t : type_.program.transitions) known_.insert(t.event);
+    for (const auto& screen : d().screens)
+      for (const auto& w : screen.widgets)
+        if (!w.event.empty()) sent_.insert(w.event);
+    for (const auto& w : d().keys)
+      if (!w.event.empty()) sent_.insert(w.event);
+    for (const auto& dialog : d().dialogs)
+      for (const auto& b : dialog.buttons)
+        if (!b.event.empty()) sent_.insert(b.event);
+  }
+
+  void checkCondition(const Condition& condition, const std::string& place) {
+    if (auto ok = condition.check(lookup_); !ok) fault(place, ok.error().message);
+  }
+
+  template <class Rows>
+  static bool hasName(const Rows& rows, const std::string& name) {
+    return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return name == row.name; });
+  }
+
+  void checkWidget(const WidgetRow& w, const std::string& place) {
+    checkCondition(w.when, place + "/when");
+    checkCondition(w.enabled, place + "/enabled");
+    checkCondition(w.warns, place + "/warns");
+    const auto& settings = type_.instrument.settings;
+    if (!w.setting.empty() && std::none_of(settings.begin(), settings.end(), [&](const auto& s) { return s.key == w.setting; }) &&
+        d().instruments.size() == 1)
+      fault(place + "/setting", fmt::format("the scanner has no setting '{}'", w.setting));
+    if (!w.value.empty() && findValue(d(), w.value) == nullptr) fault(place + "/value", fmt::format("there is no value '{}'", w.value));
+    if (!w.list.empty() && !hasName(type_.program.lists, w.list) && !hasName(sharedLists(), w.list))
+      fault(place + "/list", fmt::format("there is no list '{}'", w.list));
+    if (!w.does.empty() && !hasName(type_.program.actions, w.does) && !hasName(sharedActions(), w.does))
+      fault(place + "/does", fmt::format("there is no action '{}'", w.does));
+    if (!w.event.empty() && !known_.contains(w.event)) fault(place + "/event", fmt::format("no phase knows the event '{}'", w.event));
+    if (!w.go.empty() && w.go != "back" && findScreen(d(), w.go) == nullptr) fault(place + "/go", fmt::format("there is no screen '{}'", w.go));
+    if (w.shows.find('{') == std::string::npos && !w.shows.empty() && !device_.domain(w.shows))
+      fault(place + "/shows", fmt::format("there is no fact '{}'", w.shows));
+    for (auto open = w.shows.find('{'); open != std::string::npos; open = w.shows.find('{', open + 1)) {
+      const auto name = w.shows.substr(open + 1, w.shows.find('}', open) - open - 1);
+      if (!device_.domain(name)) fault(place + "/shows", fmt::format("there is no fact '{}'", name));
+    }
+    const bool can_be_grey = !w.enabled.empty() || !w.warns.empty();
+    if (can_be_grey && w.why_not.empty()) fault(place + "/why_not", "it can be grey or warn without saying why");
+    const bool acts = !w.does.empty() || !w.event.empty() || !w.go.empty();
+    if ((w.kind == WidgetKind::button || w.kind == WidgetKind::key) && !acts) fault(place, "it does nothing");
+  }
+
+  void checkScreen(const ScreenRow& screen) {
+    for (const auto& w : screen.widgets) checkWidget(w, "/screens/" + screen.id + "/" + w.id);
+  }
+
+  void checkTransitions() {
+    for (std::size_t i = 0; i < type_.program.transitions.size(); ++i) {
+      const auto& t = type_.program.transitions[i];
+      const std::string place = fmt::format("transition {} of '{}'", t.event, t.from);
+      checkCondition(type_.guards[i], place);
+      for (const auto& from : split(t.from))
+        if (from != "*" && findPhase(d(), from) == nullptr) fault(place, fmt::format("there is no phase '{}'", from));
+      if (*t.to != '\0' && findPhase(d(), t.to) == nullptr) fault(place, fmt::format("there is no phase '{}'", t.to));
+      if (*t.show != '\0' && findScreen(d(), t.show) == nullptr) fault(place, fmt::format("there is no screen '{}'", t.show));
+      if (*t.ask != '\0' && findDialog(d(), t.ask) == nullptr) fault(place, fmt::format("there is no dialogue '{}'", t.ask));
+      if (!sent_.contains(t.event) && !kOwnEvents.contains(t.event)) fault(place, "nobody sends this event");
+    }
+  }
+
+  void checkPhases() {
+    Graph graph;
+    for (const auto& t : type_.program.transitions) {
+      if (*t.to == '\0') continue;
+      for (const auto& from : split(t.from))
+        for (const auto& phase : d().phases)
+          if (from == phase.id || (from == "*" && phase.on)) graph[phase.id].insert(t.to);
+    }
+    const std::string first = d().phases.front().id;
+    const auto forth = reached(graph, {first});
+    const auto back = reached(turned(graph), {first});
+    for (const auto& phase : d().phases) {
+      if (!forth.contains(phase.id)) fault("/phases/" + phase.id, "no way leads to this phase");
+      if (!back.contains(phase.id)) fault("/phases/" + phase.id, fmt::format("no way leads from this phase back to '{}'", first));
+      if (!phase.screen.empty() && findScreen(d(), phase.screen) == nullptr)
+        fault("/phases/" + phase.id + "/screen", fmt::format("there is no screen '{}'", phase.screen));
+      char* end = nullptr;
+      if (!phase.lasts.empty() && (std::strtod(phase.lasts.c_str(), &end), *end != '\0')) {
+        const auto domain = device_.domain(phase.lasts);
+        if (!domain || !domain->is_number) fault("/phases/" + phase.id + "/lasts", fmt::format("'{}' is no number of seconds", phase.lasts));
+      }
+      const bool ends = std::any_of(type_.program.transitions.begin(), type_.program.transitions.end(), [&](const Transition& t) {
+        const auto froms = split(t.from);
+        return std::string(t.event) == "elapsed" && std::find(froms.begin(), froms.end(), phase.id) != froms.end();
+      });
+      if (!phase.lasts.empty() && !ends) fault("/phases/" + phase.id, "it takes a time, but nothing happens when that is over");
+    }
+  }
+
+  void checkDialogs() {
+    for (const auto& id : kOwnDialogs)
+      if (findDialog(d(), id) == nullptr) fault("/dialogs", fmt::format("the dialogue '{}' is missing", id));
+    std::set<std::string> asked = kOwnDialogs;
+    for (const auto& t : type_.program.transitions) asked.insert(t.ask);
+    for (const auto& dialog : d().dialogs) {
+      if (!asked.contains(dialog.id)) fault("/dialogs/" + dialog.id, "nothing asks this");
+      for (const auto& b : dialog.buttons)
+        if (!b.event.empty() && !known_.contains(b.event)) fault("/dialogs/" + dialog.id + "/" + b.id, fmt::format("no phase knows the event '{}'", b.event));
+    }
+  }
+
+  // A screen is left by a widget that goes elsewhere or sends an event, or by the phase that shows it.
+  void checkReach() {
+    Graph graph;
+    std::set<std::string> from;
+    std::set<std::string> of_phases;
+    for (const auto& phase : d().phases)
+      if (!phase.screen.empty()) from.insert(phase.screen), of_phases.insert(phase.screen);
+    for (const auto& t : type_.program.transitions)
+      if (*t.show != '\0') from.insert(t.show);
+    for (const auto& screen : d().screens) {
+      bool can_leave = of_phases.contains(screen.id);
+      for (const auto& w : screen.widgets) {
+        can_leave = can_leave || !w.go.empty() || !w.event.empty();
+        if (!w.go.empty() && w.go != "back") graph[screen.id].insert(w.go);
+      }
+      if (!can_leave) fault("/screens/" + screen.id, "no way leads out of this screen");
+    }
+    const auto seen = reached(graph, from);
+    for (const auto& screen : d().screens)
+      if (!seen.contains(screen.id)) fault("/screens/" + screen.id, "no way leads to this screen");
+  }
+
+  void needWord(const std::string& key, const std::string& place) {
+    for (const auto& language : type_.words->languages())
+      if (!type_.words->has(d().id, key, language)) fault(place, fmt::format("'{}' has no word in '{}'", key, language));
+  }
+
+  void checkWidgetWords(const WidgetRow& w, const std::string& place) {
+    const bool spelled_out = d().instruments.front() == "*" && !w.setting.empty();
+    if (spelled_out) return;
+    needWord(w.words, place);
+    needWord(w.words + "?", place);
+    if (!w.why_not.empty()) needWord(w.why_not, place);
+    for (const auto& setting : type_.instrument.settings)
+      if (setting.key == w.setting)
+        for (const auto& choice : setting.choices)
+          if (hasWord(choice.label)) needWord(setting.key + "=" + choice.value, place);
+    if (const auto* value = w.value.empty() ? nullptr : findValue(d(), w.value); value != nullptr && w.value != "language")
+      for (const auto& choice : value->choices)
+        if (hasWord(choice)) needWord(value->kind == WidgetKind::toggle ? choice : value->id + "=" + choice, place);
+  }
+
+  void checkWords() {
+    for (const auto& screen : d().screens) {
+      needWord(screen.id, "/screens/" + screen.id);
+      for (const auto& w : screen.widgets) checkWidgetWords(w, "/screens/" + screen.id + "/" + w.id);
+    }
+    for (const auto& w : d().keys) checkWidgetWords(w, "/keys/" + w.id);
+    for (const auto& dialog : d().dialogs) {
+      needWord("dialog." + dialog.id, "/dialogs/" + dialog.id);
+      for (const auto& b : dialog.buttons) needWord(b.id, "/dialogs/" + dialog.id + "/" + b.id);
+    }
+  }
+
+  const DeviceType& type_;
+  Device device_;
+  DomainLookup lookup_;
+  std::vector<Error> faults_;
+  std::set<std::string> known_, sent_;
+};
+
+}  // namespace
+
+std::vector<Error> checkDevice(const DeviceType& type) { return Checker(type).check(); }
+
+}  // namespace standpoint

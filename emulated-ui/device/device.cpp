@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "emulated-ui/device/device.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr std::size_t kLongestLog = 20000;
+
+bool namesPhase(const char* from, const std::string& phase, bool on) {
+  std::istringstream words(from);
+  for (std::string word; words >> word;)
+    if (word == phase || (word == "*" && on)) return true;
+  return false;
+}
+
+// A widget of the setting "*" stands for all settings of the scanner: what a device for any scanner has.
+void spellOutSettings(std::vector<WidgetRow>& widgets, const Instrument& instrument) {
+  const auto star = std::find_if(widgets.begin(), widgets.end(), [](const WidgetRow& w) { return w.setting == "*"; });
+  if (star == widgets.end()) return;
+  const WidgetRow pattern = *star;
+  std::vector<WidgetRow> rows;
+  for (const auto& setting : instrument.settings) {
+    WidgetRow row = pattern;
+    row.id = row.words = row.setting = setting.key;
+    row.kind = setting.choices.empty() ? WidgetKind::number : WidgetKind::choice;
+    rows.push_back(std::move(row));
+  }
+  widgets.insert(widgets.erase(star), rows.begin(), rows.end());
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const DeviceType>> makeDeviceType(DeviceDefinition definition, const DeviceProgram& program,
+                                                         Instrument instrument, std::shared_ptr<const Words> words) {
+  const auto& drives = definition.instruments;
+  const bool any = std::find(drives.begin(), drives.end(), "*") != drives.end();
+  if (!any && std::find(drives.begin(), drives.end(), instrument.id) == drives.end())
+    return failure(ErrorKind::usage, fmt::format("it drives {}, not '{}'", fmt::join(drives, ", "), instrument.id),
+                   definition.id);
+  if (instrument.moving) return failure(ErrorKind::usage, "it stands on a tripod; this instrument moves", instrument.id);
+  if (auto standard = resolveSettings(instrument, {}); !standard) return failure(standard.error());
+  for (auto& screen : definition.screens) spellOutSettings(screen.widgets, instrument);
+  auto type = std::make_shared<DeviceType>();
+  type->definition = std::move(definition);
+  type->program = program;
+  type->instrument = std::move(instrument);
+  type->words = std::move(words);
+  for (const auto& transition : type->program.transitions) {
+    auto guard = Condition::parse(transition.guard);
+    if (!guard) return failure(ErrorKind::internal, guard.error().message, type->definition.id + " transition " + transition.event);
+    type->guards.push_back(*std::move(guard));
+  }
+  return type;
+}
+
+Device::Device(std::shared_ptr<const DeviceType> type) : type_(std::move(type)) {
+  const auto& d = type_->definition;
+  state_.phase = d.phases.front().id;
+  state_.screen = d.phases.front().screen;
+  state_.around.card_bytes = d.body.card_bytes;
+  for (const auto& value : d.values) state_.values[value.id] = value.standard;
+  expected_ = *resolveSettings(type_->instrument, {});
+  state_.settings = expected_.values;
+}
+
+bool Device::on() const {
+  const auto* phase = findPhase(type_->definition, state_.phase);
+  return phase != nullptr && phase->on;
+}
+
+bool Device::busy() const {
+  const auto* phase = findPhase(type_->definition, state_.phase);
+  return order_.has_value() || (phase != nullptr && !phase->lasts.empty());
+}
+
+std::string Device::value(const std::string& id) const {
+  const auto found = state_.values.find(id);
+  return found == state_.values.end() ? std::string() : found->second;
+}
+
+std::string Device::setting(const std::string& key) const {
+  for (const auto& [name, value] : state_.settings)
+    if (name == key) return value;
+  return {};
+}
+
+Result<void> Device::setSettings(const SettingValues& wanted) {
+  auto resolved = resolveSettings(type_->instrument, wanted);
+  if (!resolved) return failure(resolved.error());
+  expected_ = *std::move(resolved);
+  state_.settings = expected_.values;
+  return {};
+}
+
+const DeviceProject* Device::project() const {
+  const auto at = static_cast<std::size_t>(state_.project);
+  return state_.project >= 0 && at < state_.projects.size() ? &state_.projects[at] : nullptr;
+}
+DeviceProject* Device::project() { return const_cast<DeviceProject*>(std::as_const(*this).project()); }
+
+const StoredSetup* Device::shownSetup() const {
+  const auto* open = project();
+  const auto at = static_cast<std::size_t>(state_.shown);
+  return open != nullptr && state_.shown >= 0 && at < open->setups.size() ? &open->setups[at] : nullptr;
+}
+StoredSetup* Device::shownSetup() { return const_cast<StoredSetup*>(std::as_const(*this).shownSetup()); }
+
+const StoredSetup* Device::newestSetup() const {
+  const auto* open = project();
+  return open == nullptr || open->setups.empty() ? nullptr : &open->setups.back();
+}
+StoredSetup* Device::newestSetup() { return const_cast<StoredSetup*>(std::as_const(*this).newestSetup()); }
+
+double Device::expectedBytes() const {
+  return static_cast<double>(expected_.columns) * expected_.rows * type_->definition.body.bytes_per_point;
+}
+
+double Device::tilt() const {
+  return std::acos(std::clamp(std::cos(state_.around.tilt_x_deg * kRadPerDeg) * std::cos(state_.around.tilt_y_deg * kRadPerDeg), -1.0, 1.0)) /
+         kRadPerDeg;
+}
+
+void Device::note(const std::string& what, const std::string& detail) {
+  if (state_.log.size() < kLongestLog) state_.log.push_back({state_.clock_s, what, detail});
+}
+
+// --- the state machine ---
+
+bool Device::can(const std::string& event) const {
+  const auto& transitions = type_->program.transitions;
+  for (std::size_t i = 0; i < transitions.size(); ++i)
+    if (event == transitions[i].event && namesPhase(transitions[i].from, state_.phase, on()) && type_->guards[i].holds(facts())) return true;
+  return false;
+}
+
+bool Device::fire(const std::string& event) {
+  const auto& transitions = type_->program.transitions;
+  for (std::size_t i = 0; i < transitions.size(); ++i) {
+    const Transition& t = transitions[i];
+    if (event != t.event || !namesPhase(t.from, state_.phase, on()) || !type_->guards[i].holds(facts())) continue;
+    if (event != "elapsed") note("event", event);
+    if (*t.to != '\0') enter(*findPhase(type_->definition, t.to));
+    if (t.effect != nullptr) t.effect(*this);
+    if (*t.show != '\0') show(t.show);
+    if (*t.ask != '\0') ask(t.ask, state_.dialog_detail);
+    return true;
+  }
+  return false;
+}
+
+void Device::enter(const PhaseRow& phase) {
+  state_.phase = phase.id;
+  state_.elapsed_s = 0;
+  state_.dialog.clear();
+  if (!phase.screen.empty() && phase.screen != state_.screen) {
+    state_.came_from.clear();
+    state_.screen = phase.screen;
+  }
+  note("phase", phase.id);
+}
+
+void Device::show(const std::string& screen) {
+  auto& from = state_.came_from;
+  if (screen == "back") {
+    if (from.empty()) return;
+    state_.screen = from.back();
+    from.pop_back();
+  } else if (screen != state_.screen) {
+    const auto earlier = std::find(from.begin(), from.end(), screen);
+    if (earlier != from.end()) from.erase(earlier, from.end());
+    else from.push_back(state_.screen);
+    state_.screen = screen;
+  }
+  note("screen", state_.screen);
+}
+
+void Device::ask(const std::string& dialog, const std::string& detail) {
+  state_.dialog = dialog;
+  state_.dialog_detail = detail;
+  note("dialog", dialog);
+}
+
+// The time that the present phase still takes; nothing when it waits.
+std::optional<double> Device::leftOfPhase() const {
+  const auto* phase = findPhase(type_->definition, state_.phase);
+  if (phase->lasts.empty()) return std::nullopt;
+  return std::max(0.0, fact("phase.lasts")->number.value_or(0) - state_.elapsed_s);
+}
+
+void Device::pass(double seconds) {
+  const auto* phase = findPhase(type_->definition, state_.phase);
+  state_.elapsed_s += seconds;
+  if (state_.running && !phase->lasts.empty()) state_.scanned_s += seconds;
+  if (state_.running && phase->laser) state_.laser_s += seconds;
+}
+
+// The device's clock and the simulation behind it run side by side: a phase whose time is over stays until what it waits
+// for is there.
+void Device::run(double seconds) {
+  for (int i = 0; i < 1000; ++i) {
+    const auto left = on() ? leftOfPhase() : std::nullopt;
+    const double step = left ? std::min(*left, seconds) : seconds;
+    pass(step);
+    seconds -= step;
+    if (!left || step < *left) return;
+    if (!fire("elapsed")) return pass(seconds);
+  }
+}
+
+void Device::watchBattery(double before) {
+  const auto& body = type_->definition.body;
+  const double now = state_.around.battery;
+  const auto crossed = [&](double limit) { return now < limit && before >= limit; };
+  if (crossed(body.battery_warning)) {
+    note("trouble", "battery_low");
+    fire("battery_low");
+  }
+  if (crossed(body.battery_critical)) {
+    note("trouble", "battery_critical");
+    fire("battery_critical");
+  }
+  if (now <= 0 && before > 0) {
+    note("trouble", "battery_empty");
+    fire("battery_empty");
+  }
+}
+
+void Device::tick(double seconds) {
+  if (!(seconds > 0)) return;
+  state_.clock_s += seconds;
+  auto& around = state_.around;
+  around.acclimatised_s += seconds;
+  if (!on()) return;
+  const double before = around.battery;
+  if (!around.mains) around.battery = std::max(0.0, around.battery - seconds / type_->definition.body.battery_s);
+  run(seconds);
+  watchBattery(before);
+}
+
+// --- orders ---
+
+void Device::give(Order order) {
+  order_ = std::move(order);
+  state_.engine_share = 0;
+}
+
+std::optional<Order> Device::takeOrder() { return std::exchange(order_, std::nullopt); }
+bool Device::takeCancel() { return std::exchange(cancel_, false); }
+bool Device::takeStored() { return std::exchange(stored_, false); }
+std::optional<StoredSetup> Device::takeView() { return std::exchange(view_, std::nullopt); }
+
+void Device::takeBack() {
+  cancel_ = true;
+  order_.reset();
+  state_.running.reset();
+  state_.data.reset();
+}
+
+void Device::scanDone(StoredSetup setup) {
+  if (!state_.running) return;   // it was taken back meanwhile
+  setup.moved = state_.running->bumped_at_share.has_value();
+  setup.partial = state_.running->until_share < 1;
+  setup.tracked = state_.around.tracking;
+  setup.unlevelled = !state_.running->compensator || tilt() > type_->definition.body.tilt_limit_deg;
+  state_.data = std::move(setup);
+  fire("data");
+}
+
+void Device::linkDone(const LinkResult& link) {
+  if (auto* newest = newestSetup()) newest->link = link;
+  note("linked", link.joined ? "joined" : "refused");
+  fire("linked");
+}
+
+void Device::targetsDone(std::vector<FittedTarget> targets) {
+  auto* setup = shownSetup();
+  if (setup == nullptr) setup = newestSetup();
+  const auto found = std::count_if(targets.begin(), targets.end(), [](const FittedTarget& t) { return t.found; });
+  if (setup != nullptr) setup->targets = std::move(targets);
+  note("targets", std::to_string(found));
+  fire("targets_measured");
+}
+
+void Device::previewDone(const std::string& file, std::shared_ptr<const ScanPreview> preview) {
+  for (auto& p : state_.projects)
+    for (auto& setup : p.setups)
+      if (setup.file == file) setup.preview = preview;
+}
+
+void Device::transferDone(const std::vector<std::string>& files) {
+  for (auto& p : state_.projects)
+    for (auto& setup : p.setups)
+      if (std::find(files.begin(), files.end(), setup.file) != files.end()) setup.transferred = true;
+  note("transferred", std::to_string(files.size()));
+  fire("transferred");
+}
+
+void Device::orderFailed(const std::string& message) {
+  state_.running.reset();
+  state_.data.reset();
+  note("failed", message);
+  fire("failed");
+  ask("failed", message);
+}
+
+void Device::load(const std::vector<StoredSetup>& stored) {
+  state_.projects.clear();
+  state_.project = -1;
+  state_.around.card_used_bytes = 0;
+  for (const auto& setup : stored) {
+    auto found = std::find_if(state_.projects.begin(), state_.projects.end(), [&](const DeviceProject& p) { return p.name == setup.project; });
+    if (found == state_.projects.end()) {
+      found = state_.projects.insert(found, DeviceProject{});
+      found->name = setup.project;
+      found->first = setup.number;
+    }
+    found->setups.push_back(setup);
+    state_.around.card_used_bytes += setup.bytes;
+  }
+}
+
+}  // namespace standpoint

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "emulated-ui/device/device.h"
+#include "emulated-ui/device/settings.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr std::size_t kLongestEntry = 60;
+
+bool pressable(WidgetKind kind) {
+  switch (kind) {
+    case WidgetKind::button: case WidgetKind::key: case WidgetKind::choice: case WidgetKind::toggle: case WidgetKind::text:
+    case WidgetKind::number: case WidgetKind::list: case WidgetKind::area: case WidgetKind::preview: return true;
+    default: return false;
+  }
+}
+
+std::optional<double> numberIn(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+Result<void> checkEntry(const std::string& text, const std::string& id) {
+  if (text.size() > kLongestEntry) return failure(ErrorKind::usage, fmt::format("at most {} bytes fit", kLongestEntry), id);
+  for (const char c : text)
+    if (static_cast<unsigned char>(c) < 0x20) return failure(ErrorKind::usage, "control characters cannot be typed", id);
+  return {};
+}
+
+}  // namespace
+
+const WidgetRow* Device::rowOf(const std::string& id) const {
+  const auto in = [&](const std::vector<WidgetRow>& rows) -> const WidgetRow* {
+    for (const auto& row : rows)
+      if (row.id == id && row.when.holds(facts())) return &row;
+    return nullptr;
+  };
+  if (on() && state_.dialog.empty())
+    if (const auto* screen = findScreen(type_->definition, state_.screen))
+      if (const auto* row = in(screen->widgets)) return row;
+  return in(type_->definition.keys);
+}
+
+Result<void> Device::act(const std::string& id, const std::string& value) {
+  const Screen now = screen();
+  if (now.has_dialog) {
+    const auto& rows = findDialog(type_->definition, state_.dialog)->buttons;
+    for (const auto& button : rows) {
+      if (button.id != id) continue;
+      note("answered", state_.dialog + "/" + id);
+      state_.dialog.clear();
+      if (!button.event.empty() && !fire(button.event))
+        return failure(ErrorKind::usage, fmt::format("'{}' means nothing now", id), id);
+      return {};
+    }
+  }
+  const Widget* shown = findWidget(now, id);
+  const WidgetRow* row = rowOf(id);
+  if (shown == nullptr || row == nullptr || !pressable(shown->kind))
+    return failure(ErrorKind::usage, fmt::format("screen '{}' has no '{}' to press", now.has_dialog ? now.dialog.id : now.id, id), id);
+  if (!shown->enabled) {
+    note("refused", id);
+    return failure(ErrorKind::usage, shown->why_not.empty() ? "it is grey" : shown->why_not, id);
+  }
+  return press(*row, *shown, value);
+}
+
+Result<void> Device::bind(const WidgetRow& row, const Widget& widget, const std::string& given) {
+  std::string value = given;
+  if (widget.kind == WidgetKind::toggle && value.empty()) value = widget.value == "on" ? "off" : "on";
+  if (widget.kind == WidgetKind::choice || widget.kind == WidgetKind::toggle) {
+    const auto option = std::find_if(widget.options.begin(), widget.options.end(),
+                                     [&](const WidgetOption& o) { return o.value == value || o.label == value; });
+    if (option == widget.options.end()) {
+      std::vector<std::string> known;
+      for (const auto& o : widget.options) known.push_back(o.value);
+      return failure(ErrorKind::usage, fmt::format("'{}' is not one of {}", value, fmt::join(known, ", ")), row.id);
+    }
+    if (!option->enabled) return failure(ErrorKind::usage, option->why_not, row.id);
+    value = option->value;
+  } else if (widget.kind == WidgetKind::number) {
+    const auto number = numberIn(value);
+    if (!number || *number < widget.minimum || *number > widget.maximum)
+      return failure(ErrorKind::usage, fmt::format("a number from {} to {} is needed", widget.minimum, widget.maximum), row.id);
+  } else if (widget.kind == WidgetKind::text) {
+    if (auto ok = checkEntry(value, row.id); !ok) return ok;
+  }
+  if (!row.setting.empty()) {
+    const auto adapted = adaptedSettings(type_->instrument, state_.settings, row.setting, value);
+    if (!adapted) return failure(ErrorKind::usage, adapted.error().message, row.id);
+    note("setting", row.setting + "=" + value);
+    return setSettings(*adapted);
+  }
+  if (!row.value.empty()) {
+    note("value", row.value + "=" + value);
+    state_.values[row.value] = value;
+    if (row.value == "language") state_.language = value;
+  } else if (widget.kind == WidgetKind::text || widget.kind == WidgetKind::number) {
+    state_.entries[row.id] = value;
+  }
+  return {};
+}
+
+namespace {
+
+// "from_h,to_h,from_v,to_v" into the four settings of a scan area.
+Result<SettingValues> areaSettings(const SettingValues& now, const std::string& value) {
+  constexpr const char* kKeys[] = {"horizontal_from", "horizontal_to", "vertical_from", "vertical_to"};
+  SettingValues wanted = now;
+  std::size_t at = 0;
+  for (const char* key : kKeys) {
+    const auto end = value.find(',', at);
+    const auto number = numberIn(value.substr(at, end == std::string::npos ? std::string::npos : end - at));
+    if (!number) return failure(ErrorKind::usage, "four angles in degrees are needed: from_h,to_h,from_v,to_v");
+    wanted = withSetting(wanted, key, fmt::format("{:g}", *number));
+    at = end == std::string::npos ? value.size() : end + 1;
+  }
+  return wanted;
+}
+
+}  // namespace
+
+Result<void> Device::press(const WidgetRow& row, const Widget& widget, const std::string& value) {
+  note("pressed", state_.screen + "/" + row.id + (value.empty() ? "" : "=" + value));
+  if (widget.kind == WidgetKind::area) {
+    const auto wanted = areaSettings(state_.settings, value);
+    if (!wanted) return failure(wanted.error());
+    if (auto ok = setSettings(*wanted); !ok) return failure(ErrorKind::usage, ok.error().message, row.id);
+    note("setting", "area=" + value);
+    return {};
+  }
+  if (widget.kind == WidgetKind::list) {
+    const auto known = std::any_of(widget.options.begin(), widget.options.end(), [&](const WidgetOption& o) { return o.value == value && o.enabled; });
+    if (!known) return failure(ErrorKind::usage, fmt::format("the list has no row '{}'", value), row.id);
+  } else if (auto ok = bind(row, widget, value); !ok) {
+    return ok;
+  }
+  if (!row.does.empty()) {
+    const auto named = [&](const Action& a) { return row.does == a.name; };
+    const auto& own = type_->program.actions;
+    auto action = std::find_if(own.begin(), own.end(), named);
+    if (action == own.end()) action = std::find_if(sharedActions().begin(), sharedActions().end(), named);
+    if (auto done = action->act(*this, value); !done) {
+      note("refused", row.id);
+      ask("refused", done.error().message);
+      return {};
+    }
+  }
+  if (!row.event.empty() && !fire(row.event)) return failure(ErrorKind::usage, fmt::format("'{}' means nothing now", row.id), row.id);
+  if (!row.go.empty() && state_.dialog.empty()) show(row.go);
+  return {};
+}
+
+Result<void> Device::hand(const std::string& id, const std::string& value) {
+  for (const auto& row : handRows()) {
+    if (row.id != id) continue;
+    auto done = row.act(*this, value);
+    if (done) note("hand", value.empty() ? id : id + "=" + value);
+    return done;
+  }
+  return failure(ErrorKind::usage, fmt::format("hands know no '{}'", id), id);
+}
+
+Result<void> Device::trouble(const std::string& id) {
+  for (const auto& row : troubleRows()) {
+    if (row.id != id) continue;
+    note("trouble", id);
+    row.happens(*this);
+    return {};
+  }
+  return failure(ErrorKind::usage, fmt::format("there is no trouble '{}'", id), id);
+}
+
+}  // namespace standpoint

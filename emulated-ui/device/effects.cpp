@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "emulated-ui/device/effects.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace standpoint {
+
+namespace {
+
+constexpr double kDustNoise = 2;        // [P] instrument facts §3.3 M01: twice the noise
+constexpr double kColdNoise = 1.5;      // [P] an instrument that is not used to its temperature
+constexpr std::size_t kLongestName = 60;
+
+}  // namespace
+
+Result<void> checkName(const std::string& name) {
+  if (name.empty()) return failure(ErrorKind::usage, "The name is empty.");
+  if (name.size() > kLongestName) return failure(ErrorKind::usage, "The name is too long.");
+  if (name.find_first_of("\\/:*?\"<>|") != std::string::npos)
+    return failure(ErrorKind::usage, "A name cannot hold any of \\ / : * ? \" < > |");
+  if (name.front() == '.' || name.back() == '.' || name.front() == ' ' || name.back() == ' ')
+    return failure(ErrorKind::usage, "A name cannot begin or end with a dot or a blank.");
+  return {};
+}
+
+void beginScan(Device& device) {
+  auto& s = device.change();
+  const auto& type = device.type();
+  ScanOrder order;
+  order.instrument = type.instrument.id;
+  if (const auto* project = device.project()) {
+    order.project = project->name;
+    order.folder = project->cluster;
+  }
+  order.number = static_cast<int>(device.fact("setup.next")->number.value_or(1));
+  order.name = fmt::format("Setup {:03d}", order.number);
+  order.station = s.around.station;
+  order.settings = s.settings;
+  order.panorama = device.expected().imaging;
+  order.compensator = device.tilt() <= type.definition.body.tilt_limit_deg;
+  if (s.around.dust) order.noise_factor *= kDustNoise;
+  if (s.around.acclimatised_s < type.definition.body.warm_up_s) order.noise_factor *= kColdNoise;
+  if (s.around.somebody_walks) order.walker_at_share = 0.5;
+  s.around.somebody_walks = false;
+  if (type.program.prepare != nullptr) type.program.prepare(device, order);
+  s.moved = false;
+  s.scanned_s = s.laser_s = 0;
+  s.data.reset();
+  s.running = order;
+  device.note("scan_started", order.name);
+  device.give(order);
+}
+
+void storeScan(Device& device) {
+  auto& s = device.change();
+  auto* project = device.project();
+  if (!s.data || project == nullptr) return;
+  s.around.card_used_bytes += s.data->bytes;
+  project->setups.push_back(*std::move(s.data));
+  s.data.reset();
+  s.running.reset();
+  s.shown = static_cast<int>(project->setups.size()) - 1;
+  device.markStored();
+  device.note("scan_stored", project->setups.back().name);
+}
+
+void dropScan(Device& device) {
+  if (!device.state().running && !device.state().data) return;
+  device.note("scan_dropped", device.state().running ? device.state().running->name : "");
+  device.takeBack();
+}
+
+void markMoved(Device& device) {
+  auto& s = device.change();
+  s.moved = true;
+  if (!s.running) return;
+  ScanOrder order = *s.running;
+  order.bumped_at_share = std::clamp(s.laser_s / std::max(1.0, device.expected().scan_seconds), 0.0, 1.0);
+  device.takeBack();               // what was simulated so far did not know of the push
+  s.running = order;
+  device.give(order);
+}
+
+void keepPartial(Device& device) {
+  auto& s = device.change();
+  if (!s.running) return;
+  ScanOrder order = *s.running;
+  order.until_share = std::clamp(s.laser_s / std::max(1.0, device.expected().scan_seconds), 0.01, 1.0);
+  order.panorama = false;
+  device.takeBack();
+  s.running = order;
+  device.give(order);
+}
+
+void orderLink(Device& device) {
+  const auto* project = device.project();
+  if (project == nullptr || project->setups.size() < 2) return;
+  const auto& setups = project->setups;
+  device.give(LinkOrder{setups[setups.size() - 1].file, setups[setups.size() - 2].file});
+}
+
+void loseTracking(Device& device) { device.change().around.tracking = false; }
+void resetTracking(Device& device) { device.change().around.tracking = true; }
+
+void deleteShownSetup(Device& device) {
+  auto* project = device.project();
+  const auto* setup = device.shownSetup();
+  if (project == nullptr || setup == nullptr) return;
+  auto& s = device.change();
+  s.around.card_used_bytes = std::max(0.0, s.around.card_used_bytes - setup->bytes);
+  device.note("setup_deleted", setup->name);
+  project->setups.erase(project->setups.begin() + s.shown);
+  s.shown = -1;
+}
+
+void formatCard(Device& device) {
+  auto& s = device.change();
+  int lost = 0;
+  for (const auto& p : s.projects)
+    for (const auto& setup : p.setups) lost += setup.transferred ? 0 : 1;
+  s.projects.clear();
+  s.project = s.shown = -1;
+  s.around.card_used_bytes = 0;
+  device.note("card_formatted", std::to_string(lost));
+}
+
+}  // namespace standpoint

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "emulated-ui/device/device.h"
+
+namespace standpoint {
+
+// What transitions do, for the tables of the devices' code.
+void beginScan(Device& device);      // gives the order and reserves the number
+void storeScan(Device& device);      // the data go onto the card, and the setup is listed and shown
+void dropScan(Device& device);       // the running scan is taken back
+void markMoved(Device& device);      // the tripod was pushed: the rest of the scan stands elsewhere
+void keepPartial(Device& device);    // the columns that are done are kept as a scan of their own
+void orderLink(Device& device);      // of the newest setup to the one before, where there is one
+void loseTracking(Device& device);
+void resetTracking(Device& device);  // it watches the way from here on
+
+void deleteShownSetup(Device& device);
+// Everything on the card is gone; what was not copied before is lost, as in the field.
+void formatCard(Device& device);
+
+// Names that become folders and files: not empty, none of \ / : * ? " < > |, no leading or trailing dot or blank.
+Result<void> checkName(const std::string& name);
+
+}  // namespace standpoint

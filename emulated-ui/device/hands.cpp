@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "emulated-ui/device/device.h"
+#include "emulated-ui/device/effects.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr double kLevelled_deg = 0.01;   // what a careful hand reaches with the foot screws
+
+Result<void> insertCard(Device& d, const std::string&) {
+  auto& a = d.change().around;
+  if (a.card_present) return failure(ErrorKind::usage, d.word("card_is_in"));
+  a.card_present = true;
+  d.fire("card_inserted");
+  return {};
+}
+
+Result<void> removeCard(Device& d, const std::string&) {
+  if (d.type().definition.body.card_inside) return failure(ErrorKind::usage, d.word("card_is_inside"));
+  auto& a = d.change().around;
+  if (!a.card_present) return failure(ErrorKind::usage, d.word("card_absent"));
+  a.card_present = false;
+  d.fire("card_removed");
+  return {};
+}
+
+Result<void> lockCard(Device& d, const std::string&) {
+  d.change().around.card_locked = true;
+  return {};
+}
+Result<void> unlockCard(Device& d, const std::string&) {
+  d.change().around.card_locked = false;
+  return {};
+}
+
+// Another card, empty; what was on the first one is in the bag, and not lost.
+Result<void> changeCard(Device& d, const std::string&) {
+  auto& a = d.change().around;
+  if (d.type().definition.body.card_inside) return failure(ErrorKind::usage, d.word("card_is_inside"));
+  a.card_present = true;
+  a.card_locked = false;
+  a.card_used_bytes = 0;
+  a.card_bytes = d.type().definition.body.card_bytes;
+  d.fire("card_inserted");
+  return {};
+}
+
+Result<void> carryCard(Device& d, const std::string&) {
+  if (d.type().definition.body.card_inside) return failure(ErrorKind::usage, d.word("card_is_inside"));
+  if (d.state().around.card_present) return failure(ErrorKind::usage, d.word("take_card_out"));
+  TransferOrder order{{}, "card"};
+  for (const auto& p : d.state().projects)
+    for (const auto& setup : p.setups) order.files.push_back(setup.file);
+  if (order.files.empty()) return failure(ErrorKind::usage, d.word("nothing_to_transfer"));
+  d.give(std::move(order));
+  return {};
+}
+
+Result<void> changeBattery(Device& d, const std::string&) {
+  if (d.on() && !d.state().around.mains) {
+    d.fire("battery_empty");   // it goes out while the battery is out
+  }
+  d.change().around.battery = 1;
+  return {};
+}
+
+Result<void> plugIn(Device& d, const std::string&) {
+  d.change().around.mains = true;
+  d.change().around.battery = std::max(d.state().around.battery, 0.01);
+  return {};
+}
+Result<void> unplug(Device& d, const std::string&) {
+  d.change().around.mains = false;
+  return {};
+}
+
+Result<void> level(Device& d, const std::string&) {
+  d.change().around.tilt_x_deg = kLevelled_deg;
+  d.change().around.tilt_y_deg = -kLevelled_deg;
+  return {};
+}
+
+// "x,y" in degrees: a foot screw, or a tripod that sinks in.
+Result<void> tiltTo(Device& d, const std::string& value) {
+  const auto comma = value.find(',');
+  const double x = std::strtod(value.c_str(), nullptr);
+  const double y = comma == std::string::npos ? 0 : std::strtod(value.c_str() + comma + 1, nullptr);
+  if (value.empty() || !(std::abs(x) <= 60 && std::abs(y) <= 60)) return failure(ErrorKind::usage, "two tilts in degrees are needed: x,y");
+  auto& a = d.change().around;
+  a.tilt_x_deg = x;
+  a.tilt_y_deg = y;
+  if (d.tilt() > d.type().definition.body.tilt_limit_deg) d.fire("tilted");
+  return {};
+}
+
+Result<void> wipeOptics(Device& d, const std::string&) {
+  d.change().around.dust = false;
+  return {};
+}
+
+// The tripod is picked up and set down: while the laser turns that spoils the scan.
+Result<void> standAt(Device& d, const std::string& station) {
+  auto& a = d.change().around;
+  if (a.station == station) return {};
+  const auto* phase = findPhase(d.type().definition, d.state().phase);
+  if (phase != nullptr && phase->laser) {
+    d.fire("moved");
+    return failure(ErrorKind::usage, d.word("moved_while_scanning"));
+  }
+  a.station = station;
+  d.fire("set_down");
+  return {};
+}
+
+Result<void> push(Device& d, const std::string&) {
+  d.fire("moved");
+  return {};
+}
+
+double roomFor(const Device& d) { return d.expectedBytes() / 2; }
+
+}  // namespace
+
+const std::vector<HandRow>& handRows() {
+  static const std::vector<HandRow> rows = {
+      {"insert_card", "", insertCard},     {"remove_card", "", removeCard},  {"lock_card", "", lockCard},
+      {"unlock_card", "", unlockCard},     {"change_card", "", changeCard},  {"carry_card", "", carryCard},
+      {"change_battery", "", changeBattery}, {"plug_in", "", plugIn},        {"unplug", "", unplug},
+      {"level", "", level},                {"tilt", "x,y in degrees", tiltTo}, {"wipe_optics", "", wipeOptics},
+      {"stand_at", "station", standAt},    {"push", "", push},
+  };
+  return rows;
+}
+
+const std::vector<TroubleRow>& troubleRows() {
+  static const std::vector<TroubleRow> rows = {
+      {"battery_low",
+       [](Device& d) {
+         d.change().around.battery = d.type().definition.body.battery_warning * 0.9;
+         d.fire("battery_low");
+       }},
+      {"battery_critical",
+       [](Device& d) {
+         d.change().around.battery = d.type().definition.body.battery_critical * 0.9;
+         d.fire("battery_critical");
+       }},
+      {"card_full", [](Device& d) { d.change().around.card_used_bytes = d.state().around.card_bytes - roomFor(d); }},
+      {"card_missing",
+       [](Device& d) {
+         if (d.type().definition.body.card_inside) return;
+         d.change().around.card_present = false;
+         d.fire("card_removed");
+       }},
+      {"card_locked", [](Device& d) { d.change().around.card_locked = true; }},
+      {"dust", [](Device& d) { d.change().around.dust = true; }},
+      {"moved", [](Device& d) { d.fire("moved"); }},
+      {"blocked", [](Device& d) { d.fire("blocked"); }},
+      {"too_hot",
+       [](Device& d) {
+         d.change().around.temperature_c = d.type().definition.body.hottest_c + 5;
+         d.fire("temperature");
+       }},
+      {"too_cold",
+       [](Device& d) {
+         d.change().around.temperature_c = d.type().definition.body.coldest_c - 5;
+         d.fire("temperature");
+       }},
+      {"not_warm", [](Device& d) { d.change().around.acclimatised_s = 0; }},
+      {"tilted",
+       [](Device& d) {
+         d.change().around.tilt_x_deg = d.type().definition.body.tilt_limit_deg * 1.3;
+         d.fire("tilted");
+       }},
+      {"tracking_lost",
+       [](Device& d) {
+         d.change().around.tracking = false;
+         d.fire("tracking_lost");
+       }},
+      {"wlan_lost",
+       [](Device& d) {
+         d.change().around.wlan = false;
+         d.fire("wlan_lost");
+       }},
+      {"target_hidden", [](Device& d) { d.change().around.targets_visible = false; }},
+      {"somebody_walks", [](Device& d) { d.change().around.somebody_walks = true; }},
+      {"too_near", [](Device& d) { d.change().around.nearest_m = 0.3; }},
+  };
+  return rows;
+}
+
+}  // namespace standpoint

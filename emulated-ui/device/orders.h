@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scanners/instrument.h"
+
+namespace standpoint {
+
+// What a device asks of whoever hosts it, and what comes back. A device has at most one order running.
+
+// Scan from where the tripod stands.
+struct ScanOrder {
+  std::string instrument;          // id
+  std::string project;             // on the device
+  int number = 0;                  // of the setup within the project
+  std::string name;                // of its file, without extension
+  std::string folder;              // within the project, for clusters; may be empty
+  std::string station;             // where it stands
+  SettingValues settings;
+  bool panorama = false;           // pictures are taken
+  bool compensator = true;
+  double until_share = 1;          // of the columns: a scan that was cut short and kept
+  double noise_factor = 1;         // of the range noise: dust on the optics, an instrument that is not warm
+  std::optional<double> bumped_at_share;   // the tripod was pushed then
+  std::optional<double> walker_at_share;   // somebody walks by then
+};
+
+// How the newest setup joins an earlier one: cloud to cloud.
+struct LinkOrder {
+  std::string from_file, to_file;
+};
+struct LinkResult {
+  bool joined = false;
+  double error_m = 0;              // r.m.s. of the matched surfaces
+  double overlap = 0;              // share of the newer cloud
+  double true_error_m = 0;         // of the solved place: what only the simulation knows
+  double true_error_deg = 0;
+};
+
+// Find the targets in a setup and measure them.
+struct TargetOrder {
+  std::string file;
+};
+struct FittedTarget {
+  std::string name;
+  std::string kind;                // "sphere" or "checkerboard"
+  int points = 0;
+  double range_m = 0;
+  double residual_m = 0;           // r.m.s. of the fit
+  double error_m = 0;              // to where it truly is
+  bool found = false;
+  std::string why_not;
+};
+
+// A setup's picture as the device shows it, thinned out: a point for each cell, where one came back.
+struct ScanPreview {
+  std::uint32_t columns = 0, rows = 0;      // row 0 is the lowest
+  std::vector<float> x_m, y_m, z_m;         // in the scanner's frame; NaN: nothing came back
+  std::vector<std::uint8_t> grey;           // intensity, stretched
+};
+struct PreviewOrder {
+  std::string file;
+};
+
+// Copies the card's files to the office.
+struct TransferOrder {
+  std::vector<std::string> files;
+  std::string by;                  // "card", "cable", "wlan"
+};
+
+using Order = std::variant<ScanOrder, LinkOrder, TargetOrder, PreviewOrder, TransferOrder>;
+
+struct StoredSetup {
+  std::string project;
+  int number = 0;
+  std::string name;                // "Setup 001", "house_003"
+  std::string station;
+  SettingValues settings;
+  std::string file;
+  std::uint64_t points = 0;
+  double bytes = 0;
+  double instrument_seconds = 0;
+  bool partial = false;            // it was cut short
+  bool unlevelled = false;         // the compensator did not help
+  bool moved = false;              // the tripod was pushed meanwhile
+  bool tracked = false;            // the way from the setup before is known
+  bool looked_at = false;          // its preview was opened
+  bool transferred = false;        // a copy is in the office
+  std::optional<LinkResult> link;  // to the setup before
+  std::vector<FittedTarget> targets;
+  double plan_x_m = 0, plan_y_m = 0;   // where it is thought to stand, for the plan
+  std::shared_ptr<const ScanPreview> preview;   // once it was asked for
+};
+
+}  // namespace standpoint

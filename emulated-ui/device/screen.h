@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace standpoint {
+
+// What an emulated instrument shows at one moment, as data: the draw half shows it in the device's skin, a test or an
+// exercise reads it and acts on it.
+enum class WidgetKind {
+  status,    // in the status row: battery, memory, …
+  readout,   // label and value
+  button,
+  key,       // a hard key on the body, or the one that starts and stops the laser
+  lamp,      // on the body: `value` is "green", "red flashing", "off"
+  choice,    // one of `options`; act with the option's value
+  toggle,    // "on" or "off"; act with either, or with nothing to turn it over
+  text,      // an entry field; act with the new text
+  number,    // an entry field or slider from minimum to maximum; act with the number as text
+  list,      // `options` are rows; act with the row's value
+  progress,  // `number` is the share
+  area,      // the field of view, drawn on the preview; act with "from_h,to_h,from_v,to_v" in degrees
+  level,     // a bubble: `options` holds the two tilts in degrees
+  preview,   // the picture of the scan that is shown
+  plan,      // the stations from above with their links
+  note,      // a paragraph
+};
+inline constexpr const char* kWidgetKindNames[] = {"status", "readout", "button", "key",  "lamp",  "choice",  "toggle", "text",
+                                                   "number", "list",    "progress", "area", "level", "preview", "plan",   "note"};
+
+struct WidgetOption {
+  std::string value, label;
+  bool enabled = true;
+  std::string why_not;
+};
+
+struct Widget {
+  std::string id;
+  WidgetKind kind = WidgetKind::readout;
+  std::string label;
+  std::string value;                    // as it is shown
+  std::vector<WidgetOption> options;    // of a choice or list
+  double number = 0, minimum = 0, maximum = 0;
+  std::string unit;
+  bool enabled = true;
+  std::string why_not;                  // when it is not enabled; a warning when it is
+};
+
+struct Dialog {
+  std::string id;
+  std::string text;
+  std::vector<Widget> buttons;
+};
+
+struct Screen {
+  std::string id;                       // empty: the display is dark
+  std::string title;
+  std::vector<Widget> widgets;
+  std::vector<Widget> body;             // keys and lamps; always there
+  bool has_dialog = false;
+  Dialog dialog;                        // over the widgets, which wait meanwhile
+};
+
+// On the dialogue, the screen or the body, in this order; null when it is nowhere.
+const Widget* findWidget(const Screen& screen, const std::string& id);
+
+}  // namespace standpoint

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "emulated-ui/device/settings.h"
+
+namespace standpoint {
+
+SettingValues withSetting(SettingValues values, const std::string& key, const std::string& value) {
+  for (auto& [name, current] : values)
+    if (name == key) current = value;
+  return values;
+}
+
+Result<SettingValues> adaptedSettings(const Instrument& instrument, const SettingValues& now, const std::string& key,
+                                      const std::string& value) {
+  const auto wanted = withSetting(now, key, value);
+  auto resolved = resolveSettings(instrument, wanted);
+  if (resolved) return wanted;
+  for (const auto& other : instrument.settings) {
+    if (other.key == key) continue;
+    for (const auto& choice : other.choices)
+      if (const auto moved = withSetting(wanted, other.key, choice.value); resolveSettings(instrument, moved)) return moved;
+  }
+  return failure(resolved.error());
+}
+
+}  // namespace standpoint

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "scanners/instrument.h"
+
+namespace standpoint {
+
+SettingValues withSetting(SettingValues values, const std::string& key, const std::string& value);
+
+// The settings with `key` at `value`. Where that does not go with the others, one of them moves to its first choice that
+// does: what a device does when a resolution is chosen to which the quality does not fit. An error when none does.
+Result<SettingValues> adaptedSettings(const Instrument& instrument, const SettingValues& now, const std::string& key,
+                                      const std::string& value);
+
+}  // namespace standpoint

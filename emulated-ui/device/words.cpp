@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "emulated-ui/device/words.h"
+
+#include <algorithm>
+#include <set>
+
+#include "emulated-ui/device/json_fields.h"
+#include "materials/json_file.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr std::size_t kLongestWord = 2000;
+
+}  // namespace
+
+Result<Words> Words::read(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  if (error) return failure(ErrorKind::file_system, "cannot read the folder: " + error.message(), folder.string());
+  std::sort(files.begin(), files.end());
+  Words words;
+  for (const auto& file : files) {
+    const auto json = readJsonFile(file);
+    if (!json) return failure(json.error());
+    JsonFault fault(file.filename().string());
+    JsonFields root(fault, *json, "");
+    root.skip("about");
+    const std::string of = root.textOr("of", "");
+    root.each("words", [&](const std::string& key, const nlohmann::json& by_language, const std::string& at) {
+      JsonFields fields(fault, by_language, at);
+      fields.everyText([&](const std::string& language, const std::string& text) {
+        if (text.empty() || text.size() > kLongestWord) fault.say(at + "/" + language, "a word of 1 to 2000 bytes is needed");
+        if (!words.texts_[of.empty() ? key : of + "/" + key].emplace(language, text).second)
+          fault.say(at + "/" + language, "another file has said this before");
+      });
+    });
+    root.close();
+    if (fault.error()) return failure(*fault.error());
+  }
+  return words;
+}
+
+const std::string* Words::find(const std::string& device, const std::string& key, const std::string& language) const {
+  for (const auto& name : {device + "/" + key, key})
+    if (const auto found = texts_.find(name); found != texts_.end())
+      if (const auto text = found->second.find(language); text != found->second.end()) return &text->second;
+  return nullptr;
+}
+
+std::string Words::text(const std::string& device, const std::string& key, const std::string& language) const {
+  if (const auto* found = find(device, key, language)) return *found;
+  if (const auto* english = find(device, key, "en")) return *english;
+  return key;
+}
+
+bool Words::has(const std::string& device, const std::string& key, const std::string& language) const {
+  return find(device, key, language) != nullptr;
+}
+
+std::vector<std::string> Words::languages() const {
+  std::set<std::string> all;
+  for (const auto& [key, by_language] : texts_)
+    for (const auto& [language, text] : by_language) all.insert(language);
+  return {all.begin(), all.end()};
+}
+
+}  // namespace standpoint

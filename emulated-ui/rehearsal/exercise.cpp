@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "emulated-ui/rehearsal/exercise.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "emulated-ui/device/json_fields.h"
+#include "materials/json_file.h"
+#include "project/verb.h"
+
+namespace standpoint {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Kind = RehearsalAction::Kind;
+
+Spoken spoken(JsonFields& f, const char* key, bool required) {
+  Spoken s;
+  const auto* raw = f.raw(key);
+  if (raw == nullptr) {
+    if (required) f.wrong(key, "it is missing");
+    return s;
+  }
+  JsonFields texts(f.fault(), *raw, f.pointer() + "/" + key);
+  texts.everyText([&](const std::string& language, const std::string& text) { s.texts[language] = text; });
+  if (!s.texts.contains("en")) f.wrong(key, "it has no text in 'en'");
+  return s;
+}
+
+RehearsalAction action(JsonFields& f) {
+  RehearsalAction a;
+  const auto named = [&](const char* key, Kind kind) {
+    if (!f.has(key)) return false;
+    a.kind = kind;
+    a.name = f.text(key);
+    return true;
+  };
+  if (named("press", Kind::press) || named("hand", Kind::hand) || named("answer", Kind::answer)) {
+    a.value = f.textOr("value", "");
+  } else if (named("verb", Kind::verb)) {
+    const auto* options = f.raw("options");
+    a.options = options == nullptr ? nlohmann::json::object() : *options;
+    if (a.name != "station" && a.name != "target" && a.name != "plan") f.wrong("verb", "only station, target and plan can be done in the field");
+  } else if (named("hint", Kind::hint)) {
+  } else if (f.has("wait")) {
+    a.kind = Kind::wait;
+    a.seconds = f.number("wait", 0, 86400);
+  } else if (f.has("finish")) {
+    a.kind = Kind::finish;
+    (void)f.flagOr("finish", true);
+  } else {
+    f.wrong("", "an action is one of press, hand, wait, finish, verb, answer, hint");
+  }
+  return a;
+}
+
+std::vector<RehearsalAction> actions(JsonFields& f, const char* key) {
+  std::vector<RehearsalAction> list;
+  f.list(key, [&](JsonFields& one) { list.push_back(action(one)); });
+  return list;
+}
+
+ExerciseRule rule(JsonFields& f) {
+  ExerciseRule r;
+  r.id = f.text("id");
+  r.text = spoken(f, "text", true);
+  const auto when = f.text("when");
+  r.when = when.substr(0, when.find(' '));
+  if (when.find(' ') != std::string::npos) r.event = when.substr(when.find(' ') + 1);
+  if (r.when != "end" && r.when != "once" && r.when != "always" && r.when != "each")
+    f.wrong("when", "it is one of end, once, always, each EVENT");
+  if ((r.when == "each") == r.event.empty()) f.wrong("when", "only 'each' has an event, and it needs one");
+  r.holds = f.condition("holds");
+  if (r.holds.empty()) f.wrong("holds", "a condition is needed");
+  r.points = f.number("points", 0, 1000);
+  r.must = f.flagOr("must", false);
+  r.mistake = f.textOr("mistake", "");
+  r.because = spoken(f, "because", false);
+  r.proof = f.textOr("proof", "");
+  return r;
+}
+
+fs::path ownExercisesFolder() {
+  if (const char* folder = std::getenv("STANDPOINT_EXERCISES")) return folder;
+  if (const char* config = std::getenv("XDG_CONFIG_HOME"); config != nullptr && *config != '\0') return fs::path(config) / "standpoint" / "exercises";
+  const char* home = std::getenv("HOME");
+  return home == nullptr ? fs::path() : fs::path(home) / ".config" / "standpoint" / "exercises";
+}
+
+}  // namespace
+
+const std::string& Spoken::in(const std::string& language) const {
+  static const std::string kNothing;
+  const auto found = texts.find(language);
+  if (found != texts.end()) return found->second;
+  const auto english = texts.find("en");
+  return english == texts.end() ? kNothing : english->second;
+}
+
+Result<RehearsalAction> actionFrom(const nlohmann::json& json, const std::string& file, const std::string& pointer) {
+  JsonFault fault(file);
+  JsonFields fields(fault, json, pointer);
+  auto read = action(fields);
+  fields.close();
+  if (fault.error()) return failure(*fault.error());
+  return read;
+}
+
+nlohmann::json toJson(const RehearsalAction& a) {
+  constexpr const char* kNames[] = {"press", "hand", "wait", "finish", "verb", "answer", "hint"};
+  const char* name = kNames[static_cast<int>(a.kind)];
+  if (a.kind == Kind::wait) return {{name, a.seconds}};
+  if (a.kind == Kind::finish) return {{name, true}};
+  if (a.kind == Kind::verb) return {{name, a.name}, {"options", a.options}};
+  nlohmann::json json = {{name, a.name}};
+  if (!a.value.empty()) json["value"] = a.value;
+  return json;
+}
+
+Result<std::vector<RehearsalAction>> readActions(const fs::path& file) {
+  const auto json = readJsonFile(file);
+  if (!json) return failure(json.error());
+  // A result that `rehearse` has written holds what was done, too.
+  const bool of_result = json->is_object() && json->contains("actions");
+  const auto& list = of_result ? json->at("actions") : *json;
+  if (!list.is_array()) return failure(ErrorKind::unusable, "a list of actions is needed", file.filename().string());
+  std::vector<RehearsalAction> found;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    auto one = actionFrom(list[i], file.filename().string(), (of_result ? "/actions/" : "/") + std::to_string(i));
+    if (!one) return failure(one.error());
+    found.push_back(*std::move(one));
+  }
+  return found;
+}
+
+Result<Exercise> readExercise(const fs::path& file) {
+  const auto json = readJsonFile(file);
+  if (!json) return failure(json.error());
+  JsonFault fault(file.filename().string());
+  JsonFields f(fault, *json, "");
+  Exercise e;
+  e.id = f.text("id");
+  e.title = spoken(f, "title", true);
+  e.goal = spoken(f, "goal", true);
+  e.source = f.textOr("source", "");
+  e.devices = f.texts("devices");
+  if (e.devices.empty()) f.wrong("devices", "an exercise is for at least one device");
+  e.instrument = f.textOr("instrument", "");
+  e.model = f.text("model");
+  f.list("setup", [&](JsonFields& one) {
+    const auto a = action(one);
+    if (a.kind != Kind::verb) one.wrong("verb", "the environment is prepared by verbs");
+    e.setup.push_back(toJson(a));
+  });
+  e.start = actions(f, "start");
+  e.troubles = f.texts("troubles");
+  f.list("events", [&](JsonFields& one) {
+    ExerciseEvent event{one.condition("when"), one.text("trouble")};
+    if (event.when.empty()) one.wrong("when", "a condition is needed");
+    e.events.push_back(std::move(event));
+  });
+  e.in_order = f.flagOr("in_order", true);
+  f.list("steps", [&](JsonFields& one) {
+    ExerciseStep s;
+    s.id = one.text("id");
+    s.text = spoken(one, "text", true);
+    s.hint = spoken(one, "hint", false);
+    s.widget = one.textOr("widget", "");
+    s.done = one.condition("done");
+    if (s.done.empty()) one.wrong("done", "a condition is needed");
+    s.points = one.numberOr("points", 1, 0, 1000);
+    e.steps.push_back(std::move(s));
+  });
+  f.list("rules", [&](JsonFields& one) { e.rules.push_back(rule(one)); });
+  f.list("questions", [&](JsonFields& one) {
+    ExerciseQuestion q;
+    q.id = one.text("id");
+    q.text = spoken(one, "text", true);
+    one.list("choices", [&](JsonFields& c) {
+      q.choices.push_back(c.text("value"));
+      q.choice_texts.push_back(spoken(c, "text", true));
+    });
+    e.questions.push_back(std::move(q));
+  });
+  e.time_limit_s = f.numberOr("time_limit_s", 0, 0, 1e6);
+  e.pass_mark = f.numberOr("pass_mark", 0.7, 0, 1);
+  e.solution = actions(f, "solution");
+  f.close();
+  if (e.steps.empty() && e.rules.empty()) fault.say("/steps", "an exercise has steps or rules");
+  if (fault.error()) return failure(*fault.error());
+  return e;
+}
+
+Result<std::vector<KnownExercise>> knownExercises() {
+  std::vector<KnownExercise> found;
+  for (const auto& folder : {dataFolder() / "emulated-ui" / "exercises", ownExercisesFolder()}) {
+    std::error_code error;
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder, error))
+      if (entry.path().extension() == ".json") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    for (const auto& file : files) {
+      auto exercise = readExercise(file);
+      if (!exercise) return failure(exercise.error());
+      for (const auto& other : found)
+        if (other.exercise.id == exercise->id)
+          return failure(ErrorKind::unusable, fmt::format("'{}' is the id of {}, too", exercise->id, other.file.string()), file.string());
+      found.push_back({*std::move(exercise), file});
+    }
+  }
+  return found;
+}
+
+Result<KnownExercise> findExercise(const std::string& name) {
+  std::error_code error;
+  if (fs::is_regular_file(name, error)) {
+    auto exercise = readExercise(name);
+    if (!exercise) return failure(exercise.error());
+    return KnownExercise{*std::move(exercise), name};
+  }
+  auto known = knownExercises();
+  if (!known) return failure(known.error());
+  std::vector<std::string> ids;
+  for (auto& one : *known) {
+    if (one.exercise.id == name) return std::move(one);
+    ids.push_back(one.exercise.id);
+  }
+  return failure(ErrorKind::usage, fmt::format("there is no exercise '{}'; known are {}, or give a file", name, fmt::join(ids, ", ")), "exercise");
+}
+
+}  // namespace standpoint

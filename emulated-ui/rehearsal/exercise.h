@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/result.h"
+#include "emulated-ui/device/condition.h"
+
+namespace standpoint {
+
+// A text in several languages, by language; English where one is missing.
+class Spoken {
+ public:
+  std::map<std::string, std::string> texts;
+  const std::string& in(const std::string& language) const;
+};
+
+// What a student, or the lecturer in the student's place, does. Written as one object of a list:
+//   {"press": "resolution", "value": "6mm"}   a widget of the screen, a key, or a dialogue's button
+//   {"hand": "level"}                         what hands do, see handRows()
+//   {"wait": 30}                              seconds of the device's clock
+//   {"finish": true}                          until the device and the simulation behind it rest
+//   {"verb": "target", "options": {…}}        station, target or plan, on the environment
+//   {"answer": "usable", "value": "yes"}      to a question of the exercise
+//   {"hint": "step id"}                       asks for a hint
+struct RehearsalAction {
+  enum class Kind { press, hand, wait, finish, verb, answer, hint } kind = Kind::press;
+  std::string name, value;
+  double seconds = 0;
+  nlohmann::json options;
+};
+Result<RehearsalAction> actionFrom(const nlohmann::json& json, const std::string& file, const std::string& pointer);
+nlohmann::json toJson(const RehearsalAction& action);
+Result<std::vector<RehearsalAction>> readActions(const std::filesystem::path& file);
+
+// Something that befalls the student once a condition holds.
+struct ExerciseEvent {
+  Condition when;
+  std::string trouble;
+};
+
+// Done when its condition has held once, after the steps before it where the exercise keeps order.
+struct ExerciseStep {
+  std::string id;
+  Spoken text, hint;
+  std::string widget;              // that the hint points to
+  Condition done;
+  double points = 0;
+};
+
+// A demand on how it is done. When it is asked:
+//   end     when the exercise ends
+//   once    it must have held at some time
+//   always  it must hold all the time
+//   each    whenever `event` is logged: "each scan_started"
+struct ExerciseRule {
+  std::string id;
+  Spoken text;
+  std::string when;                // "end", "once", "always", "each"
+  std::string event;               // of each
+  Condition holds;
+  double points = 0;
+  bool must = false;               // without it the exercise is not passed
+  std::string mistake;             // of the reference's list: "M08"
+  Spoken because;                  // what the mistake does to the data
+  std::string proof;               // fact that shows it in the points
+};
+
+struct ExerciseQuestion {
+  std::string id;
+  Spoken text;
+  std::vector<std::string> choices;
+  std::vector<Spoken> choice_texts;
+};
+
+struct Exercise {
+  std::string id;
+  Spoken title, goal;
+  std::string source;                       // what it is based on
+  std::vector<std::string> devices;         // ids; the first is the standard
+  std::string instrument;                   // of the device; empty: its first
+  std::string model;                        // of the samples: "house"
+  std::vector<nlohmann::json> setup;        // verbs that prepare the environment: station, target
+  std::vector<RehearsalAction> start;       // done by nobody: how the device is found
+  std::vector<std::string> troubles;        // that are there from the start
+  std::vector<ExerciseEvent> events;
+  bool in_order = true;
+  std::vector<ExerciseStep> steps;
+  std::vector<ExerciseRule> rules;
+  std::vector<ExerciseQuestion> questions;
+  double time_limit_s = 0;                  // of the device's clock; 0 = none
+  double pass_mark = 0.7;                   // share of the points
+  std::vector<RehearsalAction> solution;    // one way to do it: to be watched, and it is tested
+};
+
+Result<Exercise> readExercise(const std::filesystem::path& file);
+// Everything that is wrong with it beyond its form: unknown devices, widgets, facts, hands, troubles, samples, conditions
+// that can never hold, texts without a translation.
+std::vector<Error> checkExercise(const Exercise& exercise);
+
+// A new exercise from what somebody did: its actions are the solution, and each thing that was reached on the device is a
+// step with a point, to be kept or struck out. Texts are to be filled in.
+nlohmann::json recordedExercise(const class Device& device, const std::vector<RehearsalAction>& actions);
+
+struct KnownExercise {
+  Exercise exercise;
+  std::filesystem::path file;
+};
+// The shipped ones and those of the user's folder (STANDPOINT_EXERCISES, else XDG_CONFIG_HOME/standpoint/exercises), by id.
+Result<std::vector<KnownExercise>> knownExercises();
+// A file, or the id of a known one.
+Result<KnownExercise> findExercise(const std::string& name);
+
+}  // namespace standpoint

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "emulated-ui/rehearsal/proofs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Dense>
+
+#include "core/units.h"
+#include "pointclouds/formats.h"
+#include "project/verb.h"
+
+namespace standpoint {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+FactDomain numbers(double minimum, double maximum) { return {{}, true, minimum, maximum}; }
+
+double percentile(std::vector<float>& values, double share) {
+  if (values.empty()) return 0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+constexpr std::size_t kMostKept = 4000000;   // of a scan's points; a larger one is thinned
+
+// Holds each point against what is known of it.
+class TruthReader final : public PointSink {
+ public:
+  Result<void> begin(const ScanHeader& header) override {
+    const auto cells = static_cast<std::size_t>(header.rows) * header.columns;
+    step_ = cells / kMostKept + 1;
+    up_ = header.file_from_scanner.rotation * Eigen::Vector3d::UnitZ();
+    return {};
+  }
+  Result<void> write(const PointBlock& block) override {
+    points_ += static_cast<double>(block.size());
+    const auto& t = block.truth;
+    if (t.flags.empty()) return {};
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const auto flags = t.flags[i];
+      mixed_ += (flags & point_flag::kMixed) != 0;
+      mirrored_ += (flags & point_flag::kMirrored) != 0;
+      weather_ += (flags & point_flag::kWeather) != 0;
+      moving_ += (flags & point_flag::kMoving) != 0;
+      if (flags != 0 || (seen_++ % step_) != 0) continue;
+      const Eigen::Vector3f p(block.x_m[i], block.y_m[i], block.z_m[i]), q(t.x_m[i], t.y_m[i], t.z_m[i]);
+      range_.push_back(std::abs(p.norm() - t.range_m[i]));
+      place_.push_back((p - q).norm());
+    }
+    return {};
+  }
+  Result<void> end() override { return {}; }
+  Result<void> close() override { return {}; }
+
+  // A normal σ from the median of the absolute errors.
+  std::map<std::string, double> figures() {
+    const auto share = [&](double n) { return points_ > 0 ? n / points_ : 0; };
+    return {{"data.points", points_},
+            {"data.noise", 1.4826 * percentile(range_, 0.5) * 1000},
+            {"data.error", percentile(place_, 0.95) * 1000},
+            {"data.mixed", share(mixed_)},
+            {"data.mirrored", share(mirrored_)},
+            {"data.weather", share(weather_)},
+            {"data.moving", share(moving_)}};
+  }
+  const Eigen::Vector3d& up() const { return up_; }
+
+ private:
+  std::size_t step_ = 1, seen_ = 0;
+  double points_ = 0, mixed_ = 0, mirrored_ = 0, weather_ = 0, moving_ = 0;
+  std::vector<float> range_, place_;
+  Eigen::Vector3d up_ = Eigen::Vector3d::UnitZ();
+};
+
+std::map<std::string, double> readData(const StoredSetup& setup, const Document& document) {
+  Progress quiet;
+  TruthReader reader;
+  const auto* format = cloudFormatFor(setup.file);
+  if (format == nullptr || !format->read(setup.file, reader, quiet)) return {};
+  auto figures = reader.figures();
+  // How far the delivered cloud leans against the world: its pose against the true one.
+  for (const auto& station : document.job->stations)
+    if (station.name == setup.station) {
+      const Eigen::Vector3d true_up = station.true_pose.rotation * Eigen::Vector3d::UnitZ();
+      figures["data.tilt"] = std::acos(std::clamp(true_up.dot(reader.up()), -1.0, 1.0)) / kRadPerDeg;
+    }
+  return figures;
+}
+
+std::vector<const StoredSetup*> allSetups(const Device& device) {
+  std::vector<const StoredSetup*> all;
+  for (const auto& p : device.state().projects)
+    for (const auto& s : p.setups) all.push_back(&s);
+  return all;
+}
+
+std::string settingsText(const SettingValues& values) {
+  std::string text;
+  for (const auto& [key, value] : values) text += key + "=" + value + " ";
+  return text;
+}
+
+// What the verb `plan` says of the stations that were scanned from, with the settings of the newest scan.
+std::map<std::string, double> readPlan(const Device& device, const Document& document, const std::string& stations) {
+  const auto* newest = device.newestSetup();
+  nlohmann::json settings = nlohmann::json::array();
+  for (const auto& [key, value] : newest->settings) settings.push_back(key + "=" + value);
+  Progress quiet;
+  const auto outcome = runVerb(*findVerb(verbs(), "plan"), document,
+                               {{"stations", stations}, {"instrument", device.type().instrument.id}, {"set", settings}, {"samples", 10000}}, quiet);
+  if (!outcome) return {};
+  const auto& answer = outcome->answer;
+  std::map<std::string, double> figures;
+  figures["plan.coverage"] = answer.value("coverage", 0.0);
+  double least = 1;
+  // Each station needs one good neighbour.
+  std::map<std::string, double> best;
+  for (const auto& pair : answer.at("pairs"))
+    for (const char* side : {"a", "b"}) {
+      double& overlap = best[pair.at(side).get<std::string>()];
+      overlap = std::max(overlap, pair.at("overlap").get<double>());
+    }
+  for (const auto& [station, overlap] : best) least = std::min(least, overlap);
+  figures["plan.overlap"] = best.empty() ? 0 : least;
+  return figures;
+}
+
+// Σ of the targets' places: how wide they lie along their three principal directions.
+Eigen::Vector3d spreadOf(const std::vector<Target>& targets) {
+  if (targets.size() < 2) return Eigen::Vector3d::Zero();
+  Eigen::MatrixXd places(3, static_cast<Eigen::Index>(targets.size()));
+  for (std::size_t i = 0; i < targets.size(); ++i) places.col(static_cast<Eigen::Index>(i)) = targets[i].centre;
+  places.colwise() -= places.rowwise().mean().eval();
+  return places.jacobiSvd().singularValues() / std::sqrt(static_cast<double>(targets.size()));
+}
+
+double heightSpread(const std::vector<Target>& targets) {
+  if (targets.empty()) return 0;
+  const auto [low, high] = std::minmax_element(targets.begin(), targets.end(), [](const Target& a, const Target& b) { return a.centre.z() < b.centre.z(); });
+  return high->centre.z() - low->centre.z();
+}
+
+// Least number of targets that two setups after another both found.
+double commonTargets(const Device& device) {
+  const auto setups = allSetups(device);
+  double least = setups.size() < 2 ? 0 : std::numeric_limits<double>::max();
+  for (std::size_t i = 1; i < setups.size(); ++i) {
+    double common = 0;
+    for (const auto& a : setups[i - 1]->targets)
+      for (const auto& b : setups[i]->targets) common += a.found && b.found && a.name == b.name ? 1 : 0;
+    least = std::min(least, common);
+  }
+  return least;
+}
+
+template <class Value>
+double over(const Device& device, double start, Value value) {
+  double result = start;
+  for (const auto* s : allSetups(device))
+    for (const auto& t : s->targets)
+      if (t.found) result = value(result, t);
+  return result;
+}
+
+double worstTrueLink(const Device& device) {
+  double worst = 0;
+  for (const auto* s : allSetups(device))
+    if (s->link && s->link->joined) worst = std::max(worst, s->link->true_error_m * 1000);
+  return worst;
+}
+
+double linksThat(const Device& device, bool joined) {
+  double n = 0;
+  for (const auto* s : allSetups(device)) n += s->link && s->link->joined == joined ? 1 : 0;
+  return n;
+}
+
+double leastOverlap(const Device& device) {
+  double least = 1;
+  bool any = false;
+  for (const auto* s : allSetups(device))
+    if (s->link && s->link->joined) least = std::min(least, s->link->overlap), any = true;
+  return any ? least : 0;
+}
+
+// Files in the office that are as large as their source on the card.
+double goodCopies(const Device& device, const fs::path& folder) {
+  double good = 0;
+  for (const auto* s : allSetups(device)) {
+    const fs::path from = s->file;
+    const fs::path to = folder / "office" / (from.parent_path().filename().string() + " - " + from.filename().string());
+    std::error_code a, b;
+    const auto size = fs::file_size(from, a);
+    good += !a && size == fs::file_size(to, b) && !b ? 1 : 0;
+  }
+  return good;
+}
+
+}  // namespace
+
+const std::vector<ProofRow>& proofRows() {
+  static const std::vector<ProofRow> rows = {
+      {"data.points", "", numbers(0, 1e12), "points of the newest scan"},
+      {"data.noise", "mm", numbers(0, 1e6), "σ of the range against the truth in the newest scan"},
+      {"data.error", "mm", numbers(0, 1e6), "of 95 % of its points the distance to where they belong is less"},
+      {"data.tilt", "°", numbers(0, 90), "how far the delivered cloud leans"},
+      {"data.mixed", "", numbers(0, 1), "share of points between two surfaces"},
+      {"data.mirrored", "", numbers(0, 1), "share of points seen in a mirror or a pane"},
+      {"data.weather", "", numbers(0, 1), "share of points on drops, flakes or fog"},
+      {"data.moving", "", numbers(0, 1), "share of points on what moved"},
+      {"plan.coverage", "", numbers(0, 1), "share of the surfaces that the scans see"},
+      {"plan.overlap", "", numbers(0, 1), "the least overlap of a setup with its best neighbour"},
+      {"targets.count", "", numbers(0, 1e4), "targets that were put up"},
+      {"targets.spread", "m", numbers(0, 1e4), "of their places along the longest direction (σ)"},
+      {"targets.width", "m", numbers(0, 1e4), "of their places across it (σ): near zero, they stand in one line"},
+      {"targets.heights", "m", numbers(0, 1e4), "between the highest and the lowest"},
+      {"targets.common", "", numbers(0, 1e4), "least number that two setups after another both found"},
+      {"targets.points", "", numbers(0, 1e9), "fewest points on a found target"},
+      {"targets.residual", "mm", numbers(0, 1e6), "worst residual of a fit"},
+      {"targets.error", "mm", numbers(0, 1e6), "worst distance of a fitted centre to where it is"},
+      {"links.joined", "", numbers(0, 1e4), "links that were accepted"},
+      {"links.failed", "", numbers(0, 1e4), "links that were not found"},
+      {"links.overlap", "", numbers(0, 1), "the least overlap of a joined link"},
+      {"links.error", "mm", numbers(0, 1e6), "worst true error of a joined link"},
+      {"office.copies", "", numbers(0, 1e4), "copies in the office that are as large as their source"},
+  };
+  return rows;
+}
+
+std::optional<Fact> Proofs::fact(const std::string& name, const Device& device, const Document& document, const fs::path& folder) {
+  const auto& rows = proofRows();
+  if (std::none_of(rows.begin(), rows.end(), [&](const ProofRow& row) { return name == row.name; })) return std::nullopt;
+  const auto* newest = device.newestSetup();
+  if (name.starts_with("data.")) {
+    if (newest == nullptr) return std::nullopt;
+    if (data_of_ != newest->file) data_ = readData(*newest, document), data_of_ = newest->file;
+    const auto found = data_.find(name);
+    return found == data_.end() ? std::nullopt : std::optional(numberFact(found->second));
+  }
+  if (name.starts_with("plan.")) {
+    if (newest == nullptr) return std::nullopt;
+    std::vector<std::string> names;
+    for (const auto* s : allSetups(device))
+      if (std::find(names.begin(), names.end(), s->station) == names.end()) names.push_back(s->station);
+    std::string stations;
+    for (const auto& s : names) stations += (stations.empty() ? "" : ",") + s;
+    const auto of = stations + " " + settingsText(newest->settings);
+    if (plan_of_ != of) plan_ = readPlan(device, document, stations), plan_of_ = of;
+    const auto found = plan_.find(name);
+    return found == plan_.end() ? std::nullopt : std::optional(numberFact(found->second));
+  }
+  const auto& targets = document.job ? document.job->targets : std::vector<Target>();
+  if (name == "targets.count") return numberFact(static_cast<double>(targets.size()));
+  if (name == "targets.spread") return numberFact(spreadOf(targets)[0]);
+  if (name == "targets.width") return numberFact(targets.size() < 3 ? 0 : spreadOf(targets)[1]);
+  if (name == "targets.heights") return numberFact(heightSpread(targets));
+  if (name == "targets.common") return numberFact(commonTargets(device));
+  if (name == "targets.points") {
+    const double least = over(device, 1e9, [](double r, const FittedTarget& t) { return std::min(r, static_cast<double>(t.points)); });
+    return numberFact(least == 1e9 ? 0 : least);
+  }
+  if (name == "targets.residual") return numberFact(over(device, 0, [](double r, const FittedTarget& t) { return std::max(r, t.residual_m * 1000); }));
+  if (name == "targets.error") return numberFact(over(device, 0, [](double r, const FittedTarget& t) { return std::max(r, t.error_m * 1000); }));
+  if (name == "links.joined") return numberFact(linksThat(device, true));
+  if (name == "links.failed") return numberFact(linksThat(device, false));
+  if (name == "links.overlap") return numberFact(leastOverlap(device));
+  if (name == "links.error") return numberFact(worstTrueLink(device));
+  return numberFact(goodCopies(device, folder));
+}
+
+}  // namespace standpoint

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulated-ui/device/device.h"
+#include "project/document.h"
+
+namespace standpoint {
+
+struct ProofRow {
+  const char* name;                // "data.noise"
+  const char* unit;                // "mm"
+  FactDomain domain;
+  const char* about;
+};
+
+// What the points say, read from the scans when it is asked for, and kept as long as the scans are the same.
+//   data.*     of the newest scan: noise, error, tilt, and shares of points that are mixed, mirrored, moving or weather
+//   plan.*     of the stations that were scanned from: coverage, least overlap of neighbours
+//   targets.*  of the targets that were put up: how many, how they are spread, how well they were found
+//   links.*    of the links between the setups, against the truth
+//   office.*   of the copies
+class Proofs {
+ public:
+  std::optional<Fact> fact(const std::string& name, const Device& device, const Document& document, const std::filesystem::path& folder);
+
+ private:
+  std::map<std::string, double> data_;
+  std::string data_of_;            // file
+  std::map<std::string, double> plan_;
+  std::string plan_of_;            // stations and settings
+};
+
+const std::vector<ProofRow>& proofRows();
+
+}  // namespace standpoint

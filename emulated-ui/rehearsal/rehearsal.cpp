@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "emulated-ui/rehearsal/rehearsal.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "emulated-ui/device/format.h"
+#include "emulated-ui/menus.h"
+
+namespace standpoint {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using Kind = RehearsalAction::Kind;
+
+constexpr double kStep_s = 1;              // of virtual time
+constexpr double kLongestFinish_s = 7200;  // of the device's clock, for one "finish"
+
+Result<Document> done(const Document& document, const std::string& verb, const json& options, Progress& progress) {
+  auto outcome = runVerb(*findVerb(verbs(), verb), document, options, progress);
+  if (!outcome) return failure(outcome.error());
+  return std::move(outcome->document);
+}
+
+// The facts that a condition speaks of, in its order.
+std::vector<std::string> namesIn(const std::string& condition) {
+  std::vector<std::string> names;
+  std::string word;
+  bool quoted = false;
+  const auto take = [&] {
+    const bool a_fact = !word.empty() && (word.find('.') != std::string::npos || std::isalpha(static_cast<unsigned char>(word[0])) != 0);
+    if (a_fact && std::find(names.begin(), names.end(), word) == names.end()) names.push_back(word);
+    word.clear();
+  };
+  for (const char c : condition) {
+    if (c == '\'') quoted = !quoted;
+    const bool part = !quoted && (std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string_view("._-/").find(c) != std::string_view::npos);
+    if (part) word += c;
+    else take();
+  }
+  take();
+  return names;
+}
+
+// Scans with the truth of each point are several times as large: only where something is asked of it.
+bool asksThePoints(const Exercise& e) {
+  return std::any_of(e.rules.begin(), e.rules.end(), [](const ExerciseRule& r) { return r.holds.text().find("data.") != std::string::npos || r.proof.starts_with("data."); }) ||
+         std::any_of(e.steps.begin(), e.steps.end(), [](const ExerciseStep& s) { return s.done.text().find("data.") != std::string::npos; });
+}
+
+}  // namespace
+
+fs::path samplesFolder() {
+  if (const char* folder = std::getenv("STANDPOINT_SAMPLES")) return folder;
+  return STANDPOINT_SAMPLES_FOLDER;
+}
+
+Result<std::unique_ptr<Rehearsal>> Rehearsal::start(Exercise exercise, const std::string& device, const fs::path& folder,
+                                                    std::function<void()> wake, Progress& progress) {
+  std::unique_ptr<Rehearsal> rehearsal(new Rehearsal(std::move(exercise), folder));
+  if (auto ok = rehearsal->prepare(device, std::move(wake), progress); !ok) return failure(ok.error());
+  return rehearsal;
+}
+
+Result<void> Rehearsal::prepare(const std::string& wanted, std::function<void()> wake, Progress& progress) {
+  const auto& e = exercise_;
+  const std::string id = wanted.empty() ? e.devices.front() : wanted;
+  const bool any = std::find(e.devices.begin(), e.devices.end(), "*") != e.devices.end();
+  if (!any && std::find(e.devices.begin(), e.devices.end(), id) == e.devices.end())
+    return failure(ErrorKind::usage, fmt::format("the exercise is for {}, not '{}'", fmt::join(e.devices, ", "), id), e.id);
+  const auto* device = findDevice(id == "*" ? emulatedDevices().front().id : id);
+  if (device == nullptr) return failure(ErrorKind::usage, fmt::format("there is no device '{}'", id), e.id);
+  auto type = loadDevice(*device, e.instrument);
+  if (!type) return failure(type.error());
+  const auto model = samplesFolder() / (e.model + ".ifc");
+  progress.stage("Preparing the environment", 0, 0.3);
+  auto document = done({}, "import", {{"files", json::array({model.string()})}}, progress);
+  if (!document) return failure(document.error());
+  document_ = *std::move(document);
+  for (const auto& step : e.setup) {
+    document = done(document_, step.at("verb").get<std::string>(), step.at("options"), progress);
+    if (!document) return failure(document.error());
+    document_ = *std::move(document);
+  }
+  host_ = std::make_unique<DeviceHost>(*type, document_, std::move(wake));
+  host_->time_factor = 1;
+  host_->truth = asksThePoints(e);
+  steps_.resize(e.steps.size());
+  rules_.resize(e.rules.size());
+  event_happened_.resize(e.events.size());
+  for (const auto& action : e.start)
+    if (auto ok = apply(action, progress); !ok)
+      return failure(ok.error().kind, "the exercise cannot be prepared: " + describe(ok.error()), e.id);
+  for (const auto& trouble : e.troubles)
+    if (auto ok = this->device().trouble(trouble); !ok) return ok;
+  started_s_ = this->device().state().clock_s;
+  log_seen_ = this->device().state().log.size();
+  watch();
+  return {};
+}
+
+Result<void> Rehearsal::runFieldVerb(const RehearsalAction& action, Progress& progress) {
+  if (host_->busy()) return failure(ErrorKind::usage, "wait until the instrument rests", action.name);
+  auto document = done(document_, action.name, action.options, progress);
+  if (!document) return failure(document.error());
+  document_ = *std::move(document);
+  counts_["field." + action.name] += 1;
+  return {};
+}
+
+Result<void> Rehearsal::apply(const RehearsalAction& action, Progress& progress) {
+  switch (action.kind) {
+    case Kind::press: return device().act(action.name, action.value);
+    case Kind::hand: return device().hand(action.name, action.value);
+    case Kind::wait: return passVirtually(action.seconds, progress);
+    case Kind::finish: return finish(progress);
+    case Kind::verb: return runFieldVerb(action, progress);
+    case Kind::answer: {
+      const auto question = std::find_if(exercise_.questions.begin(), exercise_.questions.end(), [&](const ExerciseQuestion& q) { return q.id == action.name; });
+      if (question == exercise_.questions.end()) return failure(ErrorKind::usage, fmt::format("there is no question '{}'", action.name), exercise_.id);
+      if (std::find(question->choices.begin(), question->choices.end(), action.value) == question->choices.end())
+        return failure(ErrorKind::usage, fmt::format("'{}' is not one of {}", action.value, fmt::join(question->choices, ", ")), action.name);
+      answers_[action.name] = action.value;
+      return {};
+    }
+    case Kind::hint: {
+      for (std::size_t i = 0; i < exercise_.steps.size(); ++i)
+        if (exercise_.steps[i].id == action.name) {
+          hints_ += steps_[i].hinted ? 0 : 1;
+          steps_[i].hinted = true;
+          return {};
+        }
+      return failure(ErrorKind::usage, fmt::format("there is no step '{}'", action.name), exercise_.id);
+    }
+  }
+  return {};
+}
+
+Result<void> Rehearsal::act(const RehearsalAction& action, Progress& progress) {
+  auto ok = apply(action, progress);
+  if (ok) actions_.push_back(action);
+  watch();
+  return ok;
+}
+
+void Rehearsal::pass(double seconds) {
+  if (auto stored = host_->update(document_, folder_ / "scans", seconds)) document_ = std::move(stored->document);
+  watch();
+}
+
+Result<void> Rehearsal::passVirtually(double seconds, Progress& progress) {
+  pass(0);
+  while (seconds > 0) {
+    while (host_->task() != nullptr) {
+      if (auto going = progress.check(); !going) {
+        host_->task()->progress().cancel();
+        return going;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      pass(0);
+    }
+    const double step = std::min(seconds, kStep_s);
+    pass(step);
+    seconds -= step;
+  }
+  return {};
+}
+
+Result<void> Rehearsal::finish(Progress& progress) {
+  pass(0);
+  for (double waited = 0; host_->busy() && waited < kLongestFinish_s && device().state().dialog.empty(); waited += kStep_s)
+    if (auto ok = passVirtually(kStep_s, progress); !ok) return ok;
+  return {};
+}
+
+FactLookup Rehearsal::lookup() const {
+  return [this](const std::string& name) { return fact(name); };
+}
+
+std::optional<Fact> Rehearsal::fact(const std::string& name) const {
+  if (name == "time") return numberFact(seconds());
+  if (name == "hints") return numberFact(hints_);
+  if (name.starts_with("count.")) {
+    const auto found = counts_.find(name.substr(6));
+    return numberFact(found == counts_.end() ? 0 : found->second);
+  }
+  if (name.starts_with("answer.")) {
+    const auto found = answers_.find(name.substr(7));
+    return wordFact(found == answers_.end() ? "" : found->second);
+  }
+  if (auto shown = proofs_.fact(name, device(), document_, folder_)) return shown;
+  return device().fact(name);
+}
+
+const ExerciseStep* Rehearsal::nextStep() const {
+  for (std::size_t i = 0; i < steps_.size(); ++i)
+    if (!steps_[i].done) return &exercise_.steps[i];
+  return nullptr;
+}
+
+std::string Rehearsal::factsOf(const Condition& condition) const {
+  std::string text;
+  for (const auto& name : namesIn(condition.text())) {
+    const auto value = fact(name);
+    if (!value) continue;
+    text += (text.empty() ? "" : ", ") + name + " = " + (value->number ? fmt::format("{:.6g}", *value->number) : value->text);
+  }
+  return text;
+}
+
+void Rehearsal::breakRule(std::size_t index) {
+  RuleState& state = rules_[index];
+  if (state.broken_at_s >= 0) return;
+  state.broken_at_s = seconds();
+  state.found = factsOf(exercise_.rules[index].holds);
+}
+
+// After every action and every step of the clock.
+void Rehearsal::watch() {
+  const auto look = lookup();
+  const auto& log = device().state().log;
+  for (; log_seen_ < log.size(); ++log_seen_) {
+    const auto& event = log[log_seen_];
+    counts_[event.what] += 1;
+    counts_[event.what + "." + event.detail] += 1;
+    for (std::size_t i = 0; i < rules_.size(); ++i) {
+      const auto& rule = exercise_.rules[i];
+      if (rule.when != "each" || rule.event != event.what) continue;
+      rules_[i].asked = true;
+      if (!rule.holds.holds(look)) breakRule(i);
+    }
+  }
+  for (std::size_t i = 0; i < rules_.size(); ++i) {
+    const auto& rule = exercise_.rules[i];
+    if (rule.when == "always" && !rule.holds.holds(look)) breakRule(i);
+    if (rule.when == "once" && !rules_[i].held && rule.holds.holds(look)) rules_[i].held = true;
+  }
+  for (std::size_t i = 0; i < exercise_.events.size(); ++i)
+    if (!event_happened_[i] && exercise_.events[i].when.holds(look)) {
+      event_happened_[i] = true;
+      (void)device().trouble(exercise_.events[i].trouble);
+    }
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    if (!steps_[i].done && exercise_.steps[i].done.holds(look)) {
+      steps_[i].done = true;
+      steps_[i].at_s = seconds();
+    }
+    if (!steps_[i].done && exercise_.in_order) break;
+  }
+}
+
+std::vector<Rehearsal::RuleState> Rehearsal::judge() const {
+  auto states = rules_;
+  const auto look = lookup();
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const auto& rule = exercise_.rules[i];
+    if (rule.when == "end") {
+      states[i].held = rule.holds.holds(look);
+      if (!states[i].held) states[i].broken_at_s = seconds();
+    } else if (rule.when == "always") {
+      states[i].held = states[i].broken_at_s < 0;
+    } else if (rule.when == "each") {
+      states[i].held = states[i].asked && states[i].broken_at_s < 0;
+    }
+    states[i].asked = true;
+    if (states[i].found.empty()) states[i].found = factsOf(rule.holds);
+  }
+  return states;
+}
+
+bool Rehearsal::overTime() const { return exercise_.time_limit_s > 0 && seconds() > exercise_.time_limit_s; }
+
+std::optional<FactDomain> rehearsalDomain(const Exercise& exercise, const std::string& name) {
+  if (name == "time" || name == "hints" || name.starts_with("count.")) return FactDomain{{}, true, 0, 1e9};
+  if (name.starts_with("answer.")) {
+    for (const auto& q : exercise.questions)
+      if (q.id == name.substr(7)) return FactDomain{q.choices};
+    return std::nullopt;
+  }
+  for (const auto& row : proofRows())
+    if (name == row.name) return row.domain;
+  return std::nullopt;
+}
+
+}  // namespace standpoint

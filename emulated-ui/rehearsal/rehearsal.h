@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "emulated-ui/host.h"
+#include "emulated-ui/rehearsal/proofs.h"
+#include "emulated-ui/rehearsal/exercise.h"
+
+namespace standpoint {
+
+// A rehearsal that runs: an exercise, its environment, the device in the student's hands, and what was done so far.
+class Rehearsal {
+ public:
+  // `folder` receives the scans and copies; `device` empty: the exercise's first.
+  static Result<std::unique_ptr<Rehearsal>> start(Exercise exercise, const std::string& device, const std::filesystem::path& folder,
+                                                  std::function<void()> wake, Progress& progress);
+
+  const Exercise& exercise() const { return exercise_; }
+  Device& device() { return host_->device(); }
+  const Device& device() const { return host_->device(); }
+  DeviceHost& host() { return *host_; }
+  const Document& document() const { return document_; }
+  const std::filesystem::path& folder() const { return folder_; }
+
+  // What the student does; it is kept for the replay. What cannot be done now is an error of kind usage.
+  Result<void> act(const RehearsalAction& action, Progress& progress);
+  // The clock of the device goes on by `seconds`: in a window, once per frame. Simulations run beside it.
+  void pass(double seconds);
+  // The same in virtual time: each simulation is waited for before the clock goes on, so that the same actions give the same.
+  Result<void> passVirtually(double seconds, Progress& progress);
+  // Until the device and what runs behind it rest.
+  Result<void> finish(Progress& progress);
+
+  // Of the device, of the exercise ("time", "count.scan_stored", "answer.usable", "hints") and of the data ("data.noise").
+  std::optional<Fact> fact(const std::string& name) const;
+
+  struct StepState {
+    bool done = false;
+    double at_s = 0;
+    bool hinted = false;
+  };
+  struct RuleState {
+    bool held = false;             // as far as it could be told
+    bool asked = false;            // an event came, or the end
+    double broken_at_s = -1;       // for the first time
+    std::string found;             // what the facts of its condition were then
+  };
+  const std::vector<StepState>& steps() const { return steps_; }
+  // The step that is to be done now; null after the last.
+  const ExerciseStep* nextStep() const;
+  const std::vector<RehearsalAction>& actions() const { return actions_; }
+  // The end: asks the rules of the end; gives the states of all.
+  std::vector<RuleState> judge() const;
+  bool overTime() const;
+  double seconds() const { return device().state().clock_s - started_s_; }
+
+ private:
+  Rehearsal(Exercise exercise, std::filesystem::path folder) : exercise_(std::move(exercise)), folder_(std::move(folder)) {}
+  Result<void> prepare(const std::string& device, std::function<void()> wake, Progress& progress);
+  Result<void> apply(const RehearsalAction& action, Progress& progress);
+  Result<void> runFieldVerb(const RehearsalAction& action, Progress& progress);
+  void watch();
+  void breakRule(std::size_t index);
+  std::string factsOf(const Condition& condition) const;
+  FactLookup lookup() const;
+
+  Exercise exercise_;
+  std::filesystem::path folder_;
+  Document document_;
+  std::unique_ptr<DeviceHost> host_;
+  std::vector<StepState> steps_;
+  std::vector<RuleState> rules_;
+  std::vector<bool> event_happened_;
+  std::vector<RehearsalAction> actions_;
+  std::map<std::string, std::string> answers_;
+  std::map<std::string, double> counts_;
+  std::size_t log_seen_ = 0;
+  double started_s_ = 0;
+  int hints_ = 0;
+  mutable Proofs proofs_;
+};
+
+// What a rehearsal's own facts can be, for the checker; the device's stand apart.
+std::optional<FactDomain> rehearsalDomain(const Exercise& exercise, const std::string& name);
+// Where the sample environments' models lie: STANDPOINT_SAMPLES, else where the build makes them.
+std::filesystem::path samplesFolder();
+
+}  // namespace standpoint

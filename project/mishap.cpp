@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/mishap.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr double kPush_m = 0.004, kPush_rad = 0.05 * kRadPerDeg;
+
+// Passes points on, with their truth moved by `to_from`.
+class TruthMoved final : public PointSink {
+ public:
+  TruthMoved(PointSink& sink, const Pose& to_from) : sink_(sink), to_from_(to_from) {}
+  Result<void> begin(const ScanHeader& header) override { return sink_.begin(header); }
+  Result<void> write(const PointBlock& block) override {
+    if (block.truth.flags.empty()) return sink_.write(block);
+    PointBlock moved = block;
+    auto& t = moved.truth;
+    for (std::size_t i = 0; i < t.x_m.size(); ++i) {
+      const Eigen::Vector3d p = to_from_ * Eigen::Vector3d(t.x_m[i], t.y_m[i], t.z_m[i]);
+      t.x_m[i] = static_cast<float>(p.x());
+      t.y_m[i] = static_cast<float>(p.y());
+      t.z_m[i] = static_cast<float>(p.z());
+    }
+    return sink_.write(moved);
+  }
+  Result<void> end() override { return sink_.end(); }
+  Result<void> close() override { return sink_.close(); }
+
+ private:
+  PointSink& sink_;
+  Pose to_from_;
+};
+
+std::uint32_t columnAt(double share, std::uint32_t columns) {
+  return static_cast<std::uint32_t>(std::clamp(std::llround(share * columns), 0LL, static_cast<long long>(columns)));
+}
+
+Trajectory standing(const Pose& pose) { return {{0}, {pose}}; }
+
+}  // namespace
+
+Result<Mishap> mishapFrom(const std::vector<std::string>& pairs) {
+  Mishap mishap;
+  for (const auto& pair : pairs) {
+    const auto equals = std::min(pair.find('='), pair.size());
+    const auto key = pair.substr(0, equals);
+    const auto text = equals < pair.size() ? pair.substr(equals + 1) : std::string();
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool number = error == std::errc() && end == text.data() + text.size();
+    const bool share = number && value >= 0 && value <= 1;
+    if (key == "until" && share) mishap.until_share = value;
+    else if (key == "push" && share) mishap.pushed_at_share = value;
+    else if (key == "noise" && number && value >= 1 && value <= 100) mishap.noise_factor = value;
+    else
+      return failure(ErrorKind::usage, fmt::format("'{}' is none of until=SHARE, push=SHARE (0 to 1), noise=FACTOR (1 to 100)", pair), "--mishap");
+  }
+  return mishap;
+}
+
+Pose pushed(const Pose& pose) {
+  Pose moved = pose;
+  moved.translation += pose.rotation * Eigen::Vector3d(kPush_m, 0, 0);
+  moved.rotation = pose.rotation * Eigen::AngleAxisd(kPush_rad, Eigen::Vector3d::UnitZ());
+  return moved;
+}
+
+Result<ScanCount> scanWithMishap(const RayScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
+                                 const ScanSettings& settings, const Pose& pose, const ScanOptions& options, const Mishap& mishap,
+                                 PointSink& sink, Progress& progress) {
+  if (!mishap.any()) return scan(scene, assignment, instrument, settings, standing(pose), options, sink, progress);
+  ScanSettings noisier = settings;
+  noisier.noise_factor *= mishap.noise_factor;
+  ScanOptions part = options;
+  part.end_column = std::min(options.end_column, columnAt(mishap.until_share, settings.columns));
+  if (!mishap.pushed_at_share) return scan(scene, assignment, instrument, noisier, standing(pose), part, sink, progress);
+  const auto push = std::clamp(columnAt(*mishap.pushed_at_share, settings.columns), part.first_column, part.end_column);
+  ScanOptions after = part;
+  part.end_column = after.first_column = push;
+  ScanCount count;
+  const Pose moved = pushed(pose);
+  const Pose before_after{pose.rotation.conjugate() * moved.rotation, pose.rotation.conjugate() * (moved.translation - pose.translation)};
+  TruthMoved truth(sink, before_after);
+  for (const bool late : {false, true}) {
+    const auto& options_of_part = late ? after : part;
+    if (options_of_part.first_column >= options_of_part.end_column) continue;
+    const auto some = scan(scene, assignment, instrument, noisier, standing(late ? moved : pose), options_of_part, late ? static_cast<PointSink&>(truth) : sink, progress);
+    if (!some) return some;
+    count.pulses += some->pulses;
+    count.returns += some->returns;
+    count.points += some->points;
+  }
+  return count;
+}
+
+}  // namespace standpoint

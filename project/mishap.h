@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "scanners/ray_engine.h"
+
+namespace standpoint {
+
+// What went wrong in the field, and shows in the points.
+struct Mishap {
+  double until_share = 1;                 // of the columns: the scan was cut short
+  double noise_factor = 1;                // of the range noise: dust on the optics, an instrument that is not warm
+  std::optional<double> pushed_at_share;  // of the columns: the tripod was pushed there, and nobody told the instrument
+  bool any() const { return until_share < 1 || noise_factor != 1 || pushed_at_share.has_value(); }
+};
+
+// From "until=0.5", "noise=2", "push=0.4"; what is not so, or out of bounds, is an error of --mishap.
+Result<Mishap> mishapFrom(const std::vector<std::string>& pairs);
+
+// How a push moves the instrument: 4 mm aside and 0.05° about its standing axis; a choice of ours.
+Pose pushed(const Pose& pose);
+
+// Scans from a tripod as `scan` does, with what went wrong. After a push the points stand in the frame that the instrument
+// believes to be the old one; what is true of them is told in the old frame.
+Result<ScanCount> scanWithMishap(const RayScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
+                                 const ScanSettings& settings, const Pose& pose, const ScanOptions& options, const Mishap& mishap,
+                                 PointSink& sink, Progress& progress);
+
+}  // namespace standpoint

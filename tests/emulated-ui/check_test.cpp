@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "emulated-ui/device/check.h"
+#include "emulated-ui/menus.h"
+
+namespace standpoint {
+namespace {
+
+TEST(Devices, AreSoundWithEachScannerThatTheyDrive) {
+  for (const auto& device : emulatedDevices()) {
+    const auto first = loadDevice(device);
+    ASSERT_TRUE(first) << describe(first.error());
+    for (const auto& instrument : (*first)->definition.instruments) {
+      const auto type = instrument == "*" ? first : loadDevice(device, instrument);
+      ASSERT_TRUE(type) << describe(type.error());
+      for (const auto& fault : checkDevice(**type)) ADD_FAILURE() << instrument << ": " << describe(fault);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace standpoint

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <set>
+
+#include "tests/emulated-ui/support.h"
+
+namespace standpoint {
+namespace {
+
+// A seeded monkey that knows nothing: it presses what is on the screen, uses its hands, has bad luck, and the simulation
+// behind the device sometimes fails. In virtual time.
+class Monkey {
+ public:
+  Monkey(TestDevice& device, std::uint32_t seed) : d_(device), random_(seed) {}
+
+  void play(double seconds) {
+    const double until = d_->state().clock_s + seconds;
+    while (d_->state().clock_s < until && !testing::Test::HasFatalFailure()) {
+      turn();
+      look();
+    }
+  }
+
+  std::set<std::string> screens, phases;
+  int stored = 0;
+
+ private:
+  std::size_t next(std::size_t n) {
+    random_ = random_ * 1664525U + 1013904223U;
+    return n == 0 ? 0 : (random_ >> 8U) % n;
+  }
+
+  void turn() {
+    if (d_->busy() && next(3) == 0) {   // it has patience now and then
+      work();
+      d_->tick(60);
+    }
+    switch (next(20)) {
+      case 0: (void)d_->hand(handRows()[next(handRows().size())].id, next(2) == 0 ? "S" + std::to_string(next(3)) : "0.1,0.2"); break;
+      case 1:
+        if (next(10) == 0) (void)d_->trouble(troubleRows()[next(troubleRows().size())].id);
+        break;
+      case 2: d_->tick(static_cast<double>(next(20)) + 0.5); break;
+      case 3: work(); break;
+      case 4: help(); break;
+      default: press(); d_->tick(0.2); break;
+    }
+    if (d_->takeStored()) ++stored;
+    (void)d_->takeCancel();
+  }
+
+  void press() {
+    const auto screen = d_->screen();
+    std::vector<const Widget*> all;
+    for (const auto* widgets : {&screen.widgets, &screen.body, &screen.dialog.buttons})
+      for (const auto& w : *widgets) all.push_back(&w);
+    ASSERT_FALSE(all.empty());
+    const auto& w = *all[next(all.size())];
+    std::string value = "n" + std::to_string(next(5));
+    if (!w.options.empty()) value = w.options[next(w.options.size())].value;
+    else if (w.kind == WidgetKind::number) value = std::to_string(next(400));
+    else if (w.kind == WidgetKind::preview) value = "0.5,0.5";
+    if (w.kind == WidgetKind::area) value = "10,200,-20,30";
+    (void)d_->act(w.id, value);
+  }
+
+  // A careful hand mends what is wrong now and then, else nothing would ever be scanned.
+  void help() {
+    if (next(3) != 0) return;
+    for (const char* hand : {"change_battery", "change_card", "unlock_card", "level", "wipe_optics"}) (void)d_->hand(hand);
+    (void)d_->hand("stand_at", "S1");
+  }
+
+  void work() {
+    auto order = d_->takeOrder();
+    if (!order) return;
+    if (next(15) == 0) return d_->orderFailed("disk full");
+    if (const auto* scan = std::get_if<ScanOrder>(&*order)) d_.finish(*scan);
+    else if (std::holds_alternative<LinkOrder>(*order)) d_->linkDone({next(2) == 0, 0.002, 0.5, 0, 0});
+    else if (std::holds_alternative<TargetOrder>(*order)) d_->targetsDone({});
+    else if (const auto* transfer = std::get_if<TransferOrder>(&*order)) d_->transferDone(transfer->files);
+  }
+
+  // Whatever was done: a known phase and screen, something to press, no label without a word, and no stored scan is gone
+  // that was not deleted or formatted.
+  void look() {
+    const auto screen = d_->screen();
+    const auto& definition = d_->type().definition;
+    ASSERT_NE(findPhase(definition, d_.phase()), nullptr);
+    phases.insert(d_.phase());
+    if (d_->on()) {
+      ASSERT_NE(findScreen(definition, screen.id), nullptr) << screen.id;
+      screens.insert(screen.id);
+      if (!d_.dialog().empty()) {
+        ASSERT_NE(findDialog(definition, d_.dialog()), nullptr) << d_.dialog();
+        ASSERT_FALSE(screen.dialog.text.empty());
+      }
+    }
+    std::size_t now = 0, gone = 0;
+    for (const auto& p : d_->state().projects) now += p.setups.size();
+    for (; seen_ < d_->state().log.size(); ++seen_) {
+      const auto& event = d_->state().log[seen_];
+      if (event.what == "setup_deleted") gone = 1;
+      if (event.what == "card_formatted") gone = count_;
+    }
+    ASSERT_GE(now + gone, count_) << "a scan was lost";
+    count_ = now;
+  }
+
+  TestDevice& d_;
+  std::uint32_t random_;
+  std::size_t seen_ = 0, count_ = 0;
+};
+
+TEST(Monkey, MashesKeysForAnHourOnEveryDeviceWithoutHarm) {
+  for (const auto& device : emulatedDevices()) {
+    std::set<std::string> screens, phases;
+    int stored = 0;
+    for (std::uint32_t seed = 1; seed <= 8; ++seed) {
+      TestDevice d(device.id);
+      Monkey monkey(d, seed);
+      monkey.play(3600);
+      ASSERT_FALSE(HasFatalFailure()) << device.id << " seed " << seed;
+      screens.insert(monkey.screens.begin(), monkey.screens.end());
+      phases.insert(monkey.phases.begin(), monkey.phases.end());
+      stored += monkey.stored;
+    }
+    TestDevice d(device.id);
+    EXPECT_GE(screens.size() * 10, d->type().definition.screens.size() * 7) << device.id << ": the monkey saw too few screens to prove much";
+    EXPECT_GT(stored, 0) << device.id;
+  }
+}
+
+}  // namespace
+}  // namespace standpoint

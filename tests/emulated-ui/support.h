@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "emulated-ui/menus.h"
+
+namespace standpoint {
+
+// A device in the hands of a test, with a simulation that takes no time.
+class TestDevice {
+ public:
+  explicit TestDevice(const std::string& id, const std::string& instrument = {}) : device_(load(id, instrument)) {}
+
+  Device& operator*() { return device_; }
+  Device* operator->() { return &device_; }
+
+  // Presses one widget after the other: "resolution=12mm", "back".
+  testing::AssertionResult press(const std::vector<std::string>& widgets) {
+    for (const auto& text : widgets) {
+      const auto equals = text.find('=');
+      const auto done = device_.act(text.substr(0, equals), equals == std::string::npos ? "" : text.substr(equals + 1));
+      if (!done)
+        return testing::AssertionFailure() << text << " on screen '" << device_.screen().id << "', dialogue '" << device_.screen().dialog.id
+                                           << "': " << describe(done.error());
+    }
+    return testing::AssertionSuccess();
+  }
+  bool refuses(const std::string& widget, const std::string& value = {}) { return !device_.act(widget, value); }
+
+  std::string shows(const std::string& widget) const {
+    const auto screen = device_.screen();
+    const auto* w = findWidget(screen, widget);
+    return w == nullptr ? "(not there)" : w->value;
+  }
+  std::string phase() const { return device_.state().phase; }
+  std::string screen() const { return device_.screen().id; }
+  std::string dialog() const { return device_.state().dialog; }
+  std::string fact(const std::string& name) const {
+    const auto found = device_.fact(name);
+    return found ? found->text : "(no fact)";
+  }
+  bool happened(const std::string& what, const std::string& detail = {}) const {
+    for (const auto& event : device_.state().log)
+      if (event.what == what && (detail.empty() || event.detail == detail)) return true;
+    return false;
+  }
+
+  // The simulation is done at once; the device's clock goes on until it waits.
+  ScanOrder scanned(std::uint64_t points = 1000000) {
+    const auto order = device_.takeOrder();
+    const auto* scan = order ? std::get_if<ScanOrder>(&*order) : nullptr;
+    EXPECT_NE(scan, nullptr);
+    if (scan == nullptr) return {};
+    finish(*scan, points);
+    return *scan;
+  }
+  void finish(const ScanOrder& scan, std::uint64_t points = 1000000) {
+    StoredSetup s;
+    s.project = scan.project;
+    s.number = scan.number;
+    s.name = scan.name;
+    s.station = scan.station;
+    s.settings = scan.settings;
+    s.file = "scans/" + scan.project + "/" + scan.name + ".e57";
+    s.points = points;
+    s.bytes = static_cast<double>(points) * device_.type().definition.body.bytes_per_point;
+    device_.orderMoved(1);
+    device_.scanDone(std::move(s));
+  }
+  void settle() {
+    for (int i = 0; i < 1000 && device_.busy(); ++i) device_.tick(10);
+  }
+
+ private:
+  static Device load(const std::string& id, const std::string& instrument) {
+    const auto* row = findDevice(id);
+    EXPECT_NE(row, nullptr) << id;
+    auto type = loadDevice(*row, instrument);
+    EXPECT_TRUE(type) << describe(type.error());
+    return Device(*type);
+  }
+
+  Device device_;
+};
+
+}  // namespace standpoint
