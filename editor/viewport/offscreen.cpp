@@ -89,17 +89,24 @@ class EglOffscreen : public Offscreen {
     editor.fine_picture = true;
   }
 
+  SceneView& scene() override { return *scene_; }
+
   void frame(Editor& editor) override {
-    layOut(editor);
+    layOut([&] { drawShell(editor); });
     paint();
     glFinish();
   }
 
   Result<void> picture(Editor& editor, const std::filesystem::path& png) override {
-    for (int i = 0; i < kFramesUntilStill; ++i) {
-      layOut(editor);
+    const auto draw = [&] {
+      drawShell(editor);
       editor.expected.wait();
-    }
+    };
+    return picture(draw, png);
+  }
+
+  Result<void> picture(const std::function<void()>& draw, const std::filesystem::path& png) override {
+    for (int i = 0; i < kFramesUntilStill; ++i) layOut(draw);
     paint();
     std::vector<unsigned char> pixels(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 3);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -111,10 +118,10 @@ class EglOffscreen : public Offscreen {
   }
 
  private:
-  static void layOut(Editor& editor) {
+  static void layOut(const std::function<void()>& draw) {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();
-    drawShell(editor);
+    draw();
     ImGui::Render();
   }
 
