@@ -29,11 +29,14 @@ struct ScanOrder {
   double noise_factor = 1;         // of the range noise: dust on the optics, an instrument that is not warm
   std::optional<double> bumped_at_share;   // the tripod was pushed then
   std::optional<double> walker_at_share;   // somebody walks by then
+  double tilt_x_deg = 0, tilt_y_deg = 0;   // of the standing axis when it began
 };
 
-// How the newest setup joins an earlier one: cloud to cloud.
+// How a setup joins an earlier one: cloud to cloud.
 struct LinkOrder {
   std::string from_file, to_file;
+  double shift_x_m = 0, shift_y_m = 0;   // how the user laid the first by hand before the fit, from where it lay:
+  double turn_deg = 0;                   // in plan, anticlockwise about itself
 };
 struct LinkResult {
   bool joined = false;
@@ -88,6 +91,7 @@ struct StoredSetup {
   double instrument_seconds = 0;
   bool partial = false;            // it was cut short
   bool unlevelled = false;         // the compensator did not help
+  double lean_x_deg = 0, lean_y_deg = 0;   // of the stored cloud: what nothing has levelled
   bool moved = false;              // the tripod was pushed meanwhile
   bool tracked = false;            // the way from the setup before is known
   bool looked_at = false;          // its preview was opened
