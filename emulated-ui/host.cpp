@@ -9,6 +9,7 @@
 
 #include "core/units.h"
 #include "emulated-ui/preview.h"
+#include "project/answers.h"
 #include "project/levelling.h"
 #include "project/target_measuring.h"
 
@@ -56,7 +57,8 @@ Result<Outcome> targetsIn(const Document& document, const std::string& file, std
     const auto& target = job.targets[m.target];
     const auto truth = job.stations[m.station].true_pose.rotation.conjugate() * (target.centre - job.stations[m.station].true_pose.translation);
     outcome.answer.push_back({{"name", target.name}, {"kind", target.kind == TargetKind::sphere ? "sphere" : "checkerboard"}, {"points", m.fit.points},
-                              {"range_m", m.fit.centre.norm()}, {"residual_m", m.fit.residual_m}, {"error_m", (m.fit.centre - truth).norm()}, {"found", true}});
+                              {"range_m", m.fit.centre.norm()}, {"residual_m", m.fit.residual_m}, {"error_m", (m.fit.centre - truth).norm()},
+                              {"centre", toJson(m.fit.centre)}, {"found", true}});
   }
   for (const auto& m : measured->missed)
     outcome.answer.push_back({{"name", job.targets[m.target].name}, {"found", false}, {"why", m.why}});
@@ -75,6 +77,7 @@ std::vector<FittedTarget> targetsFrom(const json& rows) {
       t.range_m = row.at("range_m");
       t.residual_m = row.at("residual_m");
       t.error_m = row.at("error_m");
+      for (Eigen::Index i = 0; i < 3; ++i) t.centre_m[i] = row.at("centre").at(static_cast<std::size_t>(i)).get<double>();
     } else {
       t.why_not = row.at("why");
     }
@@ -83,7 +86,7 @@ std::vector<FittedTarget> targetsFrom(const json& rows) {
   return targets;
 }
 
-LinkResult linkFrom(const json& answer) {
+LinkResult linkFrom(const json& answer, const Document& solved) {
   const auto& row = answer.at("stations").back();
   LinkResult link;
   if (!row.contains("fit")) return link;
@@ -91,6 +94,11 @@ LinkResult linkFrom(const json& answer) {
   link.overlap = row["fit"].at("used_share");
   link.true_error_m = row.at("true_error_m");
   link.true_error_deg = row.at("true_turn_error_deg");
+  if (const auto* station = stationOf(solved, row.at("name").get<std::string>()); station != nullptr && station->solved_pose) {
+    const Pose &to = *station->solved_pose, &from = station->true_pose;
+    link.error.rotation = to.rotation * from.rotation.conjugate();
+    link.error.translation = to.translation - link.error.rotation * from.translation;
+  }
   link.joined = row["fit"].at("settled").get<bool>() && row["fit"].at("not_held").empty();
   return link;
 }
@@ -168,6 +176,7 @@ void DeviceHost::startScan(const ScanOrder& order, const Document& document, con
   if (order.until_share < 1) mishap.push_back(fmt::format("until={}", order.until_share));
   if (order.noise_factor > 1) mishap.push_back(fmt::format("noise={}", order.noise_factor));
   if (order.bumped_at_share) mishap.push_back(fmt::format("push={}", *order.bumped_at_share));
+  if (order.walker_at_share) mishap.push_back(fmt::format("walk={}", *order.walker_at_share));
   if (!mishap.empty()) options["mishap"] = mishap;
   if (truth) options["truth"] = true;
   task_ = std::make_unique<Task>(fmt::format("{}: {} at {}", device_.type().definition.title, order.name, order.station),
@@ -235,7 +244,7 @@ void DeviceHost::takeResult(Outcome outcome, const Document& document) {
     if (const auto* station = stationOf(outcome.document, scan->station)) finished_ = station->scans.back();
     device_.scanDone(std::move(s));
   } else if (std::holds_alternative<LinkOrder>(*running_)) {
-    device_.linkDone(linkFrom(outcome.answer));
+    device_.linkDone(linkFrom(outcome.answer, outcome.document));
   } else if (std::holds_alternative<TargetOrder>(*running_)) {
     device_.targetsDone(targetsFrom(outcome.answer));
   } else if (const auto* preview = std::get_if<PreviewOrder>(&*running_)) {

@@ -6,6 +6,7 @@
 
 #include "emulated-ui/faro/focus.h"
 #include "emulated-ui/leica/rtc360.h"
+#include "emulated-ui/trimble/x7.h"
 #include "project/instruments.h"
 #include "project/verb.h"
 
@@ -16,6 +17,7 @@ namespace {
 constexpr std::array kDevices = {
     EmulatedDevice{"leica-rtc360", "Leica RTC360", rtc360Program},
     EmulatedDevice{"faro-focus", "FARO Focus", focusProgram},
+    EmulatedDevice{"trimble-x7", "Trimble X7 / X9", x7Program},
 };
 
 }  // namespace

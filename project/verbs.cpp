@@ -158,7 +158,7 @@ const std::vector<Verb>& table() {
         {.name = "ideal", .kind = K::flag, .help = "without any effect: the first surface on the axis of each pulse, exactly"},
         {.name = "without", .kind = K::text, .help = effectHelp()},
         {.name = "weather", .kind = K::text, .help = "visibility=KM rain=MM/H snow=MM/H fog=M dust=M, separated by spaces or commas"},
-        {.name = "mishap", .kind = K::pairs, .help = "what went wrong in the field: until=SHARE of the columns, push=SHARE after which the tripod stands elsewhere, noise=FACTOR"},
+        {.name = "mishap", .kind = K::pairs, .help = "what went wrong in the field: until=SHARE of the columns, push=SHARE after which the tripod stands elsewhere, noise=FACTOR, walk=SHARE of the turn where somebody passes"},
         {.name = "panorama", .kind = K::flag, .help = "a picture all around from each station, and the points coloured from it"},
         {.name = "compensator", .kind = K::choice, .help = "off: a station out of level gives tilted points", .standard = "on", .choices = {"on", "off"}},
         {.name = "truth", .kind = K::flag, .help = "with what is known of each point: time, return, true place, range, incidence, power, how it came about"},

@@ -214,8 +214,9 @@ class Reader : FigureReader {
   }
 
   void readNumber(Group& group, InstrumentSetting& setting) {
-    static const std::set<std::string> kKnown = {"horizontal_from", "horizontal_to", "vertical_from", "vertical_to"};
-    if (!kKnown.contains(setting.key)) return fail(group.pointer + "/key", "only the edges of an area are numbers; a setting needs choices");
+    static const std::set<std::string> kKnown = {"horizontal_from", "horizontal_to", "vertical_from", "vertical_to", "line_step", "frame_step"};
+    if (!kKnown.contains(setting.key))
+      return fail(group.pointer + "/key", "only the edges of an area and the steps of a pattern are numbers; a setting needs choices");
     setting.minimum = figure(group, "minimum", {-360, 360});
     setting.maximum = figure(group, "maximum", {-360, 360});
     const Json standard = Json::parse(setting.standard, nullptr, false);
@@ -242,6 +243,7 @@ class Reader : FigureReader {
     static const std::map<std::string, Domain> kEffects = {
         {"columns", {2, 1e6}},      {"rows", {1, 1e6}},   {"scan_seconds", {0.01, 1e5}}, {"rate_hz", {1, 1e9}},
         {"noise_factor", {0.01, 100}}, {"passes", {1, 16}},  {"imaging", {0, 1}},           {"imaging_seconds", {0, 1e4}},
+        {"stepped", {0, 1}},        {"points_per_s", {1, 1e9}}, {"imaging_factor", {0, 100}},
         {"area", {0, 1}},           {"max_range_m", {1, 10000}}, {"reference_reflectivity", {0.001, 1}},
         {"rotation_hz", {0.01, 10000}}, {"most_returns", {1, 255}}};
     SettingChoice choice;

@@ -63,10 +63,13 @@ Result<SettingValues> complete(const Instrument& instrument, const SettingValues
   return result;
 }
 
+bool isStep(const std::string& key) { return key == "line_step" || key == "frame_step"; }
+
 struct Effects {
   double columns = 0, rows = 0, seconds = 0, rate_hz = 0, noise_factor = 1, passes = 1, imaging = 0, imaging_seconds = 0;
   double max_range_m = 0, reference_reflectivity = 0;
-  bool area = true;
+  double points_per_s = 0, imaging_factor = 1;
+  bool area = true, stepped = false;
 };
 
 Effects gather(const Instrument& instrument, const SettingValues& values) {
@@ -89,6 +92,9 @@ Effects gather(const Instrument& instrument, const SettingValues& values) {
       if (key == "max_range_m") sum.max_range_m = value;
       if (key == "reference_reflectivity") sum.reference_reflectivity = value;
       if (key == "area") sum.area = value > 0;
+      if (key == "stepped") sum.stepped = value > 0;
+      if (key == "points_per_s") sum.points_per_s = sum.points_per_s > 0 ? std::min(sum.points_per_s, value) : value;
+      if (key == "imaging_factor") sum.imaging_factor *= value;
     }
   }
   return sum;
@@ -123,7 +129,7 @@ Result<Area> areaOf(const Instrument& instrument, const SettingValues& values, b
   area.vertical_to = instrument.max_elevation_rad / kRadPerDeg;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto& [key, value] = values[i];
-    if (!instrument.settings[i].choices.empty()) continue;
+    if (!instrument.settings[i].choices.empty() || isStep(key)) continue;
     const double angle = *number(value);
     if (!allowed_here && angle != *number(instrument.settings[i].standard))
       return failure(ErrorKind::usage, "an edge belongs to an area: choose that field of view as well", key);
@@ -137,6 +143,20 @@ Result<Area> areaOf(const Instrument& instrument, const SettingValues& values, b
   return area;
 }
 
+// The two steps of a pattern of one's own make the grid.
+Result<void> applySteps(const Instrument& instrument, const SettingValues& values, Effects& effects) {
+  const double full = (instrument.max_elevation_rad - instrument.min_elevation_rad) / kRadPerDeg;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto& [key, value] = values[i];
+    if (!isStep(key)) continue;
+    const double step = *number(value);
+    if (!effects.stepped && step != *number(instrument.settings[i].standard))
+      return failure(ErrorKind::usage, "a step belongs to a pattern of one's own: choose that pattern as well", key);
+    if (effects.stepped) (key == "frame_step" ? effects.columns : effects.rows) = std::round((key == "frame_step" ? 360 : full) / step);
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<ScanSettings> resolveSettings(const Instrument& instrument, const SettingValues& values) {
@@ -145,7 +165,8 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
                    "trajectory, and a station has none; choose an instrument for a tripod", instrument.id);
   auto filled = complete(instrument, values);
   if (!filled) return failure(filled.error());
-  const Effects effects = gather(instrument, *filled);
+  Effects effects = gather(instrument, *filled);
+  if (auto steps = applySteps(instrument, *filled, effects); !steps) return failure(steps.error());
   if (effects.columns < 2) return failure(ErrorKind::unusable, "no choice states the columns", instrument.id + " /settings");
   if (auto turns = checkMirror(instrument, *filled, effects); !turns) return failure(turns.error());
   auto area = areaOf(instrument, *filled, effects.area);
@@ -155,6 +176,8 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
   const double share = (area->horizontal_to - area->horizontal_from) / 360;
   const double rows = effects.rows > 0 ? effects.rows : effects.columns * full / 360;
   const double mirror_hz = effects.rate_hz / effects.columns;
+  // A pattern has a time of its own, unless the laser is too slow for it.
+  if (effects.points_per_s > 0) effects.seconds = std::max(effects.seconds, effects.columns * rows / effects.points_per_s);
   const double turning = effects.seconds > 0 ? effects.seconds - instrument.overhead_s
                          : mirror_hz > 0     ? effects.columns / 2 * instrument.column_factor / mirror_hz
                                              : 0;
@@ -174,7 +197,7 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
   settings.passes = static_cast<int>(effects.passes);
   settings.imaging = effects.imaging > 0;
   settings.scan_seconds = (instrument.overhead_s + turning * share) * effects.passes;
-  settings.imaging_seconds = settings.imaging ? effects.imaging_seconds : 0;
+  settings.imaging_seconds = settings.imaging ? effects.imaging_seconds * effects.imaging_factor : 0;
   return settings;
 }
 

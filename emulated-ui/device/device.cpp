@@ -249,6 +249,7 @@ void Device::tick(double seconds) {
 // --- orders ---
 
 void Device::give(Order order) {
+  if (const auto* link = std::get_if<LinkOrder>(&order)) state_.linking = link->from_file;
   order_ = std::move(order);
   state_.engine_share = 0;
 }
@@ -271,12 +272,18 @@ void Device::scanDone(StoredSetup setup) {
   setup.partial = state_.running->until_share < 1;
   setup.tracked = state_.around.tracking;
   setup.unlevelled = !state_.running->compensator || tilt() > type_->definition.body.tilt_limit_deg;
+  if (setup.unlevelled) {
+    setup.lean_x_deg = state_.running->tilt_x_deg;
+    setup.lean_y_deg = state_.running->tilt_y_deg;
+  }
   state_.data = std::move(setup);
   fire("data");
 }
 
 void Device::linkDone(const LinkResult& link) {
-  if (auto* newest = newestSetup()) newest->link = link;
+  for (auto& p : state_.projects)
+    for (auto& setup : p.setups)
+      if (setup.file == state_.linking) setup.link = link;
   note("linked", link.joined ? "joined" : "refused");
   fire("linked");
 }

@@ -117,6 +117,12 @@ Result<void> standAt(Device& d, const std::string& station) {
   return {};
 }
 
+// Nearer to the instrument, where the wireless link holds again.
+Result<void> comeNear(Device& d, const std::string&) {
+  d.change().around.wlan = true;
+  return {};
+}
+
 Result<void> push(Device& d, const std::string&) {
   d.fire("moved");
   return {};
@@ -133,6 +139,7 @@ const std::vector<HandRow>& handRows() {
       {"change_battery", "", changeBattery}, {"plug_in", "", plugIn},        {"unplug", "", unplug},
       {"level", "", level},                {"tilt", "x,y in degrees", tiltTo}, {"wipe_optics", "", wipeOptics},
       {"stand_at", "station", standAt},    {"push", "", push},
+      {"come_near", "", comeNear},
   };
   return rows;
 }

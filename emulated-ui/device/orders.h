@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/survey.h"
 #include "scanners/instrument.h"
 
 namespace standpoint {
@@ -29,11 +30,14 @@ struct ScanOrder {
   double noise_factor = 1;         // of the range noise: dust on the optics, an instrument that is not warm
   std::optional<double> bumped_at_share;   // the tripod was pushed then
   std::optional<double> walker_at_share;   // somebody walks by then
+  double tilt_x_deg = 0, tilt_y_deg = 0;   // of the standing axis when it began
 };
 
-// How the newest setup joins an earlier one: cloud to cloud.
+// How a setup joins an earlier one: cloud to cloud.
 struct LinkOrder {
   std::string from_file, to_file;
+  double shift_x_m = 0, shift_y_m = 0;   // how the user laid the first by hand before the fit, from where it lay:
+  double turn_deg = 0;                   // in plan, anticlockwise about itself
 };
 struct LinkResult {
   bool joined = false;
@@ -41,6 +45,7 @@ struct LinkResult {
   double overlap = 0;              // share of the newer cloud
   double true_error_m = 0;         // of the solved place: what only the simulation knows
   double true_error_deg = 0;
+  Pose error;                      // the true place moved by it is the solved one
 };
 
 // Find the targets in a setup and measure them.
@@ -54,6 +59,7 @@ struct FittedTarget {
   double range_m = 0;
   double residual_m = 0;           // r.m.s. of the fit
   double error_m = 0;              // to where it truly is
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();   // as fitted, in the setup's own frame
   bool found = false;
   std::string why_not;
 };
@@ -88,6 +94,7 @@ struct StoredSetup {
   double instrument_seconds = 0;
   bool partial = false;            // it was cut short
   bool unlevelled = false;         // the compensator did not help
+  double lean_x_deg = 0, lean_y_deg = 0;   // of the stored cloud: what nothing has levelled
   bool moved = false;              // the tripod was pushed meanwhile
   bool tracked = false;            // the way from the setup before is known
   bool looked_at = false;          // its preview was opened

@@ -2,6 +2,7 @@
 #include "emulated-ui/rehearsal/exercise.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include <fmt/format.h>
@@ -61,6 +62,17 @@ std::vector<RehearsalAction> actions(JsonFields& f, const char* key) {
   std::vector<RehearsalAction> list;
   f.list(key, [&](JsonFields& one) { list.push_back(action(one)); });
   return list;
+}
+
+std::vector<double> numbersIn(JsonFault& fault, const nlohmann::json& list, const std::string& pointer, std::size_t count, const char* needed) {
+  std::vector<double> found;
+  for (const auto& number : list.is_array() ? list : nlohmann::json::array())
+    if (number.is_number() && std::abs(number.get<double>()) <= 1e9) found.push_back(number.get<double>());
+  if (!list.is_array() || list.size() != count || found.size() != count) {
+    fault.say(pointer, needed);
+    found.assign(count, 0);
+  }
+  return found;
 }
 
 ExerciseRule rule(JsonFields& f) {
@@ -150,6 +162,10 @@ Result<Exercise> readExercise(const fs::path& file) {
   if (e.devices.empty()) f.wrong("devices", "an exercise is for at least one device");
   e.instrument = f.textOr("instrument", "");
   e.model = f.text("model");
+  if (const auto* area = f.raw("area")) e.area = numbersIn(fault, *area, "/area", 6, "six numbers are needed: the least and the greatest x, y, z");
+  f.each("places", [&](const std::string& name, const nlohmann::json& at, const std::string& pointer) {
+    e.places[name] = numbersIn(fault, at, pointer, 2, "x and y are needed");
+  });
   f.list("setup", [&](JsonFields& one) {
     const auto a = action(one);
     if (a.kind != Kind::verb) one.wrong("verb", "the environment is prepared by verbs");
