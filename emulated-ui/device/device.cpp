@@ -30,7 +30,8 @@ void spellOutSettings(std::vector<WidgetRow>& widgets, const Instrument& instrum
   std::vector<WidgetRow> rows;
   for (const auto& setting : instrument.settings) {
     WidgetRow row = pattern;
-    row.id = row.words = row.setting = setting.key;
+    row.setting = setting.key;
+    row.id = row.words = "setting." + setting.key;   // so that no key is taken for another widget
     row.kind = setting.choices.empty() ? WidgetKind::number : WidgetKind::choice;
     rows.push_back(std::move(row));
   }

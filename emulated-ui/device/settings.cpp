@@ -19,6 +19,10 @@ Result<SettingValues> adaptedSettings(const Instrument& instrument, const Settin
     for (const auto& choice : other.choices)
       if (const auto moved = withSetting(wanted, other.key, choice.value); resolveSettings(instrument, moved)) return moved;
   }
+  auto plain = wanted;   // the edges of an area, the steps of a pattern of one's own
+  for (const auto& other : instrument.settings)
+    if (other.choices.empty() && other.key != key) plain = withSetting(plain, other.key, other.standard);
+  if (resolveSettings(instrument, plain)) return plain;
   return failure(resolved.error());
 }
 

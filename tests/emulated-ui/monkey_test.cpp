@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <set>
 
 #include "tests/emulated-ui/support.h"
@@ -54,7 +55,10 @@ class Monkey {
     for (const auto* widgets : {&screen.widgets, &screen.body, &screen.dialog.buttons})
       for (const auto& w : *widgets) all.push_back(&w);
     ASSERT_FALSE(all.empty());
-    const auto& w = *all[next(all.size())];
+    // The big keys on the display draw it: else it would rarely start a scan on a device of many buttons.
+    const bool drawn = !screen.has_dialog && next(12) == 0;
+    const auto key = std::find_if(screen.widgets.begin(), screen.widgets.end(), [&](const Widget& w) { return drawn && w.kind == WidgetKind::key; });
+    const auto& w = key == screen.widgets.end() ? *all[next(all.size())] : *key;
     std::string value = "n" + std::to_string(next(5));
     if (!w.options.empty()) value = w.options[next(w.options.size())].value;
     else if (w.kind == WidgetKind::number) value = std::to_string(next(400));
