@@ -31,7 +31,8 @@ Spoken spoken(JsonFields& f, const char* key, bool required) {
   return s;
 }
 
-RehearsalAction action(JsonFields& f) {
+// `prepares`: before anybody is there, more can be done: doors stand open that the model has shut.
+RehearsalAction action(JsonFields& f, bool prepares = false) {
   RehearsalAction a;
   const auto named = [&](const char* key, Kind kind) {
     if (!f.has(key)) return false;
@@ -44,7 +45,9 @@ RehearsalAction action(JsonFields& f) {
   } else if (named("verb", Kind::verb)) {
     const auto* options = f.raw("options");
     a.options = options == nullptr ? nlohmann::json::object() : *options;
-    if (a.name != "station" && a.name != "target" && a.name != "plan") f.wrong("verb", "only station, target and plan can be done in the field");
+    const bool field = a.name == "station" || a.name == "target" || a.name == "plan";
+    if (!field && !(prepares && a.name == "treat"))
+      f.wrong("verb", prepares ? "only station, target, plan and treat can prepare the environment" : "only station, target and plan can be done in the field");
   } else if (named("hint", Kind::hint)) {
   } else if (f.has("wait")) {
     a.kind = Kind::wait;
@@ -167,7 +170,7 @@ Result<Exercise> readExercise(const fs::path& file) {
     e.places[name] = numbersIn(fault, at, pointer, 2, "x and y are needed");
   });
   f.list("setup", [&](JsonFields& one) {
-    const auto a = action(one);
+    const auto a = action(one, true);
     if (a.kind != Kind::verb) one.wrong("verb", "the environment is prepared by verbs");
     e.setup.push_back(toJson(a));
   });
