@@ -5,6 +5,8 @@
 #include <array>
 
 #include "emulated-ui/faro/focus.h"
+#include "emulated-ui/leica/blk360.h"
+#include "emulated-ui/leica/p_series.h"
 #include "emulated-ui/leica/rtc360.h"
 #include "project/instruments.h"
 #include "project/verb.h"
@@ -15,6 +17,8 @@ namespace {
 
 constexpr std::array kDevices = {
     EmulatedDevice{"leica-rtc360", "Leica RTC360", rtc360Program},
+    EmulatedDevice{"leica-blk360", "Leica BLK360", blk360Program},
+    EmulatedDevice{"leica-p-series", "Leica ScanStation P-series", pSeriesProgram},
     EmulatedDevice{"faro-focus", "FARO Focus", focusProgram},
 };
 
