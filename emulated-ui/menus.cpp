@@ -6,6 +6,8 @@
 
 #include "emulated-ui/faro/focus.h"
 #include "emulated-ui/generic/generic.h"
+#include "emulated-ui/leica/blk360.h"
+#include "emulated-ui/leica/p_series.h"
 #include "emulated-ui/leica/rtc360.h"
 #include "emulated-ui/riegl/vz_i.h"
 #include "emulated-ui/trimble/x7.h"
@@ -18,6 +20,8 @@ namespace {
 
 constexpr std::array kDevices = {
     EmulatedDevice{"leica-rtc360", "Leica RTC360", rtc360Program},
+    EmulatedDevice{"leica-blk360", "Leica BLK360", blk360Program},
+    EmulatedDevice{"leica-p-series", "Leica ScanStation P-series", pSeriesProgram},
     EmulatedDevice{"faro-focus", "FARO Focus", focusProgram},
     EmulatedDevice{"trimble-x7", "Trimble X7 / X9", x7Program},
     EmulatedDevice{"riegl-vz-i", "RIEGL VZ-i", vzIProgram},

@@ -245,7 +245,10 @@ class Reader : FigureReader {
         {"noise_factor", {0.01, 100}}, {"passes", {1, 16}},  {"imaging", {0, 1}},           {"imaging_seconds", {0, 1e4}},
         {"stepped", {0, 1}},        {"points_per_s", {1, 1e9}}, {"imaging_factor", {0, 100}},
         {"area", {0, 1}},           {"max_range_m", {1, 10000}}, {"reference_reflectivity", {0.001, 1}},
-        {"rotation_hz", {0.01, 10000}}, {"most_returns", {1, 255}}};
+        {"rotation_hz", {0.01, 10000}}, {"most_returns", {1, 255}}, {"laser", {0, 1}},
+        {"seconds_factor", {0.01, 100}}, {"imaging_factor", {0.01, 100}}, {"picture_columns", {16, 32768}},
+        {"picture_hdr", {0, 1}},     {"picture_metered", {0, 1}}, {"picture_stops", {-8, 8}},
+        {"picture_warmth", {-1, 1}}, {"picture_flash", {0, 1}}};
     SettingChoice choice;
     choice.value = text(entry, "value");
     choice.label = text(entry, "label");

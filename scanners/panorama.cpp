@@ -21,6 +21,8 @@ constexpr double kFarthest_m = 2000;
 constexpr int kMostPanes = 8;               // that a ray is followed through
 constexpr float kMiddleGrey = 0.18F;        // that an exposure brings the mean brightness to
 constexpr float kAdaptation = 0.6F;         // how much of that it does: a dark wall stays darker than a white one
+constexpr double kFlash = 0.6;              // of a flash, on a wall that is near
+constexpr float kWarmth = 0.25F;            // more red and less blue, at the ends of a white balance
 constexpr double kBlend_rad = 3 * kPi / 180;
 constexpr double kInPixel[4][2] = {{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}};   // a turned grid
 
@@ -34,8 +36,8 @@ Light sky(const Eigen::Vector3d& direction) {
 
 class Renderer {
  public:
-  Renderer(const RayScene& scene, const Pose& local_from_camera, Report& report)
-      : scene_(scene), pose_(local_from_camera), colours_(scene.environment(), report) {}
+  Renderer(const RayScene& scene, const Pose& local_from_camera, double flash, Report& report)
+      : scene_(scene), pose_(local_from_camera), flash_(flash), colours_(scene.environment(), report) {}
 
   Light along(const Eigen::Vector3d& direction_camera) const {
     const Eigen::Vector3d direction = pose_.rotation * direction_camera;
@@ -56,17 +58,24 @@ class Renderer {
 
  private:
   // Light from above and all around, and some that falls off with the distance from the camera.
-  static float brightness(const RayHit& hit, const Eigen::Vector3d& direction, double way_m) {
+  float brightness(const RayHit& hit, const Eigen::Vector3d& direction, double way_m) const {
     const double above = 0.5 + 0.5 * hit.normal.z(), facing = -hit.normal.dot(direction);
-    return static_cast<float>(0.35 + 0.3 * above + 0.35 * facing / (1 + 0.02 * way_m * way_m));
+    const double flash = flash_ * kFlash / (1 + 0.1 * way_m * way_m);
+    return static_cast<float>(0.35 + 0.3 * above + 0.35 * facing / (1 + 0.02 * way_m * way_m) + flash * facing);
   }
   const RayScene& scene_;
   Pose pose_;
+  double flash_;
   SurfaceColours colours_;
 };
 
 // The exposure of each column, from the mean brightness of each shot: sectors of azimuth.
-std::vector<float> exposures(const std::vector<Light>& pixels, std::uint32_t width, std::uint32_t height, int shots, bool hdr) {
+std::vector<float> exposures(const std::vector<Light>& pixels, std::uint32_t width, std::uint32_t height,
+                             const PanoramaCamera& camera) {
+  const bool hdr = camera.hdr;
+  const int shots = camera.shots;
+  const auto given = static_cast<float>(std::exp2(camera.stops));
+  if (!camera.metered) return std::vector<float>(width, given);
   const auto count = static_cast<std::size_t>(hdr ? 1 : std::max(1, shots));
   std::vector<double> sum(count, 0), weight(count, 0);
   for (std::uint32_t y = 0; y < height; ++y)
@@ -78,7 +87,7 @@ std::vector<float> exposures(const std::vector<Light>& pixels, std::uint32_t wid
     }
   std::vector<float> gain;
   for (std::size_t k = 0; k < count; ++k)
-    gain.push_back(std::clamp(std::pow(kMiddleGrey / std::max(0.01F, static_cast<float>(sum[k] / weight[k])), kAdaptation), 0.25F, 4.0F));
+    gain.push_back(given * std::clamp(std::pow(kMiddleGrey / std::max(0.01F, static_cast<float>(sum[k] / weight[k])), kAdaptation), 0.25F, 4.0F));
   std::vector<float> of_column(width);
   const double shot_wide = static_cast<double>(width) / static_cast<double>(count);
   const double blend = std::min(kBlend_rad * width / (2 * kPi), 0.5 * shot_wide);
@@ -143,7 +152,7 @@ Result<Panorama> takePanorama(const RayScene& scene, const Instrument& instrumen
   panorama.height = panorama.width / 2;
   panorama.camera_m = {0, 0, instrument.camera.offset_up_m};
   const std::uint32_t width = panorama.width, height = panorama.height;
-  const Renderer renderer(scene, {local_from_scanner.rotation, local_from_scanner * panorama.camera_m}, report);
+  const Renderer renderer(scene, {local_from_scanner.rotation, local_from_scanner * panorama.camera_m}, instrument.camera.flash, report);
   std::vector<Light> light(std::size_t{width} * height);
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   arena.execute([&] {
@@ -160,10 +169,12 @@ Result<Panorama> takePanorama(const RayScene& scene, const Instrument& instrumen
     });
   });
   if (auto on = progress.check(); !on) return failure(on.error());
-  const std::vector<float> exposure = exposures(light, width, height, instrument.camera.shots, instrument.camera.hdr);
+  const std::vector<float> exposure = exposures(light, width, height, instrument.camera);
+  const auto warmth = static_cast<float>(instrument.camera.warmth);
+  const Light balance(1 + kWarmth * warmth, 1, 1 - kWarmth * warmth);
   panorama.pixels.resize(light.size());
   for (std::size_t i = 0; i < light.size(); ++i) {
-    const Light l = light[i] * exposure[i % width];
+    const Light l = light[i] * balance * exposure[i % width];
     panorama.pixels[i] = {srgbOf(l[0]), srgbOf(l[1]), srgbOf(l[2])};
   }
   return panorama;

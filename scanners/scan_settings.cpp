@@ -67,14 +67,27 @@ bool isStep(const std::string& key) { return key == "line_step" || key == "frame
 
 struct Effects {
   double columns = 0, rows = 0, seconds = 0, rate_hz = 0, noise_factor = 1, passes = 1, imaging = 0, imaging_seconds = 0;
+  double seconds_factor = 1;
+  bool laser = true;
+  PanoramaCamera camera;
   double max_range_m = 0, reference_reflectivity = 0;
   double points_per_s = 0, imaging_factor = 1;
   bool area = true, stepped = false;
 };
 
+void addToCamera(PanoramaCamera& camera, const std::string& key, double value) {
+  if (key == "picture_columns") camera.columns = static_cast<std::uint32_t>(value) / 2 * 2;
+  if (key == "picture_hdr") camera.hdr = value > 0;
+  if (key == "picture_metered") camera.metered = value > 0;
+  if (key == "picture_stops") camera.stops += value;
+  if (key == "picture_warmth") camera.warmth = value;
+  if (key == "picture_flash") camera.flash = value;
+}
+
 Effects gather(const Instrument& instrument, const SettingValues& values) {
   Effects sum;
   sum.imaging_seconds = instrument.imaging_seconds;
+  sum.camera = instrument.camera;
   sum.max_range_m = instrument.max_range_m;
   sum.reference_reflectivity = instrument.reference_reflectivity;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -95,8 +108,12 @@ Effects gather(const Instrument& instrument, const SettingValues& values) {
       if (key == "stepped") sum.stepped = value > 0;
       if (key == "points_per_s") sum.points_per_s = sum.points_per_s > 0 ? std::min(sum.points_per_s, value) : value;
       if (key == "imaging_factor") sum.imaging_factor *= value;
+      if (key == "seconds_factor") sum.seconds_factor *= value;
+      if (key == "laser") sum.laser = value > 0;
+      if (key.starts_with("picture_")) addToCamera(sum.camera, key, value);
     }
   }
+  if (sum.camera.hdr) sum.camera.flash = 0;   // brackets of the light that there is
   return sum;
 }
 
@@ -195,8 +212,11 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
   settings.reference_reflectivity = effects.reference_reflectivity;
   settings.noise_factor = effects.noise_factor;
   settings.passes = static_cast<int>(effects.passes);
+  settings.laser = effects.laser;
   settings.imaging = effects.imaging > 0;
-  settings.scan_seconds = (instrument.overhead_s + turning * share) * effects.passes;
+  settings.camera = effects.camera;
+  settings.scan_seconds =
+      effects.laser ? (instrument.overhead_s + turning * effects.seconds_factor * share) * effects.passes : 0;
   settings.imaging_seconds = settings.imaging ? effects.imaging_seconds * effects.imaging_factor : 0;
   return settings;
 }

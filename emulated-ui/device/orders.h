@@ -28,6 +28,7 @@ struct ScanOrder {
   bool compensator = true;
   double until_share = 1;          // of the columns: a scan that was cut short and kept
   double noise_factor = 1;         // of the range noise: dust on the optics, an instrument that is not warm
+  std::vector<std::string> filters;   // of the verb `clean`: what the device itself leaves out
   std::optional<double> bumped_at_share;   // the tripod was pushed then
   std::optional<double> walker_at_share;   // somebody walks by then
   double tilt_x_deg = 0, tilt_y_deg = 0;   // of the standing axis when it began
@@ -62,6 +63,17 @@ struct FittedTarget {
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();   // as fitted, in the setup's own frame
   bool found = false;
   std::string why_not;
+  Eigen::Vector3d levelled_m = Eigen::Vector3d::Zero();   // of a sight: its place, levelled by what the compensator told
+};
+
+// Pick one target, scan a window about it finely, and measure it.
+struct SightOrder {
+  std::string instrument;          // id
+  std::string station;
+  std::string target;              // which one is picked
+  std::string kind;                // that the device is told: "sphere" or "checkerboard"
+  SettingValues settings;          // the edges of the window come on top
+  bool compensator = true;
 };
 
 // A setup's picture as the device shows it, thinned out: a point for each cell, where one came back.
@@ -80,7 +92,7 @@ struct TransferOrder {
   std::string by;                  // "card", "cable", "wlan"
 };
 
-using Order = std::variant<ScanOrder, LinkOrder, TargetOrder, PreviewOrder, TransferOrder>;
+using Order = std::variant<ScanOrder, LinkOrder, TargetOrder, PreviewOrder, TransferOrder, SightOrder>;
 
 struct StoredSetup {
   std::string project;

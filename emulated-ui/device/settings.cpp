@@ -26,4 +26,22 @@ Result<SettingValues> adaptedSettings(const Instrument& instrument, const Settin
   return failure(resolved.error());
 }
 
+std::string settingsText(const SettingValues& settings) {
+  std::string text;
+  for (const auto& [key, value] : settings) text += key + "=" + value + ";";
+  return text;
+}
+
+SettingValues settingsFromText(const std::string& text) {
+  SettingValues settings;
+  for (std::size_t at = 0; at < text.size();) {
+    const auto end = text.find(';', at);
+    const auto equals = text.find('=', at);
+    if (end == std::string::npos || equals > end) break;
+    settings.emplace_back(text.substr(at, equals - at), text.substr(equals + 1, end - equals - 1));
+    at = end + 1;
+  }
+  return settings;
+}
+
 }  // namespace standpoint

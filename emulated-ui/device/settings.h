@@ -15,4 +15,8 @@ SettingValues withSetting(SettingValues values, const std::string& key, const st
 Result<SettingValues> adaptedSettings(const Instrument& instrument, const SettingValues& now, const std::string& key,
                                       const std::string& value);
 
+// In one line, for profiles and stored configurations: "resolution=12mm;images=on;".
+std::string settingsText(const SettingValues& settings);
+SettingValues settingsFromText(const std::string& text);
+
 }  // namespace standpoint
