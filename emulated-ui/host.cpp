@@ -8,7 +8,11 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "emulated-ui/device/settings.h"
 #include "emulated-ui/preview.h"
+#include "pointclouds/cleaning.h"
+#include "project/answers.h"
+#include "project/instruments.h"
 #include "project/levelling.h"
 #include "project/target_measuring.h"
 
@@ -44,6 +48,8 @@ int numberIn(const std::string& name) {
   return std::sscanf(name.c_str() + from, "%9d", &number) == 1 ? number : 0;
 }
 
+Eigen::Vector3d placeFrom(const json& row) { return {row.at(0).get<double>(), row.at(1).get<double>(), row.at(2).get<double>()}; }
+
 Result<Outcome> targetsIn(const Document& document, const std::string& file, std::uint64_t seed, Progress& progress) {
   MeasuringRequest request;
   request.files = {file};
@@ -56,7 +62,8 @@ Result<Outcome> targetsIn(const Document& document, const std::string& file, std
     const auto& target = job.targets[m.target];
     const auto truth = job.stations[m.station].true_pose.rotation.conjugate() * (target.centre - job.stations[m.station].true_pose.translation);
     outcome.answer.push_back({{"name", target.name}, {"kind", target.kind == TargetKind::sphere ? "sphere" : "checkerboard"}, {"points", m.fit.points},
-                              {"range_m", m.fit.centre.norm()}, {"residual_m", m.fit.residual_m}, {"error_m", (m.fit.centre - truth).norm()}, {"found", true}});
+                              {"range_m", m.fit.centre.norm()}, {"residual_m", m.fit.residual_m}, {"error_m", (m.fit.centre - truth).norm()},
+                              {"centre", toJson(m.fit.centre)}, {"found", true}});
   }
   for (const auto& m : measured->missed)
     outcome.answer.push_back({{"name", job.targets[m.target].name}, {"found", false}, {"why", m.why}});
@@ -75,6 +82,8 @@ std::vector<FittedTarget> targetsFrom(const json& rows) {
       t.range_m = row.at("range_m");
       t.residual_m = row.at("residual_m");
       t.error_m = row.at("error_m");
+      if (row.contains("centre")) t.centre_m = placeFrom(row["centre"]);
+      if (row.contains("levelled")) t.levelled_m = placeFrom(row["levelled"]);
     } else {
       t.why_not = row.at("why");
     }
@@ -83,7 +92,83 @@ std::vector<FittedTarget> targetsFrom(const json& rows) {
   return targets;
 }
 
-LinkResult linkFrom(const json& answer) {
+// What is copied to the instrument before the job: control points by their names, else targets where they were put; and
+// the ground marks of the stations.
+ControlList controlOf(const Document& document) {
+  ControlList control;
+  if (document.georeference) control.shift_m = document.georeference->shift_m;
+  if (!document.job) return control;
+  for (const auto& t : document.job->targets) {
+    const auto& points = document.job->control_points;
+    const auto point = std::find_if(points.begin(), points.end(), [&](const ControlPoint& p) { return p.name == t.name; });
+    control.targets.push_back({t.name, point == points.end() ? t.centre : point->position});
+  }
+  for (const auto& s : document.job->stations)
+    control.stations.push_back({s.name, s.true_pose.translation - Eigen::Vector3d(0, 0, s.instrument_height_m)});
+  return control;
+}
+
+// The turn from the scanner's frame into the levelled one, as the device measures its tilt.
+Result<Eigen::Quaterniond> levelledFromScanner(const Station& station, const Instrument& instrument, bool compensator, std::uint64_t seed) {
+  Report report;
+  const auto believed = believedPose(station, instrument, {.compensator = compensator, .exact = false, .seed = seed}, report);
+  if (!believed) return failure(believed.error());
+  const double yaw = yawOf(station.true_pose.rotation);
+  return Eigen::Quaterniond(Eigen::AngleAxisd(-yaw, Eigen::Vector3d::UnitZ())) * believed->rotation;
+}
+
+// A window about the target, as large as it looks from there and a little more.
+SettingValues windowOn(const Target& target, const Station& station, SettingValues settings) {
+  const Eigen::Vector3d p = station.true_pose.rotation.conjugate() * (target.centre - station.true_pose.translation);
+  const double half = std::atan((target.size_m + 0.1) / std::max(0.5, p.norm())) / kRadPerDeg;
+  const double azimuth = -std::atan2(p.y(), p.x()) / kRadPerDeg, elevation = std::atan2(p.z(), p.head<2>().norm()) / kRadPerDeg;
+  const double wide = half / std::max(0.05, std::cos(elevation * kRadPerDeg));
+  const auto round = [](double degrees) { return degrees - 360 * std::floor(degrees / 360); };
+  for (const auto& [key, value] : {std::pair{"horizontal_from", round(azimuth - wide)}, {"horizontal_to", round(azimuth + wide)},
+                                   {"vertical_from", std::max(-55.0, elevation - half)}, {"vertical_to", std::min(90.0, elevation + half)}})
+    settings = withSetting(settings, key, fmt::format("{:.4f}", value));
+  return settings;
+}
+
+json optionsOf(const std::string& instrument, const SettingValues& values, const std::string& station, std::uint64_t seed,
+               const fs::path& file) {
+  json settings = json::array();
+  for (const auto& [key, value] : values) settings.push_back(key + "=" + value);
+  return {{"instrument", instrument}, {"set", settings}, {"stations", station}, {"seed", seed}, {"output", file.string()}};
+}
+
+Result<Outcome> sightOf(const Document& document, const SightOrder& order, const fs::path& file, std::uint64_t seed, Progress& progress) {
+  const auto* station = stationOf(document, order.station);
+  if (station == nullptr) return failure(ErrorKind::usage, "there is no such station", order.station);
+  const auto& targets = document.job->targets;
+  const auto target = std::find_if(targets.begin(), targets.end(), [&](const Target& t) { return t.name == order.target; });
+  if (target == targets.end()) return failure(ErrorKind::usage, "there is no such target", order.target);
+  Outcome missed{document, {{"name", target->name}, {"found", false}, {"why", "another kind of target stands there"}}, {}, {}, {}};
+  if ((target->kind == TargetKind::sphere) != (order.kind == "sphere")) return missed;
+  auto instrument = instrumentById(order.instrument);
+  if (!instrument) return failure(instrument.error());
+  auto options = optionsOf(order.instrument, windowOn(*target, *station, order.settings), order.station, seed, file);
+  if (!order.compensator) options["compensator"] = "off";
+  const auto scanned = runVerb(*findVerb(verbs(), "scan"), document, options, progress);
+  std::error_code ignored;
+  auto measured = scanned ? targetsIn(document, file.string(), seed, progress) : failure(scanned.error());
+  fs::remove(file, ignored);
+  if (!measured) return measured;
+  const auto level = levelledFromScanner(*station, *instrument, order.compensator, seed);
+  if (!level) return failure(level.error());
+  for (auto& row : measured->answer) {
+    if (row.at("name") != target->name) continue;
+    if (row.at("found").get<bool>()) {
+      const Eigen::Vector3d place = *level * placeFrom(row.at("centre"));
+      row["levelled"] = {place.x(), place.y(), place.z()};
+    }
+    return Outcome{document, row, {}, {}, {}};
+  }
+  missed.answer["why"] = "no point came back from it";
+  return missed;
+}
+
+LinkResult linkFrom(const json& answer, const Document& solved) {
   const auto& row = answer.at("stations").back();
   LinkResult link;
   if (!row.contains("fit")) return link;
@@ -91,6 +176,11 @@ LinkResult linkFrom(const json& answer) {
   link.overlap = row["fit"].at("used_share");
   link.true_error_m = row.at("true_error_m");
   link.true_error_deg = row.at("true_turn_error_deg");
+  if (const auto* station = stationOf(solved, row.at("name").get<std::string>()); station != nullptr && station->solved_pose) {
+    const Pose &to = *station->solved_pose, &from = station->true_pose;
+    link.error.rotation = to.rotation * from.rotation.conjugate();
+    link.error.translation = to.translation - link.error.rotation * from.translation;
+  }
   link.joined = row["fit"].at("settled").get<bool>() && row["fit"].at("not_held").empty();
   return link;
 }
@@ -152,6 +242,8 @@ std::vector<StoredSetup> storedSetups(const Document& document, const DeviceType
 DeviceHost::DeviceHost(std::shared_ptr<const DeviceType> type, const Document& document, std::function<void()> wake)
     : device_(std::move(type)), wake_(std::move(wake)) {
   device_.load(storedSetups(document, device_.type()));
+  device_.know(controlOf(document));
+  known_of_ = document.job;
 }
 
 void DeviceHost::startScan(const ScanOrder& order, const Document& document, const fs::path& scans_folder) {
@@ -159,19 +251,47 @@ void DeviceHost::startScan(const ScanOrder& order, const Document& document, con
   std::error_code error;
   fs::create_directories(file_.parent_path(), error);
   if (error) return device_.orderFailed("Cannot create " + file_.parent_path().string() + ": " + error.message());
-  json settings = json::array();
-  for (const auto& [key, value] : order.settings) settings.push_back(key + "=" + value);
-  json options = {{"instrument", order.instrument}, {"set", settings}, {"stations", order.station}, {"seed", seed}, {"output", file_.string()}};
+  json options = optionsOf(order.instrument, order.settings, order.station, seed, file_);
   if (order.panorama) options["panorama"] = true;
   if (!order.compensator) options["compensator"] = "off";
   json mishap = json::array();
   if (order.until_share < 1) mishap.push_back(fmt::format("until={}", order.until_share));
   if (order.noise_factor > 1) mishap.push_back(fmt::format("noise={}", order.noise_factor));
   if (order.bumped_at_share) mishap.push_back(fmt::format("push={}", *order.bumped_at_share));
+  if (order.walker_at_share) mishap.push_back(fmt::format("walk={}", *order.walker_at_share));
   if (!mishap.empty()) options["mishap"] = mishap;
   if (truth) options["truth"] = true;
-  task_ = std::make_unique<Task>(fmt::format("{}: {} at {}", device_.type().definition.title, order.name, order.station),
-                                 *findVerb(verbs(), "scan"), leaning(document, order.station), options, wake_);
+  const auto title = fmt::format("{}: {} at {}", device_.type().definition.title, order.name, order.station);
+  if (!order.filters.empty()) return startFiltered(title, order, document, options);
+  task_ = std::make_unique<Task>(title, *findVerb(verbs(), "scan"), leaning(document, order.station), options, wake_);
+}
+
+// The device's own filters: what they take is never stored.
+void DeviceHost::startFiltered(const std::string& title, const ScanOrder& order, const Document& document, const json& options) {
+  auto work = [options, filters = order.filters, file = file_, station = order.station](const Document& d, Progress& p) -> Result<Outcome> {
+    const fs::path raw = file.parent_path() / (file.stem().string() + ".raw.e57");
+    json all = options;
+    all["output"] = raw.string();
+    auto outcome = runVerb(*findVerb(verbs(), "scan"), d, all, p);
+    if (!outcome) return outcome;
+    std::vector<ChosenFilter> chosen;
+    for (const auto& text : filters) {
+      auto filter = filterFrom(text);
+      if (!filter) return failure(filter.error());
+      chosen.push_back(*std::move(filter));
+    }
+    const auto cleaned = cleanCloud(raw, file, chosen, p);
+    std::error_code ignored;
+    fs::remove(raw, ignored);
+    if (!cleaned) return failure(cleaned.error());
+    outcome->answer["stations"][0]["points"] = cleaned->points_out;
+    Job job = *outcome->document.job;
+    for (auto& s : job.stations)
+      if (s.name == station) s.scans.back().file = file.string(), s.scans.back().points = cleaned->points_out;
+    outcome->document.job = std::make_shared<const Job>(std::move(job));
+    return outcome;
+  };
+  task_ = std::make_unique<Task>(title, *findVerb(verbs(), "scan"), leaning(document, order.station), options, wake_, std::move(work));
 }
 
 // The station leans as the device does: what its hands and the ground made of it.
@@ -207,6 +327,12 @@ void DeviceHost::start(const Order& order, const Document& document, const fs::p
       preview_ = *std::move(read);
       return Outcome{d, json::object(), {}, {}, {}};
     });
+  } else if (const auto* sight = std::get_if<SightOrder>(&order)) {
+    std::error_code ignored;
+    fs::create_directories(scans_folder, ignored);
+    startWork("Target", document, [order = *sight, file = scans_folder / "target.e57", s = seed](const Document& d, Progress& p) {
+      return sightOf(d, order, file, s, p);
+    });
   } else if (const auto* transfer = std::get_if<TransferOrder>(&order)) {
     startWork("Transfer", document, [order = *transfer, folder = scans_folder.parent_path() / kCopies](const Document& d, Progress& p) {
       return copyFiles(d, order, folder, p);
@@ -235,14 +361,31 @@ void DeviceHost::takeResult(Outcome outcome, const Document& document) {
     if (const auto* station = stationOf(outcome.document, scan->station)) finished_ = station->scans.back();
     device_.scanDone(std::move(s));
   } else if (std::holds_alternative<LinkOrder>(*running_)) {
-    device_.linkDone(linkFrom(outcome.answer));
+    device_.linkDone(linkFrom(outcome.answer, outcome.document));
   } else if (std::holds_alternative<TargetOrder>(*running_)) {
     device_.targetsDone(targetsFrom(outcome.answer));
+  } else if (std::holds_alternative<SightOrder>(*running_)) {
+    device_.sightDone(targetsFrom(json::array({outcome.answer})).front());
   } else if (const auto* preview = std::get_if<PreviewOrder>(&*running_)) {
     device_.previewDone(preview->file, std::move(preview_));
   } else if (const auto* transfer = std::get_if<TransferOrder>(&*running_)) {
     device_.transferDone(transfer->files);
   }
+}
+
+// The accepted set-up as the station's solved pose.
+Result<Outcome> DeviceHost::oriented(const Document& document, const StationOrientation& orientation) const {
+  const auto* station = stationOf(document, orientation.station);
+  if (station == nullptr) return failure(ErrorKind::usage, "there is no such station", orientation.station);
+  const auto level = levelledFromScanner(*station, device_.type().instrument, orientation.compensator, seed);
+  if (!level) return failure(level.error());
+  Job job = *document.job;
+  for (auto& s : job.stations)
+    if (s.name == orientation.station) s.solved_pose = Pose{orientation.pose.rotation * *level, orientation.pose.translation};
+  Outcome outcome{document, json::object(), {}, {}, {}};
+  outcome.document.job = std::make_shared<const Job>(std::move(job));
+  outcome.description = fmt::format("Oriented {} with {}", orientation.station, device_.type().definition.title);
+  return outcome;
 }
 
 // Takes the task's result to the device.
@@ -259,6 +402,10 @@ void DeviceHost::collect(const Document& document) {
 }
 
 std::optional<Outcome> DeviceHost::update(const Document& document, const fs::path& scans_folder, double seconds, bool may_store) {
+  if (document.job != known_of_) {
+    known_of_ = document.job;
+    device_.know(controlOf(document));
+  }
   if (device_.takeCancel()) {
     if (task_) {
       task_->progress().cancel();
@@ -275,7 +422,12 @@ std::optional<Outcome> DeviceHost::update(const Document& document, const fs::pa
     if (const auto order = device_.takeOrder()) start(*order, document, scans_folder);
   collect(document);
   device_.tick(seconds * time_factor);
-  if (!may_store || !finished_ || !device_.takeStored()) return std::nullopt;
+  if (!may_store) return std::nullopt;
+  if (const auto orientation = device_.takeOriented()) {
+    if (auto done = oriented(document, *orientation)) return *std::move(done);
+    device_.note("failed", "orientation");
+  }
+  if (!finished_ || !device_.takeStored()) return std::nullopt;
   Outcome outcome{withScan(document, station_, *finished_), json::object(), {}, {}, {}};
   outcome.description = fmt::format("Scanned '{}' at {} with {}", fs::path(finished_->file).stem().string(), station_, device_.type().definition.title);
   finished_.reset();

@@ -45,8 +45,10 @@ class DeviceHost {
   void start(const Order& order, const Document& document, const std::filesystem::path& scans_folder);
   void startScan(const ScanOrder& order, const Document& document, const std::filesystem::path& scans_folder);
   Document leaning(Document document, const std::string& station) const;
+  void startFiltered(const std::string& title, const ScanOrder& order, const Document& document, const nlohmann::json& options);
   void startWork(const std::string& title, const Document& document, Task::Work work);
   void collect(const Document& document);
+  Result<Outcome> oriented(const Document& document, const StationOrientation& orientation) const;
   void takeResult(Outcome outcome, const Document& document);
 
   Device device_;
@@ -54,6 +56,7 @@ class DeviceHost {
   std::unique_ptr<Task> task_;
   std::optional<Order> running_;
   std::filesystem::path file_;
+  std::shared_ptr<const Job> known_of_;     // whose places the device was told
   std::optional<Scan> finished_;   // waits for the device to store it
   std::string station_;            // of the finished scan
   std::shared_ptr<const ScanPreview> preview_;   // that a task has read

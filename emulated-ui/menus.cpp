@@ -5,7 +5,12 @@
 #include <array>
 
 #include "emulated-ui/faro/focus.h"
+#include "emulated-ui/generic/generic.h"
+#include "emulated-ui/leica/blk360.h"
+#include "emulated-ui/leica/p_series.h"
 #include "emulated-ui/leica/rtc360.h"
+#include "emulated-ui/riegl/vz_i.h"
+#include "emulated-ui/trimble/x7.h"
 #include "project/instruments.h"
 #include "project/verb.h"
 
@@ -15,7 +20,12 @@ namespace {
 
 constexpr std::array kDevices = {
     EmulatedDevice{"leica-rtc360", "Leica RTC360", rtc360Program},
+    EmulatedDevice{"leica-blk360", "Leica BLK360", blk360Program},
+    EmulatedDevice{"leica-p-series", "Leica ScanStation P-series", pSeriesProgram},
     EmulatedDevice{"faro-focus", "FARO Focus", focusProgram},
+    EmulatedDevice{"trimble-x7", "Trimble X7 / X9", x7Program},
+    EmulatedDevice{"riegl-vz-i", "RIEGL VZ-i", vzIProgram},
+    EmulatedDevice{"generic", "Laser scanner", genericProgram},   // last: for scanners that no other drives
 };
 
 }  // namespace
@@ -33,7 +43,9 @@ Result<std::shared_ptr<const DeviceType>> loadDevice(const EmulatedDevice& devic
   if (!definition) return failure(definition.error());
   auto words = Words::read(folder / "words");
   if (!words) return failure(words.error());
-  auto found = instrumentById(instrument.empty() ? definition->instruments.front() : instrument);
+  const auto& drives = definition->instruments;
+  const auto standard = std::find_if(drives.begin(), drives.end(), [](const std::string& id) { return id != "*"; });
+  auto found = instrumentById(instrument.empty() && standard != drives.end() ? *standard : instrument);
   if (!found) return failure(found.error());
   return makeDeviceType(*std::move(definition), device.program(), *std::move(found), std::make_shared<const Words>(*std::move(words)));
 }

@@ -40,6 +40,41 @@ class TruthMoved final : public PointSink {
   Pose to_from_;
 };
 
+// Puts a person in front of what lies behind, over the directions that a body covers.
+class WalkedBy final : public PointSink {
+ public:
+  WalkedBy(PointSink& sink, double azimuth_rad) : sink_(sink), towards_(std::cos(azimuth_rad), std::sin(azimuth_rad)) {}
+  Result<void> begin(const ScanHeader& header) override { return sink_.begin(header); }
+  Result<void> write(const PointBlock& block) override {
+    PointBlock crossed = block;
+    auto& t = crossed.truth;
+    for (std::size_t i = 0; i < crossed.size(); ++i) {
+      const Eigen::Vector2d flat(crossed.x_m[i], crossed.y_m[i]);
+      const double away = flat.norm();
+      if (away <= kAway_m) continue;
+      // Where the direction meets the cylinder.
+      const double along = flat.dot(towards_) / away, across = std::sqrt(std::max(0.0, 1 - along * along)) * kAway_m;
+      if (along <= 0 || across > kHalfWidth_m) continue;
+      const double scale = (kAway_m * along - std::sqrt(kHalfWidth_m * kHalfWidth_m - across * across)) / away;
+      const double z = crossed.z_m[i] * scale;
+      if (z < -kEyeHeight_m || z > kTall_m - kEyeHeight_m) continue;
+      for (auto* axis : {&crossed.x_m, &crossed.y_m, &crossed.z_m}) (*axis)[i] = static_cast<float>((*axis)[i] * scale);
+      if (t.flags.empty()) continue;
+      t.x_m[i] = crossed.x_m[i], t.y_m[i] = crossed.y_m[i], t.z_m[i] = crossed.z_m[i];
+      t.range_m[i] = static_cast<float>(t.range_m[i] * scale);
+      t.flags[i] |= point_flag::kMoving;
+    }
+    return sink_.write(crossed);
+  }
+  Result<void> end() override { return sink_.end(); }
+  Result<void> close() override { return sink_.close(); }
+
+ private:
+  static constexpr double kAway_m = 2, kHalfWidth_m = 0.25, kTall_m = 1.75, kEyeHeight_m = 1.6;
+  PointSink& sink_;
+  Eigen::Vector2d towards_;
+};
+
 std::uint32_t columnAt(double share, std::uint32_t columns) {
   return static_cast<std::uint32_t>(std::clamp(std::llround(share * columns), 0LL, static_cast<long long>(columns)));
 }
@@ -60,9 +95,10 @@ Result<Mishap> mishapFrom(const std::vector<std::string>& pairs) {
     const bool share = number && value >= 0 && value <= 1;
     if (key == "until" && share) mishap.until_share = value;
     else if (key == "push" && share) mishap.pushed_at_share = value;
+    else if (key == "walk" && share) mishap.walked_at_share = value;
     else if (key == "noise" && number && value >= 1 && value <= 100) mishap.noise_factor = value;
     else
-      return failure(ErrorKind::usage, fmt::format("'{}' is none of until=SHARE, push=SHARE (0 to 1), noise=FACTOR (1 to 100)", pair), "--mishap");
+      return failure(ErrorKind::usage, fmt::format("'{}' is none of until=SHARE, push=SHARE, walk=SHARE (0 to 1), noise=FACTOR (1 to 100)", pair), "--mishap");
   }
   return mishap;
 }
@@ -77,6 +113,13 @@ Pose pushed(const Pose& pose) {
 Result<ScanCount> scanWithMishap(const RayScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
                                  const ScanSettings& settings, const Pose& pose, const ScanOptions& options, const Mishap& mishap,
                                  PointSink& sink, Progress& progress) {
+  if (mishap.walked_at_share) {
+    Mishap others = mishap;
+    others.walked_at_share.reset();
+    if (settings.passes > 1) return scanWithMishap(scene, assignment, instrument, settings, pose, options, others, sink, progress);
+    WalkedBy walked(sink, std::lerp(settings.azimuth_from_rad, settings.azimuth_to_rad, *mishap.walked_at_share));
+    return scanWithMishap(scene, assignment, instrument, settings, pose, options, others, walked, progress);
+  }
   if (!mishap.any()) return scan(scene, assignment, instrument, settings, standing(pose), options, sink, progress);
   ScanSettings noisier = settings;
   noisier.noise_factor *= mishap.noise_factor;

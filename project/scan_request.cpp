@@ -132,6 +132,7 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const json& option
   auto settings = settingsFrom(request.instrument, options);
   if (!settings) return failure(settings.error());
   request.settings = *std::move(settings);
+  request.instrument.camera = request.settings.camera;
   request.options.seed = options.at("seed").get<std::uint64_t>();
   if (auto effects = effectsFrom(options); effects)
     request.options.effects = *effects;
@@ -159,6 +160,8 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const json& option
   request.panorama = options.value("panorama", false);
   if (request.panorama && !request.settings.imaging)
     return failure(ErrorKind::usage, "these settings take no images: a panorama needs them", "--panorama");
+  if (!request.panorama && !request.settings.laser)
+    return failure(ErrorKind::usage, "these settings measure no points: without a panorama nothing is left", "--set");
   if (options.contains("panorama-size")) {
     const auto columns = options["panorama-size"].get<std::uint32_t>();
     if (!request.panorama)

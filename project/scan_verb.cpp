@@ -125,6 +125,10 @@ Result<ScanCount> scanStation(const RayScene& scene, const ScanWorld& world, con
   }
   PointSink& sink = coloured ? *coloured : file;
   if (auto ok = sink.begin(header); !ok) return failure(ok.error());
+  if (!request.settings.laser) {   // pictures only
+    if (auto ok = sink.end(); !ok) return failure(ok.error());
+    return ScanCount{};
+  }
   ScanOptions options = request.options;
   options.station_key = static_cast<std::uint32_t>(stableHash(station.name.c_str()));
   auto count = scanWithMishap(scene, world.assignment, request.instrument, request.settings, station.true_pose, options,
@@ -201,7 +205,7 @@ class ScanRun {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     rows.push_back(scanRow(station, *count, seconds, request_, file));
     if (is_there) rows.back()["resumed"] = true;
-    if (count->points == 0)
+    if (count->points == 0 && request_.settings.laser)
       report.warn(station.name, whyNothing(scene_, station.true_pose, request_.instrument, request_.settings));
     station.scans.push_back(record(*count, request_, file));
     return {};

@@ -98,6 +98,11 @@ struct PanoramaCamera {
   int shots = 1;                   // around the horizon, each with its own exposure …
   bool hdr = false;                // … unless brackets make one of all
   double offset_up_m = 0;          // of the camera above the laser's centre
+  // What the settings choose.
+  bool metered = true;             // each exposure follows what its shot sees; else all are alike
+  double stops = 0;                // of all exposures: +1 is twice the light
+  double warmth = 0;               // of the white balance: 1 = warm, -1 = cold
+  double flash = 0;                // share of its full light
 };
 
 // What tells an instrument on a tripod how far it leans.
@@ -179,10 +184,12 @@ struct ScanSettings {
   double max_range_m = 0, reference_reflectivity = 0;   // the instrument's own, or those of the chosen range mode
   double noise_factor = 1;
   int passes = 1;                  // 2 = double scan
+  bool laser = true;               // false: pictures only
   bool imaging = false;
   double unambiguous_m = 0;        // the instrument's own, or that of the chosen rate
   PointFilters drops;              // by these filters points are dropped; others of the instrument only flag them
   double nearest_m = 0, farthest_m = 0;   // the user's gate on the measured range; 0 = none
+  PanoramaCamera camera;           // the instrument's, as the settings have it
   double scan_seconds = 0, imaging_seconds = 0;   // of the real instrument
 };
 Result<ScanSettings> resolveSettings(const Instrument& instrument, const SettingValues& values);

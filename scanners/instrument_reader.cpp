@@ -240,10 +240,10 @@ class Reader : FigureReader {
 
   void readNumber(Group& group, InstrumentSetting& setting) {
     static const std::set<std::string> kKnown = {"horizontal_from", "horizontal_to", "vertical_from", "vertical_to",
-                                                "nearest_m", "farthest_m"};
-    if (!kKnown.contains(setting.key)) return fail(group.pointer + "/key", "only the edges of an area and of the range are numbers; a setting needs choices");
-    const bool angle = setting.key.ends_with("_from") || setting.key.ends_with("_to");
-    const Domain domain = angle ? Domain{-360, 360} : Domain{0, 10000};
+                                                "nearest_m", "farthest_m", "line_step", "frame_step"};
+    if (!kKnown.contains(setting.key))
+      return fail(group.pointer + "/key", "only the edges of an area and of the range and the steps of a pattern are numbers; a setting needs choices");
+    const Domain domain = setting.key.ends_with("_m") ? Domain{0, 10000} : Domain{-360, 360};
     setting.minimum = figure(group, "minimum", domain);
     setting.maximum = figure(group, "maximum", domain);
     const Json standard = Json::parse(setting.standard, nullptr, false);
@@ -270,9 +270,13 @@ class Reader : FigureReader {
     static const std::map<std::string, Domain> kEffects = {
         {"columns", {2, 1e6}},      {"rows", {1, 1e6}},   {"scan_seconds", {0.01, 1e5}}, {"rate_hz", {1, 1e9}},
         {"noise_factor", {0.01, 100}}, {"passes", {1, 16}},  {"imaging", {0, 1}},           {"imaging_seconds", {0, 1e4}},
+        {"stepped", {0, 1}},        {"points_per_s", {1, 1e9}}, {"imaging_factor", {0, 100}},
         {"area", {0, 1}},           {"max_range_m", {1, 10000}}, {"reference_reflectivity", {0.001, 1}},
         {"rotation_hz", {0.01, 10000}}, {"most_returns", {1, 255}}, {"unambiguous_m", {0, 100000}},
-        {"drop_mixed_mm", {0, 10000}}, {"drop_weak", {0, 1000}}, {"drop_overload", {0, 1}}};
+        {"drop_mixed_mm", {0, 10000}}, {"drop_weak", {0, 1000}}, {"drop_overload", {0, 1}}, {"laser", {0, 1}},
+        {"seconds_factor", {0.01, 100}}, {"imaging_factor", {0.01, 100}}, {"picture_columns", {16, 32768}},
+        {"picture_hdr", {0, 1}},     {"picture_metered", {0, 1}}, {"picture_stops", {-8, 8}},
+        {"picture_warmth", {-1, 1}}, {"picture_flash", {0, 1}}};
     SettingChoice choice;
     choice.value = text(entry, "value");
     choice.label = text(entry, "label");

@@ -19,10 +19,16 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr float kMiddleGrey = 0.18F;        // that an exposure brings the mean brightness to
 constexpr float kAdaptation = 0.6F;         // how much of that it does: a dark wall stays darker than a white one
+constexpr float kWarmth = 0.25F;            // more red and less blue, at the ends of a white balance
 constexpr double kBlend_rad = 3 * kPi / 180;
 
 // The exposure of each column, from the mean brightness of each shot: sectors of azimuth.
-std::vector<float> exposures(const std::vector<Light>& pixels, std::uint32_t width, std::uint32_t height, int shots, bool hdr) {
+std::vector<float> exposures(const std::vector<Light>& pixels, std::uint32_t width, std::uint32_t height,
+                             const PanoramaCamera& camera) {
+  const bool hdr = camera.hdr;
+  const int shots = camera.shots;
+  const auto given = static_cast<float>(std::exp2(camera.stops));
+  if (!camera.metered) return std::vector<float>(width, given);
   const auto count = static_cast<std::size_t>(hdr ? 1 : std::max(1, shots));
   std::vector<double> sum(count, 0), weight(count, 0);
   for (std::uint32_t y = 0; y < height; ++y) {
@@ -35,7 +41,7 @@ std::vector<float> exposures(const std::vector<Light>& pixels, std::uint32_t wid
   }
   std::vector<float> gain;
   for (std::size_t k = 0; k < count; ++k)
-    gain.push_back(std::clamp(std::pow(kMiddleGrey / std::max(0.01F, static_cast<float>(sum[k] / weight[k])), kAdaptation), 0.25F, 4.0F));
+    gain.push_back(given * std::clamp(std::pow(kMiddleGrey / std::max(0.01F, static_cast<float>(sum[k] / weight[k])), kAdaptation), 0.25F, 4.0F));
   std::vector<float> of_column(width);
   const double shot_wide = static_cast<double>(width) / static_cast<double>(count);
   const double blend = std::min(kBlend_rad * width / (2 * kPi), 0.5 * shot_wide);
@@ -101,7 +107,7 @@ Result<Panorama> takePanorama(const RayScene& scene, const Instrument& instrumen
   panorama.camera_m = {0, 0, instrument.camera.offset_up_m};
   const std::uint32_t width = panorama.width, height = panorama.height;
   const PanoramaRays rays(static_cast<const EmbreeScene&>(scene),
-                          {local_from_scanner.rotation, local_from_scanner * panorama.camera_m}, width, report);
+                          {local_from_scanner.rotation, local_from_scanner * panorama.camera_m}, width, instrument.camera.flash, report);
   std::vector<Light> light(std::size_t{width} * height);
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   const auto forEachRow = [&](const auto& work) {
@@ -113,11 +119,13 @@ Result<Panorama> takePanorama(const RayScene& scene, const Instrument& instrumen
     for (std::uint32_t x = 0; x < width; x += PanoramaRays::kAtOnce) rays.trace(y, x, &light[at + x]);
   });
   if (auto on = progress.check(); !on) return failure(on.error());
-  const std::vector<float> exposure = exposures(light, width, height, instrument.camera.shots, instrument.camera.hdr);
+  const std::vector<float> exposure = exposures(light, width, height, instrument.camera);
+  const auto warmth = static_cast<float>(instrument.camera.warmth);
+  const Light balance(1 + kWarmth * warmth, 1, 1 - kWarmth * warmth);
   panorama.pixels.resize(light.size());
   forEachRow([&](std::uint32_t, std::size_t at) {
     for (std::size_t x = 0; x < width; ++x) {
-      const Light l = light[at + x] * exposure[x];
+      const Light l = light[at + x] * balance * exposure[x];
       panorama.pixels[at + x] = {srgbOf(l[0]), srgbOf(l[1]), srgbOf(l[2])};
     }
   });

@@ -12,6 +12,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr float kFarthest_m = 2000;
 constexpr int kMostPanes = 8;               // that a ray is followed through
 constexpr double kBehindPane_m = 1e-3;      // beyond the float error of the ray, within a pane
+constexpr double kFlash = 0.6;              // of a flash, on a wall that is near
 constexpr int kInPixel = 4;
 constexpr double kAcross[kInPixel] = {0.375, 0.875, 0.125, 0.625};   // a turned grid
 constexpr double kDown[kInPixel] = {0.125, 0.375, 0.625, 0.875};
@@ -23,9 +24,10 @@ Light sky(const Eigen::Vector3d& direction) {
 }
 
 // Light from above and all around, and some that falls off with the distance from the camera.
-float brightness(const Eigen::Vector3d& normal, const Eigen::Vector3d& direction, double way_m) {
+float brightness(const Eigen::Vector3d& normal, const Eigen::Vector3d& direction, double way_m, double flash) {
   const double above = 0.5 + 0.5 * normal.z(), facing = -normal.dot(direction);
-  return static_cast<float>(0.35 + 0.3 * above + 0.35 * facing / (1 + 0.02 * way_m * way_m));
+  const double flashed = flash * kFlash / (1 + 0.1 * way_m * way_m);
+  return static_cast<float>(0.35 + 0.3 * above + 0.35 * facing / (1 + 0.02 * way_m * way_m) + flashed * facing);
 }
 
 }  // namespace
@@ -42,9 +44,9 @@ struct PanoramaRays::Beams {
   std::uint64_t facet_number = kNoFacet;
 };
 
-PanoramaRays::PanoramaRays(const EmbreeScene& scene, const Pose& local_from_camera, std::uint32_t width, Report& report)
+PanoramaRays::PanoramaRays(const EmbreeScene& scene, const Pose& local_from_camera, std::uint32_t width, double flash, Report& report)
     : scene_(scene), colours_(scene.environment(), report), coincident_(scene), origin_(local_from_camera.translation),
-      up_(local_from_camera.rotation * Eigen::Vector3d::UnitZ()), width_(width) {
+      up_(local_from_camera.rotation * Eigen::Vector3d::UnitZ()), width_(width), flash_(flash) {
   ahead_.reserve(std::size_t{kInPixel} * width);
   for (std::uint32_t x = 0; x < width; ++x)
     for (const double across : kAcross) {
@@ -108,7 +110,7 @@ void PanoramaRays::shade(const NearestHit* hits, Beams& beams) const {
     hit.product = met.product, hit.surface = met.surface, hit.instance = met.instance, hit.triangle = met.triangle;
     const double way_m = beams.way_m[k] + hit.range_m;
     const SurfaceColours::Look look = colours_.at(hit);
-    pixel += left * look.opacity * look.colour * (look.unlit ? 1.0F : brightness(hit.normal, direction, way_m));
+    pixel += left * look.opacity * look.colour * (look.unlit ? 1.0F : brightness(hit.normal, direction, way_m, flash_));
     left *= 1 - look.opacity;
     if (left * kInPixel <= 0.02F) continue;
     beams.direction[kept] = direction;

@@ -63,16 +63,32 @@ Result<SettingValues> complete(const Instrument& instrument, const SettingValues
   return result;
 }
 
+bool isStep(const std::string& key) { return key == "line_step" || key == "frame_step"; }
+
 struct Effects {
   double columns = 0, rows = 0, seconds = 0, rate_hz = 0, noise_factor = 1, passes = 1, imaging = 0, imaging_seconds = 0;
+  double seconds_factor = 1;
+  bool laser = true;
+  PanoramaCamera camera;
   double max_range_m = 0, reference_reflectivity = 0, unambiguous_m = 0;
+  double points_per_s = 0, imaging_factor = 1;
   PointFilters drops;
-  bool area = true;
+  bool area = true, stepped = false;
 };
+
+void addToCamera(PanoramaCamera& camera, const std::string& key, double value) {
+  if (key == "picture_columns") camera.columns = static_cast<std::uint32_t>(value) / 2 * 2;
+  if (key == "picture_hdr") camera.hdr = value > 0;
+  if (key == "picture_metered") camera.metered = value > 0;
+  if (key == "picture_stops") camera.stops += value;
+  if (key == "picture_warmth") camera.warmth = value;
+  if (key == "picture_flash") camera.flash = value;
+}
 
 Effects gather(const Instrument& instrument, const SettingValues& values) {
   Effects sum;
   sum.imaging_seconds = instrument.imaging_seconds;
+  sum.camera = instrument.camera;
   sum.max_range_m = instrument.max_range_m;
   sum.reference_reflectivity = instrument.reference_reflectivity;
   sum.unambiguous_m = instrument.unambiguous_m;
@@ -95,8 +111,15 @@ Effects gather(const Instrument& instrument, const SettingValues& values) {
       if (key == "drop_weak") sum.drops.weak_factor = value;
       if (key == "drop_overload") sum.drops.overload = value > 0;
       if (key == "area") sum.area = value > 0;
+      if (key == "stepped") sum.stepped = value > 0;
+      if (key == "points_per_s") sum.points_per_s = sum.points_per_s > 0 ? std::min(sum.points_per_s, value) : value;
+      if (key == "imaging_factor") sum.imaging_factor *= value;
+      if (key == "seconds_factor") sum.seconds_factor *= value;
+      if (key == "laser") sum.laser = value > 0;
+      if (key.starts_with("picture_")) addToCamera(sum.camera, key, value);
     }
   }
+  if (sum.camera.hdr) sum.camera.flash = 0;   // brackets of the light that there is
   return sum;
 }
 
@@ -138,7 +161,7 @@ Result<Area> areaOf(const Instrument& instrument, const SettingValues& values, b
   area.vertical_to = instrument.max_elevation_rad / kRadPerDeg;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto& [key, value] = values[i];
-    if (!instrument.settings[i].choices.empty() || isGate(key)) continue;
+    if (!instrument.settings[i].choices.empty() || isGate(key) || isStep(key)) continue;
     const double angle = *number(value);
     if (!allowed_here && angle != *number(instrument.settings[i].standard))
       return failure(ErrorKind::usage, "an edge belongs to an area: choose that field of view as well", key);
@@ -152,6 +175,20 @@ Result<Area> areaOf(const Instrument& instrument, const SettingValues& values, b
   return area;
 }
 
+// The two steps of a pattern of one's own make the grid.
+Result<void> applySteps(const Instrument& instrument, const SettingValues& values, Effects& effects) {
+  const double full = (instrument.max_elevation_rad - instrument.min_elevation_rad) / kRadPerDeg;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto& [key, value] = values[i];
+    if (!isStep(key)) continue;
+    const double step = *number(value);
+    if (!effects.stepped && step != *number(instrument.settings[i].standard))
+      return failure(ErrorKind::usage, "a step belongs to a pattern of one's own: choose that pattern as well", key);
+    if (effects.stepped) (key == "frame_step" ? effects.columns : effects.rows) = std::round((key == "frame_step" ? 360 : full) / step);
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<ScanSettings> resolveSettings(const Instrument& instrument, const SettingValues& values) {
@@ -160,7 +197,8 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
                    "trajectory, and a station has none; choose an instrument for a tripod", instrument.id);
   auto filled = complete(instrument, values);
   if (!filled) return failure(filled.error());
-  const Effects effects = gather(instrument, *filled);
+  Effects effects = gather(instrument, *filled);
+  if (auto steps = applySteps(instrument, *filled, effects); !steps) return failure(steps.error());
   if (effects.columns < 2) return failure(ErrorKind::unusable, "no choice states the columns", instrument.id + " /settings");
   if (auto turns = checkMirror(instrument, *filled, effects); !turns) return failure(turns.error());
   auto area = areaOf(instrument, *filled, effects.area);
@@ -170,6 +208,8 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
   const double share = (area->horizontal_to - area->horizontal_from) / 360;
   const double rows = effects.rows > 0 ? effects.rows : effects.columns * full / 360;
   const double mirror_hz = effects.rate_hz / effects.columns;
+  // A pattern has a time of its own, unless the laser is too slow for it.
+  if (effects.points_per_s > 0) effects.seconds = std::max(effects.seconds, effects.columns * rows / effects.points_per_s);
   const double turning = effects.seconds > 0 ? effects.seconds - instrument.overhead_s
                          : mirror_hz > 0     ? effects.columns / 2 * instrument.column_factor / mirror_hz
                                              : 0;
@@ -187,6 +227,7 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
   settings.reference_reflectivity = effects.reference_reflectivity;
   settings.noise_factor = effects.noise_factor;
   settings.passes = static_cast<int>(effects.passes);
+  settings.laser = effects.laser;
   settings.imaging = effects.imaging > 0;
   settings.unambiguous_m = effects.unambiguous_m;
   settings.drops = effects.drops;
@@ -194,8 +235,10 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
   settings.farthest_m = gateOf(settings.values, "farthest_m");
   if (settings.farthest_m > 0 && settings.farthest_m <= settings.nearest_m)
     return failure(ErrorKind::usage, "must be above nearest_m", "farthest_m");
-  settings.scan_seconds = (instrument.overhead_s + turning * share) * effects.passes;
-  settings.imaging_seconds = settings.imaging ? effects.imaging_seconds : 0;
+  settings.camera = effects.camera;
+  settings.scan_seconds =
+      effects.laser ? (instrument.overhead_s + turning * effects.seconds_factor * share) * effects.passes : 0;
+  settings.imaging_seconds = settings.imaging ? effects.imaging_seconds * effects.imaging_factor : 0;
   return settings;
 }
 

@@ -78,6 +78,7 @@ PhaseRow phaseRow(JsonFields& f) {
   p.lamp = f.textOr("lamp", "off");
   p.on = f.flagOr("on", true);
   p.laser = f.flagOr("laser", false);
+  p.waits = f.flagOr("waits", false);
   p.source = f.text("source");
   return p;
 }

@@ -58,6 +58,7 @@ struct PhaseRow {
   std::string lamp;              // "green", "red flashing", …
   bool on = true;                // the device has power
   bool laser = false;            // it turns: a bump spoils the scan
+  bool waits = false;            // for whoever uses it: its time is no work, only the end of its patience
   std::string source;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -30,7 +31,8 @@ void spellOutSettings(std::vector<WidgetRow>& widgets, const Instrument& instrum
   std::vector<WidgetRow> rows;
   for (const auto& setting : instrument.settings) {
     WidgetRow row = pattern;
-    row.id = row.words = row.setting = setting.key;
+    row.setting = setting.key;
+    row.id = row.words = "setting." + setting.key;   // so that no key is taken for another widget
     row.kind = setting.choices.empty() ? WidgetKind::number : WidgetKind::choice;
     rows.push_back(std::move(row));
   }
@@ -79,7 +81,7 @@ bool Device::on() const {
 
 bool Device::busy() const {
   const auto* phase = findPhase(type_->definition, state_.phase);
-  return order_.has_value() || (phase != nullptr && !phase->lasts.empty());
+  return order_.has_value() || (phase != nullptr && !phase->lasts.empty() && !phase->waits);
 }
 
 std::string Device::value(const std::string& id) const {
@@ -249,6 +251,7 @@ void Device::tick(double seconds) {
 // --- orders ---
 
 void Device::give(Order order) {
+  if (const auto* link = std::get_if<LinkOrder>(&order)) state_.linking = link->from_file;
   order_ = std::move(order);
   state_.engine_share = 0;
 }
@@ -256,6 +259,7 @@ void Device::give(Order order) {
 std::optional<Order> Device::takeOrder() { return std::exchange(order_, std::nullopt); }
 bool Device::takeCancel() { return std::exchange(cancel_, false); }
 bool Device::takeStored() { return std::exchange(stored_, false); }
+std::optional<StationOrientation> Device::takeOriented() { return std::exchange(oriented_, std::nullopt); }
 std::optional<StoredSetup> Device::takeView() { return std::exchange(view_, std::nullopt); }
 
 void Device::takeBack() {
@@ -271,12 +275,18 @@ void Device::scanDone(StoredSetup setup) {
   setup.partial = state_.running->until_share < 1;
   setup.tracked = state_.around.tracking;
   setup.unlevelled = !state_.running->compensator || tilt() > type_->definition.body.tilt_limit_deg;
+  if (setup.unlevelled) {
+    setup.lean_x_deg = state_.running->tilt_x_deg;
+    setup.lean_y_deg = state_.running->tilt_y_deg;
+  }
   state_.data = std::move(setup);
   fire("data");
 }
 
 void Device::linkDone(const LinkResult& link) {
-  if (auto* newest = newestSetup()) newest->link = link;
+  for (auto& p : state_.projects)
+    for (auto& setup : p.setups)
+      if (setup.file == state_.linking) setup.link = link;
   note("linked", link.joined ? "joined" : "refused");
   fire("linked");
 }
@@ -288,6 +298,35 @@ void Device::targetsDone(std::vector<FittedTarget> targets) {
   if (setup != nullptr) setup->targets = std::move(targets);
   note("targets", std::to_string(found));
   fire("targets_measured");
+}
+
+// What was picked comes under the ID that was typed, in the place of an earlier sight of that ID.
+void Device::sightDone(FittedTarget target) {
+  note("sighted", target.found ? target.name : "");
+  if (target.found) {
+    auto& all = state_.sighted;
+    const auto typed = fact("entry.target_id")->text;
+    const auto id = typed.empty() ? target.name : typed;
+    std::erase_if(all, [&](const SightedTarget& s) { return s.id == id; });
+    const auto height = fact("entry.target_height");
+    all.push_back({id, target.levelled_m, std::strtod(height->text.c_str(), nullptr), target.residual_m, target.points, true});
+    state_.orientation.reset();
+  }
+  fire(target.found ? "sighted" : "not_sighted");
+}
+
+// Its targets are known from here on: by what this set-up makes of them.
+void Device::acceptOrientation() {
+  if (!state_.orientation) return;
+  auto& o = *state_.orientation;
+  o.accepted = true;
+  if (auto* open = project())
+    for (const auto& s : state_.sighted) {
+      std::erase_if(open->carried, [&](const ControlPlace& c) { return c.name == s.id; });
+      open->carried.push_back({s.id, o.pose * s.place_m - Eigen::Vector3d(0, 0, s.height_m)});
+    }
+  note("oriented", o.method);
+  if (!o.local) oriented_ = o;
 }
 
 void Device::previewDone(const std::string& file, std::shared_ptr<const ScanPreview> preview) {

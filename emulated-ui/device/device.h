@@ -68,12 +68,17 @@ class Device {
   void linkDone(const LinkResult& link);
   void targetsDone(std::vector<FittedTarget> targets);
   void previewDone(const std::string& file, std::shared_ptr<const ScanPreview> preview);
+  void sightDone(FittedTarget target);
   void transferDone(const std::vector<std::string>& files);
   void orderFailed(const std::string& message);
   // True once after the device has stored a scan: from then on the setup exists.
   bool takeStored();
   // A stored setup that the user wants to see in the viewport; once.
   std::optional<StoredSetup> takeView();
+  // A station set-up that was accepted, once: from then on the station has coordinates.
+  std::optional<StationOrientation> takeOriented();
+  // Known places, as they are copied to the device.
+  void know(ControlList control) { state_.control = std::move(control); }
   // What the project already holds of this instrument's work: the card's content.
   void load(const std::vector<StoredSetup>& stored);
 
@@ -98,6 +103,7 @@ class Device {
   void takeBack();                                    // the running order
   void markStored() { stored_ = true; }
   void view(const StoredSetup& setup) { view_ = setup; }
+  void acceptOrientation();
   double expectedBytes() const;
   double tilt() const;                                // degrees
 
@@ -118,6 +124,7 @@ class Device {
   ScanSettings expected_;
   std::optional<Order> order_;
   std::optional<StoredSetup> view_;
+  std::optional<StationOrientation> oriented_;
   bool cancel_ = false;
   bool stored_ = false;
 };

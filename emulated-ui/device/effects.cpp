@@ -42,6 +42,8 @@ void beginScan(Device& device) {
   order.compensator = device.tilt() <= type.definition.body.tilt_limit_deg;
   if (s.around.dust) order.noise_factor *= kDustNoise;
   if (s.around.acclimatised_s < type.definition.body.warm_up_s) order.noise_factor *= kColdNoise;
+  order.tilt_x_deg = s.around.tilt_x_deg;
+  order.tilt_y_deg = s.around.tilt_y_deg;
   if (s.around.somebody_walks) order.walker_at_share = 0.5;
   s.around.somebody_walks = false;
   if (type.program.prepare != nullptr) type.program.prepare(device, order);

@@ -148,6 +148,14 @@ const std::vector<FactRow>& sharedFacts() {
       {"newest.unlevelled", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(newest(d, [](const StoredSetup& s) { return s.unlevelled; }) > 0); }, "stored without levelling"},
       {"newest.moved", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(newest(d, [](const StoredSetup& s) { return s.moved; }) > 0); }, "the tripod was pushed meanwhile"},
       {"newest.targets", Unit::none, numbers(0, 1e4), [](const Device& d) { return numberFact(foundTargets(d.newestSetup())); }, "targets found in the newest setup"},
+      {"newest.sampled", Unit::none, numbers(0, 1e9),
+       [](const Device& d) {
+         double least = -1;
+         if (d.newestSetup() != nullptr)
+           for (const auto& t : d.newestSetup()->targets)
+             if (t.found) least = least < 0 ? t.points : std::min<double>(least, t.points);
+         return numberFact(std::max(0.0, least));
+       }, "fewest points on a target of the newest setup"},
       {"newest.residual", Unit::millimetres, numbers(0, 1e6), [](const Device& d) { return numberFact(worstResidual(d.newestSetup())); }, "the worst of its targets, in millimetres"},
       {"link", Unit::none, {{"none", "joined", "failed"}}, [](const Device& d) { return wordFact(linkState(d.newestSetup())); }, "of the newest setup to the one before"},
       {"link.overlap", Unit::share, numbers(0, 1), [](const Device& d) { return numberFact(d.newestSetup() != nullptr && d.newestSetup()->link ? d.newestSetup()->link->overlap : 0); }, "share of the newer cloud"},

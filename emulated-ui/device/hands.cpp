@@ -113,7 +113,21 @@ Result<void> standAt(Device& d, const std::string& station) {
     return failure(ErrorKind::usage, d.word("moved_while_scanning"));
   }
   a.station = station;
+  d.change().sighted.clear();
+  d.change().orientation.reset();
   d.fire("set_down");
+  return {};
+}
+
+// Nearer to the instrument, where the wireless link holds again.
+Result<void> comeNear(Device& d, const std::string&) {
+  d.change().around.wlan = true;
+  return {};
+}
+
+// Whoever stood before a target is asked to go away.
+Result<void> clearView(Device& d, const std::string&) {
+  d.change().around.targets_visible = true;
   return {};
 }
 
@@ -133,6 +147,7 @@ const std::vector<HandRow>& handRows() {
       {"change_battery", "", changeBattery}, {"plug_in", "", plugIn},        {"unplug", "", unplug},
       {"level", "", level},                {"tilt", "x,y in degrees", tiltTo}, {"wipe_optics", "", wipeOptics},
       {"stand_at", "station", standAt},    {"push", "", push},
+      {"come_near", "", comeNear},         {"go_near", "", comeNear},             {"clear_view", "", clearView},
   };
   return rows;
 }
@@ -168,6 +183,11 @@ const std::vector<TroubleRow>& troubleRows() {
       {"too_cold",
        [](Device& d) {
          d.change().around.temperature_c = d.type().definition.body.coldest_c - 5;
+         d.fire("temperature");
+       }},
+      {"overheated",
+       [](Device& d) {
+         d.change().around.temperature_c = d.type().definition.body.hottest_c + 15;
          d.fire("temperature");
        }},
       {"not_warm", [](Device& d) { d.change().around.acclimatised_s = 0; }},

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/survey.h"
 #include "scanners/instrument.h"
 
 namespace standpoint {
@@ -27,13 +28,17 @@ struct ScanOrder {
   bool compensator = true;
   double until_share = 1;          // of the columns: a scan that was cut short and kept
   double noise_factor = 1;         // of the range noise: dust on the optics, an instrument that is not warm
+  std::vector<std::string> filters;   // of the verb `clean`: what the device itself leaves out
   std::optional<double> bumped_at_share;   // the tripod was pushed then
   std::optional<double> walker_at_share;   // somebody walks by then
+  double tilt_x_deg = 0, tilt_y_deg = 0;   // of the standing axis when it began
 };
 
-// How the newest setup joins an earlier one: cloud to cloud.
+// How a setup joins an earlier one: cloud to cloud.
 struct LinkOrder {
   std::string from_file, to_file;
+  double shift_x_m = 0, shift_y_m = 0;   // how the user laid the first by hand before the fit, from where it lay:
+  double turn_deg = 0;                   // in plan, anticlockwise about itself
 };
 struct LinkResult {
   bool joined = false;
@@ -41,6 +46,7 @@ struct LinkResult {
   double overlap = 0;              // share of the newer cloud
   double true_error_m = 0;         // of the solved place: what only the simulation knows
   double true_error_deg = 0;
+  Pose error;                      // the true place moved by it is the solved one
 };
 
 // Find the targets in a setup and measure them.
@@ -54,8 +60,20 @@ struct FittedTarget {
   double range_m = 0;
   double residual_m = 0;           // r.m.s. of the fit
   double error_m = 0;              // to where it truly is
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();   // as fitted, in the setup's own frame
   bool found = false;
   std::string why_not;
+  Eigen::Vector3d levelled_m = Eigen::Vector3d::Zero();   // of a sight: its place, levelled by what the compensator told
+};
+
+// Pick one target, scan a window about it finely, and measure it.
+struct SightOrder {
+  std::string instrument;          // id
+  std::string station;
+  std::string target;              // which one is picked
+  std::string kind;                // that the device is told: "sphere" or "checkerboard"
+  SettingValues settings;          // the edges of the window come on top
+  bool compensator = true;
 };
 
 // A setup's picture as the device shows it, thinned out: a point for each cell, where one came back.
@@ -74,7 +92,7 @@ struct TransferOrder {
   std::string by;                  // "card", "cable", "wlan"
 };
 
-using Order = std::variant<ScanOrder, LinkOrder, TargetOrder, PreviewOrder, TransferOrder>;
+using Order = std::variant<ScanOrder, LinkOrder, TargetOrder, PreviewOrder, TransferOrder, SightOrder>;
 
 struct StoredSetup {
   std::string project;
@@ -88,6 +106,7 @@ struct StoredSetup {
   double instrument_seconds = 0;
   bool partial = false;            // it was cut short
   bool unlevelled = false;         // the compensator did not help
+  double lean_x_deg = 0, lean_y_deg = 0;   // of the stored cloud: what nothing has levelled
   bool moved = false;              // the tripod was pushed meanwhile
   bool tracked = false;            // the way from the setup before is known
   bool looked_at = false;          // its preview was opened

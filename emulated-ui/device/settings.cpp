@@ -19,7 +19,29 @@ Result<SettingValues> adaptedSettings(const Instrument& instrument, const Settin
     for (const auto& choice : other.choices)
       if (const auto moved = withSetting(wanted, other.key, choice.value); resolveSettings(instrument, moved)) return moved;
   }
+  auto plain = wanted;   // the edges of an area, the steps of a pattern of one's own
+  for (const auto& other : instrument.settings)
+    if (other.choices.empty() && other.key != key) plain = withSetting(plain, other.key, other.standard);
+  if (resolveSettings(instrument, plain)) return plain;
   return failure(resolved.error());
+}
+
+std::string settingsText(const SettingValues& settings) {
+  std::string text;
+  for (const auto& [key, value] : settings) text += key + "=" + value + ";";
+  return text;
+}
+
+SettingValues settingsFromText(const std::string& text) {
+  SettingValues settings;
+  for (std::size_t at = 0; at < text.size();) {
+    const auto end = text.find(';', at);
+    const auto equals = text.find('=', at);
+    if (end == std::string::npos || equals > end) break;
+    settings.emplace_back(text.substr(at, equals - at), text.substr(equals + 1, end - equals - 1));
+    at = end + 1;
+  }
+  return settings;
 }
 
 }  // namespace standpoint

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "emulated-ui/device/orders.h"
+#include "emulated-ui/device/orientation.h"
 
 namespace standpoint {
 
@@ -36,6 +37,7 @@ struct DeviceProject {
   int first = 1;                   // number of its first setup
   std::string cluster;             // folder for the next scans
   std::vector<StoredSetup> setups;
+  std::vector<ControlPlace> carried;   // targets as accepted station set-ups gave them: what a traverse goes on from
 };
 
 // Something that happened, for exercises and the replay: pressed, refused, stored, …
@@ -65,8 +67,12 @@ struct DeviceState {
   std::optional<ScanOrder> running;
   double scanned_s = 0, laser_s = 0;   // of the running scan: in all its phases, and with the laser on
   double engine_share = 0;         // of the simulation behind it
+  std::string linking;             // file of the setup whose link was ordered last
   std::optional<StoredSetup> data; // the simulation is done before the device's clock is
   bool moved = false;              // since the scan began
+  ControlList control;             // known places, copied to the device
+  std::vector<SightedTarget> sighted;                // from where the tripod stands
+  std::optional<StationOrientation> orientation;     // of where it stands
   std::vector<DeviceEvent> log;
 };
 

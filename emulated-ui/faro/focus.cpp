@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "emulated-ui/device/effects.h"
+#include "emulated-ui/device/settings.h"
 
 namespace standpoint {
 
@@ -32,24 +33,6 @@ constexpr const char* kOwnProfile = "profile.";   // an own one is a value of th
 
 SettingValues settingsOf(const Profile& profile) { return {{"resolution", profile.resolution}, {"quality", profile.quality}}; }
 
-std::string joined(const SettingValues& settings) {
-  std::string text;
-  for (const auto& [key, value] : settings) text += key + "=" + value + ";";
-  return text;
-}
-
-SettingValues parted(const std::string& text) {
-  SettingValues settings;
-  for (std::size_t at = 0; at < text.size();) {
-    const auto end = text.find(';', at);
-    const auto equals = text.find('=', at);
-    if (end == std::string::npos || equals > end) break;
-    settings.emplace_back(text.substr(at, equals - at), text.substr(equals + 1, end - equals - 1));
-    at = end + 1;
-  }
-  return settings;
-}
-
 std::vector<std::string> ownProfiles(const Device& device) {
   std::vector<std::string> names;
   for (const auto& [id, value] : device.state().values)
@@ -66,10 +49,10 @@ std::vector<WidgetOption> profileRows(const Device& device) {
 
 Result<void> useProfile(Device& device, const std::string& name) {
   const auto factory = std::find_if(kProfiles.begin(), kProfiles.end(), [&](const Profile& p) { return name == p.name; });
-  const auto settings = factory != kProfiles.end() ? settingsOf(*factory) : parted(device.value(kOwnProfile + name));
+  const auto settings = factory != kProfiles.end() ? settingsOf(*factory) : settingsFromText(device.value(kOwnProfile + name));
   if (auto ok = device.setSettings(settings); !ok) return ok;
   device.change().entries["profile"] = name;
-  device.change().entries["profile_settings"] = joined(device.state().settings);
+  device.change().entries["profile_settings"] = settingsText(device.state().settings);
   return {};
 }
 
@@ -80,9 +63,9 @@ Result<void> saveProfile(Device& device, const std::string&) {
   if (auto ok = checkName(name); !ok) return ok;
   if (std::any_of(kProfiles.begin(), kProfiles.end(), [&](const Profile& p) { return name == p.name; }))
     return failure(ErrorKind::usage, device.word("factory_profile"));
-  device.change().values[kOwnProfile + name] = joined(device.state().settings);
+  device.change().values[kOwnProfile + name] = settingsText(device.state().settings);
   device.change().entries["profile"] = name;
-  device.change().entries["profile_settings"] = joined(device.state().settings);
+  device.change().entries["profile_settings"] = settingsText(device.state().settings);
   device.note("profile_saved", name);
   return {};
 }
@@ -102,7 +85,7 @@ std::string profileName(const Device& device) {
   const auto chosen = entries.find("profile");
   if (chosen == entries.end()) return "";
   const auto settings = entries.find("profile_settings");
-  const bool changed = settings == entries.end() || settings->second != joined(device.state().settings);
+  const bool changed = settings == entries.end() || settings->second != settingsText(device.state().settings);
   return chosen->second + (changed ? " *" : "");
 }
 

@@ -2,6 +2,7 @@
 #include "emulated-ui/rehearsal/exercise.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include <fmt/format.h>
@@ -30,7 +31,8 @@ Spoken spoken(JsonFields& f, const char* key, bool required) {
   return s;
 }
 
-RehearsalAction action(JsonFields& f) {
+// `prepares`: before anybody is there, more can be done: doors stand open that the model has shut.
+RehearsalAction action(JsonFields& f, bool prepares = false) {
   RehearsalAction a;
   const auto named = [&](const char* key, Kind kind) {
     if (!f.has(key)) return false;
@@ -43,7 +45,9 @@ RehearsalAction action(JsonFields& f) {
   } else if (named("verb", Kind::verb)) {
     const auto* options = f.raw("options");
     a.options = options == nullptr ? nlohmann::json::object() : *options;
-    if (a.name != "station" && a.name != "target" && a.name != "plan") f.wrong("verb", "only station, target and plan can be done in the field");
+    const bool field = a.name == "station" || a.name == "target" || a.name == "plan";
+    if (!field && !(prepares && a.name == "treat"))
+      f.wrong("verb", prepares ? "only station, target, plan and treat can prepare the environment" : "only station, target and plan can be done in the field");
   } else if (named("hint", Kind::hint)) {
   } else if (f.has("wait")) {
     a.kind = Kind::wait;
@@ -61,6 +65,17 @@ std::vector<RehearsalAction> actions(JsonFields& f, const char* key) {
   std::vector<RehearsalAction> list;
   f.list(key, [&](JsonFields& one) { list.push_back(action(one)); });
   return list;
+}
+
+std::vector<double> numbersIn(JsonFault& fault, const nlohmann::json& list, const std::string& pointer, std::size_t count, const char* needed) {
+  std::vector<double> found;
+  for (const auto& number : list.is_array() ? list : nlohmann::json::array())
+    if (number.is_number() && std::abs(number.get<double>()) <= 1e9) found.push_back(number.get<double>());
+  if (!list.is_array() || list.size() != count || found.size() != count) {
+    fault.say(pointer, needed);
+    found.assign(count, 0);
+  }
+  return found;
 }
 
 ExerciseRule rule(JsonFields& f) {
@@ -150,8 +165,12 @@ Result<Exercise> readExercise(const fs::path& file) {
   if (e.devices.empty()) f.wrong("devices", "an exercise is for at least one device");
   e.instrument = f.textOr("instrument", "");
   e.model = f.text("model");
+  if (const auto* area = f.raw("area")) e.area = numbersIn(fault, *area, "/area", 6, "six numbers are needed: the least and the greatest x, y, z");
+  f.each("places", [&](const std::string& name, const nlohmann::json& at, const std::string& pointer) {
+    e.places[name] = numbersIn(fault, at, pointer, 2, "x and y are needed");
+  });
   f.list("setup", [&](JsonFields& one) {
-    const auto a = action(one);
+    const auto a = action(one, true);
     if (a.kind != Kind::verb) one.wrong("verb", "the environment is prepared by verbs");
     e.setup.push_back(toJson(a));
   });

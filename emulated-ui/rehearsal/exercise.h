@@ -86,6 +86,8 @@ struct Exercise {
   std::vector<std::string> devices;         // ids; the first is the standard
   std::string instrument;                   // of the device; empty: its first
   std::string model;                        // of the samples: "house"
+  std::vector<double> area;                 // x, y, z of its least and of its greatest corner: what survey.* asks of; empty: all
+  std::map<std::string, std::vector<double>> places;   // x, y of what place.NAME asks of
   std::vector<nlohmann::json> setup;        // verbs that prepare the environment: station, target
   std::vector<RehearsalAction> start;       // done by nobody: how the device is found
   std::vector<std::string> troubles;        // that are there from the start

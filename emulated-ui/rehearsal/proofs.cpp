@@ -6,8 +6,11 @@
 #include <limits>
 
 #include <Eigen/Dense>
+#include <fmt/format.h>
 
 #include "core/units.h"
+#include "emulated-ui/rehearsal/field_proofs.h"
+#include "emulated-ui/rehearsal/survey_proofs.h"
 #include "pointclouds/formats.h"
 #include "project/verb.h"
 
@@ -49,7 +52,7 @@ class TruthReader final : public PointSink {
       moving_ += (flags & point_flag::kMoving) != 0;
       if (flags != 0 || (seen_++ % step_) != 0) continue;
       const Eigen::Vector3f p(block.x_m[i], block.y_m[i], block.z_m[i]), q(t.x_m[i], t.y_m[i], t.z_m[i]);
-      range_.push_back(std::abs(p.norm() - t.range_m[i]));
+      range_.push_back(p.norm() - t.range_m[i]);
       place_.push_back((p - q).norm());
     }
     return {};
@@ -57,11 +60,16 @@ class TruthReader final : public PointSink {
   Result<void> end() override { return {}; }
   Result<void> close() override { return {}; }
 
-  // A normal σ from the median of the absolute errors.
+  // A normal σ from the median of the absolute errors about their own median: a constant offset is no noise.
+  double sigma_m() {
+    const auto offset = static_cast<float>(percentile(range_, 0.5));
+    for (float& r : range_) r = std::abs(r - offset);
+    return 1.4826 * percentile(range_, 0.5);
+  }
   std::map<std::string, double> figures() {
     const auto share = [&](double n) { return points_ > 0 ? n / points_ : 0; };
     return {{"data.points", points_},
-            {"data.noise", 1.4826 * percentile(range_, 0.5) * 1000},
+            {"data.noise", sigma_m() * 1000},
             {"data.error", percentile(place_, 0.95) * 1000},
             {"data.mixed", share(mixed_)},
             {"data.mirrored", share(mirrored_)},
@@ -204,7 +212,7 @@ double goodCopies(const Device& device, const fs::path& folder) {
 }  // namespace
 
 const std::vector<ProofRow>& proofRows() {
-  static const std::vector<ProofRow> rows = {
+  static const std::vector<ProofRow> kRows = {
       {"data.points", "", numbers(0, 1e12), "points of the newest scan"},
       {"data.noise", "mm", numbers(0, 1e6), "σ of the range against the truth in the newest scan"},
       {"data.error", "mm", numbers(0, 1e6), "of 95 % of its points the distance to where they belong is less"},
@@ -228,11 +236,21 @@ const std::vector<ProofRow>& proofRows() {
       {"links.overlap", "", numbers(0, 1), "the least overlap of a joined link"},
       {"links.error", "mm", numbers(0, 1e6), "worst true error of a joined link"},
       {"office.copies", "", numbers(0, 1e4), "copies in the office that are as large as their source"},
+      {"survey.walls", "", numbers(0, 1), "share of the area's walls that a station meets at 60° or steeper"},
+      {"survey.coverage", "", numbers(0, 1), "share of the area's surfaces that a station sees"},
+      {"survey.overlap", "", numbers(0, 1), "the least overlap of a station with its best neighbour"},
+      {"survey.stations", "", numbers(0, 1e4), "stations that are put up"},
   };
+  static const std::vector<ProofRow> rows = [] {
+    auto all = kRows;
+    all.insert(all.end(), fieldProofRows().begin(), fieldProofRows().end());
+    return all;
+  }();
   return rows;
 }
 
-std::optional<Fact> Proofs::fact(const std::string& name, const Device& device, const Document& document, const fs::path& folder) {
+std::optional<Fact> Proofs::fact(const std::string& name, const Exercise& exercise, const Device& device, const Document& document, const fs::path& folder) {
+  if (auto own = namedProof(name, exercise, device, document)) return own;
   const auto& rows = proofRows();
   if (std::none_of(rows.begin(), rows.end(), [&](const ProofRow& row) { return name == row.name; })) return std::nullopt;
   const auto* newest = device.newestSetup();
@@ -254,6 +272,20 @@ std::optional<Fact> Proofs::fact(const std::string& name, const Device& device, 
     const auto found = plan_.find(name);
     return found == plan_.end() ? std::nullopt : std::optional(numberFact(found->second));
   }
+  if (name.starts_with("survey.")) {
+    std::string of = settingsText(device.state().settings);
+    double count = 0;
+    if (document.job)
+      for (const auto& s : document.job->stations) {
+        of += fmt::format("{} {} {} {};", s.name, s.true_pose.translation.x(), s.true_pose.translation.y(), s.true_pose.translation.z());
+        count += 1;
+      }
+    if (name == "survey.stations") return numberFact(count);
+    if (survey_of_ != of) survey_ = readSurvey(exercise, device, document), survey_of_ = of;
+    const auto found = survey_.find(name);
+    return found == survey_.end() ? std::nullopt : std::optional(numberFact(found->second));
+  }
+  if (auto field = fieldProof(name, device, document)) return field;
   const auto& targets = document.job ? document.job->targets : std::vector<Target>();
   if (name == "targets.count") return numberFact(static_cast<double>(targets.size()));
   if (name == "targets.spread") return numberFact(spreadOf(targets)[0]);
@@ -270,7 +302,7 @@ std::optional<Fact> Proofs::fact(const std::string& name, const Device& device, 
   if (name == "links.failed") return numberFact(linksThat(device, false));
   if (name == "links.overlap") return numberFact(leastOverlap(device));
   if (name == "links.error") return numberFact(worstTrueLink(device));
-  return numberFact(goodCopies(device, folder));
+  return name == "office.copies" ? std::optional(numberFact(goodCopies(device, folder))) : std::nullopt;
 }
 
 }  // namespace standpoint

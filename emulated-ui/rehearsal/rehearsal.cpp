@@ -10,6 +10,7 @@
 
 #include "emulated-ui/device/format.h"
 #include "emulated-ui/menus.h"
+#include "emulated-ui/rehearsal/field_proofs.h"
 
 namespace standpoint {
 
@@ -194,7 +195,7 @@ std::optional<Fact> Rehearsal::fact(const std::string& name) const {
     const auto found = answers_.find(name.substr(7));
     return wordFact(found == answers_.end() ? "" : found->second);
   }
-  if (auto shown = proofs_.fact(name, device(), document_, folder_)) return shown;
+  if (auto shown = proofs_.fact(name, exercise_, device(), document_, folder_)) return shown;
   return device().fact(name);
 }
 
@@ -221,6 +222,17 @@ void Rehearsal::breakRule(std::size_t index) {
   state.found = factsOf(exercise_.rules[index].holds);
 }
 
+// A target that is not where it was during an earlier scan was moved.
+void Rehearsal::noteTargets() {
+  if (!document_.job) return;
+  for (const auto& target : document_.job->targets) {
+    const auto [seen, first] = target_places_.try_emplace(target.name, target.centre);
+    if (first || (seen->second - target.centre).norm() < 1e-4) continue;
+    counts_["targets_moved"] += 1;
+    seen->second = target.centre;
+  }
+}
+
 // After every action and every step of the clock.
 void Rehearsal::watch() {
   const auto look = lookup();
@@ -228,6 +240,7 @@ void Rehearsal::watch() {
   for (; log_seen_ < log.size(); ++log_seen_) {
     const auto& event = log[log_seen_];
     counts_[event.what] += 1;
+    if (event.what == "scan_started") noteTargets();
     counts_[event.what + "." + event.detail] += 1;
     for (std::size_t i = 0; i < rules_.size(); ++i) {
       const auto& rule = exercise_.rules[i];
@@ -283,6 +296,7 @@ std::optional<FactDomain> rehearsalDomain(const Exercise& exercise, const std::s
       if (q.id == name.substr(7)) return FactDomain{q.choices};
     return std::nullopt;
   }
+  if (auto own = namedProofDomain(name, exercise)) return own;
   for (const auto& row : proofRows())
     if (name == row.name) return row.domain;
   return std::nullopt;

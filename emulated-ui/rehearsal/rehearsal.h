@@ -68,6 +68,7 @@ class Rehearsal {
   Result<void> apply(const RehearsalAction& action, Progress& progress);
   Result<void> runFieldVerb(const RehearsalAction& action, Progress& progress);
   void watch();
+  void noteTargets();
   void breakRule(std::size_t index);
   std::string factsOf(const Condition& condition) const;
   FactLookup lookup() const;
@@ -82,6 +83,7 @@ class Rehearsal {
   std::vector<RehearsalAction> actions_;
   std::map<std::string, std::string> answers_;
   std::map<std::string, double> counts_;
+  std::map<std::string, Eigen::Vector3d> target_places_;   // during the newest scan that had them
   std::size_t log_seen_ = 0;
   double started_s_ = 0;
   int hints_ = 0;

@@ -115,5 +115,95 @@ TEST_F(Host, TheDevicesMemoryIsFilledFromTheProject) {
   EXPECT_EQ(setups[0].station, "S1");
 }
 
+// A P40 in the lower room with four targets on its walls and in the room: measured one after the other, solved, accepted.
+class SurveyHost : public testing::Test {
+ protected:
+  SurveyHost() {
+    document_ = run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500002.5, 5600002, 1.6}}, {"yaw-deg", 30.0}})->document;
+    Job job = *document_.job;
+    job.targets = {{"T1", TargetKind::sphere, {1, 0.8, 1.2}, Eigen::Vector3d::UnitX(), 0.145},
+                   {"T2", TargetKind::sphere, {5.2, 1, 2}, Eigen::Vector3d::UnitX(), 0.145},
+                   {"T3", TargetKind::sphere, {1.2, 3.4, 1.9}, Eigen::Vector3d::UnitX(), 0.145}};
+    document_.job = std::make_shared<const Job>(std::move(job));
+    host_ = std::make_unique<DeviceHost>(*loadDevice(*findDevice("leica-p-series")), document_, nullptr);
+    press({"power"});
+    device().tick(70);
+    (void)device().hand("stand_at", "S1");
+    press({"manage", "new_project", "name=House", "create"});
+  }
+  Device& device() { return host_->device(); }
+  void press(const std::vector<std::string>& widgets) {
+    for (const auto& text : widgets) {
+      const auto equals = text.find('=');
+      const auto done = device().act(text.substr(0, equals), equals == std::string::npos ? "" : text.substr(equals + 1));
+      EXPECT_TRUE(done) << text << ": " << describe(done.error());
+    }
+  }
+  std::optional<Outcome> runUntilIdle() {
+    for (int i = 0; i < 10000; ++i) {
+      if (auto stored = host_->update(document_, folder_.path() / "scans", 1)) return stored;
+      if (!host_->busy()) return std::nullopt;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return std::nullopt;
+  }
+
+  TemporaryFolder folder_;
+  Document document_;
+  std::unique_ptr<DeviceHost> host_;
+};
+
+TEST_F(SurveyHost, AnAcceptedResectionOverScannedTargetsIsTheStationsSolvedPose) {
+  press({"scan_menu", "method=resection_4", "measure_target", "target_type=sphere", "view_list=T1", "pick"});
+  EXPECT_FALSE(runUntilIdle());
+  EXPECT_EQ(device().state().screen, "target_result") << device().state().dialog_detail;
+  press({"measure_target", "view_list=T2", "pick"});
+  (void)runUntilIdle();
+  press({"measure_target", "view_list=T3", "pick"});
+  (void)runUntilIdle();
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path() / "scans")) << "the windows are not kept";
+  ASSERT_EQ(device().state().sighted.size(), 3U);
+  press({"to_setup", "solve"});
+  EXPECT_LT(device().fact("orientation.rms")->number.value(), 3);
+  press({"accept", "ok"});
+  const auto outcome = runUntilIdle();
+  ASSERT_TRUE(outcome);
+  EXPECT_EQ(outcome->description, "Oriented S1 with Leica ScanStation P-series");
+  const auto& station = outcome->document.job->stations[0];
+  ASSERT_TRUE(station.solved_pose);
+  EXPECT_LT((station.solved_pose->translation - station.true_pose.translation).norm(), 0.003);
+  EXPECT_LT(station.solved_pose->rotation.angularDistance(station.true_pose.rotation), 0.002);
+}
+
+TEST_F(SurveyHost, TheWrongTypeOfTargetIsNotFound) {
+  press({"targets", "measure_target", "target_type=hds_6in", "view_list=T1", "pick"});
+  (void)runUntilIdle();
+  EXPECT_EQ(device().state().dialog, "target_not_found");
+}
+
+TEST_F(SurveyHost, WhatTheDeviceFiltersIsNotInTheFile) {
+  press({"scan_page", "resolution_page", "resolution=50mm", "back", "image_page", "images=off", "back", "scan", "continue"});
+  const auto whole = runUntilIdle();
+  ASSERT_TRUE(whole);
+  document_ = whole->document;
+  press({"main_menu", "scan_page", "filter_page", "max_range=2", "back", "scan", "continue"});
+  const auto filtered = runUntilIdle();
+  ASSERT_TRUE(filtered);
+  const auto& scans = filtered->document.job->stations[0].scans;
+  ASSERT_EQ(scans.size(), 2U);
+  EXPECT_GT(scans[1].points, 0U);
+  EXPECT_LT(scans[1].points, scans[0].points) << "the far walls are 2 to 3.5 m away";
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path() / "scans" / "House"), fs::directory_iterator()), 2) << "no raw file is left";
+}
+
+TEST_F(SurveyHost, ImageOnlyIsAPictureWithoutPoints) {
+  press({"scan_page", "image_page", "image_resolution=640", "images=only", "back", "scan", "continue"});
+  const auto stored = runUntilIdle();
+  ASSERT_TRUE(stored) << device().state().dialog_detail;
+  const auto& scan = stored->document.job->stations[0].scans.at(0);
+  EXPECT_EQ(scan.points, 0U);
+  EXPECT_NE(bytes(scan.file).find("images2D"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace standpoint

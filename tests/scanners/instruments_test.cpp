@@ -121,6 +121,35 @@ TEST(RangeModes, ReachAsFarAsTheChosenOneSays) {
   EXPECT_EQ(resolved("leica-rtc360", {}).max_range_m, testing::instrument("leica-rtc360").max_range_m);
 }
 
+TEST(Pictures, HaveTheCameraAndTheTimeThatTheSettingsChoose) {
+  const auto plain = resolved("leica-p40", {});
+  EXPECT_EQ(plain.camera.columns, 8192U);
+  EXPECT_TRUE(plain.camera.metered);
+  EXPECT_DOUBLE_EQ(plain.imaging_seconds, 440);
+  const auto chosen = resolved("leica-p40", {{"image_resolution", "640"}, {"hdr", "on"}, {"exposure", "manual-2"}, {"white_balance", "cold"}});
+  EXPECT_EQ(chosen.camera.columns, 2730U);
+  EXPECT_TRUE(chosen.camera.hdr);
+  EXPECT_FALSE(chosen.camera.metered);
+  EXPECT_DOUBLE_EQ(chosen.camera.stops, -2);
+  EXPECT_DOUBLE_EQ(chosen.camera.warmth, 0.8);
+  EXPECT_NEAR(chosen.imaging_seconds, 440 * 0.65 * 2, 1e-9);
+  const auto only = resolved("leica-p40", {{"images", "only"}});
+  EXPECT_FALSE(only.laser);
+  EXPECT_EQ(only.scan_seconds, 0);
+}
+
+TEST(Pictures, OfHdrAreTakenWithoutFlash) {
+  EXPECT_EQ(resolved("leica-blk360-g1", {{"images", "ldr"}, {"flash", "on"}}).camera.flash, 1);
+  EXPECT_EQ(resolved("leica-blk360-g1", {{"images", "hdr"}, {"flash", "on"}}).camera.flash, 0);
+}
+
+// Twice the time of the turn, not of spin-up: 8 s + 2 x 101 s.
+TEST(Sensitivity, OfHighTakesTwiceTheTimeForLessNoise) {
+  const auto high = resolved("leica-p40", {{"sensitivity", "high"}});
+  EXPECT_DOUBLE_EQ(high.scan_seconds, 210);
+  EXPECT_NEAR(high.noise_factor * high.noise_factor, 0.5, 1e-6);
+}
+
 TEST(Settings, AreRefusedWithWhatIsAllowed) {
   EXPECT_THAT(refused("leica-rtc360", {{"resolution", "1mm"}}).message, HasSubstr("12mm, 6mm, 3mm"));
   EXPECT_THAT(refused("leica-rtc360", {{"quality", "3x"}}).message, HasSubstr("resolution, double_scan"));

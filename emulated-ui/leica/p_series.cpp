@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "emulated-ui/leica/p_series.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "emulated-ui/device/effects.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr const char* kLaserOrCamera = "scanning imaging";
+constexpr const char* kWorking = "scanning imaging paused";
+constexpr const char* kHolding = "scanning imaging paused finishing storing error";
+
+// Which field of view: all around has no edges of its own.
+Result<void> applyFieldOfView(Device& d, const std::string& fov) {
+  if (fov != "full") return {};
+  SettingValues wanted;
+  for (const auto& [key, value] : d.state().settings)
+    if (!key.starts_with("horizontal_") && !key.starts_with("vertical_")) wanted.emplace_back(key, value);
+  return d.setSettings(wanted);
+}
+
+void beginUnlevelled(Device& d) {
+  d.change().values["compensator"] = "off";
+  beginScan(d);
+}
+
+// What was measured before the tilt is stored with the rest: the whole scan carries the flag.
+void resumeUnlevelled(Device& d) {
+  auto& s = d.change();
+  if (!s.running) return;
+  const double laser = s.laser_s, done = s.scanned_s;
+  ScanOrder order = *s.running;
+  order.compensator = false;
+  d.takeBack();
+  s.running = order;
+  s.elapsed_s = s.phase == "imaging" ? done - laser : laser;
+  d.give(order);
+  d.note("unlevelled", order.name);
+}
+void pausedScanning(Device& d) { d.change().entries["paused_in"] = "scanning"; }
+void pausedImaging(Device& d) { d.change().entries["paused_in"] = "imaging"; }
+
+double flagged(const Device& d) {
+  double n = 0;
+  for (const auto& p : d.state().projects)
+    n += static_cast<double>(std::count_if(p.setups.begin(), p.setups.end(), [](const StoredSetup& s) { return s.unlevelled && !s.transferred; }));
+  return n;
+}
+
+void transfer(Device& d, bool with_flagged) {
+  TransferOrder order{{}, "cable"};
+  for (const auto& p : d.state().projects)
+    for (const auto& s : p.setups)
+      if (!s.transferred && (with_flagged || !s.unlevelled)) order.files.push_back(s.file);
+  if (order.files.empty()) return d.ask("refused", d.word("nothing_to_transfer"));
+  d.note("import", with_flagged ? "marked" : "without_unlevelled");
+  d.give(std::move(order));
+}
+void transferAll(Device& d) { transfer(d, true); }
+void transferLevelled(Device& d) { transfer(d, false); }
+
+double numberOf(const Device& d, const char* value) { return d.fact(value)->number.value_or(0); }
+
+// The instrument's own filters, and its compensator.
+void prepare(const Device& d, ScanOrder& order) {
+  order.compensator = order.compensator && d.value("compensator") == "on";
+  const double nearest = numberOf(d, "value.min_range"), farthest = numberOf(d, "value.max_range");
+  const double weakest = numberOf(d, "value.min_intensity");
+  std::string range;
+  if (nearest > 0) range = fmt::format("from={:g}", nearest);
+  if (farthest > 0) range += fmt::format("{}to={:g}", range.empty() ? "" : ",", farthest);
+  if (!range.empty()) order.filters.push_back("range:" + range);
+  if (weakest > 0) order.filters.push_back(fmt::format("intensity:from={:g}", weakest / 100));
+}
+
+// With pictures only the laser stays off.
+void addBeginning(std::vector<Transition>& rows, const char* event, void (*begin)(Device&), const char* mark) {
+  rows.push_back({"idle", event, "setting.images == only", "imaging", "", "", begin, mark});
+  rows.push_back({"idle", event, "", "scanning", "", "", begin, mark});
+}
+
+std::vector<Transition> transitions() {
+  std::vector<Transition> rows = {
+      {"off", "power_key", "battery.state != critical or mains == yes", "booting", "", "", nullptr, "G1"},
+      {"booting", "elapsed", "", "idle", "", "", nullptr, "G1"},
+      {"idle", "power_key", "", "", "", "shut_down", nullptr, "P"},
+      {"idle", "shut_down", "", "shutting_down", "", "", nullptr, "P"},
+      {"shutting_down", "elapsed", "", "off", "", "", nullptr, "P"},
+  };
+  addSetupTransitions(rows);
+  const std::vector<Transition> scan = {
+      {"idle", "start", "project.open == no", "", "", "no_project", nullptr, "G1"},
+      {"idle", "start", "standing == no", "", "", "no_station", nullptr, "P"},
+      {"idle", "start", "card == locked", "", "", "card_locked", nullptr, "P"},
+      {"idle", "start", "card.free < @expected.bytes", "", "", "card_full", nullptr, "G1"},
+      {"idle", "start", "battery.state == critical and mains == no", "", "", "battery_critical", nullptr, "G1"},
+      {"idle", "start", "value.compensator == on and level == out", "", "", "level_question", nullptr, "G1"},
+      {"idle", "start", "temperature.state != good", "", "", "temperature_question", nullptr, "G1"},
+      {"idle", "start", "warm == no", "", "", "not_warm_question", nullptr, "P"},
+      {"idle", "start", "nearest < 0.4", "", "", "near_question", nullptr, "P"},
+      {"idle", "start", "orientation.accepted == no", "", "", "no_setup_question", nullptr, "P"},
+      {"idle", "level_now", "", "", "level_plummet", "", nullptr, "G1"},
+  };
+  rows.insert(rows.end(), scan.begin(), scan.end());
+  addBeginning(rows, "start", beginScan, "G1");
+  addBeginning(rows, "start_anyway", beginScan, "P");
+  addBeginning(rows, "start_unlevelled", beginUnlevelled, "G1");
+  const std::vector<Transition> rest = {
+      {"scanning", "elapsed", "imaging == yes", "imaging", "", "", nullptr, "G1"},
+      {kLaserOrCamera, "elapsed", "data == yes", "storing", "", "", nullptr, "G1"},
+      {"storing", "elapsed", "", "idle", "setup", "", storeScan, "G1"},
+      {"scanning", "tilted", "value.compensator == on", "paused", "", "compensator_question", pausedScanning, "S18"},
+      {"imaging", "tilted", "value.compensator == on", "paused", "", "compensator_question", pausedImaging, "S18"},
+      {kLaserOrCamera, "tilted", "", "", "", "tilt_warning", nullptr, "P"},
+      {"paused", "continue_unlevelled", "entry.paused_in == imaging", "imaging", "", "", resumeUnlevelled, "G1"},
+      {"paused", "continue_unlevelled", "", "scanning", "", "", resumeUnlevelled, "G1"},
+      {kWorking, "stop", "", "", "", "stop_question", nullptr, "P"},
+      {kHolding, "stop_confirmed", "", "idle", "", "", dropScan, "G1"},
+      {"scanning", "keep_partial", "", "finishing", "", "", keepPartial, "P"},
+      {"paused", "keep_partial", "entry.paused_in == scanning", "finishing", "", "", keepPartial, "P"},
+      {"imaging paused", "keep_partial", "", "finishing", "", "", nullptr, "P"},
+      {"finishing", "elapsed", "data == yes", "storing", "", "", nullptr, "P"},
+      {kWorking, "moved", "", "error", "", "moved", markMoved, "P"},
+      {"imaging paused", "set_down", "", "error", "", "moved", markMoved, "P"},
+      {"scanning", "blocked", "", "error", "", "blocked", nullptr, "P"},
+      {"error", "keep", "", "finishing", "", "", nullptr, "P"},
+      {kHolding, "failed", "", "idle", "", "", nullptr, "P"},
+      {"*", "battery_low", "", "", "", "battery_low", nullptr, "G1"},
+      {"*", "battery_critical", "", "", "", "battery_critical", nullptr, "G1"},
+      {"*", "battery_empty", "", "off", "", "", dropScan, "P"},
+      {"*", "temperature", "", "", "", "temperature_warning", nullptr, "G1"},
+      {"idle", "targets_measured", "", "", "setup_targets", "", nullptr, "P"},
+      {"idle", "transfer", "setups.untransferred == 0", "", "", "nothing_to_send", nullptr, "P"},
+      {"idle", "transfer", "flagged > 0", "", "", "import_question", nullptr, "S18"},
+      {"idle", "transfer", "", "", "", "", transferAll, "G1"},
+      {"idle", "import_marked", "", "", "", "", transferAll, "S18"},
+      {"idle", "leave_out", "", "", "", "", transferLevelled, "S18"},
+      {"idle", "transferred", "", "", "", "transferred", nullptr, "P"},
+      {"idle", "delete", "", "", "", "delete_question", nullptr, "P"},
+      {"idle", "delete_confirmed", "", "", "setups", "", deleteShownSetup, "P"},
+      {"idle", "format", "", "", "", "format_question", nullptr, "G1"},
+      {"idle", "format_confirmed", "card == present", "", "main_menu", "", formatCard, "G1"},
+      {"idle", "format_confirmed", "", "", "", "card_locked", nullptr, "P"},
+      {"idle", "adjust", "level == good and warm == yes", "adjusting", "", "", nullptr, "G1"},
+      {"idle", "adjust", "", "", "", "adjust_refused", nullptr, "P"},
+      {"adjusting", "elapsed", "", "idle", "tools", "adjusted", nullptr, "P"},
+      {"adjusting", "moved", "", "idle", "tools", "adjust_refused", nullptr, "P"},
+      {"adjusting", "set_down", "", "idle", "tools", "adjust_refused", nullptr, "P"},
+  };
+  rows.insert(rows.end(), rest.begin(), rest.end());
+  return rows;
+}
+
+std::vector<Action> actions() {
+  std::vector<Action> all = setupActions();
+  all.push_back({"apply_fov", applyFieldOfView});
+  return all;
+}
+
+std::vector<FactRow> facts() {
+  std::vector<FactRow> all = setupFacts();
+  all.push_back({"flagged", FactUnit::none, {{}, true, 0, 1e6}, [](const Device& d) { return numberFact(flagged(d)); }, "setups without a copy whose lines are not levelled"});
+  return all;
+}
+
+}  // namespace
+
+// Made at its first use: its parts come from two files.
+const DeviceProgram& pSeriesProgram() {
+  static const DeviceProgram program = {"leica/p_series.json", transitions(), actions(), facts(), setupLists(), prepare};
+  return program;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "emulated-ui/rehearsal/survey_proofs.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/units.h"
+#include "project/scan_request.h"
+#include "project/survey_plan.h"
+#include "project/survey_verbs.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr double kSteepEnough_deg = 60;   // instrument facts 4.2: incidence below 60°
+constexpr std::size_t kSamples = 30000;   // of the whole model: a room still has some hundreds
+
+bool inside(const std::vector<double>& box, const Eigen::Vector3d& p) {
+  if (box.size() != 6) return true;
+  for (Eigen::Index i = 0; i < 3; ++i)
+    if (p[i] < box[static_cast<std::size_t>(i)] || p[i] > box[static_cast<std::size_t>(i) + 3]) return false;
+  return true;
+}
+
+}  // namespace
+
+std::map<std::string, double> readSurvey(const Exercise& exercise, const Device& device, const Document& document) {
+  std::map<std::string, double> figures = {{"survey.walls", 0}, {"survey.coverage", 0}, {"survey.overlap", 0}};
+  if (!document.job || document.job->stations.empty()) return figures;
+  Progress quiet;
+  Report report;
+  const auto assignment = scanAssignment(document, report, quiet);
+  if (!assignment) return {};
+  const ScanWorld world = scanWorld(document, *assignment);
+  const auto scene = RayScene::build(world.environment, quiet);
+  if (!scene) return {};
+  PlanRequest request;
+  request.instrument = device.type().instrument;
+  request.settings = device.expected();
+  request.stations.resize(document.job->stations.size());
+  std::iota(request.stations.begin(), request.stations.end(), std::size_t{0});
+  request.samples = kSamples;
+  const auto materials = std::make_shared<const MaterialAssignment>(world.assignment);
+  const auto plan = planSurvey(*document.job, *scene, materials, request, quiet);
+  request.wanted.most_incidence_rad = kSteepEnough_deg * kRadPerDeg;
+  const auto steep = planSurvey(*document.job, *scene, materials, request, quiet);
+  if (!plan || !steep) return {};
+  const auto& samples = plan->samples.samples;
+  double walls = 0, walls_seen = 0, all = 0, all_seen = 0;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    if (!samples[k].exposed || !inside(exercise.area, samples[k].place.position + document.georeference->shift_m)) continue;
+    const auto seen_in = [&](const SurveyPlan& p) { return std::any_of(p.forecasts.begin(), p.forecasts.end(), [&](const ScanForecast& f) { return f.seen[k] != 0; }); };
+    all += 1;
+    all_seen += seen_in(*plan) ? 1 : 0;
+    if (!world.environment->products[samples[k].product].ifc_class.starts_with("IfcWall")) continue;
+    walls += 1;
+    walls_seen += seen_in(*steep) ? 1 : 0;
+  }
+  figures["survey.walls"] = walls > 0 ? walls_seen / walls : 0;
+  figures["survey.coverage"] = all > 0 ? all_seen / all : 0;
+  std::vector<double> best(plan->stations.size(), 0);
+  for (const auto& pair : plan->pairs)
+    for (const auto side : {pair.a, pair.b}) best[side] = std::max(best[side], pair.overlap());
+  figures["survey.overlap"] = best.size() < 2 ? 0 : *std::min_element(best.begin(), best.end());
+  return figures;
+}
+
+}  // namespace standpoint
