@@ -87,7 +87,7 @@ TEST_F(VzI, IsWaitingScanningProcessingAndWaitingAgain) {
   ASSERT_TRUE(d.press({"home", "start_scan"}));
   EXPECT_EQ(d.fact("opstate"), "scanning");
   d.scanned();
-  d->tick(130);
+  d->tick(192);   // 188 s of Panorama_40, and storing
   EXPECT_EQ(d.fact("opstate"), "processing");
   linked(0.003, 0.7);
   EXPECT_EQ(d.fact("opstate"), "waiting");
@@ -131,6 +131,7 @@ TEST_F(VzI, NamesPositionsByTheirBase) {
 TEST_F(VzI, OffersThePatternsByTheirStep) {
   ready();
   ASSERT_TRUE(d.press({"pattern_now"}));
+  EXPECT_EQ(d.fact("setting.pattern"), "panorama_40") << "the standard of the maker's package [S31]";
   const std::pair<const char*, const char*> kPatterns[] = {{"panorama_100", "3.6 M (3600 × 1000)"},  {"panorama_50", "14.4 M (7200 × 2000)"},
                                                            {"panorama_40", "22.5 M (9000 × 2500)"},  {"panorama_30", "40.0 M (12000 × 3333)"},
                                                            {"panorama_20", "90.0 M (18000 × 5000)"}, {"overview", "0.9 M (1800 × 500)"}};
@@ -188,11 +189,11 @@ TEST_F(VzI, PhotographsDuringTheScanOrAfterIt) {
   TestDevice after = d;
   ASSERT_TRUE(after.press({"back", "start_scan"}));
   EXPECT_TRUE(after.scanned().panorama);
-  after->tick(121);
+  after->tick(189);
   EXPECT_EQ(after.phase(), "photographing");
   ASSERT_TRUE(d.press({"images=automatic", "image_mode=during_scan", "back", "start_scan"}));
   EXPECT_TRUE(d.scanned().panorama);
-  d->tick(121);
+  d->tick(189);
   EXPECT_EQ(d.phase(), "storing");
 }
 
