@@ -270,7 +270,7 @@ const DeviceProgram kProgram = {
         {"searching", "targets_measured", "", "", "", "", filterReflectors, "S31"},
         {"searching", "elapsed", "searched == yes and value.registration == on and setups > 1", "processing", "", "", beginRegistration, "S31"},
         {"searching", "elapsed", "searched == yes", "waiting", "reflectors", "", nullptr, "S31"},
-        {"processing", "linked", "", "", "", "", judgeRegistration, "S31"},
+        {"processing waiting unavailable", "linked", "", "", "", "", judgeRegistration, "S31"},
         {"processing", "elapsed", "registration.result == ok", "waiting", "position_view", "", nullptr, "S31"},
         {"processing", "elapsed", "registration.result == fast_failed", "waiting", "registration", "fast_reg_failed", nullptr, "S31"},
         {"processing", "elapsed", "registration.result == scan_failed", "waiting", "registration", "scan_reg_failed", nullptr, "S31"},

@@ -378,7 +378,7 @@ const DeviceProgram kProgram = {
         {"downloading", "elapsed", "data == yes and setups > 0 and value.auto_registration == on", "registering", "", "", storeAndRegister, "S13"},
         {"downloading", "elapsed", "data == yes", "idle", "station_view", "", storeStation, "S13"},
         // The limits of the confidence.
-        {"registering", "linked", "", "", "", "", judgeLink, "S14"},
+        {"registering idle disconnected off", "linked", "", "", "", "", judgeLink, "S14"},
         {"registering", "elapsed", "link.judged == yes and registration == registered", "idle", "map_view", "", nullptr, "S14"},
         {"registering refining", "elapsed", "link.judged == yes and registration == check and links.left == 0", "idle", "registration", "check_by_eye", nullptr, "S14"},
         {"registering refining", "elapsed", "link.judged == yes and registration == failed and tilt.difference >= 5 and links.left == 0", "idle", "registration", "tilt_difference", nullptr, "S14"},
