@@ -16,11 +16,12 @@ class VzIHost : public testing::Test {
  protected:
   VzIHost() : document_(twoStoreyDocument()) {
     document_ = run("station", document_, {{"add", "S1"}, {"at", {500002.2, 5600001.6, 1.6}}})->document;
-    document_ = run("station", document_, {{"add", "S2"}, {"at", {500003.6, 5600002.3, 1.6}}, {"yaw-deg", 40}})->document;
+    document_ =
+        run("station", document_, {{"add", "S2"}, {"at", {500003.6, 5600002.3, 1.6}}, {"yaw-deg", 40}})->document;
     host_ = std::make_unique<DeviceHost>(*loadDevice(*findDevice("riegl-vz-i")), document_, nullptr);
     press({"power"});
     device().tick(90);
-    (void)device().hand("plug_in");   // the clock goes on while the simulation works
+    (void)device().hand("plug_in");  // the clock goes on while the simulation works
     press({"project", "name=House", "load_or_create", "pattern_now", "pattern=overview", "back"});
     device().change().values["registration_mode"] = "MINING_LARGE";
   }
@@ -29,7 +30,8 @@ class VzIHost : public testing::Test {
   void press(const std::vector<std::string>& widgets) {
     for (const auto& text : widgets) {
       const auto equals = text.find('=');
-      const auto done = device().act(text.substr(0, equals), equals == std::string::npos ? "" : text.substr(equals + 1));
+      const auto done =
+          device().act(text.substr(0, equals), equals == std::string::npos ? "" : text.substr(equals + 1));
       EXPECT_TRUE(done) << text << ": " << describe(done.error());
     }
   }
