@@ -89,7 +89,7 @@ TEST_F(X7, ConnectsByWlanOrByCable) {
   ASSERT_TRUE(d.press({"create_new", "create", "status", "disconnect"}));
   EXPECT_EQ(d.phase(), "disconnected");
   ASSERT_TRUE(d.press({"connection=wlan"}));
-  ASSERT_TRUE(d->hand("come_near"));
+  ASSERT_TRUE(d->hand("go_near"));
   ASSERT_TRUE(d.press({"connect"}));
   d->tick(5);
   EXPECT_EQ(d.phase(), "idle");
@@ -345,7 +345,7 @@ TEST_F(X7, KeepsAnInterruptedDownloadOnTheCardUntilItIsFetched) {
     EXPECT_EQ(d.dialog(), "no_connection");
     ASSERT_TRUE(d.press({"ok"}));
     if (by_import) {
-      ASSERT_TRUE(d->hand("come_near"));
+      ASSERT_TRUE(d->hand("go_near"));
     } else {
       ASSERT_TRUE(d.press({"connection=cable"}));
     }
