@@ -179,6 +179,7 @@ const std::vector<Verb>& table() {
         {.name = "cloud", .kind = K::flag, .help = "cloud to cloud instead of by targets"},
         {.name = "output", .kind = K::path, .help = "a folder for copies of the scans with their solved poses, or a file where there is one scan file"},
         {.name = "reach", .kind = K::number, .help = "of --cloud: no point looks further for its surface", .unit = "m", .standard = 0.5, .minimum = 0.01, .maximum = 100},
+        {.name = "laid", .kind = K::text, .help = "x,y,turn of --cloud: how far, in m and degrees, from where the eye lays it each scan is laid before the fit"},
         {.name = "click", .kind = K::number, .help = "how far the operator's click is from a target at most; where it is measured starts there", .unit = "m", .standard = 0.2, .minimum = 0, .maximum = 0.5},
         {.name = "seed", .kind = K::integer, .help = "of the operator's hand", .standard = 1, .minimum = 0, .maximum = 9007199254740991.0}},
        runRegister},
