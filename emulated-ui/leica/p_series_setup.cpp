@@ -133,7 +133,7 @@ void sightNext(Device& d) {
   if (next == nullptr) return;
   auto& entries = d.change().entries;
   entries["picked"] = entries["target_id"] = next->name;
-  entries["target_height"] = "0";
+  entries["target_height"] = std::string(1, '0');
   entries["tried"] += fmt::format("/{}/", next->name);
   entries["series"] = "yes";
   sight(d);
