@@ -146,6 +146,42 @@ TEST(Panorama, RoundsToTheNearestByteOfSrgb) {
   EXPECT_EQ(srgbOf(std::numeric_limits<float>::quiet_NaN()), 0);
 }
 
+double linear(std::uint8_t value) {
+  const double c = value / 255.0;
+  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+TEST(Panorama, FollowsTheStopsTheWhiteBalanceAndTheFlashThatAreChosen) {
+  const auto scene = boardInRoom();
+  Instrument camera = withCamera(360, 0, false, 4);
+  camera.camera.metered = false;
+  camera.camera.stops = -1;
+  const auto wall = [&] { return taken(*scene, camera).at({0, -3, 0}); };
+  const auto plain = wall();
+  camera.camera.stops = -2;
+  EXPECT_NEAR(linear(wall()[1]) / linear(plain[1]), 0.5, 0.01);
+  camera.camera = {360, 4, false, 0, false, -1, 1, 0};
+  EXPECT_NEAR(linear(wall()[0]) / linear(plain[0]), 1.25, 0.02);
+  EXPECT_NEAR(linear(wall()[2]) / linear(plain[2]), 0.75, 0.02);
+  // The flash falls off with the distance: the board, 2 m away, gains more than the wall, 5 m away.
+  camera.camera = {360, 4, false, 0, false, -1, 0, 0};
+  const Panorama dark = taken(*scene, camera);
+  camera.camera.flash = 1;
+  const Panorama lit = taken(*scene, camera);
+  const auto gain = [&](const Eigen::Vector3d& at) { return linear(lit.at(at)[1]) / linear(dark.at(at)[1]); };
+  EXPECT_GT(gain({0, -3, 0}), 1.05);
+  EXPECT_GT(gain({0, 3, 0}), gain({0, -3, 0}) + 0.1);
+}
+
+TEST(Panorama, HasNoSeamsWhereNothingIsMetered) {
+  const auto scene = boardInRoom();
+  Instrument camera = withCamera(360, 0, false, 4);
+  camera.camera.metered = false;
+  const Panorama p = taken(*scene, camera);
+  camera.camera.shots = 1;
+  EXPECT_EQ(p.pixels, taken(*scene, camera).pixels);
+}
+
 TEST(Panorama, BecomesAJpegThatAnotherReaderUnderstands) {
   const auto scene = boardInRoom();
   const Panorama p = taken(*scene, withCamera(360, 0.04, true, 1));
