@@ -18,6 +18,18 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+FittedTarget fitted(const char* name, const char* kind, int points, double range_m) {
+  FittedTarget t;
+  t.name = name;
+  t.kind = kind;
+  t.points = points;
+  t.range_m = range_m;
+  t.residual_m = 0.0007;
+  t.found = points > 0;
+  if (!t.found) t.why_not = "too few points";
+  return t;
+}
+
 // What two quick scans of the sample house look like on any device.
 Result<std::vector<StoredSetup>> scannedHouse(const fs::path& folder) {
   Progress quiet;
@@ -49,7 +61,7 @@ Result<std::vector<StoredSetup>> scannedHouse(const fs::path& folder) {
     if (!preview) return failure(preview.error());
     s.preview = *preview;
     if (s.number == 2) s.link = LinkResult{true, 0.0021, 0.43, 0.001, 0.01};
-    s.targets = {{"T1", "sphere", 142, 4.31, 0.0008, 0.0004, true, ""}, {"T2", "checkerboard", 388, 3.02, 0.0006, 0.0005, true, ""}, {"T3", "sphere", 0, 0, 0, 0, false, "too few points"}};
+    s.targets = {fitted("T1", "sphere", 142, 4.31), fitted("T2", "checkerboard", 388, 3.02), fitted("T3", "sphere", 0, 0)};
     setups.push_back(std::move(s));
   }
   return setups;

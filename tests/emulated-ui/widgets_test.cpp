@@ -46,7 +46,16 @@ Device working(const std::shared_ptr<const DeviceType>& type, const PhaseRow& ph
     setup.bytes = 1e7;
     setup.settings = s.settings;
     setup.preview = smallPreview();
-    setup.targets = {{"T1", "sphere", 100, 5, 0.001, 0.001, true, ""}, {"T2", "sphere", 100, 6, 0.001, 0.001, true, ""}, {"T3", "sphere", 100, 7, 0.001, 0.001, true, ""}};
+    for (const char* name : {"T1", "T2", "T3"}) {
+      FittedTarget t;
+      t.name = name;
+      t.kind = "sphere";
+      t.points = 100;
+      t.range_m = 5;
+      t.residual_m = 0.001;
+      t.found = true;
+      setup.targets.push_back(t);
+    }
     project.setups.push_back(setup);
   }
   s.projects = {project};
