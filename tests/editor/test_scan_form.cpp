@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "demo_verbs.h"
@@ -43,7 +44,7 @@ TEST(ScanForm, SaysInAWordWhatIsFolded) {
   EXPECT_EQ(effectsSummary(Effects()), "all effects");
   EXPECT_EQ(effectsSummary(Effects::none()), "ideal");
   EXPECT_EQ(effectsSummary(Effects().without(Effect::striping)), "without striping");
-  EXPECT_EQ(effectsSummary(Effects().without(Effect::striping).without(Effect::panes).without(Effect::bias)), "13 of 16 effects");
+  EXPECT_EQ(effectsSummary(Effects().without(Effect::striping).without(Effect::panes).without(Effect::bias)), fmt::format("{} of {} effects", effectNames().size() - 3, effectNames().size()));
   EXPECT_EQ(weatherSummary({}), "clear air");
   EXPECT_EQ(weatherSummary({5, 10, 0, 0, 0}), "rain 10 mm/h, visibility 5 km");
 }

@@ -304,6 +304,9 @@ TEST_F(VzI, NeedsFourControlPointsWithANameAndThreeCoordinates) {
   for (const char* point : {"control_point=P1,0,0,0", "control_point=P2;10;0;0.5", "control_point=P3,10,8,0"})
     ASSERT_TRUE(d.press({point, "add_point"}));
   EXPECT_TRUE(d.refuses("georeference")) << "three are too few";
+  TestDevice cleared = d;
+  ASSERT_TRUE(cleared.press({"clear_points"}));
+  EXPECT_EQ(cleared.fact("control_points"), "0");
   ASSERT_TRUE(d.press({"control_point=P4,0,8,1", "add_point", "georeference"}));
   EXPECT_EQ(d.dialog(), "refused") << "none of them was found as a reflector";
   ASSERT_TRUE(d.press({"ok", "back"}));

@@ -410,6 +410,10 @@ TEST_F(X7, MakesAStationAmberBetween73And91) {
   EXPECT_NEAR(d->fact("confidence")->number.value(), 88.5, 0.1);
   EXPECT_EQ(d.dialog(), "check_by_eye");
   ASSERT_TRUE(d.press({"ok"}));
+  const auto screen = d->screen();
+  const auto* links = findWidget(screen, "link_list");
+  ASSERT_NE(links, nullptr);
+  ASSERT_TRUE(d.press({"link_list=" + links->options.back().value}));
   TestDevice other = d;
   ASSERT_TRUE(d.press({"apply"}));
   EXPECT_EQ(d.fact("registration"), "applied");

@@ -104,7 +104,8 @@ TEST_F(Verify, FindsNothingWhereNothingIsWrong) {
   EXPECT_GE(done->answer.at("materials").size(), 4U);
   for (const auto& m : done->answer.at("materials")) {
     if (m.at("judged")) {
-      EXPECT_NEAR(m.at("off_db").at("median").get<double>(), 0, 0.2) << m.at("material");
+      // A material varies from place to place, and a small room has few places of each.
+      EXPECT_NEAR(m.at("off_db").at("median").get<double>(), 0, 0.3) << m.at("material");
     }
   }
 }
