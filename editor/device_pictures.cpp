@@ -41,7 +41,7 @@ Result<std::vector<StoredSetup>> scannedHouse(const fs::path& folder) {
     return {};
   };
   if (auto ok = run("import", {{"files", {(samplesFolder() / "house.ifc").string()}}}); !ok) return failure(ok.error());
-  const std::pair<const char*, std::array<double, 3>> kStations[] = {{"S1", {4.3, 1.6, 0}}, {"S2", {2.2, 6.0, 0}}};
+  const std::pair<const char*, std::array<double, 3>> kStations[] = {{"S1", {4.3, 1.6, 0}}, {"S2", {4.4, 5.9, 0}}};
   for (const auto& [name, on] : kStations)
     if (auto ok = run("station", {{"add", name}, {"on", on}}); !ok) return failure(ok.error());
   if (auto ok = run("scan", {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/20", "quality=4x"}}, {"output", folder.string()}}); !ok) return failure(ok.error());

@@ -229,8 +229,8 @@ const std::vector<ListRow>& sharedLists() {
          if (const auto* p = d.project())
            for (std::size_t i = 0; i < p->setups.size(); ++i) {
              const auto& s = p->setups[i];
-             std::string marks = s.moved ? "  !" : s.unlevelled ? "  ∠" : "";
-             if (s.link) marks += s.link->joined ? "  ⛓" : "  ✕";
+             std::string marks = s.moved ? "  !" : s.unlevelled ? "  ~" : "";
+             if (s.link) marks += s.link->joined ? "  ↔" : "  ×";
              rows.push_back({std::to_string(i), fmt::format("{}  {}  {:.1f} M{}", s.name, s.station, static_cast<double>(s.points) / 1e6, marks), true, {}});
            }
          return rows;

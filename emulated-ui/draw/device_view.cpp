@@ -25,14 +25,20 @@ void titleBar(const Pen& pen, const Screen& screen, float width, float height) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   list->AddRectFilled(at, {at.x + width, at.y + height}, pen.skin.title_bar);
   const float line = ImGui::GetTextLineHeight(), y = at.y + (height - line) / 2;
-  float right = at.x + width - 0.8F * pen.unit;
-  for (const auto& w : screen.widgets) {
-    if (w.kind != WidgetKind::status) continue;
-    const std::string text = w.label + " " + w.value;
-    right -= ImGui::CalcTextSize(text.c_str()).x;
-    list->AddText({right, y}, w.why_not.empty() ? pen.skin.title_text : IM_COL32(255, 190, 120, 255), text.c_str());
-    right -= pen.unit;
-  }
+  const float title = ImGui::CalcTextSize(screen.title.c_str()).x + 1.6F * pen.unit;
+  const auto drawn = [&](bool labels, bool draw) {
+    float right = at.x + width - 0.8F * pen.unit;
+    for (const auto& w : screen.widgets) {
+      if (w.kind != WidgetKind::status) continue;
+      const std::string text = labels ? w.label + " " + w.value : w.value;
+      right -= ImGui::CalcTextSize(text.c_str()).x;
+      if (draw) list->AddText({right, y}, w.why_not.empty() ? pen.skin.title_text : IM_COL32(255, 190, 120, 255), text.c_str());
+      right -= pen.unit;
+    }
+    return right;
+  };
+  const bool labels = drawn(true, false) - at.x > title;   // else the figures alone
+  const float right = drawn(labels, true);
   list->PushClipRect(at, {std::max(at.x, right), at.y + height}, true);
   list->AddText({at.x + 0.8F * pen.unit, y}, pen.skin.title_text, screen.title.c_str());
   list->PopClipRect();

@@ -153,7 +153,9 @@ void drawPlan(Pen& pen, const Widget& w) {
   for (const auto& s : project->setups) {
     const ImVec2 p = place(s);
     list->AddCircleFilled(p, 0.45F * pen.unit, pen.skin.accent, 20);
-    list->AddText({p.x + 0.6F * pen.unit, p.y - 0.9F * pen.unit}, pen.skin.tile_text, s.name.c_str());
+    const float width = ImGui::CalcTextSize(s.name.c_str()).x;
+    const float x = std::min(p.x + 0.6F * pen.unit, at.x + size.x - width - 0.4F * pen.unit);
+    list->AddText({x, p.y - 1.9F * pen.unit}, pen.skin.tile_text, s.name.c_str());
   }
 }
 

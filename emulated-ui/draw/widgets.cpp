@@ -168,6 +168,8 @@ void entry(Pen& pen, const Widget& w, bool number) {
   ImGui::SetNextItemWidth(pen.width - buttons);
   ImGui::PushStyleColor(ImGuiCol_FrameBg, pen.skin.tile);
   ImGui::PushStyleColor(ImGuiCol_Text, pen.skin.tile_text);
+  ImGui::PushStyleColor(ImGuiCol_Border, pen.skin.line);
+  ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 1);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.8F * pen.unit, (pen.touch() - ImGui::GetTextLineHeight()) / 2});
   const auto typing = pen.view.typing.find(w.id);
   std::string text = typing == pen.view.typing.end() ? w.value : typing->second;
@@ -177,8 +179,8 @@ void entry(Pen& pen, const Widget& w, bool number) {
     if (text != w.value) pen.pressed(w.id, text);
     pen.view.typing.erase(w.id);
   }
-  ImGui::PopStyleVar();
-  ImGui::PopStyleColor(2);
+  ImGui::PopStyleVar(2);
+  ImGui::PopStyleColor(3);
   if (number) {
     const double value = std::strtod(w.value.c_str(), nullptr);
     for (int i = 0; i < 2; ++i) {
