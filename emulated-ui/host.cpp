@@ -316,7 +316,8 @@ void DeviceHost::start(const Order& order, const Document& document, const fs::p
   running_ = order;
   if (const auto* scan = std::get_if<ScanOrder>(&order)) return startScan(*scan, document, scans_folder);
   if (const auto* link = std::get_if<LinkOrder>(&order)) {
-    const json options = {{"files", {link->to_file, link->from_file}}, {"cloud", true}, {"seed", seed}};
+    json options = {{"files", {link->to_file, link->from_file}}, {"cloud", true}, {"seed", seed}};
+    if (link->shift_x_m != 0 || link->shift_y_m != 0 || link->turn_deg != 0) options["lay"] = {link->shift_x_m, link->shift_y_m, link->turn_deg};
     task_ = std::make_unique<Task>("Link", *findVerb(verbs(), "register"), document, options, wake_);
   } else if (const auto* targets = std::get_if<TargetOrder>(&order)) {
     startWork("Targets", document, [file = targets->file, s = seed](const Document& d, Progress& p) { return targetsIn(d, file, s, p); });

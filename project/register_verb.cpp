@@ -57,7 +57,11 @@ Result<json> byClouds(Job& job, const TargetMeasurements& measured, std::size_t 
   for (const auto* scan : waiting) {
     Station& station = job.stations[scan->station];
     progress.stage("Fitting " + station.name, 0.9, 1);
-    const Pose start = laidByEye(station, options.at("seed").get<std::uint64_t>());
+    Pose start = laidByEye(station, options.at("seed").get<std::uint64_t>());
+    if (options.contains("lay")) {
+      start.translation += Vector3d(options["lay"][0].get<double>(), options["lay"][1].get<double>(), 0);
+      start.rotation = Eigen::AngleAxisd(options["lay"][2].get<double>() * kRadPerDeg, Vector3d::UnitZ()) * start.rotation;
+    }
     const auto fit = fitCloudToClouds(scan->sample, start, placed, options.at("reach").get<double>(), progress);
     if (!fit)
       return failure(fit.error().kind, fmt::format("station {}: {}", station.name, fit.error().message), scan->file);

@@ -174,6 +174,7 @@ const std::vector<Verb>& table() {
         {.name = "control", .kind = K::path, .help = "text file of known targets, that hold all stations: name X Y Z [sigma in mm]"},
         {.name = "cloud", .kind = K::flag, .help = "cloud to cloud instead of by targets"},
         {.name = "reach", .kind = K::number, .help = "of --cloud: no point looks further for its surface", .unit = "m", .standard = 0.5, .minimum = 0.01, .maximum = 100},
+        {.name = "lay", .kind = K::triple, .help = "X,Y,DEGREES in plan: the fit of --cloud starts so far from where the eye would lay the cloud"},
         {.name = "click", .kind = K::number, .help = "how far the operator's click is from a target at most; where it is measured starts there", .unit = "m", .standard = 0.2, .minimum = 0, .maximum = 0.5},
         {.name = "seed", .kind = K::integer, .help = "of the operator's hand", .standard = 1, .minimum = 0, .maximum = 9007199254740991.0}},
        runRegister},
