@@ -20,7 +20,7 @@ class Checker {
   std::vector<Error> check() {
     checkDevices();
     if (devices_.empty()) return std::move(faults_);
-    if (std::error_code error; !std::filesystem::path(e_.model).has_parent_path() || !std::filesystem::is_regular_file(samplesFolder() / (e_.model + ".ifc"), error))
+    if (std::error_code error; std::filesystem::path(e_.model).has_parent_path() || !std::filesystem::is_regular_file(samplesFolder() / (e_.model + ".ifc"), error))
       fault("/model", fmt::format("there is no sample '{}'", e_.model));
     checkTexts();
     checkIds(e_.steps, "steps");
