@@ -9,7 +9,8 @@ import sys
 
 import numpy as np
 
-WINDOW_COLUMNS, WINDOW_ROWS, FLAT_M, EDGE_M = 5, 7, 0.02, 0.05
+WINDOW_COLUMNS, WINDOW_ROWS, FLAT_M, EDGE_M = 5, 7, 0.02, 0.1
+HEIGHTS_M = (0.1, 0.15, 0.25, 0.4, 0.7, 1.5, 1000)
 
 
 def read(name):
@@ -50,28 +51,24 @@ def flat_windows(points, intensity, there):
     return np.array(along), np.array(across), np.array(cosines), np.array(spread)
 
 
-def between_share(points, there):
-    """Of depth edges along a column, the share that has a point between its two sides."""
+def edges_by_height(points, there):
+    """Of depth edges along a column: heights of those without a point between their two sides and of those with one, and
+    where that point lies, from 0 at the nearer side to 1 at the farther."""
     ranges = np.linalg.norm(points, axis=2)
-    edges = mixed = 0
-    for column, valid in zip(ranges, there):
-        ok = valid[:-3] & valid[1:-2] & valid[2:-1] & valid[3:]
-        a, b, c, d = column[:-3], column[1:-2], column[2:-1], column[3:]
-        # b and c lie on the two sides, or one of them lies between.
-        jump = ok & (np.abs(c - b) > EDGE_M)
-        edge_sharp = jump & (np.abs(b - a) < 0.3 * EDGE_M) & (np.abs(d - c) < 0.3 * EDGE_M)
-        whole = np.abs(d - a)
-        step = ok & (whole > 2 * EDGE_M) & (np.abs(b - a) > 0.15 * whole) & (np.abs(d - b) > 0.15 * whole)
-        step &= ((b - a) * (d - b) > 0) & (np.abs(d - c) < 0.3 * EDGE_M)
-        edges += int(edge_sharp.sum() + step.sum())
-        mixed += int(step.sum())
-    return edges, mixed
+    a, b, c, d = ranges[:, :-3], ranges[:, 1:-2], ranges[:, 2:-1], ranges[:, 3:]
+    ok = there[:, :-3] & there[:, 1:-2] & there[:, 2:-1] & there[:, 3:]
+    level = 0.15 * EDGE_M      # a side is two neighbours of nearly one range
+    sharp = ok & (np.abs(c - b) > EDGE_M) & (np.abs(b - a) < level) & (np.abs(d - c) < level)
+    whole = np.abs(d - a)
+    step = ok & (whole > EDGE_M) & (np.abs(b - a) > 0.15 * whole) & (np.abs(d - b) > 0.15 * whole)
+    step &= ((b - a) * (d - b) > 0) & (np.abs(d - c) < level)
+    return np.abs(c - b)[sharp], whole[step], ((b - np.minimum(a, d)) / np.maximum(whole, 1e-9))[step]
 
 
 for name in sys.argv[1:]:
     points, intensity, there = read(name)
     along, across, cosines, spread = flat_windows(points, intensity, there)
-    edges, mixed = between_share(points, there)
+    sharp, mixed, place = edges_by_height(points, there)
     low, mid, high = np.percentile(along, [5, 50, 95]) * 1e3
     print(f"{name}: {there.sum()} of {there.size} cells, {len(along)} flat windows")
     print(f"  along the beam {mid:.2f} mm (5-95 %: {low:.2f}-{high:.2f}), across the plane {np.median(across) * 1e3:.2f} mm")
@@ -79,6 +76,14 @@ for name in sys.argv[1:]:
         chosen = (cosines >= least) & (cosines < most)
         if chosen.sum() > 20:
             print(f"    cosine {least:.1f}-{min(most, 1):.1f}: {np.median(along[chosen]) * 1e3:.2f} mm in {chosen.sum()} windows")
-    print(f"  depth edges over {2 * EDGE_M * 100:.0f} cm along columns: {edges}, with a point between: {mixed} ({100 * mixed / max(1, edges):.0f} %)")
-    figures = intensity[there]
-    print(f"  intensity 5/50/95 %: {np.percentile(figures, 5):.3f}/{np.median(figures):.3f}/{np.percentile(figures, 95):.3f}, local standard deviation {np.median(spread):.4f}")
+    print(f"  depth edges over {EDGE_M * 100:.0f} cm along columns: {len(sharp) + len(mixed)}, with a point between: "
+          f"{len(mixed)} ({100 * len(mixed) / max(1, len(sharp) + len(mixed)):.0f} %)")
+    for least, most in zip(HEIGHTS_M, HEIGHTS_M[1:]):
+        without, chosen = ((sharp >= least) & (sharp < most)).sum(), (mixed >= least) & (mixed < most)
+        if without + chosen.sum() > 0:
+            thirds = np.histogram(place[chosen], (0.15, 0.38, 0.62, 0.85))[0]
+            print(f"    {least}-{most} m: {without + chosen.sum()}, {100 * chosen.sum() / (without + chosen.sum()):.0f} %, "
+                  f"near/middle/far {thirds[0]}/{thirds[1]}/{thirds[2]}")
+    low, middle, high = np.percentile(intensity[there], [5, 50, 95])
+    print(f"  intensity 5/50/95 %: {low:.3f}/{middle:.3f}/{high:.3f}, local standard deviation {np.median(spread):.4f}, "
+          f"{100 * np.median(spread) / (high - low):.1f} % of the scan's own spread")

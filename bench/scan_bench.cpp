@@ -83,6 +83,70 @@ void scanToE57(benchmark::State& state) {
 }
 BENCHMARK(scanToE57)->UseRealTime()->Unit(benchmark::kMillisecond)->MinTime(3);
 
+constexpr int kColumns = 2000;
+
+// A fence 10 m around the station, 10 cm before a wall. Every second column's axis meets a picket, 1.6 mm from its edge, and
+// those between meet the wall 1.6 mm beside it: the edge is in every beam of 8 mm, so each has its nineteen rays.
+std::shared_ptr<const Environment> fence() {
+  auto e = std::make_shared<Environment>();
+  e->surfaces.resize(1);
+  auto mesh = std::make_shared<Mesh>();
+  const auto panel = [&](double range_m, double from_rad, double to_rad) {
+    const auto first = static_cast<std::uint32_t>(mesh->positions.size());
+    for (const double azimuth : {from_rad, to_rad})
+      for (const double z : {-2.0, 2.0})
+        mesh->positions.push_back(Eigen::Vector3d(range_m * std::cos(azimuth), range_m * std::sin(azimuth), z).cast<float>());
+    mesh->triangles.push_back({first, first + 2, first + 3});
+    mesh->triangles.push_back({first, first + 3, first + 1});
+  };
+  const double step = 2 * std::numbers::pi / kColumns;
+  for (int k = 0; k < kColumns; k += 2) panel(10, (k - 0.05) * step, (k + 0.95) * step);
+  for (int k = 0; k < kColumns; k += 20) panel(10.1, k * step, (k + 20) * step);
+  mesh->surface_of_triangle.assign(mesh->triangles.size(), 0);
+  e->meshes = {mesh};
+  e->products.resize(1);
+  e->instances.push_back({0, 0, Eigen::Affine3d::Identity()});
+  return e;
+}
+
+// Counts the points of several surfaces.
+class Nowhere final : public PointSink {
+ public:
+  Result<void> begin(const ScanHeader&) override { return {}; }
+  Result<void> write(const PointBlock& block) override {
+    for (const auto flags : block.truth.flags) mixed += (flags & point_flag::kMixed) != 0;
+    return {};
+  }
+  Result<void> end() override { return {}; }
+  Result<void> close() override { return {}; }
+  std::uint64_t mixed = 0;
+};
+
+void nineteenRaysInEveryBeam(benchmark::State& state) {
+  Progress progress;
+  const auto scene = *RayScene::build(fence(), progress);
+  const Instrument instrument = rtc360();
+  ScanSettings settings = *resolveSettings(instrument, {{"resolution", "12mm"}, {"images", "off"}});
+  settings.columns = kColumns;
+  settings.elevation_from_rad = -0.15;
+  settings.elevation_to_rad = 0.15;
+  settings.rows = 500;
+  Nowhere sink;
+  std::uint64_t pulses = 0;
+  ScanOptions options{.threads = static_cast<int>(state.range(0))};
+  options.channels.truth = true;
+  const auto once = scan(*scene, {}, instrument, settings, {{0}, {Pose{}}}, options, sink, progress);
+  if (!once || sink.mixed < once->pulses) return state.SkipWithError("a beam met one surface alone");
+  options.channels.truth = false;
+  for (auto _ : state) {
+    const auto count = scan(*scene, {}, instrument, settings, {{0}, {Pose{}}}, options, sink, progress);
+    if (!count) return state.SkipWithError("scan");
+    pulses += count->pulses;
+  }
+  state.counters["pulses"] = benchmark::Counter(static_cast<double>(pulses), benchmark::Counter::kIsRate);
+}
+BENCHMARK(nineteenRaysInEveryBeam)->Arg(1)->Arg(2)->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond)->MinTime(3);
+
 // The peer: one flat Embree scene, packets of eight, nothing but the distance.
 void bareEmbree(benchmark::State& state) {
   const auto environment = hall();
@@ -104,13 +168,13 @@ void bareEmbree(benchmark::State& state) {
     rtcReleaseGeometry(geometry);
   }
   rtcCommitScene(scene);
-  constexpr int kColumns = 5084, kRows = 2080;
+  constexpr int kPeerColumns = 5084, kRows = 2080;
   std::uint64_t pulses = 0;
   tbb::task_arena arena(2);
   for (auto _ : state) {
     arena.execute([&] {
-      tbb::parallel_for(0, kColumns, [&](int column) {
-        const double azimuth = 2 * std::numbers::pi * column / kColumns;
+      tbb::parallel_for(0, kPeerColumns, [&](int column) {
+        const double azimuth = 2 * std::numbers::pi * column / kPeerColumns;
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
         alignas(32) const int valid[8] = {-1, -1, -1, -1, -1, -1, -1, -1};
@@ -132,7 +196,7 @@ void bareEmbree(benchmark::State& state) {
         }
       });
     });
-    pulses += static_cast<std::uint64_t>(kColumns) * kRows;
+    pulses += static_cast<std::uint64_t>(kPeerColumns) * kRows;
   }
   rtcReleaseScene(scene);
   rtcReleaseDevice(device);

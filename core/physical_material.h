@@ -46,6 +46,7 @@ struct PhysicalMaterial {
   double gap_m = 0;                 // … so far apart
   double variation = 0;             // coefficient of variation of the reflectance within the class; 0 = a gap
   double texture_scale_m = 0;       // correlation length on one surface; 0 = a gap
+  double retro_gain = 0;            // of a retroreflector over a white Lambert surface seen head-on; 0 = none
   std::string wet_of;               // the dry material whose figures were wetted
   std::vector<std::string> gaps;    // what is known to be missing, in words
   std::vector<Citation> sources;    // one for each figure

@@ -14,12 +14,14 @@ namespace standpoint {
 // How a point came about, as a set of bits (PointBlock::flags). Nothing set: one surface, seen directly.
 namespace point_flag {
 inline constexpr std::uint8_t kMixed = 1;        // the beam met more than one surface and the range lies between them
-inline constexpr std::uint8_t kMirrored = 2;     // seen by way of a mirror or a pane: the point is not where its surface is
+inline constexpr std::uint8_t kMirrored = 2;     // the point is not where its surface is: seen by way of a mirror or a pane, in the beam's
+                                                 // wings, or folded back from beyond the range that is unambiguous
 inline constexpr std::uint8_t kThroughPane = 4;  // seen through glass
 inline constexpr std::uint8_t kWeather = 8;      // a drop, a flake, fog or dust; no surface
 inline constexpr std::uint8_t kSaturated = 16;   // more light than the receiver can measure
 inline constexpr std::uint8_t kMoving = 32;      // on something that moved while it was scanned
 inline constexpr std::uint8_t kNoise = 64;       // no return at all: the receiver's own noise, or another's light
+inline constexpr std::uint8_t kFiltered = 128;   // the instrument's own filters would take it out
 }  // namespace point_flag
 
 // What is known of a point because it was simulated. All columns have an entry for each point, or all are empty.

@@ -11,7 +11,7 @@
 namespace standpoint {
 
 Editor::Editor(std::vector<Verb> verbs, std::function<void()> wake_up)
-    : session(std::move(verbs), wake_up), budget_preview(wake_up), expected(wake_up), wake(std::move(wake_up)) {}
+    : session(std::move(verbs), wake_up), budget_preview(wake_up), expected(wake_up), scan_outlook(wake_up), target_list(wake_up), wake(std::move(wake_up)) {}
 
 const Document& Editor::shownDocument() const {
   return preview.outcome() != nullptr ? preview.outcome()->document : session.document();
@@ -24,11 +24,38 @@ Eigen::Vector3d Editor::shift_m() const {
 
 void Editor::showCloud(const std::filesystem::path& file) {
   cloud_.reset();
+  live_.reset();
   if (!file.empty()) cloud_loader_.start(file, shift_m(), wake);
+}
+
+bool Editor::startScan(nlohmann::json options, std::string title) {
+  auto live = std::make_shared<LiveCloud>(shift_m(), wake);
+  const ScanCompany company{scan_readiness.at_hand(), live};
+  const auto work = [company](const Document& document, const nlohmann::json& filled, Progress& progress) {
+    return runScan(document, filled, company, progress);
+  };
+  if (!session.start("scan", std::move(options), std::move(title), work)) return false;
+  live_ = std::move(live);
+  live_task_ = session.running().back().get();
+  cloud_ = std::make_shared<const Cloud>();   // nothing yet: the model need not be drawn once more before the first points
+  return true;
+}
+
+void Editor::followLiveScan() {
+  if (!live_) return;
+  const auto& running = session.running();
+  const bool over = std::none_of(running.begin(), running.end(), [&](const auto& task) { return task.get() == live_task_; });
+  if (auto cloud = live_->newer(over)) cloud_ = std::move(cloud);
+  if (!over) return;
+  live_.reset();
+  const auto& finished = session.finished();
+  const auto scan = std::find_if(finished.begin(), finished.end(), [](const FinishedTask& t) { return t.verb == "scan"; });
+  if (scan == finished.end() || !scan->ok || cloud_->colours.empty()) cloud_.reset();   // back to the model
 }
 
 void Editor::update() {
   session.poll();
+  followLiveScan();
   if (auto read = cloud_loader_.take()) {
     if (*read)
       cloud_ = std::make_shared<const Cloud>(**std::move(read));
@@ -167,7 +194,7 @@ ViewState Editor::viewState() const {
   state.walkable = view.walkable && document.collision;
   state.shapes = view.shapes && document.collision;
   state.cloud = cloud_;
-  state.underlays = underlays.shown(document);
+  if (!visibility.alone()) state.underlays = underlays.shown(document);
   return state;
 }
 

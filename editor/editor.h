@@ -18,9 +18,13 @@
 #include "editor/model/expected_view.h"
 #include "editor/model/picker.h"
 #include "editor/model/placement_view.h"
+#include "editor/model/live_cloud.h"
+#include "editor/model/scan_outlook.h"
+#include "editor/model/scan_readiness.h"
 #include "editor/model/selection.h"
 #include "editor/model/session.h"
 #include "editor/model/settings.h"
+#include "editor/model/target_list.h"
 #include "editor/model/underlay_view.h"
 #include "editor/model/view_state.h"
 #include "editor/model/visibility.h"
@@ -60,6 +64,7 @@ struct ViewportState {
   ModelSide side = ModelSide::lighter;
   double wavelength_nm = kReflectanceWavelength_nm;   // at which reflectance is shown
   Probe probe;
+  bool coverage_made = false;              // the map of coverage shows scans that were made, not the stations as planned
   bool edges = true, grid = true, walkable = false, shapes = false, labels = true;
   Tool tool = Tool::select;
   std::optional<RayHit> hover;             // under the pointer
@@ -92,7 +97,11 @@ struct Editor {
   BudgetPreview budget_preview;
   std::optional<LighteningRequest> previewed;   // what a panel asks for
   DeviationView deviation;
+  KeptCoverage coverage;
   ExpectedView expected;
+  ScanOutlookView scan_outlook;
+  ScanReadiness scan_readiness;
+  TargetList target_list;
   bool wants_deviation = false;            // a panel shows it
   std::deque<std::filesystem::path> waiting_clouds;   // dropped, each to become an underlay when the document is free
   PanelStates panels;
@@ -111,6 +120,7 @@ struct Editor {
   bool quit = false;                       // confirmed
 
   Eigen::Vector2f overlay_size = {0, 0};   // of the controls over the viewport, as drawn last
+  float overlay_end = 0;                   // where they must end on the right, on the screen
 
   float px(float points) const { return points * scale; }
   const std::shared_ptr<const Environment>& environment() const { return session.document().environment(); }
@@ -129,6 +139,9 @@ struct Editor {
   // Shows a scan's points instead of the model, once they are read; an empty path goes back to the model.
   void showCloud(const std::filesystem::path& file);
   const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
+  // Starts the verb `scan`; its points are shown instead of the model as they come.
+  bool startScan(nlohmann::json options, std::string title);
+  bool showsLiveScan() const { return live_ != nullptr; }
   bool readingCloud() const { return cloud_loader_.busy(); }
   Bounds visibleBounds() const;
   Bounds buildingBounds() const;           // what is visible without the terrain around it
@@ -145,6 +158,7 @@ struct Editor {
   void adoptDocument();
   void followPreview();
   void startWaitingCloud();
+  void followLiveScan();
   bool followModel(const Environment& before, const Environment& after);   // false when they have no product in common
   Bounds boundsOfVisible(bool with_terrain) const;   // of the model
   KeptExpectation kept_expectation_;
@@ -152,6 +166,8 @@ struct Editor {
   std::optional<Camera> camera_before_preview_;
   CloudLoader cloud_loader_;
   std::shared_ptr<const Cloud> cloud_;
+  std::shared_ptr<LiveCloud> live_;        // null: none, or it is no longer looked at
+  const Task* live_task_ = nullptr;        // that it belongs to, while that runs
   std::shared_ptr<const Environment> imported_;   // whose products selection and visibility speak of
   std::uint64_t seen_revision_ = ~0ULL;
   mutable std::shared_ptr<const Environment> derived_from_;
@@ -162,5 +178,8 @@ struct Editor {
   mutable std::vector<const Treatment*> treatment_of_product_;
   void derive() const;
 };
+
+// What the scan panel is set to; nothing when that cannot be scanned with.
+std::optional<ScanSettings> plannedSettings(Editor& editor);
 
 }  // namespace standpoint

@@ -9,7 +9,8 @@
 #include <fmt/format.h>
 
 #include "editor/editor.h"
-#include "editor/instrument.h"
+#include "editor/device_pictures.h"
+#include "editor/instrument/instrument.h"
 #include "editor/pictures.h"
 #include "editor/shell/actions.h"
 #include "editor/viewport/offscreen.h"
@@ -23,11 +24,13 @@ using namespace standpoint;
 constexpr const char* kUsage =
     "standpoint-editor [PROJECT or MODEL...]\n"
     "standpoint-editor --pictures OUTDIR [--size 1280x800] [--scale 1] PROJECT or MODEL\n"
-    "  --pictures  draws the editor without a display and saves what it shows as PNG files\n";
+    "standpoint-editor --devices OUTDIR [--language en] [--scale 1]\n"
+    "  --pictures  draws the editor without a display and saves what it shows as PNG files\n"
+    "  --devices   draws every screen of every emulated device, in a folder each\n";
 
 struct Arguments {
   std::vector<std::string> paths;   // one project, or models that belong together
-  std::string pictures;
+  std::string pictures, devices, language = "en";
   int width = 1280, height = 800;
   float scale = 1;
   bool help = false;
@@ -37,12 +40,16 @@ Result<Arguments> parse(const std::vector<std::string>& words) {
   Arguments result;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const auto& word = words[i];
-    const bool takes_value = word == "--pictures" || word == "--size" || word == "--scale";
+    const bool takes_value = word == "--pictures" || word == "--size" || word == "--scale" || word == "--devices" || word == "--language";
     if (takes_value && i + 1 >= words.size()) return failure(ErrorKind::usage, "a value is missing", word);
     if (word == "--help" || word == "-h") {
       result.help = true;
     } else if (word == "--pictures") {
       result.pictures = words[++i];
+    } else if (word == "--devices") {
+      result.devices = words[++i];
+    } else if (word == "--language") {
+      result.language = words[++i];
     } else if (word == "--size") {
       const bool read = std::sscanf(words[++i].c_str(), "%dx%d", &result.width, &result.height) == 2;
       if (!read || result.width < 640 || result.height < 400 || result.width > 8192 || result.height > 8192)
@@ -107,6 +114,15 @@ int makePictures(const Arguments& arguments) {
   return 0;
 }
 
+int makeDevicePictures(const Arguments& arguments) {
+  auto offscreen = Offscreen::create(static_cast<int>(kDevicePicture[0] * arguments.scale), static_cast<int>(kDevicePicture[1] * arguments.scale), arguments.scale);
+  if (!offscreen) return fail(offscreen.error());
+  auto written = drawDevicePictures(**offscreen, arguments.devices, arguments.language, arguments.scale);
+  if (!written) return fail(written.error());
+  std::cout << *written << " pictures in " << arguments.devices << '\n';
+  return 0;
+}
+
 int openWindow(const Arguments& arguments) {
   Editor editor(allVerbs(), wakeWindow);
   attachInstrument(editor);
@@ -127,5 +143,6 @@ int main(int count, char** words) {
     std::cout << kUsage;
     return 0;
   }
+  if (!arguments->devices.empty()) return makeDevicePictures(*arguments);
   return arguments->pictures.empty() ? openWindow(*arguments) : makePictures(*arguments);
 }

@@ -27,6 +27,7 @@ const std::array kPanels = {
     Panel{"collision", "Collision", ICON_WALK, {R, N, N, N}, drawCollisionPanel},
     Panel{"georeference", "Place", ICON_GLOBE, {R, N, N, N}, drawGeoreferencePanel},
     Panel{"findings", "Findings", ICON_FLAG, {N, B, N, N}, drawFindingsPanel},
+    Panel{"targets", "Targets", ICON_TARGET, {N, N, B, N}, drawTargetsPanel},
     Panel{"log", "Log", ICON_LOG, {B, B, B, B}, drawLogPanel},
     Panel{"tasks", "Tasks", ICON_TASKS, {B, B, B, B}, drawTasksPanel},
 };

@@ -134,6 +134,19 @@ void expectedIntensity(Editor& editor) { expected(editor, ColourMode::expected_i
 void expectedNoise(Editor& editor) { expected(editor, ColourMode::expected_noise); }
 void expectedFate(Editor& editor) { expected(editor, ColourMode::expected_fate); }
 
+// What the stations see together, from where they stand, into the storey of the first one.
+void coverage(Editor& editor) {
+  survey(editor);
+  *editor.visibility.cut_height_m += 0.6;
+  editor.wanted_tab[1] = "plan";
+  editor.wanted_tab[2] = "targets";
+  editor.view.colour = ColourMode::coverage;
+}
+void coverageSpacing(Editor& editor) {
+  coverage(editor);
+  editor.view.colour = ColourMode::coverage_spacing;
+}
+
 // What is open, as it would be seen before it is taken in.
 void importPreview(Editor& editor) {
   const auto& document = editor.session.document();
@@ -148,6 +161,7 @@ constexpr std::array kPictures = {Picture{"1-overview", overview},     Picture{"
                                   Picture{"9-expected-intensity", expectedIntensity},
                                   Picture{"10-expected-noise", expectedNoise}, Picture{"11-what-comes-back", expectedFate},
                                   Picture{"12-measured", measured},
+                                  Picture{"13-coverage", coverage}, Picture{"14-coverage-spacing", coverageSpacing},
                                   Picture{"7-import-preview", importPreview},
                                   Picture{"6-palette", palette}};
 

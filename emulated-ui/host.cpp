@@ -8,13 +8,10 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "emulated-ui/device/settings.h"
 #include "emulated-ui/preview.h"
+#include "emulated-ui/sighting.h"
 #include "pointclouds/cleaning.h"
-#include "project/answers.h"
-#include "project/instruments.h"
 #include "project/levelling.h"
-#include "project/target_measuring.h"
 
 namespace standpoint {
 
@@ -34,138 +31,12 @@ Document withScan(Document document, const std::string& station_name, const Scan
   return document;
 }
 
-const Station* stationOf(const Document& document, const std::string& name) {
-  if (!document.job) return nullptr;
-  const auto found = std::find_if(document.job->stations.begin(), document.job->stations.end(), [&](const Station& s) { return s.name == name; });
-  return found == document.job->stations.end() ? nullptr : &*found;
-}
-
 // The last number in a setup's name.
 int numberIn(const std::string& name) {
   auto from = name.find_last_not_of("0123456789");
   from = from == std::string::npos ? 0 : from + 1;
   int number = 0;
   return std::sscanf(name.c_str() + from, "%9d", &number) == 1 ? number : 0;
-}
-
-Eigen::Vector3d placeFrom(const json& row) { return {row.at(0).get<double>(), row.at(1).get<double>(), row.at(2).get<double>()}; }
-
-Result<Outcome> targetsIn(const Document& document, const std::string& file, std::uint64_t seed, Progress& progress) {
-  MeasuringRequest request;
-  request.files = {file};
-  request.seed = seed;
-  const auto measured = measureTargets(document, request, progress);
-  if (!measured) return failure(measured.error());
-  Outcome outcome{document, json::array(), measured->report, {}, {}};
-  const auto& job = *document.job;
-  for (const auto& m : measured->found) {
-    const auto& target = job.targets[m.target];
-    const auto truth = job.stations[m.station].true_pose.rotation.conjugate() * (target.centre - job.stations[m.station].true_pose.translation);
-    outcome.answer.push_back({{"name", target.name}, {"kind", target.kind == TargetKind::sphere ? "sphere" : "checkerboard"}, {"points", m.fit.points},
-                              {"range_m", m.fit.centre.norm()}, {"residual_m", m.fit.residual_m}, {"error_m", (m.fit.centre - truth).norm()},
-                              {"centre", toJson(m.fit.centre)}, {"found", true}});
-  }
-  for (const auto& m : measured->missed)
-    outcome.answer.push_back({{"name", job.targets[m.target].name}, {"found", false}, {"why", m.why}});
-  return outcome;
-}
-
-std::vector<FittedTarget> targetsFrom(const json& rows) {
-  std::vector<FittedTarget> targets;
-  for (const auto& row : rows) {
-    FittedTarget t;
-    t.name = row.at("name");
-    t.found = row.at("found");
-    if (t.found) {
-      t.kind = row.at("kind");
-      t.points = row.at("points");
-      t.range_m = row.at("range_m");
-      t.residual_m = row.at("residual_m");
-      t.error_m = row.at("error_m");
-      if (row.contains("centre")) t.centre_m = placeFrom(row["centre"]);
-      if (row.contains("levelled")) t.levelled_m = placeFrom(row["levelled"]);
-    } else {
-      t.why_not = row.at("why");
-    }
-    targets.push_back(std::move(t));
-  }
-  return targets;
-}
-
-// What is copied to the instrument before the job: control points by their names, else targets where they were put; and
-// the ground marks of the stations.
-ControlList controlOf(const Document& document) {
-  ControlList control;
-  if (document.georeference) control.shift_m = document.georeference->shift_m;
-  if (!document.job) return control;
-  for (const auto& t : document.job->targets) {
-    const auto& points = document.job->control_points;
-    const auto point = std::find_if(points.begin(), points.end(), [&](const ControlPoint& p) { return p.name == t.name; });
-    control.targets.push_back({t.name, point == points.end() ? t.centre : point->position});
-  }
-  for (const auto& s : document.job->stations)
-    control.stations.push_back({s.name, s.true_pose.translation - Eigen::Vector3d(0, 0, s.instrument_height_m)});
-  return control;
-}
-
-// The turn from the scanner's frame into the levelled one, as the device measures its tilt.
-Result<Eigen::Quaterniond> levelledFromScanner(const Station& station, const Instrument& instrument, bool compensator, std::uint64_t seed) {
-  Report report;
-  const auto believed = believedPose(station, instrument, {.compensator = compensator, .exact = false, .seed = seed}, report);
-  if (!believed) return failure(believed.error());
-  const double yaw = yawOf(station.true_pose.rotation);
-  return Eigen::Quaterniond(Eigen::AngleAxisd(-yaw, Eigen::Vector3d::UnitZ())) * believed->rotation;
-}
-
-// A window about the target, as large as it looks from there and a little more.
-SettingValues windowOn(const Target& target, const Station& station, SettingValues settings) {
-  const Eigen::Vector3d p = station.true_pose.rotation.conjugate() * (target.centre - station.true_pose.translation);
-  const double half = std::atan((target.size_m + 0.1) / std::max(0.5, p.norm())) / kRadPerDeg;
-  const double azimuth = -std::atan2(p.y(), p.x()) / kRadPerDeg, elevation = std::atan2(p.z(), p.head<2>().norm()) / kRadPerDeg;
-  const double wide = half / std::max(0.05, std::cos(elevation * kRadPerDeg));
-  const auto round = [](double degrees) { return degrees - 360 * std::floor(degrees / 360); };
-  for (const auto& [key, value] : {std::pair{"horizontal_from", round(azimuth - wide)}, {"horizontal_to", round(azimuth + wide)},
-                                   {"vertical_from", std::max(-55.0, elevation - half)}, {"vertical_to", std::min(90.0, elevation + half)}})
-    settings = withSetting(settings, key, fmt::format("{:.4f}", value));
-  return settings;
-}
-
-json optionsOf(const std::string& instrument, const SettingValues& values, const std::string& station, std::uint64_t seed,
-               const fs::path& file) {
-  json settings = json::array();
-  for (const auto& [key, value] : values) settings.push_back(key + "=" + value);
-  return {{"instrument", instrument}, {"set", settings}, {"stations", station}, {"seed", seed}, {"output", file.string()}};
-}
-
-Result<Outcome> sightOf(const Document& document, const SightOrder& order, const fs::path& file, std::uint64_t seed, Progress& progress) {
-  const auto* station = stationOf(document, order.station);
-  if (station == nullptr) return failure(ErrorKind::usage, "there is no such station", order.station);
-  const auto& targets = document.job->targets;
-  const auto target = std::find_if(targets.begin(), targets.end(), [&](const Target& t) { return t.name == order.target; });
-  if (target == targets.end()) return failure(ErrorKind::usage, "there is no such target", order.target);
-  Outcome missed{document, {{"name", target->name}, {"found", false}, {"why", "another kind of target stands there"}}, {}, {}, {}};
-  if ((target->kind == TargetKind::sphere) != (order.kind == "sphere")) return missed;
-  auto instrument = instrumentById(order.instrument);
-  if (!instrument) return failure(instrument.error());
-  auto options = optionsOf(order.instrument, windowOn(*target, *station, order.settings), order.station, seed, file);
-  if (!order.compensator) options["compensator"] = "off";
-  const auto scanned = runVerb(*findVerb(verbs(), "scan"), document, options, progress);
-  std::error_code ignored;
-  auto measured = scanned ? targetsIn(document, file.string(), seed, progress) : failure(scanned.error());
-  fs::remove(file, ignored);
-  if (!measured) return measured;
-  const auto level = levelledFromScanner(*station, *instrument, order.compensator, seed);
-  if (!level) return failure(level.error());
-  for (auto& row : measured->answer) {
-    if (row.at("name") != target->name) continue;
-    if (row.at("found").get<bool>()) {
-      const Eigen::Vector3d place = *level * placeFrom(row.at("centre"));
-      row["levelled"] = {place.x(), place.y(), place.z()};
-    }
-    return Outcome{document, row, {}, {}, {}};
-  }
-  missed.answer["why"] = "no point came back from it";
-  return missed;
 }
 
 LinkResult linkFrom(const json& answer, const Document& solved) {
@@ -251,7 +122,7 @@ void DeviceHost::startScan(const ScanOrder& order, const Document& document, con
   std::error_code error;
   fs::create_directories(file_.parent_path(), error);
   if (error) return device_.orderFailed("Cannot create " + file_.parent_path().string() + ": " + error.message());
-  json options = optionsOf(order.instrument, order.settings, order.station, seed, file_);
+  json options = scanOptions(order.instrument, order.settings, order.station, seed, file_);
   if (order.panorama) options["panorama"] = true;
   if (!order.compensator) options["compensator"] = "off";
   json mishap = json::array();
@@ -317,7 +188,8 @@ void DeviceHost::start(const Order& order, const Document& document, const fs::p
   if (const auto* scan = std::get_if<ScanOrder>(&order)) return startScan(*scan, document, scans_folder);
   if (const auto* link = std::get_if<LinkOrder>(&order)) {
     json options = {{"files", {link->to_file, link->from_file}}, {"cloud", true}, {"seed", seed}};
-    if (link->shift_x_m != 0 || link->shift_y_m != 0 || link->turn_deg != 0) options["lay"] = {link->shift_x_m, link->shift_y_m, link->turn_deg};
+    if (link->shift_x_m != 0 || link->shift_y_m != 0 || link->turn_deg != 0)
+      options["laid"] = fmt::format("{},{},{}", link->shift_x_m, link->shift_y_m, link->turn_deg);
     task_ = std::make_unique<Task>("Link", *findVerb(verbs(), "register"), document, options, wake_);
   } else if (const auto* targets = std::get_if<TargetOrder>(&order)) {
     startWork("Targets", document, [file = targets->file, s = seed](const Document& d, Progress& p) { return targetsIn(d, file, s, p); });
@@ -332,7 +204,7 @@ void DeviceHost::start(const Order& order, const Document& document, const fs::p
     std::error_code ignored;
     fs::create_directories(scans_folder, ignored);
     startWork("Target", document, [order = *sight, file = scans_folder / "target.e57", s = seed](const Document& d, Progress& p) {
-      return sightOf(d, order, file, s, p);
+      return sightTarget(d, order, file, s, p);
     });
   } else if (const auto* transfer = std::get_if<TransferOrder>(&order)) {
     startWork("Transfer", document, [order = *transfer, folder = scans_folder.parent_path() / kCopies](const Document& d, Progress& p) {

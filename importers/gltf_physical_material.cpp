@@ -16,6 +16,7 @@ nlohmann::json gltfPhysicalMaterial(const PhysicalMaterial& m) {
   if (m.gap_m > 0) json["gapM"] = m.gap_m;
   if (m.variation > 0) json["variation"] = m.variation;
   if (m.texture_scale_m > 0) json["textureScaleM"] = m.texture_scale_m;
+  if (m.retro_gain > 0) json["retroGain"] = m.retro_gain;
   if (!m.wet_of.empty()) json["wetOf"] = m.wet_of;
   for (const auto& gap : m.gaps) json["gaps"].push_back(gap);
   for (const auto& source : m.sources) json["sources"].push_back({{"figure", source.figure}, {"text", source.text}, {"licence", source.licence}});

@@ -26,12 +26,13 @@ constexpr Figure kFigures[] = {
     {"gap_m", &PhysicalMaterial::gap_m, 1e-3, 0.1},
     {"variation", &PhysicalMaterial::variation, 0, 3},
     {"texture_scale_m", &PhysicalMaterial::texture_scale_m, 1e-4, 100},
+    {"retro_gain", &PhysicalMaterial::retro_gain, 1, 1e5},
 };
 
 // What a source may be given for, and has to be where the entry has it.
 constexpr const char* kSourced[] = {"wet_of", "reflectance", "roughness_rad", "gloss_slope", "index_of_refraction",
                                     "complex_index", "thickness_m", "transmittance", "panes", "gap_m", "variation",
-                                    "texture_scale_m"};
+                                    "texture_scale_m", "retro_gain"};
 
 Result<Spectrum> readSpectrum(const nlohmann::json& value, const JsonPlace& at) {
   if (!value.is_array() || value.empty()) return at.unusable("must be a list of [wavelength_nm, share]");
@@ -240,7 +241,7 @@ Result<PhysicalMaterial> readMaterial(const nlohmann::json& entry, const JsonPla
   if (auto checked = checkKeys(entry, at,
                                {"id", "label", "gaps", "wet_of", "reflectance", "roughness_rad", "gloss_slope",
                                 "index_of_refraction", "complex_index", "thickness_m", "transmittance", "panes",
-                                "gap_m", "variation", "texture_scale_m", "source"});
+                                "gap_m", "variation", "texture_scale_m", "retro_gain", "source"});
       !checked)
     return failure(checked.error());
   const auto id = readId(entry, at);

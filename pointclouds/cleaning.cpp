@@ -161,7 +161,7 @@ Result<void> apply(const CloudFormat& format, const std::filesystem::path& in, c
 }  // namespace
 
 const std::array<const char*, 8>& flagNames() {
-  static const std::array<const char*, 8> names = {"mixed", "mirrored", "through_pane", "weather", "saturated", "moving", "noise", nullptr};
+  static const std::array<const char*, 8> names = {"mixed", "mirrored", "through_pane", "weather", "saturated", "moving", "noise", "filtered"};
   return names;
 }
 

@@ -48,6 +48,6 @@ struct Cleaning {
 Result<Cleaning> cleanCloud(const std::filesystem::path& in, const std::filesystem::path& out,
                             std::span<const ChosenFilter> filters, Progress& progress);
 
-const std::array<const char*, 8>& flagNames();   // "mixed", …; null where there is none
+const std::array<const char*, 8>& flagNames();   // "mixed", …
 
 }  // namespace standpoint

@@ -104,17 +104,6 @@ Result<const CloudFormat*> known(const std::filesystem::path& file) {
   return failure(ErrorKind::usage, "no point-cloud format has this extension; known are" + extensions, file.string());
 }
 
-Result<CloudFormat::Writer> writerOf(const CloudFormat& format, const std::string& as) {
-  if (as.empty()) return format.writer;
-  std::string names;
-  for (const CloudVariant& variant : format.variants) {
-    if (as == variant.name) return variant.writer;
-    names += std::string(names.empty() ? "" : ", ") + variant.name;
-  }
-  return failure(ErrorKind::usage, std::string(format.name) + " has no variant '" + as + "'" +
-                                       (names.empty() ? "" : "; there is " + names), "--as");
-}
-
 }  // namespace
 
 std::span<const CloudFormat> cloudFormats() {
@@ -127,6 +116,17 @@ const CloudFormat* cloudFormatFor(const std::filesystem::path& file) {
   for (const CloudFormat& format : cloudFormats())
     if (extension == format.extension) return &format;
   return nullptr;
+}
+
+Result<CloudFormat::Writer> writerOf(const CloudFormat& format, const std::string& as) {
+  if (as.empty()) return format.writer;
+  std::string names;
+  for (const CloudVariant& variant : format.variants) {
+    if (as == variant.name) return variant.writer;
+    names += std::string(names.empty() ? "" : ", ") + variant.name;
+  }
+  return failure(ErrorKind::usage, std::string(format.name) + " has no variant '" + as + "'" +
+                                       (names.empty() ? "" : "; there is " + names), "--as");
 }
 
 const CloudFormat* readableCloudFormat(const std::filesystem::path& file) {

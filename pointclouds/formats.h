@@ -42,7 +42,7 @@ class CloudWriter : public PointSink {
   Report report_;
 };
 
-// Another way to write a format, for who needs it: `convert --as NAME`.
+// Another way to write a format, for who needs it: `convert --as NAME`, `scan --as NAME`.
 struct CloudVariant {
   const char* name;                // "scaled"
   const char* description;
@@ -65,6 +65,8 @@ struct CloudFormat {
 // The table of formats; a new one is one file and one line in formats.cpp.
 std::span<const CloudFormat> cloudFormats();
 const CloudFormat* cloudFormatFor(const std::filesystem::path& file);   // by extension; null when unknown
+// Of the variant `as`, or of the format itself when that is empty.
+Result<CloudFormat::Writer> writerOf(const CloudFormat& format, const std::string& as);
 // As cloudFormatFor, but looks into what can be either: a PLY with faces is a model, and the answer null.
 const CloudFormat* readableCloudFormat(const std::filesystem::path& file);
 

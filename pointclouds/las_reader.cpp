@@ -9,13 +9,24 @@
 
 namespace standpoint {
 
+namespace las {
+namespace {
+template <bool near_infrared>
+Result<std::unique_ptr<CloudWriter>> writer(const std::filesystem::path& file) {
+  return createWriter(file, near_infrared);
+}
+constexpr CloudVariant kVariants[] = {{"pdrf8", "point format 8: near infrared has a place, and is 0", writer<true>}};
+}  // namespace
+}  // namespace las
+
 const CloudFormat kLas = {"las",
                           "ASPRS LAS: read 1.0 to 1.4, written 1.4 with labels and truth as extra bytes",
                           ".las",
                           true,
-                          las::createWriter,
+                          las::writer<false>,
                           las::read,
-                          las::info};
+                          las::info,
+                          las::kVariants};
 const CloudFormat kLaz = {"laz", "LASzip: recognised only", ".laz", false, nullptr, las::read, las::info};
 
 namespace las {

@@ -24,9 +24,10 @@ class IntensityRange final : public PointSink {
   float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
   Result<void> begin(const ScanHeader&) override { return {}; }
   Result<void> write(const PointBlock& block) override {
-    for (const float value : block.intensity) low = std::min(low, value), high = std::max(high, value);
+    for (const float value : block.intensity) add(value);
     return {};
   }
+  void add(float value) { low = std::min(low, value), high = std::max(high, value); }
   Result<void> end() override { return {}; }
   Result<void> close() override { return {}; }
   // Formats that state no limits get those of the points; equal ones would say that there is no intensity.

@@ -69,19 +69,4 @@ std::optional<T> numberFrom(std::string_view text) {
   return value;
 }
 
-// The numbers of a line between blanks, commas and semicolons; false when something there is none or they are more than
-// `most`. Fills `numbers` anew.
-inline bool numbersOf(std::string_view line, std::size_t most, std::vector<double>& numbers) {
-  numbers.clear();
-  for (;;) {
-    const auto from = line.find_first_not_of(" \t\r,;");
-    if (from == std::string_view::npos) return true;
-    const auto end = std::min(line.find_first_of(" \t\r,;", from), line.size());
-    const auto value = numberFrom<double>(line.substr(from, end - from));
-    if (!value || numbers.size() == most) return false;
-    numbers.push_back(*value);
-    line.remove_prefix(end);
-  }
-}
-
 }  // namespace standpoint

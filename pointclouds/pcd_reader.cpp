@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "pointclouds/measure.h"
-#include "pointclouds/number_text.h"
+#include "pointclouds/number_line.h"
 #include "pointclouds/pcd.h"
 #include "pointclouds/pcd_header.h"
 #include "pointclouds/record_points.h"

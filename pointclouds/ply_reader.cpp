@@ -3,7 +3,7 @@
 
 #include "pointclouds/local_points.h"
 #include "pointclouds/measure.h"
-#include "pointclouds/number_text.h"
+#include "pointclouds/number_line.h"
 #include "pointclouds/ply.h"
 #include "pointclouds/ply_header.h"
 #include "pointclouds/record_points.h"

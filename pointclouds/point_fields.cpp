@@ -14,7 +14,7 @@ using F = PointField;
 
 // Written so that a NaN becomes 0.
 std::uint8_t colourByte(double value) {
-  return value > 0 ? static_cast<std::uint8_t>(std::lround(std::min(value, 255.0))) : 0;
+  return value > 0 ? static_cast<std::uint8_t>(std::min(value, 255.0) + 0.5) : 0;
 }
 
 }  // namespace

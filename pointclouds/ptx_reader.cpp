@@ -8,7 +8,7 @@
 #include "pointclouds/line_reader.h"
 #include "pointclouds/local_points.h"
 #include "pointclouds/measure.h"
-#include "pointclouds/number_text.h"
+#include "pointclouds/number_line.h"
 #include "pointclouds/ptx.h"
 
 namespace standpoint {
@@ -29,16 +29,17 @@ struct Numbers {
   std::size_t count = 0;
 };
 
-std::optional<Numbers> numbersOf(std::string_view line) {
-  Numbers numbers;
-  for (line = trimmed(line); !line.empty(); line = trimmed(line)) {
-    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
-    const auto value = numberFrom<double>(line.substr(0, end));
-    if (!value || numbers.count == numbers.value.size()) return std::nullopt;
-    numbers.value[numbers.count++] = *value;
-    line.remove_prefix(end);
+bool numbersOf(std::string_view line, Numbers& numbers) {
+  numbers.count = 0;
+  using Words = NumberLine<Between::blanks>;
+  Words words(line);
+  for (;;) {
+    double value = 0;
+    const auto word = words.next(value);
+    if (word == Words::Word::end) return true;
+    if (word == Words::Word::none || numbers.count == numbers.value.size()) return false;
+    numbers.value[numbers.count++] = value;
   }
-  return numbers;
 }
 
 // What stands above a scan's cells.
@@ -63,9 +64,9 @@ class Reader {
   Result<Frame> readFrame(std::string_view columns);
   void setPose(const Eigen::Matrix4d& matrix, Frame& frame);
   Result<void> readScan(const Frame& frame);
-  Result<void> readCells(const Frame& frame, LocalPoints& local, Numbers cell);
-  Result<void> takeCell(const Numbers& cell, const Frame& frame, FoundPoints& to);
-  Result<Numbers> cellLine();
+  Result<void> readCells(const Frame& frame, LocalPoints& local);
+  Result<void> takeCell(const Frame& frame, FoundPoints& to);
+  Result<void> nextCell();   // into cell_
 
   LineReader lines_;
   PointSink& sink_;
@@ -74,7 +75,9 @@ class Reader {
   std::size_t scans_ = 0;
   std::string scan_name_;
   bool has_colour_ = false;
-  std::uint64_t colours_lost_ = 0, colours_missing_ = 0, indices_ = 0;
+  std::uint64_t colours_lost_ = 0, colours_missing_ = 0;
+  Numbers cell_;
+  std::uint32_t row_ = 0, column_ = 0;   // of cell_
 };
 
 // Blank lines between scans and at the end are forgiven.
@@ -89,11 +92,11 @@ Result<Numbers> Reader::headerLine(std::size_t count) {
   const auto line = lines_.next();
   if (!line) return failure(line.error());
   if (!*line) return broken("the file ends inside a scan's header");
-  const auto numbers = numbersOf(**line);
-  if (!numbers || numbers->count != count) return broken("a PTX header has " + std::to_string(count) + " numbers here");
+  Numbers numbers;
+  if (!numbersOf(**line, numbers) || numbers.count != count) return broken("a PTX header has " + std::to_string(count) + " numbers here");
   for (std::size_t i = 0; i < count; ++i)
-    if (!std::isfinite(numbers->value[i])) return broken("a number of the header is not finite");
-  return *numbers;
+    if (!std::isfinite(numbers.value[i])) return broken("a number of the header is not finite");
+  return numbers;
 }
 
 void Reader::setPose(const Eigen::Matrix4d& matrix, Frame& frame) {
@@ -116,13 +119,13 @@ void Reader::setPose(const Eigen::Matrix4d& matrix, Frame& frame) {
 }
 
 Result<Frame> Reader::readFrame(std::string_view columns_line) {
-  const auto columns = numbersOf(columns_line);
-  if (!columns || columns->count != 1) return broken("a PTX scan begins with its number of columns");
+  Numbers columns;
+  if (!numbersOf(columns_line, columns) || columns.count != 1) return broken("a PTX scan begins with its number of columns");
   const auto rows = headerLine(1);
   if (!rows) return failure(rows.error());
   const auto side = [](double n) { return n >= 0 && n <= kLargestSide && n == std::floor(n); };
-  if (!side(columns->value[0]) || !side(rows->value[0])) return broken("columns and rows are no counts");
-  Frame frame{static_cast<std::uint32_t>(columns->value[0]), static_cast<std::uint32_t>(rows->value[0])};
+  if (!side(columns.value[0]) || !side(rows->value[0])) return broken("columns and rows are no counts");
+  Frame frame{static_cast<std::uint32_t>(columns.value[0]), static_cast<std::uint32_t>(rows->value[0])};
   if (std::uint64_t{frame.columns} * frame.rows > lines_.left() / kShortestCell)
     return broken("the file is too short for " + std::to_string(frame.columns) + " columns of " +
                   std::to_string(frame.rows) + " rows");
@@ -139,19 +142,17 @@ Result<Frame> Reader::readFrame(std::string_view columns_line) {
   return frame;
 }
 
-Result<Numbers> Reader::cellLine() {
+Result<void> Reader::nextCell() {
   const auto line = lines_.next();
   if (!line) return failure(line.error());
   if (!*line) return broken("the file ends inside a scan: it is truncated");
-  const auto numbers = numbersOf(**line);
-  if (!numbers || (numbers->count != 4 && numbers->count != 7))
+  if (!numbersOf(**line, cell_) || (cell_.count != 4 && cell_.count != 7))
     return broken("a PTX point has 4 or 7 numbers: x y z intensity [red green blue]");
-  return *numbers;
+  return {};
 }
 
-Result<void> Reader::takeCell(const Numbers& cell, const Frame& frame, FoundPoints& to) {
-  const std::uint64_t index = indices_++;
-  const auto& v = cell.value;
+Result<void> Reader::takeCell(const Frame& frame, FoundPoints& to) {
+  const auto& v = cell_.value;
   if (v[0] == 0 && v[1] == 0 && v[2] == 0) return {};  // nothing came back
   const Eigen::Vector3d raw(v[0], v[1], v[2]);
   const Eigen::Vector3d point = frame.stretch ? Eigen::Vector3d(*frame.stretch * raw) : raw;
@@ -160,9 +161,9 @@ Result<void> Reader::takeCell(const Numbers& cell, const Frame& frame, FoundPoin
   to.z.push_back(point.z());
   PointBlock& block = to.columns;
   block.intensity.push_back(static_cast<float>(v[3]));
-  block.row.push_back(static_cast<std::uint32_t>(index % frame.rows));
-  block.column.push_back(static_cast<std::uint32_t>(index / frame.rows));
-  const bool coloured = cell.count == 7;
+  block.row.push_back(row_);
+  block.column.push_back(column_);
+  const bool coloured = cell_.count == 7;
   if (!has_colour_) {
     colours_lost_ += coloured;
     return {};
@@ -172,25 +173,26 @@ Result<void> Reader::takeCell(const Numbers& cell, const Frame& frame, FoundPoin
   for (std::size_t k = 0; k < 3; ++k) {
     const double value = coloured ? v[4 + k] : 0;
     if (!(value >= 0 && value <= 255)) return broken("a colour lies outside 0 to 255");
-    colours[k]->push_back(static_cast<std::uint8_t>(std::lround(value)));
+    colours[k]->push_back(static_cast<std::uint8_t>(value + 0.5));
   }
   return {};
 }
 
-Result<void> Reader::readCells(const Frame& frame, LocalPoints& local, Numbers cell) {
+// The first cell is in cell_.
+Result<void> Reader::readCells(const Frame& frame, LocalPoints& local) {
   const std::uint64_t cells = std::uint64_t{frame.columns} * frame.rows;
   FoundPoints found;
-  for (indices_ = 0;;) {
-    if (auto taken = takeCell(cell, frame, found); !taken) return taken;
-    if (found.size() == kChunk || indices_ == cells || indices_ % kChunk == 0) {
+  row_ = column_ = 0;
+  for (std::uint64_t done = 1;; ++done) {
+    if (auto taken = takeCell(frame, found); !taken) return taken;
+    if (++row_ == frame.rows) row_ = 0, ++column_;
+    if (found.size() == kChunk || done == cells || done % kChunk == 0) {
       if (auto written = local.write(found); !written) return written;
       progress_.advance(lines_.share());
       if (auto going = progress_.check(); !going) return going;
     }
-    if (indices_ == cells) return {};
-    auto next = cellLine();
-    if (!next) return failure(next.error());
-    cell = *next;
+    if (done == cells) return {};
+    if (auto next = nextCell(); !next) return next;
   }
 }
 
@@ -201,17 +203,14 @@ Result<void> Reader::readScan(const Frame& frame) {
   header.columns = frame.columns;
   header.file_from_scanner = frame.pose;
   const bool any = frame.rows > 0 && frame.columns > 0;
-  Numbers first;
-  if (any) {
-    auto line = cellLine();
-    if (!line) return failure(line.error());
-    first = *line;
-  }
-  header.has_colour = has_colour_ = first.count == 7;
+  cell_.count = 0;
+  if (any)
+    if (auto first = nextCell(); !first) return first;
+  header.has_colour = has_colour_ = cell_.count == 7;
   colours_lost_ = colours_missing_ = 0;
   LocalPoints local(sink_, header, true);
   if (any)
-    if (auto read = readCells(frame, local, first); !read) return read;
+    if (auto read = readCells(frame, local); !read) return read;
   if (colours_lost_ > 0)
     report_.lose(scan_name_, std::to_string(colours_lost_) + " points have a colour though the first cell has none");
   if (colours_missing_ > 0)

@@ -7,7 +7,7 @@
 #include "pointclouds/line_reader.h"
 #include "pointclouds/local_points.h"
 #include "pointclouds/measure.h"
-#include "pointclouds/number_text.h"
+#include "pointclouds/number_line.h"
 #include "pointclouds/point_fields.h"
 
 namespace standpoint {
@@ -35,6 +35,8 @@ class Reader {
   Reader(InputFile file, bool counted, ScanHeader scan, PointSink& sink, Progress& progress)
       : lines_(std::move(file)), counted_(counted), scan_(std::move(scan)), sink_(sink), progress_(progress) {}
   Result<void> run(Report& report);
+  // Instead of that: looks at the intensities alone. What else is wrong with the text is found when it is read.
+  Result<void> measure(IntensityRange& range);
 
  private:
   tl::unexpected<Error> broken(const std::string& what) const {
@@ -63,8 +65,8 @@ class Reader {
 };
 
 Result<bool> Reader::takeHead(std::string_view line) {
-  if (trimmed(line).empty()) return true;
   const bool numbers = numbersOf(line, kMostNumbers, numbers_);
+  if (numbers && numbers_.empty()) return true;   // blanks
   if (counted_ && missing_ == 0) {
     if (numbers && width_ > 0 && numbers_.size() == width_) return ++surplus_, true;
     if (!numbers || numbers_.size() != 1 || !(numbers_[0] >= 0) || numbers_[0] != std::floor(numbers_[0]))
@@ -190,6 +192,33 @@ Result<void> Reader::run(Report& report) {
   return local_->finish(report);
 }
 
+Result<void> Reader::measure(IntensityRange& range) {
+  for (std::uint64_t lines = 1;; ++lines) {
+    const auto line = lines_.next();
+    if (!line) return failure(line.error());
+    if (!*line) return {};
+    if (width_ == 0 || (counted_ && missing_ == 0)) {
+      const auto head = takeHead(**line);
+      if (!head) return failure(head.error());
+      if (*head) continue;
+      if (auto begun = beginPoints(); !begun) return begun;
+      if (!places_[PointField::intensity]) return {};
+    }
+    using Words = NumberLine<Between::blanks_and_commas>;
+    Words words(**line);
+    std::size_t before = 0;
+    while (before < *places_[PointField::intensity] && words.skip()) ++before;
+    double value = 0;
+    const auto word = words.next(value);
+    if (before == 0 && word == Words::Word::end) continue;   // blanks
+    if (word == Words::Word::number && std::isfinite(static_cast<float>(value))) range.add(static_cast<float>(value));
+    missing_ -= counted_ ? 1 : 0;
+    if (lines % kChunk != 0) continue;
+    progress_.advance(lines_.share());
+    if (auto going = progress_.check(); !going) return going;
+  }
+}
+
 Result<void> readOnce(const std::filesystem::path& path, bool counted, const ScanHeader& scan, PointSink& sink,
                       Report& report, Progress& progress) {
   auto file = InputFile::open(path);
@@ -204,9 +233,11 @@ Result<Report> read(const std::filesystem::path& path, bool counted, PointSink& 
   Report report;
   IntensityRange range;
   progress.stage("Measuring " + path.filename().string(), 0, 0.5);
-  if (auto done = readOnce(path, counted, scan, range, report, progress); !done) return failure(done.error());
+  auto file = InputFile::open(path);
+  if (!file) return failure(file.error());
+  if (auto done = Reader(std::move(*file), counted, scan, range, progress).measure(range); !done)
+    return failure(done.error());
   range.putInto(scan);
-  report = {};
   progress.stage("Reading " + path.filename().string(), 0.5, 1);
   if (auto done = readOnce(path, counted, scan, sink, report, progress); !done) return failure(done.error());
   return report;

@@ -5,6 +5,7 @@
 
 #include "pointclouds/cleaning.h"
 #include "project/file_verbs.h"
+#include "project/output_place.h"
 
 namespace standpoint {
 
@@ -25,10 +26,9 @@ json figuresJson(const FilterFigures& f) {
   if (f.has_truth) {
     json flags = json::object();
     for (std::size_t bit = 0; bit < f.flags.size(); ++bit)
-      if (const char* const name = flagNames()[bit])
-        flags[name] = {{"in", f.flags[bit].in}, {"removed", f.flags[bit].taken},
-                       {"recall", shareOf(f.flags[bit].taken, f.flags[bit].in)},
-                       {"precision", shareOf(f.flags[bit].taken, f.with_truth.taken)}};
+      flags[flagNames()[bit]] = {{"in", f.flags[bit].in}, {"removed", f.flags[bit].taken},
+                                 {"recall", shareOf(f.flags[bit].taken, f.flags[bit].in)},
+                                 {"precision", shareOf(f.flags[bit].taken, f.with_truth.taken)}};
     row["truth"] = std::move(flags);
     row["mixed_by_over_1cm"] = takenJson(f.plainly_mixed);
     row["good"] = takenJson(f.good);
@@ -58,7 +58,7 @@ std::string csv(const Cleaning& cleaning) {
     line(f, "all", f.points);
     if (f.has_truth) {
       for (std::size_t bit = 0; bit < f.flags.size(); ++bit)
-        if (const char* const name = flagNames()[bit]) line(f, name, f.flags[bit]);
+        line(f, flagNames()[bit], f.flags[bit]);
       line(f, "mixed by over 1 cm", f.plainly_mixed);
       line(f, "good", f.good);
     }
@@ -111,6 +111,10 @@ Result<Outcome> runClean(const Document& document, const json& options, Progress
   const fs::path report = options.value("report", "");
   if (!report.empty() && report.extension() != ".json" && report.extension() != ".csv")
     return failure(ErrorKind::usage, "a report is a .json or a .csv", "--report");
+  for (const char* option : {"output", "report"})
+    if (const fs::path file = options.value(option, ""); !file.empty())
+      if (auto there = checkFolderOf(file, option == std::string_view("output") ? "--output" : "--report"); !there)
+        return failure(there.error());
   std::vector<ChosenFilter> filters;
   for (const auto& text : options.at("filters")) {
     auto chosen = filterFrom(text.get<std::string>());

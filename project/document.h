@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/environment.h"
@@ -15,6 +16,8 @@
 #include "core/survey.h"
 #include "materials/materials.h"
 #include "optimizer/optimizer.h"
+#include "scanners/atmosphere.h"
+#include "scanners/effects.h"
 
 namespace standpoint {
 
@@ -73,6 +76,20 @@ struct Underlay {
   bool visible = true;
 };
 
+// How the last scan was asked for: what the next one begins with.
+struct ScanChoice {
+  std::string instrument;                       // id
+  std::vector<std::pair<std::string, std::string>> settings;   // key, value; in the device's own words
+  std::uint64_t seed = 1;
+  Effects effects;
+  Weather weather;
+  bool truth = false;
+  bool compensator = true;
+  bool panorama = false;
+  std::uint32_t panorama_columns = 0;           // 0: as the instrument's camera delivers it
+  bool operator==(const ScanChoice&) const = default;
+};
+
 struct Verification;   // of the materials, by a cloud: project/verification.h
 
 // The document is a value: every part is shared and immutable; two parts with the same pointer have not changed, so a
@@ -88,6 +105,7 @@ struct Document {
   std::shared_ptr<const CollideResult> collision;
   std::shared_ptr<const MaterialChoice> materials;
   std::shared_ptr<const Job> job;
+  std::shared_ptr<const ScanChoice> scanning;        // null until something was scanned
   std::vector<std::shared_ptr<const Underlay>> underlays;
   std::shared_ptr<const Verification> verification;
 

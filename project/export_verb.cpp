@@ -13,6 +13,7 @@
 #include "core/unused_meshes.h"
 #include "core/visible_colour.h"
 #include "importers/importers.h"
+#include "project/output_place.h"
 #include "project/answers.h"
 #include "project/file_verbs.h"
 #include "project/optimize_verb.h"
@@ -148,6 +149,7 @@ Result<Outcome> runExport(const Document& document, const json& options, Progres
     return failure(ErrorKind::usage, "glTF and HELIOS++ scenes have the physical materials always; it is for .obj", "--physical");
   if (!gltf && (options.contains("levels") || options.contains("collision")))
     return failure(ErrorKind::usage, "levels of detail and collision shapes go into .glb or .gltf only", "--output");
+  if (auto there = checkFolderOf(file, "--output"); !there) return failure(there.error());
   Environment scene = sceneOf(*document.environment());
   dropUnusedMeshes(scene);
   Outcome outcome{document, {{"file", file.string()}, {"triangles", triangleCount(scene)}}, {}, {}};

@@ -10,6 +10,7 @@
 #include "pointclouds/datasets.h"
 #include "pointclouds/formats.h"
 #include "project/answers.h"
+#include "project/output_place.h"
 #include "project/project_files.h"
 #include "project/project_info.h"
 #include "project/session.h"
@@ -69,6 +70,7 @@ Result<Outcome> runConvert(const Document& document, const json& options, Progre
   progress.stage("Convert " + in.filename().string());
   Outcome outcome{document, json::object(), {}, {}};
   if (options.contains("dataset")) return convertTo(options, std::move(outcome), progress);
+  if (auto there = checkFolderOf(options.at("out").get<std::string>(), "OUT"); !there) return failure(there.error());
   auto files = convertCloud(in, options.at("out").get<std::string>(), options.value("as", ""), outcome.report, progress);
   if (!files) return failure(files.error());
   json names = json::array();

@@ -19,7 +19,7 @@ json physicalToJson(const PhysicalMaterial& m) {
   return {{"id", m.id}, {"label", m.label}, {"reflectance", m.reflectance}, {"roughness_rad", m.roughness_rad},
           {"gloss_slope", m.gloss_slope}, {"index_of_refraction", m.index_of_refraction}, {"complex_index", index}, {"thickness_m", m.thickness_m},
           {"transmittance", m.transmittance}, {"panes", m.panes}, {"gap_m", m.gap_m}, {"variation", m.variation},
-          {"texture_scale_m", m.texture_scale_m}, {"wet_of", m.wet_of}, {"gaps", m.gaps}, {"sources", sources}};
+          {"texture_scale_m", m.texture_scale_m}, {"retro_gain", m.retro_gain}, {"wet_of", m.wet_of}, {"gaps", m.gaps}, {"sources", sources}};
 }
 
 // "reflectance: measured: …", as projects had it before sources were listed with their licence.
@@ -43,6 +43,7 @@ PhysicalMaterial physicalFrom(const json& j) {
   m.gap_m = j.value("gap_m", 0.0);
   m.variation = j.value("variation", 0.0);
   m.texture_scale_m = j.value("texture_scale_m", 0.0);
+  m.retro_gain = j.value("retro_gain", 0.0);
   m.wet_of = j.value("wet_of", "");
   m.gaps = j.value("gaps", std::vector<std::string>());
   for (const auto& c : j.value("sources", json::array())) m.sources.push_back({c.at("figure"), c.at("text"), c.at("licence")});

@@ -131,6 +131,7 @@ Result<PlanRequest> requestFrom(const Document& document, const json& options) {
   if (options.contains("max-incidence-deg"))
     request.wanted.most_incidence_rad = options["max-incidence-deg"].get<double>() * kRadPerDeg;
   if (options.contains("max-range")) request.wanted.most_range_m = options["max-range"].get<double>();
+  request.channels.returns = request.instrument.waveform.most_returns > 1;
   request.samples = options.at("samples").get<std::size_t>();
   request.seed = options.at("seed").get<std::uint64_t>();
   return request;
@@ -162,7 +163,8 @@ Result<Outcome> runPlan(const Document& document, const json& options, Progress&
   auto request = requestFrom(document, options);
   if (!request) return failure(request.error());
   Outcome outcome{document, json::object(), {}, {}};
-  auto assignment = scanAssignment(document, outcome.report, progress);
+  noteDefaultRules(document, outcome.report);
+  auto assignment = scanAssignment(document, progress);
   if (!assignment) return failure(assignment.error());
   const ScanWorld world = scanWorld(document, *assignment);
   if (sceneTriangleCount(*world.environment) == 0)

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "project/project_json.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "project/materials_json.h"
 #include "project/project_files.h"
+#include "project/scan_request.h"
 #include "project/treatments.h"
 
 namespace standpoint {
@@ -69,6 +72,28 @@ Job jobFrom(const json& j) {
   return job;
 }
 
+json scanningToJson(const ScanChoice& c) {
+  const auto& w = c.weather;
+  json part = {{"instrument", c.instrument}, {"settings", c.settings}, {"seed", c.seed}, {"without", leftOut(c.effects)},
+               {"weather", {{"rain_mm_h", w.rain_mm_h}, {"snow_mm_h", w.snow_mm_h}, {"fog_m", w.fog_mor_m}, {"dust_m", w.dust_mor_m}}},
+               {"truth", c.truth}, {"compensator", c.compensator}, {"panorama", c.panorama}};
+  if (std::isfinite(w.visibility_km)) part["weather"]["visibility_km"] = w.visibility_km;
+  if (c.panorama_columns > 0) part["panorama_size"] = c.panorama_columns;
+  return part;
+}
+
+ScanChoice scanningFrom(const json& j) {
+  const auto& w = j.at("weather");
+  const auto without = j.at("without").get<std::string>();
+  ScanChoice c{.instrument = j.at("instrument"), .settings = j.at("settings"), .seed = j.at("seed"),
+               .effects = {}, .weather = {w.value("visibility_km", kNoAir.visibility_km), w.at("rain_mm_h"), w.at("snow_mm_h"), w.at("fog_m"), w.at("dust_m")},
+               .truth = j.at("truth"), .compensator = j.at("compensator"), .panorama = j.at("panorama"),
+               .panorama_columns = j.value("panorama_size", 0U)};
+  // A name that a later version knows is none of ours: all effects then.
+  if (const auto effects = effectsWithout(without); !without.empty() && effects) c.effects = *effects;
+  return c;
+}
+
 json lossToJson(const ProductLoss& l) {
   return {l.triangles_before, l.triangles_after, l.max_deviation_m, l.mean_deviation_m, l.mean_turn_rad};
 }
@@ -126,6 +151,7 @@ json documentToJson(const Document& d) {
   if (d.treatments) project["treatments"] = treatmentsToJson(*d.treatments);
   if (d.collision) project["collision"] = collisionToJson(*d.collision);
   if (d.materials) project["materials"] = materialsToJson(*d.materials);
+  if (d.scanning) project["scanning"] = scanningToJson(*d.scanning);
   return project;
 }
 
@@ -141,6 +167,7 @@ Document documentFrom(const json& project) {
   if (project.contains("treatments"))
     d.treatments = std::make_shared<const std::vector<Treatment>>(treatmentsFrom(project.at("treatments")));
   if (project.contains("materials")) d.materials = std::make_shared<const MaterialChoice>(materialsFrom(project.at("materials")));
+  if (project.contains("scanning")) d.scanning = std::make_shared<const ScanChoice>(scanningFrom(project.at("scanning")));
   return d;
 }
 

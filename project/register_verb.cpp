@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include <fmt/format.h>
 
 #include "core/random.h"
 #include "core/units.h"
 #include "project/cloud_to_cloud.h"
+#include "project/registered_clouds.h"
 #include "project/registering.h"
 #include "project/registration.h"
 
@@ -26,6 +28,20 @@ Pose laidByEye(const Station& station, std::uint64_t seed) {
   Pose pose = station.true_pose;
   pose.translation += kByEye_m * Vector3d(either(r[0]), either(r[1]), either(r[2]));
   pose.rotation = Eigen::AngleAxisd(kByEye_rad * either(r[3]), Vector3d::UnitZ()) * pose.rotation;
+  return pose;
+}
+
+// Where the user has laid it by hand instead: moved and turned about itself in plan.
+Result<Pose> laidByHand(Pose pose, const json& options) {
+  if (!options.contains("laid")) return pose;
+  const auto text = options["laid"].get<std::string>();
+  double x_m = 0, y_m = 0, turn_deg = 0;
+  int read = 0;
+  const bool whole = std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &x_m, &y_m, &turn_deg, &read) == 3 && static_cast<std::size_t>(read) == text.size();
+  if (!whole || !std::isfinite(x_m + y_m + turn_deg))
+    return failure(ErrorKind::usage, fmt::format("'{}' is not three numbers: x,y,turn in m and degrees", text), "--laid");
+  pose.translation += Vector3d(x_m, y_m, 0);
+  pose.rotation = Eigen::AngleAxisd(turn_deg * kRadPerDeg, Vector3d::UnitZ()) * pose.rotation;
   return pose;
 }
 
@@ -57,12 +73,9 @@ Result<json> byClouds(Job& job, const TargetMeasurements& measured, std::size_t 
   for (const auto* scan : waiting) {
     Station& station = job.stations[scan->station];
     progress.stage("Fitting " + station.name, 0.9, 1);
-    Pose start = laidByEye(station, options.at("seed").get<std::uint64_t>());
-    if (options.contains("lay")) {
-      start.translation += Vector3d(options["lay"][0].get<double>(), options["lay"][1].get<double>(), 0);
-      start.rotation = Eigen::AngleAxisd(options["lay"][2].get<double>() * kRadPerDeg, Vector3d::UnitZ()) * start.rotation;
-    }
-    const auto fit = fitCloudToClouds(scan->sample, start, placed, options.at("reach").get<double>(), progress);
+    const auto start = laidByHand(laidByEye(station, options.at("seed").get<std::uint64_t>()), options);
+    if (!start) return failure(start.error());
+    const auto fit = fitCloudToClouds(scan->sample, *start, placed, options.at("reach").get<double>(), progress);
     if (!fit)
       return failure(fit.error().kind, fmt::format("station {}: {}", station.name, fit.error().message), scan->file);
     for (const auto& motion : fit->free)
@@ -114,6 +127,12 @@ Result<Outcome> runRegister(const Document& document, const json& options, Progr
                     document.job->targets.size()));
   MeasuringRequest request;
   for (const auto& file : options.at("files")) request.files.emplace_back(file.get<std::string>());
+  std::vector<std::filesystem::path> written;
+  if (options.contains("output")) {
+    auto to = registeredFiles(request.files, options["output"].get<std::string>());
+    if (!to) return failure(to.error());
+    written = *std::move(to);
+  }
   request.seed = options.at("seed").get<std::uint64_t>();
   request.click_m = options.at("click").get<double>();
   request.targets = !cloud, request.sample = cloud;
@@ -132,6 +151,11 @@ Result<Outcome> runRegister(const Document& document, const json& options, Progr
   if (!answer) return failure(answer.error());
   outcome.answer = *std::move(answer);
   outcome.text = textOf(outcome.answer);
+  if (!written.empty()) {
+    if (auto ok = writeRegistered(job, shift_m, request.files, written, outcome.report, progress); !ok)
+      return failure(ok.error());
+    for (const auto& file : written) outcome.answer["files"].push_back(file.string());
+  }
   outcome.description =
       fmt::format("Registered {} stations {}", measured->scans.size(), cloud ? "cloud to cloud" : "by targets");
   outcome.document.job = std::make_shared<const Job>(std::move(job));

@@ -8,6 +8,7 @@
 
 #include "project/instruments.h"
 #include "project/model_verbs.h"
+#include "project/output_place.h"
 
 namespace standpoint {
 
@@ -43,7 +44,7 @@ Result<void> chooseOutput(ScanRequest& request, const fs::path& output) {
                      "--output");
     }
     request.one_file = request.format->many_scans || request.stations.size() == 1;
-    return {};
+    return checkFolderOf(output, "--output");
   }
   request.format = cloudFormatFor("x.e57");
   std::error_code error;
@@ -63,6 +64,25 @@ Result<Effects> effectsFrom(const json& options) {
 }
 
 }  // namespace
+
+std::string leftOut(Effects effects) {
+  std::string names;
+  for (const auto& e : effectNames())
+    if (!effects.has(e.effect)) names += (names.empty() ? "" : ",") + std::string(e.name);
+  return names;
+}
+
+ScanChoice choiceOf(const ScanRequest& request) {
+  return {.instrument = request.instrument.id,
+          .settings = request.settings.values,
+          .seed = request.options.seed,
+          .effects = request.options.effects,
+          .weather = request.options.weather,
+          .truth = request.options.channels.truth,
+          .compensator = request.levelling.compensator,
+          .panorama = request.panorama,
+          .panorama_columns = request.panorama_columns};
+}
 
 Result<std::vector<std::size_t>> stationsFrom(const Job& job, const std::string& wanted) {
   std::vector<std::size_t> result;
@@ -123,6 +143,12 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const json& option
     if (!weather) return failure(weather.error());
     request.options.weather = *weather;
   }
+  if (options.contains("sun")) {
+    auto sun = sunFrom(options["sun"].get<std::string>());
+    if (!sun) return failure(sun.error());
+    request.options.sun = *sun;
+  }
+  request.options.interference = options.value("interference", 0.0);
   if (options.contains("mishap")) {
     auto mishap = mishapFrom(options["mishap"].get<std::vector<std::string>>());
     if (!mishap) return failure(mishap.error());
@@ -136,6 +162,15 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const json& option
     return failure(ErrorKind::usage, "these settings take no images: a panorama needs them", "--panorama");
   if (!request.panorama && !request.settings.laser)
     return failure(ErrorKind::usage, "these settings measure no points: without a panorama nothing is left", "--set");
+  if (options.contains("panorama-size")) {
+    const auto columns = options["panorama-size"].get<std::uint32_t>();
+    if (!request.panorama)
+      return failure(ErrorKind::usage, "there is no panorama to have a size: add --panorama", "--panorama-size");
+    if (columns % 2 != 0)
+      return failure(ErrorKind::usage, fmt::format("{} is odd: the height is half of it", columns), "--panorama-size");
+    request.instrument.camera.columns = columns;
+    request.panorama_columns = columns;
+  }
   const bool truth = options.value("truth", false);
   request.options.channels = {
       .time = truth, .returns = truth || request.instrument.waveform.most_returns > 1, .truth = truth};
@@ -146,13 +181,21 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const json& option
   if (options.contains("shard"))
     if (auto ok = shard(request.stations, options["shard"].get<std::string>()); !ok) return failure(ok.error());
   if (auto ok = chooseOutput(request, options.at("output").get<std::string>()); !ok) return failure(ok.error());
+  request.as = options.value("as", "");
+  const auto writer = writerOf(*request.format, request.as);
+  if (!writer) return failure(writer.error());
+  request.writer = *writer;
   request.resume = options.value("resume", false);
   return request;
 }
 
-Result<MaterialAssignment> scanAssignment(const Document& document, Report& report, Progress& progress) {
+void noteDefaultRules(const Document& document, Report& report) {
+  if (!document.materials)
+    report.note("materials", "no materials were assigned yet; the default rules were used for this scan");
+}
+
+Result<MaterialAssignment> scanAssignment(const Document& document, Progress& progress) {
   if (document.materials) return document.materials->result.assignment;
-  report.note("materials", "no materials were assigned yet; the default rules were used for this scan");
   auto assigned = assignDocumentMaterials(document, {}, progress);
   if (!assigned) return failure(assigned.error());
   return assigned->document.materials->result.assignment;

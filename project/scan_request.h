@@ -22,13 +22,21 @@ struct ScanRequest {
   ScanOptions options;
   std::vector<std::size_t> stations;  // indices into the job
   const CloudFormat* format = nullptr;
+  std::string as;                     // variant of the format, or empty
+  CloudFormat::Writer writer = nullptr;
   std::filesystem::path output;
   bool one_file = false;  // all stations in `output`; else a file each
   Levelling levelling;
   bool panorama = false;  // each station takes its pictures, and the points are coloured from them
+  std::uint32_t panorama_columns = 0;  // that were asked for; 0: the instrument's own
   Mishap mishap;
   bool resume = false;  // stations that an earlier run finished are not scanned again
 };
+
+// What of it the next scan would begin with.
+ScanChoice choiceOf(const ScanRequest& request);
+// The effects that are left out, separated by commas: what effectsWithout reads.
+std::string leftOut(Effects effects);
 
 Result<ScanRequest> scanRequestFrom(const Document& document, const nlohmann::json& options);
 
@@ -36,8 +44,9 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const nlohmann::js
 Result<std::vector<std::size_t>> stationsFrom(const Job& job, const std::string& wanted);
 // The instrument with what --set says.
 Result<ScanSettings> settingsFrom(const Instrument& instrument, const nlohmann::json& options);
-// What the document assigns, else what the default rules would, which is then noted.
-Result<MaterialAssignment> scanAssignment(const Document& document, Report& report, Progress& progress);
+// What the document assigns, else what the default rules would, and the note that says so.
+Result<MaterialAssignment> scanAssignment(const Document& document, Progress& progress);
+void noteDefaultRules(const Document& document, Report& report);
 
 // Where the station's points go.
 std::filesystem::path fileOf(const ScanRequest& request, const Station& station);

@@ -11,6 +11,7 @@
 #include "project/geodesy.h"
 #include "project/scan_identity.h"
 #include "project/scan_parts.h"
+#include "project/scan_preparation.h"
 #include "project/scan_request.h"
 #include "project/survey_verbs.h"
 #include "scanners/panorama.h"
@@ -93,6 +94,25 @@ Scan record(const ScanCount& count, const ScanRequest& request, const fs::path& 
   return s;
 }
 
+// Whoever watches gets each block before the file does: it shall be seen soon.
+class WatchedSink : public PointSink {
+ public:
+  WatchedSink(PointSink& file, PointSink& watcher) : file_(file), watcher_(watcher) {}
+  Result<void> begin(const ScanHeader& header) override { return both([&](PointSink& s) { return s.begin(header); }); }
+  Result<void> write(const PointBlock& block) override { return both([&](PointSink& s) { return s.write(block); }); }
+  Result<void> picture(const StationPicture& picture) override { return file_.picture(picture); }
+  Result<void> end() override { return both([](PointSink& s) { return s.end(); }); }
+  Result<void> close() override { return {}; }
+
+ private:
+  Result<void> both(const auto& act) {
+    if (auto ok = act(watcher_); !ok) return ok;
+    return act(file_);
+  }
+  PointSink& file_;
+  PointSink& watcher_;
+};
+
 // One station into an open sink.
 Result<ScanCount> scanStation(const RayScene& scene, const ScanWorld& world, const Station& station,
                               const ScanHeader& header, const ScanRequest& request, PointSink& file,
@@ -121,14 +141,14 @@ Result<ScanCount> scanStation(const RayScene& scene, const ScanWorld& world, con
 // Many stations, one after the other: into one file or a file each, with what is finished kept for a run to come.
 class ScanRun {
  public:
-  ScanRun(const Document& document, const ScanRequest& request, const ScanWorld& world, const RayScene& scene,
-          std::vector<Pose> believed)
+  ScanRun(const Document& document, const ScanRequest& request, const ScanCompany& company, std::vector<Pose> believed)
       : document_(document),
         request_(request),
-        world_(world),
-        scene_(scene),
+        world_(company.preparation->world),
+        scene_(*company.preparation->scene),
+        watcher_(company.watcher.get()),
         believed_(std::move(believed)),
-        fingerprint_(fingerprintOf(world)),
+        fingerprint_(company.preparation->fingerprint),
         parts_(request.output),
         job_(*document.job) {}
 
@@ -208,9 +228,11 @@ class ScanRun {
     if (!isJoined()) return earlier.count;
     const auto& name = job_.stations[request_.stations[k]].name;
     if (auto ok = open(file); !ok) return failure(ok.error());
-    if (auto ok = sink_->begin(header(k, guid)); !ok) return failure(ok.error());
-    if (auto ok = playTape(parts_.pointsOf(name), *sink_, progress); !ok) return failure(ok.error());
-    if (auto ok = sink_->end(); !ok) return failure(ok.error());
+    const auto watched = watchedOr(*sink_);
+    PointSink& sink = watched ? *watched : *sink_;
+    if (auto ok = sink.begin(header(k, guid)); !ok) return failure(ok.error());
+    if (auto ok = playTape(parts_.pointsOf(name), sink, progress); !ok) return failure(ok.error());
+    if (auto ok = sink.end(); !ok) return failure(ok.error());
     if (auto ok = closeAfter(k); !ok) return failure(ok.error());
     return earlier.count;
   }
@@ -224,7 +246,9 @@ class ScanRun {
       if (!made) return failure(made.error());
       tape = *std::move(made);
     }
-    PointSink& sink = tape ? static_cast<PointSink&>(*tape) : *sink_;
+    PointSink& file_sink = tape ? static_cast<PointSink&>(*tape) : *sink_;
+    const auto watched = watchedOr(file_sink);
+    PointSink& sink = watched ? *watched : file_sink;
     auto count = scanStation(scene_, world_, station, header(k, guid), request_, sink, report, progress);
     if (!count) return count;
     if (tape)
@@ -237,9 +261,14 @@ class ScanRun {
     return count;
   }
 
+  // Null where nobody watches.
+  std::unique_ptr<PointSink> watchedOr(PointSink& file) const {
+    return watcher_ == nullptr ? nullptr : std::make_unique<WatchedSink>(file, *watcher_);
+  }
+
   Result<void> open(const fs::path& file) {
     if (sink_) return {};
-    auto opened = request_.format->writer(file);
+    auto opened = request_.writer(file);
     if (!opened) return failure(opened.error());
     sink_ = *std::move(opened);
     return {};
@@ -257,6 +286,7 @@ class ScanRun {
   const ScanRequest& request_;
   const ScanWorld& world_;
   const RayScene& scene_;
+  PointSink* watcher_;
   std::vector<Pose> believed_;
   std::uint64_t fingerprint_ = 0;
   ScanParts parts_;
@@ -268,6 +298,10 @@ class ScanRun {
 }  // namespace
 
 Result<Outcome> runScan(const Document& document, const json& options, Progress& progress) {
+  return runScan(document, options, ScanCompany(), progress);
+}
+
+Result<Outcome> runScan(const Document& document, const json& options, const ScanCompany& company, Progress& progress) {
   auto request = scanRequestFrom(document, options);
   if (!request) return failure(request.error());
   Outcome outcome{document, json::object(), {}, {}};
@@ -277,18 +311,21 @@ Result<Outcome> runScan(const Document& document, const json& options, Progress&
     if (!pose) return failure(pose.error());
     believed.push_back(*pose);
   }
-  auto assignment = scanAssignment(document, outcome.report, progress);
-  if (!assignment) return failure(assignment.error());
-  const ScanWorld world = scanWorld(document, *assignment);
-  auto scene = RayScene::build(world.environment, progress);
-  if (!scene) return failure(scene.error());
-  ScanRun scan_run(document, *request, world, **scene, std::move(believed));
+  noteDefaultRules(document, outcome.report);
+  ScanCompany at_hand = company;
+  if (!at_hand.preparation || !at_hand.preparation->fits(document)) {
+    auto made = prepareScan(document, nullptr, progress);
+    if (!made) return failure(made.error());
+    at_hand.preparation = *std::move(made);
+  }
+  ScanRun scan_run(document, *request, at_hand, std::move(believed));
   if (auto ok = scan_run.run(progress); !ok) return failure(ok.error());
   outcome.report.append(scan_run.report);
   outcome.description =
       fmt::format("Scanned {} station{} with {} {}", scan_run.rows.size(), scan_run.rows.size() == 1 ? "" : "s",
                   request->instrument.maker, request->instrument.model);
   outcome.answer["stations"] = std::move(scan_run.rows);
+  outcome.document.scanning = std::make_shared<const ScanChoice>(choiceOf(*request));
   outcome.document.job = std::make_shared<const Job>(std::move(scan_run.job()));
   return outcome;
 }

@@ -15,12 +15,14 @@ namespace standpoint {
 
 namespace {
 
-// Of a point in an E57 of ours: four floats, the grid, the labels, the colour; of each 1024 bytes of a page 4 are its
+// Of a point in an E57 of ours: four floats, the grid, the labels, the colour, what is known of it; of each 1024 bytes of a page 4 are its
 // sum.
-double bytesPerPoint(const ScanSettings& settings, const Environment& environment, std::size_t materials) {
+double bytesPerPoint(const ScanSettings& settings, const ScanChannels& channels, const Environment& environment,
+                     std::size_t materials) {
   using e57::bitsFor;
   const double bits = 4 * 32 + bitsFor(settings.rows - 1) + bitsFor(settings.columns - 1) +
-                      bitsFor(environment.products.size()) + bitsFor(materials) + (settings.imaging ? 24 : 0);
+                      bitsFor(environment.products.size()) + bitsFor(materials) + (settings.imaging ? 24 : 0) +
+                      (channels.time ? 64 : 0) + (channels.returns ? 16 : 0) + (channels.truth ? 6 * 32 + 8 : 0);
   return bits / 8 * 1024 / 1020;
 }
 
@@ -87,7 +89,7 @@ Result<SurveyPlan> planSurvey(const Job& job, std::shared_ptr<const RayScene> sc
                               std::shared_ptr<const MaterialAssignment> assignment, const PlanRequest& request,
                               Progress& progress) {
   const auto& environment = scene->environment();
-  const double bytes_per_point = bytesPerPoint(request.settings, environment, assignment->materials.size());
+  const double bytes_per_point = bytesPerPoint(request.settings, request.channels, environment, assignment->materials.size());
   progress.stage("Sample surfaces", 0, 0.2);
   auto samples = sampleSurfaces(*scene, request.samples, request.seed, progress);
   if (!samples) return failure(samples.error());

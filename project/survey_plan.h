@@ -42,6 +42,7 @@ struct PlanRequest {
   Instrument instrument;
   ScanSettings settings;
   std::vector<std::size_t> stations;  // indices into the job
+  ScanChannels channels;              // that the file would have
   SeenWhen wanted;
   std::size_t samples = 40000;
   std::uint64_t seed = 1;

@@ -73,14 +73,9 @@ Vector3d clicked(const Station& station, const Target& target, std::size_t numbe
 class NearSink final : public PointSink {
  public:
   NearSink(const Job& job, const MeasuringRequest& request, const fs::path& file, std::vector<StationPoints>& all)
-      : job_(job), request_(request), file_(file), all_(all) {
-    for (std::size_t i = 0; i < job.stations.size(); ++i)
-      for (const auto& scan : job.stations[i].scans)
-        if (fs::path(scan.file).filename() == file.filename() && (in_file_.empty() || in_file_.back() != i))
-          in_file_.push_back(i);
-  }
+      : job_(job), request_(request), file_(file), all_(all), stations_(job, file) {}
   Result<void> begin(const ScanHeader& header) override {
-    auto station = stationOf(header);
+    auto station = stations_.next(header);
     if (!station) return failure(station.error());
     for (const auto& s : all_)
       if (s.scan.station == *station)
@@ -108,35 +103,15 @@ class NearSink final : public PointSink {
     }
     return {};
   }
-  Result<void> end() override { return ++scans_, Result<void>{}; }
+  Result<void> end() override { return {}; }
   Result<void> close() override { return {}; }
 
  private:
-  Result<std::size_t> stationOf(const ScanHeader& header) const {
-    if (header.rows == 0 || header.columns == 0)
-      return failure(ErrorKind::unusable,
-                     fmt::format("scan '{}' has no grid of a scanner, so nothing says from where its points were seen: "
-                                 "give an E57 or a PTX as it was scanned",
-                                 header.name),
-                     file_.string());
-    for (std::size_t i = 0; i < job_.stations.size(); ++i)
-      if (job_.stations[i].name == header.name) return i;
-    if (scans_ < in_file_.size()) return in_file_[scans_];
-    std::vector<std::string> names;
-    for (const auto& s : job_.stations) names.push_back(s.name);
-    return failure(
-        ErrorKind::usage,
-        fmt::format("scan '{}' is of no station of this project ({}): scan it here, or name a station so", header.name,
-                    names.empty() ? "there is none" : fmt::format("{}", fmt::join(names, ", "))),
-        file_.string());
-  }
-
   const Job& job_;
   const MeasuringRequest& request_;
   const fs::path& file_;
   std::vector<StationPoints>& all_;
-  std::vector<std::size_t> in_file_;
-  std::size_t scans_ = 0;
+  StationsOfFile stations_;
 };
 
 Result<TargetFit> measured(const Target& target, const Near& near, bool has_intensity) {
@@ -164,6 +139,33 @@ void measure(const Job& job, StationPoints& station, TargetMeasurements& result)
 }
 
 }  // namespace
+
+StationsOfFile::StationsOfFile(const Job& job, fs::path file) : job_(job), file_(std::move(file)) {
+  for (std::size_t i = 0; i < job.stations.size(); ++i)
+    for (const auto& scan : job.stations[i].scans)
+      if (fs::path(scan.file).filename() == file_.filename() && (in_file_.empty() || in_file_.back() != i))
+        in_file_.push_back(i);
+}
+
+Result<std::size_t> StationsOfFile::next(const ScanHeader& header) {
+  const std::size_t number = scans_++;
+  if (header.rows == 0 || header.columns == 0)
+    return failure(ErrorKind::unusable,
+                   fmt::format("scan '{}' has no grid of a scanner, so nothing says from where its points were seen: "
+                               "give an E57 or a PTX as it was scanned",
+                               header.name),
+                   file_.string());
+  for (std::size_t i = 0; i < job_.stations.size(); ++i)
+    if (job_.stations[i].name == header.name) return i;
+  if (number < in_file_.size()) return in_file_[number];
+  std::vector<std::string> names;
+  for (const auto& s : job_.stations) names.push_back(s.name);
+  return failure(
+      ErrorKind::usage,
+      fmt::format("scan '{}' is of no station of this project ({}): scan it here, or name a station so", header.name,
+                  names.empty() ? "there is none" : fmt::format("{}", fmt::join(names, ", "))),
+      file_.string());
+}
 
 Result<TargetMeasurements> measureTargets(const Document& document, const MeasuringRequest& request,
                                           Progress& progress) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/points.h"
 #include "pointclouds/target_fit.h"
 #include "project/document.h"
 
@@ -32,6 +33,19 @@ struct TargetMeasurements {
   Report report;                         // of reading
 };
 
+// Which station each scan of a file is of: its name says it, else the file that the job says its scans are in.
+class StationsOfFile {
+ public:
+  StationsOfFile(const Job& job, std::filesystem::path file);
+  Result<std::size_t> next(const ScanHeader& header);   // of the next scan of the file
+
+ private:
+  const Job& job_;
+  std::filesystem::path file_;
+  std::vector<std::size_t> in_file_;
+  std::size_t scans_ = 0;
+};
+
 struct MeasuringRequest {
   std::vector<std::filesystem::path> files;
   std::uint64_t seed = 1;
@@ -40,8 +54,7 @@ struct MeasuringRequest {
   bool sample = false;
 };
 
-// Reads every file once; keeps only points near where targets are, and a sample. Which station a scan is says its name,
-// else the file that the job says its scans are in.
+// Reads every file once; keeps only points near where targets are, and a sample.
 Result<TargetMeasurements> measureTargets(const Document& document, const MeasuringRequest& request,
                                           Progress& progress);
 

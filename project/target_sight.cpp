@@ -73,28 +73,33 @@ std::string whyNot(const TargetSight& s, const Target& t, const TargetRules& rul
 
 }  // namespace
 
+TargetSight sightFrom(const Station& station, const RayScene& scene, const Target& target, const TargetRules& rules,
+                      const std::optional<ScanSettings>& settings) {
+  TargetSight s;
+  s.station = station.name;
+  const Vector3d& from = station.true_pose.translation;
+  const Vector3d way = from - target.centre;
+  s.distance_m = way.norm();
+  if (target.kind == TargetKind::checkerboard)
+    s.incidence_rad = std::acos(std::clamp(target.normal.dot(way) / s.distance_m, -1.0, 1.0));
+  look(scene, target, from, s);
+  s.most_distance_m = rules.most_distance_m;
+  if (settings) {
+    s.points = pointsOn(target, s.distance_m, s.incidence_rad, *settings);
+    s.most_distance_m =
+        std::min({s.most_distance_m, settings->max_range_m, distanceFor(target, rules.least_points, *settings)});
+  }
+  s.why_not = whyNot(s, target, rules);
+  return s;
+}
+
 Result<std::vector<TargetSight>> sightsOf(const Document& document, const RayScene& scene, const Target& target,
                                           const TargetRules& rules, const SightRequest& request) {
   std::vector<TargetSight> sights;
   for (const auto& station : document.job->stations) {
-    TargetSight s;
-    s.station = station.name;
-    const Vector3d& from = station.true_pose.translation;
-    const Vector3d way = from - target.centre;
-    s.distance_m = way.norm();
-    if (target.kind == TargetKind::checkerboard)
-      s.incidence_rad = std::acos(std::clamp(target.normal.dot(way) / s.distance_m, -1.0, 1.0));
-    look(scene, target, from, s);
     const auto settings = settingsAt(station, request);
     if (!settings) return failure(settings.error());
-    s.most_distance_m = rules.most_distance_m;
-    if (*settings) {
-      s.points = pointsOn(target, s.distance_m, s.incidence_rad, **settings);
-      s.most_distance_m =
-          std::min({s.most_distance_m, (*settings)->max_range_m, distanceFor(target, rules.least_points, **settings)});
-    }
-    s.why_not = whyNot(s, target, rules);
-    sights.push_back(std::move(s));
+    sights.push_back(sightFrom(station, scene, target, rules, *settings));
   }
   return sights;
 }

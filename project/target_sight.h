@@ -27,6 +27,9 @@ struct SightRequest {
   SettingValues settings;
 };
 
+// From one station; without `settings` only the rules say how far.
+TargetSight sightFrom(const Station& station, const RayScene& scene, const Target& target, const TargetRules& rules,
+                      const std::optional<ScanSettings>& settings);
 Result<std::vector<TargetSight>> sightsOf(const Document& document, const RayScene& scene, const Target& target,
                                           const TargetRules& rules, const SightRequest& request);
 nlohmann::json toJson(const std::vector<TargetSight>& sights);

@@ -113,7 +113,12 @@ Result<VerifyFound> found(const Document& document, const Underlay& underlay, co
   for (const auto n : f.measured.meetings) with_station += n;
   const auto of = [&](BeamMeeting meeting) { return f.measured.meetings[static_cast<std::size_t>(meeting)]; };
   const auto near = of(BeamMeeting::met) + of(BeamMeeting::near) + of(BeamMeeting::edge) + of(BeamMeeting::shared);
-  if (near < 100 || static_cast<double>(near) < kFewOnModel * static_cast<double>(with_station))
+  constexpr std::uint64_t kFewest = 100;   // fewer say nothing of any material
+  if (with_station < kFewest)
+    return failure(ErrorKind::unusable, fmt::format("it has {} point{} seen from a known place, and fewer than {} are no evidence of a material: "
+                                                    "lay a fuller export of the scan under the model, `standpoint underlay PROJECT --add FILE`",
+                                                    with_station, with_station == 1 ? "" : "s", kFewest), underlay.name);
+  if (near < kFewest || static_cast<double>(near) < kFewOnModel * static_cast<double>(with_station))
     return failure(ErrorKind::unusable, fmt::format("{} of {} points lie on the model: register the cloud first, `standpoint underlay PROJECT "
                                                     "--register {} --pairs … --icp`", near, with_station, underlay.name), underlay.name);
   progress.stage("Placement of the cloud", 0.6, 0.85);

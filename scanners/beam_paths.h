@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "scanners/facet_cache.h"
+#include "scanners/pane_passage.h"
 
 namespace standpoint {
 
@@ -15,6 +16,7 @@ struct PathEnd {
   float cosine = 1;
   std::uint8_t flags = 0;    // point_flag
   Eigen::Vector3f place = Eigen::Vector3f::Zero();   // local frame
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // towards the light, where there is daylight; else not set
   const Optics* optics = nullptr;
   std::uint32_t product = 0, surface = 0, material = 0;
   float known_x = -1;        // received power of what is no surface; else below 0
@@ -38,6 +40,8 @@ class BeamPaths {
     int mirrors = 0;
   };
   void follow(const Ray& ray, NearestHit hit, std::vector<PathEnd>& ends);
+  void addEnd(const Ray& ray, const PanePassage& passage, const MetFacet& met, double range_m,
+              std::vector<PathEnd>& ends) const;
   void reflect(const Ray& ray, const MetFacet& met, double range_m, double cosine, double gain, double excess_m,
                std::vector<PathEnd>& ends);
 

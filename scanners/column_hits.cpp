@@ -4,39 +4,89 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scanners/target_clones.h"
+
 namespace standpoint {
 
+namespace {
+
+// Directions cosine · ahead + sine · up of sixteen rows.
+STANDPOINT_CLONES void turn(const double* cosine, const double* sine, const double* ahead, const double* up,
+                            AxisLanes& lanes) {
+  for (int k = 0; k < kPacket; ++k) {
+    lanes.direction_x[k] = cosine[k] * ahead[0] + sine[k] * up[0];
+    lanes.direction_y[k] = cosine[k] * ahead[1] + sine[k] * up[1];
+    lanes.direction_z[k] = cosine[k] * ahead[2] + sine[k] * up[2];
+  }
+}
+
+STANDPOINT_CLONES void round(const AxisLanes& lanes, RayPacket& rays) {
+  for (int k = 0; k < kPacket; ++k) {
+    rays.origin_x[k] = static_cast<float>(lanes.origin_x[k]);
+    rays.origin_y[k] = static_cast<float>(lanes.origin_y[k]);
+    rays.origin_z[k] = static_cast<float>(lanes.origin_z[k]);
+    rays.direction_x[k] = static_cast<float>(lanes.direction_x[k]);
+    rays.direction_y[k] = static_cast<float>(lanes.direction_y[k]);
+    rays.direction_z[k] = static_cast<float>(lanes.direction_z[k]);
+  }
+}
+
+}  // namespace
+
 ColumnHits::ColumnHits(const ScanPlan& plan)
-    : plan_(&plan), facets_(plan.settings.rows + kPacket + 2 * kMostReach, kNoFacet), ranges_(plan.settings.rows + kPacket, 0) {}
+    : plan_(&plan),
+      facets_(plan.settings.rows + kPacket, kNoFacet),
+      ranges_(plan.settings.rows + kPacket, static_cast<float>(plan.farthest_m)) {
+  if (plan.reach() > 0) planes_.assign(plan.settings.rows + kPacket + 2 * kMostReach, kNoPlane);
+}
 
 // Clockwise seen from above.
-void ColumnHits::trace(std::uint32_t column) {
+void ColumnHits::trace(std::uint32_t column, FacetCache& facets) {
   column_ = column;
   const double azimuth = plan_->azimuth_rad(column);
   ahead_ = {std::cos(azimuth), -std::sin(azimuth), 0};
   lateral_ = {-std::sin(azimuth), -std::cos(azimuth), 0};
   const Pose pose = at(plan_->trajectory, 0);
-  still_ = {pose.translation, pose.rotation * ahead_, pose.rotation * lateral_, pose.rotation * Eigen::Vector3d::UnitZ()};
+  still_ = {pose.translation, pose.rotation * ahead_, pose.rotation * lateral_,
+            pose.rotation * Eigen::Vector3d::UnitZ()};
   RayPacket rays;
-  NearestHit hits[kPacket];
+  AxisLanes lanes;
   for (std::uint32_t first = 0; first < plan_->settings.rows; first += kPacket) {
     const int count = static_cast<int>(std::min<std::uint32_t>(kPacket, plan_->settings.rows - first));
-    for (int k = 0; k < count; ++k) {
-      const std::uint32_t row = first + static_cast<std::uint32_t>(k);
-      const Axes axes = this->axes(row);
-      const Eigen::Vector3d direction = plan_->cosine[row] * axes.ahead + plan_->sine[row] * axes.up;
-      rays.origin_x[k] = static_cast<float>(axes.origin.x());
-      rays.origin_y[k] = static_cast<float>(axes.origin.y());
-      rays.origin_z[k] = static_cast<float>(axes.origin.z());
-      rays.direction_x[k] = static_cast<float>(direction.x());
-      rays.direction_y[k] = static_cast<float>(direction.y());
-      rays.direction_z[k] = static_cast<float>(direction.z());
+    axes(first, lanes);
+    round(lanes, rays);
+    plan_->scene.intersect(rays, count, static_cast<float>(plan_->farthest_m), facets_.data() + first,
+                           ranges_.data() + first);
+  }
+  if (!planes_.empty()) findPlanes(facets);
+}
+
+void ColumnHits::axes(std::uint32_t first_row, AxisLanes& lanes) const {
+  if (!plan_->moves()) {
+    std::fill_n(lanes.origin_x, kPacket, still_.origin.x());
+    std::fill_n(lanes.origin_y, kPacket, still_.origin.y());
+    std::fill_n(lanes.origin_z, kPacket, still_.origin.z());
+    turn(plan_->cosine.data() + first_row, plan_->sine.data() + first_row, still_.ahead.data(), still_.up.data(),
+         lanes);
+    return;
+  }
+  for (std::uint32_t k = 0; k < std::min<std::uint32_t>(kPacket, plan_->settings.rows - first_row); ++k) {
+    const RayLine line = axis(first_row + k);
+    lanes.origin_x[k] = line.origin.x(), lanes.direction_x[k] = line.direction.x();
+    lanes.origin_y[k] = line.origin.y(), lanes.direction_y[k] = line.direction.y();
+    lanes.origin_z[k] = line.origin.z(), lanes.direction_z[k] = line.direction.z();
+  }
+}
+
+void ColumnHits::findPlanes(FacetCache& facets) {
+  std::uint64_t last = kNoFacet;
+  std::uint32_t plane = kNoPlane;
+  for (std::uint32_t row = 0; row < plan_->settings.rows; ++row) {
+    if (facets_[row] != last) {
+      last = facets_[row];
+      plane = last == kNoFacet ? kNoPlane : facets.of(last).plane;
     }
-    plan_->scene.intersect(rays, count, static_cast<float>(plan_->settings.max_range_m), hits);
-    for (int k = 0; k < count; ++k) {
-      facets_[first + static_cast<std::uint32_t>(k) + kMostReach] = hits[k].facet;
-      ranges_[first + static_cast<std::uint32_t>(k)] = hits[k].range_m;
-    }
+    planes_[row + kMostReach] = plane;
   }
 }
 
@@ -47,11 +97,8 @@ ColumnHits::Axes ColumnHits::axes(std::uint32_t row) const {
 }
 
 RayLine ColumnHits::axis(std::uint32_t row) const {
-  if (plan_->moves()) {
-    const Beam moved = beam(row);
-    return {moved.origin, moved.direction};
-  }
-  return {still_.origin, plan_->cosine[row] * still_.ahead + plan_->sine[row] * still_.up};
+  const Axes axes = this->axes(row);
+  return {axes.origin, plan_->cosine[row] * axes.ahead + plan_->sine[row] * axes.up};
 }
 
 Beam ColumnHits::beam(std::uint32_t row) const {

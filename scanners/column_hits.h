@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "scanners/facet_cache.h"
 #include "scanners/footprint.h"
 #include "scanners/scan_plan.h"
 
@@ -11,30 +12,47 @@ namespace standpoint {
 // How many pulses aside a beam may reach.
 constexpr std::uint32_t kMostReach = 8;
 
+// Axes of sixteen beams side by side, local frame.
+struct alignas(64) AxisLanes {
+  double origin_x[kPacket] = {}, origin_y[kPacket] = {}, origin_z[kPacket] = {};
+  double direction_x[kPacket] = {}, direction_y[kPacket] = {}, direction_z[kPacket] = {};
+};
+
 // The beams of one column: where they start and what their axes meet first.
 class ColumnHits {
  public:
   explicit ColumnHits(const ScanPlan& plan);
-  void trace(std::uint32_t column);
+  void trace(std::uint32_t column, FacetCache& facets);
   std::uint32_t column() const { return column_; }
-  NearestHit hit(std::uint32_t row) const { return {facets_[row + kMostReach], ranges_[row]}; }
-  // Facets from a row on; kMostReach before the first row and as many beyond the last packet are there, without a facet.
-  const std::uint64_t* facets(std::uint32_t row) const { return facets_.data() + row + kMostReach; }
+  NearestHit hit(std::uint32_t row) const { return {facets_[row], ranges_[row]}; }
+  // From a row on; there is a whole packet's worth, beyond the last row without a facet and at the longest range.
+  const std::uint64_t* facets(std::uint32_t row) const { return facets_.data() + row; }
+  const float* ranges_m(std::uint32_t row) const { return ranges_.data() + row; }
+  // Planes from a row on, where beams have a width; kMostReach before the first row and as many beyond the last packet
+  // are there, without a plane.
+  const std::uint32_t* planes(std::uint32_t row) const { return planes_.data() + row + kMostReach; }
   RayLine axis(std::uint32_t row) const;
+  // The same of the rows from one on.
+  void axes(std::uint32_t first_row, AxisLanes& lanes) const;
   Beam beam(std::uint32_t row) const;
+  // Horizontal unit vectors of the scanner's frame.
+  const Eigen::Vector3d& ahead() const { return ahead_; }
+  const Eigen::Vector3d& lateral() const { return lateral_; }
 
  private:
   struct Axes {
     Eigen::Vector3d origin, ahead, across, up;
   };
   Axes axes(std::uint32_t row) const;
+  void findPlanes(FacetCache& facets);
 
-  const ScanPlan* plan_;                // they change places
+  const ScanPlan* plan_;  // they change places
   std::uint32_t column_ = ~0U;
-  Eigen::Vector3d ahead_, lateral_;     // horizontal unit vectors of the scanner's frame; up is its z
-  Axes still_;                          // of a scanner that does not move
+  Eigen::Vector3d ahead_, lateral_;  // up is the scanner's z
+  Axes still_;                       // of a scanner that does not move
   std::vector<std::uint64_t> facets_;
   std::vector<float> ranges_;
+  std::vector<std::uint32_t> planes_;
 };
 
 }  // namespace standpoint

@@ -6,8 +6,8 @@
 
 namespace standpoint {
 
-const std::array<EffectName, 16>& effectNames() {
-  static constexpr std::array<EffectName, 16> kNames = {{
+const std::array<EffectName, 23>& effectNames() {
+  static constexpr std::array<EffectName, 23> kNames = {{
       {Effect::range_noise, "range-noise", "white noise of the range"},
       {Effect::angle_noise, "angle-noise", "jitter of the angles"},
       {Effect::bias, "bias", "systematic errors of range and angles"},
@@ -24,6 +24,13 @@ const std::array<EffectName, 16>& effectNames() {
       {Effect::saturation, "saturation", "range errors by too much light"},
       {Effect::quantisation, "quantisation", "the steps of the intensity"},
       {Effect::levelling, "levelling", "the error of the compensator where a station leans"},
+      {Effect::amplitude_noise, "amplitude-noise", "the noise of the intensity"},
+      {Effect::filters, "filters", "what the instrument's own filters flag and drop"},
+      {Effect::ambiguity, "ambiguity", "the folding of far ranges by a phase-shift instrument"},
+      {Effect::halo, "halo", "false points around retroreflectors"},
+      {Effect::sun, "sun", "daylight in the receiver"},
+      {Effect::interference, "interference", "returns of another instrument's light"},
+      {Effect::rough_mirrors, "rough-mirrors", "mirror images in what is wet or glossy but not smooth"},
   }};
   return kNames;
 }

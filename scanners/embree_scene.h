@@ -36,6 +36,15 @@ constexpr int kPacket = 16;
 struct alignas(64) RayPacket {
   float origin_x[kPacket], origin_y[kPacket], origin_z[kPacket];
   float direction_x[kPacket], direction_y[kPacket], direction_z[kPacket];
+
+  void set(int lane, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
+    origin_x[lane] = static_cast<float>(origin.x());
+    origin_y[lane] = static_cast<float>(origin.y());
+    origin_z[lane] = static_cast<float>(origin.z());
+    direction_x[lane] = static_cast<float>(direction.x());
+    direction_y[lane] = static_cast<float>(direction.y());
+    direction_z[lane] = static_cast<float>(direction.z());
+  }
 };
 
 class EmbreeScene final : public RayScene {
@@ -51,11 +60,14 @@ class EmbreeScene final : public RayScene {
   const Environment& environment() const override { return *environment_; }
 
   // The first `count` rays of the packet; they should point to about the same side (coherent).
+  void intersect(const RayPacket& rays, int count, float max_range_m, std::uint64_t* facets, float* ranges_m) const;
   void intersect(const RayPacket& rays, int count, float max_range_m, NearestHit* hits) const;
   // One ray from `min_range_m` on.
   NearestHit nearest(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit, double min_range_m,
                      double max_range_m) const;
   Facet facet(std::uint64_t number) const;
+  std::size_t placementCount() const { return placements_.size(); }
+  const Instance& placed(std::size_t placement) const { return environment_->instances[placements_[placement]]; }
 
  private:
   void attachPlaced(std::uint32_t placement);

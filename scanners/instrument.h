@@ -71,6 +71,27 @@ struct Saturation {
   double pedestal = 0;             // share of the beam's power in its wide wings: the halo of a reflector
 };
 
+// How the amplitude of a return strays (docs/scanning.md).
+struct AmplitudeNoise {
+  double aperture_m = 0;           // diameter of the receiver's opening: over it speckle is averaged
+  double jitter = 0;               // 1 σ of a strong return as a share of it: the pulse's energy, the detector's gain
+};
+
+// A measured amplitude over range, where the near range is no simple law: below `below_m` that polynomial, in dB.
+struct NearRangeCurve {
+  double below_m = 0;              // 0 = there is none
+  std::vector<double> amplitude_db;   // coefficients of 1, R, R² …, R in m
+  double far_db = 0;               // beyond, the amplitude is far_db - 20 lg R
+};
+
+// What the instrument's own filters find fault with; 0 = it has no such filter.
+struct PointFilters {
+  double deviation_m = 0;          // σ of the ranges in one echo: a mixed point
+  double weak_factor = 0;          // less received power than that times the least that is detected
+  bool overload = false;           // more than the receiver can measure
+  bool operator==(const PointFilters&) const = default;
+};
+
 // What takes its pictures.
 struct PanoramaCamera {
   std::uint32_t columns = 0;       // of the panorama that is delivered
@@ -121,9 +142,14 @@ struct Instrument {
   std::vector<RangeNoise> range_noise;           // 1 σ on a plane
   double near_range_m = 0;         // η_opt = 1 / (1 + (near_range / R)^power), physics.md §2.2; 0 = none
   int near_range_power = 2;
+  NearRangeCurve near_range_curve;     // instead of these two, where there is one
   double detection_softness = 0;   // σ of the detection threshold as a share of it, §2.7
   double intensity_low_db = 0, intensity_high_db = 0;   // 10 lg x that is stored as 0 and as 1
   int intensity_levels = 0;        // quantisation of the stored intensity
+  AmplitudeNoise amplitude;
+  double sun_noise = 0;            // variance that 1000 W/m² on a white surface head-on add to the dark receiver's, in its units
+  double unambiguous_m = 0;        // of a phase-shift instrument: longer ranges are folded by it; 0 = none is known
+  PointFilters filters;
   double mirror_max_hz = 0;        // 0 = no published limit
   double column_factor = 1;        // share of measured columns that the device adds beyond the grid (overlap)
   double overhead_s = 0;           // spin-up and saving, part of scan_seconds
@@ -160,6 +186,9 @@ struct ScanSettings {
   int passes = 1;                  // 2 = double scan
   bool laser = true;               // false: pictures only
   bool imaging = false;
+  double unambiguous_m = 0;        // the instrument's own, or that of the chosen rate
+  PointFilters drops;              // by these filters points are dropped; others of the instrument only flag them
+  double nearest_m = 0, farthest_m = 0;   // the user's gate on the measured range; 0 = none
   PanoramaCamera camera;           // the instrument's, as the settings have it
   double scan_seconds = 0, imaging_seconds = 0;   // of the real instrument
 };

@@ -40,6 +40,7 @@ class Reader : FigureReader {
     readWaveform(root);
     readCorrelated(root);
     readSaturation(root);
+    if (root.object->contains("filters")) readFilters(root);
     readSettings(root);
     close(root);
     if (!error()) checkWhole();
@@ -61,6 +62,8 @@ class Reader : FigureReader {
     instrument_.reference_reflectivity = figure(range, "reference_reflectivity", {0.001, 1});
     instrument_.range_bias_m = figure(range, "bias_mm", {0, 1000, 1e-3});
     instrument_.range_bias_ppm = figure(range, "bias_ppm", {0, 10000});
+    if (instrument_.technology == "phase_shift" && range.object->contains("unambiguous_m"))
+      instrument_.unambiguous_m = figure(range, "unambiguous_m", {0, 100000});
     close(range);
   }
 
@@ -139,7 +142,29 @@ class Reader : FigureReader {
     instrument_.intensity_low_db = figure(signal, "intensity_low_db", {-200, 100});
     instrument_.intensity_high_db = figure(signal, "intensity_high_db", {-200, 100});
     instrument_.intensity_levels = static_cast<int>(figure(signal, "intensity_levels", {2, 65536}));
+    instrument_.amplitude.aperture_m = figure(signal, "receiver_aperture_mm", {0.1, 1000, 1e-3});
+    instrument_.amplitude.jitter = figure(signal, "amplitude_jitter", {0, 0.5});
+    instrument_.sun_noise = figure(signal, "sun_noise", {0, 1000});
+    if (signal.object->contains("near_range_curve")) readNearRangeCurve(signal);
     close(signal);
+  }
+
+  void readNearRangeCurve(Group& signal) {
+    Group group = child(signal, "near_range_curve");
+    auto& curve = instrument_.near_range_curve;
+    curve.below_m = figure(group, "below_m", {0.1, 1000});
+    curve.amplitude_db = figures(group, "amplitude_db", {-1000, 1000}, 4);
+    curve.far_db = figure(group, "far_db", {-1000, 1000});
+    close(group);
+  }
+
+  void readFilters(Group& root) {
+    Group group = child(root, "filters");
+    auto& filters = instrument_.filters;
+    filters.deviation_m = figure(group, "deviation_mm", {0, 10000, 1e-3});
+    filters.weak_factor = figure(group, "weak_factor", {0, 1000});
+    filters.overload = count(group, "overload", {0, 1}) == 1;
+    close(group);
   }
 
   void readNoise(Group& root) {
@@ -214,11 +239,13 @@ class Reader : FigureReader {
   }
 
   void readNumber(Group& group, InstrumentSetting& setting) {
-    static const std::set<std::string> kKnown = {"horizontal_from", "horizontal_to", "vertical_from", "vertical_to", "line_step", "frame_step"};
+    static const std::set<std::string> kKnown = {"horizontal_from", "horizontal_to", "vertical_from", "vertical_to",
+                                                "nearest_m", "farthest_m", "line_step", "frame_step"};
     if (!kKnown.contains(setting.key))
-      return fail(group.pointer + "/key", "only the edges of an area and the steps of a pattern are numbers; a setting needs choices");
-    setting.minimum = figure(group, "minimum", {-360, 360});
-    setting.maximum = figure(group, "maximum", {-360, 360});
+      return fail(group.pointer + "/key", "only the edges of an area and of the range and the steps of a pattern are numbers; a setting needs choices");
+    const Domain domain = setting.key.ends_with("_m") ? Domain{0, 10000} : Domain{-360, 360};
+    setting.minimum = figure(group, "minimum", domain);
+    setting.maximum = figure(group, "maximum", domain);
     const Json standard = Json::parse(setting.standard, nullptr, false);
     if (!error()) checked(group.pointer + "/standard", standard, {setting.minimum, setting.maximum});
   }
@@ -245,8 +272,9 @@ class Reader : FigureReader {
         {"noise_factor", {0.01, 100}}, {"passes", {1, 16}},  {"imaging", {0, 1}},           {"imaging_seconds", {0, 1e4}},
         {"stepped", {0, 1}},        {"points_per_s", {1, 1e9}}, {"imaging_factor", {0, 100}},
         {"area", {0, 1}},           {"max_range_m", {1, 10000}}, {"reference_reflectivity", {0.001, 1}},
-        {"rotation_hz", {0.01, 10000}}, {"most_returns", {1, 255}}, {"laser", {0, 1}},
-        {"seconds_factor", {0.01, 100}}, {"imaging_factor", {0.01, 100}}, {"picture_columns", {16, 32768}},
+        {"rotation_hz", {0.01, 10000}}, {"most_returns", {1, 255}}, {"unambiguous_m", {0, 100000}},
+        {"drop_mixed_mm", {0, 10000}}, {"drop_weak", {0, 1000}}, {"drop_overload", {0, 1}}, {"laser", {0, 1}},
+        {"seconds_factor", {0.01, 100}}, {"picture_columns", {16, 32768}},
         {"picture_hdr", {0, 1}},     {"picture_metered", {0, 1}}, {"picture_stops", {-8, 8}},
         {"picture_warmth", {-1, 1}}, {"picture_flash", {0, 1}}};
     SettingChoice choice;

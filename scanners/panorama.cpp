@@ -11,63 +11,16 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "scanners/surface_colours.h"
+#include "scanners/panorama_rays.h"
 
 namespace standpoint {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kFarthest_m = 2000;
-constexpr int kMostPanes = 8;               // that a ray is followed through
 constexpr float kMiddleGrey = 0.18F;        // that an exposure brings the mean brightness to
 constexpr float kAdaptation = 0.6F;         // how much of that it does: a dark wall stays darker than a white one
-constexpr double kFlash = 0.6;              // of a flash, on a wall that is near
 constexpr float kWarmth = 0.25F;            // more red and less blue, at the ends of a white balance
 constexpr double kBlend_rad = 3 * kPi / 180;
-constexpr double kInPixel[4][2] = {{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}};   // a turned grid
-
-using Light = Eigen::Array3f;   // linear
-
-Light sky(const Eigen::Vector3d& direction) {
-  const auto up = static_cast<float>(std::max(0.0, direction.z()));
-  if (direction.z() < 0) return Light(0.18F, 0.17F, 0.15F);
-  return Light(0.80F, 0.87F, 0.95F) * (1 - up) + Light(0.25F, 0.45F, 0.80F) * up;
-}
-
-class Renderer {
- public:
-  Renderer(const RayScene& scene, const Pose& local_from_camera, double flash, Report& report)
-      : scene_(scene), pose_(local_from_camera), flash_(flash), colours_(scene.environment(), report) {}
-
-  Light along(const Eigen::Vector3d& direction_camera) const {
-    const Eigen::Vector3d direction = pose_.rotation * direction_camera;
-    Light light = Light::Zero();
-    float left = 1;   // of what lies behind the panes so far
-    double way_m = 0;
-    for (int pane = 0; pane < kMostPanes && left > 0.02F; ++pane) {
-      const auto hit = scene_.intersect(pose_.translation + way_m * direction, direction, kFarthest_m);
-      if (!hit) return light + left * sky(direction);
-      way_m += hit->range_m;
-      const SurfaceColours::Look look = colours_.at(*hit);
-      light += left * look.opacity * look.colour * (look.unlit ? 1.0F : brightness(*hit, direction, way_m));
-      left *= 1 - look.opacity;
-      way_m += 1e-3;   // beyond the float error of the ray, within a pane
-    }
-    return light;
-  }
-
- private:
-  // Light from above and all around, and some that falls off with the distance from the camera.
-  float brightness(const RayHit& hit, const Eigen::Vector3d& direction, double way_m) const {
-    const double above = 0.5 + 0.5 * hit.normal.z(), facing = -hit.normal.dot(direction);
-    const double flash = flash_ * kFlash / (1 + 0.1 * way_m * way_m);
-    return static_cast<float>(0.35 + 0.3 * above + 0.35 * facing / (1 + 0.02 * way_m * way_m) + flash * facing);
-  }
-  const RayScene& scene_;
-  Pose pose_;
-  double flash_;
-  SurfaceColours colours_;
-};
 
 // The exposure of each column, from the mean brightness of each shot: sectors of azimuth.
 std::vector<float> exposures(const std::vector<Light>& pixels, std::uint32_t width, std::uint32_t height,
@@ -78,13 +31,14 @@ std::vector<float> exposures(const std::vector<Light>& pixels, std::uint32_t wid
   if (!camera.metered) return std::vector<float>(width, given);
   const auto count = static_cast<std::size_t>(hdr ? 1 : std::max(1, shots));
   std::vector<double> sum(count, 0), weight(count, 0);
-  for (std::uint32_t y = 0; y < height; ++y)
+  for (std::uint32_t y = 0; y < height; ++y) {
+    const double area = std::sin((y + 0.5) * kPi / height);   // a row near a pole is short
     for (std::uint32_t x = 0; x < width; ++x) {
-      const double area = std::sin((y + 0.5) * kPi / height);   // a row near a pole is short
       const std::size_t shot = x * count / width;
       sum[shot] += area * static_cast<double>(pixels[std::size_t{y} * width + x].min(1).mean());
       weight[shot] += area;
     }
+  }
   std::vector<float> gain;
   for (std::size_t k = 0; k < count; ++k)
     gain.push_back(given * std::clamp(std::pow(kMiddleGrey / std::max(0.01F, static_cast<float>(sum[k] / weight[k])), kAdaptation), 0.25F, 4.0F));
@@ -152,31 +106,30 @@ Result<Panorama> takePanorama(const RayScene& scene, const Instrument& instrumen
   panorama.height = panorama.width / 2;
   panorama.camera_m = {0, 0, instrument.camera.offset_up_m};
   const std::uint32_t width = panorama.width, height = panorama.height;
-  const Renderer renderer(scene, {local_from_scanner.rotation, local_from_scanner * panorama.camera_m}, instrument.camera.flash, report);
+  const PanoramaRays rays(static_cast<const EmbreeScene&>(scene),
+                          {local_from_scanner.rotation, local_from_scanner * panorama.camera_m}, width, instrument.camera.flash, report);
   std::vector<Light> light(std::size_t{width} * height);
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  arena.execute([&] {
-    tbb::parallel_for(std::uint32_t{0}, height, [&](std::uint32_t y) {
-      if (progress.cancelled()) return;
-      for (std::uint32_t x = 0; x < width; ++x) {
-        Light sum = Light::Zero();
-        for (const auto& place : kInPixel) {
-          const double azimuth = kPi - 2 * kPi * (x + place[0]) / width, elevation = kPi / 2 - kPi * (y + place[1]) / height;
-          sum += renderer.along({std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)});
-        }
-        light[std::size_t{y} * width + x] = sum / 4;
-      }
-    });
+  const auto forEachRow = [&](const auto& work) {
+    arena.execute([&] { tbb::parallel_for(std::uint32_t{0}, height, [&](std::uint32_t y) {
+      if (!progress.cancelled()) work(y, std::size_t{y} * width);
+    }); });
+  };
+  forEachRow([&](std::uint32_t y, std::size_t at) {
+    for (std::uint32_t x = 0; x < width; x += PanoramaRays::kAtOnce) rays.trace(y, x, &light[at + x]);
   });
   if (auto on = progress.check(); !on) return failure(on.error());
   const std::vector<float> exposure = exposures(light, width, height, instrument.camera);
   const auto warmth = static_cast<float>(instrument.camera.warmth);
   const Light balance(1 + kWarmth * warmth, 1, 1 - kWarmth * warmth);
   panorama.pixels.resize(light.size());
-  for (std::size_t i = 0; i < light.size(); ++i) {
-    const Light l = light[i] * balance * exposure[i % width];
-    panorama.pixels[i] = {srgbOf(l[0]), srgbOf(l[1]), srgbOf(l[2])};
-  }
+  forEachRow([&](std::uint32_t, std::size_t at) {
+    for (std::size_t x = 0; x < width; ++x) {
+      const Light l = light[at + x] * balance * exposure[x];
+      panorama.pixels[at + x] = {srgbOf(l[0]), srgbOf(l[1]), srgbOf(l[2])};
+    }
+  });
+  if (auto on = progress.check(); !on) return failure(on.error());
   return panorama;
 }
 

@@ -17,6 +17,8 @@ constexpr double kSharpestSlope = 0.005;
 constexpr double kPaneSlope = 0.01;
 // A rougher surface spreads a mirror image over more than the beam is wide.
 constexpr double kSmoothestSlope = 0.0105;
+// Beyond, a mirror image is a hundredth of the mirror's own diffuse return before it is a hand's width away.
+constexpr double kRoughestMirror = 0.0505;
 
 // A class varies from building to building; on one surface by half of that (physics.md §2.9, an engineering figure).
 constexpr double kOnOneSurface = 0.5;
@@ -37,6 +39,7 @@ Optics opticsOf(const PhysicalMaterial& material, double wavelength_nm) {
   const double slope = material.gloss_slope > 0 ? material.gloss_slope : optics.transparent ? kPaneSlope : 0;
   if (const double specular = specularAtNormal(material, wavelength_nm); slope > 0 && specular > 0) {
     optics.smooth = slope <= kSmoothestSlope;
+    optics.glossy = !optics.smooth && slope <= kRoughestMirror;
     optics.mirror_f0 = static_cast<float>(specular);
     optics.lobe_slope = static_cast<float>(std::max(slope, kSharpestSlope));
     optics.steepness = 1 / (optics.lobe_slope * optics.lobe_slope);
@@ -48,6 +51,7 @@ Optics opticsOf(const PhysicalMaterial& material, double wavelength_nm) {
     optics.panes = material.panes;
     optics.inner_transmittance = innerTransmittance(optics.index, atWavelength(material.transmittance, wavelength_nm));
   }
+  optics.retro_gain = static_cast<float>(material.retro_gain);
   optics.variation = static_cast<float>(kOnOneSurface * material.variation);
   optics.texture_scale_m = static_cast<float>(material.texture_scale_m > 0 ? material.texture_scale_m : kUsualScale_m);
   return optics;
@@ -66,11 +70,31 @@ double mirrorReflectance(const Optics& optics, double cosine) {
   return f0 + (1 - f0) * away * away * away * away * away;
 }
 
+double roughMirrorShare(double lobe_slope, double beam_radius_m, double to_mirror_m, double from_mirror_m) {
+  const double way = (to_mirror_m + from_mirror_m) * beam_radius_m / (to_mirror_m * from_mirror_m * lobe_slope);
+  return std::min(1.0, way * way / 8);
+}
+
 float glossEquivalent(const Optics& optics, float cosine) {
   const float square = cosine * cosine;
   const float exponent = (1 - square) / square * optics.steepness;   // tan²θ / m²
   if (!(exponent < 40)) return 0;
   return optics.glint * portable::exp2(-1.4426950408889634F * exponent) / (square * square * cosine);
+}
+
+std::array<float, 4> nearRangePolynomial(const NearRangeCurve& curve) {
+  constexpr double kLog2PerDb = 0.33219280948873623;
+  std::array<float, 4> log2{};
+  for (std::size_t k = 0; k < curve.amplitude_db.size(); ++k)
+    log2[k] = static_cast<float>(kLog2PerDb * (curve.amplitude_db[k] - (k == 0 ? curve.far_db : 0)));
+  return log2;
+}
+
+float nearRangeFactor(const NearRangeCurve& curve, float range_m) {
+  if (range_m >= static_cast<float>(curve.below_m)) return 1;
+  const auto c = nearRangePolynomial(curve);
+  const float power = c[0] + range_m * (c[1] + range_m * (c[2] + range_m * c[3])) + 2 * portable::log2(range_m);
+  return std::min(1.0F, portable::exp2(std::max(power, -100.0F)));
 }
 
 double detectionThreshold(const ScanSettings& settings, double clear_air_extinction_per_m) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -25,7 +26,9 @@ struct Optics {
   double thickness_m = 0;        // of one pane
   int panes = 1;
   bool smooth = false;           // shows mirror images
+  bool glossy = false;           // shows them dimly: its lobe is sharp, but wider than the beam
   float mirror_f0 = 0;           // of an opaque smooth surface at normal incidence
+  float retro_gain = 0;          // over a white surface, within kRetroEntrance; 0 = none
   float variation = 0;           // coefficient of variation of the reflectance on one surface …
   float texture_scale_m = 0;     // … over this length
 };
@@ -41,8 +44,12 @@ inline float diffuseEquivalent(const Optics& optics, float cosine) {
   return optics.diffuse * (optics.oren_a * cosine + optics.oren_b * (1 - cosine * cosine));
 }
 float glossEquivalent(const Optics& optics, float cosine);
+// A retroreflector keeps its gain within 30° of entrance (physics.md §4.9, where 20 to 30° is the range); beyond it is a
+// diffuse surface.
+constexpr float kRetroEntrance = 0.8660254F;   // cosine
+inline float retroEquivalent(const Optics& optics, float cosine) { return cosine > kRetroEntrance ? optics.retro_gain : 0; }
 inline float lambertEquivalent(const Optics& optics, float cosine) {
-  const float diffuse = diffuseEquivalent(optics, cosine);
+  const float diffuse = diffuseEquivalent(optics, cosine) + retroEquivalent(optics, cosine);
   return optics.glint > 0 ? diffuse + glossEquivalent(optics, cosine) : diffuse;
 }
 
@@ -50,13 +57,22 @@ inline float lambertEquivalent(const Optics& optics, float cosine) {
 // of Fresnel's law from its F0.
 double mirrorReflectance(const Optics& optics, double cosine);
 
+// η_opt(R) of a measured curve below its bound: 2 to the power of c0 + c1 R + c2 R² + c3 R³ + 2 log2 R.
+std::array<float, 4> nearRangePolynomial(const NearRangeCurve& curve);
+float nearRangeFactor(const NearRangeCurve& curve, float range_m);
+
 // η_opt(R) of the instrument.
 inline float nearRangeFactor(const Instrument& instrument, float range_m) {
+  if (instrument.near_range_curve.below_m > 0) return nearRangeFactor(instrument.near_range_curve, range_m);
   const float ratio = static_cast<float>(instrument.near_range_m) / range_m;
   float power = 1;
   for (int k = 0; k < instrument.near_range_power; ++k) power *= ratio;
   return 1 / (1 + power);
 }
+
+// What of a mirror image is left where the mirror's lobe is wider than the beam: it lights Ω = 8π m² and not one direction,
+// and of what comes back the receiver sees the spot that its beam lit, A: A (R1 + R2)² / (R1² R2² Ω), at most 1.
+double roughMirrorShare(double lobe_slope, double beam_radius_m, double to_mirror_m, double from_mirror_m);
 
 // x_min = ρ_ref / R_max² · air of the data sheet (§2.7): its range holds in clear air.
 double detectionThreshold(const ScanSettings& settings, double clear_air_extinction_per_m);

@@ -15,6 +15,7 @@
 #include "scanners/atmosphere.h"
 #include "scanners/effects.h"
 #include "scanners/instrument.h"
+#include "scanners/sun.h"
 
 namespace standpoint {
 
@@ -50,6 +51,8 @@ struct ScanOptions {
   std::uint32_t station_key = 0;   // random numbers belong to the station: a stable hash of its name
   ScanChannels channels;
   Weather weather;
+  std::optional<Sun> sun;          // none: night, or a room without windows
+  double interference = 0;         // chance that a pulse finds another instrument's light and takes it for its own
   std::uint32_t first_column = 0, end_column = ~0U;   // of the grid: a part of a scan has the points that the whole has
 };
 

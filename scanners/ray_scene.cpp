@@ -127,7 +127,8 @@ std::uint64_t facetNumber(std::uint32_t instance_id, std::uint32_t geometry_id, 
 
 }  // namespace
 
-void EmbreeScene::intersect(const RayPacket& rays, int count, float max_range_m, NearestHit* hits) const {
+void EmbreeScene::intersect(const RayPacket& rays, int count, float max_range_m, std::uint64_t* facets,
+                            float* ranges_m) const {
   alignas(64) int valid[kPacket];
   RTCRayHit16 query;
   std::copy_n(rays.origin_x, 3 * kPacket, query.ray.org_x);   // x, y, z lie side by side in both
@@ -147,8 +148,15 @@ void EmbreeScene::intersect(const RayPacket& rays, int count, float max_range_m,
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect16(valid, scene_, &context, &query);
-  for (int k = 0; k < count; ++k)
-    hits[k] = {facetNumber(query.hit.instID[0][k], query.hit.geomID[k], query.hit.primID[k]), query.ray.tfar[k]};
+  for (int k = 0; k < count; ++k) facets[k] = facetNumber(query.hit.instID[0][k], query.hit.geomID[k], query.hit.primID[k]);
+  std::copy_n(query.ray.tfar, count, ranges_m);
+}
+
+void EmbreeScene::intersect(const RayPacket& rays, int count, float max_range_m, NearestHit* hits) const {
+  std::uint64_t facets[kPacket];
+  float ranges_m[kPacket];
+  intersect(rays, count, max_range_m, facets, ranges_m);
+  for (int k = 0; k < count; ++k) hits[k] = {facets[k], ranges_m[k]};
 }
 
 NearestHit EmbreeScene::nearest(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit, double min_range_m,

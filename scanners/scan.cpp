@@ -20,6 +20,7 @@ namespace {
 // Each block traces columns on either side of it, too, to know its neighbours: as many as a beam can reach.
 constexpr std::uint32_t kColumnsPerReach = 8;
 constexpr std::uint32_t kPulsesPerBlock = 1U << 17U;
+constexpr std::uint32_t kFirstColumns = 4;   // of the first block: whoever watches shall see points soon
 
 Result<void> checkArguments(const ScanSettings& settings, const Trajectory& trajectory) {
   if (settings.columns == 0 || settings.rows == 0) return failure(ErrorKind::usage, "the grid has no columns or no rows", "settings");
@@ -48,7 +49,8 @@ class Pipeline {
   Result<ScanCount> run(int threads) {
     tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
     arena.execute([&] {
-      const auto tokens = static_cast<std::size_t>(2 * arena.max_concurrency() + 1);
+      // A block for each thread, one that is written and one that waits for its turn: a block of the finest grid has 90 MB.
+      const auto tokens = static_cast<std::size_t>(arena.max_concurrency() + 2);
       tbb::parallel_pipeline(
           tokens, tbb::make_filter<void, Work>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& flow) { return next(flow); }) &
                       tbb::make_filter<Work, Work>(tbb::filter_mode::parallel, [&](Work work) { return trace(work); }) &
@@ -72,7 +74,8 @@ class Pipeline {
     }
     Work work;
     work.from = next_column_;
-    work.to = next_column_ = std::min(plan_.endColumn(), next_column_ + columns_per_block_);
+    const bool first = work.from == plan_.options.first_column;
+    work.to = next_column_ = std::min(plan_.endColumn(), next_column_ + (first ? kFirstColumns : columns_per_block_));
     if (!spare_.try_pop(work.block)) work.block = std::make_shared<PointBlock>();
     return work;
   }

@@ -32,6 +32,17 @@ bool isMetFirst(const Expectation& expectation, const Eigen::Vector3d& eye, cons
   return !expectation.scene().intersect(eye, way / range, range - before);
 }
 
+// Of one pulse, the expected number of returns.
+double returnsOf(const Expectation& expectation, const Pose& pose, const Eigen::Vector3d& in_scanner) {
+  const Eigen::Vector3d direction = pose.rotation * in_scanner;
+  const auto hit = expectation.scene().intersect(pose.translation, direction, expectation.law().settings().max_range_m);
+  if (!hit) return 0;
+  const auto expected = expectation.from(pose.translation, {hit->position, hit->normal, hit->instance, hit->triangle});
+  return expected.fate == ReturnFate::seen_through ? 1 : expected.probability;
+}
+
+}  // namespace
+
 bool isSeen(const Expectation& expectation, const Pose& pose, SurfacePlace place, const SeenWhen& wanted) {
   const auto& settings = expectation.law().settings();
   const Eigen::Vector3d way = place.position - pose.translation;
@@ -48,17 +59,6 @@ bool isSeen(const Expectation& expectation, const Pose& pose, SurfacePlace place
     return false;  // of a pane's two faces one pulse has one point, and the stronger is the one in front
   return expectation.from(pose.translation, place).fate == ReturnFate::returned;
 }
-
-// Of one pulse, the expected number of returns.
-double returnsOf(const Expectation& expectation, const Pose& pose, const Eigen::Vector3d& in_scanner) {
-  const Eigen::Vector3d direction = pose.rotation * in_scanner;
-  const auto hit = expectation.scene().intersect(pose.translation, direction, expectation.law().settings().max_range_m);
-  if (!hit) return 0;
-  const auto expected = expectation.from(pose.translation, {hit->position, hit->normal, hit->instance, hit->triangle});
-  return expected.fate == ReturnFate::seen_through ? 1 : expected.probability;
-}
-
-}  // namespace
 
 double spacingOf(const ScanSettings& settings, double range_m, double elevation_rad, double incidence_rad) {
   const double column =

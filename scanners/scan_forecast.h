@@ -14,6 +14,7 @@ struct SeenWhen {
   double most_spacing_m = 1e300;  // √ of the area for which one point stands
   double most_incidence_rad = 1.5708;
   double most_range_m = 1e300;
+  bool operator==(const SeenWhen&) const = default;
 };
 
 // What a scan would bring, without scanning. `local_from_scanner` may lean.
@@ -24,6 +25,9 @@ struct ScanForecast {
 };
 ScanForecast forecastScan(const Expectation& expectation, const Pose& local_from_scanner, const SurfaceSamples& samples,
                           const SeenWhen& wanted);
+
+// Would the place return points as wanted?
+bool isSeen(const Expectation& expectation, const Pose& local_from_scanner, SurfacePlace place, const SeenWhen& wanted);
 
 // √ of the area of a surface for which one point stands; `elevation_rad` is the beam's in the scanner's frame.
 double spacingOf(const ScanSettings& settings, double range_m, double elevation_rad, double incidence_rad);

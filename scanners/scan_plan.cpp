@@ -16,17 +16,6 @@ namespace {
 
 std::uint8_t byte(float share) { return static_cast<std::uint8_t>(std::clamp(share, 0.0F, 1.0F) * 255 + 0.5F); }
 
-ScanBias drawBias(const Instrument& instrument, const ScanOptions& options) {
-  if (!options.effects.has(Effect::bias)) return {};
-  PulseNoise draw;
-  pulseNoise({options.seed, options.station_key}, 0, 0, NoiseChannel::scan, draw);
-  const double systematic = std::sqrt(instrument.angle_sigma_rad * instrument.angle_sigma_rad -
-                                      instrument.angle_jitter_rad * instrument.angle_jitter_rad);
-  return {instrument.range_bias_m * static_cast<double>(draw.range[0]),
-          1 + 1e-6 * instrument.range_bias_ppm * static_cast<double>(draw.detection[0]),
-          systematic * static_cast<double>(draw.lateral[0]), systematic * static_cast<double>(draw.elevation[0])};
-}
-
 }  // namespace
 
 PulseClock::PulseClock(const Instrument& instrument, const ScanSettings& settings)
@@ -66,7 +55,6 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
       trajectory(trajectory_),
       options(options_),
       clock(instrument_, settings_),
-      bias(drawBias(instrument_, options_)),
       noise_law(instrument_) {
   const Effects effects = options.effects;
   const double average = 1 / std::sqrt(static_cast<double>(settings.passes));
@@ -80,18 +68,36 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
   if (effects.has(Effect::chance)) softness = threshold * instrument.detection_softness;
   saturation = effects.has(Effect::saturation) ? std::pow(10.0F, static_cast<float>(instrument.saturation.level_db) / 10)
                                                : std::numeric_limits<float>::infinity();
+  if (effects.has(Effect::bias)) errors = SystematicErrors::drawn(instrument, {options.seed, options.station_key});
+  farthest_m = farthest_reported_m = settings.max_range_m;
+  if (effects.has(Effect::ambiguity) && settings.unambiguous_m > 0) {
+    unambiguous_m = settings.unambiguous_m;
+    farthest_m = unambiguous_m + settings.max_range_m;
+  }
+  nearest_reported_m = std::max(instrument.min_range_m, settings.nearest_m);
+  if (settings.farthest_m > 0) farthest_reported_m = std::min(farthest_reported_m, settings.farthest_m);
+  if (effects.has(Effect::filters)) flags = instrument.filters, drops = settings.drops;
+  if (effects.has(Effect::interference)) interference = options.interference;
+  if (effects.has(Effect::sun) && options.sun) daylight.emplace(scene, instrument, *options.sun, at(trajectory, 0).translation);
   receiver = receiverOf(instrument, noise_law, effects, extinction_per_m(weather, instrument.wavelength_nm));
+  if (effects.has(Effect::amplitude_noise))
+    receiver.fluctuation = fluctuationOf(instrument, detectionThreshold(settings, 0) * instrument.detection_softness, settings.passes);
   if (effects.has(Effect::footprint)) reach_ = mostReach();
+  drop_threshold = detectionThreshold(settings, 0);
   std::vector<double> elevations;
   for (std::uint32_t row = 0; row < settings.rows; ++row) elevations.push_back(elevation_rad(row));
   const RandomKey key{options.seed, options.station_key};
   if (effects.has(Effect::striping)) column_noise.emplace(instrument, settings.columns, elevations, key);
   if (effects.has(Effect::range_noise)) white_share = column_noise ? static_cast<double>(column_noise->white()) : 1;
   if (weather.rain_mm_h > 0 || weather.snow_mm_h > 0 || weather.fog_mor_m > 0 || weather.dust_mor_m > 0)
-    scatterers.emplace(instrument, weather, detectionThreshold(settings, 0), settings.max_range_m, key);
-  for (std::uint32_t row = 0; row < settings.rows; ++row) {
+    scatterers.emplace(instrument, weather, drop_threshold, settings.max_range_m, key);
+  for (std::uint32_t row = 0; row < settings.rows + kPacket; ++row) {
     sine.push_back(std::sin(elevation_rad(row)));
     cosine.push_back(std::cos(elevation_rad(row)));
+  }
+  if (effects.has(Effect::halo)) {
+    halo.emplace(*this);
+    if (halo->empty()) halo.reset();
   }
   for (const auto& material : assignment.materials) {
     optics.push_back(opticsOf(material, instrument.wavelength_nm));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -10,11 +11,14 @@
 #include "core/physical_material.h"
 #include "core/survey.h"
 #include "scanners/correlated_noise.h"
+#include "scanners/daylight.h"
 #include "scanners/embree_scene.h"
 #include "scanners/radiometry.h"
 #include "scanners/ray_engine.h"
+#include "scanners/reflector_halo.h"
 #include "scanners/scatterers.h"
 #include "scanners/signal_lanes.h"
+#include "scanners/systematic_errors.h"
 
 namespace standpoint {
 
@@ -31,13 +35,6 @@ class PulseClock {
   double turn_s_ = 0;
 };
 
-// Systematic errors: one draw of each for a scan (physics.md §3.3), so that range and angle accuracies of the sheet hold
-// over many scans. Collimation and index change sign in the second face.
-struct ScanBias {
-  double range_m = 0, scale = 1;
-  double collimation_rad = 0, index_rad = 0;
-};
-
 // Everything that all pulses of a scan share; immutable while it runs.
 struct ScanPlan {
   const EmbreeScene& scene;
@@ -48,19 +45,27 @@ struct ScanPlan {
   const Trajectory& trajectory;
   ScanOptions options;
   PulseClock clock;
-  ScanBias bias;
+  SystematicErrors errors;
   RangeNoiseLaw noise_law;
   Receiver receiver;
   double noise_scale = 0;          // of σ: noise_factor / √passes
   double jitter_rad = 0;
   double threshold = 0;            // x_min; 0 = all that is met returns
+  double drop_threshold = 0;       // of what the air sends back
   double softness = 0;             // σ of the threshold, absolute
   float saturation = 0;            // x from which the receiver saturates
   double white_share = 0;          // of σ, of the noise that is each pulse's own
   std::optional<ColumnNoise> column_noise;
   std::optional<Scatterers> scatterers;
+  std::optional<Daylight> daylight;
+  std::optional<ReflectorHalo> halo;         // only where there is a retroreflector
+  double interference = 0;         // chance that a pulse finds another instrument's light
+  double unambiguous_m = 0;        // longer ranges are folded by it; 0 = they are not
+  double farthest_m = 0;           // that light is followed
+  double nearest_reported_m = 0, farthest_reported_m = 0;   // of measured ranges
+  PointFilters flags, drops;       // of the points that the instrument's filters find fault with
   bool varies = false;             // some material is not the same everywhere
-  std::vector<double> sine, cosine;          // of each row's elevation
+  std::vector<double> sine, cosine;          // of each row's elevation, in full packets
   std::vector<Optics> optics;                // materials, then surfaces without one
   std::vector<std::array<std::uint8_t, 3>> colours;   // sRGB of each surface: what the camera sees, unshaded
 
@@ -69,9 +74,19 @@ struct ScanPlan {
 
   double azimuth_rad(std::uint32_t column) const;
   double elevation_rad(std::uint32_t row) const;
+  // What the instrument takes a range for.
+  double folded(double range_m) const {
+    return unambiguous_m > 0 && range_m >= unambiguous_m ? range_m - unambiguous_m * std::floor(range_m / unambiguous_m) : range_m;
+  }
+  bool reports(double range_m) const {
+    const double measured = folded(range_m);
+    return measured >= nearest_reported_m && measured <= farthest_reported_m;
+  }
   bool moves() const { return trajectory.pose.size() > 1; }
   bool passes(const Optics& surface) const { return surface.transparent && options.effects.has(Effect::panes); }
-  bool mirrors(const Optics& surface) const { return surface.smooth && options.effects.has(Effect::mirrors); }
+  bool mirrors(const Optics& surface) const {
+    return (surface.smooth && options.effects.has(Effect::mirrors)) || (surface.glossy && options.effects.has(Effect::rough_mirrors));
+  }
   double rowStep_rad() const { return (settings.elevation_to_rad - settings.elevation_from_rad) / settings.rows; }
   double columnStep_rad() const { return (settings.azimuth_to_rad - settings.azimuth_from_rad) / settings.columns; }
   // Pulses aside that a beam can reach, at most: 0 where beams have no width.

@@ -70,8 +70,9 @@ struct Effects {
   double seconds_factor = 1;
   bool laser = true;
   PanoramaCamera camera;
-  double max_range_m = 0, reference_reflectivity = 0;
+  double max_range_m = 0, reference_reflectivity = 0, unambiguous_m = 0;
   double points_per_s = 0, imaging_factor = 1;
+  PointFilters drops;
   bool area = true, stepped = false;
 };
 
@@ -90,6 +91,7 @@ Effects gather(const Instrument& instrument, const SettingValues& values) {
   sum.camera = instrument.camera;
   sum.max_range_m = instrument.max_range_m;
   sum.reference_reflectivity = instrument.reference_reflectivity;
+  sum.unambiguous_m = instrument.unambiguous_m;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const SettingChoice* choice = choiceOf(instrument.settings[i], values[i].second);
     if (choice == nullptr) continue;
@@ -104,6 +106,10 @@ Effects gather(const Instrument& instrument, const SettingValues& values) {
       if (key == "imaging_seconds") sum.imaging_seconds = value;
       if (key == "max_range_m") sum.max_range_m = value;
       if (key == "reference_reflectivity") sum.reference_reflectivity = value;
+      if (key == "unambiguous_m") sum.unambiguous_m = value;
+      if (key == "drop_mixed_mm") sum.drops.deviation_m = 1e-3 * value;
+      if (key == "drop_weak") sum.drops.weak_factor = value;
+      if (key == "drop_overload") sum.drops.overload = value > 0;
       if (key == "area") sum.area = value > 0;
       if (key == "stepped") sum.stepped = value > 0;
       if (key == "points_per_s") sum.points_per_s = sum.points_per_s > 0 ? std::min(sum.points_per_s, value) : value;
@@ -136,6 +142,15 @@ Result<void> checkMirror(const Instrument& instrument, const SettingValues& valu
   return failure(ErrorKind::usage, "the mirror would turn too fast", "settings");
 }
 
+bool isGate(const std::string& key) { return key == "nearest_m" || key == "farthest_m"; }
+
+// 0 where it is not set.
+double gateOf(const SettingValues& values, const std::string& key) {
+  for (const auto& [name, value] : values)
+    if (name == key) return *number(value);
+  return 0;
+}
+
 struct Area {
   double horizontal_from = 0, horizontal_to = 360, vertical_from = 0, vertical_to = 0;   // degrees
 };
@@ -146,7 +161,7 @@ Result<Area> areaOf(const Instrument& instrument, const SettingValues& values, b
   area.vertical_to = instrument.max_elevation_rad / kRadPerDeg;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto& [key, value] = values[i];
-    if (!instrument.settings[i].choices.empty() || isStep(key)) continue;
+    if (!instrument.settings[i].choices.empty() || isGate(key) || isStep(key)) continue;
     const double angle = *number(value);
     if (!allowed_here && angle != *number(instrument.settings[i].standard))
       return failure(ErrorKind::usage, "an edge belongs to an area: choose that field of view as well", key);
@@ -214,6 +229,12 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
   settings.passes = static_cast<int>(effects.passes);
   settings.laser = effects.laser;
   settings.imaging = effects.imaging > 0;
+  settings.unambiguous_m = effects.unambiguous_m;
+  settings.drops = effects.drops;
+  settings.nearest_m = gateOf(settings.values, "nearest_m");
+  settings.farthest_m = gateOf(settings.values, "farthest_m");
+  if (settings.farthest_m > 0 && settings.farthest_m <= settings.nearest_m)
+    return failure(ErrorKind::usage, "must be above nearest_m", "farthest_m");
   settings.camera = effects.camera;
   settings.scan_seconds =
       effects.laser ? (instrument.overhead_s + turning * effects.seconds_factor * share) * effects.passes : 0;

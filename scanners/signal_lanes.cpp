@@ -22,27 +22,62 @@ STANDPOINT_INLINE void reflect(SignalLanes& lanes) {
   }
 }
 
-STANDPOINT_INLINE void power(SignalLanes& lanes, float near_range, int exponent, float decay) {
+// η_opt(R).
+STANDPOINT_INLINE void nearRange(const SignalLanes& lanes, const Receiver& receiver, float* near) {
+  if (receiver.near_curve_below_m > 0) {
+    const float below = receiver.near_curve_below_m;
+    const float c0 = receiver.near_curve[0], c1 = receiver.near_curve[1], c2 = receiver.near_curve[2], c3 = receiver.near_curve[3];
+    for (int k = 0; k < kSignalLanes; ++k) {
+      const float range = lanes.range_m[k] < below ? lanes.range_m[k] : below;
+      const float power = c0 + range * (c1 + range * (c2 + range * c3)) + 2 * portable::log2(range);
+      const float kept = power > -100 ? power : -100;
+      const float factor = portable::exp2(kept < 0 ? kept : 0);
+      near[k] = lanes.range_m[k] < below ? factor : 1;
+    }
+    return;
+  }
   float ratio[kSignalLanes], blur[kSignalLanes];
   for (int k = 0; k < kSignalLanes; ++k) {
-    ratio[k] = near_range / lanes.range_m[k];
+    ratio[k] = receiver.near_range_m / lanes.range_m[k];
     blur[k] = 1;
   }
-  for (int n = 0; n < exponent; ++n)
+  for (int n = 0; n < receiver.near_range_power; ++n)
     for (int k = 0; k < kSignalLanes; ++k) blur[k] *= ratio[k];
+  for (int k = 0; k < kSignalLanes; ++k) near[k] = 1 / (1 + blur[k]);
+}
+
+STANDPOINT_INLINE void power(SignalLanes& lanes, const Receiver& receiver) {
+  float near[kSignalLanes];
+  nearRange(lanes, receiver, near);
+  const float decay = receiver.decay_per_m;
   for (int k = 0; k < kSignalLanes; ++k) {
     const float loss = decay * lanes.range_m[k];
     const float air = portable::exp2(loss > -100 ? loss : -100);
-    const float near = air / (1 + blur[k]);
-    const float one = lanes.equivalent[k] * lanes.gain[k] * near / (lanes.range_m[k] * lanes.range_m[k]);
+    const float one = lanes.equivalent[k] * lanes.gain[k] * (air * near[k]) / (lanes.range_m[k] * lanes.range_m[k]);
     const float x = (lanes.known_x[k] < 0 ? one : lanes.known_x[k]) * lanes.variation[k];
     lanes.x[k] = x > 1e-30F ? x : 1e-30F;
   }
 }
 
-STANDPOINT_INLINE void store(SignalLanes& lanes, float low_db, float high_db, float steps) {
+// What is measured of x: it never falls to nothing, for a pulse that is not there is not measured.
+STANDPOINT_INLINE void fluctuate(const SignalLanes& lanes, const Fluctuation& f, float* measured) {
+  for (int k = 0; k < kSignalLanes; ++k) measured[k] = lanes.x[k];
+  if (!f.any) return;
+  const float jitter2 = f.jitter2, speckle2 = f.speckle2, grains = f.grains, exit2 = f.exit2_m2, spread2 = f.spread2;
+  const float dark2 = f.dark * f.dark;
   for (int k = 0; k < kSignalLanes; ++k) {
-    const float share = (3.0102999566398120F * portable::log2(lanes.x[k]) - low_db) / (high_db - low_db);
+    const float spot2 = exit2 / (lanes.range_m[k] * lanes.range_m[k]) + spread2;
+    const float least = 1e-12F;
+    const float x = lanes.x[k] > least ? lanes.x[k] : least;
+    const float variance = jitter2 + speckle2 / (1 + grains * spot2) + dark2 * (1 + lanes.background[k]) / (x * x);
+    const float factor = 1 + lanes.fluctuation[k] * std::sqrt(variance);
+    measured[k] = lanes.x[k] * (factor > 0.05F ? factor : 0.05F);
+  }
+}
+
+STANDPOINT_INLINE void store(SignalLanes& lanes, const float* measured, float low_db, float high_db, float steps) {
+  for (int k = 0; k < kSignalLanes; ++k) {
+    const float share = (3.0102999566398120F * portable::log2(measured[k]) - low_db) / (high_db - low_db);
     const float least = share < 0 ? 0 : share;
     lanes.intensity[k] = least > 1 ? 1 : least;
   }
@@ -52,15 +87,16 @@ STANDPOINT_INLINE void store(SignalLanes& lanes, float low_db, float high_db, fl
 }
 
 STANDPOINT_INLINE void noise(SignalLanes& lanes, const RangeNoiseLaw::Curve* curves, int count) {
-  float place[kSignalLanes];
-  for (int k = 0; k < kSignalLanes; ++k) place[k] = portable::log2(lanes.equivalent[k] > 1e-6F ? lanes.equivalent[k] : 1e-6F);
+  float place[kSignalLanes] = {};
+  if (count > 1)   // one curve is that of every reflectivity
+    for (int k = 0; k < kSignalLanes; ++k) place[k] = portable::log2(lanes.equivalent[k] > 1e-6F ? lanes.equivalent[k] : 1e-6F);
   for (int i = 0; i < count; ++i) {
     const float floor = curves[i].floor_m2;
     const float slope = curves[i].slope_m2;
     const float from = i > 0 ? curves[i - 1].log2_reflectivity : 0;
     const float scale = i > 0 ? 1 / (curves[i].log2_reflectivity - from) : 0;
     for (int k = 0; k < kSignalLanes; ++k) {
-      const float sigma = std::sqrt(floor + slope / (lanes.x[k] * lanes.x[k]));
+      const float sigma = std::sqrt(floor + slope * (1 + lanes.background[k]) / (lanes.x[k] * lanes.x[k]));
       const float share = (place[k] - from) * scale;
       const float least = share < 0 ? 0 : share;
       const float weight = i == 0 || least > 1 ? 1 : least;
@@ -71,8 +107,10 @@ STANDPOINT_INLINE void noise(SignalLanes& lanes, const RangeNoiseLaw::Curve* cur
 
 STANDPOINT_CLONES void receiveLanes(SignalLanes& lanes, const Receiver& receiver) {
   reflect(lanes);
-  power(lanes, receiver.near_range_m, receiver.near_range_power, receiver.decay_per_m);
-  store(lanes, receiver.low_db, receiver.high_db, receiver.levels);
+  power(lanes, receiver);
+  float measured[kSignalLanes];
+  fluctuate(lanes, receiver.fluctuation, measured);
+  store(lanes, measured, receiver.low_db, receiver.high_db, receiver.levels);
   noise(lanes, receiver.curves, receiver.curve_count);
 }
 
@@ -82,6 +120,10 @@ Receiver receiverOf(const Instrument& instrument, const RangeNoiseLaw& law, Effe
   Receiver receiver;
   receiver.near_range_m = effects.has(Effect::near_range) ? static_cast<float>(instrument.near_range_m) : 0;
   receiver.near_range_power = instrument.near_range_power;
+  if (effects.has(Effect::near_range)) {
+    receiver.near_curve_below_m = static_cast<float>(instrument.near_range_curve.below_m);
+    receiver.near_curve = nearRangePolynomial(instrument.near_range_curve);
+  }
   receiver.decay_per_m = static_cast<float>(-2 * extinction_per_m / std::numbers::ln2);
   receiver.low_db = static_cast<float>(instrument.intensity_low_db);
   receiver.high_db = static_cast<float>(instrument.intensity_high_db);
@@ -89,6 +131,20 @@ Receiver receiverOf(const Instrument& instrument, const RangeNoiseLaw& law, Effe
   receiver.curves = law.curves().data();
   receiver.curve_count = static_cast<int>(law.curves().size());
   return receiver;
+}
+
+Fluctuation fluctuationOf(const Instrument& instrument, double dark, int passes) {
+  Fluctuation f;
+  f.any = true;
+  const double average = 1.0 / passes, quarter_pi = std::numbers::pi / 4;
+  const double grains = quarter_pi * instrument.amplitude.aperture_m / (1e-9 * instrument.wavelength_nm);
+  f.jitter2 = static_cast<float>(average * instrument.amplitude.jitter * instrument.amplitude.jitter);
+  f.speckle2 = static_cast<float>(average / 2);
+  f.grains = static_cast<float>(grains * grains);
+  f.exit2_m2 = static_cast<float>(instrument.exit_diameter_m * instrument.exit_diameter_m);
+  f.spread2 = static_cast<float>(instrument.divergence_rad * instrument.divergence_rad);
+  f.dark = static_cast<float>(dark);
+  return f;
 }
 
 void receive(SignalLanes& lanes, const Receiver& receiver) { receiveLanes(lanes, receiver); }

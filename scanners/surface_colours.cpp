@@ -37,13 +37,31 @@ Eigen::Array3d sharesOf(const std::array<Eigen::Vector3d, 3>& corner, const Eige
 
 float linearOf(float srgb) { return srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F); }
 
+// By where each of the 256 values begins: a power for each pixel of a panorama took as long as its rays.
 std::uint8_t srgbOf(float linear) {
-  const float x = std::clamp(linear, 0.0F, 1.0F);
-  const float s = x <= 0.0031308F ? 12.92F * x : 1.055F * std::pow(x, 1 / 2.4F) - 0.055F;
-  return static_cast<std::uint8_t>(std::lround(255 * s));
+  constexpr int kSteps = 1024;
+  struct Table {
+    std::array<float, 257> begins{};                 // the last is never reached
+    std::array<std::uint8_t, kSteps + 1> at_step{};
+    Table() {
+      for (std::size_t i = 1; i < 256; ++i) begins[i] = linearOf((static_cast<float>(i) - 0.5F) / 255);
+      begins[256] = 2;
+      for (std::size_t k = 0, value = 0; k <= kSteps; ++k) {
+        while (begins[value + 1] <= static_cast<float>(k) / kSteps) ++value;
+        at_step[k] = static_cast<std::uint8_t>(value);
+      }
+    }
+  };
+  static const Table table;
+  const float x = linear > 0 ? std::min(linear, 1.0F) : 0;
+  std::size_t value = table.at_step[static_cast<std::size_t>(x * kSteps)];
+  while (table.begins[value + 1] <= x) ++value;
+  return static_cast<std::uint8_t>(value);
 }
 
 SurfaceColours::SurfaceColours(const Environment& environment, Report& report) : environment_(environment) {
+  for (const Surface& surface : environment.surfaces)
+    plain_.emplace_back(linearOf(surface.colour.r), linearOf(surface.colour.g), linearOf(surface.colour.b));
   for (const auto& image : environment.images) {
     Picture& picture = pictures_.emplace_back();
     const auto* bytes = reinterpret_cast<const stbi_uc*>(image->bytes.data());
@@ -80,7 +98,7 @@ Eigen::Array4f SurfaceColours::Picture::at(const Eigen::Vector2f& uv) const {
 
 SurfaceColours::Look SurfaceColours::at(const RayHit& hit) const {
   const Surface& surface = environment_.surfaces[hit.surface];
-  Look look{{linearOf(surface.colour.r), linearOf(surface.colour.g), linearOf(surface.colour.b)}, surface.colour.a, surface.unlit};
+  Look look{plain_[hit.surface], surface.colour.a, surface.unlit};
   const Instance& instance = environment_.instances[hit.instance];
   const Mesh& mesh = *environment_.meshes[instance.mesh];
   const bool painted = surface.image >= 0 && static_cast<std::size_t>(surface.image) < pictures_.size() &&

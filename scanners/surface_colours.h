@@ -29,6 +29,7 @@ class SurfaceColours {
     Eigen::Array4f at(const Eigen::Vector2f& uv) const;   // bilinear, repeated; linear colour
   };
   const Environment& environment_;
+  std::vector<Eigen::Array3f> plain_;   // linear, of each surface
   std::vector<Picture> pictures_;
 };
 

@@ -14,6 +14,7 @@
 
 #include <Eigen/Core>
 
+#include "core/points.h"
 #include "core/progress.h"
 #include "core/result.h"
 
@@ -28,6 +29,32 @@ struct Cloud {
 };
 
 constexpr std::uint64_t kMostShownPoints = 600000;   // what software rendering still turns smoothly
+
+// Keeps every k-th point of the scans that are written to it; k doubles whenever more than `most` would be kept.
+class CloudSampler : public PointSink {
+ public:
+  CloudSampler(std::uint64_t step, std::uint64_t most, const Eigen::Vector3d& shift_m) : step_(step), most_(most), shift_m_(shift_m) {}
+  Result<void> begin(const ScanHeader& header) override;
+  Result<void> write(const PointBlock& block) override;
+  Result<void> end() override { return {}; }
+  Result<void> close() override { return {}; }
+
+  // The colours shaded by intensity, from what nearly all points have at least to what nearly all have at most: formats
+  // state the sensor's possible range, of which a scan fills a corner. Without any intensity height stands for it.
+  Cloud shaded() const;
+  std::uint64_t seen() const { return seen_; }   // points, kept or not
+  bool empty() const { return colours_.empty(); }
+
+ private:
+  void halve();
+  std::uint64_t step_, most_, seen_ = 0;
+  Eigen::Vector3d shift_m_;
+  Pose pose_;
+  double low_ = 0, span_ = 1;
+  bool coloured_ = false;
+  std::vector<float> positions_, shares_;
+  std::vector<std::array<std::uint8_t, 4>> colours_;   // not shaded
+};
 
 // Every k-th point, so that at most `most` are kept; memory does not grow with the file.
 Result<Cloud> sampleCloud(const std::filesystem::path& file, const Eigen::Vector3d& shift_m, std::uint64_t most,

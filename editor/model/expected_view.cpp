@@ -189,11 +189,13 @@ std::shared_ptr<const PixelPicture> ExpectedView::paint(const ExpectedRequest& r
     for (std::size_t x = 0; x < width; ++x) {
       const Seen& seen = raster.seen[y * width + x];
       if (!seen.any) continue;
-      const auto expected = request.expectation->from(request.station, {seen.position.cast<double>(), seen.normal.cast<double>(), seen.instance, seen.triangle});
+      const SurfacePlace place{seen.position.cast<double>(), seen.normal.cast<double>(), seen.instance, seen.triangle};
+      const Rgba colour = request.coverage ? coverageColour(*request.coverage, coverageAt(request.scans, place, request.wanted))
+                                           : expectedColour(request.quantity, request.expectation->from(request.station, place));
       float light = 0.72F + 0.28F * std::abs(seen.normal.dot(forward));
       const bool edge = (x + 1 < width && parted(seen, raster.seen[y * width + x + 1])) || (y + 1 < static_cast<std::size_t>(raster.height) && parted(seen, raster.seen[(y + 1) * width + x]));
       if (request.view.edges && edge) light *= 0.6F;
-      picture->rgba[y * width + x] = shaded(expectedColour(request.quantity, expected), light);
+      picture->rgba[y * width + x] = shaded(colour, light);
     }
   });
   return late ? nullptr : picture;

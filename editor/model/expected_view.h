@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "editor/model/coverage_view.h"
 #include "editor/model/view_state.h"
 #include "scanners/expectation.h"
 
@@ -47,6 +48,9 @@ struct ExpectedRequest {
   ViewState view;                          // camera, and what is hidden or cut away
   Eigen::Vector3d station = Eigen::Vector3d::Zero();   // the instrument's centre, local frame
   ExpectedQuantity quantity = ExpectedQuantity::intensity;
+  std::optional<CoverageQuantity> coverage;            // instead: what these see of it
+  std::vector<SeenFrom> scans;
+  SeenWhen wanted;
   int width = 0, height = 0;               // pixels
   bool operator==(const ExpectedRequest&) const = default;
 };

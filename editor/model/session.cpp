@@ -101,6 +101,18 @@ bool Session::start(std::string_view name, json options, std::string title) {
   return launch(*verb(name), std::move(options), std::move(title));
 }
 
+bool Session::start(std::string_view name, json options, std::string title, Work work) {
+  if (!whyNot(name).empty()) return false;
+  const Verb& wanted = *verb(name);
+  auto checked = [&wanted, options, work = std::move(work)](const Document& document, Progress& progress) -> Result<Outcome> {
+    auto filled = checkOptions(wanted, options);
+    if (!filled) return failure(filled.error());
+    return work(document, *filled, progress);
+  };
+  running_.push_back(std::make_unique<Task>(std::move(title), wanted, document(), std::move(options), wake_, std::move(checked)));
+  return true;
+}
+
 bool Session::save(const std::filesystem::path& folder) {
   return start("save-project", {{"folder", folder.string()}}, "Save " + folder.filename().string());
 }

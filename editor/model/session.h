@@ -54,6 +54,9 @@ class Session {
 
   // Starts a verb; false when whyNot() says why not. `title` is what the list of tasks shows.
   bool start(std::string_view verb, nlohmann::json options, std::string title = {});
+  // The same with work of its own, which gets the options checked and filled up.
+  using Work = std::function<Result<Outcome>(const Document&, const nlohmann::json& options, Progress&)>;
+  bool start(std::string_view verb, nlohmann::json options, std::string title, Work work);
   bool save(const std::filesystem::path& folder);
   bool open(const std::filesystem::path& folder);
   bool saveRecovery(const std::filesystem::path& folder);

@@ -30,6 +30,10 @@ enum class ColourMode {
   expected_intensity,
   expected_noise,
   expected_fate,
+  // Of what all stations see (coverage_view.h), likewise.
+  coverage,
+  coverage_spacing,
+  coverage_incidence,
 };
 constexpr bool isExpected(ColourMode mode) { return mode >= ColourMode::expected_intensity; }
 

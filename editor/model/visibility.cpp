@@ -11,7 +11,10 @@ void Visibility::replace(HiddenProducts hidden) {
   hidden_ = std::make_shared<const HiddenProducts>(std::move(hidden));
 }
 
-void Visibility::reset(std::size_t products) { replace(HiddenProducts(products, 0)); }
+void Visibility::reset(std::size_t products) {
+  replace(HiddenProducts(products, 0));
+  alone_ = false;
+}
 
 void Visibility::show(std::span<const std::uint32_t> products, bool shown) {
   HiddenProducts changed = *hidden_;
@@ -25,6 +28,7 @@ void Visibility::isolate(std::span<const std::uint32_t> products) {
   for (const auto p : products)
     if (p < changed.size()) changed[p] = 0;
   replace(std::move(changed));
+  alone_ = true;
 }
 
 std::vector<StoreyLevel> storeyLevels(const Environment& environment, double shift_up_m) {

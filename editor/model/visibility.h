@@ -25,6 +25,7 @@ class Visibility {
 
   void show(std::span<const std::uint32_t> products, bool shown);
   void isolate(std::span<const std::uint32_t> products);
+  bool alone() const { return alone_; }   // some were isolated: clouds under the model would stand in the way
   void showAll() { reset(hidden_->size()); }
 
   // What lies above is cut away, local frame.
@@ -34,6 +35,7 @@ class Visibility {
   void replace(HiddenProducts hidden);
   std::shared_ptr<const HiddenProducts> hidden_ = std::make_shared<const HiddenProducts>();
   std::size_t hidden_count_ = 0;
+  bool alone_ = false;
 };
 
 struct StoreyLevel {

@@ -89,18 +89,19 @@ struct GeoreferencePanelState {
 struct SurveyPanelState {
   int station = -1;                 // chosen, index into Job::stations
   int target = -1;
+  bool copies_of_registered = true; // registering writes the scans with their solved poses
   std::array<double, 3> move_to = {0, 0, 0};
   int move_of = -1;                 // station that `move_to` was filled from
   Eigen::Vector3d move_from = Eigen::Vector3d::Zero();
 };
 
 struct ScanPanelState {
-  std::string instrument;           // id
-  std::vector<std::pair<std::string, std::string>> settings;   // key, value
+  ScanChoice asked{.instrument = "leica-rtc360"};
+  std::shared_ptr<const ScanChoice> remembered;   // the document's, that `asked` was last filled from
+  std::optional<ScanChoice> started;              // with the last press of "Scan"
   bool all_stations = true;
+  bool resume = true;               // what a cancelled run has finished is taken where it is the same
   int format = 0;
-  std::int64_t seed = 1;
-  bool ideal = false;
   std::string folder;
 };
 

@@ -19,6 +19,7 @@ void drawOutlinerPanel(Editor& editor);
 void drawPlanPanel(Editor& editor);
 void drawScanPanel(Editor& editor);
 void drawSurveyPanel(Editor& editor);
+void drawTargetsPanel(Editor& editor);
 void drawTasksPanel(Editor& editor);
 void drawVerifyPanel(Editor& editor);
 

@@ -27,11 +27,32 @@ std::string minutes(double seconds) {
 void start(Editor& editor) {
   const auto& scan = editor.panels.scan;
   const auto& state = editor.panels.plan;
-  json options = {{"instrument", scan.instrument}, {"set", json::array()}};
-  for (const auto& [key, value] : scan.settings) options["set"].push_back(key + "=" + value);
+  json options = {{"instrument", scan.asked.instrument}, {"set", json::array()}};
+  for (const auto& [key, value] : scan.asked.settings) options["set"].push_back(key + "=" + value);
   if (state.spacing_mm > 0) options["spacing"] = state.spacing_mm / 1000;
   if (state.max_incidence_deg < 90) options["max-incidence-deg"] = state.max_incidence_deg;
   editor.session.start("plan", std::move(options), "Plan the scans");
+}
+
+// The same as the view's colour chip, where it is wanted.
+void drawMapSwitch(Editor& editor) {
+  struct Map {
+    const char* label;
+    ColourMode mode;
+    const char* help;
+  };
+  static constexpr Map kMaps[] = {{"Stations###map-stations", ColourMode::coverage, "How many stations see each surface; holes are magenta"},
+                                  {"Spacing###map-spacing", ColourMode::coverage_spacing, "How far apart points are, of the densest scan"},
+                                  {"Incidence###map-incidence", ColourMode::coverage_incidence, "How far off its normal a surface is met, at best"}};
+  ui::dimText("Show on the model");
+  const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
+  for (const auto& map : kMaps) {
+    if (&map != kMaps) ImGui::SameLine();
+    const bool lit = editor.view.colour == map.mode;
+    ImGui::PushStyleColor(ImGuiCol_Button, lit ? ImVec4(0.25F, 0.56F, 0.97F, 0.45F) : ImGui::GetStyleColorVec4(ImGuiCol_Button));
+    if (ui::button(map.label, {}, {width, 0}, map.help)) editor.view.colour = lit ? ColourMode::model : map.mode;
+    ImGui::PopStyleColor();
+  }
 }
 
 void drawWishes(Editor& editor) {
@@ -122,11 +143,12 @@ void drawPlanPanel(Editor& editor) {
     ui::emptyState(editor, ICON_EYE, "Nothing to plan", "Import a model first.");
     return;
   }
-  const auto* instrument = instrumentIn(readCatalogue(editor.panels.catalogue), editor.panels.scan.instrument);
+  const auto* instrument = instrumentIn(readCatalogue(editor.panels.catalogue), editor.panels.scan.asked.instrument);
   ui::dimText(instrument == nullptr ? "Choose an instrument under Scan" : fmt::format("{} {}, as set under Scan", instrument->maker, instrument->model));
   drawWishes(editor);
   const std::string why = instrument == nullptr ? "Choose an instrument under Scan first" : editor.session.whyNot("plan");
   if (ui::primaryButton(ICON_EYE "  What will they see?###run-plan", why, {-FLT_MIN, editor.px(28)})) start(editor);
+  drawMapSwitch(editor);
   const auto* last = editor.session.lastOf("plan");
   if (last == nullptr || !last->answer.contains("coverage")) return;
   const auto& answer = last->answer;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -9,7 +11,9 @@
 
 #include "core/units.h"
 #include "editor/editor.h"
+#include "editor/model/scan_form.h"
 #include "editor/panels/panels_list.h"
+#include "editor/panels/scan_conditions.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/icons.h"
 #include "editor/shell/theme.h"
@@ -20,17 +24,23 @@ namespace standpoint {
 
 namespace {
 
-const Instrument* chosenInstrument(Editor& editor) {
+// What the document was scanned with last is what the next scan begins with, but not over what was set meanwhile.
+void followDocument(Editor& editor) {
   auto& state = editor.panels.scan;
+  const auto& scanning = editor.session.document().scanning;
+  if (scanning == state.remembered) return;
+  state.remembered = scanning;
+  if (scanning && state.started != *scanning) state.asked = *scanning;
+}
+
+const Instrument* chosenInstrument(Editor& editor) {
+  auto& asked = editor.panels.scan.asked;
   const auto& all = readCatalogue(editor.panels.catalogue).instruments;
   const auto on_tripod = [](const Instrument& i) { return !i.moving; };   // a station has no trajectory
-  auto found = std::find_if(all.begin(), all.end(), [&](const Instrument& i) { return on_tripod(i) && i.id == state.instrument; });
+  auto found = std::find_if(all.begin(), all.end(), [&](const Instrument& i) { return on_tripod(i) && i.id == asked.instrument; });
   if (found == all.end()) found = std::find_if(all.begin(), all.end(), on_tripod);
   if (found == all.end()) return nullptr;
-  if (state.instrument == found->id) return &*found;
-  state.instrument = found->id;
-  state.settings.clear();
-  for (const auto& setting : found->settings) state.settings.emplace_back(setting.key, setting.standard);
+  if (asked.instrument != found->id || asked.settings.empty()) chooseInstrument(asked, *found);
   return &*found;
 }
 
@@ -38,22 +48,29 @@ void drawInstrumentChoice(Editor& editor, const Instrument& chosen) {
   ui::propertyLabel("Instrument");
   if (!ImGui::BeginCombo("###instrument", fmt::format("{} {}", chosen.maker, chosen.model).c_str())) return;
   for (const auto& i : editor.panels.catalogue.instruments)
-    if (!i.moving && ImGui::Selectable(fmt::format("{} {}###{}", i.maker, i.model, i.id).c_str(), i.id == chosen.id)) {
-      editor.panels.scan.instrument = i.id;
-      editor.panels.scan.settings.clear();
-      for (const auto& setting : i.settings) editor.panels.scan.settings.emplace_back(setting.key, setting.standard);
-    }
+    if (!i.moving && ImGui::Selectable(fmt::format("{} {}###{}", i.maker, i.model, i.id).c_str(), i.id == chosen.id)) chooseInstrument(editor.panels.scan.asked, i);
   ImGui::EndCombo();
 }
 
-void drawSetting(ScanPanelState& state, const InstrumentSetting& setting) {
-  const auto value = std::find_if(state.settings.begin(), state.settings.end(), [&](const auto& s) { return s.first == setting.key; });
-  if (value == state.settings.end()) return;
+// A setting that is a number within bounds.
+void drawNumber(const InstrumentSetting& setting, std::string& text) {
+  double number = std::strtod(text.c_str(), nullptr);
+  const std::string unit = setting.unit == "deg" ? "°" : setting.unit;
+  if (!ImGui::InputDouble("###value", &number, 0, 0, ("%.4g " + unit).c_str())) return;
+  text = fmt::format("{}", std::clamp(number, setting.minimum, setting.maximum));
+}
+
+void drawSetting(ScanChoice& asked, const InstrumentSetting& setting) {
+  const auto value = std::find_if(asked.settings.begin(), asked.settings.end(), [&](const auto& s) { return s.first == setting.key; });
+  if (value == asked.settings.end()) return;
   ui::propertyLabel(setting.label.c_str());
   const auto current = std::find_if(setting.choices.begin(), setting.choices.end(), [&](const SettingChoice& c) { return c.value == value->second; });
   const std::string shown = current == setting.choices.end() ? value->second : current->label;
   ImGui::PushID(setting.key.c_str());
-  if (ImGui::BeginCombo("###value", shown.c_str())) {
+  if (setting.choices.empty()) {
+    drawNumber(setting, value->second);
+    ui::tooltip(fmt::format("{} to {} {}", setting.minimum, setting.maximum, setting.unit));
+  } else if (ImGui::BeginCombo("###value", shown.c_str())) {
     for (const auto& choice : setting.choices)
       if (ImGui::Selectable(fmt::format("{}###{}", choice.label, choice.value).c_str(), choice.value == value->second)) value->second = choice.value;
     ImGui::EndCombo();
@@ -99,45 +116,81 @@ std::string stationsText(const Editor& editor) {
   return job.stations[static_cast<std::size_t>(chosen)].name;
 }
 
-void drawForecast(const Instrument& instrument, const ScanPanelState& state) {
-  const auto resolved = resolveSettings(instrument, state.settings);
-  if (!resolved) {
-    ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
-    ImGui::SameLine();
-    ui::wrapped(describe(resolved.error()));
-    return;
+void drawStationChoice(Editor& editor) {
+  auto& state = editor.panels.scan;
+  ui::propertyLabel("Stations");
+  if (!ImGui::BeginCombo("###stations", stationsText(editor) == "all" ? "All" : stationsText(editor).c_str())) return;
+  if (ImGui::Selectable("All", state.all_stations)) state.all_stations = true;
+  const auto& stations = editor.session.document().job->stations;
+  for (int i = 0; i < static_cast<int>(stations.size()); ++i)
+    if (ImGui::Selectable(fmt::format("{}###station{}", stations[static_cast<std::size_t>(i)].name, i).c_str(), !state.all_stations && editor.panels.survey.station == i)) {
+      state.all_stations = false;
+      editor.panels.survey.station = i;
+    }
+  ImGui::EndCombo();
+}
+
+std::vector<std::size_t> stationsWanted(const Editor& editor) {
+  const auto& stations = editor.session.document().job->stations;
+  const auto text = stationsText(editor);
+  std::vector<std::size_t> wanted;
+  for (std::size_t i = 0; i < stations.size(); ++i)
+    if (text == "all" || stations[i].name == text) wanted.push_back(i);
+  return wanted;
+}
+
+std::string minutes(double seconds) {
+  const auto whole = std::llround(seconds);
+  return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+}
+
+std::string bytesText(double bytes) { return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.2f} GB", bytes / 1e9); }
+
+// Grid and time at once; points and size as soon as some rays have said what there is to see.
+void drawForecast(Editor& editor, const Instrument& instrument, const ScanSettings& settings) {
+  const auto& document = editor.session.document();
+  const auto wanted = stationsWanted(editor);
+  const auto count = static_cast<double>(wanted.size());
+  const auto scene = editor.picker.scene();
+  std::optional<ScanOutlook> outlook;
+  if (scene && !wanted.empty()) {
+    editor.scan_outlook.want({scene, document.materials, document.job, wanted, editor.panels.scan.asked}, instrument);
+    outlook = editor.scan_outlook.outlook();
   }
   if (!ui::beginProperties("forecast", 0.46F)) return;
-  ui::property("Grid", fmt::format("{} × {}", groupedDigits(resolved->columns), groupedDigits(resolved->rows)));
-  ui::property("Pulses per station", fmt::format("{:.1f} million", static_cast<double>(resolved->columns) * resolved->rows * resolved->passes / 1e6));
-  const auto seconds = static_cast<int>(resolved->scan_seconds + resolved->imaging_seconds);
-  ui::property("Time of the device", fmt::format("{}:{:02} min", seconds / 60, seconds % 60));
+  const double seconds = settings.scan_seconds + settings.imaging_seconds;
+  ui::property("Time of the device", wanted.size() > 1 ? fmt::format("{} × {}  =  {}", wanted.size(), minutes(seconds), minutes(count * seconds)) : minutes(seconds));
+  const char* waiting = wanted.empty() ? "no station yet" : "…";
+  ui::property("Points", outlook ? fmt::format("about {:.1f} million", outlook->points / 1e6) : waiting);
+  ui::tooltip("By some thousand rays, in clear air");
+  ui::property("As E57", outlook ? "about " + bytesText(outlook->bytes) : waiting);
+  ui::property("Pulses per station", fmt::format("{:.1f} million,  {} × {}", static_cast<double>(settings.columns) * settings.rows * settings.passes / 1e6, settings.columns, settings.rows));
+  ui::property("Range", fmt::format("{:.1f} – {:.0f} m", instrument.min_range_m, settings.max_range_m));
   ui::property("Wavelength", fmt::format("{:.0f} nm", instrument.wavelength_nm));
-  ui::property("Range", fmt::format("{:.1f} – {:.0f} m", instrument.min_range_m, instrument.max_range_m));
   ui::endProperties();
 }
 
 // Why there cannot be a scan now, beyond what the verb itself asks for.
-std::string whyNotScan(const Editor& editor, const Instrument* instrument, const std::filesystem::path& folder) {
+std::string whyNotScan(const Editor& editor, const ScanSettings& settings, const std::filesystem::path& folder) {
   if (auto why = editor.session.whyNot("scan"); !why.empty()) return why;
-  if (instrument == nullptr) return "There is no instrument to scan with";
   if (editor.session.document().job->stations.empty()) return "Set up a station first: press T and click on the floor";
-  return folder.empty() ? "Choose a folder, or save the project: its scans then go there" : "";
+  if (folder.empty()) return "Choose a folder, or save the project: its scans then go there";
+  return whyNotConditions(editor, settings);
 }
 
 void start(Editor& editor, const std::filesystem::path& folder, const CloudFormat* format) {
-  const auto& state = editor.panels.scan;
-  nlohmann::json set = nlohmann::json::array();
-  for (const auto& [key, value] : state.settings) set.push_back(key + "=" + value);
+  auto& state = editor.panels.scan;
   const auto stations = stationsText(editor);
   const std::string extension = format != nullptr ? format->extension : ".e57";
   const auto file = folder / ((stations == "all" ? editor.session.document().name : stations) + extension);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  nlohmann::json options = {{"stations", stations}, {"instrument", state.instrument}, {"set", std::move(set)}, {"seed", state.seed}, {"output", file.string()}};
-  if (state.ideal) options["ideal"] = true;
-  options["resume"] = true;   // what a cancelled run has finished is taken where it is the same
-  editor.session.start("scan", std::move(options), stations == "all" ? "Scan all stations" : "Scan station " + stations);
+  auto options = scanOptions(state.asked);
+  options["stations"] = stations;
+  options["output"] = file.string();
+  if (state.resume) options["resume"] = true;
+  state.started = state.asked;
+  editor.startScan(std::move(options), stations == "all" ? "Scan all stations" : "Scan station " + stations);
 }
 
 void drawLast(Editor& editor) {
@@ -158,46 +211,43 @@ void drawScanPanel(Editor& editor) {
     ui::emptyState(editor, ICON_PLAY, "Nothing to scan", "Import a model and set up stations first.");
     return;
   }
-  auto& state = editor.panels.scan;
+  followDocument(editor);
+  editor.scan_readiness.follow(editor.session.document(), editor.picker.scene(), editor.wake);
   const Instrument* instrument = chosenInstrument(editor);
   if (instrument == nullptr) {
     ui::emptyState(editor, ICON_WARNING, "No instruments", editor.panels.catalogue.problem.c_str());
     return;
   }
+  auto& state = editor.panels.scan;
   const auto formats = writableFormats();
   if (ui::beginProperties("scan", 0.36F)) {
     drawInstrumentChoice(editor, *instrument);
-    for (const auto& setting : instrument->settings) drawSetting(state, setting);
-    ui::propertyLabel("Stations");
-    if (ImGui::BeginCombo("###stations", stationsText(editor) == "all" ? "All" : stationsText(editor).c_str())) {
-      if (ImGui::Selectable("All", state.all_stations)) state.all_stations = true;
-      const auto& stations = editor.session.document().job->stations;
-      for (int i = 0; i < static_cast<int>(stations.size()); ++i)
-        if (ImGui::Selectable(fmt::format("{}###station{}", stations[static_cast<std::size_t>(i)].name, i).c_str(), !state.all_stations && editor.panels.survey.station == i)) {
-          state.all_stations = false;
-          editor.panels.survey.station = i;
-        }
-      ImGui::EndCombo();
-    }
+    for (const auto& setting : instrument->settings) drawSetting(state.asked, setting);
+    drawStationChoice(editor);
     drawOutput(editor, formats);
-    ui::propertyLabel("Seed of the noise");
-    ImGui::InputScalar("###seed", ImGuiDataType_S64, &state.seed);
-    state.seed = std::max<std::int64_t>(0, state.seed);
-    ui::propertyLabel("Ideal");
-    ImGui::Checkbox("###ideal", &state.ideal);
-    ui::tooltip("No noise at all: the truth to compare with");
     ui::endProperties();
   }
+  const auto settings = resolveSettings(*instrument, state.asked.settings);
+  if (!settings) {
+    ui::primaryButton(ICON_PLAY "  Scan###run-scan", describe(settings.error()), {-FLT_MIN, editor.px(28)});
+    ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
+    ImGui::SameLine();
+    ui::wrapped(describe(settings.error()));
+    return;
+  }
+  drawScanConditions(editor, *instrument, *settings);
+  ui::gap(editor, 4);
   const std::filesystem::path folder = state.folder.empty() ? standardFolder(editor) : std::filesystem::path(state.folder);
   const CloudFormat* format = formats.empty() ? nullptr : formats[static_cast<std::size_t>(state.format)];
-  if (ui::primaryButton(ICON_PLAY "  Scan###run-scan", whyNotScan(editor, instrument, folder), {-FLT_MIN, editor.px(28)})) start(editor, folder, format);
+  if (ui::primaryButton(ICON_PLAY "  Scan###run-scan", whyNotScan(editor, *settings, folder), {-FLT_MIN, editor.px(28)})) 
+    start(editor, folder, format);
   if (!editor.session.document().materials) {
     ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
     ImGui::SameLine();
     ui::wrapped("No physical materials were assigned yet: the default rules are used.");
   }
   ui::heading(editor, "What it will take");
-  drawForecast(*instrument, state);
+  drawForecast(editor, *instrument, *settings);
   drawLast(editor);
 }
 

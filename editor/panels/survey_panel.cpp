@@ -100,12 +100,12 @@ void drawChosenStation(Editor& editor, const Station& station) {
     ui::endProperties();
   }
   const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
-  if (ui::button(ICON_MOVE "  Move###move-station", why, {width, 0}, "To these coordinates"))
+  if (ui::button(ui::fittingLabel(ICON_MOVE, "Move", "move-station", width).c_str(), why, {width, 0}, "To these coordinates"))
     editor.session.start("station", {{"move", station.name}, {"at", state.move_to}, {"height", station.instrument_height_m}}, "Move station " + station.name);
   ImGui::SameLine();
-  if (ui::button(ICON_CROSSHAIRS "  Look###look-station", {}, {width, 0}, "Bring it into view")) lookAt(editor, station.true_pose.translation);
+  if (ui::button(ui::fittingLabel(ICON_CROSSHAIRS, "Look", "look-station", width).c_str(), {}, {width, 0}, "Bring it into view")) lookAt(editor, station.true_pose.translation);
   ImGui::SameLine();
-  if (ui::button(ICON_TRASH "  Remove###remove-station", why, {width, 0})) remove(editor, "station", station.name);
+  if (ui::button(ui::fittingLabel(ICON_TRASH, "Remove", "remove-station", width).c_str(), why, {width, 0}, "Remove this station")) remove(editor, "station", station.name);
   for (const auto& scan : station.scans) {
     ImGui::TextColored(colour(tone::kGood), "%s", ICON_CHECK);
     ImGui::SameLine();

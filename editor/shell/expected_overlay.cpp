@@ -155,7 +155,10 @@ void drawExpected(Editor& editor, ImVec2 origin, ImVec2 size) {
   view.hidden = editor.visibility.shared();
   view.cut_height_m = editor.visibility.cut_height_m;
   view.edges = editor.view.edges;
-  editor.expected.want({expectation, editor.picker.scene(), std::move(view), *editor.view.probe.position, *quantity, static_cast<int>(size.x), static_cast<int>(size.y)});
+  ExpectedRequest request{expectation, editor.picker.scene(), std::move(view), *editor.view.probe.position, *quantity};
+  request.width = static_cast<int>(size.x);
+  request.height = static_cast<int>(size.y);
+  editor.expected.want(request);
   const auto picture = editor.expected.picture(editor.view.camera);
   const std::uint64_t texture = editor.scene != nullptr && picture ? editor.scene->texture(picture) : 0;
   if (texture != 0)
@@ -192,6 +195,7 @@ void expectedChips(Editor& editor) {
     ImGui::EndCombo();
   }
   ImGui::SameLine();
+  if (ImGui::GetCursorScreenPos().x + editor.px(128) > editor.overlay_end) ImGui::NewLine();
   const auto& job = editor.session.document().job;
   if (!job || job->stations.empty()) return ImGui::TextUnformatted("Drag the white dot: there the scanner stands");
   ImGui::SetNextItemWidth(editor.px(128));

@@ -128,6 +128,28 @@ void drawWouldStand(Editor& editor, const Pen& pen, double height_m) {
   if (refusal) pen.label(*place, refusal->reason, tone::kBad);
 }
 
+// A target as the click would put it up, and how many points each station's scan would lay on it.
+void tellTargetHere(Editor& editor, const Pen& pen) {
+  const auto& hit = *editor.view.hover;
+  const auto* kinds = editor.target_list.kinds();
+  if (kinds == nullptr) return;
+  const auto& article = kinds->articles.front();
+  const bool sphere = article.shape == TargetKind::sphere;
+  const Target target{article.label, article.shape, hit.position + (sphere ? article.size_m / 2 : 0.0) * hit.normal, hit.normal, article.size_m};
+  if (const auto place = pen.at(target.centre)) pen.circle(*place, 5, IM_COL32(245, 245, 245, 200), tone::kGood);
+  const auto scene = editor.picker.scene();
+  const auto& job = editor.session.document().job;
+  if (!scene || !job) return;
+  const auto settings = plannedSettings(editor);
+  std::string text = article.label;
+  for (const auto& station : job->stations) {
+    const auto sight = sightFrom(station, *scene, target, kinds->rules, settings);
+    text += fmt::format("\n{}   {:.1f} m   {}", station.name, sight.distance_m,
+                        !sight.why_not.empty() ? sight.why_not : sight.points ? fmt::format("about {:.0f} points", *sight.points) : "in sight");
+  }
+  ImGui::SetTooltip("%s", text.c_str());
+}
+
 void drawPreview(Editor& editor, const Pen& pen) {
   const auto& view = editor.view;
   if (!view.hover) return;
@@ -137,7 +159,7 @@ void drawPreview(Editor& editor, const Pen& pen) {
   if (const auto& job = editor.session.document().job; job && view.dragged_station >= 0 && view.dragged_station < static_cast<int>(job->stations.size()))
     drawWouldStand(editor, pen, job->stations[static_cast<std::size_t>(view.dragged_station)].instrument_height_m);
   if (view.tool == Tool::placeTarget)
-    if (const auto place = pen.at(view.hover->position + view.hover->normal * 0.0725)) pen.circle(*place, 5, IM_COL32(245, 245, 245, 200), tone::kGood);
+    tellTargetHere(editor, pen);
 }
 
 }  // namespace

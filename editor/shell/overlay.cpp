@@ -9,6 +9,7 @@
 
 #include "editor/editor.h"
 #include "editor/shell/actions.h"
+#include "editor/shell/coverage_overlay.h"
 #include "editor/shell/expected_overlay.h"
 #include "editor/shell/icons.h"
 #include "editor/shell/theme.h"
@@ -26,6 +27,12 @@ ImVec2 axesCentre(const Editor& editor, ImVec2 origin, ImVec2 size) {
   return {origin.x + size.x - inset, origin.y + inset + ImGui::GetFrameHeight()};
 }
 
+// Behind the last chip where there is room for one of this width before the view's edge, else below.
+void beside(const Editor& editor, float width_pt) {
+  ImGui::SameLine();
+  if (ImGui::GetCursorScreenPos().x + editor.px(width_pt) > editor.overlay_end) ImGui::NewLine();
+}
+
 const char* colourName(ColourMode mode) {
   switch (mode) {
     case ColourMode::model: return "Model colours";
@@ -36,6 +43,9 @@ const char* colourName(ColourMode mode) {
     case ColourMode::expected_intensity: return "Expected intensity";
     case ColourMode::expected_noise: return "Expected noise";
     case ColourMode::expected_fate: return "What comes back";
+    case ColourMode::coverage: return "Stations that see it";
+    case ColourMode::coverage_spacing: return "Point spacing";
+    case ColourMode::coverage_incidence: return "Incidence";
   }
   return "";
 }
@@ -43,7 +53,8 @@ const char* colourName(ColourMode mode) {
 void colourChip(Editor& editor) {
   ImGui::SetNextItemWidth(editor.px(152));
   if (!ImGui::BeginCombo("###colour", fmt::format("{}  {}", ICON_PAINT, colourName(editor.view.colour)).c_str(), ImGuiComboFlags_NoArrowButton)) return;
-  for (const auto mode : {ColourMode::model, ColourMode::material, ColourMode::reflectance, ColourMode::confidence, ColourMode::expected_intensity, ColourMode::expected_noise, ColourMode::expected_fate})
+  for (const auto mode : {ColourMode::model, ColourMode::material, ColourMode::reflectance, ColourMode::confidence, ColourMode::expected_intensity, ColourMode::expected_noise, ColourMode::expected_fate,
+                          ColourMode::coverage, ColourMode::coverage_spacing, ColourMode::coverage_incidence})
     if (ImGui::Selectable(colourName(mode), editor.view.colour == mode)) editor.view.colour = mode;
   if (editor.session.document().lightening && ImGui::Selectable(colourName(ColourMode::deviation), editor.view.colour == ColourMode::deviation))
     editor.view.colour = ColourMode::deviation;
@@ -53,7 +64,7 @@ void colourChip(Editor& editor) {
 // Those of the emulated scanners, and where the libraries begin.
 void wavelengthChip(Editor& editor) {
   if (editor.view.colour != ColourMode::reflectance) return;
-  ImGui::SameLine();
+  beside(editor, 90);
   ImGui::SetNextItemWidth(editor.px(90));
   if (!ImGui::BeginCombo("###wavelength", fmt::format("{:.0f} nm", editor.view.wavelength_nm).c_str())) return;
   for (const double wavelength : {532.0, 660.0, 785.0, 830.0, 905.0, 1064.0, 1550.0})
@@ -72,7 +83,7 @@ const char* sideName(ModelSide side) {
 
 void sideChip(Editor& editor) {
   if (!editor.session.document().lightening || isExpected(editor.view.colour)) return;
-  ImGui::SameLine();
+  beside(editor, 112);
   ImGui::SetNextItemWidth(editor.px(112));
   if (!ImGui::BeginCombo("###side", fmt::format("{}  {}", ICON_COMPRESS, sideName(editor.view.side)).c_str(), ImGuiComboFlags_NoArrowButton)) return;
   for (const auto side : {ModelSide::lighter, ModelSide::original, ModelSide::both})
@@ -109,7 +120,7 @@ void cutChip(Editor& editor) {
     ImGui::EndCombo();
   }
   if (!cut) return;
-  ImGui::SameLine();
+  beside(editor, 90);
   auto height = static_cast<float>(*cut + shift);
   ImGui::SetNextItemWidth(editor.px(90));
   if (ImGui::DragFloat("###cut-height", &height, 0.02F, 0, 0, "%.2f m")) cut = height - shift;
@@ -125,19 +136,23 @@ void toggle(Editor& editor, const char* icon, const char* id, bool lit) {
 // What is shown instead of the model, and the way back.
 void cloudChip(Editor& editor) {
   if (editor.readingCloud()) {
-    ImGui::SameLine();
+    beside(editor, 120);
     ImGui::TextUnformatted("Reading the scan …");
     return;
   }
   if (!editor.cloud()) return;
   const auto& cloud = *editor.cloud();
-  ImGui::SameLine();
+  beside(editor, 150);
   if (ImGui::Button(fmt::format("{}  Back to the model###cloud", ICON_CUBE).c_str())) {
     editor.showCloud({});
     return;
   }
-  ui::tooltip(fmt::format("{}: {} of {} points are shown", cloud.file.filename().string(), groupedDigits(cloud.colours.size()),
-                          groupedDigits(cloud.points_in_file)));
+  const std::string name = cloud.file.empty() ? "The scan" : cloud.file.filename().string();
+  ui::tooltip(fmt::format("{}: {} of {} points are shown", name, groupedDigits(cloud.colours.size()), groupedDigits(cloud.points_in_file)));
+  if (!editor.showsLiveScan()) return;
+  beside(editor, 180);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(fmt::format("{:.1f} million points so far", static_cast<double>(cloud.points_in_file) / 1e6).c_str());
 }
 
 void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
@@ -262,19 +277,21 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   ImGui::SetCursorScreenPos({origin.x + editor.px(kMargin), origin.y + editor.px(kMargin)});
   ImGui::PushStyleColor(ImGuiCol_FrameBg, tone::kOverlay);
   ImGui::BeginGroup();
+  editor.overlay_end = origin.x + size.x - editor.px(kMargin);
   colourChip(editor);
   wavelengthChip(editor);
   sideChip(editor);
-  ImGui::SameLine();
+  beside(editor, 116);
   cutChip(editor);
   cloudChip(editor);
-  ImGui::SameLine();
+  beside(editor, 5 * 32);   // they stay together
   toggle(editor, ICON_CUBE, "edges", editor.view.edges);
   toggle(editor, ICON_GRID, "grid", editor.view.grid);
   toggle(editor, ICON_WALK, "walkable", editor.view.walkable);
   toggle(editor, ICON_CUBES, "shapes", editor.view.shapes);
   toggle(editor, ICON_EYE, "show-all", false);
   expectedChips(editor);
+  coverageChips(editor);
   ImGui::EndGroup();
   const ImVec2 drawn = ImGui::GetItemRectSize();
   editor.overlay_size = {drawn.x, drawn.y};

@@ -90,7 +90,7 @@ void runMenu(Editor& editor) {
 void viewMenu(Editor& editor) {
   items(editor, {"frame", "view-corner", "view-front", "view-back", "view-right", "view-left", "view-top", "view-parallel", "",
                  "hide", "isolate", "show-all", "", "edges", "grid", "labels", "walkable", "shapes", "walk", "", "colour-model",
-                 "colour-material", "colour-reflectance", "colour-confidence", "colour-intensity", "colour-noise", "colour-fate", "", "workspace-model", "workspace-materials", "workspace-survey",
+                 "colour-material", "colour-reflectance", "colour-confidence", "colour-intensity", "colour-noise", "colour-fate", "colour-coverage", "colour-spacing", "colour-incidence", "", "workspace-model", "workspace-materials", "workspace-survey",
                  "workspace-instrument"});
 }
 
@@ -137,14 +137,23 @@ void toolGap(const Editor& editor) {
   ImGui::SameLine(0, editor.px(8));
 }
 
-void drawWorkspaceTabs(Editor& editor) {
+// Beside eight tools, the button Scan and the palette's.
+bool roomForTitles(const Editor& editor, float width) {
+  const float padding = 2 * ImGui::GetStyle().FramePadding.x;
+  float needed = 9 * (ImGui::GetFrameHeight() + editor.px(10)) + editor.px(3 * 17 + 16 + 96);
+  for (const auto& tab : kWorkspaceTabs) needed += ImGui::CalcTextSize(tab.title).x + editor.px(24) + padding;
+  return needed <= width;
+}
+
+void drawWorkspaceTabs(Editor& editor, bool titles) {
   for (const auto& tab : kWorkspaceTabs) {
     const bool chosen = editor.workspace == tab.workspace;
     ImGui::PushStyleColor(ImGuiCol_Button, chosen ? ImVec4(0.25F, 0.56F, 0.97F, 0.26F) : ImVec4(0, 0, 0, 0));
     ImGui::PushStyleColor(ImGuiCol_Text, chosen ? ImVec4(0.62F, 0.79F, 1, 1) : ImVec4(0.72F, 0.75F, 0.80F, 1));
-    const std::string label = fmt::format("{}  {}###{}", findAction(tab.action)->icon, tab.title, tab.action);
+    const std::string label = fmt::format("{}{}{}###{}", findAction(tab.action)->icon, titles ? "  " : "", titles ? tab.title : "", tab.action);
     if (ImGui::Button(label.c_str())) editor.workspace = tab.workspace;
     ImGui::PopStyleColor(2);
+    if (!titles) ui::tooltip(tab.title);
     ImGui::SameLine(0, editor.px(2));
   }
 }
@@ -156,7 +165,7 @@ void drawToolbar(Editor& editor, const Box& box) {
   toolGap(editor);
   for (const char* id : {"undo", "redo"}) actionToolButton(editor, id);
   toolGap(editor);
-  drawWorkspaceTabs(editor);
+  drawWorkspaceTabs(editor, roomForTitles(editor, box.w));
   toolGap(editor);
   for (const char* id : {"add-station", "add-target", "measure"}) actionToolButton(editor, id);
   const float right = editor.px(96) + editor.px(36);

@@ -7,6 +7,7 @@
 
 #include "editor/editor.h"
 #include "editor/shell/actions.h"
+#include "editor/shell/coverage_overlay.h"
 #include "editor/shell/expected_overlay.h"
 #include "editor/shell/icons.h"
 #include "editor/shell/material_brush.h"
@@ -222,6 +223,7 @@ void drawViewport(Editor& editor) {
   else drawScene(editor.scene, view.side == ModelSide::original ? editor.originalState() : editor.viewState(), origin, size, editor.fine_picture);
   const bool previewed = editor.preview.isOpen();
   if (!previewed) drawExpected(editor, origin, size);
+  if (!previewed) drawCoverage(editor, origin, size);
   if (!editor.shown()) {
     if (previewed) return;
     drawWelcome(editor, origin, size);
@@ -241,6 +243,7 @@ void drawViewport(Editor& editor) {
   handleWalking(editor);
   if (previewed) return;
   drawExpectedLegend(editor, origin, size);
+  drawCoverageLegend(editor, origin, size);
   drawMarkers(editor, both ? right : origin);
   drawOverlay(editor, origin, whole);
   contextMenu(editor);

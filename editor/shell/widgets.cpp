@@ -165,14 +165,21 @@ void textRightAligned(const std::string& text) {
   ImGui::TextUnformatted(text.c_str());
 }
 
+std::string fittingLabel(const char* icon, const char* text, const char* id, float width) {
+  const std::string whole = std::string(icon) + "  " + text;
+  const float room = width - 2 * ImGui::GetStyle().FramePadding.x;
+  return (ImGui::CalcTextSize(whole.c_str()).x <= room ? whole : ImGui::CalcTextSize(text).x <= room ? std::string(text) : std::string(icon)) + "###" + id;
+}
+
 void fitted(const std::string& text, float width) {
   if (ImGui::CalcTextSize(text.c_str()).x <= width) {
     ImGui::TextUnformatted(text.c_str());
     return;
   }
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float height = ImGui::GetTextLineHeight();
-  ImGui::Dummy({std::max(width, 1.0F), height});
+  ImVec2 at = ImGui::GetCursorScreenPos();
+  const float height = ImGui::GetTextLineHeight(), down = ImGui::GetCurrentWindow()->DC.CurrLineTextBaseOffset;
+  at.y += down;   // beside what has a frame
+  ImGui::Dummy({std::max(width, 1.0F), height + down});
   ImGui::RenderTextEllipsis(ImGui::GetWindowDrawList(), at, {at.x + width, at.y + height + 2}, at.x + width, at.x + width,
                             text.c_str(), nullptr, nullptr);
   tooltip(text);

@@ -39,6 +39,8 @@ void meter(const Editor& editor, double fraction, ImU32 tone, float width = 0); 
 void swatch(const Editor& editor, const Colour& colour);
 bool searchField(const char* id, const char* hint, std::string& text);
 void textRightAligned(const std::string& text);
+// The label of a button of this width: icon and text, or only what of them fits.
+std::string fittingLabel(const char* icon, const char* text, const char* id, float width);
 // Cuts the text with … to what fits; the tooltip then has all of it.
 void fitted(const std::string& text, float width);
 

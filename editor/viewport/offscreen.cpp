@@ -89,19 +89,25 @@ class EglOffscreen : public Offscreen {
     editor.fine_picture = true;
   }
 
+  SceneView& scene() override { return *scene_; }
+
+  void frame(Editor& editor) override {
+    layOut([&] { drawShell(editor); });
+    paint();
+    glFinish();
+  }
+
   Result<void> picture(Editor& editor, const std::filesystem::path& png) override {
-    for (int i = 0; i < kFramesUntilStill; ++i) {
-      ImGui_ImplOpenGL3_NewFrame();
-      ImGui::NewFrame();
+    const auto draw = [&] {
       drawShell(editor);
-      ImGui::Render();
       editor.expected.wait();
-    }
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-    glViewport(0, 0, width_, height_);
-    glClearColor(0.1F, 0.1F, 0.1F, 1);
-    glClear(GL_COLOR_BUFFER_BIT);
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    };
+    return picture(draw, png);
+  }
+
+  Result<void> picture(const std::function<void()>& draw, const std::filesystem::path& png) override {
+    for (int i = 0; i < kFramesUntilStill; ++i) layOut(draw);
+    paint();
     std::vector<unsigned char> pixels(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 3);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
@@ -112,6 +118,21 @@ class EglOffscreen : public Offscreen {
   }
 
  private:
+  static void layOut(const std::function<void()>& draw) {
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui::NewFrame();
+    draw();
+    ImGui::Render();
+  }
+
+  void paint() {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+    glViewport(0, 0, width_, height_);
+    glClearColor(0.1F, 0.1F, 0.1F, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  }
+
   void makeTarget() {
     glGenTextures(1, &texture_);
     glBindTexture(GL_TEXTURE_2D, texture_);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <functional>
 #include <memory>
 
 #include "core/result.h"
@@ -18,8 +19,13 @@ class Offscreen {
   virtual ~Offscreen() = default;
   // Fonts, scale and the scene view of this context.
   virtual void adopt(Editor& editor) = 0;
+  virtual SceneView& scene() = 0;
+  // Draws one frame, as the window does.
+  virtual void frame(Editor& editor) = 0;
   // Draws until nothing moves any more, then writes the picture.
   virtual Result<void> picture(Editor& editor, const std::filesystem::path& png) = 0;
+  // The same of anything: `draw` makes a frame's windows.
+  virtual Result<void> picture(const std::function<void()>& draw, const std::filesystem::path& png) = 0;
 };
 
 }  // namespace standpoint

@@ -89,6 +89,11 @@ std::string Device::value(const std::string& id) const {
   return found == state_.values.end() ? std::string() : found->second;
 }
 
+std::string Device::entry(const std::string& id) const {
+  const auto found = state_.entries.find(id);
+  return found == state_.entries.end() ? std::string() : found->second;
+}
+
 std::string Device::setting(const std::string& key) const {
   for (const auto& [name, value] : state_.settings)
     if (name == key) return value;

@@ -93,6 +93,7 @@ class Device {
   const ScanSettings& expected() const { return expected_; }
   std::string value(const std::string& id) const;    // of the device's own values
   std::string setting(const std::string& key) const;
+  std::string entry(const std::string& id) const;    // what was typed into a field; empty: nothing
   const DeviceProject* project() const;
   DeviceProject* project();
   StoredSetup* shownSetup();

@@ -119,8 +119,8 @@ Result<void> standAt(Device& d, const std::string& station) {
   return {};
 }
 
-// Nearer to the instrument, where the wireless link holds again.
-Result<void> comeNear(Device& d, const std::string&) {
+// Back to where the wireless link reaches.
+Result<void> goNear(Device& d, const std::string&) {
   d.change().around.wlan = true;
   return {};
 }
@@ -147,7 +147,7 @@ const std::vector<HandRow>& handRows() {
       {"change_battery", "", changeBattery}, {"plug_in", "", plugIn},        {"unplug", "", unplug},
       {"level", "", level},                {"tilt", "x,y in degrees", tiltTo}, {"wipe_optics", "", wipeOptics},
       {"stand_at", "station", standAt},    {"push", "", push},
-      {"come_near", "", comeNear},         {"go_near", "", comeNear},             {"clear_view", "", clearView},
+      {"go_near", "", goNear},             {"clear_view", "", clearView},
   };
   return rows;
 }

@@ -60,10 +60,10 @@ struct FittedTarget {
   double range_m = 0;
   double residual_m = 0;           // r.m.s. of the fit
   double error_m = 0;              // to where it truly is
-  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();   // as fitted, in the setup's own frame
   bool found = false;
   std::string why_not;
   Eigen::Vector3d levelled_m = Eigen::Vector3d::Zero();   // of a sight: its place, levelled by what the compensator told
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();   // as fitted, in the setup's own frame
 };
 
 // Pick one target, scan a window about it finely, and measure it.

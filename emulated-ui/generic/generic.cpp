@@ -21,13 +21,15 @@ double compensatorRange_deg(const Device& device) {
 }
 
 bool levelled(const Device& device) {
-  return device.type().instrument.compensator && device.value("compensator") == "on" && device.tilt() <= compensatorRange_deg(device);
+  return device.type().instrument.compensator && device.value("compensator") == "on" &&
+         device.tilt() <= compensatorRange_deg(device);
 }
 
 void prepare(const Device& device, ScanOrder& order) {
   order.compensator = levelled(device);
   const auto* project = device.project();
-  order.name = fmt::format("{}{:03d}", project == nullptr || project->base.empty() ? "Scan_" : project->base, order.number);
+  order.name =
+      fmt::format("{}{:03d}", project == nullptr || project->base.empty() ? "Scan_" : project->base, order.number);
 }
 
 void storeAndLink(Device& device) {
@@ -88,11 +90,25 @@ const DeviceProgram kProgram = {
         {"idle", "format_confirmed", "", "", "", "card_locked", nullptr, "P"},
     },
     {},
-    {{"levelled", FactUnit::none, kYesNo, [](const Device& d) { return yesNo(levelled(d)); }, "the scanner's compensator is on and its range is enough"},
-     {"has_compensator", FactUnit::none, kYesNo, [](const Device& d) { return yesNo(d.type().instrument.compensator.has_value()); }, "by its data sheet"},
-     {"compensator.range", FactUnit::degrees, {{}, true, 0, 360}, [](const Device& d) { return numberFact(compensatorRange_deg(d)); }, "of the scanner's compensator"},
-     {"nearest.least", FactUnit::metres, {{}, true, 0, 1e6}, [](const Device& d) { return numberFact(d.type().instrument.min_range_m); }, "the shortest range of the data sheet"},
-     {"scanner", FactUnit::none, {}, [](const Device& d) { return wordFact(d.type().instrument.maker + " " + d.type().instrument.model); }, "maker and model"}},
+    {{"levelled", FactUnit::none, kYesNo, [](const Device& d) { return yesNo(levelled(d)); },
+      "the scanner's compensator is on and its range is enough"},
+     {"has_compensator", FactUnit::none, kYesNo,
+      [](const Device& d) { return yesNo(d.type().instrument.compensator.has_value()); }, "by its data sheet"},
+     {"compensator.range",
+      FactUnit::degrees,
+      {{}, true, 0, 360},
+      [](const Device& d) { return numberFact(compensatorRange_deg(d)); },
+      "of the scanner's compensator"},
+     {"nearest.least",
+      FactUnit::metres,
+      {{}, true, 0, 1e6},
+      [](const Device& d) { return numberFact(d.type().instrument.min_range_m); },
+      "the shortest range of the data sheet"},
+     {"scanner",
+      FactUnit::none,
+      {},
+      [](const Device& d) { return wordFact(d.type().instrument.maker + " " + d.type().instrument.model); },
+      "maker and model"}},
     {},
     prepare,
 };

@@ -159,6 +159,7 @@ void emptied(Device& d) {
   forceDisconnect(d);
   if (d.state().running) d.change().entries["sudden"] = "yes";
   dropScan(d);
+  d.takeBack();   // a transfer, too
   result(d, "Aborted", "none");
 }
 

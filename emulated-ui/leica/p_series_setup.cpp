@@ -133,7 +133,7 @@ void sightNext(Device& d) {
   if (next == nullptr) return;
   auto& entries = d.change().entries;
   entries["picked"] = entries["target_id"] = next->name;
-  entries["target_height"] = "0";
+  entries["target_height"] = std::string(1, '0');
   entries["tried"] += fmt::format("/{}/", next->name);
   entries["series"] = "yes";
   sight(d);
@@ -204,6 +204,7 @@ void addSetupTransitions(std::vector<Transition>& rows) {
       {"searching_target", "elapsed", "entry.sight == missed", "idle", "pick_target", "target_not_found", nullptr, "G1"},
       {"searching_target", "sighted", "", "", "", "", sightCame, "G1"},
       {"searching_target", "not_sighted", "", "", "", "", sightMissed, "G1"},
+      {"searching_target", "battery_empty", "", "off", "", "", dropSight, "P"},
       {"searching_target", "failed", "", "idle", "pick_target", "", nullptr, "P"},
       {"searching_target", "cancel_sight", "", "idle", "pick_target", "", dropSight, "P"},
       {"searching_target", "moved", "", "idle", "pick_target", "moved", dropSight, "P"},

@@ -107,6 +107,10 @@ Result<Exercise> readExercise(const std::filesystem::path& file);
 // that can never hold, texts without a translation.
 std::vector<Error> checkExercise(const Exercise& exercise);
 
+// A new exercise from what somebody did: its actions are the solution, and each thing that was reached on the device is a
+// step with a point, to be kept or struck out. Texts are to be filled in.
+nlohmann::json recordedExercise(const class Device& device, const std::vector<RehearsalAction>& actions);
+
 struct KnownExercise {
   Exercise exercise;
   std::filesystem::path file;

@@ -29,8 +29,7 @@ std::map<std::string, double> readSurvey(const Exercise& exercise, const Device&
   std::map<std::string, double> figures = {{"survey.walls", 0}, {"survey.coverage", 0}, {"survey.overlap", 0}};
   if (!document.job || document.job->stations.empty()) return figures;
   Progress quiet;
-  Report report;
-  const auto assignment = scanAssignment(document, report, quiet);
+  const auto assignment = scanAssignment(document, quiet);
   if (!assignment) return {};
   const ScanWorld world = scanWorld(document, *assignment);
   const auto scene = RayScene::build(world.environment, quiet);

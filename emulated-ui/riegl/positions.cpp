@@ -8,28 +8,25 @@
 
 #include "emulated-ui/device/effects.h"
 
-namespace standpoint {
+namespace standpoint::riegl {
 
 namespace {
 
-const std::string kMedium = "medium.";   // + file: a value of the device
-
-std::string entry(const Device& device, const char* id) {
-  const auto found = device.state().entries.find(id);
-  return found == device.state().entries.end() ? std::string() : found->second;
-}
+const std::string kMedium = "medium.";  // + file: a value of the device
 
 int firstFree(const Device& device) {
   const auto* project = device.project();
   int next = project == nullptr ? 1 : project->first;
-  for (std::size_t i = 0; project != nullptr && i < project->setups.size(); ++i) next = std::max(next, project->setups[i].number + 1);
+  for (std::size_t i = 0; project != nullptr && i < project->setups.size(); ++i)
+    next = std::max(next, project->setups[i].number + 1);
   return next;
 }
 
 int scansOf(const Device& device, int number) {
   const auto* project = device.project();
   if (project == nullptr) return 0;
-  return static_cast<int>(std::count_if(project->setups.begin(), project->setups.end(), [&](const StoredSetup& s) { return s.number == number; }));
+  return static_cast<int>(std::count_if(project->setups.begin(), project->setups.end(),
+                                        [&](const StoredSetup& s) { return s.number == number; }));
 }
 
 void setNumber(Device& device, int number) { device.change().values["position"] = std::to_string(number); }
@@ -72,10 +69,11 @@ double doublePositions(const Device& device) {
 
 // Loads the project of this name; makes it where there is none [S31].
 Result<void> loadOrCreate(Device& device, const std::string&) {
-  const auto name = entry(device, "name");
+  const auto name = device.entry("name");
   if (auto ok = checkName(name); !ok) return ok;
   auto& s = device.change();
-  const auto found = std::find_if(s.projects.begin(), s.projects.end(), [&](const DeviceProject& p) { return p.name == name; });
+  const auto found =
+      std::find_if(s.projects.begin(), s.projects.end(), [&](const DeviceProject& p) { return p.name == name; });
   s.project = static_cast<int>(found - s.projects.begin());
   if (found == s.projects.end()) {
     DeviceProject project;
@@ -92,7 +90,7 @@ Result<void> loadOrCreate(Device& device, const std::string&) {
 
 Result<void> openPositionProject(Device& device, const std::string& row) {
   auto& s = device.change();
-  const int at = std::atoi(row.c_str());   // a row of the list
+  const int at = std::atoi(row.c_str());  // a row of the list
   s.project = at;
   s.shown = -1;
   device.note("project_opened", s.projects[static_cast<std::size_t>(at)].name);
@@ -108,7 +106,7 @@ Result<void> proposePosition(Device& device, const std::string&) {
 }
 
 Result<void> setBase(Device& device, const std::string&) {
-  const auto base = entry(device, "base");
+  const auto base = device.entry("base");
   if (auto ok = checkName(base); !ok) return ok;
   device.project()->base = base;
   device.note("position_base", base);
@@ -129,7 +127,8 @@ std::string cardState(const Device& device) {
 double cardFree(const Device& device) {
   if (cardState(device) != "present") return 0;
   const auto& around = device.state().around;
-  return device.value("storage") == "ssd" ? std::max(0.0, kSsdBytes - usedOfSsd(device)) : std::max(0.0, around.card_bytes - around.card_used_bytes);
+  return device.value("storage") == "ssd" ? std::max(0.0, kSsdBytes - usedOfSsd(device))
+                                          : std::max(0.0, around.card_bytes - around.card_used_bytes);
 }
 
 void storePosition(Device& device) {
@@ -168,4 +167,4 @@ void formatMedium(Device& device) {
   device.note("card_formatted", std::to_string(lost));
 }
 
-}  // namespace standpoint
+}  // namespace standpoint::riegl

@@ -5,12 +5,12 @@
 
 #include "emulated-ui/device/device.h"
 
-namespace standpoint {
+namespace standpoint::riegl {
 
 // Projects, the running number of the scan positions, and the three storage media of a VZ-i.
 
-constexpr const char* kPositionBase = "ScanPos";   // [S31]
-constexpr double kSsdBytes = 1e12;                 // [G2]
+constexpr const char* kPositionBase = "ScanPos";  // [S31]
+constexpr double kSsdBytes = 1e12;                // [G2]
 
 // A position's number: the next free one, or with the automatic numbering off the one that stands there, taken or not.
 int nextPosition(const Device& device);
@@ -32,4 +32,4 @@ void storePosition(Device& device);
 void deletePosition(Device& device);
 void formatMedium(Device& device);
 
-}  // namespace standpoint
+}  // namespace standpoint::riegl

@@ -5,8 +5,8 @@
 
 namespace standpoint {
 
-// RIEGL VZ-i (VZ-400i): projects and numbered scan positions, patterns, storage media, reflector search, registration after
-// each scan, control points, camera. Transitions: instrument facts, section 2.6.
+// RIEGL VZ-i (VZ-400i): projects and numbered scan positions, patterns, storage media, reflector search, registration
+// after each scan, control points, camera. Transitions: instrument facts, section 2.6.
 const DeviceProgram& vzIProgram();
 
 }  // namespace standpoint

@@ -8,16 +8,17 @@
 
 #include "emulated-ui/device/effects.h"
 
-namespace standpoint {
+namespace standpoint::trimble {
 
 namespace {
 
-const std::string kState = "registration.";    // + file: a value of the device
-constexpr const char* kLeft = "links_left";        // an entry
+const std::string kState = "registration.";  // + file: a value of the device
+constexpr const char* kLeft = "links_left";  // an entry
 
 std::string judged(const Device& device, const StoredSetup& setup, const LinkResult& link) {
   const auto* before = setupBefore(device, setup);
-  if (before == nullptr || !link.joined || tiltDifference_deg(setup, *before) >= kMostTiltDifference_deg) return "failed";
+  if (before == nullptr || !link.joined || tiltDifference_deg(setup, *before) >= kMostTiltDifference_deg)
+    return "failed";
   const double confidence = confidenceOf(link);
   return confidence >= kGreenConfidence ? "registered" : confidence >= kAmberConfidence ? "check" : "failed";
 }
@@ -36,7 +37,7 @@ void orderRefine(Device& device, const StoredSetup& setup, bool with_shift) {
     order.shift_y_m = std::strtod(device.value("shift_y").c_str(), nullptr);
     order.turn_deg = std::strtod(device.value("turn").c_str(), nullptr);
   }
-  device.change().values.erase(kState + setup.file);
+  forgetRegistration(device, setup);
   device.give(std::move(order));
 }
 
@@ -56,6 +57,8 @@ std::string registrationOf(const Device& device, const StoredSetup& setup) {
   const auto state = device.value(kState + setup.file);
   return state.empty() ? "none" : state;
 }
+
+void forgetRegistration(Device& device, const StoredSetup& setup) { device.change().values.erase(kState + setup.file); }
 
 void setRegistration(Device& device, const StoredSetup& setup, const std::string& state) {
   device.change().values[kState + setup.file] = state;
@@ -95,10 +98,7 @@ void refineFirst(Device& device) {
   orderRefine(device, setups[1], false);
 }
 
-int linksLeft(const Device& device) {
-  const auto left = device.state().entries.find(kLeft);
-  return left == device.state().entries.end() ? 0 : std::atoi(left->second.c_str());
-}
+int linksLeft(const Device& device) { return std::atoi(device.entry(kLeft).c_str()); }
 
 void judgeLink(Device& device) {
   const auto* setup = setupOfFile(device, device.state().linking);
@@ -136,12 +136,14 @@ std::vector<WidgetOption> linkRows(const Device& device) {
   const auto* project = device.project();
   for (std::size_t i = 1; project != nullptr && i < project->setups.size(); ++i) {
     const auto& setup = project->setups[i];
-    std::string text = fmt::format("{} – {}  {}", project->setups[i - 1].name, setup.name, device.word("registration=" + registrationOf(device, setup)));
+    std::string text = fmt::format("{} – {}  {}", project->setups[i - 1].name, setup.name,
+                                   device.word("registration=" + registrationOf(device, setup)));
     if (setup.link && setup.link->joined)
-      text += fmt::format("  {:.1f} mm  {:.0f} %  {:.0f}", setup.link->error_m * 1000, setup.link->overlap * 100, confidenceOf(*setup.link));
+      text += fmt::format("  {:.1f} mm  {:.0f} %  {:.0f}", setup.link->error_m * 1000, setup.link->overlap * 100,
+                          confidenceOf(*setup.link));
     rows.push_back({std::to_string(i), text, true, {}});
   }
   return rows;
 }
 
-}  // namespace standpoint
+}  // namespace standpoint::trimble

@@ -11,6 +11,7 @@
 #include "demo_verbs.h"
 #include "editor/panels.h"
 #include "editor/shell/actions.h"
+#include "editor/shell/theme.h"
 #include "item_probe.h"
 
 namespace standpoint {
@@ -315,6 +316,40 @@ TEST_F(Gui, FollowsTheBudgetsSliderAtOnceAndForgetsItWhenOptimised) {
   gui.settle();
   EXPECT_FALSE(editor.panels.optimise.live);
   EXPECT_EQ(editor.viewState().environment, editor.session.document().lightening->environment);
+}
+
+// Whatever is drawn in these windows ends before their right edge.
+void expectNothingCut(const char* window_name) {
+  const auto* window = ImGui::FindWindowByName(window_name);
+  ASSERT_NE(window, nullptr) << window_name;
+  for (const auto& item : itemProbe().items)
+    if (item.window == window_name && item.label.find("###scene") == std::string::npos) {
+      EXPECT_LE(item.rect.Max.x, window->Pos.x + window->Size.x) << item.label;
+    }
+}
+
+TEST_F(Gui, CutsNoToolAtASmallWindowNorAtALargeScale) {
+  open();
+  ASSERT_TRUE(editor.session.start("optimize", {{"budget", 60}, {"max-deviation", 0.5}}));
+  gui.settle();
+  for (const float scale : {1.0F, 1.5F}) {
+    editor.scale = scale;
+    applyTheme(scale);
+    editor.fonts = buildFonts(scale);
+    unsigned char* pixels = nullptr;
+    int w = 0, h = 0;
+    ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &w, &h);
+    editor.visibility.cut_height_m = 1.5;
+    for (const auto mode : {ColourMode::model, ColourMode::reflectance, ColourMode::expected_intensity}) {
+      editor.view.colour = mode;
+      for (int w2 = 0; w2 < kWorkspaces; ++w2) {
+        editor.workspace = static_cast<Workspace>(w2);
+        gui.frames(3);
+        expectNothingCut("###toolbar");
+        expectNothingCut("###viewport");
+      }
+    }
+  }
 }
 
 void closeEverything(Editor& editor, GuiDriver& gui) {

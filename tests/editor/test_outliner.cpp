@@ -123,7 +123,9 @@ TEST(Visibility, HidesIsolatesAndShowsAll) {
   visibility.isolate(std::vector<std::uint32_t>{1});
   EXPECT_FALSE(visibility.hidden(1));
   EXPECT_EQ(visibility.hiddenCount(), 4U);
+  EXPECT_TRUE(visibility.alone());
   visibility.showAll();
+  EXPECT_FALSE(visibility.alone());
   EXPECT_FALSE(visibility.anyHidden());
   EXPECT_FALSE(visibility.hidden(99));
 }

@@ -74,11 +74,13 @@ TEST(GenericDevice, DrivesAScannerOfTheUsersOwn) {
     instrument.id = "my-scanner";
     instrument.maker = "Institute";
     instrument.model = "Breadboard";
-    instrument.settings.push_back({"back", "Lamp", "", {{"dim", "Dim", {}}, {"bright", "Bright", {{"noise_factor", 0.5}}}}, 0, 0, "dim"});
+    instrument.settings.push_back(
+        {"back", "Lamp", "", {{"dim", "Dim", {}}, {"bright", "Bright", {{"noise_factor", 0.5}}}}, 0, 0, "dim"});
     auto definition = readDefinition(dataFolder() / "emulated-ui" / "generic" / "generic.json");
     auto words = Words::read(dataFolder() / "emulated-ui" / "words");
     ASSERT_TRUE(definition && words);
-    const auto type = makeDeviceType(*definition, findDevice("generic")->program(), instrument, std::make_shared<const Words>(*words));
+    const auto type = makeDeviceType(*definition, findDevice("generic")->program(), instrument,
+                                     std::make_shared<const Words>(*words));
     ASSERT_TRUE(type) << describe(type.error());
     Device device(*type);
     ASSERT_TRUE(device.act("power"));
@@ -146,9 +148,13 @@ TEST_F(Generic, RecomputesTimePointsSpacingAndSizeWithEverySetting) {
 
 TEST_F(Generic, RefusesOrAsksByTheRulesOfAllInstruments) {
   ready();
-  const std::pair<const char*, const char*> kTroubles[] = {{"card_missing", "card_absent"}, {"card_locked", "card_locked"}, {"card_full", "card_full"},
-                                                           {"too_cold", "temperature_question"}, {"not_warm", "not_warm_question"},
-                                                           {"tilted", "tilt_question"}, {"too_near", ""}};
+  const std::pair<const char*, const char*> kTroubles[] = {{"card_missing", "card_absent"},
+                                                           {"card_locked", "card_locked"},
+                                                           {"card_full", "card_full"},
+                                                           {"too_cold", "temperature_question"},
+                                                           {"not_warm", "not_warm_question"},
+                                                           {"tilted", "tilt_question"},
+                                                           {"too_near", ""}};
   for (const auto& [trouble, dialog] : kTroubles) {
     TestDevice one = d;
     ASSERT_TRUE(one->trouble(trouble));

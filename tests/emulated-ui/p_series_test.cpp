@@ -392,5 +392,44 @@ TEST_F(PSeries, AStoppedScanIsDiscardedOrKeptInPart) {
   EXPECT_EQ(dropped.fact("setups"), "0");
 }
 
+TEST_F(PSeries, APushWhileItMeasuresATargetSpoilsThatTarget) {
+  ready();
+  ASSERT_TRUE(d.press({"targets", "measure_target", "view_list=T1", "pick"}));
+  ASSERT_TRUE(d->takeOrder());
+  ASSERT_TRUE(d->hand("push"));
+  EXPECT_EQ(d.dialog(), "moved");
+  EXPECT_EQ(d.screen(), "pick_target");
+  EXPECT_TRUE(d->takeCancel());
+  EXPECT_EQ(d.fact("targets.sighted"), "0");
+}
+
+TEST_F(PSeries, TellsThatItWasPushedAndKeepsOrDiscardsTheScan) {
+  ready();
+  scanWithoutSetup();
+  ASSERT_TRUE(d->takeOrder());
+  d->tick(54.5);
+  ASSERT_TRUE(d->trouble("moved"));
+  EXPECT_EQ(d.phase(), "error");
+  TestDevice other = d;
+  ASSERT_TRUE(d.press({"ok", "keep"}));
+  EXPECT_NEAR(d.scanned().bumped_at_share.value_or(0), 0.5, 0.01);
+  d->tick(5);
+  EXPECT_EQ(d.fact("newest.moved"), "yes");
+  ASSERT_TRUE(other.press({"ok", "discard"}));
+  EXPECT_EQ(other.fact("setups"), "0");
+}
+
+TEST_F(PSeries, ChecksItselfOnlyWhenItIsLevelAndLeftAlone) {
+  start();
+  ASSERT_TRUE(d->hand("tilt", "1,0"));
+  ASSERT_TRUE(d.press({"tools", "check_adjust"}));
+  EXPECT_EQ(d.dialog(), "adjust_refused");
+  ASSERT_TRUE(d->hand("level"));
+  ASSERT_TRUE(d.press({"ok", "check_adjust"}));
+  EXPECT_EQ(d.phase(), "adjusting");
+  d->tick(301);
+  EXPECT_EQ(d.dialog(), "adjusted");
+}
+
 }  // namespace
 }  // namespace standpoint

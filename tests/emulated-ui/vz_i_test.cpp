@@ -87,7 +87,7 @@ TEST_F(VzI, IsWaitingScanningProcessingAndWaitingAgain) {
   ASSERT_TRUE(d.press({"home", "start_scan"}));
   EXPECT_EQ(d.fact("opstate"), "scanning");
   d.scanned();
-  d->tick(130);
+  d->tick(192);  // 188 s of Panorama_40, and storing
   EXPECT_EQ(d.fact("opstate"), "processing");
   linked(0.003, 0.7);
   EXPECT_EQ(d.fact("opstate"), "waiting");
@@ -105,7 +105,8 @@ TEST_F(VzI, CountsThePositionsUp) {
 
 TEST_F(VzI, GivesTheSameNumberTwiceWithTheCountingOff) {
   ready();
-  ASSERT_TRUE(d.press({"registration_now", "registration=off", "back", "scan_position", "auto_number=off", "position_number=5", "back"}));
+  ASSERT_TRUE(d.press({"registration_now", "registration=off", "back", "scan_position", "auto_number=off",
+                       "position_number=5", "back"}));
   EXPECT_EQ(scan().name, "ScanPos005");
   ASSERT_TRUE(d->hand("stand_at", "S2"));
   ASSERT_TRUE(d.press({"home", "start_scan"}));
@@ -131,9 +132,11 @@ TEST_F(VzI, NamesPositionsByTheirBase) {
 TEST_F(VzI, OffersThePatternsByTheirStep) {
   ready();
   ASSERT_TRUE(d.press({"pattern_now"}));
-  const std::pair<const char*, const char*> kPatterns[] = {{"panorama_100", "3.6 M (3600 × 1000)"},  {"panorama_50", "14.4 M (7200 × 2000)"},
-                                                           {"panorama_40", "22.5 M (9000 × 2500)"},  {"panorama_30", "40.0 M (12000 × 3333)"},
-                                                           {"panorama_20", "90.0 M (18000 × 5000)"}, {"overview", "0.9 M (1800 × 500)"}};
+  EXPECT_EQ(d.fact("setting.pattern"), "panorama_40") << "the standard of the maker's package [S31]";
+  const std::pair<const char*, const char*> kPatterns[] = {
+      {"panorama_100", "3.6 M (3600 × 1000)"},  {"panorama_50", "14.4 M (7200 × 2000)"},
+      {"panorama_40", "22.5 M (9000 × 2500)"},  {"panorama_30", "40.0 M (12000 × 3333)"},
+      {"panorama_20", "90.0 M (18000 × 5000)"}, {"overview", "0.9 M (1800 × 500)"}};
   for (const auto& [pattern, points] : kPatterns) {
     ASSERT_TRUE(d.press({std::string("pattern=") + pattern}));
     EXPECT_EQ(d.shows("expected_points"), points);
@@ -149,7 +152,8 @@ TEST_F(VzI, TakesAPatternOfSixNumbers) {
   ASSERT_TRUE(d.press({"pattern_now"}));
   EXPECT_EQ(d.shows("line_start"), "30");
   EXPECT_EQ(d.shows("line_stop"), "130");
-  ASSERT_TRUE(d.press({"line_start=60", "line_stop=110", "line_step=0.05", "frame_start=90", "frame_stop=180", "frame_step=0.02", "take_pattern"}));
+  ASSERT_TRUE(d.press({"line_start=60", "line_stop=110", "line_step=0.05", "frame_start=90", "frame_stop=180",
+                       "frame_step=0.02", "take_pattern"}));
   EXPECT_EQ(d.fact("setting.pattern"), "custom");
   EXPECT_EQ(d.fact("setting.vertical_to"), "30") << "lines are counted from the zenith";
   EXPECT_EQ(d.fact("setting.vertical_from"), "-20");
@@ -188,11 +192,11 @@ TEST_F(VzI, PhotographsDuringTheScanOrAfterIt) {
   TestDevice after = d;
   ASSERT_TRUE(after.press({"back", "start_scan"}));
   EXPECT_TRUE(after.scanned().panorama);
-  after->tick(121);
+  after->tick(189);
   EXPECT_EQ(after.phase(), "photographing");
   ASSERT_TRUE(d.press({"images=automatic", "image_mode=during_scan", "back", "start_scan"}));
   EXPECT_TRUE(d.scanned().panorama);
-  d->tick(121);
+  d->tick(189);
   EXPECT_EQ(d.phase(), "storing");
 }
 
@@ -214,10 +218,18 @@ TEST_F(VzI, SaysScanRegFailedWhenTheMatchIsNotGoodEnoughForTheMode) {
     double error_m, overlap;
     const char* result;
   };
-  const Case kCases[] = {{"AUTO", 0.02, 0.3, "ok"},                {"AUTO", 0.021, 0.5, "scan_failed"},          {"AUTO", 0.01, 0.29, "scan_failed"},
-                         {"INDOOR_SMALL", 0.01, 0.4, "ok"},        {"INDOOR_SMALL", 0.011, 0.5, "scan_failed"},  {"INDOOR_LARGE", 0.02, 0.3, "ok"},
-                         {"OUTDOOR_URBAN", 0.03, 0.25, "ok"},      {"OUTDOOR_URBAN", 0.031, 0.5, "scan_failed"}, {"OUTDOOR_NON_URBAN", 0.1, 0.2, "ok"},
-                         {"MINING_MEDIUM", 0.05, 0.25, "ok"},      {"MINING_LARGE", 0.1, 0.2, "ok"},             {"MINING_LARGE", 0.11, 0.5, "scan_failed"}};
+  const Case kCases[] = {{"AUTO", 0.02, 0.3, "ok"},
+                         {"AUTO", 0.021, 0.5, "scan_failed"},
+                         {"AUTO", 0.01, 0.29, "scan_failed"},
+                         {"INDOOR_SMALL", 0.01, 0.4, "ok"},
+                         {"INDOOR_SMALL", 0.011, 0.5, "scan_failed"},
+                         {"INDOOR_LARGE", 0.02, 0.3, "ok"},
+                         {"OUTDOOR_URBAN", 0.03, 0.25, "ok"},
+                         {"OUTDOOR_URBAN", 0.031, 0.5, "scan_failed"},
+                         {"OUTDOOR_NON_URBAN", 0.1, 0.2, "ok"},
+                         {"MINING_MEDIUM", 0.05, 0.25, "ok"},
+                         {"MINING_LARGE", 0.1, 0.2, "ok"},
+                         {"MINING_LARGE", 0.11, 0.5, "scan_failed"}};
   ready();
   scan();
   scan();
@@ -283,13 +295,18 @@ TEST_F(VzI, SearchesReflectorsBeforeItRegisters) {
 TEST_F(VzI, NeedsFourControlPointsWithANameAndThreeCoordinates) {
   ready();
   ASSERT_TRUE(d.press({"control_points"}));
-  for (const char* wrong : {"control_point=P1", "control_point=P1,1,2", "control_point=P1,1,2,x", "control_point=,1,2,3", "control_point=P1,1,2,3,4"}) {
+  for (const char* wrong : {"control_point=P1", "control_point=P1,1,2", "control_point=P1,1,2,x",
+                            "control_point=,1,2,3", "control_point=P1,1,2,3,4"}) {
     TestDevice one = d;
     ASSERT_TRUE(one.press({wrong, "add_point"}));
     EXPECT_EQ(one.dialog(), "refused") << wrong;
   }
-  for (const char* point : {"control_point=P1,0,0,0", "control_point=P2;10;0;0.5", "control_point=P3,10,8,0"}) ASSERT_TRUE(d.press({point, "add_point"}));
+  for (const char* point : {"control_point=P1,0,0,0", "control_point=P2;10;0;0.5", "control_point=P3,10,8,0"})
+    ASSERT_TRUE(d.press({point, "add_point"}));
   EXPECT_TRUE(d.refuses("georeference")) << "three are too few";
+  TestDevice cleared = d;
+  ASSERT_TRUE(cleared.press({"clear_points"}));
+  EXPECT_EQ(cleared.fact("control_points"), "0");
   ASSERT_TRUE(d.press({"control_point=P4,0,8,1", "add_point", "georeference"}));
   EXPECT_EQ(d.dialog(), "refused") << "none of them was found as a reflector";
   ASSERT_TRUE(d.press({"ok", "back"}));
@@ -308,7 +325,7 @@ TEST_F(VzI, StoresOnTheMediumThatIsChosen) {
   ASSERT_TRUE(d.press({"storage=usb"}));
   EXPECT_EQ(d.shows("free"), "64.0 GB");
   ASSERT_TRUE(d.press({"back"}));
-  scan();   // 1 M points of 26 bytes
+  scan();  // 1 M points of 26 bytes
   ASSERT_TRUE(d.press({"home", "storage_now"}));
   EXPECT_NEAR(d->fact("card.free")->number.value(), 64e9 - 26e6, 1);
   ASSERT_TRUE(d.press({"storage=ssd", "back"}));
@@ -321,7 +338,8 @@ TEST_F(VzI, StoresOnTheMediumThatIsChosen) {
 
 TEST_F(VzI, RefusesAMissingLockedOrFullMediumButHasItsSsdAlways) {
   ready();
-  for (const auto& [trouble, dialog] : {std::pair{"card_missing", "card_absent"}, std::pair{"card_locked", "card_locked"}, std::pair{"card_full", "card_full"}}) {
+  for (const auto& [trouble, dialog] : {std::pair{"card_missing", "card_absent"},
+                                        std::pair{"card_locked", "card_locked"}, std::pair{"card_full", "card_full"}}) {
     TestDevice one = d;
     ASSERT_TRUE(one.press({"storage_now", "storage=sd", "back"}));
     ASSERT_TRUE(one->trouble(trouble));

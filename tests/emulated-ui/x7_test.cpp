@@ -89,7 +89,7 @@ TEST_F(X7, ConnectsByWlanOrByCable) {
   ASSERT_TRUE(d.press({"create_new", "create", "status", "disconnect"}));
   EXPECT_EQ(d.phase(), "disconnected");
   ASSERT_TRUE(d.press({"connection=wlan"}));
-  ASSERT_TRUE(d->hand("come_near"));
+  ASSERT_TRUE(d->hand("go_near"));
   ASSERT_TRUE(d.press({"connect"}));
   d->tick(5);
   EXPECT_EQ(d.phase(), "idle");
@@ -188,7 +188,9 @@ TEST_F(X7, RefusesToStartWithoutProjectPlaceStorageOrBattery) {
   EXPECT_EQ(d.dialog(), "no_station");
   ASSERT_TRUE(d.press({"ok"}));
   ASSERT_TRUE(d->hand("stand_at", "S1"));
-  const std::pair<const char*, const char*> kTroubles[] = {{"card_missing", "card_absent"}, {"card_locked", "card_locked"}, {"card_full", "card_full"},
+  const std::pair<const char*, const char*> kTroubles[] = {{"card_missing", "card_absent"},
+                                                           {"card_locked", "card_locked"},
+                                                           {"card_full", "card_full"},
                                                            {"battery_critical", "battery_critical"}};
   for (const auto& [trouble, dialog] : kTroubles) {
     TestDevice one = d;
@@ -284,7 +286,7 @@ TEST_F(X7, LevelsWithinTenDegreesAsksBeyondAndRefusesBeyondFortyFive) {
 TEST_F(X7, ShowsTheProgressOfEachStep) {
   ready();
   beginLaser();
-  d->tick(55);   // 30 s went by of which 5 s are the laser's
+  d->tick(55);  // 30 s went by of which 5 s are the laser's
   const auto screen = d->screen();
   const auto* steps = findWidget(screen, "step_list");
   ASSERT_NE(steps, nullptr);
@@ -343,7 +345,7 @@ TEST_F(X7, KeepsAnInterruptedDownloadOnTheCardUntilItIsFetched) {
     EXPECT_EQ(d.dialog(), "no_connection");
     ASSERT_TRUE(d.press({"ok"}));
     if (by_import) {
-      ASSERT_TRUE(d->hand("come_near"));
+      ASSERT_TRUE(d->hand("go_near"));
     } else {
       ASSERT_TRUE(d.press({"connection=cable"}));
     }
@@ -408,6 +410,10 @@ TEST_F(X7, MakesAStationAmberBetween73And91) {
   EXPECT_NEAR(d->fact("confidence")->number.value(), 88.5, 0.1);
   EXPECT_EQ(d.dialog(), "check_by_eye");
   ASSERT_TRUE(d.press({"ok"}));
+  const auto screen = d->screen();
+  const auto* links = findWidget(screen, "link_list");
+  ASSERT_NE(links, nullptr);
+  ASSERT_TRUE(d.press({"link_list=" + links->options.back().value}));
   TestDevice other = d;
   ASSERT_TRUE(d.press({"apply"}));
   EXPECT_EQ(d.fact("registration"), "applied");
@@ -438,7 +444,8 @@ TEST_F(X7, TheLimitsAre73And91) {
   const auto errorFor = [](double confidence) { return 0.010 * std::pow(100 / confidence - 1, 0.25); };
   ready();
   secondStation();
-  const std::pair<double, const char*> kCases[] = {{91.01, "registered"}, {90.99, "check"}, {73.01, "check"}, {72.99, "failed"}};
+  const std::pair<double, const char*> kCases[] = {
+      {91.01, "registered"}, {90.99, "check"}, {73.01, "check"}, {72.99, "failed"}};
   const TestDevice waiting = d;
   for (const auto& [confidence, state] : kCases) {
     d = waiting;
@@ -499,7 +506,7 @@ TEST_F(X7, RefinesFromWhereTheCloudWasLaidByHand) {
 TEST_F(X7, MayTakeAWrongMatchInASymmetricalRoomForAGoodOne) {
   ready();
   secondStation();
-  d->linkDone({true, 0.0015, 0.85, 6.0, 180.0});   // the room turned round: only the simulation knows
+  d->linkDone({true, 0.0015, 0.85, 6.0, 180.0});  // the room turned round: only the simulation knows
   d->tick(20);
   EXPECT_EQ(d.fact("registration"), "registered");
   ASSERT_TRUE(d.press({"registration", "reject"}));
@@ -566,7 +573,8 @@ TEST_F(X7, ScansAnAreaOnlyWhereAStationStands) {
 TEST_F(X7, RefusesAnAreaBeyondItsField) {
   ready();
   scanAt("S1");
-  ASSERT_TRUE(d.press({"map", "scan_panel", "area_scan", "start_h=0", "delta_h=90", "start_v=100", "delta_v=60", "take_area"}));
+  ASSERT_TRUE(
+      d.press({"map", "scan_panel", "area_scan", "start_h=0", "delta_h=90", "start_v=100", "delta_v=60", "take_area"}));
   EXPECT_EQ(d.dialog(), "refused") << "160 degrees from the zenith";
   EXPECT_EQ(d.fact("setting.field_of_view"), "full_dome");
 }

@@ -272,6 +272,31 @@ TEST(TextClouds, KeepANationalGridToAHundredthOfAMillimetre) {
   }
 }
 
+// LAS 1.4 R15, table 17: 38 bytes, red at 30, near infrared at 36.
+TEST(Las, OfPointFormat8HasRoomForNearInfraredAndSaysThatItIsEmpty) {
+  const TemporaryFolder folder;
+  for (const bool colour : {true, false}) {
+    const ScanHeader header = madeUpHeader({30, 20, colour, true, "A", colour});
+    auto writer = writerOf(*cloudFormatFor("a.las"), "pdrf8").value()(folder / "a.las");
+    ASSERT_OK(writer);
+    ASSERT_OK(writeScan(**writer, header));
+    ASSERT_OK((*writer)->close());
+    EXPECT_THAT(testing::said((*writer)->report()), ::testing::HasSubstr("near infrared"));
+    if (colour) expectBack(folder / "a.las", {header});
+    const std::string bytes = testing::bytesOf(folder / "a.las");
+    EXPECT_EQ(bytes[104], 8);
+    const auto at = [&](std::size_t i) { return static_cast<std::uint8_t>(bytes[i]); };
+    const std::size_t length = 38 + 4 * 4 + (colour ? 3 * 4 + 3 * 4 + 1 : 0);   // labels, row, column; true values
+    EXPECT_EQ(at(105), length);
+    const std::size_t record = at(96) | at(97) << 8U;
+    const PointBlock points = allPoints(header);
+    for (std::size_t i = 0; i < 5; ++i) {
+      EXPECT_EQ(at(record + length * i + 31), colour ? points.red[i] : 0);
+      EXPECT_EQ(at(record + length * i + 36), 0);
+    }
+  }
+}
+
 TEST(Las, OfAnotherTableOfLabelsPutsItBehindTheFirst) {
   const TemporaryFolder folder;
   std::vector<ScanHeader> headers = {madeUpHeader({10, 20, false, true, "A"}), madeUpHeader({10, 20, false, true, "B"}),

@@ -74,5 +74,21 @@ TEST(HostileTextPoints, AreRefusedWithLineAndReason) {
   }
 }
 
+// Its limits are those of the intensities wherever their column stands; points of a second block count, blanks do not.
+TEST(TextPoints, HaveTheLimitsOfTheirIntensitiesInAnyColumn) {
+  const TemporaryFolder folder;
+  const auto limits = [&](const char* name, const std::string& text) {
+    testing::putBytes(folder / name, text);
+    KeptScans kept;
+    EXPECT_TRUE(readAll(folder / name, kept).has_value());
+    return std::pair(kept.scans.at(0).header.intensity_min, kept.scans.at(0).header.intensity_max);
+  };
+  EXPECT_EQ(limits("first.csv", "Intensity,X,Y,Z\n5,1,2,3\n\n-7,100,2,3\n"), std::pair(-7.0, 5.0));
+  EXPECT_EQ(limits("last.csv", "X,Y,Z,Intensity\n1,2,3,5\n  \n1,200,3,9\n"), std::pair(5.0, 9.0));
+  EXPECT_EQ(limits("blocks.pts", "2\n1 2 3 5\n\n1 2 3 6\n1\n1 2 3 -40\n"), std::pair(-40.0, 6.0));
+  EXPECT_EQ(limits("nan.xyz", "1 2 3 5\n1 2 3 nan\n1 2 3 inf\n1 2 3 1e300\n1 2 3 8\n"), std::pair(5.0, 8.0));
+  EXPECT_EQ(limits("none.xyz", "1 2 3\n1 2 3\n"), std::pair(0.0, 0.0));
+}
+
 }  // namespace
 }  // namespace standpoint

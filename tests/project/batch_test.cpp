@@ -32,6 +32,14 @@ json options(const fs::path& output) {
   return {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/32", "quality=4x"}}, {"seed", 5}, {"truth", true}, {"output", output.string()}};
 }
 
+json withPanorama(const fs::path& output) {
+  auto o = options(output);
+  o["set"] = {"resolution=1/32", "quality=4x", "colour=on"};
+  o["panorama"] = true;
+  o["panorama-size"] = 256;
+  return o;
+}
+
 Result<Outcome> scanUntil(const Document& d, const json& options, const std::string& station, const std::function<void(Progress&)>& act) {
   Progress progress;
   progress.onChange([&] {
@@ -43,7 +51,7 @@ Result<Outcome> scanUntil(const Document& d, const json& options, const std::str
 void cancel(Progress& progress) { progress.cancel(); }
 
 // Cancels at the third of three stations and goes on; the output must be that of a run without a break.
-void resumes(const char* name) {
+void resumes(const char* name, json (*options)(const fs::path&) = options) {
   const TemporaryFolder folder;
   const Document d = threeStations();
   const fs::path whole = folder.path() / "whole" / name;
@@ -74,6 +82,68 @@ void resumes(const char* name) {
 TEST(Batch, ResumedIntoOneE57HasTheBytesOfARunWithoutABreak) { resumes("all.e57"); }
 TEST(Batch, ResumedIntoOnePtxHasTheBytesOfARunWithoutABreak) { resumes("all.ptx"); }
 TEST(Batch, ResumedIntoAFolderHasTheBytesOfARunWithoutABreak) { resumes("scans"); }
+
+// What the scan writes so is what `convert` makes of its floats, and a run that goes on in another way starts anew.
+TEST(Batch, WritesIntegersThatConvertWouldWrite) {
+  const TemporaryFolder folder;
+  const Document d = threeStations();
+  const auto scan = [&](const char* name, const char* as) {
+    auto o = options(folder.path() / name);
+    o["stations"] = "S1";
+    if (as) o["as"] = as;
+    const auto done = run("scan", d, o);
+    ASSERT_TRUE(done) << describe(done.error());
+    EXPECT_EQ(done->report.losses(), 0U);
+  };
+  scan("float.e57", nullptr);
+  for (const char* as : {"scaled", "spherical"}) {
+    SCOPED_TRACE(as);
+    scan("direct.e57", as);
+    Report report;
+    Progress progress;
+    ASSERT_TRUE(convertCloud(folder.path() / "float.e57", folder.path() / "converted.e57", as, report, progress));
+    // The guid tells them apart, so the checksums of its pages do, too.
+    const auto direct = measureCloud(folder.path() / "direct.e57", progress);
+    const auto converted = measureCloud(folder.path() / "converted.e57", progress);
+    ASSERT_TRUE(direct && converted);
+    EXPECT_GT(direct->points, 10000U);
+    EXPECT_EQ(direct->points, converted->points);
+    EXPECT_EQ(direct->bounds_file_m.min, converted->bounds_file_m.min);
+    EXPECT_EQ(direct->bounds_file_m.max, converted->bounds_file_m.max);
+    EXPECT_EQ(fs::file_size(folder.path() / "direct.e57"), fs::file_size(folder.path() / "converted.e57"));
+  }
+  EXPECT_LT(fs::file_size(folder.path() / "converted.e57"), 1.01 * static_cast<double>(fs::file_size(folder.path() / "float.e57")));
+  const auto refused = run("scan", d, [&] { auto o = options(folder.path() / "x.las"); o["as"] = "scaled"; return o; }());
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("no variant 'scaled'"));
+}
+
+TEST(Batch, GoesOnOnlyWithStationsThatWereWrittenInTheSameWay) {
+  const TemporaryFolder folder;
+  const Document d = threeStations();
+  ASSERT_FALSE(scanUntil(d, options(folder.path() / "scans"), "S2", cancel));
+  auto scaled = options(folder.path() / "scans");
+  scaled["resume"] = true;
+  scaled["as"] = "scaled";
+  const auto again = run("scan", d, scaled);
+  ASSERT_TRUE(again) << describe(again.error());
+  EXPECT_FALSE(again->answer["stations"][0].contains("resumed"));
+}
+
+TEST(Batch, ResumedWithPanoramasHasTheBytesOfARunWithoutABreak) { resumes("all.e57", withPanorama); }
+
+TEST(Batch, ScansAgainWhereThePanoramaHasAnotherSize) {
+  const TemporaryFolder folder;
+  const Document d = threeStations();
+  const auto file = folder.path() / "all.e57";
+  ASSERT_FALSE(scanUntil(d, withPanorama(file), "S3", cancel));
+  auto again = withPanorama(file);
+  again["panorama-size"] = 258;
+  again["resume"] = true;
+  const auto resumed = run("scan", d, again);
+  ASSERT_TRUE(resumed) << describe(resumed.error());
+  for (const auto& row : resumed->answer["stations"]) EXPECT_FALSE(row.contains("resumed")) << row;
+}
 
 TEST(Batch, SurvivesBeingKilled) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");

@@ -7,6 +7,7 @@
 
 #include "pointclouds/formats.h"
 #include "project/instruments.h"
+#include "project/survey_plan.h"
 #include "scanners/scan_forecast.h"
 #include "tests/project/support.h"
 
@@ -158,6 +159,16 @@ TEST(Plan, ForecastsTheSizeOfTheFile) {
   const auto p = plan(d);
   ASSERT_TRUE(run("scan", d, {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/16", "quality=4x"}}, {"output", file.string()}}));
   EXPECT_NEAR(p["bytes"].get<double>() / static_cast<double>(std::filesystem::file_size(file)), 1, 0.03);
+  // With all that is known of each point, as the editor asks for it.
+  Progress progress;
+  const auto instrument = *instrumentById("faro-focus-s350");
+  const auto settings = *resolveSettings(instrument, {{"resolution", "1/16"}, {"quality", "4x"}});
+  const auto assignment = std::make_shared<const MaterialAssignment>();
+  const auto known = planSurvey(*d.job, *RayScene::build(d.environment(), progress), assignment,
+                                {.instrument = instrument, .settings = settings, .stations = {0}, .channels = {true, true, true}, .wanted = {}}, progress);
+  ASSERT_TRUE(known) << describe(known.error());
+  ASSERT_TRUE(run("scan", d, {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/16", "quality=4x"}}, {"truth", true}, {"output", file.string()}}));
+  EXPECT_NEAR(known->bytes[0] / static_cast<double>(std::filesystem::file_size(file)), 1, 0.03);
 }
 
 TEST(Plan, ProposesThePlaceThatAddsMostAndSoDoesAddingAStation) {

@@ -49,6 +49,10 @@ Document fullDocument() {
   g.site = GeographicPosition{48.1, 11.5, 510};
   g.true_north_rad = 0.25;
   d.georeference = std::make_shared<const Georeference>(g);
+  d.scanning = std::make_shared<const ScanChoice>(ScanChoice{
+      .instrument = "leica-rtc360", .settings = {{"resolution", "3mm"}}, .seed = 7,
+      .effects = Effects().without(Effect::striping).without(Effect::panes), .weather = {5, 2, 0, 120, 0},
+      .truth = true, .compensator = false, .panorama = true, .panorama_columns = 2048});
   return run("station", d, {{"add", "S1"}, {"at", {500002.1, 5600002, 1.6}}, {"yaw-deg", 33.3}})->document;
 }
 
@@ -66,6 +70,7 @@ TEST(Project, ComesBackFromTheDiskAsItWas) {
   EXPECT_EQ(back->georeference->map_from_file->northings_m, 1e7 / 3);
   EXPECT_EQ(*back->georeference->true_north_rad, 0.25);
   EXPECT_EQ(back->job->stations[0].true_pose.rotation.coeffs(), d.job->stations[0].true_pose.rotation.coeffs());
+  EXPECT_EQ(*back->scanning, *d.scanning);
   EXPECT_EQ(back->name, "p");
 }
 

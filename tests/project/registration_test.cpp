@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "pointclouds/formats.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -80,6 +81,56 @@ TEST_F(Registration, WithNoiseTellsResidualsSmallerThanItsTrueErrors) {
   EXPECT_THAT(done->text, HasSubstr("S1 – S2: 4 targets"));
 }
 
+// Poses and the first point of each scan of a file.
+class PoseSink : public PointSink {
+ public:
+  std::vector<ScanHeader> headers;
+  std::vector<Eigen::Vector3f> first;
+  Result<void> begin(const ScanHeader& h) override { return headers.push_back(h), Result<void>(); }
+  Result<void> write(const PointBlock& b) override {
+    if (first.size() < headers.size() && b.size() > 0) first.emplace_back(b.x_m[0], b.y_m[0], b.z_m[0]);
+    return {};
+  }
+  Result<void> end() override { return {}; }
+  Result<void> close() override { return {}; }
+};
+
+PoseSink readBack(const fs::path& file) {
+  PoseSink sink;
+  Progress progress;
+  const auto read = cloudFormatFor(file)->read(file, sink, progress);
+  EXPECT_TRUE(read) << describe(read.error());
+  return sink;
+}
+
+TEST_F(Registration, WritesCopiesOfTheScansWithTheirSolvedPoses) {
+  const fs::path to = path("registered");
+  const auto done = run("register", *noisy_, {{"files", {path("noisy.e57")}}, {"output", to.string()}});
+  ASSERT_TRUE(done) << describe(done.error());
+  EXPECT_EQ(done->answer.at("files"), json({(to / "noisy.e57").string()}));
+  const auto as_scanned = readBack(path("noisy.e57")), registered = readBack(to / "noisy.e57");
+  ASSERT_EQ(registered.headers.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& station = done->document.job->stations[i];
+    const auto& pose = registered.headers[i].file_from_scanner;
+    EXPECT_EQ(registered.headers[i].name, station.name);
+    EXPECT_LT((pose.translation - station.solved_pose->translation - Eigen::Vector3d(500000, 5600000, 0)).norm(), 1e-9);
+    EXPECT_LT(pose.rotation.angularDistance(station.solved_pose->rotation), 1e-9);
+    EXPECT_EQ(registered.first[i], as_scanned.first[i]) << "points are in the scanner's frame";
+    EXPECT_NE(registered.headers[i].guid, as_scanned.headers[i].guid);
+    EXPECT_THAT(registered.headers[i].description, HasSubstr("pose by registration"));
+  }
+  const double moved = (registered.headers[1].file_from_scanner.translation - as_scanned.headers[1].file_from_scanner.translation).norm();
+  EXPECT_NEAR(moved, shiftError(done->document.job->stations[1]), 1e-9) << "level stations are scanned with the true pose";
+  EXPECT_GT(moved, 1e-5);
+  // One file in, another format out.
+  ASSERT_TRUE(run("register", *noisy_, {{"files", {path("noisy.e57")}}, {"output", path("one.ptx")}}));
+  EXPECT_LT((readBack(path("one.ptx")).headers[1].file_from_scanner.translation - registered.headers[1].file_from_scanner.translation).norm(), 1e-5);
+  EXPECT_THAT(refused(*noisy_, {{"files", {path("noisy.e57")}}, {"output", path("")}}), HasSubstr("over itself"));
+  EXPECT_THAT(refused(*noisy_, {{"files", {path("noisy.e57")}}, {"output", path("nowhere/x.e57")}}), AllOf(HasSubstr("nowhere"), HasSubstr("make it first")));
+  EXPECT_EQ(readBack(path("noisy.e57")).headers[1].guid, as_scanned.headers[1].guid) << "the input is as it was";
+}
+
 TEST_F(Registration, ByGeometryNeedsNoNames) {
   const auto done = run("register", *noisy_, {{"files", {path("noisy.e57")}}, {"by", "geometry"}});
   ASSERT_TRUE(done) << describe(done.error());
@@ -92,6 +143,17 @@ TEST_F(Registration, CloudToCloudOfAnIdealScanComesBackFromWhereItWasLaidByEye) 
   ASSERT_TRUE(done) << describe(done.error());
   EXPECT_LT(shiftError(done->document.job->stations[0]), 5e-4);
   EXPECT_EQ(shiftError(done->document.job->stations[1]), 0);
+}
+
+TEST_F(Registration, CloudToCloudStartsFromWhereTheUserHasLaidTheScan) {
+  const auto near = run("register", *scanned_, {{"files", {path("ideal.e57")}}, {"cloud", true}, {"laid", "0.1,-0.1,2"}});
+  ASSERT_TRUE(near) << describe(near.error());
+  EXPECT_LT(shiftError(near->document.job->stations[1]), 5e-4);
+  // The wrong way round a fit cannot find back, whatever it says of itself: only the true error tells.
+  const auto turned = run("register", *scanned_, {{"files", {path("ideal.e57")}}, {"cloud", true}, {"laid", "0,0,180"}});
+  EXPECT_TRUE(!turned || turned->answer.at("stations").back().at("true_turn_error_deg").get<double>() > 90);
+  for (const char* wrong : {"1,2", "1,2,3,4", "a,b,c", "1,2,inf"})
+    EXPECT_THAT(refused(*scanned_, {{"files", {path("ideal.e57")}}, {"cloud", true}, {"laid", wrong}}), HasSubstr("x,y,turn")) << wrong;
 }
 
 TEST_F(Registration, ByControlPointsHoldsNoStationAndKeepsThePoints) {

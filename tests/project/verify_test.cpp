@@ -104,7 +104,8 @@ TEST_F(Verify, FindsNothingWhereNothingIsWrong) {
   EXPECT_GE(done->answer.at("materials").size(), 4U);
   for (const auto& m : done->answer.at("materials")) {
     if (m.at("judged")) {
-      EXPECT_NEAR(m.at("off_db").at("median").get<double>(), 0, 0.2) << m.at("material");
+      // A material varies from place to place, and a small room has few places of each.
+      EXPECT_NEAR(m.at("off_db").at("median").get<double>(), 0, 0.3) << m.at("material");
     }
   }
 }
@@ -249,6 +250,16 @@ TEST_F(Verify, OfAHeapAtOnePlaceProposesNothing) {
   if (!done) return;   // refused: as good
   EXPECT_TRUE(done->answer.at("proposals").empty());
   EXPECT_FALSE(done->answer.at("no_verdict").is_null());
+}
+
+TEST_F(Verify, OfAHandfulOfPointsSaysThatTheyAreTooFewAndNotThatTheyLieWrong) {
+  int n = 0;
+  const auto few = rewritten("few.ptx", true, [&](double x, double y, double z, double intensity) {
+    return n++ < 40 ? text(x, y, z, intensity) : std::string("0 0 0 0.5");
+  });
+  const auto said = refusal(laid(few));
+  EXPECT_THAT(said, AllOf(HasSubstr("it has 40 points"), HasSubstr("fewer than 100"), HasSubstr("underlay PROJECT --add FILE")));
+  EXPECT_THAT(said, Not(HasSubstr("--register")));
 }
 
 TEST_F(Verify, StopsWhenItIsCancelled) {

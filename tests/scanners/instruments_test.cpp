@@ -112,6 +112,35 @@ TEST(OtherInstruments, HaveTheGridsAndTimesOfTheirSheets) {
   }
 }
 
+TEST(Vz400i, TakesAPatternOfSixNumbers) {
+  const auto custom = resolved("riegl-vz-400i", {{"pattern", "custom"}, {"line_step", "0.05"}, {"frame_step", "0.02"}, {"horizontal_from", "90"},
+                                                 {"horizontal_to", "180"}, {"vertical_from", "-20"}, {"vertical_to", "30"}});
+  EXPECT_EQ(custom.columns, 4500U);   // 90 / 0.02
+  EXPECT_EQ(custom.rows, 1000U);      // 50 / 0.05
+  EXPECT_DOUBLE_EQ(custom.scan_seconds, 75);   // 18000 · 2000 / 120000, a quarter of the turn
+  EXPECT_THAT(refused("riegl-vz-400i", {{"line_step", "0.1"}}).message, HasSubstr("choose that pattern"));
+}
+
+TEST(Vz400i, TakesItsTimeWhenTheLaserIsSlow) {
+  EXPECT_DOUBLE_EQ(resolved("riegl-vz-400i", {{"pattern", "panorama_50"}, {"programme", "300khz"}}).scan_seconds, 120);   // 14.4 M / 125000 is less
+  EXPECT_NEAR(resolved("riegl-vz-400i", {{"pattern", "panorama_50"}, {"programme", "100khz"}}).scan_seconds, 14.4e6 / 42000, 1e-9);
+}
+
+TEST(Vz400i, PhotographsDuringTheScanOrLongerWithMoreOverlap) {
+  EXPECT_DOUBLE_EQ(resolved("riegl-vz-400i", {{"images", "on"}, {"image_overlap", "50"}}).imaging_seconds, 90);
+  const auto during = resolved("riegl-vz-400i", {{"images", "on"}, {"image_mode", "during_scan"}});
+  EXPECT_TRUE(during.imaging);
+  EXPECT_EQ(during.imaging_seconds, 0);
+}
+
+TEST(TrimbleX7, ScansAnAreaAndPhotographsTwiceAsLongInHdr) {
+  const auto area = resolved("trimble-x7", {{"field_of_view", "area"}, {"horizontal_from", "350"}, {"horizontal_to", "10"}, {"images", "quality"}, {"hdr", "on"}});
+  EXPECT_EQ(area.columns, 317U);   // 5712 · 20 / 360
+  EXPECT_NEAR(area.scan_seconds, 120.0 / 18, 1e-9);
+  EXPECT_DOUBLE_EQ(area.imaging_seconds, 240);
+  EXPECT_THAT(refused("trimble-x7", {{"horizontal_to", "90"}}).message, HasSubstr("field of view"));
+}
+
 TEST(RangeModes, ReachAsFarAsTheChosenOneSays) {
   const auto near = resolved("leica-p50", {{"range", "120m"}});
   const auto far = resolved("leica-p50", {{"range", "1000m"}});

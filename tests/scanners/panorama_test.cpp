@@ -3,11 +3,13 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
 #include <jpeglib.h>
 
+#include "scanners/surface_colours.h"
 #include "tests/scanners/scenes.h"
 
 namespace standpoint {
@@ -93,6 +95,91 @@ TEST(Panorama, HasAnExposureForEachShotUnlessBracketsMakeOne) {
   // Straight up is the same ceiling on both sides of a seam.
   const auto step = [](const Panorama& p) { return std::abs(p.pixels[60 * 360 + 60][1] - p.pixels[60 * 360 + 120][1]); };
   EXPECT_GT(step(each), step(one) + 3);
+}
+
+// A white wall and a black board in its plane, oblique and with other corners, so that each ray rounds them differently.
+TEST(Panorama, ShowsOneOfTwoFacesThatLieInOnePlane) {
+  const Eigen::Vector3d ahead = Eigen::Vector3d(0.83, 0.31, 0.17).normalized();
+  const Eigen::Vector3d u = ahead.unitOrthogonal(), v = ahead.cross(u);
+  for (const bool wall_first : {true, false}) {
+    SceneBuilder builder;
+    const auto white = builder.surface(0.9F), black = builder.surface(0.02F);
+    const auto wall = [&] { builder.quad(3 * ahead - 9 * u - 9 * v, 18 * u, 18 * v, white); };
+    const auto board = [&] { builder.quad(3 * ahead - 0.71 * u - 0.93 * v, 1.37 * u, 1.71 * v, black); };
+    if (wall_first) wall(), board();
+    else board(), wall();
+    const auto scene = builder.build();
+    const Panorama p = taken(*scene, withCamera(720, 0, true, 1));
+    std::size_t seen = 0;
+    for (double x = -0.65; x < 0.6; x += 0.05)
+      for (double y = -0.85; y < 0.7; y += 0.05, ++seen)
+        EXPECT_EQ(p.at(3 * ahead + x * u + y * v)[1] < 90, !wall_first) << x << " " << y;
+    EXPECT_GT(seen, 500U);
+    EXPECT_GT(p.at(3 * ahead + 1.0 * u)[1], 90);   // beside the board
+  }
+}
+
+// A pane in the plane of a board does not let see through the board.
+TEST(Panorama, ShowsTheOpaqueOneOfTwoFacesThatLieInOnePlane) {
+  SceneBuilder builder;
+  const auto pane = builder.surface(0.9F), black = builder.surface(0.02F), white = builder.surface(0.95F);
+  builder.quad({2, -2, -2}, {0, 4, 0}, {0, 0, 4}, pane);
+  builder.quad({2, -1, -1}, {0, 2, 0}, {0, 0, 2}, black);
+  builder.box({-5, -5, -5}, {5, 5, 5}, true, white);
+  const auto environment = std::const_pointer_cast<Environment>(builder.environment());
+  environment->surfaces[pane].colour.a = 0.1F;
+  const auto scene = builder.build();
+  const Panorama p = taken(*scene, withCamera(360, 0, true, 1));
+  EXPECT_LT(p.at({2, 0.3, 0.4})[1], 90);
+  EXPECT_GT(p.at({2, 1.5, 0.4})[1], 90);   // the wall behind the pane
+}
+
+TEST(Panorama, RoundsToTheNearestByteOfSrgb) {
+  for (int i = 0; i <= 100000; ++i) {
+    const float linear = static_cast<float>(i) / 100000;
+    const double power = std::pow(static_cast<double>(linear), 1 / 2.4);
+    const double s = linear <= 0.0031308 ? 12.92 * linear : 1.055 * power - 0.055;
+    ASSERT_NEAR(srgbOf(linear), 255 * s, 0.5001) << linear;
+  }
+  EXPECT_EQ(srgbOf(-1), 0);
+  EXPECT_EQ(srgbOf(7), 255);
+  EXPECT_EQ(srgbOf(std::numeric_limits<float>::quiet_NaN()), 0);
+}
+
+double linear(std::uint8_t value) {
+  const double c = value / 255.0;
+  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+TEST(Panorama, FollowsTheStopsTheWhiteBalanceAndTheFlashThatAreChosen) {
+  const auto scene = boardInRoom();
+  Instrument camera = withCamera(360, 0, false, 4);
+  camera.camera.metered = false;
+  camera.camera.stops = -1;
+  const auto wall = [&] { return taken(*scene, camera).at({0, -3, 0}); };
+  const auto plain = wall();
+  camera.camera.stops = -2;
+  EXPECT_NEAR(linear(wall()[1]) / linear(plain[1]), 0.5, 0.01);
+  camera.camera = {360, 4, false, 0, false, -1, 1, 0};
+  EXPECT_NEAR(linear(wall()[0]) / linear(plain[0]), 1.25, 0.02);
+  EXPECT_NEAR(linear(wall()[2]) / linear(plain[2]), 0.75, 0.02);
+  // The flash falls off with the distance: the board, 2 m away, gains more than the wall, 5 m away.
+  camera.camera = {360, 4, false, 0, false, -1, 0, 0};
+  const Panorama dark = taken(*scene, camera);
+  camera.camera.flash = 1;
+  const Panorama lit = taken(*scene, camera);
+  const auto gain = [&](const Eigen::Vector3d& at) { return linear(lit.at(at)[1]) / linear(dark.at(at)[1]); };
+  EXPECT_GT(gain({0, -3, 0}), 1.05);
+  EXPECT_GT(gain({0, 3, 0}), gain({0, -3, 0}) + 0.1);
+}
+
+TEST(Panorama, HasNoSeamsWhereNothingIsMetered) {
+  const auto scene = boardInRoom();
+  Instrument camera = withCamera(360, 0, false, 4);
+  camera.camera.metered = false;
+  const Panorama p = taken(*scene, camera);
+  camera.camera.shots = 1;
+  EXPECT_EQ(p.pixels, taken(*scene, camera).pixels);
 }
 
 TEST(Panorama, BecomesAJpegThatAnotherReaderUnderstands) {

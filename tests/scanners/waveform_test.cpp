@@ -37,6 +37,28 @@ TEST(PulsedReceiver, TellsSurfacesApartFromTheResolutionOfItsPulseOn) {
   }
 }
 
+// By counting maxima of the sum itself, beside de Helguero's bound.
+TEST(PulsedReceiver, TellsUnlikeEchoesApartWhereTheirSumHasTwoMaxima) {
+  for (const double ratio : {1.0, 3.0, 10.0, 100.0})
+    for (const double distance : {0.9, 1.1, 1.3, 1.5, 1.7, 1.9, 2.1, 2.3}) {
+      const auto sum = [&](double t) { return std::exp(-t * t / 2) + ratio * std::exp(-(t - 2 * distance) * (t - 2 * distance) / 2); };
+      int maxima = 0;
+      constexpr double kStep = 1e-3;
+      for (double t = -1; t < 2 * distance + 1; t += kStep) maxima += sum(t) > sum(t - kStep) && sum(t) >= sum(t + kStep) ? 1 : 0;
+      EXPECT_EQ(standApart(distance, ratio), maxima == 2) << ratio << " " << distance;
+      EXPECT_EQ(standApart(distance, ratio), standApart(distance, 1 / ratio));
+    }
+}
+
+TEST(PulsedReceiver, MergesAWeakEchoOnTheFlankOfAStrongOne) {
+  const Waveform waveform{.pulse_width_s = 2e-9, .most_returns = 2};
+  EXPECT_EQ(echoes(waveform, {{5, 0.5F}, {5.35, 0.5F}}).size(), 2U);
+  const auto merged = echoes(waveform, {{5, 0.9F}, {5.35, 0.1F}});
+  ASSERT_EQ(merged.size(), 1U);
+  EXPECT_NEAR(merged[0].range_m, 5.035, 1e-6);
+  EXPECT_NEAR(merged[0].deviation_m, 0.35 * std::sqrt(0.9 * 0.1), 1e-6);   // of two places with these weights
+}
+
 TEST(PulsedReceiver, ReportsTheStrongestOfTooManyInOrderOfRange) {
   const std::vector<Contribution> light = {{9, 0.2F}, {3, 0.1F}, {6, 0.5F}};
   const auto one = echoes({.pulse_width_s = 2e-9, .most_returns = 1}, light);

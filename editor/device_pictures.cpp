@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/device_pictures.h"
+
+#include <algorithm>
+
+#include <imgui.h>
+
+#include "editor/instrument/preview_picture.h"
+#include "emulated-ui/draw/device_view.h"
+#include "emulated-ui/menus.h"
+#include "emulated-ui/preview.h"
+#include "emulated-ui/rehearsal/rehearsal.h"
+
+namespace standpoint {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+FittedTarget fitted(const char* name, const char* kind, int points, double range_m) {
+  FittedTarget t;
+  t.name = name;
+  t.kind = kind;
+  t.points = points;
+  t.range_m = range_m;
+  t.residual_m = 0.0007;
+  t.found = points > 0;
+  if (!t.found) t.why_not = "too few points";
+  return t;
+}
+
+// What two quick scans of the sample house look like on any device.
+Result<std::vector<StoredSetup>> scannedHouse(const fs::path& folder) {
+  Progress quiet;
+  Document document;
+  const auto run = [&](const char* verb, const json& options) -> Result<void> {
+    auto outcome = runVerb(*findVerb(verbs(), verb), document, options, quiet);
+    if (!outcome) return failure(outcome.error());
+    document = std::move(outcome->document);
+    return {};
+  };
+  if (auto ok = run("import", {{"files", {(samplesFolder() / "house.ifc").string()}}}); !ok) return failure(ok.error());
+  const std::pair<const char*, std::array<double, 3>> kStations[] = {{"S1", {4.3, 1.6, 0}}, {"S2", {2.2, 6.0, 0}}};
+  for (const auto& [name, on] : kStations)
+    if (auto ok = run("station", {{"add", name}, {"on", on}}); !ok) return failure(ok.error());
+  if (auto ok = run("scan", {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/20", "quality=4x"}}, {"output", folder.string()}}); !ok) return failure(ok.error());
+  std::vector<StoredSetup> setups;
+  for (const auto& station : document.job->stations) {
+    StoredSetup s;
+    s.number = static_cast<int>(setups.size()) + 1;
+    s.name = "Setup 00" + std::to_string(s.number);
+    s.station = station.name;
+    s.file = station.scans.back().file;
+    s.points = station.scans.back().points;
+    s.bytes = static_cast<double>(s.points) * 26;
+    s.instrument_seconds = station.scans.back().instrument_seconds;
+    s.plan_x_m = station.true_pose.translation.x();
+    s.plan_y_m = station.true_pose.translation.y();
+    auto preview = readPreview(s.file, quiet);
+    if (!preview) return failure(preview.error());
+    s.preview = *preview;
+    if (s.number == 2) s.link = LinkResult{true, 0.0021, 0.43, 0.001, 0.01};
+    s.targets = {fitted("T1", "sphere", 142, 4.31), fitted("T2", "checkerboard", 388, 3.02), fitted("T3", "sphere", 0, 0)};
+    setups.push_back(std::move(s));
+  }
+  return setups;
+}
+
+// In the phase that shows the screen, else at rest.
+void putInto(Device& device, const std::string& screen, const std::vector<StoredSetup>& setups, const std::string& language) {
+  auto& s = device.change();
+  const auto& d = device.type().definition;
+  s.language = language;
+  s.values["language"] = language;
+  s.around.station = "S2";
+  s.around.tilt_x_deg = 0.012;
+  s.around.tilt_y_deg = -0.021;
+  s.around.battery = 0.82;
+  DeviceProject project;
+  project.name = "House";
+  project.base = "house_";
+  project.setups = setups;
+  s.projects = {project};
+  s.project = 0;
+  s.shown = 1;
+  for (const auto& setup : setups) s.around.card_used_bytes += setup.bytes;
+  s.entries["name"] = "House";
+  s.entries["measured"] = "3.4180";
+  const auto own = std::find_if(d.phases.begin(), d.phases.end(), [&](const PhaseRow& p) { return p.on && p.screen == screen; });
+  const auto rest = std::find_if(d.phases.begin(), d.phases.end(), [](const PhaseRow& p) { return p.on && p.lasts.empty() && !p.laser; });
+  s.phase = own != d.phases.end() ? own->id : rest->id;
+  if (own != d.phases.end() && !own->lasts.empty()) {
+    s.running = ScanOrder{};
+    s.data = StoredSetup{};
+    s.scanned_s = 0.4 * (device.expected().scan_seconds + device.expected().imaging_seconds);
+  }
+  s.screen = screen;
+}
+
+}  // namespace
+
+Result<int> drawDevicePictures(Offscreen& offscreen, const fs::path& folder, const std::string& language, float scale) {
+  const auto scratch = fs::temp_directory_path() / "standpoint-device-pictures";
+  auto setups = scannedHouse(scratch);
+  std::error_code error;
+  if (!setups) return failure(setups.error());
+  int count = 0;
+  for (const auto& row : emulatedDevices()) {
+    const auto type = loadDevice(row);
+    if (!type) return failure(type.error());
+    fs::create_directories(folder / row.id, error);
+    if (error) return failure(ErrorKind::file_system, error.message(), (folder / row.id).string());
+    std::vector<std::string> screens = {""};
+    for (const auto& screen : (*type)->definition.screens) screens.push_back(screen.id);
+    for (const auto& screen : screens) {
+      Device device(*type);
+      if (!screen.empty()) putInto(device, screen, *setups, language);
+      DeviceView view;
+      std::shared_ptr<const PixelPicture> picture;
+      view.texture = [&](const std::shared_ptr<const ScanPreview>& preview) {
+        if (!picture) picture = pictureOf(*preview);
+        return offscreen.scene().texture(picture);
+      };
+      const auto draw = [&] {
+        ImGui::SetNextWindowPos({0, 0});
+        ImGui::SetNextWindowSize({kDevicePicture[0] * scale, kDevicePicture[1] * scale});
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8, 8});
+        ImGui::Begin("device", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground);
+        const ImVec2 room = ImGui::GetContentRegionAvail();
+        (void)drawDevice(device, view, room.x, room.y);
+        ImGui::End();
+        ImGui::PopStyleVar();
+      };
+      if (auto drawn = offscreen.picture(draw, folder / row.id / ((screen.empty() ? "off" : screen) + ".png")); !drawn) return failure(drawn.error());
+      ++count;
+    }
+  }
+  fs::remove_all(scratch, error);
+  return count;
+}
+
+}  // namespace standpoint

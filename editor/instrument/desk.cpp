@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/instrument/desk.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "editor/instrument/preview_picture.h"
+#include "emulated-ui/rehearsal/marks.h"
+#include "project/project_files.h"
+
+namespace standpoint {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Kind = RehearsalAction::Kind;
+
+// Where exercises put their scans and results: every one stays.
+fs::path freshFolder(const std::string& id) {
+  const char* home = std::getenv("HOME");
+  const fs::path all = (home != nullptr ? fs::path(home) : fs::temp_directory_path()) / "Standpoint" / "Rehearsals";
+  std::error_code error;
+  for (int n = 1;; ++n) {
+    const auto folder = all / fmt::format("{} {:03d}", id, n);
+    if (!fs::exists(folder, error)) return folder;
+  }
+}
+
+void watch(InstrumentDesk& desk) {
+  const auto& solution = desk.rehearsal->exercise().solution;
+  if (desk.guidance != Guidance::watched || desk.watched >= solution.size() || desk.rehearsal->host().busy()) return;
+  if (desk.rehearsal->seconds() < desk.next_watched_s) return;
+  const auto& action = solution[desk.watched++];
+  if (action.kind != Kind::finish && action.kind != Kind::wait) act(desk, action);
+  desk.next_watched_s = desk.rehearsal->seconds() + 1.2 * desk.time_factor;   // a second or so of the viewer's time
+}
+
+}  // namespace
+
+void act(InstrumentDesk& desk, const RehearsalAction& action) {
+  Progress quiet;
+  Result<void> done;
+  if (desk.rehearsal) done = desk.rehearsal->act(action, quiet);
+  else if (action.kind == Kind::press) done = desk.shown()->act(action.name, action.value);
+  else if (action.kind == Kind::hand) done = desk.shown()->hand(action.name, action.value);
+  desk.refused = done ? std::string() : done.error().message;
+  desk.view.pointed.clear();
+  if (done && desk.recording) desk.recorded.push_back(action);
+}
+
+void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& device, const std::string& instrument) {
+  desk.device = &device;
+  desk.instrument = instrument;
+  desk.host.reset();
+  desk.refused.clear();
+  auto type = loadDevice(device, instrument);
+  if (!type) {
+    desk.problem = describe(type.error());
+    return;
+  }
+  desk.host = std::make_unique<DeviceHost>(*std::move(type), editor.session.document(), editor.wake);
+  desk.last = std::chrono::steady_clock::now();
+}
+
+void followProject(InstrumentDesk& desk, Editor& editor) {
+  if (desk.rehearsal) return;
+  const auto key = std::pair(editor.session.folder(), editor.session.document().imported.get());
+  if (desk.host && (key == desk.project || desk.host->busy())) return;
+  const bool moved_only = desk.host && key.second == desk.project.second;
+  desk.project = key;
+  if (!moved_only) chooseDevice(desk, editor, *desk.device, desk.instrument);   // saved elsewhere: the same device goes on
+}
+
+void advance(InstrumentDesk& desk, Editor& editor) {
+  const auto now = std::chrono::steady_clock::now();
+  // A window that slept gives no lump of time to a device that was idle meanwhile; in an exercise the clock always runs.
+  const double seconds = desk.was_busy ? std::min(1.0, std::chrono::duration<double>(now - desk.last).count()) : 0;
+  desk.last = now;
+  desk.running()->time_factor = desk.time_factor;
+  if (desk.rehearsal) {
+    const auto before = desk.rehearsal->document().job;
+    desk.rehearsal->pass(seconds);
+    watch(desk);
+    if (desk.rehearsal->document().job != before && editor.session.whyNotAdopt().empty())
+      editor.session.adopt({desk.rehearsal->document(), nlohmann::json::object(), {}, "Scanned in exercise " + desk.rehearsal->exercise().id, {}});
+  } else {
+    const auto scans = editor.session.folder().empty() ? fs::path() : editor.session.folder() / "scans";
+    const bool may_store = editor.session.whyNotAdopt().empty();
+    if (auto stored = desk.host->update(editor.session.document(), scans, seconds, may_store)) editor.session.adopt(*std::move(stored));
+  }
+  if (const auto view = desk.shown()->takeView()) editor.showCloud(view->file);
+  if (!desk.view.texture)
+    desk.view.texture = [&desk, &editor](const std::shared_ptr<const ScanPreview>& preview) -> std::uint64_t {
+      if (editor.scene == nullptr || !preview) return 0;
+      if (desk.pictured != preview) desk.pictured = preview, desk.picture = pictureOf(*preview);
+      return editor.scene->texture(desk.picture);
+    };
+}
+
+void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercise) {
+  desk.refused.clear();
+  if (editor.session.modified()) {
+    desk.refused = "Save your project first: an exercise opens an environment of its own.";
+    return;
+  }
+  const auto folder = freshFolder(exercise.id);
+  Progress quiet;
+  const bool fits = std::find(exercise.devices.begin(), exercise.devices.end(), desk.device->id) != exercise.devices.end() || exercise.devices.front() == "*";
+  auto rehearsal = Rehearsal::start(exercise, fits ? desk.device->id : std::string(), folder, editor.wake, quiet);
+  if (!rehearsal) {
+    desk.refused = describe(rehearsal.error());
+    return;
+  }
+  if (auto saved = saveProject((*rehearsal)->document(), folder / "project", quiet); !saved) {
+    desk.refused = describe(saved.error());
+    return;
+  }
+  if (!editor.session.open(folder / "project")) return;
+  desk.host.reset();
+  desk.rehearsal = *std::move(rehearsal);
+  desk.marks = nullptr;
+  desk.watched = 0;
+  desk.next_watched_s = 0;
+  desk.last = std::chrono::steady_clock::now();
+}
+
+void finishExercise(InstrumentDesk& desk) {
+  desk.marks = marksOf(*desk.rehearsal, desk.student, desk.rehearsal->device().state().language);
+  desk.marks_folder = desk.rehearsal->folder();
+  if (auto written = writeMarks(*desk.rehearsal, desk.marks, desk.marks_folder); !written) desk.refused = describe(written.error());
+}
+
+void leaveExercise(InstrumentDesk& desk, Editor& editor) {
+  desk.rehearsal.reset();
+  chooseDevice(desk, editor, *desk.device, desk.instrument);
+}
+
+}  // namespace standpoint

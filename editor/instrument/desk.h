@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "editor/editor.h"
+#include "emulated-ui/draw/device_view.h"
+#include "emulated-ui/host.h"
+#include "emulated-ui/menus.h"
+#include "emulated-ui/rehearsal/rehearsal.h"
+
+namespace standpoint {
+
+// How much an exercise tells while it is done.
+enum class Guidance { shown, hinted, watched, tested };
+
+// What lies on the student's desk: a device on the open project, or one in an exercise; what is beside it.
+struct InstrumentDesk {
+  const EmulatedDevice* device = &emulatedDevices().front();
+  std::string instrument;                     // of the device; empty: its first
+  std::unique_ptr<DeviceHost> host;           // on the open project
+  std::unique_ptr<Rehearsal> rehearsal;       // else
+  DeviceView view;
+  std::string refused;                        // what the device refused last
+  std::string problem;                        // why there is no device
+  std::string station;                        // where it stands on the open project
+  std::string search;                         // in the help
+  double time_factor = 20;
+
+  Guidance guidance = Guidance::shown;
+  std::vector<KnownExercise> exercises;
+  std::string exercises_problem;
+  bool exercises_read = false;
+  std::string student;
+  nlohmann::json marks;                       // of the exercise that was finished last
+  std::filesystem::path marks_folder;
+  std::size_t watched = 0;                    // actions of the solution that were shown
+  double next_watched_s = 0;
+
+  bool recording = false;
+  std::vector<RehearsalAction> recorded;
+
+  std::chrono::steady_clock::time_point last = std::chrono::steady_clock::now();
+  std::pair<std::filesystem::path, const Environment*> project{"?", nullptr};
+  bool was_busy = false;
+  std::shared_ptr<const ScanPreview> pictured;      // what `picture` was made from
+  std::shared_ptr<const PixelPicture> picture;
+
+  Device* shown() { return rehearsal ? &rehearsal->device() : host ? &host->device() : nullptr; }
+  DeviceHost* running() { return rehearsal ? &rehearsal->host() : host.get(); }
+};
+
+// All that is done to the device goes through here: it is recorded, and marked where an exercise runs.
+void act(InstrumentDesk& desk, const RehearsalAction& action);
+void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& device, const std::string& instrument);
+// A project that was opened or imported has its own device, with its memory filled from what the project holds.
+void followProject(InstrumentDesk& desk, Editor& editor);
+// The clock goes on, and what was stored enters the project. Call before drawing.
+void advance(InstrumentDesk& desk, Editor& editor);
+
+void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercise);
+void finishExercise(InstrumentDesk& desk);
+void leaveExercise(InstrumentDesk& desk, Editor& editor);
+
+// What stands beside the device.
+void drawHands(InstrumentDesk& desk, Editor& editor);
+void drawHelp(InstrumentDesk& desk, Editor& editor);
+void drawExercises(InstrumentDesk& desk, Editor& editor);
+
+}  // namespace standpoint

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "project/document.h"
+#include "scanners/instrument.h"
+
+namespace standpoint {
+
+// The options of the verb `scan` that ask for this, without stations and output.
+nlohmann::json scanOptions(const ScanChoice& asked);
+
+// Another instrument with its own settings; what is not the instrument's stays.
+void chooseInstrument(ScanChoice& asked, const Instrument& instrument);
+
+// "all effects", "ideal", "without striping, footprint", "13 of 16 effects": what a folded list says of itself.
+std::string effectsSummary(Effects effects);
+// "clear air", "rain 10 mm/h, visibility 5 km".
+std::string weatherSummary(const Weather& weather);
+// "range-noise" → "Range noise".
+std::string readableEffect(const EffectName& effect);
+
+}  // namespace standpoint

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/panels/scan_conditions.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "editor/editor.h"
+#include "editor/model/scan_form.h"
+#include "editor/shell/icons.h"
+#include "editor/shell/theme.h"
+#include "editor/shell/widgets.h"
+
+namespace standpoint {
+
+namespace {
+
+// A part that says what is in it while it is folded.
+bool folded(const char* title, const std::string& summary, const char* id) {
+  return ImGui::CollapsingHeader(fmt::format("{}   {}###{}", title, summary, id).c_str());
+}
+
+void drawEffects(Editor& editor, ScanChoice& asked) {
+  if (!folded("Effects", effectsSummary(asked.effects), "effects")) return;
+  bool ideal = asked.effects == Effects::none();
+  if (ImGui::Checkbox("Ideal: without any###ideal", &ideal)) asked.effects = ideal ? Effects::none() : Effects();
+  ui::tooltip("Each pulse gives the first surface on its axis, exactly: the truth to compare with");
+  if (!ImGui::BeginTable("effects", 2, ImGuiTableFlags_RowBg)) return;
+  ImGui::TableSetupColumn("effect", ImGuiTableColumnFlags_WidthFixed, editor.px(118));
+  ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
+  for (const auto& effect : effectNames()) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    bool on = asked.effects.has(effect.effect);
+    if (ImGui::Checkbox(fmt::format("{}###effect-{}", readableEffect(effect), effect.name).c_str(), &on))
+      asked.effects = on ? asked.effects.with(effect.effect) : asked.effects.without(effect.effect);
+    ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushStyleColor(ImGuiCol_Text, tone::kDim);
+    ui::fitted(std::string(effect.description), ImGui::GetContentRegionAvail().x);
+    ImGui::PopStyleColor();
+  }
+  ImGui::EndTable();
+}
+
+struct WeatherField {
+  const char* label;
+  const char* id;
+  double Weather::*value;
+  const char* format;
+  const char* help;
+};
+
+void drawWeather(Editor& editor, ScanChoice& asked) {
+  if (!folded("Weather", weatherSummary(asked.weather), "weather")) return;
+  static constexpr std::array kFields = {
+      WeatherField{"Visibility", "visibility", &Weather::visibility_km, "%.4g km", "Of the air itself: 23 km is a clear day, 5 km light haze"},
+      WeatherField{"Rain", "rain", &Weather::rain_mm_h, "%.4g mm/h", "0 = none; 2 is light, 10 is heavy. Drops give points of their own and take light"},
+      WeatherField{"Snow", "snow", &Weather::snow_mm_h, "%.4g mm/h", "0 = none; of melted water: 1 is moderate snowfall"},
+      WeatherField{"Fog", "fog", &Weather::fog_mor_m, "%.4g m", "How far one sees in it; 0 = no fog, 200 is thick"},
+      WeatherField{"Dust", "dust", &Weather::dust_mor_m, "%.4g m", "How far one sees in it; 0 = none"}};
+  if (ui::beginProperties("weather", 0.36F)) {
+    for (const auto& f : kFields) {
+      ui::propertyLabel(f.label);
+      double& value = asked.weather.*f.value;
+      const bool none = value == 0 && f.value != &Weather::visibility_km;
+      ImGui::InputDouble(fmt::format("###weather-{}", f.id).c_str(), &value, 0, 0, none ? "none" : f.format);
+      ui::tooltip(f.help);
+      value = std::max(0.0, value);
+    }
+    ui::endProperties();
+  }
+  if (const auto checked = check(asked.weather); !checked) {
+    ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
+    ImGui::SameLine();
+    ui::wrapped(describe(checked.error()));
+  }
+  if (!asked.effects.has(Effect::weather) || !asked.effects.has(Effect::atmosphere)) ui::dimText("The effects weather and atmosphere are not both on");
+  if (ui::button("Clear air###clear-air", asked.weather == Weather() ? "It is clear" : "", {editor.px(90), 0})) asked.weather = Weather();
+}
+
+std::string sizeText(std::uint32_t columns) { return fmt::format("{} × {}", columns, columns / 2); }
+
+void drawPanorama(ScanChoice& asked, const Instrument& instrument, const ScanSettings& settings) {
+  ui::propertyLabel("Panorama");
+  ImGui::BeginDisabled(!settings.imaging && !asked.panorama);
+  ImGui::Checkbox("###panorama", &asked.panorama);
+  ImGui::EndDisabled();
+  ui::tooltip(settings.imaging ? "A picture all around from each station, and the points coloured from it: it takes its time before the first point"
+                               : "These settings take no images: choose others above");
+  if (!asked.panorama) return;
+  ui::propertyLabel("Its size");
+  const auto own = instrument.camera.columns;
+  const std::string as_delivered = fmt::format("{}, as delivered", sizeText(own));
+  if (ImGui::BeginCombo("###panorama-size", asked.panorama_columns == 0 ? as_delivered.c_str() : sizeText(asked.panorama_columns).c_str())) {
+    if (ImGui::Selectable(as_delivered.c_str(), asked.panorama_columns == 0)) asked.panorama_columns = 0;
+    for (const std::uint32_t columns : {16384U, 8192U, 4096U, 2048U, 1024U})
+      if (columns < own && ImGui::Selectable(sizeText(columns).c_str(), asked.panorama_columns == columns)) asked.panorama_columns = columns;
+    ImGui::EndCombo();
+  }
+  ui::tooltip("A quarter of the pixels takes a quarter of the time");
+}
+
+std::string extrasSummary(const ScanChoice& asked, bool resume) {
+  std::string text;
+  const auto add = [&](bool on, const char* word) { if (on) text += (text.empty() ? "" : ", ") + std::string(word); };
+  add(asked.truth, "truth");
+  add(asked.panorama, "panorama");
+  add(!asked.compensator, "no compensator");
+  add(!resume, "from the start");
+  return text.empty() ? "points alone" : text;
+}
+
+void drawExtras(Editor& editor, const Instrument& instrument, const ScanSettings& settings) {
+  auto& state = editor.panels.scan;
+  if (!folded("With it", extrasSummary(state.asked, state.resume), "extras")) return;
+  if (!ui::beginProperties("extras", 0.36F)) return;
+  ui::propertyLabel("Truth");
+  ImGui::Checkbox("###truth", &state.asked.truth);
+  ui::tooltip("With each point what is known of it: time, return, true place, range, incidence, power, and how it came about. The file is about three times as large.");
+  drawPanorama(state.asked, instrument, settings);
+  ui::propertyLabel("Compensator");
+  ImGui::BeginDisabled(!instrument.compensator);
+  ImGui::Checkbox("###compensator", &state.asked.compensator);
+  ImGui::EndDisabled();
+  ui::tooltip(instrument.compensator ? "Off: the points of a station that leans come tilted" : "This instrument has none: the points of a station that leans come tilted");
+  ui::propertyLabel("Resume");
+  ImGui::Checkbox("###resume", &state.resume);
+  ui::tooltip("Takes the stations that a cancelled or crashed run has finished as they are. Off: all are scanned again, and what such a run left is in the way");
+  ui::propertyLabel("Seed of the noise");
+  auto seed = static_cast<std::int64_t>(state.asked.seed);
+  ImGui::InputScalar("###seed", ImGuiDataType_S64, &seed);
+  ui::tooltip("The same seed gives the same noise");
+  state.asked.seed = static_cast<std::uint64_t>(std::clamp<std::int64_t>(seed, 0, 9007199254740991));
+  ui::endProperties();
+}
+
+}  // namespace
+
+void drawScanConditions(Editor& editor, const Instrument& instrument, const ScanSettings& settings) {
+  drawEffects(editor, editor.panels.scan.asked);
+  drawWeather(editor, editor.panels.scan.asked);
+  drawExtras(editor, instrument, settings);
+}
+
+std::string whyNotConditions(const Editor& editor, const ScanSettings& settings) {
+  const auto& asked = editor.panels.scan.asked;
+  if (const auto checked = check(asked.weather); !checked) return "Weather: " + describe(checked.error());
+  if (asked.panorama && !settings.imaging) return "These settings take no images: choose others, or leave the panorama out";
+  return {};
+}
+
+}  // namespace standpoint

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "emulated-ui/draw/device_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "emulated-ui/draw/pen.h"
+
+namespace standpoint {
+
+namespace {
+
+ImU32 lampColour(const std::string& word, double seconds) {
+  const bool flashing = word.ends_with("flashing") || word.ends_with("pulsating") || word.ends_with("spinning") || word.ends_with("blinking");
+  if (flashing && std::fmod(seconds, 1.0) > 0.5) return IM_COL32(70, 72, 75, 255);
+  constexpr std::pair<const char*, ImU32> kColours[] = {{"green", IM_COL32(60, 200, 90, 255)}, {"red", IM_COL32(235, 60, 50, 255)},     {"yellow", IM_COL32(250, 200, 50, 255)},
+                                                        {"blue", IM_COL32(70, 150, 250, 255)}, {"orange", IM_COL32(250, 140, 40, 255)}, {"white", IM_COL32(240, 244, 248, 255)}};
+  for (const auto& [name, colour] : kColours)
+    if (word.starts_with(name)) return colour;
+  return IM_COL32(70, 72, 75, 255);
+}
+
+void titleBar(const Pen& pen, const Screen& screen, float width, float height) {
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  list->AddRectFilled(at, {at.x + width, at.y + height}, pen.skin.title_bar);
+  const float line = ImGui::GetTextLineHeight(), y = at.y + (height - line) / 2;
+  float right = at.x + width - 0.8F * pen.unit;
+  for (const auto& w : screen.widgets) {
+    if (w.kind != WidgetKind::status) continue;
+    const std::string text = w.label + " " + w.value;
+    right -= ImGui::CalcTextSize(text.c_str()).x;
+    list->AddText({right, y}, w.why_not.empty() ? pen.skin.title_text : IM_COL32(255, 190, 120, 255), text.c_str());
+    right -= pen.unit;
+  }
+  list->PushClipRect(at, {std::max(at.x, right), at.y + height}, true);
+  list->AddText({at.x + 0.8F * pen.unit, y}, pen.skin.title_text, screen.title.c_str());
+  list->PopClipRect();
+  ImGui::Dummy({width, height});
+}
+
+// A card over the dimmed screen.
+void dialogCard(Pen& pen, const Dialog& dialog, ImVec2 at, ImVec2 size) {
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddRectFilled(at, {at.x + size.x, at.y + size.y}, IM_COL32(0, 0, 0, 110));
+  const float margin = 1.2F * pen.unit, inner = size.x - 4 * margin;
+  const float text_height = ImGui::CalcTextSize(dialog.text.c_str(), nullptr, false, inner).y;
+  const float height = text_height + 3 * margin + static_cast<float>(dialog.buttons.size()) * (pen.touch() + 0.5F * pen.unit);
+  const ImVec2 card{at.x + margin, at.y + std::max(margin, (size.y - height) / 2)};
+  list->AddRectFilled(card, {card.x + size.x - 2 * margin, card.y + height}, pen.skin.display, 0.5F * pen.unit);
+  list->AddRect(card, {card.x + size.x - 2 * margin, card.y + height}, pen.skin.accent, 0.5F * pen.unit, 0, 1.5F);
+  list->AddText(nullptr, 0, {card.x + margin, card.y + margin}, pen.skin.text, dialog.text.c_str(), nullptr, inner);
+  ImGui::SetCursorScreenPos({card.x + margin, card.y + 2 * margin + text_height});
+  pen.left = ImGui::GetCursorPosX();
+  pen.width = inner;
+  for (const auto& button : dialog.buttons) {
+    drawWidget(pen, button);
+    ImGui::Dummy({0, 0.1F * pen.unit});
+  }
+}
+
+void body(Pen& pen, const Screen& screen, ImVec2 at, ImVec2 size) {
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  float x = at.x + 1.2F * pen.unit;
+  const float y = at.y + size.y / 2;
+  for (const auto& w : screen.body) {
+    ImGui::PushID(w.id.c_str());
+    if (w.kind == WidgetKind::lamp) {
+      const ImU32 colour = lampColour(w.value, ImGui::GetTime());
+      list->AddCircleFilled({x + 0.7F * pen.unit, y}, 0.95F * pen.unit, (colour & 0x00FFFFFFU) | 0x40000000U, 24);
+      list->AddCircleFilled({x + 0.7F * pen.unit, y}, 0.6F * pen.unit, colour, 24);
+      if (area(pen, "lamp", {x - 0.3F * pen.unit, y - pen.unit}, {2 * pen.unit, 2 * pen.unit}, true) && pen.view.asking) pen.pressed(w.id);
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s: %s", w.label.c_str(), w.value.c_str());
+      x += 3 * pen.unit;
+    } else {
+      const float width = std::max(pen.touch(), ImGui::CalcTextSize(w.label.c_str()).x + 1.6F * pen.unit), h = 0.85F * pen.touch();
+      if (area(pen, "key", {x, y - h / 2}, {width, h}, w.enabled)) pen.pressed(w.id);
+      const bool hovered = ImGui::IsItemHovered();
+      reasonOf(w);
+      list->AddRectFilled({x, y - h / 2}, {x + width, y + h / 2}, hovered ? IM_COL32(112, 116, 122, 255) : IM_COL32(88, 92, 98, 255), h / 2);
+      list->AddRect({x, y - h / 2}, {x + width, y + h / 2}, IM_COL32(30, 31, 33, 160), h / 2);
+      centred(list, {x, y - h / 2}, {width, h}, IM_COL32_WHITE, w.label);
+      if (pen.view.pointed == w.id) list->AddRect({x - 3, y - h / 2 - 3}, {x + width + 3, y + h / 2 + 3}, IM_COL32(255, 178, 0, 255), h / 2, 0, 3);
+      x += width + 0.8F * pen.unit;
+    }
+    ImGui::PopID();
+  }
+}
+
+}  // namespace
+
+std::optional<Press> drawDevice(const Device& device, DeviceView& view, float width, float height) {
+  const Screen screen = device.screen();
+  const auto& definition = device.type().definition;
+  const Skin& skin = skinOf(definition.body.skin);
+  const float unit = ImGui::GetFontSize() * 0.8F, bezel = (definition.body.tablet ? 1.4F : 1.1F) * unit, keys = 3.6F * unit;
+  const float aspect = definition.body.display_aspect > 0 ? static_cast<float>(definition.body.display_aspect) : 0.62F;
+  const float display_height = std::max(12 * unit, height - 2 * bezel - keys);
+  const float display_width = std::max(14 * unit, std::min(width - 2 * bezel, display_height * aspect));
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const ImVec2 at{corner.x + std::max(0.0F, (width - display_width - 2 * bezel) / 2), corner.y};
+  const ImVec2 whole{display_width + 2 * bezel, display_height + 2 * bezel + keys};
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddRectFilled(at, {at.x + whole.x, at.y + whole.y}, skin.body, 1.4F * unit);
+  list->AddRect(at, {at.x + whole.x, at.y + whole.y}, skin.body_edge, 1.4F * unit, 0, 2);
+  Pen pen{device, view, skin, unit};
+  const bool dark = screen.id.empty();
+  ImGui::SetCursorScreenPos({at.x + bezel, at.y + bezel});
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, dark ? IM_COL32(10, 11, 12, 255) : skin.display);
+  ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, skin.rounding * unit);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.4F * unit, 0.45F * unit});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_ScrollbarSize, 0.7F * unit);
+  ImGui::PushID(definition.id.c_str());
+  if (ImGui::BeginChild("display", {display_width, display_height}, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse) && !dark) {
+    const ImVec2 inside = ImGui::GetCursorScreenPos();
+    titleBar(pen, screen, display_width, 2.3F * unit);
+    ImGui::PushID(screen.id.c_str());
+    ImGui::BeginDisabled(screen.has_dialog);
+    if (ImGui::BeginChild("screen", {display_width, display_height - 2.3F * unit - 0.45F * unit})) {
+      ImGui::Dummy({0, 0.2F * unit});
+      pen.left = 0.9F * unit;
+      pen.width = ImGui::GetContentRegionAvail().x - 1.8F * unit;
+      for (const auto& w : screen.widgets) drawWidget(pen, w);
+      ImGui::Dummy({0, 0.6F * unit});
+    }
+    ImGui::EndChild();
+    ImGui::EndDisabled();
+    ImGui::PopID();
+    if (screen.has_dialog) {
+      pen.press.reset();
+      ImGui::SetCursorScreenPos(inside);
+      if (ImGui::BeginChild("dialog", {display_width, display_height}, false, ImGuiWindowFlags_NoBackground)) dialogCard(pen, screen.dialog, inside, {display_width, display_height});
+      ImGui::EndChild();
+    }
+  }
+  ImGui::EndChild();
+  ImGui::PopStyleVar(4);
+  ImGui::PopStyleColor();
+  body(pen, screen, {at.x + bezel, at.y + bezel + display_height}, {display_width, keys + bezel});
+  ImGui::PopID();
+  ImGui::SetCursorScreenPos({corner.x, corner.y + whole.y});
+  ImGui::Dummy({width, 0});
+  return pen.press;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "emulated-ui/draw/pen.h"
+
+namespace standpoint {
+
+namespace {
+
+ImVec2 plus(ImVec2 a, ImVec2 b) { return {a.x + b.x, a.y + b.y}; }
+
+void label(const Pen& pen, const std::string& text) {
+  ImGui::SetCursorPosX(pen.left + 0.4F * pen.unit);
+  ImGui::PushStyleColor(ImGuiCol_Text, pen.skin.dim);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+}
+
+const std::shared_ptr<const ScanPreview>& newestPreview(const Device& device) {
+  static const std::shared_ptr<const ScanPreview> kNone;
+  if (const auto* shown = device.shownSetup(); shown != nullptr && shown->preview) return shown->preview;
+  if (const auto* newest = device.newestSetup(); newest != nullptr) return newest->preview;
+  return kNone;
+}
+
+// The picture where there is one, else a grid of the sphere.
+bool picture(const Pen& pen, const std::shared_ptr<const ScanPreview>& preview, ImVec2 at, ImVec2 size) {
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddRectFilled(at, plus(at, size), IM_COL32(28, 30, 33, 255));
+  const std::uint64_t texture = preview && pen.view.texture ? pen.view.texture(preview) : 0;
+  if (texture != 0) {
+    list->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), at, plus(at, size));
+    return true;
+  }
+  for (int i = 1; i < 12; ++i) {
+    const float x = at.x + size.x * static_cast<float>(i) / 12;
+    list->AddLine({x, at.y}, {x, at.y + size.y}, IM_COL32(255, 255, 255, 22));
+  }
+  for (int i = 1; i < 5; ++i) {
+    const float y = at.y + size.y * static_cast<float>(i) / 5;
+    list->AddLine({at.x, y}, {at.x + size.x, y}, IM_COL32(255, 255, 255, 22));
+  }
+  return false;
+}
+
+}  // namespace
+
+// The bubble runs to where the instrument is high; the ring is as far as the sensor corrects.
+void drawLevel(Pen& pen, const Widget& w) {
+  label(pen, w.label);
+  const float radius = std::min(3.4F * pen.unit, pen.width / 4);
+  const ImVec2 at = screenAt(pen);
+  const ImVec2 centre{at.x + pen.width / 2, at.y + radius + 2};
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddCircleFilled(centre, radius, IM_COL32(196, 214, 96, 255), 48);
+  list->AddCircle(centre, radius, pen.skin.dim, 48, 1.5F);
+  list->AddCircle(centre, radius * 0.5F, IM_COL32(60, 70, 30, 160), 40, 1);
+  list->AddLine({centre.x - radius, centre.y}, {centre.x + radius, centre.y}, IM_COL32(60, 70, 30, 80));
+  list->AddLine({centre.x, centre.y - radius}, {centre.x, centre.y + radius}, IM_COL32(60, 70, 30, 80));
+  const double limit = std::max(1e-6, w.maximum);
+  double x = -std::strtod(w.options[0].value.c_str(), nullptr) / limit * 0.5, y = std::strtod(w.options[1].value.c_str(), nullptr) / limit * 0.5;
+  const double far = std::hypot(x, y);
+  if (far > 0.8) x *= 0.8 / far, y *= 0.8 / far;
+  const ImVec2 bubble{centre.x + radius * static_cast<float>(x), centre.y + radius * static_cast<float>(y)};
+  list->AddCircleFilled(bubble, 0.18F * radius, IM_COL32(245, 250, 225, 235), 24);
+  list->AddCircle(bubble, 0.18F * radius, IM_COL32(90, 110, 40, 255), 24);
+  if (area(pen, ("##" + w.id).c_str(), at, {pen.width, 2 * radius + 4}, true) && pen.view.asking) pen.pressed(w.id);
+}
+
+// The field of view on the picture all around: its edges are dragged.
+void drawArea(Pen& pen, const Widget& w) {
+  label(pen, w.label);
+  const ImVec2 at = screenAt(pen);
+  const ImVec2 size{pen.width, pen.width * 0.42F};
+  picture(pen, newestPreview(pen.device), at, size);
+  const auto& instrument = pen.device.type().instrument;
+  const double low = instrument.min_elevation_rad * 57.29577951308232, high = instrument.max_elevation_rad * 57.29577951308232;
+  std::array<double, 4> edges{};
+  for (int i = 0; i < 4; ++i) edges[i] = std::strtod(w.options[i].value.c_str(), nullptr);
+  if (pen.view.dragged_edge >= 0) edges = pen.view.area;
+  const auto x_of = [&](double deg) { return at.x + size.x * static_cast<float>(deg / 360); };
+  const auto y_of = [&](double deg) { return at.y + size.y * static_cast<float>((high - deg) / (high - low)); };
+  const ImVec2 from{x_of(edges[0]), y_of(edges[3])}, to{x_of(edges[1]), y_of(edges[2])};
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddRectFilled(from, to, (pen.skin.accent & 0x00FFFFFFU) | 0x50000000U);
+  list->AddRect(from, to, pen.skin.accent, 0, 0, 2);
+  (void)area(pen, ("##" + w.id).c_str(), at, size, w.enabled);
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  if (ImGui::IsItemActivated()) {
+    if (pen.view.asking) return pen.pressed(w.id);
+    const std::array<float, 4> far = {std::abs(mouse.x - from.x), std::abs(mouse.x - to.x), std::abs(mouse.y - to.y), std::abs(mouse.y - from.y)};
+    pen.view.dragged_edge = static_cast<int>(std::min_element(far.begin(), far.end()) - far.begin());
+    pen.view.area = edges;
+  }
+  if (pen.view.dragged_edge >= 0 && ImGui::IsItemActive()) {
+    auto& e = pen.view.area;
+    const double h = std::clamp(360.0 * (mouse.x - at.x) / size.x, 0.0, 360.0), v = std::clamp(high - (high - low) * (mouse.y - at.y) / size.y, low, high);
+    if (pen.view.dragged_edge == 0) e[0] = std::min(std::round(h), e[1] - 1);
+    if (pen.view.dragged_edge == 1) e[1] = std::max(std::round(h), e[0] + 1);
+    if (pen.view.dragged_edge == 2) e[2] = std::min(std::round(v), e[3] - 1);
+    if (pen.view.dragged_edge == 3) e[3] = std::max(std::round(v), e[2] + 1);
+  }
+  if (pen.view.dragged_edge >= 0 && ImGui::IsItemDeactivated()) {
+    const auto& e = pen.view.area;
+    pen.pressed(w.id, fmt::format("{:g},{:g},{:g},{:g}", e[0], e[1], e[2], e[3]));
+    pen.view.dragged_edge = -1;
+  }
+}
+
+void drawPreview(Pen& pen, const Widget& w) {
+  const auto* setup = pen.device.shownSetup();
+  const auto preview = setup == nullptr ? nullptr : setup->preview;
+  const float aspect = preview && preview->columns > 0 ? static_cast<float>(preview->rows) / static_cast<float>(preview->columns) : 0.42F;
+  const ImVec2 at = screenAt(pen);
+  const ImVec2 size{pen.width, pen.width * aspect};
+  const bool has = picture(pen, preview, at, size);
+  if (!has) centred(ImGui::GetWindowDrawList(), at, size, IM_COL32(200, 204, 210, 255), w.label);
+  if (area(pen, ("##" + w.id).c_str(), at, size, w.enabled && has)) {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    pen.pressed(w.id, fmt::format("{:.4f},{:.4f}", std::clamp((mouse.x - at.x) / size.x, 0.0F, 0.9999F), std::clamp((mouse.y - at.y) / size.y, 0.0F, 0.9999F)));
+  }
+}
+
+// North up, as wide as the setups lie; green lines are links that hold, red ones failed.
+void drawPlan(Pen& pen, const Widget& w) {
+  label(pen, w.label);
+  const ImVec2 at = screenAt(pen);
+  const ImVec2 size{pen.width, pen.width * 0.6F};
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddRectFilled(at, plus(at, size), pen.skin.tile, pen.skin.rounding * pen.unit);
+  list->AddRect(at, plus(at, size), pen.skin.line, pen.skin.rounding * pen.unit);
+  if (area(pen, ("##" + w.id).c_str(), at, size, true) && pen.view.asking) pen.pressed(w.id);
+  const auto* project = pen.device.project();
+  if (project == nullptr || project->setups.empty()) return centred(list, at, size, pen.skin.dim, "–");
+  double low_x = 1e300, high_x = -1e300, low_y = 1e300, high_y = -1e300;
+  for (const auto& s : project->setups) {
+    low_x = std::min(low_x, s.plan_x_m), high_x = std::max(high_x, s.plan_x_m);
+    low_y = std::min(low_y, s.plan_y_m), high_y = std::max(high_y, s.plan_y_m);
+  }
+  const float inset = 2 * pen.unit;
+  const double scale = std::min((size.x - 2 * inset) / std::max(1.0, high_x - low_x), (size.y - 2 * inset) / std::max(1.0, high_y - low_y));
+  const auto place = [&](const StoredSetup& s) {
+    return ImVec2{at.x + size.x / 2 + static_cast<float>((s.plan_x_m - (low_x + high_x) / 2) * scale), at.y + size.y / 2 - static_cast<float>((s.plan_y_m - (low_y + high_y) / 2) * scale)};
+  };
+  for (std::size_t i = 1; i < project->setups.size(); ++i)
+    if (const auto& link = project->setups[i].link)
+      list->AddLine(place(project->setups[i - 1]), place(project->setups[i]), link->joined ? IM_COL32(40, 150, 70, 255) : IM_COL32(200, 50, 40, 255), 2);
+  for (const auto& s : project->setups) {
+    const ImVec2 p = place(s);
+    list->AddCircleFilled(p, 0.45F * pen.unit, pen.skin.accent, 20);
+    list->AddText({p.x + 0.6F * pen.unit, p.y - 0.9F * pen.unit}, pen.skin.tile_text, s.name.c_str());
+  }
+}
+
+}  // namespace standpoint

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "demo_verbs.h"
+#include "editor/model/live_cloud.h"
+#include "editor/model/scan_form.h"
+#include "editor/model/scan_outlook.h"
+#include "item_probe.h"
+#include "project/scan_request.h"
+
+namespace standpoint {
+namespace {
+
+ScanChoice everythingAsked() {
+  return {.instrument = "leica-rtc360", .settings = {{"resolution", "12mm"}}, .seed = 9,
+          .effects = Effects().without(Effect::striping), .weather = {5, 2.5, 0.5, 150, 900},
+          .truth = true, .compensator = false, .panorama = true, .panorama_columns = 1024};
+}
+
+TEST(ScanForm, AsksTheVerbForWhatItShows) {
+  const auto document = demoHouse();
+  auto wanted = everythingAsked();
+  const auto ask = [&](const ScanChoice& choice) {
+    auto options = scanOptions(choice);
+    options["output"] = "/tmp/x.e57";
+    const auto checked = checkOptions(*findVerb(verbs(), "scan"), options);
+    EXPECT_TRUE(checked) << describe(checked.error());
+    const auto request = scanRequestFrom(document, *checked);
+    EXPECT_TRUE(request) << describe(request.error());
+    return choiceOf(*request);
+  };
+  wanted.settings = ask(wanted).settings;   // with the defaults filled in
+  EXPECT_EQ(ask(wanted), wanted);
+  wanted.effects = Effects::none();
+  EXPECT_EQ(ask(wanted), wanted);
+  EXPECT_TRUE(scanOptions(wanted).contains("ideal"));
+  const ScanChoice plain{.instrument = "leica-rtc360", .settings = wanted.settings};
+  EXPECT_EQ(ask(plain), plain);
+  EXPECT_FALSE(scanOptions(plain).contains("weather"));
+}
+
+TEST(ScanForm, SaysInAWordWhatIsFolded) {
+  EXPECT_EQ(effectsSummary(Effects()), "all effects");
+  EXPECT_EQ(effectsSummary(Effects::none()), "ideal");
+  EXPECT_EQ(effectsSummary(Effects().without(Effect::striping)), "without striping");
+  EXPECT_EQ(effectsSummary(Effects().without(Effect::striping).without(Effect::panes).without(Effect::bias)), fmt::format("{} of {} effects", effectNames().size() - 3, effectNames().size()));
+  EXPECT_EQ(weatherSummary({}), "clear air");
+  EXPECT_EQ(weatherSummary({5, 10, 0, 0, 0}), "rain 10 mm/h, visibility 5 km");
+}
+
+TEST(ScanOutlook, IsThatOfThePlanAndKnowsWhatTheFileHolds) {
+  const auto document = demoHouse();
+  Progress progress;
+  const auto instrument = *readInstrument(dataFolder() / "scanners" / "instruments" / "leica-rtc360.json");
+  OutlookRequest request{*RayScene::build(document.environment(), progress), nullptr, document.job, {0, 1}, {.instrument = instrument.id}};
+  chooseInstrument(request.asked, instrument);
+  ScanOutlookView view({});
+  view.want(request, instrument);
+  view.wait();
+  const auto plain = view.outlook();
+  ASSERT_TRUE(plain);
+  const auto settings = *resolveSettings(instrument, request.asked.settings);
+  EXPECT_EQ(plain->seconds, 2 * (settings.scan_seconds + settings.imaging_seconds));
+  EXPECT_GT(plain->points, 1e6);
+  EXPECT_LE(plain->points, 2.0 * settings.columns * settings.rows);
+  request.asked.truth = true;
+  view.want(request, instrument);
+  EXPECT_FALSE(view.outlook() && view.outlook()->bytes == plain->bytes) << "what is shown is never that of another wish";
+  view.wait();
+  // Time of 8 bytes, return and count of 1 each, six floats and the flags.
+  EXPECT_NEAR((view.outlook()->bytes - plain->bytes) / plain->points, 35.0 * 1024 / 1020, 0.01);
+}
+
+class ScanPanel : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(editor.session.start("demo", nlohmann::json::object()));
+    gui.settle();
+    editor.workspace = Workspace::survey;
+    editor.wanted_tab[1] = "scan";
+    gui.frames(3);
+  }
+  ScanChoice& asked() { return editor.panels.scan.asked; }
+  Editor editor{verbsWithDemo(), [] {}};
+  GuiDriver gui{editor, {1280, 1400}};
+};
+
+TEST_F(ScanPanel, SwitchesEffectsOneByOneAndAllTogether) {
+  ASSERT_TRUE(gui.click("###effects"));
+  gui.frames(2);
+  for (const auto& effect : effectNames()) {
+    ASSERT_TRUE(gui.click("###effect-" + std::string(effect.name))) << effect.name;
+    gui.frames(2);
+    EXPECT_EQ(asked().effects, Effects().without(effect.effect));
+    gui.click("###effect-" + std::string(effect.name));
+    gui.frames(2);
+  }
+  EXPECT_EQ(asked().effects, Effects());
+  ASSERT_TRUE(gui.click("###ideal"));
+  gui.frames(2);
+  EXPECT_EQ(asked().effects, Effects::none());
+}
+
+TEST_F(ScanPanel, RefusesWeatherThatCannotBe) {
+  editor.panels.scan.folder = testing::TempDir();
+  gui.frames(2);
+  ASSERT_FALSE(gui.find("###run-scan")->disabled);
+  asked().weather.visibility_km = 0;
+  gui.frames(2);
+  EXPECT_TRUE(gui.find("###run-scan")->disabled);
+}
+
+TEST_F(ScanPanel, RefusesSettingsThatDoNotGoTogether) {
+  editor.panels.scan.folder = testing::TempDir();
+  chooseInstrument(asked(), *instrumentIn(readCatalogue(editor.panels.catalogue), "faro-focus-s350"));
+  for (auto& [key, value] : asked().settings)
+    if (key == "resolution") value = "1/32";
+  gui.frames(2);
+  ASSERT_NE(gui.find("###run-scan"), nullptr);
+  EXPECT_TRUE(gui.find("###run-scan")->disabled);
+}
+
+TEST_F(ScanPanel, BeginsWithWhatTheProjectWasScannedWithLast) {
+  Document document = demoHouse();
+  const auto last = everythingAsked();
+  document.scanning = std::make_shared<const ScanChoice>(last);
+  ASSERT_TRUE(editor.session.adopt({document, {}, {}, "opened"}));
+  gui.frames(2);
+  EXPECT_EQ(asked(), last);
+  asked().truth = false;
+  gui.frames(2);
+  EXPECT_FALSE(asked().truth) << "what is set afterwards stays";
+}
+
+TEST_F(ScanPanel, ScansWithWhatIsSetAndTheDocumentRemembersIt) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "standpoint-scan-panel";
+  editor.panels.scan.folder = folder.string();
+  editor.panels.scan.all_stations = false;
+  editor.panels.survey.station = 0;
+  chooseInstrument(asked(), *instrumentIn(readCatalogue(editor.panels.catalogue), "faro-focus-s350"));
+  for (auto& [key, value] : asked().settings)
+    if (key == "resolution" || key == "quality") value = key == "quality" ? "4x" : "1/32";
+  asked().truth = true;
+  asked().effects = Effects().without(Effect::footprint);
+  const auto wanted = asked();
+  gui.frames(2);
+  ASSERT_NE(gui.find("###run-scan"), nullptr);
+  ASSERT_FALSE(gui.find("###run-scan")->disabled);
+  ASSERT_TRUE(gui.click("###run-scan"));
+  EXPECT_TRUE(editor.cloud()) << "the model gives way to the points at once";
+  gui.settle();
+  ASSERT_TRUE(editor.cloud()) << "and they stay";
+  EXPECT_FALSE(editor.showsLiveScan());
+  const auto& scan = editor.session.document().job->stations[0].scans.back();
+  EXPECT_EQ(editor.cloud()->points_in_file, scan.points);
+  EXPECT_LE(editor.cloud()->colours.size(), kMostShownPoints);
+  EXPECT_GE(editor.cloud()->colours.size(), std::min<std::uint64_t>(scan.points, kMostShownPoints / 2) - 1);
+  ASSERT_TRUE(editor.session.errors().empty()) << describe(editor.session.errors().front().error);
+  ASSERT_TRUE(editor.session.document().scanning);
+  EXPECT_EQ(*editor.session.document().scanning, wanted);
+  EXPECT_TRUE(std::filesystem::exists(folder / "S1.e57"));
+  std::filesystem::remove_all(folder);
+}
+
+PointBlock pointsAlongX(int from, int count) {
+  PointBlock block;
+  for (int i = from; i < from + count; ++i) {
+    block.x_m.push_back(static_cast<float>(i));
+    block.y_m.push_back(0);
+    block.z_m.push_back(0);
+    block.intensity.push_back(0.5F);
+  }
+  return block;
+}
+
+TEST(CloudSampler, KeepsAnEvenPartOfAnyNumberOfPoints) {
+  CloudSampler sampler(1, 100, {10, 0, 0});
+  ASSERT_TRUE(sampler.begin(ScanHeader()));
+  for (int from = 0; from < 1000; from += 50) ASSERT_TRUE(sampler.write(pointsAlongX(from, 50)));
+  const auto cloud = sampler.shaded();
+  EXPECT_EQ(cloud.points_in_file, 1000U);
+  ASSERT_GT(cloud.colours.size(), 50U);
+  ASSERT_LE(cloud.colours.size(), 100U);
+  const float step = cloud.positions[3] - cloud.positions[0];
+  for (std::size_t i = 0; i < cloud.colours.size(); ++i) EXPECT_EQ(cloud.positions[3 * i], static_cast<float>(i) * step - 10) << "shifted, none left out";
+  EXPECT_GT(static_cast<float>(cloud.colours.size()) * step, 999);
+}
+
+TEST(LiveCloud, WakesWithTheFirstPointsAndGivesNothingTwice) {
+  int woken = 0;
+  LiveCloud live(Eigen::Vector3d::Zero(), [&] { ++woken; });
+  EXPECT_EQ(live.newer(), nullptr);
+  ASSERT_TRUE(live.begin(ScanHeader()));
+  ASSERT_TRUE(live.write(pointsAlongX(0, 3)));
+  EXPECT_EQ(woken, 1);
+  const auto first = live.newer();
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->colours.size(), 3U);
+  EXPECT_EQ(live.newer(true), nullptr);
+  ASSERT_TRUE(live.write(pointsAlongX(3, 2)));
+  EXPECT_EQ(live.newer(true)->colours.size(), 5U);
+}
+
+}  // namespace
+}  // namespace standpoint
