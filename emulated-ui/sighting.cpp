@@ -141,6 +141,7 @@ std::vector<FittedTarget> targetsFrom(const json& rows) {
       t.range_m = row.at("range_m");
       t.residual_m = row.at("residual_m");
       t.error_m = row.at("error_m");
+      if (row.contains("centre")) t.centre_m = placeFrom(row["centre"]);
       if (row.contains("levelled")) t.levelled_m = placeFrom(row["levelled"]);
     } else {
       t.why_not = row.at("why");

@@ -2,6 +2,7 @@
 #include "emulated-ui/device/effects.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -96,11 +97,15 @@ void keepPartial(Device& device) {
   device.give(order);
 }
 
+double falseStart(const Device& device) { return device.value("false_start").empty() ? 0 : std::strtod(device.value("false_start").c_str(), nullptr); }
+
 void orderLink(Device& device) {
   const auto* project = device.project();
   if (project == nullptr || project->setups.size() < 2) return;
   const auto& setups = project->setups;
-  device.give(LinkOrder{setups[setups.size() - 1].file, setups[setups.size() - 2].file});
+  LinkOrder order{setups[setups.size() - 1].file, setups[setups.size() - 2].file};
+  order.shift_x_m = falseStart(device);
+  device.give(std::move(order));
 }
 
 void loseTracking(Device& device) { device.change().around.tracking = false; }

@@ -31,6 +31,29 @@ Spoken spoken(JsonFields& f, const char* key, bool required) {
   return s;
 }
 
+std::vector<double> numbersIn(JsonFault& fault, const nlohmann::json& list, const std::string& pointer, std::size_t count, const char* needed) {
+  std::vector<double> found;
+  for (const auto& number : list.is_array() ? list : nlohmann::json::array())
+    if (number.is_number() && std::abs(number.get<double>()) <= 1e9) found.push_back(number.get<double>());
+  if (!list.is_array() || list.size() != count || found.size() != count) {
+    fault.say(pointer, needed);
+    found.assign(count, 0);
+  }
+  return found;
+}
+
+constexpr std::size_t kMostPlaces = 2000;   // of a walk
+
+void checkWalk(JsonFields& f, const nlohmann::json& way) {
+  if (!way.is_array() || way.size() < 2 || way.size() > kMostPlaces) return f.wrong("walk", fmt::format("2 to {} places are needed: x, y, seconds", kMostPlaces));
+  double before = -1;
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    const auto at = numbersIn(f.fault(), way[i], fmt::format("{}/walk/{}", f.pointer(), i), 3, "x, y and seconds are needed");
+    if (at[2] <= before) f.wrong("walk", fmt::format("place {}: its seconds do not go on", i));
+    before = at[2];
+  }
+}
+
 // `prepares`: before anybody is there, more can be done: doors stand open that the model has shut.
 RehearsalAction action(JsonFields& f, bool prepares = false) {
   RehearsalAction a;
@@ -49,6 +72,10 @@ RehearsalAction action(JsonFields& f, bool prepares = false) {
     if (!field && !(prepares && a.name == "treat"))
       f.wrong("verb", prepares ? "only station, target, plan and treat can prepare the environment" : "only station, target and plan can be done in the field");
   } else if (named("hint", Kind::hint)) {
+  } else if (const auto* way = f.raw("walk")) {
+    a.kind = Kind::walk;
+    a.options = *way;
+    checkWalk(f, *way);
   } else if (f.has("wait")) {
     a.kind = Kind::wait;
     a.seconds = f.number("wait", 0, 86400);
@@ -56,7 +83,7 @@ RehearsalAction action(JsonFields& f, bool prepares = false) {
     a.kind = Kind::finish;
     (void)f.flagOr("finish", true);
   } else {
-    f.wrong("", "an action is one of press, hand, wait, finish, verb, answer, hint");
+    f.wrong("", "an action is one of press, hand, wait, finish, verb, answer, hint, walk");
   }
   return a;
 }
@@ -65,17 +92,6 @@ std::vector<RehearsalAction> actions(JsonFields& f, const char* key) {
   std::vector<RehearsalAction> list;
   f.list(key, [&](JsonFields& one) { list.push_back(action(one)); });
   return list;
-}
-
-std::vector<double> numbersIn(JsonFault& fault, const nlohmann::json& list, const std::string& pointer, std::size_t count, const char* needed) {
-  std::vector<double> found;
-  for (const auto& number : list.is_array() ? list : nlohmann::json::array())
-    if (number.is_number() && std::abs(number.get<double>()) <= 1e9) found.push_back(number.get<double>());
-  if (!list.is_array() || list.size() != count || found.size() != count) {
-    fault.say(pointer, needed);
-    found.assign(count, 0);
-  }
-  return found;
 }
 
 ExerciseRule rule(JsonFields& f) {
@@ -125,9 +141,10 @@ Result<RehearsalAction> actionFrom(const nlohmann::json& json, const std::string
 }
 
 nlohmann::json toJson(const RehearsalAction& a) {
-  constexpr const char* kNames[] = {"press", "hand", "wait", "finish", "verb", "answer", "hint"};
+  constexpr const char* kNames[] = {"press", "hand", "wait", "finish", "verb", "answer", "hint", "walk"};
   const char* name = kNames[static_cast<int>(a.kind)];
   if (a.kind == Kind::wait) return {{name, a.seconds}};
+  if (a.kind == Kind::walk) return {{name, a.options}};
   if (a.kind == Kind::finish) return {{name, true}};
   if (a.kind == Kind::verb) return {{name, a.name}, {"options", a.options}};
   nlohmann::json json = {{name, a.name}};

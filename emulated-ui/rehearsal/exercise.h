@@ -28,9 +28,10 @@ class Spoken {
 //   {"finish": true}                          until the device and the simulation behind it rest
 //   {"verb": "target", "options": {…}}        station, target or plan, on the environment
 //   {"answer": "usable", "value": "yes"}      to a question of the exercise
+//   {"walk": [[x, y, seconds], …]}            the way of a handheld scanner, planned on the plan
 //   {"hint": "step id"}                       asks for a hint
 struct RehearsalAction {
-  enum class Kind { press, hand, wait, finish, verb, answer, hint } kind = Kind::press;
+  enum class Kind { press, hand, wait, finish, verb, answer, hint, walk } kind = Kind::press;
   std::string name, value;
   double seconds = 0;
   nlohmann::json options;

@@ -20,9 +20,12 @@ class Checker {
   std::vector<Error> check() {
     checkDevices();
     if (devices_.empty()) return std::move(faults_);
-    if (std::error_code error; !std::filesystem::is_regular_file(samplesFolder() / (e_.model + ".ifc"), error))
+    if (std::error_code error; std::filesystem::path(e_.model).has_parent_path() || !std::filesystem::is_regular_file(samplesFolder() / (e_.model + ".ifc"), error))
       fault("/model", fmt::format("there is no sample '{}'", e_.model));
     checkTexts();
+    checkIds(e_.steps, "steps");
+    checkIds(e_.rules, "rules");
+    checkIds(e_.questions, "questions");
     for (std::size_t i = 0; i < e_.steps.size(); ++i) {
       const auto place = fmt::format("/steps/{}", i);
       checkCondition(e_.steps[i].done, place + "/done");
@@ -75,16 +78,33 @@ class Checker {
         return fault(place, fmt::format("{}: {}", device.type().definition.id, ok.error().message));
   }
 
+  // A screen that shows every setting has a widget for each: "setting.resolution".
+  static bool isSetting(const std::string& id, const Device& device) { return id.starts_with("setting.") && device.domain(id).has_value(); }
+
   void checkWidget(const std::string& id, const std::string& place) {
     for (const auto& device : devices_) {
       const auto& d = device.type().definition;
       bool found = std::any_of(d.keys.begin(), d.keys.end(), [&](const WidgetRow& w) { return w.id == id; });
       for (const auto& screen : d.screens)
-        found = found || std::any_of(screen.widgets.begin(), screen.widgets.end(), [&](const WidgetRow& w) { return w.id == id; });
+        found = found || std::any_of(screen.widgets.begin(), screen.widgets.end(), [&](const WidgetRow& w) { return w.id == id || (w.setting == "*" && isSetting(id, device)); });
       for (const auto& dialog : d.dialogs)
         found = found || std::any_of(dialog.buttons.begin(), dialog.buttons.end(), [&](const DialogButton& b) { return b.id == id; });
       if (!found) return fault(place, fmt::format("{} has no widget '{}'", d.id, id));
     }
+  }
+
+  template <class Rows>
+  void checkIds(const Rows& rows, const char* list) {
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (!seen.insert(rows[i].id).second) fault(fmt::format("/{}/{}", list, i), fmt::format("'{}' is there before", rows[i].id));
+  }
+
+  void checkAnswer(const RehearsalAction& action, const std::string& place) {
+    const auto question = std::find_if(e_.questions.begin(), e_.questions.end(), [&](const ExerciseQuestion& q) { return q.id == action.name; });
+    if (question == e_.questions.end()) return fault(place, fmt::format("there is no question '{}'", action.name));
+    if (std::find(question->choices.begin(), question->choices.end(), action.value) == question->choices.end())
+      fault(place, fmt::format("'{}' is not one of {}", action.value, fmt::join(question->choices, ", ")));
   }
 
   void checkTrouble(const std::string& id, const std::string& place) {
@@ -97,6 +117,7 @@ class Checker {
       const auto& a = actions[i];
       const auto at = fmt::format("{}/{}", place, i);
       if (a.kind == Kind::press && devices_.size() == 1) checkWidget(a.name, at);
+      if (a.kind == Kind::answer) checkAnswer(a, at);
       const auto& hands = handRows();
       if (a.kind == Kind::hand && std::none_of(hands.begin(), hands.end(), [&](const HandRow& row) { return a.name == row.id; }))
         fault(at, fmt::format("hands know no '{}'", a.name));
@@ -119,7 +140,11 @@ class Checker {
       checkSpoken(e_.rules[i].text, fmt::format("/rules/{}/text", i));
       checkSpoken(e_.rules[i].because, fmt::format("/rules/{}/because", i));
     }
-    for (std::size_t i = 0; i < e_.questions.size(); ++i) checkSpoken(e_.questions[i].text, fmt::format("/questions/{}/text", i));
+    for (std::size_t i = 0; i < e_.questions.size(); ++i) {
+      checkSpoken(e_.questions[i].text, fmt::format("/questions/{}/text", i));
+      for (std::size_t k = 0; k < e_.questions[i].choice_texts.size(); ++k)
+        checkSpoken(e_.questions[i].choice_texts[k], fmt::format("/questions/{}/choices/{}/text", i, k));
+    }
   }
 
   const Exercise& e_;

@@ -109,6 +109,17 @@ double places(const Device& device) {
   return static_cast<double>(at.size());
 }
 
+// Of the directions that targets cover, seen from the instrument: a full turn less the widest gap.
+double covered_deg(std::vector<double> azimuth_deg) {
+  if (azimuth_deg.size() < 2) return 0;
+  std::sort(azimuth_deg.begin(), azimuth_deg.end());
+  double gap = azimuth_deg.front() + 360 - azimuth_deg.back();
+  for (std::size_t i = 1; i < azimuth_deg.size(); ++i) gap = std::max(gap, azimuth_deg[i] - azimuth_deg[i - 1]);
+  return 360 - gap;
+}
+
+double azimuthOf(const Vector3d& p) { return std::atan2(p.y(), p.x()) / kRadPerDeg; }
+
 struct Tied {
   double targets = 0, residual_mm = 0, spread_deg = 0, error_mm = 0;
 };
@@ -125,15 +136,10 @@ Tied tied(const Device& device, const Document& document) {
     if (!t.found || known == nullptr) continue;
     from.push_back(t.centre_m);
     to.push_back(known->centre);
-    azimuth_deg.push_back(std::atan2(t.centre_m.y(), t.centre_m.x()) / kRadPerDeg);
+    azimuth_deg.push_back(azimuthOf(t.centre_m));
   }
   result.targets = static_cast<double>(from.size());
-  if (from.size() > 1) {
-    std::sort(azimuth_deg.begin(), azimuth_deg.end());
-    double gap = azimuth_deg.front() + 360 - azimuth_deg.back();
-    for (std::size_t i = 1; i < azimuth_deg.size(); ++i) gap = std::max(gap, azimuth_deg[i] - azimuth_deg[i - 1]);
-    result.spread_deg = 360 - gap;
-  }
+  result.spread_deg = covered_deg(std::move(azimuth_deg));
   if (from.size() < 3) return result;
   Eigen::Matrix3Xd a(3, from.size()), b(3, from.size());
   for (std::size_t i = 0; i < from.size(); ++i) a.col(static_cast<Eigen::Index>(i)) = from[i], b.col(static_cast<Eigen::Index>(i)) = to[i];
@@ -142,6 +148,80 @@ Tied tied(const Device& device, const Document& document) {
   for (const auto& station : document.job->stations)
     if (station.name == setup->station) result.error_mm = (fit.translation() - station.true_pose.translation).norm() * 1000;
   return result;
+}
+
+// Sights under the name of a known target, whose distances to the other such sights are those of the known places: a
+// name that was given to the wrong target spoils them.
+double worstSight(const Device& device, const Document& document) {
+  double worst = 0;
+  const auto& sighted = device.state().sighted;
+  for (const auto& a : sighted)
+    for (const auto& b : sighted) {
+      const auto *first = targetOf(document, a.id), *second = targetOf(document, b.id);
+      if (first == nullptr || second == nullptr) continue;
+      worst = std::max(worst, std::abs((a.place_m - b.place_m).norm() - (first->centre - second->centre).norm()) * 1000);
+    }
+  return worst;
+}
+
+double namedSights(const Device& device, const Document& document) {
+  const auto& sighted = device.state().sighted;
+  return static_cast<double>(std::count_if(sighted.begin(), sighted.end(), [&](const SightedTarget& s) { return targetOf(document, s.id) != nullptr; }));
+}
+
+double sightSpread(const Device& device) {
+  std::vector<double> azimuths;
+  for (const auto& s : device.state().sighted)
+    if (s.used) azimuths.push_back(azimuthOf(s.place_m));
+  return covered_deg(std::move(azimuths));
+}
+
+double worstSightResidual(const Device& device) {
+  double worst = 0;
+  for (const auto& s : device.state().sighted) worst = std::max(worst, s.residual_m * 1000);
+  return worst;
+}
+
+std::optional<Fact> orientationError(const Device& device, const Document& document) {
+  const auto& solved = device.state().orientation;
+  if (!solved || solved->local || !document.job) return std::nullopt;
+  for (const auto& station : document.job->stations)
+    if (station.name == device.state().around.station) return numberFact((solved->pose.translation - station.true_pose.translation).norm() * 1000);
+  return std::nullopt;
+}
+
+// Of a walk with a handheld scanner, as it was planned: what it would do to the cloud.
+struct WalkFigures {
+  double length_m = 0, closure_m = 0, stretch_m = 0, speed_m_s = 0, door_speed_m_s = 0;
+};
+constexpr double kSamePlace_m = 1, kAwayBetween_m = 10, kAtDoor_m = 1.5;
+constexpr double kDrift_mm_per_m = 0.3;   // [P] of the way since the last place that was seen before
+
+WalkFigures walked(const Walk& walk, const Exercise& exercise) {
+  WalkFigures w;
+  if (walk.size() < 2) return w;
+  std::vector<double> way = {0};
+  double closed_at = 0;   // on the way: up to there the walk is tied to itself
+  for (std::size_t i = 1; i < walk.size(); ++i) {
+    const double step = std::hypot(walk[i][0] - walk[i - 1][0], walk[i][1] - walk[i - 1][1]);
+    const double seconds = std::max(walk[i][2] - walk[i - 1][2], 1e-3);
+    w.speed_m_s = std::max(w.speed_m_s, step / seconds);
+    way.push_back(way.back() + step);
+    for (const auto& [name, place] : exercise.places) {
+      const bool at = std::min(std::hypot(walk[i][0] - place[0], walk[i][1] - place[1]), std::hypot(walk[i - 1][0] - place[0], walk[i - 1][1] - place[1])) <= kAtDoor_m;
+      if (at) w.door_speed_m_s = std::max(w.door_speed_m_s, step / seconds);
+    }
+    for (std::size_t k = 0; k < i; ++k)
+      if (way[i] - way[k] >= kAwayBetween_m && std::hypot(walk[i][0] - walk[k][0], walk[i][1] - walk[k][1]) <= kSamePlace_m) {
+        w.stretch_m = std::max(w.stretch_m, way[i] - closed_at);
+        closed_at = way[i];
+        break;
+      }
+  }
+  w.length_m = way.back();
+  w.stretch_m = std::max(w.stretch_m, way.back() - closed_at);
+  w.closure_m = std::hypot(walk.back()[0] - walk.front()[0], walk.back()[1] - walk.front()[1]);
+  return w;
 }
 
 std::optional<double> numberIn(std::string_view text) {
@@ -165,6 +245,28 @@ std::optional<SigmaAt> sigmaAt(const std::string& name) {
   return SigmaAt{*range, *percent};
 }
 
+// "expected.reach.10": 10 percent.
+std::optional<double> reachOf(const std::string& name) {
+  constexpr std::string_view kPrefix = "expected.reach.";
+  if (!name.starts_with(kPrefix)) return std::nullopt;
+  const auto percent = numberIn(std::string_view(name).substr(kPrefix.size()));
+  return percent && *percent > 0 && *percent <= 100 ? percent : std::nullopt;
+}
+
+// The range at which every other pulse still comes back.
+double reach_m(const Device& device, double percent) {
+  Optics surface;
+  surface.diffuse = static_cast<float>(percent / 100);
+  const ReturnLaw law(device.type().instrument, device.expected());
+  double near = 0, far = device.expected().max_range_m;
+  if (law.of(surface, far, 1).probability >= 0.5) return far;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = (near + far) / 2;
+    (law.of(surface, middle, 1).probability >= 0.5 ? near : far) = middle;
+  }
+  return near;
+}
+
 const std::vector<double>* placeOf(const std::string& name, const Exercise& exercise) {
   if (!name.starts_with("place.")) return nullptr;
   const auto found = exercise.places.find(name.substr(6));
@@ -182,11 +284,40 @@ const std::vector<ProofRow>& fieldProofRows() {
       {"control.spread", "°", numbers(0, 360), "directions that they cover, seen from the newest setup"},
       {"control.residual", "mm", numbers(0, 1e6), "worst residual of the newest setup laid onto them"},
       {"control.error", "mm", numbers(0, 1e6), "how far the newest setup then is from where it stands"},
+      {"sights.named", "", numbers(0, 1e4), "targets that were picked from here under a known name"},
+      {"sights.distances", "mm", numbers(0, 1e7), "worst difference of a distance between them to the known one"},
+      {"sights.residual", "mm", numbers(0, 1e6), "worst residual of their fits"},
+      {"sights.spread", "°", numbers(0, 360), "directions that those in use cover"},
+      {"orientation.error", "mm", numbers(0, 1e7), "how far the solved station is from where it stands"},
       {"repeats.least", "", numbers(0, 1e4), "setups at the place with the fewest"},
       {"repeats.places", "", numbers(0, 1e4), "places that were scanned from"},
       {"repeats.spread", "mm", numbers(0, 1e6), "worst spread of a distance between two targets over the repeats"},
   };
   return rows;
+}
+
+const std::vector<ProofRow>& walkProofRows() {
+  static const std::vector<ProofRow> rows = {
+      {"walk.length", "m", numbers(0, 1e6), "of the planned walk"},
+      {"walk.closure", "m", numbers(0, 1e6), "between its start and its end"},
+      {"walk.stretch", "m", numbers(0, 1e6), "longest way without coming back to within 1 m of where it was before"},
+      {"walk.speed", "m/s", numbers(0, 1e6), "greatest between two of its places"},
+      {"walk.door_speed", "m/s", numbers(0, 1e6), "the same within 1.5 m of the exercise's places"},
+      {"walk.drift", "mm", numbers(0, 1e6), "to be expected at the end of the longest stretch: 0.3 mm each metre, half where it closes"},
+  };
+  return rows;
+}
+
+std::optional<Fact> walkProof(const std::string& name, const Exercise& exercise, const Walk& walk) {
+  if (!name.starts_with("walk.") || walk.size() < 2) return std::nullopt;
+  const auto w = walked(walk, exercise);
+  if (name == "walk.length") return numberFact(w.length_m);
+  if (name == "walk.closure") return numberFact(w.closure_m);
+  if (name == "walk.stretch") return numberFact(w.stretch_m);
+  if (name == "walk.speed") return numberFact(w.speed_m_s);
+  if (name == "walk.door_speed") return numberFact(w.door_speed_m_s);
+  if (name == "walk.drift") return numberFact(kDrift_mm_per_m * w.stretch_m * (w.closure_m <= kSamePlace_m ? 0.5 : 1));
+  return std::nullopt;
 }
 
 std::optional<Fact> fieldProof(const std::string& name, const Device& device, const Document& document) {
@@ -200,6 +331,11 @@ std::optional<Fact> fieldProof(const std::string& name, const Device& device, co
     if (t.targets < 3) return std::nullopt;   // three are needed to lay it
     return numberFact(name == "control.residual" ? t.residual_mm : t.error_mm);
   }
+  if (name == "sights.named") return numberFact(namedSights(device, document));
+  if (name == "sights.distances") return numberFact(worstSight(device, document));
+  if (name == "sights.residual") return numberFact(worstSightResidual(device));
+  if (name == "sights.spread") return numberFact(sightSpread(device));
+  if (name == "orientation.error") return orientationError(device, document);
   if (name == "repeats.least") return numberFact(fewestRepeats(device));
   if (name == "repeats.places") return numberFact(places(device));
   if (name == "repeats.spread") return numberFact(repeatSpread(device));
@@ -212,6 +348,7 @@ std::optional<Fact> namedProof(const std::string& name, const Exercise& exercise
     surface.diffuse = static_cast<float>(at->percent / 100);
     return numberFact(ReturnLaw(device.type().instrument, device.expected()).of(surface, at->range_m, 1).sigma_m * 1000);
   }
+  if (const auto percent = reachOf(name)) return numberFact(reach_m(device, *percent));
   const auto* place = placeOf(name, exercise);
   if (place == nullptr || !document.job) return std::nullopt;
   std::optional<double> nearest;
@@ -226,7 +363,7 @@ std::optional<Fact> namedProof(const std::string& name, const Exercise& exercise
 }
 
 std::optional<FactDomain> namedProofDomain(const std::string& name, const Exercise& exercise) {
-  if (sigmaAt(name)) return numbers(0, 1e6);
+  if (sigmaAt(name) || reachOf(name)) return numbers(0, 1e6);
   if (placeOf(name, exercise) != nullptr) return numbers(0, 1e6);
   return std::nullopt;
 }

@@ -244,6 +244,7 @@ const std::vector<ProofRow>& proofRows() {
   static const std::vector<ProofRow> rows = [] {
     auto all = kRows;
     all.insert(all.end(), fieldProofRows().begin(), fieldProofRows().end());
+    all.insert(all.end(), walkProofRows().begin(), walkProofRows().end());
     return all;
   }();
   return rows;

@@ -130,6 +130,11 @@ Result<void> Rehearsal::apply(const RehearsalAction& action, Progress& progress)
       answers_[action.name] = action.value;
       return {};
     }
+    case Kind::walk:
+      walk_.clear();
+      for (const auto& place : action.options) walk_.push_back({place[0].get<double>(), place[1].get<double>(), place[2].get<double>()});
+      counts_["field.walk"] += 1;
+      return {};
     case Kind::hint: {
       for (std::size_t i = 0; i < exercise_.steps.size(); ++i)
         if (exercise_.steps[i].id == action.name) {
@@ -195,6 +200,7 @@ std::optional<Fact> Rehearsal::fact(const std::string& name) const {
     const auto found = answers_.find(name.substr(7));
     return wordFact(found == answers_.end() ? "" : found->second);
   }
+  if (auto planned = walkProof(name, exercise_, walk_)) return planned;
   if (auto shown = proofs_.fact(name, exercise_, device(), document_, folder_)) return shown;
   return device().fact(name);
 }

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "emulated-ui/device/effects.h"
+
 namespace standpoint::trimble {
 
 namespace {
@@ -29,8 +31,9 @@ void orderRefine(Device& device, const StoredSetup& setup, bool with_shift) {
   const auto* before = setupBefore(device, setup);
   if (before == nullptr) return;
   LinkOrder order{setup.file, before->file};
+  order.shift_x_m = falseStart(device);
   if (with_shift) {
-    order.shift_x_m = std::strtod(device.value("shift_x").c_str(), nullptr);
+    order.shift_x_m += std::strtod(device.value("shift_x").c_str(), nullptr);
     order.shift_y_m = std::strtod(device.value("shift_y").c_str(), nullptr);
     order.turn_deg = std::strtod(device.value("turn").c_str(), nullptr);
   }

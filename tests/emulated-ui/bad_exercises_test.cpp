@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fstream>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "emulated-ui/rehearsal/rehearsal.h"
+#include "tests/project/support.h"
+
+namespace standpoint {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+json sound() {
+  return json::parse(R"({
+    "id": "X1", "title": {"en": "Scan", "de": "Scannen"}, "goal": {"en": "Scan.", "de": "Scannen."}, "devices": ["faro-focus"], "model": "house",
+    "area": [0, 0, 0, 6, 4, 2.5], "places": {"door": [4.7, 4.45]},
+    "setup": [{"verb": "station", "options": {"add": "S1", "on": [4.3, 1.6, 0]}}],
+    "start": [{"press": "power"}, {"wait": 130}],
+    "troubles": ["dust"], "events": [{"when": "progress > 0.5", "trouble": "moved"}],
+    "steps": [{"id": "scan", "text": {"en": "Scan.", "de": "Scannen."}, "widget": "start_scan", "done": "setups >= 1", "points": 2}],
+    "rules": [{"id": "clean", "text": {"en": "Clean.", "de": "Sauber."}, "when": "each scan_started", "holds": "dust == no", "points": 1, "proof": "data.noise"}],
+    "questions": [{"id": "ok", "text": {"en": "Ok?", "de": "Gut?"}, "choices": [{"value": "yes", "text": {"en": "Yes", "de": "Ja"}}]}],
+    "solution": [{"hand": "wipe_optics"}, {"answer": "ok", "value": "yes"}]})");
+}
+
+// All that is said of a file with this text.
+class BadExercise : public testing::Test {
+ protected:
+  std::string saysOf(const std::string& text) {
+    const auto file = folder_.path() / "x.json";
+    std::ofstream(file, std::ios::binary) << text;
+    const auto read = readExercise(file);
+    if (!read) return describe(read.error());
+    std::string all;
+    for (const auto& fault : checkExercise(*read)) all += describe(fault) + "\n";
+    return all;
+  }
+  std::string saysOf(const char* pointer, const json& value) {
+    json changed = sound();
+    changed[json::json_pointer(pointer)] = value;
+    return saysOf(changed.dump());
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(BadExercise, ASoundOneIsTaken) { EXPECT_EQ(saysOf(sound().dump()), ""); }
+
+struct Wrong {
+  const char* pointer;
+  json value;
+  const char* place;
+  const char* message;
+};
+
+TEST_F(BadExercise, EachMistakeIsNamedWithItsPlace) {
+  const json text = {{"en", "a"}, {"de", "b"}};
+  const Wrong kWrong[] = {
+      {"/id", 5, "x.json /id", "a text is needed"},
+      {"/id", "", "x.json /id", "a text is needed"},
+      {"/title", "Scan", "x.json /title", "an object is needed"},
+      {"/title/en", 5, "x.json /title/en", "text"},
+      {"/goal", {{"de", "Scannen."}}, "x.json /goal", "no text in 'en'"},
+      {"/goal", {{"en", "Scan."}}, "X1 /goal", "no text in 'de'"},
+      {"/steps/0/text", {{"en", "Scan."}}, "X1 /steps/0/text", "no text in 'de'"},
+      {"/rules/0/text", {{"en", "Clean."}}, "X1 /rules/0/text", "no text in 'de'"},
+      {"/questions/0/text", {{"en", "Ok?"}}, "X1 /questions/0/text", "no text in 'de'"},
+      {"/questions/0/choices/0/text", {{"en", "Yes"}}, "X1 /questions/0/choices/0", "no text in 'de'"},
+      {"/devices", json::array(), "x.json /devices", "at least one device"},
+      {"/devices", {5}, "x.json /devices", "a list of texts"},
+      {"/devices/0", "abacus", "X1 /devices/0", "there is no device 'abacus'"},
+      {"/instrument", "abacus", "X1 /devices/0", "abacus"},
+      {"/model", "castle", "X1 /model", "there is no sample 'castle'"},
+      {"/model", "../../etc/passwd", "X1 /model", "there is no sample"},
+      {"/area", {1, 2, 3}, "x.json /area", "six numbers"},
+      {"/area/0", "a", "x.json /area", "six numbers"},
+      {"/places/door", {1}, "x.json /places/door", "x and y"},
+      {"/setup", 5, "x.json /setup", "list"},
+      {"/setup/0/verb", "export", "x.json /setup/0/verb", "can prepare"},
+      {"/setup/0", {{"press", "power"}}, "x.json /setup/0", "prepared by verbs"},
+      {"/start/0", {{"verb", "treat"}}, "x.json /start/0/verb", "can be done in the field"},
+      {"/start/0", {{"dance", "power"}}, "x.json /start/0", "an action is one of"},
+      {"/start/0/press", "powder", "X1 /start/0", "no widget 'powder'"},
+      {"/start/1/wait", -1, "x.json /start/1/wait", "a number from 0"},
+      {"/start/1/wait", 1e9, "x.json /start/1/wait", "a number from 0"},
+      {"/troubles/0", "earthquake", "X1 /troubles/0", "there is no trouble 'earthquake'"},
+      {"/events/0/trouble", "earthquake", "X1 /events/0/trouble", "there is no trouble 'earthquake'"},
+      {"/events/0/when", "", "x.json /events/0/when", "condition"},
+      {"/steps/0/widget", "start_scam", "X1 /steps/0/widget", "no widget 'start_scam'"},
+      {"/steps/0/done", "", "x.json /steps/0/done", "condition is needed"},
+      {"/steps/0/done", "setups >", "x.json /steps/0/done", "column"},
+      {"/steps/0/done", "setup >= 1", "X1 /steps/0/done", "there is no fact 'setup'"},
+      {"/steps/0/done", "setups >= many", "X1 /steps/0/done", "no number"},
+      {"/steps/0/done", "card == eaten", "X1 /steps/0/done", "never 'eaten'"},
+      {"/steps/0/done", "setups >= 2 and setups < 1", "X1 /steps/0/done", "can never hold"},
+      {"/steps/0/done", "answer.ok == no", "X1 /steps/0/done", "never 'no'"},
+      {"/steps/0/done", "answer.really == yes", "X1 /steps/0/done", "there is no fact"},
+      {"/steps/0/done", "place.window < 1", "X1 /steps/0/done", "there is no fact"},
+      {"/steps/0/done", "expected.sigma.0.10 < 1", "X1 /steps/0/done", "there is no fact"},
+      {"/steps/0/done", "expected.sigma.10 < 1", "X1 /steps/0/done", "there is no fact"},
+      {"/steps/0/done", "expected.reach.101 > 1", "X1 /steps/0/done", "there is no fact"},
+      {"/steps/0/done", "data.noise < 0", "X1 /steps/0/done", "can never hold"},
+      {"/steps/0/points", -1, "x.json /steps/0/points", "a number from 0"},
+      {"/steps/0/points", "two", "x.json /steps/0/points", "a number from 0"},
+      {"/steps/0/colour", "red", "x.json /steps/0/colour", "unknown"},
+      {"/rules/0/when", "sometimes", "x.json /rules/0/when", "it is one of"},
+      {"/rules/0/when", "each", "x.json /rules/0/when", "event"},
+      {"/rules/0/when", "end scan_started", "x.json /rules/0/when", "event"},
+      {"/rules/0/holds", "", "x.json /rules/0/holds", "condition is needed"},
+      {"/rules/0/holds", "dust == perhaps", "X1 /rules/0/holds", "never 'perhaps'"},
+      {"/rules/0/must", "yes", "x.json /rules/0/must", "true or false"},
+      {"/rules/0/proof", "data.nose", "X1 /rules/0/proof", "there is no fact 'data.nose'"},
+      {"/solution/0/hand", "juggle", "X1 /solution/0", "hands know no 'juggle'"},
+      {"/solution/1/answer", "why", "X1 /solution/1", "there is no question 'why'"},
+      {"/solution/1/value", "maybe", "X1 /solution/1", "'maybe' is not one of"},
+      {"/time_limit_s", "ten", "x.json /time_limit_s", "a number from 0"},
+      {"/pass_mark", 2, "x.json /pass_mark", "a number from 0"},
+      {"/hobby", "chess", "x.json /hobby", "unknown"},
+  };
+  for (const auto& wrong : kWrong) {
+    const auto said = saysOf(wrong.pointer, wrong.value);
+    EXPECT_THAT(said, HasSubstr(wrong.place)) << wrong.pointer << " = " << wrong.value;
+    EXPECT_THAT(said, HasSubstr(wrong.message)) << wrong.pointer << " = " << wrong.value;
+  }
+}
+
+TEST_F(BadExercise, OneIdForTwoStepsRulesOrQuestionsIsRefused) {
+  for (const char* list : {"steps", "rules", "questions"}) {
+    json twice = sound();
+    twice[list].push_back(twice[list][0]);
+    EXPECT_THAT(saysOf(twice.dump()), HasSubstr(std::string("X1 /") + list + "/1")) << list;
+  }
+}
+
+TEST_F(BadExercise, WithoutStepsAndRulesNothingCanBeMarked) {
+  json empty = sound();
+  empty.erase("steps");
+  empty.erase("rules");
+  EXPECT_THAT(saysOf(empty.dump()), HasSubstr("an exercise has steps or rules"));
+}
+
+TEST_F(BadExercise, NestedDeeplyItIsRefusedWithoutARecursionOfItsOwn) {
+  EXPECT_NE(saysOf(std::string(200000, '[')), "");
+  EXPECT_NE(saysOf(std::string(5000, '[') + std::string(5000, ']')), "");
+  EXPECT_THAT(saysOf("/steps/0/done", std::string(1000, '(') + "setups >= 1" + std::string(1000, ')')), HasSubstr("nested too deeply"));
+  std::string nots = "setups >= 1";
+  for (int i = 0; i < 400; ++i) nots = "not " + nots;
+  EXPECT_THAT(saysOf("/steps/0/done", nots), HasSubstr("nested too deeply"));
+  EXPECT_THAT(saysOf("/steps/0/done", "setups >= 1 and " + std::string(100000, 'x')), HasSubstr("too long"));
+}
+
+TEST_F(BadExercise, AConditionWithTooManyCasesIsRefusedAtOnce) {
+  std::string many = "(setups >= 1 or hints >= 1)";
+  for (int i = 0; i < 40; ++i) many += " and (setups >= 1 or hints >= 1)";
+  EXPECT_THAT(saysOf("/steps/0/done", many), HasSubstr("/steps/0/done"));
+}
+
+TEST_F(BadExercise, CutOffAnywhereItIsRefused) {
+  const auto text = sound().dump();
+  for (std::size_t n = 0; n < text.size(); n += 7) EXPECT_THAT(saysOf(text.substr(0, n)), HasSubstr("x.json")) << n;
+}
+
+// What is left of it either reads or is refused with the file's name; a crash or a hang would end the test.
+TEST_F(BadExercise, WithBytesChangedItIsReadOrRefused) {
+  const auto text = sound().dump();
+  std::mt19937 random(7);
+  for (int i = 0; i < 400; ++i) {
+    auto changed = text;
+    for (int k = 0; k < 1 + i % 4; ++k) changed[random() % changed.size()] = static_cast<char>(random() % 256);
+    const auto file = folder_.path() / "x.json";
+    std::ofstream(file, std::ios::binary) << changed;
+    if (const auto read = readExercise(file); !read) EXPECT_THAT(describe(read.error()), HasSubstr("x.json"));
+  }
+}
+
+TEST_F(BadExercise, AListOfActionsIsRefusedByItsPlaceToo) {
+  const auto file = folder_.path() / "actions.json";
+  const auto says = [&](const std::string& text) {
+    std::ofstream(file, std::ios::binary) << text;
+    const auto read = readActions(file);
+    return read ? std::string() : describe(read.error());
+  };
+  EXPECT_EQ(says(R"([{"press": "power"}])"), "");
+  EXPECT_EQ(says(R"({"actions": [{"press": "power"}]})"), "");
+  EXPECT_THAT(says("{}"), HasSubstr("a list of actions is needed"));
+  EXPECT_THAT(says(R"([{"press": "power"}, 5])"), HasSubstr("actions.json /1"));
+  EXPECT_THAT(says(R"({"actions": [{"verb": "export"}]})"), HasSubstr("actions.json /actions/0/verb"));
+}
+
+}  // namespace
+}  // namespace standpoint

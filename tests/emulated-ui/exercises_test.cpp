@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <functional>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "emulated-ui/rehearsal/marks.h"
+#include "emulated-ui/rehearsal/rehearsal.h"
+#include "tests/project/support.h"
+
+namespace standpoint {
+namespace {
+
+using Actions = std::vector<RehearsalAction>;
+using Kind = RehearsalAction::Kind;
+
+const std::vector<KnownExercise>& shipped() {
+  static const auto all = [] {
+    auto known = knownExercises();
+    EXPECT_TRUE(known) << describe(known.error());
+    return known ? *known : std::vector<KnownExercise>();
+  }();
+  return all;
+}
+
+const Exercise& exercise(const std::string& id) {
+  for (const auto& known : shipped())
+    if (known.exercise.id == id) return known.exercise;
+  ADD_FAILURE() << "there is no " << id;
+  return shipped().front().exercise;
+}
+
+// What came of it when `actions` were done; what the device refuses is left out, as a student would go on.
+struct Outcome {
+  nlohmann::json marks;
+  std::map<std::string, double> facts;
+  std::vector<std::string> refused;
+};
+Outcome rehearse(const Exercise& exercise, const Actions& actions, const std::vector<std::string>& facts = {}) {
+  TemporaryFolder folder;
+  Progress quiet;
+  auto rehearsal = Rehearsal::start(exercise, {}, folder.path(), {}, quiet);
+  EXPECT_TRUE(rehearsal) << describe(rehearsal.error());
+  if (!rehearsal) return {};
+  Outcome outcome;
+  for (const auto& action : actions)
+    if (auto done = (*rehearsal)->act(action, quiet); !done) outcome.refused.push_back(toJson(action).dump() + ": " + describe(done.error()));
+  outcome.marks = marksOf(**rehearsal, "", "en");
+  for (const auto& name : facts)
+    if (const auto fact = (*rehearsal)->fact(name); fact && fact->number) outcome.facts[name] = *fact->number;
+  return outcome;
+}
+
+std::string lines(const std::vector<std::string>& rows) {
+  std::string text;
+  for (const auto& row : rows) text += "\n" + row;
+  return text;
+}
+
+bool held(const Outcome& outcome, const std::string& rule) {
+  for (const auto& row : outcome.marks.at("rules"))
+    if (row.at("id") == rule) return row.at("held").get<bool>();
+  ADD_FAILURE() << "there is no rule " << rule;
+  return true;
+}
+
+class ShippedExercise : public testing::TestWithParam<std::string> {};
+
+TEST_P(ShippedExercise, IsSoundAndSpeaksThreeLanguages) {
+  const auto& e = exercise(GetParam());
+  for (const auto& fault : checkExercise(e)) ADD_FAILURE() << describe(fault);
+  for (const char* language : {"en", "de", "uk"}) EXPECT_TRUE(e.title.texts.contains(language)) << language;
+  EXPECT_FALSE(e.solution.empty());
+  EXPECT_FALSE(e.source.empty());
+}
+
+TEST_P(ShippedExercise, GivesAllPointsForItsOwnSolution) {
+  const auto& e = exercise(GetParam());
+  const auto outcome = rehearse(e, e.solution);
+  EXPECT_TRUE(outcome.refused.empty()) << lines(outcome.refused);
+  EXPECT_TRUE(outcome.marks.at("passed").get<bool>()) << marksText(outcome.marks);
+  EXPECT_DOUBLE_EQ(outcome.marks.at("score").get<double>(), 1) << marksText(outcome.marks);
+}
+
+TEST_P(ShippedExercise, IsNotPassedByDoingNothing) {
+  const auto outcome = rehearse(exercise(GetParam()), {});
+  EXPECT_FALSE(outcome.marks.at("passed").get<bool>()) << marksText(outcome.marks);
+}
+
+std::vector<std::string> ids() {
+  std::vector<std::string> all;
+  for (const auto& known : shipped()) all.push_back(known.exercise.id);
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedExercise, testing::ValuesIn(ids()), [](const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  std::replace_if(name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+  return name;
+});
+
+// A solution with a beginner's mistake in it.
+class Mistaken {
+ public:
+  explicit Mistaken(const std::string& id) : exercise_(exercise(id)), actions_(exercise_.solution) {}
+  Mistaken& without(const std::string& name, const std::string& value = {}) {
+    const auto before = actions_.size();
+    std::erase_if(actions_, [&](const RehearsalAction& a) { return a.name == name && (value.empty() || a.value == value); });
+    EXPECT_LT(actions_.size(), before) << name;
+    return *this;
+  }
+  Mistaken& with(const std::string& name, const std::string& value) {
+    bool found = false;
+    for (auto& a : actions_)
+      if (a.name == name) a.value = value, found = true;
+    EXPECT_TRUE(found) << name;
+    return *this;
+  }
+  Mistaken& pressInstead(const std::string& name, const std::string& other) {
+    for (auto& a : actions_)
+      if (a.name == name) a.name = other;
+    return *this;
+  }
+  Mistaken& after(const std::string& name, const RehearsalAction& more) {
+    const auto at = std::find_if(actions_.begin(), actions_.end(), [&](const RehearsalAction& a) { return a.name == name; });
+    EXPECT_NE(at, actions_.end()) << name;
+    if (at != actions_.end()) actions_.insert(at + 1, more);
+    return *this;
+  }
+  Mistaken& edit(const std::function<void(RehearsalAction&)>& change) {
+    std::for_each(actions_.begin(), actions_.end(), change);
+    return *this;
+  }
+  Outcome outcome(const std::vector<std::string>& facts) const { return rehearse(exercise_, actions_, facts); }
+
+ private:
+  const Exercise& exercise_;
+  Actions actions_;
+};
+
+RehearsalAction press(const std::string& name) { return {Kind::press, name, {}, 0, {}}; }
+
+TEST(Mistake, DustOnTheOpticsShowsAsTwiceTheNoise) {
+  const auto clean = rehearse(exercise("E01"), exercise("E01").solution, {"data.noise"});
+  const auto dusty = Mistaken("E01").without("wipe_optics").outcome({"data.noise"});
+  EXPECT_FALSE(held(dusty, "optics"));
+  EXPECT_NEAR(dusty.facts.at("data.noise") / clean.facts.at("data.noise"), 2, 0.15);
+}
+
+TEST(Mistake, AScanInTheOldJobLosesTheExercise) {
+  const auto outcome = Mistaken("E02").without("create").without("first").without("name").without("new_job").without("job").outcome({});
+  EXPECT_FALSE(held(outcome, "right_job"));
+  EXPECT_FALSE(outcome.marks.at("passed").get<bool>());
+}
+
+TEST(Mistake, TheFinestResolutionGivesSixteenTimesThePoints) {
+  const auto right = rehearse(exercise("E03"), exercise("E03").solution, {"data.points"});
+  const auto fine = Mistaken("E03").with("resolution", "1/1").outcome({"data.points"});
+  EXPECT_FALSE(held(fine, "not_finer"));
+  EXPECT_NEAR(fine.facts.at("data.points") / right.facts.at("data.points"), 16, 0.5);
+}
+
+TEST(Mistake, TheLowestQualityIsNoisier) {
+  const auto right = rehearse(exercise("E04"), exercise("E04").solution, {"data.noise"});
+  const auto fast = Mistaken("E04").with("quality", "1x").outcome({"data.noise"});
+  EXPECT_FALSE(held(fast, "noise"));
+  EXPECT_NEAR(fast.facts.at("data.noise") / right.facts.at("data.noise"), std::sqrt(2.0), 0.1);
+}
+
+TEST(Mistake, AnUnlevelledScanLeans) {
+  const auto outcome = Mistaken("E05").without("level").after("start_scan", press("continue")).outcome({"data.tilt"});
+  EXPECT_FALSE(held(outcome, "levelled"));
+  EXPECT_FALSE(held(outcome, "plumb"));
+  EXPECT_GT(outcome.facts.at("data.tilt"), 0.05);
+}
+
+TEST(Mistake, AStationFarFromTheDoorJoinsNoRooms) {
+  const auto outcome = Mistaken("E07").edit([](RehearsalAction& a) {
+    if (a.kind == Kind::verb) a.options["on"] = {1.6, 2.4, 0.0};
+  }).outcome({"plan.overlap", "place.door"});
+  EXPECT_FALSE(held(outcome, "door"));
+  EXPECT_FALSE(held(outcome, "overlap"));
+  EXPECT_LT(outcome.facts.at("plan.overlap"), 0.3);
+}
+
+TEST(Mistake, SpheresInOneLineHaveNoWidth) {
+  int n = 0;
+  const auto outcome = Mistaken("E08").edit([&](RehearsalAction& a) {
+    if (a.kind == Kind::verb) a.options["on"] = {2.0 + 0.8 * n, 3.2, 0.0}, a.options["height"] = 1.4, ++n;
+  }).outcome({"targets.width", "targets.heights"});
+  EXPECT_FALSE(held(outcome, "line"));
+  EXPECT_FALSE(held(outcome, "heights"));
+  EXPECT_LT(outcome.facts.at("targets.width"), 0.01);
+}
+
+TEST(Mistake, TooCoarseAScanLeavesTooFewPointsOnTheSpheres) {
+  const auto outcome = Mistaken("E09").with("resolution", "1/32").outcome({"newest.sampled"});
+  EXPECT_FALSE(held(outcome, "sampled"));
+  EXPECT_LT(outcome.facts.at("newest.sampled"), 60);
+}
+
+TEST(Mistake, ASingleScanKeepsWhoeverWalkedBy) {
+  const auto outcome = Mistaken("E12").with("double_scan", "off").outcome({"data.moving"});
+  EXPECT_FALSE(held(outcome, "double"));
+  EXPECT_FALSE(held(outcome, "clean"));
+  EXPECT_GT(outcome.facts.at("data.moving"), 0.01);
+}
+
+TEST(Mistake, ConfusedTargetNamesSpoilTheDistancesBetweenThem) {
+  const auto right = rehearse(exercise("E13"), exercise("E13").solution, {"sights.distances"});
+  EXPECT_LT(right.facts.at("sights.distances"), 10);
+  const std::map<std::string, std::string> swapped = {{"T1", "T3"}, {"T2", "T2"}, {"T3", "T1"}, {"T4", "T4"}};
+  Actions actions;
+  for (const auto& action : exercise("E13").solution) {
+    actions.push_back(action);
+    if (action.name != "view_list") continue;
+    actions.push_back(press("target_id"));
+    actions.back().value = swapped.at(action.value);
+  }
+  const auto wrong = rehearse(exercise("E13"), actions, {"sights.distances"});
+  EXPECT_FALSE(held(wrong, "ids"));
+  EXPECT_GT(wrong.facts.at("sights.distances"), 100);
+}
+
+TEST(Mistake, AScanOfAMovedTripodIsBesideItsPlace) {
+  const auto outcome = Mistaken("E23").pressInstead("discard", "keep").outcome({"data.error"});
+  EXPECT_FALSE(held(outcome, "no_moved"));
+}
+
+TEST(Mistake, FormattingBeforeTheCopyLosesTheScans) {
+  const auto outcome = Mistaken("E21").without("by_cable").outcome({"office.copies"});
+  EXPECT_FALSE(held(outcome, "first_copy"));
+  EXPECT_FALSE(held(outcome, "sizes"));
+}
+
+TEST(Mistake, AChainWithoutTheDoorIsTooWeak) {
+  const auto outcome = Mistaken("E17").without("stand_at", "Door").outcome({"links.overlap", "links.joined"});
+  EXPECT_FALSE(outcome.marks.at("passed").get<bool>());
+}
+
+TEST(Mistake, ColourInTheDarkStoreTakesTimeForNothing) {
+  const auto outcome = Mistaken("E11").with("colour", "on").outcome({"expected.imaging"});
+  EXPECT_FALSE(held(outcome, "right"));
+  EXPECT_GT(outcome.facts.at("expected.imaging"), 60);
+}
+
+}  // namespace
+}  // namespace standpoint
