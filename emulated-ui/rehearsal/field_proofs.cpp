@@ -197,7 +197,7 @@ struct WalkFigures {
 constexpr double kSamePlace_m = 1, kAwayBetween_m = 10, kAtDoor_m = 1.5;
 constexpr double kDrift_mm_per_m = 0.3;   // [P] of the way since the last place that was seen before
 
-WalkFigures walked(const Walk& walk, const Exercise& exercise) {
+WalkFigures walked(const WalkedWay& walk, const Exercise& exercise) {
   WalkFigures w;
   if (walk.size() < 2) return w;
   std::vector<double> way = {0};
@@ -308,7 +308,7 @@ const std::vector<ProofRow>& walkProofRows() {
   return rows;
 }
 
-std::optional<Fact> walkProof(const std::string& name, const Exercise& exercise, const Walk& walk) {
+std::optional<Fact> walkProof(const std::string& name, const Exercise& exercise, const WalkedWay& walk) {
   if (!name.starts_with("walk.") || walk.size() < 2) return std::nullopt;
   const auto w = walked(walk, exercise);
   if (name == "walk.length") return numberFact(w.length_m);

@@ -23,9 +23,9 @@ const std::vector<ProofRow>& fieldProofRows();
 std::optional<Fact> fieldProof(const std::string& name, const Device& device, const Document& document);
 
 // Of a walk with a handheld scanner that was planned: x, y, seconds. None of them is there before.
-using Walk = std::vector<std::array<double, 3>>;
+using WalkedWay = std::vector<std::array<double, 3>>;
 const std::vector<ProofRow>& walkProofRows();
-std::optional<Fact> walkProof(const std::string& name, const Exercise& exercise, const Walk& walk);
+std::optional<Fact> walkProof(const std::string& name, const Exercise& exercise, const WalkedWay& walk);
 
 // Facts with a name of their own: "place.door" of an exercise's places: metres from there to the nearest setup, in plan;
 // "expected.reach.10": the range at which half of the pulses come back from a surface that returns 10 %;

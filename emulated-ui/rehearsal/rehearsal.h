@@ -83,7 +83,7 @@ class Rehearsal {
   std::vector<bool> event_happened_;
   std::vector<RehearsalAction> actions_;
   std::map<std::string, std::string> answers_;
-  Walk walk_;
+  WalkedWay walk_;
   std::map<std::string, double> counts_;
   std::map<std::string, Eigen::Vector3d> target_places_;   // during the newest scan that had them
   std::size_t log_seen_ = 0;
