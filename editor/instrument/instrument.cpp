@@ -30,9 +30,9 @@ class InstrumentPanel {
     controls();
     if (desk_.shown() == nullptr) return;
     const ImVec2 room = ImGui::GetContentRegionAvail();
-    const bool beside = room.x > editor.px(620);   // else the rest comes below
+    const bool beside = room.x > editor.px(440);   // else the rest comes below
     const float below = beside ? 0 : std::min(editor.px(260), 0.4F * room.y);
-    const float width = beside ? std::min(0.58F * room.x, editor.px(560)) : room.x;
+    const float width = beside ? std::min(0.54F * room.x, editor.px(560)) : room.x;
     if (ImGui::BeginChild("device", {width, room.y - below})) device(editor);
     ImGui::EndChild();
     if (beside) ImGui::SameLine();

@@ -19,5 +19,15 @@ TEST(Devices, AreSoundWithEachScannerThatTheyDrive) {
   }
 }
 
+TEST(Devices, HaveWordsForAllHandsAndTroubles) {
+  const auto type = loadDevice(emulatedDevices().front());
+  ASSERT_TRUE(type) << describe(type.error());
+  const auto& words = *(*type)->words;
+  for (const auto& language : words.languages()) {
+    for (const auto& hand : handRows()) EXPECT_TRUE(words.has("", std::string("hand.") + hand.id, language)) << hand.id << " in " << language;
+    for (const auto& trouble : troubleRows()) EXPECT_TRUE(words.has("", std::string("trouble.") + trouble.id, language)) << trouble.id << " in " << language;
+  }
+}
+
 }  // namespace
 }  // namespace standpoint
