@@ -43,7 +43,7 @@ class TruthMoved final : public PointSink {
 // Puts a person in front of what lies behind, over the directions that a body covers.
 class WalkedBy final : public PointSink {
  public:
-  WalkedBy(PointSink& sink, double azimuth_rad) : sink_(sink), towards_(std::cos(azimuth_rad), std::sin(azimuth_rad)) {}
+  WalkedBy(PointSink& sink, double azimuth_rad) : sink_(sink), towards_(std::cos(azimuth_rad), -std::sin(azimuth_rad)) {}   // azimuths go clockwise
   Result<void> begin(const ScanHeader& header) override { return sink_.begin(header); }
   Result<void> write(const PointBlock& block) override {
     PointBlock crossed = block;

@@ -104,7 +104,7 @@ void orderLink(Device& device) {
   if (project == nullptr || project->setups.size() < 2) return;
   const auto& setups = project->setups;
   LinkOrder order{setups[setups.size() - 1].file, setups[setups.size() - 2].file};
-  order.shift_x_m = falseStart(device);
+  order.turn_deg = falseStart(device);
   device.give(std::move(order));
 }
 

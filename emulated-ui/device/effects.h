@@ -11,7 +11,7 @@ void storeScan(Device& device);      // the data go onto the card, and the setup
 void dropScan(Device& device);       // the running scan is taken back
 void markMoved(Device& device);      // the tripod was pushed: the rest of the scan stands elsewhere
 void keepPartial(Device& device);    // the columns that are done are kept as a scan of their own
-// How far from its place the newest setup lies in plan before it is fitted, where what it shows is alike elsewhere.
+// Degrees by which the newest setup lies turned in plan before it is fitted, where a room looks the same from both sides.
 double falseStart(const Device& device);
 void orderLink(Device& device);      // of the newest setup to the one before, where there is one
 void loseTracking(Device& device);

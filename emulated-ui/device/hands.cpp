@@ -207,7 +207,7 @@ const std::vector<TroubleRow>& troubleRows() {
          d.fire("wlan_lost");
        }},
       {"target_hidden", [](Device& d) { d.change().around.targets_visible = false; }},
-      {"symmetrical_room", [](Device& d) { d.change().values["false_start"] = "2.4"; }},   // metres: a room's half looks like the other
+      {"symmetrical_room", [](Device& d) { d.change().values["false_start"] = "180"; }},   // degrees
       {"somebody_walks", [](Device& d) { d.change().around.somebody_walks = true; }},
       {"too_near", [](Device& d) { d.change().around.nearest_m = 0.3; }},
   };

@@ -31,11 +31,11 @@ void orderRefine(Device& device, const StoredSetup& setup, bool with_shift) {
   const auto* before = setupBefore(device, setup);
   if (before == nullptr) return;
   LinkOrder order{setup.file, before->file};
-  order.shift_x_m = falseStart(device);
+  order.turn_deg = falseStart(device);
   if (with_shift) {
-    order.shift_x_m += std::strtod(device.value("shift_x").c_str(), nullptr);
+    order.shift_x_m = std::strtod(device.value("shift_x").c_str(), nullptr);
     order.shift_y_m = std::strtod(device.value("shift_y").c_str(), nullptr);
-    order.turn_deg = std::strtod(device.value("turn").c_str(), nullptr);
+    order.turn_deg += std::strtod(device.value("turn").c_str(), nullptr);
   }
   forgetRegistration(device, setup);
   device.give(std::move(order));

@@ -141,11 +141,12 @@ class Mistaken {
 
 RehearsalAction press(const std::string& name) { return {Kind::press, name, {}, 0, {}}; }
 
-TEST(Mistake, DustOnTheOpticsShowsAsTwiceTheNoise) {
+// Twice the white noise; what the surfaces and the mirror add stays as it is.
+TEST(Mistake, DustOnTheOpticsShowsInTheNoise) {
   const auto clean = rehearse(exercise("E01"), exercise("E01").solution, {"data.noise"});
   const auto dusty = Mistaken("E01").without("wipe_optics").outcome({"data.noise"});
   EXPECT_FALSE(held(dusty, "optics"));
-  EXPECT_NEAR(dusty.facts.at("data.noise") / clean.facts.at("data.noise"), 2, 0.15);
+  EXPECT_GT(dusty.facts.at("data.noise"), 1.15 * clean.facts.at("data.noise"));
 }
 
 TEST(Mistake, AScanInTheOldJobLosesTheExercise) {
@@ -165,7 +166,7 @@ TEST(Mistake, TheLowestQualityIsNoisier) {
   const auto right = rehearse(exercise("E04"), exercise("E04").solution, {"data.noise"});
   const auto fast = Mistaken("E04").with("quality", "1x").outcome({"data.noise"});
   EXPECT_FALSE(held(fast, "noise"));
-  EXPECT_NEAR(fast.facts.at("data.noise") / right.facts.at("data.noise"), std::sqrt(2.0), 0.1);
+  EXPECT_GT(fast.facts.at("data.noise"), 1.2 * right.facts.at("data.noise"));
 }
 
 TEST(Mistake, AnUnlevelledScanLeans) {
@@ -240,9 +241,16 @@ TEST(Mistake, AChainWithoutTheDoorIsTooWeak) {
 }
 
 TEST(Mistake, ColourInTheDarkStoreTakesTimeForNothing) {
-  const auto outcome = Mistaken("E11").with("colour", "on").outcome({"expected.imaging"});
+  const auto outcome = Mistaken("E11").with("images", "on").outcome({});
   EXPECT_FALSE(held(outcome, "right"));
-  EXPECT_GT(outcome.facts.at("expected.imaging"), 60);
+}
+
+// The device says "registered": only the truth, and a look at the walls, tell that the room stands the wrong way round.
+TEST(Mistake, ALinkThatIsTurnedRoundIsTakenWithoutALook) {
+  const auto outcome = Mistaken("E16").without("refine").outcome({"links.wrong", "links.error"});
+  EXPECT_FALSE(held(outcome, "no_wrong"));
+  EXPECT_EQ(outcome.facts.at("links.wrong"), 1);
+  EXPECT_GT(outcome.facts.at("links.error"), 500);
 }
 
 }  // namespace
