@@ -34,7 +34,7 @@ void watch(InstrumentDesk& desk) {
   if (desk.rehearsal->seconds() < desk.next_watched_s) return;
   const auto& action = solution[desk.watched++];
   if (action.kind != Kind::finish && action.kind != Kind::wait) act(desk, action);
-  desk.next_watched_s = desk.rehearsal->seconds() + 1.2 * desk.time_factor;   // a second or so of the viewer's time
+  desk.next_watched_s = desk.rehearsal->seconds() + 1.2;   // a second or so of the viewer's time
 }
 
 }  // namespace
@@ -78,7 +78,8 @@ void advance(InstrumentDesk& desk, Editor& editor) {
   // A window that slept gives no lump of time to a device that was idle meanwhile; in an exercise the clock always runs.
   const double seconds = desk.was_busy ? std::min(1.0, std::chrono::duration<double>(now - desk.last).count()) : 0;
   desk.last = now;
-  desk.running()->time_factor = desk.time_factor;
+  // Only waiting is shortened: what the student needs to read and press takes its own time, also in an exercise.
+  desk.running()->time_factor = desk.running()->busy() ? desk.time_factor : 1;
   if (desk.rehearsal) {
     const auto before = desk.rehearsal->document().job;
     desk.rehearsal->pass(seconds);

@@ -86,7 +86,7 @@ void steps(InstrumentDesk& desk, const std::string& language) {
     const auto& state = rehearsal.steps()[i];
     const bool current = &step == next;
     ImGui::PushStyleColor(ImGuiCol_Text, state.done ? IM_COL32(110, 190, 120, 255) : ImGui::GetColorU32(current ? ImGuiCol_Text : ImGuiCol_TextDisabled));
-    ui::wrapped((state.done ? "✓ " : current ? "› " : "   ") + step.text.in(language));
+    ui::wrapped((state.done ? ICON_CHECK "  " : current ? "›  " : "    ") + step.text.in(language));
     ImGui::PopStyleColor();
     if (!current) continue;
     if (state.hinted) ui::dimText(step.hint.in(language));
@@ -113,7 +113,7 @@ void marks(const InstrumentDesk& desk) {
   for (const auto& rule : m["rules"]) {
     const bool held = rule["held"].get<bool>();
     ImGui::PushStyleColor(ImGuiCol_Text, held ? IM_COL32(110, 190, 120, 255) : IM_COL32(230, 110, 100, 255));
-    ui::wrapped((held ? "✓ " : "✗ ") + rule["text"].get<std::string>());
+    ui::wrapped((held ? ICON_CHECK "  " : "×  ") + rule["text"].get<std::string>());
     ImGui::PopStyleColor();
     if (held) continue;
     ui::dimText("found: " + rule["found"].get<std::string>());

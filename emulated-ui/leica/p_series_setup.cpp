@@ -247,20 +247,20 @@ const std::vector<ListRow>& setupLists() {
       {"known_stations",
        [](const Device& d) {
          std::vector<WidgetOption> rows;
-         for (const auto& p : d.state().control.stations) rows.push_back({p.name, p.name + (entry(d, "station_id") == p.name ? "  ✓" : ""), true, {}});
+         for (const auto& p : d.state().control.stations) rows.push_back({p.name, p.name + (entry(d, "station_id") == p.name ? "  •" : ""), true, {}});
          return rows;
        }},
       {"targets_in_view",
        [](const Device& d) {
          std::vector<WidgetOption> rows;
-         for (const auto& p : d.state().control.targets) rows.push_back({p.name, p.name + (entry(d, "picked") == p.name ? "  ✓" : ""), true, {}});
+         for (const auto& p : d.state().control.targets) rows.push_back({p.name, p.name + (entry(d, "picked") == p.name ? "  •" : ""), true, {}});
          return rows;
        }},
       {"sightings",
        [](const Device& d) {
          std::vector<WidgetOption> rows;
          for (const auto& s : d.state().sighted) {
-           std::string row = fmt::format("{} {}  {:.2f} m  {} pts  {:.1f} mm", s.used ? "✓" : "–", s.id, s.place_m.norm(), s.points, s.residual_m * 1000);
+           std::string row = fmt::format("{} {}  {:.2f} m  {} pts  {:.1f} mm", s.used ? "•" : "–", s.id, s.place_m.norm(), s.points, s.residual_m * 1000);
            rows.push_back({s.id, row, true, {}});
          }
          return rows;
