@@ -86,8 +86,10 @@ void readout(Pen& pen, const Widget& w) {
   ImDrawList* list = ImGui::GetWindowDrawList();
   const float inset = 0.4F * pen.unit;
   const ImU32 value_colour = w.why_not.empty() ? pen.skin.text : IM_COL32(214, 60, 40, 255);
-  list->AddText({at.x + inset, at.y}, pen.skin.dim, w.label.c_str());
   const float width = ImGui::CalcTextSize(w.value.c_str()).x;
+  list->PushClipRect(at, {at.x + pen.width - 2 * inset - width, at.y + height}, true);
+  list->AddText({at.x + inset, at.y}, pen.skin.dim, w.label.c_str());
+  list->PopClipRect();
   list->AddText({at.x + pen.width - inset - width, at.y}, value_colour, w.value.c_str());
   frame(pen, w, at, {pen.width, height});
 }
@@ -173,7 +175,7 @@ void entry(Pen& pen, const Widget& w, bool number) {
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.8F * pen.unit, (pen.touch() - ImGui::GetTextLineHeight()) / 2});
   const auto typing = pen.view.typing.find(w.id);
   std::string text = typing == pen.view.typing.end() ? w.value : typing->second;
-  const bool entered = ImGui::InputText(("###" + w.id).c_str(), &text, ImGuiInputTextFlags_EnterReturnsTrue | (number ? ImGuiInputTextFlags_CharsDecimal : 0));
+  const bool entered = ImGui::InputText(("###" + w.id).c_str(), &text, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll | (number ? ImGuiInputTextFlags_CharsDecimal : 0));
   if (ImGui::IsItemActive()) pen.view.typing[w.id] = text;
   if (entered || ImGui::IsItemDeactivated()) {
     if (text != w.value) pen.pressed(w.id, text);
