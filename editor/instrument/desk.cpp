@@ -89,7 +89,10 @@ void advance(InstrumentDesk& desk, Editor& editor) {
   } else {
     const auto scans = editor.session.folder().empty() ? fs::path() : editor.session.folder() / "scans";
     const bool may_store = editor.session.whyNotAdopt().empty();
-    if (auto stored = desk.host->update(editor.session.document(), scans, seconds, may_store)) editor.session.adopt(*std::move(stored));
+    if (auto stored = desk.host->update(editor.session.document(), scans, seconds, may_store)) {
+      editor.session.adopt(*std::move(stored));
+      editor.wake();   // panels that were drawn before this one show it, too
+    }
   }
   if (const auto view = desk.shown()->takeView()) editor.showCloud(view->file);
   if (!desk.view.texture)
