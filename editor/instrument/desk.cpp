@@ -111,8 +111,7 @@ void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercis
   }
   const auto folder = freshFolder(exercise.id);
   Progress quiet;
-  const bool fits = std::find(exercise.devices.begin(), exercise.devices.end(), desk.device->id) != exercise.devices.end() || exercise.devices.front() == "*";
-  auto rehearsal = Rehearsal::start(exercise, fits ? desk.device->id : std::string(), folder, editor.wake, quiet);
+  auto rehearsal = Rehearsal::start(exercise, isFor(exercise, desk.device->id) ? desk.device->id : std::string(), folder, editor.wake, quiet);
   if (!rehearsal) {
     desk.refused = describe(rehearsal.error());
     return;

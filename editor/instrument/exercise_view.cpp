@@ -28,10 +28,6 @@ void readExercises(InstrumentDesk& desk) {
   else desk.exercises_problem = describe(known.error());
 }
 
-bool isFor(const Exercise& exercise, const std::string& device) {
-  return std::any_of(exercise.devices.begin(), exercise.devices.end(), [&](const std::string& d) { return d == "*" || d == device; });
-}
-
 void list(InstrumentDesk& desk, Editor& editor) {
   readExercises(desk);
   if (!desk.exercises_problem.empty()) ui::wrapped(desk.exercises_problem);

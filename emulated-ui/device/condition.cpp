@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "emulated-ui/device/condition.h"
+#include "emulated-ui/device/numbers.h"
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -27,13 +26,6 @@ using Sign = Condition::Sign;
 constexpr int kDeepest = 32;
 constexpr std::size_t kLongest = 2000;
 constexpr std::size_t kMostCases = 4096;   // of a condition's disjunctive form
-
-std::optional<double> numberIn(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
 
 struct Token {
   enum class Kind { word, quoted, sign, end } kind = Kind::end;

@@ -52,7 +52,6 @@ void readBody(JsonFields& root, BodyRow& body) {
   body.battery_s = f.number("battery_s", 60, 1e6);
   body.battery_warning = f.numberOr("battery_warning", 0.1, 0, 1);
   body.battery_critical = f.numberOr("battery_critical", 0.03, 0, 1);
-  body.card_noun = f.text("card");
   body.card_inside = f.flagOr("card_inside", false);
   body.card_bytes = f.number("card_bytes", 1e6, 1e15);
   body.bytes_per_point = f.number("bytes_per_point", 1, 200);

@@ -76,7 +76,6 @@ struct ValueRow {
 struct BodyRow {
   double battery_s = 0;                       // a full one lasts so long
   double battery_warning = 0.1, battery_critical = 0.03;   // shares
-  std::string card_noun;                      // key of a word: "SD card", "USB stick"
   bool card_inside = false;                   // it cannot be taken out
   double card_bytes = 0;
   double bytes_per_point = 0;

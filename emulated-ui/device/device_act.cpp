@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include "emulated-ui/device/device.h"
+#include "emulated-ui/device/numbers.h"
 #include "emulated-ui/device/settings.h"
 
 namespace standpoint {
@@ -20,13 +19,6 @@ bool pressable(WidgetKind kind) {
     case WidgetKind::number: case WidgetKind::list: case WidgetKind::area: case WidgetKind::preview: return true;
     default: return false;
   }
-}
-
-std::optional<double> numberIn(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
 }
 
 Result<void> checkEntry(const std::string& text, const std::string& id) {

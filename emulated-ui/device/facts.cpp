@@ -6,6 +6,7 @@
 
 #include "emulated-ui/device/device.h"
 #include "emulated-ui/device/format.h"
+#include "emulated-ui/device/numbers.h"
 
 namespace standpoint {
 
@@ -27,9 +28,7 @@ double freeBytes(const Device& d) {
 double phaseLasts(const Device& d) {
   const auto* phase = findPhase(d.type().definition, d.state().phase);
   if (phase->lasts.empty()) return 0;
-  char* end = nullptr;
-  const double number = std::strtod(phase->lasts.c_str(), &end);
-  if (*end == '\0') return number;
+  if (const auto number = numberIn(phase->lasts)) return *number;
   return d.fact(phase->lasts).value_or(numberFact(0)).number.value_or(0);
 }
 
@@ -202,16 +201,12 @@ std::optional<Fact> Device::fact(const std::string& name) const {
   if (name.starts_with("setting.")) {
     const auto text = setting(name.substr(8));
     if (text.empty()) return std::nullopt;
-    char* end = nullptr;
-    const double number = std::strtod(text.c_str(), &end);
-    return *end == '\0' ? Fact{text, number} : wordFact(text);
+    return Fact{text, numberIn(text)};
   }
   if (name.starts_with("value.")) {
     const auto found = state_.values.find(name.substr(6));
     if (found == state_.values.end()) return std::nullopt;
-    char* end = nullptr;
-    const double number = std::strtod(found->second.c_str(), &end);
-    return !found->second.empty() && *end == '\0' ? Fact{found->second, number} : wordFact(found->second);
+    return Fact{found->second, numberIn(found->second)};
   }
   if (name.starts_with("entry.")) {
     const auto found = state_.entries.find(name.substr(6));

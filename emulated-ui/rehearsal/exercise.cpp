@@ -131,6 +131,10 @@ const std::string& Spoken::in(const std::string& language) const {
   return english == texts.end() ? kNothing : english->second;
 }
 
+bool isFor(const Exercise& exercise, const std::string& device) {
+  return std::any_of(exercise.devices.begin(), exercise.devices.end(), [&](const std::string& d) { return d == "*" || d == device; });
+}
+
 Result<RehearsalAction> actionFrom(const nlohmann::json& json, const std::string& file, const std::string& pointer) {
   JsonFault fault(file);
   JsonFields fields(fault, json, pointer);

@@ -102,6 +102,9 @@ struct Exercise {
   std::vector<RehearsalAction> solution;    // one way to do it: to be watched, and it is tested
 };
 
+// Whether it can be done on the device; "*" stands for all.
+bool isFor(const Exercise& exercise, const std::string& device);
+
 Result<Exercise> readExercise(const std::filesystem::path& file);
 // Everything that is wrong with it beyond its form: unknown devices, widgets, facts, hands, troubles, samples, conditions
 // that can never hold, texts without a translation.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "emulated-ui/rehearsal/field_proofs.h"
+#include "emulated-ui/device/numbers.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 
@@ -222,13 +222,6 @@ WalkFigures walked(const WalkedWay& walk, const Exercise& exercise) {
   w.stretch_m = std::max(w.stretch_m, way.back() - closed_at);
   w.closure_m = std::hypot(walk.back()[0] - walk.front()[0], walk.back()[1] - walk.front()[1]);
   return w;
-}
-
-std::optional<double> numberIn(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
 }
 
 struct SigmaAt {

@@ -72,8 +72,7 @@ Result<std::unique_ptr<Rehearsal>> Rehearsal::start(Exercise exercise, const std
 Result<void> Rehearsal::prepare(const std::string& wanted, std::function<void()> wake, Progress& progress) {
   const auto& e = exercise_;
   const std::string id = wanted.empty() ? e.devices.front() : wanted;
-  const bool any = std::find(e.devices.begin(), e.devices.end(), "*") != e.devices.end();
-  if (!any && std::find(e.devices.begin(), e.devices.end(), id) == e.devices.end())
+  if (!isFor(e, id))
     return failure(ErrorKind::usage, fmt::format("the exercise is for {}, not '{}'", fmt::join(e.devices, ", "), id), e.id);
   const auto* device = findDevice(id == "*" ? emulatedDevices().front().id : id);
   if (device == nullptr) return failure(ErrorKind::usage, fmt::format("there is no device '{}'", id), e.id);

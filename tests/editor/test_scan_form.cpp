@@ -23,7 +23,7 @@ TEST(ScanForm, AsksTheVerbForWhatItShows) {
   auto wanted = everythingAsked();
   const auto ask = [&](const ScanChoice& choice) {
     auto options = scanOptions(choice);
-    options["output"] = "/tmp/x.e57";
+    options["output"] = "x.e57";
     const auto checked = checkOptions(*findVerb(verbs(), "scan"), options);
     EXPECT_TRUE(checked) << describe(checked.error());
     const auto request = scanRequestFrom(document, *checked);
