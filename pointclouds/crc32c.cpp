@@ -23,6 +23,11 @@ constexpr std::array<std::uint32_t, 256> makeTable() {
 constexpr std::array<std::uint32_t, 256> kTable = makeTable();
 
 #if defined(__x86_64__)
+bool hasInstruction() {
+  static const bool has = __builtin_cpu_supports("sse4.2");
+  return has;
+}
+
 __attribute__((target("sse4.2"))) std::uint32_t crc32cByInstruction(std::span<const std::uint8_t> bytes) {
   std::uint64_t c = 0xFFFFFFFFu;
   std::size_t i = 0;
@@ -34,6 +39,23 @@ __attribute__((target("sse4.2"))) std::uint32_t crc32cByInstruction(std::span<co
   auto rest = static_cast<std::uint32_t>(c);
   for (; i < bytes.size(); ++i) rest = _mm_crc32_u8(rest, bytes[i]);
   return ~rest;
+}
+
+__attribute__((target("sse4.2"))) void threeByInstruction(const std::uint8_t* first, std::size_t size,
+                                                          std::size_t stride, std::uint32_t* sums) {
+  std::uint64_t c[3] = {0xFFFFFFFFu, 0xFFFFFFFFu, 0xFFFFFFFFu};
+  std::size_t i = 0;
+  for (; i + 8 <= size; i += 8)
+    for (std::size_t run = 0; run < 3; ++run) {
+      std::uint64_t word;
+      std::memcpy(&word, first + run * stride + i, 8);
+      c[run] = _mm_crc32_u64(c[run], word);
+    }
+  for (std::size_t run = 0; run < 3; ++run) {
+    auto rest = static_cast<std::uint32_t>(c[run]);
+    for (std::size_t k = i; k < size; ++k) rest = _mm_crc32_u8(rest, first[run * stride + k]);
+    sums[run] = ~rest;
+  }
 }
 #endif
 
@@ -47,10 +69,19 @@ std::uint32_t crc32cByTable(std::span<const std::uint8_t> bytes) {
 
 std::uint32_t crc32c(std::span<const std::uint8_t> bytes) {
 #if defined(__x86_64__)
-  static const bool has_instruction = __builtin_cpu_supports("sse4.2");
-  if (has_instruction) return crc32cByInstruction(bytes);
+  if (hasInstruction()) return crc32cByInstruction(bytes);
 #endif
   return crc32cByTable(bytes);
+}
+
+void crc32cOfRuns(const std::uint8_t* first, std::size_t size, std::size_t stride, std::size_t count,
+                  std::uint32_t* sums) {
+  std::size_t i = 0;
+#if defined(__x86_64__)
+  if (hasInstruction())
+    for (; i + 3 <= count; i += 3) threeByInstruction(first + i * stride, size, stride, sums + i);
+#endif
+  for (; i < count; ++i) sums[i] = crc32c({first + i * stride, size});
 }
 
 }  // namespace standpoint

@@ -61,7 +61,17 @@ void PacketWriter::putBits(Stream& s, std::uint32_t value, unsigned bits) {
 
 void PacketWriter::put(std::size_t stream, std::span<const std::uint32_t> values) {
   Stream s = streams_[stream];  // a copy: the compiler may keep it in registers
-  for (const std::uint32_t value : values) putBits(s, value, s.bits);
+  const unsigned bits = s.bits;
+  std::size_t i = 0;
+  if (bits <= 8) {
+    for (; i + 4 <= values.size(); i += 4) {
+      const std::uint32_t low = values[i] | values[i + 1] << bits, high = values[i + 2] | values[i + 3] << bits;
+      putBits(s, low | high << (2 * bits), 4 * bits);
+    }
+  } else if (bits <= 16) {
+    for (; i + 2 <= values.size(); i += 2) putBits(s, values[i] | values[i + 1] << bits, 2 * bits);
+  }
+  for (; i < values.size(); ++i) putBits(s, values[i], bits);
   streams_[stream] = s;
 }
 

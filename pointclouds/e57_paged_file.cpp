@@ -14,15 +14,21 @@ namespace {
 constexpr std::size_t kBufferedPages = 1024;
 
 // The standard stores this one number big-endian, against everything else in the file.
-std::array<std::uint8_t, 4> checksum(const std::uint8_t* page) {
-  const std::uint32_t c = crc32c({page, kPayloadBytes});
-  return {static_cast<std::uint8_t>(c >> 24), static_cast<std::uint8_t>(c >> 16), static_cast<std::uint8_t>(c >> 8),
-          static_cast<std::uint8_t>(c)};
+std::array<std::uint8_t, 4> stored(std::uint32_t sum) {
+  return {static_cast<std::uint8_t>(sum >> 24), static_cast<std::uint8_t>(sum >> 16),
+          static_cast<std::uint8_t>(sum >> 8), static_cast<std::uint8_t>(sum)};
 }
 
-void seal(std::uint8_t* page) {
-  const auto sum = checksum(page);
-  std::memcpy(page + kPayloadBytes, sum.data(), sum.size());
+std::vector<std::uint32_t> checksums(const std::uint8_t* pages, std::size_t count) {
+  std::vector<std::uint32_t> sums(count);
+  crc32cOfRuns(pages, kPayloadBytes, kPageBytes, count, sums.data());
+  return sums;
+}
+
+void seal(std::uint8_t* pages, std::size_t count) {
+  const auto sums = checksums(pages, count);
+  for (std::size_t i = 0; i < count; ++i)
+    std::memcpy(pages + i * kPageBytes + kPayloadBytes, stored(sums[i]).data(), sizeof sums[i]);
 }
 
 }  // namespace
@@ -58,7 +64,7 @@ Result<void> PagedWriter::overwrite(std::uint64_t logical, std::span<const std::
       std::array<std::uint8_t, kPageBytes> old;
       if (auto read = file_.read(page * kPageBytes, old); !read) return read;
       std::memcpy(old.data() + inside, bytes.data(), n);
-      seal(old.data());
+      seal(old.data(), 1);
       if (auto written = file_.overwrite(page * kPageBytes, old); !written) return written;
     }
     logical += n;
@@ -69,7 +75,7 @@ Result<void> PagedWriter::overwrite(std::uint64_t logical, std::span<const std::
 
 Result<void> PagedWriter::flush() {
   const std::uint64_t pages = physicalSize() / kPageBytes - first_page_;
-  for (std::uint64_t i = 0; i < pages; ++i) seal(pages_.data() + i * kPageBytes);
+  seal(pages_.data(), pages);
   if (auto written = file_.append({pages_.data(), pages * kPageBytes}); !written) return written;
   first_page_ += pages;
   return {};
@@ -101,9 +107,10 @@ Result<void> PagedReader::load(std::uint64_t page) {
                    name() + " page " + std::to_string(page));
   first_page_ = page;
   loaded_pages_ = *n / kPageBytes;
+  const auto sums = checksums(pages_.data(), loaded_pages_);
   for (std::uint64_t i = 0; i < loaded_pages_; ++i) {
     const std::uint8_t* bytes = pages_.data() + i * kPageBytes;
-    if (std::memcmp(bytes + kPayloadBytes, checksum(bytes).data(), 4) == 0) continue;
+    if (std::memcmp(bytes + kPayloadBytes, stored(sums[i]).data(), sizeof sums[i]) == 0) continue;
     // Pages read ahead may never be needed: only the one that was asked for is an error.
     if (i == 0)
       return failure(ErrorKind::unusable, "checksum (CRC-32C) is wrong: the file is damaged",
