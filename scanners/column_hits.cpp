@@ -97,8 +97,10 @@ ColumnHits::Axes ColumnHits::axes(std::uint32_t row) const {
 }
 
 RayLine ColumnHits::axis(std::uint32_t row) const {
-  const Axes axes = this->axes(row);
-  return {axes.origin, plan_->cosine[row] * axes.ahead + plan_->sine[row] * axes.up};
+  const auto of = [&](const Axes& axes) -> RayLine {
+    return {axes.origin, plan_->cosine[row] * axes.ahead + plan_->sine[row] * axes.up};
+  };
+  return plan_->moves() ? of(axes(row)) : of(still_);
 }
 
 Beam ColumnHits::beam(std::uint32_t row) const {

@@ -15,6 +15,16 @@ namespace {
 // Noise of the second and further returns of a pulse: a channel each.
 constexpr std::uint32_t kFurtherReturns = 16;
 constexpr std::uint32_t kInterferenceChannel = 8;
+constexpr std::uint64_t kOverwritten = kNoFacet - 1;  // instead of the number of a facet
+
+void setLane(SignalLanes& lanes, std::size_t k, const PathEnd& end) {
+  lanes.range_m[k] = static_cast<float>(end.path_m);
+  lanes.cosine[k] = end.cosine;
+  lanes.gain[k] = end.gain;
+  lanes.known_x[k] = end.known_x;
+  lanes.diffuse[k] = end.optics->diffuse, lanes.oren_a[k] = end.optics->oren_a, lanes.oren_b[k] = end.optics->oren_b;
+  lanes.glint[k] = end.optics->glint, lanes.steepness[k] = end.optics->steepness;
+}
 
 std::array<std::uint32_t, 4> interferenceDraw(const ScanOptions& options, std::uint32_t column, std::uint32_t row) {
   return philox({options.seed, options.station_key}, column, row, kInterferenceChannel);
@@ -30,21 +40,26 @@ ColumnTracer::ColumnTracer(const ScanPlan& plan)
       edges_(plan, columns_, facets_),
       wide_(plan, facets_),
       points_(plan),
-      writer_(plan) {}
+      writer_(plan) {
+  std::fill_n(held_, kPacket, kOverwritten);
+  std::fill_n(signal_.variation, kSignalLanes, 1.0F);
+  std::fill_n(signal_.range_m, kSignalLanes, 1.0F);
+}
 
 void ColumnTracer::trace(std::uint32_t from, std::uint32_t to, PointBlock& block) {
+  writer_.begin(block);
   for (std::uint32_t c = from; c < to; ++c) {
     columns_.moveTo(c);
     current_ = &columns_.current();
-    traceColumn(block);
+    traceColumn();
   }
+  writer_.end();
 }
 
-void ColumnTracer::traceColumn(PointBlock& block) {
+void ColumnTracer::traceColumn() {
   points_.begin(current_->column(), current_->ahead(), current_->lateral());
-  writer_.begin(current_->column(), block);
+  writer_.beginColumn(current_->column());
   for (std::uint32_t first = 0; first < plan_.settings.rows; first += kPacket) traceRows(first);
-  writer_.end();
 }
 
 void ColumnTracer::traceRows(std::uint32_t first_row) {
@@ -64,15 +79,20 @@ void ColumnTracer::traceRows(std::uint32_t first_row) {
   const std::uint32_t stray = straying(first_row, rows);
   const std::uint32_t special = met.other | edges | stray;
   present &= met.plain & ~special;
-  further_.clear();
+  specials_.clear(), ends_.clear(), further_.clear();
   std::size_t wide = 0;
   for (std::uint32_t left = special; left != 0; left &= left - 1) {
-    const int lane = std::countr_zero(left);
-    const bool edge = (edges >> static_cast<unsigned>(lane) & 1U) != 0;
-    const std::uint32_t row = first_row + static_cast<std::uint32_t>(lane);
+    const Special pulse{std::countr_zero(left), ends_.size()};
+    specials_.push_back(pulse);
+    const bool edge = (edges & left & -left) != 0;
+    const std::uint32_t row = first_row + static_cast<std::uint32_t>(pulse.lane);
     gatherEnds(row, edge ? &wide_[wide++] : nullptr);
-    if ((stray & left & -left) != 0) gatherStray(row);
-    if (addEchoes(lane)) present |= left & -left;
+    if ((stray & left & -left) != 0) gatherStray(row, pulse.from);
+  }
+  findPowers();
+  for (std::size_t i = 0; i < specials_.size(); ++i) {
+    const std::size_t to = i + 1 < specials_.size() ? specials_[i + 1].from : ends_.size();
+    if (addEchoes(specials_[i].lane, specials_[i].from, to)) present |= 1U << static_cast<unsigned>(specials_[i].lane);
   }
   if (present == 0) return;
   points_.drawRows(first_row, returns_);
@@ -84,9 +104,10 @@ void ColumnTracer::traceRows(std::uint32_t first_row) {
     writeSeveral(detected);
 }
 
-// Neighbouring rows mostly meet the same facet.
+// Neighbouring rows mostly meet the same facet, and so do the next sixteen.
 ColumnTracer::Surfaces ColumnTracer::setSurfaces(std::uint32_t first_row) {
   const std::uint64_t* facets = current_->facets(first_row);
+  if (std::equal(facets, facets + kPacket, held_)) return held_surfaces_;
   Surfaces surfaces;
   for (int from = 0, to = 1; from < kPacket; from = to++) {
     while (to < kPacket && facets[to] == facets[from]) ++to;
@@ -97,7 +118,8 @@ ColumnTracer::Surfaces ColumnTracer::setSurfaces(std::uint32_t first_row) {
     (met.plain ? surfaces.plain : surfaces.other) |=
         (1U << static_cast<unsigned>(to)) - (1U << static_cast<unsigned>(from));
   }
-  return surfaces;
+  std::copy_n(facets, kPacket, held_);
+  return held_surfaces_ = surfaces;
 }
 
 std::uint32_t ColumnTracer::traceEdges(std::uint32_t first_row) {
@@ -114,7 +136,6 @@ std::uint32_t ColumnTracer::traceEdges(std::uint32_t first_row) {
 
 // Where the light of one pulse ends; `wide` is its beam where that meets several surfaces.
 void ColumnTracer::gatherEnds(std::uint32_t row, const WideBeam* wide) {
-  ends_.clear();
   const NearestHit hit = current_->hit(row);
   const RayLine axis = current_->axis(row);
   if (hit.facet != kNoFacet) paths_.follow(axis.origin, axis.direction, hit, wide != nullptr ? kAxisWeight : 1, ends_);
@@ -141,12 +162,13 @@ bool ColumnTracer::struck(std::uint32_t row) const {
   return uniform(interferenceDraw(plan_.options, current_->column(), row)[0]) < plan_.interference;
 }
 
-void ColumnTracer::gatherStray(std::uint32_t row) {
+// `from`: where the ends of its pulse begin.
+void ColumnTracer::gatherStray(std::uint32_t row, std::size_t from) {
   const RayLine axis = current_->axis(row);
   if (plan_.halo && plan_.halo->reaches(current_->column(), row)) gatherWings(current_->beam(row));
   if (plan_.scatterers) {   // the air's return, from before the nearest surface
     double nearest = plan_.settings.max_range_m;
-    for (const PathEnd& end : ends_) nearest = std::min(nearest, end.path_m);
+    for (std::size_t i = from; i < ends_.size(); ++i) nearest = std::min(nearest, ends_[i].path_m);
     if (const auto found = plan_.scatterers->strongest(current_->column(), row, nearest, plan_.drop_threshold))
       addSurfaceless(axis, found->range_m, found->x, point_flag::kWeather);
   }
@@ -225,8 +247,21 @@ void ColumnTracer::light(ReturnLanes& r, int count) {
   }
 }
 
-float ColumnTracer::powerOf(const PathEnd& end) const {
-  if (end.known_x >= 0) return end.known_x;
+// What comes back of each end, sixteen at a time.
+void ColumnTracer::findPowers() {
+  const std::size_t batches = (ends_.size() + kSignalLanes - 1) / kSignalLanes;
+  powers_.resize(batches * kSignalLanes);
+  for (std::size_t batch = 0; batch < batches; ++batch) {
+    const std::size_t from = batch * kSignalLanes, to = std::min(from + kSignalLanes, ends_.size());
+    for (std::size_t i = from; i < to; ++i) setLane(signal_, i - from, ends_[i]);
+    receivePower(signal_, plan_.receiver, powers_.data() + from);
+  }
+  for (std::size_t i = 0; i < ends_.size(); ++i)
+    if (ends_[i].known_x < 0 && ends_[i].optics->retro_gain > 0) powers_[i] = retroPowerOf(ends_[i]);
+}
+
+// A retroreflector's gain is no figure of the lanes (signal_lanes.h).
+float ColumnTracer::retroPowerOf(const PathEnd& end) const {
   const auto range = static_cast<float>(end.path_m);
   const float near = plan_.options.effects.has(Effect::near_range) ? nearRangeFactor(plan_.instrument, range) : 1;
   const float air = portable::exp2(std::max(-100.0F, plan_.receiver.decay_per_m * range));
@@ -234,18 +269,21 @@ float ColumnTracer::powerOf(const PathEnd& end) const {
 }
 
 // The first echo of the ends takes the pulse's lane.
-bool ColumnTracer::addEchoes(int lane) {
+bool ColumnTracer::addEchoes(int lane, std::size_t from, std::size_t to) {
   contributions_.clear();
-  for (const PathEnd& end : ends_) contributions_.push_back({end.path_m + end.excess_m, powerOf(end)});
-  receiveEchoes(plan_.instrument.waveform, contributions_, order_, echoes_);
+  for (std::size_t i = from; i < to; ++i)
+    contributions_.push_back({ends_[i].path_m + ends_[i].excess_m, powers_[i], static_cast<int>(i)});
+  receiveEchoes(plan_.instrument.waveform, contributions_, echoes_);
   std::uint32_t returns = 0;
   for (const Echo& echo : echoes_) {
     if (!plan_.reports(echo.range_m)) continue;
     const PathEnd& end = ends_[static_cast<std::size_t>(echo.strongest)];
-    if (returns == 0)
+    if (returns == 0) {
       returns_.setEcho(plan_, lane, end, echo);
-    else
+      held_[lane] = kOverwritten;
+    } else {
       further_.push_back({lane, returns, end, echo});
+    }
     ++returns;
   }
   return returns > 0;

@@ -13,7 +13,7 @@
 
 namespace standpoint {
 
-// Traces columns of a plan into a block, from ray to point. One per thread; it only remembers facets, so what it yields
+// Traces columns of a plan into a block, in place of what it holds, from ray to point. One per thread; it only remembers facets, so what it yields
 // depends on the arguments alone, and a column's points on the column alone.
 //
 // A pulse whose axis and whose neighbours' axes meet one surface is that surface's return; most are, and they are dealt
@@ -40,21 +40,28 @@ class ColumnTracer {
     std::uint32_t plain = 0, other = 0;
   };
 
-  void traceColumn(PointBlock& block);
+  // A pulse whose echoes are still to be made, and where what comes back of it begins in `ends_`.
+  struct Special {
+    int lane = 0;
+    std::size_t from = 0;
+  };
+
+  void traceColumn();
   void traceRows(std::uint32_t first_row);
   Surfaces setSurfaces(std::uint32_t first_row);
   std::uint32_t traceEdges(std::uint32_t first_row);
   void gatherEnds(std::uint32_t row, const WideBeam* wide);
   std::uint32_t straying(std::uint32_t first_row, std::uint32_t rows) const;
   bool struck(std::uint32_t row) const;
-  void gatherStray(std::uint32_t row);
+  void gatherStray(std::uint32_t row, std::size_t from);
   void gatherWings(const Beam& beam);
   void addSurfaceless(const RayLine& axis, double range_m, double x, std::uint8_t flag);
   std::uint32_t reported(std::uint32_t lanes);
   void setNormals(std::uint32_t lanes);
   void light(ReturnLanes& returns, int count);
-  bool addEchoes(int lane);
-  float powerOf(const PathEnd& end) const;
+  void findPowers();
+  float retroPowerOf(const PathEnd& end) const;
+  bool addEchoes(int lane, std::size_t from, std::size_t to);
   void writeSeveral(std::uint32_t detected);
 
   const ScanPlan& plan_;
@@ -66,10 +73,14 @@ class ColumnTracer {
   const ColumnHits* current_ = nullptr;
   AxisLanes axes_;
   PlaneLanes planes_;
-  ReturnLanes returns_;  // a row each
-  std::vector<PathEnd> ends_;
+  ReturnLanes returns_;                // a row each
+  std::uint64_t held_[kPacket];        // facets whose surfaces and planes the lanes have
+  Surfaces held_surfaces_;
+  std::vector<Special> specials_;
+  std::vector<PathEnd> ends_;          // of all of them
+  std::vector<float> powers_;          // that comes back from the ends
+  SignalLanes signal_{};
   std::vector<Contribution> contributions_;
-  std::vector<int> order_;
   std::vector<Echo> echoes_;
   std::vector<Further> further_;
   std::vector<ReturnLanes> further_lanes_;

@@ -16,10 +16,14 @@ constexpr std::uint32_t kAllLanes = (1U << kReturnLanes) - 1;
 
 }  // namespace
 
-void PointWriter::begin(std::uint32_t column, PointBlock& block) {
-  column_ = column;
+void PointWriter::begin(PointBlock& block) {
   block_ = &block;
-  size_ = room_ = block.size();
+  size_ = 0;
+  room_ = block.size();
+}
+
+void PointWriter::beginColumn(std::uint32_t column) {
+  column_ = column;
   makeRoom(plan_.settings.rows);
 }
 

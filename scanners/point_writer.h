@@ -7,11 +7,13 @@
 
 namespace standpoint {
 
-// Puts the points of a column into a block.
+// Puts the points of columns into a block, in place of what it holds. Its columns of values keep their length until the
+// end: a block that is used again has entries for most of its points already.
 class PointWriter {
  public:
   explicit PointWriter(const ScanPlan& plan) : plan_(plan), start_(at(plan.trajectory, 0)) {}
-  void begin(std::uint32_t column, PointBlock& block);
+  void begin(PointBlock& block);
+  void beginColumn(std::uint32_t column);
   // One point in each lane, those of a pulse in order of its returns.
   struct Place {
     const ReturnLanes* lanes;

@@ -125,22 +125,24 @@ std::uint64_t facetNumber(std::uint32_t instance_id, std::uint32_t geometry_id, 
   return placement << 32U | primitive_id;
 }
 
+// What all packets of rays have in common; tracing leaves it as it is.
+RTCRayHit16 fromOrigins() {
+  RTCRayHit16 query{};
+  std::fill_n(query.ray.mask, kPacket, ~0U);
+  return query;
+}
+
 }  // namespace
 
 void EmbreeScene::intersect(const RayPacket& rays, int count, float max_range_m, std::uint64_t* facets,
                             float* ranges_m) const {
   alignas(64) int valid[kPacket];
-  RTCRayHit16 query;
+  static thread_local RTCRayHit16 query = fromOrigins();
   std::copy_n(rays.origin_x, 3 * kPacket, query.ray.org_x);   // x, y, z lie side by side in both
   std::copy_n(rays.direction_x, 3 * kPacket, query.ray.dir_x);
   for (int k = 0; k < kPacket; ++k) {
     valid[k] = k < count ? -1 : 0;
-    query.ray.tnear[k] = 0;
-    query.ray.time[k] = 0;
     query.ray.tfar[k] = max_range_m;
-    query.ray.mask[k] = ~0U;
-    query.ray.id[k] = 0;
-    query.ray.flags[k] = 0;
     query.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
   }

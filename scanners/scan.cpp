@@ -81,9 +81,7 @@ class Pipeline {
   }
 
   Work trace(Work work) {
-    work.block->clear();
-    ColumnTracer& tracer = tracers_.local();
-    if (!progress_.cancelled()) tracer.trace(work.from, work.to, *work.block);
+    if (!progress_.cancelled()) tracers_.local().trace(work.from, work.to, *work.block);
     return work;
   }
 

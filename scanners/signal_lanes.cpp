@@ -11,7 +11,29 @@ namespace standpoint {
 
 namespace {
 
+constexpr float kLeastPower = 1e-30F;  // its logarithm can be taken
+
+template <class Is>
+STANDPOINT_INLINE bool none(const float* values, Is is) {
+  std::int32_t any = 0;
+  for (int k = 0; k < kSignalLanes; ++k) any |= static_cast<std::int32_t>(is(values[k]));
+  return any == 0;
+}
+
+STANDPOINT_INLINE void fill(float* values, float value) {
+  for (int k = 0; k < kSignalLanes; ++k) values[k] = value;
+}
+
+// Without a lobe, as most surfaces are.
+STANDPOINT_INLINE void reflectMatt(SignalLanes& lanes) {
+  for (int k = 0; k < kSignalLanes; ++k) {
+    const float cosine = lanes.cosine[k] > 1e-4F ? lanes.cosine[k] : 1e-4F;
+    lanes.equivalent[k] = lanes.diffuse[k] * (lanes.oren_a[k] * cosine + lanes.oren_b[k] * (1 - cosine * cosine));
+  }
+}
+
 STANDPOINT_INLINE void reflect(SignalLanes& lanes) {
+  if (none(lanes.glint, [](float glint) { return glint > 0; })) return reflectMatt(lanes);
   for (int k = 0; k < kSignalLanes; ++k) {
     const float cosine = lanes.cosine[k] > 1e-4F ? lanes.cosine[k] : 1e-4F;
     const float square = cosine * cosine;
@@ -26,6 +48,7 @@ STANDPOINT_INLINE void reflect(SignalLanes& lanes) {
 STANDPOINT_INLINE void nearRange(const SignalLanes& lanes, const Receiver& receiver, float* near) {
   if (receiver.near_curve_below_m > 0) {
     const float below = receiver.near_curve_below_m;
+    if (none(lanes.range_m, [below](float range) { return range < below; })) return fill(near, 1);
     const float c0 = receiver.near_curve[0], c1 = receiver.near_curve[1], c2 = receiver.near_curve[2], c3 = receiver.near_curve[3];
     for (int k = 0; k < kSignalLanes; ++k) {
       const float range = lanes.range_m[k] < below ? lanes.range_m[k] : below;
@@ -55,7 +78,7 @@ STANDPOINT_INLINE void power(SignalLanes& lanes, const Receiver& receiver) {
     const float air = portable::exp2(loss > -100 ? loss : -100);
     const float one = lanes.equivalent[k] * lanes.gain[k] * (air * near[k]) / (lanes.range_m[k] * lanes.range_m[k]);
     const float x = (lanes.known_x[k] < 0 ? one : lanes.known_x[k]) * lanes.variation[k];
-    lanes.x[k] = x > 1e-30F ? x : 1e-30F;
+    lanes.x[k] = x > kLeastPower ? x : kLeastPower;
   }
 }
 
@@ -114,6 +137,12 @@ STANDPOINT_CLONES void receiveLanes(SignalLanes& lanes, const Receiver& receiver
   noise(lanes, receiver.curves, receiver.curve_count);
 }
 
+STANDPOINT_CLONES void powerLanes(SignalLanes& lanes, const Receiver& receiver, float* x) {
+  reflect(lanes);
+  power(lanes, receiver);
+  for (int k = 0; k < kSignalLanes; ++k) x[k] = lanes.x[k] > kLeastPower ? lanes.x[k] : 0;
+}
+
 }  // namespace
 
 Receiver receiverOf(const Instrument& instrument, const RangeNoiseLaw& law, Effects effects, double extinction_per_m) {
@@ -148,5 +177,6 @@ Fluctuation fluctuationOf(const Instrument& instrument, double dark, int passes)
 }
 
 void receive(SignalLanes& lanes, const Receiver& receiver) { receiveLanes(lanes, receiver); }
+void receivePower(SignalLanes& lanes, const Receiver& receiver, float* x) { powerLanes(lanes, receiver, x); }
 
 }  // namespace standpoint

@@ -61,5 +61,7 @@ Receiver receiverOf(const Instrument& instrument, const RangeNoiseLaw& law, Effe
 Fluctuation fluctuationOf(const Instrument& instrument, double dark, int passes);
 
 void receive(SignalLanes& lanes, const Receiver& receiver);
+// Only x, and 0 instead of its least.
+void receivePower(SignalLanes& lanes, const Receiver& receiver, float* x);
 
 }  // namespace standpoint

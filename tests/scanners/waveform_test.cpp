@@ -12,9 +12,9 @@ namespace standpoint {
 namespace {
 
 std::vector<Echo> echoes(const Waveform& waveform, std::vector<Contribution> light) {
-  std::vector<int> order;
+  for (std::size_t i = 0; i < light.size(); ++i) light[i].index = static_cast<int>(i);
   std::vector<Echo> result;
-  receiveEchoes(waveform, light, order, result);
+  receiveEchoes(waveform, light, result);
   return result;
 }
 
