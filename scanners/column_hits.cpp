@@ -35,13 +35,14 @@ STANDPOINT_CLONES void round(const AxisLanes& lanes, RayPacket& rays) {
 
 ColumnHits::ColumnHits(const ScanPlan& plan)
     : plan_(&plan),
+      traced_((plan.settings.rows + kPacket - 1) / kPacket),
       facets_(plan.settings.rows + kPacket, kNoFacet),
       ranges_(plan.settings.rows + kPacket, static_cast<float>(plan.farthest_m)) {
   if (plan.reach() > 0) planes_.assign(plan.settings.rows + kPacket + 2 * kMostReach, kNoPlane);
 }
 
 // Clockwise seen from above.
-void ColumnHits::trace(std::uint32_t column, FacetCache& facets) {
+void ColumnHits::begin(std::uint32_t column) {
   column_ = column;
   const double azimuth = plan_->azimuth_rad(column);
   ahead_ = {std::cos(azimuth), -std::sin(azimuth), 0};
@@ -49,16 +50,19 @@ void ColumnHits::trace(std::uint32_t column, FacetCache& facets) {
   const Pose pose = at(plan_->trajectory, 0);
   still_ = {pose.translation, pose.rotation * ahead_, pose.rotation * lateral_,
             pose.rotation * Eigen::Vector3d::UnitZ()};
+  std::fill(traced_.begin(), traced_.end(), char{0});
+}
+
+void ColumnHits::trace(std::uint32_t first_row, FacetCache& facets) {
   RayPacket rays;
   AxisLanes lanes;
-  for (std::uint32_t first = 0; first < plan_->settings.rows; first += kPacket) {
-    const int count = static_cast<int>(std::min<std::uint32_t>(kPacket, plan_->settings.rows - first));
-    axes(first, lanes);
-    round(lanes, rays);
-    plan_->scene.intersect(rays, count, static_cast<float>(plan_->farthest_m), facets_.data() + first,
-                           ranges_.data() + first);
-  }
-  if (!planes_.empty()) findPlanes(facets);
+  const int count = static_cast<int>(std::min<std::uint32_t>(kPacket, plan_->settings.rows - first_row));
+  axes(first_row, lanes);
+  round(lanes, rays);
+  plan_->scene.intersect(rays, count, static_cast<float>(plan_->farthest_m), facets_.data() + first_row,
+                         ranges_.data() + first_row);
+  if (!planes_.empty()) findPlanes(first_row, facets);
+  traced_[first_row / kPacket] = 1;
 }
 
 void ColumnHits::axes(std::uint32_t first_row, AxisLanes& lanes) const {
@@ -78,10 +82,11 @@ void ColumnHits::axes(std::uint32_t first_row, AxisLanes& lanes) const {
   }
 }
 
-void ColumnHits::findPlanes(FacetCache& facets) {
+void ColumnHits::findPlanes(std::uint32_t first_row, FacetCache& facets) {
   std::uint64_t last = kNoFacet;
   std::uint32_t plane = kNoPlane;
-  for (std::uint32_t row = 0; row < plan_->settings.rows; ++row) {
+  const std::uint32_t end = std::min(first_row + kPacket, plan_->settings.rows);
+  for (std::uint32_t row = first_row; row < end; ++row) {
     if (facets_[row] != last) {
       last = facets_[row];
       plane = last == kNoFacet ? kNoPlane : facets.of(last).plane;

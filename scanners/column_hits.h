@@ -18,11 +18,16 @@ struct alignas(64) AxisLanes {
   double direction_x[kPacket] = {}, direction_y[kPacket] = {}, direction_z[kPacket] = {};
 };
 
-// The beams of one column: where they start and what their axes meet first.
+// The beams of one column: where they start and what their axes meet first. Sixteen rows are traced when they are needed:
+// of the columns beside those that are worked on, few are.
 class ColumnHits {
  public:
   explicit ColumnHits(const ScanPlan& plan);
-  void trace(std::uint32_t column, FacetCache& facets);
+  void begin(std::uint32_t column);
+  // Of the sixteen rows from a multiple of sixteen on. What is asked below must have been needed before.
+  void need(std::uint32_t first_row, FacetCache& facets) {
+    if (!traced_[first_row / kPacket]) trace(first_row, facets);
+  }
   std::uint32_t column() const { return column_; }
   NearestHit hit(std::uint32_t row) const { return {facets_[row], ranges_[row]}; }
   // From a row on; there is a whole packet's worth, beyond the last row without a facet and at the longest range.
@@ -44,12 +49,14 @@ class ColumnHits {
     Eigen::Vector3d origin, ahead, across, up;
   };
   Axes axes(std::uint32_t row) const;
-  void findPlanes(FacetCache& facets);
+  void trace(std::uint32_t first_row, FacetCache& facets);
+  void findPlanes(std::uint32_t first_row, FacetCache& facets);
 
   const ScanPlan* plan_;  // they change places
   std::uint32_t column_ = ~0U;
   Eigen::Vector3d ahead_, lateral_;  // up is the scanner's z
   Axes still_;                       // of a scanner that does not move
+  std::vector<char> traced_;         // each sixteen rows
   std::vector<std::uint64_t> facets_;
   std::vector<float> ranges_;
   std::vector<std::uint32_t> planes_;

@@ -63,6 +63,7 @@ void ColumnTracer::traceColumn() {
 }
 
 void ColumnTracer::traceRows(std::uint32_t first_row) {
+  columns_.current(first_row);
   returns_.begin(plan_, first_row);
   const Surfaces met = setSurfaces(first_row);
   const std::uint32_t edges = plan_.reach() > 0 ? traceEdges(first_row) : 0;

@@ -30,7 +30,9 @@ STANDPOINT_CLONES float least(const float* ranges_m) {
 }  // namespace
 
 std::uint32_t EdgeFinder::find(std::uint32_t first_row) {
-  const ColumnHits& own = columns_.current();
+  const ColumnHits& own = columns_.current(first_row);
+  if (first_row >= kPacket) columns_.current(first_row - kPacket);
+  if (first_row + kPacket < plan_.settings.rows) columns_.current(first_row + kPacket);
   std::uint32_t edges = 0;
   for (std::uint32_t left = unlike(own, first_row); left != 0; left &= left - 1) {
     const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
@@ -66,8 +68,8 @@ std::uint32_t EdgeFinder::unlike(const ColumnHits& own, std::uint32_t first_row)
   for (const std::uint32_t apart : places(reach.columns)) {
     if (apart == done) continue;
     const bool before = own.column() >= apart, after = own.column() + apart < plan_.settings.columns;
-    compare(planes, before ? columns_.before(apart).planes(first_row) : planes,
-            after ? columns_.after(apart).planes(first_row) : planes, differs);
+    compare(planes, before ? columns_.before(apart, first_row).planes(first_row) : planes,
+            after ? columns_.after(apart, first_row).planes(first_row) : planes, differs);
     done = apart;
   }
   std::uint32_t rows = 0;
@@ -83,7 +85,7 @@ bool EdgeFinder::atEdge(const ColumnHits& own, std::uint32_t row) {
   double tolerance = 0;
   Reach reach{plan_.reach(), plan_.reach()};
   if (hit.facet != kNoFacet) {
-    met = facets_.of(hit.facet);  // a copy: a column that is traced asks for others
+    met = facets_.of(hit.facet);  // a copy: rows that are traced ask for others
     const auto range = std::max(0.01, static_cast<double>(hit.range_m));
     tolerance = edgeTolerance(plan_.instrument, range);
     reach = reachAt(range, row);
@@ -97,10 +99,10 @@ bool EdgeFinder::atEdge(const ColumnHits& own, std::uint32_t row) {
   for (const std::uint32_t apart : places(reach.rows))
     if ((row >= apart && differs(own, row - apart)) || (row + apart < plan_.settings.rows && differs(own, row + apart)))
       return true;
-  const std::uint32_t number = own.column();
+  const std::uint32_t number = own.column(), first_row = row / kPacket * kPacket;
   for (const std::uint32_t apart : places(reach.columns))
-    if ((number >= apart && differs(columns_.before(apart), row)) ||
-        (number + apart < plan_.settings.columns && differs(columns_.after(apart), row)))
+    if ((number >= apart && differs(columns_.before(apart, first_row), row)) ||
+        (number + apart < plan_.settings.columns && differs(columns_.after(apart, first_row), row)))
       return true;
   return false;
 }

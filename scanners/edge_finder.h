@@ -5,7 +5,7 @@
 
 namespace standpoint {
 
-// The column that is being worked on and those that its beams reach, traced when they are asked for.
+// The column that is being worked on and those that its beams reach, sixteen rows of each traced when they are asked for.
 class ColumnWindow {
  public:
   ColumnWindow(const ScanPlan& plan, FacetCache& facets)
@@ -14,14 +14,24 @@ class ColumnWindow {
     current_ = column;
     for (std::uint32_t i = 0; i < beside_.size(); ++i) beside_[i] = &columns_[(column + i) % columns_.size()];
   }
-  const ColumnHits& current() { return of(current_, *beside_[0]); }
+  const ColumnHits& current() {
+    if (beside_[0]->column() != current_) beside_[0]->begin(current_);
+    return *beside_[0];
+  }
+  // With sixteen rows from a multiple of sixteen on.
+  const ColumnHits& current(std::uint32_t first_row) { return of(current_, *beside_[0], first_row); }
   // Up to as many columns aside as beams reach.
-  const ColumnHits& before(std::uint32_t apart) { return of(current_ - apart, *beside_[columns_.size() - apart]); }
-  const ColumnHits& after(std::uint32_t apart) { return of(current_ + apart, *beside_[apart]); }
+  const ColumnHits& before(std::uint32_t apart, std::uint32_t first_row) {
+    return of(current_ - apart, *beside_[columns_.size() - apart], first_row);
+  }
+  const ColumnHits& after(std::uint32_t apart, std::uint32_t first_row) {
+    return of(current_ + apart, *beside_[apart], first_row);
+  }
 
  private:
-  const ColumnHits& of(std::uint32_t number, ColumnHits& column) {
-    if (column.column() != number) column.trace(number, facets_);
+  const ColumnHits& of(std::uint32_t number, ColumnHits& column, std::uint32_t first_row) {
+    if (column.column() != number) column.begin(number);
+    column.need(first_row, facets_);
     return column;
   }
 
