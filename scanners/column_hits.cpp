@@ -20,11 +20,16 @@ STANDPOINT_CLONES void turn(const double* cosine, const double* sine, const doub
   }
 }
 
-STANDPOINT_CLONES void round(const AxisLanes& lanes, RayPacket& rays) {
+STANDPOINT_CLONES void roundOrigins(const AxisLanes& lanes, RayPacket& rays) {
   for (int k = 0; k < kPacket; ++k) {
     rays.origin_x[k] = static_cast<float>(lanes.origin_x[k]);
     rays.origin_y[k] = static_cast<float>(lanes.origin_y[k]);
     rays.origin_z[k] = static_cast<float>(lanes.origin_z[k]);
+  }
+}
+
+STANDPOINT_CLONES void roundDirections(const AxisLanes& lanes, RayPacket& rays) {
+  for (int k = 0; k < kPacket; ++k) {
     rays.direction_x[k] = static_cast<float>(lanes.direction_x[k]);
     rays.direction_y[k] = static_cast<float>(lanes.direction_y[k]);
     rays.direction_z[k] = static_cast<float>(lanes.direction_z[k]);
@@ -51,35 +56,37 @@ void ColumnHits::begin(std::uint32_t column) {
   still_ = {pose.translation, pose.rotation * ahead_, pose.rotation * lateral_,
             pose.rotation * Eigen::Vector3d::UnitZ()};
   std::fill(traced_.begin(), traced_.end(), char{0});
+  if (plan_->moves()) return;
+  std::fill_n(lanes_.origin_x, kPacket, still_.origin.x());
+  std::fill_n(lanes_.origin_y, kPacket, still_.origin.y());
+  std::fill_n(lanes_.origin_z, kPacket, still_.origin.z());
+  roundOrigins(lanes_, rays_);
 }
 
 void ColumnHits::trace(std::uint32_t first_row, FacetCache& facets) {
-  RayPacket rays;
-  AxisLanes lanes;
   const int count = static_cast<int>(std::min<std::uint32_t>(kPacket, plan_->settings.rows - first_row));
-  axes(first_row, lanes);
-  round(lanes, rays);
-  plan_->scene.intersect(rays, count, static_cast<float>(plan_->farthest_m), facets_.data() + first_row,
+  axes(first_row);
+  if (plan_->moves()) roundOrigins(lanes_, rays_);
+  roundDirections(lanes_, rays_);
+  plan_->scene.intersect(rays_, count, static_cast<float>(plan_->farthest_m), facets_.data() + first_row,
                          ranges_.data() + first_row);
   if (!planes_.empty()) findPlanes(first_row, facets);
   traced_[first_row / kPacket] = 1;
 }
 
-void ColumnHits::axes(std::uint32_t first_row, AxisLanes& lanes) const {
+const AxisLanes& ColumnHits::axes(std::uint32_t first_row) {
   if (!plan_->moves()) {
-    std::fill_n(lanes.origin_x, kPacket, still_.origin.x());
-    std::fill_n(lanes.origin_y, kPacket, still_.origin.y());
-    std::fill_n(lanes.origin_z, kPacket, still_.origin.z());
     turn(plan_->cosine.data() + first_row, plan_->sine.data() + first_row, still_.ahead.data(), still_.up.data(),
-         lanes);
-    return;
+         lanes_);
+    return lanes_;
   }
   for (std::uint32_t k = 0; k < std::min<std::uint32_t>(kPacket, plan_->settings.rows - first_row); ++k) {
     const RayLine line = axis(first_row + k);
-    lanes.origin_x[k] = line.origin.x(), lanes.direction_x[k] = line.direction.x();
-    lanes.origin_y[k] = line.origin.y(), lanes.direction_y[k] = line.direction.y();
-    lanes.origin_z[k] = line.origin.z(), lanes.direction_z[k] = line.direction.z();
+    lanes_.origin_x[k] = line.origin.x(), lanes_.direction_x[k] = line.direction.x();
+    lanes_.origin_y[k] = line.origin.y(), lanes_.direction_y[k] = line.direction.y();
+    lanes_.origin_z[k] = line.origin.z(), lanes_.direction_z[k] = line.direction.z();
   }
+  return lanes_;
 }
 
 void ColumnHits::findPlanes(std::uint32_t first_row, FacetCache& facets) {
@@ -95,7 +102,7 @@ void ColumnHits::findPlanes(std::uint32_t first_row, FacetCache& facets) {
   }
 }
 
-ColumnHits::Axes ColumnHits::axes(std::uint32_t row) const {
+ColumnHits::Axes ColumnHits::axesAt(std::uint32_t row) const {
   if (!plan_->moves()) return still_;
   const Pose pose = at(plan_->trajectory, plan_->clock.time_s(column_, plan_->elevation_rad(row)));
   return {pose.translation, pose.rotation * ahead_, pose.rotation * lateral_, pose.rotation * Eigen::Vector3d::UnitZ()};
@@ -105,11 +112,11 @@ RayLine ColumnHits::axis(std::uint32_t row) const {
   const auto of = [&](const Axes& axes) -> RayLine {
     return {axes.origin, plan_->cosine[row] * axes.ahead + plan_->sine[row] * axes.up};
   };
-  return plan_->moves() ? of(axes(row)) : of(still_);
+  return plan_->moves() ? of(axesAt(row)) : of(still_);
 }
 
 Beam ColumnHits::beam(std::uint32_t row) const {
-  const Axes axes = this->axes(row);
+  const Axes axes = axesAt(row);
   return {axes.origin, plan_->cosine[row] * axes.ahead + plan_->sine[row] * axes.up, axes.across,
           plan_->cosine[row] * axes.up - plan_->sine[row] * axes.ahead};
 }

@@ -37,8 +37,8 @@ class ColumnHits {
   // are there, without a plane.
   const std::uint32_t* planes(std::uint32_t row) const { return planes_.data() + row + kMostReach; }
   RayLine axis(std::uint32_t row) const;
-  // The same of the rows from one on.
-  void axes(std::uint32_t first_row, AxisLanes& lanes) const;
+  // The same of the rows from one on; good until more rows are needed or asked for.
+  const AxisLanes& axes(std::uint32_t first_row);
   Beam beam(std::uint32_t row) const;
   // Horizontal unit vectors of the scanner's frame.
   const Eigen::Vector3d& ahead() const { return ahead_; }
@@ -48,7 +48,7 @@ class ColumnHits {
   struct Axes {
     Eigen::Vector3d origin, ahead, across, up;
   };
-  Axes axes(std::uint32_t row) const;
+  Axes axesAt(std::uint32_t row) const;
   void trace(std::uint32_t first_row, FacetCache& facets);
   void findPlanes(std::uint32_t first_row, FacetCache& facets);
 
@@ -56,6 +56,8 @@ class ColumnHits {
   std::uint32_t column_ = ~0U;
   Eigen::Vector3d ahead_, lateral_;  // up is the scanner's z
   Axes still_;                       // of a scanner that does not move
+  AxisLanes lanes_;                  // of the rows looked at last
+  RayPacket rays_{};
   std::vector<char> traced_;         // each sixteen rows
   std::vector<std::uint64_t> facets_;
   std::vector<float> ranges_;

@@ -57,7 +57,7 @@ class ColumnTracer {
   void gatherWings(const Beam& beam);
   void addSurfaceless(const RayLine& axis, double range_m, double x, std::uint8_t flag);
   std::uint32_t reported(std::uint32_t lanes);
-  void setNormals(std::uint32_t lanes);
+  void setNormals(const AxisLanes& axes, std::uint32_t lanes);
   void light(ReturnLanes& returns, int count);
   void findPowers();
   float retroPowerOf(const PathEnd& end) const;
@@ -70,8 +70,7 @@ class ColumnTracer {
   ColumnWindow columns_;
   EdgeFinder edges_;
   WideBeams wide_;
-  const ColumnHits* current_ = nullptr;
-  AxisLanes axes_;
+  ColumnHits* current_ = nullptr;
   PlaneLanes planes_;
   ReturnLanes returns_;                // a row each
   std::uint64_t held_[kPacket];        // facets whose surfaces and planes the lanes have

@@ -14,9 +14,24 @@ namespace {
 // Next to the axis, half-way, and at the beam's edge.
 std::array<std::uint32_t, 3> places(std::uint32_t reach) { return {1, (reach + 1) / 2, reach}; }
 
-STANDPOINT_CLONES void compare(const std::uint32_t* own, const std::uint32_t* one, const std::uint32_t* other,
-                               std::uint32_t* differs) {
-  for (int k = 0; k < kPacket; ++k) differs[k] |= (own[k] ^ one[k]) | (own[k] ^ other[k]);
+// Sixteen planes and those of their neighbours on either side, at most in three places up and across.
+struct Neighbours {
+  const std::uint32_t* own;
+  const std::uint32_t* beside[12];
+  int count = 0;
+
+  void add(const std::uint32_t* planes) { beside[count++] = planes; }
+};
+
+// Which of them have a neighbour that is another one, as bits.
+STANDPOINT_CLONES std::uint32_t unlikeOf(const Neighbours& n) {
+  std::uint32_t differs[kPacket] = {};
+  for (int i = 0; i < n.count; ++i)
+    for (int k = 0; k < kPacket; ++k) differs[k] |= n.own[k] ^ n.beside[i][k];
+  std::uint32_t bits[kPacket], rows = 0;
+  for (int k = 0; k < kPacket; ++k) bits[k] = differs[k] != 0 ? 1U << static_cast<unsigned>(k) : 0U;
+  for (int k = 0; k < kPacket; ++k) rows |= bits[k];
+  return rows;
 }
 
 STANDPOINT_CLONES float least(const float* ranges_m) {
@@ -57,23 +72,23 @@ EdgeFinder::Reach EdgeFinder::reachAt(double range_m, std::uint32_t row) const {
 std::uint32_t EdgeFinder::unlike(const ColumnHits& own, std::uint32_t first_row) {
   const auto nearest = static_cast<double>(least(own.ranges_m(first_row)));
   const Reach reach = reachAt(std::max(0.01, nearest), first_row);
-  const std::uint32_t* planes = own.planes(first_row);
-  std::uint32_t differs[kPacket] = {};
+  Neighbours neighbours{.own = own.planes(first_row)};
   std::uint32_t done = 0;
   for (const std::uint32_t apart : places(reach.rows)) {
-    if (apart != done) compare(planes, planes - apart, planes + apart, differs);
+    if (apart == done) continue;
+    neighbours.add(neighbours.own - apart);
+    neighbours.add(neighbours.own + apart);
     done = apart;
   }
   done = 0;
   for (const std::uint32_t apart : places(reach.columns)) {
     if (apart == done) continue;
-    const bool before = own.column() >= apart, after = own.column() + apart < plan_.settings.columns;
-    compare(planes, before ? columns_.before(apart, first_row).planes(first_row) : planes,
-            after ? columns_.after(apart, first_row).planes(first_row) : planes, differs);
+    if (own.column() >= apart) neighbours.add(columns_.before(apart, first_row).planes(first_row));
+    if (own.column() + apart < plan_.settings.columns)
+      neighbours.add(columns_.after(apart, first_row).planes(first_row));
     done = apart;
   }
-  std::uint32_t rows = 0;
-  for (unsigned k = 0; k < kPacket; ++k) rows |= static_cast<std::uint32_t>(differs[k] != 0) << k;
+  const std::uint32_t rows = unlikeOf(neighbours);
   const std::uint32_t count = plan_.settings.rows - first_row;
   return count < kPacket ? rows & ((1U << count) - 1) : rows;
 }

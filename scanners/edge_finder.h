@@ -14,7 +14,7 @@ class ColumnWindow {
     current_ = column;
     for (std::uint32_t i = 0; i < beside_.size(); ++i) beside_[i] = &columns_[(column + i) % columns_.size()];
   }
-  const ColumnHits& current() {
+  ColumnHits& current() {
     if (beside_[0]->column() != current_) beside_[0]->begin(current_);
     return *beside_[0];
   }

@@ -11,7 +11,7 @@ namespace standpoint {
 STANDPOINT_CLONES void variation(const float* x_m, const float* y_m, const float* z_m, const float* coefficient,
                                  const float* scale_m, float* factor) {
   float result[kTextureLanes];
-  for (int k = 0; k < kTextureLanes; ++k) result[k] = textureFactor(x_m[k], y_m[k], z_m[k], coefficient[k], scale_m[k]);
+  textureFactors<kTextureLanes>(x_m, y_m, z_m, coefficient, scale_m, result);
   std::copy(result, result + kTextureLanes, factor);
 }
 
