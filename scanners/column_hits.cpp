@@ -90,15 +90,16 @@ const AxisLanes& ColumnHits::axes(std::uint32_t first_row) {
 }
 
 void ColumnHits::findPlanes(std::uint32_t first_row, FacetCache& facets) {
-  std::uint64_t last = kNoFacet;
-  std::uint32_t plane = kNoPlane;
-  const std::uint32_t end = std::min(first_row + kPacket, plan_->settings.rows);
-  for (std::uint32_t row = first_row; row < end; ++row) {
-    if (facets_[row] != last) {
-      last = facets_[row];
-      plane = last == kNoFacet ? kNoPlane : facets.of(last).plane;
+  const std::uint64_t* met = facets_.data() + first_row;
+  std::uint32_t* planes = planes_.data() + first_row + kMostReach;
+  const std::uint32_t count = std::min<std::uint32_t>(kPacket, plan_->settings.rows - first_row);
+  for (std::uint32_t from = 0, to = 1; from < count; from = to++) {
+    while (to < count && met[to] == met[from]) ++to;
+    if (met[from] != last_facet_) {
+      last_facet_ = met[from];
+      last_plane_ = last_facet_ == kNoFacet ? kNoPlane : facets.of(last_facet_).plane;
     }
-    planes_[row + kMostReach] = plane;
+    std::fill(planes + from, planes + to, last_plane_);
   }
 }
 

@@ -62,6 +62,8 @@ class ColumnHits {
   std::vector<std::uint64_t> facets_;
   std::vector<float> ranges_;
   std::vector<std::uint32_t> planes_;
+  std::uint64_t last_facet_ = kNoFacet;  // looked up last
+  std::uint32_t last_plane_ = kNoPlane;
 };
 
 }  // namespace standpoint

@@ -212,7 +212,7 @@ std::uint32_t ColumnTracer::reported(std::uint32_t lanes) {
   for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
     const int lane = std::countr_zero(left);
     if (!plan_.reports(returns_.range_m[lane])) kept &= ~(left & -left);
-    else if (returns_.range_m[lane] >= plan_.unambiguous_m) returns_.flags[lane] = point_flag::kMirrored;
+    else if (returns_.range_m[lane] >= plan_.unambiguous_m) returns_.flag(lane, point_flag::kMirrored);
   }
   return kept;
 }

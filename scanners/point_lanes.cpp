@@ -155,7 +155,7 @@ std::uint32_t PointLanes::filtered(ReturnLanes& returns, std::uint32_t lanes) co
   for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
     const int lane = std::countr_zero(left);
     if (faulted(returns, lane, plan_.drops)) kept &= ~(left & -left);
-    else if (faulted(returns, lane, plan_.flags)) returns.flags[lane] |= point_flag::kFiltered;
+    else if (faulted(returns, lane, plan_.flags)) returns.flag(lane, point_flag::kFiltered);
   }
   return kept;
 }

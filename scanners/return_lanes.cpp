@@ -24,6 +24,8 @@ void ReturnLanes::begin(const ScanPlan& plan, std::uint32_t first_row) {
   for (std::uint32_t k = 0; k < kReturnLanes; ++k) row[k] = first_row + k;
   std::copy_n(plan.cosine.data() + first_row, kReturnLanes, cosine);
   std::copy_n(plan.sine.data() + first_row, kReturnLanes, sine);
+  if (!marked) return;
+  marked = false;
   std::fill_n(signal.gain, kReturnLanes, 1.0F);
   std::fill_n(signal.known_x, kReturnLanes, -1.0F);
   std::fill_n(flags, kReturnLanes, std::uint8_t{0});
@@ -52,6 +54,7 @@ void ReturnLanes::setSurface(const ScanPlan& plan, int from, int to, const MetFa
 }
 
 void ReturnLanes::setEcho(const ScanPlan& plan, int lane, const PathEnd& end, const Echo& echo) {
+  marked = true;
   setOptics(lane, *end.optics);
   range_m[lane] = echo.range_m;
   signal.range_m[lane] = static_cast<float>(end.path_m);

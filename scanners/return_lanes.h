@@ -33,6 +33,7 @@ struct alignas(64) ReturnLanes {
   float along[kReturnLanes] = {}, wobble[kReturnLanes] = {};  // of the row
   SignalLanes signal;
   float x_m[kReturnLanes] = {}, y_m[kReturnLanes] = {}, z_m[kReturnLanes] = {};  // the point
+  bool marked = false;                                        // a lane holds what only echoes and flags have
 
   ReturnLanes();
   // The rows from `first_row` on, a lane each.
@@ -40,6 +41,10 @@ struct alignas(64) ReturnLanes {
   void setOptics(int lane, const Optics& of);
   // The surface that the lanes `from` to `to` meet, but for where they do.
   void setSurface(const ScanPlan& plan, int from, int to, const MetFacet& met);
+  void flag(int lane, std::uint8_t bits) {
+    flags[lane] |= bits;
+    marked = true;
+  }
   void setEcho(const ScanPlan& plan, int lane, const PathEnd& end, const Echo& echo);
 };
 

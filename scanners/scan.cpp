@@ -18,7 +18,7 @@ namespace standpoint {
 namespace {
 
 // Each block traces columns on either side of it, too, to know its neighbours: as many as a beam can reach.
-constexpr std::uint32_t kColumnsPerReach = 8;
+constexpr std::uint32_t kColumnsPerReach = 16;
 constexpr std::uint32_t kPulsesPerBlock = 1U << 17U;
 constexpr std::uint32_t kFirstColumns = 4;   // of the first block: whoever watches shall see points soon
 

@@ -83,24 +83,25 @@ STANDPOINT_INLINE void power(SignalLanes& lanes, const Receiver& receiver) {
 }
 
 // What is measured of x: it never falls to nothing, for a pulse that is not there is not measured.
-STANDPOINT_INLINE void fluctuate(const SignalLanes& lanes, const Fluctuation& f, float* measured) {
+STANDPOINT_INLINE void fluctuate(const SignalLanes& lanes, const Fluctuation& f, const float* inverse_x2,
+                                 float* measured) {
   for (int k = 0; k < kSignalLanes; ++k) measured[k] = lanes.x[k];
   if (!f.any) return;
   const float jitter2 = f.jitter2, speckle2 = f.speckle2, grains = f.grains, exit2 = f.exit2_m2, spread2 = f.spread2;
   const float dark2 = f.dark * f.dark;
   for (int k = 0; k < kSignalLanes; ++k) {
     const float spot2 = exit2 / (lanes.range_m[k] * lanes.range_m[k]) + spread2;
-    const float least = 1e-12F;
-    const float x = lanes.x[k] > least ? lanes.x[k] : least;
-    const float variance = jitter2 + speckle2 / (1 + grains * spot2) + dark2 * (1 + lanes.background[k]) / (x * x);
+    const float variance =
+        jitter2 + speckle2 / (1 + grains * spot2) + dark2 * (1 + lanes.background[k]) * inverse_x2[k];
     const float factor = 1 + lanes.fluctuation[k] * std::sqrt(variance);
     measured[k] = lanes.x[k] * (factor > 0.05F ? factor : 0.05F);
   }
 }
 
 STANDPOINT_INLINE void store(SignalLanes& lanes, const float* measured, float low_db, float high_db, float steps) {
+  const float scale = 1 / (high_db - low_db);
   for (int k = 0; k < kSignalLanes; ++k) {
-    const float share = (3.0102999566398120F * portable::log2(measured[k]) - low_db) / (high_db - low_db);
+    const float share = (3.0102999566398120F * portable::log2(measured[k]) - low_db) * scale;
     const float least = share < 0 ? 0 : share;
     lanes.intensity[k] = least > 1 ? 1 : least;
   }
@@ -109,7 +110,8 @@ STANDPOINT_INLINE void store(SignalLanes& lanes, const float* measured, float lo
       lanes.intensity[k] = static_cast<float>(static_cast<std::int32_t>(lanes.intensity[k] * steps + 0.5F)) / steps;
 }
 
-STANDPOINT_INLINE void noise(SignalLanes& lanes, const RangeNoiseLaw::Curve* curves, int count) {
+STANDPOINT_INLINE void noise(SignalLanes& lanes, const RangeNoiseLaw::Curve* curves, int count,
+                             const float* inverse_x2) {
   float place[kSignalLanes] = {};
   if (count > 1)   // one curve is that of every reflectivity
     for (int k = 0; k < kSignalLanes; ++k) place[k] = portable::log2(lanes.equivalent[k] > 1e-6F ? lanes.equivalent[k] : 1e-6F);
@@ -119,7 +121,7 @@ STANDPOINT_INLINE void noise(SignalLanes& lanes, const RangeNoiseLaw::Curve* cur
     const float from = i > 0 ? curves[i - 1].log2_reflectivity : 0;
     const float scale = i > 0 ? 1 / (curves[i].log2_reflectivity - from) : 0;
     for (int k = 0; k < kSignalLanes; ++k) {
-      const float sigma = std::sqrt(floor + slope * (1 + lanes.background[k]) / (lanes.x[k] * lanes.x[k]));
+      const float sigma = std::sqrt(floor + slope * (1 + lanes.background[k]) * inverse_x2[k]);
       const float share = (place[k] - from) * scale;
       const float least = share < 0 ? 0 : share;
       const float weight = i == 0 || least > 1 ? 1 : least;
@@ -131,10 +133,14 @@ STANDPOINT_INLINE void noise(SignalLanes& lanes, const RangeNoiseLaw::Curve* cur
 STANDPOINT_CLONES void receiveLanes(SignalLanes& lanes, const Receiver& receiver) {
   reflect(lanes);
   power(lanes, receiver);
-  float measured[kSignalLanes];
-  fluctuate(lanes, receiver.fluctuation, measured);
+  float measured[kSignalLanes], inverse_x2[kSignalLanes];
+  for (int k = 0; k < kSignalLanes; ++k) {
+    const float x = lanes.x[k] > 1e-12F ? lanes.x[k] : 1e-12F;  // its square can be inverted
+    inverse_x2[k] = 1 / (x * x);
+  }
+  fluctuate(lanes, receiver.fluctuation, inverse_x2, measured);
   store(lanes, measured, receiver.low_db, receiver.high_db, receiver.levels);
-  noise(lanes, receiver.curves, receiver.curve_count);
+  noise(lanes, receiver.curves, receiver.curve_count, inverse_x2);
 }
 
 STANDPOINT_CLONES void powerLanes(SignalLanes& lanes, const Receiver& receiver, float* x) {
