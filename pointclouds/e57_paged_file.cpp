@@ -11,7 +11,7 @@
 namespace standpoint::e57 {
 namespace {
 
-constexpr std::size_t kBufferedPages = 1024;
+constexpr std::size_t kBufferedPages = 256;
 
 // The standard stores this one number big-endian, against everything else in the file.
 std::array<std::uint8_t, 4> stored(std::uint32_t sum) {

@@ -15,6 +15,7 @@ namespace {
 // Noise of the second and further returns of a pulse: a channel each.
 constexpr std::uint32_t kFurtherReturns = 16;
 constexpr std::uint32_t kInterferenceChannel = 8;
+constexpr std::uint32_t kRowsPerStretch = 8 * kPacket;
 constexpr std::uint64_t kOverwritten = kNoFacet - 1;  // instead of the number of a facet
 
 void setLane(SignalLanes& lanes, std::size_t k, const PathEnd& end) {
@@ -81,13 +82,12 @@ void ColumnTracer::traceRows(std::uint32_t first_row) {
   const std::uint32_t special = met.other | edges | stray;
   present &= met.plain & ~special;
   specials_.clear(), ends_.clear(), further_.clear();
-  std::size_t wide = 0;
   for (std::uint32_t left = special; left != 0; left &= left - 1) {
     const Special pulse{std::countr_zero(left), ends_.size()};
     specials_.push_back(pulse);
     const bool edge = (edges & left & -left) != 0;
     const std::uint32_t row = first_row + static_cast<std::uint32_t>(pulse.lane);
-    gatherEnds(row, edge ? &wide_[wide++] : nullptr);
+    gatherEnds(row, edge ? &wide_[next_wide_++] : nullptr);
     if ((stray & left & -left) != 0) gatherStray(row, pulse.from);
   }
   findPowers();
@@ -123,16 +123,26 @@ ColumnTracer::Surfaces ColumnTracer::setSurfaces(std::uint32_t first_row) {
   return held_surfaces_ = surfaces;
 }
 
+// Of the sixteen rows from `first_row` on those whose beams meet several surfaces. They are the next ones in `wide_`.
 std::uint32_t ColumnTracer::traceEdges(std::uint32_t first_row) {
-  wide_.clear();
-  for (std::uint32_t left = edges_.find(first_row); left != 0; left &= left - 1) {
-    const std::uint32_t row = first_row + static_cast<std::uint32_t>(std::countr_zero(left));
-    wide_.add(row, current_->hit(row), current_->beam(row));
-  }
-  wide_.trace();
+  if (first_row % kRowsPerStretch == 0) traceStretch(first_row);
   std::uint32_t edges = 0;
-  for (std::size_t i = 0; i < wide_.size(); ++i) edges |= 1U << (wide_[i].row - first_row);
+  for (std::size_t i = next_wide_; i < wide_.size() && wide_[i].row < first_row + kPacket; ++i)
+    edges |= 1U << (wide_[i].row - first_row);
   return edges;
+}
+
+// Many rows at once, for their beams' rays fill packets better.
+void ColumnTracer::traceStretch(std::uint32_t first_row) {
+  wide_.clear();
+  next_wide_ = 0;
+  const std::uint32_t end = std::min(first_row + kRowsPerStretch, plan_.settings.rows);
+  for (std::uint32_t packet = first_row; packet < end; packet += kPacket)
+    for (std::uint32_t left = edges_.find(packet); left != 0; left &= left - 1) {
+      const std::uint32_t row = packet + static_cast<std::uint32_t>(std::countr_zero(left));
+      wide_.add(row, current_->hit(row), current_->beam(row));
+    }
+  wide_.trace();
 }
 
 // Where the light of one pulse ends; `wide` is its beam where that meets several surfaces.

@@ -50,6 +50,7 @@ class ColumnTracer {
   void traceRows(std::uint32_t first_row);
   Surfaces setSurfaces(std::uint32_t first_row);
   std::uint32_t traceEdges(std::uint32_t first_row);
+  void traceStretch(std::uint32_t first_row);
   void gatherEnds(std::uint32_t row, const WideBeam* wide);
   std::uint32_t straying(std::uint32_t first_row, std::uint32_t rows) const;
   bool struck(std::uint32_t row) const;
@@ -69,7 +70,8 @@ class ColumnTracer {
   BeamPaths paths_;
   ColumnWindow columns_;
   EdgeFinder edges_;
-  WideBeams wide_;
+  WideBeams wide_;            // of a stretch of rows
+  std::size_t next_wide_ = 0;
   ColumnHits* current_ = nullptr;
   PlaneLanes planes_;
   ReturnLanes returns_;                // a row each
