@@ -108,7 +108,9 @@ void ColumnTracer::traceRows(std::uint32_t first_row) {
 // Neighbouring rows mostly meet the same facet, and so do the next sixteen.
 ColumnTracer::Surfaces ColumnTracer::setSurfaces(std::uint32_t first_row) {
   const std::uint64_t* facets = current_->facets(first_row);
-  if (std::equal(facets, facets + kPacket, held_)) return held_surfaces_;
+  std::uint64_t other = 0;
+  for (int k = 0; k < kPacket; ++k) other |= facets[k] ^ held_[k];
+  if (other == 0) return held_surfaces_;
   Surfaces surfaces;
   for (int from = 0, to = 1; from < kPacket; from = to++) {
     while (to < kPacket && facets[to] == facets[from]) ++to;

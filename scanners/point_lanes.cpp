@@ -45,6 +45,19 @@ STANDPOINT_CLONES void place(const PointLanes::Figures& f, const double* cyclic_
   }
 }
 
+STANDPOINT_CLONES std::uint32_t detectedOf(const ReturnLanes& r, double softness, double threshold) {
+  std::uint64_t bits[kReturnLanes];
+  for (int k = 0; k < kReturnLanes; ++k) {
+    const double chance = softness * static_cast<double>(r.noise.detection[k]);
+    const double noise = std::sqrt(1 + static_cast<double>(r.signal.background[k]));
+    const bool seen = static_cast<double>(r.signal.x[k]) + noise * chance >= noise * threshold;
+    bits[k] = seen ? std::uint64_t{1} << static_cast<unsigned>(k) : 0;
+  }
+  std::uint64_t lanes = 0;
+  for (int k = 0; k < kReturnLanes; ++k) lanes |= bits[k];
+  return static_cast<std::uint32_t>(lanes);
+}
+
 // Whether any lane can be faulted at all: most sixteens hold plain surfaces of moderate power.
 STANDPOINT_CLONES bool suspicious(const ReturnLanes& r, float weak, float saturation) {
   std::int32_t any = 0;
@@ -128,16 +141,11 @@ std::uint32_t PointLanes::receive(ReturnLanes& returns, int count) const {
   return plan_.flags == PointFilters{} && plan_.drops == PointFilters{} ? lanes : filtered(returns, lanes);
 }
 
-// P_d = ½ erfc((x_min - x) / √2 σ), drawn (§2.7). In daylight the threshold keeps its distance to the noise.
+// P_d = ½ erfc((x_min - x) / √2 σ), drawn (§2.7). In daylight the threshold keeps its distance to the noise; without it
+// the background is nothing.
 std::uint32_t PointLanes::detected(const ReturnLanes& returns, int count) const {
-  std::uint32_t lanes = 0;
-  for (int k = 0; k < count; ++k) {
-    const double chance = plan_.softness > 0 ? plan_.softness * static_cast<double>(returns.noise.detection[k]) : 0;
-    const double noise = plan_.daylight ? std::sqrt(1 + static_cast<double>(returns.signal.background[k])) : 1;
-    const bool seen = static_cast<double>(returns.signal.x[k]) + noise * chance >= noise * plan_.threshold;
-    lanes |= static_cast<std::uint32_t>(seen) << static_cast<unsigned>(k);
-  }
-  return lanes;
+  const std::uint32_t lanes = detectedOf(returns, plan_.softness, plan_.threshold);
+  return count < kReturnLanes ? lanes & ((1U << static_cast<unsigned>(count)) - 1) : lanes;
 }
 
 bool PointLanes::faulted(const ReturnLanes& returns, int lane, const PointFilters& filters) const {
