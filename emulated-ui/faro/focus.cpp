@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "emulated-ui/device/default_transitions.h"
 #include "emulated-ui/device/effects.h"
 #include "emulated-ui/device/settings.h"
 
@@ -110,65 +111,38 @@ void prepare(const Device& device, ScanOrder& order) {
 
 const FactDomain kNumber{{}, true, 0, 1e9};
 
+const DeviceRoles kRoles = {
+    .working = kWorking, .measuring = "scanning", .holding = kHolding, .kept = "saving",
+    .scans = "view_scans", .tools = "service",
+    .tilted = "level != good and value.inclinometer == on", .near = "nearest < 0.6", .first = "spin_up",
+    .begin = beginScan,
+    .marks = {{"S9", "power_key"},
+              {"G1", "power_key/shut_down shut_down elapsed start start_anyway start/card_absent start/card_locked "
+                     "start/card_full start/battery_critical start/temperature_question start/tilt_question "
+                     "tilted/tilt_warning temperature/temperature_warning battery_low battery_critical transferred "
+                     "delete/delete_question delete_confirmed format/format_question format_confirmed adjust"},
+              {"G2", "stop/stop_question stop_confirmed"}},
+};
+
 const DeviceProgram kProgram = {
     "faro/focus.json",
-    {
-        {"off", "power_key", "battery.state != critical or mains == yes", "booting", "", "", nullptr, "S9"},
-        {"booting", "elapsed", "", "idle", "", "", nullptr, "S9"},
-        {"idle", "power_key", "", "", "", "shut_down", nullptr, "G1"},
-        {"idle", "shut_down", "", "shutting_down", "", "", nullptr, "G1"},
-        {"shutting_down", "elapsed", "", "off", "", "", nullptr, "G1"},
-        {"idle", "start", "project.open == no", "", "", "no_project", nullptr, "P"},
-        {"idle", "start", "standing == no", "", "", "no_station", nullptr, "P"},
-        {"idle", "start", "card == absent", "", "", "card_absent", nullptr, "G1"},
-        {"idle", "start", "card == locked", "", "", "card_locked", nullptr, "G1"},
-        {"idle", "start", "card.free < @expected.bytes", "", "", "card_full", nullptr, "G1"},
-        {"idle", "start", "battery.state == critical and mains == no", "", "", "battery_critical", nullptr, "G1"},
-        {"idle", "start", "temperature.state != good", "", "", "temperature_question", nullptr, "G1"},
-        {"idle", "start", "warm == no", "", "", "not_warm_question", nullptr, "P"},
-        {"idle", "start", "level != good and value.inclinometer == on", "", "", "tilt_question", nullptr, "G1"},
-        {"idle", "start", "nearest < 0.6", "", "", "near_question", nullptr, "P"},
-        {"idle", "start", "", "spin_up", "", "", beginScan, "G1"},
-        {"idle", "start_anyway", "", "spin_up", "", "", beginScan, "G1"},
-        {"spin_up", "elapsed", "", "scanning", "", "", nullptr, "S6"},
-        {"scanning", "elapsed", "imaging == yes", "photographing", "", "", nullptr, "G1"},
-        {"scanning", "elapsed", "", "saving", "", "", nullptr, "G1"},
-        {"photographing", "elapsed", "", "saving", "", "", nullptr, "G1"},
-        {"saving", "elapsed", "data == yes", "idle", "scan_view", "", storeScan, "G1"},
-        {"scanning", "pause", "", "paused", "", "", nullptr, "G2"},
-        {"paused", "resume", "", "scanning", "", "", resumeSweep, "G2"},
-        {kWorking, "stop", "", "", "", "stop_question", nullptr, "G2"},
-        {kHolding, "stop_confirmed", "", "idle", "home", "", dropScan, "G2"},
-        {"scanning paused", "keep_partial", "", "saving", "", "", keepPartial, "G2"},
-        {"spin_up", "keep_partial", "", "idle", "home", "", dropScan, "P"},
-        {"photographing", "keep_partial", "", "saving", "", "", nullptr, "P"},
-        {"scanning", "moved", "", "error", "", "moved", markMoved, "P"},
-        {"spin_up paused photographing", "moved", "", "", "", "moved", markMoved, "P"},
-        {"scanning", "blocked", "", "error", "", "blocked", nullptr, "P"},
-        {"error", "keep", "", "saving", "", "", nullptr, "P"},
-        {"scanning photographing", "battery_critical", "", "saving", "", "battery_critical", keepPartial, "P"},
-        {"*", "battery_critical", "", "", "", "battery_critical", nullptr, "G1"},
-        {"*", "battery_low", "", "", "", "battery_low", nullptr, "G1"},
-        {"*", "battery_empty", "", "off", "", "", dropScan, "P"},
-        {kHolding, "card_removed", "", "idle", "home", "card_lost", dropScan, "P"},
-        {kHolding, "failed", "", "idle", "home", "", nullptr, "P"},
-        {"scanning", "tilted", "", "", "", "tilt_warning", nullptr, "G1"},
-        {"*", "temperature", "", "", "", "temperature_warning", nullptr, "G1"},
-        {"idle", "targets_measured", "", "", "targets", "", nullptr, "P"},
-        {"idle", "linked", "link == joined", "", "", "link_joined", nullptr, "P"},
-        {"idle", "linked", "", "", "", "link_failed", nullptr, "P"},
-        {"idle", "transferred", "", "", "", "transferred", nullptr, "G1"},
-        {"idle", "delete", "", "", "", "delete_question", nullptr, "G1"},
-        {"idle", "delete_confirmed", "", "", "view_scans", "", deleteShownSetup, "G1"},
-        {"idle", "format", "", "", "", "format_question", nullptr, "G1"},
-        {"idle", "format_confirmed", "card == present", "", "home", "", formatCard, "G1"},
-        {"idle", "format_confirmed", "card == absent", "", "", "card_absent", nullptr, "P"},
-        {"idle", "format_confirmed", "", "", "", "card_locked", nullptr, "P"},
-        {"idle", "adjust", "level == good and warm == yes", "adjusting", "", "", nullptr, "G1"},
-        {"idle", "adjust", "", "", "", "adjust_refused", nullptr, "P"},
-        {"adjusting", "elapsed", "", "idle", "service", "adjusted", nullptr, "P"},
-        {"adjusting", "moved", "", "idle", "service", "adjust_refused", nullptr, "P"},
-    },
+    withDefaults(
+        {
+            {"spin_up", "elapsed", "", "scanning", "", "", nullptr, "S6"},
+            {"scanning", "elapsed", "imaging == yes", "photographing", "", "", nullptr, "G1"},
+            {"scanning", "elapsed", "", "saving", "", "", nullptr, "G1"},
+            {"photographing", "elapsed", "", "saving", "", "", nullptr, "G1"},
+            {"saving", "elapsed", "data == yes", "idle", "scan_view", "", storeScan, "G1"},
+            {"scanning", "pause", "", "paused", "", "", nullptr, "G2"},
+            {"paused", "resume", "", "scanning", "", "", resumeSweep, "G2"},
+            {"scanning paused", "keep_partial", "", "saving", "", "", keepPartial, "G2"},
+            {"spin_up", "keep_partial", "", "idle", "home", "", dropScan, "P"},
+            {"photographing", "keep_partial", "", "saving", "", "", nullptr, "P"},
+            {"scanning", "moved", "", "error", "", "moved", markMoved, "P"},
+            {"spin_up paused photographing", "moved", "", "", "", "moved", markMoved, "P"},
+            {"scanning photographing", "battery_critical", "", "saving", "", "battery_critical", keepPartial, "P"},
+        },
+        kRoles),
     {{"use_profile", useProfile}, {"save_profile", saveProfile}, {"delete_profile", deleteProfile},
      {"area_from_head", areaFromHead}, {"area_to_head", areaToHead}},
     {{"profile", FactUnit::none, {}, [](const Device& d) { return wordFact(profileName(d)); }, "the chosen profile; a star where it was changed"},

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "emulated-ui/device/default_transitions.h"
 #include "emulated-ui/device/effects.h"
 
 namespace standpoint {
@@ -39,56 +40,29 @@ void storeAndLink(Device& device) {
 
 const FactDomain kYesNo{{"yes", "no"}, false, 0, 0};
 
+const DeviceRoles kRoles = {
+    .working = kWorking, .measuring = kWorking, .camera = "photographing", .holding = kHolding, .kept = "storing",
+    .scans = "scans",
+    .tilted = "levelled == no and value.compensator == on", .near = "nearest < @nearest.least", .begin = beginScan,
+    .marks = {{"G1", "start/card_absent start/card_full start/battery_critical start/temperature_question "
+                     "start/tilt_question"},
+              {"S10", "moved set_down/moved"},
+              {"S18", "tilted/tilt_warning"},
+              {"S35", "transferred"}},
+};
+
 const DeviceProgram kProgram = {
     "generic/generic.json",
-    {
-        {"off", "power_key", "battery.state != critical or mains == yes", "booting", "", "", nullptr, "P"},
-        {"booting", "elapsed", "", "idle", "", "", nullptr, "P"},
-        {"idle", "power_key", "", "", "", "shut_down", nullptr, "P"},
-        {"idle", "shut_down", "", "shutting_down", "", "", nullptr, "P"},
-        {"shutting_down", "elapsed", "", "off", "", "", nullptr, "P"},
-        {"idle", "start", "project.open == no", "", "", "no_project", nullptr, "P"},
-        {"idle", "start", "standing == no", "", "", "no_station", nullptr, "P"},
-        {"idle", "start", "card == absent", "", "", "card_absent", nullptr, "G1"},
-        {"idle", "start", "card == locked", "", "", "card_locked", nullptr, "P"},
-        {"idle", "start", "card.free < @expected.bytes", "", "", "card_full", nullptr, "G1"},
-        {"idle", "start", "battery.state == critical and mains == no", "", "", "battery_critical", nullptr, "G1"},
-        {"idle", "start", "temperature.state != good", "", "", "temperature_question", nullptr, "G1"},
-        {"idle", "start", "warm == no", "", "", "not_warm_question", nullptr, "P"},
-        {"idle", "start", "levelled == no and value.compensator == on", "", "", "tilt_question", nullptr, "G1"},
-        {"idle", "start", "nearest < @nearest.least", "", "", "near_question", nullptr, "P"},
-        {"idle", "start", "", "scanning", "", "", beginScan, "P"},
-        {"idle", "start_anyway", "", "scanning", "", "", beginScan, "P"},
-        {"scanning", "elapsed", "imaging == yes", "photographing", "", "", nullptr, "P"},
-        {kWorking, "elapsed", "", "storing", "", "", nullptr, "P"},
-        {"storing", "elapsed", "data == yes and value.auto_link == on", "idle", "scan_view", "", storeAndLink, "P"},
-        {"storing", "elapsed", "data == yes", "idle", "scan_view", "", storeScan, "P"},
-        {kWorking, "stop", "", "", "", "stop_question", nullptr, "P"},
-        {kHolding, "stop_confirmed", "", "idle", "home", "", dropScan, "P"},
-        {"scanning", "keep_partial", "", "storing", "", "", keepPartial, "P"},
-        {"photographing", "keep_partial", "", "storing", "", "", nullptr, "P"},
-        {kWorking, "moved", "", "error", "", "moved", markMoved, "S10"},
-        {"photographing", "set_down", "", "error", "", "moved", markMoved, "S10"},
-        {"scanning", "blocked", "", "error", "", "blocked", nullptr, "P"},
-        {"error", "keep", "", "storing", "", "", nullptr, "P"},
-        {kHolding, "card_removed", "", "idle", "home", "card_lost", dropScan, "P"},
-        {kHolding, "failed", "", "idle", "home", "", nullptr, "P"},
-        {kWorking, "tilted", "", "", "", "tilt_warning", nullptr, "S18"},
-        {"*", "temperature", "", "", "", "temperature_warning", nullptr, "P"},
-        {"*", "battery_low", "", "", "", "battery_low", nullptr, "P"},
-        {"*", "battery_critical", "", "", "", "battery_critical", nullptr, "P"},
-        {"*", "battery_empty", "", "off", "", "", dropScan, "P"},
-        {"idle", "linked", "link == joined", "", "", "link_joined", nullptr, "P"},
-        {"idle", "linked", "", "", "", "link_failed", nullptr, "P"},
-        {"idle", "targets_measured", "", "", "targets", "", nullptr, "P"},
-        {"idle", "transferred", "", "", "", "transferred", nullptr, "S35"},
-        {"idle", "delete", "", "", "", "delete_question", nullptr, "P"},
-        {"idle", "delete_confirmed", "", "", "scans", "", deleteShownSetup, "P"},
-        {"idle", "format", "", "", "", "format_question", nullptr, "P"},
-        {"idle", "format_confirmed", "card == present", "", "home", "", formatCard, "P"},
-        {"idle", "format_confirmed", "card == absent", "", "", "card_absent", nullptr, "P"},
-        {"idle", "format_confirmed", "", "", "", "card_locked", nullptr, "P"},
-    },
+    withDefaults(
+        {
+            {"scanning", "elapsed", "imaging == yes", "photographing", "", "", nullptr, "P"},
+            {kWorking, "elapsed", "", "storing", "", "", nullptr, "P"},
+            {"storing", "elapsed", "data == yes and value.auto_link == on", "idle", "scan_view", "", storeAndLink, "P"},
+            {"storing", "elapsed", "data == yes", "idle", "scan_view", "", storeScan, "P"},
+            {"scanning", "keep_partial", "", "storing", "", "", keepPartial, "P"},
+            {"photographing", "keep_partial", "", "storing", "", "", nullptr, "P"},
+        },
+        kRoles),
     {},
     {{"levelled", FactUnit::none, kYesNo, [](const Device& d) { return yesNo(levelled(d)); },
       "the scanner's compensator is on and its range is enough"},

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "emulated-ui/device/default_transitions.h"
 #include "emulated-ui/device/effects.h"
 #include "emulated-ui/device/settings.h"
 
@@ -311,6 +312,15 @@ void addStart(std::vector<Transition>& rows, const char* event, void (*by)(Devic
   }
 }
 
+// Power, start and errors are its own: an error is a phase, and the generations call it by other names.
+const DeviceRoles kRoles = {
+    .off = nullptr, .rest = nullptr, .idle = "connected", .measuring = kMeasuring, .laser = nullptr,
+    .scans = "setups", .targets = nullptr,
+    .card_needed = nullptr,
+    .marks = {{"S10", "format/format_question"},
+              {"S11", "battery_low temperature/temperature_warning linked/link_joined linked/link_failed"}},
+};
+
 std::vector<Transition> transitions() {
   std::vector<Transition> rows = {
       {"off", "key", "battery.state != critical or mains == yes", "starting", "", "", nullptr, "P"},
@@ -352,7 +362,6 @@ std::vector<Transition> transitions() {
       {kMeasuring, "blocked", "", "error", "", "", blockedError, "S10"},
       {kMeasuring, "battery_low", "generation == g1", "error", "", "", batteryAborts, "S10"},
       {kIdle, "battery_low", "generation == g1", "error", "", "", batteryError, "S10"},
-      {"*", "battery_low", "", "", "", "battery_low", nullptr, "S11"},
       {kMeasuring, "battery_critical", "", "error", "", "", batteryAborts, "S11"},
       {kIdle, "battery_critical", "", "error", "", "", batteryError, "S10 S11"},
       {"*", "battery_empty", "", "off", "", "", emptied, "S11"},
@@ -360,8 +369,6 @@ std::vector<Transition> transitions() {
       {kMeasuring, "temperature", "generation == g1", "error", "", "", temperatureAborts, "S10"},
       {"ready connected standby", "temperature", "temperature.critical == yes", "fatal", "", "", temperatureError, "S10"},
       {"ready connected standby", "temperature", "generation == g1", "error", "", "", temperatureError, "S10"},
-      {"*", "temperature", "", "", "", "temperature_warning", nullptr, "S11"},
-      {kMeasuring, "tilted", "", "", "", "tilt_warning", nullptr, "P"},
       {"error", "acknowledge", "partial == yes", "finishing", "", "", acknowledge, "P"},
       {"error", "acknowledge", "value.connection == OK", "connected", "", "", acknowledgeAndDrop, "P"},
       {"error", "acknowledge", "", "ready", "", "", acknowledgeAndDrop, "P"},
@@ -374,20 +381,15 @@ std::vector<Transition> transitions() {
       {kIdle, "set_down", "value.tracking == on and tracking == yes and setups > 0 and generation == g2", "", "", "link_proposed", nullptr, "S11"},
       {kIdle, "set_down", "setups > 0 and generation == g2", "", "", "link_lost", loseTracking, "S11"},
       {kIdle, "tracking_lost", "value.tracking == on and generation == g2", "", "", "tracking_lost", nullptr, "S11"},
-      {"connected", "linked", "link == joined", "", "", "link_joined", nullptr, "S11"},
-      {"connected", "linked", "", "", "", "link_failed", nullptr, "S11"},
       {"connected", "send", "", "transferring", "", "", nullptr, "S11"},
       {"transferring", "transferred", "", "connected", "", "transferred", nullptr, "S11"},
       {"transferring", "failed", "", "connected", "", "", nullptr, "P"},
       {"transferring", "key_long", "", "ready", "", "", loseTransfer, "P"},
-      {"connected", "delete", "", "", "", "delete_question", nullptr, "P"},
-      {"connected", "delete_confirmed", "", "", "setups", "", deleteShownSetup, "P"},
-      {"connected", "format", "", "", "", "format_question", nullptr, "S10"},
       {"connected", "format_confirmed", "", "formatting", "", "", formatCard, "S10"},
       {"formatting", "elapsed", "", "connected", "", "", nullptr, "S10"},
   };
   rows.insert(rows.end(), more.begin(), more.end());
-  return rows;
+  return withDefaults(std::move(rows), kRoles);
 }
 
 const FactDomain kYesNo{{"yes", "no"}};

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "emulated-ui/device/default_transitions.h"
 #include "emulated-ui/device/effects.h"
 
 namespace standpoint {
@@ -78,82 +79,49 @@ void prepare(const Device& d, ScanOrder& order) {
   if (weakest > 0) order.filters.push_back(fmt::format("intensity:from={:g}", weakest / 100));
 }
 
-// With pictures only the laser stays off.
-void addBeginning(std::vector<Transition>& rows, const char* event, void (*begin)(Device&), const char* mark) {
-  rows.push_back({"idle", event, "setting.images == only", "imaging", "", "", begin, mark});
-  rows.push_back({"idle", event, "", "scanning", "", "", begin, mark});
-}
+const DeviceRoles kRoles = {
+    .working = kWorking, .measuring = kLaserOrCamera, .camera = "imaging paused", .holding = kHolding,
+    .kept = "finishing",
+    .home = "", .scans = "setups", .targets = "setup_targets", .tools = "tools",
+    .first_questions = {{"idle", "start", "value.compensator == on and level == out", "", "", "level_question", nullptr,
+                         "G1"}},
+    .last_questions = {{"idle", "start", "orientation.accepted == no", "", "", "no_setup_question", nullptr, "P"},
+                       {"idle", "start", "setting.images == only", "imaging", "", "", beginScan, "G1"}},
+    .near = "nearest < 0.4", .begin = beginScan,
+    .card_needed = nullptr, .links = false,
+    .marks = {{"G1", "power_key start start/no_project start/card_full start/battery_critical "
+                     "start/temperature_question stop_confirmed battery_low battery_critical "
+                     "temperature/temperature_warning format/format_question adjust"}},
+};
 
 std::vector<Transition> transitions() {
   std::vector<Transition> rows = {
-      {"off", "power_key", "battery.state != critical or mains == yes", "booting", "", "", nullptr, "G1"},
-      {"booting", "elapsed", "", "idle", "", "", nullptr, "G1"},
-      {"idle", "power_key", "", "", "", "shut_down", nullptr, "P"},
-      {"idle", "shut_down", "", "shutting_down", "", "", nullptr, "P"},
-      {"shutting_down", "elapsed", "", "off", "", "", nullptr, "P"},
-  };
-  addSetupTransitions(rows);
-  const std::vector<Transition> scan = {
-      {"idle", "start", "project.open == no", "", "", "no_project", nullptr, "G1"},
-      {"idle", "start", "standing == no", "", "", "no_station", nullptr, "P"},
-      {"idle", "start", "card == locked", "", "", "card_locked", nullptr, "P"},
-      {"idle", "start", "card.free < @expected.bytes", "", "", "card_full", nullptr, "G1"},
-      {"idle", "start", "battery.state == critical and mains == no", "", "", "battery_critical", nullptr, "G1"},
-      {"idle", "start", "value.compensator == on and level == out", "", "", "level_question", nullptr, "G1"},
-      {"idle", "start", "temperature.state != good", "", "", "temperature_question", nullptr, "G1"},
-      {"idle", "start", "warm == no", "", "", "not_warm_question", nullptr, "P"},
-      {"idle", "start", "nearest < 0.4", "", "", "near_question", nullptr, "P"},
-      {"idle", "start", "orientation.accepted == no", "", "", "no_setup_question", nullptr, "P"},
       {"idle", "level_now", "", "", "level_plummet", "", nullptr, "G1"},
-  };
-  rows.insert(rows.end(), scan.begin(), scan.end());
-  addBeginning(rows, "start", beginScan, "G1");
-  addBeginning(rows, "start_anyway", beginScan, "P");
-  addBeginning(rows, "start_unlevelled", beginUnlevelled, "G1");
-  const std::vector<Transition> rest = {
+      // With pictures only the laser stays off.
+      {"idle", "start_anyway", "setting.images == only", "imaging", "", "", beginScan, "P"},
+      {"idle", "start_unlevelled", "setting.images == only", "imaging", "", "", beginUnlevelled, "G1"},
+      {"idle", "start_unlevelled", "", "scanning", "", "", beginUnlevelled, "G1"},
       {"scanning", "elapsed", "imaging == yes", "imaging", "", "", nullptr, "G1"},
       {kLaserOrCamera, "elapsed", "data == yes", "storing", "", "", nullptr, "G1"},
       {"storing", "elapsed", "", "idle", "setup", "", storeScan, "G1"},
       {"scanning", "tilted", "value.compensator == on", "paused", "", "compensator_question", pausedScanning, "S18"},
       {"imaging", "tilted", "value.compensator == on", "paused", "", "compensator_question", pausedImaging, "S18"},
-      {kLaserOrCamera, "tilted", "", "", "", "tilt_warning", nullptr, "P"},
       {"paused", "continue_unlevelled", "entry.paused_in == imaging", "imaging", "", "", resumeUnlevelled, "G1"},
       {"paused", "continue_unlevelled", "", "scanning", "", "", resumeUnlevelled, "G1"},
-      {kWorking, "stop", "", "", "", "stop_question", nullptr, "P"},
-      {kHolding, "stop_confirmed", "", "idle", "", "", dropScan, "G1"},
       {"scanning", "keep_partial", "", "finishing", "", "", keepPartial, "P"},
       {"paused", "keep_partial", "entry.paused_in == scanning", "finishing", "", "", keepPartial, "P"},
       {"imaging paused", "keep_partial", "", "finishing", "", "", nullptr, "P"},
       {"finishing", "elapsed", "data == yes", "storing", "", "", nullptr, "P"},
-      {kWorking, "moved", "", "error", "", "moved", markMoved, "P"},
-      {"imaging paused", "set_down", "", "error", "", "moved", markMoved, "P"},
-      {"scanning", "blocked", "", "error", "", "blocked", nullptr, "P"},
-      {"error", "keep", "", "finishing", "", "", nullptr, "P"},
-      {kHolding, "failed", "", "idle", "", "", nullptr, "P"},
-      {"*", "battery_low", "", "", "", "battery_low", nullptr, "G1"},
-      {"*", "battery_critical", "", "", "", "battery_critical", nullptr, "G1"},
-      {"*", "battery_empty", "", "off", "", "", dropScan, "P"},
-      {"*", "temperature", "", "", "", "temperature_warning", nullptr, "G1"},
-      {"idle", "targets_measured", "", "", "setup_targets", "", nullptr, "P"},
       {"idle", "transfer", "setups.untransferred == 0", "", "", "nothing_to_send", nullptr, "P"},
       {"idle", "transfer", "flagged > 0", "", "", "import_question", nullptr, "S18"},
       {"idle", "transfer", "", "", "", "", transferAll, "G1"},
       {"idle", "import_marked", "", "", "", "", transferAll, "S18"},
       {"idle", "leave_out", "", "", "", "", transferLevelled, "S18"},
-      {"idle", "transferred", "", "", "", "transferred", nullptr, "P"},
-      {"idle", "delete", "", "", "", "delete_question", nullptr, "P"},
-      {"idle", "delete_confirmed", "", "", "setups", "", deleteShownSetup, "P"},
-      {"idle", "format", "", "", "", "format_question", nullptr, "G1"},
       {"idle", "format_confirmed", "card == present", "", "main_menu", "", formatCard, "G1"},
-      {"idle", "format_confirmed", "", "", "", "card_locked", nullptr, "P"},
-      {"idle", "adjust", "level == good and warm == yes", "adjusting", "", "", nullptr, "G1"},
-      {"idle", "adjust", "", "", "", "adjust_refused", nullptr, "P"},
-      {"adjusting", "elapsed", "", "idle", "tools", "adjusted", nullptr, "P"},
-      {"adjusting", "moved", "", "idle", "tools", "adjust_refused", nullptr, "P"},
       {"adjusting", "set_down", "", "idle", "tools", "adjust_refused", nullptr, "P"},
   };
-  rows.insert(rows.end(), rest.begin(), rest.end());
-  return rows;
+  addSetupTransitions(rows);
+  return withDefaults(std::move(rows), kRoles);
 }
 
 std::vector<Action> actions() {
