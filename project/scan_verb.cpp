@@ -119,7 +119,8 @@ Result<ScanCount> scanStation(const RayScene& scene, const ScanWorld& world, con
                               Report& report, Progress& progress) {
   std::unique_ptr<PointSink> coloured;
   if (request.panorama) {
-    auto panorama = takePanorama(scene, request.instrument, station.true_pose, request.options.threads, report, progress);
+    auto panorama = takePanorama(scene, request.instrument, station.true_pose, request.options.threads, report, progress,
+                                 meteringOf(request.instrument, request.settings.values));
     if (!panorama) return failure(panorama.error());
     coloured = colouring(file, std::make_shared<const Panorama>(*std::move(panorama)));
   }
