@@ -157,6 +157,7 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const json& option
   request.levelling = {.compensator = options.at("compensator") == "on",
                        .exact = !request.options.effects.has(Effect::levelling),
                        .seed = request.options.seed};
+  if (options.contains("note")) request.notes = options["note"].get<std::vector<std::string>>();
   request.panorama = options.value("panorama", false);
   if (request.panorama && !request.settings.imaging)
     return failure(ErrorKind::usage, "these settings take no images: a panorama needs them", "--panorama");

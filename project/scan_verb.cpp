@@ -50,6 +50,7 @@ ScanHeader headerOf(const Document& document, const ScanWorld& world, const Stat
   h.description =
       fmt::format("Simulated by Standpoint: {} {}, {}, seed {}{}", request.instrument.maker, request.instrument.model,
                   fmt::join(words, " "), request.options.seed, withoutText(request.options.effects));
+  for (const auto& note : request.notes) h.description += "; " + note;
   h.file_from_scanner = believed;
   h.file_from_scanner.translation += g.shift_m;
   h.rows = request.settings.rows;
