@@ -9,6 +9,7 @@
 
 #include "emulated-ui/device/device.h"
 #include "emulated-ui/device/effects.h"
+#include "emulated-ui/device/format.h"
 
 namespace standpoint {
 
@@ -241,7 +242,7 @@ const std::vector<ListRow>& sharedLists() {
          const auto* setup = d.shownSetup() != nullptr ? d.shownSetup() : d.newestSetup();
          if (setup != nullptr)
            for (const auto& t : setup->targets)
-             rows.push_back({t.name, t.found ? fmt::format("{}  {:.2f} m  {} pts  {:.1f} mm", t.name, t.range_m, t.points, t.residual_m * 1000)
+             rows.push_back({t.name, t.found ? fmt::format("{}  {}  {} pts  {}", t.name, lengthText(t.range_m, d.showsFeet()), t.points, smallLengthText(t.residual_m, d.showsFeet()))
                                              : fmt::format("{}  {}", t.name, t.why_not), true, {}});
          return rows;
        }},

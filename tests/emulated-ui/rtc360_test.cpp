@@ -196,7 +196,7 @@ TEST_F(Rtc360, DiscardsTheSetupWhenStoppedAfterAsking) {
   ASSERT_TRUE(d.press({"stop", "yes"}));
   EXPECT_TRUE(d->takeCancel());
   EXPECT_FALSE(d->busy());
-  d->tick(1000);
+  d->tick(500);
   EXPECT_FALSE(d->takeStored());
   EXPECT_EQ(d.shows("next_setup"), "1");
 }
