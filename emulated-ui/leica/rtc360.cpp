@@ -62,6 +62,7 @@ const DeviceProgram kProgram = {
         {kWorking, "stop", "", "", "", "stop_question", nullptr, "P"},
         {kHolding, "stop_confirmed", "", "idle", "home", "", dropScan, "P"},
         {kWorking, "moved", "", "error", "", "moved", markMoved, "G1"},
+        {"photographing", "set_down", "", "error", "", "moved", markMoved, "P"},
         {kLaser, "blocked", "", "error", "", "blocked", nullptr, "G1"},
         {"error", "keep", "", "finishing", "", "", nullptr, "P"},
         {"finishing", "elapsed", "data == yes", "storing", "", "", nullptr, "P"},

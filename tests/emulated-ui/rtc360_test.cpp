@@ -333,5 +333,18 @@ TEST_F(Rtc360, ExplainsEachWidgetWithWhatItCostsAndWhereItIs) {
   EXPECT_NE(help.find("Home › Scan settings"), std::string::npos) << help;
 }
 
+TEST_F(Rtc360, CarriedAwayWhileItPhotographsIsTheSameTroubleAsWhileItScans) {
+  ready();
+  ASSERT_TRUE(d.press({"settings", "images=on", "back", "scan"}));
+  d.scanned();
+  d->tick(d->fact("expected.scan")->number.value());
+  ASSERT_EQ(d.phase(), "photographing");
+  ASSERT_TRUE(d->hand("stand_at", "S2"));
+  EXPECT_EQ(d.phase(), "error");
+  EXPECT_EQ(d.dialog(), "moved");
+  ASSERT_TRUE(d.press({"ok", "discard"}));
+  EXPECT_EQ(d.fact("setups"), "0");
+}
+
 }  // namespace
 }  // namespace standpoint
