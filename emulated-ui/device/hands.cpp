@@ -132,6 +132,11 @@ Result<void> clearView(Device& d, const std::string&) {
 }
 
 Result<void> push(Device& d, const std::string&) {
+Result<void> closeCover(Device& d, const std::string&) {
+  d.change().around.cover_open = false;
+  return {};
+}
+
   d.fire("moved");
   return {};
 }
@@ -149,6 +154,7 @@ const std::vector<HandRow>& handRows() {
       {"stand_at", "station", standAt},    {"push", "", push},
       {"go_near", "", goNear},             {"clear_view", "", clearView},
   };
+      {"close_cover", "", closeCover},
   return rows;
 }
 
@@ -210,6 +216,7 @@ const std::vector<TroubleRow>& troubleRows() {
       {"symmetrical_room", [](Device& d) { d.change().values["false_start"] = "180"; }},   // degrees
       {"somebody_walks", [](Device& d) { d.change().around.somebody_walks = true; }},
       {"too_near", [](Device& d) { d.change().around.nearest_m = 0.3; }},
+      {"cover_open", [](Device& d) { d.change().around.cover_open = true; }},
   };
   return rows;
 }

@@ -66,15 +66,10 @@ void transferLevelled(Device& d) { transfer(d, false); }
 
 double numberOf(const Device& d, const char* value) { return d.fact(value)->number.value_or(0); }
 
-// The instrument's own filters, and its compensator.
+// The instrument's own filter of weak points, and its compensator; the range gates are settings of the scan.
 void prepare(const Device& d, ScanOrder& order) {
   order.compensator = order.compensator && d.value("compensator") == "on";
-  const double nearest = numberOf(d, "value.min_range"), farthest = numberOf(d, "value.max_range");
   const double weakest = numberOf(d, "value.min_intensity");
-  std::string range;
-  if (nearest > 0) range = fmt::format("from={:g}", nearest);
-  if (farthest > 0) range += fmt::format("{}to={:g}", range.empty() ? "" : ",", farthest);
-  if (!range.empty()) order.filters.push_back("range:" + range);
   if (weakest > 0) order.filters.push_back(fmt::format("intensity:from={:g}", weakest / 100));
 }
 
@@ -96,6 +91,7 @@ std::vector<Transition> transitions() {
   const std::vector<Transition> scan = {
       {"idle", "start", "project.open == no", "", "", "no_project", nullptr, "G1"},
       {"idle", "start", "standing == no", "", "", "no_station", nullptr, "P"},
+      {"idle", "start", "cover == open", "", "", "cover_open", nullptr, "G1"},
       {"idle", "start", "card == locked", "", "", "card_locked", nullptr, "P"},
       {"idle", "start", "card.free < @expected.bytes", "", "", "card_full", nullptr, "G1"},
       {"idle", "start", "battery.state == critical and mains == no", "", "", "battery_critical", nullptr, "G1"},
