@@ -10,6 +10,7 @@
 #include "core/units.h"
 #include "emulated-ui/preview.h"
 #include "emulated-ui/sighting.h"
+#include "emulated-ui/sensors.h"
 #include "pointclouds/cleaning.h"
 #include "project/levelling.h"
 
@@ -147,6 +148,12 @@ void DeviceHost::startFiltered(const std::string& title, const ScanOrder& order,
     if (!outcome) return outcome;
     std::vector<ChosenFilter> chosen;
     for (const auto& text : filters) {
+  notes_ = order.notes;
+  if (const auto* station = stationOf(document, order.station)) {
+    const auto readings = sensorReadings(document, *station, device_.type().definition.sensors, order.sensors, seed, order.number);
+    notes_.insert(notes_.end(), readings.begin(), readings.end());
+  }
+  for (const auto& [key, text] : notes_) options["note"].push_back(key + "=" + text);
       auto filter = filterFrom(text);
       if (!filter) return failure(filter.error());
       chosen.push_back(*std::move(filter));
@@ -241,6 +248,7 @@ void DeviceHost::takeResult(Outcome outcome, const Document& document) {
     device_.sightDone(targetsFrom(json::array({outcome.answer})).front());
   } else if (const auto* preview = std::get_if<PreviewOrder>(&*running_)) {
     device_.previewDone(preview->file, std::move(preview_));
+    s.notes = notes_;
   } else if (const auto* transfer = std::get_if<TransferOrder>(&*running_)) {
     device_.transferDone(transfer->files);
   }

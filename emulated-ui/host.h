@@ -63,3 +63,4 @@ class DeviceHost {
 };
 
 }  // namespace standpoint
+  SettingValues notes_;            // of the scan that runs

@@ -62,6 +62,7 @@ Result<void> createProject(Device& device, const std::string&) {
   project.first = *first;
   project.base = entry(device, "base");
   project.note = entry(device, "note");
+  if (project.note.empty()) project.note = device.value("customer");
   s.projects.push_back(std::move(project));
   s.project = static_cast<int>(s.projects.size()) - 1;
   s.shown = -1;
@@ -244,6 +245,13 @@ const std::vector<ListRow>& sharedLists() {
            for (const auto& t : setup->targets)
              rows.push_back({t.name, t.found ? fmt::format("{}  {}  {} pts  {}", t.name, lengthText(t.range_m, d.showsFeet()), t.points, smallLengthText(t.residual_m, d.showsFeet()))
                                              : fmt::format("{}  {}", t.name, t.why_not), true, {}});
+      {"record",
+       [](const Device& d) {
+         std::vector<WidgetOption> rows;
+         if (const auto* setup = d.shownSetup())
+           for (const auto& [key, text] : setup->notes) rows.push_back({key, d.word("note." + key) + "  " + text, true, {}});
+         return rows;
+       }},
          return rows;
        }},
   };

@@ -32,6 +32,8 @@ struct ScanOrder {
   std::optional<double> bumped_at_share;   // the tripod was pushed then
   std::optional<double> walker_at_share;   // somebody walks by then
   double tilt_x_deg = 0, tilt_y_deg = 0;   // of the standing axis when it began
+  std::vector<std::string> sensors;        // ids of the definition's that are on and leave a reading
+  SettingValues notes;             // key and text: what goes into the file's record, such as who measured
 };
 
 // How a setup joins an earlier one: cloud to cloud.
@@ -117,4 +119,5 @@ struct StoredSetup {
   std::shared_ptr<const ScanPreview> preview;   // once it was asked for
 };
 
+  SettingValues notes;             // key and text: readings of the sensors, who measured
 }  // namespace standpoint

@@ -235,6 +235,8 @@ Result<void> send(Device& d, const std::string&) {
 void prepare(const Device& d, ScanOrder& order) {
   if (entry(d, "by") == "key" && d.fact("value.self_timer")->number.value_or(0) < kOperatorGone_s && !order.walker_at_share)
     order.walker_at_share = 0.0;
+  if (isG1(d) && d.value("tracking") == "on" && d.state().around.tracking && d.newestSetup() != nullptr)
+    order.notes.emplace_back("way", d.newestSetup()->name);
 }
 
 // --- facts ---

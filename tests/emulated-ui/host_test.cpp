@@ -65,7 +65,10 @@ TEST_F(Host, AScanThroughTheDeviceGivesTheSameBytesAsTheVerb) {
   EXPECT_EQ(fs::path(scan.file), folder_.path() / "scans" / "House" / "Setup 001.e57");
   EXPECT_EQ(stored->description, "Scanned 'Setup 001' at S1 with Leica RTC360");
   const auto direct = folder_.path() / "direct.e57";
-  ASSERT_TRUE(run("scan", document_, {{"instrument", "leica-rtc360"}, {"set", {"resolution=12mm", "images=off"}}, {"seed", 1}, {"output", direct.string()}}));
+  nlohmann::json notes = nlohmann::json::array();
+  for (const auto& [key, text] : device().newestSetup()->notes) notes.push_back(key + "=" + text);
+  EXPECT_EQ(notes.size(), 3U) << "compass, altimeter, GPS";
+  ASSERT_TRUE(run("scan", document_, {{"instrument", "leica-rtc360"}, {"set", {"resolution=12mm", "images=off"}}, {"seed", 1}, {"note", notes}, {"output", direct.string()}}));
   EXPECT_TRUE(bytes(scan.file) == bytes(direct));
 }
 
