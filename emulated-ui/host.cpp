@@ -8,8 +8,11 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "emulated-ui/memory.h"
 #include "emulated-ui/preview.h"
 #include "emulated-ui/sighting.h"
+#include "emulated-ui/sighting.h"
+#include "materials/json_file.h"
 #include "emulated-ui/sensors.h"
 #include "pointclouds/cleaning.h"
 #include "project/levelling.h"
@@ -294,7 +297,41 @@ std::optional<Outcome> DeviceHost::update(const Document& document, const fs::pa
       task_.reset();
     }
     if (finished_) {
+Result<void> DeviceHost::remember(const fs::path& scans_folder) {
+  const auto file = memoryFile(scans_folder, device_.type());
+  std::error_code none;
+  if (!scans_folder.empty() && fs::exists(file, none)) {
+    const auto memory = readJsonFile(file);
+    if (!memory) return failure(memory.error());
+    if (auto recalled = recallMemory(device_, *memory, scans_folder); !recalled) return failure(recalled.error().kind, recalled.error().message, file.string());
+    kept_ = *memory;
+  }
+  kept_at_ = device_.state().noted;
+  remembers_ = true;
+  return {};
+}
+
+// After whatever was done to the device by its user, and at once, as its scans are.
+void DeviceHost::keepMemory(const fs::path& scans_folder) {
+  const auto& state = device_.state();
+  if (!remembers_ || scans_folder.empty() || state.noted == kept_at_) return;
+  kept_at_ = state.noted;
+  const bool used = std::any_of(state.log.begin(), state.log.end(), [](const DeviceEvent& e) { return e.what == "pressed"; });
+  auto memory = deviceMemory(device_, scans_folder);
+  if (!used || memory == kept_) return;
+  const auto written = writeMemory(memoryFile(scans_folder, device_.type()), memory);
+  if (!written) device_.ask("failed", describe(written.error()));
+  kept_at_ = state.noted;   // a full disk is told once, not in every frame
+  kept_ = std::move(memory);
+}
+
       std::error_code ignored;
+  auto outcome = goOn(document, scans_folder, seconds, may_store);
+  keepMemory(scans_folder);
+  return outcome;
+}
+
+std::optional<Outcome> DeviceHost::goOn(const Document& document, const fs::path& scans_folder, double seconds, bool may_store) {
       fs::remove(file_, ignored);
       finished_.reset();
     }
