@@ -10,11 +10,11 @@
 #include "core/units.h"
 #include "emulated-ui/memory.h"
 #include "emulated-ui/preview.h"
-#include "emulated-ui/sighting.h"
+#include "emulated-ui/sensors.h"
 #include "emulated-ui/sighting.h"
 #include "materials/json_file.h"
-#include "emulated-ui/sensors.h"
 #include "pointclouds/cleaning.h"
+#include "pointclouds/formats.h"
 #include "project/levelling.h"
 
 namespace standpoint {
@@ -60,22 +60,34 @@ LinkResult linkFrom(const json& answer, const Document& solved) {
   return link;
 }
 
+// Converted where another format is asked for; that the points are there is what convertCloud promises.
+Result<void> copyAs(const fs::path& from, const fs::path& to, Report& report, Progress& progress) {
+  const auto written = convertCloud(from, to, "", report, progress);
+  if (!written) return failure(written.error());
+  return {};
+}
+
 // Copies byte for byte and looks at the sizes afterwards.
 Result<Outcome> copyFiles(const Document& document, const TransferOrder& order, const fs::path& folder, Progress& progress) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder.string());
   json copied = json::array();
+  Report report;
   for (const auto& file : order.files) {
     if (auto going = progress.check(); !going) return failure(going.error());
-    const fs::path to = folder / (fs::path(file).parent_path().filename().string() + " - " + fs::path(file).filename().string());
+    fs::path to = folder / (fs::path(file).parent_path().filename().string() + " - " + fs::path(file).filename().string());
+    copied.push_back(file);
+    if (!order.extension.empty()) {
+      if (auto ok = copyAs(file, to.replace_extension(order.extension), report, progress); !ok) return failure(ok.error());
+      continue;
+    }
     fs::copy_file(file, to, fs::copy_options::overwrite_existing, error);
     if (error) return failure(ErrorKind::file_system, "cannot copy: " + error.message(), file);
     if (fs::file_size(file, error) != fs::file_size(to, error)) return failure(ErrorKind::file_system, "the copy has another size", to.string());
-    copied.push_back(file);
     progress.advance(static_cast<double>(copied.size()) / static_cast<double>(order.files.size()));
   }
-  return Outcome{document, copied, {}, {}, {}};
+  return Outcome{document, copied, report, {}, {}};
 }
 
 }  // namespace
@@ -136,6 +148,12 @@ void DeviceHost::startScan(const ScanOrder& order, const Document& document, con
   if (order.walker_at_share) mishap.push_back(fmt::format("walk={}", *order.walker_at_share));
   if (!mishap.empty()) options["mishap"] = mishap;
   if (truth) options["truth"] = true;
+  notes_ = order.notes;
+  if (const auto* station = stationOf(document, order.station)) {
+    const auto readings = sensorReadings(document, *station, device_.type().definition.sensors, order.sensors, seed, order.number);
+    notes_.insert(notes_.end(), readings.begin(), readings.end());
+  }
+  for (const auto& [key, text] : notes_) options["note"].push_back(key + "=" + text);
   const auto title = fmt::format("{}: {} at {}", device_.type().definition.title, order.name, order.station);
   if (!order.filters.empty()) return startFiltered(title, order, document, options);
   task_ = std::make_unique<Task>(title, *findVerb(verbs(), "scan"), leaning(document, order.station), options, wake_);
@@ -151,12 +169,6 @@ void DeviceHost::startFiltered(const std::string& title, const ScanOrder& order,
     if (!outcome) return outcome;
     std::vector<ChosenFilter> chosen;
     for (const auto& text : filters) {
-  notes_ = order.notes;
-  if (const auto* station = stationOf(document, order.station)) {
-    const auto readings = sensorReadings(document, *station, device_.type().definition.sensors, order.sensors, seed, order.number);
-    notes_.insert(notes_.end(), readings.begin(), readings.end());
-  }
-  for (const auto& [key, text] : notes_) options["note"].push_back(key + "=" + text);
       auto filter = filterFrom(text);
       if (!filter) return failure(filter.error());
       chosen.push_back(*std::move(filter));
@@ -236,6 +248,7 @@ void DeviceHost::takeResult(Outcome outcome, const Document& document) {
     s.points = row.at("points").get<std::uint64_t>();
     s.bytes = static_cast<double>(s.points) * device_.type().definition.body.bytes_per_point;
     s.instrument_seconds = row.at("instrument_seconds").get<double>();
+    s.notes = notes_;
     if (const auto* station = stationOf(document, scan->station)) {
       s.plan_x_m = station->true_pose.translation.x();
       s.plan_y_m = station->true_pose.translation.y();
@@ -251,7 +264,6 @@ void DeviceHost::takeResult(Outcome outcome, const Document& document) {
     device_.sightDone(targetsFrom(json::array({outcome.answer})).front());
   } else if (const auto* preview = std::get_if<PreviewOrder>(&*running_)) {
     device_.previewDone(preview->file, std::move(preview_));
-    s.notes = notes_;
   } else if (const auto* transfer = std::get_if<TransferOrder>(&*running_)) {
     device_.transferDone(transfer->files);
   }
@@ -285,18 +297,6 @@ void DeviceHost::collect(const Document& document) {
   device_.orderFailed(describe(outcome.error()));
 }
 
-std::optional<Outcome> DeviceHost::update(const Document& document, const fs::path& scans_folder, double seconds, bool may_store) {
-  if (document.job != known_of_) {
-    known_of_ = document.job;
-    device_.know(controlOf(document));
-  }
-  if (device_.takeCancel()) {
-    if (task_) {
-      task_->progress().cancel();
-      (void)task_->take();
-      task_.reset();
-    }
-    if (finished_) {
 Result<void> DeviceHost::remember(const fs::path& scans_folder) {
   const auto file = memoryFile(scans_folder, device_.type());
   std::error_code none;
@@ -325,13 +325,25 @@ void DeviceHost::keepMemory(const fs::path& scans_folder) {
   kept_ = std::move(memory);
 }
 
-      std::error_code ignored;
+std::optional<Outcome> DeviceHost::update(const Document& document, const fs::path& scans_folder, double seconds, bool may_store) {
   auto outcome = goOn(document, scans_folder, seconds, may_store);
   keepMemory(scans_folder);
   return outcome;
 }
 
 std::optional<Outcome> DeviceHost::goOn(const Document& document, const fs::path& scans_folder, double seconds, bool may_store) {
+  if (document.job != known_of_) {
+    known_of_ = document.job;
+    device_.know(controlOf(document));
+  }
+  if (device_.takeCancel()) {
+    if (task_) {
+      task_->progress().cancel();
+      (void)task_->take();
+      task_.reset();
+    }
+    if (finished_) {
+      std::error_code ignored;
       fs::remove(file_, ignored);
       finished_.reset();
     }

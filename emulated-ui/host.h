@@ -65,11 +65,11 @@ class DeviceHost {
   std::shared_ptr<const Job> known_of_;     // whose places the device was told
   std::optional<Scan> finished_;   // waits for the device to store it
   std::string station_;            // of the finished scan
+  SettingValues notes_;            // of the scan that runs
   std::shared_ptr<const ScanPreview> preview_;   // that a task has read
-};
   bool remembers_ = false;
   std::uint64_t kept_at_ = 0;      // events of the device when its memory was written last
   nlohmann::json kept_;
+};
 
 }  // namespace standpoint
-  SettingValues notes_;            // of the scan that runs

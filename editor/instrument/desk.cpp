@@ -102,7 +102,8 @@ void advance(InstrumentDesk& desk, Editor& editor) {
   if (!desk.view.texture)
     desk.view.texture = [&desk, &editor](const std::shared_ptr<const ScanPreview>& preview) -> std::uint64_t {
       if (editor.scene == nullptr || !preview) return 0;
-      if (desk.pictured != preview) desk.pictured = preview, desk.picture = pictureOf(*preview);
+      const auto wanted = std::pair(preview, desk.shown()->value("colouring"));
+      if (desk.pictured != wanted) desk.pictured = wanted, desk.picture = pictureOf(*preview, wanted.second);
       return editor.scene->texture(desk.picture);
     };
 }

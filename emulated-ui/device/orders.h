@@ -83,6 +83,7 @@ struct ScanPreview {
   std::uint32_t columns = 0, rows = 0;      // row 0 is the lowest
   std::vector<float> x_m, y_m, z_m;         // in the scanner's frame; NaN: nothing came back
   std::vector<std::uint8_t> grey;           // intensity, stretched
+  std::vector<std::uint8_t> red, green, blue;   // empty: the scan has no colours
 };
 struct PreviewOrder {
   std::string file;
@@ -92,6 +93,7 @@ struct PreviewOrder {
 struct TransferOrder {
   std::vector<std::string> files;
   std::string by;                  // "card", "cable", "wlan"
+  std::string extension;           // of the copies: ".las"; empty: as the files are
 };
 
 using Order = std::variant<ScanOrder, LinkOrder, TargetOrder, PreviewOrder, TransferOrder, SightOrder>;
@@ -117,7 +119,7 @@ struct StoredSetup {
   std::vector<FittedTarget> targets;
   double plan_x_m = 0, plan_y_m = 0;   // where it is thought to stand, for the plan
   std::shared_ptr<const ScanPreview> preview;   // once it was asked for
+  SettingValues notes;             // key and text: readings of the sensors, who measured
 };
 
-  SettingValues notes;             // key and text: readings of the sensors, who measured
 }  // namespace standpoint

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "emulated-ui/host.h"
+#include "pointclouds/formats.h"
 #include "tests/emulated-ui/support.h"
 #include "tests/project/support.h"
 
@@ -90,6 +91,21 @@ TEST_F(Host, ShowsMeasuresAndHandsOverTheScanAtOnce) {
   runOrder();
   EXPECT_EQ(device().state().dialog, "transferred");
   EXPECT_TRUE(bytes(folder_.path() / "office" / "House - Setup 001.e57") == bytes(device().state().projects[0].setups[0].file));
+}
+
+TEST_F(Host, ACopyInAnotherFormatHoldsTheSamePoints) {
+  press({"scan"});
+  const auto stored = runUntilIdle(1);
+  ASSERT_TRUE(stored);
+  document_ = stored->document;
+  const auto& setup = *device().newestSetup();
+  device().give(TransferOrder{{setup.file}, "cable", ".las"});
+  runOrder();
+  const auto copy = folder_.path() / "office" / "House - Setup 001.las";
+  const auto info = cloudFormatFor(copy)->info(copy);
+  ASSERT_TRUE(info) << describe(info.error());
+  EXPECT_EQ(info->scans.at(0).points, setup.points);
+  EXPECT_EQ(device().fact("setups.transferred")->number, 1);
 }
 
 TEST_F(Host, AStoppedScanLeavesNoFileAndNoSetup) {
