@@ -8,9 +8,13 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "emulated-ui/memory.h"
 #include "emulated-ui/preview.h"
+#include "emulated-ui/sensors.h"
 #include "emulated-ui/sighting.h"
+#include "materials/json_file.h"
 #include "pointclouds/cleaning.h"
+#include "pointclouds/formats.h"
 #include "project/levelling.h"
 
 namespace standpoint {
@@ -56,22 +60,34 @@ LinkResult linkFrom(const json& answer, const Document& solved) {
   return link;
 }
 
+// Converted where another format is asked for; that the points are there is what convertCloud promises.
+Result<void> copyAs(const fs::path& from, const fs::path& to, Report& report, Progress& progress) {
+  const auto written = convertCloud(from, to, "", report, progress);
+  if (!written) return failure(written.error());
+  return {};
+}
+
 // Copies byte for byte and looks at the sizes afterwards.
 Result<Outcome> copyFiles(const Document& document, const TransferOrder& order, const fs::path& folder, Progress& progress) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder.string());
   json copied = json::array();
+  Report report;
   for (const auto& file : order.files) {
     if (auto going = progress.check(); !going) return failure(going.error());
-    const fs::path to = folder / (fs::path(file).parent_path().filename().string() + " - " + fs::path(file).filename().string());
+    fs::path to = folder / (fs::path(file).parent_path().filename().string() + " - " + fs::path(file).filename().string());
+    copied.push_back(file);
+    if (!order.extension.empty()) {
+      if (auto ok = copyAs(file, to.replace_extension(order.extension), report, progress); !ok) return failure(ok.error());
+      continue;
+    }
     fs::copy_file(file, to, fs::copy_options::overwrite_existing, error);
     if (error) return failure(ErrorKind::file_system, "cannot copy: " + error.message(), file);
     if (fs::file_size(file, error) != fs::file_size(to, error)) return failure(ErrorKind::file_system, "the copy has another size", to.string());
-    copied.push_back(file);
     progress.advance(static_cast<double>(copied.size()) / static_cast<double>(order.files.size()));
   }
-  return Outcome{document, copied, {}, {}, {}};
+  return Outcome{document, copied, report, {}, {}};
 }
 
 }  // namespace
@@ -132,6 +148,12 @@ void DeviceHost::startScan(const ScanOrder& order, const Document& document, con
   if (order.walker_at_share) mishap.push_back(fmt::format("walk={}", *order.walker_at_share));
   if (!mishap.empty()) options["mishap"] = mishap;
   if (truth) options["truth"] = true;
+  notes_ = order.notes;
+  if (const auto* station = stationOf(document, order.station)) {
+    const auto readings = sensorReadings(document, *station, device_.type().definition.sensors, order.sensors, seed, order.number);
+    notes_.insert(notes_.end(), readings.begin(), readings.end());
+  }
+  for (const auto& [key, text] : notes_) options["note"].push_back(key + "=" + text);
   const auto title = fmt::format("{}: {} at {}", device_.type().definition.title, order.name, order.station);
   if (!order.filters.empty()) return startFiltered(title, order, document, options);
   task_ = std::make_unique<Task>(title, *findVerb(verbs(), "scan"), leaning(document, order.station), options, wake_);
@@ -226,6 +248,7 @@ void DeviceHost::takeResult(Outcome outcome, const Document& document) {
     s.points = row.at("points").get<std::uint64_t>();
     s.bytes = static_cast<double>(s.points) * device_.type().definition.body.bytes_per_point;
     s.instrument_seconds = row.at("instrument_seconds").get<double>();
+    s.notes = notes_;
     if (const auto* station = stationOf(document, scan->station)) {
       s.plan_x_m = station->true_pose.translation.x();
       s.plan_y_m = station->true_pose.translation.y();
@@ -274,7 +297,41 @@ void DeviceHost::collect(const Document& document) {
   device_.orderFailed(describe(outcome.error()));
 }
 
+Result<void> DeviceHost::remember(const fs::path& scans_folder) {
+  const auto file = memoryFile(scans_folder, device_.type());
+  std::error_code none;
+  if (!scans_folder.empty() && fs::exists(file, none)) {
+    const auto memory = readJsonFile(file);
+    if (!memory) return failure(memory.error());
+    if (auto recalled = recallMemory(device_, *memory, scans_folder); !recalled) return failure(recalled.error().kind, recalled.error().message, file.string());
+    kept_ = *memory;
+  }
+  kept_at_ = device_.state().noted;
+  remembers_ = true;
+  return {};
+}
+
+// After whatever was done to the device by its user, and at once, as its scans are.
+void DeviceHost::keepMemory(const fs::path& scans_folder) {
+  const auto& state = device_.state();
+  if (!remembers_ || scans_folder.empty() || state.noted == kept_at_) return;
+  kept_at_ = state.noted;
+  const bool used = std::any_of(state.log.begin(), state.log.end(), [](const DeviceEvent& e) { return e.what == "pressed"; });
+  auto memory = deviceMemory(device_, scans_folder);
+  if (!used || memory == kept_) return;
+  const auto written = writeMemory(memoryFile(scans_folder, device_.type()), memory);
+  if (!written) device_.ask("failed", describe(written.error()));
+  kept_at_ = state.noted;   // a full disk is told once, not in every frame
+  kept_ = std::move(memory);
+}
+
 std::optional<Outcome> DeviceHost::update(const Document& document, const fs::path& scans_folder, double seconds, bool may_store) {
+  auto outcome = goOn(document, scans_folder, seconds, may_store);
+  keepMemory(scans_folder);
+  return outcome;
+}
+
+std::optional<Outcome> DeviceHost::goOn(const Document& document, const fs::path& scans_folder, double seconds, bool may_store) {
   if (document.job != known_of_) {
     known_of_ = document.job;
     device_.know(controlOf(document));

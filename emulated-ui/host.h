@@ -31,6 +31,10 @@ class DeviceHost {
   std::uint64_t seed = 1;
   bool truth = false;              // the files hold what is known of each point
 
+  // A project that is opened: the device gets back what it remembers in the folder of the scans, and remembers from here on.
+  // What cannot be read stays as it is, and nothing is written over it.
+  Result<void> remember(const std::filesystem::path& scans_folder);
+
   // Call once per frame. `seconds` since the last call; `scans_folder` empty while the project has no folder.
   // Gives `document` with the setup in it, and the undo line, when the device has stored one; whatever else was done to the
   // document meanwhile stays. `may_store` false: something else is changing the document just now, so a finished setup waits.
@@ -42,6 +46,8 @@ class DeviceHost {
   bool busy() const { return device_.busy() || task_ != nullptr; }
 
  private:
+  std::optional<Outcome> goOn(const Document& document, const std::filesystem::path& scans_folder, double seconds, bool may_store);
+  void keepMemory(const std::filesystem::path& scans_folder);
   void start(const Order& order, const Document& document, const std::filesystem::path& scans_folder);
   void startScan(const ScanOrder& order, const Document& document, const std::filesystem::path& scans_folder);
   Document leaning(Document document, const std::string& station) const;
@@ -59,7 +65,11 @@ class DeviceHost {
   std::shared_ptr<const Job> known_of_;     // whose places the device was told
   std::optional<Scan> finished_;   // waits for the device to store it
   std::string station_;            // of the finished scan
+  SettingValues notes_;            // of the scan that runs
   std::shared_ptr<const ScanPreview> preview_;   // that a task has read
+  bool remembers_ = false;
+  std::uint64_t kept_at_ = 0;      // events of the device when its memory was written last
+  nlohmann::json kept_;
 };
 
 }  // namespace standpoint

@@ -26,6 +26,8 @@ class Thinner final : public PointSink {
       values->assign(cells, std::numeric_limits<float>::quiet_NaN());
     intensity_.assign(cells, 0);
     preview_->grey.assign(cells, 0);
+    if (header.has_colour)
+      for (auto* values : {&preview_->red, &preview_->green, &preview_->blue}) values->assign(cells, 0);
     return {};
   }
 
@@ -38,6 +40,8 @@ class Thinner final : public PointSink {
       preview_->y_m[cell] = block.y_m[i];
       preview_->z_m[cell] = block.z_m[i];
       intensity_[cell] = block.intensity.empty() ? 1 : block.intensity[i];
+      if (preview_->red.empty() || block.red.empty()) continue;
+      preview_->red[cell] = block.red[i], preview_->green[cell] = block.green[i], preview_->blue[cell] = block.blue[i];
     }
     return {};
   }
@@ -66,6 +70,14 @@ class Thinner final : public PointSink {
 };
 
 }  // namespace
+
+std::array<std::uint8_t, 3> pixelOf(const ScanPreview& preview, std::size_t cell, const std::string& colouring) {
+  constexpr std::array<std::uint8_t, 3> kRed = {150, 20, 20};
+  const std::uint8_t grey = preview.grey[cell];
+  if (!std::isfinite(preview.x_m[cell]) && (colouring == "luminance" || colouring == "true_colour")) return kRed;
+  if (preview.red.empty() || colouring == "luminance" || colouring.empty()) return {grey, grey, grey};
+  return {preview.red[cell], preview.green[cell], preview.blue[cell]};
+}
 
 Result<std::shared_ptr<const ScanPreview>> readPreview(const std::filesystem::path& file, Progress& progress) {
   const auto* format = cloudFormatFor(file);

@@ -9,6 +9,7 @@
 #include "project/instruments.h"
 #include "project/model_verbs.h"
 #include "project/output_place.h"
+#include "scanners/chosen_effect.h"
 
 namespace standpoint {
 
@@ -133,6 +134,8 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const json& option
   if (!settings) return failure(settings.error());
   request.settings = *std::move(settings);
   request.instrument.camera = request.settings.camera;
+  if (const auto most = chosenEffect(request.instrument, request.settings.values, "most_returns"))
+    request.instrument.waveform.most_returns = static_cast<int>(*most);
   request.options.seed = options.at("seed").get<std::uint64_t>();
   if (auto effects = effectsFrom(options); effects)
     request.options.effects = *effects;
@@ -154,6 +157,7 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const json& option
     if (!mishap) return failure(mishap.error());
     request.mishap = *mishap;
   }
+  if (options.contains("note")) request.notes = options["note"].get<std::vector<std::string>>();
   request.levelling = {.compensator = options.at("compensator") == "on",
                        .exact = !request.options.effects.has(Effect::levelling),
                        .seed = request.options.seed};

@@ -50,6 +50,7 @@ ScanHeader headerOf(const Document& document, const ScanWorld& world, const Stat
   h.description =
       fmt::format("Simulated by Standpoint: {} {}, {}, seed {}{}", request.instrument.maker, request.instrument.model,
                   fmt::join(words, " "), request.options.seed, withoutText(request.options.effects));
+  for (const auto& note : request.notes) h.description += "; " + note;
   h.file_from_scanner = believed;
   h.file_from_scanner.translation += g.shift_m;
   h.rows = request.settings.rows;
@@ -119,7 +120,8 @@ Result<ScanCount> scanStation(const RayScene& scene, const ScanWorld& world, con
                               Report& report, Progress& progress) {
   std::unique_ptr<PointSink> coloured;
   if (request.panorama) {
-    auto panorama = takePanorama(scene, request.instrument, station.true_pose, request.options.threads, report, progress);
+    auto panorama = takePanorama(scene, request.instrument, station.true_pose, request.options.threads, report, progress,
+                                 meteringOf(request.instrument, request.settings.values));
     if (!panorama) return failure(panorama.error());
     coloured = colouring(file, std::make_shared<const Panorama>(*std::move(panorama)));
   }

@@ -276,7 +276,8 @@ class Reader : FigureReader {
         {"drop_mixed_mm", {0, 10000}}, {"drop_weak", {0, 1000}}, {"drop_overload", {0, 1}}, {"laser", {0, 1}},
         {"seconds_factor", {0.01, 100}}, {"picture_columns", {16, 32768}},
         {"picture_hdr", {0, 1}},     {"picture_metered", {0, 1}}, {"picture_stops", {-8, 8}},
-        {"picture_warmth", {-1, 1}}, {"picture_flash", {0, 1}}};
+        {"picture_warmth", {-1, 1}}, {"picture_flash", {0, 1}},
+        {"picture_metering", {0, 2}}};
     SettingChoice choice;
     choice.value = text(entry, "value");
     choice.label = text(entry, "label");

@@ -11,6 +11,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "scanners/chosen_effect.h"
 #include "scanners/panorama_rays.h"
 
 namespace standpoint {
@@ -22,9 +23,21 @@ constexpr float kAdaptation = 0.6F;         // how much of that it does: a dark 
 constexpr float kWarmth = 0.25F;            // more red and less blue, at the ends of a white balance
 constexpr double kBlend_rad = 3 * kPi / 180;
 
+// How much a row counts for the exposure: its area, and what the metering makes of its place. Half of the weight lies within
+// 14 degrees of the horizon, or above 52 degrees.
+double meteredWeight(PictureMetering metering, double polar_rad) {
+  const double area = std::sin(polar_rad);   // a row near a pole is short
+  switch (metering) {
+    case PictureMetering::even: break;
+    case PictureMetering::horizon: return area * std::pow(std::sin(polar_rad), 6);
+    case PictureMetering::zenith: return area * std::pow(std::max(0.0, std::cos(polar_rad)), 2);
+  }
+  return area;
+}
+
 // The exposure of each column, from the mean brightness of each shot: sectors of azimuth.
 std::vector<float> exposures(const std::vector<Light>& pixels, std::uint32_t width, std::uint32_t height,
-                             const PanoramaCamera& camera) {
+                             const PanoramaCamera& camera, PictureMetering metering) {
   const bool hdr = camera.hdr;
   const int shots = camera.shots;
   const auto given = static_cast<float>(std::exp2(camera.stops));
@@ -32,7 +45,7 @@ std::vector<float> exposures(const std::vector<Light>& pixels, std::uint32_t wid
   const auto count = static_cast<std::size_t>(hdr ? 1 : std::max(1, shots));
   std::vector<double> sum(count, 0), weight(count, 0);
   for (std::uint32_t y = 0; y < height; ++y) {
-    const double area = std::sin((y + 0.5) * kPi / height);   // a row near a pole is short
+    const double area = meteredWeight(metering, (y + 0.5) * kPi / height);
     for (std::uint32_t x = 0; x < width; ++x) {
       const std::size_t shot = x * count / width;
       sum[shot] += area * static_cast<double>(pixels[std::size_t{y} * width + x].min(1).mean());
@@ -99,8 +112,12 @@ const std::array<std::uint8_t, 3>& Panorama::at(const Eigen::Vector3d& point) co
   return pixels[cell(0.5 - elevation / kPi, height) * width + cell(0.5 - azimuth / (2 * kPi), width)];
 }
 
+PictureMetering meteringOf(const Instrument& instrument, const SettingValues& values) {
+  return static_cast<PictureMetering>(static_cast<int>(chosenEffect(instrument, values, "picture_metering").value_or(0)));
+}
+
 Result<Panorama> takePanorama(const RayScene& scene, const Instrument& instrument, const Pose& local_from_scanner,
-                              int threads, Report& report, Progress& progress) {
+                              int threads, Report& report, Progress& progress, PictureMetering metering) {
   Panorama panorama;
   panorama.width = instrument.camera.columns;
   panorama.height = panorama.width / 2;
@@ -119,7 +136,7 @@ Result<Panorama> takePanorama(const RayScene& scene, const Instrument& instrumen
     for (std::uint32_t x = 0; x < width; x += PanoramaRays::kAtOnce) rays.trace(y, x, &light[at + x]);
   });
   if (auto on = progress.check(); !on) return failure(on.error());
-  const std::vector<float> exposure = exposures(light, width, height, instrument.camera);
+  const std::vector<float> exposure = exposures(light, width, height, instrument.camera, metering);
   const auto warmth = static_cast<float>(instrument.camera.warmth);
   const Light balance(1 + kWarmth * warmth, 1, 1 - kWarmth * warmth);
   panorama.pixels.resize(light.size());

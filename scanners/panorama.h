@@ -27,11 +27,16 @@ struct Panorama {
   const std::array<std::uint8_t, 3>& at(const Eigen::Vector3d& point) const;
 };
 
+// Which part of what it sees an exposure is made for.
+enum class PictureMetering { even, horizon, zenith };
+// What the chosen settings say of it: the effect "picture_metering" of a choice; else even.
+PictureMetering meteringOf(const Instrument& instrument, const SettingValues& values);
+
 // Renders it, four rays for each pixel: the surfaces' colours, vertex colours and images, under the sky and a little light
 // from where the camera stands; what is transparent lets see through. Without HDR each of the instrument's shots has the exposure
 // that its own brightness asks for, blended over a few degrees with the next. Same pixels for any number of threads.
 Result<Panorama> takePanorama(const RayScene& scene, const Instrument& instrument, const Pose& local_from_scanner,
-                              int threads, Report& report, Progress& progress);
+                              int threads, Report& report, Progress& progress, PictureMetering metering = PictureMetering::even);
 
 // As a JPEG, for PointSink::picture.
 Result<StationPicture> pictureOf(const Panorama& panorama, const ScanHeader& header, double acquired_gps_s);

@@ -37,6 +37,9 @@ void watch(InstrumentDesk& desk) {
   desk.next_watched_s = desk.rehearsal->seconds() + 1.2;   // a second or so of the viewer's time
 }
 
+// Empty while the project has no folder.
+fs::path scansFolder(const Editor& editor) { return editor.session.folder().empty() ? fs::path() : editor.session.folder() / "scans"; }
+
 }  // namespace
 
 void act(InstrumentDesk& desk, const RehearsalAction& action) {
@@ -61,6 +64,7 @@ void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& de
     return;
   }
   desk.host = std::make_unique<DeviceHost>(*std::move(type), editor.session.document(), editor.wake);
+  if (auto recalled = desk.host->remember(scansFolder(editor)); !recalled) desk.refused = "The device has lost its memory: " + describe(recalled.error());
   desk.last = std::chrono::steady_clock::now();
 }
 
@@ -87,7 +91,7 @@ void advance(InstrumentDesk& desk, Editor& editor) {
     if (desk.rehearsal->document().job != before && editor.session.whyNotAdopt().empty())
       editor.session.adopt({desk.rehearsal->document(), nlohmann::json::object(), {}, "Scanned in exercise " + desk.rehearsal->exercise().id, {}});
   } else {
-    const auto scans = editor.session.folder().empty() ? fs::path() : editor.session.folder() / "scans";
+    const auto scans = scansFolder(editor);
     const bool may_store = editor.session.whyNotAdopt().empty();
     if (auto stored = desk.host->update(editor.session.document(), scans, seconds, may_store)) {
       editor.session.adopt(*std::move(stored));
@@ -98,7 +102,8 @@ void advance(InstrumentDesk& desk, Editor& editor) {
   if (!desk.view.texture)
     desk.view.texture = [&desk, &editor](const std::shared_ptr<const ScanPreview>& preview) -> std::uint64_t {
       if (editor.scene == nullptr || !preview) return 0;
-      if (desk.pictured != preview) desk.pictured = preview, desk.picture = pictureOf(*preview);
+      const auto wanted = std::pair(preview, desk.shown()->value("colouring"));
+      if (desk.pictured != wanted) desk.pictured = wanted, desk.picture = pictureOf(*preview, wanted.second);
       return editor.scene->texture(desk.picture);
     };
 }

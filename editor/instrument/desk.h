@@ -49,7 +49,7 @@ struct InstrumentDesk {
   std::chrono::steady_clock::time_point last = std::chrono::steady_clock::now();
   std::pair<std::filesystem::path, const Environment*> project{"?", nullptr};
   bool was_busy = false;
-  std::shared_ptr<const ScanPreview> pictured;      // what `picture` was made from
+  std::pair<std::shared_ptr<const ScanPreview>, std::string> pictured;   // what `picture` was made from, and its colouring
   std::shared_ptr<const PixelPicture> picture;
 
   Device* shown() { return rehearsal ? &rehearsal->device() : host ? &host->device() : nullptr; }

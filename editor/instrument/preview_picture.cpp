@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/instrument/preview_picture.h"
 
+#include "emulated-ui/preview.h"
+
 namespace standpoint {
 
-std::shared_ptr<const PixelPicture> pictureOf(const ScanPreview& preview) {
+std::shared_ptr<const PixelPicture> pictureOf(const ScanPreview& preview, const std::string& colouring) {
   auto picture = std::make_shared<PixelPicture>();
   picture->width = static_cast<int>(preview.columns);
   picture->height = static_cast<int>(preview.rows);
   picture->rgba.resize(preview.grey.size());
   for (std::uint32_t row = 0; row < preview.rows; ++row)
     for (std::uint32_t column = 0; column < preview.columns; ++column) {
-      const std::uint8_t grey = preview.grey[std::size_t{preview.rows - 1 - row} * preview.columns + column];
-      picture->rgba[std::size_t{row} * preview.columns + column] = {grey, grey, grey, 255};
+      const auto [red, green, blue] = pixelOf(preview, std::size_t{preview.rows - 1 - row} * preview.columns + column, colouring);
+      picture->rgba[std::size_t{row} * preview.columns + column] = {red, green, blue, 255};
     }
   return picture;
 }

@@ -9,6 +9,7 @@
 
 #include "emulated-ui/device/device.h"
 #include "emulated-ui/device/effects.h"
+#include "emulated-ui/device/format.h"
 
 namespace standpoint {
 
@@ -61,6 +62,7 @@ Result<void> createProject(Device& device, const std::string&) {
   project.first = *first;
   project.base = entry(device, "base");
   project.note = entry(device, "note");
+  if (project.note.empty()) project.note = device.value("customer");
   s.projects.push_back(std::move(project));
   s.project = static_cast<int>(s.projects.size()) - 1;
   s.shown = -1;
@@ -176,8 +178,11 @@ Result<void> linkNewest(Device& device, const std::string&) {
   return {};
 }
 
+// Of the formats that a device offers, those that are not the scans' own and can be written.
+std::string extensionOf(const std::string& format) { return format == "LAS" ? ".las" : format == "PTX" ? ".ptx" : ""; }
+
 Result<void> transferBy(Device& device, const char* by) {
-  TransferOrder order{{}, by};
+  TransferOrder order{{}, by, extensionOf(device.value("export_format"))};
   for (const auto& p : device.state().projects)
     for (const auto& setup : p.setups)
       if (!setup.transferred) order.files.push_back(setup.file);
@@ -189,6 +194,11 @@ Result<void> transferByCable(Device& device, const std::string&) { return transf
 Result<void> transferByWlan(Device& device, const std::string&) {
   if (!device.state().around.wlan) return failure(ErrorKind::usage, device.word("wlan_lost"));
   return transferBy(device, "wlan");
+}
+
+std::string projectText(const Device& device, const DeviceProject& project) {
+  const auto text = fmt::format("{}  ({})", project.name, project.setups.size());
+  return project.photo.empty() ? text : text + "  " + device.word("with_photo");
 }
 
 // Settings as the data sheet has them.
@@ -220,7 +230,7 @@ const std::vector<ListRow>& sharedLists() {
        [](const Device& d) {
          std::vector<WidgetOption> rows;
          for (std::size_t i = 0; i < d.state().projects.size(); ++i)
-           rows.push_back({std::to_string(i), fmt::format("{}  ({})", d.state().projects[i].name, d.state().projects[i].setups.size()), true, {}});
+           rows.push_back({std::to_string(i), projectText(d, d.state().projects[i]), true, {}});
          return rows;
        }},
       {"setups",
@@ -235,13 +245,20 @@ const std::vector<ListRow>& sharedLists() {
            }
          return rows;
        }},
+      {"record",
+       [](const Device& d) {
+         std::vector<WidgetOption> rows;
+         if (const auto* setup = d.shownSetup())
+           for (const auto& [key, text] : setup->notes) rows.push_back({key, d.word("note." + key) + "  " + text, true, {}});
+         return rows;
+       }},
       {"targets",
        [](const Device& d) {
          std::vector<WidgetOption> rows;
          const auto* setup = d.shownSetup() != nullptr ? d.shownSetup() : d.newestSetup();
          if (setup != nullptr)
            for (const auto& t : setup->targets)
-             rows.push_back({t.name, t.found ? fmt::format("{}  {:.2f} m  {} pts  {:.1f} mm", t.name, t.range_m, t.points, t.residual_m * 1000)
+             rows.push_back({t.name, t.found ? fmt::format("{}  {}  {} pts  {}", t.name, lengthText(t.range_m, d.showsFeet()), t.points, smallLengthText(t.residual_m, d.showsFeet()))
                                              : fmt::format("{}  {}", t.name, t.why_not), true, {}});
          return rows;
        }},

@@ -62,6 +62,7 @@ void readBody(JsonFields& root, BodyRow& body) {
   body.tilt_limit_deg = f.number("tilt_limit_deg", body.tilt_full_deg, 90);
   body.display_aspect = f.numberOr("display_aspect", 0.62, 0, 4);
   body.tablet = f.flagOr("tablet", false);
+  body.sleeps_after = f.textOr("sleeps_after", "");
   body.skin = f.text("skin");
   f.skip("sources");
   f.close();
@@ -90,6 +91,7 @@ ValueRow valueRow(JsonFields& f) {
   v.standard = f.textOr("standard", "");
   v.unit = f.textOr("unit", "");
   v.source = f.text("source");
+  v.kept = f.flagOr("kept", true);
   if (v.kind == WidgetKind::toggle) v.choices = {"on", "off"};
   if (v.kind == WidgetKind::number) {
     v.minimum = f.number("minimum", -1e9, 1e9);
@@ -100,6 +102,15 @@ ValueRow valueRow(JsonFields& f) {
   if (v.kind != WidgetKind::choice && v.kind != WidgetKind::toggle && v.kind != WidgetKind::text && v.kind != WidgetKind::number)
     f.wrong("kind", "a value is a choice, toggle, text or number");
   return v;
+}
+
+SensorRow sensorRow(JsonFields& f) {
+  SensorRow s;
+  s.id = f.wordOf("id", {"compass", "altimeter", "gps"});
+  s.value = f.textOr("value", "");
+  s.sigma = f.number("sigma", 1e-3, 1000);
+  s.source = f.text("source");
+  return s;
 }
 
 template <class Row>
@@ -130,6 +141,7 @@ Result<DeviceDefinition> readDefinition(const std::filesystem::path& file) {
   readBody(root, d.body);
   root.list("phases", [&](JsonFields& f) { d.phases.push_back(phaseRow(f)); });
   root.list("values", [&](JsonFields& f) { d.values.push_back(valueRow(f)); });
+  root.list("sensors", [&](JsonFields& f) { d.sensors.push_back(sensorRow(f)); });
   root.list("keys", [&](JsonFields& f) { d.keys.push_back(widgetRow(f)); });
   root.list("screens", [&](JsonFields& f) {
     ScreenRow s;
@@ -153,6 +165,7 @@ Result<DeviceDefinition> readDefinition(const std::filesystem::path& file) {
   refuseTwins(fault, d.screens, "/screens");
   refuseTwins(fault, d.dialogs, "/dialogs");
   refuseTwins(fault, d.keys, "/keys");
+  refuseTwins(fault, d.sensors, "/sensors");
   if (fault.error()) return failure(*fault.error());
   return d;
 }

@@ -70,6 +70,15 @@ struct ValueRow {
   double minimum = 0, maximum = 0;
   std::string unit;
   std::string source;
+  bool kept = true;              // over the day: false for what is true of the moment, such as a connection
+};
+
+// A sensor whose reading stands in the record of each scan.
+struct SensorRow {
+  std::string id;                // "compass", "altimeter", "gps"
+  std::string value;             // of this file that switches it; empty: it is always on
+  double sigma = 0;              // 1 σ in degrees or metres, as it is stated with the reading
+  std::string source;
 };
 
 // What the body can bear and hold.
@@ -85,6 +94,7 @@ struct BodyRow {
   double tilt_limit_deg = 0;                  // beyond this it does not work
   double display_aspect = 0.62;               // width over height; 0 = no display
   bool tablet = false;                        // the display is a tablet's
+  std::string sleeps_after;                   // value of this file: minutes at rest, "never"; empty: its display does not sleep
   std::string skin;
 };
 
@@ -99,6 +109,7 @@ struct DeviceDefinition {
   std::vector<ScreenRow> screens;
   std::vector<WidgetRow> keys;                // on the body
   std::vector<DialogRow> dialogs;
+  std::vector<SensorRow> sensors;
 };
 
 Result<DeviceDefinition> readDefinition(const std::filesystem::path& file);

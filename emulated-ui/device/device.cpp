@@ -15,6 +15,7 @@ namespace standpoint {
 namespace {
 
 constexpr std::size_t kLongestLog = 20000;
+constexpr double kAsleepDrain = 0.5;   // [P] what a device uses while its display is dark
 
 bool namesPhase(const char* from, const std::string& phase, bool on) {
   std::istringstream words(from);
@@ -84,6 +85,12 @@ bool Device::busy() const {
   return order_.has_value() || (phase != nullptr && !phase->lasts.empty() && !phase->waits);
 }
 
+bool Device::asleep() const {
+  const auto& value_id = type_->definition.body.sleeps_after;
+  const double minutes = value_id.empty() ? 0 : std::strtod(value(value_id).c_str(), nullptr);
+  return on() && minutes > 0 && state_.untouched_s >= 60 * minutes;
+}
+
 std::string Device::value(const std::string& id) const {
   const auto found = state_.values.find(id);
   return found == state_.values.end() ? std::string() : found->second;
@@ -137,6 +144,7 @@ double Device::tilt() const {
 }
 
 void Device::note(const std::string& what, const std::string& detail) {
+  ++state_.noted;
   if (state_.log.size() < kLongestLog) state_.log.push_back({state_.clock_s, what, detail});
 }
 
@@ -167,6 +175,7 @@ bool Device::fire(const std::string& event) {
 void Device::enter(const PhaseRow& phase) {
   state_.phase = phase.id;
   state_.elapsed_s = 0;
+  wake();
   state_.dialog.clear();
   if (!phase.screen.empty() && phase.screen != state_.screen) {
     state_.came_from.clear();
@@ -193,6 +202,7 @@ void Device::show(const std::string& screen) {
 void Device::ask(const std::string& dialog, const std::string& detail) {
   state_.dialog = dialog;
   state_.dialog_detail = detail;
+  wake();
   note("dialog", dialog);
 }
 
@@ -205,13 +215,19 @@ std::optional<double> Device::leftOfPhase() const {
 
 void Device::pass(double seconds) {
   const auto* phase = findPhase(type_->definition, state_.phase);
+  auto& around = state_.around;
+  state_.clock_s += seconds;
+  around.acclimatised_s += seconds;
+  const double drain = !phase->on || around.mains ? 0 : asleep() ? kAsleepDrain : 1;
+  around.battery = std::max(0.0, around.battery - drain * seconds / type_->definition.body.battery_s);
+  state_.untouched_s = busy() ? 0 : state_.untouched_s + seconds;
   state_.elapsed_s += seconds;
   if (state_.running && !phase->lasts.empty()) state_.scanned_s += seconds;
   if (state_.running && phase->laser) state_.laser_s += seconds;
 }
 
 // The device's clock and the simulation behind it run side by side: a phase whose time is over stays until what it waits
-// for is there.
+// for is there. The real instrument would be done by then, so meanwhile the clock stands still and the battery keeps.
 void Device::run(double seconds) {
   for (int i = 0; i < 1000; ++i) {
     const auto left = on() ? leftOfPhase() : std::nullopt;
@@ -219,7 +235,9 @@ void Device::run(double seconds) {
     pass(step);
     seconds -= step;
     if (!left || step < *left) return;
-    if (!fire("elapsed")) return pass(seconds);
+    if (fire("elapsed")) continue;
+    if (findPhase(type_->definition, state_.phase)->waits) pass(seconds);   // for people, whose time is real
+    return;
   }
 }
 
@@ -243,12 +261,7 @@ void Device::watchBattery(double before) {
 
 void Device::tick(double seconds) {
   if (!(seconds > 0)) return;
-  state_.clock_s += seconds;
-  auto& around = state_.around;
-  around.acclimatised_s += seconds;
-  if (!on()) return;
-  const double before = around.battery;
-  if (!around.mains) around.battery = std::max(0.0, around.battery - seconds / type_->definition.body.battery_s);
+  const double before = state_.around.battery;
   run(seconds);
   watchBattery(before);
 }

@@ -107,6 +107,9 @@ class Device {
   void acceptOrientation();
   double expectedBytes() const;
   double tilt() const;                                // degrees
+  bool showsFeet() const { return value("units") == "feet"; }
+  // At rest for so long that its display went dark: what is pressed next only wakes it.
+  bool asleep() const;
 
  private:
   FactLookup facts() const;
@@ -117,6 +120,7 @@ class Device {
   void enter(const PhaseRow& phase);
   std::optional<double> leftOfPhase() const;
   void pass(double seconds);
+  void wake() { state_.untouched_s = 0; }
   void run(double seconds);
   void watchBattery(double before);
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "emulated-ui/device/device.h"
+#include "emulated-ui/device/format.h"
 #include "emulated-ui/device/numbers.h"
 #include "emulated-ui/device/settings.h"
 
@@ -43,6 +44,12 @@ const WidgetRow* Device::rowOf(const std::string& id) const {
 }
 
 Result<void> Device::act(const std::string& id, const std::string& value) {
+  const bool slept = asleep();
+  wake();
+  if (slept) {
+    note("woken");
+    return {};
+  }
   const Screen now = screen();
   if (now.has_dialog) {
     const auto& rows = findDialog(type_->definition, state_.dialog)->buttons;
@@ -83,6 +90,8 @@ Result<void> Device::bind(const WidgetRow& row, const Widget& widget, const std:
     const auto number = numberIn(value);
     if (!number || *number < widget.minimum || *number > widget.maximum)
       return failure(ErrorKind::usage, fmt::format("a number from {} to {} is needed", widget.minimum, widget.maximum), row.id);
+    if (widget.unit == "ft") value = fmt::format("{:.6g}", *number * kMetresPerFoot);
+    if (widget.unit == "°F") value = fmt::format("{:.6g}", (*number - 32) / 1.8);
   } else if (widget.kind == WidgetKind::text) {
     if (auto ok = checkEntry(value, row.id); !ok) return ok;
   }

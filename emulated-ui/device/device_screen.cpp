@@ -7,6 +7,8 @@
 
 #include "emulated-ui/device/costs.h"
 #include "emulated-ui/device/device.h"
+#include "emulated-ui/device/format.h"
+#include "emulated-ui/device/numbers.h"
 #include "emulated-ui/device/settings.h"
 
 namespace standpoint {
@@ -69,6 +71,17 @@ std::vector<WidgetOption> listRows(const Device& device, const std::string& name
   return {};
 }
 
+// What is typed on a device that shows feet.
+void turnIntoFeet(Widget& w) {
+  if (w.kind != WidgetKind::number || (w.unit != "m" && w.unit != "°C")) return;
+  const bool length = w.unit == "m";
+  const auto turned = [&](double x) { return length ? x / kMetresPerFoot : x * 1.8 + 32; };
+  if (const auto number = numberIn(w.value)) w.value = fmt::format("{:.5g}", turned(*number));
+  w.minimum = turned(w.minimum);
+  w.maximum = turned(w.maximum);
+  w.unit = length ? "ft" : "°F";
+}
+
 void addArea(const Device& device, Widget& w) {
   for (const char* key : {"horizontal_from", "horizontal_to", "vertical_from", "vertical_to"})
     w.options.push_back({device.setting(key), key, true, {}});
@@ -111,6 +124,7 @@ std::optional<Widget> Device::widget(const WidgetRow& row) const {
     w.options = {{fmt::format("{:.4f}", state_.around.tilt_x_deg), "x", true, {}}, {fmt::format("{:.4f}", state_.around.tilt_y_deg), "y", true, {}}};
     w.maximum = type_->definition.body.tilt_limit_deg;
   }
+  if (showsFeet()) turnIntoFeet(w);
   if (!row.shows.empty()) w.value = row.shows.find('{') == std::string::npos ? shown(row.shows) : filled(*this, row.shows, {});
   if (row.kind == WidgetKind::progress || row.kind == WidgetKind::number) w.number = std::strtod(w.value.c_str(), nullptr);
   if (row.kind == WidgetKind::progress) w.number = fact(row.shows).value_or(numberFact(0)).number.value_or(0);
@@ -131,7 +145,8 @@ Screen Device::screen() const {
   const auto& d = type_->definition;
   for (const auto& row : d.keys)
     if (auto w = widget(row)) s.body.push_back(*std::move(w));
-  if (!on()) return s;
+  if (!on() || asleep()) return s;
+  if (const auto light = numberIn(value("brightness"))) s.light = *light / 100;
   const auto* screen = findScreen(d, state_.screen);
   if (screen != nullptr) {
     s.id = screen->id;

@@ -14,6 +14,25 @@ constexpr double kDustNoise = 2;        // [P] instrument facts §3.3 M01: twice
 constexpr double kColdNoise = 1.5;      // [P] an instrument that is not used to its temperature
 constexpr std::size_t kLongestName = 60;
 
+// Who measured for whom, for the file's record.
+SettingValues notesOf(const Device& device) {
+  SettingValues notes;
+  if (const auto name = device.value("operator"); !name.empty()) notes.emplace_back("operator", name);
+  if (const auto* project = device.project(); project != nullptr && !project->note.empty()) notes.emplace_back("project", project->note);
+  return notes;
+}
+
+std::vector<std::string> sensorsOn(const Device& device) {
+  std::vector<std::string> on;
+  for (const auto& sensor : device.type().definition.sensors)
+    if (sensor.value.empty() || device.value(sensor.value) == "on") on.push_back(sensor.id);
+  return on;
+}
+
+bool hasReading(const StoredSetup& setup, const char* sensor) {
+  return std::any_of(setup.notes.begin(), setup.notes.end(), [&](const auto& note) { return note.first == sensor; });
+}
+
 }  // namespace
 
 Result<void> checkName(const std::string& name) {
@@ -45,6 +64,8 @@ void beginScan(Device& device) {
   if (s.around.acclimatised_s < type.definition.body.warm_up_s) order.noise_factor *= kColdNoise;
   order.tilt_x_deg = s.around.tilt_x_deg;
   order.tilt_y_deg = s.around.tilt_y_deg;
+  order.sensors = sensorsOn(device);
+  order.notes = notesOf(device);
   if (s.around.somebody_walks) order.walker_at_share = 0.5;
   s.around.somebody_walks = false;
   if (type.program.prepare != nullptr) type.program.prepare(device, order);
@@ -103,8 +124,10 @@ void orderLink(Device& device) {
   const auto* project = device.project();
   if (project == nullptr || project->setups.size() < 2) return;
   const auto& setups = project->setups;
-  LinkOrder order{setups[setups.size() - 1].file, setups[setups.size() - 2].file};
-  order.turn_deg = falseStart(device);
+  const auto &newer = setups[setups.size() - 1], &older = setups[setups.size() - 2];
+  LinkOrder order{newer.file, older.file};
+  // Compasses tell a room's two sides apart.
+  if (!hasReading(newer, "compass") || !hasReading(older, "compass")) order.turn_deg = falseStart(device);
   device.give(std::move(order));
 }
 

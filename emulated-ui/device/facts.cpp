@@ -100,6 +100,7 @@ std::string levelState(const Device& d) {
 const std::vector<FactRow>& sharedFacts() {
   static const std::vector<FactRow> rows = {
       {"power", Unit::none, {{"on", "off"}}, [](const Device& d) { return wordFact(d.on() ? "on" : "off"); }, "whether the device has power"},
+      {"asleep", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(d.asleep()); }, "its display went dark at rest"},
       {"clock", Unit::seconds, numbers(0, 1e9), [](const Device& d) { return numberFact(d.state().clock_s); }, "seconds of the device's own time"},
       {"phase.lasts", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(phaseLasts(d)); }, "seconds that the phase takes"},
       {"phase.elapsed", Unit::seconds, numbers(0, 1e9), [](const Device& d) { return numberFact(d.state().elapsed_s); }, "seconds in the phase"},
@@ -115,6 +116,7 @@ const std::vector<FactRow>& sharedFacts() {
       {"card.free", Unit::bytes, numbers(0, 1e16), [](const Device& d) { return numberFact(freeBytes(d)); }, "bytes that can be written"},
       {"card.scans_left", Unit::none, numbers(0, 1e9),
        [](const Device& d) { return numberFact(std::floor(freeBytes(d) / std::max(1.0, d.expectedBytes()))); }, "scans of these settings that still fit"},
+      {"cover", Unit::none, {{"open", "closed"}}, [](const Device& d) { return wordFact(around(d).cover_open ? "open" : "closed"); }, "of the compartment for battery and memory"},
       {"temperature", Unit::celsius, numbers(-60, 90), [](const Device& d) { return numberFact(around(d).temperature_c); }, "of the instrument"},
       {"temperature.state", Unit::none, {{"good", "cold", "hot"}}, [](const Device& d) { return wordFact(temperatureState(d)); }, "by the device's limits"},
       {"warm", Unit::none, yesOrNo(), [](const Device& d) { return wordFact(warmState(d)); }, "it is used to its temperature"},
@@ -275,7 +277,7 @@ std::string Device::shown(const std::string& name) const {
   if (found->text.empty() && !found->number) return "–";
   if ((found->text == "yes" || found->text == "no" || found->text == "on" || found->text == "off") && !found->number) return word(found->text);
   if (!found->number && type_->words->has(type_->definition.id, name + "=" + found->text, "en")) return word(name + "=" + found->text);
-  return factText(*found, unit);
+  return factText(*found, unit, showsFeet());
 }
 
 }  // namespace standpoint

@@ -22,7 +22,13 @@ std::string pointsText(double points) {
   return points >= 1e5 ? fmt::format("{:.1f} M", points / 1e6) : fmt::format("{:.0f}", points);
 }
 
-std::string factText(const Fact& fact, FactUnit unit) {
+std::string lengthText(double metres, bool feet) { return feet ? fmt::format("{:.2f} ft", metres / kMetresPerFoot) : fmt::format("{:.2f} m", metres); }
+
+std::string smallLengthText(double metres, bool feet) {
+  return feet ? fmt::format("{:.3f} in", metres / kMetresPerFoot * 12) : fmt::format("{:.1f} mm", metres * 1000);
+}
+
+std::string factText(const Fact& fact, FactUnit unit, bool feet) {
   if (!fact.number) return fact.text;
   const double n = *fact.number;
   switch (unit) {
@@ -31,10 +37,10 @@ std::string factText(const Fact& fact, FactUnit unit) {
     case FactUnit::seconds: return clockText(n);
     case FactUnit::bytes: return bytesText(n);
     case FactUnit::points: return pointsText(n);
-    case FactUnit::metres: return fmt::format("{:.2f} m", n);
+    case FactUnit::metres: return lengthText(n, feet);
     case FactUnit::degrees: return fmt::format("{:.3f}°", n);
-    case FactUnit::celsius: return fmt::format("{:.0f} °C", n);
-    case FactUnit::millimetres: return fmt::format("{:.1f} mm", n);
+    case FactUnit::celsius: return feet ? fmt::format("{:.0f} °F", n * 1.8 + 32) : fmt::format("{:.0f} °C", n);
+    case FactUnit::millimetres: return smallLengthText(n / 1000, feet);
   }
   return fact.text;
 }

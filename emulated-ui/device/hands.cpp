@@ -115,6 +115,7 @@ Result<void> standAt(Device& d, const std::string& station) {
   a.station = station;
   d.change().sighted.clear();
   d.change().orientation.reset();
+  d.change().entries.erase("pointer");
   d.fire("set_down");
   return {};
 }
@@ -128,6 +129,11 @@ Result<void> goNear(Device& d, const std::string&) {
 // Whoever stood before a target is asked to go away.
 Result<void> clearView(Device& d, const std::string&) {
   d.change().around.targets_visible = true;
+  return {};
+}
+
+Result<void> closeCover(Device& d, const std::string&) {
+  d.change().around.cover_open = false;
   return {};
 }
 
@@ -148,6 +154,7 @@ const std::vector<HandRow>& handRows() {
       {"level", "", level},                {"tilt", "x,y in degrees", tiltTo}, {"wipe_optics", "", wipeOptics},
       {"stand_at", "station", standAt},    {"push", "", push},
       {"go_near", "", goNear},             {"clear_view", "", clearView},
+      {"close_cover", "", closeCover},
   };
   return rows;
 }
@@ -209,6 +216,7 @@ const std::vector<TroubleRow>& troubleRows() {
       {"target_hidden", [](Device& d) { d.change().around.targets_visible = false; }},
       {"symmetrical_room", [](Device& d) { d.change().values["false_start"] = "180"; }},   // degrees
       {"somebody_walks", [](Device& d) { d.change().around.somebody_walks = true; }},
+      {"cover_open", [](Device& d) { d.change().around.cover_open = true; }},
       {"too_near", [](Device& d) { d.change().around.nearest_m = 0.3; }},
   };
   return rows;

@@ -32,6 +32,8 @@ struct ScanOrder {
   std::optional<double> bumped_at_share;   // the tripod was pushed then
   std::optional<double> walker_at_share;   // somebody walks by then
   double tilt_x_deg = 0, tilt_y_deg = 0;   // of the standing axis when it began
+  std::vector<std::string> sensors;        // ids of the definition's that are on and leave a reading
+  SettingValues notes;             // key and text: what goes into the file's record, such as who measured
 };
 
 // How a setup joins an earlier one: cloud to cloud.
@@ -81,6 +83,7 @@ struct ScanPreview {
   std::uint32_t columns = 0, rows = 0;      // row 0 is the lowest
   std::vector<float> x_m, y_m, z_m;         // in the scanner's frame; NaN: nothing came back
   std::vector<std::uint8_t> grey;           // intensity, stretched
+  std::vector<std::uint8_t> red, green, blue;   // empty: the scan has no colours
 };
 struct PreviewOrder {
   std::string file;
@@ -90,6 +93,7 @@ struct PreviewOrder {
 struct TransferOrder {
   std::vector<std::string> files;
   std::string by;                  // "card", "cable", "wlan"
+  std::string extension;           // of the copies: ".las"; empty: as the files are
 };
 
 using Order = std::variant<ScanOrder, LinkOrder, TargetOrder, PreviewOrder, TransferOrder, SightOrder>;
@@ -115,6 +119,7 @@ struct StoredSetup {
   std::vector<FittedTarget> targets;
   double plan_x_m = 0, plan_y_m = 0;   // where it is thought to stand, for the plan
   std::shared_ptr<const ScanPreview> preview;   // once it was asked for
+  SettingValues notes;             // key and text: readings of the sensors, who measured
 };
 
 }  // namespace standpoint

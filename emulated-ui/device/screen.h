@@ -60,6 +60,7 @@ struct Screen {
   std::vector<Widget> body;             // keys and lamps; always there
   bool has_dialog = false;
   Dialog dialog;                        // over the widgets, which wait meanwhile
+  double light = 1;                     // of the display, as a share
 };
 
 // On the dialogue, the screen or the body, in this order; null when it is nowhere.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -28,6 +29,7 @@ struct Surroundings {
   bool wlan = true;
   bool targets_visible = true;
   bool somebody_walks = false;     // will cross the next scan
+  bool cover_open = false;         // of the compartment for battery and memory
 };
 
 struct DeviceProject {
@@ -38,6 +40,7 @@ struct DeviceProject {
   std::string cluster;             // folder for the next scans
   std::vector<StoredSetup> setups;
   std::vector<ControlPlace> carried;   // targets as accepted station set-ups gave them: what a traverse goes on from
+  std::string photo;               // "", or where its picture is from: "take", "existing"
 };
 
 // Something that happened, for exercises and the replay: pressed, refused, stored, …
@@ -74,6 +77,8 @@ struct DeviceState {
   std::vector<SightedTarget> sighted;                // from where the tripod stands
   std::optional<StationOrientation> orientation;     // of where it stands
   std::vector<DeviceEvent> log;
+  double untouched_s = 0;          // at rest, since somebody pressed something or the device had something to say
+  std::uint64_t noted = 0;         // events so far, with those that the log had no room for
 };
 
 }  // namespace standpoint

@@ -45,6 +45,16 @@ void titleBar(const Pen& pen, const Screen& screen, float width, float height) {
   ImGui::Dummy({width, height});
 }
 
+// A display that is not lit fully, over what was drawn before.
+void dim(double light, ImVec2 at, ImVec2 size) {
+  const auto dark = static_cast<ImU32>(150 * (1 - light) * (1 - light));
+  if (dark == 0) return;
+  ImGui::SetCursorScreenPos(at);
+  if (ImGui::BeginChild("light", size, false, ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoInputs))
+    ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + size.x, at.y + size.y}, dark << IM_COL32_A_SHIFT);
+  ImGui::EndChild();
+}
+
 // A card over the dimmed screen.
 void dialogCard(Pen& pen, const Dialog& dialog, ImVec2 at, ImVec2 size) {
   ImDrawList* list = ImGui::GetWindowDrawList();
@@ -118,7 +128,9 @@ std::optional<Press> drawDevice(const Device& device, DeviceView& view, float wi
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_ScrollbarSize, 0.7F * unit);
   ImGui::PushID(definition.id.c_str());
-  if (ImGui::BeginChild("display", {display_width, display_height}, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse) && !dark) {
+  const bool open = ImGui::BeginChild("display", {display_width, display_height}, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+  if (open && device.asleep() && ImGui::InvisibleButton("asleep", {display_width, display_height})) pen.press = Press{"display", {}};
+  if (open && !dark) {
     const ImVec2 inside = ImGui::GetCursorScreenPos();
     titleBar(pen, screen, display_width, 2.3F * unit);
     ImGui::PushID(screen.id.c_str());
@@ -133,6 +145,7 @@ std::optional<Press> drawDevice(const Device& device, DeviceView& view, float wi
     ImGui::EndChild();
     ImGui::EndDisabled();
     ImGui::PopID();
+    dim(screen.light, inside, {display_width, display_height});
     if (screen.has_dialog) {
       pen.press.reset();
       ImGui::SetCursorScreenPos(inside);

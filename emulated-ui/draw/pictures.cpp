@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 
 #include <fmt/format.h>
@@ -120,6 +121,10 @@ void drawPreview(Pen& pen, const Widget& w) {
   const ImVec2 size{pen.width, pen.width * aspect};
   const bool has = picture(pen, preview, at, size);
   if (!has) centred(ImGui::GetWindowDrawList(), at, size, IM_COL32(200, 204, 210, 255), w.label);
+  double u = 0, v = 0;   // where its laser pointer rests
+  const auto spot = pen.device.fact("pointer.range");
+  if (spot && spot->number.value_or(0) > 0 && std::sscanf(pen.device.entry("pointer").c_str(), "%lf,%lf", &u, &v) == 2)
+    ImGui::GetWindowDrawList()->AddCircleFilled({at.x + size.x * static_cast<float>(u), at.y + size.y * static_cast<float>(v)}, 0.35F * pen.unit, IM_COL32(255, 30, 20, 255), 16);
   if (area(pen, ("##" + w.id).c_str(), at, size, w.enabled && has)) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     pen.pressed(w.id, fmt::format("{:.4f},{:.4f}", std::clamp((mouse.x - at.x) / size.x, 0.0F, 0.9999F), std::clamp((mouse.y - at.y) / size.y, 0.0F, 0.9999F)));

@@ -20,6 +20,12 @@ constexpr const char* kHolding = "spin_up scanning paused photographing saving e
 constexpr double kSpinUp_s = 9;             // [S6]: 8 to 10 s
 constexpr double kDisplayColumns = 1.00684;   // the display counts the overlap, too: 10310 of 10240 [S7]
 
+// Of rows the display counts both ends: 150 degrees are 4266.67 steps of 1/4 and 4268 rows [S7].
+double displayRows(const ScanSettings& settings) {
+  const double step = (settings.azimuth_to_rad - settings.azimuth_from_rad) / std::max(1U, settings.columns);
+  return std::round((settings.elevation_to_rad - settings.elevation_from_rad) / step + 1);
+}
+
 // Start values of the factory profiles are proposals [P]; the names are general knowledge [G1].
 struct Profile {
   const char* name;
@@ -112,7 +118,7 @@ void prepare(const Device& device, ScanOrder& order) {
 const FactDomain kNumber{{}, true, 0, 1e9};
 
 const DeviceRoles kRoles = {
-    .working = kWorking, .measuring = "scanning", .holding = kHolding, .kept = "saving",
+    .working = kWorking, .measuring = "scanning", .camera = "spin_up paused photographing", .holding = kHolding, .kept = "saving",
     .scans = "view_scans", .tools = "service",
     .tilted = "level != good and value.inclinometer == on", .near = "nearest < 0.6", .first = "spin_up",
     .begin = beginScan,
@@ -148,7 +154,8 @@ const DeviceProgram kProgram = {
     {{"profile", FactUnit::none, {}, [](const Device& d) { return wordFact(profileName(d)); }, "the chosen profile; a star where it was changed"},
      {"expected.saving", FactUnit::seconds, kNumber, [](const Device& d) { return numberFact(std::max(3.0, d.type().instrument.overhead_s - kSpinUp_s)); }, "warm-up columns and saving"},
      {"eye_safety", FactUnit::none, {}, [](const Device&) { return wordFact("7.50 m / 2.8 m"); }, "axial and radial distance of eye safety [S7]"},
-     {"display.columns", FactUnit::none, kNumber, [](const Device& d) { return numberFact(std::round(d.expected().columns * kDisplayColumns)); }, "columns as the display counts them"}},
+     {"display.columns", FactUnit::none, kNumber, [](const Device& d) { return numberFact(std::round(d.expected().columns * kDisplayColumns)); }, "columns as the display counts them"},
+     {"display.rows", FactUnit::none, kNumber, [](const Device& d) { return numberFact(displayRows(d.expected())); }, "rows as the display counts them"}},
     {{"profiles", profileRows}},
     prepare,
 };

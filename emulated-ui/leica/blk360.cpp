@@ -222,6 +222,8 @@ Result<void> optimise(Device& d, const std::string&) {
 
 Result<void> send(Device& d, const std::string&) {
   if (d.value("server").empty()) return failure(ErrorKind::usage, d.word("no_server"));
+  for (const char* id : {"server", "port"})   // the office's listens where the file says
+    if (d.value(id) != findValue(d.type().definition, id)->standard) return failure(ErrorKind::usage, d.word("no_answer"));
   if (!d.state().around.wlan) return failure(ErrorKind::usage, d.word("wlan_lost"));
   TransferOrder order{{}, "wlan"};
   for (const auto& p : d.state().projects)
@@ -232,8 +234,10 @@ Result<void> send(Device& d, const std::string&) {
   return {};
 }
 
-// Who presses the key and stays is in the scan.
+// Who presses the key and stays is in the scan. The first generation keeps the way from the setup before in its data.
 void prepare(const Device& d, ScanOrder& order) {
+  if (isG1(d) && d.value("tracking") == "on" && d.state().around.tracking && d.newestSetup() != nullptr)
+    order.notes.emplace_back("way", d.newestSetup()->name);
   if (entry(d, "by") == "key" && d.fact("value.self_timer")->number.value_or(0) < kOperatorGone_s && !order.walker_at_share)
     order.walker_at_share = 0.0;
 }

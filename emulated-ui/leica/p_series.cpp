@@ -67,15 +67,10 @@ void transferLevelled(Device& d) { transfer(d, false); }
 
 double numberOf(const Device& d, const char* value) { return d.fact(value)->number.value_or(0); }
 
-// The instrument's own filters, and its compensator.
+// The instrument's own filter of weak points, and its compensator; the range gates are settings of the scan.
 void prepare(const Device& d, ScanOrder& order) {
   order.compensator = order.compensator && d.value("compensator") == "on";
-  const double nearest = numberOf(d, "value.min_range"), farthest = numberOf(d, "value.max_range");
   const double weakest = numberOf(d, "value.min_intensity");
-  std::string range;
-  if (nearest > 0) range = fmt::format("from={:g}", nearest);
-  if (farthest > 0) range += fmt::format("{}to={:g}", range.empty() ? "" : ",", farthest);
-  if (!range.empty()) order.filters.push_back("range:" + range);
   if (weakest > 0) order.filters.push_back(fmt::format("intensity:from={:g}", weakest / 100));
 }
 
@@ -83,7 +78,8 @@ const DeviceRoles kRoles = {
     .working = kWorking, .measuring = kLaserOrCamera, .camera = "imaging paused", .holding = kHolding,
     .kept = "finishing",
     .home = "", .scans = "setups", .targets = "setup_targets", .tools = "tools",
-    .first_questions = {{"idle", "start", "value.compensator == on and level == out", "", "", "level_question", nullptr,
+    .first_questions = {{"idle", "start", "cover == open", "", "", "cover_open", nullptr, "G1"},
+                        {"idle", "start", "value.compensator == on and level == out", "", "", "level_question", nullptr,
                          "G1"}},
     .last_questions = {{"idle", "start", "orientation.accepted == no", "", "", "no_setup_question", nullptr, "P"},
                        {"idle", "start", "setting.images == only", "imaging", "", "", beginScan, "G1"}},

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "emulated-ui/device/device.h"
+#include "emulated-ui/device/format.h"
 #include "emulated-ui/device/settings.h"
 #include "emulated-ui/leica/p_series.h"
 
@@ -163,7 +164,7 @@ std::string coordinates(const Device& d) {
   const auto* o = here(d);
   if (o == nullptr || o->method.empty()) return "";
   if (o->local) return "0.000  0.000  0.000";
-  const Eigen::Vector3d p = o->pose.translation + d.state().control.shift_m;
+  const Eigen::Vector3d p = (o->pose.translation + d.state().control.shift_m) / (d.showsFeet() ? kMetresPerFoot : 1);
   return fmt::format("{:.3f}  {:.3f}  {:.3f}", p.x(), p.y(), p.z());
 }
 
@@ -260,7 +261,7 @@ const std::vector<ListRow>& setupLists() {
        [](const Device& d) {
          std::vector<WidgetOption> rows;
          for (const auto& s : d.state().sighted) {
-           std::string row = fmt::format("{} {}  {:.2f} m  {} pts  {:.1f} mm", s.used ? "•" : "–", s.id, s.place_m.norm(), s.points, s.residual_m * 1000);
+           std::string row = fmt::format("{} {}  {}  {} pts  {}", s.used ? "•" : "–", s.id, lengthText(s.place_m.norm(), d.showsFeet()), s.points, smallLengthText(s.residual_m, d.showsFeet()));
            rows.push_back({s.id, row, true, {}});
          }
          return rows;
@@ -269,7 +270,7 @@ const std::vector<ListRow>& setupLists() {
        [](const Device& d) {
          std::vector<WidgetOption> rows;
          if (const auto* o = here(d))
-           for (const auto& t : o->targets) rows.push_back({t.id, fmt::format("{}  {:.1f} mm", t.id, t.residual_m * 1000), true, {}});
+           for (const auto& t : o->targets) rows.push_back({t.id, t.id + "  " + smallLengthText(t.residual_m, d.showsFeet()), true, {}});
          return rows;
        }},
   };

@@ -31,7 +31,7 @@ void prepare(const Device& device, ScanOrder& order) {
 }
 
 const DeviceRoles kRoles = {
-    .rest = kIdle, .idle = kIdle, .working = kWorking, .measuring = kWorking, .laser = kLaser, .holding = kHolding,
+    .rest = kIdle, .idle = kIdle, .working = kWorking, .measuring = kWorking, .laser = kLaser, .camera = "photographing", .holding = kHolding,
     .kept = "finishing",
     .scans = "setups", .tools = "tools",
     .tilted = "level == out", .near = "nearest < 0.5", .first = "scanning_pass_1", .begin = beginScan,

@@ -88,7 +88,7 @@ json marksOf(const Rehearsal& rehearsal, const std::string& student, const std::
     for (const auto& setup : project.setups) files.push_back({{"file", setup.file}, {"station", setup.station}, {"points", setup.points}});
   const bool in_time = !rehearsal.overTime();
   return {{"exercise", e.id}, {"title", e.title.in(language)}, {"device", rehearsal.device().type().definition.title},
-          {"instrument", rehearsal.device().type().instrument.id}, {"student", student}, {"passed", must && in_time && score >= e.pass_mark},
+          {"instrument", rehearsal.device().type().instrument.id}, {"student", student}, {"operator", rehearsal.device().value("operator")}, {"passed", must && in_time && score >= e.pass_mark},
           {"score", score}, {"pass_mark", e.pass_mark}, {"seconds", rehearsal.seconds()}, {"time_limit_s", e.time_limit_s}, {"in_time", in_time},
           {"steps", std::move(steps)}, {"rules", std::move(rules)}, {"actions", std::move(actions)}, {"files", std::move(files)}};
 }
@@ -130,7 +130,8 @@ std::string marksHtml(const json& m, const Rehearsal& rehearsal) {
       escaped(m["exercise"].get<std::string>() + " · " + m["title"].get<std::string>()));
   html += fmt::format("<p class=\"mark {}\"><b>{}</b>, {:.0f} % of the points ({:.0f} % are needed)</p>\n", passed ? "yes" : "no", passed ? "Passed" : "Not passed",
                       m["score"].get<double>() * 100, m["pass_mark"].get<double>() * 100);
-  html += fmt::format("<p>{}{} · {} of the device's time</p>\n", m["student"].get<std::string>().empty() ? "" : escaped(m["student"]) + " · ", escaped(m["device"]),
+  const auto named = [&](const char* who, const char* as) { return m[who].get<std::string>().empty() ? "" : as + escaped(m[who]) + " · "; };
+  html += fmt::format("<p>{}{}{} · {} of the device's time</p>\n", named("student", ""), named("operator", "operator "), escaped(m["device"]),
                       clockText(m["seconds"].get<double>()));
   html += "<table><tr><th>Step or demand</th><th>Expected</th><th>Found</th><th class=\"n\">Points</th></tr>\n";
   const auto row = [&](const json& r, bool held, std::string found) {

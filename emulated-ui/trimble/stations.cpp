@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,16 @@ namespace {
 
 constexpr std::size_t kLatest = 5, kNearest = 3;
 const std::string kAnnotation = "annotation.";  // + file and number: a value of the device
+
+// "u,v", shares of the picture from its upper left; nothing where no point came back.
+std::optional<Eigen::Vector3d> pointerSpot(const ScanPreview& picture, const std::string& at) {
+  double u = 0, v = 0;
+  if (std::sscanf(at.c_str(), "%lf,%lf", &u, &v) != 2 || !(u >= 0 && u < 1 && v >= 0 && v < 1)) return std::nullopt;
+  const auto column = static_cast<std::size_t>(u * picture.columns), row = static_cast<std::size_t>((1 - v) * picture.rows);
+  const std::size_t cell = std::min<std::size_t>(row, picture.rows - 1) * picture.columns + column;
+  if (!std::isfinite(picture.x_m[cell])) return std::nullopt;
+  return Eigen::Vector3d(picture.x_m[cell], picture.y_m[cell], picture.z_m[cell]);
+}
 
 }  // namespace
 
@@ -64,6 +75,29 @@ std::vector<WidgetOption> annotationRows(const Device& device) {
     for (const auto& [id, text] : device.state().values)
       if (id.starts_with(kAnnotation + setup->file + ".")) rows.push_back({id, text, true, {}});
   return rows;
+}
+
+Result<void> switchPointer(Device& device, const std::string&) {
+  device.change().entries.erase("pointer");
+  return {};
+}
+
+// With the pointer on a tap turns it to that spot of the station view, if the scanner still stands where that was scanned.
+Result<void> measureOrPoint(Device& device, const std::string& at) {
+  if (device.value("pointer") != "on") return sharedAction(device, "measure", at);
+  const auto* setup = device.shownSetup();
+  if (setup == nullptr || !setup->preview) return failure(ErrorKind::usage, device.word("no_preview"));
+  if (setup->station != device.state().around.station) return failure(ErrorKind::usage, device.word("pointer_elsewhere"));
+  if (!pointerSpot(*setup->preview, at)) return failure(ErrorKind::usage, device.word("no_point"));
+  device.change().entries["pointer"] = at;
+  device.note("pointed", at);
+  return {};
+}
+
+std::optional<Eigen::Vector3d> pointerSpot(const Device& device) {
+  const auto* setup = device.shownSetup();
+  if (device.value("pointer") != "on" || setup == nullptr || !setup->preview || setup->station != device.state().around.station) return std::nullopt;
+  return pointerSpot(*setup->preview, device.entry("pointer"));
 }
 
 double unmeasured(const Device& device) {

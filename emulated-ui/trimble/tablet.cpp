@@ -12,16 +12,24 @@ namespace {
 
 constexpr double kWlan_bytes_per_s = 20e6, kCable_bytes_per_s = 40e6;  // [P]
 
-Result<void> shared(Device& device, std::string_view name) {
-  for (const auto& action : sharedActions())
-    if (name == action.name) return action.act(device, {});
-  return failure(ErrorKind::internal, "there is no such action");
+// With its picture.
+Result<void> create(Device& device) {
+  if (auto ok = sharedAction(device, "create_project"); !ok) return ok;
+  const auto photo = device.value("project_photo");
+  device.project()->photo = photo == "none" ? "" : photo;
+  return {};
 }
 
 }  // namespace
 
+Result<void> sharedAction(Device& device, std::string_view name, const std::string& value) {
+  for (const auto& action : sharedActions())
+    if (name == action.name) return action.act(device, value);
+  return failure(ErrorKind::internal, "there is no such action");
+}
+
 Result<void> proposeNew(Device& device, const std::string&) {
-  if (auto ok = shared(device, "propose_project"); !ok) return ok;
+  if (auto ok = sharedAction(device, "propose_project"); !ok) return ok;
   const auto user = device.value("operator");
   device.change().entries["note"] = clockText(device.state().clock_s) + (user.empty() ? "" : ", " + user);
   return {};
@@ -32,11 +40,11 @@ Result<void> createNew(Device& device, const std::string&) {
   auto& entries = device.change().entries;
   if (entries["name"].empty()) {
     const auto typed = entries;
-    if (auto ok = shared(device, "propose_project"); !ok) return ok;
+    if (auto ok = sharedAction(device, "propose_project"); !ok) return ok;
     entries["first"] = typed.at("first");
     entries["note"] = typed.at("note");
   }
-  return shared(device, "create_project");
+  return create(device);
 }
 
 bool startIndexValid(const Device& device) {

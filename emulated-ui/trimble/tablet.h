@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "emulated-ui/device/device.h"
@@ -10,6 +12,7 @@
 // (scan_panel.cpp), stations (stations.cpp).
 namespace standpoint::trimble {
 
+Result<void> sharedAction(Device& device, std::string_view name, const std::string& value = {});
 Result<void> proposeNew(Device& device, const std::string&);
 Result<void> createNew(Device& device, const std::string&);  // an empty name takes the one that is proposed
 bool startIndexValid(const Device& device);
@@ -34,6 +37,9 @@ void storeArea(Device& device);  // a window of a station stands where that stat
 std::vector<WidgetOption> stationRows(const Device& device);
 Result<void> addAnnotation(Device& device, const std::string&);
 std::vector<WidgetOption> annotationRows(const Device& device);
+Result<void> switchPointer(Device& device, const std::string&);
+Result<void> measureOrPoint(Device& device, const std::string& at);
+std::optional<Eigen::Vector3d> pointerSpot(const Device& device);   // what the laser pointer rests on, in the scanner's frame
 double unmeasured(const Device& device);                    // share of the picture on view
 std::vector<WidgetOption> errorRows(const Device& device);  // level and description [S15]
 

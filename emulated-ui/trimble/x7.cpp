@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "core/units.h"
 #include "emulated-ui/device/default_transitions.h"
 #include "emulated-ui/device/effects.h"
 #include "emulated-ui/trimble/links.h"
@@ -69,6 +72,13 @@ std::string pairOnView(const Device& device) {
   return setup == nullptr ? "" : setupBefore(device, *setup)->name + " – " + setup->name;
 }
 
+std::string pointerAngles(const Device& device) {
+  const auto spot = pointerSpot(device);
+  if (!spot) return "";
+  const double azimuth = -std::atan2(spot->y(), spot->x()) / kRadPerDeg, zenith = std::acos(spot->z() / spot->norm()) / kRadPerDeg;
+  return fmt::format("H {:.1f}°  V {:.1f}°", azimuth < 0 ? azimuth + 360 : azimuth, zenith);
+}
+
 std::string stateOnView(const Device& device) {
   const auto* setup = linkedSetup(device);
   return setup == nullptr ? "none" : registrationOf(device, *setup);
@@ -116,6 +126,11 @@ const std::vector<FactRow> kFacts = {
      "largest error of the project's links"},
     {"stations.registered", FactUnit::none, upTo(1e6),
      [](const Device& d) { return numberFact(registeredStations(d)); }, "joined to the first, which is always"},
+    {"pointer.range", FactUnit::metres, upTo(1e6),
+     [](const Device& d) { return numberFact(pointerSpot(d).value_or(Eigen::Vector3d::Zero()).norm()); },
+     "from the scanner to what its laser pointer rests on; 0: it was turned nowhere"},
+    {"pointer.angles", FactUnit::none, kAnyWord, [](const Device& d) { return wordFact(pointerAngles(d)); },
+     "of the laser pointer: horizontal, and from the zenith"},
     {"shown.unmeasured", FactUnit::share, upTo(1), [](const Device& d) { return numberFact(unmeasured(d)); },
      "of the picture of the station on view"},
 };
@@ -200,6 +215,8 @@ const DeviceProgram kProgram = {
      {"choose_link", chooseLink},
      {"apply_link", applyLink},
      {"reject_link", rejectLink},
+     {"switch_pointer", switchPointer},
+     {"measure_or_point", measureOrPoint},
      {"add_annotation", addAnnotation}},
     kFacts,
     {{"modes", modeRows},

@@ -321,6 +321,10 @@ TEST(Blk360, SendsToTheServerBlueAndFormats) {
   ASSERT_TRUE(d.press({"home", "transfer", "server=", "send"}));
   EXPECT_EQ(d.dialog(), "refused") << "there is no address";
   ASSERT_TRUE(d.press({"ok", "server=10.0.0.2", "send"}));
+  EXPECT_EQ(d.dialog(), "refused") << "there the office does not listen";
+  ASSERT_TRUE(d.press({"ok", "server=192.168.1.10", "port=81", "send"}));
+  EXPECT_EQ(d.dialog(), "refused");
+  ASSERT_TRUE(d.press({"ok", "port=8080", "send"}));
   EXPECT_EQ(d.shows("lamp"), "blue");
   const auto order = d->takeOrder();
   d->transferDone(std::get<TransferOrder>(*order).files);

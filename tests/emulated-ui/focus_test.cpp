@@ -31,7 +31,7 @@ TEST_F(Focus, ShowsTheRowOfTheRealDisplay) {
   EXPECT_EQ(d.shows("million_points"), "43.7 M");
   EXPECT_EQ(d.shows("file_size"), "136.4 MB");
   EXPECT_EQ(d.fact("expected.spacing").substr(0, 5), "6.135");
-  EXPECT_EQ(d.shows("scan_size").substr(0, 5), "10310");
+  EXPECT_EQ(d.shows("scan_size"), "10310 × 4268");
 }
 
 // Lowest quality by the mirror's limit: 1x for 1/1 to 1/4, 2x for 1/5 and 1/8, 3x for 1/10 and 1/16, 4x below.
@@ -129,6 +129,22 @@ TEST_F(Focus, KeepsAPartialScanWhenTheBatteryBecomesCritical) {
   ASSERT_TRUE(d->trouble("battery_critical"));
   EXPECT_EQ(d.phase(), "saving");
   EXPECT_EQ(d.dialog(), "battery_critical");
+}
+
+TEST_F(Focus, CarriedAwayWhileItPhotographsIsTheSameTroubleAsWhileItScans) {
+  ready();
+  ASSERT_TRUE(d.press({"parameters", "colour=on", "back", "start_scan"}));
+  d.scanned();
+  d->tick(9 + d->fact("expected.sweep")->number.value());
+  ASSERT_EQ(d.phase(), "photographing");
+  ASSERT_TRUE(d->hand("stand_at", "S2"));
+  EXPECT_EQ(d.phase(), "error");
+  EXPECT_EQ(d.dialog(), "moved");
+  ASSERT_TRUE(d.press({"ok", "keep"}));
+  EXPECT_TRUE(d.scanned().bumped_at_share.has_value());
+  d.settle();
+  EXPECT_EQ(d.fact("newest.moved"), "yes");
+  EXPECT_EQ(d->newestSetup()->station, "S1");
 }
 
 TEST_F(Focus, UsesMarksAndKeepsProfiles) {

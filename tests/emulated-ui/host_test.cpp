@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "emulated-ui/host.h"
+#include "pointclouds/formats.h"
 #include "tests/emulated-ui/support.h"
 #include "tests/project/support.h"
 
@@ -65,7 +66,10 @@ TEST_F(Host, AScanThroughTheDeviceGivesTheSameBytesAsTheVerb) {
   EXPECT_EQ(fs::path(scan.file), folder_.path() / "scans" / "House" / "Setup 001.e57");
   EXPECT_EQ(stored->description, "Scanned 'Setup 001' at S1 with Leica RTC360");
   const auto direct = folder_.path() / "direct.e57";
-  ASSERT_TRUE(run("scan", document_, {{"instrument", "leica-rtc360"}, {"set", {"resolution=12mm", "images=off"}}, {"seed", 1}, {"output", direct.string()}}));
+  nlohmann::json notes = nlohmann::json::array();
+  for (const auto& [key, text] : device().newestSetup()->notes) notes.push_back(key + "=" + text);
+  EXPECT_EQ(notes.size(), 3U) << "compass, altimeter, GPS";
+  ASSERT_TRUE(run("scan", document_, {{"instrument", "leica-rtc360"}, {"set", {"resolution=12mm", "images=off"}}, {"seed", 1}, {"note", notes}, {"output", direct.string()}}));
   EXPECT_TRUE(bytes(scan.file) == bytes(direct));
 }
 
@@ -87,6 +91,21 @@ TEST_F(Host, ShowsMeasuresAndHandsOverTheScanAtOnce) {
   runOrder();
   EXPECT_EQ(device().state().dialog, "transferred");
   EXPECT_TRUE(bytes(folder_.path() / "office" / "House - Setup 001.e57") == bytes(device().state().projects[0].setups[0].file));
+}
+
+TEST_F(Host, ACopyInAnotherFormatHoldsTheSamePoints) {
+  press({"scan"});
+  const auto stored = runUntilIdle(1);
+  ASSERT_TRUE(stored);
+  document_ = stored->document;
+  const auto& setup = *device().newestSetup();
+  device().give(TransferOrder{{setup.file}, "cable", ".las"});
+  runOrder();
+  const auto copy = folder_.path() / "office" / "House - Setup 001.las";
+  const auto info = cloudFormatFor(copy)->info(copy);
+  ASSERT_TRUE(info) << describe(info.error());
+  EXPECT_EQ(info->scans.at(0).points, setup.points);
+  EXPECT_EQ(device().fact("setups.transferred")->number, 1);
 }
 
 TEST_F(Host, AStoppedScanLeavesNoFileAndNoSetup) {

@@ -272,7 +272,19 @@ TEST_F(PSeries, EachSettingActsOnTimePointsOrTheOrder) {
   EXPECT_LT(d->expected().camera.warmth, 0);
   ASSERT_TRUE(d.press({"back", "filter_page", "min_range=1", "max_range=50", "min_intensity=20", "back", "main_menu"}));
   scanWithoutSetup();
-  EXPECT_EQ(d.scanned().filters, (std::vector<std::string>{"range:from=1,to=50", "intensity:from=0.2"}));
+  EXPECT_EQ(d.scanned().filters, (std::vector<std::string>{"intensity:from=0.2"}));
+  EXPECT_EQ(d.fact("setting.nearest_m"), "1") << "the gates are settings of the scan, and nothing else cuts the range";
+  EXPECT_EQ(d.fact("setting.farthest_m"), "50");
+}
+
+TEST_F(PSeries, DoesNotScanWithItsCoverOpen) {
+  ready();
+  ASSERT_TRUE(d->trouble("cover_open"));
+  ASSERT_TRUE(d.press({"scan_page", "scan"}));
+  EXPECT_EQ(d.dialog(), "cover_open");
+  ASSERT_TRUE(d->hand("close_cover"));
+  ASSERT_TRUE(d.press({"ok", "scan"}));
+  EXPECT_EQ(d.dialog(), "no_setup_question");
 }
 
 TEST_F(PSeries, ImageOnlyLeavesTheLaserOff) {

@@ -196,7 +196,7 @@ TEST_F(Rtc360, DiscardsTheSetupWhenStoppedAfterAsking) {
   ASSERT_TRUE(d.press({"stop", "yes"}));
   EXPECT_TRUE(d->takeCancel());
   EXPECT_FALSE(d->busy());
-  d->tick(1000);
+  d->tick(500);
   EXPECT_FALSE(d->takeStored());
   EXPECT_EQ(d.shows("next_setup"), "1");
 }
@@ -331,6 +331,19 @@ TEST_F(Rtc360, ExplainsEachWidgetWithWhatItCostsAndWhereItIs) {
   EXPECT_NE(help.find("High (3 mm @ 10 m): 2:42"), std::string::npos) << help;
   EXPECT_NE(help.find("169.4 M"), std::string::npos) << help;
   EXPECT_NE(help.find("Home › Scan settings"), std::string::npos) << help;
+}
+
+TEST_F(Rtc360, CarriedAwayWhileItPhotographsIsTheSameTroubleAsWhileItScans) {
+  ready();
+  ASSERT_TRUE(d.press({"settings", "images=on", "back", "scan"}));
+  d.scanned();
+  d->tick(d->fact("expected.scan")->number.value());
+  ASSERT_EQ(d.phase(), "photographing");
+  ASSERT_TRUE(d->hand("stand_at", "S2"));
+  EXPECT_EQ(d.phase(), "error");
+  EXPECT_EQ(d.dialog(), "moved");
+  ASSERT_TRUE(d.press({"ok", "discard"}));
+  EXPECT_EQ(d.fact("setups"), "0");
 }
 
 }  // namespace

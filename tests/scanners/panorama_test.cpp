@@ -97,6 +97,23 @@ TEST(Panorama, HasAnExposureForEachShotUnlessBracketsMakeOne) {
   EXPECT_GT(step(each), step(one) + 3);
 }
 
+// A dark ceiling over white walls: made for the zenith, the picture is lighter than made for the horizon.
+TEST(Panorama, ExposesForThePartOfTheViewThatIsMetered) {
+  SceneBuilder builder;
+  const auto bright = builder.surface(0.95F), dark = builder.surface(0.1F);
+  builder.box({-5, -5, -5}, {5, 5, 5}, true, bright);
+  builder.quad({-4.9, -4.9, 4.9}, {0, 9.8, 0}, {9.8, 0, 0}, dark);
+  const auto scene = builder.build();
+  const auto wall = [&](PictureMetering metering) {
+    Report report;
+    Progress progress;
+    const auto panorama = takePanorama(*scene, withCamera(360, 0, true, 1), {}, 1, report, progress, metering);
+    return static_cast<int>(panorama->pixels[100 * 360 + 180][1]);
+  };
+  EXPECT_LT(wall(PictureMetering::horizon) + 3, wall(PictureMetering::even));
+  EXPECT_LT(wall(PictureMetering::even) + 3, wall(PictureMetering::zenith));
+}
+
 // A white wall and a black board in its plane, oblique and with other corners, so that each ray rounds them differently.
 TEST(Panorama, ShowsOneOfTwoFacesThatLieInOnePlane) {
   const Eigen::Vector3d ahead = Eigen::Vector3d(0.83, 0.31, 0.17).normalized();
