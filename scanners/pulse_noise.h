@@ -18,7 +18,7 @@ struct PulseNoise {
 };
 
 // The same block that core/random.h's philox() gives for (column, row, channel), sixteen rows at a time; 24 bits of each
-// word make the uniform numbers, so a normal number is at most 5.9. Same numbers with and without AVX2.
+// word make the uniform numbers, so a normal number is at most 5.9. The same numbers by AVX-512, by AVX2 and without.
 void pulseNoise(const RandomKey& key, std::uint32_t column, std::uint32_t first_row, NoiseChannel channel, PulseNoise& noise);
 
 }  // namespace standpoint
