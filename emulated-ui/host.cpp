@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 
 #include <fmt/format.h>
 
@@ -56,20 +57,47 @@ LinkResult linkFrom(const json& answer, const Document& solved) {
   return link;
 }
 
-// Copies byte for byte and looks at the sizes afterwards.
+constexpr std::size_t kCopiedAtOnce = 4U << 20U;
+
+// Byte for byte under another name until all is there: a copy that was broken off is not taken for a whole one.
+Result<void> copyFile(const fs::path& from, const fs::path& to, double from_share, double to_share, Progress& progress) {
+  std::error_code error;
+  const auto size = fs::file_size(from, error);
+  if (error) return failure(ErrorKind::file_system, "cannot copy: " + error.message(), from.string());
+  fs::path part = to;
+  part += ".part";
+  std::ifstream in(from, std::ios::binary);
+  std::ofstream out(part, std::ios::binary);
+  std::vector<char> buffer(kCopiedAtOnce);
+  for (std::uintmax_t done = 0; in && out && done < size;) {
+    if (auto going = progress.check(); !going) {
+      out.close();
+      fs::remove(part, error);
+      return failure(going.error());
+    }
+    in.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+    out.write(buffer.data(), in.gcount());
+    done += static_cast<std::uintmax_t>(in.gcount());
+    progress.advance(std::lerp(from_share, to_share, static_cast<double>(done) / static_cast<double>(size)));
+  }
+  out.close();
+  if (!out || fs::file_size(part, error) != size || error) return failure(ErrorKind::file_system, "the copy has another size", to.string());
+  fs::rename(part, to, error);
+  if (error) return failure(ErrorKind::file_system, "cannot copy: " + error.message(), to.string());
+  return {};
+}
+
 Result<Outcome> copyFiles(const Document& document, const TransferOrder& order, const fs::path& folder, Progress& progress) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder.string());
   json copied = json::array();
+  const double each = 1.0 / static_cast<double>(order.files.size());
   for (const auto& file : order.files) {
-    if (auto going = progress.check(); !going) return failure(going.error());
     const fs::path to = folder / (fs::path(file).parent_path().filename().string() + " - " + fs::path(file).filename().string());
-    fs::copy_file(file, to, fs::copy_options::overwrite_existing, error);
-    if (error) return failure(ErrorKind::file_system, "cannot copy: " + error.message(), file);
-    if (fs::file_size(file, error) != fs::file_size(to, error)) return failure(ErrorKind::file_system, "the copy has another size", to.string());
+    const double from_share = static_cast<double>(copied.size()) * each;
+    if (auto done = copyFile(file, to, from_share, from_share + each, progress); !done) return failure(done.error());
     copied.push_back(file);
-    progress.advance(static_cast<double>(copied.size()) / static_cast<double>(order.files.size()));
   }
   return Outcome{document, copied, {}, {}, {}};
 }
@@ -274,6 +302,12 @@ void DeviceHost::collect(const Document& document) {
   device_.orderFailed(describe(outcome.error()));
 }
 
+// The phase's time is over and the simulation is not: the device's clock stands, or a slow computer would empty its battery.
+bool DeviceHost::waitsForTask() const {
+  const double lasts = device_.fact("phase.lasts")->number.value_or(0);
+  return task_ != nullptr && device_.on() && lasts > 0 && device_.state().elapsed_s >= lasts;
+}
+
 std::optional<Outcome> DeviceHost::update(const Document& document, const fs::path& scans_folder, double seconds, bool may_store) {
   if (document.job != known_of_) {
     known_of_ = document.job;
@@ -294,7 +328,7 @@ std::optional<Outcome> DeviceHost::update(const Document& document, const fs::pa
   if (!task_)
     if (const auto order = device_.takeOrder()) start(*order, document, scans_folder);
   collect(document);
-  device_.tick(seconds * time_factor);
+  if (!waitsForTask()) device_.tick(seconds * time_factor);
   if (!may_store) return std::nullopt;
   if (const auto orientation = device_.takeOriented()) {
     if (auto done = oriented(document, *orientation)) return *std::move(done);

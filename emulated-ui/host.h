@@ -48,6 +48,7 @@ class DeviceHost {
   void startFiltered(const std::string& title, const ScanOrder& order, const Document& document, const nlohmann::json& options);
   void startWork(const std::string& title, const Document& document, Task::Work work);
   void collect(const Document& document);
+  bool waitsForTask() const;
   Result<Outcome> oriented(const Document& document, const StationOrientation& orientation) const;
   void takeResult(Outcome outcome, const Document& document);
 
