@@ -8,6 +8,7 @@
 
 #include "editor/instrument/preview_picture.h"
 #include "emulated-ui/rehearsal/marks.h"
+#include "project/instruments.h"
 #include "project/project_files.h"
 
 namespace standpoint {
@@ -28,6 +29,18 @@ fs::path freshFolder(const std::string& id) {
   }
 }
 
+// What a device can drive; the one for any scanner drives all that stand on a tripod, also the user's own.
+std::vector<std::pair<std::string, std::string>> scannersOf(const DeviceType& type) {
+  const auto& drives = type.definition.instruments;
+  const auto named = [&](const std::string& id) { return std::find(drives.begin(), drives.end(), id) != drives.end(); };
+  std::vector<std::pair<std::string, std::string>> found;
+  const auto known = knownInstruments();
+  if (!known) return found;
+  for (const auto& i : *known)
+    if (!i.moving && (named("*") || named(i.id))) found.emplace_back(i.id, i.maker + " " + i.model);
+  return found;
+}
+
 void watch(InstrumentDesk& desk) {
   const auto& solution = desk.rehearsal->exercise().solution;
   if (desk.guidance != Guidance::watched || desk.watched >= solution.size() || desk.rehearsal->host().busy()) return;
@@ -45,7 +58,7 @@ void act(InstrumentDesk& desk, const RehearsalAction& action) {
   if (desk.rehearsal) done = desk.rehearsal->act(action, quiet);
   else if (action.kind == Kind::press) done = desk.shown()->act(action.name, action.value);
   else if (action.kind == Kind::hand) done = desk.shown()->hand(action.name, action.value);
-  desk.refused = done ? std::string() : done.error().message;
+  desk.view.said = done ? std::string() : done.error().message;
   desk.view.pointed.clear();
   if (done && desk.recording) desk.recorded.push_back(action);
 }
@@ -55,11 +68,13 @@ void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& de
   desk.instrument = instrument;
   desk.host.reset();
   desk.refused.clear();
+  desk.view.said.clear();
   auto type = loadDevice(device, instrument);
   if (!type) {
     desk.problem = describe(type.error());
     return;
   }
+  desk.scanners = scannersOf(**type);
   desk.host = std::make_unique<DeviceHost>(*std::move(type), editor.session.document(), editor.wake);
   desk.last = std::chrono::steady_clock::now();
 }
