@@ -67,10 +67,33 @@ Result<std::vector<StoredSetup>> scannedHouse(const fs::path& folder) {
   return setups;
 }
 
-// In the phase that shows the screen, else at rest.
+// The phase that shows the screen, rather with the laser on; else the one that waits for the next scan.
+const PhaseRow& phaseFor(const DeviceDefinition& d, const std::string& screen) {
+  const PhaseRow *own = nullptr, *rest = nullptr;
+  for (const auto& p : d.phases) {
+    if (p.on && p.screen == screen && (own == nullptr || (p.laser && !own->laser))) own = &p;
+    if (p.on && p.lamp.starts_with("green") && (p.lasts.empty() || p.waits)) rest = &p;
+  }
+  if (own == nullptr && rest == nullptr) return d.phases.at(1);
+  return own != nullptr ? *own : *rest;
+}
+
+// What only some devices have.
+void putDetails(Device& device, const std::string& screen, const std::vector<StoredSetup>& setups) {
+  auto& s = device.change();
+  if (const auto* connection = findValue(device.type().definition, "connection"); connection != nullptr && connection->choices.front() == "OK")
+    s.values["connection"] = screen == "connect" ? "Disconnected" : "OK";
+  if (screen == "error") s.entries["error"] = "Device_Moved", s.moved = true;
+  for (const auto& setup : setups) s.values["registration." + setup.file] = "registered";
+  for (const char* action : {"propose_project", "propose_new", "propose_position", "propose_pattern", "propose_area"})
+    for (const auto* rows : {&device.type().program.actions, &sharedActions()})
+      for (const auto& row : *rows)
+        if (std::string(row.name) == action) (void)row.act(device, {});
+}
+
 void putInto(Device& device, const std::string& screen, const std::vector<StoredSetup>& setups, const std::string& language) {
   auto& s = device.change();
-  const auto& d = device.type().definition;
+  const auto& phase = phaseFor(device.type().definition, screen);
   s.language = language;
   s.values["language"] = language;
   s.around.station = "S2";
@@ -85,17 +108,17 @@ void putInto(Device& device, const std::string& screen, const std::vector<Stored
   s.project = 0;
   s.shown = 1;
   for (const auto& setup : setups) s.around.card_used_bytes += setup.bytes;
-  s.entries["name"] = "House";
-  s.entries["measured"] = "3.4180";
-  const auto own = std::find_if(d.phases.begin(), d.phases.end(), [&](const PhaseRow& p) { return p.on && p.screen == screen; });
-  const auto rest = std::find_if(d.phases.begin(), d.phases.end(), [](const PhaseRow& p) { return p.on && p.lasts.empty() && !p.laser; });
-  s.phase = own != d.phases.end() ? own->id : rest->id;
-  if (own != d.phases.end() && !own->lasts.empty()) {
+  s.phase = phase.id;
+  s.screen = screen;
+  s.elapsed_s = 0.4 * device.fact("phase.lasts")->number.value_or(0);
+  if (phase.screen == screen && !phase.lasts.empty() && !phase.waits) {
     s.running = ScanOrder{};
     s.data = StoredSetup{};
     s.scanned_s = 0.4 * (device.expected().scan_seconds + device.expected().imaging_seconds);
   }
-  s.screen = screen;
+  putDetails(device, screen, setups);
+  s.entries["measured"] = "3.4180";
+  s.entries["tapped"] = "0.21,0.55;0.62,0.5";
 }
 
 }  // namespace
@@ -117,6 +140,7 @@ Result<int> drawDevicePictures(Offscreen& offscreen, const fs::path& folder, con
       Device device(*type);
       if (!screen.empty()) putInto(device, screen, *setups, language);
       DeviceView view;
+      view.still = true;
       std::shared_ptr<const PixelPicture> picture;
       view.texture = [&](const std::shared_ptr<const ScanPreview>& preview) {
         if (!picture) picture = pictureOf(*preview);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 
 #include <fmt/format.h>
 
@@ -67,25 +68,51 @@ Result<void> copyAs(const fs::path& from, const fs::path& to, Report& report, Pr
   return {};
 }
 
-// Copies byte for byte and looks at the sizes afterwards.
+constexpr std::size_t kCopiedAtOnce = 4U << 20U;
+
+// Byte for byte under another name until all is there: a copy that was broken off is not taken for a whole one.
+Result<void> copyFile(const fs::path& from, const fs::path& to, double from_share, double to_share, Progress& progress) {
+  std::error_code error;
+  const auto size = fs::file_size(from, error);
+  if (error) return failure(ErrorKind::file_system, "cannot copy: " + error.message(), from.string());
+  fs::path part = to;
+  part += ".part";
+  std::ifstream in(from, std::ios::binary);
+  std::ofstream out(part, std::ios::binary);
+  std::vector<char> buffer(kCopiedAtOnce);
+  for (std::uintmax_t done = 0; in && out && done < size;) {
+    if (auto going = progress.check(); !going) {
+      out.close();
+      fs::remove(part, error);
+      return failure(going.error());
+    }
+    in.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+    out.write(buffer.data(), in.gcount());
+    done += static_cast<std::uintmax_t>(in.gcount());
+    progress.advance(std::lerp(from_share, to_share, static_cast<double>(done) / static_cast<double>(size)));
+  }
+  out.close();
+  if (!out || fs::file_size(part, error) != size || error) return failure(ErrorKind::file_system, "the copy has another size", to.string());
+  fs::rename(part, to, error);
+  if (error) return failure(ErrorKind::file_system, "cannot copy: " + error.message(), to.string());
+  return {};
+}
+
 Result<Outcome> copyFiles(const Document& document, const TransferOrder& order, const fs::path& folder, Progress& progress) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder.string());
   json copied = json::array();
   Report report;
+  const double each = 1.0 / static_cast<double>(order.files.size());
   for (const auto& file : order.files) {
     if (auto going = progress.check(); !going) return failure(going.error());
     fs::path to = folder / (fs::path(file).parent_path().filename().string() + " - " + fs::path(file).filename().string());
+    const double from_share = static_cast<double>(copied.size()) * each;
+    const auto done = order.extension.empty() ? copyFile(file, to, from_share, from_share + each, progress)
+                                              : copyAs(file, to.replace_extension(order.extension), report, progress);
+    if (!done) return failure(done.error());
     copied.push_back(file);
-    if (!order.extension.empty()) {
-      if (auto ok = copyAs(file, to.replace_extension(order.extension), report, progress); !ok) return failure(ok.error());
-      continue;
-    }
-    fs::copy_file(file, to, fs::copy_options::overwrite_existing, error);
-    if (error) return failure(ErrorKind::file_system, "cannot copy: " + error.message(), file);
-    if (fs::file_size(file, error) != fs::file_size(to, error)) return failure(ErrorKind::file_system, "the copy has another size", to.string());
-    progress.advance(static_cast<double>(copied.size()) / static_cast<double>(order.files.size()));
   }
   return Outcome{document, copied, report, {}, {}};
 }

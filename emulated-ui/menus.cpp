@@ -25,7 +25,7 @@ constexpr std::array kDevices = {
     EmulatedDevice{"faro-focus", "FARO Focus", focusProgram},
     EmulatedDevice{"trimble-x7", "Trimble X7 / X9", x7Program},
     EmulatedDevice{"riegl-vz-i", "RIEGL VZ-i", vzIProgram},
-    EmulatedDevice{"generic", "Laser scanner", genericProgram},   // last: for scanners that no other drives
+    EmulatedDevice{"generic", "Any laser scanner", genericProgram},   // last: for scanners that no other drives
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "scanners/panorama.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -132,8 +133,10 @@ Result<Panorama> takePanorama(const RayScene& scene, const Instrument& instrumen
       if (!progress.cancelled()) work(y, std::size_t{y} * width);
     }); });
   };
+  std::atomic<std::uint32_t> rows_done{0};
   forEachRow([&](std::uint32_t y, std::size_t at) {
     for (std::uint32_t x = 0; x < width; x += PanoramaRays::kAtOnce) rays.trace(y, x, &light[at + x]);
+    progress.advance(static_cast<double>(++rows_done) / height);
   });
   if (auto on = progress.check(); !on) return failure(on.error());
   const std::vector<float> exposure = exposures(light, width, height, instrument.camera, metering);

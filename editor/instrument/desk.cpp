@@ -8,6 +8,7 @@
 
 #include "editor/instrument/preview_picture.h"
 #include "emulated-ui/rehearsal/marks.h"
+#include "project/instruments.h"
 #include "project/project_files.h"
 
 namespace standpoint {
@@ -26,6 +27,18 @@ fs::path freshFolder(const std::string& id) {
     const auto folder = all / fmt::format("{} {:03d}", id, n);
     if (!fs::exists(folder, error)) return folder;
   }
+}
+
+// What a device can drive; the one for any scanner drives all that stand on a tripod, also the user's own.
+std::vector<std::pair<std::string, std::string>> scannersOf(const DeviceType& type) {
+  const auto& drives = type.definition.instruments;
+  const auto named = [&](const std::string& id) { return std::find(drives.begin(), drives.end(), id) != drives.end(); };
+  std::vector<std::pair<std::string, std::string>> found;
+  const auto known = knownInstruments();
+  if (!known) return found;
+  for (const auto& i : *known)
+    if (!i.moving && (named("*") || named(i.id))) found.emplace_back(i.id, i.maker + " " + i.model);
+  return found;
 }
 
 void watch(InstrumentDesk& desk) {
@@ -48,7 +61,7 @@ void act(InstrumentDesk& desk, const RehearsalAction& action) {
   if (desk.rehearsal) done = desk.rehearsal->act(action, quiet);
   else if (action.kind == Kind::press) done = desk.shown()->act(action.name, action.value);
   else if (action.kind == Kind::hand) done = desk.shown()->hand(action.name, action.value);
-  desk.refused = done ? std::string() : done.error().message;
+  desk.view.said = done ? std::string() : done.error().message;
   desk.view.pointed.clear();
   if (done && desk.recording) desk.recorded.push_back(action);
 }
@@ -58,11 +71,13 @@ void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& de
   desk.instrument = instrument;
   desk.host.reset();
   desk.refused.clear();
+  desk.view.said.clear();
   auto type = loadDevice(device, instrument);
   if (!type) {
     desk.problem = describe(type.error());
     return;
   }
+  desk.scanners = scannersOf(**type);
   desk.host = std::make_unique<DeviceHost>(*std::move(type), editor.session.document(), editor.wake);
   if (auto recalled = desk.host->remember(scansFolder(editor)); !recalled) desk.refused = "The device has lost its memory: " + describe(recalled.error());
   desk.last = std::chrono::steady_clock::now();

@@ -49,6 +49,7 @@ struct InstrumentDesk {
   std::chrono::steady_clock::time_point last = std::chrono::steady_clock::now();
   std::pair<std::filesystem::path, const Environment*> project{"?", nullptr};
   bool was_busy = false;
+  std::vector<std::pair<std::string, std::string>> scanners;   // that the device can drive: id and name
   std::pair<std::shared_ptr<const ScanPreview>, std::string> pictured;   // what `picture` was made from, and its colouring
   std::shared_ptr<const PixelPicture> picture;
 

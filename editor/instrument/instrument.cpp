@@ -45,9 +45,13 @@ class InstrumentPanel {
  private:
   void device(Editor& editor) {
     const ImVec2 room = ImGui::GetContentRegionAvail();
+    auto* task = desk_.running()->task();
+    desk_.view.working = task != nullptr && !desk_.shown()->state().running ? std::optional(task->progress().fraction()) : std::nullopt;   // a scan has a bar of its own
     const auto press = drawDevice(*desk_.shown(), desk_.view, room.x, room.y - editor.px(40));
     if (press) act(desk_, {RehearsalAction::Kind::press, press->widget, press->value, 0, {}});
-    ui::dimText(desk_.refused.empty() ? "Screens are ours; not affiliated with or endorsed by the makers." : desk_.refused);
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetColorU32(desk_.refused.empty() ? ImGuiCol_TextDisabled : ImGuiCol_Text));
+    ui::wrapped(desk_.refused.empty() ? "Screens are ours; not affiliated with or endorsed by the makers." : desk_.refused);
+    ImGui::PopStyleColor();
   }
 
   void tabs(Editor& editor) {
@@ -74,6 +78,17 @@ class InstrumentPanel {
     (void)desk_.shown()->hand("stand_at", job->stations.front().name);
   }
 
+  void scannerChoice() {
+    if (desk_.scanners.size() < 2) return;
+    const auto& now = desk_.shown()->type().instrument;
+    ui::propertyLabel("Scanner");
+    ImGui::SetNextItemWidth(-1);
+    if (!ImGui::BeginCombo("##scanner", (now.maker + " " + now.model).c_str())) return;
+    for (const auto& [id, title] : desk_.scanners)
+      if (ImGui::Selectable((title + "###" + id).c_str(), id == now.id)) wanted_ = desk_.device, wanted_instrument_ = id;
+    ImGui::EndCombo();
+  }
+
   void controls() {
     if (!ui::beginProperties("instrument")) return;
     const bool fixed = desk_.rehearsal != nullptr || desk_.running()->busy();
@@ -85,16 +100,7 @@ class InstrumentPanel {
         if (ImGui::Selectable(device.title, &device == desk_.device)) wanted_ = &device, wanted_instrument_.clear();
       ImGui::EndCombo();
     }
-    const auto& drives = desk_.shown()->type().definition.instruments;
-    if (drives.size() > 1) {
-      ui::propertyLabel("Scanner");
-      ImGui::SetNextItemWidth(-1);
-      if (ImGui::BeginCombo("##scanner", desk_.shown()->type().instrument.model.c_str())) {
-        for (const auto& id : drives)
-          if (ImGui::Selectable(id.c_str(), id == desk_.shown()->type().instrument.id)) wanted_ = desk_.device, wanted_instrument_ = id;
-        ImGui::EndCombo();
-      }
-    }
+    scannerChoice();
     ImGui::EndDisabled();
     ui::propertyLabel("Clock");
     ImGui::SetNextItemWidth(-1);

@@ -6,6 +6,8 @@
 
 namespace standpoint {
 
+constexpr int kKeyPlus = '=', kKeyMinus = '-';   // wherever the keyboard has them
+
 // Codes of keys and buttons are GLFW's numbers: letters and digits are their ASCII capitals.
 struct InputEvent {
   enum class Kind { move, button, scroll, key, character };

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "editor/model/interface_scale.h"
+
 namespace standpoint {
 
 namespace {
@@ -58,7 +60,7 @@ Settings settingsFrom(const json& object) {
     }
   if (const auto folder = object.find("last_folder"); folder != object.end() && folder->is_string())
     result.last_folder = folder->get<std::string>();
-  read(object, "user_scale", result.user_scale, 0.75, 2.0);
+  read(object, "user_scale", result.user_scale, kUserScales.front(), kUserScales.back());
   read(object, "recovery_minutes", result.recovery_minutes, 0, 60);
   return result;
 }

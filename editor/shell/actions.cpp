@@ -7,6 +7,8 @@
 #include <imgui.h>
 
 #include "editor/editor.h"
+#include "editor/model/input_queue.h"
+#include "editor/model/interface_scale.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/icons.h"
 #include "editor/shell/import_preview.h"
@@ -119,6 +121,9 @@ std::string whyPaintNot(const Editor& e) {
   return e.session.whyNot("materials");
 }
 
+std::string whyNoLarger(const Editor& e) { return e.settings.user_scale >= kUserScales.back() ? "It is as large as it gets" : ""; }
+std::string whyNoSmaller(const Editor& e) { return e.settings.user_scale <= kUserScales.front() ? "It is as small as it gets" : ""; }
+
 std::string whySaveNot(const Editor& e) { return e.session.whyNotSave(); }
 std::string whyUndoNot(const Editor& e) { return e.session.whyNotUndo(); }
 std::string whyRedoNot(const Editor& e) { return e.session.whyNotRedo(); }
@@ -200,6 +205,11 @@ const std::array kActions = {
     Action{"workspace-survey", "Workspace Survey", ICON_STATION, {}, [](Editor& e) { showWorkspace(e, Workspace::survey); }, nullptr},
     Action{"workspace-instrument", "Workspace Instrument", ICON_TABLET, {},
            [](Editor& e) { showWorkspace(e, Workspace::instrument); }, nullptr},
+    Action{"interface-larger", "Larger interface", "", {kKeyPlus, true},
+           [](Editor& e) { e.settings.user_scale = neighbourScale(e.settings.user_scale, 1); }, whyNoLarger},
+    Action{"interface-smaller", "Smaller interface", "", {kKeyMinus, true},
+           [](Editor& e) { e.settings.user_scale = neighbourScale(e.settings.user_scale, -1); }, whyNoSmaller},
+    Action{"interface-usual", "Interface of the usual size", "", {'0', true}, [](Editor& e) { e.settings.user_scale = 1; }, nullptr},
     Action{"palette", "Command palette", ICON_COMMAND, {'P', true}, openPalette, nullptr},
     Action{"shortcuts", "Keyboard and mouse", ICON_KEYBOARD, {kKeyF1}, [](Editor& e) { e.dialogs.shortcuts = true; }, nullptr},
     Action{"preferences", "Preferences…", ICON_SLIDERS, {}, [](Editor& e) { e.dialogs.preferences = true; }, nullptr},
@@ -236,6 +246,7 @@ std::string shortcutText(const Shortcut& s) {
   if (s.key == kKeyEscape) return text + "Esc";
   if (s.key == kKeyDelete) return text + "Del";
   if (s.key == kKeyF1) return text + "F1";
+  if (s.key == kKeyPlus) return text + "+";
   return text + static_cast<char>(s.key);
 }
 
@@ -245,7 +256,8 @@ void runShortcuts(Editor& editor) {
   for (const auto& action : kActions) {
     const auto& s = action.shortcut;
     if (io.WantTextInput && !leavesText(s)) continue;
-    if (s.key != 0 && s.ctrl == io.KeyCtrl && s.shift == io.KeyShift && ImGui::IsKeyPressed(s.key, false)) {
+    const bool shifted = s.shift == io.KeyShift || s.key == kKeyPlus;   // some keyboards need Shift for a plus
+    if (s.key != 0 && s.ctrl == io.KeyCtrl && shifted && ImGui::IsKeyPressed(s.key, false)) {
       invoke(editor, action.id);
       return;
     }

@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include "editor/editor.h"
+#include "editor/model/interface_scale.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
 #include "editor/shell/icons.h"
@@ -177,9 +178,8 @@ void drawPreferences(Editor& editor) {
   if (!beginModal(editor, "Preferences###preferences", editor.dialogs.preferences, 460)) return;
   if (ui::beginProperties("preferences", 0.5F)) {
     ui::propertyLabel("Size of the interface");
-    static constexpr std::array kSizes = {0.75, 0.9, 1.0, 1.1, 1.25, 1.5, 2.0};
     if (ImGui::BeginCombo("###scale", fmt::format("{:.0f} %", editor.settings.user_scale * 100).c_str())) {
-      for (const double size : kSizes)
+      for (const double size : kUserScales)
         if (ImGui::Selectable(fmt::format("{:.0f} %", size * 100).c_str(), editor.settings.user_scale == size))
           editor.settings.user_scale = size;
       ImGui::EndCombo();

@@ -91,7 +91,7 @@ void viewMenu(Editor& editor) {
   items(editor, {"frame", "view-corner", "view-front", "view-back", "view-right", "view-left", "view-top", "view-parallel", "",
                  "hide", "isolate", "show-all", "", "edges", "grid", "labels", "walkable", "shapes", "walk", "", "colour-model",
                  "colour-material", "colour-reflectance", "colour-confidence", "colour-intensity", "colour-noise", "colour-fate", "colour-coverage", "colour-spacing", "colour-incidence", "", "workspace-model", "workspace-materials", "workspace-survey",
-                 "workspace-instrument"});
+                 "workspace-instrument", "", "interface-larger", "interface-smaller", "interface-usual"});
 }
 
 void drawMenuBar(Editor& editor) {

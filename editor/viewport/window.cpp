@@ -14,6 +14,7 @@
 #include <imgui.h>
 
 #include "editor/model/input_queue.h"
+#include "editor/model/interface_scale.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/import_preview.h"
 #include "editor/shell/shell.h"
@@ -90,6 +91,15 @@ class Window {
     last_input_s_ = glfwGetTime();
   }
 
+  // GLFW names keys by their place on an American keyboard; plus and minus lie elsewhere on others, and on the number pad.
+  static int plusOrMinus(int key, int scancode) {
+    if (key == GLFW_KEY_KP_ADD) return kKeyPlus;
+    if (key == GLFW_KEY_KP_SUBTRACT) return kKeyMinus;
+    const char* name = glfwGetKeyName(key, scancode);
+    if (name == nullptr || name[0] == 0 || name[1] != 0) return key;
+    return name[0] == '+' ? kKeyPlus : name[0] == '-' ? kKeyMinus : key;
+  }
+
   void listen() {
     glfwSetWindowUserPointer(handle_, this);
     using Kind = InputEvent::Kind;
@@ -100,8 +110,8 @@ class Window {
       of(w).push({Kind::button, x, y, button, action == GLFW_PRESS, modifiers});
     });
     glfwSetScrollCallback(handle_, [](GLFWwindow* w, double x, double y) { of(w).push({Kind::scroll, x, y}); });
-    glfwSetKeyCallback(handle_, [](GLFWwindow* w, int key, int, int action, int modifiers) {
-      if (key >= 0 && action != GLFW_REPEAT) of(w).push({Kind::key, 0, 0, key, action == GLFW_PRESS, modifiers});
+    glfwSetKeyCallback(handle_, [](GLFWwindow* w, int key, int scancode, int action, int modifiers) {
+      if (key >= 0 && action != GLFW_REPEAT) of(w).push({Kind::key, 0, 0, plusOrMinus(key, scancode), action == GLFW_PRESS, modifiers});
     });
     glfwSetCharCallback(handle_, [](GLFWwindow* w, unsigned code) { of(w).push({Kind::character, 0, 0, static_cast<int>(code)}); });
     glfwSetWindowFocusCallback(handle_, [](GLFWwindow* w, int focused) { of(w).focus_lost_ = of(w).focus_lost_ || focused == 0; });
@@ -186,7 +196,10 @@ class Window {
   void rescale() {
     float x = 1, y = 1;
     glfwGetWindowContentScale(handle_, &x, &y);
-    const float wanted = std::max(x, 0.5F) * static_cast<float>(editor_.settings.user_scale);
+    int w = 0, h = 0;
+    glfwGetWindowSize(handle_, &w, &h);
+    const double monitor = std::max(x, 0.5F), user = editor_.settings.user_scale;
+    const auto wanted = static_cast<float>(fittingScale(monitor, user, w, h));
     if (wanted == built_scale_) return;
     built_scale_ = editor_.scale = wanted;
     applyTheme(wanted);

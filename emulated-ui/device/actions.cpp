@@ -51,7 +51,7 @@ Result<void> proposeProject(Device& device, const std::string&) {
 
 Result<void> createProject(Device& device, const std::string&) {
   const auto name = entry(device, "name");
-  if (auto ok = checkName(name); !ok) return ok;
+  if (auto ok = checkName(device, name); !ok) return ok;
   if (named(device, name) != nullptr) return failure(ErrorKind::usage, device.word("name_taken"));
   const auto first_text = entry(device, "first");
   const auto first = first_text.empty() ? std::optional<int>(1) : wholeNumber(first_text);
@@ -84,7 +84,7 @@ Result<void> renameProject(Device& device, const std::string&) {
   auto* project = device.project();
   if (project == nullptr) return failure(ErrorKind::usage, device.word("no_project"));
   const auto name = entry(device, "name");
-  if (auto ok = checkName(name); !ok) return ok;
+  if (auto ok = checkName(device, name); !ok) return ok;
   if (named(device, name) != nullptr) return failure(ErrorKind::usage, device.word("name_taken"));
   if (!project->setups.empty()) return failure(ErrorKind::usage, device.word("rename_full"));
   project->name = name;
@@ -97,7 +97,7 @@ Result<void> setCluster(Device& device, const std::string&) {
   if (project == nullptr) return failure(ErrorKind::usage, device.word("no_project"));
   const auto name = entry(device, "cluster");
   if (!name.empty())
-    if (auto ok = checkName(name); !ok) return ok;
+    if (auto ok = checkName(device, name); !ok) return ok;
   project->cluster = name;
   device.note("cluster", name);
   return {};
@@ -111,6 +111,7 @@ Result<void> showSetup(Device& device, const std::string& row) {
   device.change().shown = *at;
   device.change().entries.erase("measured");
   device.change().entries.erase("measured_from");
+  device.change().entries.erase("tapped");
   return {};
 }
 
@@ -149,6 +150,7 @@ Result<void> measure(Device& device, const std::string& at) {
   const auto from = entries.find("measured_from");
   if (from == entries.end()) {
     entries["measured_from"] = place;
+    entries["tapped"] = at;
     entries.erase("measured");
     return {};
   }
@@ -156,6 +158,7 @@ Result<void> measure(Device& device, const std::string& at) {
   if (std::sscanf(from->second.c_str(), "%lf %lf %lf", &x, &y, &z) == 3)
     entries["measured"] = fmt::format("{:.4f}", std::hypot(std::hypot(p.x_m[cell] - x, p.y_m[cell] - y), p.z_m[cell] - z));
   entries.erase("measured_from");
+  entries["tapped"] += ";" + at;
   device.note("measured", entries["measured"]);
   return {};
 }

@@ -316,6 +316,7 @@ void Device::targetsDone(std::vector<FittedTarget> targets) {
   if (setup != nullptr) setup->targets = std::move(targets);
   note("targets", std::to_string(found));
   fire("targets_measured");
+  if (found == 0 && !busy() && state_.dialog.empty()) ask("refused", word("target_not_found"));   // else the press seems to have done nothing
 }
 
 // What was picked comes under the ID that was typed, in the place of an earlier sight of that ID.

@@ -87,6 +87,19 @@ void addArea(const Device& device, Widget& w) {
     w.options.push_back({device.setting(key), key, true, {}});
 }
 
+// An event that shows a screen in the same phase leads there.
+bool shows(const DeviceProgram& program, const std::string& event) {
+  return std::any_of(program.transitions.begin(), program.transitions.end(),
+                     [&](const Transition& t) { return event == t.event && *t.to == '\0' && *t.show != '\0'; });
+}
+
+Leads leadsOf(const WidgetRow& row, const DeviceProgram& program, const DeviceState& state) {
+  if (row.go.empty()) return !row.event.empty() && shows(program, row.event) ? Leads::onwards : Leads::nowhere;
+  const auto& from = state.came_from;
+  if (row.go != "back" && std::find(from.begin(), from.end(), row.go) == from.end()) return Leads::onwards;
+  return row.does.empty() ? Leads::back : Leads::nowhere;   // "Create" does something, though it then shows what one came from
+}
+
 }  // namespace
 
 std::string Device::word(const std::string& key) const {
@@ -108,7 +121,7 @@ std::optional<Widget> Device::widget(const WidgetRow& row) const {
     addSettingOptions(*this, *setting, w);
     w.minimum = setting->minimum;
     w.maximum = setting->maximum;
-    w.unit = setting->unit;
+    w.unit = setting->unit == "deg" ? "°" : setting->unit;
     if (setting->choices.empty()) w.value = this->setting(setting->key);
   } else if (!row.value.empty()) {
     addValueOptions(*this, *findValue(type_->definition, row.value), w);
@@ -130,6 +143,8 @@ std::optional<Widget> Device::widget(const WidgetRow& row) const {
   if (row.kind == WidgetKind::progress) w.number = fact(row.shows).value_or(numberFact(0)).number.value_or(0);
   if (row.kind == WidgetKind::lamp) w.value = findPhase(type_->definition, state_.phase)->lamp;
   if (row.kind == WidgetKind::preview && shownSetup() != nullptr) w.value = shownSetup()->file;
+  w.leads = leadsOf(row, type_->program, state_);
+  w.acts = row.kind != WidgetKind::list || !row.does.empty() || !row.event.empty() || !row.go.empty();
   w.enabled = row.enabled.holds(facts());
   if ((!w.enabled || (!row.warns.empty() && row.warns.holds(facts()))) && !row.why_not.empty()) w.why_not = word(row.why_not);
   return w;

@@ -35,13 +35,12 @@ bool hasReading(const StoredSetup& setup, const char* sensor) {
 
 }  // namespace
 
-Result<void> checkName(const std::string& name) {
-  if (name.empty()) return failure(ErrorKind::usage, "The name is empty.");
-  if (name.size() > kLongestName) return failure(ErrorKind::usage, "The name is too long.");
-  if (name.find_first_of("\\/:*?\"<>|") != std::string::npos)
-    return failure(ErrorKind::usage, "A name cannot hold any of \\ / : * ? \" < > |");
-  if (name.front() == '.' || name.back() == '.' || name.front() == ' ' || name.back() == ' ')
-    return failure(ErrorKind::usage, "A name cannot begin or end with a dot or a blank.");
+Result<void> checkName(const Device& device, const std::string& name) {
+  const auto wrong = [&](const char* word) { return failure(ErrorKind::usage, device.word(word)); };
+  if (name.empty()) return wrong("name_empty");
+  if (name.size() > kLongestName) return wrong("name_long");
+  if (name.find_first_of("\\/:*?\"<>|") != std::string::npos) return wrong("name_signs");
+  if (name.front() == '.' || name.back() == '.' || name.front() == ' ' || name.back() == ' ') return wrong("name_ends");
   return {};
 }
 

@@ -22,6 +22,6 @@ void deleteShownSetup(Device& device);
 void formatCard(Device& device);
 
 // Names that become folders and files: not empty, none of \ / : * ? " < > |, no leading or trailing dot or blank.
-Result<void> checkName(const std::string& name);
+Result<void> checkName(const Device& device, const std::string& name);
 
 }  // namespace standpoint

@@ -32,6 +32,11 @@ double phaseLasts(const Device& d) {
   return d.fact(phase->lasts).value_or(numberFact(0)).number.value_or(0);
 }
 
+double phaseProgress(const Device& d) {
+  const double lasts = phaseLasts(d);
+  return lasts > 0 ? std::clamp(d.state().elapsed_s / lasts, 0.0, 1.0) : 0;
+}
+
 // What is done of the whole scan with its pictures, never further than the simulation behind it.
 double progress(const Device& d) {
   const auto& s = d.state();
@@ -40,8 +45,9 @@ double progress(const Device& d) {
   return s.data ? share : std::min(share, s.engine_share);
 }
 
+// By the instrument's clock, which may be ahead of the simulation.
 double remaining(const Device& d) {
-  return (1 - progress(d)) * (d.expected().scan_seconds + d.expected().imaging_seconds);
+  return d.state().running ? std::max(0.0, d.expected().scan_seconds + d.expected().imaging_seconds - d.state().scanned_s) : 0;
 }
 
 double spacing(const Device& d) {
@@ -104,6 +110,7 @@ const std::vector<FactRow>& sharedFacts() {
       {"clock", Unit::seconds, numbers(0, 1e9), [](const Device& d) { return numberFact(d.state().clock_s); }, "seconds of the device's own time"},
       {"phase.lasts", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(phaseLasts(d)); }, "seconds that the phase takes"},
       {"phase.elapsed", Unit::seconds, numbers(0, 1e9), [](const Device& d) { return numberFact(d.state().elapsed_s); }, "seconds in the phase"},
+      {"phase.progress", Unit::share, numbers(0, 1), [](const Device& d) { return numberFact(phaseProgress(d)); }, "of the phase's time"},
       {"battery", Unit::share, numbers(0, 1), [](const Device& d) { return numberFact(around(d).battery); }, "share that is left"},
       {"battery.state", Unit::none, {{"good", "low", "critical"}},
        [](const Device& d) {
@@ -171,7 +178,7 @@ const std::vector<FactRow>& sharedFacts() {
       {"measured", Unit::metres, numbers(0, 1e6),
        [](const Device& d) {
          const auto found = d.state().entries.find("measured");
-         return numberFact(found == d.state().entries.end() ? 0 : std::strtod(found->second.c_str(), nullptr));
+         return found == d.state().entries.end() ? wordFact("") : numberFact(std::strtod(found->second.c_str(), nullptr));
        }, "metres between the two points picked in the preview"},
       {"expected.seconds", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(d.expected().scan_seconds + d.expected().imaging_seconds); }, "the next scan with its pictures"},
       {"expected.scan", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(d.expected().scan_seconds); }, "of the laser alone"},
@@ -275,8 +282,8 @@ std::string Device::shown(const std::string& name) const {
         if (name.substr(8) == s.key && choice.value == found->text) return choice.label;
   }
   if (found->text.empty() && !found->number) return "–";
-  if ((found->text == "yes" || found->text == "no" || found->text == "on" || found->text == "off") && !found->number) return word(found->text);
   if (!found->number && type_->words->has(type_->definition.id, name + "=" + found->text, "en")) return word(name + "=" + found->text);
+  if ((found->text == "yes" || found->text == "no" || found->text == "on" || found->text == "off") && !found->number) return word(found->text);
   return factText(*found, unit, showsFeet());
 }
 

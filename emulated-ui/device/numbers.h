@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <string_view>
+
+#include <fmt/format.h>
 
 namespace standpoint {
 
@@ -14,6 +18,14 @@ inline std::optional<double> numberIn(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+// One step up or down: in the place of the last digit that is shown, so that 0.04 becomes 0.05 and 30 becomes 31.
+inline std::string stepped(std::string_view text, int steps, double minimum, double maximum) {
+  const auto point = text.find('.');
+  const auto decimals = point == std::string_view::npos ? 0 : text.size() - point - 1;
+  const double value = numberIn(text).value_or(0) + steps * std::pow(10.0, -static_cast<double>(decimals));
+  return fmt::format("{:.{}f}", std::clamp(value, minimum, std::max(minimum, maximum)), decimals);
 }
 
 }  // namespace standpoint

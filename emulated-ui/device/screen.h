@@ -29,6 +29,9 @@ enum class WidgetKind {
 inline constexpr const char* kWidgetKindNames[] = {"status", "readout", "button", "key",  "lamp",  "choice",  "toggle", "text",
                                                    "number", "list",    "progress", "area", "level", "preview", "plan",   "note"};
 
+// Where a press leads: a mark of it is drawn.
+enum class Leads { nowhere, onwards, back };
+
 struct WidgetOption {
   std::string value, label;
   bool enabled = true;
@@ -45,6 +48,8 @@ struct Widget {
   std::string unit;
   bool enabled = true;
   std::string why_not;                  // when it is not enabled; a warning when it is
+  Leads leads = Leads::nowhere;
+  bool acts = true;                     // a press does something; a list that only shows has rows that do not
 };
 
 struct Dialog {

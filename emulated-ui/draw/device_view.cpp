@@ -20,12 +20,22 @@ ImU32 lampColour(const std::string& word, double seconds) {
   return IM_COL32(70, 72, 75, 255);
 }
 
-void titleBar(const Pen& pen, const Screen& screen, float width, float height) {
+// A title with the way back on its left, so that nobody has to look for it at the end of a long screen.
+void titleBar(Pen& pen, const Screen& screen, float width, float height) {
   ImDrawList* list = ImGui::GetWindowDrawList();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   list->AddRectFilled(at, {at.x + width, at.y + height}, pen.skin.title_bar);
+  const auto back = std::find_if(screen.widgets.begin(), screen.widgets.end(), [](const Widget& w) { return w.id == "back" && w.enabled; });
+  const bool leads_back = back != screen.widgets.end() && !screen.has_dialog;
+  float left = at.x + 0.8F * pen.unit;
+  if (leads_back) {
+    if (area("title_back", at, {std::max(pen.touch(), 2 * pen.unit + ImGui::CalcTextSize(screen.title.c_str()).x), height})) pen.pressed(back->id);
+    if (ImGui::IsItemHovered()) list->AddRectFilled(at, {at.x + 2 * pen.unit + ImGui::CalcTextSize(screen.title.c_str()).x, at.y + height}, IM_COL32(255, 255, 255, 24));
+    chevron(pen, {at.x + 0.7F * pen.unit, at.y + height / 2}, false, pen.skin.title_text);
+    left += 0.8F * pen.unit;
+  }
   const float line = ImGui::GetTextLineHeight(), y = at.y + (height - line) / 2;
-  const float title = ImGui::CalcTextSize(screen.title.c_str()).x + 1.6F * pen.unit;
+  const float title = left - at.x + ImGui::CalcTextSize(screen.title.c_str()).x + 0.8F * pen.unit;
   const auto drawn = [&](bool labels, bool draw) {
     float right = at.x + width - 0.8F * pen.unit;
     for (const auto& w : screen.widgets) {
@@ -40,8 +50,9 @@ void titleBar(const Pen& pen, const Screen& screen, float width, float height) {
   const bool labels = drawn(true, false) - at.x > title;   // else the figures alone
   const float right = drawn(labels, true);
   list->PushClipRect(at, {std::max(at.x, right), at.y + height}, true);
-  list->AddText({at.x + 0.8F * pen.unit, y}, pen.skin.title_text, screen.title.c_str());
+  list->AddText({left, y}, pen.skin.title_text, screen.title.c_str());
   list->PopClipRect();
+  ImGui::SetCursorScreenPos(at);
   ImGui::Dummy({width, height});
 }
 
@@ -55,23 +66,32 @@ void dim(double light, ImVec2 at, ImVec2 size) {
   ImGui::EndChild();
 }
 
+void dialogButton(Pen& pen, const Widget& w, ImVec2 at, ImVec2 size) {
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  if (area(("##" + w.id).c_str(), at, size)) pen.pressed(w.id);
+  const bool hovered = ImGui::IsItemHovered() && w.enabled;
+  const float rounding = pen.skin.rounding * pen.unit;
+  list->AddRectFilled(at, {at.x + size.x, at.y + size.y}, hovered ? pen.skin.tile_hover : pen.skin.tile, rounding);
+  list->AddRect(at, {at.x + size.x, at.y + size.y}, pen.skin.off, rounding, 0, pen.hair());
+  centred(list, at, size, pen.skin.tile_text, w.label);
+  frame(pen, w, at, size);
+}
+
 // A card over the dimmed screen.
 void dialogCard(Pen& pen, const Dialog& dialog, ImVec2 at, ImVec2 size) {
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddRectFilled(at, {at.x + size.x, at.y + size.y}, IM_COL32(0, 0, 0, 110));
   const float margin = 1.2F * pen.unit, inner = size.x - 4 * margin;
   const float text_height = ImGui::CalcTextSize(dialog.text.c_str(), nullptr, false, inner).y;
-  const float height = text_height + 3 * margin + static_cast<float>(dialog.buttons.size()) * (pen.touch() + 0.5F * pen.unit);
+  const float height = text_height + 3 * margin + static_cast<float>(dialog.buttons.size()) * (pen.touch() + 0.5F * pen.unit) - 0.5F * pen.unit;
   const ImVec2 card{at.x + margin, at.y + std::max(margin, (size.y - height) / 2)};
   list->AddRectFilled(card, {card.x + size.x - 2 * margin, card.y + height}, pen.skin.display, 0.5F * pen.unit);
-  list->AddRect(card, {card.x + size.x - 2 * margin, card.y + height}, pen.skin.accent, 0.5F * pen.unit, 0, 1.5F);
-  list->AddText(nullptr, 0, {card.x + margin, card.y + margin}, pen.skin.text, dialog.text.c_str(), nullptr, inner);
-  ImGui::SetCursorScreenPos({card.x + margin, card.y + 2 * margin + text_height});
-  pen.left = ImGui::GetCursorPosX();
-  pen.width = inner;
+  list->AddRect(card, {card.x + size.x - 2 * margin, card.y + height}, pen.skin.accent, 0.5F * pen.unit, 0, pen.hair(1.5F));
+  wrapped({card.x + margin, card.y + margin}, inner, pen.skin.text, dialog.text);
+  ImVec2 next{card.x + margin, card.y + 2 * margin + text_height};
   for (const auto& button : dialog.buttons) {
-    drawWidget(pen, button);
-    ImGui::Dummy({0, 0.1F * pen.unit});
+    dialogButton(pen, button, next, {inner, pen.touch()});
+    next.y += pen.touch() + 0.5F * pen.unit;
   }
 }
 
@@ -82,25 +102,62 @@ void body(Pen& pen, const Screen& screen, ImVec2 at, ImVec2 size) {
   for (const auto& w : screen.body) {
     ImGui::PushID(w.id.c_str());
     if (w.kind == WidgetKind::lamp) {
-      const ImU32 colour = lampColour(w.value, ImGui::GetTime());
+      const ImU32 colour = lampColour(w.value, pen.view.still ? 0 : ImGui::GetTime());
       list->AddCircleFilled({x + 0.7F * pen.unit, y}, 0.95F * pen.unit, (colour & 0x00FFFFFFU) | 0x40000000U, 24);
       list->AddCircleFilled({x + 0.7F * pen.unit, y}, 0.6F * pen.unit, colour, 24);
-      if (area(pen, "lamp", {x - 0.3F * pen.unit, y - pen.unit}, {2 * pen.unit, 2 * pen.unit}, true) && pen.view.asking) pen.pressed(w.id);
-      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s: %s", w.label.c_str(), w.value.c_str());
+      list->AddCircle({x + 0.7F * pen.unit, y}, 0.6F * pen.unit, IM_COL32(40, 42, 45, 255), 24, pen.hair());
+      if (area("lamp", {x - 0.3F * pen.unit, y - pen.unit}, {2 * pen.unit, 2 * pen.unit}) && pen.view.asking) pen.pressed(w.id);
+      tip(w.label + ": " + w.value);
       x += 3 * pen.unit;
     } else {
-      const float width = std::max(pen.touch(), ImGui::CalcTextSize(w.label.c_str()).x + 1.6F * pen.unit), h = 0.85F * pen.touch();
-      if (area(pen, "key", {x, y - h / 2}, {width, h}, w.enabled)) pen.pressed(w.id);
+      const float width = std::max(pen.touch(), ImGui::CalcTextSize(w.label.c_str()).x + 1.6F * pen.unit), h = pen.touch();
+      if (area("key", {x, y - h / 2}, {width, h})) pen.pressed(w.id);
       const bool hovered = ImGui::IsItemHovered();
-      reasonOf(w);
+      tip(w.why_not);
       list->AddRectFilled({x, y - h / 2}, {x + width, y + h / 2}, hovered ? IM_COL32(112, 116, 122, 255) : IM_COL32(88, 92, 98, 255), h / 2);
-      list->AddRect({x, y - h / 2}, {x + width, y + h / 2}, IM_COL32(30, 31, 33, 160), h / 2);
+      list->AddRect({x, y - h / 2}, {x + width, y + h / 2}, IM_COL32(30, 31, 33, 160), h / 2, 0, pen.hair());
       centred(list, {x, y - h / 2}, {width, h}, IM_COL32_WHITE, w.label);
-      if (pen.view.pointed == w.id) list->AddRect({x - 3, y - h / 2 - 3}, {x + width + 3, y + h / 2 + 3}, IM_COL32(255, 178, 0, 255), h / 2, 0, 3);
+      frame(pen, w, {x, y - h / 2}, {width, h});
       x += width + 0.8F * pen.unit;
     }
     ImGui::PopID();
   }
+}
+
+// A finger that lies on the screen moves it; what it lay on is not pressed then.
+void scrollByFinger(const Pen& pen) {
+  DeviceView& view = pen.view;
+  const auto& io = ImGui::GetIO();
+  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+    view.scrolling = false;
+    view.grabbed = ImGui::GetScrollMaxY() > 0 && ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) &&
+                   io.MousePos.x < ImGui::GetWindowPos().x + pen.left + pen.width;
+  }
+  if (!view.grabbed) return;
+  if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) view.grabbed = false;
+  const bool elsewhere = view.dragged_edge >= 0 || io.WantTextInput;   // the finger does something else
+  if (!elsewhere && std::abs(ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 0).y) > 0.6F * pen.unit) view.scrolling = true;
+  if (view.scrolling && view.grabbed) ImGui::SetScrollY(ImGui::GetScrollY() - io.MouseDelta.y);
+}
+
+// Why the last press did nothing, at the display's lower edge.
+void saying(const Pen& pen, ImVec2 at, ImVec2 size) {
+  if (pen.view.said.empty()) return;
+  const float margin = 0.6F * pen.unit, inner = size.x - 4 * margin, height = wrappedHeight(pen.view.said, inner) + 2 * margin;
+  const ImVec2 from{at.x + margin, at.y + size.y - height - margin}, to{at.x + size.x - margin, at.y + size.y - margin};
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddRectFilled(from, to, IM_COL32(20, 22, 26, 235), 0.4F * pen.unit);
+  list->AddRect(from, to, IM_COL32(255, 190, 120, 255), 0.4F * pen.unit, 0, pen.hair());
+  wrapped({from.x + margin, from.y + margin}, inner, IM_COL32(255, 232, 205, 255), pen.view.said);
+}
+
+// What the device reads or computes, as a line below its title.
+void workingLine(const Pen& pen, ImVec2 at, float width) {
+  if (!pen.view.working) return;
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  const float height = 0.3F * pen.unit, share = std::clamp(static_cast<float>(*pen.view.working), 0.02F, 1.0F);
+  list->AddRectFilled(at, {at.x + width, at.y + height}, pen.skin.line);
+  list->AddRectFilled(at, {at.x + share * width, at.y + height}, pen.skin.accent);
 }
 
 }  // namespace
@@ -118,7 +175,7 @@ std::optional<Press> drawDevice(const Device& device, DeviceView& view, float wi
   const ImVec2 whole{display_width + 2 * bezel, display_height + 2 * bezel + keys};
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddRectFilled(at, {at.x + whole.x, at.y + whole.y}, skin.body, 1.4F * unit);
-  list->AddRect(at, {at.x + whole.x, at.y + whole.y}, skin.body_edge, 1.4F * unit, 0, 2);
+  list->AddRect(at, {at.x + whole.x, at.y + whole.y}, skin.body_edge, 1.4F * unit, 0, 2 * unit / 11.6F);
   Pen pen{device, view, skin, unit};
   const bool dark = screen.id.empty();
   ImGui::SetCursorScreenPos({at.x + bezel, at.y + bezel});
@@ -126,13 +183,14 @@ std::optional<Press> drawDevice(const Device& device, DeviceView& view, float wi
   ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, skin.rounding * unit);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.4F * unit, 0.45F * unit});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-  ImGui::PushStyleVar(ImGuiStyleVar_ScrollbarSize, 0.7F * unit);
+  ImGui::PushStyleVar(ImGuiStyleVar_ScrollbarSize, 0.8F * unit);
   ImGui::PushID(definition.id.c_str());
   const bool open = ImGui::BeginChild("display", {display_width, display_height}, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
   if (open && device.asleep() && ImGui::InvisibleButton("asleep", {display_width, display_height})) pen.press = Press{"display", {}};
   if (open && !dark) {
     const ImVec2 inside = ImGui::GetCursorScreenPos();
     titleBar(pen, screen, display_width, 2.3F * unit);
+    workingLine(pen, {inside.x, inside.y + 2.3F * unit}, display_width);
     ImGui::PushID(screen.id.c_str());
     ImGui::BeginDisabled(screen.has_dialog);
     if (ImGui::BeginChild("screen", {display_width, display_height - 2.3F * unit - 0.45F * unit})) {
@@ -141,10 +199,16 @@ std::optional<Press> drawDevice(const Device& device, DeviceView& view, float wi
       pen.width = ImGui::GetContentRegionAvail().x - 1.8F * unit;
       for (const auto& w : screen.widgets) drawWidget(pen, w);
       ImGui::Dummy({0, 0.6F * unit});
+      scrollByFinger(pen);
     }
     ImGui::EndChild();
     ImGui::EndDisabled();
     ImGui::PopID();
+    if (!pen.view.said.empty()) {
+      ImGui::SetCursorScreenPos(inside);
+      if (ImGui::BeginChild("saying", {display_width, display_height}, false, ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoInputs)) saying(pen, inside, {display_width, display_height});
+      ImGui::EndChild();
+    }
     dim(screen.light, inside, {display_width, display_height});
     if (screen.has_dialog) {
       pen.press.reset();

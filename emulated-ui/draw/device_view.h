@@ -26,8 +26,12 @@ struct DeviceView {
   std::map<std::string, std::string> typing;    // entries that have the keyboard
   std::array<double, 4> area{};                 // edges while one is dragged: from_h, to_h, from_v, to_v in degrees
   int dragged_edge = -1;
+  bool grabbed = false, scrolling = false;      // a finger lies on the screen, and has moved it
   // A texture of a preview; 0 or empty: none can be had.
   std::function<std::uint64_t(const std::shared_ptr<const ScanPreview>&)> texture;
+  bool still = false;                           // for a picture: lamps do not flash
+  std::string said;                             // why the last press did nothing
+  std::optional<double> working;                // share of what the device reads or computes just now
 };
 
 // Draws the device into the current ImGui window, at most `width` × `height` pixels, and gives what was pressed.

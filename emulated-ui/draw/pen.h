@@ -22,19 +22,35 @@ struct Pen {
 
   // The press, or the wish to have the widget explained.
   void pressed(const std::string& widget, const std::string& value = {}) {
+    if (view.scrolling) return;   // the finger moved the screen
     if (view.asking) view.explained = widget;
     else press = Press{widget, value};
   }
   float touch() const { return 2.6F * unit; }   // the least height of what is pressed by a finger
+  float hair(float points = 1) const { return points * unit / 11.6F; }   // the width of a line; a unit has 11.6 points
 };
 
 ImVec2 screenAt(const Pen& pen);                // the next widget's upper left
-bool area(Pen& pen, const char* id, ImVec2 at, ImVec2 size, bool enabled);   // an invisible button
-void reasonOf(const Widget& w);                  // as a tooltip of the last item
+bool area(const char* id, ImVec2 at, ImVec2 size);   // an invisible button, also of what is grey: the device then says why
+void tip(const std::string& text);               // of the last item, when it is hovered
 void centred(ImDrawList* list, ImVec2 at, ImVec2 size, ImU32 colour, const std::string& text);
+void chevron(const Pen& pen, ImVec2 tip, bool to_the_right, ImU32 colour);   // points where a press leads
+ImU32 faded(ImU32 colour, bool enabled);
+void frame(const Pen& pen, const Widget& w, ImVec2 at, ImVec2 size);   // about the widget that a hint points to
+float wrappedHeight(const std::string& text, float width);
+void wrapped(ImVec2 at, float width, ImU32 colour, const std::string& text);
 
-// The widgets that are pictures; the others are in widgets.cpp.
+void caption(const Pen& pen, const std::string& text);
 void drawWidget(Pen& pen, const Widget& w);
+
+// Rows of label and value; what does not fit beside one another stands below one another.
+void drawTile(Pen& pen, const Widget& w);
+void drawReadout(Pen& pen, const Widget& w);
+void drawBigKey(Pen& pen, const Widget& w);
+void drawToggle(Pen& pen, const Widget& w);
+void drawRows(Pen& pen, const Widget& w);
+
+// The widgets that are pictures.
 void drawLevel(Pen& pen, const Widget& w);
 void drawArea(Pen& pen, const Widget& w);
 void drawPreview(Pen& pen, const Widget& w);

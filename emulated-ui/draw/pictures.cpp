@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -14,13 +15,6 @@ namespace standpoint {
 namespace {
 
 ImVec2 plus(ImVec2 a, ImVec2 b) { return {a.x + b.x, a.y + b.y}; }
-
-void label(const Pen& pen, const std::string& text) {
-  ImGui::SetCursorPosX(pen.left + 0.4F * pen.unit);
-  ImGui::PushStyleColor(ImGuiCol_Text, pen.skin.dim);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopStyleColor();
-}
 
 const std::shared_ptr<const ScanPreview>& newestPreview(const Device& device) {
   static const std::shared_ptr<const ScanPreview> kNone;
@@ -53,13 +47,13 @@ bool picture(const Pen& pen, const std::shared_ptr<const ScanPreview>& preview, 
 
 // The bubble runs to where the instrument is high; the ring is as far as the sensor corrects.
 void drawLevel(Pen& pen, const Widget& w) {
-  label(pen, w.label);
+  caption(pen, w.label);
   const float radius = std::min(3.4F * pen.unit, pen.width / 4);
   const ImVec2 at = screenAt(pen);
   const ImVec2 centre{at.x + pen.width / 2, at.y + radius + 2};
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddCircleFilled(centre, radius, IM_COL32(196, 214, 96, 255), 48);
-  list->AddCircle(centre, radius, pen.skin.dim, 48, 1.5F);
+  list->AddCircle(centre, radius, pen.skin.dim, 48, pen.hair(1.5F));
   list->AddCircle(centre, radius * 0.5F, IM_COL32(60, 70, 30, 160), 40, 1);
   list->AddLine({centre.x - radius, centre.y}, {centre.x + radius, centre.y}, IM_COL32(60, 70, 30, 80));
   list->AddLine({centre.x, centre.y - radius}, {centre.x, centre.y + radius}, IM_COL32(60, 70, 30, 80));
@@ -70,12 +64,12 @@ void drawLevel(Pen& pen, const Widget& w) {
   const ImVec2 bubble{centre.x + radius * static_cast<float>(x), centre.y + radius * static_cast<float>(y)};
   list->AddCircleFilled(bubble, 0.18F * radius, IM_COL32(245, 250, 225, 235), 24);
   list->AddCircle(bubble, 0.18F * radius, IM_COL32(90, 110, 40, 255), 24);
-  if (area(pen, ("##" + w.id).c_str(), at, {pen.width, 2 * radius + 4}, true) && pen.view.asking) pen.pressed(w.id);
+  if (area(("##" + w.id).c_str(), at, {pen.width, 2 * radius + 4}) && pen.view.asking) pen.pressed(w.id);
 }
 
 // The field of view on the picture all around: its edges are dragged.
 void drawArea(Pen& pen, const Widget& w) {
-  label(pen, w.label);
+  caption(pen, w.label);
   const ImVec2 at = screenAt(pen);
   const ImVec2 size{pen.width, pen.width * 0.42F};
   picture(pen, newestPreview(pen.device), at, size);
@@ -88,9 +82,20 @@ void drawArea(Pen& pen, const Widget& w) {
   const auto y_of = [&](double deg) { return at.y + size.y * static_cast<float>((high - deg) / (high - low)); };
   const ImVec2 from{x_of(edges[0]), y_of(edges[3])}, to{x_of(edges[1]), y_of(edges[2])};
   ImDrawList* list = ImGui::GetWindowDrawList();
-  list->AddRectFilled(from, to, (pen.skin.accent & 0x00FFFFFFU) | 0x50000000U);
-  list->AddRect(from, to, pen.skin.accent, 0, 0, 2);
-  (void)area(pen, ("##" + w.id).c_str(), at, size, w.enabled);
+  // What is not scanned is dark.
+  constexpr ImU32 kOutside = IM_COL32(0, 0, 0, 150);
+  list->AddRectFilled(at, {at.x + size.x, from.y}, kOutside);
+  list->AddRectFilled({at.x, to.y}, plus(at, size), kOutside);
+  if (from.x > to.x) {   // it goes on over the picture's edge
+    list->AddRectFilled({to.x, from.y}, {from.x, to.y}, kOutside);
+    list->AddRect({at.x, from.y}, to, pen.skin.accent, 0, 0, pen.hair(2));
+    list->AddRect(from, {at.x + size.x, to.y}, pen.skin.accent, 0, 0, pen.hair(2));
+  } else {
+    list->AddRectFilled({at.x, from.y}, {from.x, to.y}, kOutside);
+    list->AddRectFilled({to.x, from.y}, {at.x + size.x, to.y}, kOutside);
+    list->AddRect(from, to, pen.skin.accent, 0, 0, pen.hair(2));
+  }
+  (void)area(("##" + w.id).c_str(), at, size);
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   if (ImGui::IsItemActivated()) {
     if (pen.view.asking) return pen.pressed(w.id);
@@ -113,19 +118,36 @@ void drawArea(Pen& pen, const Widget& w) {
   }
 }
 
+// What was tapped to measure: "u,v" or "u,v;u,v" from the upper left.
+void drawTaps(const Pen& pen, ImVec2 at, ImVec2 size) {
+  const auto text = pen.device.entry("tapped");
+  std::array<ImVec2, 2> p;
+  const int read = std::sscanf(text.c_str(), "%f,%f;%f,%f", &p[0].x, &p[0].y, &p[1].x, &p[1].y);
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  for (auto& tap : p) tap = {at.x + tap.x * size.x, at.y + tap.y * size.y};
+  if (read == 4) list->AddLine(p[0], p[1], IM_COL32(255, 178, 0, 255), pen.hair(2));
+  for (int i = 0; 2 * i + 1 < read; ++i) {
+    list->AddCircle(p[i], 0.45F * pen.unit, IM_COL32(0, 0, 0, 200), 16, pen.hair(4));
+    list->AddCircle(p[i], 0.45F * pen.unit, IM_COL32(255, 178, 0, 255), 16, pen.hair(2));
+  }
+}
+
 void drawPreview(Pen& pen, const Widget& w) {
   const auto* setup = pen.device.shownSetup();
   const auto preview = setup == nullptr ? nullptr : setup->preview;
-  const float aspect = preview && preview->columns > 0 ? static_cast<float>(preview->rows) / static_cast<float>(preview->columns) : 0.42F;
+  const auto& instrument = pen.device.type().instrument;
+  const auto whole = static_cast<float>((instrument.max_elevation_rad - instrument.min_elevation_rad) / (2 * std::numbers::pi));
+  const float aspect = preview && preview->columns > 0 ? static_cast<float>(preview->rows) / static_cast<float>(preview->columns) : whole;
   const ImVec2 at = screenAt(pen);
   const ImVec2 size{pen.width, pen.width * aspect};
   const bool has = picture(pen, preview, at, size);
   if (!has) centred(ImGui::GetWindowDrawList(), at, size, IM_COL32(200, 204, 210, 255), w.label);
+  else drawTaps(pen, at, size);
   double u = 0, v = 0;   // where its laser pointer rests
   const auto spot = pen.device.fact("pointer.range");
   if (spot && spot->number.value_or(0) > 0 && std::sscanf(pen.device.entry("pointer").c_str(), "%lf,%lf", &u, &v) == 2)
     ImGui::GetWindowDrawList()->AddCircleFilled({at.x + size.x * static_cast<float>(u), at.y + size.y * static_cast<float>(v)}, 0.35F * pen.unit, IM_COL32(255, 30, 20, 255), 16);
-  if (area(pen, ("##" + w.id).c_str(), at, size, w.enabled && has)) {
+  if (area(("##" + w.id).c_str(), at, size)) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     pen.pressed(w.id, fmt::format("{:.4f},{:.4f}", std::clamp((mouse.x - at.x) / size.x, 0.0F, 0.9999F), std::clamp((mouse.y - at.y) / size.y, 0.0F, 0.9999F)));
   }
@@ -133,13 +155,13 @@ void drawPreview(Pen& pen, const Widget& w) {
 
 // North up, as wide as the setups lie; green lines are links that hold, red ones failed.
 void drawPlan(Pen& pen, const Widget& w) {
-  label(pen, w.label);
+  caption(pen, w.label);
   const ImVec2 at = screenAt(pen);
   const ImVec2 size{pen.width, pen.width * 0.6F};
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddRectFilled(at, plus(at, size), pen.skin.tile, pen.skin.rounding * pen.unit);
   list->AddRect(at, plus(at, size), pen.skin.line, pen.skin.rounding * pen.unit);
-  if (area(pen, ("##" + w.id).c_str(), at, size, true) && pen.view.asking) pen.pressed(w.id);
+  if (area(("##" + w.id).c_str(), at, size) && pen.view.asking) pen.pressed(w.id);
   const auto* project = pen.device.project();
   if (project == nullptr || project->setups.empty()) return centred(list, at, size, pen.skin.dim, "–");
   double low_x = 1e300, high_x = -1e300, low_y = 1e300, high_y = -1e300;
@@ -154,7 +176,7 @@ void drawPlan(Pen& pen, const Widget& w) {
   };
   for (std::size_t i = 1; i < project->setups.size(); ++i)
     if (const auto& link = project->setups[i].link)
-      list->AddLine(place(project->setups[i - 1]), place(project->setups[i]), link->joined ? IM_COL32(40, 150, 70, 255) : IM_COL32(200, 50, 40, 255), 2);
+      list->AddLine(place(project->setups[i - 1]), place(project->setups[i]), link->joined ? IM_COL32(40, 150, 70, 255) : IM_COL32(200, 50, 40, 255), pen.hair(2));
   for (const auto& s : project->setups) {
     const ImVec2 p = place(s);
     list->AddCircleFilled(p, 0.45F * pen.unit, pen.skin.accent, 20);

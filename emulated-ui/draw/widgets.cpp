@@ -2,12 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 
-#include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "emulated-ui/device/numbers.h"
 #include "emulated-ui/draw/pen.h"
 
 namespace standpoint {
@@ -18,16 +17,21 @@ ImVec2 screenAt(const Pen& pen) {
   return at;
 }
 
-bool area(Pen& pen, const char* id, ImVec2 at, ImVec2 size, bool enabled) {
+bool area(const char* id, ImVec2 at, ImVec2 size) {
   ImGui::SetCursorScreenPos(at);
-  ImGui::BeginDisabled(!enabled && !pen.view.asking);
-  const bool pressed = ImGui::InvisibleButton(id, size);
-  ImGui::EndDisabled();
-  return pressed;
+  return ImGui::InvisibleButton(id, size);
 }
 
-void reasonOf(const Widget& w) {
-  if (!w.why_not.empty() && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", w.why_not.c_str());
+void tip(const std::string& text) {
+  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  const float pad = 0.5F * ImGui::GetFontSize();
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, pad});
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(20 * ImGui::GetFontSize());
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+  ImGui::PopStyleVar();
 }
 
 void centred(ImDrawList* list, ImVec2 at, ImVec2 size, ImU32 colour, const std::string& text) {
@@ -37,81 +41,28 @@ void centred(ImDrawList* list, ImVec2 at, ImVec2 size, ImU32 colour, const std::
   list->PopClipRect();
 }
 
-namespace {
-
 ImU32 faded(ImU32 colour, bool enabled) { return enabled ? colour : (colour & 0x00FFFFFFU) | 0x60000000U; }
 
 void frame(const Pen& pen, const Widget& w, ImVec2 at, ImVec2 size) {
-  if (pen.view.pointed == w.id)
-    ImGui::GetWindowDrawList()->AddRect({at.x - 3, at.y - 3}, {at.x + size.x + 3, at.y + size.y + 3}, IM_COL32(255, 178, 0, 255), pen.skin.rounding * pen.unit, 0, 3);
+  if (pen.view.pointed != w.id) return;
+  const float off = pen.hair(3);
+  ImGui::GetWindowDrawList()->AddRect({at.x - off, at.y - off}, {at.x + size.x + off, at.y + size.y + off}, IM_COL32(255, 178, 0, 255), pen.skin.rounding * pen.unit, 0, off);
 }
 
-// Label on the left, value on the right, a mark where it opens a screen.
-void tile(Pen& pen, const Widget& w, const std::string& id, const std::string& value, const std::string& label, const std::string& shown, bool enabled, bool opens) {
-  const ImVec2 size{pen.width, pen.touch()};
-  const ImVec2 at = screenAt(pen);
-  ImDrawList* list = ImGui::GetWindowDrawList();
-  if (area(pen, id.c_str(), at, size, enabled)) pen.pressed(w.id, value);
-  const bool hovered = ImGui::IsItemHovered() && enabled;
-  reasonOf(w);
-  const float rounding = pen.skin.rounding * pen.unit;
-  list->AddRectFilled(at, {at.x + size.x, at.y + size.y}, hovered ? pen.skin.tile_hover : pen.skin.tile, rounding);
-  list->AddRect(at, {at.x + size.x, at.y + size.y}, pen.skin.line, rounding);
-  const float line = ImGui::GetTextLineHeight(), y = at.y + (size.y - line) / 2, inset = 0.8F * pen.unit;
-  float right = at.x + size.x - inset;
-  if (opens) {
-    const float s = 0.35F * pen.unit;
-    list->AddPolyline(std::array<ImVec2, 3>{ImVec2{right - s, at.y + size.y / 2 - s}, ImVec2{right, at.y + size.y / 2}, ImVec2{right - s, at.y + size.y / 2 + s}}.data(), 3,
-                      faded(pen.skin.dim, enabled), 0, 1.5F);
-    right -= 1.2F * pen.unit;
-  }
-  const float value_width = ImGui::CalcTextSize(shown.c_str()).x;
-  const float label_width = ImGui::CalcTextSize(label.c_str()).x;
-  const float room = right - at.x - 2 * inset;
-  const float value_at = std::max(at.x + inset + std::min(label_width, 0.45F * room) + inset, right - value_width);
-  list->PushClipRect(at, {shown.empty() ? right : value_at - 0.3F * inset, at.y + size.y}, true);
-  list->AddText({at.x + inset, y}, faded(pen.skin.tile_text, enabled), label.c_str());
-  list->PopClipRect();
-  list->PushClipRect({value_at, at.y}, {right, at.y + size.y}, true);
-  list->AddText({value_at, y}, faded(pen.skin.dim, enabled), shown.c_str());
-  list->PopClipRect();
-  frame(pen, w, at, size);
-}
+float wrappedHeight(const std::string& text, float width) { return ImGui::CalcTextSize(text.c_str(), nullptr, false, std::max(1.0F, width)).y; }
 
-void readout(Pen& pen, const Widget& w) {
-  const float height = ImGui::GetTextLineHeight() + 0.4F * pen.unit;
-  const ImVec2 at = screenAt(pen);
-  if (area(pen, ("##" + w.id).c_str(), at, {pen.width, height}, true) && pen.view.asking) pen.pressed(w.id);
-  reasonOf(w);
-  ImDrawList* list = ImGui::GetWindowDrawList();
-  const float inset = 0.4F * pen.unit;
-  const ImU32 value_colour = w.why_not.empty() ? pen.skin.text : IM_COL32(214, 60, 40, 255);
-  const float width = ImGui::CalcTextSize(w.value.c_str()).x;
-  list->PushClipRect(at, {at.x + pen.width - 2 * inset - width, at.y + height}, true);
-  list->AddText({at.x + inset, at.y}, pen.skin.dim, w.label.c_str());
-  list->PopClipRect();
-  list->AddText({at.x + pen.width - inset - width, at.y}, value_colour, w.value.c_str());
-  frame(pen, w, at, {pen.width, height});
-}
-
-void bigKey(Pen& pen, const Widget& w) {
-  const ImVec2 size{pen.width, 1.35F * pen.touch()};
-  const ImVec2 at = screenAt(pen);
-  if (area(pen, ("##" + w.id).c_str(), at, size, w.enabled)) pen.pressed(w.id);
-  const bool hovered = ImGui::IsItemHovered() && w.enabled;
-  reasonOf(w);
-  ImDrawList* list = ImGui::GetWindowDrawList();
-  list->AddRectFilled(at, {at.x + size.x, at.y + size.y}, faded(pen.skin.key, w.enabled), pen.skin.rounding * pen.unit);
-  if (hovered) list->AddRectFilled(at, {at.x + size.x, at.y + size.y}, IM_COL32(255, 255, 255, 28), pen.skin.rounding * pen.unit);
-  centred(list, at, size, IM_COL32_WHITE, w.label);
-  frame(pen, w, at, size);
+void wrapped(ImVec2 at, float width, ImU32 colour, const std::string& text) {
+  ImGui::GetWindowDrawList()->AddText(nullptr, 0, at, colour, text.c_str(), nullptr, std::max(1.0F, width));
 }
 
 void caption(const Pen& pen, const std::string& text) {
   const ImVec2 at = screenAt(pen);
-  ImGui::GetWindowDrawList()->AddText({at.x + 0.4F * pen.unit, at.y}, pen.skin.dim, text.c_str());
-  ImGui::Dummy({0, ImGui::GetTextLineHeight()});
+  const float inset = 0.4F * pen.unit;
+  wrapped({at.x + inset, at.y}, pen.width - 2 * inset, pen.skin.dim, text);
+  ImGui::Dummy({0, wrappedHeight(text, pen.width - 2 * inset)});
 }
+
+namespace {
 
 // In as many columns as the widest option allows, so that nine resolutions do not become nine rows.
 void choice(Pen& pen, const Widget& w) {
@@ -130,12 +81,12 @@ void choice(Pen& pen, const Widget& w) {
     const auto& option = w.options[i];
     const ImVec2 from{at.x + static_cast<float>(i % columns) * (width + gap), at.y + static_cast<float>(i / columns) * (height + gap)};
     const bool enabled = w.enabled && option.enabled;
-    if (area(pen, option.value.c_str(), from, {width, height}, enabled)) pen.pressed(w.id, option.value);
+    if (area(option.value.c_str(), from, {width, height})) pen.pressed(w.id, option.value);
     const bool hovered = ImGui::IsItemHovered() && enabled;
-    if (!option.why_not.empty() && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", option.why_not.c_str());
+    tip(option.why_not);
     const bool chosen = option.label == w.value;
     list->AddRectFilled(from, {from.x + width, from.y + height}, chosen ? pen.skin.accent : hovered ? pen.skin.tile_hover : pen.skin.tile, pen.skin.rounding * pen.unit);
-    if (!chosen) list->AddRect(from, {from.x + width, from.y + height}, pen.skin.line, pen.skin.rounding * pen.unit);
+    if (!chosen) list->AddRect(from, {from.x + width, from.y + height}, pen.skin.line, pen.skin.rounding * pen.unit, 0, pen.hair());
     centred(list, from, {width, height}, chosen ? pen.skin.accent_text : faded(pen.skin.tile_text, enabled), option.label);
   }
   ImGui::PopID();
@@ -143,23 +94,6 @@ void choice(Pen& pen, const Widget& w) {
   frame(pen, w, at, {pen.width, rows * (height + gap) - gap});
   ImGui::SetCursorScreenPos({at.x, at.y + rows * (height + gap)});
   ImGui::Dummy({0, 0});
-}
-
-void toggle(Pen& pen, const Widget& w) {
-  const ImVec2 size{pen.width, pen.touch()};
-  const ImVec2 at = screenAt(pen);
-  if (area(pen, ("##" + w.id).c_str(), at, size, w.enabled)) pen.pressed(w.id, w.value == "on" ? "off" : "on");
-  reasonOf(w);
-  ImDrawList* list = ImGui::GetWindowDrawList();
-  list->AddRectFilled(at, {at.x + size.x, at.y + size.y}, pen.skin.tile, pen.skin.rounding * pen.unit);
-  list->AddRect(at, {at.x + size.x, at.y + size.y}, pen.skin.line, pen.skin.rounding * pen.unit);
-  const float line = ImGui::GetTextLineHeight();
-  list->AddText({at.x + 0.8F * pen.unit, at.y + (size.y - line) / 2}, faded(pen.skin.tile_text, w.enabled), w.label.c_str());
-  const bool on = w.value == "on";
-  const float h = 1.4F * pen.unit, length = 2.6F * pen.unit, x = at.x + size.x - length - 0.8F * pen.unit, y = at.y + (size.y - h) / 2;
-  list->AddRectFilled({x, y}, {x + length, y + h}, on ? pen.skin.accent : pen.skin.line, h / 2);
-  list->AddCircleFilled({on ? x + length - h / 2 : x + h / 2, y + h / 2}, 0.42F * h, IM_COL32_WHITE, 20);
-  frame(pen, w, at, size);
 }
 
 // What is typed is taken over when the field is left or Enter is pressed.
@@ -171,7 +105,7 @@ void entry(Pen& pen, const Widget& w, bool number) {
   ImGui::PushStyleColor(ImGuiCol_FrameBg, pen.skin.tile);
   ImGui::PushStyleColor(ImGuiCol_Text, pen.skin.tile_text);
   ImGui::PushStyleColor(ImGuiCol_Border, pen.skin.line);
-  ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 1);
+  ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, pen.hair());
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.8F * pen.unit, (pen.touch() - ImGui::GetTextLineHeight()) / 2});
   const auto typing = pen.view.typing.find(w.id);
   std::string text = typing == pen.view.typing.end() ? w.value : typing->second;
@@ -184,30 +118,19 @@ void entry(Pen& pen, const Widget& w, bool number) {
   ImGui::PopStyleVar(2);
   ImGui::PopStyleColor(3);
   if (number) {
-    const double value = std::strtod(w.value.c_str(), nullptr);
     for (int i = 0; i < 2; ++i) {
       const ImVec2 from{at.x + pen.width - buttons + 0.3F * pen.unit + static_cast<float>(i) * (pen.touch() + 0.3F * pen.unit), at.y};
-      const double next = std::clamp(value + (i == 0 ? -1 : 1), w.minimum, std::max(w.minimum, w.maximum));
-      if (area(pen, (w.id + (i == 0 ? "-" : "+")).c_str(), from, {pen.touch(), pen.touch()}, w.enabled)) pen.pressed(w.id, fmt::format("{:g}", next));
+      const auto next = stepped(w.value, i == 0 ? -1 : 1, w.minimum, w.maximum);
+      if (area((w.id + (i == 0 ? "-" : "+")).c_str(), from, {pen.touch(), pen.touch()})) pen.pressed(w.id, next);
       ImDrawList* list = ImGui::GetWindowDrawList();
       list->AddRectFilled(from, {from.x + pen.touch(), from.y + pen.touch()}, ImGui::IsItemHovered() ? pen.skin.tile_hover : pen.skin.tile, pen.skin.rounding * pen.unit);
-      list->AddRect(from, {from.x + pen.touch(), from.y + pen.touch()}, pen.skin.line, pen.skin.rounding * pen.unit);
+      list->AddRect(from, {from.x + pen.touch(), from.y + pen.touch()}, pen.skin.line, pen.skin.rounding * pen.unit, 0, pen.hair());
       centred(list, from, {pen.touch(), pen.touch()}, pen.skin.tile_text, i == 0 ? "−" : "+");
     }
   }
   frame(pen, w, at, {pen.width, pen.touch()});
   ImGui::SetCursorScreenPos({at.x, at.y + pen.touch() + 0.4F * pen.unit});
   ImGui::Dummy({0, 0});
-}
-
-void rows(Pen& pen, const Widget& w) {
-  if (w.options.empty()) {
-    caption(pen, w.label + ": –");
-    return;
-  }
-  ImGui::PushID(w.id.c_str());
-  for (const auto& option : w.options) tile(pen, w, option.value, option.value, option.label, "", w.enabled && option.enabled, true);
-  ImGui::PopID();
 }
 
 void progress(Pen& pen, const Widget& w) {
@@ -223,8 +146,8 @@ void progress(Pen& pen, const Widget& w) {
 }
 
 void paragraph(const Pen& pen, const std::string& text) {
-  ImGui::SetCursorPosX(pen.left);
-  ImGui::PushTextWrapPos(pen.left + pen.width);
+  ImGui::SetCursorPosX(pen.left + 0.4F * pen.unit);
+  ImGui::PushTextWrapPos(pen.left + pen.width - 0.4F * pen.unit);
   ImGui::PushStyleColor(ImGuiCol_Text, pen.skin.text);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopStyleColor();
@@ -238,14 +161,14 @@ void drawWidget(Pen& pen, const Widget& w) {
   switch (w.kind) {
     case WidgetKind::status:
     case WidgetKind::lamp: return;   // the title bar and the body have them
-    case WidgetKind::readout: return readout(pen, w);
-    case WidgetKind::button: return tile(pen, w, "##" + w.id, "", w.label, w.value, w.enabled, true);
-    case WidgetKind::key: return bigKey(pen, w);
+    case WidgetKind::readout: return drawReadout(pen, w);
+    case WidgetKind::button: return drawTile(pen, w);
+    case WidgetKind::key: return drawBigKey(pen, w);
     case WidgetKind::choice: return choice(pen, w);
-    case WidgetKind::toggle: return toggle(pen, w);
+    case WidgetKind::toggle: return drawToggle(pen, w);
     case WidgetKind::text: return entry(pen, w, false);
     case WidgetKind::number: return entry(pen, w, true);
-    case WidgetKind::list: return rows(pen, w);
+    case WidgetKind::list: return drawRows(pen, w);
     case WidgetKind::progress: return progress(pen, w);
     case WidgetKind::note: return paragraph(pen, w.label);
     case WidgetKind::level: return drawLevel(pen, w);

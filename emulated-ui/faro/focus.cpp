@@ -67,7 +67,7 @@ Result<void> saveProfile(Device& device, const std::string&) {
   const auto& entries = device.state().entries;
   const auto typed = entries.find("profile_name");
   const std::string name = typed == entries.end() ? "" : typed->second;
-  if (auto ok = checkName(name); !ok) return ok;
+  if (auto ok = checkName(device, name); !ok) return ok;
   if (std::any_of(kProfiles.begin(), kProfiles.end(), [&](const Profile& p) { return name == p.name; }))
     return failure(ErrorKind::usage, device.word("factory_profile"));
   device.change().values[kOwnProfile + name] = settingsText(device.state().settings);

@@ -70,7 +70,7 @@ double doublePositions(const Device& device) {
 // Loads the project of this name; makes it where there is none [S31].
 Result<void> loadOrCreate(Device& device, const std::string&) {
   const auto name = device.entry("name");
-  if (auto ok = checkName(name); !ok) return ok;
+  if (auto ok = checkName(device, name); !ok) return ok;
   auto& s = device.change();
   const auto found =
       std::find_if(s.projects.begin(), s.projects.end(), [&](const DeviceProject& p) { return p.name == name; });
@@ -107,7 +107,7 @@ Result<void> proposePosition(Device& device, const std::string&) {
 
 Result<void> setBase(Device& device, const std::string&) {
   const auto base = device.entry("base");
-  if (auto ok = checkName(base); !ok) return ok;
+  if (auto ok = checkName(device, base); !ok) return ok;
   device.project()->base = base;
   device.note("position_base", base);
   return {};

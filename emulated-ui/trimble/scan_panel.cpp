@@ -57,6 +57,18 @@ const StoredSetup* parentOfArea(const Device& device) {
   return nullptr;
 }
 
+// The fields of the window begin with what is scanned now.
+Result<void> proposeArea(Device& device, const std::string&) {
+  const auto angle = [&](const char* key) { return std::strtod(device.setting(key).c_str(), nullptr); };
+  const double from = angle("horizontal_from"), width = angle("horizontal_to") - from;
+  auto& entries = device.change().entries;
+  entries["start_h"] = fmt::format("{:g}", from);
+  entries["delta_h"] = fmt::format("{:g}", width > 0 ? width : width + 360);
+  entries["start_v"] = fmt::format("{:g}", 90 - angle("vertical_to"));
+  entries["delta_v"] = fmt::format("{:g}", angle("vertical_to") - angle("vertical_from"));
+  return {};
+}
+
 // Start and width in degrees, the vertical counted from the zenith [S15].
 Result<void> takeArea(Device& device, const std::string&) {
   const auto number = [&](const char* id) { return std::strtod(device.entry(id).c_str(), nullptr); };

@@ -48,7 +48,7 @@ std::vector<WidgetOption> stationRows(const Device& device) {
   for (const auto i : order)
     rows.push_back({std::to_string(i),
                     fmt::format("{}  {}  {}{}", setups[i].name, setups[i].station,
-                                device.word("registration=" + registrationOf(device, setups[i])),
+                                device.word("registration=" + (i == 0 ? "reference" : registrationOf(device, setups[i]))),
                                 setups[i].moved        ? "  !"
                                 : setups[i].unlevelled ? "  ∠"
                                                        : ""),

@@ -26,6 +26,7 @@ double downloadSeconds(const Device& device);
 std::vector<WidgetOption> modeRows(const Device& device);  // the seven columns [S15]
 Result<void> chooseMode(Device& device, const std::string& duration);
 const StoredSetup* parentOfArea(const Device& device);
+Result<void> proposeArea(Device& device, const std::string&);
 Result<void> takeArea(Device& device, const std::string&);
 double stepProgress(const Device& device);
 std::vector<WidgetOption> stepRows(const Device& device);

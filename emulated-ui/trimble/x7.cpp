@@ -211,6 +211,7 @@ const DeviceProgram kProgram = {
      {"create_new", createNew},
      {"import_now", importNow},
      {"choose_mode", chooseMode},
+     {"propose_area", proposeArea},
      {"take_area", takeArea},
      {"choose_link", chooseLink},
      {"apply_link", applyLink},

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "editor/model/file_list.h"
+#include "editor/model/interface_scale.h"
 #include "editor/model/recovery.h"
 #include "editor/model/settings.h"
 
@@ -63,12 +64,28 @@ TEST_F(Folder, KeepsSettingsFromOneStartToTheNext) {
   EXPECT_EQ(settings.recent, (std::vector<std::string>{"/models/house.ifc", "/models/school.ifc"}));
 }
 
+TEST(Scale, GoesUpAndDownAndEnds) {
+  EXPECT_DOUBLE_EQ(neighbourScale(1, 1), 1.1);
+  EXPECT_DOUBLE_EQ(neighbourScale(1, -1), 0.9);
+  EXPECT_DOUBLE_EQ(neighbourScale(2.5, 1), 2.5);
+  EXPECT_DOUBLE_EQ(neighbourScale(0.75, -1), 0.75);
+  EXPECT_DOUBLE_EQ(neighbourScale(1.6, 0), 1.5) << "a size that is not on the list";
+}
+
+TEST(Scale, NeverOutgrowsTheWindow) {
+  EXPECT_DOUBLE_EQ(fittingScale(1, 1, 1280, 800), 1);
+  EXPECT_DOUBLE_EQ(fittingScale(1, 2.5, 3840, 2160), 2.5);
+  EXPECT_DOUBLE_EQ(fittingScale(1, 2.5, 1280, 800), 1.5);
+  EXPECT_DOUBLE_EQ(fittingScale(2, 1.25, 3840, 2160), 2.5);
+  EXPECT_DOUBLE_EQ(fittingScale(1, 2.5, 300, 200), 0.75);
+}
+
 TEST_F(Folder, StartsWithDefaultsWhenTheSettingsAreBroken) {
   for (const char* text : {"", "{", "[1,2]", "{\"areas\": [{\"left\": \"wide\"}], \"user_scale\": 1e99, \"recent\": [7]}"}) {
     write("editor.json", text);
     const auto settings = readSettings(root / "editor.json");
     EXPECT_EQ(settings.areas, Settings().areas) << text;
-    EXPECT_LE(settings.user_scale, 2) << text;
+    EXPECT_LE(settings.user_scale, kUserScales.back()) << text;
     EXPECT_TRUE(settings.recent.empty()) << text;
   }
 }

@@ -46,6 +46,9 @@ TEST_F(Focus, GreysOutWhatTheMirrorCannotTurn) {
     if (std::string(lowest) == "1x") continue;
     const std::string below = std::to_string(lowest[0] - '0' - 1) + "x";
     EXPECT_FALSE(d->setSettings(withSettingOf(resolution, below))) << resolution << ' ' << below;
+    const auto screen = d->screen();
+    for (const auto& option : findWidget(screen, "quality")->options)
+      EXPECT_EQ(option.enabled, option.value >= lowest) << resolution << ' ' << option.value << ": a quality does not change the resolution";
   }
 }
 

@@ -108,6 +108,14 @@ TEST_F(Host, ACopyInAnotherFormatHoldsTheSamePoints) {
   EXPECT_EQ(device().fact("setups.transferred")->number, 1);
 }
 
+TEST_F(Host, ASlowComputerDoesNotEmptyTheBattery) {
+  press({"scan"});
+  const double takes_s = device().fact("expected.seconds")->number.value();
+  ASSERT_TRUE(runUntilIdle(1));   // 20 s of the device's time in each step of 5 ms
+  const double used_s = (1 - device().fact("battery")->number.value()) * device().type().definition.body.battery_s;
+  EXPECT_LT(used_s, 60 + takes_s + 100);
+}
+
 TEST_F(Host, AStoppedScanLeavesNoFileAndNoSetup) {
   press({"scan"});
   host_.time_factor = 0.001;

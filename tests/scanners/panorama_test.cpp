@@ -57,6 +57,16 @@ TEST(Panorama, ShowsWhatStandsToTheLeftOfItsMiddle) {
   EXPECT_GT(p.at({0, 1, 3})[1], 90);
 }
 
+TEST(Panorama, TellsHowFarItIs) {
+  Progress progress;
+  int told = 0;
+  progress.onChange([&] { ++told; });
+  Report report;
+  ASSERT_TRUE(takePanorama(*boardInRoom(), withCamera(360, 0, true, 1), {}, 1, report, progress));
+  EXPECT_DOUBLE_EQ(progress.fraction(), 1);
+  EXPECT_GE(told, 100) << "by hundredths, not at its end";
+}
+
 TEST(Panorama, TurnsWithTheScanner) {
   const auto scene = boardInRoom();
   Pose turned;
