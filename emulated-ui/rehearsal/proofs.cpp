@@ -238,6 +238,7 @@ const std::vector<ProofRow>& proofRows() {
       {"office.copies", "", numbers(0, 1e4), "copies in the office that are as large as their source"},
       {"survey.walls", "", numbers(0, 1), "share of the area's walls that a station meets at 60° or steeper"},
       {"survey.coverage", "", numbers(0, 1), "share of the area's surfaces that a station sees"},
+      {"survey.reached", "", numbers(0, 1), "share of what can be seen from anywhere in the area that a station sees"},
       {"survey.overlap", "", numbers(0, 1), "the least overlap of a station with its best neighbour"},
       {"survey.stations", "", numbers(0, 1e4), "stations that are put up"},
   };
@@ -282,7 +283,7 @@ std::optional<Fact> Proofs::fact(const std::string& name, const Exercise& exerci
         count += 1;
       }
     if (name == "survey.stations") return numberFact(count);
-    if (survey_of_ != of) survey_ = readSurvey(exercise, device, document), survey_of_ = of;
+    if (survey_of_ != of) survey_ = readSurvey(exercise, device, document, survey_reach_), survey_of_ = of;
     const auto found = survey_.find(name);
     return found == survey_.end() ? std::nullopt : std::optional(numberFact(found->second));
   }

@@ -40,6 +40,7 @@ class Proofs {
   std::string plan_of_;            // stations and settings
   std::map<std::string, double> survey_;
   std::string survey_of_;
+  std::vector<std::uint8_t> survey_reach_;
 };
 
 const std::vector<ProofRow>& proofRows();

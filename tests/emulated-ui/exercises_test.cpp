@@ -253,5 +253,37 @@ TEST(Mistake, ALinkThatIsTurnedRoundIsTakenWithoutALook) {
   EXPECT_GT(outcome.facts.at("links.error"), 500);
 }
 
+// The way of a handheld scanner is planned, and judged, as an action like others.
+RehearsalAction walk(const nlohmann::json& way) {
+  const auto action = actionFrom({{"walk", way}}, "test", "");
+  EXPECT_TRUE(action) << describe(action.error());
+  return action.value_or(RehearsalAction{});
+}
+
+TEST(Walk, IsAnActionThatReplays) {
+  const auto way = nlohmann::json::parse("[[0, 0, 0], [3, 4, 10], [0, 0, 20]]");
+  const auto action = walk(way);
+  EXPECT_EQ(action.kind, Kind::walk);
+  EXPECT_EQ(toJson(action), (nlohmann::json{{"walk", way}}));
+  for (const char* wrong : {"[[0, 0, 0]]", "[[0, 0, 0], [1, 1]]", "[[0, 0, 5], [1, 1, 5]]", "[[0, 0, 0], [1, \"1\", 5]]", "7", "[]"})
+    EXPECT_FALSE(actionFrom({{"walk", nlohmann::json::parse(wrong)}}, "test", "")) << wrong;
+}
+
+TEST(Walk, TellsLengthClosureAndSpeedAndTheLastOneCounts) {
+  const std::vector<std::string> kFacts = {"walk.length", "walk.closure", "walk.speed", "walk.door_speed", "walk.drift", "count.field.walk"};
+  const auto open = rehearse(exercise("E19"), {walk({{0, 0, 0}, {30, 40, 100}})}, kFacts);
+  EXPECT_NEAR(open.facts.at("walk.length"), 50, 1e-9);
+  EXPECT_NEAR(open.facts.at("walk.closure"), 50, 1e-9);
+  EXPECT_NEAR(open.facts.at("walk.speed"), 0.5, 1e-9);
+  EXPECT_FALSE(held(open, "closed"));
+  const auto both = rehearse(exercise("E19"), {walk({{0, 0, 0}, {30, 40, 100}}), walk({{0, 0, 0}, {30, 40, 25}, {0, 0, 50}})}, kFacts);
+  EXPECT_EQ(both.facts.at("count.field.walk"), 2);
+  EXPECT_NEAR(both.facts.at("walk.length"), 100, 1e-9) << "of the walk that was planned last";
+  EXPECT_NEAR(both.facts.at("walk.closure"), 0, 1e-9);
+  EXPECT_NEAR(both.facts.at("walk.speed"), 2, 1e-9);
+  EXPECT_TRUE(held(both, "closed"));
+  EXPECT_FALSE(held(both, "speed"));
+}
+
 }  // namespace
 }  // namespace standpoint

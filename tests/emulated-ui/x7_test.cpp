@@ -513,6 +513,21 @@ TEST_F(X7, MayTakeAWrongMatchInASymmetricalRoomForAGoodOne) {
   EXPECT_EQ(d.fact("registration"), "rejected") << "the eye of the operator is the last check";
 }
 
+TEST_F(X7, ASymmetricalRoomTurnsTheStartOfEveryLinkByHalfATurn) {
+  ready();
+  scanAt("S1");
+  ASSERT_TRUE(d->trouble("symmetrical_room"));
+  scanAt("S2");
+  const auto automatic = d->takeOrder();
+  ASSERT_TRUE(automatic && std::holds_alternative<LinkOrder>(*automatic));
+  EXPECT_EQ(std::get<LinkOrder>(*automatic).turn_deg, 180);
+  linked(0.0015, 0.85);
+  ASSERT_TRUE(d.press({"registration", "turn=-170", "refine"}));   // laid back by hand, ten degrees short
+  const auto refined = d->takeOrder();
+  ASSERT_TRUE(refined && std::holds_alternative<LinkOrder>(*refined));
+  EXPECT_EQ(std::get<LinkOrder>(*refined).turn_deg, 10);
+}
+
 TEST_F(X7, RefinesAllLinksOneAfterTheOther) {
   ready();
   secondStation();
@@ -664,6 +679,59 @@ TEST_F(X7, ExportsByCableOrWlan) {
   EXPECT_EQ(d.dialog(), "transferred");
   ASSERT_TRUE(d.press({"ok"}));
   EXPECT_EQ(d.shows("untransferred"), "0");
+}
+
+TEST_F(X7, ExportsTheFormatsThatCanBeWrittenAndNoOthers) {
+  ready();
+  scanAt("S1");
+  ASSERT_TRUE(d.press({"map", "export"}));
+  for (const char* makers : {"TDX", "RCP", "POD", "TZF"}) {
+    ASSERT_TRUE(d.press({std::string("export_format=") + makers}));
+    EXPECT_TRUE(d.refuses("by_cable")) << makers;
+    EXPECT_TRUE(d.refuses("by_wlan")) << makers;
+  }
+  const std::pair<const char*, const char*> kWritten[] = {{"E57", ""}, {"LAS", ".las"}, {"PTX", ".ptx"}};
+  for (const auto& [format, extension] : kWritten) {
+    ASSERT_TRUE(d.press({std::string("export_format=") + format, "by_cable"}));
+    const auto order = d->takeOrder();
+    ASSERT_TRUE(order);
+    EXPECT_EQ(std::get<TransferOrder>(*order).extension, extension);
+  }
+}
+
+TEST_F(X7, PointsItsLaserAtWhatIsTappedInTheStationView) {
+  ready();
+  scanAt("S1");
+  auto picture = std::make_shared<ScanPreview>();
+  picture->columns = 4, picture->rows = 2;
+  picture->x_m = {1, 0, -1, 0, 1, 0, -1, std::nanf("")};
+  picture->y_m = {0, -1, 0, 1, 0, -1, 0, 1};
+  picture->z_m = {0, 0, 0, 0, 1, 1, 1, 1};
+  picture->grey.assign(8, 0);
+  d->shownSetup()->preview = picture;
+  EXPECT_EQ(d.shows("pointer_spot"), "(not there)");
+  ASSERT_TRUE(d.press({"pointer=on", "preview=0.3,0.9"}));
+  EXPECT_EQ(d.shows("pointer_spot"), "1.00 m  H 90.0°  V 90.0°");
+  EXPECT_EQ(d.fact("entry.measured_from"), "") << "a tap points and does not measure";
+  ASSERT_TRUE(d.press({"preview=0.99,0.1"}));
+  EXPECT_EQ(d.dialog(), "refused") << "no point came back from there";
+  ASSERT_TRUE(d.press({"ok"}));
+  ASSERT_TRUE(d->hand("stand_at", "S2"));
+  EXPECT_EQ(d->fact("pointer.range")->number, 0) << "it was carried away";
+  ASSERT_TRUE(d.press({"preview=0.3,0.9"}));
+  EXPECT_EQ(d.dialog(), "refused");
+  ASSERT_TRUE(d.press({"ok", "pointer=off", "preview=0.3,0.9"}));
+  EXPECT_NE(d.fact("entry.measured_from"), "");
+}
+
+TEST_F(X7, ListsProjectsThatHaveAPicture) {
+  start();
+  ASSERT_TRUE(d.press({"create_new", "name=A", "project_photo=take", "create", "menu", "create_new", "name=B", "project_photo=none", "create", "menu", "all_projects"}));
+  const auto screen = d->screen();
+  const auto* list = findWidget(screen, "project_list");
+  ASSERT_NE(list, nullptr);
+  EXPECT_EQ(list->options[0].label, "A  (0)  (with a picture)");
+  EXPECT_EQ(list->options[1].label, "B  (0)");
 }
 
 }  // namespace
