@@ -35,8 +35,10 @@ bool changesTheScan(const Instrument& instrument, const InstrumentSetting& setti
     for (const auto& choice : other.choices)
       if (const auto adapted = adaptedSettings(instrument, grounds.front(), other.key, choice.value)) grounds.push_back(*adapted);
   for (const auto& other : instrument.settings) {
-    const auto adapted = other.choices.empty() ? adaptedSettings(instrument, grounds.front(), other.key, "30") : Result<SettingValues>(SettingValues{});
-    if (adapted && !adapted->empty()) grounds.push_back(*adapted);
+    if (!other.choices.empty()) continue;
+    for (const auto& choice : setting.choices)
+      if (const auto adapted = adaptedSettings(instrument, withSetting(grounds.front(), setting.key, choice.value), other.key, "30"))
+        grounds.push_back(*adapted);
   }
   std::vector<std::string> values;
   for (const auto& choice : setting.choices) values.push_back(choice.value);
