@@ -110,6 +110,8 @@ void putInto(Device& device, const std::string& screen, const std::vector<Stored
   for (const auto& setup : setups) s.around.card_used_bytes += setup.bytes;
   s.phase = phase.id;
   s.screen = screen;
+  for (const auto& row : device.type().definition.screens)   // as one comes there
+    if (row.entry && row.id != screen && phase.screen != screen) s.came_from = {row.id};
   s.elapsed_s = 0.4 * device.fact("phase.lasts")->number.value_or(0);
   if (phase.screen == screen && !phase.lasts.empty() && !phase.waits) {
     s.running = ScanOrder{};

@@ -69,10 +69,10 @@ class X9 : public X7 {
 TEST_F(X7, StartsWithoutItsScannerAndShowsThatItIsNotConnected) {
   start();
   EXPECT_EQ(d.phase(), "disconnected");
-  EXPECT_EQ(d.shows("connected"), "No");
+  EXPECT_EQ(d.shows("connected"), "not connected");
   ASSERT_TRUE(d.press({"create_new", "create"}));
   EXPECT_EQ(d.screen(), "map_view") << "after Create the Map View opens";
-  EXPECT_EQ(d.shows("connected"), "No") << "with the red icon";
+  EXPECT_EQ(d.shows("connected"), "not connected") << "with the red icon";
   ASSERT_TRUE(d.press({"scan_panel"}));
   EXPECT_TRUE(d.refuses("start_scan"));
 }
@@ -85,7 +85,7 @@ TEST_F(X7, ConnectsByWlanOrByCable) {
   ASSERT_TRUE(d.press({"ok", "connection=cable", "connect"}));
   d->tick(5);
   EXPECT_EQ(d.phase(), "idle");
-  EXPECT_EQ(d.shows("connected"), "Yes") << "the icon goes";
+  EXPECT_EQ(d.shows("connected"), "connected") << "the icon goes";
   ASSERT_TRUE(d.press({"create_new", "create", "status", "disconnect"}));
   EXPECT_EQ(d.phase(), "disconnected");
   ASSERT_TRUE(d.press({"connection=wlan"}));
