@@ -42,7 +42,7 @@ class AWalkerInTheScan : public testing::Test {
                  const std::string& instrument = "faro-focus-s350") {
     const auto file = folder_.path() / "scan.e57";
     json options = {{"instrument", instrument}, {"set", settings}, {"seed", 3}, {"truth", true}, {"output", file.string()}};
-    options.update(more);
+    if (!more.is_null()) options.update(more);
     const auto outcome = run("scan", document_, options);
     EXPECT_TRUE(outcome) << describe(outcome.error());
     Points points;
