@@ -65,13 +65,11 @@ void transfer(Device& d, bool with_flagged) {
 void transferAll(Device& d) { transfer(d, true); }
 void transferLevelled(Device& d) { transfer(d, false); }
 
-double numberOf(const Device& d, const char* value) { return d.fact(value)->number.value_or(0); }
-
 // The instrument's own filters, and its compensator.
 void prepare(const Device& d, ScanOrder& order) {
   order.compensator = order.compensator && d.value("compensator") == "on";
-  const double nearest = numberOf(d, "value.min_range"), farthest = numberOf(d, "value.max_range");
-  const double weakest = numberOf(d, "value.min_intensity");
+  const double nearest = d.number("value.min_range"), farthest = d.number("value.max_range");
+  const double weakest = d.number("value.min_intensity");
   std::string range;
   if (nearest > 0) range = fmt::format("from={:g}", nearest);
   if (farthest > 0) range += fmt::format("{}to={:g}", range.empty() ? "" : ",", farthest);
