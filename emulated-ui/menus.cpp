@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "emulated-ui/device/check.h"
 #include "emulated-ui/faro/focus.h"
 #include "emulated-ui/generic/generic.h"
 #include "emulated-ui/leica/blk360.h"
@@ -47,7 +48,11 @@ Result<std::shared_ptr<const DeviceType>> loadDevice(const EmulatedDevice& devic
   const auto standard = std::find_if(drives.begin(), drives.end(), [](const std::string& id) { return id != "*"; });
   auto found = instrumentById(instrument.empty() && standard != drives.end() ? *standard : instrument);
   if (!found) return failure(found.error());
-  return makeDeviceType(*std::move(definition), device.program(), *std::move(found), std::make_shared<const Words>(*std::move(words)));
+  auto type = makeDeviceType(*std::move(definition), device.program(), *std::move(found),
+                             std::make_shared<const Words>(*std::move(words)));
+  if (!type) return type;
+  if (const auto faults = checkStructure(**type); !faults.empty()) return failure(faults.front());
+  return type;
 }
 
 const EmulatedDevice& deviceFor(const std::string& instrument) {

@@ -19,7 +19,8 @@ struct EmulatedDevice {
 std::span<const EmulatedDevice> emulatedDevices();
 const EmulatedDevice* findDevice(const std::string& id);
 
-// Reads its data file, the words and the scanner's data sheet. `instrument` empty: the first that it drives.
+// Reads its data file, the words and the scanner's data sheet. `instrument` empty: the first that it drives. Refuses what
+// checkStructure finds, so that a slip in a data file shows when the device is chosen, not when a key is pressed.
 Result<std::shared_ptr<const DeviceType>> loadDevice(const EmulatedDevice& device, const std::string& instrument = {});
 // The device that drives this scanner; the generic one where no other does.
 const EmulatedDevice& deviceFor(const std::string& instrument);

@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
 #include <map>
 #include <set>
 #include <sstream>
 
 #include <fmt/format.h>
+
+#include "emulated-ui/device/numbers.h"
 
 namespace standpoint {
 
@@ -65,7 +66,7 @@ class Checker {
   explicit Checker(const DeviceType& type)
       : type_(type), device_(std::make_shared<const DeviceType>(type)), lookup_([this](const std::string& name) { return device_.domain(name); }) {}
 
-  std::vector<Error> check() {
+  std::vector<Error> structure() {
     collectEvents();
     for (const auto& screen : d().screens) checkScreen(screen);
     for (const auto& key : d().keys) checkWidget(key, "/keys/" + key.id);
@@ -73,6 +74,9 @@ class Checker {
     checkPhases();
     checkDialogs();
     checkReach();
+    return std::move(faults_);
+  }
+  std::vector<Error> words() {
     checkWords();
     return std::move(faults_);
   }
@@ -149,6 +153,17 @@ class Checker {
     }
   }
 
+  // A number, a number of the file or of the scanner, or a fact in seconds, but not what depends on the phase's own time.
+  bool isTime(const std::string& lasts) const {
+    if (numberIn(lasts)) return true;
+    const auto domain = device_.domain(lasts);
+    if (!domain || !domain->is_number) return false;
+    for (const auto* rows : {&type_.program.facts, &sharedFacts()})
+      for (const auto& row : *rows)
+        if (lasts == row.name) return row.unit == FactUnit::seconds && lasts != "phase.lasts";
+    return true;
+  }
+
   void checkPhases() {
     Graph graph;
     for (const auto& t : type_.program.transitions) {
@@ -165,11 +180,8 @@ class Checker {
       if (!back.contains(phase.id)) fault("/phases/" + phase.id, fmt::format("no way leads from this phase back to '{}'", first));
       if (!phase.screen.empty() && findScreen(d(), phase.screen) == nullptr)
         fault("/phases/" + phase.id + "/screen", fmt::format("there is no screen '{}'", phase.screen));
-      char* end = nullptr;
-      if (!phase.lasts.empty() && (std::strtod(phase.lasts.c_str(), &end), *end != '\0')) {
-        const auto domain = device_.domain(phase.lasts);
-        if (!domain || !domain->is_number) fault("/phases/" + phase.id + "/lasts", fmt::format("'{}' is no number of seconds", phase.lasts));
-      }
+      if (!phase.lasts.empty() && !isTime(phase.lasts))
+        fault("/phases/" + phase.id + "/lasts", fmt::format("'{}' is no number of seconds", phase.lasts));
       const bool ends = std::any_of(type_.program.transitions.begin(), type_.program.transitions.end(), [&](const Transition& t) {
         const auto froms = split(t.from);
         return std::string(t.event) == "elapsed" && std::find(froms.begin(), froms.end(), phase.id) != froms.end();
@@ -253,6 +265,12 @@ class Checker {
 
 }  // namespace
 
-std::vector<Error> checkDevice(const DeviceType& type) { return Checker(type).check(); }
+std::vector<Error> checkStructure(const DeviceType& type) { return Checker(type).structure(); }
+
+std::vector<Error> checkDevice(const DeviceType& type) {
+  auto faults = checkStructure(type);
+  for (auto& fault : Checker(type).words()) faults.push_back(std::move(fault));
+  return faults;
+}
 
 }  // namespace standpoint

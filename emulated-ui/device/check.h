@@ -12,5 +12,7 @@ namespace standpoint {
 // screens, phases and dialogues that cannot be reached or cannot be left, events that nobody sends, labels and helps
 // without a translation. Empty: the device is sound.
 std::vector<Error> checkDevice(const DeviceType& type);
+// The same without the words, which may lack a language: what would go wrong in the hands.
+std::vector<Error> checkStructure(const DeviceType& type);
 
 }  // namespace standpoint

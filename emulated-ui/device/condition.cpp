@@ -210,6 +210,8 @@ struct Literal {
 };
 using Case = std::vector<Literal>;   // all of them hold
 
+tl::unexpected<Error> tooManyCases() { return failure(ErrorKind::unusable, "the condition has too many cases"); }
+
 // The cases of which one must hold, `negated` or not.
 Result<std::vector<Case>> casesOf(const Node& node, bool negated) {
   if (node.kind == Node::Kind::comparison) return std::vector<Case>{{{node.comparison, negated}}};
@@ -222,6 +224,7 @@ Result<std::vector<Case>> casesOf(const Node& node, bool negated) {
     if (either) {
       cases.insert(cases.end(), more->begin(), more->end());
     } else {
+      if (cases.size() * more->size() > kMostCases) return tooManyCases();
       std::vector<Case> product;
       for (const auto& a : cases)
         for (const auto& b : *more) {
@@ -230,7 +233,7 @@ Result<std::vector<Case>> casesOf(const Node& node, bool negated) {
         }
       cases = std::move(product);
     }
-    if (cases.size() > kMostCases) return failure(ErrorKind::unusable, "the condition has too many cases");
+    if (cases.size() > kMostCases) return tooManyCases();
   }
   return cases;
 }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "emulated-ui/device/json_fields.h"
+#include "emulated-ui/device/numbers.h"
 #include "materials/json_file.h"
 
 namespace standpoint {
@@ -96,6 +97,9 @@ ValueRow valueRow(JsonFields& f) {
   if (v.kind == WidgetKind::number) {
     v.minimum = f.number("minimum", -1e9, 1e9);
     v.maximum = f.number("maximum", v.minimum, 1e9);
+    const auto standard = numberIn(v.standard);
+    if (!standard || *standard < v.minimum || *standard > v.maximum)
+      f.wrong("standard", fmt::format("a number from {} to {} is needed, in quotes", v.minimum, v.maximum));
   } else if (v.kind != WidgetKind::text && std::find(v.choices.begin(), v.choices.end(), v.standard) == v.choices.end()) {
     f.wrong("standard", fmt::format("'{}' is not one of the choices", v.standard));
   }

@@ -210,7 +210,7 @@ void Device::ask(const std::string& dialog, const std::string& detail) {
 std::optional<double> Device::leftOfPhase() const {
   const auto* phase = findPhase(type_->definition, state_.phase);
   if (phase->lasts.empty()) return std::nullopt;
-  return std::max(0.0, fact("phase.lasts")->number.value_or(0) - state_.elapsed_s);
+  return std::max(0.0, number("phase.lasts") - state_.elapsed_s);
 }
 
 void Device::pass(double seconds) {

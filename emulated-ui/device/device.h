@@ -94,6 +94,7 @@ class Device {
   std::string value(const std::string& id) const;    // of the device's own values
   std::string setting(const std::string& key) const;
   std::string entry(const std::string& id) const;    // what was typed into a field; empty: nothing
+  double number(const std::string& fact) const;      // 0 where it is none
   const DeviceProject* project() const;
   DeviceProject* project();
   StoredSetup* shownSetup();

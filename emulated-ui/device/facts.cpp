@@ -230,6 +230,11 @@ std::optional<Fact> Device::fact(const std::string& name) const {
   return std::nullopt;
 }
 
+double Device::number(const std::string& name) const {
+  const auto found = fact(name);
+  return found ? found->number.value_or(0) : 0;
+}
+
 std::optional<FactDomain> Device::domain(const std::string& name) const {
   const auto& d = type_->definition;
   const auto ids = [](const auto& rows) {
@@ -270,20 +275,24 @@ std::optional<FactDomain> Device::domain(const std::string& name) const {
 std::string Device::shown(const std::string& name) const {
   const auto found = fact(name);
   if (!found) return {};
+  // What stands in a word's braces is not filled in once more: words that name each other would never end.
+  const auto plain = [&](const std::string& key) { return type_->words->text(type_->definition.id, key, state_.language); };
   FactUnit unit = FactUnit::none;
   for (const auto* rows : {&type_->program.facts, &sharedFacts()})
     for (const auto& row : *rows)
       if (name == row.name) unit = row.unit;
   if (!found->number && (name.starts_with("setting.") || name.starts_with("value."))) {
     const auto key = name.substr(name.find('.') + 1) + "=" + found->text;
-    if (type_->words->has(type_->definition.id, key, "en")) return word(key);
+    if (type_->words->has(type_->definition.id, key, "en")) return plain(key);
     for (const auto& s : type_->instrument.settings)
       for (const auto& choice : s.choices)
         if (name.substr(8) == s.key && choice.value == found->text) return choice.label;
   }
   if (found->text.empty() && !found->number) return "–";
-  if (!found->number && type_->words->has(type_->definition.id, name + "=" + found->text, "en")) return word(name + "=" + found->text);
-  if ((found->text == "yes" || found->text == "no" || found->text == "on" || found->text == "off") && !found->number) return word(found->text);
+  if (!found->number && type_->words->has(type_->definition.id, name + "=" + found->text, "en"))
+    return plain(name + "=" + found->text);
+  if ((found->text == "yes" || found->text == "no" || found->text == "on" || found->text == "off") && !found->number)
+    return plain(found->text);
   return factText(*found, unit, showsFeet());
 }
 

@@ -238,7 +238,7 @@ Result<void> send(Device& d, const std::string&) {
 void prepare(const Device& d, ScanOrder& order) {
   if (isG1(d) && d.value("tracking") == "on" && d.state().around.tracking && d.newestSetup() != nullptr)
     order.notes.emplace_back("way", d.newestSetup()->name);
-  if (entry(d, "by") == "key" && d.fact("value.self_timer")->number.value_or(0) < kOperatorGone_s && !order.walker_at_share)
+  if (entry(d, "by") == "key" && d.number("value.self_timer") < kOperatorGone_s && !order.walker_at_share)
     order.walker_at_share = 0.0;
 }
 
@@ -273,7 +273,7 @@ std::string operation(const Device& d) {
 }
 
 std::string storageState(const Device& d) {
-  const double left = d.fact("card.scans_left")->number.value_or(0);
+  const double left = d.number("card.scans_left");
   return left < 1 ? "Crit" : left < 5 ? "Low" : "OK";
 }
 

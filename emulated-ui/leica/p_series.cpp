@@ -65,12 +65,10 @@ void transfer(Device& d, bool with_flagged) {
 void transferAll(Device& d) { transfer(d, true); }
 void transferLevelled(Device& d) { transfer(d, false); }
 
-double numberOf(const Device& d, const char* value) { return d.fact(value)->number.value_or(0); }
-
 // The instrument's own filter of weak points, and its compensator; the range gates are settings of the scan.
 void prepare(const Device& d, ScanOrder& order) {
   order.compensator = order.compensator && d.value("compensator") == "on";
-  const double weakest = numberOf(d, "value.min_intensity");
+  const double weakest = d.number("value.min_intensity");
   if (weakest > 0) order.filters.push_back(fmt::format("intensity:from={:g}", weakest / 100));
 }
 

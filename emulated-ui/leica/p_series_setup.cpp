@@ -24,8 +24,6 @@ std::string entry(const Device& d, const char* id) {
   return found == d.state().entries.end() ? std::string() : found->second;
 }
 
-double numberOf(const Device& d, const char* value) { return d.fact(value)->number.value_or(0); }
-
 bool compensatorOn(const Device& d) { return d.value("compensator") == "on"; }
 
 // Where the axis is by the chosen mark and the typed height; nothing without a chosen mark.
@@ -34,13 +32,13 @@ std::optional<Eigen::Vector3d> axisOver(const Device& d) {
   const auto id = entry(d, "station_id");
   const auto found = std::find_if(marks.begin(), marks.end(), [&](const ControlPlace& p) { return p.name == id; });
   if (found == marks.end()) return std::nullopt;
-  return found->place_m + Eigen::Vector3d(0, 0, numberOf(d, "value.instrument_height"));
+  return found->place_m + Eigen::Vector3d(0, 0, d.number("value.instrument_height"));
 }
 
 // What the typed air makes of each range, against the air that there is.
 double wrongAir(const Device& d) {
-  const double ppm = kPpmPerDegree * (numberOf(d, "value.air_temperature") - d.state().around.temperature_c) +
-                     kPpmPerHectopascal * (numberOf(d, "value.air_pressure") - kPressure_hpa);
+  const double ppm = kPpmPerDegree * (d.number("value.air_temperature") - d.state().around.temperature_c) +
+                     kPpmPerHectopascal * (d.number("value.air_pressure") - kPressure_hpa);
   return 1 + ppm * 1e-6;
 }
 
@@ -53,7 +51,7 @@ OrientationTask taskOf(const Device& d) {
   task.known = d.state().control.targets;
   if (task.method == "traverse") task.known = d.project() == nullptr ? std::vector<ControlPlace>() : d.project()->carried;
   task.axis_m = axisOver(d);
-  task.azimuth_deg = numberOf(d, "value.azimuth");
+  task.azimuth_deg = d.number("value.azimuth");
   task.compensator = compensatorOn(d);
   return task;
 }

@@ -92,7 +92,7 @@ static bool stepIsOff(const Device& device, std::string_view step) {
 }
 
 double stepProgress(const Device& device) {
-  const double lasts = device.fact("phase.lasts")->number.value_or(0);
+  const double lasts = device.number("phase.lasts");
   const double share = lasts > 0 ? std::clamp(device.state().elapsed_s / lasts, 0.0, 1.0) : 0;
   const bool simulated = device.state().phase == "scanning" && !device.state().data;
   return simulated ? std::min(share, device.state().engine_share) : share;

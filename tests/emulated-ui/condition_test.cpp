@@ -90,6 +90,14 @@ TEST(Condition, FindsWhatCanNeverHold) {
   EXPECT_NE(fault("battery == 0.5 and battery > 0.6"), "");
 }
 
+// Each half has 4096 cases, which are allowed; together they would be sixteen million.
+TEST(Condition, RefusesTooManyCasesBeforeItWritesThemDown) {
+  std::string half = "(name == a or name == b)";
+  for (int i = 1; i < 12; ++i) half += " and (name == a or name == b)";
+  EXPECT_EQ(fault(half), "");
+  EXPECT_NE(fault("(" + half + ") and (" + half + ")").find("too many cases"), std::string::npos);
+}
+
 TEST(Condition, FindsUnknownFactsAndWrongWords) {
   EXPECT_NE(fault("batery > 0.3").find("batery"), std::string::npos);
   EXPECT_NE(fault("card == presnt").find("present, absent"), std::string::npos);

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fstream>
+#include <functional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "emulated-ui/device/check.h"
+#include "emulated-ui/menus.h"
+#include "materials/json_file.h"
+#include "tests/project/support.h"
+
+namespace standpoint {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+const json& shipped(const std::string& device) {
+  static std::map<std::string, json> files;
+  auto& file = files[device];
+  if (file.is_null()) file = readJsonFile(dataFolder() / "emulated-ui" / findDevice(device)->program().definition).value();
+  return file;
+}
+
+json& named(json& rows, const std::string& id) {
+  for (auto& row : rows)
+    if (row.at("id") == id) return row;
+  ADD_FAILURE() << "there is no row " << id;
+  return rows.front();
+}
+void remove(json& rows, const std::string& id) {
+  const auto before = rows.size();
+  for (auto row = rows.begin(); row != rows.end(); ++row)
+    if (row->at("id") == id) {
+      rows.erase(row);
+      break;
+    }
+  EXPECT_LT(rows.size(), before) << id;
+}
+
+// A shipped device whose data file a teacher has edited.
+class BadDevice : public testing::Test {
+ protected:
+  using Edit = std::function<void(json&)>;
+
+  Result<std::shared_ptr<const DeviceType>> edited(const std::string& device, const Edit& edit) {
+    json changed = shipped(device);
+    edit(changed);
+    const auto file = folder_.path() / "x.json";
+    std::ofstream(file, std::ios::binary) << changed.dump();
+    auto definition = readDefinition(file);
+    if (!definition) return failure(definition.error());
+    const auto whole = loadDevice(*findDevice(device));
+    return makeDeviceType(*std::move(definition), findDevice(device)->program(), (*whole)->instrument, (*whole)->words);
+  }
+  // All that is said of it.
+  std::string saysOf(const std::string& device, const Edit& edit) {
+    const auto type = edited(device, edit);
+    if (!type) return describe(type.error());
+    std::string all;
+    for (const auto& fault : checkStructure(**type)) all += describe(fault) + "\n";
+    return all;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(BadDevice, AShippedOneIsTaken) {
+  for (const auto& device : emulatedDevices()) EXPECT_EQ(saysOf(device.id, [](json&) {}), "") << device.id;
+}
+
+TEST_F(BadDevice, EachMistakeIsNamedWithItsPlace) {
+  struct Wrong {
+    const char* message;
+    Edit edit;
+  };
+  const Wrong kWrong[] = {
+      {"x.json /phases", [](json& j) { j["phases"] = json::array(); }},
+      {"x.json /values/0/standard", [](json& j) { j["values"][0]["standard"] = "perhaps"; }},
+      {"x.json /screens", [](json& j) { j["screens"].push_back(j["screens"][0]); }},
+      {"x.json /screens/0/widgets/0/kind", [](json& j) { j["screens"][0]["widgets"][0]["kind"] = "lever"; }},
+      {"x.json /values/4/standard", [](json& j) { named(j["values"], "brightness")["standard"] = "bright"; }},
+      {"x.json /values/4/standard", [](json& j) { named(j["values"], "brightness")["standard"] = "101"; }},
+      {"leica-rtc360 transition start of 'idle vis_tracking': there is no phase 'scanning_pass_1'",
+       [](json& j) { named(j["phases"], "scanning_pass_1")["id"] = "first_pass"; }},
+      {"there is no dialogue 'card_full'", [](json& j) { remove(j["dialogs"], "card_full"); }},
+      {"there is no screen 'setup'", [](json& j) { remove(j["screens"], "setup"); }},
+      {"leica-rtc360 /phases/storing/lasts: 'a while' is no number of seconds",
+       [](json& j) { named(j["phases"], "storing")["lasts"] = "a while"; }},
+      {"leica-rtc360 /phases/storing/lasts: 'tilt' is no number of seconds",
+       [](json& j) { named(j["phases"], "storing")["lasts"] = "tilt"; }},
+      {"leica-rtc360 /phases/storing/lasts: 'phase.lasts' is no number of seconds",
+       [](json& j) { named(j["phases"], "storing")["lasts"] = "phase.lasts"; }},
+      {"leica-rtc360 /screens/home/job/go: there is no screen 'attic'",
+       [](json& j) { named(named(j["screens"], "home")["widgets"], "job")["go"] = "attic"; }},
+      {"leica-rtc360 /screens/home/scan/event: no phase knows the event 'scann'",
+       [](json& j) { named(named(j["screens"], "home")["widgets"], "scan")["event"] = "scann"; }},
+      {"leica-rtc360 /screens/home/battery/warns: there is no fact 'batery'",
+       [](json& j) { named(named(j["screens"], "home")["widgets"], "battery")["warns"] = "batery < 1"; }},
+  };
+  for (const auto& wrong : kWrong) EXPECT_THAT(saysOf("leica-rtc360", wrong.edit), HasSubstr(wrong.message));
+}
+
+// A value that only the code asks for is not missed by any name in the file.
+TEST_F(BadDevice, WhatTheCodeAsksForMayBeMissing) {
+  const auto type = edited("leica-p-series", [](json& j) {
+    for (const char* id : {"instrument_height", "min_range", "air_pressure"}) remove(j["values"], id);
+  });
+  ASSERT_TRUE(type) << describe(type.error());
+  const Device d(*type);
+  EXPECT_EQ(d.number("value.min_range"), 0);
+}
+
+TEST_F(BadDevice, WordsThatHoldThemselvesComeToAnEnd) {
+  std::ofstream(folder_.path() / "x.json") << R"({"words": {"on": {"en": "{wlan}"}, "yes": {"en": "yes {wlan}"}, "wlan=yes": {"en": "it {wlan}"}}})";
+  const auto words = Words::read(folder_.path());
+  ASSERT_TRUE(words) << describe(words.error());
+  const auto whole = *loadDevice(*findDevice("leica-rtc360"));
+  const auto type = makeDeviceType(whole->definition, whole->program, whole->instrument, std::make_shared<const Words>(*words));
+  ASSERT_TRUE(type);
+  EXPECT_EQ(Device(*type).word("on"), "yes {wlan}");
+}
+
+}  // namespace
+}  // namespace standpoint
