@@ -104,11 +104,11 @@ TEST_F(BadDevice, EachMistakeIsNamedWithItsPlace) {
 // A value that only the code asks for is not missed by any name in the file.
 TEST_F(BadDevice, WhatTheCodeAsksForMayBeMissing) {
   const auto type = edited("leica-p-series", [](json& j) {
-    for (const char* id : {"instrument_height", "min_range", "air_pressure"}) remove(j["values"], id);
+    for (const char* id : {"instrument_height", "min_intensity", "air_pressure"}) remove(j["values"], id);
   });
   ASSERT_TRUE(type) << describe(type.error());
   const Device d(*type);
-  EXPECT_EQ(d.number("value.min_range"), 0);
+  EXPECT_EQ(d.number("value.min_intensity"), 0);
 }
 
 TEST_F(BadDevice, WordsThatHoldThemselvesComeToAnEnd) {
@@ -118,7 +118,7 @@ TEST_F(BadDevice, WordsThatHoldThemselvesComeToAnEnd) {
   const auto whole = *loadDevice(*findDevice("leica-rtc360"));
   const auto type = makeDeviceType(whole->definition, whole->program, whole->instrument, std::make_shared<const Words>(*words));
   ASSERT_TRUE(type);
-  EXPECT_EQ(Device(*type).word("on"), "yes {wlan}");
+  EXPECT_EQ(Device(*type).word("on"), "it {wlan}");
 }
 
 }  // namespace
