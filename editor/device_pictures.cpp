@@ -119,7 +119,7 @@ Result<int> drawDevicePictures(Offscreen& offscreen, const fs::path& folder, con
       DeviceView view;
       std::shared_ptr<const PixelPicture> picture;
       view.texture = [&](const std::shared_ptr<const ScanPreview>& preview) {
-        if (!picture) picture = pictureOf(*preview);
+        if (!picture) picture = pictureOf(*preview, device.value("colouring"));
         return offscreen.scene().texture(picture);
       };
       const auto draw = [&] {
