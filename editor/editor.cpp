@@ -11,7 +11,12 @@
 namespace standpoint {
 
 Editor::Editor(std::vector<Verb> verbs, std::function<void()> wake_up)
-    : session(std::move(verbs), wake_up), budget_preview(wake_up), expected(wake_up), scan_outlook(wake_up), target_list(wake_up), wake(std::move(wake_up)) {}
+    : session(std::move(verbs), wake_up),
+      budget_preview(wake_up),
+      expected(wake_up),
+      scan_outlook(wake_up),
+      target_list(wake_up),
+      wake(std::move(wake_up)) {}
 
 const Document& Editor::shownDocument() const {
   return preview.outcome() != nullptr ? preview.outcome()->document : session.document();
@@ -37,19 +42,22 @@ bool Editor::startScan(nlohmann::json options, std::string title) {
   if (!session.start("scan", std::move(options), std::move(title), work)) return false;
   live_ = std::move(live);
   live_task_ = session.running().back().get();
-  cloud_ = std::make_shared<const Cloud>();   // nothing yet: the model need not be drawn once more before the first points
+  cloud_ =
+      std::make_shared<const Cloud>();  // nothing yet: the model need not be drawn once more before the first points
   return true;
 }
 
 void Editor::followLiveScan() {
   if (!live_) return;
   const auto& running = session.running();
-  const bool over = std::none_of(running.begin(), running.end(), [&](const auto& task) { return task.get() == live_task_; });
+  const bool over =
+      std::none_of(running.begin(), running.end(), [&](const auto& task) { return task.get() == live_task_; });
   if (auto cloud = live_->newer(over)) cloud_ = std::move(cloud);
   if (!over) return;
   live_.reset();
   const auto& finished = session.finished();
-  const auto scan = std::find_if(finished.begin(), finished.end(), [](const FinishedTask& t) { return t.verb == "scan"; });
+  const auto scan =
+      std::find_if(finished.begin(), finished.end(), [](const FinishedTask& t) { return t.verb == "scan"; });
   if (scan == finished.end() || !scan->ok || cloud_->colours.empty()) cloud_.reset();   // back to the model
 }
 
@@ -79,9 +87,11 @@ void Editor::update() {
   }
   if (isExpected(view.colour)) view.side = ModelSide::lighter;   // what is scanned
   else expected.drop();
-  if (view.colour == ColourMode::deviation || std::exchange(wants_deviation, false)) deviation.follow(session.document(), wake);
+  if (view.colour == ColourMode::deviation || std::exchange(wants_deviation, false))
+    deviation.follow(session.document(), wake);
   for (auto& error : underlays.takeErrors())
-    session.errors().push_back({"An underlay cannot be shown: put its file back, or remove it in the outliner", std::move(error)});
+    session.errors().push_back(
+        {"An underlay cannot be shown: put its file back, or remove it in the outliner", std::move(error)});
 }
 
 // The camera looks at what is previewed, and back where it was when that is given up.
@@ -119,7 +129,8 @@ void Editor::startWaitingCloud() {
 
 bool Editor::followModel(const Environment& before, const Environment& after) {
   const auto match = matchProducts(before, after);
-  if (std::all_of(match.new_of_old.begin(), match.new_of_old.end(), [](std::int32_t p) { return p == kNoProduct; })) return false;
+  if (std::all_of(match.new_of_old.begin(), match.new_of_old.end(), [](std::int32_t p) { return p == kNoProduct; }))
+    return false;
   std::vector<std::uint32_t> hidden, chosen;
   for (std::uint32_t p = 0; p < match.new_of_old.size(); ++p) {
     if (match.new_of_old[p] == kNoProduct) continue;
@@ -135,8 +146,11 @@ bool Editor::followModel(const Environment& before, const Environment& after) {
   selection.set(std::move(chosen));
   view.hover.reset();
   // Where only what is said of products has changed, the tree stays open as it is.
-  const auto same = [](const Product& a, const Product& b) { return a.id == b.id && a.container == b.container && a.name == b.name; };
-  if (before.spatial.size() == after.spatial.size() && std::equal(before.products.begin(), before.products.end(), after.products.begin(), after.products.end(), same))
+  const auto same = [](const Product& a, const Product& b) {
+    return a.id == b.id && a.container == b.container && a.name == b.name;
+  };
+  if (before.spatial.size() == after.spatial.size() &&
+      std::equal(before.products.begin(), before.products.end(), after.products.begin(), after.products.end(), same))
     return true;
   panels.outliner = OutlinerPanelState();
   panels.outliner.tree = Outliner(after);
@@ -186,7 +200,9 @@ ViewState Editor::viewState() const {
   }
   if (const auto lighter = budget_preview.state().shown) state.environment = lighter;
   state.materials = document.materials;
-  if (const auto both = deviation.of(document); both && state.colour == ColourMode::deviation && state.environment == document.environment()) state.deviation = both->lighter;
+  if (const auto both = deviation.of(document);
+      both && state.colour == ColourMode::deviation && state.environment == document.environment())
+    state.deviation = both->lighter;
   if (view.walkable || view.shapes) state.collision = document.collision;
   state.hidden = visibility.shared();
   state.selected = selection.shared();
@@ -208,7 +224,8 @@ ViewState Editor::originalState() const {
   const auto& document = shownDocument();
   if (state.environment == document.imported) return state;
   state.environment = document.imported;
-  if (const auto both = deviation.of(document); both && state.colour == ColourMode::deviation) state.deviation = both->original;
+  if (const auto both = deviation.of(document); both && state.colour == ColourMode::deviation)
+    state.deviation = both->original;
   return state;
 }
 
@@ -275,7 +292,8 @@ Bounds Editor::boundsOfVisible(bool with_terrain) const {
   for (std::uint32_t p = 0; p < each.size(); ++p) {
     const auto& product = shown()->products[p];
     const bool terrain = product.ifc_class == "IfcSite" || product.ifc_class == "IfcGeographicElement";
-    if ((in_preview || !visibility.hidden(p)) && product.inScene() && !each[p].empty() && (with_terrain || !terrain)) all.extend(each[p]);
+    if ((in_preview || !visibility.hidden(p)) && product.inScene() && !each[p].empty() && (with_terrain || !terrain))
+      all.extend(each[p]);
   }
   if (in_preview) return all;
   if (visibility.cut_height_m && !all.empty())

@@ -64,7 +64,7 @@ struct ViewportState {
   ModelSide side = ModelSide::lighter;
   double wavelength_nm = kReflectanceWavelength_nm;   // at which reflectance is shown
   Probe probe;
-  bool coverage_made = false;              // the map of coverage shows scans that were made, not the stations as planned
+  bool coverage_made = false;  // the map of coverage shows scans that were made, not the stations as planned
   bool edges = true, grid = true, walkable = false, shapes = false, labels = true;
   Tool tool = Tool::select;
   std::optional<RayHit> hover;             // under the pointer

@@ -40,7 +40,8 @@ Result<Arguments> parse(const std::vector<std::string>& words) {
   Arguments result;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const auto& word = words[i];
-    const bool takes_value = word == "--pictures" || word == "--size" || word == "--scale" || word == "--devices" || word == "--language";
+    const bool takes_value =
+        word == "--pictures" || word == "--size" || word == "--scale" || word == "--devices" || word == "--language";
     if (takes_value && i + 1 >= words.size()) return failure(ErrorKind::usage, "a value is missing", word);
     if (word == "--help" || word == "-h") {
       result.help = true;
@@ -53,17 +54,20 @@ Result<Arguments> parse(const std::vector<std::string>& words) {
     } else if (word == "--size") {
       const bool read = std::sscanf(words[++i].c_str(), "%dx%d", &result.width, &result.height) == 2;
       if (!read || result.width < 640 || result.height < 400 || result.width > 8192 || result.height > 8192)
-        return failure(ErrorKind::usage, fmt::format("'{}' is not WIDTHxHEIGHT from 640x400 to 8192x8192", words[i]), word);
+        return failure(ErrorKind::usage, fmt::format("'{}' is not WIDTHxHEIGHT from 640x400 to 8192x8192", words[i]),
+                       word);
     } else if (word == "--scale") {
       result.scale = std::strtof(words[++i].c_str(), nullptr);
-      if (!(result.scale >= 0.5F && result.scale <= 4)) return failure(ErrorKind::usage, fmt::format("'{}' is not a number from 0.5 to 4", words[i]), word);
+      if (!(result.scale >= 0.5F && result.scale <= 4))
+        return failure(ErrorKind::usage, fmt::format("'{}' is not a number from 0.5 to 4", words[i]), word);
     } else if (!word.empty() && word[0] == '-') {
       return failure(ErrorKind::usage, fmt::format("there is no option '{}'\n{}", word, kUsage));
     } else {
       result.paths.push_back(word);
     }
   }
-  if (!result.pictures.empty() && result.paths.empty()) return failure(ErrorKind::usage, "--pictures needs a project or a model");
+  if (!result.pictures.empty() && result.paths.empty())
+    return failure(ErrorKind::usage, "--pictures needs a project or a model");
   return result;
 }
 
@@ -95,8 +99,10 @@ void openAll(Editor& editor, const std::vector<std::string>& paths) {
       models.push_back(path);
   }
   if (models.empty()) return;
-  const auto title = models.size() == 1 ? "Import " + std::filesystem::path(models.front()).filename().string() : "Import models";
-  if (editor.session.start("import", {{"files", models}}, title) && models.size() == 1) editor.settings.remember(models.front());
+  const auto title =
+      models.size() == 1 ? "Import " + std::filesystem::path(models.front()).filename().string() : "Import models";
+  if (editor.session.start("import", {{"files", models}}, title) && models.size() == 1)
+    editor.settings.remember(models.front());
 }
 
 int makePictures(const Arguments& arguments) {
@@ -115,7 +121,8 @@ int makePictures(const Arguments& arguments) {
 }
 
 int makeDevicePictures(const Arguments& arguments) {
-  auto offscreen = Offscreen::create(static_cast<int>(kDevicePicture[0] * arguments.scale), static_cast<int>(kDevicePicture[1] * arguments.scale), arguments.scale);
+  auto offscreen = Offscreen::create(static_cast<int>(kDevicePicture[0] * arguments.scale),
+                                     static_cast<int>(kDevicePicture[1] * arguments.scale), arguments.scale);
   if (!offscreen) return fail(offscreen.error());
   auto written = drawDevicePictures(**offscreen, arguments.devices, arguments.language, arguments.scale);
   if (!written) return fail(written.error());
@@ -130,7 +137,8 @@ int openWindow(const Arguments& arguments) {
   editor.dialogs.recovery = findRecoveryCopies(recoveryRoot());
   openAll(editor, arguments.paths);
   const auto shown = runWindow(editor, arguments.width, arguments.height);
-  if (auto written = writeSettings(editor.settings, settingsFile()); !written) std::cerr << describe(written.error()) << '\n';
+  if (auto written = writeSettings(editor.settings, settingsFile()); !written)
+    std::cerr << describe(written.error()) << '\n';
   return shown ? 0 : fail(shown.error());
 }
 

@@ -36,7 +36,8 @@ std::int64_t richestProduct(const Editor& editor) {
     const auto& product = environment.products[p];
     if (!product.inScene() || editor.boundsOfProducts()[p].empty()) continue;
     if (best < 0 || product.properties.size() + 20 * product.layers.size() >
-                        environment.products[static_cast<std::size_t>(best)].properties.size() + 20 * environment.products[static_cast<std::size_t>(best)].layers.size())
+                        environment.products[static_cast<std::size_t>(best)].properties.size() +
+                            20 * environment.products[static_cast<std::size_t>(best)].layers.size())
       best = p;
   }
   return best;
@@ -50,7 +51,8 @@ void cutIntoStorey(Editor& editor) {
   const double most = stands ? job->stations.front().true_pose.translation.z() : bounds.min.z() + 0.5;
   std::optional<double> height;
   for (const auto& level : editor.storeys())
-    if (level.elevation_m > bounds.min.z() - 0.5 && (!height || level.elevation_m < most)) height = level.elevation_m + 1.6;
+    if (level.elevation_m > bounds.min.z() - 0.5 && (!height || level.elevation_m < most))
+      height = level.elevation_m + 1.6;
   editor.visibility.cut_height_m = height.value_or((bounds.min.z() + bounds.max.z()) / 2);
   editor.view.camera.elevation_rad = 0.95;
   editor.view.frame_wanted = true;
@@ -60,7 +62,8 @@ void overview(Editor& editor) { editor.workspace = Workspace::model; }
 
 void inspect(Editor& editor) {
   editor.workspace = Workspace::model;
-  if (const auto product = richestProduct(editor); product >= 0) editor.select(static_cast<std::uint32_t>(product), true);
+  if (const auto product = richestProduct(editor); product >= 0)
+    editor.select(static_cast<std::uint32_t>(product), true);
 }
 
 void materials(Editor& editor) {
@@ -109,7 +112,9 @@ void deviation(Editor& editor) {
   editor.workspace = Workspace::model;
   editor.wanted_tab[1] = "optimise";
   if (!editor.session.document().lightening) {
-    editor.session.start("optimize", {{"budget", std::max<std::uint64_t>(1, sceneTriangleCount(*editor.session.document().imported) / 4)}});
+    editor.session.start(
+        "optimize",
+        {{"budget", std::max<std::uint64_t>(1, sceneTriangleCount(*editor.session.document().imported) / 4)}});
     editor.session.wait();
     editor.update();
   }
@@ -156,10 +161,13 @@ void importPreview(Editor& editor) {
   editor.preview.show(std::move(files), std::move(outcome));
 }
 
-constexpr std::array kPictures = {Picture{"1-overview", overview},     Picture{"2-inspector", inspect}, Picture{"3-materials", materials},
-                                  Picture{"4-survey", survey},         Picture{"5-instrument", instrument}, Picture{"8-deviation", deviation},
+constexpr std::array kPictures =
+    {Picture{"1-overview", overview},     Picture{"2-inspector", inspect}, Picture{"3-materials", materials},
+                                  Picture{"4-survey", survey},         Picture{"5-instrument", instrument},
+                                      Picture{"8-deviation", deviation},
                                   Picture{"9-expected-intensity", expectedIntensity},
-                                  Picture{"10-expected-noise", expectedNoise}, Picture{"11-what-comes-back", expectedFate},
+                                  Picture{"10-expected-noise", expectedNoise},
+                                      Picture{"11-what-comes-back", expectedFate},
                                   Picture{"12-measured", measured},
                                   Picture{"13-coverage", coverage}, Picture{"14-coverage-spacing", coverageSpacing},
                                   Picture{"7-import-preview", importPreview},
@@ -167,7 +175,8 @@ constexpr std::array kPictures = {Picture{"1-overview", overview},     Picture{"
 
 }  // namespace
 
-Result<std::vector<std::filesystem::path>> drawPictures(Editor& editor, Offscreen& offscreen, const std::filesystem::path& folder) {
+Result<std::vector<std::filesystem::path>> drawPictures(Editor& editor, Offscreen& offscreen,
+                                                        const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return failure(ErrorKind::file_system, error.message(), folder.string());

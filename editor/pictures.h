@@ -11,6 +11,7 @@
 namespace standpoint {
 
 // The pictures of the documentation: each workspace at work on the open project. Returns the files written.
-Result<std::vector<std::filesystem::path>> drawPictures(Editor& editor, Offscreen& offscreen, const std::filesystem::path& folder);
+Result<std::vector<std::filesystem::path>> drawPictures(Editor& editor, Offscreen& offscreen,
+                                                        const std::filesystem::path& folder);
 
 }  // namespace standpoint

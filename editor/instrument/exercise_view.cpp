@@ -18,7 +18,8 @@ namespace {
 
 using Kind = RehearsalAction::Kind;
 
-constexpr std::array kGuidance = {"Each step is shown", "Steps on demand (a hint costs half)", "Watch the solution", "Test: no steps, no hints"};
+constexpr std::array kGuidance = {"Each step is shown", "Steps on demand (a hint costs half)", "Watch the solution",
+                                  "Test: no steps, no hints"};
 
 void readExercises(InstrumentDesk& desk) {
   if (desk.exercises_read) return;
@@ -36,7 +37,8 @@ void list(InstrumentDesk& desk, Editor& editor) {
     ui::propertyLabel("Guidance");
     ImGui::SetNextItemWidth(-1);
     int guidance = static_cast<int>(desk.guidance);
-    if (ImGui::Combo("##guidance", &guidance, kGuidance.data(), static_cast<int>(kGuidance.size()))) desk.guidance = static_cast<Guidance>(guidance);
+    if (ImGui::Combo("##guidance", &guidance, kGuidance.data(), static_cast<int>(kGuidance.size())))
+      desk.guidance = static_cast<Guidance>(guidance);
     ui::propertyLabel("Student");
     ImGui::SetNextItemWidth(-1);
     ImGui::InputText("##student", &desk.student);
@@ -47,7 +49,8 @@ void list(InstrumentDesk& desk, Editor& editor) {
   for (const auto& known : desk.exercises) {
     if (!isFor(known.exercise, desk.device->id)) continue;
     any = true;
-    if (ui::button((known.exercise.id + "  " + known.exercise.title.in(language) + "###" + known.exercise.id).c_str(), {}, {-1, 0}, known.exercise.goal.in(language).c_str()))
+    if (ui::button((known.exercise.id + "  " + known.exercise.title.in(language) + "###" + known.exercise.id).c_str(),
+                   {}, {-1, 0}, known.exercise.goal.in(language).c_str()))
       return startExercise(desk, editor, known.exercise);
   }
   if (!any) ui::dimText("There is no exercise for this device yet.");
@@ -64,7 +67,8 @@ void record(InstrumentDesk& desk, Editor& editor) {
   if (desk.recorded.empty()) return;
   ImGui::SameLine();
   ui::dimText(fmt::format("{} actions", desk.recorded.size()));
-  if (ui::button("Write it to a file", editor.session.folder().empty() ? "Save the project first: the file goes beside it." : "")) {
+  if (ui::button("Write it to a file",
+                 editor.session.folder().empty() ? "Save the project first: the file goes beside it." : "")) {
     const auto file = editor.session.folder() / "recorded-exercise.json";
     std::ofstream out(file);
     out << recordedExercise(*desk.shown(), desk.recorded).dump(2) << '\n';
@@ -81,12 +85,15 @@ void steps(InstrumentDesk& desk, const std::string& language) {
     const auto& step = e.steps[i];
     const auto& state = rehearsal.steps()[i];
     const bool current = &step == next;
-    ImGui::PushStyleColor(ImGuiCol_Text, state.done ? IM_COL32(110, 190, 120, 255) : ImGui::GetColorU32(current ? ImGuiCol_Text : ImGuiCol_TextDisabled));
+    ImGui::PushStyleColor(ImGuiCol_Text, state.done
+                                             ? IM_COL32(110, 190, 120, 255)
+                                             : ImGui::GetColorU32(current ? ImGuiCol_Text : ImGuiCol_TextDisabled));
     ui::wrapped((state.done ? ICON_CHECK "  " : current ? "›  " : "    ") + step.text.in(language));
     ImGui::PopStyleColor();
     if (!current) continue;
     if (state.hinted) ui::dimText(step.hint.in(language));
-    else if (desk.guidance != Guidance::tested && !step.hint.texts.empty() && ui::button(("Hint###hint" + step.id).c_str())) {
+    else if (desk.guidance != Guidance::tested && !step.hint.texts.empty() &&
+             ui::button(("Hint###hint" + step.id).c_str())) {
       act(desk, {Kind::hint, step.id, "", 0, {}});
       desk.view.pointed = step.widget;
     }
@@ -98,13 +105,16 @@ void questions(InstrumentDesk& desk, const std::string& language) {
     ui::wrapped(q.text.in(language));
     const auto answer = desk.rehearsal->fact("answer." + q.id)->text;
     for (std::size_t i = 0; i < q.choices.size(); ++i)
-      if (ImGui::RadioButton((q.choice_texts[i].in(language) + "###" + q.id + q.choices[i]).c_str(), answer == q.choices[i])) act(desk, {Kind::answer, q.id, q.choices[i], 0, {}});
+      if (ImGui::RadioButton((q.choice_texts[i].in(language) + "###" + q.id + q.choices[i]).c_str(),
+                             answer == q.choices[i]))
+        act(desk, {Kind::answer, q.id, q.choices[i], 0, {}});
   }
 }
 
 void marks(const InstrumentDesk& desk) {
   const auto& m = desk.marks;
-  ui::wrapped(fmt::format("{}: {:.0f} % of the points, {:.0f} % are needed", m["passed"].get<bool>() ? "Passed" : "Not passed", m["score"].get<double>() * 100,
+  ui::wrapped(fmt::format("{}: {:.0f} % of the points, {:.0f} % are needed",
+                          m["passed"].get<bool>() ? "Passed" : "Not passed", m["score"].get<double>() * 100,
                           m["pass_mark"].get<double>() * 100));
   for (const auto& rule : m["rules"]) {
     const bool held = rule["held"].get<bool>();
@@ -114,7 +124,9 @@ void marks(const InstrumentDesk& desk) {
     if (held) continue;
     ui::dimText("found: " + rule["found"].get<std::string>());
     if (rule.contains("because")) ui::dimText(rule["because"].get<std::string>());
-    if (rule.contains("proof")) ui::dimText(fmt::format("your points: {} = {} {}", rule["proof"]["fact"].get<std::string>(), rule["proof"]["value"].dump(), rule["proof"]["unit"].get<std::string>()));
+    if (rule.contains("proof"))
+      ui::dimText(fmt::format("your points: {} = {} {}", rule["proof"]["fact"].get<std::string>(),
+                              rule["proof"]["value"].dump(), rule["proof"]["unit"].get<std::string>()));
   }
   ui::dimText("Result and certificate: " + desk.marks_folder.string());
 }
@@ -126,7 +138,8 @@ void running(InstrumentDesk& desk, Editor& editor) {
   ui::wrapped(e.goal.in(language));
   ui::gap(editor);
   const double seconds = desk.rehearsal->seconds();
-  ui::dimText(e.time_limit_s > 0 ? fmt::format("{} of {}", clockText(seconds), clockText(e.time_limit_s)) : clockText(seconds));
+  ui::dimText(e.time_limit_s > 0 ? fmt::format("{} of {}", clockText(seconds), clockText(e.time_limit_s))
+                                 : clockText(seconds));
   if (desk.guidance != Guidance::tested) steps(desk, language);
   questions(desk, language);
   ui::gap(editor);

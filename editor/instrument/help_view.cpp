@@ -12,7 +12,9 @@ namespace standpoint {
 namespace {
 
 bool holds(const std::string& text, const std::string& wanted) {
-  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b)); };
+  const auto same = [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+  };
   return std::search(text.begin(), text.end(), wanted.begin(), wanted.end(), same) != text.end();
 }
 
@@ -27,18 +29,22 @@ void entry(const Device& device, const WidgetRow& row) {
 // The widget that was asked about, or all whose name or help holds what is searched.
 void drawHelp(InstrumentDesk& desk, Editor& editor) {
   const Device& device = *desk.shown();
-  if (ui::button(desk.view.asking ? "Explain: tap a widget###asking" : "Explain a widget###asking")) desk.view.asking = !desk.view.asking;
+  if (ui::button(desk.view.asking ? "Explain: tap a widget###asking" : "Explain a widget###asking"))
+    desk.view.asking = !desk.view.asking;
   (void)ui::searchField("##help", "Search all widgets", desk.search);
   ui::gap(editor);
   if (!desk.search.empty()) {
     std::set<std::string> seen;
     for (const auto& screen : device.type().definition.screens)
       for (const auto& row : screen.widgets)
-        if ((holds(device.word(row.words), desk.search) || holds(device.word(row.words + "?"), desk.search)) && seen.insert(screen.id + row.id).second) entry(device, row);
+        if ((holds(device.word(row.words), desk.search) || holds(device.word(row.words + "?"), desk.search)) &&
+            seen.insert(screen.id + row.id).second)
+          entry(device, row);
     if (seen.empty()) ui::dimText("No widget of this device has that in its name or help.");
     return;
   }
-  if (desk.view.explained.empty()) return ui::dimText("Press Explain, then tap what you want to know about. Nothing happens to the scan meanwhile.");
+  if (desk.view.explained.empty())
+    return ui::dimText("Press Explain, then tap what you want to know about. Nothing happens to the scan meanwhile.");
   const auto& id = desk.view.explained;
   const auto screen = device.screen();
   if (const auto* widget = findWidget(screen, id)) ImGui::TextUnformatted(widget->label.c_str());

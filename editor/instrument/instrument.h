@@ -5,7 +5,8 @@ namespace standpoint {
 
 struct Editor;
 
-// Gives the editor its emulated device: the panel that draws it, its clock, and the way its scans take into the document.
+// Gives the editor its emulated device: the panel that draws it, its clock, and the way its scans take into the
+// document.
 void attachInstrument(Editor& editor);
 
 }  // namespace standpoint

@@ -9,11 +9,12 @@
 
 namespace standpoint {
 
-// Wakes the window twenty times a second while an instrument's clock runs; sleeps otherwise, so that nothing is drawn when
-// nothing changes.
+// Wakes the window twenty times a second while an instrument's clock runs; sleeps otherwise, so that nothing is drawn
+// when nothing changes.
 class Ticker {
  public:
-  explicit Ticker(std::function<void()> wake) : wake_(std::move(wake)), thread_([this](const std::stop_token& stop) { loop(stop); }) {}
+  explicit Ticker(std::function<void()> wake)
+      : wake_(std::move(wake)), thread_([this](const std::stop_token& stop) { loop(stop); }) {}
   void run(bool on) {
     {
       const std::lock_guard lock(mutex_);

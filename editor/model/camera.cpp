@@ -42,7 +42,8 @@ ViewRay rayThrough(const Camera& camera, const Eigen::Vector2d& pixel, const Eig
   return {camera.eye(), (on_target_plane - camera.eye()).normalized()};
 }
 
-std::optional<Eigen::Vector2d> project(const Camera& camera, const Eigen::Vector3d& point, const Eigen::Vector2d& size) {
+std::optional<Eigen::Vector2d> project(const Camera& camera, const Eigen::Vector3d& point,
+                                       const Eigen::Vector2d& size) {
   const Eigen::Vector3d seen = point - camera.eye();
   const double depth = seen.dot(camera.forward());
   if (!camera.orthographic && depth < 1e-6) return std::nullopt;
@@ -79,7 +80,8 @@ void frame(Camera& camera, const Bounds& bounds, double aspect) {
   const double tangent_x = tangent_y * std::max(aspect, 0.1);
   double distance = 0.2;
   for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector3d p((corner & 1) != 0 ? bounds.max.x() : bounds.min.x(), (corner & 2) != 0 ? bounds.max.y() : bounds.min.y(),
+    const Eigen::Vector3d p((corner & 1) != 0 ? bounds.max.x() : bounds.min.x(),
+                            (corner & 2) != 0 ? bounds.max.y() : bounds.min.y(),
                             (corner & 4) != 0 ? bounds.max.z() : bounds.min.z());
     const Eigen::Vector3d d = p - centre;
     const double nearer = camera.orthographic ? 0 : -d.dot(camera.forward());

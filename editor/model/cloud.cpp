@@ -45,7 +45,8 @@ Result<void> CloudSampler::write(const PointBlock& block) {
 void CloudSampler::halve() {
   const std::size_t kept = (colours_.size() + 1) / 2;
   for (std::size_t i = 0; i < kept; ++i) {
-    std::copy_n(positions_.begin() + static_cast<std::ptrdiff_t>(6 * i), 3, positions_.begin() + static_cast<std::ptrdiff_t>(3 * i));
+    std::copy_n(positions_.begin() + static_cast<std::ptrdiff_t>(6 * i), 3,
+                positions_.begin() + static_cast<std::ptrdiff_t>(3 * i));
     shares_[i] = shares_[2 * i];
     colours_[i] = colours_[2 * i];
   }
@@ -77,9 +78,11 @@ Cloud CloudSampler::shaded() const {
   return cloud;
 }
 
-Result<Cloud> sampleCloud(const std::filesystem::path& file, const Eigen::Vector3d& shift_m, std::uint64_t most, Progress& progress) {
+Result<Cloud> sampleCloud(const std::filesystem::path& file, const Eigen::Vector3d& shift_m, std::uint64_t most,
+                          Progress& progress) {
   const CloudFormat* format = cloudFormatFor(file);
-  if (format == nullptr || format->read == nullptr) return failure(ErrorKind::unusable, "this kind of cloud cannot be read", file.string());
+  if (format == nullptr || format->read == nullptr)
+    return failure(ErrorKind::unusable, "this kind of cloud cannot be read", file.string());
   auto info = format->info(file);
   if (!info) return failure(info.error());
   std::uint64_t points = 0;

@@ -33,7 +33,8 @@ constexpr std::uint64_t kMostShownPoints = 600000;   // what software rendering 
 // Keeps every k-th point of the scans that are written to it; k doubles whenever more than `most` would be kept.
 class CloudSampler : public PointSink {
  public:
-  CloudSampler(std::uint64_t step, std::uint64_t most, const Eigen::Vector3d& shift_m) : step_(step), most_(most), shift_m_(shift_m) {}
+  CloudSampler(std::uint64_t step, std::uint64_t most, const Eigen::Vector3d& shift_m)
+      : step_(step), most_(most), shift_m_(shift_m) {}
   Result<void> begin(const ScanHeader& header) override;
   Result<void> write(const PointBlock& block) override;
   Result<void> end() override { return {}; }

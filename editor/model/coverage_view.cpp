@@ -12,21 +12,27 @@ namespace {
 using Rgba = std::array<std::uint8_t, 4>;
 
 // Told apart by people who do not tell red from green, too: from amber over straw to deep green and blue.
-constexpr std::array<Rgba, kMostCounted> kCounts = {{{238, 170, 70, 255}, {226, 222, 130, 255}, {110, 180, 110, 255}, {50, 120, 170, 255}}};
-constexpr std::array<std::array<double, 3>, 5> kScale = {{{40, 110, 160}, {90, 175, 160}, {226, 222, 130}, {238, 160, 70}, {190, 70, 40}}};
+constexpr std::array<Rgba, kMostCounted> kCounts = {
+    {{238, 170, 70, 255}, {226, 222, 130, 255}, {110, 180, 110, 255}, {50, 120, 170, 255}}};
+constexpr std::array<std::array<double, 3>, 5> kScale = {
+    {{40, 110, 160}, {90, 175, 160}, {226, 222, 130}, {238, 160, 70}, {190, 70, 40}}};
 
-std::shared_ptr<const Expectation> expectationOf(const std::shared_ptr<const RayScene>& scene, const std::shared_ptr<const MaterialChoice>& materials,
-                                                 const Instrument& instrument, const std::vector<std::pair<std::string, std::string>>& values) {
+std::shared_ptr<const Expectation> expectationOf(const std::shared_ptr<const RayScene>& scene,
+                                                 const std::shared_ptr<const MaterialChoice>& materials,
+                                                 const Instrument& instrument,
+                                                 const std::vector<std::pair<std::string, std::string>>& values) {
   const auto settings = resolveSettings(instrument, values);
   if (!settings) return nullptr;
-  auto assignment = materials ? std::shared_ptr<const MaterialAssignment>(materials, &materials->result.assignment) : std::make_shared<const MaterialAssignment>();
+  auto assignment = materials ? std::shared_ptr<const MaterialAssignment>(materials, &materials->result.assignment)
+                              : std::make_shared<const MaterialAssignment>();
   return std::make_shared<const Expectation>(scene, std::move(assignment), ReturnLaw(instrument, *settings));
 }
 
 }  // namespace
 
 bool SeenFrom::operator==(const SeenFrom& o) const {
-  return station == o.station && pose.translation == o.pose.translation && pose.rotation.coeffs() == o.pose.rotation.coeffs() && expectation == o.expectation;
+  return station == o.station && pose.translation == o.pose.translation &&
+         pose.rotation.coeffs() == o.pose.rotation.coeffs() && expectation == o.expectation;
 }
 
 PlaceCoverage coverageAt(std::span<const SeenFrom> scans, const SurfacePlace& place, const SeenWhen& wanted) {
@@ -47,29 +53,38 @@ PlaceCoverage coverageAt(std::span<const SeenFrom> scans, const SurfacePlace& pl
   return coverage;
 }
 
-Rgba countColour(int stations) { return stations <= 0 ? kHoleColour : kCounts[static_cast<std::size_t>(std::min(stations, kMostCounted) - 1)]; }
+Rgba countColour(int stations) {
+  return stations <= 0 ? kHoleColour : kCounts[static_cast<std::size_t>(std::min(stations, kMostCounted) - 1)];
+}
 
 Rgba coverageScale(double share) {
   const double at = std::clamp(share, 0.0, 1.0) * (kScale.size() - 1);
   const auto stop = std::min(static_cast<std::size_t>(at), kScale.size() - 2);
   Rgba colour = {0, 0, 0, 255};
-  for (std::size_t k = 0; k < 3; ++k) colour[k] = static_cast<std::uint8_t>(std::lround(std::lerp(kScale[stop][k], kScale[stop + 1][k], at - static_cast<double>(stop))));
+  for (std::size_t k = 0; k < 3; ++k)
+    colour[k] = static_cast<std::uint8_t>(
+        std::lround(std::lerp(kScale[stop][k], kScale[stop + 1][k], at - static_cast<double>(stop))));
   return colour;
 }
 
 Rgba coverageColour(CoverageQuantity quantity, const PlaceCoverage& coverage) {
   if (quantity == CoverageQuantity::stations || coverage.stations == 0) return countColour(coverage.stations);
   if (quantity == CoverageQuantity::incidence) return coverageScale(coverage.incidence_rad / (std::numbers::pi / 2));
-  return coverageScale(std::log(coverage.spacing_m / kFinestSpacing_m) / std::log(kCoarsestSpacing_m / kFinestSpacing_m));
+  return coverageScale(std::log(coverage.spacing_m / kFinestSpacing_m) /
+                       std::log(kCoarsestSpacing_m / kFinestSpacing_m));
 }
 
-const std::vector<SeenFrom>& KeptCoverage::planned(const Document& document, const std::shared_ptr<const RayScene>& scene, const Instrument& instrument,
+const std::vector<SeenFrom>& KeptCoverage::planned(const Document& document,
+                                                   const std::shared_ptr<const RayScene>& scene,
+                                                   const Instrument& instrument,
                                                    const std::vector<std::pair<std::string, std::string>>& settings) {
   const Asked asked{document.job, document.materials, scene, instrument.id, settings};
   if (asked == asked_) return scans_;
   // The laws hang on materials and instrument alone: a station that moves takes them along.
-  const bool same_laws = asked_ && asked_->materials == asked.materials && asked_->scene == scene && asked_->instrument == instrument.id && asked_->settings == settings && !scans_.empty();
-  const auto expectation = same_laws ? scans_.front().expectation : expectationOf(scene, document.materials, instrument, settings);
+  const bool same_laws = asked_ && asked_->materials == asked.materials && asked_->scene == scene &&
+                         asked_->instrument == instrument.id && asked_->settings == settings && !scans_.empty();
+  const auto expectation =
+      same_laws ? scans_.front().expectation : expectationOf(scene, document.materials, instrument, settings);
   asked_ = asked;
   scans_.clear();
   if (!expectation) return scans_;
@@ -77,7 +92,8 @@ const std::vector<SeenFrom>& KeptCoverage::planned(const Document& document, con
   return scans_;
 }
 
-const std::vector<SeenFrom>& KeptCoverage::made(const Document& document, const std::shared_ptr<const RayScene>& scene, std::span<const Instrument> instruments) {
+const std::vector<SeenFrom>& KeptCoverage::made(const Document& document, const std::shared_ptr<const RayScene>& scene,
+                                                std::span<const Instrument> instruments) {
   const Asked asked{document.job, document.materials, scene, {}, {}};
   if (asked == asked_) return scans_;
   asked_ = asked;
@@ -86,10 +102,13 @@ const std::vector<SeenFrom>& KeptCoverage::made(const Document& document, const 
   for (const auto& station : document.job->stations) {
     if (station.scans.empty()) continue;
     const Scan& scan = station.scans.back();
-    const bool alike = before != nullptr && !scans_.empty() && before->instrument == scan.instrument && before->settings == scan.settings;
-    const auto instrument = std::find_if(instruments.begin(), instruments.end(), [&](const Instrument& i) { return i.id == scan.instrument; });
+    const bool alike = before != nullptr && !scans_.empty() && before->instrument == scan.instrument &&
+                       before->settings == scan.settings;
+    const auto instrument = std::find_if(instruments.begin(), instruments.end(),
+                                         [&](const Instrument& i) { return i.id == scan.instrument; });
     if (instrument == instruments.end()) continue;
-    auto expectation = alike ? scans_.back().expectation : expectationOf(scene, document.materials, *instrument, scan.settings);
+    auto expectation =
+        alike ? scans_.back().expectation : expectationOf(scene, document.materials, *instrument, scan.settings);
     before = &scan;
     if (expectation) scans_.push_back({station.name, station.true_pose, std::move(expectation)});
   }

@@ -45,10 +45,12 @@ std::array<std::uint8_t, 4> coverageColour(CoverageQuantity quantity, const Plac
 class KeptCoverage {
  public:
   // Planned: from every station with this instrument and these settings.
-  const std::vector<SeenFrom>& planned(const Document& document, const std::shared_ptr<const RayScene>& scene, const Instrument& instrument,
+  const std::vector<SeenFrom>& planned(const Document& document, const std::shared_ptr<const RayScene>& scene,
+                                       const Instrument& instrument,
                                        const std::vector<std::pair<std::string, std::string>>& settings);
   // Made: from every station that has scanned, with the last scan's instrument and settings.
-  const std::vector<SeenFrom>& made(const Document& document, const std::shared_ptr<const RayScene>& scene, std::span<const Instrument> instruments);
+  const std::vector<SeenFrom>& made(const Document& document, const std::shared_ptr<const RayScene>& scene,
+                                    std::span<const Instrument> instruments);
 
  private:
   struct Asked {

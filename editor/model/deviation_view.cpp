@@ -25,19 +25,23 @@ double largest(const DeviationField& field) {
   return most;
 }
 
-std::shared_ptr<DeviationField> fieldOf(const std::shared_ptr<const Environment>& from, const Environment& to, Progress& progress) {
+std::shared_ptr<DeviationField> fieldOf(const std::shared_ptr<const Environment>& from, const Environment& to,
+                                        Progress& progress) {
   auto distances = vertexDeviation(sceneOf(*from), to, progress);
   if (!distances) return nullptr;
   auto field = std::make_shared<DeviationField>(DeviationField{from, {}, 0});
   auto next = distances->begin();
   for (const auto& instance : from->instances)
-    field->of_instance.push_back(from->products[instance.product].inScene() ? *next++ : std::make_shared<const InstanceDeviation>());
+    field->of_instance.push_back(
+        from->products[instance.product].inScene() ? *next++ : std::make_shared<const InstanceDeviation>());
   return field;
 }
 
-std::shared_ptr<const Comparison> compare(const std::shared_ptr<const Environment>& original, const std::shared_ptr<const Environment>& lighter,
-                                         double limit_m, Progress& progress) {
-  const auto lost = fieldOf(original, sceneOf(*lighter), progress), off = lost ? fieldOf(lighter, sceneOf(*original), progress) : nullptr;
+std::shared_ptr<const Comparison> compare(const std::shared_ptr<const Environment>& original,
+                                          const std::shared_ptr<const Environment>& lighter, double limit_m,
+                                          Progress& progress) {
+  const auto lost = fieldOf(original, sceneOf(*lighter), progress),
+             off = lost ? fieldOf(lighter, sceneOf(*original), progress) : nullptr;
   if (!off) return nullptr;
   const double most = std::max(largest(*lost), largest(*off));
   lost->full_scale_m = off->full_scale_m = std::max(1e-4, std::min(most, limit_m));
@@ -52,12 +56,15 @@ std::shared_ptr<const Comparison> compare(const std::shared_ptr<const Environmen
 }  // namespace
 
 std::array<std::uint8_t, 4> deviationColour(double distance_m, double full_scale_m) {
-  static constexpr std::array<std::array<double, 3>, 5> kStops = {{{178, 186, 196}, {250, 222, 120}, {246, 148, 66}, {212, 58, 46}, {118, 8, 40}}};
-  const double at = (std::isfinite(distance_m) ? std::clamp(distance_m / full_scale_m, 0.0, 1.0) : 1.0) * (kStops.size() - 1);
+  static constexpr std::array<std::array<double, 3>, 5> kStops = {
+      {{178, 186, 196}, {250, 222, 120}, {246, 148, 66}, {212, 58, 46}, {118, 8, 40}}};
+  const double at =
+      (std::isfinite(distance_m) ? std::clamp(distance_m / full_scale_m, 0.0, 1.0) : 1.0) * (kStops.size() - 1);
   const auto stop = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
   std::array<std::uint8_t, 4> colour = {0, 0, 0, 255};
   for (std::size_t k = 0; k < 3; ++k)
-    colour[k] = static_cast<std::uint8_t>(std::lround(std::lerp(kStops[stop][k], kStops[stop + 1][k], at - static_cast<double>(stop))));
+    colour[k] = static_cast<std::uint8_t>(
+        std::lround(std::lerp(kStops[stop][k], kStops[stop + 1][k], at - static_cast<double>(stop))));
   return colour;
 }
 
@@ -82,7 +89,8 @@ void DeviationView::follow(const Document& document, const std::function<void()>
   if (!original_ || !lighter_) return;
   progress_ = std::make_unique<Progress>();
   done_.store(false);
-  const double limit_m = document.lightening->request.lod_rules.empty() ? document.lightening->request.max_deviation_m : document.lightening->all.max_deviation_m;
+  const double limit_m = document.lightening->request.lod_rules.empty() ? document.lightening->request.max_deviation_m
+                                                                        : document.lightening->all.max_deviation_m;
   worker_ = std::thread([this, limit_m, wake] {
     result_ = compare(original_, lighter_, limit_m, *progress_);
     done_.store(true);
@@ -91,7 +99,9 @@ void DeviationView::follow(const Document& document, const std::function<void()>
 }
 
 std::shared_ptr<const Comparison> DeviationView::of(const Document& document) const {
-  if (!done_.load() || !document.lightening || document.imported != original_ || document.lightening->environment != lighter_) return nullptr;
+  if (!done_.load() || !document.lightening || document.imported != original_ ||
+      document.lightening->environment != lighter_)
+    return nullptr;
   return result_;
 }
 

@@ -22,7 +22,8 @@ struct DeviationField {
 
 // The area of both models by its distance from the other one.
 struct DeviationHistogram {
-  static constexpr std::array<double, 8> kLimits_m = {1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 1e300};   // the upper ends
+  static constexpr std::array<double, 8> kLimits_m = {1e-4, 3e-4, 1e-3, 3e-3,
+                                                      1e-2, 3e-2, 1e-1, 1e300};  // the upper ends
   std::array<double, 8> area_m2 = {};
 };
 

@@ -30,8 +30,10 @@ std::array<std::uint8_t, 4> expectedColour(ExpectedQuantity quantity, const Expe
 // Made anew only when something that it depends on is another one.
 class KeptExpectation {
  public:
-  // Without `materials` by the colours of the model. The instrument has its default settings; null where these are refused.
-  const std::shared_ptr<const Expectation>& of(const std::shared_ptr<const RayScene>& scene, const std::shared_ptr<const MaterialChoice>& materials,
+  // Without `materials` by the colours of the model. The instrument has its default settings; null where these are
+  // refused.
+  const std::shared_ptr<const Expectation>& of(const std::shared_ptr<const RayScene>& scene,
+                                               const std::shared_ptr<const MaterialChoice>& materials,
                                                const Instrument& instrument);
 
  private:
@@ -55,8 +57,8 @@ struct ExpectedRequest {
   bool operator==(const ExpectedRequest&) const = default;
 };
 
-// Draws what a station is expected to get, through the camera: a ray for each pixel, and one from the station to what it
-// meets, by the laws of the scan. In the background, coarse first; a newer request ends an older one. While only the
+// Draws what a station is expected to get, through the camera: a ray for each pixel, and one from the station to what
+// it meets, by the laws of the scan. In the background, coarse first; a newer request ends an older one. While only the
 // station moves, the camera's rays are kept.
 class ExpectedView {
  public:
@@ -86,10 +88,12 @@ class ExpectedView {
   static constexpr std::array<int, 3> kSteps = {6, 2, 1};
 
   void work(const std::stop_token& stop);
-  bool publish(const std::shared_ptr<const PixelPicture>& picture, const ExpectedRequest& request, std::uint64_t revision);
+  bool publish(const std::shared_ptr<const PixelPicture>& picture, const ExpectedRequest& request,
+               std::uint64_t revision);
   bool superseded(std::uint64_t revision) const;
   bool look(const ExpectedRequest& request, std::uint64_t revision, Raster& raster) const;
-  std::shared_ptr<const PixelPicture> paint(const ExpectedRequest& request, std::uint64_t revision, const Raster& raster) const;
+  std::shared_ptr<const PixelPicture> paint(const ExpectedRequest& request, std::uint64_t revision,
+                                            const Raster& raster) const;
 
   std::function<void()> wake_;
   mutable std::mutex mutex_;

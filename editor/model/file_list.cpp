@@ -41,7 +41,8 @@ FileListing listFolder(const std::filesystem::path& folder, std::span<const std:
     std::error_code ignored;   // of one entry: a broken link is listed as an empty file
     row.folder = entries->is_directory(ignored);
     const auto extension = lower(entries->path().extension().string());
-    if (!row.folder && !extensions.empty() && std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
+    if (!row.folder && !extensions.empty() &&
+        std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
       continue;
     row.project = row.folder && isProjectFolder(entries->path());
     if (!row.folder) row.bytes = entries->file_size(ignored);

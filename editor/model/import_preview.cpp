@@ -50,7 +50,8 @@ ImportFacts factsOf(const Document& document, const Report& report) {
   std::map<std::string, ClassCount> classes;
   for (const auto& product : environment.products) ++classes[product.ifc_class].products;
   for (const auto& instance : environment.instances)
-    classes[environment.products[instance.product].ifc_class].triangles += environment.meshes[instance.mesh]->triangles.size();
+    classes[environment.products[instance.product].ifc_class].triangles +=
+        environment.meshes[instance.mesh]->triangles.size();
   for (auto& [name, count] : classes) {
     count.ifc_class = name;
     facts.triangles += count.triangles;

@@ -73,8 +73,8 @@ class ImportPreview {
   Task* task() { return task_.get(); }
   const Outcome* outcome() const { return outcome_ ? &*outcome_ : nullptr; }
   const ImportFacts& facts() const { return facts_; }
-  // Of the last reading, with an empty message when it went well. When only other overrides failed, what was read before
-  // stays, and with it the overrides of then.
+  // Of the last reading, with an empty message when it went well. When only other overrides failed, what was read
+  // before stays, and with it the overrides of then.
   const Error& error() const { return error_; }
   // Size with the first overrides, to be compared with what it is now; nothing while they are the first.
   const std::optional<Eigen::Vector3d>& firstSize_m() const { return first_size_m_; }

@@ -22,7 +22,8 @@ struct CardRow {
 
 // What the card's instruments report of a plane of the material at that incidence, with their default settings.
 // An instrument that `instruments` lacks has no row.
-std::vector<CardRow> reportedOf(const PhysicalMaterial& material, const std::vector<Instrument>& instruments, double incidence_rad);
+std::vector<CardRow> reportedOf(const PhysicalMaterial& material, const std::vector<Instrument>& instruments,
+                                double incidence_rad);
 
 // ρ_eq in per cent of a white Lambert target seen head-on, at 0°, 1°, … 80°.
 std::array<float, 81> angularResponse(const PhysicalMaterial& material, double wavelength_nm);

@@ -17,13 +17,15 @@ using nlohmann::json;
 // A tenth of a per cent is what people write; what the tables have beyond it is lost with the copy.
 std::array<double, 7> percentOf(const Spectrum& spectrum) {
   std::array<double, 7> result{};
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] = std::round(1000 * atWavelength(spectrum, MaterialEdit::kWavelengths_nm[i])) / 10;
+  for (std::size_t i = 0; i < result.size(); ++i)
+    result[i] = std::round(1000 * atWavelength(spectrum, MaterialEdit::kWavelengths_nm[i])) / 10;
   return result;
 }
 
 json spectrumOf(const std::array<double, 7>& percent) {
   json spectrum = json::array();
-  for (std::size_t i = 0; i < percent.size(); ++i) spectrum.push_back({MaterialEdit::kWavelengths_nm[i], percent[i] / 100});
+  for (std::size_t i = 0; i < percent.size(); ++i)
+    spectrum.push_back({MaterialEdit::kWavelengths_nm[i], percent[i] / 100});
   return spectrum;
 }
 
@@ -38,8 +40,10 @@ std::string flawOfIndex(const std::vector<ComplexIndex>& index) {
   if (index.empty()) return "A metal needs n and k at one wavelength or more";
   for (std::size_t i = 0; i < index.size(); ++i) {
     const auto& [wavelength, n, k] = index[i];
-    if (!(wavelength >= 200 && wavelength <= 20000)) return fmt::format("Row {}: a wavelength is from 200 to 20 000 nm", i + 1);
-    if (i > 0 && !(wavelength > index[i - 1].wavelength_nm)) return fmt::format("Row {}: wavelengths must rise from row to row", i + 1);
+    if (!(wavelength >= 200 && wavelength <= 20000))
+      return fmt::format("Row {}: a wavelength is from 200 to 20 000 nm", i + 1);
+    if (i > 0 && !(wavelength > index[i - 1].wavelength_nm))
+      return fmt::format("Row {}: wavelengths must rise from row to row", i + 1);
     if (!(n >= 0.001 && n <= 1000)) return fmt::format("Row {}: n is from 0.001 to 1000", i + 1);
     if (!(k >= 0 && k <= 1000)) return fmt::format("Row {}: k is from 0 to 1000", i + 1);
   }
@@ -83,7 +87,8 @@ json libraryFileOf(const MaterialEdit& edit) {
   }
   json sources = json::object();
   for (const auto& [key, value] : entry.items())
-    if (key != "id" && key != "label") sources[key] = edit.source.empty() ? "unsourced: by the user, from a copy of " + edit.from : "by the user: [own]";
+    if (key != "id" && key != "label")
+      sources[key] = edit.source.empty() ? "unsourced: by the user, from a copy of " + edit.from : "by the user: [own]";
   entry["source"] = std::move(sources);
   json file = {{"materials", {std::move(entry)}}};
   if (!edit.source.empty()) file["sources"] = {{{"id", "own"}, {"text", edit.source}, {"licence", "the user's own"}}};
@@ -106,11 +111,14 @@ void addIndexRow(MaterialEdit& edit, std::size_t below) {
   index.insert(index.begin() + static_cast<std::ptrdiff_t>(below) + 1, row);
 }
 
-void takeIndexRow(MaterialEdit& edit, std::size_t row) { edit.complex_index.erase(edit.complex_index.begin() + static_cast<std::ptrdiff_t>(row)); }
+void takeIndexRow(MaterialEdit& edit, std::size_t row) {
+  edit.complex_index.erase(edit.complex_index.begin() + static_cast<std::ptrdiff_t>(row));
+}
 
 std::string flawOf(const MaterialEdit& edit) {
   const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
-  if (edit.id.empty() || !std::all_of(edit.id.begin(), edit.id.end(), allowed)) return "The id is made of a-z, 0-9 and _";
+  if (edit.id.empty() || !std::all_of(edit.id.begin(), edit.id.end(), allowed))
+    return "The id is made of a-z, 0-9 and _";
   if (edit.label.find_first_not_of(' ') == std::string::npos) return "It needs a name";
   if (edit.metal) return flawOfIndex(edit.complex_index);
   if (edit.gloss_slope > 0 && !(edit.index_of_refraction > 1)) return "Gloss needs an index of refraction above 1";

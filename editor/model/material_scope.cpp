@@ -13,19 +13,25 @@
 
 namespace standpoint {
 
-std::string selectorOf(const Product& product) { return product.id.rfind('#', 0) == 0 || product.global_id.empty() ? product.id : product.global_id; }
+std::string selectorOf(const Product& product) {
+  return product.id.rfind('#', 0) == 0 || product.global_id.empty() ? product.id : product.global_id;
+}
 
-std::vector<MaterialScope> materialScopes(const Environment& environment, const RayHit& hit, const Eigen::Vector3d& shift_m) {
+std::vector<MaterialScope> materialScopes(const Environment& environment, const RayHit& hit,
+                                          const Eigen::Vector3d& shift_m) {
   const auto& product = environment.products[hit.product];
   const auto& surface = environment.surfaces[hit.surface];
   const auto own = selectorOf(product);
   const auto label = product.name.empty() ? product.id : product.name;
   const auto& instance = environment.instances[hit.instance];
   const Mesh& mesh = *environment.meshes[instance.mesh];
-  const Eigen::Vector3d outwards = placedNormal(mesh, mesh.triangles[hit.triangle], instance.world_from_mesh);   // hit.normal is of the side that is seen
+  const Eigen::Vector3d outwards = placedNormal(mesh, mesh.triangles[hit.triangle],
+                                                instance.world_from_mesh);  // hit.normal is of the side that is seen
   const Eigen::Vector3d point = hit.position + shift_m;
   const auto looking = fmt::format("{}@{:.3f},{:.3f},{:.3f}", own, outwards.x(), outwards.y(), outwards.z());
-  std::vector<MaterialScope> scopes = {{fmt::format("This face of '{}'", label), fmt::format("{}@{:.4f},{:.4f},{:.4f}", looking, point.x(), point.y(), point.z()), 1},
+  std::vector<MaterialScope> scopes =
+      {{fmt::format("This face of '{}'", label),
+        fmt::format("{}@{:.4f},{:.4f},{:.4f}", looking, point.x(), point.y(), point.z()), 1},
                                        {fmt::format("The faces of '{}' that look this way", label), looking, 1},
                                        {fmt::format("All of '{}'", label), own, 1}};
   const auto add = [&](std::string title, std::string selector) {
@@ -33,23 +39,29 @@ std::vector<MaterialScope> materialScopes(const Environment& environment, const 
     if (products > scopes.back().products) scopes.push_back({std::move(title), std::move(selector), products});
   };
   const auto in_class = "class:" + product.ifc_class;
-  if (!product.type_name.empty()) add(fmt::format("All of type '{}'", product.type_name), "type:" + literalPattern(product.type_name));
+  if (!product.type_name.empty())
+    add(fmt::format("All of type '{}'", product.type_name), "type:" + literalPattern(product.type_name));
   if (!product.ifc_class.empty() && !product.storey.empty())
-    add(fmt::format("All {} of storey '{}'", product.ifc_class, product.storey), in_class + "&storey:" + literalPattern(product.storey));
+    add(fmt::format("All {} of storey '{}'", product.ifc_class, product.storey),
+        in_class + "&storey:" + literalPattern(product.storey));
   if (!product.ifc_class.empty()) add(fmt::format("All {}", product.ifc_class), in_class);
-  anyPresentationLayer(product, [&](const std::string& layer) {   // a layer may hold fewer products than a class, and others
+  // a layer may hold fewer products than a class, and others
+  anyPresentationLayer(product, [&](const std::string& layer) {
     const auto selector = "layer:" + literalPattern(layer);
-    if (const auto products = select(environment, selector).size(); products > 1) scopes.push_back({fmt::format("All on layer '{}'", layer), selector, products});
+    if (const auto products = select(environment, selector).size(); products > 1)
+      scopes.push_back({fmt::format("All on layer '{}'", layer), selector, products});
     return false;
   });
   if (!surface.name.empty()) {   // single surfaces of many products: never the same as whole products
     const auto selector = "material:" + literalPattern(surface.name);
-    scopes.push_back({fmt::format("Every surface of '{}'", surface.name), selector, select(environment, selector).size()});
+    scopes.push_back(
+        {fmt::format("Every surface of '{}'", surface.name), selector, select(environment, selector).size()});
   }
   return scopes;
 }
 
-const PhysicalMaterial* materialAt(const Environment& environment, const MaterialAssignment& assignment, const RayHit& hit) {
+const PhysicalMaterial* materialAt(const Environment& environment, const MaterialAssignment& assignment,
+                                   const RayHit& hit) {
   const auto material = AssignedTriangles(environment, assignment).materialOf(hit.instance, hit.triangle);
   return material < 0 ? nullptr : &assignment.materials[static_cast<std::size_t>(material)];
 }

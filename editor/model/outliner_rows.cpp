@@ -49,7 +49,8 @@ std::string productLabel(const Product& product) {
 }
 
 bool matchesFilter(const Product& product, const std::string& filter) {
-  std::string all = product.name + '\n' + product.ifc_class + '\n' + product.id + '\n' + product.global_id + '\n' + product.storey;
+  std::string all =
+      product.name + '\n' + product.ifc_class + '\n' + product.id + '\n' + product.global_id + '\n' + product.storey;
   for (const auto& m : product.materials) all += '\n' + m;
   all = lower(all);
   std::istringstream words(lower(filter));
@@ -98,8 +99,8 @@ void Outliner::addProducts(const Environment& environment) {
     });
     const auto group = add(Kind::group, members.front(), key.first, readableClass(key.second));
     for (const auto p : members)
-      node_of_product_[p] =
-          static_cast<std::int32_t>(add(Kind::product, p, static_cast<std::int32_t>(group), productLabel(environment.products[p])));
+      node_of_product_[p] = static_cast<std::int32_t>(
+          add(Kind::product, p, static_cast<std::int32_t>(group), productLabel(environment.products[p])));
   }
 }
 
@@ -116,7 +117,8 @@ std::vector<OutlinerRow> Outliner::rows(const Environment& environment, const st
   if (!filter.empty())
     for (std::uint32_t p = 0; p < node_of_product_.size(); ++p)
       if (matchesFilter(environment.products[p], filter))
-        for (std::int32_t n = node_of_product_[p]; n >= 0 && shown[static_cast<std::size_t>(n)] == 0; n = nodes_[static_cast<std::size_t>(n)].parent)
+        for (std::int32_t n = node_of_product_[p]; n >= 0 && shown[static_cast<std::size_t>(n)] == 0;
+             n = nodes_[static_cast<std::size_t>(n)].parent)
           shown[static_cast<std::size_t>(n)] = 1;
   std::vector<OutlinerRow> result;
   std::vector<std::pair<std::uint32_t, int>> stack;

@@ -38,7 +38,8 @@ std::filesystem::path recoveryFolder(const std::filesystem::path& root, long pro
   return root / std::to_string(process);
 }
 
-Result<void> writeRecoveryOwner(const std::filesystem::path& folder, const std::string& name, const std::string& saved_in) {
+Result<void> writeRecoveryOwner(const std::filesystem::path& folder, const std::string& name,
+                                const std::string& saved_in) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   std::ofstream out(folder / "owner.json");

@@ -19,7 +19,8 @@ struct RecoveryCopy {
 };
 
 std::filesystem::path recoveryFolder(const std::filesystem::path& root, long process);
-Result<void> writeRecoveryOwner(const std::filesystem::path& folder, const std::string& name, const std::string& saved_in);
+Result<void> writeRecoveryOwner(const std::filesystem::path& folder, const std::string& name,
+                                const std::string& saved_in);
 // Copies whose process is gone, newest first.
 std::vector<RecoveryCopy> findRecoveryCopies(const std::filesystem::path& root);
 void removeRecovery(const std::filesystem::path& folder);

@@ -12,7 +12,9 @@ namespace standpoint {
 
 namespace {
 
-std::string joined(std::string a, const std::string& b, const char* gap) { return a.empty() ? b : std::move(a) + gap + b; }
+std::string joined(std::string a, const std::string& b, const char* gap) {
+  return a.empty() ? b : std::move(a) + gap + b;
+}
 
 // As `--weather` takes it; nothing where the air is clear.
 std::string weatherOption(const Weather& w) {
@@ -30,7 +32,10 @@ std::string weatherOption(const Weather& w) {
 nlohmann::json scanOptions(const ScanChoice& asked) {
   nlohmann::json set = nlohmann::json::array();
   for (const auto& [key, value] : asked.settings) set.push_back(key + "=" + value);
-  nlohmann::json options = {{"instrument", asked.instrument}, {"set", std::move(set)}, {"seed", asked.seed}, {"compensator", asked.compensator ? "on" : "off"}};
+  nlohmann::json options = {{"instrument", asked.instrument},
+                            {"set", std::move(set)},
+                            {"seed", asked.seed},
+                            {"compensator", asked.compensator ? "on" : "off"}};
   if (asked.effects == Effects::none())
     options["ideal"] = true;
   else if (const auto without = leftOut(asked.effects); !without.empty())
@@ -63,7 +68,8 @@ std::string weatherSummary(const Weather& w) {
   if (w.snow_mm_h > 0) text = joined(text, fmt::format("snow {} mm/h", w.snow_mm_h), ", ");
   if (w.fog_mor_m > 0) text = joined(text, fmt::format("fog {} m", w.fog_mor_m), ", ");
   if (w.dust_mor_m > 0) text = joined(text, fmt::format("dust {} m", w.dust_mor_m), ", ");
-  if (w.visibility_km != Weather().visibility_km) text = joined(text, fmt::format("visibility {} km", w.visibility_km), ", ");
+  if (w.visibility_km != Weather().visibility_km)
+    text = joined(text, fmt::format("visibility {} km", w.visibility_km), ", ");
   return text.empty() ? "clear air" : text;
 }
 

@@ -7,15 +7,22 @@ namespace standpoint {
 
 namespace {
 
-constexpr std::size_t kSamples = 100;   // of surfaces: only what is seen of them hangs on these, and nobody asks for that here
+constexpr std::size_t kSamples =
+    100;  // of surfaces: only what is seen of them hangs on these, and nobody asks for that here
 
 std::optional<ScanOutlook> workedOut(const OutlookRequest& wanted, const Instrument& instrument) {
   auto settings = resolveSettings(instrument, wanted.asked.settings);
   if (!settings) return std::nullopt;
-  PlanRequest request{.instrument = instrument, .settings = *std::move(settings), .stations = wanted.stations, .channels = {}, .wanted = {}, .samples = kSamples};
+  PlanRequest request{.instrument = instrument,
+                      .settings = *std::move(settings),
+                      .stations = wanted.stations,
+                      .channels = {},
+                      .wanted = {},
+                      .samples = kSamples};
   const bool truth = wanted.asked.truth;
   request.channels = {.time = truth, .returns = truth || instrument.waveform.most_returns > 1, .truth = truth};
-  const auto assignment = wanted.materials ? std::shared_ptr<const MaterialAssignment>(wanted.materials, &wanted.materials->result.assignment)
+  const auto assignment = wanted.materials ? std::shared_ptr<const MaterialAssignment>(
+                                                 wanted.materials, &wanted.materials->result.assignment)
                                            : std::make_shared<const MaterialAssignment>();
   Progress progress;
   const auto plan = planSurvey(*wanted.job, wanted.scene, assignment, request, progress);

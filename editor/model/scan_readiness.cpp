@@ -22,7 +22,8 @@ std::shared_ptr<const ScanPreparation> ScanReadiness::at_hand() {
   return made_;
 }
 
-void ScanReadiness::follow(const Document& document, const std::shared_ptr<const RayScene>& of_model, const std::function<void()>& wake) {
+void ScanReadiness::follow(const Document& document, const std::shared_ptr<const RayScene>& of_model,
+                           const std::function<void()>& wake) {
   if (!document.environment() || !document.job || !of_model) return;
   const Wish wish{document.environment(), document.materials, document.job};
   if (wish == wish_) return;

@@ -20,7 +20,8 @@ class ScanReadiness {
   ScanReadiness& operator=(const ScanReadiness&) = delete;
 
   // To be called while a scan may be asked for. `of_model`: the picker's scene, null while it is being built.
-  void follow(const Document& document, const std::shared_ptr<const RayScene>& of_model, const std::function<void()>& wake);
+  void follow(const Document& document, const std::shared_ptr<const RayScene>& of_model,
+              const std::function<void()>& wake);
   void wait();
   // Null while it is being made, or when it cannot be.
   std::shared_ptr<const ScanPreparation> at_hand();

@@ -40,10 +40,12 @@ Result<Outcome> runOpen(const Document&, const json& options, Progress& progress
 // Saving, opening and keeping a recovery copy run as tasks like every verb; only the editor has a use for them.
 std::vector<Verb> fileVerbs() {
   const std::vector<Parameter> folder = {
-      {.name = "folder", .kind = ParameterKind::path, .help = "Folder of the project", .positional = true, .required = true}};
+      {.name = "folder", .kind = ParameterKind::path, .help = "Folder of the project", .positional = true,
+       .required = true}};
   auto with_owner = folder;
   with_owner.push_back({.name = "name", .kind = ParameterKind::text, .help = "of the project"});
-  with_owner.push_back({.name = "saved-in", .kind = ParameterKind::text, .help = "Folder of the project that it is a copy of"});
+  with_owner.push_back(
+      {.name = "saved-in", .kind = ParameterKind::text, .help = "Folder of the project that it is a copy of"});
   return {{"save-project", "Save the project", VerbScope::reads, folder, runSave},
           {"save-recovery", "Keep a recovery copy", VerbScope::reads, folder, runSave},
           {"open-project", "Open a project", VerbScope::creates, folder, runOpen},
@@ -57,7 +59,8 @@ bool holdsDocument(const Verb& verb) { return writesDocument(verb) || std::strin
 
 }  // namespace
 
-Session::Session(std::vector<Verb> table, std::function<void()> wake) : verbs_(std::move(table)), wake_(std::move(wake)) {
+Session::Session(std::vector<Verb> table, std::function<void()> wake)
+    : verbs_(std::move(table)), wake_(std::move(wake)) {
   for (auto& verb : fileVerbs()) verbs_.push_back(std::move(verb));
 }
 
@@ -104,12 +107,14 @@ bool Session::start(std::string_view name, json options, std::string title) {
 bool Session::start(std::string_view name, json options, std::string title, Work work) {
   if (!whyNot(name).empty()) return false;
   const Verb& wanted = *verb(name);
-  auto checked = [&wanted, options, work = std::move(work)](const Document& document, Progress& progress) -> Result<Outcome> {
+  auto checked = [&wanted, options, work = std::move(work)](const Document& document,
+                                                            Progress& progress) -> Result<Outcome> {
     auto filled = checkOptions(wanted, options);
     if (!filled) return failure(filled.error());
     return work(document, *filled, progress);
   };
-  running_.push_back(std::make_unique<Task>(std::move(title), wanted, document(), std::move(options), wake_, std::move(checked)));
+  running_.push_back(
+      std::make_unique<Task>(std::move(title), wanted, document(), std::move(options), wake_, std::move(checked)));
   return true;
 }
 
@@ -126,7 +131,8 @@ bool Session::saveRecovery(const std::filesystem::path& folder) {
 }
 
 bool Session::recover(const RecoveryCopy& copy) {
-  return start("open-recovery", {{"folder", copy.project.string()}, {"name", copy.name}, {"saved-in", copy.saved_in}}, "Recover " + copy.name);
+  return start("open-recovery", {{"folder", copy.project.string()}, {"name", copy.name}, {"saved-in", copy.saved_in}},
+               "Recover " + copy.name);
 }
 
 void Session::clear() {
@@ -193,7 +199,8 @@ bool Session::startAdding(Outcome outcome, std::string title) {
   auto rest = [read = std::move(outcome)](const Document& document, Progress& progress) {
     return addImported(document, read, progress);
   };
-  running_.push_back(std::make_unique<Task>(std::move(title), *verb("add"), document(), json::object(), wake_, std::move(rest)));
+  running_.push_back(
+      std::make_unique<Task>(std::move(title), *verb("add"), document(), json::object(), wake_, std::move(rest)));
   return true;
 }
 
@@ -210,7 +217,8 @@ void Session::succeed(Task& task, Outcome outcome) {
   const std::string_view verb_name = task.verb().name;
   if (verb_name == "save-recovery") return;
   const std::string text = outcome.description.empty() ? task.title() : outcome.description;
-  finished_.push_front({task.title(), task.verb().name, true, false, text, timeOfDay(), task.seconds(), std::move(outcome.answer)});
+  finished_.push_front(
+      {task.title(), task.verb().name, true, false, text, timeOfDay(), task.seconds(), std::move(outcome.answer)});
   for (const auto& issue : outcome.report.issues) say(levelOf(issue.severity), issue.source, issue.message);
   say(LogLevel::done, "", text);
   if (verb_name == "save-project") {
@@ -236,8 +244,8 @@ void Session::succeed(Task& task, Outcome outcome) {
 
 void Session::fail(const Task& task, const Error& error) {
   const bool cancelled = error.kind == ErrorKind::cancelled;
-  finished_.push_front({task.title(), task.verb().name, false, cancelled, cancelled ? "Cancelled" : describe(error), timeOfDay(),
-                        task.seconds(), nlohmann::json::object()});
+  finished_.push_front({task.title(), task.verb().name, false, cancelled, cancelled ? "Cancelled" : describe(error),
+                        timeOfDay(), task.seconds(), nlohmann::json::object()});
   if (cancelled) {
     say(LogLevel::note, "", task.title() + " was cancelled");
     return;
@@ -247,7 +255,8 @@ void Session::fail(const Task& task, const Error& error) {
 }
 
 const FinishedTask* Session::lastOf(std::string_view name) const {
-  const auto found = std::find_if(finished_.begin(), finished_.end(), [&](const FinishedTask& t) { return t.ok && t.verb == name; });
+  const auto found =
+      std::find_if(finished_.begin(), finished_.end(), [&](const FinishedTask& t) { return t.ok && t.verb == name; });
   return found == finished_.end() ? nullptr : &*found;
 }
 

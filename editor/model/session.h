@@ -69,11 +69,13 @@ class Session {
   bool poll();
   void wait();   // until nothing runs
   void cancelAll();
-  // Takes in what ran elsewhere on the current document (an emulated instrument's scan); false when whyNotAdopt() says why not.
+  // Takes in what ran elsewhere on the current document (an emulated instrument's scan); false when whyNotAdopt() says
+  // why not.
   bool adopt(Outcome outcome);
   // Takes in a model that was read for a preview: a new project. False when whyNot("import") says why not.
   bool adoptImport(Outcome outcome);
-  // Starts what is left of the verb add when the model has been read for a preview. False when whyNot("add") says why not.
+  // Starts what is left of the verb add when the model has been read for a preview. False when whyNot("add") says why
+  // not.
   bool startAdding(Outcome outcome, std::string title);
 
   const std::vector<std::unique_ptr<Task>>& running() const { return running_; }

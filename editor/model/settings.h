@@ -24,7 +24,8 @@ struct AreaSizes {
 // What the editor remembers from one start to the next.
 struct Settings {
   std::vector<std::string> recent;        // projects and models, newest first
-  std::array<AreaSizes, kWorkspaces> areas = {AreaSizes{}, AreaSizes{350, 320, 170}, AreaSizes{330, 340, 170}, AreaSizes{260, 620, 130}};
+  std::array<AreaSizes, kWorkspaces> areas = {AreaSizes{}, AreaSizes{350, 320, 170}, AreaSizes{330, 340, 170},
+                                              AreaSizes{260, 620, 130}};
   std::string last_folder;                // of the file dialog
   double user_scale = 1;                  // on top of the monitor's
   int recovery_minutes = 3;               // 0 = keep no recovery copy

@@ -15,16 +15,22 @@ namespace {
 std::string keyOf(const Job& job) {
   std::string key;
   for (const auto& s : job.stations)
-    if (!s.scans.empty()) key += fmt::format("{} {} {} {};", s.name, s.scans.back().file, s.scans.back().points, s.scans.size());
-  for (const auto& t : job.targets) key += fmt::format("{} {} {} {} {};", t.name, t.centre.x(), t.centre.y(), t.centre.z(), t.size_m);
+    if (!s.scans.empty())
+      key += fmt::format("{} {} {} {};", s.name, s.scans.back().file, s.scans.back().points, s.scans.size());
+  for (const auto& t : job.targets)
+    key += fmt::format("{} {} {} {} {};", t.name, t.centre.x(), t.centre.y(), t.centre.z(), t.size_m);
   return key;
 }
 
 void takeFits(std::vector<TargetRow>& rows, const TargetMeasurements& measured) {
   for (auto& row : rows) {
     const auto same = [&](const auto& m) { return m.station == row.station && m.target == row.target; };
-    if (const auto found = std::find_if(measured.found.begin(), measured.found.end(), same); found != measured.found.end()) row.fit = found->fit;
-    if (const auto missed = std::find_if(measured.missed.begin(), measured.missed.end(), same); missed != measured.missed.end()) row.why_not = missed->why;
+    if (const auto found = std::find_if(measured.found.begin(), measured.found.end(), same);
+        found != measured.found.end())
+      row.fit = found->fit;
+    if (const auto missed = std::find_if(measured.missed.begin(), measured.missed.end(), same);
+        missed != measured.missed.end())
+      row.why_not = missed->why;
     row.scanned = row.fit || !row.why_not.empty();
   }
 }
@@ -34,7 +40,8 @@ void takeFits(std::vector<TargetRow>& rows, const TargetMeasurements& measured) 
 std::vector<std::filesystem::path> lastScanFiles(const Job& job) {
   std::vector<std::filesystem::path> files;
   for (const auto& s : job.stations)
-    if (!s.scans.empty() && std::find(files.begin(), files.end(), s.scans.back().file) == files.end()) files.emplace_back(s.scans.back().file);
+    if (!s.scans.empty() && std::find(files.begin(), files.end(), s.scans.back().file) == files.end())
+      files.emplace_back(s.scans.back().file);
   return files;
 }
 
@@ -71,7 +78,8 @@ const TargetKinds* TargetList::kinds() {
   return kinds_ ? &*kinds_ : nullptr;
 }
 
-void TargetList::follow(const Document& document, const std::shared_ptr<const RayScene>& scene, const std::optional<ScanSettings>& settings) {
+void TargetList::follow(const Document& document, const std::shared_ptr<const RayScene>& scene,
+                        const std::optional<ScanSettings>& settings) {
   if (!document.job || !scene || kinds() == nullptr) return;
   const Wish wish{document.job, scene, settings ? settings->values : SettingValues(), settings ? settings->columns : 0};
   if (wish == wish_) return;
@@ -82,7 +90,8 @@ void TargetList::follow(const Document& document, const std::shared_ptr<const Ra
   worker_ = std::thread([this, document, scene, settings] { work(document, *scene, settings, *progress_); });
 }
 
-void TargetList::work(const Document& document, const RayScene& scene, const std::optional<ScanSettings>& settings, Progress& progress) {
+void TargetList::work(const Document& document, const RayScene& scene, const std::optional<ScanSettings>& settings,
+                      Progress& progress) {
   const Job& job = *document.job;
   std::vector<TargetRow> rows;
   for (std::size_t t = 0; t < job.targets.size(); ++t)
@@ -99,7 +108,8 @@ void TargetList::work(const Document& document, const RayScene& scene, const std
     }
     if (wake_) wake_();
     // The operator clicks on the target itself.
-    auto measured = measureTargets(document, {.files = files, .seed = 1, .click_m = 0, .targets = true, .sample = false}, progress);
+    auto measured =
+        measureTargets(document, {.files = files, .seed = 1, .click_m = 0, .targets = true, .sample = false}, progress);
     if (measured) measured_ = *std::move(measured);
     else problem = describe(measured.error());
   }

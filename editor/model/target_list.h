@@ -32,7 +32,8 @@ class TargetList {
   TargetList& operator=(const TargetList&) = delete;
 
   // `settings` are those of the scans to come. Cheap while nothing has changed.
-  void follow(const Document& document, const std::shared_ptr<const RayScene>& scene, const std::optional<ScanSettings>& settings);
+  void follow(const Document& document, const std::shared_ptr<const RayScene>& scene,
+              const std::optional<ScanSettings>& settings);
   void wait();
   bool busy() const;
   std::vector<TargetRow> rows() const;
@@ -49,7 +50,8 @@ class TargetList {
     bool operator==(const Wish&) const = default;
   };
   void stop();
-  void work(const Document& document, const RayScene& scene, const std::optional<ScanSettings>& settings, Progress& progress);
+  void work(const Document& document, const RayScene& scene, const std::optional<ScanSettings>& settings,
+            Progress& progress);
 
   std::function<void()> wake_;
   std::optional<TargetKinds> kinds_;
@@ -61,7 +63,7 @@ class TargetList {
   bool busy_ = false;
   std::vector<TargetRow> rows_;
   std::string problem_;
-  std::string measured_key_;             // what `measured_` was read from: it need not be again when a station has moved
+  std::string measured_key_;  // what `measured_` was read from: it need not be again when a station has moved
   TargetMeasurements measured_;
 };
 

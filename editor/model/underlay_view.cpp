@@ -13,7 +13,8 @@ namespace standpoint {
 namespace {
 
 Eigen::Vector3d middleOf(const Underlay& u) {
-  return u.bounds_cloud_m.empty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d((u.bounds_cloud_m.min + u.bounds_cloud_m.max) / 2);
+  return u.bounds_cloud_m.empty() ? Eigen::Vector3d::Zero()
+                                  : Eigen::Vector3d((u.bounds_cloud_m.min + u.bounds_cloud_m.max) / 2);
 }
 
 }  // namespace
@@ -39,7 +40,8 @@ void UnderlayView::takeResult() {
 void UnderlayView::follow(const Document& document, const std::function<void()>& wake) {
   takeResult();
   std::erase_if(clouds_, [&](const auto& entry) {
-    return std::none_of(document.underlays.begin(), document.underlays.end(), [&](const auto& u) { return u->file == entry.first; });
+    return std::none_of(document.underlays.begin(), document.underlays.end(),
+                        [&](const auto& u) { return u->file == entry.first; });
   });
   if (!loading_.empty()) return;
   for (const auto& u : document.underlays) {
@@ -76,7 +78,8 @@ std::string UnderlayView::reading() const {
 }
 
 void UnderlayView::wait(const Document& document) {
-  for (follow(document, {}); !loading_.empty(); follow(document, {})) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  for (follow(document, {}); !loading_.empty(); follow(document, {}))
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 }  // namespace standpoint

@@ -63,7 +63,9 @@ void fill(VerificationView& view, const Document& document) {
     return rank(a) != rank(b) ? rank(a) < rank(b) : a.points > b.points;
   });
   for (const auto& m : view.materials)
-    if (m.judged) view.reach_db = std::clamp(std::ceil(std::max(std::abs(m.off_db[0]), std::abs(m.off_db[4]))), view.reach_db, 15.0);
+    if (m.judged)
+      view.reach_db =
+          std::clamp(std::ceil(std::max(std::abs(m.off_db[0]), std::abs(m.off_db[4]))), view.reach_db, 15.0);
 }
 
 }  // namespace

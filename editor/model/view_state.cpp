@@ -25,7 +25,8 @@ Colour materialColour(const PhysicalMaterial* material) {
   // Hues leave out the pink of "unassigned".
   const double hue = static_cast<double>(stableHash(material->id.c_str()) % 1009) / 1009 * 0.82;
   const auto mixed = [](float shown, float tint) { return 0.88F * shown + 0.12F * tint; };
-  return {mixed(own.r, channel(hue, 0.5, 0.3, 0)), mixed(own.g, channel(hue, 0.5, 0.3, 8)), mixed(own.b, channel(hue, 0.5, 0.3, 4)), 1};
+  return {mixed(own.r, channel(hue, 0.5, 0.3, 0)), mixed(own.g, channel(hue, 0.5, 0.3, 8)),
+          mixed(own.b, channel(hue, 0.5, 0.3, 4)), 1};
 }
 
 Colour confidenceColour(double confidence) {

@@ -76,8 +76,8 @@ class SceneView {
   virtual std::uint64_t texture(const std::shared_ptr<const PixelPicture>& picture) = 0;
 };
 
-// The colour that stands for a physical material: about what it looks like by its reflectance in the visible, with a tint
-// of its own to tell it from others that look the same. nullptr = nothing assigned.
+// The colour that stands for a physical material: about what it looks like by its reflectance in the visible, with a
+// tint of its own to tell it from others that look the same. nullptr = nothing assigned.
 Colour materialColour(const PhysicalMaterial* material);
 // From red, a guess, to green; below 0: nothing is assigned.
 Colour confidenceColour(double confidence);

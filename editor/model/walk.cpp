@@ -18,7 +18,8 @@ constexpr std::size_t kMostTries = 200;
 
 }  // namespace
 
-bool Walk::start(std::shared_ptr<const CollideResult> collision, const Body& body, const Eigen::Vector3d& place, Camera& camera) {
+bool Walk::start(std::shared_ptr<const CollideResult> collision, const Body& body, const Eigen::Vector3d& place,
+                 Camera& camera) {
   stop();
   struct Start {
     double distance;
@@ -30,7 +31,8 @@ bool Walk::start(std::shared_ptr<const CollideResult> collision, const Body& bod
     const Eigen::Vector3d at = (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]).cast<double>() / 3;
     starts.push_back({(at - place).squaredNorm(), at});
   }
-  std::stable_sort(starts.begin(), starts.end(), [](const Start& a, const Start& b) { return a.distance < b.distance; });
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const Start& a, const Start& b) { return a.distance < b.distance; });
   auto obstacles = std::make_unique<Obstacles>(collision->shapes);
   Avatar avatar(*obstacles, body);
   for (std::size_t i = 0; i < std::min(starts.size(), kMostTries); ++i) {

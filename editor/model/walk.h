@@ -15,7 +15,8 @@ namespace standpoint {
 class Walk {
  public:
   // Stands up on the walkable surface as near to `place` as there is room, and looks level the way the camera looked.
-  bool start(std::shared_ptr<const CollideResult> collision, const Body& body, const Eigen::Vector3d& place, Camera& camera);
+  bool start(std::shared_ptr<const CollideResult> collision, const Body& body, const Eigen::Vector3d& place,
+             Camera& camera);
   void stop();
   bool active() const { return avatar_.has_value(); }
   // Whether it walks between these shapes, and not between some that were computed again since.

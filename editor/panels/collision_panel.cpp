@@ -19,7 +19,8 @@ void numberRow(const char* label, const char* id, double& value, float low, floa
 }
 
 void selectable(Editor& editor, std::uint32_t product) {
-  if (ImGui::Selectable("###row", editor.selection.contains(product), ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap)) {
+  if (ImGui::Selectable("###row", editor.selection.contains(product),
+                        ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap)) {
     editor.select(product, true);
     editor.frameSelection();
   }
@@ -61,7 +62,10 @@ void drawDoors(Editor& editor, const CollideResult& result) {
     }
     selectable(editor, door.product);
     ImGui::TableNextColumn();
-    const auto tone = door.closed ? tone::kDim : !door.floor || (door.passable && !door.led_through) ? tone::kWarning : door.passable ? tone::kGood : tone::kBad;
+    const auto tone = door.closed                                           ? tone::kDim
+                      : !door.floor || (door.passable && !door.led_through) ? tone::kWarning
+                      : door.passable                                       ? tone::kGood
+                                                                            : tone::kBad;
     const auto text = door.closed      ? std::string(ICON_STOP "  closed")
                       : !door.floor    ? std::string(ICON_INFO "  no floor")
                       : door.passable && !door.led_through ? std::string(ICON_INFO "  not led through")
@@ -82,8 +86,13 @@ void drawRooms(Editor& editor, const CollideResult& result) {
     beginRow(static_cast<int>(i));
     selectable(editor, room.product);
     ImGui::TableNextColumn();
-    const char* text = room.reached ? ICON_CHECK "  reached" : room.walkable_m2 > 0 ? ICON_BAN "  no way in" : ICON_INFO "  no floor";
-    ImGui::TextColored(colour(room.reached ? tone::kGood : room.walkable_m2 > 0 ? tone::kBad : tone::kWarning), "%s", text);
+    const char* text = room.reached           ? ICON_CHECK "  reached"
+                       : room.walkable_m2 > 0 ? ICON_BAN "  no way in"
+                                              : ICON_INFO "  no floor";
+    ImGui::TextColored(colour(room.reached           ? tone::kGood
+                              : room.walkable_m2 > 0 ? tone::kBad
+                                                     : tone::kWarning),
+                       "%s", text);
     ImGui::PopID();
   }
   ImGui::EndTable();
@@ -92,7 +101,8 @@ void drawRooms(Editor& editor, const CollideResult& result) {
 // The options of the verb that the panel's fields stand for.
 nlohmann::json options(const CollisionPanelState& state) {
   constexpr const char* kDoors[] = {"open", "closed", "as-set"};
-  nlohmann::json result = {{"agent-radius", state.agent_radius_m}, {"agent-height", state.agent_height_m}, {"doors", kDoors[state.doors]}};
+  nlohmann::json result = {
+      {"agent-radius", state.agent_radius_m}, {"agent-height", state.agent_height_m}, {"doors", kDoors[state.doors]}};
   if (state.doors == 2) result["closed"] = state.closed;
   return result;
 }
@@ -113,13 +123,16 @@ void drawCollisionPanel(Editor& editor) {
     ImGui::Combo("###doors", &state.doors, "open\0closed\0one by one\0");
     ui::endProperties();
   }
-  if (ui::primaryButton(ICON_CUBES "  Compute collision shapes###collide", editor.session.whyNot("collide"), {-FLT_MIN, 0})) {
+  if (ui::primaryButton(ICON_CUBES "  Compute collision shapes###collide", editor.session.whyNot("collide"),
+                        {-FLT_MIN, 0})) {
     editor.session.start("collide", options(state), "Collision shapes");
     editor.view.walkable = true;
   }
   if (!document.collision) {
     ui::gap(editor);
-    ui::emptyState(editor, ICON_WALK, "Not computed yet", "Shapes that a physics engine can use, the area that a person can reach, and which doors let one through.");
+    ui::emptyState(
+        editor, ICON_WALK, "Not computed yet",
+        "Shapes that a physics engine can use, the area that a person can reach, and which doors let one through.");
     return;
   }
   const auto& result = *document.collision;
@@ -131,7 +144,8 @@ void drawCollisionPanel(Editor& editor) {
   if (ui::beginProperties("result", 0.5F)) {
     ui::property("Walkable area", fmt::format("{:.1f} m²", result.walkable_area_m2));
     ui::property("Doors passable", fmt::format("{} of {}", passable, result.doors.size()));
-    ui::property("Shapes", fmt::format("{}, {} triangles", groupedDigits(result.shapes.size()), groupedDigits(triangles)));
+    ui::property("Shapes",
+                 fmt::format("{}, {} triangles", groupedDigits(result.shapes.size()), groupedDigits(triangles)));
     ui::endProperties();
   }
   ImGui::Checkbox("Show the walkable area", &editor.view.walkable);

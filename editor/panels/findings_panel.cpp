@@ -65,8 +65,10 @@ void drawRemedy(Editor& editor, const Remedy& remedy, const std::string& why) {
   const auto& material = open ? editor.panels.materials.chosen : remedy.material;
   const auto* known = knownMaterial(editor, material);
   const std::string blocked = !why.empty() ? why : known == nullptr ? "Choose a material in the list first" : "";
-  const std::string text = open ? fmt::format("{}: {}", remedy.text, known == nullptr ? "choose a material" : known->label) : remedy.text;
-  if (ui::button(fmt::format("{}  {}###{}{}", ICON_MAGIC, text, remedy.selector, remedy.material).c_str(), blocked, {-FLT_MIN, 0}))
+  const std::string text =
+      open ? fmt::format("{}: {}", remedy.text, known == nullptr ? "choose a material" : known->label) : remedy.text;
+  if (ui::button(fmt::format("{}  {}###{}{}", ICON_MAGIC, text, remedy.selector, remedy.material).c_str(), blocked,
+                 {-FLT_MIN, 0}))
     editor.session.start("materials", {{"assign", assignWords(remedy, material)}}, remedy.text);
 }
 
@@ -74,7 +76,8 @@ void drawAcceptance(Editor& editor, const MaterialFinding& finding, const std::s
   auto& state = editor.panels.findings;
   if (!finding.because.empty()) {
     ui::wrapped("Accepted: " + finding.because);
-    if (ui::button(ICON_UNDO "  Open it again###reopen", why, {-FLT_MIN, 0})) editor.session.start("materials", {{"reopen", {finding.id}}}, "Open a finding again");
+    if (ui::button(ICON_UNDO "  Open it again###reopen", why, {-FLT_MIN, 0}))
+      editor.session.start("materials", {{"reopen", {finding.id}}}, "Open a finding again");
     return;
   }
   const float button = editor.px(84);
@@ -91,7 +94,9 @@ void drawFinding(Editor& editor, const MaterialFinding& finding) {
   ImGui::PushStyleColor(ImGuiCol_Text, tone::kDim);
   ui::wrapped(finding.why);
   ImGui::PopStyleColor();
-  if (ui::iconButton(ICON_CROSSHAIRS "  Show it alone###look", "Hides the rest and brings it into view", finding.products.empty() ? "It has no product" : "")) look(editor, finding);
+  if (ui::iconButton(ICON_CROSSHAIRS "  Show it alone###look", "Hides the rest and brings it into view",
+                     finding.products.empty() ? "It has no product" : ""))
+    look(editor, finding);
   ImGui::SameLine();
   if (ui::iconButton(ICON_EYE "  Show all###show-all", "Everything again")) editor.visibility.showAll();
   const auto why = editor.session.whyNot("materials");
@@ -110,16 +115,19 @@ void drawFindingsPanel(Editor& editor) {
     state.all = materialFindings(editor.session.document());
   }
   const auto& findings = state.all;
-  const auto open = std::count_if(findings.begin(), findings.end(), [](const MaterialFinding& f) { return f.because.empty(); });
+  const auto open =
+      std::count_if(findings.begin(), findings.end(), [](const MaterialFinding& f) { return f.because.empty(); });
   if (findings.empty()) {
     ImGui::TextColored(colour(tone::kGood), "%s", ICON_CHECK);
     ImGui::SameLine();
     return ImGui::TextUnformatted("Nothing is doubtful.");
   }
-  const auto chosen = std::find_if(findings.begin(), findings.end(), [&](const MaterialFinding& f) { return f.id == state.chosen; });
+  const auto chosen =
+      std::find_if(findings.begin(), findings.end(), [&](const MaterialFinding& f) { return f.id == state.chosen; });
   const float width = ImGui::GetContentRegionAvail().x;
   ImGui::BeginChild("list", {chosen == findings.end() ? width : width * 0.52F, 0});
-  ui::dimText(open == 0 ? fmt::format("All {} accepted", findings.size()) : fmt::format("{} open of {}", open, findings.size()));
+  ui::dimText(open == 0 ? fmt::format("All {} accepted", findings.size())
+                        : fmt::format("{} open of {}", open, findings.size()));
   drawList(editor, findings);
   ImGui::EndChild();
   if (chosen == findings.end()) return;

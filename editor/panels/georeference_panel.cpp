@@ -26,13 +26,15 @@ void drawStated(const Georeference& g) {
   ui::property("Global shift", triple(g.shift_m) + " m");
   ui::property("CRS", g.crs.empty() ? "unknown" : g.crs);
   if (g.map_from_file) {
-    ui::property("Origin on the map", fmt::format("{:.3f}  {:.3f}  {:.3f}", g.map_from_file->eastings_m, g.map_from_file->northings_m,
-                                                  g.map_from_file->orthogonal_height_m));
+    ui::property("Origin on the map", fmt::format("{:.3f}  {:.3f}  {:.3f}", g.map_from_file->eastings_m,
+                                                  g.map_from_file->northings_m, g.map_from_file->orthogonal_height_m));
     ui::property("Rotation", fmt::format("{:.5f}°", rotationDeg(*g.map_from_file)));
     if (g.map_from_file->scale != 1) ui::property("Scale", fmt::format("{:.8f}", g.map_from_file->scale));
   }
-  if (g.site) ui::property("Site in the file", fmt::format("{:.6f}°  {:.6f}°", g.site->latitude_deg, g.site->longitude_deg));
-  if (g.true_north_rad) ui::property("True north", fmt::format("{:.3f}° clockwise from +Y", *g.true_north_rad / kRadPerDeg));
+  if (g.site)
+    ui::property("Site in the file", fmt::format("{:.6f}°  {:.6f}°", g.site->latitude_deg, g.site->longitude_deg));
+  if (g.true_north_rad)
+    ui::property("True north", fmt::format("{:.3f}° clockwise from +Y", *g.true_north_rad / kRadPerDeg));
   ui::endProperties();
 }
 
@@ -99,7 +101,9 @@ void drawForm(Editor& editor) {
     ImGui::InputDouble("###rotation", &state.rotation_deg, 0, 0, "%.6f°");
     ui::endProperties();
   }
-  if (!ui::primaryButton(ICON_GLOBE "  Set the place###georeference", editor.session.whyNot("georeference"), {-FLT_MIN, 0})) return;
+  if (!ui::primaryButton(ICON_GLOBE "  Set the place###georeference", editor.session.whyNot("georeference"),
+                         {-FLT_MIN, 0}))
+    return;
   nlohmann::json options = {{"origin", state.origin_m}, {"rotation-deg", state.rotation_deg}};
   if (!state.crs.empty()) options["crs"] = state.crs;
   editor.session.start("georeference", std::move(options), "Set the place of the model");

@@ -66,7 +66,8 @@ void drawPlace(Editor& editor) {
   ui::tooltip(fmt::format("Taken off all coordinates while working, put back on export. Now {:.0f}, {:.0f}, {:.0f} m",
                           georeference.shift_m.x(), georeference.shift_m.y(), georeference.shift_m.z()));
   ui::propertyLabel("CRS");
-  changed |= textField("###preview-crs", georeference.crs.empty() ? "not stated; EPSG:n" : georeference.crs.c_str(), chosen.crs);
+  changed |= textField("###preview-crs", georeference.crs.empty() ? "not stated; EPSG:n" : georeference.crs.c_str(),
+                       chosen.crs);
   if (!facts.bounds_file_m.empty()) {
     const auto& b = facts.bounds_file_m;
     ui::property("From", fmt::format("{:.2f}  {:.2f}  {:.2f} m", b.min.x(), b.min.y(), b.min.z()));
@@ -88,7 +89,9 @@ void drawPlace(Editor& editor) {
 
 void drawClasses(Editor& editor, float height) {
   const auto& facts = editor.preview.facts();
-  heading(editor, fmt::format("{} products, {} triangles", groupedDigits(facts.products), groupedDigits(facts.triangles)).c_str());
+  heading(
+      editor,
+      fmt::format("{} products, {} triangles", groupedDigits(facts.products), groupedDigits(facts.triangles)).c_str());
   const auto flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoPadOuterX;
   if (!ImGui::BeginTable("preview-classes", 3, flags, {0, height})) return;
   ImGui::TableSetupColumn("class", ImGuiTableColumnFlags_WidthStretch);
@@ -110,7 +113,8 @@ void drawClasses(Editor& editor, float height) {
 
 void filterButton(Editor& editor, const char* icon, const char* name, std::size_t count, ImU32 shade, bool& shown) {
   ImGui::PushStyleColor(ImGuiCol_Button, shown ? ImVec4(1, 1, 1, 0.07F) : ImVec4(0, 0, 0, 0));
-  ImGui::PushStyleColor(ImGuiCol_Text, shown && count > 0 ? colour(shade) : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::PushStyleColor(ImGuiCol_Text,
+                        shown && count > 0 ? colour(shade) : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   if (ImGui::Button(fmt::format("{}  {}###preview-{}", icon, groupedDigits(count), name).c_str())) shown = !shown;
   ImGui::PopStyleColor(2);
   ui::tooltip(fmt::format("{} {}", shown ? "Hide" : "Show", name));
@@ -122,11 +126,14 @@ void drawIssue(Editor& editor, const Issue& issue, int i) {
   ImGui::PushID(i);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  const ImU32 shade = issue.severity == Severity::loss ? tone::kBad : issue.severity == Severity::warning ? tone::kWarning : tone::kDim;
+  const ImU32 shade = issue.severity == Severity::loss      ? tone::kBad
+                      : issue.severity == Severity::warning ? tone::kWarning
+                                                            : tone::kDim;
   ImGui::TextColored(colour(shade), "%s", issue.severity == Severity::note ? ICON_INFO : ICON_WARNING);
   ImGui::TableNextColumn();
   const ImVec2 at = ImGui::GetCursorPos();
-  if (product && ImGui::Selectable("###issue", editor.preview_selection.contains(*product), ImGuiSelectableFlags_AllowItemOverlap)) {
+  if (product && ImGui::Selectable("###issue", editor.preview_selection.contains(*product),
+                                   ImGuiSelectableFlags_AllowItemOverlap)) {
     editor.preview_selection.set(*product);
     editor.frameSelection();
   }
@@ -157,7 +164,9 @@ void drawIssues(Editor& editor) {
     if (passes({levelOf(issue.severity), "", issue.source, issue.message}, filter)) shown.push_back(i);
   }
   const float height = std::max(3 * ImGui::GetTextLineHeightWithSpacing(), ImGui::GetContentRegionAvail().y);
-  if (!ImGui::BeginTable("preview-issues", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoPadOuterX, {0, height})) return;
+  if (!ImGui::BeginTable("preview-issues", 2,
+                         ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoPadOuterX, {0, height}))
+    return;
   ImGui::TableSetupColumn("level", ImGuiTableColumnFlags_WidthFixed, editor.px(18));
   ImGui::TableSetupColumn("text", ImGuiTableColumnFlags_WidthStretch);
   ImGuiListClipper clipper;
@@ -196,7 +205,8 @@ void drawFailure(Editor& editor) {
 
 std::string whyNotAccept(const Editor& editor, const char* verb) {
   if (editor.preview.stage() == ImportPreview::Stage::failed) return "There is nothing to take in";
-  if (editor.preview.stage() != ImportPreview::Stage::ready || editor.preview.reading()) return "The file is still being read";
+  if (editor.preview.stage() != ImportPreview::Stage::ready || editor.preview.reading())
+    return "The file is still being read";
   return editor.session.whyNot(verb);
 }
 
@@ -222,7 +232,8 @@ std::string fileLine(const ImportPreview& preview) {
   for (const auto& file : preview.files())
     if (const auto size = std::filesystem::file_size(file, ignored); !ignored) bytes += size;
   std::string extension = preview.files().front().extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::toupper(c); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::toupper(c); });
   return (extension.empty() ? std::string() : extension.substr(1) + "   ") + readableSize(bytes);
 }
 
@@ -246,7 +257,8 @@ void drawImportPreview(Editor& editor) {
     const float row = ImGui::GetTextLineHeightWithSpacing();
     const float free = ImGui::GetContentRegionAvail().y - 4 * row - editor.px(24);
     const float share = preview.outcome()->report.issues.empty() ? 1 : 0.5F;   // of the room that the two lists have
-    const float classes = std::clamp(row * (static_cast<float>(preview.facts().classes.size()) + 0.5F), row, std::max(row, free * share - 2 * row));
+    const float classes = std::clamp(row * (static_cast<float>(preview.facts().classes.size()) + 0.5F), row,
+                                     std::max(row, free * share - 2 * row));
     drawClasses(editor, classes);
     drawIssues(editor);
   }

@@ -33,13 +33,15 @@ std::string placeOf(const Environment& environment, const Product& product) {
 }
 
 std::string treatmentText(const Editor& editor, const Product& product) {
-  const auto* treatment = editor.treatmentOfProduct(static_cast<std::uint32_t>(&product - editor.environment()->products.data()));
+  const auto* treatment =
+      editor.treatmentOfProduct(static_cast<std::uint32_t>(&product - editor.environment()->products.data()));
   if (treatment == nullptr) return {};
   switch (treatment->kind) {
     case TreatmentKind::excluded: return "Excluded from the scene";
     case TreatmentKind::kept: return "Never simplified";
     case TreatmentKind::simplified:
-      return treatment->max_deviation_m ? fmt::format("Simplified within {:g} mm", *treatment->max_deviation_m * 1000) : "Simplified with a weight of its own";
+      return treatment->max_deviation_m ? fmt::format("Simplified within {:g} mm", *treatment->max_deviation_m * 1000)
+                                        : "Simplified with a weight of its own";
     case TreatmentKind::as_rules: break;
   }
   return {};
@@ -55,7 +57,8 @@ void drawIdentity(const Editor& editor, const Product& product) {
   if (const auto place = placeOf(*editor.environment(), product); !place.empty()) ui::property("Place", place);
   for (const auto& group : product.groups) ui::property("Group", group);
   if (const auto treated = treatmentText(editor, product); !treated.empty()) ui::property("Treatment", treated);
-  if (product.whole >= 0) ui::property("Part of", productLabel(editor.environment()->products[static_cast<std::size_t>(product.whole)]));
+  if (product.whole >= 0)
+    ui::property("Part of", productLabel(editor.environment()->products[static_cast<std::size_t>(product.whole)]));
   ui::endProperties();
 }
 
@@ -80,7 +83,8 @@ void drawGeometry(Editor& editor, std::uint32_t index) {
   if (const auto& light = editor.session.document().lightening; light && index < light->products.size()) {
     const auto& loss = light->products[index];
     ui::property("Before", fmt::format("{} triangles", groupedDigits(loss.triangles_before)));
-    ui::property("Deviation", fmt::format("at most {:.1f} mm, mean {:.2f} mm", loss.max_deviation_m * 1000, loss.mean_deviation_m * 1000));
+    ui::property("Deviation", fmt::format("at most {:.1f} mm, mean {:.2f} mm", loss.max_deviation_m * 1000,
+                                          loss.mean_deviation_m * 1000));
   }
   ui::endProperties();
 }
@@ -105,7 +109,10 @@ void drawSurfaces(const Editor& editor, std::uint32_t product) {
     const auto& mesh = *environment.meshes[instance.mesh];
     for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
       const auto& t = mesh.triangles[k];
-      const auto at = [&](int i) { return Eigen::Vector3d(instance.world_from_mesh.linear() * mesh.positions[t[static_cast<std::size_t>(i)]].cast<double>()); };
+      const auto at = [&](int i) {
+        return Eigen::Vector3d(instance.world_from_mesh.linear() *
+                               mesh.positions[t[static_cast<std::size_t>(i)]].cast<double>());
+      };
       area_of[mesh.surface_of_triangle[k]] += (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2;
     }
   }
@@ -122,10 +129,12 @@ void drawSurfaces(const Editor& editor, std::uint32_t product) {
 }
 
 // The physical materials that a product's surfaces have, each once.
-std::vector<std::pair<std::int32_t, std::string>> materialsOf(const MaterialAssignment& assignment, std::uint32_t product) {
+std::vector<std::pair<std::int32_t, std::string>> materialsOf(const MaterialAssignment& assignment,
+                                                              std::uint32_t product) {
   std::vector<std::pair<std::int32_t, std::string>> found;
   for (const auto& s : assignment.surfaces)
-    if (s.product == product && std::none_of(found.begin(), found.end(), [&](const auto& f) { return f.first == s.material; }))
+    if (s.product == product &&
+        std::none_of(found.begin(), found.end(), [&](const auto& f) { return f.first == s.material; }))
       found.emplace_back(s.material, s.reason);
   return found;
 }
@@ -135,8 +144,9 @@ void assign(Editor& editor, const PhysicalMaterial& material) {
   for (const auto p : editor.selection.products())
     pairs.push_back(selectorOf(editor.environment()->products[p]) + "=" + material.id);
   const auto count = editor.selection.products().size();
-  editor.session.start("materials", {{"assign", std::move(pairs)}},
-                       fmt::format("Assign {} to {}", material.label, count == 1 ? "1 product" : fmt::format("{} products", count)));
+  editor.session.start(
+      "materials", {{"assign", std::move(pairs)}},
+      fmt::format("Assign {} to {}", material.label, count == 1 ? "1 product" : fmt::format("{} products", count)));
 }
 
 void drawAssign(Editor& editor, const std::string& current) {
@@ -166,7 +176,8 @@ void drawAssign(Editor& editor, const std::string& current) {
       ImGui::CloseCurrentPopup();
     }
   }
-  if (catalogue.materials.empty()) ui::wrapped(catalogue.problem.empty() ? "The library of materials is empty." : catalogue.problem);
+  if (catalogue.materials.empty())
+    ui::wrapped(catalogue.problem.empty() ? "The library of materials is empty." : catalogue.problem);
   ImGui::EndChild();
   ImGui::EndCombo();
 }
@@ -174,10 +185,12 @@ void drawAssign(Editor& editor, const std::string& current) {
 void drawPhysics(const PhysicalMaterial& m) {
   if (!ui::beginProperties(m.id.c_str(), 0.52F)) return;
   for (const double wavelength : {905.0, 1064.0, 1550.0})
-    ui::property(fmt::format("Reflectance {:.0f} nm", wavelength).c_str(), fmt::format("{:.0f} %", atWavelength(m.reflectance, wavelength) * 100));
+    ui::property(fmt::format("Reflectance {:.0f} nm", wavelength).c_str(),
+                 fmt::format("{:.0f} %", atWavelength(m.reflectance, wavelength) * 100));
   if (m.roughness_rad > 0) ui::property("Roughness σ", fmt::format("{:.2f} rad", m.roughness_rad));
   if (m.index_of_refraction > 0) ui::property("Index of refraction", fmt::format("{:.2f}", m.index_of_refraction));
-  if (!m.transmittance.empty()) ui::property("Transmittance 1550 nm", fmt::format("{:.0f} %", atWavelength(m.transmittance, 1550) * 100));
+  if (!m.transmittance.empty())
+    ui::property("Transmittance 1550 nm", fmt::format("{:.0f} %", atWavelength(m.transmittance, 1550) * 100));
   ui::endProperties();
 }
 
@@ -191,7 +204,8 @@ void drawPhysicalMaterial(Editor& editor, std::uint32_t index) {
   const auto& assignment = choice->result.assignment;
   const auto found = materialsOf(assignment, index);
   std::string current = "Unassigned";
-  if (found.size() == 1 && found[0].first >= 0) current = assignment.materials[static_cast<std::size_t>(found[0].first)].label;
+  if (found.size() == 1 && found[0].first >= 0)
+    current = assignment.materials[static_cast<std::size_t>(found[0].first)].label;
   if (found.size() > 1) current = fmt::format("{} materials", found.size());
   drawAssign(editor, current);
   for (const auto& [material, reason] : found) {
@@ -224,8 +238,9 @@ void drawProperties(Editor& editor, const Product& product) {
   }
   for (const auto& set : order) {
     const std::string title = set.empty() ? "Attributes" : set;
-    if (!ImGui::TreeNodeEx((title + "###set-" + set).c_str(), ImGuiTreeNodeFlags_DefaultOpen | ImGuiTreeNodeFlags_SpanAvailWidth |
-                                                                   ImGuiTreeNodeFlags_NoTreePushOnOpen))
+    if (!ImGui::TreeNodeEx((title + "###set-" + set).c_str(), ImGuiTreeNodeFlags_DefaultOpen |
+                                                                  ImGuiTreeNodeFlags_SpanAvailWidth |
+                                                                  ImGuiTreeNodeFlags_NoTreePushOnOpen))
       continue;
     if (!ui::beginProperties(set.c_str(), 0.48F)) continue;
     for (const auto* p : sets[set]) ui::property(p->name.c_str(), p->value);
@@ -272,7 +287,9 @@ void drawMany(Editor& editor) {
 void drawInspectorPanel(Editor& editor) {
   const auto& environment = editor.environment();
   if (!environment || editor.selection.empty() || editor.selection.primary() >= environment->products.size()) {
-    ui::emptyState(editor, ICON_POINTER, "Nothing selected", "Click something in the view or in the outliner to see what it is, what it is made of, and how it reflects.");
+    ui::emptyState(
+        editor, ICON_POINTER, "Nothing selected",
+        "Click something in the view or in the outliner to see what it is, what it is made of, and how it reflects.");
     return;
   }
   if (editor.selection.products().size() > 1) {

@@ -32,7 +32,8 @@ Look lookOf(LogLevel level) {
 
 void filterButton(Editor& editor, const char* icon, const char* name, std::size_t count, ImU32 tone, bool& shown) {
   ImGui::PushStyleColor(ImGuiCol_Button, shown ? ImVec4(1, 1, 1, 0.07F) : ImVec4(0, 0, 0, 0));
-  ImGui::PushStyleColor(ImGuiCol_Text, shown && count > 0 ? colour(tone) : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::PushStyleColor(ImGuiCol_Text,
+                        shown && count > 0 ? colour(tone) : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   if (ImGui::Button(fmt::format("{}  {}###log-{}", icon, groupedDigits(count), name).c_str())) shown = !shown;
   ImGui::PopStyleColor(2);
   ui::tooltip(fmt::format("{} {}", shown ? "Hide" : "Show", name));
@@ -108,7 +109,9 @@ void drawLogPanel(Editor& editor) {
       drawEntry(editor, log[static_cast<std::size_t>(entry)], entry);
     }
   auto& seen = editor.panels.log.seen;
-  if (log.size() > seen) ImGui::SetScrollY(ImGui::GetScrollMaxY() + ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(log.size() - seen));
+  if (log.size() > seen)
+    ImGui::SetScrollY(ImGui::GetScrollMaxY() +
+                      ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(log.size() - seen));
   seen = log.size();
   ImGui::EndTable();
 }

@@ -34,7 +34,8 @@ class Plot {
     ImGui::Dummy({margin + size_.x, size_.y + ImGui::GetTextLineHeight() + editor.px(10)});
   }
   ImVec2 at(double x, double y) const {
-    return {low_.x + static_cast<float>(x) * size_.x, low_.y + static_cast<float>(1 - std::clamp(y, 0.0, 1.0)) * size_.y};
+    return {low_.x + static_cast<float>(x) * size_.x,
+            low_.y + static_cast<float>(1 - std::clamp(y, 0.0, 1.0)) * size_.y};
   }
   void level(double y, const std::string& text) const {
     const ImVec2 p = at(0, y), words = ImGui::CalcTextSize(text.c_str());
@@ -50,8 +51,12 @@ class Plot {
   void line(const std::vector<ImVec2>& points, ImU32 tone, float width = 1.8F) const {
     list_.AddPolyline(points.data(), static_cast<int>(points.size()), tone, 0, width * scale_);
   }
-  bool hovered() const { return ImGui::IsMouseHoveringRect(low_, {low_.x + size_.x, low_.y + size_.y}) && ImGui::IsWindowHovered(); }
-  double pointer() const { return std::clamp(static_cast<double>((ImGui::GetIO().MousePos.x - low_.x) / size_.x), 0.0, 1.0); }
+  bool hovered() const {
+    return ImGui::IsMouseHoveringRect(low_, {low_.x + size_.x, low_.y + size_.y}) && ImGui::IsWindowHovered();
+  }
+  double pointer() const {
+    return std::clamp(static_cast<double>((ImGui::GetIO().MousePos.x - low_.x) / size_.x), 0.0, 1.0);
+  }
 
  private:
   ImDrawList& list_;
@@ -82,18 +87,21 @@ void drawSpectrum(Editor& editor, const PhysicalMaterial& m) {
   const Plot plot(editor, 120);
   for (const double share : {0.0, 0.5, 1.0}) plot.level(share, fmt::format("{:.0f} %", share * 100));
   const auto x = [](double wavelength) { return (wavelength - kFirst_nm) / (kLast_nm - kFirst_nm); };
-  for (const double wavelength : {532.0, 905.0, 1550.0}) plot.column(x(wavelength), fmt::format("{:.0f}", wavelength), tone::kLine);
+  for (const double wavelength : {532.0, 905.0, 1550.0})
+    plot.column(x(wavelength), fmt::format("{:.0f}", wavelength), tone::kLine);
   plot.column(x(editor.view.wavelength_nm), "", tone::kAccent);
   if (!m.transmittance.empty()) plot.line(curve(plot, m.transmittance), IM_COL32(98, 160, 214, 255));
   if (!m.reflectance.empty()) plot.line(curve(plot, m.reflectance), tone::kStation);
   if (plot.hovered()) {
     const double wavelength = kFirst_nm + plot.pointer() * (kLast_nm - kFirst_nm);
     auto text = fmt::format("{:.0f} nm\nreflects {:.1f} %", wavelength, 100 * atWavelength(m.reflectance, wavelength));
-    if (!m.transmittance.empty()) text += fmt::format("\nlets {:.1f} % through", 100 * atWavelength(m.transmittance, wavelength));
+    if (!m.transmittance.empty())
+      text += fmt::format("\nlets {:.1f} % through", 100 * atWavelength(m.transmittance, wavelength));
     ImGui::SetTooltip("%s", text.c_str());
     if (ImGui::IsMouseClicked(0)) editor.view.wavelength_nm = std::round(wavelength);
   }
-  note(m.transmittance.empty() ? "Diffuse reflectance over nm; click to choose a wavelength" : "Diffuse reflectance, and transmittance (blue), over nm");
+  note(m.transmittance.empty() ? "Diffuse reflectance over nm; click to choose a wavelength"
+                               : "Diffuse reflectance, and transmittance (blue), over nm");
 }
 
 // As a scanner's own light shows them: a ball, and a plane that turns away from it.
@@ -103,14 +111,18 @@ void drawBodies(Editor& editor, const std::array<float, 81>& response) {
   const float radius = editor.px(34);
   const ImVec2 centre(corner.x + radius, corner.y + radius);
   const auto grey = [&](double degrees) {
-    const double share = std::clamp(static_cast<double>(response[static_cast<std::size_t>(std::clamp(degrees, 0.0, 80.0))]) / 100, 0.0, 1.0);
+    const double share = std::clamp(
+        static_cast<double>(response[static_cast<std::size_t>(std::clamp(degrees, 0.0, 80.0))]) / 100, 0.0, 1.0);
     const int level = static_cast<int>(std::lround(255 * std::pow(share, 1 / 2.2)));
     return IM_COL32(level, level, level, 255);
   };
-  for (int degrees = 90; degrees >= 0; degrees -= 3) list.AddCircleFilled(centre, radius * static_cast<float>(std::sin(degrees * kRadPerDeg)), grey(degrees), 48);
-  const float left = corner.x + 2 * radius + editor.px(14), width = ImGui::GetContentRegionAvail().x - 2 * radius - editor.px(18);
+  for (int degrees = 90; degrees >= 0; degrees -= 3)
+    list.AddCircleFilled(centre, radius * static_cast<float>(std::sin(degrees * kRadPerDeg)), grey(degrees), 48);
+  const float left = corner.x + 2 * radius + editor.px(14),
+              width = ImGui::GetContentRegionAvail().x - 2 * radius - editor.px(18);
   for (int degrees = 0; degrees < 80; degrees += 2)
-    list.AddRectFilled({left + width * static_cast<float>(degrees) / 80, corner.y + editor.px(12)}, {left + width * static_cast<float>(degrees + 2) / 80, corner.y + 2 * radius - editor.px(18)},
+    list.AddRectFilled({left + width * static_cast<float>(degrees) / 80, corner.y + editor.px(12)},
+                       {left + width * static_cast<float>(degrees + 2) / 80, corner.y + 2 * radius - editor.px(18)},
                        grey(degrees + 1));
   const float below = corner.y + 2 * radius - editor.px(16);
   list.AddText({left, below}, tone::kDim, "0°");
@@ -124,7 +136,11 @@ void drawAngles(Editor& editor, const PhysicalMaterial& m) {
   drawBodies(editor, response);
   const double head_on = 100 * atWavelength(m.reflectance, editor.view.wavelength_nm);
   const double most = std::max(head_on, static_cast<double>(*std::max_element(response.begin(), response.end())));
-  const double top = most > 100 ? std::pow(10, std::ceil(std::log10(most))) : most > 50 ? 100 : most > 20 ? 50 : most > 5 ? 20 : 5;
+  const double top = most > 100  ? std::pow(10, std::ceil(std::log10(most)))
+                     : most > 50 ? 100
+                     : most > 20 ? 50
+                     : most > 5  ? 20
+                                 : 5;
   const Plot plot(editor, 90);
   for (const double share : {0.0, 0.5, 1.0}) plot.level(share, fmt::format("{:g} %", share * top));
   for (const int degrees : {0, 20, 40, 60, 80}) plot.column(degrees / 80.0, fmt::format("{}°", degrees), tone::kLine);
@@ -154,7 +170,8 @@ void drawReported(Editor& editor, const PhysicalMaterial& m) {
   ImGui::SliderInt("###incidence", &degrees, 0, 80, "%d° off normal");
   if (!ImGui::BeginTable("reported", 1 + static_cast<int>(kCardRanges_m.size()), ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupColumn("###instrument", ImGuiTableColumnFlags_WidthStretch, 1.5F);
-  for (const double range : kCardRanges_m) ImGui::TableSetupColumn(fmt::format("{:.0f} m", range).c_str(), ImGuiTableColumnFlags_WidthStretch, 1);
+  for (const double range : kCardRanges_m)
+    ImGui::TableSetupColumn(fmt::format("{:.0f} m", range).c_str(), ImGuiTableColumnFlags_WidthStretch, 1);
   ImGui::TableHeadersRow();
   for (const auto& row : reportedOf(m, readCatalogue(editor.panels.catalogue).instruments, degrees * kRadPerDeg)) {
     ImGui::TableNextRow();
@@ -184,7 +201,8 @@ void drawSources(Editor& editor, const PhysicalMaterial& m) {
     const bool unsourced = source.text.starts_with("unsourced");
     ImGui::TextColored(colour(unsourced ? tone::kWarning : tone::kGood), "%s", unsourced ? ICON_WARNING : ICON_CHECK);
     ImGui::SameLine();
-    ui::wrapped(fmt::format("{}: {}{}", source.figure, source.text, source.licence.empty() ? "" : " (" + source.licence + ")"));
+    ui::wrapped(
+        fmt::format("{}: {}{}", source.figure, source.text, source.licence.empty() ? "" : " (" + source.licence + ")"));
   }
 }
 
@@ -196,7 +214,8 @@ const PhysicalMaterial* shownMaterial(Editor& editor) {
   if (const auto* chosen = knownMaterial(editor, editor.panels.materials.chosen)) return chosen;
   if (editor.selection.empty()) return nullptr;
   for (const auto& s : assignment.surfaces)
-    if (s.product == editor.selection.primary() && s.material >= 0) return &assignment.materials[static_cast<std::size_t>(s.material)];
+    if (s.product == editor.selection.primary() && s.material >= 0)
+      return &assignment.materials[static_cast<std::size_t>(s.material)];
   return nullptr;
 }
 
@@ -206,7 +225,9 @@ void drawMaterialCardPanel(Editor& editor) {
   if (editor.panels.materials.edit) return drawMaterialForm(editor);
   const auto* material = shownMaterial(editor);
   if (material == nullptr) {
-    ui::emptyState(editor, ICON_PAINT, "No material chosen", "Choose one in the list of materials, or a surface in the view, to see its spectrum, how it fades when it turns away, and what scanners report of it.");
+    ui::emptyState(editor, ICON_PAINT, "No material chosen",
+                   "Choose one in the list of materials, or a surface in the view, to see its spectrum, how it fades "
+                   "when it turns away, and what scanners report of it.");
     return;
   }
   ImGui::BeginChild("card");

@@ -33,7 +33,8 @@ void number(const char* label, const char* id, double& value, double most, const
 
 void spectrum(const char* title, const char* id, std::array<double, 7>& percent) {
   for (std::size_t i = 0; i < percent.size(); ++i)
-    number(fmt::format("{}{:.0f} nm", i == 0 ? title : "", MaterialEdit::kWavelengths_nm[i]).c_str(), fmt::format("###{}{}", id, i).c_str(), percent[i], 100, "%.1f %%");
+    number(fmt::format("{}{:.0f} nm", i == 0 ? title : "", MaterialEdit::kWavelengths_nm[i]).c_str(),
+           fmt::format("###{}{}", id, i).c_str(), percent[i], 100, "%.1f %%");
 }
 
 void cell(const char* id, double& value, const char* format) {
@@ -102,7 +103,8 @@ void keep(Editor& editor, const MaterialEdit& edit) {
   out << libraryFileOf(edit).dump(1);
   out.close();
   if (!out) {
-    editor.session.errors().push_back({"The material cannot be kept", {ErrorKind::file_system, "cannot write", file.string()}});
+    editor.session.errors().push_back(
+        {"The material cannot be kept", {ErrorKind::file_system, "cannot write", file.string()}});
     return;
   }
   if (!editor.session.start("materials", {{"library", {file.string()}}}, "Keep the material " + edit.label)) return;

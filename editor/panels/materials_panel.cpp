@@ -18,7 +18,8 @@ namespace standpoint {
 namespace {
 
 const PhysicalMaterial* materialById(const MaterialAssignment& assignment, const std::string& id) {
-  const auto found = std::find_if(assignment.materials.begin(), assignment.materials.end(), [&](const PhysicalMaterial& m) { return m.id == id; });
+  const auto found = std::find_if(assignment.materials.begin(), assignment.materials.end(),
+                                  [&](const PhysicalMaterial& m) { return m.id == id; });
   return found == assignment.materials.end() ? nullptr : &*found;
 }
 
@@ -30,7 +31,8 @@ void drawCoverage(Editor& editor, const MaterialReport& report) {
   ui::meter(editor, report.coverage, tone);
   double weak = 0;
   for (const auto& row : report.by_class) weak += row.weak_m2;
-  ui::dimText(fmt::format("{:.0f} m² in all, {:.0f} m² without, {:.0f} m² guessed", report.area_m2, report.area_m2 * (1 - report.coverage), weak));
+  ui::dimText(fmt::format("{:.0f} m² in all, {:.0f} m² without, {:.0f} m² guessed", report.area_m2,
+                          report.area_m2 * (1 - report.coverage), weak));
 }
 
 void drawButtons(Editor& editor) {
@@ -40,7 +42,8 @@ void drawButtons(Editor& editor) {
     editor.session.start("materials", nlohmann::json::object(), "Assign materials by rules");
   ImGui::SameLine();
   if (ui::button(ICON_FILE "  Rules file…###rules-file", why, {width, 0}, "Use other rules than the default ones"))
-    askForFile(editor, FileDialogState::Purpose::openFile, "Assignment rules", "Use", {".json"}, "", [&editor](const std::filesystem::path& file) {
+    askForFile(editor, FileDialogState::Purpose::openFile, "Assignment rules", "Use", {".json"}, "",
+               [&editor](const std::filesystem::path& file) {
       editor.session.start("materials", {{"rules", file.string()}}, "Assign materials by " + file.filename().string());
     });
 }
@@ -67,7 +70,8 @@ bool drawMaterial(Editor& editor, const PhysicalMaterial* material, const std::s
 }
 
 std::string reflectanceText(const Editor& editor, const PhysicalMaterial& material) {
-  return isGap(material) ? "–" : fmt::format("{:.0f} %", atWavelength(material.reflectance, editor.view.wavelength_nm) * 100);
+  return isGap(material) ? "–"
+                         : fmt::format("{:.0f} %", atWavelength(material.reflectance, editor.view.wavelength_nm) * 100);
 }
 
 void drawUses(Editor& editor, const MaterialResult& result, float height) {
@@ -76,7 +80,8 @@ void drawUses(Editor& editor, const MaterialResult& result, float height) {
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("Material", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("m²", ImGuiTableColumnFlags_WidthFixed, editor.px(52));
-  ImGui::TableSetupColumn(fmt::format("{:.0f}", editor.view.wavelength_nm).c_str(), ImGuiTableColumnFlags_WidthFixed, editor.px(40));
+  ImGui::TableSetupColumn(fmt::format("{:.0f}", editor.view.wavelength_nm).c_str(), ImGuiTableColumnFlags_WidthFixed,
+                          editor.px(40));
   ImGui::TableSetupColumn("n", ImGuiTableColumnFlags_WidthFixed, editor.px(30));
   ImGui::TableHeadersRow();
   auto uses = result.report.uses;
@@ -107,8 +112,11 @@ void drawLibrary(Editor& editor, float height) {
   ui::searchField("library-filter", "Brick, glass, steel …", state.filter);
   const float left = height - ImGui::GetFrameHeightWithSpacing();
   const auto& catalogue = readCatalogue(editor.panels.catalogue);
-  if (catalogue.materials.empty()) return ui::wrapped(catalogue.problem.empty() ? "The library of materials is empty." : catalogue.problem);
-  if (!ImGui::BeginTable("library", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX, {0, left})) return;
+  if (catalogue.materials.empty())
+    return ui::wrapped(catalogue.problem.empty() ? "The library of materials is empty." : catalogue.problem);
+  if (!ImGui::BeginTable("library", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX,
+                         {0, left}))
+    return;
   ImGui::TableSetupColumn("Material", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("share", ImGuiTableColumnFlags_WidthFixed, editor.px(40));
   for (const auto& material : offeredMaterials(editor.panels.catalogue, editor.session.document().materials)) {
@@ -136,11 +144,15 @@ void drawBulk(Editor& editor) {
   const auto* material = knownMaterial(editor, state.chosen);
   const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
   const std::string none = meant.empty() ? "It means no product of this model" : "";
-  if (ui::button(fmt::format("{}  Select {}###bulk-select", ICON_POINTER, meant.size()).c_str(), none, {width, 0})) editor.selection.set(meant);
+  if (ui::button(fmt::format("{}  Select {}###bulk-select", ICON_POINTER, meant.size()).c_str(), none, {width, 0}))
+    editor.selection.set(meant);
   ImGui::SameLine();
-  const auto why = !none.empty() ? none : material == nullptr ? "Choose a material in the list first" : editor.session.whyNot("materials");
+  const auto why = !none.empty()         ? none
+                   : material == nullptr ? "Choose a material in the list first"
+                                         : editor.session.whyNot("materials");
   if (ui::button(ICON_PAINT "  Assign the chosen###bulk-assign", why, {width, 0}))
-    editor.session.start("materials", {{"assign", {state.bulk + "=" + material->id}}}, fmt::format("Assign {} to {} products", material->label, meant.size()));
+    editor.session.start("materials", {{"assign", {state.bulk + "=" + material->id}}},
+                         fmt::format("Assign {} to {} products", material->label, meant.size()));
 }
 
 void drawListSwitch(Editor& editor) {
@@ -155,7 +167,9 @@ void drawListSwitch(Editor& editor) {
 void drawMaterialsPanel(Editor& editor) {
   const auto& choice = editor.session.document().materials;
   if (!editor.environment() || !choice) {
-    ui::emptyState(editor, ICON_PAINT, "No physical materials yet", "A scan needs to know how each surface reflects. Rules read it from the classes, names and materials of the model; what they miss can be assigned by hand.");
+    ui::emptyState(editor, ICON_PAINT, "No physical materials yet",
+                   "A scan needs to know how each surface reflects. Rules read it from the classes, names and "
+                   "materials of the model; what they miss can be assigned by hand.");
     drawButtons(editor);
     return;
   }

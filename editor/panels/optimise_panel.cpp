@@ -19,7 +19,9 @@ namespace {
 void drawResult(Editor& editor, const Lightening& light) {
   ui::heading(editor, "Result");
   const auto& all = light.all;
-  const double share = all.triangles_before > 0 ? static_cast<double>(all.triangles_after) / static_cast<double>(all.triangles_before) : 1;
+  const double share = all.triangles_before > 0
+                           ? static_cast<double>(all.triangles_after) / static_cast<double>(all.triangles_before)
+                           : 1;
   ui::meter(editor, share, tone::kAccent);
   if (ui::beginProperties("result", 0.5F)) {
     ui::property("Triangles before", groupedDigits(all.triangles_before));
@@ -33,7 +35,9 @@ void drawResult(Editor& editor, const Lightening& light) {
     ImGui::TextColored(colour(tone::kWarning), "%s  The budget cannot be kept with this deviation", ICON_WARNING);
 }
 
-std::string lengthText(double metres) { return metres < 1e-3 ? fmt::format("{:.1f} mm", metres * 1000) : fmt::format("{:.0f} mm", metres * 1000); }
+std::string lengthText(double metres) {
+  return metres < 1e-3 ? fmt::format("{:.1f} mm", metres * 1000) : fmt::format("{:.0f} mm", metres * 1000);
+}
 
 // Of the area of both models, how much stands how far from the other one.
 void drawHistogram(Editor& editor) {
@@ -55,21 +59,25 @@ void drawHistogram(Editor& editor) {
     const bool last = i + 1 == area.size();
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ui::dimText(last ? "over " + lengthText(DeviationHistogram::kLimits_m[i - 1]) : "to " + lengthText(DeviationHistogram::kLimits_m[i]));
+    ui::dimText(last ? "over " + lengthText(DeviationHistogram::kLimits_m[i - 1])
+                     : "to " + lengthText(DeviationHistogram::kLimits_m[i]));
     ImGui::TableNextColumn();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
     // By the root: what is rare is what one looks for.
     const auto length = static_cast<float>(std::sqrt(area[i] / most)) * width;
-    const auto c = deviationColour(i == 0 ? 0 : std::min(DeviationHistogram::kLimits_m[i], 1.0), both->lighter->full_scale_m);
-    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + height * 0.2F}, {at.x + length, at.y + height * 0.9F}, IM_COL32(c[0], c[1], c[2], 255));
+    const auto c =
+        deviationColour(i == 0 ? 0 : std::min(DeviationHistogram::kLimits_m[i], 1.0), both->lighter->full_scale_m);
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + height * 0.2F}, {at.x + length, at.y + height * 0.9F},
+                                              IM_COL32(c[0], c[1], c[2], 255));
     ImGui::Dummy({width, height});
     ImGui::TableNextColumn();
     ui::textRightAligned(fmt::format("{:.2f} %", area[i] / sum * 100));
   }
   ImGui::EndTable();
   const bool shown = editor.view.colour == ColourMode::deviation && editor.view.side == ModelSide::both;
-  if (ui::button(shown ? ICON_CUBE "  Back to the model's colours###map" : ICON_PAINT "  Show it on both models###map", "", {-FLT_MIN, 0})) {
+  if (ui::button(shown ? ICON_CUBE "  Back to the model's colours###map" : ICON_PAINT "  Show it on both models###map",
+                 "", {-FLT_MIN, 0})) {
     editor.view.colour = shown ? ColourMode::model : ColourMode::deviation;
     editor.view.side = shown ? ModelSide::lighter : ModelSide::both;
   }
@@ -82,7 +90,8 @@ void drawWorst(Editor& editor, const Lightening& light) {
     if (light.products[p].max_deviation_m > 0) order.push_back(p);
   if (order.empty()) return;
   const auto shown = std::min<std::size_t>(order.size(), 50);
-  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(shown), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(shown), order.end(),
+                    [&](std::uint32_t a, std::uint32_t b) {
     return light.products[a].max_deviation_m > light.products[b].max_deviation_m;
   });
   ui::heading(editor, "Largest deviations");
@@ -106,7 +115,8 @@ void drawWorst(Editor& editor, const Lightening& light) {
     ImGui::TableNextColumn();
     ui::textRightAligned(fmt::format("{:.1f}", loss.max_deviation_m * 1000));
     ImGui::TableNextColumn();
-    ui::textRightAligned(fmt::format("{} → {}", groupedDigits(loss.triangles_before), groupedDigits(loss.triangles_after)));
+    ui::textRightAligned(
+        fmt::format("{} → {}", groupedDigits(loss.triangles_before), groupedDigits(loss.triangles_after)));
     ImGui::PopID();
   }
   ImGui::EndTable();
@@ -125,7 +135,9 @@ void drawPreview(Editor& editor, std::uint64_t budget) {
   const auto preview = editor.budget_preview.state();
   if (!preview.error.empty()) ImGui::TextColored(colour(tone::kWarning), "%s  %s", ICON_WARNING, preview.error.c_str());
   else if (preview.preparing || !preview.shown) ui::dimText("Preparing all levels …");
-  else if (preview.triangles > budget) ImGui::TextColored(colour(tone::kWarning), "%s  About %s are the least with this deviation", ICON_WARNING, groupedDigits(preview.least).c_str());
+  else if (preview.triangles > budget)
+    ImGui::TextColored(colour(tone::kWarning), "%s  About %s are the least with this deviation", ICON_WARNING,
+                       groupedDigits(preview.least).c_str());
   else ui::dimText(fmt::format("The view shows {} triangles", groupedDigits(preview.triangles)));
 }
 
@@ -148,26 +160,31 @@ void drawOptimisePanel(Editor& editor) {
   if (ui::beginProperties("options", 0.42F)) {
     ui::propertyLabel("Budget");
     auto percent = static_cast<float>(state.budget_share * 100);
-    if (ImGui::SliderFloat("###budget", &percent, 1, 100, fmt::format("%.0f %%  =  {}", groupedDigits(budget)).c_str(), ImGuiSliderFlags_AlwaysClamp))
+    if (ImGui::SliderFloat("###budget", &percent, 1, 100, fmt::format("%.0f %%  =  {}", groupedDigits(budget)).c_str(),
+                           ImGuiSliderFlags_AlwaysClamp))
       state.budget_share = percent / 100;
     ui::propertyLabel("Deviation at most");
     auto deviation = static_cast<float>(state.max_deviation_mm);
-    if (ImGui::SliderFloat("###deviation", &deviation, 0.5F, 100, "%.1f mm", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
+    if (ImGui::SliderFloat("###deviation", &deviation, 0.5F, 100, "%.1f mm",
+                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
       state.max_deviation_mm = deviation;
     ui::endProperties();
   }
   ImGui::BeginDisabled(!document.collision);
   ImGui::Checkbox("More where walkers look", &state.by_view);
   ImGui::EndDisabled();
-  ui::tooltip(document.collision ? "Errors weigh by what is seen from the walkable surface" : "Compute the collision shapes first (panel Collision)");
+  ui::tooltip(document.collision ? "Errors weigh by what is seen from the walkable surface"
+                                 : "Compute the collision shapes first (panel Collision)");
   ImGui::Checkbox("Show it at once", &state.live);
   ui::tooltip("The view follows the sliders; only Optimise measures the result and keeps it");
   if (state.live) drawPreview(editor, budget);
   ImGui::EndDisabled();
   if (ui::primaryButton(ICON_COMPRESS "  Optimise###run-optimise", editor.session.whyNot("optimize"), {-FLT_MIN, 0})) {
     state.live = false;
-    editor.session.start("optimize", {{"budget", state.only_lossless ? 0 : std::max<std::uint64_t>(1, budget)}, {"max-deviation", state.max_deviation_mm / 1000},
-                                      {"by-view", state.by_view && document.collision != nullptr}},
+    editor.session.start("optimize",
+                         {{"budget", state.only_lossless ? 0 : std::max<std::uint64_t>(1, budget)},
+                          {"max-deviation", state.max_deviation_mm / 1000},
+                          {"by-view", state.by_view && document.collision != nullptr}},
                          "Optimise the model");
   }
   if (!document.lightening) return;

@@ -54,11 +54,13 @@ void choose(Editor& editor, const std::vector<OutlinerRow>& rows, int index) {
 }
 
 void drawEye(Editor& editor, const std::vector<std::uint32_t>& below, float x) {
-  const bool any_shown = std::any_of(below.begin(), below.end(), [&](std::uint32_t p) { return !editor.visibility.hidden(p); });
+  const bool any_shown =
+      std::any_of(below.begin(), below.end(), [&](std::uint32_t p) { return !editor.visibility.hidden(p); });
   ImGui::SameLine(x);
   ImGui::PushStyleColor(ImGuiCol_Text, any_shown ? ImVec4(0.52F, 0.55F, 0.61F, 1) : colour(tone::kWarning));
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(editor.px(3), 0));
-  if (ui::iconButton(any_shown ? ICON_EYE "###eye" : ICON_EYE_OFF "###eye", any_shown ? "Hide" : "Show")) editor.visibility.show(below, !any_shown);
+  if (ui::iconButton(any_shown ? ICON_EYE "###eye" : ICON_EYE_OFF "###eye", any_shown ? "Hide" : "Show"))
+    editor.visibility.show(below, !any_shown);
   ImGui::PopStyleVar();
   ImGui::PopStyleColor();
 }
@@ -82,7 +84,8 @@ void drawRow(Editor& editor, const std::vector<OutlinerRow>& rows, int index) {
   const float left = ImGui::GetCursorPosX(), right = left + ImGui::GetContentRegionAvail().x;
   const float indent = editor.px(13) * static_cast<float>(row.depth);
   ImGui::PushID(static_cast<int>(row.node));
-  if (ImGui::Selectable("###row", chosen, ImGuiSelectableFlags_AllowItemOverlap | ImGuiSelectableFlags_AllowDoubleClick, {0, editor.px(19)})) {
+  if (ImGui::Selectable("###row", chosen, ImGuiSelectableFlags_AllowItemOverlap | ImGuiSelectableFlags_AllowDoubleClick,
+                        {0, editor.px(19)})) {
     const bool on_arrow = ImGui::GetIO().MousePos.x < ImGui::GetWindowPos().x + left + indent + editor.px(16);
     if (row.expandable && (on_arrow || ImGui::IsMouseDoubleClicked(0)))
       state.tree.expand(row.node, !row.expanded);
@@ -115,7 +118,8 @@ void drawRow(Editor& editor, const std::vector<OutlinerRow>& rows, int index) {
   const bool some_hidden = hidden || (!product && editor.visibility.anyHidden());
   if (hovered || some_hidden) {
     const auto below = state.tree.productsBelow(row.node);
-    const bool show_eye = hovered || std::any_of(below.begin(), below.end(), [&](std::uint32_t p) { return editor.visibility.hidden(p); });
+    const bool show_eye = hovered || std::any_of(below.begin(), below.end(),
+                                                 [&](std::uint32_t p) { return editor.visibility.hidden(p); });
     if (show_eye) drawEye(editor, below, right - eye);
   }
   ImGui::PopID();
@@ -144,8 +148,10 @@ void underlayMenu(Editor& editor, const Underlay& underlay) {
   const auto why = editor.session.whyNot("underlay");
   if (ImGui::MenuItem(ICON_MOVE "  Move it…###underlay-move", nullptr, false, why.empty())) {
     openVerbForm(editor, "underlay");
-    editor.dialogs.verb.form.fill({{"move", underlay.name}, {"at", {underlay.file_from_cloud.translation.x(),
-                                    underlay.file_from_cloud.translation.y(), underlay.file_from_cloud.translation.z()}}});
+    editor.dialogs.verb.form.fill({{"move", underlay.name},
+                                   {"at",
+                                    {underlay.file_from_cloud.translation.x(), underlay.file_from_cloud.translation.y(),
+                                     underlay.file_from_cloud.translation.z()}}});
   }
   if (ImGui::MenuItem(ICON_TRASH "  Remove it; its file stays###underlay-remove", nullptr, false, why.empty()))
     editor.session.start("underlay", {{"remove", underlay.name}}, "Remove underlay " + underlay.name);
@@ -159,7 +165,9 @@ void drawUnderlays(Editor& editor) {
     const Underlay& u = *underlays[i];
     ImGui::PushID(static_cast<int>(i));
     const float left = ImGui::GetCursorPosX(), right = left + ImGui::GetContentRegionAvail().x, eye = editor.px(24);
-    const bool pressed = ImGui::Selectable("###underlay", false, ImGuiSelectableFlags_AllowItemOverlap | ImGuiSelectableFlags_AllowDoubleClick, {0, editor.px(19)});
+    const bool pressed = ImGui::Selectable(
+        "###underlay", false, ImGuiSelectableFlags_AllowItemOverlap | ImGuiSelectableFlags_AllowDoubleClick,
+        {0, editor.px(19)});
     if (pressed && ImGui::IsMouseDoubleClicked(0)) frameUnderlay(editor, u);
     ImGui::SetItemAllowOverlap();
     underlayMenu(editor, u);
@@ -184,9 +192,11 @@ void scrollTo(Editor& editor, const std::vector<OutlinerRow>& rows, float row_he
   auto& state = editor.panels.outliner;
   if (state.scroll_to < 0) return;
   for (std::size_t i = 0; i < rows.size(); ++i)
-    if (rows[i].kind == OutlinerRow::Kind::product && state.tree.node(rows[i].node).index == static_cast<std::uint32_t>(state.scroll_to)) {
+    if (rows[i].kind == OutlinerRow::Kind::product &&
+        state.tree.node(rows[i].node).index == static_cast<std::uint32_t>(state.scroll_to)) {
       const float y = static_cast<float>(i) * row_height, height = ImGui::GetWindowHeight();
-      if (y < ImGui::GetScrollY() || y + row_height > ImGui::GetScrollY() + height) ImGui::SetScrollY(std::max(0.0F, y - height * 0.4F));
+      if (y < ImGui::GetScrollY() || y + row_height > ImGui::GetScrollY() + height)
+        ImGui::SetScrollY(std::max(0.0F, y - height * 0.4F));
     }
   state.scroll_to = -1;
 }
@@ -196,7 +206,8 @@ void scrollTo(Editor& editor, const std::vector<OutlinerRow>& rows, float row_he
 void drawOutlinerPanel(Editor& editor) {
   const auto& environment = editor.environment();
   if (!environment) {
-    ui::emptyState(editor, ICON_LIST, "Nothing to list", "The building's structure appears here once a model is imported.");
+    ui::emptyState(editor, ICON_LIST, "Nothing to list",
+                   "The building's structure appears here once a model is imported.");
     return;
   }
   auto& state = editor.panels.outliner;
@@ -204,7 +215,8 @@ void drawOutlinerPanel(Editor& editor) {
   if (state.filter.empty()) drawUnderlays(editor);
   const auto rows = state.tree.rows(*environment, state.filter);
   if (rows.empty()) {
-    ui::emptyState(editor, ICON_SEARCH, "Nothing fits", "No product has all these words in its name, class, id, storey or materials.");
+    ui::emptyState(editor, ICON_SEARCH, "Nothing fits",
+                   "No product has all these words in its name, class, id, storey or materials.");
     return;
   }
   ImGui::BeginChild("rows");

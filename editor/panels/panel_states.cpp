@@ -25,11 +25,13 @@ const Catalogue& readCatalogue(Catalogue& catalogue) {
 }
 
 const Instrument* instrumentIn(const Catalogue& catalogue, const std::string& id) {
-  const auto found = std::find_if(catalogue.instruments.begin(), catalogue.instruments.end(), [&](const Instrument& i) { return i.id == id; });
+  const auto found = std::find_if(catalogue.instruments.begin(), catalogue.instruments.end(),
+                                  [&](const Instrument& i) { return i.id == id; });
   return found == catalogue.instruments.end() ? nullptr : &*found;
 }
 
-const std::vector<PhysicalMaterial>& offeredMaterials(Catalogue& catalogue, const std::shared_ptr<const MaterialChoice>& choice) {
+const std::vector<PhysicalMaterial>& offeredMaterials(Catalogue& catalogue,
+                                                      const std::shared_ptr<const MaterialChoice>& choice) {
   const auto& shipped = readCatalogue(catalogue).materials;
   if (!choice || choice->own.empty()) return shipped;
   if (catalogue.offered_for != choice) catalogue.offered = withOwn(shipped, choice->own);

@@ -145,6 +145,7 @@ const Catalogue& readCatalogue(Catalogue& catalogue);
 // Null where there is no such id.
 const Instrument* instrumentIn(const Catalogue& catalogue, const std::string& id);
 // All materials that can be assigned in a document: made anew only when its own have changed.
-const std::vector<PhysicalMaterial>& offeredMaterials(Catalogue& catalogue, const std::shared_ptr<const MaterialChoice>& choice);
+const std::vector<PhysicalMaterial>& offeredMaterials(Catalogue& catalogue,
+                                                      const std::shared_ptr<const MaterialChoice>& choice);
 
 }  // namespace standpoint

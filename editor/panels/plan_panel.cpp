@@ -41,15 +41,19 @@ void drawMapSwitch(Editor& editor) {
     ColourMode mode;
     const char* help;
   };
-  static constexpr Map kMaps[] = {{"Stations###map-stations", ColourMode::coverage, "How many stations see each surface; holes are magenta"},
-                                  {"Spacing###map-spacing", ColourMode::coverage_spacing, "How far apart points are, of the densest scan"},
-                                  {"Incidence###map-incidence", ColourMode::coverage_incidence, "How far off its normal a surface is met, at best"}};
+  static constexpr Map kMaps[] =
+      {{"Stations###map-stations", ColourMode::coverage, "How many stations see each surface; holes are magenta"},
+                                  {"Spacing###map-spacing", ColourMode::coverage_spacing,
+                                   "How far apart points are, of the densest scan"},
+                                  {"Incidence###map-incidence", ColourMode::coverage_incidence,
+                                   "How far off its normal a surface is met, at best"}};
   ui::dimText("Show on the model");
   const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
   for (const auto& map : kMaps) {
     if (&map != kMaps) ImGui::SameLine();
     const bool lit = editor.view.colour == map.mode;
-    ImGui::PushStyleColor(ImGuiCol_Button, lit ? ImVec4(0.25F, 0.56F, 0.97F, 0.45F) : ImGui::GetStyleColorVec4(ImGuiCol_Button));
+    ImGui::PushStyleColor(ImGuiCol_Button,
+                          lit ? ImVec4(0.25F, 0.56F, 0.97F, 0.45F) : ImGui::GetStyleColorVec4(ImGuiCol_Button));
     if (ui::button(map.label, {}, {width, 0}, map.help)) editor.view.colour = lit ? ColourMode::model : map.mode;
     ImGui::PopStyleColor();
   }
@@ -73,7 +77,8 @@ void drawShares(Editor& editor, const json& rows, const char* key, const char* t
   if (!ui::beginProperties(title, 0.56F)) return;
   for (const auto& row : rows) {
     const auto name = row.at(key).get<std::string>();
-    ui::property(name.empty() ? "(none)" : name.c_str(), fmt::format("{}  of {:.1f} m²", percent(row.at("coverage")), row.at("exposed_m2").get<double>()));
+    ui::property(name.empty() ? "(none)" : name.c_str(),
+                 fmt::format("{}  of {:.1f} m²", percent(row.at("coverage")), row.at("exposed_m2").get<double>()));
   }
   ui::endProperties();
 }
@@ -85,7 +90,8 @@ void drawStations(Editor& editor, const json& answer) {
   ImGui::TableHeadersRow();
   const auto row = [](const std::string& name, const std::string& sees, double points, double bytes) {
     ImGui::TableNextRow();
-    for (const auto& text : {name, sees, fmt::format("{:.1f} M", points / 1e6), fmt::format("{:.0f} MB", bytes / 1e6)}) {
+    for (const auto& text :
+         {name, sees, fmt::format("{:.1f} M", points / 1e6), fmt::format("{:.0f} MB", bytes / 1e6)}) {
       ImGui::TableNextColumn();
       ui::fitted(text, ImGui::GetContentRegionAvail().x);
     }
@@ -116,7 +122,9 @@ void drawHoles(Editor& editor, const json& holes) {
   for (std::size_t k = 0; k < holes.size(); ++k) {
     const auto id = holes[k].at("id").get<std::string>();
     ImGui::PushID(static_cast<int>(k));
-    if (ImGui::Selectable(fmt::format("{:.1f} m²   {} {}###hole", holes[k].at("unseen_m2").get<double>(), holes[k].value("class", ""), holes[k].value("name", id)).c_str()))
+    if (ImGui::Selectable(fmt::format("{:.1f} m²   {} {}###hole", holes[k].at("unseen_m2").get<double>(),
+                                      holes[k].value("class", ""), holes[k].value("name", id))
+                              .c_str()))
       for (std::uint32_t p = 0; p < products.size(); ++p)
         if (products[p].id == id) editor.select(p, true);
     ImGui::PopID();
@@ -125,8 +133,11 @@ void drawHoles(Editor& editor, const json& holes) {
 
 void drawProposal(Editor& editor, const json& proposed) {
   if (!proposed.is_object()) return;
-  const auto text = fmt::format(ICON_STATION "  Another station: +{:.0f} m²###add-proposed", proposed.at("adds_m2").get<double>());
-  if (!ui::button(text.c_str(), editor.session.whyNot("station"), {-FLT_MIN, 0}, "Sets one up where it adds most to what is seen")) return;
+  const auto text =
+      fmt::format(ICON_STATION "  Another station: +{:.0f} m²###add-proposed", proposed.at("adds_m2").get<double>());
+  if (!ui::button(text.c_str(), editor.session.whyNot("station"), {-FLT_MIN, 0},
+                  "Sets one up where it adds most to what is seen"))
+    return;
   const auto& stations = editor.session.document().job->stations;
   for (std::size_t i = stations.size() + 1;; ++i) {
     const auto name = fmt::format("S{}", i);
@@ -144,16 +155,19 @@ void drawPlanPanel(Editor& editor) {
     return;
   }
   const auto* instrument = instrumentIn(readCatalogue(editor.panels.catalogue), editor.panels.scan.asked.instrument);
-  ui::dimText(instrument == nullptr ? "Choose an instrument under Scan" : fmt::format("{} {}, as set under Scan", instrument->maker, instrument->model));
+  ui::dimText(instrument == nullptr ? "Choose an instrument under Scan"
+                                    : fmt::format("{} {}, as set under Scan", instrument->maker, instrument->model));
   drawWishes(editor);
-  const std::string why = instrument == nullptr ? "Choose an instrument under Scan first" : editor.session.whyNot("plan");
+  const std::string why =
+      instrument == nullptr ? "Choose an instrument under Scan first" : editor.session.whyNot("plan");
   if (ui::primaryButton(ICON_EYE "  What will they see?###run-plan", why, {-FLT_MIN, editor.px(28)})) start(editor);
   drawMapSwitch(editor);
   const auto* last = editor.session.lastOf("plan");
   if (last == nullptr || !last->answer.contains("coverage")) return;
   const auto& answer = last->answer;
   ui::meter(editor, answer.at("coverage"), tone::kGood);
-  ui::dimText(fmt::format("{} of {:.0f} m² that light reaches", percent(answer.at("coverage")), answer.at("exposed_m2").get<double>()));
+  ui::dimText(fmt::format("{} of {:.0f} m² that light reaches", percent(answer.at("coverage")),
+                          answer.at("exposed_m2").get<double>()));
   drawProposal(editor, answer.at("proposed"));
   drawStations(editor, answer);
   drawPairs(editor, answer.at("pairs"));

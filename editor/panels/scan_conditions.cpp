@@ -57,9 +57,12 @@ struct WeatherField {
 void drawWeather(Editor& editor, ScanChoice& asked) {
   if (!folded("Weather", weatherSummary(asked.weather), "weather")) return;
   static constexpr std::array kFields = {
-      WeatherField{"Visibility", "visibility", &Weather::visibility_km, "%.4g km", "Of the air itself: 23 km is a clear day, 5 km light haze"},
-      WeatherField{"Rain", "rain", &Weather::rain_mm_h, "%.4g mm/h", "0 = none; 2 is light, 10 is heavy. Drops give points of their own and take light"},
-      WeatherField{"Snow", "snow", &Weather::snow_mm_h, "%.4g mm/h", "0 = none; of melted water: 1 is moderate snowfall"},
+      WeatherField{"Visibility", "visibility", &Weather::visibility_km, "%.4g km",
+                   "Of the air itself: 23 km is a clear day, 5 km light haze"},
+      WeatherField{"Rain", "rain", &Weather::rain_mm_h, "%.4g mm/h",
+                   "0 = none; 2 is light, 10 is heavy. Drops give points of their own and take light"},
+      WeatherField{"Snow", "snow", &Weather::snow_mm_h, "%.4g mm/h",
+                   "0 = none; of melted water: 1 is moderate snowfall"},
       WeatherField{"Fog", "fog", &Weather::fog_mor_m, "%.4g m", "How far one sees in it; 0 = no fog, 200 is thick"},
       WeatherField{"Dust", "dust", &Weather::dust_mor_m, "%.4g m", "How far one sees in it; 0 = none"}};
   if (ui::beginProperties("weather", 0.36F)) {
@@ -78,8 +81,10 @@ void drawWeather(Editor& editor, ScanChoice& asked) {
     ImGui::SameLine();
     ui::wrapped(describe(checked.error()));
   }
-  if (!asked.effects.has(Effect::weather) || !asked.effects.has(Effect::atmosphere)) ui::dimText("The effects weather and atmosphere are not both on");
-  if (ui::button("Clear air###clear-air", asked.weather == Weather() ? "It is clear" : "", {editor.px(90), 0})) asked.weather = Weather();
+  if (!asked.effects.has(Effect::weather) || !asked.effects.has(Effect::atmosphere))
+    ui::dimText("The effects weather and atmosphere are not both on");
+  if (ui::button("Clear air###clear-air", asked.weather == Weather() ? "It is clear" : "", {editor.px(90), 0}))
+    asked.weather = Weather();
 }
 
 std::string sizeText(std::uint32_t columns) { return fmt::format("{} × {}", columns, columns / 2); }
@@ -89,16 +94,19 @@ void drawPanorama(ScanChoice& asked, const Instrument& instrument, const ScanSet
   ImGui::BeginDisabled(!settings.imaging && !asked.panorama);
   ImGui::Checkbox("###panorama", &asked.panorama);
   ImGui::EndDisabled();
-  ui::tooltip(settings.imaging ? "A picture all around from each station, and the points coloured from it: it takes its time before the first point"
+  ui::tooltip(settings.imaging ? "A picture all around from each station, and the points coloured from it: it takes "
+                                 "its time before the first point"
                                : "These settings take no images: choose others above");
   if (!asked.panorama) return;
   ui::propertyLabel("Its size");
   const auto own = instrument.camera.columns;
   const std::string as_delivered = fmt::format("{}, as delivered", sizeText(own));
-  if (ImGui::BeginCombo("###panorama-size", asked.panorama_columns == 0 ? as_delivered.c_str() : sizeText(asked.panorama_columns).c_str())) {
+  if (ImGui::BeginCombo("###panorama-size", asked.panorama_columns == 0 ? as_delivered.c_str()
+                                                                        : sizeText(asked.panorama_columns).c_str())) {
     if (ImGui::Selectable(as_delivered.c_str(), asked.panorama_columns == 0)) asked.panorama_columns = 0;
     for (const std::uint32_t columns : {16384U, 8192U, 4096U, 2048U, 1024U})
-      if (columns < own && ImGui::Selectable(sizeText(columns).c_str(), asked.panorama_columns == columns)) asked.panorama_columns = columns;
+      if (columns < own && ImGui::Selectable(sizeText(columns).c_str(), asked.panorama_columns == columns))
+        asked.panorama_columns = columns;
     ImGui::EndCombo();
   }
   ui::tooltip("A quarter of the pixels takes a quarter of the time");
@@ -120,16 +128,21 @@ void drawExtras(Editor& editor, const Instrument& instrument, const ScanSettings
   if (!ui::beginProperties("extras", 0.36F)) return;
   ui::propertyLabel("Truth");
   ImGui::Checkbox("###truth", &state.asked.truth);
-  ui::tooltip("With each point what is known of it: time, return, true place, range, incidence, power, and how it came about. The file is about three times as large.");
+  ui::tooltip(
+      "With each point what is known of it: time, return, true place, range, incidence, power, and how it came about. "
+      "The file is about three times as large.");
   drawPanorama(state.asked, instrument, settings);
   ui::propertyLabel("Compensator");
   ImGui::BeginDisabled(!instrument.compensator);
   ImGui::Checkbox("###compensator", &state.asked.compensator);
   ImGui::EndDisabled();
-  ui::tooltip(instrument.compensator ? "Off: the points of a station that leans come tilted" : "This instrument has none: the points of a station that leans come tilted");
+  ui::tooltip(instrument.compensator ? "Off: the points of a station that leans come tilted"
+                                     : "This instrument has none: the points of a station that leans come tilted");
   ui::propertyLabel("Resume");
   ImGui::Checkbox("###resume", &state.resume);
-  ui::tooltip("Takes the stations that a cancelled or crashed run has finished as they are. Off: all are scanned again, and what such a run left is in the way");
+  ui::tooltip(
+      "Takes the stations that a cancelled or crashed run has finished as they are. Off: all are scanned again, and "
+      "what such a run left is in the way");
   ui::propertyLabel("Seed of the noise");
   auto seed = static_cast<std::int64_t>(state.asked.seed);
   ImGui::InputScalar("###seed", ImGuiDataType_S64, &seed);
@@ -149,7 +162,8 @@ void drawScanConditions(Editor& editor, const Instrument& instrument, const Scan
 std::string whyNotConditions(const Editor& editor, const ScanSettings& settings) {
   const auto& asked = editor.panels.scan.asked;
   if (const auto checked = check(asked.weather); !checked) return "Weather: " + describe(checked.error());
-  if (asked.panorama && !settings.imaging) return "These settings take no images: choose others, or leave the panorama out";
+  if (asked.panorama && !settings.imaging)
+    return "These settings take no images: choose others, or leave the panorama out";
   return {};
 }
 

@@ -37,7 +37,8 @@ const Instrument* chosenInstrument(Editor& editor) {
   auto& asked = editor.panels.scan.asked;
   const auto& all = readCatalogue(editor.panels.catalogue).instruments;
   const auto on_tripod = [](const Instrument& i) { return !i.moving; };   // a station has no trajectory
-  auto found = std::find_if(all.begin(), all.end(), [&](const Instrument& i) { return on_tripod(i) && i.id == asked.instrument; });
+  auto found = std::find_if(all.begin(), all.end(),
+                            [&](const Instrument& i) { return on_tripod(i) && i.id == asked.instrument; });
   if (found == all.end()) found = std::find_if(all.begin(), all.end(), on_tripod);
   if (found == all.end()) return nullptr;
   if (asked.instrument != found->id || asked.settings.empty()) chooseInstrument(asked, *found);
@@ -48,7 +49,8 @@ void drawInstrumentChoice(Editor& editor, const Instrument& chosen) {
   ui::propertyLabel("Instrument");
   if (!ImGui::BeginCombo("###instrument", fmt::format("{} {}", chosen.maker, chosen.model).c_str())) return;
   for (const auto& i : editor.panels.catalogue.instruments)
-    if (!i.moving && ImGui::Selectable(fmt::format("{} {}###{}", i.maker, i.model, i.id).c_str(), i.id == chosen.id)) chooseInstrument(editor.panels.scan.asked, i);
+    if (!i.moving && ImGui::Selectable(fmt::format("{} {}###{}", i.maker, i.model, i.id).c_str(), i.id == chosen.id))
+      chooseInstrument(editor.panels.scan.asked, i);
   ImGui::EndCombo();
 }
 
@@ -61,10 +63,12 @@ void drawNumber(const InstrumentSetting& setting, std::string& text) {
 }
 
 void drawSetting(ScanChoice& asked, const InstrumentSetting& setting) {
-  const auto value = std::find_if(asked.settings.begin(), asked.settings.end(), [&](const auto& s) { return s.first == setting.key; });
+  const auto value =
+      std::find_if(asked.settings.begin(), asked.settings.end(), [&](const auto& s) { return s.first == setting.key; });
   if (value == asked.settings.end()) return;
   ui::propertyLabel(setting.label.c_str());
-  const auto current = std::find_if(setting.choices.begin(), setting.choices.end(), [&](const SettingChoice& c) { return c.value == value->second; });
+  const auto current = std::find_if(setting.choices.begin(), setting.choices.end(),
+                                    [&](const SettingChoice& c) { return c.value == value->second; });
   const std::string shown = current == setting.choices.end() ? value->second : current->label;
   ImGui::PushID(setting.key.c_str());
   if (setting.choices.empty()) {
@@ -72,7 +76,8 @@ void drawSetting(ScanChoice& asked, const InstrumentSetting& setting) {
     ui::tooltip(fmt::format("{} to {} {}", setting.minimum, setting.maximum, setting.unit));
   } else if (ImGui::BeginCombo("###value", shown.c_str())) {
     for (const auto& choice : setting.choices)
-      if (ImGui::Selectable(fmt::format("{}###{}", choice.label, choice.value).c_str(), choice.value == value->second)) value->second = choice.value;
+      if (ImGui::Selectable(fmt::format("{}###{}", choice.label, choice.value).c_str(), choice.value == value->second))
+        value->second = choice.value;
     ImGui::EndCombo();
   }
   ImGui::PopID();
@@ -94,14 +99,16 @@ void drawOutput(Editor& editor, const std::vector<const CloudFormat*>& formats) 
   auto& state = editor.panels.scan;
   state.format = std::clamp(state.format, 0, std::max(0, static_cast<int>(formats.size()) - 1));
   ui::propertyLabel("Format");
-  if (ImGui::BeginCombo("###format", formats.empty() ? "" : formats[static_cast<std::size_t>(state.format)]->description)) {
+  if (ImGui::BeginCombo("###format",
+                        formats.empty() ? "" : formats[static_cast<std::size_t>(state.format)]->description)) {
     for (int i = 0; i < static_cast<int>(formats.size()); ++i)
       if (ImGui::Selectable(formats[static_cast<std::size_t>(i)]->description, i == state.format)) state.format = i;
     ImGui::EndCombo();
   }
   ui::propertyLabel("Folder");
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
-  ImGui::InputTextWithHint("###folder", standardFolder(editor).empty() ? "choose one" : "scans of the project", &state.folder);
+  ImGui::InputTextWithHint("###folder", standardFolder(editor).empty() ? "choose one" : "scans of the project",
+                           &state.folder);
   ImGui::SameLine();
   if (ui::iconButton(ICON_FOLDER_OPEN "###choose-folder", "Choose…"))
     askForFile(editor, FileDialogState::Purpose::saveFolder, "Folder for the scans", "Choose", {".none"}, "scans",
@@ -123,7 +130,8 @@ void drawStationChoice(Editor& editor) {
   if (ImGui::Selectable("All", state.all_stations)) state.all_stations = true;
   const auto& stations = editor.session.document().job->stations;
   for (int i = 0; i < static_cast<int>(stations.size()); ++i)
-    if (ImGui::Selectable(fmt::format("{}###station{}", stations[static_cast<std::size_t>(i)].name, i).c_str(), !state.all_stations && editor.panels.survey.station == i)) {
+    if (ImGui::Selectable(fmt::format("{}###station{}", stations[static_cast<std::size_t>(i)].name, i).c_str(),
+                          !state.all_stations && editor.panels.survey.station == i)) {
       state.all_stations = false;
       editor.panels.survey.station = i;
     }
@@ -144,7 +152,9 @@ std::string minutes(double seconds) {
   return fmt::format("{}:{:02} min", whole / 60, whole % 60);
 }
 
-std::string bytesText(double bytes) { return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.2f} GB", bytes / 1e9); }
+std::string bytesText(double bytes) {
+  return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.2f} GB", bytes / 1e9);
+}
 
 // Grid and time at once; points and size as soon as some rays have said what there is to see.
 void drawForecast(Editor& editor, const Instrument& instrument, const ScanSettings& settings) {
@@ -159,12 +169,17 @@ void drawForecast(Editor& editor, const Instrument& instrument, const ScanSettin
   }
   if (!ui::beginProperties("forecast", 0.46F)) return;
   const double seconds = settings.scan_seconds + settings.imaging_seconds;
-  ui::property("Time of the device", wanted.size() > 1 ? fmt::format("{} × {}  =  {}", wanted.size(), minutes(seconds), minutes(count * seconds)) : minutes(seconds));
+  ui::property("Time of the device", wanted.size() > 1 ? fmt::format("{} × {}  =  {}", wanted.size(), minutes(seconds),
+                                                                     minutes(count * seconds))
+                                                       : minutes(seconds));
   const char* waiting = wanted.empty() ? "no station yet" : "…";
   ui::property("Points", outlook ? fmt::format("about {:.1f} million", outlook->points / 1e6) : waiting);
   ui::tooltip("By some thousand rays, in clear air");
   ui::property("As E57", outlook ? "about " + bytesText(outlook->bytes) : waiting);
-  ui::property("Pulses per station", fmt::format("{:.1f} million,  {} × {}", static_cast<double>(settings.columns) * settings.rows * settings.passes / 1e6, settings.columns, settings.rows));
+  ui::property("Pulses per station",
+               fmt::format("{:.1f} million,  {} × {}",
+                           static_cast<double>(settings.columns) * settings.rows * settings.passes / 1e6,
+                           settings.columns, settings.rows));
   ui::property("Range", fmt::format("{:.1f} – {:.0f} m", instrument.min_range_m, settings.max_range_m));
   ui::property("Wavelength", fmt::format("{:.0f} nm", instrument.wavelength_nm));
   ui::endProperties();
@@ -200,7 +215,8 @@ void drawLast(Editor& editor) {
   if (!ui::beginProperties("last", 0.3F)) return;
   for (const auto& row : last->answer["stations"])
     ui::property(row.value("name", row.value("station", std::string("station"))).c_str(),
-                 fmt::format("{} points in {:.1f} s", groupedDigits(row.value("points", std::uint64_t{0})), row.value("seconds", 0.0)));
+                 fmt::format("{} points in {:.1f} s", groupedDigits(row.value("points", std::uint64_t{0})),
+                             row.value("seconds", 0.0)));
   ui::endProperties();
 }
 
@@ -237,9 +253,11 @@ void drawScanPanel(Editor& editor) {
   }
   drawScanConditions(editor, *instrument, *settings);
   ui::gap(editor, 4);
-  const std::filesystem::path folder = state.folder.empty() ? standardFolder(editor) : std::filesystem::path(state.folder);
+  const std::filesystem::path folder =
+      state.folder.empty() ? standardFolder(editor) : std::filesystem::path(state.folder);
   const CloudFormat* format = formats.empty() ? nullptr : formats[static_cast<std::size_t>(state.format)];
-  if (ui::primaryButton(ICON_PLAY "  Scan###run-scan", whyNotScan(editor, *settings, folder), {-FLT_MIN, editor.px(28)})) 
+  if (ui::primaryButton(ICON_PLAY "  Scan###run-scan", whyNotScan(editor, *settings, folder),
+                        {-FLT_MIN, editor.px(28)}))
     start(editor, folder, format);
   if (!editor.session.document().materials) {
     ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);

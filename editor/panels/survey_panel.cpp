@@ -38,7 +38,9 @@ void drawStationRow(Editor& editor, const Station& station, int i) {
   ImGui::PushID(i);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  if (ImGui::Selectable("###station", state.station == i, ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap | ImGuiSelectableFlags_AllowDoubleClick)) {
+  if (ImGui::Selectable("###station", state.station == i,
+                        ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap |
+                            ImGuiSelectableFlags_AllowDoubleClick)) {
     chooseStation(editor, i);
     if (ImGui::IsMouseDoubleClicked(0)) lookAt(editor, station.true_pose.translation);
   }
@@ -60,14 +62,16 @@ void drawStations(Editor& editor, const Job& job) {
     ui::dimText("None yet. Press the button, then click on the floor.");
     return;
   }
-  const float height = std::min(editor.px(26) + ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(job.stations.size()), editor.px(260));
+  const float height = std::min(
+      editor.px(26) + ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(job.stations.size()), editor.px(260));
   if (!ImGui::BeginTable("stations", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg, {0, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthFixed, editor.px(70));
   ImGui::TableSetupColumn("X  Y  Z", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("Scans", ImGuiTableColumnFlags_WidthFixed, editor.px(38));
   ImGui::TableHeadersRow();
-  for (int i = 0; i < static_cast<int>(job.stations.size()); ++i) drawStationRow(editor, job.stations[static_cast<std::size_t>(i)], i);
+  for (int i = 0; i < static_cast<int>(job.stations.size()); ++i)
+    drawStationRow(editor, job.stations[static_cast<std::size_t>(i)], i);
   ImGui::EndTable();
 }
 
@@ -94,22 +98,31 @@ void drawChosenStation(Editor& editor, const Station& station) {
     ui::property("Above floor", metres(station.instrument_height_m));
     if (station.solved_pose) {
       const Pose& solved = *station.solved_pose;
-      ui::property("Registered", fmt::format("{:.1f} mm and {:.4f}° off", (solved.translation - station.true_pose.translation).norm() * 1000,
+      ui::property("Registered", fmt::format("{:.1f} mm and {:.4f}° off",
+                                             (solved.translation - station.true_pose.translation).norm() * 1000,
                                              solved.rotation.angularDistance(station.true_pose.rotation) / kRadPerDeg));
     }
     ui::endProperties();
   }
   const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
-  if (ui::button(ui::fittingLabel(ICON_MOVE, "Move", "move-station", width).c_str(), why, {width, 0}, "To these coordinates"))
-    editor.session.start("station", {{"move", station.name}, {"at", state.move_to}, {"height", station.instrument_height_m}}, "Move station " + station.name);
+  if (ui::button(ui::fittingLabel(ICON_MOVE, "Move", "move-station", width).c_str(), why, {width, 0},
+                 "To these coordinates"))
+    editor.session.start("station",
+                         {{"move", station.name}, {"at", state.move_to}, {"height", station.instrument_height_m}},
+                         "Move station " + station.name);
   ImGui::SameLine();
-  if (ui::button(ui::fittingLabel(ICON_CROSSHAIRS, "Look", "look-station", width).c_str(), {}, {width, 0}, "Bring it into view")) lookAt(editor, station.true_pose.translation);
+  if (ui::button(ui::fittingLabel(ICON_CROSSHAIRS, "Look", "look-station", width).c_str(), {}, {width, 0},
+                 "Bring it into view"))
+    lookAt(editor, station.true_pose.translation);
   ImGui::SameLine();
-  if (ui::button(ui::fittingLabel(ICON_TRASH, "Remove", "remove-station", width).c_str(), why, {width, 0}, "Remove this station")) remove(editor, "station", station.name);
+  if (ui::button(ui::fittingLabel(ICON_TRASH, "Remove", "remove-station", width).c_str(), why, {width, 0},
+                 "Remove this station"))
+    remove(editor, "station", station.name);
   for (const auto& scan : station.scans) {
     ImGui::TextColored(colour(tone::kGood), "%s", ICON_CHECK);
     ImGui::SameLine();
-    ui::fitted(fmt::format("{}   {} points   {}", scan.instrument, groupedDigits(scan.points), std::filesystem::path(scan.file).filename().string()),
+    ui::fitted(fmt::format("{}   {} points   {}", scan.instrument, groupedDigits(scan.points),
+                           std::filesystem::path(scan.file).filename().string()),
                ImGui::GetContentRegionAvail().x);
   }
 }
@@ -121,7 +134,8 @@ void drawTargets(Editor& editor, const Job& job) {
     const auto& target = job.targets[static_cast<std::size_t>(i)];
     ImGui::PushID(i);
     const float button = ImGui::GetFrameHeight();
-    if (ImGui::Selectable("###target", state.target == i, ImGuiSelectableFlags_AllowItemOverlap, {ImGui::GetContentRegionAvail().x - button, 0})) {
+    if (ImGui::Selectable("###target", state.target == i, ImGuiSelectableFlags_AllowItemOverlap,
+                          {ImGui::GetContentRegionAvail().x - button, 0})) {
       state.target = i;
       state.station = -1;
       lookAt(editor, target.centre);
@@ -130,11 +144,13 @@ void drawTargets(Editor& editor, const Job& job) {
     ImGui::TextColored(colour(tone::kGood), "%s", ICON_TARGET);
     ImGui::SameLine();
     const Eigen::Vector3d p = target.centre + editor.shift_m();
-    ui::fitted(fmt::format("{}   {}   {:.2f}  {:.2f}  {:.2f}", target.name, target.kind == TargetKind::sphere ? "sphere" : "checkerboard", p.x(), p.y(), p.z()),
+    ui::fitted(fmt::format("{}   {}   {:.2f}  {:.2f}  {:.2f}", target.name,
+                           target.kind == TargetKind::sphere ? "sphere" : "checkerboard", p.x(), p.y(), p.z()),
                ImGui::GetContentRegionAvail().x - button - editor.px(4));
     ImGui::SameLine(ImGui::GetContentRegionMax().x - button);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(editor.px(4), 0));
-    if (ui::iconButton(ICON_TRASH "###remove-target", "Remove", editor.session.whyNot("target"))) remove(editor, "target", target.name);
+    if (ui::iconButton(ICON_TRASH "###remove-target", "Remove", editor.session.whyNot("target")))
+      remove(editor, "target", target.name);
     ImGui::PopStyleVar();
     ImGui::PopID();
   }
@@ -153,7 +169,8 @@ void drawSurveyPanel(Editor& editor) {
   const auto why = editor.session.whyNot("station");
   if (ui::primaryButton(ICON_STATION "  Add station###add-station", why, {width, 0})) invoke(editor, "add-station");
   ImGui::SameLine();
-  if (ui::button(ICON_TARGET "  Add target###add-target", why, {width, 0}, "Then click where it shall be")) invoke(editor, "add-target");
+  if (ui::button(ICON_TARGET "  Add target###add-target", why, {width, 0}, "Then click where it shall be"))
+    invoke(editor, "add-target");
   drawStations(editor, *job);
   auto& state = editor.panels.survey;
   if (state.station >= static_cast<int>(job->stations.size())) state.station = -1;

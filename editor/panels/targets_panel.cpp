@@ -19,14 +19,16 @@ std::string whyNotRegister(const Editor& editor, const std::vector<TargetRow>& r
   if (auto why = editor.session.whyNot("register"); !why.empty()) return why;
   std::vector<std::size_t> scanned;
   for (const auto& row : rows)
-    if (row.scanned && std::find(scanned.begin(), scanned.end(), row.station) == scanned.end()) scanned.push_back(row.station);
+    if (row.scanned && std::find(scanned.begin(), scanned.end(), row.station) == scanned.end())
+      scanned.push_back(row.station);
   if (editor.session.document().job->targets.size() < 3) return "Three targets are needed: set them up, then scan";
   return scanned.size() < 2 ? "Scan from two stations first" : "";
 }
 
 void drawRegister(Editor& editor, const std::vector<TargetRow>& rows) {
   auto& copies = editor.panels.survey.copies_of_registered;
-  if (ui::button(ICON_TARGET "  Register###register", whyNotRegister(editor, rows), {editor.px(100), 0}, "Solves the stations' poses from these targets")) {
+  if (ui::button(ICON_TARGET "  Register###register", whyNotRegister(editor, rows), {editor.px(100), 0},
+                 "Solves the stations' poses from these targets")) {
     const auto files = lastScanFiles(*editor.session.document().job);
     nlohmann::json options = {{"files", nlohmann::json::array()}};
     for (const auto& file : files) options["files"].push_back(file.string());
@@ -76,14 +78,17 @@ void drawRow(Editor& editor, const TargetRow& row, int index) {
   ImGui::PushID(index);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  if (ImGui::Selectable("###target-row", editor.panels.survey.target == static_cast<int>(row.target), ImGuiSelectableFlags_SpanAllColumns)) choose(editor, row.target);
+  if (ImGui::Selectable("###target-row", editor.panels.survey.target == static_cast<int>(row.target),
+                        ImGuiSelectableFlags_SpanAllColumns))
+    choose(editor, row.target);
   ImGui::SameLine(0, 0);
   ui::fitted(target.name, ImGui::GetContentRegionAvail().x);
   const auto cell = [](const std::string& text) {
     ImGui::TableNextColumn();
     ui::fitted(text, ImGui::GetContentRegionAvail().x);
   };
-  cell(target.kind == TargetKind::sphere ? fmt::format("sphere {:.0f} mm", target.size_m * 1000) : fmt::format("plate {:.0f} mm", target.size_m * 1000));
+  cell(target.kind == TargetKind::sphere ? fmt::format("sphere {:.0f} mm", target.size_m * 1000)
+                                         : fmt::format("plate {:.0f} mm", target.size_m * 1000));
   cell(job.stations[row.station].name);
   cell(fmt::format("{:.2f} m", row.sight.distance_m));
   cell(row.fit ? groupedDigits(row.fit->points) : row.sight.points ? fmt::format("~ {:.0f}", *row.sight.points) : "–");
@@ -105,13 +110,21 @@ void drawTable(Editor& editor, const std::vector<TargetRow>& rows) {
     const char* title;
     float share;
   };
-  for (const auto& [title, share] : {Column{"Target", 1}, {"Kind", 1.5F}, {"From", 0.8F}, {"Distance", 1.1F}, {"Points", 1}, {"Residual", 1.1F}, {"σ", 1}, {"State", 3}})
+  for (const auto& [title, share] : {Column{"Target", 1},
+                                     {"Kind", 1.5F},
+                                     {"From", 0.8F},
+                                     {"Distance", 1.1F},
+                                     {"Points", 1},
+                                     {"Residual", 1.1F},
+                                     {"σ", 1},
+                                     {"State", 3}})
     ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthStretch, share);
   ImGui::TableHeadersRow();
   const auto& job = *editor.session.document().job;
   int index = 0;
   for (const auto& row : rows)
-    if (row.target < job.targets.size() && row.station < job.stations.size()) drawRow(editor, row, index++);   // the list follows a moment later
+    if (row.target < job.targets.size() && row.station < job.stations.size())
+      drawRow(editor, row, index++);  // the list follows a moment later
   ImGui::EndTable();
 }
 
@@ -129,7 +142,8 @@ std::optional<ScanSettings> plannedSettings(Editor& editor) {
 void drawTargetsPanel(Editor& editor) {
   const auto& job = editor.session.document().job;
   if (!editor.environment() || !job || job->targets.empty()) {
-    ui::dimText("No targets yet. Put some where two stations see them: three and more that both see hold them together.");
+    ui::dimText(
+        "No targets yet. Put some where two stations see them: three and more that both see hold them together.");
     return;
   }
   editor.target_list.follow(editor.session.document(), editor.picker.scene(), plannedSettings(editor));

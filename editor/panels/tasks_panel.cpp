@@ -28,9 +28,11 @@ void drawRunning(Editor& editor, Task& task, int i) {
   ImGui::TableNextColumn();
   const auto stage = progress.stageName();
   const std::string text = fmt::format("{}  {:.0f} %", stage, progress.fraction() * 100);
-  ImGui::ProgressBar(static_cast<float>(progress.fraction()), {ImGui::GetContentRegionAvail().x - editor.px(76), 0}, text.c_str());
+  ImGui::ProgressBar(static_cast<float>(progress.fraction()), {ImGui::GetContentRegionAvail().x - editor.px(76), 0},
+                     text.c_str());
   ImGui::SameLine();
-  if (ui::button("Cancel", progress.cancelled() ? "It stops at the next safe place" : "", {editor.px(66), 0})) progress.cancel();
+  if (ui::button("Cancel", progress.cancelled() ? "It stops at the next safe place" : "", {editor.px(66), 0}))
+    progress.cancel();
   ImGui::TableNextColumn();
   ui::dimText(duration(task.seconds()));
   ImGui::PopID();
@@ -54,7 +56,9 @@ void drawFinished(const FinishedTask& task) {
 
 void drawTasksPanel(Editor& editor) {
   if (editor.session.running().empty() && editor.session.finished().empty()) {
-    ui::dimText("Nothing was run yet. What takes longer than a moment appears here, with its progress and a button to stop it.");
+    ui::dimText(
+        "Nothing was run yet. What takes longer than a moment appears here, with its progress and a button to stop "
+        "it.");
     return;
   }
   if (!ImGui::BeginTable("tasks", 4, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;

@@ -25,7 +25,8 @@ std::string labelOf(Editor& editor, const std::string& id) {
 void chooseUnderlay(Editor& editor) {
   auto& state = editor.panels.verify;
   const auto& underlays = editor.session.document().underlays;
-  const bool there = std::any_of(underlays.begin(), underlays.end(), [&](const auto& u) { return u->name == state.underlay; });
+  const bool there =
+      std::any_of(underlays.begin(), underlays.end(), [&](const auto& u) { return u->name == state.underlay; });
   if (!there) state.underlay = underlays.front()->name;
   ImGui::SetNextItemWidth(-1);
   if (!ImGui::BeginCombo("###underlay", state.underlay.c_str())) return;
@@ -41,7 +42,8 @@ void chooseInstrument(Editor& editor) {
   if (!ImGui::BeginCombo("###instrument", state.instrument.empty() ? as_said : state.instrument.c_str())) return;
   if (ImGui::Selectable(as_said, state.instrument.empty())) state.instrument.clear();
   for (const auto& i : readCatalogue(editor.panels.catalogue).instruments)
-    if (ImGui::Selectable(fmt::format("{} {}  ({:.0f} nm)###{}", i.maker, i.model, i.wavelength_nm, i.id).c_str(), i.id == state.instrument))
+    if (ImGui::Selectable(fmt::format("{} {}  ({:.0f} nm)###{}", i.maker, i.model, i.wavelength_nm, i.id).c_str(),
+                          i.id == state.instrument))
       state.instrument = i.id;
   ImGui::EndCombo();
 }
@@ -49,7 +51,8 @@ void chooseInstrument(Editor& editor) {
 void drawButtons(Editor& editor) {
   const auto& state = editor.panels.verify;
   const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
-  const auto why = !editor.session.document().materials ? std::string("Assign materials first") : editor.session.whyNot("verify");
+  const auto why =
+      !editor.session.document().materials ? std::string("Assign materials first") : editor.session.whyNot("verify");
   if (ui::primaryButton(ICON_CHECK "  Compare###verify", why, {width, 0})) {
     nlohmann::json options = {{"underlay", state.underlay}};
     if (!state.instrument.empty()) options["instrument"] = state.instrument;
@@ -58,7 +61,8 @@ void drawButtons(Editor& editor) {
   ImGui::SameLine();
   if (ui::button(ICON_MOVE "  Fit to model###fit", editor.session.whyNot("underlay"), {width, 0},
                  "Moves the cloud onto the model's surface, from where it lies (ICP)"))
-    editor.session.start("underlay", {{"register", state.underlay}, {"icp", true}}, "Fit " + state.underlay + " to the model");
+    editor.session.start("underlay", {{"register", state.underlay}, {"icp", true}},
+                         "Fit " + state.underlay + " to the model");
 }
 
 // What came of the last fit, as long as it is the last that was done to the clouds.
@@ -70,8 +74,9 @@ void drawFit(Editor& editor) {
   const bool good = icp.at("settled") && icp.at("not_held").empty() && share > 0.5;
   ImGui::TextColored(colour(good ? tone::kGood : tone::kWarning), "%s", good ? ICON_CHECK : ICON_WARNING);
   ImGui::SameLine();
-  std::string text = fmt::format("Fitted: moved by {:.1f} mm; {:.0f} % of its points lie on the model, {:.1f} mm off (RMS)",
-                                 icp.at("moved_m").get<double>() * 1000, share * 100, icp.at("rms_m").get<double>() * 1000);
+  std::string text =
+      fmt::format("Fitted: moved by {:.1f} mm; {:.0f} % of its points lie on the model, {:.1f} mm off (RMS)",
+                  icp.at("moved_m").get<double>() * 1000, share * 100, icp.at("rms_m").get<double>() * 1000);
   if (!icp.at("settled")) text += "; it did not come to rest: lay it nearer first";
   if (!icp.at("not_held").empty()) text += "; the model does not hold it in every direction (see Log)";
   ui::wrapped(text);
@@ -81,13 +86,17 @@ void drawFit(Editor& editor) {
 void drawBox(const Editor& editor, const VerifiedMaterial& m, double reach_db) {
   auto& list = *ImGui::GetWindowDrawList();
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight(), middle = corner.y + height / 2;
-  const auto x = [&](double db) { return corner.x + width * static_cast<float>(0.5 + 0.5 * std::clamp(db / reach_db, -1.0, 1.0)); };
+  const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight(),
+              middle = corner.y + height / 2;
+  const auto x = [&](double db) {
+    return corner.x + width * static_cast<float>(0.5 + 0.5 * std::clamp(db / reach_db, -1.0, 1.0));
+  };
   const ImU32 tone = !m.judged ? tone::kDim : m.agrees ? tone::kGood : tone::kWarning;
   list.AddLine({x(0), corner.y}, {x(0), corner.y + height}, tone::kLine, editor.scale);
   list.AddLine({x(m.off_db[0]), middle}, {x(m.off_db[4]), middle}, tone, editor.scale);
   const float half = height * 0.32F, least = editor.px(1);
-  list.AddRectFilled({x(m.off_db[1]) - least, middle - half}, {x(m.off_db[3]) + least, middle + half}, (tone & 0x00FFFFFFU) | 0x70000000U);
+  list.AddRectFilled({x(m.off_db[1]) - least, middle - half}, {x(m.off_db[3]) + least, middle + half},
+                     (tone & 0x00FFFFFFU) | 0x70000000U);
   list.AddLine({x(m.off_db[2]), middle - half}, {x(m.off_db[2]), middle + half}, tone, 2 * editor.scale);
   ImGui::Dummy({width, height});
 }
@@ -101,8 +110,9 @@ void drawMaterial(Editor& editor, const VerifiedMaterial& m, double reach_db) {
     state.chosen = m.material;
     editor.selection.set(m.products);
   }
-  ui::tooltip(fmt::format("{}\n{} points\n5 % {:+.1f}, quartiles {:+.1f} and {:+.1f}, 95 % {:+.1f} dB{}", m.material, groupedDigits(m.points), m.off_db[0],
-                          m.off_db[1], m.off_db[3], m.off_db[4], m.judged ? "" : "\nnot enough points, ranges or angles to judge by"));
+  ui::tooltip(fmt::format("{}\n{} points\n5 % {:+.1f}, quartiles {:+.1f} and {:+.1f}, 95 % {:+.1f} dB{}", m.material,
+                          groupedDigits(m.points), m.off_db[0], m.off_db[1], m.off_db[3], m.off_db[4],
+                          m.judged ? "" : "\nnot enough points, ranges or angles to judge by"));
   ImGui::SameLine(0, 0);
   ui::fitted(labelOf(editor, m.material), ImGui::GetContentRegionAvail().x);
   ImGui::TableNextColumn();
@@ -117,7 +127,8 @@ void drawMaterials(Editor& editor, const VerificationView& view) {
   const auto flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX;
   if (!ImGui::BeginTable("off", 3, flags)) return;
   ImGui::TableSetupColumn("Material", ImGuiTableColumnFlags_WidthStretch, 1.1F);
-  ImGui::TableSetupColumn(fmt::format("−{0:.0f} … +{0:.0f} dB", view.reach_db).c_str(), ImGuiTableColumnFlags_WidthStretch, 1);
+  ImGui::TableSetupColumn(fmt::format("−{0:.0f} … +{0:.0f} dB", view.reach_db).c_str(),
+                          ImGuiTableColumnFlags_WidthStretch, 1);
   ImGui::TableSetupColumn("dB", ImGuiTableColumnFlags_WidthFixed, editor.px(38));
   ImGui::TableHeadersRow();
   for (const auto& m : view.materials) drawMaterial(editor, m, view.reach_db);
@@ -125,7 +136,9 @@ void drawMaterials(Editor& editor, const VerificationView& view) {
 }
 
 std::string titleOf(Editor& editor, const VerifiedProposal& p) {
-  const auto count = p.whole_material ? std::string() : fmt::format(" ({} product{})", p.products.size(), p.products.size() == 1 ? "" : "s");
+  const auto count = p.whole_material
+                         ? std::string()
+                         : fmt::format(" ({} product{})", p.products.size(), p.products.size() == 1 ? "" : "s");
   return fmt::format("{}{} behaves like {}", labelOf(editor, p.material), count, labelOf(editor, p.behaves_like));
 }
 
@@ -134,7 +147,8 @@ bool isTaken(const Document& document, const VerifiedProposal& p) {
   if (!document.materials) return false;
   const auto& said = document.materials->overrides;
   return std::all_of(p.assign.begin(), p.assign.end(), [&](const std::string& assign) {
-    return std::any_of(said.begin(), said.end(), [&](const MaterialOverride& o) { return o.selector + "=" + o.material == assign; });
+    return std::any_of(said.begin(), said.end(),
+                       [&](const MaterialOverride& o) { return o.selector + "=" + o.material == assign; });
   });
 }
 
@@ -149,7 +163,9 @@ void drawProposal(Editor& editor, const VerifiedProposal& p, int index) {
   for (const auto& id : p.alike) alike.push_back(labelOf(editor, id));
   if (!alike.empty()) ui::dimText(fmt::format("As well as: {}", fmt::join(alike, "; ")));
   ImGui::PopTextWrapPos();
-  const std::string why = isTaken(editor.session.document(), p) ? "It is assigned: compare again to see what that changes" : editor.session.whyNot("materials");
+  const std::string why = isTaken(editor.session.document(), p)
+                              ? "It is assigned: compare again to see what that changes"
+                              : editor.session.whyNot("materials");
   if (ui::button(ICON_PAINT "  Assign###assign", why, {0, 0}, "Assigns it to these products; undo takes it back"))
     editor.session.start("materials", {{"assign", p.assign}}, "Assign what was measured");
   ImGui::SameLine();
@@ -195,8 +211,9 @@ void drawBasis(const Editor& editor, const VerificationView& view) {
 void drawVerifyPanel(Editor& editor) {
   const auto& document = editor.session.document();
   if (!editor.environment() || document.underlays.empty()) {
-    ui::emptyState(editor, ICON_CHECK_CIRCLE, "No measured cloud",
-                   "Drop a real scan of the building here (E57, PTX): its intensities then tell whether the materials are right.");
+    ui::emptyState(
+        editor, ICON_CHECK_CIRCLE, "No measured cloud",
+        "Drop a real scan of the building here (E57, PTX): its intensities then tell whether the materials are right.");
     return;
   }
   readCatalogue(editor.panels.catalogue);
@@ -212,7 +229,9 @@ void drawVerifyPanel(Editor& editor) {
   }
   if (!state.view.there) {
     ImGui::PushTextWrapPos(0);
-    ui::dimText("Compares what each surface sent back with what its material should, and proposes a better one where they disagree.");
+    ui::dimText(
+        "Compares what each surface sent back with what its material should, and proposes a better one where they "
+        "disagree.");
     ImGui::PopTextWrapPos();
     return;
   }

@@ -22,20 +22,24 @@ const std::vector<SeenFrom>* scansOf(Editor& editor, std::string& why) {
   const auto& document = editor.session.document();
   const auto scene = editor.picker.scene();
   if (!scene) return why = "One moment: the model is being prepared for rays", nullptr;
-  if (!document.job || document.job->stations.empty()) return why = "There is no station yet: press T and click on the floor", nullptr;
+  if (!document.job || document.job->stations.empty())
+    return why = "There is no station yet: press T and click on the floor", nullptr;
   const auto& catalogue = readCatalogue(editor.panels.catalogue);
   const auto& asked = editor.panels.scan.asked;
   const auto* instrument = instrumentIn(catalogue, asked.instrument);
   if (!editor.view.coverage_made && instrument == nullptr) return why = "Choose an instrument under Scan", nullptr;
-  const auto& scans = editor.view.coverage_made ? editor.coverage.made(document, scene, catalogue.instruments) : editor.coverage.planned(document, scene, *instrument, asked.settings);
-  if (scans.empty()) why = editor.view.coverage_made ? "No station has scanned yet" : "These settings cannot be scanned with";
+  const auto& scans = editor.view.coverage_made ? editor.coverage.made(document, scene, catalogue.instruments)
+                                                : editor.coverage.planned(document, scene, *instrument, asked.settings);
+  if (scans.empty())
+    why = editor.view.coverage_made ? "No station has scanned yet" : "These settings cannot be scanned with";
   return scans.empty() ? nullptr : &scans;
 }
 
 SeenWhen wishesOf(const Editor& editor) {
   SeenWhen wanted;
   if (editor.panels.plan.spacing_mm > 0) wanted.most_spacing_m = editor.panels.plan.spacing_mm / 1000;
-  if (editor.panels.plan.max_incidence_deg < 90) wanted.most_incidence_rad = editor.panels.plan.max_incidence_deg * kRadPerDeg;
+  if (editor.panels.plan.max_incidence_deg < 90)
+    wanted.most_incidence_rad = editor.panels.plan.max_incidence_deg * kRadPerDeg;
   return wanted;
 }
 
@@ -46,7 +50,8 @@ void drawReading(Editor& editor, const std::vector<SeenFrom>& scans) {
   if (coverage.stations == 0) return ImGui::SetTooltip("Seen from no station");
   std::string names;
   for (const auto i : coverage.from) names += (names.empty() ? "" : ", ") + scans[i].station;
-  ImGui::SetTooltip("Seen from %s\npoints %.1f mm apart at best\n%.0f° off the normal at best", names.c_str(), coverage.spacing_m * 1000, coverage.incidence_rad / kRadPerDeg);
+  ImGui::SetTooltip("Seen from %s\npoints %.1f mm apart at best\n%.0f° off the normal at best", names.c_str(),
+                    coverage.spacing_m * 1000, coverage.incidence_rad / kRadPerDeg);
 }
 
 float swatch(Editor& editor, ImVec2 at, const std::array<std::uint8_t, 4>& colour, const char* text) {
@@ -62,12 +67,15 @@ void drawScale(Editor& editor, ImVec2 at, float width, CoverageQuantity quantity
   constexpr int kParts = 48;
   const float height = editor.px(8);
   for (int i = 0; i < kParts; ++i)
-    list.AddRectFilled({at.x + width * static_cast<float>(i) / kParts, at.y}, {at.x + width * static_cast<float>(i + 1) / kParts, at.y + height}, packed(coverageScale((i + 0.5) / kParts)));
+    list.AddRectFilled({at.x + width * static_cast<float>(i) / kParts, at.y},
+                       {at.x + width * static_cast<float>(i + 1) / kParts, at.y + height},
+                       packed(coverageScale((i + 0.5) / kParts)));
   const bool spacing = quantity == CoverageQuantity::spacing;
   const std::array<const char*, 3> marks = spacing ? std::array{"1 mm", "10", "100"} : std::array{"0°", "45°", "90°"};
   for (std::size_t i = 0; i < marks.size(); ++i) {
     const float text = ImGui::CalcTextSize(marks[i]).x;
-    list.AddText({at.x + static_cast<float>(i) / 2 * (width - text), at.y + height + editor.px(2)}, tone::kText, marks[i]);
+    list.AddText({at.x + static_cast<float>(i) / 2 * (width - text), at.y + height + editor.px(2)}, tone::kText,
+                 marks[i]);
   }
 }
 
@@ -103,31 +111,39 @@ void drawCoverage(Editor& editor, ImVec2 origin, ImVec2 size) {
   const auto picture = editor.expected.picture(editor.view.camera);
   const std::uint64_t texture = editor.scene != nullptr && picture ? editor.scene->texture(picture) : 0;
   if (texture != 0)
-    ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), origin, {origin.x + size.x, origin.y + size.y});
+    ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), origin,
+                                         {origin.x + size.x, origin.y + size.y});
 }
 
 void drawCoverageLegend(Editor& editor, ImVec2 origin, ImVec2 size) {
   const auto quantity = coverageQuantity(editor.view.colour);
   if (!quantity || editor.cloud()) return;
   auto& list = *ImGui::GetWindowDrawList();
-  const float line = ImGui::GetTextLineHeight(), x = origin.x + editor.px(10), bottom = origin.y + size.y - line - editor.px(8);
+  const float line = ImGui::GetTextLineHeight(), x = origin.x + editor.px(10),
+              bottom = origin.y + size.y - line - editor.px(8);
   std::string why;
   const auto* scans = scansOf(editor, why);
   if (scans == nullptr) {
-    list.AddRectFilled({x - editor.px(6), bottom - editor.px(4)}, {x + ImGui::CalcTextSize(why.c_str()).x + editor.px(6), origin.y + size.y - editor.px(4)}, tone::kOverlay, editor.px(4));
+    list.AddRectFilled({x - editor.px(6), bottom - editor.px(4)},
+                       {x + ImGui::CalcTextSize(why.c_str()).x + editor.px(6), origin.y + size.y - editor.px(4)},
+                       tone::kOverlay, editor.px(4));
     list.AddText({x, bottom}, tone::kText, why.c_str());
     return;
   }
   const bool counts = *quantity == CoverageQuantity::stations;
-  const char* title = counts ? "Seen from so many stations" : *quantity == CoverageQuantity::spacing ? "Points apart, of the densest scan" : "Incidence, of the steepest scan";
+  const char* title = counts                                   ? "Seen from so many stations"
+                      : *quantity == CoverageQuantity::spacing ? "Points apart, of the densest scan"
+                                                               : "Incidence, of the steepest scan";
   const float high = counts ? 2 * line + editor.px(16) : 3 * line + editor.px(26);
   const float top = origin.y + size.y - high - editor.px(4);
-  list.AddRectFilled({x - editor.px(6), top}, {x + editor.px(346), origin.y + size.y - editor.px(4)}, tone::kOverlay, editor.px(4));
+  list.AddRectFilled({x - editor.px(6), top}, {x + editor.px(346), origin.y + size.y - editor.px(4)}, tone::kOverlay,
+                     editor.px(4));
   list.AddText({x, top + editor.px(4)}, tone::kText, title);
   ImVec2 at(x, bottom);
   at.x += swatch(editor, at, kHoleColour, "not seen");
   if (counts) {
-    for (int n = 1; n <= kMostCounted; ++n) at.x += swatch(editor, at, countColour(n), (std::to_string(n) + (n < kMostCounted ? "" : " and more")).c_str());
+    for (int n = 1; n <= kMostCounted; ++n)
+      at.x += swatch(editor, at, countColour(n), (std::to_string(n) + (n < kMostCounted ? "" : " and more")).c_str());
   } else {
     drawScale(editor, {x, top + line + editor.px(8)}, editor.px(240), *quantity);
   }
@@ -140,7 +156,10 @@ void coverageChips(Editor& editor) {
   ImGui::SetNextItemWidth(editor.px(166));
   const char* planned = "Stations as planned";
   const char* made = "Scans that were made";
-  if (!ImGui::BeginCombo("###coverage-of", fmt::format("{}  {}", ICON_STATION, editor.view.coverage_made ? made : planned).c_str(), ImGuiComboFlags_NoArrowButton)) return;
+  if (!ImGui::BeginCombo("###coverage-of",
+                         fmt::format("{}  {}", ICON_STATION, editor.view.coverage_made ? made : planned).c_str(),
+                         ImGuiComboFlags_NoArrowButton))
+    return;
   if (ImGui::Selectable(planned, !editor.view.coverage_made)) editor.view.coverage_made = false;
   ui::tooltip("From every station, with the instrument and settings under Scan");
   if (ImGui::Selectable(made, editor.view.coverage_made)) editor.view.coverage_made = true;

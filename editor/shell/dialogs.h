@@ -18,7 +18,8 @@ void askForExport(Editor& editor);
 void askWhereToSave(Editor& editor);
 // A file browser of our own; `done` gets what was chosen.
 void askForFile(Editor& editor, FileDialogState::Purpose purpose, std::string title, std::string accept,
-                std::vector<std::string> extensions, std::string name, std::function<void(const std::filesystem::path&)> done);
+                std::vector<std::string> extensions, std::string name,
+                std::function<void(const std::filesystem::path&)> done);
 
 // Draw what is open. Each is called once a frame.
 void drawFileDialog(Editor& editor);

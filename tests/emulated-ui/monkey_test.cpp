@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "project/instruments.h"
 #include "tests/emulated-ui/support.h"
 
 namespace standpoint {
@@ -127,24 +128,55 @@ class Monkey {
   std::size_t seen_ = 0, count_ = 0;
 };
 
-TEST(Monkey, MashesKeysForAnHourOnEveryDeviceWithoutHarm) {
-  for (const auto& device : emulatedDevices()) {
-    std::set<std::string> screens, phases;
+// The device with each scanner that it drives; one that drives any, with all that stand on a tripod.
+std::vector<std::shared_ptr<const DeviceType>> withEachScanner(const EmulatedDevice& device) {
+  const auto first = loadDevice(device);
+  EXPECT_TRUE(first) << describe(first.error());
+  if (!first) return {};
+  auto scanners = (*first)->definition.instruments;
+  if (std::erase(scanners, "*") > 0) {
+    const auto all = knownInstruments();
+    EXPECT_TRUE(all) << describe(all.error());
+    for (const auto& known : all ? *all : std::vector<Instrument>())
+      if (!known.moving && std::find(scanners.begin(), scanners.end(), known.id) == scanners.end())
+        scanners.push_back(known.id);
+  }
+  std::vector<std::shared_ptr<const DeviceType>> types;
+  for (const auto& scanner : scanners) {
+    const auto type = loadDevice(device, scanner);
+    EXPECT_TRUE(type) << describe(type.error());
+    if (type) types.push_back(*type);
+  }
+  return types;
+}
+
+class Monkeys : public testing::TestWithParam<const EmulatedDevice*> {};
+
+TEST_P(Monkeys, MashTheKeysForHoursWithEachScannerWithoutHarm) {
+  constexpr std::size_t kHours = 16, kFewest = 2;   // of virtual time: in all, and with each scanner
+  std::set<std::string> screens, phases;
+  const auto types = withEachScanner(*GetParam());
+  ASSERT_FALSE(types.empty());
+  const auto hours = std::max(kFewest, kHours / types.size());
+  for (const auto& type : types) {
     int stored = 0;
-    for (std::uint32_t seed = 1; seed <= 16 || (stored == 0 && seed <= 150); ++seed) {
-      TestDevice d(device.id);
+    for (std::uint32_t seed = 1; seed <= hours || (stored == 0 && seed <= 150); ++seed) {
+      TestDevice d(type);
       Monkey monkey(d, seed);
       monkey.play(3600);
-      ASSERT_FALSE(HasFatalFailure()) << device.id << " seed " << seed;
+      ASSERT_FALSE(HasFatalFailure()) << type->instrument.id << " seed " << seed;
       screens.insert(monkey.screens.begin(), monkey.screens.end());
       phases.insert(monkey.phases.begin(), monkey.phases.end());
       stored += monkey.stored;
     }
-    TestDevice d(device.id);
-    EXPECT_GE(screens.size() * 10, d->type().definition.screens.size() * 7) << device.id << ": the monkey saw too few screens to prove much";
-    EXPECT_GT(stored, 0) << device.id;
+    EXPECT_GT(stored, 0) << type->instrument.id;
   }
+  const auto& all = types.front()->definition;
+  EXPECT_GE(screens.size() * 10, all.screens.size() * 7) << "the monkeys saw too few screens to prove much";
+  EXPECT_GE(phases.size() * 10, all.phases.size() * 6) << "the monkeys saw too few phases to prove much";
 }
+
+INSTANTIATE_TEST_SUITE_P(Devices, Monkeys, testing::ValuesIn(everyDevice()), deviceName);
 
 }  // namespace
 }  // namespace standpoint

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,10 +12,23 @@
 
 namespace standpoint {
 
+// For suites that go through the table of devices.
+inline std::vector<const EmulatedDevice*> everyDevice() {
+  std::vector<const EmulatedDevice*> all;
+  for (const auto& device : emulatedDevices()) all.push_back(&device);
+  return all;
+}
+inline std::string deviceName(const testing::TestParamInfo<const EmulatedDevice*>& info) {
+  std::string name = info.param->id;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
 // A device in the hands of a test, with a simulation that takes no time.
 class TestDevice {
  public:
   explicit TestDevice(const std::string& id, const std::string& instrument = {}) : device_(load(id, instrument)) {}
+  explicit TestDevice(std::shared_ptr<const DeviceType> type) : device_(std::move(type)) {}
 
   Device& operator*() { return device_; }
   Device* operator->() { return &device_; }

@@ -83,16 +83,7 @@ TEST_P(Widgets, ShowSomething) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Devices, Widgets, testing::ValuesIn([] {
-                           std::vector<const EmulatedDevice*> all;
-                           for (const auto& device : emulatedDevices()) all.push_back(&device);
-                           return all;
-                         }()),
-                         [](const auto& info) {
-                           std::string name = info.param->id;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Devices, Widgets, testing::ValuesIn(everyDevice()), deviceName);
 
 TEST(WidgetList, DocsListThemAll) {
   const auto list = widgetList();
