@@ -79,7 +79,7 @@ void edit(json& root, FuzzedDataProvider& data) {
 std::string textOf(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
 
 std::filesystem::path wordsFolder(const json& shared, const json& own) {
-  const std::filesystem::path folder = "/dev/shm/standpoint-fuzz-" + std::to_string(getpid()) + "-words";
+  const auto folder = std::filesystem::temp_directory_path() / ("standpoint-fuzz-" + std::to_string(getpid()) + "-words");
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "common.json", std::ios::binary) << textOf(shared);
   std::ofstream(folder / "own.json", std::ios::binary) << textOf(own);
