@@ -165,10 +165,14 @@ void drawSurveyPanel(Editor& editor) {
     ui::emptyState(editor, ICON_STATION, "No survey yet", "Import a model, then set up stations on its floors.");
     return;
   }
-  const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+  // Beside one another where both have room.
+  const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+  const float wanted = ImGui::CalcTextSize(ICON_STATION "  Add station").x + 2 * ImGui::GetStyle().FramePadding.x;
+  const bool beside = half >= wanted;
+  const float width = beside ? half : ImGui::GetContentRegionAvail().x;
   const auto why = editor.session.whyNot("station");
   if (ui::primaryButton(ICON_STATION "  Add station###add-station", why, {width, 0})) invoke(editor, "add-station");
-  ImGui::SameLine();
+  if (beside) ImGui::SameLine();
   if (ui::button(ICON_TARGET "  Add target###add-target", why, {width, 0}, "Then click where it shall be"))
     invoke(editor, "add-target");
   drawStations(editor, *job);

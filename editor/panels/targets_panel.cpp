@@ -142,8 +142,10 @@ std::optional<ScanSettings> plannedSettings(Editor& editor) {
 void drawTargetsPanel(Editor& editor) {
   const auto& job = editor.session.document().job;
   if (!editor.environment() || !job || job->targets.empty()) {
+    ImGui::PushTextWrapPos(0);
     ui::dimText(
         "No targets yet. Put some where two stations see them: three and more that both see hold them together.");
+    ImGui::PopTextWrapPos();
     return;
   }
   editor.target_list.follow(editor.session.document(), editor.picker.scene(), plannedSettings(editor));
