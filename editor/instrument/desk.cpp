@@ -125,10 +125,6 @@ void advance(InstrumentDesk& desk, Editor& editor) {
 
 void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercise) {
   desk.refused.clear();
-  if (editor.session.modified()) {
-    desk.refused = "Save your project first: an exercise opens an environment of its own.";
-    return;
-  }
   const auto folder = freshFolder(exercise.id);
   Progress quiet;
   auto rehearsal = Rehearsal::start(exercise, isFor(exercise, desk.device->id) ? desk.device->id : std::string(), folder, editor.wake, quiet);
@@ -155,7 +151,9 @@ void finishExercise(InstrumentDesk& desk) {
   if (auto written = writeMarks(*desk.rehearsal, desk.marks, desk.marks_folder); !written) desk.refused = describe(written.error());
 }
 
+// Its environment stays where its result is.
 void leaveExercise(InstrumentDesk& desk, Editor& editor) {
+  if (editor.session.modified() && !editor.session.folder().empty()) editor.session.save(editor.session.folder());
   desk.rehearsal.reset();
   chooseDevice(desk, editor, *desk.device, desk.instrument);
 }

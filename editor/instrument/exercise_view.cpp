@@ -45,12 +45,21 @@ void list(InstrumentDesk& desk, Editor& editor) {
     ui::endProperties();
   }
   ui::gap(editor);
+  const bool unsaved = editor.session.modified();
+  if (unsaved) {
+    const auto folder = editor.session.folder();
+    ui::wrapped(std::string("An exercise opens an environment of its own, so save your project first") +
+                (folder.empty() ? ": Ctrl S." : "."));
+    if (!folder.empty() && ui::button("Save the project###save-first", {}, {-1, 0})) editor.session.save(folder);
+    ui::gap(editor);
+  }
+  const std::string why = unsaved ? "Save the project first." : "";
   bool any = false;
   for (const auto& known : desk.exercises) {
     if (!isFor(known.exercise, desk.device->id)) continue;
     any = true;
     if (ui::button((known.exercise.id + "  " + known.exercise.title.in(language) + "###" + known.exercise.id).c_str(),
-                   {}, {-1, 0}, known.exercise.goal.in(language).c_str()))
+                   why, {-1, 0}, known.exercise.goal.in(language).c_str()))
       return startExercise(desk, editor, known.exercise);
   }
   if (!any) ui::dimText("There is no exercise for this device yet.");

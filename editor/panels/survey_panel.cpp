@@ -59,7 +59,9 @@ void drawStationRow(Editor& editor, const Station& station, int i) {
 void drawStations(Editor& editor, const Job& job) {
   ui::heading(editor, fmt::format("Stations  {}", job.stations.size()).c_str());
   if (job.stations.empty()) {
+    ImGui::PushTextWrapPos(0);
     ui::dimText("None yet. Press the button, then click on the floor.");
+    ImGui::PopTextWrapPos();
     return;
   }
   const float height = std::min(
