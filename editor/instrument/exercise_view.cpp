@@ -137,7 +137,7 @@ void marks(const InstrumentDesk& desk) {
       ui::dimText(fmt::format("your points: {} = {} {}", rule["proof"]["fact"].get<std::string>(),
                               rule["proof"]["value"].dump(), rule["proof"]["unit"].get<std::string>()));
   }
-  ui::dimText("Result and certificate: " + desk.marks_folder.string());
+  ui::wrapped("Result and certificate: " + desk.marks_folder.string());
 }
 
 void running(InstrumentDesk& desk, Editor& editor) {

@@ -26,7 +26,9 @@ Spoken spoken(JsonFields& f, const char* key, bool required) {
     return s;
   }
   JsonFields texts(f.fault(), *raw, f.pointer() + "/" + key);
-  texts.everyText([&](const std::string& language, const std::string& text) { s.texts[language] = text; });
+  texts.everyText([&](const std::string& language, const std::string& text) {
+    if (text.find_first_not_of(" \t\r\n") != std::string::npos) s.texts[language] = text;   // a blank is no translation
+  });
   if (!s.texts.contains("en")) f.wrong(key, "it has no text in 'en'");
   return s;
 }

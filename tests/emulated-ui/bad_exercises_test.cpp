@@ -66,6 +66,7 @@ TEST_F(BadExercise, EachMistakeIsNamedWithItsPlace) {
       {"/goal", {{"de", "Scannen."}}, "x.json /goal", "no text in 'en'"},
       {"/goal", {{"en", "Scan."}}, "X1 /goal", "no text in 'de'"},
       {"/steps/0/text", {{"en", "Scan."}}, "X1 /steps/0/text", "no text in 'de'"},
+      {"/steps/0/text", {{"en", "Scan."}, {"de", " "}}, "X1 /steps/0/text", "no text in 'de'"},
       {"/rules/0/text", {{"en", "Clean."}}, "X1 /rules/0/text", "no text in 'de'"},
       {"/questions/0/text", {{"en", "Ok?"}}, "X1 /questions/0/text", "no text in 'de'"},
       {"/questions/0/choices/0/text", {{"en", "Yes"}}, "X1 /questions/0/choices/0", "no text in 'de'"},
