@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 
 #include <fmt/format.h>
 
@@ -15,6 +14,7 @@
 #include "emulated-ui/sighting.h"
 #include "materials/json_file.h"
 #include "pointclouds/cleaning.h"
+#include "pointclouds/file_access.h"
 #include "pointclouds/formats.h"
 #include "project/levelling.h"
 
@@ -70,32 +70,22 @@ Result<void> copyAs(const fs::path& from, const fs::path& to, Report& report, Pr
 
 constexpr std::size_t kCopiedAtOnce = 4U << 20U;
 
-// Byte for byte under another name until all is there: a copy that was broken off is not taken for a whole one.
-Result<void> copyFile(const fs::path& from, const fs::path& to, double from_share, double to_share, Progress& progress) {
-  std::error_code error;
-  const auto size = fs::file_size(from, error);
-  if (error) return failure(ErrorKind::file_system, "cannot copy: " + error.message(), from.string());
-  fs::path part = to;
-  part += ".part";
-  std::ifstream in(from, std::ios::binary);
-  std::ofstream out(part, std::ios::binary);
-  std::vector<char> buffer(kCopiedAtOnce);
-  for (std::uintmax_t done = 0; in && out && done < size;) {
-    if (auto going = progress.check(); !going) {
-      out.close();
-      fs::remove(part, error);
-      return failure(going.error());
-    }
-    in.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
-    out.write(buffer.data(), in.gcount());
-    done += static_cast<std::uintmax_t>(in.gcount());
-    progress.advance(std::lerp(from_share, to_share, static_cast<double>(done) / static_cast<double>(size)));
+// Byte for byte. A copy that was broken off is not taken for a whole one (PartFile).
+Result<void> copyFile(const fs::path& from, const fs::path& to, Progress& progress) {
+  const auto in = InputFile::open(from);
+  if (!in) return failure(in.error());
+  auto out = PartFile::create(to);
+  if (!out) return failure(out.error());
+  std::vector<std::uint8_t> buffer(kCopiedAtOnce);
+  while (out->size() < in->size()) {
+    if (auto going = progress.check(); !going) return failure(going.error());
+    const auto read = in->read(out->size(), buffer);
+    if (!read) return failure(read.error());
+    if (*read == 0) return failure(ErrorKind::file_system, "the file has become shorter while it was copied", from.string());
+    if (auto written = out->append({buffer.data(), *read}); !written) return written;
+    progress.advance(static_cast<double>(out->size()) / static_cast<double>(in->size()));
   }
-  out.close();
-  if (!out || fs::file_size(part, error) != size || error) return failure(ErrorKind::file_system, "the copy has another size", to.string());
-  fs::rename(part, to, error);
-  if (error) return failure(ErrorKind::file_system, "cannot copy: " + error.message(), to.string());
-  return {};
+  return out->commit();
 }
 
 Result<Outcome> copyFiles(const Document& document, const TransferOrder& order, const fs::path& folder, Progress& progress) {
@@ -109,7 +99,8 @@ Result<Outcome> copyFiles(const Document& document, const TransferOrder& order, 
     if (auto going = progress.check(); !going) return failure(going.error());
     fs::path to = folder / (fs::path(file).parent_path().filename().string() + " - " + fs::path(file).filename().string());
     const double from_share = static_cast<double>(copied.size()) * each;
-    const auto done = order.extension.empty() ? copyFile(file, to, from_share, from_share + each, progress)
+    progress.stage("Copying " + fs::path(file).filename().string(), from_share, from_share + each);
+    const auto done = order.extension.empty() ? copyFile(file, to, progress)
                                               : copyAs(file, to.replace_extension(order.extension), report, progress);
     if (!done) return failure(done.error());
     copied.push_back(file);
