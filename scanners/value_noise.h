@@ -60,13 +60,8 @@ STANDPOINT_INLINE float blend(const Corners& c, const Axis& i, const Axis& j, co
   return (k.a * near + k.b * far) * 0.0067659F;             // 1 / √21845
 }
 
-// Zero mean, unit variance; the field's cells are 1 wide.
-STANDPOINT_INLINE float field(float x, float y, float z, std::uint32_t salt) {
-  const Axis i = axisAt(x), j = axisAt(y), k = axisAt(z);
-  return blend(cornersOf(i.corner, j.corner, k.corner, salt), i, j, k);
-}
-
-// Of many places, which mostly lie in one cell: then its corners are worked out once.
+// Zero mean, unit variance; the field's cells are 1 wide. Of many places, which mostly lie in one cell: then its corners
+// are worked out once.
 template <int kLanes>
 STANDPOINT_INLINE void fieldLanes(const float* x, const float* y, const float* z, std::uint32_t salt, float* values) {
   std::int32_t corner[3][kLanes];
