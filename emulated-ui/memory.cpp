@@ -224,11 +224,7 @@ Result<void> writeMemory(const fs::path& file, const json& memory) {
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
   if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), file.parent_path().string());
-  auto part = PartFile::create(file);
-  if (!part) return failure(part.error());
-  const auto text = textOf(memory, 1) + "\n";
-  if (auto ok = part->append({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}); !ok) return ok;
-  return part->commit();
+  return writeWholeText(file, textOf(memory, 1) + "\n");
 }
 
 fs::path memoryFile(const fs::path& scans_folder, const DeviceType& type) { return scans_folder / (type.instrument.id + ".device.json"); }

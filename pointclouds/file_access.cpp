@@ -118,4 +118,11 @@ Result<std::size_t> InputFile::read(std::uint64_t at, std::span<std::uint8_t> by
   return readAt(descriptor_, at, bytes, file_);
 }
 
+Result<void> writeWholeText(const std::filesystem::path& file, std::string_view text) {
+  auto part = PartFile::create(file);
+  if (!part) return failure(part.error());
+  if (auto ok = part->append({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}); !ok) return ok;
+  return part->commit();
+}
+
 }  // namespace standpoint

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string_view>
 
 #include "core/result.h"
 
@@ -31,6 +32,9 @@ class PartFile {
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
 };
+
+// A whole text file, by PartFile.
+Result<void> writeWholeText(const std::filesystem::path& file, std::string_view text);
 
 // A regular file that is read at any place.
 class InputFile {

@@ -48,8 +48,6 @@ std::optional<ScanParts::Finished> ScanParts::finished(const std::string& statio
 Result<void> ScanParts::record(const std::string& station, const std::string& guid, const Finished& finished) const {
   std::error_code code;
   fs::create_directories(folder_, code);
-  auto file = PartFile::create(recordOf(station));
-  if (!file) return failure(file.error());
   const auto text = json{
       {"guid", guid},
       {"pulses", finished.count.pulses},
@@ -57,8 +55,7 @@ Result<void> ScanParts::record(const std::string& station, const std::string& gu
       {"points", finished.count.points},
       {"bytes",
        finished.bytes}}.dump(2);
-  if (auto ok = file->append({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}); !ok) return ok;
-  return file->commit();
+  return writeWholeText(recordOf(station), text);
 }
 
 void ScanParts::remove(const std::string& station) const {
