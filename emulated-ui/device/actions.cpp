@@ -216,8 +216,8 @@ Result<void> standardArea(Device& device, const std::string&) {
 
 }  // namespace
 
-const std::vector<Action>& sharedActions() {
-  static const std::vector<Action> actions = {
+const std::vector<DeviceAction>& sharedActions() {
+  static const std::vector<DeviceAction> actions = {
       {"propose_project", proposeProject}, {"create_project", createProject},  {"open_project", openProject},
       {"rename_project", renameProject},   {"set_cluster", setCluster},        {"show_setup", showSetup},
       {"look_at_setup", lookAtSetup},      {"view_setup", viewSetup},          {"measure", measure},

@@ -150,7 +150,7 @@ struct TroubleRow {
 const std::vector<TroubleRow>& troubleRows();
 
 const std::vector<FactRow>& sharedFacts();
-const std::vector<Action>& sharedActions();
+const std::vector<DeviceAction>& sharedActions();
 const std::vector<ListRow>& sharedLists();
 
 }  // namespace standpoint

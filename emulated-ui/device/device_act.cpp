@@ -146,7 +146,7 @@ Result<void> Device::press(const WidgetRow& row, const Widget& widget, const std
     return ok;
   }
   if (!row.does.empty()) {
-    const auto named = [&](const Action& a) { return row.does == a.name; };
+    const auto named = [&](const DeviceAction& a) { return row.does == a.name; };
     const auto& own = type_->program.actions;
     auto action = std::find_if(own.begin(), own.end(), named);
     if (action == own.end()) action = std::find_if(sharedActions().begin(), sharedActions().end(), named);

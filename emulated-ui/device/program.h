@@ -27,7 +27,7 @@ struct Transition {
 };
 
 // An action behind a widget's "does". What it refuses is shown in a dialogue with the message.
-struct Action {
+struct DeviceAction {
   const char* name;
   Result<void> (*act)(Device&, const std::string& value);
 };
@@ -53,7 +53,7 @@ struct ListRow {
 struct DeviceProgram {
   const char* definition;                   // "leica/rtc360.json"
   std::vector<Transition> transitions;
-  std::vector<Action> actions;              // beside the shared ones
+  std::vector<DeviceAction> actions;              // beside the shared ones
   std::vector<FactRow> facts;               // beside the shared ones
   std::vector<ListRow> lists;
   // What the device's own values change in a scan: sensors that are off, folders, pictures.

@@ -118,8 +118,8 @@ std::vector<Transition> transitions() {
   return withDefaults(std::move(rows), kRoles);
 }
 
-std::vector<Action> actions() {
-  std::vector<Action> all = setupActions();
+std::vector<DeviceAction> actions() {
+  std::vector<DeviceAction> all = setupActions();
   all.push_back({"apply_fov", applyFieldOfView});
   return all;
 }

@@ -13,7 +13,7 @@ const DeviceProgram& pSeriesProgram();
 
 // Its station set-up and target half, in p_series_setup.cpp.
 void addSetupTransitions(std::vector<Transition>& rows);
-const std::vector<Action>& setupActions();
+const std::vector<DeviceAction>& setupActions();
 const std::vector<FactRow>& setupFacts();
 const std::vector<ListRow>& setupLists();
 

@@ -212,8 +212,8 @@ void addSetupTransitions(std::vector<Transition>& rows) {
   rows.insert(rows.end(), own.begin(), own.end());
 }
 
-const std::vector<Action>& setupActions() {
-  static const std::vector<Action> actions = {{"pick_station", pickStation}, {"toggle_sighting", toggleSighting},
+const std::vector<DeviceAction>& setupActions() {
+  static const std::vector<DeviceAction> actions = {{"pick_station", pickStation}, {"toggle_sighting", toggleSighting},
                                               {"forget_sightings", forgetSightings}, {"pick_target", pickTarget}};
   return actions;
 }
