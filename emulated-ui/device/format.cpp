@@ -15,7 +15,9 @@ std::string clockText(double seconds) {
 }
 
 std::string bytesText(double bytes) {
-  return std::abs(bytes) >= 1e9 ? fmt::format("{:.1f} GB", bytes / 1e9) : fmt::format("{:.1f} MB", bytes / 1e6);
+  const double size = std::abs(bytes);
+  if (size >= 1e12) return fmt::format("{:.1f} TB", bytes / 1e12);
+  return size >= 1e9 ? fmt::format("{:.1f} GB", bytes / 1e9) : fmt::format("{:.1f} MB", bytes / 1e6);
 }
 
 std::string pointsText(double points) {

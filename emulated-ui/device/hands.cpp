@@ -198,9 +198,11 @@ const std::vector<TroubleRow>& troubleRows() {
          d.fire("temperature");
        }},
       {"not_warm", [](Device& d) { d.change().around.acclimatised_s = 0; }},
-      {"tilted",
+      {"tilted",  // out of what is compensated in full; once more, out of what the instrument bears at all
        [](Device& d) {
-         d.change().around.tilt_x_deg = d.type().definition.body.tilt_limit_deg * 1.3;
+         const auto& body = d.type().definition.body;
+         const bool leans = d.tilt() > body.tilt_full_deg;
+         d.change().around.tilt_x_deg = std::max(body.tilt_full_deg * 1.3, leans ? body.tilt_limit_deg * 1.05 : 0.0);
          d.fire("tilted");
        }},
       {"tracking_lost",

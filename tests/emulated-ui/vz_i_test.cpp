@@ -321,7 +321,7 @@ TEST_F(VzI, NeedsFourControlPointsWithANameAndThreeCoordinates) {
 TEST_F(VzI, StoresOnTheMediumThatIsChosen) {
   ready();
   ASSERT_TRUE(d.press({"registration_now", "registration=off", "back", "storage_now"}));
-  EXPECT_EQ(d.shows("free"), "1000.0 GB");
+  EXPECT_EQ(d.shows("free"), "1.0 TB");
   ASSERT_TRUE(d.press({"storage=usb"}));
   EXPECT_EQ(d.shows("free"), "64.0 GB");
   ASSERT_TRUE(d.press({"back"}));
