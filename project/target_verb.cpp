@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/shortest_rotation.h"
 #include "project/answers.h"
 #include "project/survey_verbs.h"
 #include "project/target_placing.h"
@@ -187,7 +188,7 @@ ScanWorld scanWorld(const Document& document, const MaterialAssignment& assignme
     i.mesh = static_cast<std::uint32_t>(environment->meshes.size());
     i.product = product;
     i.world_from_mesh = Eigen::Translation3d(t.centre) *
-                        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), t.normal);
+                        shortestRotation(Eigen::Vector3d::UnitX(), t.normal);
     environment->meshes.push_back(std::make_shared<const Mesh>(
         t.kind == TargetKind::sphere ? sphereMesh(size / 2, white) : checkerboardMesh(size, white, white + 1)));
     environment->instances.push_back(i);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/shortest_rotation.h"
 #include "importers/ifc/curve.h"
 #include "importers/ifc/placement.h"
 #include "importers/ifc/profile.h"
@@ -67,7 +68,7 @@ Result<geometry::PolyMesh> along(const geometry::Region2& region, const Path& pa
 
 // A direction that is meant with "up" being Z, where "up" leans.
 Eigen::Vector3d rolled(const Eigen::Vector3d& direction_unit, const Eigen::Vector3d& up) {
-  return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up) * direction_unit;
+  return shortestRotation(Eigen::Vector3d::UnitZ(), up) * direction_unit;
 }
 
 }  // namespace
