@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
+#include <array>
 #include <string>
+
+#include <fmt/format.h>
 
 #include "editor/instrument/desk.h"
 #include "editor/shell/widgets.h"
@@ -33,6 +35,22 @@ void stationChoice(InstrumentDesk& desk, const Document& document) {
   }
 }
 
+// Each turn is an action of its own, so that a recorded exercise has it; Ctrl turns ten times as far.
+void footScrews(InstrumentDesk& desk) {
+  const auto& around = desk.shown()->state().around;
+  if (!ui::beginProperties("screws")) return;
+  std::array tilts{around.tilt_x_deg, around.tilt_y_deg};
+  bool turned = false;
+  for (std::size_t i = 0; i < tilts.size(); ++i) {
+    ui::propertyLabel(i == 0 ? "Foot screw X" : "Foot screw Y");
+    ImGui::SetNextItemWidth(-1);
+    turned |= ImGui::InputDouble(fmt::format("###screw{}", i).c_str(), &tilts[i], 0.02, 0.2, "%.3f°",
+                                 ImGuiInputTextFlags_EnterReturnsTrue);
+  }
+  ui::endProperties();
+  if (turned) act(desk, {Kind::hand, "tilt", fmt::format("{},{}", tilts[0], tilts[1]), 0, {}});
+}
+
 }  // namespace
 
 // What hands do beside the device, and, for the lecturer, what can befall it.
@@ -46,9 +64,17 @@ void drawHands(InstrumentDesk& desk, Editor& editor) {
     ui::property("Tilt", device.shown("tilt"));
     ui::endProperties();
   }
+  std::string group;
   bool first = true;
   for (const auto& hand : handRows()) {
     const std::string id = hand.id;
+    if (hand.group != group) {
+      group = hand.group;
+      ui::gap(editor);
+      ui::dimText(device.word("hands." + group));
+      if (group == "tripod") footScrews(desk);
+      first = true;
+    }
     if (id == "stand_at" || id == "tilt") continue;
     if (flowing(device.word("hand." + id) + "###" + id, first)) act(desk, {Kind::hand, id, "", 0, {}});
     first = false;

@@ -138,6 +138,7 @@ class Device {
 // What hands can do to an instrument, and the troubles that a lecturer, or chance, can send.
 struct HandRow {
   const char* id;                  // "insert_card"; its word is "hand.insert_card"
+  const char* group;               // "memory", "power", "tripod", "around"; its word is "hands.memory"; rows of one stand together
   const char* value;               // what its value is: "" none, "x,y in degrees", …
   Result<void> (*act)(Device&, const std::string& value);
 };

@@ -79,23 +79,29 @@ Result<void> unplug(Device& d, const std::string&) {
   return {};
 }
 
-Result<void> level(Device& d, const std::string&) {
-  d.change().around.tilt_x_deg = kLevelled_deg;
-  d.change().around.tilt_y_deg = -kLevelled_deg;
+bool laserTurns(const Device& d) {
+  const auto* phase = findPhase(d.type().definition, d.state().phase);
+  return phase != nullptr && phase->laser;
+}
+
+// The foot screws: whoever turns them under a scan moves the instrument.
+Result<void> turnScrews(Device& d, double x_deg, double y_deg) {
+  auto& a = d.change().around;
+  a.tilt_x_deg = x_deg;
+  a.tilt_y_deg = y_deg;
+  if (laserTurns(d)) d.fire("moved");
   return {};
 }
 
-// "x,y" in degrees: a foot screw, or a tripod that sinks in.
+Result<void> level(Device& d, const std::string&) { return turnScrews(d, kLevelled_deg, -kLevelled_deg); }
+
+// "x,y" in degrees.
 Result<void> tiltTo(Device& d, const std::string& value) {
   const auto comma = value.find(',');
   const double x = std::strtod(value.c_str(), nullptr);
   const double y = comma == std::string::npos ? 0 : std::strtod(value.c_str() + comma + 1, nullptr);
   if (value.empty() || !(std::abs(x) <= 60 && std::abs(y) <= 60)) return failure(ErrorKind::usage, "two tilts in degrees are needed: x,y");
-  auto& a = d.change().around;
-  a.tilt_x_deg = x;
-  a.tilt_y_deg = y;
-  if (d.tilt() > d.type().definition.body.tilt_limit_deg) d.fire("tilted");
-  return {};
+  return turnScrews(d, x, y);
 }
 
 Result<void> wipeOptics(Device& d, const std::string&) {
@@ -107,8 +113,7 @@ Result<void> wipeOptics(Device& d, const std::string&) {
 Result<void> standAt(Device& d, const std::string& station) {
   auto& a = d.change().around;
   if (a.station == station) return {};
-  const auto* phase = findPhase(d.type().definition, d.state().phase);
-  if (phase != nullptr && phase->laser) {
+  if (laserTurns(d)) {
     d.fire("moved");
     return failure(ErrorKind::usage, d.word("moved_while_scanning"));
   }
@@ -148,13 +153,23 @@ double roomFor(const Device& d) { return d.expectedBytes() / 2; }
 
 const std::vector<HandRow>& handRows() {
   static const std::vector<HandRow> rows = {
-      {"insert_card", "", insertCard},     {"remove_card", "", removeCard},  {"lock_card", "", lockCard},
-      {"unlock_card", "", unlockCard},     {"change_card", "", changeCard},  {"carry_card", "", carryCard},
-      {"change_battery", "", changeBattery}, {"plug_in", "", plugIn},        {"unplug", "", unplug},
-      {"level", "", level},                {"tilt", "x,y in degrees", tiltTo}, {"wipe_optics", "", wipeOptics},
-      {"stand_at", "station", standAt},    {"push", "", push},
-      {"go_near", "", goNear},             {"clear_view", "", clearView},
-      {"close_cover", "", closeCover},
+      {"insert_card", "memory", "", insertCard},
+      {"remove_card", "memory", "", removeCard},
+      {"lock_card", "memory", "", lockCard},
+      {"unlock_card", "memory", "", unlockCard},
+      {"change_card", "memory", "", changeCard},
+      {"carry_card", "memory", "", carryCard},
+      {"change_battery", "power", "", changeBattery},
+      {"plug_in", "power", "", plugIn},
+      {"unplug", "power", "", unplug},
+      {"stand_at", "tripod", "station", standAt},
+      {"tilt", "tripod", "x,y in degrees", tiltTo},
+      {"level", "tripod", "", level},
+      {"push", "tripod", "", push},
+      {"wipe_optics", "around", "", wipeOptics},
+      {"close_cover", "around", "", closeCover},
+      {"clear_view", "around", "", clearView},
+      {"go_near", "around", "", goNear},
   };
   return rows;
 }

@@ -24,7 +24,10 @@ TEST(Devices, HaveWordsForAllHandsAndTroubles) {
   ASSERT_TRUE(type) << describe(type.error());
   const auto& words = *(*type)->words;
   for (const auto& language : words.languages()) {
-    for (const auto& hand : handRows()) EXPECT_TRUE(words.has("", std::string("hand.") + hand.id, language)) << hand.id << " in " << language;
+    for (const auto& hand : handRows()) {
+      EXPECT_TRUE(words.has("", std::string("hand.") + hand.id, language)) << hand.id << " in " << language;
+      EXPECT_TRUE(words.has("", std::string("hands.") + hand.group, language)) << hand.group << " in " << language;
+    }
     for (const auto& trouble : troubleRows()) EXPECT_TRUE(words.has("", std::string("trouble.") + trouble.id, language)) << trouble.id << " in " << language;
   }
 }

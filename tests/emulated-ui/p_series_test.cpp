@@ -329,7 +329,7 @@ TEST_F(PSeries, PausesWhenTheCompensatorLeavesItsRangeAndFlagsTheLines) {
   scanWithoutSetup();
   ASSERT_TRUE(d->takeOrder());
   d->tick(50);
-  ASSERT_TRUE(d->hand("tilt", "0.2,0"));
+  ASSERT_TRUE(d->trouble("tilted"));
   EXPECT_EQ(d.phase(), "paused");
   EXPECT_EQ(d.dialog(), "compensator_question");
   TestDevice stopped = d;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tests/emulated-ui/support.h"
+#include "tests/emulated-ui/working.h"
 
 namespace standpoint {
 namespace {
@@ -15,6 +15,21 @@ TEST(Troubles, ATripodSinksOutOfWhatIsCompensatedAndThenOutOfWhatIsBorne) {
     EXPECT_GT(d->tilt(), body.tilt_limit_deg) << row.id;
     EXPECT_TRUE(d->hand("level", ""));
     EXPECT_LT(d->tilt(), body.tilt_full_deg) << row.id << ": the way on";
+  }
+}
+
+TEST(Troubles, WhoTurnsTheFootScrewsUnderAScanMovesTheInstrument) {
+  for (const auto& row : emulatedDevices()) {
+    const auto type = loadDevice(row);
+    ASSERT_TRUE(type);
+    for (const auto& phase : (*type)->definition.phases) {
+      if (!phase.laser) continue;
+      for (const auto& [hand, value] : {std::pair{"level", ""}, std::pair{"tilt", "0.01,0"}, std::pair{"push", ""}}) {
+        Device d = working(*type, phase, phase.screen);
+        ASSERT_TRUE(d.hand(hand, value));
+        EXPECT_TRUE(d.state().dialog == "moved" || d.state().phase != phase.id) << row.id << ", " << phase.id << ", " << hand;
+      }
+    }
   }
 }
 
