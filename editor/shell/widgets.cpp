@@ -69,6 +69,12 @@ void wrapped(const std::string& text) {
   ImGui::PopTextWrapPos();
 }
 
+void dimWrapped(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  wrapped(text);
+  ImGui::PopStyleColor();
+}
+
 void gap(const Editor& editor, float points) { ImGui::Dummy({0, editor.px(points)}); }
 
 void emptyState(const Editor& editor, const char* icon, const char* title, const char* text) {

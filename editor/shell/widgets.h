@@ -25,6 +25,7 @@ void tooltip(const std::string& text);   // of the last item, also when it is di
 void heading(const Editor& editor, const char* text);
 void dimText(const std::string& text);
 void wrapped(const std::string& text);
+void dimWrapped(const std::string& text);
 // An empty panel: what would be here, and how to get it.
 void emptyState(const Editor& editor, const char* icon, const char* title, const char* text);
 void gap(const Editor& editor, float points = 4);
