@@ -51,6 +51,8 @@ class Device {
   void tick(double seconds);
   // True while the clock must tick: it starts, measures, stores, or tracks.
   bool busy() const;
+  // Nothing that takes time goes on: no phase has time left, and no scan is held up by a person.
+  bool idles() const;
   bool on() const;
 
   std::optional<Fact> fact(const std::string& name) const;
