@@ -121,6 +121,7 @@ class Device {
   Result<void> press(const WidgetRow& row, const Widget& widget, const std::string& value);
   Result<void> bind(const WidgetRow& row, const Widget& widget, const std::string& value);
   void enter(const PhaseRow& phase);
+  std::string movedAlong(const SettingValues& adapted, const std::string& key) const;
   std::optional<double> leftOfPhase() const;
   void pass(double seconds);
   void wake() { state_.untouched_s = 0; }
