@@ -18,6 +18,8 @@ namespace ui {
 bool button(const char* label, const std::string& why = {}, ImVec2 size = {0, 0}, const char* tooltip = nullptr);
 // The one button of a panel that does what the panel is for.
 bool primaryButton(const char* label, const std::string& why = {}, ImVec2 size = {0, 0});
+// As wide as there is room, with all of its text, in as many lines as that takes.
+bool wideButton(const char* id, const std::string& text, const std::string& why = {}, const char* tooltip = nullptr);
 // An icon without a frame, for rows and bars.
 bool iconButton(const char* label, const char* tooltip, const std::string& why = {}, bool lit = false);
 void tooltip(const std::string& text);   // of the last item, also when it is disabled
