@@ -369,7 +369,7 @@ std::optional<Outcome> DeviceHost::goOn(const Document& document, const fs::path
   if (!task_)
     if (const auto order = device_.takeOrder()) start(*order, document, scans_folder);
   collect(document);
-  device_.tick(seconds * time_factor);
+  if (!clockStands()) device_.tick(seconds * time_factor);
   if (!may_store) return std::nullopt;
   if (const auto orientation = device_.takeOriented()) {
     if (auto done = oriented(document, *orientation)) return *std::move(done);

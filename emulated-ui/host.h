@@ -44,6 +44,8 @@ class DeviceHost {
   // The simulation that runs behind the device's screen; null when none does.
   Task* task() { return task_.get(); }
   bool busy() const { return device_.busy() || task_ != nullptr; }
+  // Only our computing is waited for: the real instrument would be done, so the device's clock stands meanwhile.
+  bool clockStands() const { return task_ != nullptr && device_.idles(); }
 
  private:
   std::optional<Outcome> goOn(const Document& document, const std::filesystem::path& scans_folder, double seconds, bool may_store);

@@ -43,7 +43,8 @@ std::vector<std::pair<std::string, std::string>> scannersOf(const DeviceType& ty
 
 void watch(InstrumentDesk& desk) {
   const auto& solution = desk.rehearsal->exercise().solution;
-  if (desk.guidance != Guidance::watched || desk.watched >= solution.size() || desk.rehearsal->host().busy()) return;
+  if (desk.guidance != Guidance::watched || desk.ended() || desk.watched >= solution.size()) return;
+  if (desk.rehearsal->host().busy()) return;
   if (desk.rehearsal->seconds() < desk.next_watched_s) return;
   const auto& action = solution[desk.watched++];
   if (action.kind != Kind::finish && action.kind != Kind::wait) act(desk, action);
@@ -58,10 +59,11 @@ fs::path scansFolder(const Editor& editor) { return editor.session.folder().empt
 void act(InstrumentDesk& desk, const RehearsalAction& action) {
   Progress quiet;
   Result<void> done;
-  if (desk.rehearsal) done = desk.rehearsal->act(action, quiet);
+  if (desk.ended()) done = failure(ErrorKind::usage, "The exercise has ended: leave it, or do it once more.");
+  else if (desk.rehearsal) done = desk.rehearsal->act(action, quiet);
   else if (action.kind == Kind::press) done = desk.shown()->act(action.name, action.value);
   else if (action.kind == Kind::hand) done = desk.shown()->hand(action.name, action.value);
-  desk.view.said = done ? std::string() : done.error().message;
+  desk.view.said = done ? desk.shown()->state().moved_along : done.error().message;
   desk.view.pointed.clear();
   if (done && desk.recording) desk.recorded.push_back(action);
 }
@@ -100,11 +102,13 @@ void advance(InstrumentDesk& desk, Editor& editor) {
   // Only waiting is shortened: what the student needs to read and press takes its own time, also in an exercise.
   desk.running()->time_factor = desk.running()->busy() ? desk.time_factor : 1;
   if (desk.rehearsal) {
-    const auto before = desk.rehearsal->document().job;
-    desk.rehearsal->pass(seconds);
+    desk.rehearsal->pass(desk.ended() ? 0 : seconds);
     watch(desk);
-    if (desk.rehearsal->document().job != before && editor.session.whyNotAdopt().empty())
+    const auto& job = desk.rehearsal->document().job;
+    if (job != desk.adopted && editor.session.whyNotAdopt().empty()) {
+      desk.adopted = job;
       editor.session.adopt({desk.rehearsal->document(), nlohmann::json::object(), {}, "Scanned in exercise " + desk.rehearsal->exercise().id, {}});
+    }
   } else {
     const auto scans = scansFolder(editor);
     const bool may_store = editor.session.whyNotAdopt().empty();
@@ -139,22 +143,33 @@ void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercis
   if (!editor.session.open(folder / "project")) return;
   desk.host.reset();
   desk.rehearsal = *std::move(rehearsal);
+  desk.adopted = desk.rehearsal->document().job;
   desk.marks = nullptr;
   desk.watched = 0;
   desk.next_watched_s = 0;
   desk.last = std::chrono::steady_clock::now();
 }
 
-void finishExercise(InstrumentDesk& desk) {
+namespace {
+
+void saveEnvironment(Editor& editor) {
+  if (editor.session.modified() && !editor.session.folder().empty()) editor.session.save(editor.session.folder());
+}
+
+}  // namespace
+
+void finishExercise(InstrumentDesk& desk, Editor& editor) {
   desk.marks = marksOf(*desk.rehearsal, desk.student, desk.rehearsal->device().state().language);
   desk.marks_folder = desk.rehearsal->folder();
   if (auto written = writeMarks(*desk.rehearsal, desk.marks, desk.marks_folder); !written) desk.refused = describe(written.error());
+  saveEnvironment(editor);
 }
 
 // Its environment stays where its result is.
 void leaveExercise(InstrumentDesk& desk, Editor& editor) {
-  if (editor.session.modified() && !editor.session.folder().empty()) editor.session.save(editor.session.folder());
+  saveEnvironment(editor);
   desk.rehearsal.reset();
+  desk.marks = nullptr;
   chooseDevice(desk, editor, *desk.device, desk.instrument);
 }
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "editor/editor.h"
+#include "editor/model/desktop_opener.h"
 #include "emulated-ui/draw/device_view.h"
 #include "emulated-ui/host.h"
 #include "emulated-ui/menus.h"
@@ -40,6 +41,8 @@ struct InstrumentDesk {
   std::string student;
   nlohmann::json marks;                       // of the exercise that was finished last
   std::filesystem::path marks_folder;
+  DesktopOpener opener;                       // of the certificate
+  std::shared_ptr<const Job> adopted;         // of the exercise's document, as the editor shows it
   std::size_t watched = 0;                    // actions of the solution that were shown
   double next_watched_s = 0;
 
@@ -54,6 +57,8 @@ struct InstrumentDesk {
   std::shared_ptr<const PixelPicture> picture;
 
   Device* shown() { return rehearsal ? &rehearsal->device() : host ? &host->device() : nullptr; }
+  // Marked: nothing more is done in it, and its clock stands.
+  bool ended() const { return rehearsal && !marks.is_null(); }
   DeviceHost* running() { return rehearsal ? &rehearsal->host() : host.get(); }
 };
 
@@ -66,7 +71,8 @@ void followProject(InstrumentDesk& desk, Editor& editor);
 void advance(InstrumentDesk& desk, Editor& editor);
 
 void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercise);
-void finishExercise(InstrumentDesk& desk);
+// Marks it: it has ended, and its environment is saved where its result is.
+void finishExercise(InstrumentDesk& desk, Editor& editor);
 void leaveExercise(InstrumentDesk& desk, Editor& editor);
 
 // What stands beside the device.

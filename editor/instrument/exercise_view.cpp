@@ -18,8 +18,14 @@ namespace {
 
 using Kind = RehearsalAction::Kind;
 
-constexpr std::array kGuidance = {"Each step is shown", "Steps on demand (a hint costs half)", "Watch the solution",
-                                  "Test: no steps, no hints"};
+struct GuidanceRow {
+  const char *name, *text;
+};
+constexpr std::array kGuidance = {
+    GuidanceRow{"Step by step", "Each step is shown, and what will be marked. A hint costs half of its step's points."},
+    GuidanceRow{"One step", "Only the step that is next is shown. A hint costs half of its points."},
+    GuidanceRow{"Watch", "The solution is carried out while you look on."},
+    GuidanceRow{"Test", "No steps, no hints, and what is marked is told at the end."}};
 
 void readExercises(InstrumentDesk& desk) {
   if (desk.exercises_read) return;
@@ -36,14 +42,18 @@ void list(InstrumentDesk& desk, Editor& editor) {
   if (ui::beginProperties("exercise")) {
     ui::propertyLabel("Guidance");
     ImGui::SetNextItemWidth(-1);
-    int guidance = static_cast<int>(desk.guidance);
-    if (ImGui::Combo("##guidance", &guidance, kGuidance.data(), static_cast<int>(kGuidance.size())))
-      desk.guidance = static_cast<Guidance>(guidance);
+    if (ImGui::BeginCombo("##guidance", kGuidance[static_cast<std::size_t>(desk.guidance)].name)) {
+      for (std::size_t i = 0; i < kGuidance.size(); ++i)
+        if (ImGui::Selectable(kGuidance[i].name, static_cast<std::size_t>(desk.guidance) == i))
+          desk.guidance = static_cast<Guidance>(i);
+      ImGui::EndCombo();
+    }
     ui::propertyLabel("Student");
     ImGui::SetNextItemWidth(-1);
     ImGui::InputText("##student", &desk.student);
     ui::endProperties();
   }
+  ui::dimWrapped(kGuidance[static_cast<std::size_t>(desk.guidance)].text);
   ui::gap(editor);
   const bool unsaved = editor.session.modified();
   if (unsaved) {
@@ -53,22 +63,23 @@ void list(InstrumentDesk& desk, Editor& editor) {
     if (!folder.empty() && ui::button("Save the project###save-first", {}, {-1, 0})) editor.session.save(folder);
     ui::gap(editor);
   }
-  const std::string why = unsaved ? "Save the project first." : "";
+  const std::string why = unsaved ? "Save the project first." : editor.session.whyNot("open-project");
   bool any = false;
   for (const auto& known : desk.exercises) {
     if (!isFor(known.exercise, desk.device->id)) continue;
     any = true;
-    if (ui::button((known.exercise.id + "  " + known.exercise.title.in(language) + "###" + known.exercise.id).c_str(),
-                   why, {-1, 0}, known.exercise.goal.in(language).c_str()))
+    if (ui::wideButton(("###" + known.exercise.id).c_str(),
+                       known.exercise.id + "  " + known.exercise.title.in(language), why,
+                       known.exercise.goal.in(language).c_str()))
       return startExercise(desk, editor, known.exercise);
   }
-  if (!any) ui::dimText("There is no exercise for this device yet.");
+  if (!any) ui::dimWrapped("There is no exercise for this device yet.");
 }
 
 void record(InstrumentDesk& desk, Editor& editor) {
   ui::gap(editor);
   if (!ImGui::CollapsingHeader("Record an exercise")) return;
-  ui::dimText("Do it once; what you do becomes the solution of a new exercise, and what you mark counts.");
+  ui::dimWrapped("Do it once; what you do becomes the solution of a new exercise, and what you mark counts.");
   if (ui::button(desk.recording ? "Stop###record" : "Record###record")) {
     desk.recording = !desk.recording;
     if (desk.recording) desk.recorded.clear();
@@ -86,6 +97,17 @@ void record(InstrumentDesk& desk, Editor& editor) {
   }
 }
 
+constexpr ImU32 kHeld = IM_COL32(110, 190, 120, 255), kBroken = IM_COL32(230, 110, 100, 255);
+
+// A mark, and the text beside it: its further lines begin where the first does.
+void marked(const char* mark, const std::string& text, ImU32 colour) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextUnformatted(mark);
+  ImGui::SameLine(1.6F * ImGui::GetFontSize());
+  ui::wrapped(text);
+  ImGui::PopStyleColor();
+}
+
 void steps(InstrumentDesk& desk, const std::string& language) {
   const auto& rehearsal = *desk.rehearsal;
   const auto& e = rehearsal.exercise();
@@ -94,14 +116,13 @@ void steps(InstrumentDesk& desk, const std::string& language) {
     const auto& step = e.steps[i];
     const auto& state = rehearsal.steps()[i];
     const bool current = &step == next;
-    ImGui::PushStyleColor(ImGuiCol_Text, state.done
-                                             ? IM_COL32(110, 190, 120, 255)
-                                             : ImGui::GetColorU32(current ? ImGuiCol_Text : ImGuiCol_TextDisabled));
-    ui::wrapped((state.done ? ICON_CHECK "  " : current ? "›  " : "    ") + step.text.in(language));
-    ImGui::PopStyleColor();
+    if (desk.guidance == Guidance::hinted && !current && !state.done) continue;
+    marked(state.done ? ICON_CHECK : current ? "›" : "·", step.text.in(language),
+           state.done ? kHeld : ImGui::GetColorU32(current ? ImGuiCol_Text : ImGuiCol_TextDisabled));
     if (!current) continue;
-    if (state.hinted) ui::dimText(step.hint.in(language));
-    else if (desk.guidance != Guidance::tested && !step.hint.texts.empty() &&
+    if (state.hinted)
+      marked("", step.hint.in(language), ImGui::GetColorU32(ImGuiCol_TextDisabled));
+    else if (!desk.ended() && !step.hint.texts.empty() &&
              ui::button(("Hint###hint" + step.id).c_str())) {
       act(desk, {Kind::hint, step.id, "", 0, {}});
       desk.view.pointed = step.widget;
@@ -110,6 +131,7 @@ void steps(InstrumentDesk& desk, const std::string& language) {
 }
 
 void questions(InstrumentDesk& desk, const std::string& language) {
+  ImGui::BeginDisabled(desk.ended());
   for (const auto& q : desk.rehearsal->exercise().questions) {
     ui::wrapped(q.text.in(language));
     const auto answer = desk.rehearsal->fact("answer." + q.id)->text;
@@ -118,32 +140,54 @@ void questions(InstrumentDesk& desk, const std::string& language) {
                              answer == q.choices[i]))
         act(desk, {Kind::answer, q.id, q.choices[i], 0, {}});
   }
+  ImGui::EndDisabled();
 }
 
-void marks(const InstrumentDesk& desk) {
+// What will be marked besides the steps; in a test that is told at the end.
+void demands(const InstrumentDesk& desk, const std::string& language) {
+  const auto& rules = desk.rehearsal->exercise().rules;
+  if (rules.empty() || !ImGui::CollapsingHeader("What is marked besides###demands")) return;
+  const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+  for (const auto& rule : rules) marked("·", rule.text.in(language) + (rule.must ? "  (needed to pass)" : ""), dim);
+}
+
+void certificate(InstrumentDesk& desk, Editor& editor) {
+  if (ui::wideButton("###certificate", "Open the certificate"))
+    desk.opener.open(desk.marks_folder / "result.html", editor.wake);
+  if (ui::wideButton("###result-folder", "Show the folder", {}, desk.marks_folder.c_str()))
+    desk.opener.open(desk.marks_folder, editor.wake);
+  const auto& problem = desk.opener.problem();
+  if (!problem.empty()) ui::wrapped(problem);
+  ui::gap(editor);
+}
+
+void marks(InstrumentDesk& desk, Editor& editor) {
   const auto& m = desk.marks;
   ui::wrapped(fmt::format("{}: {:.0f} % of the points, {:.0f} % are needed",
                           m["passed"].get<bool>() ? "Passed" : "Not passed", m["score"].get<double>() * 100,
                           m["pass_mark"].get<double>() * 100));
+  certificate(desk, editor);
   for (const auto& rule : m["rules"]) {
     const bool held = rule["held"].get<bool>();
-    ImGui::PushStyleColor(ImGuiCol_Text, held ? IM_COL32(110, 190, 120, 255) : IM_COL32(230, 110, 100, 255));
-    ui::wrapped((held ? ICON_CHECK "  " : "×  ") + rule["text"].get<std::string>());
-    ImGui::PopStyleColor();
+    marked(held ? ICON_CHECK : "×", rule["text"].get<std::string>(), held ? kHeld : kBroken);
     if (held) continue;
-    ui::dimText("found: " + rule["found"].get<std::string>());
-    if (rule.contains("because")) ui::dimText(rule["because"].get<std::string>());
-    if (rule.contains("proof"))
-      ui::dimText(fmt::format("your points: {} = {} {}", rule["proof"]["fact"].get<std::string>(),
-                              rule["proof"]["value"].dump(), rule["proof"]["unit"].get<std::string>()));
+    const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+    marked("", "found: " + rule["found"].get<std::string>(), dim);
+    if (rule.contains("because")) marked("", rule["because"].get<std::string>(), dim);
+    if (!rule.contains("proof") || rule["proof"]["value"] == "") continue;
+    const auto& proof = rule["proof"];
+    marked("", fmt::format("your points: {} = {} {}", proof["fact"].get<std::string>(), proof["value"].dump(),
+                           proof["unit"].get<std::string>()), dim);
   }
-  ui::wrapped("Result and certificate: " + desk.marks_folder.string());
+  ui::gap(editor);
 }
 
-void running(InstrumentDesk& desk, Editor& editor) {
+void task(InstrumentDesk& desk, Editor& editor, const std::string& language) {
   const auto& e = desk.rehearsal->exercise();
-  const auto language = desk.rehearsal->device().state().language;
-  ui::heading(editor, (e.id + "  " + e.title.in(language)).c_str());
+  if (editor.fonts.bold != nullptr) ImGui::PushFont(editor.fonts.bold);
+  ui::wrapped(e.id + "  " + e.title.in(language));
+  if (editor.fonts.bold != nullptr) ImGui::PopFont();
+  if (desk.ended()) marks(desk, editor);
   ui::wrapped(e.goal.in(language));
   ui::gap(editor);
   const double seconds = desk.rehearsal->seconds();
@@ -152,10 +196,26 @@ void running(InstrumentDesk& desk, Editor& editor) {
   if (desk.guidance != Guidance::tested) steps(desk, language);
   questions(desk, language);
   ui::gap(editor);
-  if (ui::primaryButton("Finish and mark")) finishExercise(desk);
+  if (!desk.ended() && desk.guidance != Guidance::tested) demands(desk, language);
+}
+
+// The buttons keep their place below what scrolls.
+void running(InstrumentDesk& desk, Editor& editor) {
+  const auto language = desk.rehearsal->device().state().language;
+  const auto& e = desk.rehearsal->exercise();
+  if (ImGui::BeginChild("task", {0, -ImGui::GetFrameHeightWithSpacing()})) task(desk, editor, language);
+  ImGui::EndChild();
+  bool again = false;
+  if (desk.ended()) {
+    const bool unsaved = editor.session.modified();
+    const auto why = unsaved ? "Its environment is not saved yet." : editor.session.whyNot("open-project");
+    again = ui::button("Once more###again", why);
+  } else if (ui::primaryButton("Finish and mark###finish")) {
+    finishExercise(desk, editor);
+  }
   ImGui::SameLine();
-  if (ui::button("Leave")) return leaveExercise(desk, editor);
-  if (!desk.marks.is_null()) marks(desk);
+  if (ui::button("Leave###leave")) return leaveExercise(desk, editor);
+  if (again) startExercise(desk, editor, Exercise(e));
 }
 
 }  // namespace

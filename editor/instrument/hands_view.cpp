@@ -20,7 +20,9 @@ bool flowing(const std::string& label, bool first) {
     ImGui::SameLine();
     if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
   }
-  return ui::button(label.c_str());
+  if (ImGui::GetContentRegionAvail().x >= width) return ui::button(label.c_str());
+  const auto text = label.find("###");
+  return ui::wideButton(label.c_str() + text, label.substr(0, text));
 }
 
 void stationChoice(InstrumentDesk& desk, const Document& document) {

@@ -19,8 +19,8 @@ bool holds(const std::string& text, const std::string& wanted) {
 }
 
 void entry(const Device& device, const WidgetRow& row) {
-  ImGui::TextUnformatted(device.word(row.words).c_str());
-  ui::dimText(widgetHelp(device, row));
+  ui::wrapped(device.word(row.words));
+  ui::dimWrapped(widgetHelp(device, row));
   ImGui::Spacing();
 }
 
@@ -40,14 +40,15 @@ void drawHelp(InstrumentDesk& desk, Editor& editor) {
         if ((holds(device.word(row.words), desk.search) || holds(device.word(row.words + "?"), desk.search)) &&
             seen.insert(screen.id + row.id).second)
           entry(device, row);
-    if (seen.empty()) ui::dimText("No widget of this device has that in its name or help.");
+    if (seen.empty()) ui::dimWrapped("No widget of this device has that in its name or help.");
     return;
   }
   if (desk.view.explained.empty())
-    return ui::dimText("Press Explain, then tap what you want to know about. Nothing happens to the scan meanwhile.");
+    return ui::dimWrapped("Press Explain, then tap what you want to know about. "
+                          "Nothing happens to the scan meanwhile.");
   const auto& id = desk.view.explained;
   const auto screen = device.screen();
-  if (const auto* widget = findWidget(screen, id)) ImGui::TextUnformatted(widget->label.c_str());
+  if (const auto* widget = findWidget(screen, id)) ui::wrapped(widget->label);
   const auto help = device.help(id);
   ui::wrapped(help.empty() ? "It answers the question on the screen." : help);
 }

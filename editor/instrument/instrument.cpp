@@ -16,6 +16,8 @@ namespace standpoint {
 
 namespace {
 
+constexpr float kWaitsInSilence_s = 0.5F;
+constexpr float kNarrowestDevice_em = 13.5F, kNarrowestText_em = 11;   // in heights of the text
 constexpr std::array kClockFactors = {1.0, 5.0, 20.0, 100.0};
 
 class InstrumentPanel {
@@ -30,15 +32,19 @@ class InstrumentPanel {
     controls();
     if (desk_.shown() == nullptr) return;
     const ImVec2 room = ImGui::GetContentRegionAvail();
-    const bool beside = room.x > editor.px(440);   // else the rest comes below
+    const float least = kNarrowestDevice_em * ImGui::GetFontSize();
+    const bool beside = room.x > least + kNarrowestText_em * ImGui::GetFontSize();   // else the rest comes below
     const float below = beside ? 0 : std::min(editor.px(260), 0.4F * room.y);
-    const float width = beside ? std::min(0.54F * room.x, editor.px(560)) : room.x;
+    const float wanted = deviceWidth(*desk_.shown(), room.y - editor.px(40));
+    const float most = std::max(least, std::min(0.54F * room.x, editor.px(560)));
+    const float width = beside ? std::clamp(wanted, least, most) : room.x;
     if (ImGui::BeginChild("device", {width, room.y - below})) device(editor);
     ImGui::EndChild();
     if (beside) ImGui::SameLine();
     if (desk_.shown() != nullptr && ImGui::BeginChild("beside", {0, 0})) tabs(editor);
     if (desk_.shown() != nullptr) ImGui::EndChild();
-    desk_.was_busy = desk_.rehearsal != nullptr || (desk_.host && desk_.host->busy());
+    const bool exercising = desk_.rehearsal != nullptr && !desk_.ended();
+    desk_.was_busy = desk_.shown() != nullptr && (exercising || desk_.running()->busy());
     ticker_.run(desk_.was_busy);
   }
 
@@ -47,11 +53,24 @@ class InstrumentPanel {
     const ImVec2 room = ImGui::GetContentRegionAvail();
     auto* task = desk_.running()->task();
     desk_.view.working = task != nullptr && !desk_.shown()->state().running ? std::optional(task->progress().fraction()) : std::nullopt;   // a scan has a bar of its own
+    desk_.view.waits = waits();
     const auto press = drawDevice(*desk_.shown(), desk_.view, room.x, room.y - editor.px(40));
-    if (press) act(desk_, {RehearsalAction::Kind::press, press->widget, press->value, 0, {}});
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetColorU32(desk_.refused.empty() ? ImGuiCol_TextDisabled : ImGuiCol_Text));
-    ui::wrapped(desk_.refused.empty() ? "Screens are ours; not affiliated with or endorsed by the makers." : desk_.refused);
-    ImGui::PopStyleColor();
+    if (press) {
+      act(desk_, {RehearsalAction::Kind::press, press->widget, press->value, 0, {}});
+      const auto& device = *desk_.shown();
+      const auto& moved = device.state().moved_along;
+      if (!moved.empty()) editor.session.say(LogLevel::note, device.type().definition.title, moved);
+    }
+    if (desk_.refused.empty()) ui::dimWrapped("Screens are ours; not affiliated with or endorsed by the makers.");
+    else ui::wrapped(desk_.refused);
+  }
+
+  // In words what the device's clock waits for, once that has taken a moment.
+  std::string waits() {
+    auto* task = desk_.running()->task();
+    stood_s_ = desk_.running()->clockStands() ? stood_s_ + ImGui::GetIO().DeltaTime : 0;
+    if (stood_s_ < kWaitsInSilence_s) return {};
+    return fmt::format("{}\n{:.0f} %", desk_.shown()->word("simulation_computes"), 100 * task->progress().fraction());
   }
 
   void tabs(Editor& editor) {
@@ -78,30 +97,42 @@ class InstrumentPanel {
     (void)desk_.shown()->hand("stand_at", job->stations.front().name);
   }
 
-  void scannerChoice() {
-    if (desk_.scanners.size() < 2) return;
-    const auto& now = desk_.shown()->type().instrument;
-    ui::propertyLabel("Scanner");
+  // Why device and scanner cannot be changed now.
+  std::string whyFixed() {
+    if (desk_.rehearsal) return "The exercise is for this device. Leave the exercise to take another one.";
+    return desk_.running()->busy() ? "It is at work: wait until it rests, or switch it off." : "";
+  }
+
+  template <class Rows>
+  void lockedCombo(const char* label, const char* id, const std::string& now, const std::string& why,
+                   const Rows& rows) {
+    ui::propertyLabel(label);
+    ui::tooltip(why);
     ImGui::SetNextItemWidth(-1);
-    if (!ImGui::BeginCombo("##scanner", (now.maker + " " + now.model).c_str())) return;
-    for (const auto& [id, title] : desk_.scanners)
-      if (ImGui::Selectable((title + "###" + id).c_str(), id == now.id)) wanted_ = desk_.device, wanted_instrument_ = id;
-    ImGui::EndCombo();
+    ImGui::BeginDisabled(!why.empty());
+    const bool open = ImGui::BeginCombo(id, now.c_str());
+    if (open) {
+      rows();
+      ImGui::EndCombo();
+    }
+    ImGui::EndDisabled();
+    if (!open) ui::tooltip(why);
   }
 
   void controls() {
     if (!ui::beginProperties("instrument")) return;
-    const bool fixed = desk_.rehearsal != nullptr || desk_.running()->busy();
-    ui::propertyLabel("Device");
-    ImGui::SetNextItemWidth(-1);
-    ImGui::BeginDisabled(fixed);
-    if (ImGui::BeginCombo("##device", desk_.shown()->type().definition.title.c_str())) {
+    const auto why = whyFixed();
+    const auto& type = desk_.shown()->type();
+    lockedCombo("Device", "##device", type.definition.title, why, [&] {
       for (const auto& device : emulatedDevices())
         if (ImGui::Selectable(device.title, &device == desk_.device)) wanted_ = &device, wanted_instrument_.clear();
-      ImGui::EndCombo();
-    }
-    scannerChoice();
-    ImGui::EndDisabled();
+    });
+    if (desk_.scanners.size() > 1)
+      lockedCombo("Scanner", "##scanner", type.instrument.maker + " " + type.instrument.model, why, [&] {
+        for (const auto& [id, title] : desk_.scanners)
+          if (ImGui::Selectable((title + "###" + id).c_str(), id == type.instrument.id))
+            wanted_ = desk_.device, wanted_instrument_ = id;
+      });
     ui::propertyLabel("Clock");
     ImGui::SetNextItemWidth(-1);
     if (ImGui::BeginCombo("##clock", clockName(desk_.time_factor).c_str())) {
@@ -125,6 +156,7 @@ class InstrumentPanel {
   InstrumentDesk desk_;
   const EmulatedDevice* wanted_ = nullptr;
   std::string wanted_instrument_;
+  float stood_s_ = 0;   // how long the device's clock has stood
 };
 
 }  // namespace

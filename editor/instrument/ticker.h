@@ -26,7 +26,7 @@ class Ticker {
  private:
   void loop(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
-    while (condition_.wait(lock, stop, [this] { return on_; })) {
+    while (condition_.wait(lock, stop, [this] { return on_; }) && !stop.stop_requested()) {
       lock.unlock();
       wake_();
       std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -196,11 +196,7 @@ void drawFailure(Editor& editor) {
   ImGui::TextColored(colour(tone::kBad), "%s  It cannot be read", ICON_WARNING);
   ui::gap(editor, 2);
   ui::wrapped(error.message);
-  if (!error.source.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    ui::wrapped("in " + error.source);
-    ImGui::PopStyleColor();
-  }
+  if (!error.source.empty()) ui::dimWrapped("in " + error.source);
 }
 
 std::string whyNotAccept(const Editor& editor, const char* verb) {

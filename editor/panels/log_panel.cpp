@@ -52,8 +52,10 @@ void drawHead(Editor& editor) {
   filterButton(editor, ICON_WARNING, "warnings", warnings, tone::kWarning, filter.warnings);
   filterButton(editor, ICON_INFO, "notes", notes, tone::kDim, filter.notes);
   const float clear = ImGui::GetFrameHeight() + editor.px(8);
-  ImGui::SameLine(std::max(ImGui::GetCursorPosX(), ImGui::GetContentRegionMax().x - editor.px(230) - clear));
-  ImGui::BeginChild("log-search", {editor.px(230), ImGui::GetFrameHeight()});
+  const float room = ImGui::GetContentRegionMax().x - ImGui::GetCursorPosX() - clear;
+  const float search = std::clamp(room, editor.px(60), editor.px(230));
+  ImGui::SameLine(std::max(ImGui::GetCursorPosX(), ImGui::GetContentRegionMax().x - search - clear));
+  ImGui::BeginChild("log-search", {search, ImGui::GetFrameHeight()});
   ui::searchField("log-filter", "Text or source", filter.text);
   ImGui::EndChild();
   ImGui::SameLine();
@@ -99,7 +101,10 @@ void drawLogPanel(Editor& editor) {
   if (!ImGui::BeginTable("entries", 4, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupColumn("level", ImGuiTableColumnFlags_WidthFixed, editor.px(18));
   ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthFixed, editor.px(62));
-  ImGui::TableSetupColumn("source", ImGuiTableColumnFlags_WidthFixed, editor.px(120));
+  const bool sourced = std::any_of(shown.begin(), shown.end(),   // else the room is the message's
+                                   [&](int i) { return !log[static_cast<std::size_t>(i)].source.empty(); });
+  const float source = std::min(editor.px(120), 0.25F * ImGui::GetContentRegionAvail().x);
+  ImGui::TableSetupColumn("source", ImGuiTableColumnFlags_WidthFixed, sourced ? source : 1);
   ImGui::TableSetupColumn("message", ImGuiTableColumnFlags_WidthStretch);
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(shown.size()));

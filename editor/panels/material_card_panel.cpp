@@ -64,12 +64,6 @@ class Plot {
   float scale_;
 };
 
-void note(const char* text) {
-  ImGui::PushTextWrapPos(0);
-  ui::dimText(text);
-  ImGui::PopTextWrapPos();
-}
-
 std::vector<ImVec2> curve(const Plot& plot, const std::vector<std::pair<double, double>>& table) {
   std::vector<ImVec2> points;
   constexpr int kSteps = 130;
@@ -100,8 +94,8 @@ void drawSpectrum(Editor& editor, const PhysicalMaterial& m) {
     ImGui::SetTooltip("%s", text.c_str());
     if (ImGui::IsMouseClicked(0)) editor.view.wavelength_nm = std::round(wavelength);
   }
-  note(m.transmittance.empty() ? "Diffuse reflectance over nm; click to choose a wavelength"
-                               : "Diffuse reflectance, and transmittance (blue), over nm");
+  ui::dimWrapped(m.transmittance.empty() ? "Diffuse reflectance over nm; click to choose a wavelength"
+                                         : "Diffuse reflectance, and transmittance (blue), over nm");
 }
 
 // As a scanner's own light shows them: a ball, and a plane that turns away from it.
@@ -155,7 +149,7 @@ void drawAngles(Editor& editor, const PhysicalMaterial& m) {
     const auto degrees = static_cast<std::size_t>(std::lround(plot.pointer() * 80));
     ImGui::SetTooltip("%zu°: like a white board of %.1f %% head-on", degrees, static_cast<double>(response[degrees]));
   }
-  note("Of a white Lambert board head-on; thin: Lambert's cosine");
+  ui::dimWrapped("Of a white Lambert board head-on; thin: Lambert's cosine");
 }
 
 std::string reading(const ExpectedReturn& expected) {
@@ -185,14 +179,14 @@ void drawReported(Editor& editor, const PhysicalMaterial& m) {
     }
   }
   ImGui::EndTable();
-  note("Intensity as stored, range noise 1 σ");
+  ui::dimWrapped("Intensity as stored, range noise 1 σ");
 }
 
 void drawGaps(const Editor& editor, const PhysicalMaterial& m) {
   const auto gaps = gapsOf(m);
   if (gaps.empty()) return;
   ui::heading(editor, "Not known");
-  for (const auto& gap : gaps) note(gap.c_str());
+  for (const auto& gap : gaps) ui::dimWrapped(gap);
 }
 
 void drawSources(Editor& editor, const PhysicalMaterial& m) {

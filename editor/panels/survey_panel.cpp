@@ -59,9 +59,7 @@ void drawStationRow(Editor& editor, const Station& station, int i) {
 void drawStations(Editor& editor, const Job& job) {
   ui::heading(editor, fmt::format("Stations  {}", job.stations.size()).c_str());
   if (job.stations.empty()) {
-    ImGui::PushTextWrapPos(0);
-    ui::dimText("None yet. Press the button, then click on the floor.");
-    ImGui::PopTextWrapPos();
+    ui::dimWrapped("None yet. Press the button, then click on the floor.");
     return;
   }
   const float height = std::min(

@@ -142,10 +142,8 @@ std::optional<ScanSettings> plannedSettings(Editor& editor) {
 void drawTargetsPanel(Editor& editor) {
   const auto& job = editor.session.document().job;
   if (!editor.environment() || !job || job->targets.empty()) {
-    ImGui::PushTextWrapPos(0);
-    ui::dimText(
+    ui::dimWrapped(
         "No targets yet. Put some where two stations see them: three and more that both see hold them together.");
-    ImGui::PopTextWrapPos();
     return;
   }
   editor.target_list.follow(editor.session.document(), editor.picker.scene(), plannedSettings(editor));

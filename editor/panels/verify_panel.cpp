@@ -157,12 +157,10 @@ void drawProposal(Editor& editor, const VerifiedProposal& p, int index) {
   ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
   ImGui::SameLine();
   ui::wrapped(titleOf(editor, p));
-  ImGui::PushTextWrapPos(0);
-  ui::dimText(p.evidence);
+  ui::dimWrapped(p.evidence);
   std::vector<std::string> alike;
   for (const auto& id : p.alike) alike.push_back(labelOf(editor, id));
-  if (!alike.empty()) ui::dimText(fmt::format("As well as: {}", fmt::join(alike, "; ")));
-  ImGui::PopTextWrapPos();
+  if (!alike.empty()) ui::dimWrapped(fmt::format("As well as: {}", fmt::join(alike, "; ")));
   const std::string why = isTaken(editor.session.document(), p)
                               ? "It is assigned: compare again to see what that changes"
                               : editor.session.whyNot("materials");
@@ -228,11 +226,9 @@ void drawVerifyPanel(Editor& editor) {
     state.view = verificationView(document);
   }
   if (!state.view.there) {
-    ImGui::PushTextWrapPos(0);
-    ui::dimText(
+    ui::dimWrapped(
         "Compares what each surface sent back with what its material should, and proposes a better one where they "
         "disagree.");
-    ImGui::PopTextWrapPos();
     return;
   }
   ImGui::BeginChild("verified");

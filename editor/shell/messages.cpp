@@ -56,11 +56,7 @@ void drawError(Editor& editor) {
   if (editor.fonts.bold != nullptr) ImGui::PopFont();
   ui::gap(editor, 2);
   ui::wrapped(shown.error.message);
-  if (!shown.error.source.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    ui::wrapped("in " + shown.error.source);
-    ImGui::PopStyleColor();
-  }
+  if (!shown.error.source.empty()) ui::dimWrapped("in " + shown.error.source);
   ui::gap(editor, 2);
   ui::wrapped(remedy(shown.error.kind));
   ui::gap(editor, 6);

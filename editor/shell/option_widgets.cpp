@@ -88,11 +88,9 @@ void drawOptionForm(Editor& editor, OptionForm& form) {
     ImGui::BeginDisabled(!field.given);
     drawValue(editor, field);
     ImGui::EndDisabled();
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
     if (editor.fonts.small != nullptr) ImGui::PushFont(editor.fonts.small);
-    ui::wrapped(p.help);
+    ui::dimWrapped(p.help);
     if (editor.fonts.small != nullptr) ImGui::PopFont();
-    ImGui::PopStyleColor();
     ImGui::PopID();
   }
   ui::endProperties();

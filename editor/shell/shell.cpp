@@ -228,7 +228,7 @@ struct Layout {
   Box left, right, bottom, middle, all;
 };
 
-// What the areas get: the viewport keeps at least two fifths of the width.
+// What the areas get: the viewport keeps two fifths of the width, three tenths where the device is what is looked at.
 Layout layOut(const Editor& editor, const Box& all) {
   const auto& sizes = editor.settings.areas[static_cast<std::size_t>(editor.workspace)];
   Layout l;
@@ -236,7 +236,7 @@ Layout layOut(const Editor& editor, const Box& all) {
   const float gap = editor.px(3);
   float left = anyPanel(editor, Area::left) ? editor.px(sizes.left) : 0;
   float right = anyPanel(editor, Area::right) ? editor.px(sizes.right) : 0;
-  if (const float most = all.w * 0.6F; left + right > most) {
+  if (const float most = all.w * (editor.workspace == Workspace::instrument ? 0.7F : 0.6F); left + right > most) {
     const float share = most / (left + right);
     left *= share;
     right *= share;

@@ -44,6 +44,17 @@ bool primaryButton(const char* label, const std::string& why, ImVec2 size) {
   return pressed;
 }
 
+bool wideButton(const char* id, const std::string& text, const std::string& why, const char* tip) {
+  const ImVec2 padding = ImGui::GetStyle().FramePadding, at = ImGui::GetCursorScreenPos();
+  const float width = std::max(1.0F, ImGui::GetContentRegionAvail().x), room = std::max(1.0F, width - 2 * padding.x);
+  const float height = ImGui::CalcTextSize(text.c_str(), nullptr, false, room).y + 2 * padding.y;
+  const bool pressed = button(id, why, {width, height}, tip);
+  const ImU32 ink = ImGui::GetColorU32(why.empty() ? ImGuiCol_Text : ImGuiCol_TextDisabled);
+  const ImVec2 from{at.x + padding.x, at.y + padding.y};
+  ImGui::GetWindowDrawList()->AddText(nullptr, 0, from, ink, text.c_str(), nullptr, room);
+  return pressed;
+}
+
 bool iconButton(const char* label, const char* tip, const std::string& why, bool lit) {
   ImGui::PushStyleColor(ImGuiCol_Button, lit ? ImVec4(0.25F, 0.56F, 0.97F, 0.30F) : ImVec4(0, 0, 0, 0));
   ImGui::BeginDisabled(!why.empty());
@@ -67,6 +78,12 @@ void wrapped(const std::string& text) {
   ImGui::PushTextWrapPos(0);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
+}
+
+void dimWrapped(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  wrapped(text);
+  ImGui::PopStyleColor();
 }
 
 void gap(const Editor& editor, float points) { ImGui::Dummy({0, editor.px(points)}); }

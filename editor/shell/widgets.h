@@ -18,6 +18,8 @@ namespace ui {
 bool button(const char* label, const std::string& why = {}, ImVec2 size = {0, 0}, const char* tooltip = nullptr);
 // The one button of a panel that does what the panel is for.
 bool primaryButton(const char* label, const std::string& why = {}, ImVec2 size = {0, 0});
+// As wide as there is room, with all of its text, in as many lines as that takes.
+bool wideButton(const char* id, const std::string& text, const std::string& why = {}, const char* tooltip = nullptr);
 // An icon without a frame, for rows and bars.
 bool iconButton(const char* label, const char* tooltip, const std::string& why = {}, bool lit = false);
 void tooltip(const std::string& text);   // of the last item, also when it is disabled
@@ -25,6 +27,7 @@ void tooltip(const std::string& text);   // of the last item, also when it is di
 void heading(const Editor& editor, const char* text);
 void dimText(const std::string& text);
 void wrapped(const std::string& text);
+void dimWrapped(const std::string& text);
 // An empty panel: what would be here, and how to get it.
 void emptyState(const Editor& editor, const char* icon, const char* title, const char* text);
 void gap(const Editor& editor, float points = 4);

@@ -85,6 +85,11 @@ bool Device::busy() const {
   return order_.has_value() || (phase != nullptr && !phase->lasts.empty() && !phase->waits);
 }
 
+bool Device::idles() const {
+  const auto* phase = findPhase(type_->definition, state_.phase);
+  return phase->waits || (phase->lasts.empty() ? !state_.running : leftOfPhase().value_or(0) < 1e-9);
+}
+
 bool Device::asleep() const {
   const auto& value_id = type_->definition.body.sleeps_after;
   const double minutes = value_id.empty() ? 0 : std::strtod(value(value_id).c_str(), nullptr);

@@ -51,6 +51,8 @@ class Device {
   void tick(double seconds);
   // True while the clock must tick: it starts, measures, stores, or tracks.
   bool busy() const;
+  // Nothing that takes time goes on: no phase has time left, and no scan is held up by a person.
+  bool idles() const;
   bool on() const;
 
   std::optional<Fact> fact(const std::string& name) const;
@@ -119,6 +121,7 @@ class Device {
   Result<void> press(const WidgetRow& row, const Widget& widget, const std::string& value);
   Result<void> bind(const WidgetRow& row, const Widget& widget, const std::string& value);
   void enter(const PhaseRow& phase);
+  std::string movedAlong(const SettingValues& adapted, const std::string& key) const;
   std::optional<double> leftOfPhase() const;
   void pass(double seconds);
   void wake() { state_.untouched_s = 0; }

@@ -46,6 +46,7 @@ const WidgetRow* Device::rowOf(const std::string& id) const {
 Result<void> Device::act(const std::string& id, const std::string& value) {
   const bool slept = asleep();
   wake();
+  state_.moved_along.clear();
   if (slept) {
     note("woken");
     return {};
@@ -58,7 +59,7 @@ Result<void> Device::act(const std::string& id, const std::string& value) {
       note("answered", state_.dialog + "/" + id);
       state_.dialog.clear();
       if (!button.event.empty() && !fire(button.event))
-        return failure(ErrorKind::usage, fmt::format("'{}' means nothing now", id), id);
+        return failure(ErrorKind::usage, fmt::format("{}: {}", word(id), word("not_now")), id);
       return {};
     }
   }
@@ -99,6 +100,7 @@ Result<void> Device::bind(const WidgetRow& row, const Widget& widget, const std:
     const auto adapted = adaptedSettings(type_->instrument, state_.settings, row.setting, value);
     if (!adapted) return failure(ErrorKind::usage, adapted.error().message, row.id);
     note("setting", row.setting + "=" + value);
+    state_.moved_along = movedAlong(*adapted, row.setting);
     return setSettings(*adapted);
   }
   if (!row.value.empty()) {
@@ -156,7 +158,8 @@ Result<void> Device::press(const WidgetRow& row, const Widget& widget, const std
       return {};
     }
   }
-  if (!row.event.empty() && !fire(row.event)) return failure(ErrorKind::usage, fmt::format("'{}' means nothing now", row.id), row.id);
+  if (!row.event.empty() && !fire(row.event))
+    return failure(ErrorKind::usage, fmt::format("{}: {}", widget.label, word("not_now")), row.id);
   if (!row.go.empty() && state_.dialog.empty()) show(row.go);
   return {};
 }

@@ -38,10 +38,29 @@ std::string choiceWord(const Device& device, const std::string& key, const std::
   return d.words->has(d.definition.id, key, "en") ? device.word(key) : fallback;
 }
 
+std::string choiceLabel(const Device& device, const InstrumentSetting& setting, const std::string& value) {
+  for (const auto& choice : setting.choices)
+    if (choice.value == value) return choiceWord(device, setting.key + "=" + value, choice.label);
+  return value;
+}
+
+// As the widget that sets it is called.
+std::string settingLabel(const Device& device, const InstrumentSetting& setting) {
+  for (const auto& screen : device.type().definition.screens)
+    for (const auto& row : screen.widgets)
+      if (row.setting == setting.key) return choiceWord(device, row.words, setting.label);
+  return setting.label;
+}
+
+void replaceAll(std::string& text, const std::string& what, const std::string& by) {
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+}
+
 void addSettingOptions(const Device& device, const InstrumentSetting& setting, Widget& w) {
   const std::string now = device.setting(setting.key);
   for (const auto& choice : setting.choices) {
-    WidgetOption option{choice.value, choiceWord(device, setting.key + "=" + choice.value, choice.label), true, {}};
+    WidgetOption option{choice.value, choiceLabel(device, setting, choice.value), true, {}};
     const auto adapted = adaptedSettings(device.type().instrument, device.state().settings, setting.key, choice.value);
     if (!adapted) {
       option.enabled = false;
@@ -104,6 +123,23 @@ Leads leadsOf(const WidgetRow& row, const DeviceProgram& program, const DeviceSt
 
 std::string Device::word(const std::string& key) const {
   return filled(*this, type_->words->text(type_->definition.id, key, state_.language), state_.dialog_detail);
+}
+
+std::string Device::movedAlong(const SettingValues& adapted, const std::string& key) const {
+  const auto chosen = std::find_if(adapted.begin(), adapted.end(), [&](const auto& s) { return s.first == key; });
+  std::string text;
+  for (const auto& [name, value] : adapted) {
+    const auto *moved = settingOf(type_->instrument, name), *by = settingOf(type_->instrument, key);
+    const auto before = setting(name);
+    if (name == key || value == before) continue;
+    std::string line = type_->words->text(type_->definition.id, "setting_moved", state_.language);
+    replaceAll(line, "{what}", settingLabel(*this, *moved));
+    replaceAll(line, "{from}", choiceLabel(*this, *moved, before));
+    replaceAll(line, "{to}", choiceLabel(*this, *moved, value));
+    replaceAll(line, "{by}", choiceLabel(*this, *by, chosen->second));
+    text += (text.empty() ? "" : "\n") + line;
+  }
+  return text;
 }
 
 // Nothing when this scanner does not have what the widget sets, or when it is not there now.

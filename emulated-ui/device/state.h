@@ -78,6 +78,7 @@ struct DeviceState {
   std::optional<StationOrientation> orientation;     // of where it stands
   std::vector<DeviceEvent> log;
   double untouched_s = 0;          // at rest, since somebody pressed something or the device had something to say
+  std::string moved_along;         // what the last press moved besides what was pressed, in words; else empty
   std::uint64_t noted = 0;         // events so far, with those that the log had no room for
 };
 

@@ -2,6 +2,7 @@
 #include "emulated-ui/draw/device_view.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 
 #include "emulated-ui/draw/pen.h"
@@ -140,15 +141,30 @@ void scrollByFinger(const Pen& pen) {
   if (view.scrolling && view.grabbed) ImGui::SetScrollY(ImGui::GetScrollY() - io.MouseDelta.y);
 }
 
-// Why the last press did nothing, at the display's lower edge.
-void saying(const Pen& pen, ImVec2 at, ImVec2 size) {
-  if (pen.view.said.empty()) return;
-  const float margin = 0.6F * pen.unit, inner = size.x - 4 * margin, height = wrappedHeight(pen.view.said, inner) + 2 * margin;
-  const ImVec2 from{at.x + margin, at.y + size.y - height - margin}, to{at.x + size.x - margin, at.y + size.y - margin};
+// A card that ends at `bottom`; gives its upper edge.
+float strip(const Pen& pen, float left, float bottom, float width, const std::string& text, ImU32 ink, ImU32 edge) {
+  const float margin = 0.6F * pen.unit, inner = width - 4 * margin, height = wrappedHeight(text, inner) + 2 * margin;
+  const ImVec2 from{left + margin, bottom - height - margin}, to{left + width - margin, bottom - margin};
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddRectFilled(from, to, IM_COL32(20, 22, 26, 235), 0.4F * pen.unit);
-  list->AddRect(from, to, IM_COL32(255, 190, 120, 255), 0.4F * pen.unit, 0, pen.hair());
-  wrapped({from.x + margin, from.y + margin}, inner, IM_COL32(255, 232, 205, 255), pen.view.said);
+  list->AddRect(from, to, edge, 0.4F * pen.unit, 0, pen.hair());
+  wrapped({from.x + margin, from.y + margin}, inner, ink, text);
+  return from.y;
+}
+
+// What only the simulation is waited for, and why the last press did nothing, at the display's lower edge.
+void overlay(const Pen& pen, ImVec2 at, ImVec2 size) {
+  const DeviceView& view = pen.view;
+  if (view.said.empty() && view.waits.empty()) return;
+  ImGui::SetCursorScreenPos(at);
+  if (ImGui::BeginChild("saying", size, false, ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoInputs)) {
+    float bottom = at.y + size.y;
+    constexpr ImU32 kCalm = IM_COL32(214, 220, 228, 255), kCalmEdge = IM_COL32(110, 118, 128, 255);
+    constexpr ImU32 kTold = IM_COL32(255, 232, 205, 255), kToldEdge = IM_COL32(255, 190, 120, 255);
+    if (!view.waits.empty()) bottom = strip(pen, at.x, bottom, size.x, view.waits, kCalm, kCalmEdge);
+    if (!view.said.empty()) strip(pen, at.x, bottom, size.x, view.said, kTold, kToldEdge);
+  }
+  ImGui::EndChild();
 }
 
 // What the device reads or computes, as a line below its title.
@@ -162,14 +178,36 @@ void workingLine(const Pen& pen, ImVec2 at, float width) {
 
 }  // namespace
 
+namespace {
+
+// Of its parts, in pixels. The display is as large as the room lets it be, and its proportions.
+struct Proportions {
+  float unit, bezel, keys, display_width, display_height;
+};
+
+Proportions proportionsOf(const BodyRow& body, float width, float height) {
+  Proportions p{};
+  p.unit = ImGui::GetFontSize() * 0.8F;
+  p.bezel = (body.tablet ? 1.4F : 1.1F) * p.unit;
+  p.keys = 3.6F * p.unit;
+  const float aspect = body.display_aspect > 0 ? static_cast<float>(body.display_aspect) : 0.62F;
+  p.display_height = std::max(12 * p.unit, height - 2 * p.bezel - p.keys);
+  p.display_width = std::max(14 * p.unit, std::min(width - 2 * p.bezel, p.display_height * aspect));
+  return p;
+}
+
+}  // namespace
+
+float deviceWidth(const Device& device, float height) {
+  const auto p = proportionsOf(device.type().definition.body, FLT_MAX, height);
+  return p.display_width + 2 * p.bezel;
+}
+
 std::optional<Press> drawDevice(const Device& device, DeviceView& view, float width, float height) {
   const Screen screen = device.screen();
   const auto& definition = device.type().definition;
   const Skin& skin = skinOf(definition.body.skin);
-  const float unit = ImGui::GetFontSize() * 0.8F, bezel = (definition.body.tablet ? 1.4F : 1.1F) * unit, keys = 3.6F * unit;
-  const float aspect = definition.body.display_aspect > 0 ? static_cast<float>(definition.body.display_aspect) : 0.62F;
-  const float display_height = std::max(12 * unit, height - 2 * bezel - keys);
-  const float display_width = std::max(14 * unit, std::min(width - 2 * bezel, display_height * aspect));
+  const auto [unit, bezel, keys, display_width, display_height] = proportionsOf(definition.body, width, height);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const ImVec2 at{corner.x + std::max(0.0F, (width - display_width - 2 * bezel) / 2), corner.y};
   const ImVec2 whole{display_width + 2 * bezel, display_height + 2 * bezel + keys};
@@ -193,7 +231,9 @@ std::optional<Press> drawDevice(const Device& device, DeviceView& view, float wi
     workingLine(pen, {inside.x, inside.y + 2.3F * unit}, display_width);
     ImGui::PushID(screen.id.c_str());
     ImGui::BeginDisabled(screen.has_dialog);
-    if (ImGui::BeginChild("screen", {display_width, display_height - 2.3F * unit - 0.45F * unit})) {
+    const float screen_height = display_height - 2.3F * unit - 0.45F * unit;
+    const float keyboard = view.keyboard.field.empty() ? 0 : keyboardHeight(pen, screen_height);
+    if (ImGui::BeginChild("screen", {display_width, screen_height - keyboard})) {
       ImGui::Dummy({0, 0.2F * unit});
       pen.left = 0.9F * unit;
       pen.width = ImGui::GetContentRegionAvail().x - 1.8F * unit;
@@ -204,11 +244,9 @@ std::optional<Press> drawDevice(const Device& device, DeviceView& view, float wi
     ImGui::EndChild();
     ImGui::EndDisabled();
     ImGui::PopID();
-    if (!pen.view.said.empty()) {
-      ImGui::SetCursorScreenPos(inside);
-      if (ImGui::BeginChild("saying", {display_width, display_height}, false, ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoInputs)) saying(pen, inside, {display_width, display_height});
-      ImGui::EndChild();
-    }
+    if (keyboard > 0) drawKeyboard(pen, {inside.x, inside.y + display_height - keyboard}, {display_width, keyboard});
+    if (!pen.editing) view.keyboard = {};
+    overlay(pen, inside, {display_width, display_height - keyboard});
     dim(screen.light, inside, {display_width, display_height});
     if (screen.has_dialog) {
       pen.press.reset();

@@ -19,6 +19,7 @@ struct Pen {
   float unit;
   float left = 0, width = 0;       // of the column that widgets stand in, in the window
   std::optional<Press> press = {};
+  bool editing = false;            // a field was drawn that is edited
 
   // The press, or the wish to have the widget explained.
   void pressed(const std::string& widget, const std::string& value = {}) {
@@ -39,6 +40,11 @@ ImU32 faded(ImU32 colour, bool enabled);
 void frame(const Pen& pen, const Widget& w, ImVec2 at, ImVec2 size);   // about the widget that a hint points to
 float wrappedHeight(const std::string& text, float width);
 void wrapped(ImVec2 at, float width, ImU32 colour, const std::string& text);
+
+// The keyboard below the screen, while a field is edited.
+float keyboardHeight(const Pen& pen, float room);
+void drawKeyboard(Pen& pen, ImVec2 at, ImVec2 size);
+bool keyboardIsPressed(const Pen& pen);         // the pointer is on it, and not on the key that ends the editing
 
 void caption(const Pen& pen, const std::string& text);
 void drawWidget(Pen& pen, const Widget& w);

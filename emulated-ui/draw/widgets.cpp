@@ -96,6 +96,47 @@ void choice(Pen& pen, const Widget& w) {
   ImGui::Dummy({0, 0});
 }
 
+// What was pressed on the keyboard of the screen, as if it were typed.
+int takeKeys(ImGuiInputTextCallbackData* data) {
+  auto& typed = *static_cast<std::string*>(data->UserData);
+  for (const char key : typed) {
+    const bool replaces = data->HasSelection();
+    if (replaces) {
+      const int from = std::min(data->SelectionStart, data->SelectionEnd);
+      data->DeleteChars(from, std::max(data->SelectionStart, data->SelectionEnd) - from);
+    }
+    if (key != '\b') {
+      data->InsertChars(data->CursorPos, &key, &key + 1);
+    } else if (!replaces && data->CursorPos > 0) {
+      int bytes = 1;
+      while (bytes < data->CursorPos && (data->Buf[data->CursorPos - bytes] & 0xC0) == 0x80) ++bytes;   // of one letter
+      data->DeleteChars(data->CursorPos - bytes, bytes);
+    }
+  }
+  typed.clear();
+  return 0;
+}
+
+// The field, and the keyboard below it while it is edited. A press on the keyboard is not one beside the field.
+bool typedField(Pen& pen, const Widget& w, std::string& text, bool number) {
+  auto& keyboard = pen.view.keyboard;
+  auto& io = ImGui::GetIO();
+  bool &clicked = io.MouseClicked[ImGuiMouseButton_Left], &down = io.MouseDown[ImGuiMouseButton_Left];
+  const bool edited = keyboard.field == w.id, was_clicked = clicked, was_down = down;
+  if (edited && keyboardIsPressed(pen)) clicked = down = false;
+  const auto flags = ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll |
+                     ImGuiInputTextFlags_CallbackAlways | (number ? ImGuiInputTextFlags_CharsDecimal : 0);
+  const bool entered = ImGui::InputText(("###" + w.id).c_str(), &text, flags, takeKeys, &keyboard.typed);
+  clicked = was_clicked, down = was_down;
+  if (edited && keyboard.fresh) ImGui::SetScrollHereY();
+  if (edited) keyboard.fresh = false;
+  if (!ImGui::IsItemActive()) return entered;
+  pen.editing = true;
+  if (!edited && !ImGui::IsMouseDown(ImGuiMouseButton_Left))   // else it would come up below the finger
+    keyboard = {w.id, number ? KeyPage::figures : KeyPage::letters, true, {}};
+  return entered;
+}
+
 // What is typed is taken over when the field is left or Enter is pressed.
 void entry(Pen& pen, const Widget& w, bool number) {
   caption(pen, w.unit.empty() ? w.label : w.label + " (" + w.unit + ")");
@@ -109,7 +150,7 @@ void entry(Pen& pen, const Widget& w, bool number) {
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.8F * pen.unit, (pen.touch() - ImGui::GetTextLineHeight()) / 2});
   const auto typing = pen.view.typing.find(w.id);
   std::string text = typing == pen.view.typing.end() ? w.value : typing->second;
-  const bool entered = ImGui::InputText(("###" + w.id).c_str(), &text, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll | (number ? ImGuiInputTextFlags_CharsDecimal : 0));
+  const bool entered = typedField(pen, w, text, number);
   if (ImGui::IsItemActive()) pen.view.typing[w.id] = text;
   if (entered || ImGui::IsItemDeactivated()) {
     if (text != w.value) pen.pressed(w.id, text);

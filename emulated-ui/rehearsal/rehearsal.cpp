@@ -160,8 +160,8 @@ void Rehearsal::pass(double seconds) {
 }
 
 Result<void> Rehearsal::passVirtually(double seconds, Progress& progress) {
-  pass(0);
   while (seconds > 0) {
+    pass(0);   // what was ordered meanwhile begins
     while (host_->task() != nullptr) {
       if (auto going = progress.check(); !going) {
         host_->task()->progress().cancel();

@@ -207,6 +207,24 @@ TEST_F(Gui, ShowsAnErrorUntilItIsClosed) {
   EXPECT_TRUE(editor.session.errors().empty());
 }
 
+TEST_F(Gui, AMessageThatTheLogHasNoRoomForIsWholeInItsTooltip) {
+  std::string text = "Scanned";
+  for (int i = 0; i < 60; ++i) text += " word" + std::to_string(i);
+  editor.session.say(LogLevel::note, "", text);
+  editor.workspace = Workspace::instrument;
+  gui.frames(3);
+  const ImGuiWindow* panel = nullptr;
+  for (const auto* window : ImGui::GetCurrentContext()->Windows)
+    if (window->WasActive && std::string(window->Name).find("entries") != std::string::npos) panel = window;
+  ASSERT_NE(panel, nullptr);
+  gui.moveTo({panel->Pos.x + panel->Size.x - 60, panel->Pos.y + ImGui::GetTextLineHeight()});
+  gui.frames(2);
+  const auto* tooltip = ImGui::FindWindowByName("##Tooltip_00");
+  ASSERT_NE(tooltip, nullptr);
+  EXPECT_TRUE(tooltip->WasActive || tooltip->Active);
+  EXPECT_GT(tooltip->Size.y, 3 * ImGui::GetTextLineHeight()) << "all of it, in lines";
+}
+
 TEST_F(Gui, TypingDoesNotTriggerShortcuts) {
   open();
   const auto* search = gui.find("###search");

@@ -57,6 +57,25 @@ TEST(Clock, GoesOnWhileItWaitsForPeople) {
   EXPECT_NEAR(b->state().clock_s, 5040, 1e-9);
 }
 
+TEST(Clock, TellsWhetherAnythingThatTakesTimeGoesOn) {
+  TestDevice d("faro-focus");
+  EXPECT_TRUE(d->idles());
+  ASSERT_TRUE(d.press({"power"}));
+  EXPECT_FALSE(d->idles()) << "it starts";
+  d->tick(200);
+  EXPECT_TRUE(d->idles());
+  ASSERT_TRUE(d->hand("stand_at", "S1"));
+  ASSERT_TRUE(d.press(kStories[1].presses));
+  ASSERT_TRUE(d->takeOrder());
+  d->tick(20);
+  EXPECT_FALSE(d->idles()) << "the laser turns";
+  ASSERT_TRUE(d.press({"pause"}));
+  EXPECT_FALSE(d->idles()) << "a person holds it up, whose time is real";
+  ASSERT_TRUE(d.press({"resume"}));
+  for (int i = 0; i < 2000; ++i) d->tick(1);
+  EXPECT_TRUE(d->idles()) << "its time is over, only the simulation is waited for";
+}
+
 TEST(Clock, ADeviceThatIsOffUsesNoBattery) {
   TestDevice d("faro-focus");
   d->tick(10000);

@@ -100,6 +100,94 @@ TEST_F(Draw, ATrembleIsStillATap) {
   EXPECT_TRUE(press);
 }
 
+// The place of a key, and a tap on it.
+std::optional<KeyCap> capOf(const Keyboard& keyboard, const std::string& key) {
+  for (const auto& cap : keyCaps(keyboard.page, keyboard.width, keyboard.height, 2))
+    if (cap.key == key) return cap;
+  return std::nullopt;
+}
+
+class Typing : public Draw {
+ protected:
+  // Taps down the page until a field has the keyboard.
+  void edit(const std::string& screen, const std::string& field) {
+    open(screen);
+    for (float y = 60; y < kHeight && view.keyboard.field != field; y += 10) (void)finger({kWidth / 2, y}, 0);
+    ASSERT_EQ(view.keyboard.field, field);
+    (void)frame();
+  }
+  std::optional<Press> key(const std::string& name) {
+    const auto cap = capOf(view.keyboard, name);
+    EXPECT_TRUE(cap) << name;
+    if (!cap) return std::nullopt;
+    return finger({view.keyboard.left + cap->x + cap->width / 2, view.keyboard.top + cap->y + cap->height / 2}, 0);
+  }
+};
+
+TEST_F(Typing, AFieldBringsAKeyboardAndItsOkKeyTakesOverWhatWasTyped) {
+  edit("new_project", "name");
+  for (const char* name : {"shift", "h", "a", "l", "back", "l", "l", " ", "signs", "@", "letters", "7"})
+    EXPECT_FALSE(key(name)) << name;
+  const auto press = key("ok");
+  ASSERT_TRUE(press);
+  EXPECT_EQ(press->widget, "name");
+  EXPECT_EQ(press->value, "Hall @7") << "what was there before was selected, and is replaced";
+  (void)frame();
+  EXPECT_EQ(view.keyboard.field, "") << "it goes when nothing is edited";
+}
+
+TEST_F(Typing, TheRealKeyboardGoesOnBesideIt) {
+  edit("new_project", "name");
+  EXPECT_FALSE(key("a"));
+  ImGui::GetIO().AddInputCharactersUTF8("ü");
+  EXPECT_FALSE(frame());
+  EXPECT_FALSE(key("c"));
+  EXPECT_FALSE(key("back"));
+  EXPECT_FALSE(key("back")) << "one letter, though it has two bytes";
+  EXPECT_FALSE(key("b"));
+  const auto press = key("ok");
+  ASSERT_TRUE(press);
+  EXPECT_EQ(press->value, "ab");
+}
+
+TEST_F(Typing, AFieldForANumberHasFigures) {
+  edit("scan_area", "horizontal_from");
+  EXPECT_EQ(view.keyboard.page, KeyPage::figures);
+  for (const char* name : {"1", "2", ".", "5"}) EXPECT_FALSE(key(name)) << name;
+  const auto press = key("ok");
+  ASSERT_TRUE(press);
+  EXPECT_EQ(press->value, "12.5");
+}
+
+TEST_F(Typing, TheFieldStaysAboveTheKeyboard) {
+  edit("scan_area", "vertical_to");
+  (void)frame();
+  const ImRect page = ImGui::GetCurrentContext()->ActiveIdWindow->Rect();
+  EXPECT_LE(page.Max.y, view.keyboard.top + 1) << "the page ends where the keyboard begins";
+  EXPECT_GE(ImGui::GetCurrentContext()->ActiveIdWindow->Scroll.y, 1) << "the last field of the page has moved up";
+}
+
+TEST(Keyboard, HasItsKeysBesideOneAnotherAndLargeEnough) {
+  constexpr float kWide = 250, kGap = 2.5F;   // a display of 25 units with 10 pixels each
+  for (const auto page : {KeyPage::letters, KeyPage::capitals, KeyPage::signs, KeyPage::figures}) {
+    const float height = static_cast<float>(keyRows(page)) * 28.5F + kGap;
+    const auto caps = keyCaps(page, kWide, height, kGap);
+    for (std::size_t i = 0; i < caps.size(); ++i) {
+      const auto& a = caps[i];
+      EXPECT_GE(a.x, 0) << a.key;
+      EXPECT_LE(a.x + a.width, kWide) << a.key;
+      EXPECT_LE(a.y + a.height, height) << a.key;
+      EXPECT_GE(a.width, 22) << a.key << ": nine tenths of a finger's two and a half units";
+      EXPECT_GE(a.height, 25) << a.key;
+      for (std::size_t j = 0; j < i; ++j) {
+        const auto& b = caps[j];
+        const bool beside = a.x >= b.x + b.width || b.x >= a.x + a.width;
+        EXPECT_TRUE(beside || a.y >= b.y + b.height || b.y >= a.y + a.height) << a.key << ' ' << b.key;
+      }
+    }
+  }
+}
+
 double luminance(unsigned colour) {
   const auto channel = [&](int shift) {
     const double v = (colour >> shift & 255U) / 255.0;

@@ -58,6 +58,17 @@ TEST_F(Focus, MovesTheQualityWhenAResolutionNeedsIt) {
   EXPECT_EQ(d.fact("setting.quality"), "4x");
 }
 
+TEST_F(Focus, SaysInTheDevicesLanguageWhatAPressMovedBesides) {
+  start();
+  ASSERT_TRUE(d.press({"parameters", "resolution_quality", "resolution=1/4", "quality=3x", "resolution=1/20"}));
+  EXPECT_EQ(d->state().moved_along, "Quality went from 3x to 4x: 1/20 does not permit 3x.");
+  ASSERT_TRUE(d.press({"resolution=1/4"}));
+  EXPECT_EQ(d->state().moved_along, "") << "nothing but what was pressed";
+  d->change().language = "de";
+  ASSERT_TRUE(d.press({"resolution=1/4", "quality=2x", "resolution=1/16"}));
+  EXPECT_EQ(d->state().moved_along, "Qualität ging von 2x auf 3x: 1/16 lässt 2x nicht zu.");
+}
+
 TEST_F(Focus, SpinsUpScansPhotographsAndSavesUnderItsBaseName) {
   ready();
   ASSERT_TRUE(d.press({"parameters", "colour=on", "back", "start_scan"}));

@@ -116,6 +116,24 @@ TEST_F(Host, ASlowComputerDoesNotEmptyTheBattery) {
   EXPECT_LT(used_s, 60 + takes_s + 100);
 }
 
+TEST_F(Host, TheClockStandsWhileWhatWasScannedIsOnlyRead) {
+  press({"scan"});
+  const auto stored = runUntilIdle(1);
+  ASSERT_TRUE(stored);
+  document_ = stored->document;
+  const double battery = device().state().around.battery, clock_s = device().state().clock_s;
+  press({"look"});
+  (void)host_.update(document_, folder_.path() / "scans", 60);
+  ASSERT_NE(host_.task(), nullptr) << "the preview is read";
+  EXPECT_TRUE(host_.clockStands());
+  EXPECT_EQ(device().state().clock_s, clock_s);
+  EXPECT_EQ(device().state().around.battery, battery);
+  runOrder();
+  EXPECT_FALSE(host_.clockStands());
+  (void)host_.update(document_, folder_.path() / "scans", 60);
+  EXPECT_NEAR(device().state().clock_s, clock_s + 60 * host_.time_factor, 1);
+}
+
 TEST_F(Host, AStoppedScanLeavesNoFileAndNoSetup) {
   press({"scan"});
   host_.time_factor = 0.001;

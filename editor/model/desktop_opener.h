@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <future>
+#include <string>
+
+namespace standpoint {
+
+// Opens files and folders with what the desktop has for them. Nothing waits for the program that is started.
+class DesktopOpener {
+ public:
+  // `program` takes the path as its only argument.
+  explicit DesktopOpener(std::string program = "xdg-open") : program_(std::move(program)) {}
+
+  // `wake` is called from another thread when problem() may have changed.
+  void open(const std::filesystem::path& path, std::function<void()> wake);
+  // What went wrong with the last `open`, once that is known; empty else. Names the path.
+  const std::string& problem();
+
+ private:
+  std::string program_, problem_;
+  std::filesystem::path path_;
+  std::future<int> ended_;   // with the exit status of the program, or -1
+};
+
+}  // namespace standpoint

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cstdlib>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "demo_verbs.h"
+#include "editor/instrument/desk.h"
+#include "editor/instrument/instrument.h"
+#include "editor/shell/theme.h"
+#include "item_probe.h"
+#include "project/project_files.h"
+#include "tests/project/support.h"
+
+namespace standpoint {
+namespace {
+
+// The instrument's workspace, with results in a folder of the test's own.
+class InstrumentGui : public testing::Test {
+ protected:
+  InstrumentGui() {
+    setenv("HOME", folder_.path().c_str(), 1);
+    attachInstrument(editor);
+    editor.workspace = Workspace::instrument;
+  }
+  void openTab(const std::string& label) {
+    gui.frames(3);
+    ASSERT_TRUE(gui.click(label));
+    gui.frames(2);
+  }
+  void begin(const std::string& exercise) {
+    openTab("Exercise");
+    ASSERT_TRUE(gui.click("###" + exercise));
+    gui.settle();
+    ASSERT_NE(gui.find("###finish"), nullptr);
+  }
+
+  TemporaryFolder folder_;
+  Editor editor{verbsWithDemo(), [] {}};
+  GuiDriver gui{editor};
+};
+
+TEST_F(InstrumentGui, ShowsTheWholeNameOfEveryExerciseAtEverySize) {
+  const auto known = knownExercises();
+  ASSERT_TRUE(known);
+  for (const float scale : {1.0F, 1.5F, 2.0F}) {
+    editor.scale = scale;
+    applyTheme(scale);
+    editor.fonts = buildFonts(scale);
+    unsigned char* pixels = nullptr;
+    int w = 0, h = 0;
+    ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &w, &h);
+    openTab("Exercise");
+    int seen = 0;
+    for (const auto& [exercise, file] : *known) {
+      const auto* button = gui.find("###" + exercise.id);
+      if (button == nullptr) continue;
+      ++seen;
+      const auto padding = ImGui::GetStyle().FramePadding;
+      const auto text = exercise.id + "  " + exercise.title.in("en");
+      const float needs = ImGui::CalcTextSize(text.c_str(), nullptr, false, button->rect.GetWidth() - 2 * padding.x).y;
+      EXPECT_GE(button->rect.GetHeight() + 0.5F, needs + 2 * padding.y) << text << " at " << scale;
+    }
+    EXPECT_GT(seen, 5) << scale;
+  }
+}
+
+TEST_F(InstrumentGui, KeepsItsButtonsInPlaceWhenAHintIsShown) {
+  begin("T-RTC360");
+  const auto before = gui.find("###finish")->rect;
+  ASSERT_TRUE(gui.click("###hinton")) << "the first step's";
+  gui.frames(2);
+  EXPECT_EQ(gui.find("###hinton"), nullptr);
+  const auto after = gui.find("###finish")->rect;
+  EXPECT_EQ(before.Min.y, after.Min.y);
+  EXPECT_EQ(before.Min.x, after.Min.x);
+}
+
+TEST_F(InstrumentGui, TellsWhatIsMarkedOnlyWhereHelpIsAllowed) {
+  begin("T-RTC360");
+  EXPECT_NE(gui.find("###demands"), nullptr);
+  ASSERT_TRUE(gui.click("###leave"));
+  gui.settle();
+  ASSERT_TRUE(gui.click("##guidance"));
+  ASSERT_TRUE(gui.click("Test"));
+  begin("T-RTC360");
+  EXPECT_EQ(gui.find("###demands"), nullptr);
+}
+
+TEST_F(InstrumentGui, OffersTheCertificateAndANewStartOnceItIsMarked) {
+  begin("T-RTC360");
+  EXPECT_EQ(gui.find("###certificate"), nullptr);
+  ASSERT_TRUE(gui.click("###finish"));
+  gui.settle();
+  EXPECT_EQ(gui.find("###finish"), nullptr) << "it has ended";
+  ASSERT_NE(gui.find("###certificate"), nullptr);
+  ASSERT_TRUE(gui.click("###again"));
+  gui.settle();
+  EXPECT_NE(gui.find("###finish"), nullptr);
+  EXPECT_EQ(gui.find("###certificate"), nullptr);
+}
+
+TEST_F(InstrumentGui, LocksOnlyTheFieldsOfDeviceAndScannerDuringAnExercise) {
+  begin("T-RTC360");
+  const auto* device = gui.find("##device");
+  ASSERT_NE(device, nullptr);
+  EXPECT_TRUE(device->disabled);
+  ASSERT_TRUE(gui.click("###leave"));
+  gui.settle();
+  EXPECT_FALSE(gui.find("##device")->disabled);
+}
+
+// The desk without a window.
+class Desk : public testing::Test {
+ protected:
+  Desk() { setenv("HOME", folder_.path().c_str(), 1); }
+  void begin(const std::string& id) {
+    const auto known = findExercise(id);
+    ASSERT_TRUE(known);
+    chooseDevice(desk, editor, *desk.device, {});
+    startExercise(desk, editor, known->exercise);
+    ASSERT_NE(desk.rehearsal, nullptr) << desk.refused;
+    editor.session.wait();
+    desk.was_busy = true;
+  }
+  void pass(int milliseconds) {
+    for (int i = 0; i < milliseconds; i += 10) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      advance(desk, editor);
+    }
+  }
+  TemporaryFolder folder_;
+  Editor editor{verbsWithDemo(), [] {}};
+  InstrumentDesk desk;
+};
+
+TEST_F(Desk, NothingIsDoneAndNoTimePassesOnceAnExerciseIsMarked) {
+  begin("T-RTC360");
+  act(desk, {RehearsalAction::Kind::press, "power", "", 0, {}});
+  EXPECT_EQ(desk.view.said, "");
+  pass(100);
+  EXPECT_GT(desk.rehearsal->seconds(), 0);
+  finishExercise(desk, editor);
+  EXPECT_TRUE(desk.ended());
+  EXPECT_TRUE(std::filesystem::exists(desk.marks_folder / "result.html"));
+  const double seconds = desk.rehearsal->seconds(), battery = desk.shown()->state().around.battery;
+  pass(200);
+  EXPECT_EQ(desk.rehearsal->seconds(), seconds);
+  EXPECT_EQ(desk.shown()->state().around.battery, battery);
+  const auto phase = desk.shown()->state().phase;
+  act(desk, {RehearsalAction::Kind::press, "power", "", 0, {}});
+  EXPECT_EQ(desk.shown()->state().phase, phase);
+  EXPECT_NE(desk.view.said.find("ended"), std::string::npos);
+}
+
+TEST_F(Desk, WhatWasDoneToTheEnvironmentIsSavedWhenTheExerciseIsLeft) {
+  begin("T-RTC360");
+  const auto folder = desk.rehearsal->folder();
+  Progress quiet;
+  const nlohmann::json options = {{"add", "S9"}, {"on", {4.0, 2.0, 0.0}}};
+  ASSERT_TRUE(desk.rehearsal->act({RehearsalAction::Kind::verb, "station", "", 0, options}, quiet));
+  advance(desk, editor);
+  EXPECT_TRUE(editor.session.modified());
+  leaveExercise(desk, editor);
+  editor.session.wait();
+  EXPECT_FALSE(editor.session.modified());
+  EXPECT_TRUE(editor.session.errors().empty());
+  const auto again = loadProject(folder / "project", quiet);
+  ASSERT_TRUE(again) << describe(again.error());
+  const auto& stations = again->job->stations;
+  EXPECT_TRUE(std::any_of(stations.begin(), stations.end(), [](const Station& s) { return s.name == "S9"; }));
+}
+
+}  // namespace
+}  // namespace standpoint
