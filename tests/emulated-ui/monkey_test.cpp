@@ -76,12 +76,7 @@ class Monkey {
   }
 
   FittedTarget sighted(const std::string& name) {
-    FittedTarget t;
-    t.name = name;
-    t.kind = "sphere";
-    t.points = 80;
-    t.range_m = 5;
-    t.residual_m = 0.001;
+    auto t = fittedSphere(name, 80);
     t.found = next(3) != 0;
     return t;
   }
