@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -101,6 +102,11 @@ std::string levelState(const Device& d) {
   return t <= body(d).tilt_full_deg ? "good" : t <= body(d).tilt_limit_deg ? "reduced" : "out";
 }
 
+Fact measured(const Device& d, const char* entry) {
+  const auto text = d.entry(entry);
+  return text.empty() ? wordFact("") : numberFact(std::strtod(text.c_str(), nullptr));
+}
+
 }  // namespace
 
 const std::vector<FactRow>& sharedFacts() {
@@ -175,11 +181,12 @@ const std::vector<FactRow>& sharedFacts() {
       {"shown.seconds", Unit::seconds, numbers(0, 1e9), [](const Device& d) { return numberFact(d.shownSetup() == nullptr ? 0 : d.shownSetup()->instrument_seconds); }, ""},
       {"shown.targets", Unit::none, numbers(0, 1e4), [](const Device& d) { return numberFact(foundTargets(d.shownSetup())); }, "targets found in the setup on view"},
       {"shown.transferred", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(d.shownSetup() != nullptr && d.shownSetup()->transferred); }, ""},
-      {"measured", Unit::metres, numbers(0, 1e6),
-       [](const Device& d) {
-         const auto found = d.state().entries.find("measured");
-         return found == d.state().entries.end() ? wordFact("") : numberFact(std::strtod(found->second.c_str(), nullptr));
-       }, "metres between the two points picked in the preview"},
+      {"measured", Unit::metres, numbers(0, 1e6), [](const Device& d) { return measured(d, "measured"); },
+       "metres between the two points picked in the preview"},
+      {"measured.horizontal", Unit::metres, numbers(0, 1e6),
+       [](const Device& d) { return measured(d, "measured_horizontal"); }, "their distance in plan"},
+      {"measured.vertical", Unit::metres, numbers(-1e6, 1e6),
+       [](const Device& d) { return measured(d, "measured_vertical"); }, "how much the second is higher"},
       {"expected.seconds", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(d.expected().scan_seconds + d.expected().imaging_seconds); }, "the next scan with its pictures"},
       {"expected.scan", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(d.expected().scan_seconds); }, "of the laser alone"},
       {"expected.pass", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(d.expected().scan_seconds / d.expected().passes); }, "of one pass of the laser"},

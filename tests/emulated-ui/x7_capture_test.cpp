@@ -26,9 +26,20 @@ TEST_F(X9, HasItsOwnListOfModes) {
   EXPECT_EQ(d.shows("expected_time"), "1:50") << "a full scan in under 2 minutes";
 }
 
-TEST_F(X7, OffersNoHighSensitivityBecauseItsSpacingsAreNotKnown) {
+// 4, 7 and 15 minutes [G2]; their spacings are those of the Standard duration before [P].
+TEST_F(X7, MeasuresLongerOnEachPointInHighSensitivity) {
   ready();
-  EXPECT_TRUE(d.refuses("mode", "high_sensitivity"));
+  ASSERT_TRUE(d.press({"duration=7min", "mode=high_sensitivity"}));
+  EXPECT_EQ(d.fact("setting.duration"), "7min_high") << "the same time, with fewer points";
+  EXPECT_EQ(d.shows("expected_time"), "7:00");
+  EXPECT_NEAR(d->fact("expected.spacing")->number.value(), 9, 0.01);
+  EXPECT_NEAR(d->fact("expected.noise")->number.value(), 0.7071, 1e-4);
+  EXPECT_LT(d->expected().reference_reflectivity, 0.7);
+  EXPECT_TRUE(d.refuses("duration", "2min")) << "it begins at four minutes";
+  const auto screen = d->screen();
+  EXPECT_EQ(findWidget(screen, "mode_list")->options.size(), 3U);
+  ASSERT_TRUE(d.press({"mode=standard"}));
+  EXPECT_EQ(d.fact("setting.duration"), "7min");
 }
 
 TEST_F(X7, TakesTimeForPicturesAndTwiceAsMuchWithHdr) {

@@ -43,6 +43,27 @@ TEST_F(X7, ShowsHowMuchOfTheStationViewIsUnmeasured) {
   EXPECT_EQ(d.shows("unmeasured"), "25 %");
 }
 
+// Slope distance, horizontal distance, vertical clearance [S13].
+TEST_F(X7, MeasuresSlopePlanAndHeightBetweenTwoTaps) {
+  ready();
+  scanAt("S1");
+  auto picture = std::make_shared<ScanPreview>();
+  picture->columns = 2, picture->rows = 1;
+  picture->x_m = {1, 4};
+  picture->y_m = {1, 5};
+  picture->z_m = {2, -10};
+  picture->grey.assign(2, 0);
+  d->shownSetup()->preview = picture;
+  ASSERT_TRUE(d.press({"preview=0.1,0.5"}));
+  EXPECT_EQ(d.shows("measured_vertical"), "–");
+  ASSERT_TRUE(d.press({"preview=0.9,0.5"}));
+  EXPECT_EQ(d.shows("measured"), "13.00 m");
+  EXPECT_EQ(d.shows("measured_horizontal"), "5.00 m");
+  EXPECT_EQ(d.shows("measured_vertical"), "-12.00 m");
+  ASSERT_TRUE(d.press({"preview=0.1,0.5"}));
+  EXPECT_EQ(d.shows("measured_horizontal"), "–") << "a third tap begins anew";
+}
+
 TEST_F(X7, KeepsAnnotationsWithTheirStation) {
   ready();
   scanAt("S1");
