@@ -132,6 +132,16 @@ Result<void> clearView(Device& d, const std::string&) {
   return {};
 }
 
+// Beside the scanner, or behind it.
+Result<void> standInView(Device& d, const std::string&) {
+  d.change().around.operator_in_view = true;
+  return {};
+}
+Result<void> stepBehind(Device& d, const std::string&) {
+  d.change().around.operator_in_view = false;
+  return {};
+}
+
 Result<void> closeCover(Device& d, const std::string&) {
   d.change().around.cover_open = false;
   return {};
@@ -154,7 +164,8 @@ const std::vector<HandRow>& handRows() {
       {"level", "", level},                {"tilt", "x,y in degrees", tiltTo}, {"wipe_optics", "", wipeOptics},
       {"stand_at", "station", standAt},    {"push", "", push},
       {"go_near", "", goNear},             {"clear_view", "", clearView},
-      {"close_cover", "", closeCover},
+      {"close_cover", "", closeCover},     {"stand_in_view", "", standInView},
+      {"step_behind", "", stepBehind},
   };
   return rows;
 }
@@ -217,6 +228,7 @@ const std::vector<TroubleRow>& troubleRows() {
        }},
       {"target_hidden", [](Device& d) { d.change().around.targets_visible = false; }},
       {"symmetrical_room", [](Device& d) { d.change().values["false_start"] = "180"; }},   // degrees
+      {"registration_fails", [](Device& d) { d.change().around.registration_fails = true; }},
       {"somebody_walks", [](Device& d) { d.change().around.somebody_walks = true; }},
       {"cover_open", [](Device& d) { d.change().around.cover_open = true; }},
       {"too_near", [](Device& d) { d.change().around.nearest_m = 0.3; }},
