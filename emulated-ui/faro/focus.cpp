@@ -128,7 +128,7 @@ const FactDomain kNumber{{}, true, 0, 1e9};
 const DeviceRoles kRoles = {
     .working = kWorking, .measuring = "scanning", .camera = "spin_up paused photographing", .holding = kHolding, .kept = "saving",
     .scans = "view_scans", .tools = "service",
-    .tilted = "level != good and value.inclinometer == on", .near = "nearest < 0.6", .first = "spin_up",
+    .tilted = "level != good and value.inclinometer == on", .first = "spin_up",
     .begin = beginScan,
     .marks = {{"S9", "power_key"},
               {"G1", "power_key/shut_down shut_down elapsed start start_anyway start/card_absent start/card_locked "

@@ -305,7 +305,7 @@ void addStart(std::vector<Transition>& rows, const char* event, void (*by)(Devic
   ask("dust == yes and generation == g2", "dust_question", "S11");
   ask("warm == no", "not_warm_question", "P");
   ask("level == out", "tilt_question", "P");
-  ask("nearest < 0.6", "near_question", "P");
+  ask("nearest < @nearest.least", "near_question", "P");
   if (std::string(event) == "key") {
     rows.push_back({kIdle, event, "value.self_timer > 0", "self_timer", "", "", armTimer, mark});
     rows.push_back({kIdle, event, "button.imaging == yes", "shooting", "", "", beginByKey, mark});

@@ -34,7 +34,10 @@ const DeviceRoles kRoles = {
     .rest = kIdle, .idle = kIdle, .working = kWorking, .measuring = kWorking, .laser = kLaser, .camera = "photographing", .holding = kHolding,
     .kept = "finishing",
     .scans = "setups", .tools = "tools",
-    .tilted = "level == out", .near = "nearest < 0.5", .first = "scanning_pass_1", .begin = beginScan,
+    .first_questions = {{kIdle, "start", "setting.scan == off and imaging == no", "", "", "nothing_chosen", nullptr,
+                         "P"}},
+    .last_questions = {{kIdle, "start", "setting.scan == off", "photographing", "", "", beginScan, "G1"}},
+    .tilted = "level == out", .first = "scanning_pass_1", .begin = beginScan,
     .marks = {{"G1", "power_key elapsed shut_down start start/card_absent start/card_full start/battery_critical "
                      "start/temperature_question start/tilt_question moved blocked temperature/temperature_warning "
                      "battery_low linked/link_joined linked/link_failed delete/delete_question delete_confirmed "
