@@ -152,6 +152,19 @@ void deleteShownSetup(Device& device) {
   s.shown = -1;
 }
 
+void deleteOpenProject(Device& device) {
+  auto& s = device.change();
+  const auto* project = device.project();
+  if (project == nullptr) return;
+  for (const auto& setup : project->setups) {
+    s.around.card_used_bytes = std::max(0.0, s.around.card_used_bytes - setup.bytes);
+    device.note("setup_deleted", setup.name);
+  }
+  device.note("project_deleted", project->name);
+  s.projects.erase(s.projects.begin() + s.project);
+  s.project = s.shown = -1;
+}
+
 void formatCard(Device& device) {
   auto& s = device.change();
   int lost = 0;

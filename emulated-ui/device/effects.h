@@ -20,6 +20,7 @@ void loseTracking(Device& device);
 void resetTracking(Device& device);  // it watches the way from here on
 
 void deleteShownSetup(Device& device);
+void deleteOpenProject(Device& device);   // with its setups
 // Everything on the card is gone; what was not copied before is lost, as in the field.
 void formatCard(Device& device);
 

@@ -56,6 +56,10 @@ double spacing(const Device& d) {
   return (e.azimuth_to_rad - e.azimuth_from_rad) / std::max(1U, e.columns) * 10 * 1000;
 }
 
+double points(const Device& d) {
+  return d.expected().laser ? static_cast<double>(d.expected().columns) * d.expected().rows : 0;
+}
+
 int nextNumber(const Device& d) {
   const auto* p = d.project();
   if (p == nullptr) return 1;
@@ -141,15 +145,15 @@ const std::vector<FactRow>& sharedFacts() {
       {"station", Unit::none, anyWord(), [](const Device& d) { return wordFact(around(d).station); }, "where the tripod stands"},
       {"standing", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(!around(d).station.empty()); }, "the tripod stands at a station"},
       {"nearest", Unit::metres, numbers(0, 1e6), [](const Device& d) { return numberFact(around(d).nearest_m); }, "metres to the nearest surface"},
-      {"tracking", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(around(d).tracking); }, "the way between setups is followed"},
-      {"wlan", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(around(d).wlan); }, "the wireless link works"},
-      {"moved", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(d.state().moved); }, "the tripod was pushed during this scan"},
-      {"project", Unit::none, anyWord(), [](const Device& d) { return wordFact(d.project() == nullptr ? "" : d.project()->name); }, "name of the open project or job"},
       {"nearest.least", Unit::metres, numbers(0, 1e6),
        [](const Device& d) { return numberFact(d.type().instrument.min_range_m); },
        "the shortest range of the data sheet"},
       {"operator.in_view", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(around(d).operator_in_view); },
        "who scans stays where the scanner sees them"},
+      {"tracking", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(around(d).tracking); }, "the way between setups is followed"},
+      {"wlan", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(around(d).wlan); }, "the wireless link works"},
+      {"moved", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(d.state().moved); }, "the tripod was pushed during this scan"},
+      {"project", Unit::none, anyWord(), [](const Device& d) { return wordFact(d.project() == nullptr ? "" : d.project()->name); }, "name of the open project or job"},
       {"project.open", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(d.project() != nullptr); }, "a project is open"},
       {"project.base", Unit::none, anyWord(), [](const Device& d) { return wordFact(d.project() == nullptr ? "" : d.project()->base); }, "base of the scans' names"},
       {"project.cluster", Unit::none, anyWord(), [](const Device& d) { return wordFact(d.project() == nullptr ? "" : d.project()->cluster); }, "folder of the next scans"},
@@ -198,7 +202,8 @@ const std::vector<FactRow>& sharedFacts() {
       {"expected.overhead", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(d.type().instrument.overhead_s); }, "of a scan's time, before and after the sweep"},
       {"expected.sweep", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(std::max(0.0, d.expected().scan_seconds - d.type().instrument.overhead_s)); }, "of the head's turn"},
       {"expected.imaging", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(d.expected().imaging_seconds); }, "of the pictures"},
-      {"expected.points", Unit::points, numbers(0, 1e12), [](const Device& d) { return numberFact(static_cast<double>(d.expected().columns) * d.expected().rows); }, ""},
+      {"expected.points", Unit::points, numbers(0, 1e12), [](const Device& d) { return numberFact(points(d)); },
+       "none with pictures only"},
       {"expected.columns", Unit::none, numbers(0, 1e9), [](const Device& d) { return numberFact(d.expected().columns); }, ""},
       {"expected.rows", Unit::none, numbers(0, 1e9), [](const Device& d) { return numberFact(d.expected().rows); }, ""},
       {"expected.bytes", Unit::bytes, numbers(0, 1e16), [](const Device& d) { return numberFact(d.expectedBytes()); }, ""},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "emulated-ui/leica/rtc360.h"
 
+#include <string>
+
 #include "emulated-ui/device/default_transitions.h"
 #include "emulated-ui/device/effects.h"
 
@@ -24,6 +26,15 @@ void storeAndLink(Device& device) {
 void storeWithoutLink(Device& device) {
   storeScan(device);
   resetTracking(device);
+}
+
+// What the next press of the scan key does.
+std::string summary(const Device& device) {
+  const bool scans = device.setting("scan") == "on", shoots = device.expected().imaging;
+  std::string text = scans ? device.shown("setting.resolution") : "";
+  if (scans && device.expected().passes == 2) text += " · " + device.word("double_scan");
+  if (shoots) text += (text.empty() ? "" : " · ") + device.word("images");
+  return text;
 }
 
 void prepare(const Device& device, ScanOrder& order) {
@@ -50,6 +61,8 @@ const DeviceProgram kProgram = {
     "leica/rtc360.json",
     withDefaults(
         {
+            // With the scan off the laser stays off.
+            {kIdle, "start_anyway", "setting.scan == off", "photographing", "", "", beginScan, "P"},
             {"scanning_pass_1", "elapsed", "passes == 2", "scanning_pass_2", "", "", nullptr, "G1"},
             {kLaser, "elapsed", "imaging == yes", "photographing", "", "", nullptr, "P"},
             {kLaser, "elapsed", "data == yes", "storing", "", "", nullptr, "P"},
@@ -61,10 +74,13 @@ const DeviceProgram kProgram = {
             {"vis_tracking", "set_down", "", "idle", "home", "link_lost", loseTracking, "G1"},
             {"vis_tracking", "tracking_lost", "", "", "", "tracking_lost", nullptr, "G1"},
             {"finishing", "elapsed", "data == yes", "storing", "", "", nullptr, "P"},
+            {kIdle, "delete_job", "", "", "", "delete_job_question", nullptr, "G1"},
+            {kIdle, "delete_job_confirmed", "", "", "jobs", "", deleteOpenProject, "G1"},
         },
         kRoles),
     {},
-    {},
+    {{"settings.summary", FactUnit::none, {}, [](const Device& d) { return wordFact(summary(d)); },
+      "of the next scan: resolution, double scan, images"}},
     {},
     prepare,
 };

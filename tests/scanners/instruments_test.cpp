@@ -210,7 +210,7 @@ TEST(Sensitivity, OfHighTakesTwiceTheTimeForLessNoise) {
 
 TEST(Settings, AreRefusedWithWhatIsAllowed) {
   EXPECT_THAT(refused("leica-rtc360", {{"resolution", "1mm"}}).message, HasSubstr("12mm, 6mm, 3mm"));
-  EXPECT_THAT(refused("leica-rtc360", {{"quality", "3x"}}).message, HasSubstr("resolution, double_scan"));
+  EXPECT_THAT(refused("leica-rtc360", {{"quality", "3x"}}).message, HasSubstr("resolution, scan, double_scan"));
   EXPECT_THAT(refused("leica-rtc360", {{"images", "on"}, {"images", "off"}}).message, HasSubstr("twice"));
   EXPECT_THAT(refused("faro-focus-s350", {{"vertical_from", "-75"}}).message, HasSubstr("from -60 to 90"));
   EXPECT_THAT(refused("faro-focus-s350", {{"vertical_from", "nan"}}).message, HasSubstr("not allowed"));
