@@ -97,6 +97,9 @@ TEST_F(Focus, ManagesProfilesSensorsAndWlan) {
   EXPECT_EQ(d.shows("wlan_status"), "Off");
   ASSERT_TRUE(d.press({"manage", "wlan=on", "profile", "back", "sensors", "back", "back"}));
   EXPECT_EQ(d.shows("wlan_status"), "On");
+  ASSERT_TRUE(d.press({"manage", "card_page"}));
+  EXPECT_EQ(d.shows("address"), "192.168.43.1");
+  ASSERT_TRUE(d.press({"back", "back"}));
   EXPECT_EQ(d.shows("mains_status"), "No");
 }
 
