@@ -30,13 +30,23 @@ std::string compassText(double azimuth_deg, double sigma) { return fmt::format("
 
 }  // namespace
 
+// Each corner is moved once, and what does not reach over the place is left out as a whole.
 bool isUnderARoof(const Environment& environment, const Eigen::Vector3d& place) {
+  std::vector<Eigen::Vector3d> corners;
   for (const auto& instance : environment.instances) {
     if (!environment.products[instance.product].inScene()) continue;
     const auto& mesh = *environment.meshes[instance.mesh];
-    const auto from_place = [&](std::uint32_t i) -> Eigen::Vector3d { return instance.world_from_mesh * mesh.positions[i].template cast<double>() - place; };
+    const Eigen::Affine3d from_mesh = Eigen::Translation3d(-place) * instance.world_from_mesh;
+    Eigen::AlignedBox3d box;
+    corners.clear();
+    for (const auto& p : mesh.positions) {
+      corners.emplace_back(from_mesh * p.cast<double>());
+      box.extend(corners.back());
+    }
+    if (corners.empty() || box.max().z() <= 0) continue;
+    if ((box.min().head<2>().array() > 0).any() || (box.max().head<2>().array() < 0).any()) continue;
     for (const auto& t : mesh.triangles)
-      if (isAbove(from_place(t[0]), from_place(t[1]), from_place(t[2]))) return true;
+      if (isAbove(corners[t[0]], corners[t[1]], corners[t[2]])) return true;
   }
   return false;
 }

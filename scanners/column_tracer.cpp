@@ -25,6 +25,10 @@ void setLane(SignalLanes& lanes, std::size_t k, const PathEnd& end) {
   lanes.known_x[k] = end.known_x;
   lanes.diffuse[k] = end.optics->diffuse, lanes.oren_a[k] = end.optics->oren_a, lanes.oren_b[k] = end.optics->oren_b;
   lanes.glint[k] = end.optics->glint, lanes.steepness[k] = end.optics->steepness;
+  if (retroEquivalent(*end.optics, end.cosine) == 0) return;
+  // A retroreflector's gain is no figure of the lanes: as the Lambert surface that sends as much back.
+  lanes.diffuse[k] = lambertEquivalent(*end.optics, end.cosine) / end.cosine;
+  lanes.oren_a[k] = 1, lanes.oren_b[k] = 0, lanes.glint[k] = 0;
 }
 
 std::array<std::uint32_t, 4> interferenceDraw(const ScanOptions& options, std::uint32_t column, std::uint32_t row) {
@@ -269,16 +273,6 @@ void ColumnTracer::findPowers() {
     for (std::size_t i = from; i < to; ++i) setLane(signal_, i - from, ends_[i]);
     receivePower(signal_, plan_.receiver, powers_.data() + from);
   }
-  for (std::size_t i = 0; i < ends_.size(); ++i)
-    if (ends_[i].known_x < 0 && ends_[i].optics->retro_gain > 0) powers_[i] = retroPowerOf(ends_[i]);
-}
-
-// A retroreflector's gain is no figure of the lanes (signal_lanes.h).
-float ColumnTracer::retroPowerOf(const PathEnd& end) const {
-  const auto range = static_cast<float>(end.path_m);
-  const float near = plan_.options.effects.has(Effect::near_range) ? nearRangeFactor(plan_.instrument, range) : 1;
-  const float air = portable::exp2(std::max(-100.0F, plan_.receiver.decay_per_m * range));
-  return lambertEquivalent(*end.optics, end.cosine) * end.gain * near * air / (range * range);
 }
 
 // The first echo of the ends takes the pulse's lane.

@@ -61,7 +61,6 @@ class ColumnTracer {
   void setNormals(const AxisLanes& axes, std::uint32_t lanes);
   void light(ReturnLanes& returns, int count);
   void findPowers();
-  float retroPowerOf(const PathEnd& end) const;
   bool addEchoes(int lane, std::size_t from, std::size_t to);
   void writeSeveral(std::uint32_t detected);
 

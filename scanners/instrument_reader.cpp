@@ -274,7 +274,8 @@ class Reader : FigureReader {
         {"area", {0, 1}},           {"max_range_m", {1, 10000}}, {"reference_reflectivity", {0.001, 1}},
         {"rotation_hz", {0.01, 10000}}, {"most_returns", {1, 255}}, {"unambiguous_m", {0, 100000}},
         {"drop_mixed_mm", {0, 10000}}, {"drop_weak", {0, 1000}}, {"drop_overload", {0, 1}}, {"laser", {0, 1}},
-        {"seconds_factor", {0.01, 100}}, {"picture_columns", {16, 32768}},
+        {"seconds_factor", {0.01, 100}}, {"compression", {1, 16}}, {"mode", {1, 9}}, {"of_mode", {1, 9}},
+        {"picture_columns", {16, 32768}},
         {"picture_hdr", {0, 1}},     {"picture_metered", {0, 1}}, {"picture_stops", {-8, 8}},
         {"picture_warmth", {-1, 1}}, {"picture_flash", {0, 1}},
         {"picture_metering", {0, 2}}};

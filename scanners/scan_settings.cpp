@@ -67,7 +67,7 @@ bool isStep(const std::string& key) { return key == "line_step" || key == "frame
 
 struct Effects {
   double columns = 0, rows = 0, seconds = 0, rate_hz = 0, noise_factor = 1, passes = 1, imaging = 0, imaging_seconds = 0;
-  double seconds_factor = 1;
+  double seconds_factor = 1, compression = 1, mode = 0;
   bool laser = true;
   PanoramaCamera camera;
   double max_range_m = 0, reference_reflectivity = 0, unambiguous_m = 0;
@@ -115,6 +115,8 @@ Effects gather(const Instrument& instrument, const SettingValues& values) {
       if (key == "points_per_s") sum.points_per_s = sum.points_per_s > 0 ? std::min(sum.points_per_s, value) : value;
       if (key == "imaging_factor") sum.imaging_factor *= value;
       if (key == "seconds_factor") sum.seconds_factor *= value;
+      if (key == "compression") sum.compression = value;
+      if (key == "mode") sum.mode = value;
       if (key == "laser") sum.laser = value > 0;
       if (key.starts_with("picture_")) addToCamera(sum.camera, key, value);
     }
@@ -123,23 +125,65 @@ Effects gather(const Instrument& instrument, const SettingValues& values) {
   return sum;
 }
 
-// The mirror turns once for two columns, the front one and the back one, so a rate and a grid make a turning speed.
-Result<void> checkMirror(const Instrument& instrument, const SettingValues& values, const Effects& effects) {
-  if (instrument.mirror_max_hz <= 0 || effects.rate_hz <= 0 || effects.rate_hz / effects.columns <= instrument.mirror_max_hz) return {};
+double effectOf(const SettingChoice& choice, const char* key, double otherwise) {
+  const auto found = choice.effects.find(key);
+  return found == choice.effects.end() ? otherwise : found->second;
+}
+
+// Which speeds of the mirror and which noise compression a grid can have.
+class GridLimits {
+ public:
+  GridLimits(const Instrument& instrument, double columns) : max_hz_(instrument.mirror_max_hz), columns_(columns) {
+    for (const auto& setting : instrument.settings)
+      for (const auto& choice : setting.choices) finest_ = std::max(finest_, effectOf(choice, "columns", 0));
+  }
+  // The mirror turns once for two columns, the front one and the back one, so a rate and a grid make a turning speed.
+  bool turns(double rate_hz) const { return max_hz_ <= 0 || rate_hz <= 0 || rate_hz / columns_ <= max_hz_; }
+  // A finer grid is measured and brought together, and it is one that the instrument has.
+  bool compresses(double compression) const { return compression * columns_ <= std::max(finest_, columns_); }
+  bool takes(const SettingChoice& choice) const {
+    return turns(effectOf(choice, "rate_hz", 0)) && compresses(effectOf(choice, "compression", 1));
+  }
+
+ private:
+  double max_hz_, columns_, finest_ = 0;
+};
+
+Result<void> checkGrid(const Instrument& instrument, const SettingValues& values, const Effects& effects) {
+  const GridLimits limits(instrument, effects.columns);
+  const bool turns = limits.turns(effects.rate_hz);
+  if (turns && limits.compresses(effects.compression)) return {};
+  const std::string why = turns ? "for its noise compression needs a finer grid than the finest"
+                                : "for the mirror would exceed " +
+                                      std::to_string(static_cast<int>(instrument.mirror_max_hz)) + " Hz";
   for (std::size_t i = 0; i < values.size(); ++i) {
     std::vector<std::string> words;
     bool decides = false;
     for (const auto& choice : instrument.settings[i].choices) {
-      const auto rate = choice.effects.find("rate_hz");
-      if (rate == choice.effects.end()) continue;
-      decides = true;
-      if (rate->second / effects.columns <= instrument.mirror_max_hz) words.push_back(choice.value);
+      decides = decides || choice.effects.contains(turns ? "compression" : "rate_hz");
+      if (limits.takes(choice)) words.push_back(choice.value);
     }
     if (decides)
-      return failure(ErrorKind::usage, "\"" + values[i].second + "\" is not allowed at this resolution, for the mirror would exceed " +
-                     std::to_string(static_cast<int>(instrument.mirror_max_hz)) + " Hz; allowed here: " + list(words), values[i].first);
+      return failure(ErrorKind::usage, "\"" + values[i].second + "\" is not allowed at this resolution, " + why +
+                                           "; allowed here: " + list(words), values[i].first);
   }
-  return failure(ErrorKind::usage, "the mirror would turn too fast", "settings");
+  return failure(ErrorKind::usage, "is not allowed, " + why, "settings");
+}
+
+Result<void> checkMode(const Instrument& instrument, const SettingValues& values, const Effects& effects) {
+  const auto belongs = [&](const SettingChoice& c) { return effectOf(c, "of_mode", effects.mode) == effects.mode; };
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto& setting = instrument.settings[i];
+    const auto* choice = choiceOf(setting, values[i].second);
+    if (choice == nullptr || belongs(*choice)) continue;
+    std::vector<std::string> words;
+    for (const auto& other : setting.choices)
+      if (belongs(other)) words.push_back(other.value);
+    return failure(ErrorKind::usage,
+                   "\"" + values[i].second + "\" belongs to another mode; allowed here: " + list(words),
+                   values[i].first);
+  }
+  return {};
 }
 
 bool isGate(const std::string& key) { return key == "nearest_m" || key == "farthest_m"; }
@@ -200,7 +244,8 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
   Effects effects = gather(instrument, *filled);
   if (auto steps = applySteps(instrument, *filled, effects); !steps) return failure(steps.error());
   if (effects.columns < 2) return failure(ErrorKind::unusable, "no choice states the columns", instrument.id + " /settings");
-  if (auto turns = checkMirror(instrument, *filled, effects); !turns) return failure(turns.error());
+  if (auto belongs = checkMode(instrument, *filled, effects); !belongs) return failure(belongs.error());
+  if (auto fits = checkGrid(instrument, *filled, effects); !fits) return failure(fits.error());
   auto area = areaOf(instrument, *filled, effects.area);
   if (!area) return failure(area.error());
 

@@ -49,6 +49,11 @@ Result<void> proposeProject(Device& device, const std::string&) {
   return {};
 }
 
+std::string forWhom(const Device& device) {
+  const auto customer = device.value("customer"), facility = device.value("facility");
+  return customer.empty() || facility.empty() ? customer + facility : customer + ", " + facility;
+}
+
 Result<void> createProject(Device& device, const std::string&) {
   const auto name = entry(device, "name");
   if (auto ok = checkName(device, name); !ok) return ok;
@@ -62,7 +67,7 @@ Result<void> createProject(Device& device, const std::string&) {
   project.first = *first;
   project.base = entry(device, "base");
   project.note = entry(device, "note");
-  if (project.note.empty()) project.note = device.value("customer");
+  if (project.note.empty()) project.note = forWhom(device);
   s.projects.push_back(std::move(project));
   s.project = static_cast<int>(s.projects.size()) - 1;
   s.shown = -1;
@@ -103,13 +108,17 @@ Result<void> setCluster(Device& device, const std::string&) {
   return {};
 }
 
+void forgetMeasured(Device& device) {
+  for (const char* of : {"measured", "measured_horizontal", "measured_vertical"}) device.change().entries.erase(of);
+}
+
 Result<void> showSetup(Device& device, const std::string& row) {
   const auto* project = device.project();
   const auto at = wholeNumber(row);
   if (project == nullptr || !at || *at < 0 || *at >= static_cast<int>(project->setups.size()))
     return failure(ErrorKind::usage, "there is no such row");
   device.change().shown = *at;
-  device.change().entries.erase("measured");
+  forgetMeasured(device);
   device.change().entries.erase("measured_from");
   device.change().entries.erase("tapped");
   return {};
@@ -151,12 +160,16 @@ Result<void> measure(Device& device, const std::string& at) {
   if (from == entries.end()) {
     entries["measured_from"] = place;
     entries["tapped"] = at;
-    entries.erase("measured");
+    forgetMeasured(device);
     return {};
   }
   double x = 0, y = 0, z = 0;
-  if (std::sscanf(from->second.c_str(), "%lf %lf %lf", &x, &y, &z) == 3)
-    entries["measured"] = fmt::format("{:.4f}", std::hypot(std::hypot(p.x_m[cell] - x, p.y_m[cell] - y), p.z_m[cell] - z));
+  if (std::sscanf(from->second.c_str(), "%lf %lf %lf", &x, &y, &z) == 3) {
+    const double plan = std::hypot(p.x_m[cell] - x, p.y_m[cell] - y), up = p.z_m[cell] - z;
+    entries["measured"] = fmt::format("{:.4f}", std::hypot(plan, up));
+    entries["measured_horizontal"] = fmt::format("{:.4f}", plan);
+    entries["measured_vertical"] = fmt::format("{:.4f}", up);
+  }
   entries.erase("measured_from");
   entries["tapped"] += ";" + at;
   device.note("measured", entries["measured"]);

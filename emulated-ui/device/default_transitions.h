@@ -39,7 +39,7 @@ struct DeviceRoles {
   const char* start_anyway = "start_anyway";
   std::vector<Transition> first_questions, last_questions;   // the device's own, before and after those of all
   const char* tilted = nullptr;        // condition under which it asks about the tilt
-  const char* near = nullptr;          // and about what stands too near
+  const char* near = "nearest < @nearest.least";   // and about what stands too near
   const char* first = "scanning";      // phase
   void (*begin)(Device&) = nullptr;
   // What it has.

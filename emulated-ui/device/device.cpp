@@ -140,6 +140,7 @@ const StoredSetup* Device::newestSetup() const {
 StoredSetup* Device::newestSetup() { return const_cast<StoredSetup*>(std::as_const(*this).newestSetup()); }
 
 double Device::expectedBytes() const {
+  if (!expected_.laser) return 0;
   return static_cast<double>(expected_.columns) * expected_.rows * type_->definition.body.bytes_per_point;
 }
 

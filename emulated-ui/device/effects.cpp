@@ -67,6 +67,7 @@ void beginScan(Device& device) {
   order.notes = notesOf(device);
   if (s.around.somebody_walks) order.walker_at_share = 0.5;
   s.around.somebody_walks = false;
+  if (s.around.operator_in_view && !order.walker_at_share) order.walker_at_share = 0;
   if (type.program.prepare != nullptr) type.program.prepare(device, order);
   s.moved = false;
   s.scanned_s = s.laser_s = 0;
@@ -119,6 +120,12 @@ void keepPartial(Device& device) {
 
 double falseStart(const Device& device) { return device.value("false_start").empty() ? 0 : std::strtod(device.value("false_start").c_str(), nullptr); }
 
+void mislay(Device& device, LinkOrder& order) {
+  constexpr double kNothingThere_m = 1000;
+  if (device.state().around.registration_fails) order.shift_x_m += kNothingThere_m;
+  device.change().around.registration_fails = false;
+}
+
 void orderLink(Device& device) {
   const auto* project = device.project();
   if (project == nullptr || project->setups.size() < 2) return;
@@ -127,6 +134,7 @@ void orderLink(Device& device) {
   LinkOrder order{newer.file, older.file};
   // Compasses tell a room's two sides apart.
   if (!hasReading(newer, "compass") || !hasReading(older, "compass")) order.turn_deg = falseStart(device);
+  mislay(device, order);
   device.give(std::move(order));
 }
 
@@ -142,6 +150,19 @@ void deleteShownSetup(Device& device) {
   device.note("setup_deleted", setup->name);
   project->setups.erase(project->setups.begin() + s.shown);
   s.shown = -1;
+}
+
+void deleteOpenProject(Device& device) {
+  auto& s = device.change();
+  const auto* project = device.project();
+  if (project == nullptr) return;
+  for (const auto& setup : project->setups) {
+    s.around.card_used_bytes = std::max(0.0, s.around.card_used_bytes - setup.bytes);
+    device.note("setup_deleted", setup.name);
+  }
+  device.note("project_deleted", project->name);
+  s.projects.erase(s.projects.begin() + s.project);
+  s.project = s.shown = -1;
 }
 
 void formatCard(Device& device) {

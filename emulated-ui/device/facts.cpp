@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -55,6 +56,10 @@ double spacing(const Device& d) {
   return (e.azimuth_to_rad - e.azimuth_from_rad) / std::max(1U, e.columns) * 10 * 1000;
 }
 
+double points(const Device& d) {
+  return d.expected().laser ? static_cast<double>(d.expected().columns) * d.expected().rows : 0;
+}
+
 int nextNumber(const Device& d) {
   const auto* p = d.project();
   if (p == nullptr) return 1;
@@ -101,6 +106,11 @@ std::string levelState(const Device& d) {
   return t <= body(d).tilt_full_deg ? "good" : t <= body(d).tilt_limit_deg ? "reduced" : "out";
 }
 
+Fact measured(const Device& d, const char* entry) {
+  const auto text = d.entry(entry);
+  return text.empty() ? wordFact("") : numberFact(std::strtod(text.c_str(), nullptr));
+}
+
 }  // namespace
 
 const std::vector<FactRow>& sharedFacts() {
@@ -135,6 +145,11 @@ const std::vector<FactRow>& sharedFacts() {
       {"station", Unit::none, anyWord(), [](const Device& d) { return wordFact(around(d).station); }, "where the tripod stands"},
       {"standing", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(!around(d).station.empty()); }, "the tripod stands at a station"},
       {"nearest", Unit::metres, numbers(0, 1e6), [](const Device& d) { return numberFact(around(d).nearest_m); }, "metres to the nearest surface"},
+      {"nearest.least", Unit::metres, numbers(0, 1e6),
+       [](const Device& d) { return numberFact(d.type().instrument.min_range_m); },
+       "the shortest range of the data sheet"},
+      {"operator.in_view", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(around(d).operator_in_view); },
+       "who scans stays where the scanner sees them"},
       {"tracking", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(around(d).tracking); }, "the way between setups is followed"},
       {"wlan", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(around(d).wlan); }, "the wireless link works"},
       {"moved", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(d.state().moved); }, "the tripod was pushed during this scan"},
@@ -175,18 +190,20 @@ const std::vector<FactRow>& sharedFacts() {
       {"shown.seconds", Unit::seconds, numbers(0, 1e9), [](const Device& d) { return numberFact(d.shownSetup() == nullptr ? 0 : d.shownSetup()->instrument_seconds); }, ""},
       {"shown.targets", Unit::none, numbers(0, 1e4), [](const Device& d) { return numberFact(foundTargets(d.shownSetup())); }, "targets found in the setup on view"},
       {"shown.transferred", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(d.shownSetup() != nullptr && d.shownSetup()->transferred); }, ""},
-      {"measured", Unit::metres, numbers(0, 1e6),
-       [](const Device& d) {
-         const auto found = d.state().entries.find("measured");
-         return found == d.state().entries.end() ? wordFact("") : numberFact(std::strtod(found->second.c_str(), nullptr));
-       }, "metres between the two points picked in the preview"},
+      {"measured", Unit::metres, numbers(0, 1e6), [](const Device& d) { return measured(d, "measured"); },
+       "metres between the two points picked in the preview"},
+      {"measured.horizontal", Unit::metres, numbers(0, 1e6),
+       [](const Device& d) { return measured(d, "measured_horizontal"); }, "their distance in plan"},
+      {"measured.vertical", Unit::metres, numbers(-1e6, 1e6),
+       [](const Device& d) { return measured(d, "measured_vertical"); }, "how much the second is higher"},
       {"expected.seconds", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(d.expected().scan_seconds + d.expected().imaging_seconds); }, "the next scan with its pictures"},
       {"expected.scan", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(d.expected().scan_seconds); }, "of the laser alone"},
       {"expected.pass", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(d.expected().scan_seconds / d.expected().passes); }, "of one pass of the laser"},
       {"expected.overhead", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(d.type().instrument.overhead_s); }, "of a scan's time, before and after the sweep"},
       {"expected.sweep", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(std::max(0.0, d.expected().scan_seconds - d.type().instrument.overhead_s)); }, "of the head's turn"},
       {"expected.imaging", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(d.expected().imaging_seconds); }, "of the pictures"},
-      {"expected.points", Unit::points, numbers(0, 1e12), [](const Device& d) { return numberFact(static_cast<double>(d.expected().columns) * d.expected().rows); }, ""},
+      {"expected.points", Unit::points, numbers(0, 1e12), [](const Device& d) { return numberFact(points(d)); },
+       "none with pictures only"},
       {"expected.columns", Unit::none, numbers(0, 1e9), [](const Device& d) { return numberFact(d.expected().columns); }, ""},
       {"expected.rows", Unit::none, numbers(0, 1e9), [](const Device& d) { return numberFact(d.expected().rows); }, ""},
       {"expected.bytes", Unit::bytes, numbers(0, 1e16), [](const Device& d) { return numberFact(d.expectedBytes()); }, ""},

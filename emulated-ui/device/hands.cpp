@@ -137,6 +137,16 @@ Result<void> clearView(Device& d, const std::string&) {
   return {};
 }
 
+// Beside the scanner, or behind it.
+Result<void> standInView(Device& d, const std::string&) {
+  d.change().around.operator_in_view = true;
+  return {};
+}
+Result<void> stepBehind(Device& d, const std::string&) {
+  d.change().around.operator_in_view = false;
+  return {};
+}
+
 Result<void> closeCover(Device& d, const std::string&) {
   d.change().around.cover_open = false;
   return {};
@@ -170,6 +180,8 @@ const std::vector<HandRow>& handRows() {
       {"close_cover", "around", "", closeCover},
       {"clear_view", "around", "", clearView},
       {"go_near", "around", "", goNear},
+      {"step_behind", "around", "", stepBehind},
+      {"stand_in_view", "around", "", standInView},
   };
   return rows;
 }
@@ -232,6 +244,7 @@ const std::vector<TroubleRow>& troubleRows() {
        }},
       {"target_hidden", [](Device& d) { d.change().around.targets_visible = false; }},
       {"symmetrical_room", [](Device& d) { d.change().values["false_start"] = "180"; }},   // degrees
+      {"registration_fails", [](Device& d) { d.change().around.registration_fails = true; }},
       {"somebody_walks", [](Device& d) { d.change().around.somebody_walks = true; }},
       {"cover_open", [](Device& d) { d.change().around.cover_open = true; }},
       {"too_near", [](Device& d) { d.change().around.nearest_m = 0.3; }},

@@ -29,6 +29,8 @@ struct Surroundings {
   bool wlan = true;
   bool targets_visible = true;
   bool somebody_walks = false;     // will cross the next scan
+  bool operator_in_view = false;   // who scans does not step behind the scanner
+  bool registration_fails = false; // the next link finds nothing in common
   bool cover_open = false;         // of the compartment for battery and memory
 };
 

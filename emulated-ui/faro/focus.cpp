@@ -31,14 +31,22 @@ struct Profile {
   const char* name;
   const char* resolution;
   const char* quality;
+  bool reduced = false;   // the area is: a quarter of the turn about the object
 };
 constexpr std::array kProfiles = {Profile{"Indoor ...10 m", "1/8", "3x"},  Profile{"Indoor 10 m...", "1/5", "3x"},
                                   Profile{"Indoor HD", "1/2", "4x"},       Profile{"Outdoor ...20 m", "1/5", "4x"},
-                                  Profile{"Outdoor 20 m...", "1/4", "4x"}, Profile{"Object HD", "1/1", "4x"},
+                                  Profile{"Outdoor 20 m...", "1/4", "4x"}, Profile{"Object HD", "1/1", "4x", true},
                                   Profile{"Preview", "1/20", "4x"}};
 constexpr const char* kOwnProfile = "profile.";   // an own one is a value of the device under this name
 
-SettingValues settingsOf(const Profile& profile) { return {{"resolution", profile.resolution}, {"quality", profile.quality}}; }
+SettingValues settingsOf(const Profile& profile) {
+  SettingValues settings = {{"resolution", profile.resolution}, {"quality", profile.quality}};
+  if (profile.reduced)
+    for (const auto& [edge, angle] : {std::pair{"horizontal_from", "315"}, std::pair{"horizontal_to", "45"},
+                                      std::pair{"vertical_from", "-45"}, std::pair{"vertical_to", "45"}})
+      settings.emplace_back(edge, angle);
+  return settings;
+}
 
 std::vector<std::string> ownProfiles(const Device& device) {
   std::vector<std::string> names;
@@ -120,7 +128,7 @@ const FactDomain kNumber{{}, true, 0, 1e9};
 const DeviceRoles kRoles = {
     .working = kWorking, .measuring = "scanning", .camera = "spin_up paused photographing", .holding = kHolding, .kept = "saving",
     .scans = "view_scans", .tools = "service",
-    .tilted = "level != good and value.inclinometer == on", .near = "nearest < 0.6", .first = "spin_up",
+    .tilted = "level != good and value.inclinometer == on", .first = "spin_up",
     .begin = beginScan,
     .marks = {{"S9", "power_key"},
               {"G1", "power_key/shut_down shut_down elapsed start start_anyway start/card_absent start/card_locked "
@@ -138,6 +146,8 @@ const DeviceProgram kProgram = {
             {"scanning", "elapsed", "imaging == yes", "photographing", "", "", nullptr, "G1"},
             {"scanning", "elapsed", "", "saving", "", "", nullptr, "G1"},
             {"photographing", "elapsed", "", "saving", "", "", nullptr, "G1"},
+            {"saving", "elapsed", "data == yes and battery.state == critical and mains == no", "idle", "scan_view",
+             "battery_shut_down", storeScan, "P"},
             {"saving", "elapsed", "data == yes", "idle", "scan_view", "", storeScan, "G1"},
             {"scanning", "pause", "", "paused", "", "", nullptr, "G2"},
             {"paused", "resume", "", "scanning", "", "", resumeSweep, "G2"},

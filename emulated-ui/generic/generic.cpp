@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kWorking = "scanning photographing";
 constexpr const char* kHolding = "scanning photographing storing error";
 
-// The data sheet says how far the scanner's own compensator reaches and how near it measures.
+// The data sheet says how far the scanner's own compensator reaches.
 double compensatorRange_deg(const Device& device) {
   const auto& compensator = device.type().instrument.compensator;
   const double range = compensator ? compensator->range_rad / kRadPerDeg : 0;
@@ -43,7 +43,7 @@ const FactDomain kYesNo{{"yes", "no"}, false, 0, 0};
 const DeviceRoles kRoles = {
     .working = kWorking, .measuring = kWorking, .camera = "photographing", .holding = kHolding, .kept = "storing",
     .scans = "scans",
-    .tilted = "levelled == no and value.compensator == on", .near = "nearest < @nearest.least", .begin = beginScan,
+    .tilted = "levelled == no and value.compensator == on", .begin = beginScan,
     .marks = {{"G1", "start/card_absent start/card_full start/battery_critical start/temperature_question "
                      "start/tilt_question"},
               {"S10", "moved set_down/moved"},
@@ -73,11 +73,6 @@ const DeviceProgram kProgram = {
       {{}, true, 0, 360},
       [](const Device& d) { return numberFact(compensatorRange_deg(d)); },
       "of the scanner's compensator"},
-     {"nearest.least",
-      FactUnit::metres,
-      {{}, true, 0, 1e6},
-      [](const Device& d) { return numberFact(d.type().instrument.min_range_m); },
-      "the shortest range of the data sheet"},
      {"scanner",
       FactUnit::none,
       {},

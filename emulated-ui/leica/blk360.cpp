@@ -299,13 +299,14 @@ void addStart(std::vector<Transition>& rows, const char* event, void (*by)(Devic
   if (std::string(event) == "start") ask("project.open == no", "no_project", "P");
   error(std::string(event) == "key" ? "button.bytes > @card.free" : "card.free < @expected.bytes", storageError);
   error("battery.state == critical and mains == no", batteryError);
+  error("battery.state == low and mains == no and generation == g1", batteryError);
   error("temperature.critical == yes", temperatureError, "fatal");
   error("temperature.state != good and generation == g1", temperatureError);
   ask("temperature.state != good", "temperature_question", "S11");
   ask("dust == yes and generation == g2", "dust_question", "S11");
   ask("warm == no", "not_warm_question", "P");
   ask("level == out", "tilt_question", "P");
-  ask("nearest < 0.6", "near_question", "P");
+  ask("nearest < @nearest.least", "near_question", "P");
   if (std::string(event) == "key") {
     rows.push_back({kIdle, event, "value.self_timer > 0", "self_timer", "", "", armTimer, mark});
     rows.push_back({kIdle, event, "button.imaging == yes", "shooting", "", "", beginByKey, mark});
@@ -365,14 +366,16 @@ std::vector<Transition> transitions() {
       {"shooting", "set_down", "", "error", "", "", movedError, "P"},
       {kMeasuring, "blocked", "", "error", "", "", blockedError, "S10"},
       {kMeasuring, "battery_low", "generation == g1", "error", "", "", batteryAborts, "S10"},
-      {kIdle, "battery_low", "generation == g1", "error", "", "", batteryError, "S10"},
+      {"ready connected self_timer", "battery_low", "generation == g1", "error", "", "", batteryError, "S10"},
       {kMeasuring, "battery_critical", "", "error", "", "", batteryAborts, "S11"},
-      {kIdle, "battery_critical", "", "error", "", "", batteryError, "S10 S11"},
+      {"ready connected self_timer", "battery_critical", "", "error", "", "", batteryError, "S10 S11"},
       {"*", "battery_empty", "", "off", "", "", emptied, "S11"},
       {kMeasuring, "temperature", "temperature.critical == yes", "fatal", "", "", temperatureAborts, "S10"},
       {kMeasuring, "temperature", "generation == g1", "error", "", "", temperatureAborts, "S10"},
-      {"ready connected standby", "temperature", "temperature.critical == yes", "fatal", "", "", temperatureError, "S10"},
-      {"ready connected standby", "temperature", "generation == g1", "error", "", "", temperatureError, "S10"},
+      {"ready connected standby self_timer", "temperature", "temperature.critical == yes", "fatal", "", "",
+       temperatureError, "S10"},
+      {"ready connected standby self_timer", "temperature", "generation == g1", "error", "", "", temperatureError,
+       "S10"},
       {"error", "acknowledge", "partial == yes", "finishing", "", "", acknowledge, "P"},
       {"error", "acknowledge", "value.connection == OK", "connected", "", "", acknowledgeAndDrop, "P"},
       {"error", "acknowledge", "", "ready", "", "", acknowledgeAndDrop, "P"},

@@ -81,7 +81,7 @@ const DeviceRoles kRoles = {
                          "G1"}},
     .last_questions = {{"idle", "start", "orientation.accepted == no", "", "", "no_setup_question", nullptr, "P"},
                        {"idle", "start", "setting.images == only", "imaging", "", "", beginScan, "G1"}},
-    .near = "nearest < 0.4", .begin = beginScan,
+    .begin = beginScan,
     .card_needed = nullptr, .links = false,
     .marks = {{"G1", "power_key start start/no_project start/card_full start/battery_critical "
                      "start/temperature_question stop_confirmed battery_low battery_critical "

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "emulated-ui/leica/rtc360.h"
 
+#include <string>
+
 #include "emulated-ui/device/default_transitions.h"
 #include "emulated-ui/device/effects.h"
 
@@ -26,6 +28,15 @@ void storeWithoutLink(Device& device) {
   resetTracking(device);
 }
 
+// What the next press of the scan key does.
+std::string summary(const Device& device) {
+  const bool scans = device.setting("scan") == "on", shoots = device.expected().imaging;
+  std::string text = scans ? device.shown("setting.resolution") : "";
+  if (scans && device.expected().passes == 2) text += " · " + device.word("double_scan");
+  if (shoots) text += (text.empty() ? "" : " · ") + device.word("images");
+  return text;
+}
+
 void prepare(const Device& device, ScanOrder& order) {
   order.compensator = order.compensator && device.value("tilt_sensor") == "on";
 }
@@ -34,7 +45,10 @@ const DeviceRoles kRoles = {
     .rest = kIdle, .idle = kIdle, .working = kWorking, .measuring = kWorking, .laser = kLaser, .camera = "photographing", .holding = kHolding,
     .kept = "finishing",
     .scans = "setups", .tools = "tools",
-    .tilted = "level == out", .near = "nearest < 0.5", .first = "scanning_pass_1", .begin = beginScan,
+    .first_questions = {{kIdle, "start", "setting.scan == off and imaging == no", "", "", "nothing_chosen", nullptr,
+                         "P"}},
+    .last_questions = {{kIdle, "start", "setting.scan == off", "photographing", "", "", beginScan, "G1"}},
+    .tilted = "level == out", .first = "scanning_pass_1", .begin = beginScan,
     .marks = {{"G1", "power_key elapsed shut_down start start/card_absent start/card_full start/battery_critical "
                      "start/temperature_question start/tilt_question moved blocked temperature/temperature_warning "
                      "battery_low linked/link_joined linked/link_failed delete/delete_question delete_confirmed "
@@ -47,6 +61,8 @@ const DeviceProgram kProgram = {
     "leica/rtc360.json",
     withDefaults(
         {
+            // With the scan off the laser stays off.
+            {kIdle, "start_anyway", "setting.scan == off", "photographing", "", "", beginScan, "P"},
             {"scanning_pass_1", "elapsed", "passes == 2", "scanning_pass_2", "", "", nullptr, "G1"},
             {kLaser, "elapsed", "imaging == yes", "photographing", "", "", nullptr, "P"},
             {kLaser, "elapsed", "data == yes", "storing", "", "", nullptr, "P"},
@@ -58,10 +74,13 @@ const DeviceProgram kProgram = {
             {"vis_tracking", "set_down", "", "idle", "home", "link_lost", loseTracking, "G1"},
             {"vis_tracking", "tracking_lost", "", "", "", "tracking_lost", nullptr, "G1"},
             {"finishing", "elapsed", "data == yes", "storing", "", "", nullptr, "P"},
+            {kIdle, "delete_job", "", "", "", "delete_job_question", nullptr, "G1"},
+            {kIdle, "delete_job_confirmed", "", "", "jobs", "", deleteOpenProject, "G1"},
         },
         kRoles),
     {},
-    {},
+    {{"settings.summary", FactUnit::none, {}, [](const Device& d) { return wordFact(summary(d)); },
+      "of the next scan: resolution, double scan, images"}},
     {},
     prepare,
 };

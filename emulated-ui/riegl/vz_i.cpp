@@ -124,7 +124,7 @@ const DeviceRoles kRoles = {
     .scans = "positions",
     .start = "scan", .start_anyway = "scan_anyway",
     .first_questions = {{"waiting", "scan", "position.taken == yes", "", "", "position_question", nullptr, "S32"}},
-    .tilted = "level == out", .near = "nearest < 1.5", .begin = beginScan,
+    .tilted = "level == out", .begin = beginScan,
     .card_needed = "value.storage != ssd",
     .marks = {{"S31", "power_key scan/no_project scan"}, {"S35", "transferred"}},
 };

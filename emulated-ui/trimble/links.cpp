@@ -37,6 +37,7 @@ void orderRefine(Device& device, const StoredSetup& setup, bool with_shift) {
     order.shift_y_m = std::strtod(device.value("shift_y").c_str(), nullptr);
     order.turn_deg += std::strtod(device.value("turn").c_str(), nullptr);
   }
+  mislay(device, order);
   forgetRegistration(device, setup);
   device.give(std::move(order));
 }

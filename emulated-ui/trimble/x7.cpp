@@ -141,7 +141,6 @@ const DeviceRoles kRoles = {
     .home = "map_view", .scans = "map_view",
     .first_questions = {{"idle", "start", "setting.field_of_view == area and area.has_parent == no", "", "",
                          "area_needs_parent", nullptr, "S12"}},
-    .near = "nearest < 0.6",
     .first = "calibrating",   // the scan begins later
     .marks = {{"G1", "power_key"},
               {"S16", "start start/card_absent start/card_full start/battery_critical start/temperature_question"},

@@ -58,6 +58,16 @@ TEST(Blk360, TheKeyScansAloneAfterTheSelfTimerWithTheStoredConfiguration) {
   EXPECT_EQ(d.fact("setups"), "1");
 }
 
+// 0.6 m of the first generation, 0.5 m of the second: section 1.1.
+TEST(Blk360, AsksNearerThanItsGenerationMeasures) {
+  for (const auto& [generation, asks] : {std::pair{kG1, true}, std::pair{kG2, false}}) {
+    TestDevice d = ready(generation);
+    d->change().around.nearest_m = 0.55;
+    ASSERT_TRUE(d.press({"scan"}));
+    EXPECT_EQ(d.dialog() == "near_question", asks) << generation;
+  }
+}
+
 TEST(Blk360, WhoPressesTheKeyWithoutATimerIsInTheScan) {
   TestDevice d = started(kG2);
   ASSERT_TRUE(d.press({"connect_now", "button", "timer=0", "store_button", "back", "options", "disconnect", "key"}));

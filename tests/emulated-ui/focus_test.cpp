@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/units.h"
 #include "tests/emulated-ui/support.h"
 
 namespace standpoint {
@@ -50,6 +51,63 @@ TEST_F(Focus, GreysOutWhatTheMirrorCannotTurn) {
     for (const auto& option : findWidget(screen, "quality")->options)
       EXPECT_EQ(option.enabled, option.value >= lowest) << resolution << ' ' << option.value << ": a quality does not change the resolution";
   }
+}
+
+// Noise compression needs a finer grid: 6x from 1/2 down, 8x from 1/4 down [G2].
+TEST_F(Focus, OffersNoiseCompressionWhereAFinerGridIsLeft) {
+  start();
+  ASSERT_TRUE(d.press({"parameters", "resolution_quality", "resolution=1/1"}));
+  EXPECT_TRUE(d.refuses("quality", "6x"));
+  ASSERT_TRUE(d.press({"resolution=1/2", "quality=6x"}));
+  EXPECT_TRUE(d.refuses("quality", "8x"));
+  ASSERT_TRUE(d.press({"resolution=1/4", "quality=4x"}));
+  const auto points = d.shows("million_points");
+  EXPECT_EQ(d.shows("scan_duration"), "8:10");
+  ASSERT_TRUE(d.press({"quality=8x"}));
+  EXPECT_EQ(d.fact("expected.noise"), "0.25");
+  EXPECT_EQ(d.shows("scan_duration"), "29:48") << "an assumption: each step doubles the time";
+  EXPECT_EQ(d.shows("million_points"), points) << "a quality changes no points";
+  ASSERT_TRUE(d.press({"resolution=1/1"}));
+  EXPECT_EQ(d.fact("setting.quality"), "4x");
+}
+
+TEST_F(Focus, BracketsItsPicturesWithHdr) {
+  start();
+  ASSERT_TRUE(d.press({"parameters", "colour=on", "colour_settings"}));
+  EXPECT_FALSE(d->expected().camera.hdr);
+  EXPECT_EQ(d->expected().imaging_seconds, 60);
+  for (const auto& [hdr, seconds] : {std::pair{"2x", 120}, std::pair{"3x", 180}, std::pair{"5x", 240}}) {
+    ASSERT_TRUE(d.press({std::string("hdr=") + hdr}));
+    EXPECT_TRUE(d->expected().camera.hdr) << hdr;
+    EXPECT_EQ(d->expected().imaging_seconds, seconds) << hdr;
+  }
+  ASSERT_TRUE(d.press({"back", "colour=off"}));
+  EXPECT_EQ(d->expected().imaging_seconds, 0);
+}
+
+TEST_F(Focus, WritesCustomerAndFacilityIntoTheRecord) {
+  start();
+  ASSERT_TRUE(d.press({"manage", "scan_projects", "new_project", "name=House", "customer=Ada",
+                       "facility=Mill", "create"}));
+  EXPECT_EQ(d->project()->note, "Ada, Mill");
+}
+
+TEST_F(Focus, ManagesProfilesSensorsAndWlan) {
+  start();
+  EXPECT_EQ(d.shows("wlan_status"), "Off");
+  ASSERT_TRUE(d.press({"manage", "wlan=on", "profile", "back", "sensors", "back", "back"}));
+  EXPECT_EQ(d.shows("wlan_status"), "On");
+  ASSERT_TRUE(d.press({"manage", "card_page"}));
+  EXPECT_EQ(d.shows("address"), "192.168.43.1");
+  ASSERT_TRUE(d.press({"back", "back"}));
+  EXPECT_EQ(d.shows("mains_status"), "No");
+}
+
+TEST_F(Focus, ResetsItsParameters) {
+  start();
+  ASSERT_TRUE(d.press({"parameters", "resolution_quality", "resolution=1/20", "back", "back", "manage", "service",
+                       "standard_settings"}));
+  EXPECT_EQ(d.fact("setting.resolution"), "1/4");
 }
 
 TEST_F(Focus, MovesTheQualityWhenAResolutionNeedsIt) {
@@ -174,6 +232,16 @@ TEST_F(Focus, UsesMarksAndKeepsProfiles) {
   EXPECT_EQ(d.fact("setting.resolution"), "1/8");
   ASSERT_TRUE(d.press({"profile", "delete_profile"}));
   EXPECT_TRUE(d.refuses("profile_list", "Mine"));
+}
+
+TEST_F(Focus, ScansAnObjectInAReducedArea) {
+  start();
+  ASSERT_TRUE(d.press({"parameters", "profile", "profile_list=Object HD"}));
+  const auto& part = d->expected();
+  EXPECT_NEAR((part.azimuth_to_rad - part.azimuth_from_rad) / kRadPerDeg, 90, 1e-9);
+  EXPECT_NEAR((part.elevation_to_rad - part.elevation_from_rad) / kRadPerDeg, 90, 1e-9);
+  ASSERT_TRUE(d.press({"profile", "profile_list=Preview"}));
+  EXPECT_EQ(d.fact("setting.horizontal_from"), "0") << "the others have the whole";
 }
 
 TEST_F(Focus, TakesAnglesFromTheTurnedHead) {

@@ -76,12 +76,7 @@ class Monkey {
   }
 
   FittedTarget sighted(const std::string& name) {
-    FittedTarget t;
-    t.name = name;
-    t.kind = "sphere";
-    t.points = 80;
-    t.range_m = 5;
-    t.residual_m = 0.001;
+    auto t = fittedSphere(name, 80);
     t.found = next(3) != 0;
     return t;
   }
@@ -116,7 +111,7 @@ class Monkey {
     for (const auto& p : d_->state().projects) now += p.setups.size();
     for (; seen_ < d_->state().log.size(); ++seen_) {
       const auto& event = d_->state().log[seen_];
-      if (event.what == "setup_deleted") gone = 1;
+      if (event.what == "setup_deleted") ++gone;
       if (event.what == "card_formatted") gone = count_;
     }
     ASSERT_GE(now + gone, count_) << "a scan was lost";

@@ -299,8 +299,12 @@ TEST_F(PSeries, P50HasRangeModes) {
   TestDevice far("leica-p-series", "leica-p50");
   ASSERT_TRUE(far.press({"power"}));
   far->tick(70);
-  ASSERT_TRUE(far.press({"scan_page", "resolution_page", "range_mode=120m"}));
-  EXPECT_EQ(far.fact("expected.range"), "120");
+  EXPECT_EQ(far.fact("setting.range"), "120m") << "the standard of the reference [P]";
+  ASSERT_TRUE(far.press({"scan_page", "resolution_page"}));
+  for (const char* range : {"270", "570", "1000", "120"}) {
+    ASSERT_TRUE(far.press({std::string("range_mode=") + range + "m"}));
+    EXPECT_EQ(far.fact("expected.range"), range);
+  }
   start();
   ASSERT_TRUE(d.press({"scan_page", "resolution_page"}));
   EXPECT_EQ(d.shows("range_mode"), "(not there)");

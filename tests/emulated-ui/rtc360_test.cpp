@@ -73,6 +73,54 @@ TEST_F(Rtc360, MakesNamesAndOpensAJob) {
   EXPECT_EQ(d.shows("job"), "House");
 }
 
+TEST_F(Rtc360, DeletesTheOpenJobWithItsSetups) {
+  ready("House");
+  ASSERT_TRUE(d.press({"scan"}));
+  d.scanned();
+  d.settle();
+  const double used = d->state().around.card_used_bytes;
+  ASSERT_GT(used, 0);
+  ASSERT_TRUE(d.press({"home", "job", "delete_job"}));
+  EXPECT_EQ(d.dialog(), "delete_job_question");
+  ASSERT_TRUE(d.press({"no"}));
+  EXPECT_EQ(d->state().projects.size(), 1U);
+  ASSERT_TRUE(d.press({"delete_job", "yes"}));
+  EXPECT_TRUE(d->state().projects.empty());
+  EXPECT_EQ(d->state().around.card_used_bytes, 0);
+  EXPECT_TRUE(d.happened("project_deleted", "House"));
+  EXPECT_EQ(d.screen(), "jobs");
+  EXPECT_TRUE(d.refuses("delete_job"));
+}
+
+TEST_F(Rtc360, OnlyTakesPicturesWithTheScanOff) {
+  ready();
+  ASSERT_TRUE(d.press({"settings", "resolution=6mm", "images=on", "double_scan=off", "laser_scan=off"}));
+  EXPECT_EQ(d.shows("expected_time"), "1:00");
+  EXPECT_EQ(d.fact("expected.points"), "0");
+  EXPECT_EQ(d.fact("expected.bytes"), "0");
+  EXPECT_TRUE(d.refuses("double_scan", "on")) << "a double scan needs the scan";
+  ASSERT_TRUE(d.press({"images=off", "back", "scan"}));
+  EXPECT_EQ(d.dialog(), "nothing_chosen");
+  ASSERT_TRUE(d.press({"ok", "settings", "images=on", "back"}));
+  EXPECT_EQ(d.shows("settings"), "Images (HDR)");
+  ASSERT_TRUE(d.press({"scan"}));
+  EXPECT_EQ(d.phase(), "photographing");
+  const auto order = d.scanned(0);
+  EXPECT_TRUE(order.panorama);
+  d->tick(70);
+  EXPECT_EQ(d.phase(), "vis_tracking");
+}
+
+TEST_F(Rtc360, ShowsItsSettingsAndItsStateOnHome) {
+  ready();
+  ASSERT_TRUE(d.press({"settings", "resolution=3mm", "images=on", "double_scan=on", "back"}));
+  EXPECT_EQ(d.shows("settings"), "High (3 mm @ 10 m) · Double scan · Images (HDR)");
+  EXPECT_EQ(d.shows("vis_status"), "On");
+  EXPECT_EQ(d.shows("wlan_status"), "Off");
+  ASSERT_TRUE(d.press({"tools", "vis=off", "back"}));
+  EXPECT_EQ(d.shows("vis_status"), "Off");
+}
+
 // Times and grids: instrument facts, section 1.4.
 TEST_F(Rtc360, ShowsTheTimeAndThePointsOfItsSettings) {
   ready();

@@ -24,6 +24,18 @@ inline std::string deviceName(const testing::TestParamInfo<const EmulatedDevice*
   return name;
 }
 
+// A sphere that was found and fits to a millimetre.
+inline FittedTarget fittedSphere(const std::string& name, int points, double range_m = 5) {
+  FittedTarget target;
+  target.name = name;
+  target.kind = "sphere";
+  target.points = points;
+  target.range_m = range_m;
+  target.residual_m = 0.001;
+  target.found = true;
+  return target;
+}
+
 // A device in the hands of a test, with a simulation that takes no time.
 class TestDevice {
  public:

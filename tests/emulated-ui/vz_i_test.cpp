@@ -37,14 +37,6 @@ class VzI : public testing::Test {
     d->linkDone({joined, error_m, overlap, 0, 0});
     d->tick(60);
   }
-  static FittedTarget target(const std::string& name, double range_m) {
-    FittedTarget t;
-    t.name = name;
-    t.kind = "sphere";
-    t.range_m = range_m;
-    t.found = true;
-    return t;
-  }
 
   TestDevice d;
 };
@@ -263,7 +255,7 @@ TEST_F(VzI, SearchesReflectorsAfterTheScanWithinTheLimits) {
   const auto order = d->takeOrder();
   ASSERT_TRUE(order && std::holds_alternative<TargetOrder>(*order));
   EXPECT_EQ(std::get<TargetOrder>(*order).file, "scans/House/ScanPos001.e57");
-  d->targetsDone({target("near", 2.5), target("good", 10), target("far", 21)});
+  d->targetsDone({fittedSphere("near", 100, 2.5), fittedSphere("good", 100, 10), fittedSphere("far", 100, 21)});
   d->tick(20);
   EXPECT_EQ(d.phase(), "waiting");
   EXPECT_EQ(d.screen(), "reflectors");
@@ -313,7 +305,7 @@ TEST_F(VzI, NeedsFourControlPointsWithANameAndThreeCoordinates) {
   scan();
   ASSERT_TRUE(d.press({"reflectors", "measure_targets"}));
   ASSERT_TRUE(d->takeOrder());
-  d->targetsDone({target("P1", 5), target("P2", 6), target("P4", 7), target("Other", 5)});
+  d->targetsDone({fittedSphere("P1", 100, 5), fittedSphere("P2", 100, 6), fittedSphere("P4", 100, 7), fittedSphere("Other", 100, 5)});
   ASSERT_TRUE(d.press({"home", "control_points", "georeference"}));
   EXPECT_EQ(d.shows("georeferenced"), "Yes");
 }

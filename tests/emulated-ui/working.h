@@ -47,16 +47,7 @@ inline Device working(const std::shared_ptr<const DeviceType>& type, const Phase
     setup.bytes = 1e7;
     setup.settings = s.settings;
     setup.preview = smallPreview();
-    for (const char* name : {"T1", "T2", "T3"}) {
-      FittedTarget t;
-      t.name = name;
-      t.kind = "sphere";
-      t.points = 100;
-      t.range_m = 5;
-      t.residual_m = 0.001;
-      t.found = true;
-      setup.targets.push_back(t);
-    }
+    for (const char* name : {"T1", "T2", "T3"}) setup.targets.push_back(fittedSphere(name, 100));
     project.setups.push_back(setup);
   }
   s.projects = {project};

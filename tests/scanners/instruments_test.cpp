@@ -13,6 +13,7 @@
 namespace standpoint {
 namespace {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
 ScanSettings resolved(const std::string& id, const SettingValues& values) {
@@ -75,6 +76,34 @@ TEST(FocusS350, ReproducesTheTableOfItsDisplayWithinASecond) {
       EXPECT_EQ(settings.rows, row.rows);
       EXPECT_NEAR(settings.scan_seconds, row.seconds[q], 1) << row.resolution << " " << q + 1 << "x";
     }
+}
+
+// Instrument facts, section 2.1: noise compression of 2 and 4, from 1/2 and from 1/4 down.
+TEST(FocusS350, CompressesNoiseOnlyWhereAFinerGridIsLeft) {
+  const auto with = [](const char* resolution, const char* quality) {
+    return SettingValues{{"resolution", resolution}, {"quality", quality}};
+  };
+  EXPECT_THAT(refused("faro-focus-s350", with("1/1", "6x")).message, EndsWith("allowed here: 1x, 2x, 3x, 4x"));
+  EXPECT_THAT(refused("faro-focus-s350", with("1/2", "8x")).message, EndsWith("1x, 2x, 3x, 4x, 6x"));
+  EXPECT_THAT(refused("faro-focus-s350", with("1/20", "3x")).message, EndsWith("4x, 6x, 8x"));
+  const auto four = resolved("faro-focus-s350", with("1/4", "4x"));
+  const auto eight = resolved("faro-focus-s350", with("1/4", "8x"));
+  EXPECT_EQ(eight.columns, four.columns);
+  EXPECT_DOUBLE_EQ(four.noise_factor / eight.noise_factor, 4);
+  EXPECT_GT(eight.scan_seconds, four.scan_seconds);
+}
+
+TEST(Modes, RefuseWhatBelongsToAnother) {
+  const auto with = [](const char* mode, const char* duration) {
+    return SettingValues{{"mode", mode}, {"duration", duration}};
+  };
+  EXPECT_THAT(refused("trimble-x7", with("high_sensitivity", "2min")).message,
+              EndsWith("4min_high, 7min_high, 15min_high"));
+  EXPECT_THAT(refused("trimble-x7", with("standard", "4min_high")).message, EndsWith("2min, 4min, 7min, 15min"));
+  const auto high = resolved("trimble-x7", with("high_sensitivity", "4min_high"));
+  const auto standard = resolved("trimble-x7", with("standard", "2min"));
+  EXPECT_EQ(high.columns, standard.columns);
+  EXPECT_DOUBLE_EQ(high.scan_seconds / standard.scan_seconds, 2);
 }
 
 TEST(FocusS350, FallsInNoiseByTheRootOfTwoWithEachQuality) {
@@ -181,7 +210,7 @@ TEST(Sensitivity, OfHighTakesTwiceTheTimeForLessNoise) {
 
 TEST(Settings, AreRefusedWithWhatIsAllowed) {
   EXPECT_THAT(refused("leica-rtc360", {{"resolution", "1mm"}}).message, HasSubstr("12mm, 6mm, 3mm"));
-  EXPECT_THAT(refused("leica-rtc360", {{"quality", "3x"}}).message, HasSubstr("resolution, double_scan"));
+  EXPECT_THAT(refused("leica-rtc360", {{"quality", "3x"}}).message, HasSubstr("resolution, scan, double_scan"));
   EXPECT_THAT(refused("leica-rtc360", {{"images", "on"}, {"images", "off"}}).message, HasSubstr("twice"));
   EXPECT_THAT(refused("faro-focus-s350", {{"vertical_from", "-75"}}).message, HasSubstr("from -60 to 90"));
   EXPECT_THAT(refused("faro-focus-s350", {{"vertical_from", "nan"}}).message, HasSubstr("not allowed"));

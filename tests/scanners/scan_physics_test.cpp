@@ -117,7 +117,8 @@ TEST(MaximumRange, FollowsTheRootOfTheReflectivity) {
   for (auto instrument : instruments()) {
     instrument.near_range_m = 0;
     for (const double reflectivity : {0.2, 0.1}) {
-      const double limit = instrument.max_range_m * std::sqrt(std::min(1.0, reflectivity / instrument.reference_reflectivity));
+      const auto mode = *resolveSettings(instrument, {});
+      const double limit = mode.max_range_m * std::sqrt(std::min(1.0, reflectivity / mode.reference_reflectivity));
       if (instrument.id == "leica-rtc360") {
         EXPECT_NEAR(limit, reflectivity == 0.2 ? 61.3 : 43.3, 0.05);
       }
