@@ -111,6 +111,20 @@ TEST_F(InstrumentGui, LocksOnlyTheFieldsOfDeviceAndScannerDuringAnExercise) {
   EXPECT_FALSE(gui.find("##device")->disabled);
 }
 
+TEST_F(InstrumentGui, TurnsTheFootScrewsByItsButtons) {
+  openTab("Hands");
+  ASSERT_TRUE(gui.click("###screw0"));
+  gui.type("0.5");
+  gui.key(257);
+  gui.frames(3);
+  ASSERT_TRUE(gui.click("+")) << "of the first screw";
+  gui.frames(3);
+  ASSERT_TRUE(gui.click("###screw0"));
+  gui.key('A', true);
+  gui.key('C', true);
+  EXPECT_STREQ(ImGui::GetClipboardText(), "0.520");
+}
+
 // The desk without a window.
 class Desk : public testing::Test {
  protected:
