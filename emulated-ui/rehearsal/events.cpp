@@ -97,6 +97,7 @@ const std::vector<EventRow>& eventRows() {
       {"project_created", Detail::text, "its name"},
       {"project_opened", Detail::text, "its name"},
       {"project_renamed", Detail::text, "its new name"},
+      {"project_deleted", Detail::text, "its name"},
       {"cluster", Detail::text, "a folder for the next scans was chosen: its name"},
       {"position_base", Detail::text, "the base of the positions' names was set (VZ-i)"},
       {"profile_saved", Detail::text, "its name (Focus)"},
