@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "emulated-ui/verbs.h"
 
+#include <filesystem>
+
 #include <fmt/format.h>
 
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/marks.h"
+#include "emulated-ui/rehearsal/names.h"
 
 namespace standpoint {
 
@@ -30,12 +33,96 @@ Result<Outcome> listExercises(const Document& document, const std::string& langu
   return outcome;
 }
 
+// What is wrong or doubtful with one file. An error is what only the caller can mend: a file that is not there, a
+// cancel.
+Result<Report> findingsOf(const std::string& file, std::string& id, Progress& progress) {
+  Report report;
+  const auto exercise = readExercise(file);
+  if (!exercise) {
+    if (exercise.error().kind == ErrorKind::file_system) return failure(exercise.error());
+    report.lose(exercise.error().source, exercise.error().message);
+    return report;
+  }
+  id = exercise->id;
+  for (const auto& fault : checkExercise(*exercise)) report.lose(fault.source, fault.message);
+  if (!report.issues.empty()) return report;
+  if (const auto started = checkStart(*exercise, report, progress); !started) {
+    if (started.error().kind != ErrorKind::unusable) return failure(started.error());
+    report.lose(started.error().source, started.error().message);
+  }
+  return report;
+}
+
+// All files are checked, whatever is wrong with one of them.
+Result<Outcome> checkFiles(const Document& document, const json& files, Progress& progress) {
+  Outcome outcome{document, json::object(), {}, {}, {}};
+  json rows = json::array();
+  std::size_t sound = 0;
+  for (const auto& file : files) {
+    const auto name = file.get<std::string>();
+    std::string id;
+    progress.stage("Checking " + name, static_cast<double>(rows.size()) / static_cast<double>(files.size()),
+                   static_cast<double>(rows.size() + 1) / static_cast<double>(files.size()));
+    const auto report = findingsOf(name, id, progress);
+    if (!report) return failure(report.error());
+    json findings = json::array();
+    for (const auto& issue : report->issues)
+      findings.push_back({{"severity", issue.severity == Severity::loss ? "error" : "warning"},
+                          {"source", issue.source},
+                          {"message", issue.message}});
+    sound += report->losses() == 0 ? 1 : 0;
+    rows.push_back({{"file", name}, {"id", id}, {"sound", report->losses() == 0}, {"findings", std::move(findings)}});
+    outcome.text += fmt::format("{:8} {}\n", report->losses() == 0 ? "sound" : "refused", name);
+    for (const auto& issue : report->issues)
+      outcome.text += fmt::format("  {}: {}: {}\n", issue.severity == Severity::loss ? "error" : "warning",
+                                  issue.source, issue.message);
+  }
+  if (sound < rows.size())
+    outcome.report.lose("--check", fmt::format("{} of {} files cannot be used", rows.size() - sound, rows.size()));
+  outcome.answer = {{"sound", sound == rows.size()}, {"files", std::move(rows)}};
+  outcome.description = fmt::format("{} of {} exercises are sound", sound, files.size());
+  return outcome;
+}
+
+Result<Outcome> listNames(const Document& document, const json& options) {
+  Outcome outcome{document, json::object(), {}, {}, {}};
+  if (!options.contains("device")) {
+    auto devices = deviceNames();
+    if (!devices) return failure(devices.error());
+    outcome.text = deviceNamesText(*devices);
+    outcome.answer = {{"devices", *std::move(devices)}};
+    return outcome;
+  }
+  auto names = namesOf(options["device"].get<std::string>());
+  if (!names) return failure(names.error());
+  outcome.text = namesText(*names);
+  outcome.answer = *std::move(names);
+  return outcome;
+}
+
+// Why it is not passed, in one line.
+std::string whyNotPassed(const json& marks) {
+  std::string why = fmt::format("not passed: {:.0f} % of the points, {:.0f} % are needed",
+                                marks["score"].get<double>() * 100, marks["pass_mark"].get<double>() * 100);
+  for (const auto& rule : marks["rules"])
+    if (rule["must"].get<bool>() && !rule["held"].get<bool>())
+      why += fmt::format("; '{}' must hold", rule["id"].get<std::string>());
+  return why + (marks["in_time"].get<bool>() ? "" : "; over time");
+}
+
 Result<Outcome> runRehearse(const Document& document, const json& options, Progress& progress) {
   const auto language = options.at("language").get<std::string>();
+  const bool names = options.value("names", false);
+  if (static_cast<int>(options.contains("exercise")) + static_cast<int>(options.contains("check")) +
+          static_cast<int>(names) >
+      1)
+    return failure(ErrorKind::usage,
+                   "an exercise is carried out, files are checked, or names are listed: one at a time", "--check");
+  if (options.contains("check")) return checkFiles(document, options["check"], progress);
+  if (names) return listNames(document, options);
   if (!options.contains("exercise")) return listExercises(document, language);
   auto known = findExercise(options["exercise"].get<std::string>());
   if (!known) return failure(known.error());
-  if (const auto faults = checkExercise(known->exercise); !faults.empty()) return failure(faults.front());
   std::vector<RehearsalAction> actions;
   const bool solution = options.value("solution", false);
   if (solution == options.contains("actions"))
@@ -59,20 +146,36 @@ Result<Outcome> runRehearse(const Document& document, const json& options, Progr
   outcome.answer = marksOf(**rehearsal, options.value("student", std::string()), language);
   if (auto written = writeMarks(**rehearsal, outcome.answer, folder); !written) return failure(written.error());
   outcome.text = marksText(outcome.answer);
+  if (!outcome.answer["passed"].get<bool>()) outcome.report.lose(known->exercise.id, whyNotPassed(outcome.answer));
   outcome.description = fmt::format("Rehearsed {}: {}", known->exercise.id, outcome.answer["passed"].get<bool>() ? "passed" : "not passed");
   return outcome;
 }
 
 const std::vector<Verb>& table() {
   static const std::vector<Verb> verbs = {
-      {"rehearse", "Carries out an exercise on an emulated instrument from a list of actions, and marks it; without one it lists them", VerbScope::files,
+      {"rehearse",
+       "Carries out an exercise on an emulated instrument from a list of actions, and marks it (exit code 3: not "
+       "passed); without one it lists them",
+       VerbScope::files,
        {{.name = "exercise", .kind = K::text, .help = "its file, or its id such as E03", .positional = true},
-        {.name = "actions", .kind = K::path, .help = "what is done, as a list of actions; a result that was exported replays"},
+        {.name = "actions",
+         .kind = K::path,
+         .help = "what is done, as a list of actions; a result that was exported replays"},
         {.name = "solution", .kind = K::flag, .help = "does what the exercise itself gives as a way to do it"},
+        {.name = "check",
+         .kind = K::list,
+         .help = "files of exercises: tells all that is wrong with them, and starts them; nothing else is done (exit "
+                 "code 3: one is refused)"},
+        {.name = "names",
+         .kind = K::flag,
+         .help = "lists the devices, or with --device all names and choices that an exercise for it may use"},
         {.name = "device", .kind = K::text, .help = "id of the device, where the exercise is for several"},
         {.name = "student", .kind = K::text, .help = "name on the certificate"},
         {.name = "language", .kind = K::text, .help = "of the texts", .standard = "en"},
-        {.name = "output", .kind = K::path, .help = "folder for the scans and the result (JSON, CSV, HTML)", .standard = "rehearsal"}},
+        {.name = "output",
+         .kind = K::path,
+         .help = "folder for the scans and the result (JSON, CSV, HTML)",
+         .standard = "rehearsal"}},
        runRehearse},
   };
   return verbs;

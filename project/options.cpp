@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
@@ -25,7 +26,8 @@ std::string domain(const Parameter& p) {
     }
     case ParameterKind::flag: return "true or false";
     case ParameterKind::choice: return fmt::format("one of {}", fmt::join(p.choices, ", "));
-    case ParameterKind::triple: return fmt::format("three numbers{}", *p.unit != 0 ? fmt::format(" in {}", p.unit) : "");
+    case ParameterKind::triple:
+      return fmt::format("three numbers{}, none beyond 1e9", *p.unit != 0 ? fmt::format(" in {}", p.unit) : "");
     case ParameterKind::pairs: return "a list of key=value";
     case ParameterKind::list: return "a list of texts";
     case ParameterKind::path: return "a path";
@@ -33,6 +35,8 @@ std::string domain(const Parameter& p) {
   }
   return {};
 }
+
+constexpr double kFarthest = 1e9;  // of a place, in metres: beyond it nothing can be computed in single precision
 
 bool isListOfTexts(const json& value) {
   return value.is_array() && std::all_of(value.begin(), value.end(), [](const json& v) { return v.is_string(); });
@@ -50,7 +54,8 @@ bool fits(const Parameter& p, const json& value) {
                                               [&](const char* c) { return value.get_ref<const std::string&>() == c; });
     case ParameterKind::triple:
       return value.is_array() && (value.size() == 3 || value.size() == 2) &&
-             std::all_of(value.begin(), value.end(), [](const json& v) { return v.is_number(); });
+             std::all_of(value.begin(), value.end(),
+                         [](const json& v) { return v.is_number() && std::abs(v.get<double>()) <= kFarthest; });
     case ParameterKind::pairs:
       return isListOfTexts(value) && std::all_of(value.begin(), value.end(), [](const json& v) {
                return v.get_ref<const std::string&>().find('=') != std::string::npos;

@@ -127,9 +127,12 @@ Result<void> showSetup(Device& device, const std::string& row) {
 Result<void> lookAtSetup(Device& device, const std::string&) {
   auto* setup = device.shownSetup();
   if (setup == nullptr) return failure(ErrorKind::usage, device.word("no_setup"));
+  if (!setup->preview) {
+    device.give(PreviewOrder{setup->file});  // it is looked at when there is a picture: previewDone
+    return {};
+  }
   setup->looked_at = true;
   device.note("looked_at", setup->name);
-  if (!setup->preview) device.give(PreviewOrder{setup->file});
   return {};
 }
 

@@ -320,6 +320,17 @@ Result<void> checkFacts(const Node& node, const DomainLookup& lookup) {
   return {};
 }
 
+void collectFacts(const Node& node, std::vector<std::string>& names) {
+  const auto take = [&](const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  if (node.kind == Node::Kind::comparison) {
+    take(node.comparison.fact);
+    if (node.comparison.of_fact) take(node.comparison.words[0]);
+  }
+  for (const auto& part : node.parts) collectFacts(*part, names);
+}
+
 bool canHold(const Case& one, const DomainLookup& lookup) {
   std::vector<std::pair<std::string, Possible>> facts;
   for (const auto& literal : one) {
@@ -348,6 +359,12 @@ Result<Condition> Condition::parse(std::string_view text) {
 }
 
 bool Condition::holds(const FactLookup& fact) const { return root_ == nullptr || nodeHolds(*root_, fact); }
+
+std::vector<std::string> Condition::facts() const {
+  std::vector<std::string> names;
+  if (root_ != nullptr) collectFacts(*root_, names);
+  return names;
+}
 
 Result<void> Condition::check(const DomainLookup& domain) const {
   if (root_ == nullptr) return {};

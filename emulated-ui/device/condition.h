@@ -45,6 +45,7 @@ class Condition {
   bool holds(const FactLookup& fact) const;
   const std::string& text() const { return text_; }
   bool empty() const { return root_ == nullptr; }
+  std::vector<std::string> facts() const;  // that it speaks of, each once, in its order
 
   // Refuses unknown facts, comparisons with what the fact can never be, and conditions that can never hold.
   Result<void> check(const DomainLookup& domain) const;

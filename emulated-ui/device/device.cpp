@@ -358,6 +358,10 @@ void Device::previewDone(const std::string& file, std::shared_ptr<const ScanPrev
   for (auto& p : state_.projects)
     for (auto& setup : p.setups)
       if (setup.file == file) setup.preview = preview;
+  if (auto* shown = shownSetup(); shown != nullptr && shown->file == file) {  // else nobody has seen it
+    shown->looked_at = true;
+    note("looked_at", shown->name);
+  }
 }
 
 void Device::transferDone(const std::vector<std::string>& files) {

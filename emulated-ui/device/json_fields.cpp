@@ -6,13 +6,32 @@
 
 #include <fmt/format.h>
 
+#include "emulated-ui/device/nearest.h"
+#include "materials/json_file.h"
+
 namespace standpoint {
 
 namespace {
 
 const nlohmann::json kNothing = nlohmann::json::object();
+constexpr std::size_t kLongestShown = 40;  // bytes of a wrong value
+
+std::string shortened(std::string text) {
+  if (text.size() <= kLongestShown) return text;
+  std::size_t end = kLongestShown;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // not within a letter
+  return text.substr(0, end) + "…";
+}
 
 }  // namespace
+
+std::string described(const nlohmann::json& value) {
+  if (value.is_string()) return fmt::format("the text \"{}\"", shortened(value.get<std::string>()));
+  if (value.is_number()) return fmt::format("the number {}", shortened(value.dump()));
+  if (value.is_boolean()) return value.dump();
+  if (value.is_array()) return "a list";
+  return value.is_object() ? "an object" : "null";
+}
 
 void JsonFault::say(const std::string& pointer, const std::string& message) {
   if (!error_) error_ = Error{ErrorKind::unusable, message, file_ + " " + (pointer.empty() ? "/" : pointer)};
@@ -20,12 +39,19 @@ void JsonFault::say(const std::string& pointer, const std::string& message) {
 
 JsonFields::JsonFields(JsonFault& fault, const nlohmann::json& object, std::string pointer)
     : fault_(fault), object_(object.is_object() ? object : kNothing), pointer_(std::move(pointer)) {
-  if (!object.is_object()) fault_.say(pointer_, "an object is needed here");
+  if (!object.is_object())
+    fault_.say(pointer_, fmt::format("an object is needed here, in {{ }}, not {}", described(object)));
 }
 
 bool JsonFields::has(const char* key) const { return object_.contains(key); }
 
-void JsonFields::wrong(const char* key, const std::string& message) { fault_.say(pointer_ + "/" + key, message); }
+void JsonFields::wrong(const char* key, const std::string& message) {
+  fault_.say(*key == '\0' ? pointer_ : (JsonPlace{{}, pointer_} / std::string_view(key)).pointer, message);
+}
+
+void JsonFields::needs(const char* key, const nlohmann::json& found, const std::string& needed) {
+  wrong(key, fmt::format("{} is needed here, not {}", needed, described(found)));
+}
 
 const nlohmann::json* JsonFields::find(const char* key, bool required) {
   known_.insert(key);
@@ -37,18 +63,23 @@ const nlohmann::json* JsonFields::find(const char* key, bool required) {
 
 const nlohmann::json* JsonFields::raw(const char* key) { return find(key, false); }
 
-std::string JsonFields::text(const char* key) {
+std::string JsonFields::text(const char* key, const char* example) {
   const auto* value = find(key, true);
   if (value == nullptr) return {};
-  if (!value->is_string() || value->get_ref<const std::string&>().empty()) {
-    wrong(key, "a text is needed here");
-    return {};
-  }
-  return value->get<std::string>();
+  if (value->is_string() && !value->get_ref<const std::string&>().empty()) return value->get<std::string>();
+  // Without an example, a number or a flag only lacks its quotes.
+  const bool bare = *example == '\0' && (value->is_number() || value->is_boolean());
+  const auto such = bare ? shortened(value->dump()) : std::string(example);
+  const auto hint = such.empty() ? std::string() : fmt::format("; write {}\"{}\"", bare ? "" : "it like ", such);
+  if (value->is_string())
+    wrong(key, "a text is needed here, not an empty one" + hint);
+  else
+    wrong(key, fmt::format("a text is needed here, in quotes, not {}{}", described(*value), hint));
+  return {};
 }
 
-std::string JsonFields::textOr(const char* key, const std::string& standard) {
-  return has(key) ? text(key) : (known_.insert(key), standard);
+std::string JsonFields::textOr(const char* key, const std::string& standard, const char* example) {
+  return has(key) ? text(key, example) : (known_.insert(key), standard);
 }
 
 std::string JsonFields::wordOf(const char* key, const std::vector<std::string>& allowed) {
@@ -63,7 +94,8 @@ double JsonFields::number(const char* key, double minimum, double maximum) {
   if (value == nullptr) return minimum;
   const double number = value->is_number() ? value->get<double>() : std::nan("");
   if (!(number >= minimum && number <= maximum)) {
-    wrong(key, fmt::format("a number from {} to {} is needed here", minimum, maximum));
+    needs(key, *value,
+          fmt::format("a number from {} to {}{}", minimum, maximum, value->is_string() ? ", without quotes," : ""));
     return minimum;
   }
   return number;
@@ -76,12 +108,12 @@ double JsonFields::numberOr(const char* key, double standard, double minimum, do
 bool JsonFields::flagOr(const char* key, bool standard) {
   const auto* value = find(key, false);
   if (value == nullptr) return standard;
-  if (!value->is_boolean()) wrong(key, "true or false is needed here");
+  if (!value->is_boolean()) needs(key, *value, "true or false, without quotes,");
   return value->is_boolean() ? value->get<bool>() : standard;
 }
 
 Condition JsonFields::condition(const char* key) {
-  auto parsed = Condition::parse(textOr(key, ""));
+  auto parsed = Condition::parse(textOr(key, "", "setups >= 1"));
   if (!parsed) {
     wrong(key, parsed.error().message);
     return {};
@@ -93,11 +125,13 @@ std::vector<std::string> JsonFields::texts(const char* key) {
   std::vector<std::string> found;
   const auto* value = find(key, false);
   if (value == nullptr) return found;
-  if (!value->is_array()) wrong(key, "a list of texts is needed here");
+  if (!value->is_array())
+    needs(key, *value, "a list of texts, such as [\"a\", \"b\"],");
   else
     for (const auto& text : *value) {
       if (text.is_string()) found.push_back(text.get<std::string>());
-      else wrong(key, "a list of texts is needed here");
+      else
+        wrong(key, fmt::format("a list of texts is needed here; {} stands in it", described(text)));
     }
   return found;
 }
@@ -105,7 +139,7 @@ std::vector<std::string> JsonFields::texts(const char* key) {
 void JsonFields::list(const char* key, const std::function<void(JsonFields&)>& one) {
   const auto* value = find(key, false);
   if (value == nullptr) return;
-  if (!value->is_array()) return wrong(key, "a list is needed here");
+  if (!value->is_array()) return needs(key, *value, "a list of objects, [{…}, {…}],");
   for (std::size_t i = 0; i < value->size(); ++i) {
     JsonFields fields(fault_, (*value)[i], fmt::format("{}/{}/{}", pointer_, key, i));
     one(fields);
@@ -116,20 +150,23 @@ void JsonFields::list(const char* key, const std::function<void(JsonFields&)>& o
 void JsonFields::each(const char* key, const std::function<void(const std::string&, const nlohmann::json&, const std::string&)>& one) {
   const auto* value = find(key, false);
   if (value == nullptr) return;
-  if (!value->is_object()) return wrong(key, "an object is needed here");
-  for (const auto& [name, inner] : value->items()) one(name, inner, fmt::format("{}/{}/{}", pointer_, key, name));
+  if (!value->is_object()) return needs(key, *value, "an object, {…},");
+  for (const auto& [name, inner] : value->items())
+    one(name, inner, (JsonPlace{{}, pointer_} / key / std::string_view(name)).pointer);
 }
 
 void JsonFields::everyText(const std::function<void(const std::string&, const std::string&)>& one) {
   for (const auto& [name, value] : object_.items()) {
     if (value.is_string()) one(name, value.get<std::string>());
-    else wrong(name.c_str(), "a text is needed here");
+    else
+      needs(name.c_str(), value, "a text, in quotes,");
   }
 }
 
 void JsonFields::close() {
   for (const auto& [name, value] : object_.items())
-    if (!known_.contains(name)) wrong(name.c_str(), "an unknown key");
+    if (!known_.contains(name))
+      wrong(name.c_str(), "an unknown key; " + knownInstead(name, {known_.begin(), known_.end()}));
 }
 
 }  // namespace standpoint

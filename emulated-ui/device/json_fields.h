@@ -33,8 +33,9 @@ class JsonFields {
   JsonFields(JsonFault& fault, const nlohmann::json& object, std::string pointer);
 
   bool has(const char* key) const;
-  std::string text(const char* key);
-  std::string textOr(const char* key, const std::string& standard);
+  // `example`: what such a text looks like, for whoever wrote something else.
+  std::string text(const char* key, const char* example = "");
+  std::string textOr(const char* key, const std::string& standard, const char* example = "");
   std::string wordOf(const char* key, const std::vector<std::string>& allowed);
   double number(const char* key, double minimum, double maximum);
   double numberOr(const char* key, double standard, double minimum, double maximum);
@@ -51,6 +52,8 @@ class JsonFields {
   void close();                                               // unknown keys are a fault
 
   void wrong(const char* key, const std::string& message);
+  // The same where a value is of another kind: what is needed, and what was found.
+  void needs(const char* key, const nlohmann::json& found, const std::string& needed);
   JsonFault& fault() { return fault_; }
   const std::string& pointer() const { return pointer_; }
 
@@ -62,5 +65,8 @@ class JsonFields {
   std::string pointer_;
   std::set<std::string> known_;
 };
+
+// A value for a message: "the number 2", "the text 'two'", "a list".
+std::string described(const nlohmann::json& value);
 
 }  // namespace standpoint

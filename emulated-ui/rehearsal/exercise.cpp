@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "emulated-ui/device/json_fields.h"
+#include "emulated-ui/rehearsal/events.h"
 #include "materials/json_file.h"
 #include "project/verb.h"
 
@@ -23,6 +24,10 @@ Spoken spoken(JsonFields& f, const char* key, bool required) {
   const auto* raw = f.raw(key);
   if (raw == nullptr) {
     if (required) f.wrong(key, "it is missing");
+    return s;
+  }
+  if (!raw->is_object()) {
+    f.needs(key, *raw, "an object with a text for each language, such as {\"en\": \"Scan.\"},");
     return s;
   }
   JsonFields texts(f.fault(), *raw, f.pointer() + "/" + key);
@@ -71,8 +76,12 @@ RehearsalAction action(JsonFields& f, bool prepares = false) {
     const auto* options = f.raw("options");
     a.options = options == nullptr ? nlohmann::json::object() : *options;
     const bool field = a.name == "station" || a.name == "target" || a.name == "plan";
+    if (!a.options.is_object())
+      f.needs("options", a.options, "an object, such as {\"add\": \"S1\", \"on\": [4.3, 1.6, 0]},");
     if (!field && !(prepares && a.name == "treat"))
-      f.wrong("verb", prepares ? "only station, target, plan and treat can prepare the environment" : "only station, target and plan can be done in the field");
+      f.wrong("verb", fmt::format("'{}' cannot be done here: only {}", a.name,
+                                  prepares ? "station, target, plan and treat can prepare the environment"
+                                           : "station, target and plan can be done in the field"));
   } else if (named("hint", Kind::hint)) {
   } else if (const auto* way = f.raw("walk")) {
     a.kind = Kind::walk;
@@ -98,21 +107,27 @@ std::vector<RehearsalAction> actions(JsonFields& f, const char* key) {
 
 ExerciseRule rule(JsonFields& f) {
   ExerciseRule r;
-  r.id = f.text("id");
+  r.id = f.text("id", "levelled");
   r.text = spoken(f, "text", true);
-  const auto when = f.text("when");
+  const auto when = f.text("when", "each scan_started");
   r.when = when.substr(0, when.find(' '));
   if (when.find(' ') != std::string::npos) r.event = when.substr(when.find(' ') + 1);
   if (r.when != "end" && r.when != "once" && r.when != "always" && r.when != "each")
-    f.wrong("when", "it is one of end, once, always, each EVENT");
-  if ((r.when == "each") == r.event.empty()) f.wrong("when", "only 'each' has an event, and it needs one");
+    f.wrong(
+        "when",
+        fmt::format("'{}' is no time to ask: it is one of end, once, always, each EVENT, such as \"each scan_started\"",
+                    when));
+  if (r.when == "each" && !r.event.empty())
+    if (const auto wrong = wrongEvent(r.event)) f.wrong("when", *wrong);
+  if ((r.when == "each") == r.event.empty())
+    f.wrong("when", "only 'each' has an event, and it needs one, such as \"each scan_started\"");
   r.holds = f.condition("holds");
   if (r.holds.empty()) f.wrong("holds", "a condition is needed");
   r.points = f.number("points", 0, 1000);
   r.must = f.flagOr("must", false);
-  r.mistake = f.textOr("mistake", "");
+  r.mistake = f.textOr("mistake", "", "M08");
   r.because = spoken(f, "because", false);
-  r.proof = f.textOr("proof", "");
+  r.proof = f.textOr("proof", "", "data.noise");
   return r;
 }
 
@@ -180,37 +195,45 @@ Result<Exercise> readExercise(const fs::path& file) {
   JsonFault fault(file.filename().string());
   JsonFields f(fault, *json, "");
   Exercise e;
-  e.id = f.text("id");
+  e.file = file.filename().string();
+  e.id = f.text("id", "E99");
+  // It names a folder, too.
+  if (e.id.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_") != std::string::npos)
+    f.wrong("id", fmt::format("'{}' may hold letters from A to Z, digits, - and _ only", e.id));
+  e.tutorial = f.flagOr("tutorial", false);
   e.title = spoken(f, "title", true);
   e.goal = spoken(f, "goal", true);
-  e.source = f.textOr("source", "");
+  e.source = f.textOr("source", "", "our lecture of May");
   e.devices = f.texts("devices");
   if (e.devices.empty()) f.wrong("devices", "an exercise is for at least one device");
-  e.instrument = f.textOr("instrument", "");
-  e.model = f.text("model");
+  e.instrument = f.textOr("instrument", "", "faro-focus-s350");
+  e.model = f.text("model", "house");
   if (const auto* area = f.raw("area")) e.area = numbersIn(fault, *area, "/area", 6, "six numbers are needed: the least and the greatest x, y, z");
   f.each("places", [&](const std::string& name, const nlohmann::json& at, const std::string& pointer) {
     e.places[name] = numbersIn(fault, at, pointer, 2, "x and y are needed");
   });
   f.list("setup", [&](JsonFields& one) {
     const auto a = action(one, true);
-    if (a.kind != Kind::verb) one.wrong("verb", "the environment is prepared by verbs");
+    if (a.kind != Kind::verb)
+      one.wrong("",
+                "the environment is prepared by verbs, such as {\"verb\": \"station\", \"options\": {\"add\": \"S1\", "
+                "\"on\": [4.3, 1.6, 0]}}");
     e.setup.push_back(toJson(a));
   });
   e.start = actions(f, "start");
   e.troubles = f.texts("troubles");
   f.list("events", [&](JsonFields& one) {
-    ExerciseEvent event{one.condition("when"), one.text("trouble")};
+    ExerciseEvent event{one.condition("when"), one.text("trouble", "battery_low")};
     if (event.when.empty()) one.wrong("when", "a condition is needed");
     e.events.push_back(std::move(event));
   });
   e.in_order = f.flagOr("in_order", true);
   f.list("steps", [&](JsonFields& one) {
     ExerciseStep s;
-    s.id = one.text("id");
+    s.id = one.text("id", "scan");
     s.text = spoken(one, "text", true);
     s.hint = spoken(one, "hint", false);
-    s.widget = one.textOr("widget", "");
+    s.widget = one.textOr("widget", "", "start_scan");
     s.done = one.condition("done");
     if (s.done.empty()) one.wrong("done", "a condition is needed");
     s.points = one.numberOr("points", 1, 0, 1000);
@@ -219,7 +242,7 @@ Result<Exercise> readExercise(const fs::path& file) {
   f.list("rules", [&](JsonFields& one) { e.rules.push_back(rule(one)); });
   f.list("questions", [&](JsonFields& one) {
     ExerciseQuestion q;
-    q.id = one.text("id");
+    q.id = one.text("id", "usable");
     q.text = spoken(one, "text", true);
     one.list("choices", [&](JsonFields& c) {
       q.choices.push_back(c.text("value"));
@@ -231,7 +254,8 @@ Result<Exercise> readExercise(const fs::path& file) {
   e.pass_mark = f.numberOr("pass_mark", 0.7, 0, 1);
   e.solution = actions(f, "solution");
   f.close();
-  if (e.steps.empty() && e.rules.empty()) fault.say("/steps", "an exercise has steps or rules");
+  if (e.steps.empty() && e.rules.empty())
+    fault.say("/steps", "an exercise has steps or rules: without them nothing can be marked");
   if (fault.error()) return failure(*fault.error());
   return e;
 }
@@ -253,6 +277,8 @@ Result<std::vector<KnownExercise>> knownExercises() {
       found.push_back({*std::move(exercise), file});
     }
   }
+  // Whoever is new begins with them.
+  std::stable_partition(found.begin(), found.end(), [](const KnownExercise& one) { return one.exercise.tutorial; });
   return found;
 }
 

@@ -9,6 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/progress.h"
+#include "core/report.h"
 #include "core/result.h"
 #include "emulated-ui/device/condition.h"
 
@@ -81,7 +83,9 @@ struct ExerciseQuestion {
 };
 
 struct Exercise {
+  std::string file;  // name, for messages
   std::string id;
+  bool tutorial = false;  // it is listed before the others
   Spoken title, goal;
   std::string source;                       // what it is based on
   std::vector<std::string> devices;         // ids; the first is the standard
@@ -106,9 +110,13 @@ struct Exercise {
 bool isFor(const Exercise& exercise, const std::string& device);
 
 Result<Exercise> readExercise(const std::filesystem::path& file);
-// Everything that is wrong with it beyond its form: unknown devices, widgets, facts, hands, troubles, samples, conditions
-// that can never hold, texts without a translation.
+// Everything that is wrong with it beyond its form, each with file and JSON pointer: unknown devices, widgets, facts,
+// events, stations, hands, troubles, samples, options that a verb does not take, conditions that can never hold, texts
+// without a translation. Nothing is carried out for it.
 std::vector<Error> checkExercise(const Exercise& exercise);
+// Brings it to its start on each of its devices, as for a student. What cannot be prepared is an error, and so is a
+// step that is done before the student comes; a later step that holds already is a warning in `report`.
+Result<void> checkStart(const Exercise& exercise, Report& report, Progress& progress);
 
 // A new exercise from what somebody did: its actions are the solution, and each thing that was reached on the device is a
 // step with a point, to be kept or struck out. Texts are to be filled in.
@@ -118,7 +126,8 @@ struct KnownExercise {
   Exercise exercise;
   std::filesystem::path file;
 };
-// The shipped ones and those of the user's folder (STANDPOINT_EXERCISES, else XDG_CONFIG_HOME/standpoint/exercises), by id.
+// The shipped ones and those of the user's folder (STANDPOINT_EXERCISES, else XDG_CONFIG_HOME/standpoint/exercises), by
+// file within each; the tutorials stand before all others.
 Result<std::vector<KnownExercise>> knownExercises();
 // A file, or the id of a known one.
 Result<KnownExercise> findExercise(const std::string& name);

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cstdlib>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "emulated-ui/device/nearest.h"
 #include "emulated-ui/menus.h"
+#include "emulated-ui/rehearsal/events.h"
 #include "emulated-ui/rehearsal/rehearsal.h"
 
 namespace standpoint {
@@ -13,6 +17,48 @@ namespace {
 
 using Kind = RehearsalAction::Kind;
 
+constexpr std::size_t kMostFacts = 8;  // of the hundreds that there are, in a message
+
+template <class Rows>
+std::vector<std::string> idsOf(const Rows& rows) {
+  std::vector<std::string> ids;
+  for (const auto& row : rows) ids.emplace_back(row.id);
+  return ids;
+}
+
+bool among(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<std::string> samples() {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(samplesFolder(), error))
+    if (entry.path().extension() == ".ifc") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// All that can be pressed on it.
+std::vector<std::string> widgetsOf(const Device& device) {
+  const auto& d = device.type().definition;
+  auto names = idsOf(d.keys);
+  const auto take = [&](const std::string& id) {
+    if (!among(names, id)) names.push_back(id);
+  };
+  for (const auto& screen : d.screens)
+    for (const auto& w : screen.widgets) {
+      if (w.setting != "*")
+        take(w.id);
+      else
+        for (const auto& s : device.type().instrument.settings)
+          take("setting." + s.key);  // a screen that shows every setting
+    }
+  for (const auto& dialog : d.dialogs)
+    for (const auto& button : dialog.buttons) take(button.id);
+  return names;
+}
+
 class Checker {
  public:
   explicit Checker(const Exercise& exercise) : e_(exercise) {}
@@ -20,9 +66,10 @@ class Checker {
   std::vector<Error> check() {
     checkDevices();
     if (devices_.empty()) return std::move(faults_);
-    if (std::error_code error; std::filesystem::path(e_.model).has_parent_path() || !std::filesystem::is_regular_file(samplesFolder() / (e_.model + ".ifc"), error))
-      fault("/model", fmt::format("there is no sample '{}'", e_.model));
+    if (const auto known = samples(); !among(known, e_.model))
+      fault("/model", fmt::format("there is no sample '{}'; {}", e_.model, knownInstead(e_.model, known)));
     checkTexts();
+    checkQuestions();
     checkIds(e_.steps, "steps");
     checkIds(e_.rules, "rules");
     checkIds(e_.questions, "questions");
@@ -34,20 +81,28 @@ class Checker {
     for (std::size_t i = 0; i < e_.rules.size(); ++i) {
       const auto place = fmt::format("/rules/{}", i);
       checkCondition(e_.rules[i].holds, place + "/holds");
-      if (!e_.rules[i].proof.empty() && !domain(e_.rules[i].proof, devices_.front())) fault(place + "/proof", fmt::format("there is no fact '{}'", e_.rules[i].proof));
+      if (!e_.rules[i].proof.empty()) (void)checkFact(e_.rules[i].proof, devices_.front(), place + "/proof");
     }
     for (std::size_t i = 0; i < e_.events.size(); ++i) {
       checkCondition(e_.events[i].when, fmt::format("/events/{}/when", i));
       checkTrouble(e_.events[i].trouble, fmt::format("/events/{}/trouble", i));
     }
     for (std::size_t i = 0; i < e_.troubles.size(); ++i) checkTrouble(e_.troubles[i], fmt::format("/troubles/{}", i));
+    for (std::size_t i = 0; i < e_.setup.size(); ++i) {
+      const auto& verb = e_.setup[i];
+      const auto place = fmt::format("/setup/{}", i);
+      checkVerb(verb.at("verb").get<std::string>(), verb.at("options"), place);
+      checkPrepares(verb.at("verb").get<std::string>(), verb.at("options"), place);
+    }
     checkActions(e_.start, "/start");
     checkActions(e_.solution, "/solution");
     return std::move(faults_);
   }
 
  private:
-  void fault(const std::string& place, const std::string& message) { faults_.push_back({ErrorKind::unusable, message, e_.id + " " + place}); }
+  void fault(const std::string& place, const std::string& message) {
+    faults_.push_back({ErrorKind::unusable, message, e_.file + " " + place});
+  }
 
   void checkDevices() {
     for (std::size_t i = 0; i < e_.devices.size(); ++i) {
@@ -57,7 +112,9 @@ class Checker {
         continue;
       }
       if (const auto* device = findDevice(e_.devices[i])) load(*device, place);
-      else fault(place, fmt::format("there is no device '{}'", e_.devices[i]));
+      else
+        fault(place, fmt::format("there is no device '{}'; {}", e_.devices[i],
+                                 knownInstead(e_.devices[i], idsOf(emulatedDevices()))));
     }
   }
   void load(const EmulatedDevice& device, const std::string& place) {
@@ -71,26 +128,95 @@ class Checker {
     return own ? own : device.domain(name);
   }
 
-  // It must be possible on each device of the exercise.
-  void checkCondition(const Condition& condition, const std::string& place) {
-    for (const auto& device : devices_)
-      if (auto ok = condition.check([&](const std::string& name) { return domain(name, device); }); !ok)
-        return fault(place, fmt::format("{}: {}", device.type().definition.id, ok.error().message));
+  bool checkFact(const std::string& name, const Device& device, const std::string& place) {
+    if (name.starts_with("count.")) {
+      const auto wrong = wrongCounter(name, device);
+      if (wrong) fault(place, *wrong);
+      return !wrong;
+    }
+    if (domain(name, device)) return true;
+    const auto& id = device.type().definition.id;
+    fault(place, fmt::format("{}: there is no fact '{}'; {} (all: standpoint rehearse --names --device {})", id, name,
+                             knownInstead(name, factNames(e_, device), kMostFacts), id));
+    return false;
   }
 
-  // A screen that shows every setting has a widget for each: "setting.resolution".
-  static bool isSetting(const std::string& id, const Device& device) { return id.starts_with("setting.") && device.domain(id).has_value(); }
+  // It must be possible on each device of the exercise.
+  void checkCondition(const Condition& condition, const std::string& place) {
+    for (const auto& device : devices_) {
+      for (const auto& name : condition.facts())
+        if (!checkFact(name, device, place)) return;
+      if (auto ok = condition.check([&](const std::string& name) { return domain(name, device); }); !ok)
+        return fault(place, fmt::format("{}: {}", device.type().definition.id, ok.error().message));
+    }
+  }
 
   void checkWidget(const std::string& id, const std::string& place) {
-    for (const auto& device : devices_) {
-      const auto& d = device.type().definition;
-      bool found = std::any_of(d.keys.begin(), d.keys.end(), [&](const WidgetRow& w) { return w.id == id; });
-      for (const auto& screen : d.screens)
-        found = found || std::any_of(screen.widgets.begin(), screen.widgets.end(), [&](const WidgetRow& w) { return w.id == id || (w.setting == "*" && isSetting(id, device)); });
-      for (const auto& dialog : d.dialogs)
-        found = found || std::any_of(dialog.buttons.begin(), dialog.buttons.end(), [&](const DialogButton& b) { return b.id == id; });
-      if (!found) return fault(place, fmt::format("{} has no widget '{}'", d.id, id));
-    }
+    for (const auto& device : devices_)
+      if (const auto known = widgetsOf(device); !among(known, id))
+        return fault(place, fmt::format("{} has no widget '{}'; {}", device.type().definition.id, id,
+                                        knownInstead(id, known, 2 * kMostFacts)));
+  }
+
+  void checkVerb(const std::string& name, const nlohmann::json& options, const std::string& place) {
+    // A station that stands badly is there all the same: what stands at it is no second fault.
+    const auto names = [&](const char* key) {
+      return name == "station" && options.contains(key) && options[key].is_string();
+    };
+    if (names("add")) stations_.push_back(options["add"].get<std::string>());
+    if (names("remove")) std::erase(stations_, options["remove"].get<std::string>());
+    if (auto ok = checkOptions(*findVerb(verbs(), name), options); !ok) fault(place + "/options", ok.error().message);
+  }
+
+  // What neither adds nor treats anything prepares nothing.
+  void checkPrepares(const std::string& verb, const nlohmann::json& options, const std::string& place) {
+    const auto lacks = [&](const char* key, const char* example) {
+      if (options.is_object() && !options.contains(key))
+        fault(place + "/options",
+              fmt::format("'{}' is missing: without it '{}' prepares nothing; write it like {}", key, verb, example));
+    };
+    if (verb == "station") lacks("add", R"({"add": "S1", "on": [4.3, 1.6, 0]})");
+    if (verb == "target") lacks("add", R"({"add": "T1", "type": "sphere-145", "on": [1.2, 1, 0], "height": 1.2})");
+    if (verb == "treat") lacks("as", R"({"products": ["class:IfcDoor"], "as": "excluded"})");
+  }
+
+  void checkHand(const RehearsalAction& action, const std::string& place) {
+    if (const auto known = idsOf(handRows()); !among(known, action.name))
+      return fault(place + "/hand",
+                   fmt::format("hands know no '{}'; {}", action.name, knownInstead(action.name, known)));
+    if (action.name == "stand_at" && !among(stations_, action.value))
+      fault(place + "/value",
+            fmt::format("there is no station '{}' to stand at; {}", action.value,
+                        stations_.empty() ? "put one up in /setup first" : knownInstead(action.value, stations_)));
+  }
+
+  // A choice must be one that the device offers.
+  void checkPress(const RehearsalAction& action, const std::string& place) {
+    if (devices_.size() != 1) return;
+    checkWidget(action.name, place + "/press");
+    if (action.value.empty()) return;
+    const auto& device = devices_.front();
+    std::vector<std::string> known;
+    for (const auto& screen : device.type().definition.screens)
+      for (const auto& w : screen.widgets) {
+        if (w.id != action.name || (w.kind != WidgetKind::choice && w.kind != WidgetKind::toggle)) continue;
+        const auto values = device.domain(w.setting.empty() ? "value." + w.value : "setting." + w.setting);
+        if (!values || values->words.empty()) return;  // typed, or of a list that grows
+        known.insert(known.end(), values->words.begin(), values->words.end());
+      }
+    if (!known.empty() && !among(known, action.value) && !isLabel(device, action.value))
+      fault(place + "/value", fmt::format("'{}' cannot be chosen at '{}'; {}", action.value, action.name,
+                                          knownInstead(action.value, known)));
+  }
+  // A choice may be pressed by its label, too.
+  static bool isLabel(const Device& device, const std::string& value) {
+    for (const auto& setting : device.type().instrument.settings)
+      for (const auto& choice : setting.choices)
+        if (choice.label == value || device.word(setting.key + "=" + choice.value) == value) return true;
+    for (const auto& own : device.type().definition.values)
+      for (const auto& choice : own.choices)
+        if (device.word(own.id + "=" + choice) == value) return true;
+    return false;
   }
 
   template <class Rows>
@@ -102,25 +228,29 @@ class Checker {
 
   void checkAnswer(const RehearsalAction& action, const std::string& place) {
     const auto question = std::find_if(e_.questions.begin(), e_.questions.end(), [&](const ExerciseQuestion& q) { return q.id == action.name; });
-    if (question == e_.questions.end()) return fault(place, fmt::format("there is no question '{}'", action.name));
-    if (std::find(question->choices.begin(), question->choices.end(), action.value) == question->choices.end())
-      fault(place, fmt::format("'{}' is not one of {}", action.value, fmt::join(question->choices, ", ")));
+    if (question == e_.questions.end())
+      return fault(place + "/answer", fmt::format("there is no question '{}'; {}", action.name,
+                                                  knownInstead(action.name, idsOf(e_.questions))));
+    if (!among(question->choices, action.value))
+      fault(place + "/value", fmt::format("'{}' is not one of the choices; {}", action.value,
+                                          knownInstead(action.value, question->choices)));
   }
 
   void checkTrouble(const std::string& id, const std::string& place) {
-    const auto& rows = troubleRows();
-    if (std::none_of(rows.begin(), rows.end(), [&](const TroubleRow& row) { return id == row.id; })) fault(place, fmt::format("there is no trouble '{}'", id));
+    if (const auto known = idsOf(troubleRows()); !among(known, id))
+      fault(place, fmt::format("there is no trouble '{}'; {}", id, knownInstead(id, known)));
   }
 
   void checkActions(const std::vector<RehearsalAction>& actions, const std::string& place) {
     for (std::size_t i = 0; i < actions.size(); ++i) {
       const auto& a = actions[i];
       const auto at = fmt::format("{}/{}", place, i);
-      if (a.kind == Kind::press && devices_.size() == 1) checkWidget(a.name, at);
+      if (a.kind == Kind::press) checkPress(a, at);
       if (a.kind == Kind::answer) checkAnswer(a, at);
-      const auto& hands = handRows();
-      if (a.kind == Kind::hand && std::none_of(hands.begin(), hands.end(), [&](const HandRow& row) { return a.name == row.id; }))
-        fault(at, fmt::format("hands know no '{}'", a.name));
+      if (a.kind == Kind::hand) checkHand(a, at);
+      if (a.kind == Kind::verb) checkVerb(a.name, a.options, at);
+      if (a.kind == Kind::hint && !among(idsOf(e_.steps), a.name))
+        fault(at + "/hint", fmt::format("there is no step '{}'; {}", a.name, knownInstead(a.name, idsOf(e_.steps))));
     }
   }
 
@@ -128,6 +258,16 @@ class Checker {
     if (text.texts.empty()) return;
     for (const auto& [language, other] : e_.title.texts)
       if (!text.texts.contains(language)) fault(place, fmt::format("it has no text in '{}'", language));
+  }
+
+  void checkQuestions() {
+    for (std::size_t i = 0; i < e_.questions.size(); ++i) {
+      const auto& choices = e_.questions[i].choices;
+      if (choices.empty()) fault(fmt::format("/questions/{}/choices", i), "a question needs choices to answer with");
+      for (std::size_t k = 0; k < choices.size(); ++k)
+        if (std::count(choices.begin(), choices.begin() + static_cast<std::ptrdiff_t>(k), choices[k]) > 0)
+          fault(fmt::format("/questions/{}/choices/{}/value", i, k), fmt::format("'{}' is there before", choices[k]));
+    }
   }
 
   void checkTexts() {
@@ -149,11 +289,63 @@ class Checker {
 
   const Exercise& e_;
   std::vector<Device> devices_;
+  std::vector<std::string> stations_;  // that are put up so far
   std::vector<Error> faults_;
 };
+
+// A folder for what a start scans; it goes with this.
+class ScratchFolder {
+ public:
+  static Result<ScratchFolder> make() {
+    auto pattern = (std::filesystem::temp_directory_path() / "standpoint-check-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr)
+      return failure(ErrorKind::file_system, "cannot create a folder for the check", pattern);
+    return ScratchFolder(pattern);
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(ScratchFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(ScratchFolder&&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  explicit ScratchFolder(std::filesystem::path path) : path_(std::move(path)) {}
+  std::filesystem::path path_;
+};
+
+// "*" stands for all.
+std::vector<std::string> devicesOf(const Exercise& exercise) {
+  std::vector<std::string> ids;
+  for (const auto& id : exercise.devices)
+    for (const auto& device : emulatedDevices())
+      if ((id == "*" || id == device.id) && !among(ids, device.id)) ids.emplace_back(device.id);
+  return ids;
+}
 
 }  // namespace
 
 std::vector<Error> checkExercise(const Exercise& exercise) { return Checker(exercise).check(); }
+
+Result<void> checkStart(const Exercise& exercise, Report& report, Progress& progress) {
+  for (const auto& device : devicesOf(exercise)) {
+    const auto folder = ScratchFolder::make();
+    if (!folder) return failure(folder.error());
+    const auto rehearsal = Rehearsal::start(exercise, device, folder->path(), {}, progress);
+    if (!rehearsal) return failure(rehearsal.error());
+    for (std::size_t i = 0; i < exercise.steps.size(); ++i)
+      if (exercise.steps[i].done.holds([&](const std::string& name) { return (*rehearsal)->fact(name); }))
+        report.warn(
+            fmt::format("{} /steps/{}/done", exercise.file, i),
+            fmt::format(
+                "{}: '{}' holds at the start already: unless a step before it changes that, it is done as soon as "
+                "that one is, and nobody sees it being done",
+                device, exercise.steps[i].done.text()));
+  }
+  return {};
+}
 
 }  // namespace standpoint

@@ -46,6 +46,12 @@ std::string textOf(const json& value) {
   return value.is_string() ? value.get<std::string>() : value.is_null() ? std::string() : value.dump();
 }
 
+// A demand that nothing asked is not met, but it says nothing of the data either.
+std::string neverAsked(const Rehearsal& rehearsal, const ExerciseRule& rule, const std::string& language) {
+  const auto& words = *rehearsal.device().type().words;
+  return words.text({}, "never_asked", language) + ": " + words.text({}, "never." + rule.event, language);
+}
+
 }  // namespace
 
 json marksOf(const Rehearsal& rehearsal, const std::string& student, const std::string& language) {
@@ -69,28 +75,50 @@ json marksOf(const Rehearsal& rehearsal, const std::string& student, const std::
     points += state.held ? rule.points : 0;
     possible += rule.points;
     must = must && (state.held || !rule.must);
-    json row = {{"id", rule.id}, {"text", rule.text.in(language)}, {"expected", rule.holds.text()}, {"found", state.found}, {"held", state.held},
-                {"must", rule.must}, {"points", state.held ? rule.points : 0}, {"of", rule.points}};
+    json row = {{"id", rule.id},
+                {"text", rule.text.in(language)},
+                {"expected", rule.holds.text()},
+                {"found", state.asked ? state.found : neverAsked(rehearsal, rule, language)},
+                {"asked", state.asked},
+                {"held", state.held},
+                {"must", rule.must},
+                {"points", state.held ? rule.points : 0},
+                {"of", rule.points}};
     if (!state.held) {
       row["at_s"] = state.broken_at_s >= 0 ? json(state.broken_at_s) : json(nullptr);
       if (!rule.mistake.empty()) row["mistake"] = rule.mistake;
-      if (!rule.because.texts.empty()) row["because"] = rule.because.in(language);
+      if (state.asked && !rule.because.texts.empty()) row["because"] = rule.because.in(language);
     }
-    if (!rule.proof.empty())
+    if (state.asked && !rule.proof.empty())
       if (const auto proof = rehearsal.fact(rule.proof))
         row["proof"] = {{"fact", rule.proof}, {"value", proof->number ? json(*proof->number) : json(proof->text)}, {"unit", unitOf(rule.proof)}};
     rules.push_back(std::move(row));
   }
   const double score = possible > 0 ? points / possible : 1;
-  json actions = json::array(), files = json::array();
+  json actions = json::array(), files = json::array(), failures = json::array();
+  for (const auto& failed : rehearsal.failures())
+    failures.push_back({{"at_s", failed.at_s}, {"reason", failed.reason}});
   for (const auto& action : rehearsal.actions()) actions.push_back(toJson(action));
   for (const auto& project : rehearsal.device().state().projects)
     for (const auto& setup : project.setups) files.push_back({{"file", setup.file}, {"station", setup.station}, {"points", setup.points}});
   const bool in_time = !rehearsal.overTime();
-  return {{"exercise", e.id}, {"title", e.title.in(language)}, {"device", rehearsal.device().type().definition.title},
-          {"instrument", rehearsal.device().type().instrument.id}, {"student", student}, {"operator", rehearsal.device().value("operator")}, {"passed", must && in_time && score >= e.pass_mark},
-          {"score", score}, {"pass_mark", e.pass_mark}, {"seconds", rehearsal.seconds()}, {"time_limit_s", e.time_limit_s}, {"in_time", in_time},
-          {"steps", std::move(steps)}, {"rules", std::move(rules)}, {"actions", std::move(actions)}, {"files", std::move(files)}};
+  return {{"exercise", e.id},
+          {"title", e.title.in(language)},
+          {"device", rehearsal.device().type().definition.title},
+          {"instrument", rehearsal.device().type().instrument.id},
+          {"student", student},
+          {"operator", rehearsal.device().value("operator")},
+          {"passed", must && in_time && score >= e.pass_mark},
+          {"score", score},
+          {"pass_mark", e.pass_mark},
+          {"seconds", rehearsal.seconds()},
+          {"time_limit_s", e.time_limit_s},
+          {"in_time", in_time},
+          {"steps", std::move(steps)},
+          {"rules", std::move(rules)},
+          {"failures", std::move(failures)},
+          {"actions", std::move(actions)},
+          {"files", std::move(files)}};
 }
 
 std::string marksText(const json& m) {
@@ -104,6 +132,8 @@ std::string marksText(const json& m) {
     if (!r["held"].get<bool>() && r.contains("proof"))
       text += fmt::format("        your points: {} = {} {}\n", r["proof"]["fact"].get<std::string>(), textOf(r["proof"]["value"]), r["proof"]["unit"].get<std::string>());
   }
+  for (const auto& f : m["failures"])
+    text += fmt::format("  failed after {}: {}\n", clockText(f["at_s"].get<double>()), f["reason"].get<std::string>());
   return text;
 }
 
@@ -115,6 +145,9 @@ std::string marksCsv(const json& m) {
   };
   for (const auto& s : m["steps"]) row("step", s, s["done"].get<bool>() ? fmt::format("done at {:.0f} s", s["at_s"].get<double>()) : "not done", s["done"]);
   for (const auto& r : m["rules"]) row("rule", r, r["found"], r["held"]);
+  for (const auto& f : m["failures"])
+    csv += fmt::format("{},{},{},failure,,{},,failed at {:.0f} s,,,\r\n", quoted(m["exercise"]), quoted(m["student"]),
+                       quoted(m["device"]), quoted(f["reason"]), f["at_s"].get<double>());
   csv += fmt::format("{},{},{},total,,,,,{},{:.4f},1\r\n", quoted(m["exercise"]), quoted(m["student"]), quoted(m["device"]), m["passed"].get<bool>() ? 1 : 0, m["score"].get<double>());
   return csv;
 }
@@ -143,6 +176,9 @@ std::string marksHtml(const json& m, const Rehearsal& rehearsal) {
   for (const auto& s : m["steps"]) row(s, s["done"], s["done"].get<bool>() ? fmt::format("after {}", clockText(s["at_s"].get<double>())) : "–");
   for (const auto& r : m["rules"]) row(r, r["held"], escaped(r["found"]));
   html += "</table>\n";
+  for (const auto& f : m["failures"])
+    html += fmt::format("<p class=\"no\">Failed after {}: {}</p>\n", clockText(f["at_s"].get<double>()),
+                        escaped(f["reason"].get<std::string>()));
   for (const auto& project : rehearsal.device().state().projects)
     for (const auto& setup : project.setups) {
       const auto picture = setupPicture(setup);

@@ -10,8 +10,9 @@
 
 namespace standpoint {
 
-// What a rehearsal is worth: `passed`, `score` (share of the points), and for each step and rule what was expected, what
-// was done, and what a mistake does to the data, with the figure from the points that proves it. `student` may be empty.
+// What a rehearsal is worth: `passed`, `score` (share of the points), and for each step and rule what was expected,
+// what was done, and what a mistake does to the data, with the figure from the points that proves it; of a rule that
+// nothing asked, that and no consequence; `failures`: what the device could not do, and why. `student` may be empty.
 nlohmann::json marksOf(const Rehearsal& rehearsal, const std::string& student, const std::string& language);
 
 std::string marksText(const nlohmann::json& marks);   // for people, a line each

@@ -18,6 +18,13 @@ json spoken(const Device& device, const std::string& english) {
   return texts;
 }
 
+// A step for it would be done before anybody comes.
+bool isStandard(const Device& device, const std::string& key) {
+  for (const auto& s : device.type().instrument.settings)
+    if (s.key == key) return s.standard == device.setting(key);
+  return false;
+}
+
 }  // namespace
 
 json recordedExercise(const Device& device, const std::vector<RehearsalAction>& actions) {
@@ -25,7 +32,9 @@ json recordedExercise(const Device& device, const std::vector<RehearsalAction>& 
   std::set<std::string> settings;
   for (const auto& action : actions) {
     solution.push_back(toJson(action));
-    if (action.kind != RehearsalAction::Kind::press || action.value.empty() || device.setting(action.name).empty() || !settings.insert(action.name).second) continue;
+    if (action.kind != RehearsalAction::Kind::press || action.value.empty() || device.setting(action.name).empty() ||
+        isStandard(device, action.name) || !settings.insert(action.name).second)
+      continue;
     const auto condition = fmt::format("setting.{} == '{}'", action.name, device.setting(action.name));
     steps.push_back({{"id", action.name}, {"text", spoken(device, device.word(action.name) + ": " + device.setting(action.name))}, {"widget", action.name}, {"done", condition}, {"points", 1}});
   }

@@ -9,8 +9,10 @@
 #include <fmt/format.h>
 
 #include "emulated-ui/device/format.h"
+#include "emulated-ui/device/nearest.h"
 #include "emulated-ui/menus.h"
 #include "emulated-ui/rehearsal/field_proofs.h"
+#include "emulated-ui/sighting.h"
 
 namespace standpoint {
 
@@ -29,25 +31,15 @@ Result<Document> done(const Document& document, const std::string& verb, const j
   return std::move(outcome->document);
 }
 
-// The facts that a condition speaks of, in its order.
-std::vector<std::string> namesIn(const std::string& condition) {
+std::vector<std::string> stationNames(const Document& document) {
   std::vector<std::string> names;
-  std::string word;
-  bool quoted = false;
-  const auto take = [&] {
-    const bool a_fact = !word.empty() && (word.find('.') != std::string::npos || std::isalpha(static_cast<unsigned char>(word[0])) != 0);
-    if (a_fact && std::find(names.begin(), names.end(), word) == names.end()) names.push_back(word);
-    word.clear();
-  };
-  for (const char c : condition) {
-    if (c == '\'') quoted = !quoted;
-    const bool part = !quoted && (std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string_view("._-/").find(c) != std::string_view::npos);
-    if (part) word += c;
-    else take();
-  }
-  take();
+  if (document.job)
+    for (const auto& station : document.job->stations) names.push_back(station.name);
   return names;
 }
+
+// What a verb or device refuses of a file is the file's fault, not that of whoever starts it.
+ErrorKind preparing(const Error& error) { return error.kind == ErrorKind::usage ? ErrorKind::unusable : error.kind; }
 
 // Scans with the truth of each point are several times as large: only where something is asked of it.
 bool asksThePoints(const Exercise& e) {
@@ -71,6 +63,7 @@ Result<std::unique_ptr<Rehearsal>> Rehearsal::start(Exercise exercise, const std
 
 Result<void> Rehearsal::prepare(const std::string& wanted, std::function<void()> wake, Progress& progress) {
   const auto& e = exercise_;
+  if (const auto faults = checkExercise(e); !faults.empty()) return failure(faults.front());
   const std::string id = wanted.empty() ? e.devices.front() : wanted;
   if (!isFor(e, id))
     return failure(ErrorKind::usage, fmt::format("the exercise is for {}, not '{}'", fmt::join(e.devices, ", "), id), e.id);
@@ -78,30 +71,54 @@ Result<void> Rehearsal::prepare(const std::string& wanted, std::function<void()>
   if (device == nullptr) return failure(ErrorKind::usage, fmt::format("there is no device '{}'", id), e.id);
   auto type = loadDevice(*device, e.instrument);
   if (!type) return failure(type.error());
-  const auto model = samplesFolder() / (e.model + ".ifc");
-  progress.stage("Preparing the environment", 0, 0.3);
-  auto document = done({}, "import", {{"files", json::array({model.string()})}}, progress);
-  if (!document) return failure(document.error());
-  document_ = *std::move(document);
-  for (const auto& step : e.setup) {
-    document = done(document_, step.at("verb").get<std::string>(), step.at("options"), progress);
-    if (!document) return failure(document.error());
-    document_ = *std::move(document);
-  }
+  if (auto ok = prepareModel(progress); !ok) return ok;
   host_ = std::make_unique<DeviceHost>(*type, document_, std::move(wake));
   host_->time_factor = 1;
   host_->truth = asksThePoints(e);
   steps_.resize(e.steps.size());
   rules_.resize(e.rules.size());
   event_happened_.resize(e.events.size());
-  for (const auto& action : e.start)
-    if (auto ok = apply(action, progress); !ok)
-      return failure(ok.error().kind, "the exercise cannot be prepared: " + describe(ok.error()), e.id);
+  for (std::size_t i = 0; i < e.start.size(); ++i) {
+    const auto logged = this->device().state().log.size();
+    auto ok = apply(e.start[i], progress);
+    const auto& log = this->device().state().log;
+    for (std::size_t k = logged; ok && k < log.size(); ++k)
+      if (log[k].what == "failed") ok = failure(ErrorKind::unusable, log[k].detail);
+    if (!ok)
+      return failure(preparing(ok.error()), "the exercise cannot be prepared: " + ok.error().message,
+                     fmt::format("{} /start/{}", e.file, i));
+  }
   for (const auto& trouble : e.troubles)
     if (auto ok = this->device().trouble(trouble); !ok) return ok;
   started_s_ = this->device().state().clock_s;
   log_seen_ = this->device().state().log.size();
+  watching_ = true;  // what the start did is nobody's work
   watch();
+  for (std::size_t i = 0; i < steps_.size(); ++i)
+    if (steps_[i].done)
+      return failure(ErrorKind::unusable,
+                     fmt::format("the step '{}' is done before the student comes: '{}' holds at the start, so nobody "
+                                 "can be seen doing it; "
+                                 "change the condition, or /start",
+                                 e.steps[i].id, e.steps[i].done.text()),
+                     fmt::format("{} /steps/{}/done", e.file, i));
+  return {};
+}
+
+Result<void> Rehearsal::prepareModel(Progress& progress) {
+  const auto model = samplesFolder() / (exercise_.model + ".ifc");
+  progress.stage("Preparing the environment", 0, 0.3);
+  auto document = done({}, "import", {{"files", json::array({model.string()})}}, progress);
+  if (!document) return failure(document.error());
+  document_ = *std::move(document);
+  for (std::size_t i = 0; i < exercise_.setup.size(); ++i) {
+    const auto& step = exercise_.setup[i];
+    document = done(document_, step.at("verb").get<std::string>(), step.at("options"), progress);
+    if (!document)
+      return failure(preparing(document.error()), "the environment cannot be prepared: " + document.error().message,
+                     fmt::format("{} /setup/{}/options", exercise_.file, i));
+    document_ = *std::move(document);
+  }
   return {};
 }
 
@@ -117,7 +134,13 @@ Result<void> Rehearsal::runFieldVerb(const RehearsalAction& action, Progress& pr
 Result<void> Rehearsal::apply(const RehearsalAction& action, Progress& progress) {
   switch (action.kind) {
     case Kind::press: return device().act(action.name, action.value);
-    case Kind::hand: return device().hand(action.name, action.value);
+    case Kind::hand:
+      if (action.name == "stand_at" && stationOf(document_, action.value) == nullptr)
+        return failure(ErrorKind::usage,
+                       fmt::format("there is no station '{}' to stand at; {}", action.value,
+                                   knownInstead(action.value, stationNames(document_))),
+                       action.name);
+      return device().hand(action.name, action.value);
     case Kind::wait: return passVirtually(action.seconds, progress);
     case Kind::finish: return finish(progress);
     case Kind::verb: return runFieldVerb(action, progress);
@@ -212,10 +235,12 @@ const ExerciseStep* Rehearsal::nextStep() const {
 
 std::string Rehearsal::factsOf(const Condition& condition) const {
   std::string text;
-  for (const auto& name : namesIn(condition.text())) {
+  for (const auto& name : condition.facts()) {
     const auto value = fact(name);
-    if (!value) continue;
-    text += (text.empty() ? "" : ", ") + name + " = " + (value->number ? fmt::format("{:.6g}", *value->number) : value->text);
+    text += (text.empty() ? "" : ", ") + name + " = " +
+            (!value          ? "–"
+             : value->number ? fmt::format("{:.6g}", *value->number)
+                             : value->text);
   }
   return text;
 }
@@ -238,15 +263,24 @@ void Rehearsal::noteTargets() {
   }
 }
 
+// With its detail, too: of "settings/resolution=6mm" what was pressed counts, and which value.
+void Rehearsal::count(const DeviceEvent& event) {
+  counts_[event.what] += 1;
+  counts_[event.what + "." + event.detail] += 1;
+  if (const auto value = event.detail.find('='); value != std::string::npos)
+    counts_[event.what + "." + event.detail.substr(0, value)] += 1;
+}
+
 // After every action and every step of the clock.
 void Rehearsal::watch() {
+  if (!watching_) return;
   const auto look = lookup();
   const auto& log = device().state().log;
   for (; log_seen_ < log.size(); ++log_seen_) {
     const auto& event = log[log_seen_];
-    counts_[event.what] += 1;
+    count(event);
     if (event.what == "scan_started") noteTargets();
-    counts_[event.what + "." + event.detail] += 1;
+    if (event.what == "failed") failures_.push_back({seconds(), event.detail});
     for (std::size_t i = 0; i < rules_.size(); ++i) {
       const auto& rule = exercise_.rules[i];
       if (rule.when != "each" || rule.event != event.what) continue;
@@ -286,13 +320,25 @@ std::vector<Rehearsal::RuleState> Rehearsal::judge() const {
     } else if (rule.when == "each") {
       states[i].held = states[i].asked && states[i].broken_at_s < 0;
     }
-    states[i].asked = true;
-    if (states[i].found.empty()) states[i].found = factsOf(rule.holds);
+    states[i].asked = states[i].asked || rule.when != "each";
+    if (states[i].asked && states[i].found.empty()) states[i].found = factsOf(rule.holds);
   }
   return states;
 }
 
 bool Rehearsal::overTime() const { return exercise_.time_limit_s > 0 && seconds() > exercise_.time_limit_s; }
+
+std::vector<std::string> factNames(const Exercise& exercise, const Device& device) {
+  std::vector<std::string> names = {"time", "hints", "phase", "screen", "dialog"};
+  for (const auto& q : exercise.questions) names.push_back("answer." + q.id);
+  for (const auto& [place, at] : exercise.places) names.push_back("place." + place);
+  for (const auto& setting : device.type().instrument.settings) names.push_back("setting." + setting.key);
+  for (const auto& value : device.type().definition.values) names.push_back("value." + value.id);
+  for (const auto* rows : {&device.type().program.facts, &sharedFacts()})
+    for (const auto& row : *rows) names.emplace_back(row.name);
+  for (const auto& row : proofRows()) names.emplace_back(row.name);
+  return names;
+}
 
 std::optional<FactDomain> rehearsalDomain(const Exercise& exercise, const std::string& name) {
   if (name == "time" || name == "hints" || name.starts_with("count.")) return FactDomain{{}, true, 0, 1e9};

@@ -20,7 +20,9 @@ namespace standpoint {
 // A rehearsal that runs: an exercise, its environment, the device in the student's hands, and what was done so far.
 class Rehearsal {
  public:
-  // `folder` receives the scans and copies; `device` empty: the exercise's first.
+  // `folder` receives the scans and copies; `device` empty: the exercise's first. An exercise that checkExercise
+  // refuses, that cannot be prepared, or of which a step is done before the student comes, is refused with file and
+  // JSON pointer.
   static Result<std::unique_ptr<Rehearsal>> start(Exercise exercise, const std::string& device, const std::filesystem::path& folder,
                                                   std::function<void()> wake, Progress& progress);
 
@@ -50,7 +52,7 @@ class Rehearsal {
   };
   struct RuleState {
     bool held = false;             // as far as it could be told
-    bool asked = false;            // an event came, or the end
+    bool asked = false;            // false: its event never came
     double broken_at_s = -1;       // for the first time
     std::string found;             // what the facts of its condition were then
   };
@@ -58,6 +60,12 @@ class Rehearsal {
   // The step that is to be done now; null after the last.
   const ExerciseStep* nextStep() const;
   const std::vector<RehearsalAction>& actions() const { return actions_; }
+  // What the device was asked for and could not do, with the reason: a scan that failed.
+  struct Failure {
+    double at_s = 0;
+    std::string reason;
+  };
+  const std::vector<Failure>& failures() const { return failures_; }
   // The end: asks the rules of the end; gives the states of all.
   std::vector<RuleState> judge() const;
   bool overTime() const;
@@ -68,10 +76,12 @@ class Rehearsal {
   Result<void> prepare(const std::string& device, std::function<void()> wake, Progress& progress);
   Result<void> apply(const RehearsalAction& action, Progress& progress);
   Result<void> runFieldVerb(const RehearsalAction& action, Progress& progress);
+  Result<void> prepareModel(Progress& progress);
   void watch();
+  void count(const DeviceEvent& event);
   void noteTargets();
   void breakRule(std::size_t index);
-  std::string factsOf(const Condition& condition) const;
+  std::string factsOf(const Condition& condition) const;  // "tilt = 0.3, data.noise = –"
   FactLookup lookup() const;
 
   Exercise exercise_;
@@ -82,10 +92,12 @@ class Rehearsal {
   std::vector<RuleState> rules_;
   std::vector<bool> event_happened_;
   std::vector<RehearsalAction> actions_;
+  std::vector<Failure> failures_;
   std::map<std::string, std::string> answers_;
   WalkedWay walk_;
   std::map<std::string, double> counts_;
   std::map<std::string, Eigen::Vector3d> target_places_;   // during the newest scan that had them
+  bool watching_ = false;                                  // not before the student comes
   std::size_t log_seen_ = 0;
   double started_s_ = 0;
   int hints_ = 0;
@@ -94,6 +106,8 @@ class Rehearsal {
 
 // What a rehearsal's own facts can be, for the checker; the device's stand apart.
 std::optional<FactDomain> rehearsalDomain(const Exercise& exercise, const std::string& name);
+// Facts that conditions of the exercise may ask on the device, but for counters and those with figures in their names.
+std::vector<std::string> factNames(const Exercise& exercise, const Device& device);
 // Where the sample environments' models lie: STANDPOINT_SAMPLES, else where the build makes them.
 std::filesystem::path samplesFolder();
 

@@ -52,6 +52,16 @@ TEST(Options, OutsideTheirDomainAreRefusedWithTheDomain) {
   EXPECT_FALSE(run("target", twoStoreyDocument(), {{"add", "T"}, {"at", {1, 2, 3}}, {"kind", "cube"}}));
 }
 
+// Rays to a place beyond single precision would end the program.
+TEST(Options, PlacesBeyondWhatCanBeComputedAreRefused) {
+  for (const double far : {1e30, -2e9}) {
+    const auto bad = run("station", twoStoreyDocument(), {{"add", "S"}, {"on", {far, 0, 0}}});
+    ASSERT_FALSE(bad) << far;
+    EXPECT_EQ(bad.error().kind, ErrorKind::usage);
+    EXPECT_NE(bad.error().message.find("none beyond 1e9"), std::string::npos) << bad.error().message;
+  }
+}
+
 TEST(Verbs, ThatNeedAModelSayThatThereIsNone) {
   for (const auto& v : verbs()) {
     if (v.scope != VerbScope::changes && v.scope != VerbScope::reads) continue;

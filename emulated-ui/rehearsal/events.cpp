@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "emulated-ui/rehearsal/events.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "emulated-ui/device/nearest.h"
+
+namespace standpoint {
+
+namespace {
+
+using Detail = EventDetail;
+
+std::vector<std::string> eventNames(bool also_counted) {
+  std::vector<std::string> names;
+  for (const auto& row : eventRows())
+    if (row.logged || also_counted) names.emplace_back(row.name);
+  return names;
+}
+
+template <class Rows>
+std::vector<std::string> idsOf(const Rows& rows) {
+  std::vector<std::string> ids;
+  for (const auto& row : rows) ids.emplace_back(row.id);
+  return ids;
+}
+
+// "screen/widget"; a key of the body can be pressed on any screen, so it stands with each.
+std::vector<std::string> presses(const Device& device) {
+  const auto& d = device.type().definition;
+  std::vector<std::string> all;
+  for (const auto& key : d.keys) all.push_back("/" + key.id);  // of a dark display
+  for (const auto& screen : d.screens) {
+    for (const auto& key : d.keys) all.push_back(screen.id + "/" + key.id);
+    for (const auto& w : screen.widgets) {
+      if (w.setting != "*")
+        all.push_back(screen.id + "/" + w.id);
+      else
+        for (const auto& s : device.type().instrument.settings) all.push_back(screen.id + "/setting." + s.key);
+    }
+  }
+  return all;
+}
+
+std::vector<std::string> answers(const Device& device) {
+  std::vector<std::string> all;
+  for (const auto& dialog : device.type().definition.dialogs)
+    for (const auto& button : dialog.buttons) all.push_back(dialog.id + "/" + button.id);
+  return all;
+}
+
+std::optional<std::vector<std::string>> details(Detail detail, const Device& device) {
+  const auto& d = device.type().definition;
+  switch (detail) {
+    case Detail::none:
+      return std::vector<std::string>();
+    case Detail::text:
+      return std::nullopt;
+    case Detail::screen:
+      return idsOf(d.screens);
+    case Detail::phase:
+      return idsOf(d.phases);
+    case Detail::dialog:
+      return idsOf(d.dialogs);
+    case Detail::answer:
+      return answers(device);
+    case Detail::press:
+      return presses(device);
+    case Detail::hand:
+      return idsOf(handRows());
+    case Detail::trouble:
+      return idsOf(troubleRows());
+    case Detail::field_verb:
+      return std::vector<std::string>{"station", "target", "plan", "walk"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+const std::vector<EventRow>& eventRows() {
+  static const std::vector<EventRow> rows = {
+      {"pressed", Detail::press, "a widget or key: screen/widget"},
+      {"answered", Detail::answer, "a dialogue: dialogue/button"},
+      {"refused", Detail::text, "a press that the device does not allow: the widget"},
+      {"setting", Detail::text, "a setting was chosen: its key"},
+      {"value", Detail::text, "one of the device's own values was chosen: its id"},
+      {"hand", Detail::hand, "something was done by hand"},
+      {"trouble", Detail::trouble, "a trouble came"},
+      {"phase", Detail::phase, "the device entered it"},
+      {"screen", Detail::screen, "it was opened"},
+      {"dialog", Detail::dialog, "it was asked"},
+      {"event", Detail::text, "of the device's state machine"},
+      {"woken", Detail::none, "the dark display was touched"},
+      {"project_created", Detail::text, "its name"},
+      {"project_opened", Detail::text, "its name"},
+      {"project_renamed", Detail::text, "its new name"},
+      {"project_deleted", Detail::text, "its name"},
+      {"cluster", Detail::text, "a folder for the next scans was chosen: its name"},
+      {"position_base", Detail::text, "the base of the positions' names was set (VZ-i)"},
+      {"profile_saved", Detail::text, "its name (Focus)"},
+      {"profile_deleted", Detail::text, "its name (Focus)"},
+      {"scan_started", Detail::text, "the setup's name"},
+      {"scan_stored", Detail::text, "the setup's name"},
+      {"scan_dropped", Detail::text, "the setup's name"},
+      {"unlevelled", Detail::text, "a scan was started without the compensator: the setup's name (P-series)"},
+      {"failed", Detail::text, "what the device was asked for could not be done: the reason"},
+      {"error", Detail::text, "the device stopped with an error (BLK360)"},
+      {"looked_at", Detail::text, "a setup's picture was seen: its name"},
+      {"measured", Detail::text, "a distance in the preview"},
+      {"setup_deleted", Detail::text, "its name"},
+      {"targets", Detail::text, "targets were searched: how many were found"},
+      {"sighted", Detail::text, "one target was picked and measured: its name (P-series)"},
+      {"target_used", Detail::text, "taken into or out of the set-up: its id (P-series)"},
+      {"station_solved", Detail::text, "the method (P-series)"},
+      {"station_id", Detail::text, "the name that was typed (P-series)"},
+      {"oriented", Detail::text, "a station set-up was accepted: the method (P-series)"},
+      {"import", Detail::text, "how unlevelled setups were taken over (P-series)"},
+      {"linked", Detail::text, "a link was tried: joined or refused"},
+      {"registration", Detail::text, "how a link stands (X7, VZ-i)"},
+      {"optimised", Detail::text, "all links together: how many setups (BLK360)"},
+      {"georeferenced", Detail::text, "how many control points were seen (VZ-i)"},
+      {"control_point", Detail::text, "one was typed in: its name (VZ-i)"},
+      {"annotation", Detail::text, "its text (X7)"},
+      {"pointed", Detail::text, "the laser pointer was aimed (X7)"},
+      {"tagged", Detail::text, "its text (BLK360)"},
+      {"button_stored", Detail::text, "what the device's own button does was set (BLK360)"},
+      {"standalone", Detail::text, "a scan without the tablet (BLK360)"},
+      {"transferred", Detail::text, "files were copied to the office: how many"},
+      {"card_formatted", Detail::text, "how many setups without a copy were lost"},
+      {"field", Detail::field_verb, "what was done in the environment", false},
+      {"targets_moved", Detail::none, "targets that were not where an earlier scan saw them", false},
+  };
+  return rows;
+}
+
+std::optional<std::string> wrongCounter(const std::string& name, const Device& device) {
+  const auto counter = name.substr(name.find('.') + 1);
+  const auto dot = counter.find('.');
+  const auto event = counter.substr(0, dot);
+  const auto& rows = eventRows();
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const EventRow& r) { return event == r.name; });
+  if (row == rows.end())
+    return fmt::format("there is no event '{}' to count; {}", event, knownInstead(event, eventNames(true)));
+  if (dot == std::string::npos) return std::nullopt;
+  const auto detail = counter.substr(dot + 1);
+  const auto known = details(row->detail, device);
+  if (!known || std::find(known->begin(), known->end(), detail) != known->end()) return std::nullopt;
+  return fmt::format("'{}' never happens with '{}'; {}", event, detail, knownInstead(detail, *known, 12));
+}
+
+std::optional<std::string> wrongEvent(const std::string& name) {
+  const auto known = eventNames(false);
+  if (std::find(known.begin(), known.end(), name) != known.end()) return std::nullopt;
+  return fmt::format("there is no event '{}'; {}", name, knownInstead(name, known));
+}
+
+}  // namespace standpoint

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "emulated-ui/rehearsal/rehearsal.h"
+
+#include <fstream>
+#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
+
+#include "emulated-ui/rehearsal/marks.h"
+#include "tests/project/support.h"
+
+namespace standpoint {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+// A Focus that is on, at S1, with an open project and the coarsest settings.
+json lesson() {
+  return json::parse(R"({
+    "id": "X1", "title": {"en": "Scan", "de": "Scannen"}, "goal": {"en": "Scan.", "de": "Scannen."}, "devices": ["faro-focus"], "model": "house",
+    "setup": [{"verb": "station", "options": {"add": "S1", "on": [4.3, 1.6, 0]}}],
+    "start": [{"press": "power"}, {"wait": 130}, {"hand": "stand_at", "value": "S1"}, {"press": "manage"}, {"press": "scan_projects"}, {"press": "new_project"},
+              {"press": "name", "value": "House"}, {"press": "create"}, {"press": "parameters"}, {"press": "resolution_quality"},
+              {"press": "resolution", "value": "1/32"}, {"press": "back"}, {"press": "scan_area"}, {"press": "area", "value": "150,170,-5,5"}, {"press": "back"}, {"press": "back"}],
+    "steps": [{"id": "scan", "text": {"en": "Scan.", "de": "Scannen."}, "done": "setups >= 1"},
+              {"id": "look", "text": {"en": "Look.", "de": "Ansehen."}, "done": "setups.looked_at >= 1"}],
+    "rules": [{"id": "level", "text": {"en": "Level.", "de": "Lotrecht."}, "when": "each scan_started", "holds": "tilt <= 2", "points": 1,
+               "because": {"en": "The cloud leans.", "de": "Die Wolke ist schief."}, "proof": "expected.spacing"}]})");
+}
+
+class RehearsalTest : public testing::Test {
+ protected:
+  Exercise read(const json& text) {
+    const auto file = folder_.path() / "x.json";
+    std::ofstream(file) << text;
+    auto exercise = readExercise(file);
+    EXPECT_TRUE(exercise) << describe(exercise.error());
+    return exercise.value_or(Exercise{});
+  }
+  std::unique_ptr<Rehearsal> start(const json& text) {
+    auto rehearsal = Rehearsal::start(read(text), {}, folder_.path(), {}, quiet_);
+    EXPECT_TRUE(rehearsal) << describe(rehearsal.error());
+    return rehearsal ? *std::move(rehearsal) : nullptr;
+  }
+  std::string refusal(const json& text) {
+    const auto rehearsal = Rehearsal::start(read(text), {}, folder_.path(), {}, quiet_);
+    return rehearsal ? std::string() : describe(rehearsal.error());
+  }
+  Result<void> act(Rehearsal& rehearsal, const json& action) {
+    return rehearsal.act(*actionFrom(action, "test", ""), quiet_);
+  }
+
+  TemporaryFolder folder_;
+  Progress quiet_;
+};
+
+TEST_F(RehearsalTest, AStepThatIsDoneBeforeTheStudentComesIsRefusedByFileAndPlace) {
+  auto text = lesson();
+  text["steps"][0]["done"] = "power == on";
+  EXPECT_THAT(refusal(text), HasSubstr("x.json /steps/0/done"));
+  EXPECT_THAT(refusal(text), HasSubstr("'power == on' holds at the start"));
+}
+
+// While it starts, the Focus is not yet at 1/32.
+TEST_F(RehearsalTest, WhatHeldOnlyOnTheWayToTheStartIsNotDone) {
+  auto text = lesson();
+  text["steps"][0]["done"] = "setting.resolution != 1/32 and count.phase.booting == 0";
+  const auto rehearsal = start(text);
+  ASSERT_TRUE(rehearsal);
+  EXPECT_FALSE(rehearsal->steps()[0].done);
+  EXPECT_EQ(rehearsal->fact("count.pressed")->number, 0) << "what the start did is not counted";
+}
+
+TEST_F(RehearsalTest, ALaterStepThatHoldsAlreadyIsAWarningWhereTheOrderCountsAndRefusedWhereItDoesNot) {
+  auto text = lesson();
+  text["steps"][1]["done"] = "screen == home";  // the way back is a step of its own
+  Report report;
+  ASSERT_TRUE(checkStart(read(text), report, quiet_));
+  ASSERT_EQ(report.issues.size(), 1U);
+  EXPECT_EQ(report.issues[0].severity, Severity::warning);
+  EXPECT_EQ(report.issues[0].source, "x.json /steps/1/done");
+  text["in_order"] = false;
+  EXPECT_THAT(refusal(text), HasSubstr("x.json /steps/1/done"));
+}
+
+TEST_F(RehearsalTest, WhatTheEnvironmentOrTheDeviceRefusesAtTheStartIsToldByFileAndPlace) {
+  auto nowhere = lesson();
+  nowhere["setup"][0]["options"]["on"] = {4000, 1.6, 0};
+  EXPECT_THAT(refusal(nowhere), HasSubstr("x.json /setup/0/options"));
+  auto wrong_page = lesson();
+  wrong_page["start"].push_back({{"press", "create"}});
+  EXPECT_THAT(refusal(wrong_page), HasSubstr("x.json /start/16"));
+}
+
+TEST_F(RehearsalTest, ARuleThatNothingAskedSaysSoAndClaimsNoConsequence) {
+  const auto rehearsal = start(lesson());
+  ASSERT_TRUE(rehearsal);
+  const std::pair<const char*, const char*> kSaid[] = {{"en", "Never asked: no scan was started"},
+                                                       {"de", "Nie gefragt: kein Scan wurde gestartet"},
+                                                       {"uk", "Не запитано: жодного скану не розпочато"}};
+  for (const auto& [language, said] : kSaid) {
+    const auto marks = marksOf(*rehearsal, "", language);
+    const auto& rule = marks["rules"][0];
+    EXPECT_EQ(rule["found"], said);
+    EXPECT_FALSE(rule["held"].get<bool>());
+    EXPECT_FALSE(rule.contains("because"));
+    EXPECT_FALSE(rule.contains("proof"));
+    EXPECT_THAT(marksText(marks), HasSubstr(said));
+    EXPECT_THAT(marksHtml(marks, *rehearsal), HasSubstr(said));
+  }
+}
+
+TEST_F(RehearsalTest, ARuleThatWasAskedAndDidNotHoldSaysWhatItMeans) {
+  auto text = lesson();
+  text["rules"][0]["holds"] = "tilt > 2";
+  const auto rehearsal = start(text);
+  ASSERT_TRUE(rehearsal);
+  ASSERT_TRUE(act(*rehearsal, {{"press", "start_scan"}}));
+  const auto rule = marksOf(*rehearsal, "", "en")["rules"][0];
+  EXPECT_THAT(rule["found"].get<std::string>(), HasSubstr("tilt = "));
+  EXPECT_EQ(rule["because"], "The cloud leans.");
+  EXPECT_TRUE(rule.contains("proof"));
+  ASSERT_TRUE(act(*rehearsal, {{"finish", true}}));
+}
+
+TEST_F(RehearsalTest, AFailedScanTellsItsReasonInTheMarks) {
+  std::ofstream(folder_.path() / "scans") << "a file where the folder should be";
+  const auto rehearsal = start(lesson());
+  ASSERT_TRUE(rehearsal);
+  ASSERT_TRUE(act(*rehearsal, {{"press", "start_scan"}}));
+  ASSERT_TRUE(act(*rehearsal, {{"finish", true}}));
+  const auto marks = marksOf(*rehearsal, "", "en");
+  ASSERT_EQ(marks["failures"].size(), 1U);
+  const auto reason = marks["failures"][0]["reason"].get<std::string>();
+  EXPECT_THAT(reason, HasSubstr("Cannot create"));
+  EXPECT_THAT(marksText(marks), HasSubstr(reason));
+  EXPECT_THAT(marksCsv(marks), HasSubstr("Cannot create"));
+  EXPECT_THAT(marksHtml(marks, *rehearsal), HasSubstr("Cannot create"));
+}
+
+TEST_F(RehearsalTest, AScanIsLookedAtWhenItsPictureIsThereNotWhenTheKeyIsPressed) {
+  const auto rehearsal = start(lesson());
+  ASSERT_TRUE(rehearsal);
+  ASSERT_TRUE(act(*rehearsal, {{"press", "start_scan"}}));
+  ASSERT_TRUE(act(*rehearsal, {{"finish", true}}));
+  ASSERT_TRUE(rehearsal->steps()[0].done);
+  ASSERT_TRUE(act(*rehearsal, {{"press", "look"}}));
+  EXPECT_FALSE(rehearsal->steps()[1].done) << "there is no picture yet";
+  ASSERT_TRUE(act(*rehearsal, {{"finish", true}}));
+  EXPECT_NE(rehearsal->device().newestSetup()->preview, nullptr);
+  EXPECT_TRUE(rehearsal->steps()[1].done);
+}
+
+TEST_F(RehearsalTest, NobodyStandsAtAStationThatIsNotThere) {
+  const auto rehearsal = start(lesson());
+  ASSERT_TRUE(rehearsal);
+  const auto moved = act(*rehearsal, {{"hand", "stand_at"}, {"value", "S2"}});
+  ASSERT_FALSE(moved);
+  EXPECT_THAT(describe(moved.error()), HasSubstr("did you mean 'S1'?"));
+  EXPECT_EQ(rehearsal->fact("station")->text, "S1");
+}
+
+TEST_F(RehearsalTest, APressWithAValueCountsWithoutItToo) {
+  const auto rehearsal = start(lesson());
+  ASSERT_TRUE(rehearsal);
+  for (const char* widget : {"parameters", "resolution_quality"}) ASSERT_TRUE(act(*rehearsal, {{"press", widget}}));
+  ASSERT_TRUE(act(*rehearsal, {{"press", "resolution"}, {"value", "1/20"}}));
+  EXPECT_EQ(rehearsal->fact("count.pressed.resolution_quality/resolution")->number, 1);
+}
+
+// A setting that is what it always is would be done before anybody comes.
+TEST_F(RehearsalTest, ARecordedExerciseCanBeStarted) {
+  const auto rehearsal = start(lesson());
+  ASSERT_TRUE(rehearsal);
+  const auto& settings = rehearsal->device().type().instrument.settings;
+  const auto standard =
+      std::find_if(settings.begin(), settings.end(), [](const auto& s) { return s.key == "quality"; })->standard;
+  for (const char* widget : {"parameters", "resolution_quality"}) ASSERT_TRUE(act(*rehearsal, {{"press", widget}}));
+  ASSERT_TRUE(act(*rehearsal, {{"press", "resolution"}, {"value", "1/8"}}));
+  ASSERT_TRUE(act(*rehearsal, {{"press", "quality"}, {"value", standard}}));
+  const auto recorded = recordedExercise(rehearsal->device(), rehearsal->actions());
+  ASSERT_EQ(recorded["steps"].size(), 1U);
+  EXPECT_EQ(recorded["steps"][0]["id"], "resolution");
+  EXPECT_EQ(refusal(recorded), "");
+}
+
+}  // namespace
+}  // namespace standpoint
