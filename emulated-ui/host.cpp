@@ -164,6 +164,7 @@ void DeviceHost::startScan(const ScanOrder& order, const Document& document, con
   if (order.noise_factor > 1) mishap.push_back(fmt::format("noise={}", order.noise_factor));
   if (order.bumped_at_share) mishap.push_back(fmt::format("push={}", *order.bumped_at_share));
   if (order.walker_at_share) mishap.push_back(fmt::format("walk={}", *order.walker_at_share));
+  if (order.operator_in_view) mishap.push_back("stand=0.5");
   if (!mishap.empty()) options["mishap"] = mishap;
   if (truth) options["truth"] = true;
   notes_ = order.notes;

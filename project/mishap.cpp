@@ -14,6 +14,7 @@ namespace standpoint {
 namespace {
 
 constexpr double kPush_m = 0.004, kPush_rad = 0.05 * kRadPerDeg;
+constexpr double kWalksBy_m = 2, kStandsBeside_m = 0.9;
 
 // Passes points on, with their truth moved by `to_from`.
 class TruthMoved final : public PointSink {
@@ -41,9 +42,10 @@ class TruthMoved final : public PointSink {
 };
 
 // Puts a person in front of what lies behind, over the directions that a body covers.
-class WalkedBy final : public PointSink {
+class Person final : public PointSink {
  public:
-  WalkedBy(PointSink& sink, double azimuth_rad) : sink_(sink), towards_(std::cos(azimuth_rad), -std::sin(azimuth_rad)) {}   // azimuths go clockwise
+  Person(PointSink& sink, double away_m, double azimuth_rad)   // azimuths go clockwise
+      : sink_(sink), away_m_(away_m), towards_(std::cos(azimuth_rad), -std::sin(azimuth_rad)) {}
   Result<void> begin(const ScanHeader& header) override { return sink_.begin(header); }
   Result<void> write(const PointBlock& block) override {
     PointBlock crossed = block;
@@ -51,11 +53,11 @@ class WalkedBy final : public PointSink {
     for (std::size_t i = 0; i < crossed.size(); ++i) {
       const Eigen::Vector2d flat(crossed.x_m[i], crossed.y_m[i]);
       const double away = flat.norm();
-      if (away <= kAway_m) continue;
+      if (away <= away_m_) continue;
       // Where the direction meets the cylinder.
-      const double along = flat.dot(towards_) / away, across = std::sqrt(std::max(0.0, 1 - along * along)) * kAway_m;
+      const double along = flat.dot(towards_) / away, across = std::sqrt(std::max(0.0, 1 - along * along)) * away_m_;
       if (along <= 0 || across > kHalfWidth_m) continue;
-      const double scale = (kAway_m * along - std::sqrt(kHalfWidth_m * kHalfWidth_m - across * across)) / away;
+      const double scale = (away_m_ * along - std::sqrt(kHalfWidth_m * kHalfWidth_m - across * across)) / away;
       const double z = crossed.z_m[i] * scale;
       if (z < -kEyeHeight_m || z > kTall_m - kEyeHeight_m) continue;
       for (auto* axis : {&crossed.x_m, &crossed.y_m, &crossed.z_m}) (*axis)[i] = static_cast<float>((*axis)[i] * scale);
@@ -70,8 +72,9 @@ class WalkedBy final : public PointSink {
   Result<void> close() override { return sink_.close(); }
 
  private:
-  static constexpr double kAway_m = 2, kHalfWidth_m = 0.25, kTall_m = 1.75, kEyeHeight_m = 1.6;
+  static constexpr double kHalfWidth_m = 0.25, kTall_m = 1.75, kEyeHeight_m = 1.6;
   PointSink& sink_;
+  double away_m_;
   Eigen::Vector2d towards_;
 };
 
@@ -96,9 +99,14 @@ Result<Mishap> mishapFrom(const std::vector<std::string>& pairs) {
     if (key == "until" && share) mishap.until_share = value;
     else if (key == "push" && share) mishap.pushed_at_share = value;
     else if (key == "walk" && share) mishap.walked_at_share = value;
+    else if (key == "stand" && share) mishap.stood_at_share = value;
     else if (key == "noise" && number && value >= 1 && value <= 100) mishap.noise_factor = value;
     else
-      return failure(ErrorKind::usage, fmt::format("'{}' is none of until=SHARE, push=SHARE, walk=SHARE (0 to 1), noise=FACTOR (1 to 100)", pair), "--mishap");
+      return failure(ErrorKind::usage,
+                     fmt::format("'{}' is none of until=SHARE, push=SHARE, walk=SHARE, stand=SHARE (0 to 1), "
+                                 "noise=FACTOR (1 to 100)",
+                                 pair),
+                     "--mishap");
   }
   return mishap;
 }
@@ -113,11 +121,20 @@ Pose pushed(const Pose& pose) {
 Result<ScanCount> scanWithMishap(const RayScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
                                  const ScanSettings& settings, const Pose& pose, const ScanOptions& options, const Mishap& mishap,
                                  PointSink& sink, Progress& progress) {
+  const auto azimuth = [&](double share) {
+    return std::lerp(settings.azimuth_from_rad, settings.azimuth_to_rad, share);
+  };
+  if (mishap.stood_at_share) {
+    Mishap others = mishap;
+    others.stood_at_share.reset();
+    Person beside(sink, kStandsBeside_m, azimuth(*mishap.stood_at_share));
+    return scanWithMishap(scene, assignment, instrument, settings, pose, options, others, beside, progress);
+  }
   if (mishap.walked_at_share) {
     Mishap others = mishap;
     others.walked_at_share.reset();
     if (settings.passes > 1) return scanWithMishap(scene, assignment, instrument, settings, pose, options, others, sink, progress);
-    WalkedBy walked(sink, std::lerp(settings.azimuth_from_rad, settings.azimuth_to_rad, *mishap.walked_at_share));
+    Person walked(sink, kWalksBy_m, azimuth(*mishap.walked_at_share));
     return scanWithMishap(scene, assignment, instrument, settings, pose, options, others, walked, progress);
   }
   if (!mishap.any()) return scan(scene, assignment, instrument, settings, standing(pose), options, sink, progress);

@@ -16,10 +16,15 @@ struct Mishap {
   double noise_factor = 1;                // of the range noise: dust on the optics, an instrument that is not warm
   std::optional<double> pushed_at_share;  // of the columns: the tripod was pushed there, and nobody told the instrument
   std::optional<double> walked_at_share;  // of the turn: somebody crosses the laser's way there
-  bool any() const { return until_share < 1 || noise_factor != 1 || pushed_at_share.has_value() || walked_at_share.has_value(); }
+  std::optional<double> stood_at_share;   // of the turn: who scans stays there, beside the instrument
+  bool any() const {
+    return until_share < 1 || noise_factor != 1 || pushed_at_share.has_value() || walked_at_share.has_value() ||
+           stood_at_share.has_value();
+  }
 };
 
-// From "until=0.5", "noise=2", "push=0.4", "walk=0.5"; what is not so, or out of bounds, is an error of --mishap.
+// From "until=0.5", "noise=2", "push=0.4", "walk=0.5", "stand=0.5"; what is not so, or out of bounds, is an error of
+// --mishap.
 Result<Mishap> mishapFrom(const std::vector<std::string>& pairs);
 
 // How a push moves the instrument: 4 mm aside and 0.05° about its standing axis; a choice of ours.
@@ -27,6 +32,7 @@ Pose pushed(const Pose& pose);
 
 // Who walks by is a cylinder of 0.5 m by 1.75 m, 2 m from the instrument, whose centre is 1.6 m above the floor; what stands
 // nearer hides it. A second pass of the laser shows it as moving, and the device takes it out: then nothing is left of it.
+// Who stays beside the instrument is such a cylinder, 0.9 m from it, and is there in a second pass, too.
 // Scans from a tripod as `scan` does, with what went wrong. After a push the points stand in the frame that the instrument
 // believes to be the old one; what is true of them is told in the old frame.
 Result<ScanCount> scanWithMishap(const RayScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,

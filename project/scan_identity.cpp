@@ -94,7 +94,8 @@ std::string guidOf(std::uint64_t world_fingerprint, const Station& station, cons
   if (!request.as.empty()) a = mix(a, request.as);   // a run that goes on takes no station that was written otherwise
   if (request.panorama_columns > 0) a = mix(a, std::uint64_t{request.panorama_columns});
   if (const auto& m = request.mishap; m.any())
-    a = mix(a, fmt::format("mishap {} {} {} {}", m.until_share, m.noise_factor, m.pushed_at_share.value_or(-1), m.walked_at_share.value_or(-1)));
+    a = mix(a, fmt::format("mishap {} {} {} {} {}", m.until_share, m.noise_factor, m.pushed_at_share.value_or(-1),
+                           m.walked_at_share.value_or(-1), m.stood_at_share.value_or(-1)));
   for (const auto& note : request.notes) a = mix(a, note);
   std::uint64_t b = mix(mix(a, world_fingerprint), station.true_pose);
   b = mix(b, believed);

@@ -160,7 +160,10 @@ const std::vector<Verb>& table() {
         {.name = "weather", .kind = K::text, .help = "visibility=KM rain=MM/H snow=MM/H fog=M dust=M, separated by spaces or commas"},
         {.name = "sun", .kind = K::text, .help = "AZIMUTH,ELEVATION[,W/m2] in degrees, clockwise from the file's Y; lux too: 135,40,80000lux"},
         {.name = "interference", .kind = K::number, .help = "chance that a pulse takes another instrument's light for its own", .standard = 0, .minimum = 0, .maximum = 1},
-        {.name = "mishap", .kind = K::pairs, .help = "what went wrong in the field: until=SHARE of the columns, push=SHARE after which the tripod stands elsewhere, noise=FACTOR, walk=SHARE of the turn where somebody passes"},
+        {.name = "mishap", .kind = K::pairs, .help = "what went wrong in the field: until=SHARE of the columns, push=SHARE after "
+                                                          "which the tripod stands elsewhere, noise=FACTOR, "
+                                                          "walk=SHARE of the turn where somebody passes, "
+                                                          "stand=SHARE where who scans stays"},
         {.name = "note", .kind = K::pairs, .help = "key=text for the file's record of each scan, such as operator=NAME"},
         {.name = "panorama", .kind = K::flag, .help = "a picture all around from each station, and the points coloured from it"},
         {.name = "panorama-size", .kind = K::integer, .help = "of --panorama: its width, twice its height (default: as the instrument's camera delivers it)", .unit = "pixels", .minimum = 256, .maximum = 32768},

@@ -67,7 +67,7 @@ void beginScan(Device& device) {
   order.notes = notesOf(device);
   if (s.around.somebody_walks) order.walker_at_share = 0.5;
   s.around.somebody_walks = false;
-  if (s.around.operator_in_view && !order.walker_at_share) order.walker_at_share = 0;
+  order.operator_in_view = s.around.operator_in_view;
   if (type.program.prepare != nullptr) type.program.prepare(device, order);
   s.moved = false;
   s.scanned_s = s.laser_s = 0;

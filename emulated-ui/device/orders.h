@@ -31,6 +31,7 @@ struct ScanOrder {
   std::vector<std::string> filters;   // of the verb `clean`: what the device itself leaves out
   std::optional<double> bumped_at_share;   // the tripod was pushed then
   std::optional<double> walker_at_share;   // somebody walks by then
+  bool operator_in_view = false;           // who scans stays beside the scanner
   double tilt_x_deg = 0, tilt_y_deg = 0;   // of the standing axis when it began
   std::vector<std::string> sensors;        // ids of the definition's that are on and leave a reading
   SettingValues notes;             // key and text: what goes into the file's record, such as who measured

@@ -238,8 +238,7 @@ Result<void> send(Device& d, const std::string&) {
 void prepare(const Device& d, ScanOrder& order) {
   if (isG1(d) && d.value("tracking") == "on" && d.state().around.tracking && d.newestSetup() != nullptr)
     order.notes.emplace_back("way", d.newestSetup()->name);
-  if (entry(d, "by") == "key" && d.number("value.self_timer") < kOperatorGone_s && !order.walker_at_share)
-    order.walker_at_share = 0.0;
+  if (entry(d, "by") == "key" && d.number("value.self_timer") < kOperatorGone_s) order.operator_in_view = true;
 }
 
 // --- facts ---

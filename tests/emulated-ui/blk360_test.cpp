@@ -51,7 +51,7 @@ TEST(Blk360, TheKeyScansAloneAfterTheSelfTimerWithTheStoredConfiguration) {
   EXPECT_EQ(order.settings[0].second, "low");
   EXPECT_FALSE(order.panorama);
   EXPECT_EQ(order.project, "Standalone");
-  EXPECT_FALSE(order.walker_at_share) << "20 s are enough to leave";
+  EXPECT_FALSE(order.operator_in_view) << "20 s are enough to leave";
   d->tick(20);
   EXPECT_EQ(d.phase(), "ready");
   EXPECT_EQ(d.fact("data.state"), "Complete");
@@ -72,7 +72,7 @@ TEST(Blk360, WhoPressesTheKeyWithoutATimerIsInTheScan) {
   TestDevice d = started(kG2);
   ASSERT_TRUE(d.press({"connect_now", "button", "timer=0", "store_button", "back", "options", "disconnect", "key"}));
   EXPECT_EQ(d.phase(), "shooting");
-  EXPECT_TRUE(d.scanned().walker_at_share.has_value());
+  EXPECT_TRUE(d.scanned().operator_in_view);
 }
 
 TEST(Blk360, TheAppShootsThePanoramaThenScansThePoints) {

@@ -303,6 +303,12 @@ TEST(Mistake, ASingleScanKeepsWhoeverWalkedBy) {
   EXPECT_GT(outcome.facts.at("data.moving"), 0.01);
 }
 
+TEST(Mistake, WhoStaysInViewIsInTheCloud) {
+  const auto outcome =
+      Mistaken("E05").after("level", {Kind::hand, "stand_in_view", {}, 0, {}}).outcome({"data.moving"});
+  EXPECT_GT(outcome.facts.at("data.moving"), 0.01);
+}
+
 TEST(Mistake, ConfusedTargetNamesSpoilTheDistancesBetweenThem) {
   const auto& right = solved("E13");
   EXPECT_LT(right.facts.at("sights.distances"), 10);

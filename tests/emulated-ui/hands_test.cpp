@@ -16,9 +16,9 @@ class Hands : public testing::TestWithParam<const EmulatedDevice*> {
     ADD_FAILURE() << "it never rests";
     return Device(*type);
   }
-  static std::optional<double> walkerOfAScan(Device d) {
+  static bool isInAScan(Device d) {
     beginScan(d);
-    return d.state().running->walker_at_share;
+    return d.state().running->operator_in_view;
   }
   static LinkOrder link(Device& d) {
     orderLink(d);
@@ -30,13 +30,13 @@ class Hands : public testing::TestWithParam<const EmulatedDevice*> {
 // M13: who stays in the scanner's view is in the cloud, until he steps behind it.
 TEST_P(Hands, WhoStaysInViewIsInEachScan) {
   Device d = atRest();
-  EXPECT_FALSE(walkerOfAScan(d));
+  EXPECT_FALSE(isInAScan(d));
   ASSERT_TRUE(d.hand("stand_in_view"));
   EXPECT_EQ(d.fact("operator.in_view")->text, "yes");
-  EXPECT_TRUE(walkerOfAScan(d));
-  EXPECT_TRUE(walkerOfAScan(d)) << "and in the next";
+  EXPECT_TRUE(isInAScan(d));
+  EXPECT_TRUE(isInAScan(d)) << "and in the next";
   ASSERT_TRUE(d.hand("step_behind"));
-  EXPECT_FALSE(walkerOfAScan(d));
+  EXPECT_FALSE(isInAScan(d));
 }
 
 TEST_P(Hands, ARegistrationThatFailsBeginsWhereNothingIsAndOnlyOnce) {

@@ -60,7 +60,7 @@ bool changesTheScan(const Instrument& instrument, const InstrumentSetting& setti
 std::string orderText(const Order& order) {
   if (const auto* scan = std::get_if<ScanOrder>(&order))
     return fmt::format("scan {} {} {} {} {} {} {} {} {}", scan->name, scan->folder, scan->compensator, scan->panorama, scan->noise_factor, scan->filters, scan->sensors,
-                       scan->notes, scan->walker_at_share.value_or(-1)) + settingsText(scan->settings);
+                       scan->notes, scan->operator_in_view) + settingsText(scan->settings);
   if (const auto* link = std::get_if<LinkOrder>(&order)) return fmt::format("link {} {} {} {}", link->from_file, link->shift_x_m, link->shift_y_m, link->turn_deg);
   if (const auto* transfer = std::get_if<TransferOrder>(&order)) return fmt::format("transfer {} {} {}", transfer->by, transfer->extension, transfer->files);
   if (const auto* sight = std::get_if<SightOrder>(&order)) return fmt::format("sight {} {} {}", sight->target, sight->kind, sight->compensator);

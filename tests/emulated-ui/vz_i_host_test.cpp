@@ -73,5 +73,16 @@ TEST_F(VzIHost, ScansTwoPositionsAndRegistersTheSecondOnTheFirst) {
   EXPECT_TRUE(!turned->joined || turned->true_error_deg > 90) << turned->true_error_deg;
 }
 
+// The trouble makes the real registration fail, once.
+TEST_F(VzIHost, FindsNothingWhenItsRegistrationFails) {
+  scanAt("S1");
+  ASSERT_TRUE(device().trouble("registration_fails"));
+  scanAt("S2");
+  EXPECT_EQ(device().state().dialog, "fast_reg_failed");
+  press({"ok", "register_now"});
+  runUntilWaiting();
+  EXPECT_EQ(device().fact("registration.result")->text, "ok");
+}
+
 }  // namespace
 }  // namespace standpoint

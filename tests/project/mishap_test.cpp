@@ -93,10 +93,23 @@ TEST_F(AWalkerInTheScan, IsTakenOutByASecondPassOfTheLaser) {
   for (std::size_t i = 0; i < twice.all.size(); ++i) EXPECT_EQ(twice.all.truth.flags[i] & point_flag::kMoving, 0);
 }
 
+TEST_F(AWalkerInTheScan, IsStillThereInASecondPassWhenHeStaysBesideTheScanner) {
+  const auto twice = scanned({{"mishap", {"stand=0.5"}}},
+                             {"resolution=12mm", "double_scan=on", "images=off", "field_of_view=target_area",
+                              "horizontal_from=176", "horizontal_to=184", "vertical_from=-20", "vertical_to=0"},
+                             "leica-rtc360");
+  ASSERT_GT(twice.all.size(), 1000U);
+  for (std::size_t i = 0; i < twice.all.size(); ++i) {
+    EXPECT_NE(twice.all.truth.flags[i] & point_flag::kMoving, 0);
+    EXPECT_NEAR(std::hypot(twice.all.x_m[i] + 0.9, twice.all.y_m[i]), 0.25, 0.02) << "0.9 m away";
+  }
+}
+
 TEST_F(AWalkerInTheScan, MakesAnotherScanOfIt) {
   const auto guid = [&](const json& more) { return scanned(more).guid; };
   EXPECT_EQ(guid({}), guid({}));
   EXPECT_NE(guid({}), guid({{"mishap", {"walk=0.5"}}}));
+  EXPECT_NE(guid({{"mishap", {"stand=0.5"}}}), guid({{"mishap", {"walk=0.5"}}}));
   EXPECT_NE(guid({{"mishap", {"walk=0.4"}}}), guid({{"mishap", {"walk=0.5"}}}));
 }
 
@@ -108,9 +121,10 @@ TEST_F(AWalkerInTheScan, NotesGoIntoTheFilesRecord) {
 }
 
 TEST(Mishap, IsReadAndWhatItIsNotIsRefused) {
-  const auto read = mishapFrom({"walk=0.25", "until=0.5", "push=0", "noise=2"});
+  const auto read = mishapFrom({"walk=0.25", "stand=0.75", "until=0.5", "push=0", "noise=2"});
   ASSERT_TRUE(read);
   EXPECT_EQ(read->walked_at_share, 0.25);
+  EXPECT_EQ(read->stood_at_share, 0.75);
   EXPECT_EQ(read->until_share, 0.5);
   EXPECT_EQ(read->pushed_at_share, 0);
   EXPECT_EQ(read->noise_factor, 2);
