@@ -45,7 +45,7 @@ struct Fonts {
 };
 
 // What the next click in the viewport does.
-enum class Tool { select, placeStation, placeTarget, measure, walk, takeMaterial, paintMaterial };
+enum class Tool { select, placeStation, placeTarget, measure, walk, takeMaterial, paintMaterial, layWay };
 
 // Which of the two models is looked at; there is one only until it has been optimised.
 enum class ModelSide { lighter, original, both };
@@ -115,6 +115,8 @@ struct Editor {
   SceneView* scene_beside = nullptr;       // the original's half
   std::function<void()> wake;
   std::function<void(Editor&)> draw_instrument;    // the emulated device; empty: this build has none
+  std::function<void(const Eigen::Vector3d&)> on_way;   // the tool Tool::layWay clicked there, in the file's frame
+  std::vector<Eigen::Vector3d> way;                // to be drawn, in the file's frame
   std::function<void(const std::string&)> on_title;
   bool fine_picture = false;               // the view stands still: smooth edges
   bool quit = false;                       // confirmed

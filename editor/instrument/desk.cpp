@@ -2,6 +2,7 @@
 #include "editor/instrument/desk.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include <fmt/format.h>
@@ -127,6 +128,60 @@ void advance(InstrumentDesk& desk, Editor& editor) {
     };
 }
 
+namespace {
+
+std::string whyForbidden(const InstrumentDesk& desk, const Session& session, std::string_view verb) {
+  if (!desk.rehearsal || desk.ended()) return {};
+  if (isFieldVerb(verb)) return desk.rehearsal->host().busy() ? "The instrument is at work: wait until it rests" : "";
+  const auto* row = session.verb(verb);
+  const bool reads = row != nullptr && (row->scope == VerbScope::reads || row->scope == VerbScope::files);
+  return reads ? "" : fmt::format("Exercise {} is running: finish or leave it first", desk.rehearsal->exercise().id);
+}
+
+void takeFieldWork(InstrumentDesk& desk, const Session& session, std::string_view verb, const nlohmann::json& options) {
+  if (!isFieldVerb(verb)) return;
+  const RehearsalAction action{Kind::verb, std::string(verb), "", 0, options};
+  if (desk.recording) desk.recorded.push_back(action);
+  if (!desk.rehearsal || desk.ended()) return;
+  // A scan that was stored meanwhile has not reached the editor's document: then the verb is done once more, beside it.
+  if (desk.rehearsal->document().job == desk.adopted) {
+    desk.adopted = session.document().job;
+    desk.rehearsal->did(action, desk.adopted);
+  } else {
+    Progress quiet;
+    const auto done = desk.rehearsal->act(action, quiet);
+    desk.view.said = done ? std::string() : done.error().message;
+  }
+}
+
+}  // namespace
+
+void connect(InstrumentDesk& desk, Session& session) {
+  session.forbids = [&](std::string_view verb) { return whyForbidden(desk, session, verb); };
+  session.done = [&](const Verb& verb, const nlohmann::json& options) { takeFieldWork(desk, session, verb.name, options); };
+}
+
+nlohmann::json timedWay(const std::vector<WayPoint>& way) {
+  auto timed = nlohmann::json::array();
+  double seconds = 0;
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    if (i > 0) seconds += std::hypot(way[i].x_m - way[i - 1].x_m, way[i].y_m - way[i - 1].y_m) / way[i].speed_m_s;
+    timed.push_back({way[i].x_m, way[i].y_m, seconds});
+  }
+  return timed;
+}
+
+namespace {
+
+void putWayAway(InstrumentDesk& desk, Editor& editor) {
+  desk.way.clear();
+  editor.way.clear();
+  editor.on_way = nullptr;
+  if (editor.view.tool == Tool::layWay) editor.view.tool = Tool::select;
+}
+
+}  // namespace
+
 void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercise) {
   desk.refused.clear();
   const auto folder = freshFolder(exercise.id);
@@ -145,6 +200,7 @@ void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercis
   desk.rehearsal = *std::move(rehearsal);
   desk.adopted = desk.rehearsal->document().job;
   desk.marks = nullptr;
+  putWayAway(desk, editor);
   desk.watched = 0;
   desk.next_watched_s = 0;
   desk.last = std::chrono::steady_clock::now();
@@ -168,6 +224,7 @@ void finishExercise(InstrumentDesk& desk, Editor& editor) {
 // Its environment stays where its result is.
 void leaveExercise(InstrumentDesk& desk, Editor& editor) {
   saveEnvironment(editor);
+  putWayAway(desk, editor);
   desk.rehearsal.reset();
   desk.marks = nullptr;
   chooseDevice(desk, editor, *desk.device, desk.instrument);

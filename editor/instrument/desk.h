@@ -21,6 +21,15 @@ namespace standpoint {
 // How much an exercise tells while it is done.
 enum class Guidance { shown, hinted, watched, tested };
 
+// A place on the way of a handheld scanner, in the file's frame, as it is being planned.
+struct WayPoint {
+  double x_m = 0, y_m = 0;
+  double z_m = 0;                // for the picture only
+  double speed_m_s = 0.8;        // on the way there
+};
+// Places with the seconds at which one is there, as the action "walk" has them: [[x, y, seconds], …].
+nlohmann::json timedWay(const std::vector<WayPoint>& way);
+
 // What lies on the student's desk: a device on the open project, or one in an exercise; what is beside it.
 struct InstrumentDesk {
   const EmulatedDevice* device = &emulatedDevices().front();
@@ -43,6 +52,7 @@ struct InstrumentDesk {
   std::filesystem::path marks_folder;
   DesktopOpener opener;                       // of the certificate
   std::shared_ptr<const Job> adopted;         // of the exercise's document, as the editor shows it
+  std::vector<WayPoint> way;                  // of a handheld scanner, as it is being planned
   std::size_t watched = 0;                    // actions of the solution that were shown
   double next_watched_s = 0;
 
@@ -70,6 +80,10 @@ void followProject(InstrumentDesk& desk, Editor& editor);
 // The clock goes on, and what was stored enters the project. Call before drawing.
 void advance(InstrumentDesk& desk, Editor& editor);
 
+// From now on an exercise has a say in what happens to the session's document, and what is done there in the survey belongs
+// to the exercise that runs or is recorded. The desk must live as long as the session has something to do.
+void connect(InstrumentDesk& desk, Session& session);
+
 void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercise);
 // Marks it: it has ended, and its environment is saved where its result is.
 void finishExercise(InstrumentDesk& desk, Editor& editor);
@@ -79,5 +93,6 @@ void leaveExercise(InstrumentDesk& desk, Editor& editor);
 void drawHands(InstrumentDesk& desk, Editor& editor);
 void drawHelp(InstrumentDesk& desk, Editor& editor);
 void drawExercises(InstrumentDesk& desk, Editor& editor);
+void drawWay(InstrumentDesk& desk, Editor& editor);
 
 }  // namespace standpoint

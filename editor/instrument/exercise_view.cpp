@@ -182,6 +182,15 @@ void marks(InstrumentDesk& desk, Editor& editor) {
   ui::gap(editor);
 }
 
+bool asksForAWay(const Exercise& e) {
+  const auto asks = [](const Condition& c) {
+    const auto facts = c.facts();
+    return std::any_of(facts.begin(), facts.end(), [](const auto& f) { return f.starts_with("walk."); });
+  };
+  return std::any_of(e.steps.begin(), e.steps.end(), [&](const auto& s) { return asks(s.done); }) ||
+         std::any_of(e.rules.begin(), e.rules.end(), [&](const auto& r) { return asks(r.holds); });
+}
+
 void task(InstrumentDesk& desk, Editor& editor, const std::string& language) {
   const auto& e = desk.rehearsal->exercise();
   if (editor.fonts.bold != nullptr) ImGui::PushFont(editor.fonts.bold);
@@ -195,6 +204,7 @@ void task(InstrumentDesk& desk, Editor& editor, const std::string& language) {
                                  : clockText(seconds));
   if (desk.guidance != Guidance::tested) steps(desk, language);
   questions(desk, language);
+  if (!desk.ended() && asksForAWay(e)) drawWay(desk, editor);
   ui::gap(editor);
   if (!desk.ended() && desk.guidance != Guidance::tested) demands(desk, language);
 }

@@ -48,6 +48,8 @@ class InstrumentPanel {
     ticker_.run(desk_.was_busy);
   }
 
+  InstrumentDesk& desk() { return desk_; }
+
  private:
   void device(Editor& editor) {
     const ImVec2 room = ImGui::GetContentRegionAvail();
@@ -162,10 +164,12 @@ class InstrumentPanel {
 }  // namespace
 
 void attachInstrument(Editor& editor) {
-  editor.draw_instrument = [panel = std::make_shared<InstrumentPanel>(editor.wake)](Editor& e) {
+  const auto panel = std::make_shared<InstrumentPanel>(editor.wake);
+  editor.draw_instrument = [panel](Editor& e) {
     panel->draw(e);
     panel->takeWishes(e);
   };
+  connect(panel->desk(), editor.session);
 }
 
 }  // namespace standpoint

@@ -76,8 +76,11 @@ std::string Session::whyNot(std::string_view name) const {
   if (wanted == nullptr) return fmt::format("This build has no '{}'", name);
   const bool needs_model = wanted->scope == VerbScope::changes || wanted->scope == VerbScope::reads;
   if (needs_model && !document().imported) return "There is no model yet: import one first (Ctrl+I)";
+  if (auto why = whyForbidden(name); !why.empty()) return why;
   return holdsDocument(*wanted) ? whyHeld() : std::string();
 }
+
+std::string Session::whyForbidden(std::string_view name) const { return forbids ? forbids(name) : std::string(); }
 
 std::string Session::whyHeld() const {
   for (const auto& task : running_)
@@ -85,9 +88,17 @@ std::string Session::whyHeld() const {
   return {};
 }
 
-std::string Session::whyNotUndo() const { return history_.canUndo() ? whyHeld() : "There is nothing to undo"; }
+std::string Session::whyNotUndo() const {
+  if (!history_.canUndo()) return "There is nothing to undo";
+  const auto why = whyForbidden("undo");
+  return why.empty() ? whyHeld() : why;
+}
 
-std::string Session::whyNotRedo() const { return history_.canRedo() ? whyHeld() : "There is nothing to redo"; }
+std::string Session::whyNotRedo() const {
+  if (!history_.canRedo()) return "There is nothing to redo";
+  const auto why = whyForbidden("redo");
+  return why.empty() ? whyHeld() : why;
+}
 
 std::string Session::whyNotAdopt() const { return whyHeld(); }
 
@@ -240,6 +251,7 @@ void Session::succeed(Task& task, Outcome outcome) {
     history_.push(std::move(outcome.document), text);
     ++revision_;
   }
+  if (done) done(task.verb(), task.options());
 }
 
 void Session::fail(const Task& task, const Error& error) {

@@ -45,6 +45,11 @@ class Session {
   std::span<const Verb> verbs() const { return verbs_; }
   const Verb* verb(std::string_view name) const { return findVerb(verbs_, name); }
 
+  // Whoever has a say in what happens to the document besides: "" or the reason why the verb, "undo" or "redo" may not be now.
+  std::function<std::string(std::string_view verb)> forbids;
+  // Told of every verb that was done, with its options, after its result came in.
+  std::function<void(const Verb& verb, const nlohmann::json& options)> done;
+
   // "" when a verb may start now, else the reason to show.
   std::string whyNot(std::string_view verb) const;
   std::string whyNotUndo() const;
@@ -94,6 +99,7 @@ class Session {
 
  private:
   std::string whyHeld() const;   // by a task; "" when it is free
+  std::string whyForbidden(std::string_view name) const;
   bool launch(const Verb& verb, nlohmann::json options, std::string title);
   void takeResult(Task& task);
   void succeed(Task& task, Outcome outcome);

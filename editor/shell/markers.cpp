@@ -115,6 +115,17 @@ void drawMeasure(Editor& editor, const Pen& pen) {
   pen.label(*to, fmt::format("{:.3f} m   (Δ {:.3f}  {:.3f}  {:.3f})", d.norm(), d.x(), d.y(), d.z()), tone::kText);
 }
 
+// Where a handheld scanner shall be carried.
+void drawWay(const Editor& editor, const Pen& pen) {
+  std::optional<Eigen::Vector3d> before;
+  for (const auto& place : editor.way) {
+    const Eigen::Vector3d here = place - editor.shift_m();
+    if (before) pen.line(*before, here, tone::kAccent, 2);
+    if (const auto at = pen.at(here)) pen.circle(*at, 4, tone::kAccent, tone::kText);
+    before = here;
+  }
+}
+
 // A tripod under the pointer, red and with the reason where it cannot stand.
 void drawWouldStand(Editor& editor, const Pen& pen, double height_m) {
   const RayHit& hit = *editor.view.hover;
@@ -172,6 +183,7 @@ void drawMarkers(Editor& editor, ImVec2 origin) {
   drawStations(editor, pen, state);
   drawTargets(editor, pen, state);
   drawMeasure(editor, pen);
+  drawWay(editor, pen);
   drawPreview(editor, pen);
   list.PopClipRect();
 }

@@ -163,6 +163,7 @@ void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
     case Tool::measure: hint = "Click two points.   Esc to leave"; break;
     case Tool::takeMaterial: hint = "Click on a surface to choose its material.   Esc to leave"; break;
     case Tool::paintMaterial: hint = "Click on what shall get the chosen material.   Esc to leave"; break;
+    case Tool::layWay: hint = "Click on the floor where the way goes next.   Esc to leave"; break;
     case Tool::walk: hint = "W A S D to walk, Shift to hurry, drag to look around.   Esc to leave"; break;
     case Tool::select: break;
   }

@@ -86,6 +86,10 @@ void measure(Editor& editor, const RayHit& hit) {
   }
 }
 
+void layWay(Editor& editor, const RayHit& hit) {
+  if (editor.on_way) editor.on_way(hit.position + editor.shift_m());
+}
+
 void click(Editor& editor) {
   const auto& hit = editor.view.hover;
   const bool add = ImGui::GetIO().KeyCtrl;
@@ -96,6 +100,7 @@ void click(Editor& editor) {
     case Tool::measure: act = measure; break;
     case Tool::takeMaterial: act = takeMaterial; break;
     case Tool::paintMaterial: act = paintMaterial; break;
+    case Tool::layWay: act = layWay; break;
     case Tool::walk: return;
     case Tool::select: break;
   }

@@ -75,7 +75,7 @@ RehearsalAction action(JsonFields& f, bool prepares = false) {
   } else if (named("verb", Kind::verb)) {
     const auto* options = f.raw("options");
     a.options = options == nullptr ? nlohmann::json::object() : *options;
-    const bool field = a.name == "station" || a.name == "target" || a.name == "plan";
+    const bool field = isFieldVerb(a.name);
     if (!a.options.is_object())
       f.needs("options", a.options, "an object, such as {\"add\": \"S1\", \"on\": [4.3, 1.6, 0]},");
     if (!field && !(prepares && a.name == "treat"))
@@ -151,6 +151,8 @@ const std::string& Spoken::in(const std::string& language) const {
 bool isFor(const Exercise& exercise, const std::string& device) {
   return std::any_of(exercise.devices.begin(), exercise.devices.end(), [&](const std::string& d) { return d == "*" || d == device; });
 }
+
+bool isFieldVerb(std::string_view verb) { return verb == "station" || verb == "target" || verb == "plan"; }
 
 Result<RehearsalAction> actionFrom(const nlohmann::json& json, const std::string& file, const std::string& pointer) {
   JsonFault fault(file);

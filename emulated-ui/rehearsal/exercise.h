@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -38,6 +39,9 @@ struct RehearsalAction {
   double seconds = 0;
   nlohmann::json options;
 };
+// Whether a student may do it in an exercise: station, target, plan.
+bool isFieldVerb(std::string_view verb);
+
 Result<RehearsalAction> actionFrom(const nlohmann::json& json, const std::string& file, const std::string& pointer);
 nlohmann::json toJson(const RehearsalAction& action);
 Result<std::vector<RehearsalAction>> readActions(const std::filesystem::path& file);

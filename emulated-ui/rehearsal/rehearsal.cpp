@@ -177,6 +177,13 @@ Result<void> Rehearsal::act(const RehearsalAction& action, Progress& progress) {
   return ok;
 }
 
+void Rehearsal::did(const RehearsalAction& verb, std::shared_ptr<const Job> job) {
+  document_.job = std::move(job);
+  counts_["field." + verb.name] += 1;
+  actions_.push_back(verb);
+  watch();
+}
+
 void Rehearsal::pass(double seconds) {
   if (auto stored = host_->update(document_, folder_ / "scans", seconds)) document_ = std::move(stored->document);
   watch();

@@ -35,6 +35,8 @@ class Rehearsal {
 
   // What the student does; it is kept for the replay. What cannot be done now is an error of kind usage.
   Result<void> act(const RehearsalAction& action, Progress& progress);
+  // A verb of the survey that ran elsewhere, on the job of document(): `job` is what became of it. It is kept for the replay.
+  void did(const RehearsalAction& verb, std::shared_ptr<const Job> job);
   // The clock of the device goes on by `seconds`: in a window, once per frame. Simulations run beside it.
   void pass(double seconds);
   // The same in virtual time: each simulation is waited for before the clock goes on, so that the same actions give the same.

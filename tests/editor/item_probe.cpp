@@ -69,7 +69,7 @@ GuiDriver::GuiDriver(Editor& editor, ImVec2 size) : editor_(editor) {
   io.GetClipboardTextFn = [](void*) { return clipboard.c_str(); };
   io.KeyMap[ImGuiKey_Enter] = 257, io.KeyMap[ImGuiKey_Escape] = 256, io.KeyMap[ImGuiKey_Tab] = 258, io.KeyMap[ImGuiKey_Backspace] = 259;
   io.KeyMap[ImGuiKey_RightArrow] = 262, io.KeyMap[ImGuiKey_LeftArrow] = 263, io.KeyMap[ImGuiKey_DownArrow] = 264, io.KeyMap[ImGuiKey_UpArrow] = 265;
-  io.KeyMap[ImGuiKey_A] = 'A';
+  io.KeyMap[ImGuiKey_A] = 'A', io.KeyMap[ImGuiKey_C] = 'C';
   unsigned char* pixels = nullptr;
   int w = 0, h = 0;
   io.Fonts->GetTexDataAsAlpha8(&pixels, &w, &h);

@@ -114,6 +114,7 @@ TEST_F(InstrumentGui, LocksOnlyTheFieldsOfDeviceAndScannerDuringAnExercise) {
 TEST_F(InstrumentGui, TurnsTheFootScrewsByItsButtons) {
   openTab("Hands");
   ASSERT_TRUE(gui.click("###screw0"));
+  gui.key('A', true);
   gui.type("0.5");
   gui.key(257);
   gui.frames(3);
@@ -122,13 +123,16 @@ TEST_F(InstrumentGui, TurnsTheFootScrewsByItsButtons) {
   ASSERT_TRUE(gui.click("###screw0"));
   gui.key('A', true);
   gui.key('C', true);
-  EXPECT_STREQ(ImGui::GetClipboardText(), "0.520");
+  EXPECT_STREQ(ImGui::GetClipboardText(), "0.520°");
 }
 
 // The desk without a window.
 class Desk : public testing::Test {
  protected:
-  Desk() { setenv("HOME", folder_.path().c_str(), 1); }
+  Desk() {
+    setenv("HOME", folder_.path().c_str(), 1);
+    connect(desk, editor.session);
+  }
   void begin(const std::string& id) {
     const auto known = findExercise(id);
     ASSERT_TRUE(known);
@@ -144,10 +148,49 @@ class Desk : public testing::Test {
       advance(desk, editor);
     }
   }
+  // As the survey's panels and the viewport do.
+  void survey(const RehearsalAction& action) {
+    EXPECT_EQ(editor.session.whyNot(action.name), "");
+    ASSERT_TRUE(editor.session.start(action.name, action.options));
+    editor.session.wait();
+    advance(desk, editor);
+  }
   TemporaryFolder folder_;
   Editor editor{verbsWithDemo(), [] {}};
   InstrumentDesk desk;
 };
+
+TEST_F(Desk, WhatIsDoneInTheSurveyBelongsToTheExercise) {
+  desk.device = findDevice("faro-focus");
+  begin("E06");
+  for (const auto& action : desk.rehearsal->exercise().solution) survey(action);
+  EXPECT_EQ(editor.session.document().job, desk.rehearsal->document().job);
+  finishExercise(desk, editor);
+  EXPECT_TRUE(desk.marks["passed"].get<bool>()) << desk.marks.dump(1);
+  EXPECT_EQ(desk.rehearsal->actions().size(), desk.rehearsal->exercise().solution.size()) << "for the replay";
+}
+
+TEST_F(Desk, AnExerciseThatRunsKeepsItsModelAndItsPast) {
+  desk.device = findDevice("faro-focus");
+  begin("E06");
+  survey(desk.rehearsal->exercise().solution.front());
+  for (const char* verb : {"import", "materials", "optimize", "open-project"})
+    EXPECT_NE(editor.session.whyNot(verb).find("E06"), std::string::npos) << verb;
+  EXPECT_NE(editor.session.whyNotUndo().find("E06"), std::string::npos);
+  EXPECT_EQ(editor.session.whyNotSave(), "");
+  leaveExercise(desk, editor);
+  editor.session.wait();
+  EXPECT_EQ(editor.session.whyNot("materials"), "");
+}
+
+TEST_F(Desk, AWayIsTimedByItsSpeeds) {
+  desk.device = findDevice("generic");
+  begin("E19");
+  const auto way = timedWay({{0, 0, 0, 9}, {3, 4, 0, 0.5}, {3, 3, 0, 1}});
+  EXPECT_EQ(way, nlohmann::json::parse("[[0.0, 0.0, 0.0], [3.0, 4.0, 10.0], [3.0, 3.0, 11.0]]"));
+  act(desk, {RehearsalAction::Kind::walk, "", "", 0, way});
+  EXPECT_NEAR(desk.rehearsal->fact("walk.length")->number.value(), 6, 1e-9);
+}
 
 TEST_F(Desk, NothingIsDoneAndNoTimePassesOnceAnExerciseIsMarked) {
   begin("T-RTC360");
