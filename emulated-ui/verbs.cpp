@@ -25,10 +25,10 @@ json listOf(const std::vector<KnownExercise>& known, const std::string& language
 
 Result<Outcome> listExercises(const Document& document, const std::string& language) {
   const auto known = knownExercises();
-  if (!known) return failure(known.error());
-  Outcome outcome{document, {{"exercises", listOf(*known, language)}}, {}, {}, {}};
-  outcome.description = fmt::format("{} exercises", known->size());
-  for (const auto& one : *known)
+  Outcome outcome{document, {{"exercises", listOf(known.readable, language)}}, {}, {}, {}};
+  for (const auto& error : known.refused) outcome.report.warn(error.source, error.message);
+  outcome.description = fmt::format("{} exercises", known.readable.size());
+  for (const auto& one : known.readable)
     outcome.text += fmt::format("{:6} {}  ({})\n", one.exercise.id, one.exercise.title.in(language), fmt::join(one.exercise.devices, ", "));
   return outcome;
 }

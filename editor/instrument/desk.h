@@ -45,7 +45,7 @@ struct InstrumentDesk {
 
   Guidance guidance = Guidance::shown;
   std::vector<KnownExercise> exercises;
-  std::string exercises_problem;
+  std::vector<std::string> exercises_refused; // files of the user's folder, and why
   bool exercises_read = false;
   std::string student;
   nlohmann::json marks;                       // of the exercise that was finished last

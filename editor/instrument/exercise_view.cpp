@@ -31,13 +31,12 @@ void readExercises(InstrumentDesk& desk) {
   if (desk.exercises_read) return;
   desk.exercises_read = true;
   auto known = knownExercises();
-  if (known) desk.exercises = *std::move(known);
-  else desk.exercises_problem = describe(known.error());
+  desk.exercises = std::move(known.readable);
+  for (const auto& error : known.refused) desk.exercises_refused.push_back(describe(error));
 }
 
 void list(InstrumentDesk& desk, Editor& editor) {
   readExercises(desk);
-  if (!desk.exercises_problem.empty()) ui::wrapped(desk.exercises_problem);
   const auto& language = desk.shown()->state().language;
   if (ui::beginProperties("exercise")) {
     ui::propertyLabel("Guidance");
@@ -74,6 +73,10 @@ void list(InstrumentDesk& desk, Editor& editor) {
       return startExercise(desk, editor, known.exercise);
   }
   if (!any) ui::dimWrapped("There is no exercise for this device yet.");
+  if (desk.exercises_refused.empty()) return;
+  ui::gap(editor);
+  ui::dimText("Files that are no exercise");
+  for (const auto& refused : desk.exercises_refused) ui::wrapped(refused);
 }
 
 void record(InstrumentDesk& desk, Editor& editor) {

@@ -262,8 +262,9 @@ Result<Exercise> readExercise(const fs::path& file) {
   return e;
 }
 
-Result<std::vector<KnownExercise>> knownExercises() {
-  std::vector<KnownExercise> found;
+KnownExercises knownExercises() {
+  KnownExercises known;
+  auto& found = known.readable;
   for (const auto& folder : {dataFolder() / "emulated-ui" / "exercises", ownExercisesFolder()}) {
     std::error_code error;
     std::vector<fs::path> files;
@@ -272,16 +273,22 @@ Result<std::vector<KnownExercise>> knownExercises() {
     std::sort(files.begin(), files.end());
     for (const auto& file : files) {
       auto exercise = readExercise(file);
-      if (!exercise) return failure(exercise.error());
-      for (const auto& other : found)
-        if (other.exercise.id == exercise->id)
-          return failure(ErrorKind::unusable, fmt::format("'{}' is the id of {}, too", exercise->id, other.file.string()), file.string());
-      found.push_back({*std::move(exercise), file});
+      if (!exercise) {
+        known.refused.push_back(exercise.error());
+        continue;
+      }
+      const auto other = std::find_if(found.begin(), found.end(), [&](const auto& one) { return one.exercise.id == exercise->id; });
+      if (other == found.end())
+        found.push_back({*std::move(exercise), file});
+      else
+        known.refused.push_back({ErrorKind::unusable,
+                                 fmt::format("'{}' is the id of {}, too: give it another one", exercise->id, other->file.string()),
+                                 file.string() + " /id"});
     }
   }
   // Whoever is new begins with them.
   std::stable_partition(found.begin(), found.end(), [](const KnownExercise& one) { return one.exercise.tutorial; });
-  return found;
+  return known;
 }
 
 Result<KnownExercise> findExercise(const std::string& name) {
@@ -292,9 +299,8 @@ Result<KnownExercise> findExercise(const std::string& name) {
     return KnownExercise{*std::move(exercise), name};
   }
   auto known = knownExercises();
-  if (!known) return failure(known.error());
   std::vector<std::string> ids;
-  for (auto& one : *known) {
+  for (auto& one : known.readable) {
     if (one.exercise.id == name) return std::move(one);
     ids.push_back(one.exercise.id);
   }

@@ -130,9 +130,13 @@ struct KnownExercise {
   Exercise exercise;
   std::filesystem::path file;
 };
+struct KnownExercises {
+  std::vector<KnownExercise> readable;   // each id once; the tutorials stand before all others
+  std::vector<Error> refused;            // files that are none, or whose id another one has
+};
 // The shipped ones and those of the user's folder (STANDPOINT_EXERCISES, else XDG_CONFIG_HOME/standpoint/exercises), by
-// file within each; the tutorials stand before all others.
-Result<std::vector<KnownExercise>> knownExercises();
+// file within each.
+KnownExercises knownExercises();
 // A file, or the id of a known one.
 Result<KnownExercise> findExercise(const std::string& name);
 

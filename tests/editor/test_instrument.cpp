@@ -43,7 +43,6 @@ class InstrumentGui : public testing::Test {
 
 TEST_F(InstrumentGui, ShowsTheWholeNameOfEveryExerciseAtEverySize) {
   const auto known = knownExercises();
-  ASSERT_TRUE(known);
   for (const float scale : {1.0F, 1.5F, 2.0F}) {
     editor.scale = scale;
     applyTheme(scale);
@@ -53,7 +52,7 @@ TEST_F(InstrumentGui, ShowsTheWholeNameOfEveryExerciseAtEverySize) {
     ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &w, &h);
     openTab("Exercise");
     int seen = 0;
-    for (const auto& [exercise, file] : *known) {
+    for (const auto& [exercise, file] : known.readable) {
       const auto* button = gui.find("###" + exercise.id);
       if (button == nullptr) continue;
       ++seen;

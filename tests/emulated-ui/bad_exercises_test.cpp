@@ -49,6 +49,24 @@ class BadExercise : public testing::Test {
 
 TEST_F(BadExercise, ASoundOneIsTaken) { EXPECT_EQ(saysOf(sound().dump()), ""); }
 
+TEST_F(BadExercise, DoesNotTakeTheOthersOffTheList) {
+  setenv("STANDPOINT_EXERCISES", folder_.path().c_str(), 1);
+  const auto shipped = knownExercises().readable.size();
+  json second = sound();
+  second["id"] = "E01";
+  std::ofstream(folder_.path() / "a.json") << "{";
+  std::ofstream(folder_.path() / "b.json") << second.dump();
+  std::ofstream(folder_.path() / "c.json") << sound().dump();
+  const auto known = knownExercises();
+  unsetenv("STANDPOINT_EXERCISES");
+  EXPECT_EQ(known.readable.size(), shipped + 1);
+  EXPECT_EQ(known.readable.back().exercise.id, "X1");
+  ASSERT_EQ(known.refused.size(), 2U);
+  EXPECT_THAT(describe(known.refused[0]), HasSubstr("a.json"));
+  EXPECT_THAT(describe(known.refused[1]), HasSubstr("b.json /id"));
+  EXPECT_THAT(describe(known.refused[1]), HasSubstr("e01-preflight.json"));
+}
+
 struct Wrong {
   const char* pointer;
   json value;
@@ -222,7 +240,9 @@ TEST_F(BadExercise, WithBytesChangedItIsReadOrRefused) {
     for (int k = 0; k < 1 + i % 4; ++k) changed[random() % changed.size()] = static_cast<char>(random() % 256);
     const auto file = folder_.path() / "x.json";
     std::ofstream(file, std::ios::binary) << changed;
-    if (const auto read = readExercise(file); !read) EXPECT_THAT(describe(read.error()), HasSubstr("x.json"));
+    if (const auto read = readExercise(file); !read) {
+      EXPECT_THAT(describe(read.error()), HasSubstr("x.json"));
+    }
   }
 }
 

@@ -21,8 +21,8 @@ using Kind = RehearsalAction::Kind;
 const std::vector<KnownExercise>& shipped() {
   static const auto all = [] {
     auto known = knownExercises();
-    EXPECT_TRUE(known) << describe(known.error());
-    return known ? *known : std::vector<KnownExercise>();
+    for (const auto& error : known.refused) ADD_FAILURE() << describe(error);
+    return known.readable;
   }();
   return all;
 }
@@ -174,8 +174,8 @@ std::vector<std::string> ids() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShippedExercise, testing::ValuesIn(ids()), [](const testing::TestParamInfo<std::string>& info) {
-  std::string name = info.param;
+INSTANTIATE_TEST_SUITE_P(All, ShippedExercise, testing::ValuesIn(ids()), [](const testing::TestParamInfo<std::string>& known) {
+  std::string name = known.param;
   std::replace_if(name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
   return name;
 });
