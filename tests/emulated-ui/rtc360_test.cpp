@@ -201,7 +201,7 @@ TEST_F(Rtc360, ScansTakesImagesStoresAndShowsTheDataAtOnce) {
   EXPECT_TRUE(d->takeStored());
   EXPECT_EQ(d.phase(), "vis_tracking");
   EXPECT_EQ(d.screen(), "setup");
-  EXPECT_EQ(d.shows("setup_points"), "1.0 M, 26.0 MB");
+  EXPECT_EQ(d.shows("setup_points"), "1.0 M, 23.8 MB");
   ASSERT_TRUE(d.press({"view"}));
   EXPECT_EQ(d->takeView()->file, "scans/House/Setup 001.e57");
   ASSERT_TRUE(d.press({"home"}));

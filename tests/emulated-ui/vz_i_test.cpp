@@ -317,12 +317,12 @@ TEST_F(VzI, StoresOnTheMediumThatIsChosen) {
   ASSERT_TRUE(d.press({"storage=usb"}));
   EXPECT_EQ(d.shows("free"), "64.0 GB");
   ASSERT_TRUE(d.press({"back"}));
-  scan();  // 1 M points of 26 bytes
+  scan();  // 1 M points of 23.8 bytes
   ASSERT_TRUE(d.press({"home", "storage_now"}));
-  EXPECT_NEAR(d->fact("card.free")->number.value(), 64e9 - 26e6, 1);
+  EXPECT_NEAR(d->fact("card.free")->number.value(), 64e9 - 23.8e6, 1);
   ASSERT_TRUE(d.press({"storage=ssd", "back"}));
   scan();
-  EXPECT_NEAR(d->fact("card.free")->number.value(), 1e12 - 26e6, 1);
+  EXPECT_NEAR(d->fact("card.free")->number.value(), 1e12 - 23.8e6, 1);
   ASSERT_TRUE(d.press({"home", "storage_now", "storage=usb", "format", "yes"}));
   EXPECT_EQ(d.fact("setups.all"), "1") << "what is on the SSD stays";
   EXPECT_EQ(d.fact("newest.name"), "ScanPos002");

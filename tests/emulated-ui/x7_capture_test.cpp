@@ -4,15 +4,15 @@
 namespace standpoint {
 namespace {
 
-// Spacings and times: section 1.4; range: section 1.1. 5712 x 2237 points of 26 bytes.
+// Spacings and times: section 1.4; range: section 1.1. 5712 x 2237 points of 23.8 bytes.
 TEST_F(X7, ListsEachDurationWithItsSevenColumns) {
   ready();
   const auto screen = d->screen();
   const auto* modes = findWidget(screen, "mode_list");
   ASSERT_NE(modes, nullptr);
   ASSERT_EQ(modes->options.size(), 4U);
-  EXPECT_EQ(modes->options[0].label, "Standard | 80 m | 12.8 M | 332.2 MB | 2:00 | 11.0 mm | 106 k/s");
-  EXPECT_EQ(modes->options[3].label, "Standard | 80 m | 96.6 M | 2.5 GB | 15:00 | 4.0 mm | 107 k/s");
+  EXPECT_EQ(modes->options[0].label, "Standard | 80 m | 12.8 M | 304.1 MB | 2:00 | 11.0 mm | 106 k/s");
+  EXPECT_EQ(modes->options[3].label, "Standard | 80 m | 96.6 M | 2.3 GB | 15:00 | 4.0 mm | 107 k/s");
   ASSERT_TRUE(d.press({"mode_list=7min"}));
   EXPECT_EQ(d.shows("expected_time"), "7:00");
   EXPECT_EQ(d.shows("expected_points"), "43.0 M");
