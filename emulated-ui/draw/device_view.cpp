@@ -41,7 +41,8 @@ void titleBar(Pen& pen, const Screen& screen, float width, float height) {
     float right = at.x + width - 0.8F * pen.unit;
     for (const auto& w : screen.widgets) {
       if (w.kind != WidgetKind::status) continue;
-      const std::string text = labels ? w.label + " " + w.value : w.value;
+      // A state that holds is its own word: "WLAN".
+      const std::string text = w.value.empty() ? w.label : labels ? w.label + " " + w.value : w.value;
       right -= ImGui::CalcTextSize(text.c_str()).x;
       if (draw) list->AddText({right, y}, w.why_not.empty() ? pen.skin.title_text : IM_COL32(255, 190, 120, 255), text.c_str());
       right -= pen.unit;

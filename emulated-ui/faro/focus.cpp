@@ -163,7 +163,7 @@ const DeviceProgram kProgram = {
      {"area_from_head", areaFromHead}, {"area_to_head", areaToHead}},
     {{"profile", FactUnit::none, {}, [](const Device& d) { return wordFact(profileName(d)); }, "the chosen profile; a star where it was changed"},
      {"expected.saving", FactUnit::seconds, kNumber, [](const Device& d) { return numberFact(std::max(3.0, d.type().instrument.overhead_s - kSpinUp_s)); }, "warm-up columns and saving"},
-     {"eye_safety", FactUnit::none, {}, [](const Device&) { return wordFact("7.50 m / 2.8 m"); }, "axial and radial distance of eye safety [S7]"},
+     {"eye_safety", FactUnit::none, {}, [](const Device&) { return wordFact("7.5 m / 2.8 m"); }, "axial and radial distance of eye safety [S7]"},
      {"display.columns", FactUnit::none, kNumber, [](const Device& d) { return numberFact(std::round(d.expected().columns * kDisplayColumns)); }, "columns as the display counts them"},
      {"display.rows", FactUnit::none, kNumber, [](const Device& d) { return numberFact(displayRows(d.expected())); }, "rows as the display counts them"}},
     {{"profiles", profileRows}},
