@@ -28,6 +28,7 @@ WidgetRow widgetRow(JsonFields& f) {
   w.id = f.text("id");
   w.kind = kindOf(f);
   w.setting = f.textOr("setting", "");
+  w.possible_only = f.flagOr("possible_only", false);
   w.value = f.textOr("value", "");
   w.list = f.textOr("list", "");
   w.shows = f.textOr("shows", "");

@@ -20,6 +20,7 @@ struct WidgetRow {
   WidgetKind kind = WidgetKind::readout;
   // What it is bound to; a widget has at most one of setting, value and list.
   std::string setting;           // of the scanner's data sheet: choice or number
+  bool possible_only = false;    // choices that the other settings exclude are left out instead of grey
   std::string value;             // of this file
   std::string list;              // rows, of the code
   std::string shows;             // a fact, or a text with {facts} in it

@@ -57,11 +57,12 @@ void replaceAll(std::string& text, const std::string& what, const std::string& b
     text.replace(at, what.size(), by);
 }
 
-void addSettingOptions(const Device& device, const InstrumentSetting& setting, Widget& w) {
+void addSettingOptions(const Device& device, const InstrumentSetting& setting, bool possible_only, Widget& w) {
   const std::string now = device.setting(setting.key);
   for (const auto& choice : setting.choices) {
     WidgetOption option{choice.value, choiceLabel(device, setting, choice.value), true, {}};
     const auto adapted = adaptedSettings(device.type().instrument, device.state().settings, setting.key, choice.value);
+    if (!adapted && possible_only) continue;
     if (!adapted) {
       option.enabled = false;
       option.why_not = adapted.error().message;
@@ -154,7 +155,7 @@ std::optional<Widget> Device::widget(const WidgetRow& row) const {
   const bool has_word = setting == nullptr || type_->words->has(type_->definition.id, row.words, "en");
   w.label = has_word ? word(row.words) : setting->label;
   if (setting != nullptr) {
-    addSettingOptions(*this, *setting, w);
+    addSettingOptions(*this, *setting, row.possible_only, w);
     w.minimum = setting->minimum;
     w.maximum = setting->maximum;
     w.unit = setting->unit == "deg" ? "°" : setting->unit;

@@ -38,6 +38,7 @@ TEST_F(X7, MeasuresLongerOnEachPointInHighSensitivity) {
   EXPECT_TRUE(d.refuses("duration", "2min")) << "it begins at four minutes";
   const auto screen = d->screen();
   EXPECT_EQ(findWidget(screen, "mode_list")->options.size(), 3U);
+  EXPECT_EQ(findWidget(screen, "duration")->options.size(), 3U) << "those of the other mode are not there";
   ASSERT_TRUE(d.press({"mode=standard"}));
   EXPECT_EQ(d.fact("setting.duration"), "7min");
 }
