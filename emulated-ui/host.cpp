@@ -144,6 +144,12 @@ std::vector<StoredSetup> storedSetups(const Document& document, const DeviceType
   return stored;
 }
 
+Eigen::Quaterniond leaning(const Eigen::Quaterniond& rotation, double x_deg, double y_deg) {
+  if (x_deg == 0 && y_deg == 0) return rotation;
+  const double angle_rad = std::acos(std::clamp(std::cos(x_deg * kRadPerDeg) * std::cos(y_deg * kRadPerDeg), -1.0, 1.0));
+  return rotationOf(yawOf(rotation), {angle_rad, std::atan2(y_deg, x_deg)});
+}
+
 DeviceHost::DeviceHost(std::shared_ptr<const DeviceType> type, const Document& document, std::function<void()> wake)
     : device_(std::move(type)), wake_(std::move(wake)) {
   device_.load(storedSetups(document, device_.type()));
@@ -212,9 +218,8 @@ Document DeviceHost::leaning(Document document, const std::string& station_name)
   if (!document.job) return document;
   Job job = *document.job;
   for (auto& station : job.stations)
-    if (station.name == station_name && (around.tilt_x_deg != 0 || around.tilt_y_deg != 0))
-      station.true_pose.rotation =
-          rotationOf(yawOf(station.true_pose.rotation), {device_.tilt() * kRadPerDeg, std::atan2(around.tilt_y_deg, around.tilt_x_deg)});
+    if (station.name == station_name)
+      station.true_pose.rotation = standpoint::leaning(station.true_pose.rotation, around.tilt_x_deg, around.tilt_y_deg);
   document.job = std::make_shared<const Job>(std::move(job));
   return document;
 }

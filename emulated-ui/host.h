@@ -20,6 +20,9 @@ std::vector<StoredSetup> storedSetups(const Document& document, const DeviceType
 
 // Runs an emulated device against a document: its orders become tasks, its clock goes as fast as the user wants, and a setup
 // enters the document only when the device has stored it.
+// A station's pose whose standing axis leans by that much, about Y and X of the file's frame; level: as it is.
+Eigen::Quaterniond leaning(const Eigen::Quaterniond& rotation, double x_deg, double y_deg);
+
 class DeviceHost {
  public:
   DeviceHost(std::shared_ptr<const DeviceType> type, const Document& document, std::function<void()> wake);

@@ -65,7 +65,7 @@ FittedTarget targetFrom(const json& j) {
 }
 
 json toJson(const StoredSetup& s) {
-  json j = {{"file", s.file}, {"number", s.number}, {"partial", s.partial}, {"unlevelled", s.unlevelled}, {"lean_deg", {s.lean_x_deg, s.lean_y_deg}},
+  json j = {{"file", s.file}, {"number", s.number}, {"partial", s.partial}, {"unlevelled", s.unlevelled}, {"lean_deg", {s.lean_x_deg, s.lean_y_deg}}, {"stood_deg", {s.stood_x_deg, s.stood_y_deg}},
             {"moved", s.moved}, {"tracked", s.tracked}, {"looked_at", s.looked_at}, {"transferred", s.transferred}, {"notes", s.notes}};
   for (const auto& t : s.targets) j["targets"].push_back(toJson(t));
   if (s.link) j["link"] = toJson(*s.link);
@@ -76,6 +76,7 @@ void recallSetup(const json& j, StoredSetup& s) {
   s.number = j.at("number");
   s.partial = j.at("partial"), s.unlevelled = j.at("unlevelled"), s.moved = j.at("moved"), s.tracked = j.at("tracked");
   s.lean_x_deg = j.at("lean_deg").at(0), s.lean_y_deg = j.at("lean_deg").at(1);
+  if (j.contains("stood_deg")) s.stood_x_deg = j["stood_deg"].at(0), s.stood_y_deg = j["stood_deg"].at(1);
   s.looked_at = j.at("looked_at"), s.transferred = j.at("transferred");
   s.notes = j.at("notes").get<SettingValues>();
   s.targets.clear();

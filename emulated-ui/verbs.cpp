@@ -33,13 +33,11 @@ Result<Outcome> listExercises(const Document& document, const std::string& langu
   return outcome;
 }
 
-// What is wrong or doubtful with one file. An error is what only the caller can mend: a file that is not there, a
-// cancel.
+// What is wrong or doubtful with one file. An error is a cancel.
 Result<Report> findingsOf(const std::string& file, std::string& id, Progress& progress) {
   Report report;
   const auto exercise = readExercise(file);
   if (!exercise) {
-    if (exercise.error().kind == ErrorKind::file_system) return failure(exercise.error());
     report.lose(exercise.error().source, exercise.error().message);
     return report;
   }

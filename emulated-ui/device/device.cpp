@@ -299,6 +299,8 @@ void Device::scanDone(StoredSetup setup) {
   setup.partial = state_.running->until_share < 1;
   setup.tracked = state_.around.tracking;
   setup.unlevelled = !state_.running->compensator || tilt() > type_->definition.body.tilt_limit_deg;
+  setup.stood_x_deg = state_.running->tilt_x_deg;
+  setup.stood_y_deg = state_.running->tilt_y_deg;
   if (setup.unlevelled) {
     setup.lean_x_deg = state_.running->tilt_x_deg;
     setup.lean_y_deg = state_.running->tilt_y_deg;

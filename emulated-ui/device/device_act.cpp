@@ -65,6 +65,7 @@ Result<void> Device::act(const std::string& id, const std::string& value) {
   }
   const Widget* shown = findWidget(now, id);
   const WidgetRow* row = rowOf(id);
+  if ((shown == nullptr || row == nullptr) && !on()) return failure(ErrorKind::usage, fmt::format("the device is off: '{}' cannot be pressed", id), id);
   if (shown == nullptr || row == nullptr || !pressable(shown->kind))
     return failure(ErrorKind::usage, fmt::format("screen '{}' has no '{}' to press", now.has_dialog ? now.dialog.id : now.id, id), id);
   if (!shown->enabled) {

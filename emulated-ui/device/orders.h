@@ -112,6 +112,7 @@ struct StoredSetup {
   bool partial = false;            // it was cut short
   bool unlevelled = false;         // the compensator did not help
   double lean_x_deg = 0, lean_y_deg = 0;   // of the stored cloud: what nothing has levelled
+  double stood_x_deg = 0, stood_y_deg = 0; // how the standing axis leant in truth while it scanned
   bool moved = false;              // the tripod was pushed meanwhile
   bool tracked = false;            // the way from the setup before is known
   bool looked_at = false;          // its preview was opened

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <numeric>
 #include <cstdlib>
 #include <set>
 #include <utility>
@@ -70,6 +71,9 @@ class Checker {
       fault("/model", fmt::format("there is no sample '{}'; {}", e_.model, knownInstead(e_.model, known)));
     checkTexts();
     checkQuestions();
+    const auto points = [](double sum, const auto& one) { return sum + one.points; };
+    if (std::accumulate(e_.rules.begin(), e_.rules.end(), std::accumulate(e_.steps.begin(), e_.steps.end(), 0.0, points), points) <= 0)
+      fault("", "nothing counts: give a step or a rule its points, so that there is something to mark");
     checkIds(e_.steps, "steps");
     checkIds(e_.rules, "rules");
     checkIds(e_.questions, "questions");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include <Eigen/Dense>
@@ -35,15 +36,18 @@ bool accepted(const Device& device, const StoredSetup& setup) {
   return registration != "rejected" && registration != "failed" && registration != "check";
 }
 
-double wrongLinks(const Device& device) {
+std::optional<Fact> wrongLinks(const Device& device) {
   double n = 0;
+  bool any = false;
+  for (const auto* s : allSetups(device)) any = any || accepted(device, *s);
+  if (!any) return std::nullopt;
   for (const auto* s : allSetups(device))
     n += accepted(device, *s) && (s->link->true_error_m > kWrong_m || s->link->true_error_deg > kWrong_deg) ? 1 : 0;
-  return n;
+  return numberFact(n);
 }
 
 // Where the chain of links puts the newest setup, against where it stands: each link's error moves all that come after.
-double closure(const Device& device, const Document& document) {
+std::optional<Fact> closure(const Device& device, const Document& document) {
   Pose moved;
   const StoredSetup* last = nullptr;
   for (const auto* s : allSetups(device)) {
@@ -52,10 +56,10 @@ double closure(const Device& device, const Document& document) {
     moved = {e.rotation * moved.rotation, e * moved.translation};
     last = s;
   }
-  if (last == nullptr) return 0;
+  if (last == nullptr) return std::nullopt;
   for (const auto& station : document.job->stations)
-    if (station.name == last->station) return (moved * station.true_pose.translation - station.true_pose.translation).norm() * 1000;
-  return 0;
+    if (station.name == last->station) return numberFact((moved * station.true_pose.translation - station.true_pose.translation).norm() * 1000);
+  return std::nullopt;
 }
 
 const Target* targetOf(const Document& document, const std::string& name) {
@@ -73,27 +77,29 @@ void eachDistance(const StoredSetup& setup, Take take) {
       if (t[a].found && t[b].found) take(t[a], t[b], (t[a].centre_m - t[b].centre_m).norm());
 }
 
-double worstDistance(const Device& device, const Document& document) {
-  double worst = 0;
+std::optional<Fact> worstDistance(const Device& device, const Document& document) {
+  std::optional<double> worst;
   for (const auto* s : allSetups(device))
     eachDistance(*s, [&](const FittedTarget& a, const FittedTarget& b, double measured) {
       const auto *first = targetOf(document, a.name), *second = targetOf(document, b.name);
-      if (first != nullptr && second != nullptr) worst = std::max(worst, std::abs(measured - (first->centre - second->centre).norm()) * 1000);
+      if (first != nullptr && second != nullptr) worst = std::max(worst.value_or(0), std::abs(measured - (first->centre - second->centre).norm()) * 1000);
     });
-  return worst;
+  return worst ? std::optional(numberFact(*worst)) : std::nullopt;
 }
 
 // Of the distance between two targets over all setups that measured both: largest less smallest.
-double repeatSpread(const Device& device) {
+std::optional<Fact> repeatSpread(const Device& device) {
   std::map<std::pair<std::string, std::string>, std::pair<double, double>> seen;
+  bool repeated = false;
   for (const auto* s : allSetups(device))
     eachDistance(*s, [&](const FittedTarget& a, const FittedTarget& b, double d) {
       const auto [row, first] = seen.try_emplace(std::minmax(a.name, b.name), d, d);
-      if (!first) row->second = {std::min(row->second.first, d), std::max(row->second.second, d)};
+      if (!first) row->second = {std::min(row->second.first, d), std::max(row->second.second, d)}, repeated = true;
     });
+  if (!repeated) return std::nullopt;
   double worst = 0;
   for (const auto& [pair, range] : seen) worst = std::max(worst, (range.second - range.first) * 1000);
-  return worst;
+  return numberFact(worst);
 }
 
 double fewestRepeats(const Device& device) {
@@ -152,16 +158,16 @@ Tied tied(const Device& device, const Document& document) {
 
 // Sights under the name of a known target, whose distances to the other such sights are those of the known places: a
 // name that was given to the wrong target spoils them.
-double worstSight(const Device& device, const Document& document) {
-  double worst = 0;
+std::optional<Fact> worstSight(const Device& device, const Document& document) {
+  std::optional<double> worst;
   const auto& sighted = device.state().sighted;
   for (const auto& a : sighted)
     for (const auto& b : sighted) {
       const auto *first = targetOf(document, a.id), *second = targetOf(document, b.id);
-      if (first == nullptr || second == nullptr) continue;
-      worst = std::max(worst, std::abs((a.place_m - b.place_m).norm() - (first->centre - second->centre).norm()) * 1000);
+      if (first == nullptr || second == nullptr || first == second) continue;
+      worst = std::max(worst.value_or(0), std::abs((a.place_m - b.place_m).norm() - (first->centre - second->centre).norm()) * 1000);
     }
-  return worst;
+  return worst ? std::optional(numberFact(*worst)) : std::nullopt;
 }
 
 double namedSights(const Device& device, const Document& document) {
@@ -176,10 +182,11 @@ double sightSpread(const Device& device) {
   return covered_deg(std::move(azimuths));
 }
 
-double worstSightResidual(const Device& device) {
+std::optional<Fact> worstSightResidual(const Device& device) {
+  if (device.state().sighted.empty()) return std::nullopt;
   double worst = 0;
   for (const auto& s : device.state().sighted) worst = std::max(worst, s.residual_m * 1000);
-  return worst;
+  return numberFact(worst);
 }
 
 std::optional<Fact> orientationError(const Device& device, const Document& document) {
@@ -208,6 +215,7 @@ WalkFigures walked(const WalkedWay& walk, const Exercise& exercise) {
     w.speed_m_s = std::max(w.speed_m_s, step / seconds);
     way.push_back(way.back() + step);
     for (const auto& [name, place] : exercise.places) {
+      if (!name.starts_with("door")) continue;
       const bool at = std::min(std::hypot(walk[i][0] - place[0], walk[i][1] - place[1]), std::hypot(walk[i - 1][0] - place[0], walk[i - 1][1] - place[1])) <= kAtDoor_m;
       if (at) w.door_speed_m_s = std::max(w.door_speed_m_s, step / seconds);
     }
@@ -222,6 +230,25 @@ WalkFigures walked(const WalkedWay& walk, const Exercise& exercise) {
   w.stretch_m = std::max(w.stretch_m, way.back() - closed_at);
   w.closure_m = std::hypot(walk.back()[0] - walk.front()[0], walk.back()[1] - walk.front()[1]);
   return w;
+}
+
+constexpr std::string_view kNear = "walk.near.";
+
+// From a place of the exercise to the nearest spot of the way.
+std::optional<double> nearest_m(const WalkedWay& walk, const Exercise& exercise, std::string_view place) {
+  for (const auto& [name, at] : exercise.places) {
+    if (name != place) continue;
+    const Eigen::Vector2d p(at[0], at[1]);
+    double least = std::numeric_limits<double>::max();
+    for (std::size_t i = 1; i < walk.size(); ++i) {
+      const Eigen::Vector2d a(walk[i - 1][0], walk[i - 1][1]), leg = Eigen::Vector2d(walk[i][0], walk[i][1]) - a;
+      const double length2 = leg.squaredNorm();
+      const double share = length2 > 0 ? std::clamp((p - a).dot(leg) / length2, 0.0, 1.0) : 0;
+      least = std::min(least, (a + share * leg - p).norm());
+    }
+    return least;
+  }
+  return std::nullopt;
 }
 
 struct SigmaAt {
@@ -295,7 +322,7 @@ const std::vector<ProofRow>& walkProofRows() {
       {"walk.closure", "m", numbers(0, 1e6), "between its start and its end"},
       {"walk.stretch", "m", numbers(0, 1e6), "longest way without coming back to within 1 m of where it was before"},
       {"walk.speed", "m/s", numbers(0, 1e6), "greatest between two of its places"},
-      {"walk.door_speed", "m/s", numbers(0, 1e6), "the same within 1.5 m of the exercise's places"},
+      {"walk.door_speed", "m/s", numbers(0, 1e6), "the same of each leg that begins or ends within 1.5 m of a place whose name begins with door"},
       {"walk.drift", "mm", numbers(0, 1e6), "to be expected at the end of the longest stretch: 0.3 mm each metre, half where it closes"},
   };
   return rows;
@@ -303,6 +330,10 @@ const std::vector<ProofRow>& walkProofRows() {
 
 std::optional<Fact> walkProof(const std::string& name, const Exercise& exercise, const WalkedWay& walk) {
   if (!name.starts_with("walk.") || walk.size() < 2) return std::nullopt;
+  if (name.starts_with(kNear)) {
+    const auto near = nearest_m(walk, exercise, std::string_view(name).substr(kNear.size()));
+    return near ? std::optional(numberFact(*near)) : std::nullopt;
+  }
   const auto w = walked(walk, exercise);
   if (name == "walk.length") return numberFact(w.length_m);
   if (name == "walk.closure") return numberFact(w.closure_m);
@@ -314,9 +345,9 @@ std::optional<Fact> walkProof(const std::string& name, const Exercise& exercise,
 }
 
 std::optional<Fact> fieldProof(const std::string& name, const Device& device, const Document& document) {
-  if (name == "links.closure") return numberFact(closure(device, document));
-  if (name == "links.wrong") return numberFact(wrongLinks(device));
-  if (name == "targets.distances") return numberFact(worstDistance(device, document));
+  if (name == "links.closure") return closure(device, document);
+  if (name == "links.wrong") return wrongLinks(device);
+  if (name == "targets.distances") return worstDistance(device, document);
   if (name == "control.targets") return numberFact(tied(device, document).targets);
   if (name == "control.spread") return numberFact(tied(device, document).spread_deg);
   if (name == "control.residual" || name == "control.error") {
@@ -325,13 +356,13 @@ std::optional<Fact> fieldProof(const std::string& name, const Device& device, co
     return numberFact(name == "control.residual" ? t.residual_mm : t.error_mm);
   }
   if (name == "sights.named") return numberFact(namedSights(device, document));
-  if (name == "sights.distances") return numberFact(worstSight(device, document));
-  if (name == "sights.residual") return numberFact(worstSightResidual(device));
+  if (name == "sights.distances") return worstSight(device, document);
+  if (name == "sights.residual") return worstSightResidual(device);
   if (name == "sights.spread") return numberFact(sightSpread(device));
   if (name == "orientation.error") return orientationError(device, document);
   if (name == "repeats.least") return numberFact(fewestRepeats(device));
   if (name == "repeats.places") return numberFact(places(device));
-  if (name == "repeats.spread") return numberFact(repeatSpread(device));
+  if (name == "repeats.spread") return repeatSpread(device);
   return std::nullopt;
 }
 
@@ -358,6 +389,7 @@ std::optional<Fact> namedProof(const std::string& name, const Exercise& exercise
 std::optional<FactDomain> namedProofDomain(const std::string& name, const Exercise& exercise) {
   if (sigmaAt(name) || reachOf(name)) return numbers(0, 1e6);
   if (placeOf(name, exercise) != nullptr) return numbers(0, 1e6);
+  if (name.starts_with(kNear) && exercise.places.contains(name.substr(kNear.size()))) return numbers(0, 1e6);
   return std::nullopt;
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "emulated-ui/host.h"
 #include "emulated-ui/rehearsal/field_proofs.h"
 #include "emulated-ui/rehearsal/survey_proofs.h"
 #include "pointclouds/formats.h"
@@ -94,7 +95,8 @@ std::map<std::string, double> readData(const StoredSetup& setup, const Document&
   // How far the delivered cloud leans against the world: its pose against the true one.
   for (const auto& station : document.job->stations)
     if (station.name == setup.station) {
-      const Eigen::Vector3d true_up = station.true_pose.rotation * Eigen::Vector3d::UnitZ();
+      const auto stood = leaning(station.true_pose.rotation, setup.stood_x_deg, setup.stood_y_deg);
+      const Eigen::Vector3d true_up = stood * Eigen::Vector3d::UnitZ();
       figures["data.tilt"] = std::acos(std::clamp(true_up.dot(reader.up()), -1.0, 1.0)) / kRadPerDeg;
     }
   return figures;
@@ -166,20 +168,21 @@ double commonTargets(const Device& device) {
   return least;
 }
 
+// Over all targets that were fitted; without any the fact is not there.
 template <class Value>
-double over(const Device& device, double start, Value value) {
-  double result = start;
+std::optional<Fact> over(const Device& device, double start, Value value) {
+  std::optional<double> result;
   for (const auto* s : allSetups(device))
     for (const auto& t : s->targets)
-      if (t.found) result = value(result, t);
-  return result;
+      if (t.found) result = value(result.value_or(start), t);
+  return result ? std::optional(numberFact(*result)) : std::nullopt;
 }
 
-double worstTrueLink(const Device& device) {
-  double worst = 0;
+std::optional<Fact> worstTrueLink(const Device& device) {
+  std::optional<double> worst;
   for (const auto* s : allSetups(device))
-    if (s->link && s->link->joined) worst = std::max(worst, s->link->true_error_m * 1000);
-  return worst;
+    if (s->link && s->link->joined) worst = std::max(worst.value_or(0), s->link->true_error_m * 1000);
+  return worst ? std::optional(numberFact(*worst)) : std::nullopt;
 }
 
 double linksThat(const Device& device, bool joined) {
@@ -188,15 +191,14 @@ double linksThat(const Device& device, bool joined) {
   return n;
 }
 
-double leastOverlap(const Device& device) {
-  double least = 1;
-  bool any = false;
+std::optional<Fact> leastOverlap(const Device& device) {
+  std::optional<double> least;
   for (const auto* s : allSetups(device))
-    if (s->link && s->link->joined) least = std::min(least, s->link->overlap), any = true;
-  return any ? least : 0;
+    if (s->link && s->link->joined) least = std::min(least.value_or(1), s->link->overlap);
+  return least ? std::optional(numberFact(*least)) : std::nullopt;
 }
 
-// Files in the office that are as large as their source on the card.
+// Copies in the office: of another format once they are whole, else as large as their source on the card.
 double goodCopies(const Device& device, const fs::path& folder) {
   double good = 0;
   for (const auto* s : allSetups(device)) {
@@ -204,7 +206,9 @@ double goodCopies(const Device& device, const fs::path& folder) {
     const fs::path to = folder / "office" / (from.parent_path().filename().string() + " - " + from.filename().string());
     std::error_code a, b;
     const auto size = fs::file_size(from, a);
-    good += !a && size == fs::file_size(to, b) && !b ? 1 : 0;
+    const bool same = !a && size == fs::file_size(to, b) && !b;
+    const auto converted = [&](const char* extension) { return s->transferred && fs::exists(fs::path(to).replace_extension(extension), b); };
+    good += same || converted(".las") || converted(".ptx") ? 1 : 0;
   }
   return good;
 }
@@ -235,7 +239,7 @@ const std::vector<ProofRow>& proofRows() {
       {"links.failed", "", numbers(0, 1e4), "links that were not found"},
       {"links.overlap", "", numbers(0, 1), "the least overlap of a joined link"},
       {"links.error", "mm", numbers(0, 1e6), "worst true error of a joined link"},
-      {"office.copies", "", numbers(0, 1e4), "copies in the office that are as large as their source"},
+      {"office.copies", "", numbers(0, 1e4), "copies in the office: as large as their source, or whole in another format"},
       {"survey.walls", "", numbers(0, 1), "share of the area's walls that a station meets at 60° or steeper"},
       {"survey.coverage", "", numbers(0, 1), "share of the area's surfaces that a station sees"},
       {"survey.reached", "", numbers(0, 1), "share of what can be seen from anywhere in the area that a station sees"},
@@ -294,16 +298,16 @@ std::optional<Fact> Proofs::fact(const std::string& name, const Exercise& exerci
   if (name == "targets.width") return numberFact(targets.size() < 3 ? 0 : spreadOf(targets)[1]);
   if (name == "targets.heights") return numberFact(heightSpread(targets));
   if (name == "targets.common") return numberFact(commonTargets(device));
-  if (name == "targets.points") {
-    const double least = over(device, 1e9, [](double r, const FittedTarget& t) { return std::min(r, static_cast<double>(t.points)); });
-    return numberFact(least == 1e9 ? 0 : least);
-  }
-  if (name == "targets.residual") return numberFact(over(device, 0, [](double r, const FittedTarget& t) { return std::max(r, t.residual_m * 1000); }));
-  if (name == "targets.error") return numberFact(over(device, 0, [](double r, const FittedTarget& t) { return std::max(r, t.error_m * 1000); }));
+  if (name == "targets.points")
+    return over(device, 1e9, [](double r, const FittedTarget& t) { return std::min(r, static_cast<double>(t.points)); });
+  if (name == "targets.residual")
+    return over(device, 0, [](double r, const FittedTarget& t) { return std::max(r, t.residual_m * 1000); });
+  if (name == "targets.error")
+    return over(device, 0, [](double r, const FittedTarget& t) { return std::max(r, t.error_m * 1000); });
   if (name == "links.joined") return numberFact(linksThat(device, true));
   if (name == "links.failed") return numberFact(linksThat(device, false));
-  if (name == "links.overlap") return numberFact(leastOverlap(device));
-  if (name == "links.error") return numberFact(worstTrueLink(device));
+  if (name == "links.overlap") return leastOverlap(device);
+  if (name == "links.error") return worstTrueLink(device);
   return name == "office.copies" ? std::optional(numberFact(goodCopies(device, folder))) : std::nullopt;
 }
 

@@ -293,6 +293,7 @@ void Rehearsal::watch() {
       if (rule.when != "each" || rule.event != event.what) continue;
       rules_[i].asked = true;
       if (!rule.holds.holds(look)) breakRule(i);
+      else if (rules_[i].broken_at_s < 0) rules_[i].found = factsOf(rule.holds);   // as it was when it was asked last
     }
   }
   for (std::size_t i = 0; i < rules_.size(); ++i) {

@@ -49,6 +49,12 @@ class BadExercise : public testing::Test {
 
 TEST_F(BadExercise, ASoundOneIsTaken) { EXPECT_EQ(saysOf(sound().dump()), ""); }
 
+TEST_F(BadExercise, IsOneInWhichNothingCounts) {
+  auto text = sound();
+  text["steps"][0]["points"] = 0, text["rules"][0]["points"] = 0;
+  EXPECT_THAT(saysOf(text.dump()), HasSubstr("nothing counts"));
+}
+
 TEST_F(BadExercise, DoesNotTakeTheOthersOffTheList) {
   setenv("STANDPOINT_EXERCISES", folder_.path().c_str(), 1);
   const auto shipped = knownExercises().readable.size();

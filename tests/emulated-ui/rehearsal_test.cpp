@@ -153,6 +153,40 @@ TEST_F(RehearsalTest, AScanIsLookedAtWhenItsPictureIsThereNotWhenTheKeyIsPressed
   EXPECT_TRUE(rehearsal->steps()[1].done);
 }
 
+TEST_F(RehearsalTest, TheCloudLeansByWhatNothingHasCompensated) {
+  for (const auto& [inclinometer, lean_deg] : {std::pair{"off", 1.41418}, std::pair{"on", 0.0}}) {
+    const auto rehearsal = start(lesson());
+    ASSERT_NE(rehearsal, nullptr);
+    for (const json& action : {json{{"hand", "tilt"}, {"value", "1,1"}}, json{{"press", "parameters"}}, json{{"press", "sensors"}},
+                               json{{"press", "inclinometer"}, {"value", inclinometer}}, json{{"press", "back"}},
+                               json{{"press", "back"}}, json{{"press", "start_scan"}}, json{{"finish", true}}})
+      ASSERT_TRUE(act(*rehearsal, action)) << action;
+    const auto tilt = rehearsal->fact("data.tilt");
+    ASSERT_TRUE(tilt) << inclinometer;
+    EXPECT_NEAR(tilt->number.value(), lean_deg, 0.01) << inclinometer << ": acos(cos 1 cos 1), or the sensor's 19 arc seconds";
+  }
+}
+
+TEST_F(RehearsalTest, WhatWasNeverMeasuredIsNotThere) {
+  const auto rehearsal = start(lesson());
+  ASSERT_NE(rehearsal, nullptr);
+  for (const char* name : {"data.tilt", "targets.residual", "targets.error", "targets.points", "targets.distances", "links.error",
+                           "links.overlap", "links.wrong", "links.closure", "repeats.spread", "sights.residual", "sights.distances"})
+    EXPECT_FALSE(rehearsal->fact(name)) << name;
+}
+
+TEST_F(RehearsalTest, AHeldRuleTellsWhatWasThereWhenItWasAsked) {
+  const auto rehearsal = start(lesson());
+  ASSERT_NE(rehearsal, nullptr);
+  ASSERT_TRUE(act(*rehearsal, {{"hand", "tilt"}, {"value", "0.5,0"}}));
+  ASSERT_TRUE(act(*rehearsal, {{"press", "start_scan"}}));
+  ASSERT_TRUE(act(*rehearsal, {{"finish", true}}));
+  ASSERT_TRUE(act(*rehearsal, {{"hand", "tilt"}, {"value", "4,0"}}));
+  const auto rules = rehearsal->judge();
+  EXPECT_TRUE(rules[0].held);
+  EXPECT_EQ(rules[0].found, "tilt = 0.5");
+}
+
 TEST_F(RehearsalTest, NobodyStandsAtAStationThatIsNotThere) {
   const auto rehearsal = start(lesson());
   ASSERT_TRUE(rehearsal);
