@@ -18,6 +18,8 @@ class DesktopOpener {
   void open(const std::filesystem::path& path, std::function<void()> wake);
   // What went wrong with the last `open`, once that is known; empty else. Names the path.
   const std::string& problem();
+  // What it told concerns nobody any more.
+  void forget() { problem_.clear(); }
 
  private:
   std::string program_, problem_;

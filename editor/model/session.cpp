@@ -149,7 +149,7 @@ bool Session::recover(const RecoveryCopy& copy) {
 void Session::clear() {
   history_ = History();
   folder_.clear();
-  ++revision_;
+  project_since_ = ++revision_;
 }
 
 void Session::undo() {
@@ -201,6 +201,7 @@ bool Session::adopt(Outcome outcome) {
 
 bool Session::adoptImport(Outcome outcome) {
   if (!adopt(std::move(outcome))) return false;
+  project_since_ = revision_;
   folder_.clear();
   return true;
 }
@@ -238,19 +239,21 @@ void Session::succeed(Task& task, Outcome outcome) {
   } else if (verb_name == "open-project") {
     history_ = History(std::move(outcome.document), text);
     folder_ = folderOf(task.options());
-    ++revision_;
+    project_since_ = ++revision_;
   } else if (verb_name == "open-recovery") {
     history_ = History();   // an empty saved value below it: what was recovered counts as unsaved
     outcome.document.name = task.options().at("name").get<std::string>();   // it was loaded as the copy's folder
     history_.push(std::move(outcome.document), text);
     folder_ = task.options().at("saved-in").get<std::string>();
     removeRecovery(folderOf(task.options()).parent_path());
-    ++revision_;
+    project_since_ = ++revision_;
   } else if (writesDocument(task.verb())) {
     if (task.verb().scope == VerbScope::creates && !task.options().value("update", false)) folder_.clear();
     history_.push(std::move(outcome.document), text);
     ++revision_;
+    if (task.verb().scope == VerbScope::creates && !task.options().value("update", false)) project_since_ = revision_;
   }
+  finished_.front().revision = revision_;
   if (done) done(task.verb(), task.options());
 }
 
@@ -268,7 +271,7 @@ void Session::fail(const Task& task, const Error& error) {
 
 const FinishedTask* Session::lastOf(std::string_view name) const {
   const auto found =
-      std::find_if(finished_.begin(), finished_.end(), [&](const FinishedTask& t) { return t.ok && t.verb == name; });
+      std::find_if(finished_.begin(), finished_.end(), [&](const FinishedTask& t) { return t.ok && t.verb == name && t.revision >= project_since_; });
   return found == finished_.end() ? nullptr : &*found;
 }
 

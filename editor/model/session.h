@@ -26,6 +26,7 @@ struct FinishedTask {
   std::string time;
   double seconds = 0;
   nlohmann::json answer;
+  std::uint64_t revision = 0;  // of the document that it ran on, or made
 };
 
 struct ShownError {
@@ -85,7 +86,8 @@ class Session {
 
   const std::vector<std::unique_ptr<Task>>& running() const { return running_; }
   const std::deque<FinishedTask>& finished() const { return finished_; }   // newest first
-  const FinishedTask* lastOf(std::string_view verb) const;                 // that went well
+  // That went well, and on this project.
+  const FinishedTask* lastOf(std::string_view verb) const;
   const std::vector<LogEntry>& log() const { return log_; }
   void clearLog() { log_.clear(); }
   void say(LogLevel level, std::string source, std::string message);
@@ -114,6 +116,7 @@ class Session {
   std::vector<LogEntry> log_;
   std::deque<ShownError> errors_;
   std::uint64_t revision_ = 0;
+  std::uint64_t project_since_ = 0;   // its first revision
 };
 
 }  // namespace standpoint

@@ -165,6 +165,7 @@ void drawPlanPanel(Editor& editor) {
   const auto* last = editor.session.lastOf("plan");
   if (last == nullptr || !last->answer.contains("coverage")) return;
   const auto& answer = last->answer;
+  if (last->revision != editor.session.revision()) ui::dimWrapped("Something has changed since: ask once more.");
   ui::meter(editor, answer.at("coverage"), tone::kGood);
   ui::dimText(fmt::format("{} of {:.0f} m² that light reaches", percent(answer.at("coverage")),
                           answer.at("exposed_m2").get<double>()));

@@ -12,6 +12,7 @@
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include "editor/model/input_queue.h"
 #include "editor/model/interface_scale.h"
@@ -28,6 +29,13 @@ namespace {
 constexpr int kFramesAfterInput = 3;       // hovering and layouts settle one frame late
 constexpr double kStill_s = 0.25;          // without input the picture is made fine
 std::atomic<bool> window_open{false};
+
+// Dear ImGui drops a comma from a field for numbers, so that 0,3 would become 3: it is the decimal sign there.
+unsigned numberSign(unsigned code) {
+  constexpr auto kNumber = ImGuiInputTextFlags_CharsDecimal | ImGuiInputTextFlags_CharsScientific;
+  const auto* text = ImGui::GetInputTextState(ImGui::GetActiveID());
+  return code == ',' && text != nullptr && (text->Flags & kNumber) != 0 ? '.' : code;
+}
 
 constexpr std::pair<int, int> kKeyMap[] = {
     {ImGuiKey_Tab, GLFW_KEY_TAB},       {ImGuiKey_LeftArrow, GLFW_KEY_LEFT}, {ImGuiKey_RightArrow, GLFW_KEY_RIGHT}, {ImGuiKey_UpArrow, GLFW_KEY_UP},
@@ -183,7 +191,7 @@ class Window {
       case InputEvent::Kind::key:
         if (e.code < 512) io.KeysDown[e.code] = e.down;
         break;
-      case InputEvent::Kind::character: io.AddInputCharacter(static_cast<unsigned>(e.code)); break;
+      case InputEvent::Kind::character: io.AddInputCharacter(numberSign(static_cast<unsigned>(e.code))); break;
     }
     const auto down = [&](int left, int right) { return io.KeysDown[left] || io.KeysDown[right]; };
     io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
