@@ -21,10 +21,18 @@ using nlohmann::json;
 // A hint costs half of its step.
 constexpr double kHinted = 0.5;
 
+// Of a text that begins like a formula a spreadsheet would make one: the apostrophe says that it is text.
 std::string quoted(const std::string& text) {
   std::string out = "\"";
+  if (!text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos) out += '\'';
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + "\"";
+}
+
+std::string cellText(const json& value) {
+  if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
+  if (value.is_number()) return fmt::format("{}", value.get<double>());
+  return value.is_string() ? quoted(value.get<std::string>()) : std::string();
 }
 
 struct DeviceUnitRow {
@@ -277,18 +285,58 @@ std::string marksText(const json& m) {
 }
 
 std::string marksCsv(const json& m) {
-  std::string csv = "exercise,student,device,kind,id,text,expected,found,held,points,of\r\n";
-  const auto row = [&](const char* kind, const json& r, const std::string& found, bool held) {
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\r\n", quoted(m["exercise"]), quoted(m["student"]), quoted(m["device"]), kind, quoted(r["id"]),
-                       quoted(r["text"]), quoted(r["expected"]), quoted(found), held ? 1 : 0, r["points"].get<double>(), r["of"].get<double>());
+  static constexpr const char* kColumns[] = {"exercise", "student", "device", "kind",  "id",      "text",    "expected",
+                                             "found",    "held",    "points", "of",    "must",    "mistake", "because",
+                                             "proof",    "value",   "unit",   "hints", "seconds", "passed"};
+  std::string csv;
+  for (const char* column : kColumns) csv += (csv.empty() ? "" : ",") + std::string(column);
+  // Cells by column; what is not there stays empty.
+  const auto line = [&](json cells) {
+    for (const char* of_all : {"exercise", "student", "device"}) cells[of_all] = m[of_all];
+    csv += "\r\n";
+    for (const char* column : kColumns)
+      csv += (column == kColumns[0] ? "" : ",") + cellText(cells.value(column, json()));
   };
-  for (const auto& s : m["steps"]) row("step", s, s["done"].get<bool>() ? fmt::format("done at {:.0f} s", s["at_s"].get<double>()) : "not done", s["done"]);
-  for (const auto& r : m["rules"]) row("rule", r, r["found"], r["held"]);
+  for (const auto& s : m["steps"])
+    line({{"kind", "step"},
+          {"id", s["id"]},
+          {"text", s["text"]},
+          {"expected", s["expected"]},
+          {"found", s["done"].get<bool>() ? "done" : "not done"},
+          {"held", s["done"]},
+          {"points", s["points"]},
+          {"of", s["of"]},
+          {"hints", s["hinted"].get<bool>() ? 1 : 0},
+          {"seconds", s["at_s"]}});
+  for (const auto& r : m["rules"]) {
+    const auto proof = r.value("proof", json::object());
+    line({{"kind", "rule"},
+          {"id", r["id"]},
+          {"text", r["text"]},
+          {"expected", r["expected"]},
+          {"found", r["found"]},
+          {"held", r["held"]},
+          {"points", r["points"]},
+          {"of", r["of"]},
+          {"must", r["must"]},
+          {"mistake", r.value("mistake", json())},
+          {"because", r.value("because", json())},
+          {"proof", proof.value("fact", json())},
+          {"value", proof.value("value", json())},
+          {"unit", proof.value("unit", json())},
+          {"seconds", r.value("at_s", json())}});
+  }
+  for (const auto& a : m["answers"])
+    line({{"kind", "answer"}, {"id", a["id"]}, {"text", a["question"]}, {"found", a["answer"]}});
   for (const auto& f : m["failures"])
-    csv += fmt::format("{},{},{},failure,,{},,failed at {:.0f} s,,,\r\n", quoted(m["exercise"]), quoted(m["student"]),
-                       quoted(m["device"]), quoted(f["reason"]), f["at_s"].get<double>());
-  csv += fmt::format("{},{},{},total,,,,,{},{:.4f},1\r\n", quoted(m["exercise"]), quoted(m["student"]), quoted(m["device"]), m["passed"].get<bool>() ? 1 : 0, m["score"].get<double>());
-  return csv;
+    line({{"kind", "failure"}, {"text", f["reason"]}, {"found", "failed"}, {"seconds", f["at_s"]}});
+  line({{"kind", "total"},
+        {"points", m["points"]},
+        {"of", m["of"]},
+        {"hints", m["hints"]},
+        {"seconds", m["seconds"]},
+        {"passed", m["passed"]}});
+  return csv + "\r\n";
 }
 
 Result<void> writeMarks(const Rehearsal& rehearsal, const json& marks, const std::filesystem::path& folder) {

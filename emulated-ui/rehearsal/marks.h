@@ -18,7 +18,8 @@ namespace standpoint {
 nlohmann::json marksOf(const Rehearsal& rehearsal, const std::string& student, const std::string& language);
 
 std::string marksText(const nlohmann::json& marks);  // for people, a line each
-std::string marksCsv(const nlohmann::json& marks);   // RFC 4180, a row for each step and rule
+// RFC 4180, a row for each step, rule, answer and failure, then the total. No text in it becomes a formula.
+std::string marksCsv(const nlohmann::json& marks);
 // A page to print, with the setups' pictures in it, in the marks' language; it needs no other file. `date`: of the
 // marking.
 std::string marksHtml(const nlohmann::json& marks, const Rehearsal& rehearsal, const std::string& date);

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <gmock/gmock.h>
 #include <iterator>
+#include <map>
 #include <regex>
 #include <vector>
 
@@ -39,6 +40,32 @@ json lesson() {
                    "choices": [{"value": "key_a", "text": {"en": "=1+1 & more"}},
                                {"value": "key_b", "text": {"en": "@home"}}]}],
     "pass_mark": 0.2})");
+}
+
+// Rows of a table by the names of their columns.
+std::vector<std::map<std::string, std::string>> rowsOf(const std::string& csv) {
+  std::vector<std::vector<std::string>> lines(1, {""});
+  bool quoted = false;
+  for (std::size_t i = 0; i < csv.size(); ++i) {
+    if (csv[i] == '"' && quoted && i + 1 < csv.size() && csv[i + 1] == '"')
+      lines.back().back() += csv[i++];
+    else if (csv[i] == '"')
+      quoted = !quoted;
+    else if (csv[i] == ',' && !quoted)
+      lines.back().emplace_back();
+    else if (csv[i] == '\n' && !quoted)
+      lines.emplace_back(1);
+    else if (csv[i] != '\r' || quoted)
+      lines.back().back() += csv[i];
+  }
+  lines.pop_back();
+  std::vector<std::map<std::string, std::string>> rows;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    EXPECT_EQ(lines[i].size(), lines[0].size());
+    auto& row = rows.emplace_back();
+    for (std::size_t k = 0; k < lines[0].size(); ++k) row[lines[0][k]] = lines[i][k];
+  }
+  return rows;
 }
 
 class MarksTest : public testing::Test {
@@ -105,6 +132,36 @@ TEST_F(MarksTest, AreRoundedForPeopleAndNotForMachines) {
   EXPECT_THAT(page(), HasSubstr("<td>" + shown + "<br>"));
   EXPECT_THAT(page(), HasSubstr("in the points: " + shown_sigma + "</small>"));
   EXPECT_THAT(page(), HasSubstr("<td>time = 1:40</td>"));
+  EXPECT_EQ(rowsOf(marksCsv(m))[1].at("value"), fmt::format("{}", sigma));
+}
+
+TEST_F(MarksTest, HaveEverythingInColumnsOfTheTable) {
+  act({{"hint", "look"}});
+  act({{"wait", 60}});
+  act({{"press", "manage"}});
+  act({{"answer", "why"}, {"value", "key_b"}});
+  const auto rows = rowsOf(marksCsv(marks()));
+  ASSERT_EQ(rows.size(), 6U);
+  auto step = rows[0], fine = rows[1], warm = rows[3], answer = rows[4], total = rows[5];
+  EXPECT_EQ(step["kind"] + step["held"] + step["points"] + step["of"] + step["hints"] + step["seconds"], "step112160");
+  EXPECT_EQ(fine["held"] + fine["must"] + fine["mistake"] + fine["because"], "01M08Walls get thick.");
+  EXPECT_EQ(fine["proof"] + fine["unit"] + fine["seconds"], "expected.sigma.25.10mm60");
+  EXPECT_EQ(warm["must"], "0");
+  EXPECT_EQ(answer["kind"] + answer["id"] + answer["text"], "answerwhyWhy?");
+  EXPECT_EQ(total["kind"] + " " + total["points"] + " " + total["of"], "total 2 7") << "points, as in the rows above";
+  EXPECT_EQ(total["hints"] + total["seconds"] + total["passed"], "1600");
+  EXPECT_EQ(fine["passed"], "") << "of the whole, once";
+}
+
+TEST_F(MarksTest, HaveNoTextThatASpreadsheetTakesForAFormula) {
+  act({{"answer", "why"}, {"value", "key_b"}});
+  for (const auto& row : rowsOf(marksCsv(marks()))) EXPECT_EQ(row.at("student"), "'=cmd|' /C calc'!A0");
+  auto rows = rowsOf(marksCsv(marks()));
+  EXPECT_EQ(rows[0]["text"], "'-1 is first");
+  EXPECT_EQ(rows[4]["found"], "'@home");
+  EXPECT_EQ(rows[1]["text"], "Low noise");
+  for (const char* name : {"+1", "\t=1", "\r=1"})
+    EXPECT_EQ(rowsOf(marksCsv(marksOf(*rehearsal_, name, "en")))[0]["student"], "'" + std::string(name));
 }
 
 TEST_F(MarksTest, TellOnThePageWhatWasDoneWhenAndWithWhat) {
