@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "emulated-ui/rehearsal/marks.h"
 
+#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <fstream>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "emulated-ui/device/format.h"
-#include "emulated-ui/rehearsal/setup_picture.h"
+#include "emulated-ui/device/numbers.h"
 
 namespace standpoint {
 
@@ -18,32 +21,123 @@ using nlohmann::json;
 // A hint costs half of its step.
 constexpr double kHinted = 0.5;
 
-std::string unitOf(const std::string& fact) {
-  for (const auto& row : proofRows())
-    if (fact == row.name) return row.unit;
-  return {};
-}
-
+// Of a text that begins like a formula a spreadsheet would make one: the apostrophe says that it is text.
 std::string quoted(const std::string& text) {
   std::string out = "\"";
+  if (!text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos) out += '\'';
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + "\"";
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (c == '"') out += "&quot;";
-    else out += c;
-  }
-  return out;
+std::string cellText(const json& value) {
+  if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
+  if (value.is_number()) return fmt::format("{}", value.get<double>());
+  return value.is_string() ? quoted(value.get<std::string>()) : std::string();
 }
 
-std::string textOf(const json& value) {
-  return value.is_string() ? value.get<std::string>() : value.is_null() ? std::string() : value.dump();
+struct DeviceUnitRow {
+  FactUnit unit;
+  const char* name;
+};
+constexpr DeviceUnitRow kDeviceUnits[] = {{FactUnit::seconds, "s"},  {FactUnit::bytes, "B"},
+                                          {FactUnit::metres, "m"},   {FactUnit::degrees, "°"},
+                                          {FactUnit::celsius, "°C"}, {FactUnit::millimetres, "mm"}};
+
+// Of the facts with a name of their own.
+struct NamedUnitRow {
+  std::string_view prefix;
+  const char* name;
+};
+constexpr NamedUnitRow kNamedUnits[] = {{"place.", "m"}, {"expected.reach.", "m"}, {"expected.sigma.", "mm"}};
+
+const FactRow* deviceRow(const Device& device, const std::string& fact) {
+  for (const auto* rows : {&device.type().program.facts, &sharedFacts()})
+    for (const auto& row : *rows)
+      if (fact == row.name) return &row;
+  return nullptr;
+}
+
+const ProofRow* proofRow(const std::string& fact) {
+  for (const auto& row : proofRows())
+    if (fact == row.name) return &row;
+  return nullptr;
+}
+
+std::string unitOf(const Device& device, const std::string& fact) {
+  if (const auto* row = proofRow(fact)) return row->unit;
+  if (const auto* row = deviceRow(device, fact))
+    for (const auto& known : kDeviceUnits)
+      if (known.unit == row->unit) return known.name;
+  for (const auto& named : kNamedUnits)
+    if (fact.starts_with(named.prefix)) return named.name;
+  return {};
+}
+
+bool isShare(const Device& device, const std::string& fact) {
+  if (const auto* row = proofRow(fact))
+    return *row->unit == '\0' && row->domain.minimum == 0 && row->domain.maximum == 1;
+  const auto* row = deviceRow(device, fact);
+  return row != nullptr && row->unit == FactUnit::share;
+}
+
+// Three significant figures, none of a whole number lost.
+std::string roundedText(double n) {
+  return n == std::round(n) || std::abs(n) >= 100 ? fmt::format("{:.0f}", n) : fmt::format("{:.3g}", n);
+}
+
+}  // namespace
+
+std::string percentText(double share) { return roundedText(share * 100) + " %"; }
+
+namespace {
+
+// The choice in words; nothing where the question is not answered.
+std::string answerText(const ExerciseQuestion& question, const std::string& value, const std::string& language) {
+  for (std::size_t i = 0; i < question.choices.size(); ++i)
+    if (question.choices[i] == value && !question.choice_texts[i].texts.empty())
+      return question.choice_texts[i].in(language);
+  return value;
+}
+
+// As people read it: rounded, with its unit.
+std::string shownFact(const Rehearsal& rehearsal, const std::string& name, const Fact& fact,
+                      const std::string& language) {
+  const auto& device = rehearsal.device();
+  for (const auto& question : rehearsal.exercise().questions)
+    if (name == "answer." + question.id) return answerText(question, fact.text, language);
+  if (!fact.number) return fact.text;
+  if (name == "time") return clockText(*fact.number);
+  if (isShare(device, name)) return percentText(*fact.number);
+  const auto* row = deviceRow(device, name);
+  if (row != nullptr && row->unit != FactUnit::none) return factText(fact, row->unit);
+  const auto unit = unitOf(device, name);
+  return roundedText(*fact.number) + (unit.empty() || unit == "°" ? unit : " " + unit);
+}
+
+// "tilt = 0.123456, data.noise = –" for people. `found` names the condition's facts in their order.
+std::string shownFacts(const Rehearsal& rehearsal, const Condition& condition, const std::string& found,
+                       const std::string& language) {
+  const auto names = condition.facts();
+  std::string shown;
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto from = found.find(names[i] + " = ", end) + names[i].size() + 3;
+    end = i + 1 < names.size() ? found.find(", " + names[i + 1] + " = ", from) : found.size();
+    Fact fact = wordFact(found.substr(from, end - from));
+    const auto now = rehearsal.fact(names[i]);
+    if (!now || now->number) fact.number = numberIn(fact.text);  // a project may be called "007"
+    shown += (shown.empty() ? "" : ", ") + names[i] + " = " + shownFact(rehearsal, names[i], fact, language);
+  }
+  return shown;
+}
+
+std::string today() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm local{};
+  localtime_r(&now, &local);
+  char text[16];
+  std::strftime(text, sizeof text, "%Y-%m-%d", &local);
+  return text;
 }
 
 // A demand that nothing asked is not met, but it says nothing of the data either.
@@ -52,12 +146,24 @@ std::string neverAsked(const Rehearsal& rehearsal, const ExerciseRule& rule, con
   return words.text({}, "never_asked", language) + ": " + words.text({}, "never." + rule.event, language);
 }
 
+json answersOf(const Rehearsal& rehearsal, const std::string& language) {
+  json answers = json::array();
+  for (const auto& question : rehearsal.exercise().questions) {
+    const auto value = rehearsal.fact("answer." + question.id)->text;
+    answers.push_back({{"id", question.id},
+                       {"question", question.text.in(language)},
+                       {"value", value},
+                       {"answer", answerText(question, value, language)}});
+  }
+  return answers;
+}
+
 }  // namespace
 
 json marksOf(const Rehearsal& rehearsal, const std::string& student, const std::string& language) {
   const auto& e = rehearsal.exercise();
   double points = 0, possible = 0;
-  bool must = true;
+  json must_broken = json::array();
   json steps = json::array(), rules = json::array();
   for (std::size_t i = 0; i < e.steps.size(); ++i) {
     const auto& step = e.steps[i];
@@ -65,8 +171,14 @@ json marksOf(const Rehearsal& rehearsal, const std::string& student, const std::
     const double earned = state.done ? step.points * (state.hinted ? kHinted : 1) : 0;
     points += earned;
     possible += step.points;
-    steps.push_back({{"id", step.id}, {"text", step.text.in(language)}, {"expected", step.done.text()}, {"done", state.done},
-                     {"at_s", state.done ? json(state.at_s) : json(nullptr)}, {"hinted", state.hinted}, {"points", earned}, {"of", step.points}});
+    steps.push_back({{"id", step.id},
+                     {"text", step.text.in(language)},
+                     {"expected", step.done.text()},
+                     {"done", state.done},
+                     {"at_s", state.done ? json(state.at_s) : json(nullptr)},
+                     {"hinted", state.hinted},
+                     {"points", earned},
+                     {"of", step.points}});
   }
   const auto judged = rehearsal.judge();
   for (std::size_t i = 0; i < e.rules.size(); ++i) {
@@ -74,11 +186,13 @@ json marksOf(const Rehearsal& rehearsal, const std::string& student, const std::
     const auto& state = judged[i];
     points += state.held ? rule.points : 0;
     possible += rule.points;
-    must = must && (state.held || !rule.must);
+    if (rule.must && !state.held) must_broken.push_back(rule.id);
     json row = {{"id", rule.id},
                 {"text", rule.text.in(language)},
                 {"expected", rule.holds.text()},
                 {"found", state.asked ? state.found : neverAsked(rehearsal, rule, language)},
+                {"found_text", state.asked ? shownFacts(rehearsal, rule.holds, state.found, language)
+                                           : neverAsked(rehearsal, rule, language)},
                 {"asked", state.asked},
                 {"held", state.held},
                 {"must", rule.must},
@@ -91,7 +205,10 @@ json marksOf(const Rehearsal& rehearsal, const std::string& student, const std::
     }
     if (state.asked && !rule.proof.empty())
       if (const auto proof = rehearsal.fact(rule.proof))
-        row["proof"] = {{"fact", rule.proof}, {"value", proof->number ? json(*proof->number) : json(proof->text)}, {"unit", unitOf(rule.proof)}};
+        row["proof"] = {{"fact", rule.proof},
+                        {"value", proof->number ? json(*proof->number) : json(proof->text)},
+                        {"unit", unitOf(rehearsal.device(), rule.proof)},
+                        {"text", shownFact(rehearsal, rule.proof, *proof, language)}};
     rules.push_back(std::move(row));
   }
   const double score = possible > 0 ? points / possible : 1;
@@ -100,100 +217,135 @@ json marksOf(const Rehearsal& rehearsal, const std::string& student, const std::
     failures.push_back({{"at_s", failed.at_s}, {"reason", failed.reason}});
   for (const auto& action : rehearsal.actions()) actions.push_back(toJson(action));
   for (const auto& project : rehearsal.device().state().projects)
-    for (const auto& setup : project.setups) files.push_back({{"file", setup.file}, {"station", setup.station}, {"points", setup.points}});
+    for (const auto& setup : project.setups)
+      files.push_back({{"file", setup.file}, {"station", setup.station}, {"points", setup.points}});
   const bool in_time = !rehearsal.overTime();
+  const bool passed = must_broken.empty() && in_time && score >= e.pass_mark;
+  const auto& instrument = rehearsal.device().type().instrument;
   return {{"exercise", e.id},
           {"title", e.title.in(language)},
+          {"goal", e.goal.in(language)},
+          {"language", language},
           {"device", rehearsal.device().type().definition.title},
-          {"instrument", rehearsal.device().type().instrument.id},
+          {"instrument", instrument.id},
+          {"maker", instrument.maker},
+          {"model", instrument.model},
           {"student", student},
           {"operator", rehearsal.device().value("operator")},
-          {"passed", must && in_time && score >= e.pass_mark},
+          {"passed", passed},
+          {"must_broken", std::move(must_broken)},
           {"score", score},
+          {"points", points},
+          {"of", possible},
           {"pass_mark", e.pass_mark},
           {"seconds", rehearsal.seconds()},
           {"time_limit_s", e.time_limit_s},
           {"in_time", in_time},
           {"steps", std::move(steps)},
           {"rules", std::move(rules)},
+          {"answers", answersOf(rehearsal, language)},
+          {"hints", rehearsal.fact("hints")->number.value_or(0)},
           {"failures", std::move(failures)},
           {"actions", std::move(actions)},
           {"files", std::move(files)}};
 }
 
+std::string brokenDemands(const json& m) {
+  std::string texts;
+  for (const auto& rule : m["rules"])
+    if (rule["must"].get<bool>() && !rule["held"].get<bool>())
+      texts += (texts.empty() ? "" : "; ") + rule["text"].get<std::string>();
+  return texts;
+}
+
 std::string marksText(const json& m) {
-  std::string text = fmt::format("{} {} with {}: {}, {:.0f} % of the points, {} of the device's time\n", m["exercise"].get<std::string>(),
-                                 m["title"].get<std::string>(), m["device"].get<std::string>(), m["passed"].get<bool>() ? "passed" : "not passed",
-                                 m["score"].get<double>() * 100, clockText(m["seconds"].get<double>()));
-  for (const auto& s : m["steps"]) text += fmt::format("  {} {}\n", s["done"].get<bool>() ? "[x]" : "[ ]", s["text"].get<std::string>());
+  std::string text = fmt::format("{} {} with {}: {}, {} of the points ({} are needed), {} of the device's time\n",
+                                 m["exercise"].get<std::string>(), m["title"].get<std::string>(),
+                                 m["device"].get<std::string>(), m["passed"].get<bool>() ? "passed" : "not passed",
+                                 percentText(m["score"]), percentText(m["pass_mark"]), clockText(m["seconds"]));
+  if (!m["must_broken"].empty()) text += fmt::format("  needed to pass, but broken: {}\n", brokenDemands(m));
+  if (!m["in_time"].get<bool>()) text += fmt::format("  over the time of {}\n", clockText(m["time_limit_s"]));
+  for (const auto& s : m["steps"])
+    text += fmt::format("  {} {}{}\n", s["done"].get<bool>() ? "[x]" : "[ ]", s["text"].get<std::string>(),
+                        s["hinted"].get<bool>() ? " (with a hint)" : "");
   for (const auto& r : m["rules"]) {
-    text += fmt::format("  {} {}: {}\n", r["held"].get<bool>() ? "[x]" : "[ ]", r["text"].get<std::string>(), r["found"].get<std::string>());
+    text += fmt::format("  {} {}{}: {}\n", r["held"].get<bool>() ? "[x]" : "[ ]", r["text"].get<std::string>(),
+                        r["must"].get<bool>() ? " (needed to pass)" : "", r["found_text"].get<std::string>());
     if (r.contains("because")) text += fmt::format("        {}\n", r["because"].get<std::string>());
     if (!r["held"].get<bool>() && r.contains("proof"))
-      text += fmt::format("        your points: {} = {} {}\n", r["proof"]["fact"].get<std::string>(), textOf(r["proof"]["value"]), r["proof"]["unit"].get<std::string>());
+      text += fmt::format("        your points: {} = {}\n", r["proof"]["fact"].get<std::string>(),
+                          r["proof"]["text"].get<std::string>());
   }
+  for (const auto& a : m["answers"])
+    text += fmt::format("  {} {}\n", a["question"].get<std::string>(),
+                        a["value"] == "" ? "not answered" : a["answer"].get<std::string>());
   for (const auto& f : m["failures"])
     text += fmt::format("  failed after {}: {}\n", clockText(f["at_s"].get<double>()), f["reason"].get<std::string>());
   return text;
 }
 
 std::string marksCsv(const json& m) {
-  std::string csv = "exercise,student,device,kind,id,text,expected,found,held,points,of\r\n";
-  const auto row = [&](const char* kind, const json& r, const std::string& found, bool held) {
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\r\n", quoted(m["exercise"]), quoted(m["student"]), quoted(m["device"]), kind, quoted(r["id"]),
-                       quoted(r["text"]), quoted(r["expected"]), quoted(found), held ? 1 : 0, r["points"].get<double>(), r["of"].get<double>());
+  static constexpr const char* kColumns[] = {"exercise", "student", "device", "kind",  "id",      "text",    "expected",
+                                             "found",    "held",    "points", "of",    "must",    "mistake", "because",
+                                             "proof",    "value",   "unit",   "hints", "seconds", "passed"};
+  std::string csv;
+  for (const char* column : kColumns) csv += (csv.empty() ? "" : ",") + std::string(column);
+  // Cells by column; what is not there stays empty.
+  const auto line = [&](json cells) {
+    for (const char* of_all : {"exercise", "student", "device"}) cells[of_all] = m[of_all];
+    csv += "\r\n";
+    for (const char* column : kColumns)
+      csv += (column == kColumns[0] ? "" : ",") + cellText(cells.value(column, json()));
   };
-  for (const auto& s : m["steps"]) row("step", s, s["done"].get<bool>() ? fmt::format("done at {:.0f} s", s["at_s"].get<double>()) : "not done", s["done"]);
-  for (const auto& r : m["rules"]) row("rule", r, r["found"], r["held"]);
+  for (const auto& s : m["steps"])
+    line({{"kind", "step"},
+          {"id", s["id"]},
+          {"text", s["text"]},
+          {"expected", s["expected"]},
+          {"found", s["done"].get<bool>() ? "done" : "not done"},
+          {"held", s["done"]},
+          {"points", s["points"]},
+          {"of", s["of"]},
+          {"hints", s["hinted"].get<bool>() ? 1 : 0},
+          {"seconds", s["at_s"]}});
+  for (const auto& r : m["rules"]) {
+    const auto proof = r.value("proof", json::object());
+    line({{"kind", "rule"},
+          {"id", r["id"]},
+          {"text", r["text"]},
+          {"expected", r["expected"]},
+          {"found", r["found"]},
+          {"held", r["held"]},
+          {"points", r["points"]},
+          {"of", r["of"]},
+          {"must", r["must"]},
+          {"mistake", r.value("mistake", json())},
+          {"because", r.value("because", json())},
+          {"proof", proof.value("fact", json())},
+          {"value", proof.value("value", json())},
+          {"unit", proof.value("unit", json())},
+          {"seconds", r.value("at_s", json())}});
+  }
+  for (const auto& a : m["answers"])
+    line({{"kind", "answer"}, {"id", a["id"]}, {"text", a["question"]}, {"found", a["answer"]}});
   for (const auto& f : m["failures"])
-    csv += fmt::format("{},{},{},failure,,{},,failed at {:.0f} s,,,\r\n", quoted(m["exercise"]), quoted(m["student"]),
-                       quoted(m["device"]), quoted(f["reason"]), f["at_s"].get<double>());
-  csv += fmt::format("{},{},{},total,,,,,{},{:.4f},1\r\n", quoted(m["exercise"]), quoted(m["student"]), quoted(m["device"]), m["passed"].get<bool>() ? 1 : 0, m["score"].get<double>());
-  return csv;
-}
-
-std::string marksHtml(const json& m, const Rehearsal& rehearsal) {
-  const bool passed = m["passed"].get<bool>();
-  std::string html = fmt::format(
-      "<!doctype html><html><head><meta charset=\"utf-8\"><title>{0}</title><style>"
-      "body{{font:15px/1.45 sans-serif;color:#222;max-width:48em;margin:3em auto;padding:0 1em}}h1{{font-size:1.6em;margin:0}}"
-      "table{{border-collapse:collapse;width:100%;margin:1em 0}}td,th{{border-bottom:1px solid #ddd;padding:.4em .5em;text-align:left;vertical-align:top}}"
-      ".n{{text-align:right;white-space:nowrap}}.no{{color:#a11}}.yes{{color:#171}}small{{color:#666}}img{{width:100%;margin:.3em 0 1em}}"
-      ".mark{{font-size:1.3em;margin:.6em 0}}@media print{{body{{margin:0}}}}</style></head><body>\n<small>Standpoint rehearsal</small><h1>{0}</h1>\n",
-      escaped(m["exercise"].get<std::string>() + " · " + m["title"].get<std::string>()));
-  html += fmt::format("<p class=\"mark {}\"><b>{}</b>, {:.0f} % of the points ({:.0f} % are needed)</p>\n", passed ? "yes" : "no", passed ? "Passed" : "Not passed",
-                      m["score"].get<double>() * 100, m["pass_mark"].get<double>() * 100);
-  const auto named = [&](const char* who, const char* as) { return m[who].get<std::string>().empty() ? "" : as + escaped(m[who]) + " · "; };
-  html += fmt::format("<p>{}{}{} · {} of the device's time</p>\n", named("student", ""), named("operator", "operator "), escaped(m["device"]),
-                      clockText(m["seconds"].get<double>()));
-  html += "<table><tr><th>Step or demand</th><th>Expected</th><th>Found</th><th class=\"n\">Points</th></tr>\n";
-  const auto row = [&](const json& r, bool held, std::string found) {
-    if (r.contains("because")) found += "<br><small>" + escaped(r["because"]) + "</small>";
-    if (r.contains("proof")) found += fmt::format("<br><small>points: {} = {} {}</small>", escaped(r["proof"]["fact"]), escaped(textOf(r["proof"]["value"])), escaped(r["proof"]["unit"]));
-    html += fmt::format("<tr><td class=\"{}\">{} {}</td><td><small>{}</small></td><td>{}</td><td class=\"n\">{:g} / {:g}</td></tr>\n", held ? "yes" : "no", held ? "✓" : "✗",
-                        escaped(r["text"]), escaped(r["expected"]), found, r["points"].get<double>(), r["of"].get<double>());
-  };
-  for (const auto& s : m["steps"]) row(s, s["done"], s["done"].get<bool>() ? fmt::format("after {}", clockText(s["at_s"].get<double>())) : "–");
-  for (const auto& r : m["rules"]) row(r, r["held"], escaped(r["found"]));
-  html += "</table>\n";
-  for (const auto& f : m["failures"])
-    html += fmt::format("<p class=\"no\">Failed after {}: {}</p>\n", clockText(f["at_s"].get<double>()),
-                        escaped(f["reason"].get<std::string>()));
-  for (const auto& project : rehearsal.device().state().projects)
-    for (const auto& setup : project.setups) {
-      const auto picture = setupPicture(setup);
-      if (picture.empty()) continue;
-      html += fmt::format("<p><b>{}</b> at {}: {} points</p><img alt=\"{}\" src=\"data:image/png;base64,{}\">\n", escaped(setup.name), escaped(setup.station), setup.points,
-                          escaped(setup.name), picture);
-    }
-  return html + "<p><small>The device is emulated by Standpoint; it is not affiliated with or endorsed by its maker.</small></p>\n</body></html>\n";
+    line({{"kind", "failure"}, {"text", f["reason"]}, {"found", "failed"}, {"seconds", f["at_s"]}});
+  line({{"kind", "total"},
+        {"points", m["points"]},
+        {"of", m["of"]},
+        {"hints", m["hints"]},
+        {"seconds", m["seconds"]},
+        {"passed", m["passed"]}});
+  return csv + "\r\n";
 }
 
 Result<void> writeMarks(const Rehearsal& rehearsal, const json& marks, const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder.string());
-  const std::pair<const char*, std::string> kFiles[] = {{"result.json", marks.dump(2) + "\n"}, {"result.csv", marksCsv(marks)}, {"result.html", marksHtml(marks, rehearsal)}};
+  const std::pair<const char*, std::string> kFiles[] = {{"result.json", marks.dump(2) + "\n"},
+                                                        {"result.csv", marksCsv(marks)},
+                                                        {"result.html", marksHtml(marks, rehearsal, today())}};
   for (const auto& [name, text] : kFiles) {
     std::ofstream out(folder / name, std::ios::binary);
     out << text;

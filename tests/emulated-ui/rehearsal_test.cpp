@@ -108,7 +108,7 @@ TEST_F(RehearsalTest, ARuleThatNothingAskedSaysSoAndClaimsNoConsequence) {
     EXPECT_FALSE(rule.contains("because"));
     EXPECT_FALSE(rule.contains("proof"));
     EXPECT_THAT(marksText(marks), HasSubstr(said));
-    EXPECT_THAT(marksHtml(marks, *rehearsal), HasSubstr(said));
+    EXPECT_THAT(marksHtml(marks, *rehearsal, "2026-05-04"), HasSubstr(said));
   }
 }
 
@@ -137,7 +137,7 @@ TEST_F(RehearsalTest, AFailedScanTellsItsReasonInTheMarks) {
   EXPECT_THAT(reason, HasSubstr("Cannot create"));
   EXPECT_THAT(marksText(marks), HasSubstr(reason));
   EXPECT_THAT(marksCsv(marks), HasSubstr("Cannot create"));
-  EXPECT_THAT(marksHtml(marks, *rehearsal), HasSubstr("Cannot create"));
+  EXPECT_THAT(marksHtml(marks, *rehearsal, "2026-05-04"), HasSubstr("Cannot create"));
 }
 
 TEST_F(RehearsalTest, AScanIsLookedAtWhenItsPictureIsThereNotWhenTheKeyIsPressed) {

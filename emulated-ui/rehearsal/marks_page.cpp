@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <initializer_list>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "emulated-ui/device/format.h"
+#include "emulated-ui/rehearsal/marks.h"
+#include "emulated-ui/rehearsal/setup_picture.h"
+
+namespace standpoint {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kStyle =
+    "body{font:15px/1.45 sans-serif;color:#222;max-width:48em;margin:3em auto;padding:0 "
+    "1em}h1{font-size:1.6em;margin:0}"
+    "table{border-collapse:collapse;width:100%;margin:1em 0}"
+    "td,th{border-bottom:1px solid #ddd;padding:.4em .5em;text-align:left;vertical-align:top}"
+    ".about{width:auto}.about td,.about th{border:0;padding:.1em 1em .1em 0}.about th{font-weight:normal;color:#666}"
+    ".n{text-align:right;white-space:nowrap}.no{color:#a11}.yes{color:#171}small{color:#666}"
+    "img{width:100%;margin:.3em 0 1em}.mark{font-size:1.3em;margin:.6em 0}@media print{body{margin:0}}";
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+// The certificate in the making.
+class Page {
+ public:
+  Page(const json& marks, const Rehearsal& rehearsal) : m_(marks), rehearsal_(rehearsal) {}
+
+  std::string whole(const std::string& date) {
+    const auto title = escaped(text(m_, "exercise") + " · " + text(m_, "title"));
+    html_ = fmt::format(
+        "<!doctype html><html lang=\"{}\"><head><meta "
+        "charset=\"utf-8\"><title>{}</title><style>{}</style></head><body>\n"
+        "<small>{}</small><h1>{}</h1>\n",
+        escaped(text(m_, "language")), title, kStyle, word("rehearsal"), title);
+    addOutcome();
+    addAbout(date);
+    addDemands();
+    addAnswers();
+    for (const auto& f : m_["failures"])
+      html_ += fmt::format("<p class=\"no\">{}: {}</p>\n", word("failed", {{"{time}", clockText(f["at_s"])}}),
+                           escaped(text(f, "reason")));
+    addPictures();
+    return html_ + "<p><small>" + word("emulated") + "</small></p>\n</body></html>\n";
+  }
+
+ private:
+  using Places = std::initializer_list<std::pair<const char*, std::string>>;
+
+  static std::string text(const json& of, const char* name) { return of[name].get<std::string>(); }
+
+  // Of the marks' words, with its places filled; to be put into the page as it is.
+  std::string word(const std::string& key, Places places = {}) const {
+    auto out = rehearsal_.device().type().words->text({}, "marks." + key, text(m_, "language"));
+    for (const auto& [place, by] : places)
+      if (const auto at = out.find(place); at != std::string::npos) out.replace(at, std::string_view(place).size(), by);
+    return escaped(out);
+  }
+
+  void addOutcome() {
+    const bool passed = m_["passed"].get<bool>();
+    html_ += fmt::format(
+        "<p class=\"mark {}\"><b>{}</b>, {}</p>\n", passed ? "yes" : "no", word(passed ? "passed" : "not_passed"),
+        word("score", {{"{score}", percentText(m_["score"])}, {"{needed}", percentText(m_["pass_mark"])}}));
+    if (!m_["must_broken"].empty())
+      html_ += fmt::format("<p class=\"no\">{}: {}</p>\n", word("must_broken"), escaped(brokenDemands(m_)));
+    if (!m_["in_time"].get<bool>())
+      html_ += fmt::format("<p class=\"no\">{}</p>\n", word("over_time", {{"{limit}", clockText(m_["time_limit_s"])}}));
+  }
+
+  void addAbout(const std::string& date) {
+    const auto row = [&](const std::string& name, const std::string& value) {
+      if (!value.empty()) html_ += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", name, escaped(value));
+    };
+    const auto& words = *rehearsal_.device().type().words;
+    html_ += "<table class=\"about\">\n";
+    row(word("student"), text(m_, "student"));
+    row(escaped(words.text({}, "note.operator", text(m_, "language"))), text(m_, "operator"));
+    row(word("goal"), text(m_, "goal"));
+    row(word("instrument"), text(m_, "maker") + " " + text(m_, "model"));
+    row(word("date"), date);
+    row(word("time"), clockText(m_["seconds"]));
+    row(word("hints"), fmt::format("{:.0f}", m_["hints"].get<double>()));
+    html_ += "</table>\n";
+  }
+
+  void addDemand(const json& r, bool held, const std::string& found) {
+    std::string name = escaped(text(r, "text"));
+    if (r.value("must", false)) name += "<br><small>" + word("must") + "</small>";
+    html_ += fmt::format(
+        "<tr><td class=\"{}\">{} {}</td><td><small>{}</small></td><td>{}</td><td class=\"n\">{:g} / {:g}</td></tr>\n",
+        held ? "yes" : "no", held ? "✓" : "✗", name, escaped(text(r, "expected")), found, r["points"].get<double>(),
+        r["of"].get<double>());
+  }
+
+  void addDemands() {
+    html_ += fmt::format("<table><tr><th>{}</th><th>{}</th><th>{}</th><th class=\"n\">{}</th></tr>\n", word("demand"),
+                         word("expected"), word("found"), word("points"));
+    for (const auto& s : m_["steps"]) {
+      auto found = s["done"].get<bool>() ? word("after", {{"{time}", clockText(s["at_s"])}}) : "–";
+      if (s["hinted"].get<bool>()) found += "<br><small>" + word("hinted") + "</small>";
+      addDemand(s, s["done"], found);
+    }
+    for (const auto& r : m_["rules"]) {
+      auto found = escaped(text(r, "found_text"));
+      if (r.contains("because")) found += "<br><small>" + escaped(text(r, "because")) + "</small>";
+      if (r.contains("proof"))
+        found += fmt::format("<br><small>{}: {} = {}</small>", word("proof"), escaped(text(r["proof"], "fact")),
+                             escaped(text(r["proof"], "text")));
+      addDemand(r, r["held"], found);
+    }
+    html_ += "</table>\n";
+  }
+
+  void addAnswers() {
+    if (m_["answers"].empty()) return;
+    html_ += fmt::format("<table><tr><th>{}</th><th>{}</th></tr>\n", word("question"), word("answer"));
+    for (const auto& a : m_["answers"])
+      html_ += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", escaped(text(a, "question")),
+                           a["value"] == "" ? word("unanswered") : escaped(text(a, "answer")));
+    html_ += "</table>\n";
+  }
+
+  void addPictures() {
+    for (const auto& project : rehearsal_.device().state().projects)
+      for (const auto& setup : project.setups) {
+        const auto picture = setupPicture(setup);
+        if (picture.empty()) continue;
+        html_ += fmt::format(
+            "<p>{}</p><img alt=\"{}\" src=\"data:image/png;base64,{}\">\n",
+            word("setup",
+                 {{"{name}", setup.name}, {"{station}", setup.station}, {"{points}", fmt::format("{}", setup.points)}}),
+            escaped(setup.name), picture);
+      }
+  }
+
+  const json& m_;
+  const Rehearsal& rehearsal_;
+  std::string html_;
+};
+
+}  // namespace
+
+std::string marksHtml(const json& marks, const Rehearsal& rehearsal, const std::string& date) {
+  return Page(marks, rehearsal).whole(date);
+}
+
+}  // namespace standpoint
