@@ -11,6 +11,7 @@
 #include "editor/shell/icons.h"
 #include "editor/shell/widgets.h"
 #include "emulated-ui/device/format.h"
+#include "emulated-ui/rehearsal/marks.h"
 
 namespace standpoint {
 
@@ -166,21 +167,20 @@ void certificate(InstrumentDesk& desk, Editor& editor) {
 
 void marks(InstrumentDesk& desk, Editor& editor) {
   const auto& m = desk.marks;
-  ui::wrapped(fmt::format("{}: {:.0f} % of the points, {:.0f} % are needed",
-                          m["passed"].get<bool>() ? "Passed" : "Not passed", m["score"].get<double>() * 100,
-                          m["pass_mark"].get<double>() * 100));
+  ui::wrapped(fmt::format("{}: {} of the points, {} are needed", m["passed"].get<bool>() ? "Passed" : "Not passed",
+                          percentText(m["score"]), percentText(m["pass_mark"])));
+  if (const auto broken = brokenDemands(m); !broken.empty()) ui::wrapped("Needed to pass, but broken: " + broken);
   certificate(desk, editor);
   for (const auto& rule : m["rules"]) {
     const bool held = rule["held"].get<bool>();
     marked(held ? ICON_CHECK : "×", rule["text"].get<std::string>(), held ? kHeld : kBroken);
     if (held) continue;
     const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
-    marked("", "found: " + rule["found"].get<std::string>(), dim);
+    marked("", "found: " + rule["found_text"].get<std::string>(), dim);
     if (rule.contains("because")) marked("", rule["because"].get<std::string>(), dim);
     if (!rule.contains("proof") || rule["proof"]["value"] == "") continue;
     const auto& proof = rule["proof"];
-    marked("", fmt::format("your points: {} = {} {}", proof["fact"].get<std::string>(), proof["value"].dump(),
-                           proof["unit"].get<std::string>()), dim);
+    marked("", fmt::format("in the data: {} = {}", proof["fact"].get<std::string>(), proof["text"].get<std::string>()), dim);
   }
   ui::gap(editor);
 }
