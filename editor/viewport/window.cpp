@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <cstring>
 
 #include <GLFW/glfw3.h>
@@ -30,11 +31,16 @@ constexpr int kFramesAfterInput = 3;       // hovering and layouts settle one fr
 constexpr double kStill_s = 0.25;          // without input the picture is made fine
 std::atomic<bool> window_open{false};
 
-// Dear ImGui drops a comma from a field for numbers, so that 0,3 would become 3: it is the decimal sign there.
+// Dear ImGui drops a comma from a field for numbers, so that 0,3 would become 3: it is the decimal sign there. Between two
+// frames nothing tells such a field but what stood in it when editing began: a number with a decimal point, and a unit.
 unsigned numberSign(unsigned code) {
-  constexpr auto kNumber = ImGuiInputTextFlags_CharsDecimal | ImGuiInputTextFlags_CharsScientific;
-  const auto* text = ImGui::GetInputTextState(ImGui::GetActiveID());
-  return code == ',' && text != nullptr && (text->Flags & kNumber) != 0 ? '.' : code;
+  const auto* edited = ImGui::GetInputTextState(ImGui::GetActiveID());
+  if (code != ',' || edited == nullptr || edited->InitialTextA.empty()) return code;
+  const char* const before = edited->InitialTextA.Data;
+  char* end = nullptr;
+  std::strtod(before, &end);
+  const bool decimal = std::memchr(before, '.', static_cast<std::size_t>(end - before)) != nullptr;
+  return decimal && std::strpbrk(end, ".,") == nullptr ? '.' : code;
 }
 
 constexpr std::pair<int, int> kKeyMap[] = {
