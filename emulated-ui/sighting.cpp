@@ -119,6 +119,11 @@ Result<Outcome> sightTarget(const Document& document, const SightOrder& order, c
   if (!level) return failure(level.error());
   for (auto& row : measured->answer) {
     if (row.at("name") != target->name) continue;
+    // Whoever aims sees that the target is not there: what was fitted is the wall before it.
+    if (row.at("found").get<bool>() && row.at("error_m").get<double>() > target->size_m / 2) {
+      missed.answer["why"] = "it is hidden from here";
+      return missed;
+    }
     if (row.at("found").get<bool>()) {
       const Eigen::Vector3d place = *level * placeFrom(row.at("centre"));
       row["levelled"] = {place.x(), place.y(), place.z()};

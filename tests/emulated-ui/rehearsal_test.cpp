@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "emulated-ui/rehearsal/marks.h"
+#include "emulated-ui/sighting.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -164,6 +165,28 @@ TEST_F(RehearsalTest, TheCloudLeansByWhatNothingHasCompensated) {
     const auto tilt = rehearsal->fact("data.tilt");
     ASSERT_TRUE(tilt) << inclinometer;
     EXPECT_NEAR(tilt->number.value(), lean_deg, 0.01) << inclinometer << ": acos(cos 1 cos 1), or the sensor's 19 arc seconds";
+  }
+}
+
+// B2 is stuck to the far side of the hall's wall: the fit finds the near side, 2.5 m off.
+TEST_F(RehearsalTest, ATargetBehindAWallCannotBeSighted) {
+  auto text = lesson();
+  text["devices"] = {"leica-p-series"};
+  text["setup"] = json::parse(R"([{"verb": "station", "options": {"add": "P1", "on": [3.5, 2.5, 0]}},
+    {"verb": "target", "options": {"add": "B1", "on-surface": [0.5, 3.6, 1.5], "type": "bw-152"}},
+    {"verb": "target", "options": {"add": "B2", "on-surface": [6.3, 2.5, 1.2], "type": "bw-152"}}])");
+  text["start"] = json::parse(R"([{"hand": "stand_at", "value": "P1"}, {"press": "power"}, {"finish": true}, {"press": "manage"},
+    {"press": "new_project"}, {"press": "name", "value": "House"}, {"press": "create"}, {"press": "scan_menu"}, {"hand": "level"}])");
+  const auto rehearsal = start(text);
+  ASSERT_NE(rehearsal, nullptr);
+  SightOrder order;
+  order.instrument = "leica-p40", order.station = "P1", order.kind = "checkerboard";
+  order.settings = rehearsal->device().state().settings;
+  for (const auto& [target, found] : {std::pair{"B1", true}, std::pair{"B2", false}}) {
+    order.target = target;
+    const auto sighted = sightTarget(rehearsal->document(), order, folder_.path() / "sight.e57", 1, quiet_);
+    ASSERT_TRUE(sighted) << describe(sighted.error());
+    EXPECT_EQ(sighted->answer["found"].get<bool>(), found) << sighted->answer;
   }
 }
 
