@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "emulated-ui/device/replaced.h"
 #include "pointclouds/file_access.h"
 
 namespace standpoint {
@@ -18,12 +19,6 @@ const std::string kScans = "scans:";   // stands for the folder
 
 // Of the fields that were typed, those whose content is kept; the others are of the moment.
 constexpr std::array kKeptEntries = {"button", "bundle", "profile", "profile_settings", "station_id"};
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  for (auto at = text.find(what); !what.empty() && at != std::string::npos; at = text.find(what, at + by.size()))
-    text.replace(at, what.size(), by);
-  return text;
-}
 
 // What was typed need not be sound UTF-8.
 std::string textOf(const json& j, int indent = -1) { return j.dump(indent, ' ', false, json::error_handler_t::replace); }

@@ -102,9 +102,7 @@ Result<Outcome> listNames(const Document& document, const json& options) {
 std::string whyNotPassed(const json& marks) {
   std::string why = fmt::format("not passed: {:.0f} % of the points, {:.0f} % are needed",
                                 marks["score"].get<double>() * 100, marks["pass_mark"].get<double>() * 100);
-  for (const auto& rule : marks["rules"])
-    if (rule["must"].get<bool>() && !rule["held"].get<bool>())
-      why += fmt::format("; '{}' must hold", rule["id"].get<std::string>());
+  for (const auto& id : marks["must_broken"]) why += fmt::format("; '{}' must hold", id.get<std::string>());
   return why + (marks["in_time"].get<bool>() ? "" : "; over time");
 }
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "project/html_text.h"
 #include "project/material_findings.h"
 
 namespace standpoint {
@@ -22,12 +23,6 @@ const PhysicalMaterial* materialOfUse(const MaterialResult& result, const Materi
   return nullptr;
 }
 
-std::string html(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) escaped += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
-  return escaped;
-}
-
 // The diffuse reflectance from 500 to 1600 nm, 0 to 1.
 std::string spectrumSvg(const PhysicalMaterial& m) {
   std::string points;
@@ -40,19 +35,19 @@ std::string spectrumSvg(const PhysicalMaterial& m) {
 std::string coverageTable(const char* title, const std::vector<CoverageRow>& rows) {
   std::string text = fmt::format("<h2>Coverage by {}</h2><table><tr><th>{}<th>Area, m²<th>With a material<th>Of it by a weak rule</tr>\n", title, title);
   for (const auto& r : rows)
-    text += fmt::format("<tr><td>{}<td>{:.1f}<td>{:.1f} %<td>{:.1f} %</tr>\n", r.name.empty() ? "–" : html(r.name), r.area_m2,
+    text += fmt::format("<tr><td>{}<td>{:.1f}<td>{:.1f} %<td>{:.1f} %</tr>\n", r.name.empty() ? "–" : htmlText(r.name), r.area_m2,
                         r.area_m2 > 0 ? 100 * r.assigned_m2 / r.area_m2 : 0, r.assigned_m2 > 0 ? 100 * r.weak_m2 / r.assigned_m2 : 0);
   return text + "</table>\n";
 }
 
 std::string materialRow(const MaterialUse& use, const PhysicalMaterial* m) {
   if (m == nullptr) return fmt::format("<tr><td>without a material<td>{:.1f}<td colspan=9></tr>\n", use.area_m2);
-  std::string text = fmt::format("<tr><td>{}<br><code>{}</code><td>{:.1f}<td>{}", html(m->label), m->id, use.area_m2, spectrumSvg(*m));
+  std::string text = fmt::format("<tr><td>{}<br><code>{}</code><td>{:.1f}<td>{}", htmlText(m->label), m->id, use.area_m2, spectrumSvg(*m));
   for (const double nm : kColumns_nm) text += fmt::format("<td>{:.2f}", atWavelength(m->reflectance, nm));
   text += fmt::format("<td>{:.2f}<td>{}<td>", specularAtNormal(*m, 905), transmits(*m) ? fmt::format("{} × {:.2f}", m->panes, atWavelength(m->transmittance, 905)) : "–");
   for (const auto& c : m->sources)
-    text += fmt::format("<b>{}</b>: {}{}<br>", html(c.figure), html(c.text), c.licence.empty() ? "" : " [" + html(c.licence) + "]");
-  for (const auto& gap : gapsOf(*m)) text += "<i>gap: " + html(gap) + "</i><br>";
+    text += fmt::format("<b>{}</b>: {}{}<br>", htmlText(c.figure), htmlText(c.text), c.licence.empty() ? "" : " [" + htmlText(c.licence) + "]");
+  for (const auto& gap : gapsOf(*m)) text += "<i>gap: " + htmlText(gap) + "</i><br>";
   return text + "</tr>\n";
 }
 
@@ -64,15 +59,15 @@ std::string htmlReport(const Document& document) {
       "<style>body{{font:11pt sans-serif;margin:2em}}table{{border-collapse:collapse;margin-bottom:1.5em}}td,th{{border:1px solid #bbb;padding:3px 6px;"
       "text-align:left;vertical-align:top}}th{{background:#eee}}td:last-child{{font-size:9pt}}@media print{{body{{margin:0}}tr{{page-break-inside:avoid}}}}</style></head><body>\n"
       "<h1>Materials of {0}</h1>\n<p>{1:.1f} % of {2:.1f} m² have a physical material.</p>\n",
-      html(document.name.empty() ? "a model" : document.name), 100 * report.coverage, report.area_m2);
+      htmlText(document.name.empty() ? "a model" : document.name), 100 * report.coverage, report.area_m2);
   text += coverageTable("class", report.by_class) + coverageTable("storey", report.by_storey);
   text += "<h2>Materials in use</h2>\n<table><tr><th>Material<th>Area, m²<th>Spectrum<th>532 nm<th>660<th>905<th>1064<th>1550<th>F0 905<th>T 905<th>Sources and gaps</tr>\n";
   for (const auto& use : report.uses) text += materialRow(use, materialOfUse(result, use));
   text += "</table>\n<p>Diffuse reflectance at normal incidence; F0: specular reflectance; T: panes × transmittance of one.</p>\n";
   text += "<h2>Findings</h2>\n<table><tr><th>Kind<th>Finding<th>Why<th>State</tr>\n";
   for (const auto& f : materialFindings(document))
-    text += fmt::format("<tr><td>{}<td>{}<td>{}<td>{}</tr>\n", html(f.kind), html(f.message), html(f.why),
-                        f.because.empty() ? "open (" + f.severity + ")" : "accepted: " + html(f.because));
+    text += fmt::format("<tr><td>{}<td>{}<td>{}<td>{}</tr>\n", htmlText(f.kind), htmlText(f.message), htmlText(f.why),
+                        f.because.empty() ? "open (" + f.severity + ")" : "accepted: " + htmlText(f.because));
   return text + "</table>\n</body></html>\n";
 }
 

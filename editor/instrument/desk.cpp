@@ -52,6 +52,17 @@ void watch(InstrumentDesk& desk) {
   desk.next_watched_s = desk.rehearsal->seconds() + 1.2;   // a second or so of the viewer's time
 }
 
+void putWayAway(InstrumentDesk& desk, Editor& editor) {
+  desk.way.clear();
+  editor.way.clear();
+  editor.on_way = nullptr;
+  if (editor.view.tool == Tool::layWay) editor.view.tool = Tool::select;
+}
+
+void saveEnvironment(Editor& editor) {
+  if (editor.session.modified() && !editor.session.folder().empty()) editor.session.save(editor.session.folder());
+}
+
 // Empty while the project has no folder.
 fs::path scansFolder(const Editor& editor) { return editor.session.folder().empty() ? fs::path() : editor.session.folder() / "scans"; }
 
@@ -171,17 +182,6 @@ nlohmann::json timedWay(const std::vector<WayPoint>& way) {
   return timed;
 }
 
-namespace {
-
-void putWayAway(InstrumentDesk& desk, Editor& editor) {
-  desk.way.clear();
-  editor.way.clear();
-  editor.on_way = nullptr;
-  if (editor.view.tool == Tool::layWay) editor.view.tool = Tool::select;
-}
-
-}  // namespace
-
 void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercise) {
   desk.refused.clear();
   const auto folder = freshFolder(exercise.id);
@@ -209,14 +209,6 @@ void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercis
   desk.next_watched_s = 0;
   desk.last = std::chrono::steady_clock::now();
 }
-
-namespace {
-
-void saveEnvironment(Editor& editor) {
-  if (editor.session.modified() && !editor.session.folder().empty()) editor.session.save(editor.session.folder());
-}
-
-}  // namespace
 
 void finishExercise(InstrumentDesk& desk, Editor& editor) {
   desk.marks = marksOf(*desk.rehearsal, desk.student, desk.rehearsal->device().state().language);

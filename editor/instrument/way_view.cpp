@@ -65,11 +65,10 @@ std::string whyNoWay(const std::vector<WayPoint>& way) {
 void drawWay(InstrumentDesk& desk, Editor& editor) {
   ui::gap(editor);
   ui::dimText("The way");
-  if (!desk.way.empty()) {
+  if (!desk.way.empty())
     if (const int removed = places(desk.way); removed >= 0) desk.way.erase(desk.way.begin() + removed);
-    const auto timed = timedWay(desk.way);
-    if (!timed.empty()) ui::dimText("Takes " + clockText(timed.back()[2].get<double>()));
-  }
+  const auto timed = timedWay(desk.way);
+  if (!timed.empty()) ui::dimText("Takes " + clockText(timed.back()[2].get<double>()));
   const bool laying = editor.view.tool == Tool::layWay;
   if (ui::button(laying ? "Done###lay-way" : "Lay it in the view###lay-way"))
     editor.view.tool = laying ? Tool::select : Tool::layWay;
@@ -77,10 +76,9 @@ void drawWay(InstrumentDesk& desk, Editor& editor) {
   if (ui::button(ICON_ADD "###add-place")) desk.way.push_back(desk.way.empty() ? WayPoint() : desk.way.back());
   ui::tooltip("Add a place to type in");
   if (ui::primaryButton("Plan this way###plan-way", whyNoWay(desk.way)))
-    act(desk, {Kind::walk, "", "", 0, timedWay(desk.way)});
+    act(desk, {Kind::walk, "", "", 0, timed});
   editor.on_way = [&way = desk.way](const Eigen::Vector3d& place) {
-    WayPoint next;
-    if (!way.empty()) next = way.back();
+    auto next = way.empty() ? WayPoint() : way.back();
     next.x_m = place.x(), next.y_m = place.y(), next.z_m = place.z();
     way.push_back(next);
   };

@@ -228,6 +228,7 @@ void Session::takeResult(Task& task) {
 void Session::succeed(Task& task, Outcome outcome) {
   const std::string_view verb_name = task.verb().name;
   if (verb_name == "save-recovery") return;
+  const bool begins_project = task.verb().scope == VerbScope::creates && !task.options().value("update", false);
   const std::string text = outcome.description.empty() ? task.title() : outcome.description;
   finished_.push_front(
       {task.title(), task.verb().name, true, false, text, timeOfDay(), task.seconds(), std::move(outcome.answer)});
@@ -239,20 +240,20 @@ void Session::succeed(Task& task, Outcome outcome) {
   } else if (verb_name == "open-project") {
     history_ = History(std::move(outcome.document), text);
     folder_ = folderOf(task.options());
-    project_since_ = ++revision_;
+    ++revision_;
   } else if (verb_name == "open-recovery") {
     history_ = History();   // an empty saved value below it: what was recovered counts as unsaved
     outcome.document.name = task.options().at("name").get<std::string>();   // it was loaded as the copy's folder
     history_.push(std::move(outcome.document), text);
     folder_ = task.options().at("saved-in").get<std::string>();
     removeRecovery(folderOf(task.options()).parent_path());
-    project_since_ = ++revision_;
+    ++revision_;
   } else if (writesDocument(task.verb())) {
-    if (task.verb().scope == VerbScope::creates && !task.options().value("update", false)) folder_.clear();
+    if (begins_project) folder_.clear();
     history_.push(std::move(outcome.document), text);
     ++revision_;
-    if (task.verb().scope == VerbScope::creates && !task.options().value("update", false)) project_since_ = revision_;
   }
+  if (begins_project) project_since_ = revision_;
   finished_.front().revision = revision_;
   if (done) done(task.verb(), task.options());
 }

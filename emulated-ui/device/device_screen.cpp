@@ -9,6 +9,7 @@
 #include "emulated-ui/device/device.h"
 #include "emulated-ui/device/format.h"
 #include "emulated-ui/device/numbers.h"
+#include "emulated-ui/device/replaced.h"
 #include "emulated-ui/device/settings.h"
 
 namespace standpoint {
@@ -50,11 +51,6 @@ std::string settingLabel(const Device& device, const InstrumentSetting& setting)
     for (const auto& row : screen.widgets)
       if (row.setting == setting.key) return choiceWord(device, row.words, setting.label);
   return setting.label;
-}
-
-void replaceAll(std::string& text, const std::string& what, const std::string& by) {
-  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
-    text.replace(at, what.size(), by);
 }
 
 void addSettingOptions(const Device& device, const InstrumentSetting& setting, bool possible_only, Widget& w) {
@@ -134,10 +130,11 @@ std::string Device::movedAlong(const SettingValues& adapted, const std::string& 
     const auto before = setting(name);
     if (name == key || value == before) continue;
     std::string line = type_->words->text(type_->definition.id, "setting_moved", state_.language);
-    replaceAll(line, "{what}", settingLabel(*this, *moved));
-    replaceAll(line, "{from}", choiceLabel(*this, *moved, before));
-    replaceAll(line, "{to}", choiceLabel(*this, *moved, value));
-    replaceAll(line, "{by}", choiceLabel(*this, *by, chosen->second));
+    for (const auto& [place, word] : {std::pair{"{what}", settingLabel(*this, *moved)},
+                                      {"{from}", choiceLabel(*this, *moved, before)},
+                                      {"{to}", choiceLabel(*this, *moved, value)},
+                                      {"{by}", choiceLabel(*this, *by, chosen->second)}})
+      line = replaced(std::move(line), place, word);
     text += (text.empty() ? "" : "\n") + line;
   }
   return text;

@@ -10,6 +10,7 @@
 #include <Eigen/Dense>
 
 #include "core/units.h"
+#include "emulated-ui/rehearsal/all_setups.h"
 #include "scanners/expectation.h"
 
 namespace standpoint {
@@ -20,15 +21,6 @@ using Eigen::Vector3d;
 
 constexpr double kWrong_m = 0.5, kWrong_deg = 5;   // instrument facts 3.3, M18
 
-FactDomain numbers(double minimum, double maximum) { return {{}, true, minimum, maximum}; }
-
-std::vector<const StoredSetup*> allSetups(const Device& device) {
-  std::vector<const StoredSetup*> all;
-  for (const auto& p : device.state().projects)
-    for (const auto& s : p.setups) all.push_back(&s);
-  return all;
-}
-
 // The device takes the link: where it asks first, the answer was not no.
 bool accepted(const Device& device, const StoredSetup& setup) {
   if (!setup.link || !setup.link->joined) return false;
@@ -37,13 +29,11 @@ bool accepted(const Device& device, const StoredSetup& setup) {
 }
 
 std::optional<Fact> wrongLinks(const Device& device) {
-  double n = 0;
-  bool any = false;
-  for (const auto* s : allSetups(device)) any = any || accepted(device, *s);
-  if (!any) return std::nullopt;
+  std::optional<double> n;
   for (const auto* s : allSetups(device))
-    n += accepted(device, *s) && (s->link->true_error_m > kWrong_m || s->link->true_error_deg > kWrong_deg) ? 1 : 0;
-  return numberFact(n);
+    if (accepted(device, *s))
+      n = n.value_or(0) + (s->link->true_error_m > kWrong_m || s->link->true_error_deg > kWrong_deg ? 1 : 0);
+  return factOf(n);
 }
 
 // Where the chain of links puts the newest setup, against where it stands: each link's error moves all that come after.
@@ -84,22 +74,20 @@ std::optional<Fact> worstDistance(const Device& device, const Document& document
       const auto *first = targetOf(document, a.name), *second = targetOf(document, b.name);
       if (first != nullptr && second != nullptr) worst = std::max(worst.value_or(0), std::abs(measured - (first->centre - second->centre).norm()) * 1000);
     });
-  return worst ? std::optional(numberFact(*worst)) : std::nullopt;
+  return factOf(worst);
 }
 
 // Of the distance between two targets over all setups that measured both: largest less smallest.
 std::optional<Fact> repeatSpread(const Device& device) {
   std::map<std::pair<std::string, std::string>, std::pair<double, double>> seen;
-  bool repeated = false;
+  std::optional<double> worst;
   for (const auto* s : allSetups(device))
     eachDistance(*s, [&](const FittedTarget& a, const FittedTarget& b, double d) {
       const auto [row, first] = seen.try_emplace(std::minmax(a.name, b.name), d, d);
-      if (!first) row->second = {std::min(row->second.first, d), std::max(row->second.second, d)}, repeated = true;
+      if (!first) row->second = {std::min(row->second.first, d), std::max(row->second.second, d)};
+      if (!first) worst = std::max(worst.value_or(0), (row->second.second - row->second.first) * 1000);
     });
-  if (!repeated) return std::nullopt;
-  double worst = 0;
-  for (const auto& [pair, range] : seen) worst = std::max(worst, (range.second - range.first) * 1000);
-  return numberFact(worst);
+  return factOf(worst);
 }
 
 double fewestRepeats(const Device& device) {
@@ -167,7 +155,7 @@ std::optional<Fact> worstSight(const Device& device, const Document& document) {
       if (first == nullptr || second == nullptr || first == second) continue;
       worst = std::max(worst.value_or(0), std::abs((a.place_m - b.place_m).norm() - (first->centre - second->centre).norm()) * 1000);
     }
-  return worst ? std::optional(numberFact(*worst)) : std::nullopt;
+  return factOf(worst);
 }
 
 double namedSights(const Device& device, const Document& document) {

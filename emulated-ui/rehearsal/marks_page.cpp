@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 
 #include "emulated-ui/device/format.h"
+#include "emulated-ui/device/replaced.h"
 #include "emulated-ui/rehearsal/marks.h"
 #include "emulated-ui/rehearsal/setup_picture.h"
+#include "project/html_text.h"
 
 namespace standpoint {
 
@@ -23,42 +25,25 @@ constexpr const char* kStyle =
     ".n{text-align:right;white-space:nowrap}.no{color:#a11}.yes{color:#171}small{color:#666}"
     "img{width:100%;margin:.3em 0 1em}.mark{font-size:1.3em;margin:.6em 0}@media print{body{margin:0}}";
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 // The certificate in the making.
 class Page {
  public:
   Page(const json& marks, const Rehearsal& rehearsal) : m_(marks), rehearsal_(rehearsal) {}
 
   std::string whole(const std::string& date) {
-    const auto title = escaped(text(m_, "exercise") + " · " + text(m_, "title"));
+    const auto title = htmlText(text(m_, "exercise") + " · " + text(m_, "title"));
     html_ = fmt::format(
         "<!doctype html><html lang=\"{}\"><head><meta "
         "charset=\"utf-8\"><title>{}</title><style>{}</style></head><body>\n"
         "<small>{}</small><h1>{}</h1>\n",
-        escaped(text(m_, "language")), title, kStyle, word("rehearsal"), title);
+        htmlText(text(m_, "language")), title, kStyle, word("rehearsal"), title);
     addOutcome();
     addAbout(date);
     addDemands();
     addAnswers();
     for (const auto& f : m_["failures"])
       html_ += fmt::format("<p class=\"no\">{}: {}</p>\n", word("failed", {{"{time}", clockText(f["at_s"])}}),
-                           escaped(text(f, "reason")));
+                           htmlText(text(f, "reason")));
     addPictures();
     return html_ + "<p><small>" + word("emulated") + "</small></p>\n</body></html>\n";
   }
@@ -72,8 +57,8 @@ class Page {
   std::string word(const std::string& key, Places places = {}) const {
     auto out = rehearsal_.device().type().words->text({}, "marks." + key, text(m_, "language"));
     for (const auto& [place, by] : places)
-      if (const auto at = out.find(place); at != std::string::npos) out.replace(at, std::string_view(place).size(), by);
-    return escaped(out);
+      out = replaced(std::move(out), place, by);
+    return htmlText(out);
   }
 
   void addOutcome() {
@@ -82,19 +67,19 @@ class Page {
         "<p class=\"mark {}\"><b>{}</b>, {}</p>\n", passed ? "yes" : "no", word(passed ? "passed" : "not_passed"),
         word("score", {{"{score}", percentText(m_["score"])}, {"{needed}", percentText(m_["pass_mark"])}}));
     if (!m_["must_broken"].empty())
-      html_ += fmt::format("<p class=\"no\">{}: {}</p>\n", word("must_broken"), escaped(brokenDemands(m_)));
+      html_ += fmt::format("<p class=\"no\">{}: {}</p>\n", word("must_broken"), htmlText(brokenDemands(m_)));
     if (!m_["in_time"].get<bool>())
       html_ += fmt::format("<p class=\"no\">{}</p>\n", word("over_time", {{"{limit}", clockText(m_["time_limit_s"])}}));
   }
 
   void addAbout(const std::string& date) {
     const auto row = [&](const std::string& name, const std::string& value) {
-      if (!value.empty()) html_ += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", name, escaped(value));
+      if (!value.empty()) html_ += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", name, htmlText(value));
     };
     const auto& words = *rehearsal_.device().type().words;
     html_ += "<table class=\"about\">\n";
     row(word("student"), text(m_, "student"));
-    row(escaped(words.text({}, "note.operator", text(m_, "language"))), text(m_, "operator"));
+    row(htmlText(words.text({}, "note.operator", text(m_, "language"))), text(m_, "operator"));
     row(word("goal"), text(m_, "goal"));
     row(word("instrument"), text(m_, "maker") + " " + text(m_, "model"));
     row(word("date"), date);
@@ -104,11 +89,11 @@ class Page {
   }
 
   void addDemand(const json& r, bool held, const std::string& found) {
-    std::string name = escaped(text(r, "text"));
+    std::string name = htmlText(text(r, "text"));
     if (r.value("must", false)) name += "<br><small>" + word("must") + "</small>";
     html_ += fmt::format(
         "<tr><td class=\"{}\">{} {}</td><td><small>{}</small></td><td>{}</td><td class=\"n\">{:g} / {:g}</td></tr>\n",
-        held ? "yes" : "no", held ? "✓" : "✗", name, escaped(text(r, "expected")), found, r["points"].get<double>(),
+        held ? "yes" : "no", held ? "✓" : "✗", name, htmlText(text(r, "expected")), found, r["points"].get<double>(),
         r["of"].get<double>());
   }
 
@@ -121,11 +106,11 @@ class Page {
       addDemand(s, s["done"], found);
     }
     for (const auto& r : m_["rules"]) {
-      auto found = escaped(text(r, "found_text"));
-      if (r.contains("because")) found += "<br><small>" + escaped(text(r, "because")) + "</small>";
+      auto found = htmlText(text(r, "found_text"));
+      if (r.contains("because")) found += "<br><small>" + htmlText(text(r, "because")) + "</small>";
       if (r.contains("proof"))
-        found += fmt::format("<br><small>{}: {} = {}</small>", word("proof"), escaped(text(r["proof"], "fact")),
-                             escaped(text(r["proof"], "text")));
+        found += fmt::format("<br><small>{}: {} = {}</small>", word("proof"), htmlText(text(r["proof"], "fact")),
+                             htmlText(text(r["proof"], "text")));
       addDemand(r, r["held"], found);
     }
     html_ += "</table>\n";
@@ -135,8 +120,8 @@ class Page {
     if (m_["answers"].empty()) return;
     html_ += fmt::format("<table><tr><th>{}</th><th>{}</th></tr>\n", word("question"), word("answer"));
     for (const auto& a : m_["answers"])
-      html_ += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", escaped(text(a, "question")),
-                           a["value"] == "" ? word("unanswered") : escaped(text(a, "answer")));
+      html_ += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", htmlText(text(a, "question")),
+                           a["value"] == "" ? word("unanswered") : htmlText(text(a, "answer")));
     html_ += "</table>\n";
   }
 
@@ -149,7 +134,7 @@ class Page {
             "<p>{}</p><img alt=\"{}\" src=\"data:image/png;base64,{}\">\n",
             word("setup",
                  {{"{name}", setup.name}, {"{station}", setup.station}, {"{points}", fmt::format("{}", setup.points)}}),
-            escaped(setup.name), picture);
+            htmlText(setup.name), picture);
       }
   }
 

@@ -10,6 +10,7 @@
 
 #include "core/units.h"
 #include "emulated-ui/host.h"
+#include "emulated-ui/rehearsal/all_setups.h"
 #include "emulated-ui/rehearsal/field_proofs.h"
 #include "emulated-ui/rehearsal/survey_proofs.h"
 #include "pointclouds/formats.h"
@@ -20,8 +21,6 @@ namespace standpoint {
 namespace {
 
 namespace fs = std::filesystem;
-
-FactDomain numbers(double minimum, double maximum) { return {{}, true, minimum, maximum}; }
 
 double percentile(std::vector<float>& values, double share) {
   if (values.empty()) return 0;
@@ -102,13 +101,6 @@ std::map<std::string, double> readData(const StoredSetup& setup, const Document&
   return figures;
 }
 
-std::vector<const StoredSetup*> allSetups(const Device& device) {
-  std::vector<const StoredSetup*> all;
-  for (const auto& p : device.state().projects)
-    for (const auto& s : p.setups) all.push_back(&s);
-  return all;
-}
-
 std::string settingsText(const SettingValues& values) {
   std::string text;
   for (const auto& [key, value] : values) text += key + "=" + value + " ";
@@ -175,14 +167,14 @@ std::optional<Fact> over(const Device& device, double start, Value value) {
   for (const auto* s : allSetups(device))
     for (const auto& t : s->targets)
       if (t.found) result = value(result.value_or(start), t);
-  return result ? std::optional(numberFact(*result)) : std::nullopt;
+  return factOf(result);
 }
 
 std::optional<Fact> worstTrueLink(const Device& device) {
   std::optional<double> worst;
   for (const auto* s : allSetups(device))
     if (s->link && s->link->joined) worst = std::max(worst.value_or(0), s->link->true_error_m * 1000);
-  return worst ? std::optional(numberFact(*worst)) : std::nullopt;
+  return factOf(worst);
 }
 
 double linksThat(const Device& device, bool joined) {
@@ -195,7 +187,7 @@ std::optional<Fact> leastOverlap(const Device& device) {
   std::optional<double> least;
   for (const auto* s : allSetups(device))
     if (s->link && s->link->joined) least = std::min(least.value_or(1), s->link->overlap);
-  return least ? std::optional(numberFact(*least)) : std::nullopt;
+  return factOf(least);
 }
 
 // Copies in the office: of another format once they are whole, else as large as their source on the card.
