@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Points per second of processor time (of the process, system calls included) of the formats, written and read, beside
-// the writing of as many bytes by fwrite and, for text, beside fprintf and fscanf. What counts are the ratios within one run.
+// the writing of as many bytes by fwrite and, for text, beside fprintf and fscanf. What counts are the ratios within
+// one run.
 //   build/release/bin/bench_clouds [FOLDER [FORMAT]]
 #include <cmath>
 #include <cstdio>

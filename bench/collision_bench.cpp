@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the collision shapes of real buildings are worth, judged by the models' own triangles and not by the code that made
-// the shapes: one line for each file.
-// build/release/bin/bench_collision FILE.ifc...
+// What the collision shapes of real buildings are worth, judged by the models' own triangles and not by the code that
+// made the shapes: one line for each file. build/release/bin/bench_collision FILE.ifc...
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -52,11 +51,13 @@ Soup rawTriangles(const Environment& environment) {
   return soup;
 }
 
-// Somewhere in the door a walker of this size passes between the model's own triangles; sills up to a step are stepped over.
+// Somewhere in the door a walker of this size passes between the model's own triangles; sills up to a step are stepped
+// over.
 bool passable(const Soup& raw, const TriangleTree& tree, const Passage& door) {
   const Vector3d reach = door.through * (door.half_depth + kWalker.radius_m);
   double level = door.middle.z();
-  for (const double side : {-1.0, 1.0}) level = std::max(level, floorUnder(raw, tree, door.middle + side * reach, 0.35, 0.35));
+  for (const double side : {-1.0, 1.0})
+    level = std::max(level, floorUnder(raw, tree, door.middle + side * reach, 0.35, 0.35));
   const Body upper{kWalker.radius_m - 1e-3, kWalker.height_m - kStepHeight};
   for (int i = 0; i <= 40; ++i) {
     Vector3d middle = door.middle + door.across * ((i % 2 == 0 ? 0.01 : -0.01) * i);
@@ -68,19 +69,23 @@ bool passable(const Soup& raw, const TriangleTree& tree, const Passage& door) {
 
 struct DoorFigures {
   int doors = 0, truth = 0, kept = 0, added = 0, closed_passable = 0;
-  int floored = 0, joined = 0, joined_raw = 0;  // of those passable in truth: with a floor, and that the surfaces lead through
+  int floored = 0, joined = 0,
+      joined_raw = 0;  // of those passable in truth: with a floor, and that the surfaces lead through
   std::string lost, parted;
 };
 
 // `raw_walkable`: the surface that the model's own triangles have.
-DoorFigures judgeDoors(const Environment& environment, const Soup& raw, const Mesh& raw_walkable, const CollideResult& open, const CollideResult& closed) {
+DoorFigures judgeDoors(const Environment& environment, const Soup& raw, const Mesh& raw_walkable,
+                       const CollideResult& open, const CollideResult& closed) {
   const TriangleTree tree(raw.positions, raw.triangles);
   DoorFigures figures;
   Soup shut;  // by distances, not by the product's queries
-  for (std::uint32_t i = 0; i < closed.shapes.size(); ++i) shut.add(closed.shapes[i].mesh, Eigen::Affine3d::Identity(), i);
+  for (std::uint32_t i = 0; i < closed.shapes.size(); ++i)
+    shut.add(closed.shapes[i].mesh, Eigen::Affine3d::Identity(), i);
   const TriangleTree shut_tree(shut.positions, shut.triangles);
   for (const auto& door : closed.doors)
-    if (const auto passage = passageOf(environment, door.product)) figures.closed_passable += door.passable || passable(shut, shut_tree, *passage);
+    if (const auto passage = passageOf(environment, door.product))
+      figures.closed_passable += door.passable || passable(shut, shut_tree, *passage);
   for (const auto& door : open.doors) {
     const auto passage = passageOf(environment, door.product);
     if (!passage) continue;
@@ -92,7 +97,8 @@ DoorFigures judgeDoors(const Environment& environment, const Soup& raw, const Me
     if (truth && !door.passable) figures.lost += " " + environment.products[door.product].id;
     if (!truth || !hasFloor(raw, tree, *passage, kWalker.radius_m)) continue;
     ++figures.floored;
-    const bool joined = leadsThrough(open.walkable, *passage, kWalker.radius_m), in_raw = leadsThrough(raw_walkable, *passage, kWalker.radius_m);
+    const bool joined = leadsThrough(open.walkable, *passage, kWalker.radius_m),
+               in_raw = leadsThrough(raw_walkable, *passage, kWalker.radius_m);
     figures.joined += joined;
     figures.joined_raw += in_raw;
     if (!joined) figures.parted += " " + environment.products[door.product].id + (in_raw ? "!" : "");
@@ -114,13 +120,15 @@ Leaks sweepWalls(const Environment& environment, const Soup& raw, const CollideR
   if (faces.empty()) return leaks;
   const Obstacles obstacles(result.shapes);
   Soup shapes;
-  for (std::uint32_t i = 0; i < result.shapes.size(); ++i) shapes.add(result.shapes[i].mesh, Eigen::Affine3d::Identity(), i);
+  for (std::uint32_t i = 0; i < result.shapes.size(); ++i)
+    shapes.add(result.shapes[i].mesh, Eigen::Affine3d::Identity(), i);
   const TriangleTree tree(shapes.positions, shapes.triangles);
   std::uint32_t number = 0;
   for (const auto& point : pointsByArea(raw.positions, faces, kSweeps / 2, {7, 0})) {
     const auto random = philox({11, 0}, number++, 0, 0);
     const auto& t = faces[point.triangle];
-    const Vector3d normal = (raw.positions[t[1]] - raw.positions[t[0]]).cross(raw.positions[t[2]] - raw.positions[t[0]]).normalized();
+    const Vector3d normal =
+        (raw.positions[t[1]] - raw.positions[t[0]]).cross(raw.positions[t[2]] - raw.positions[t[0]]).normalized();
     const auto pass = [&](const Body& body, int& count) {
       const Vector3d way = normal * (body.radius_m + 0.05 + 0.5 * uniform(random[0]));
       const double below = body.radius_m + uniform(random[1]) * (body.height_m - 2 * body.radius_m);
@@ -139,7 +147,8 @@ bool inside(const CollisionShape& shape, const Vector3d& p, double tolerance) {
   if (shape.kind == CollisionShapeKind::mesh) return false;
   for (const auto& t : shape.mesh.triangles) {
     const Vector3d a = shape.mesh.positions[t[0]].cast<double>();
-    const Vector3d ab = shape.mesh.positions[t[1]].cast<double>() - a, ac = shape.mesh.positions[t[2]].cast<double>() - a, normal = ab.cross(ac);
+    const Vector3d ab = shape.mesh.positions[t[1]].cast<double>() - a,
+                   ac = shape.mesh.positions[t[2]].cast<double>() - a, normal = ab.cross(ac);
     if (normal.norm() < 1e-4 * std::max(ab.norm(), ac.norm())) continue;  // a sliver's normal is rounding
     if (normal.dot(p - a) > tolerance * normal.norm()) return false;
   }
@@ -158,8 +167,9 @@ double winding(const Soup& soup, const std::vector<std::uint32_t>& triangles, co
   return sum / (4 * 3.14159265358979323846);
 }
 
-// The triangles of a soup by bodies: parted where an edge has not just two of them. A closed stringer and the open treads that
-// end on it are bodies of their own, or the treads would take from what goes around a point in the stringer.
+// The triangles of a soup by bodies: parted where an edge has not just two of them. A closed stringer and the open
+// treads that end on it are bodies of their own, or the treads would take from what goes around a point in the
+// stringer.
 std::vector<std::vector<std::uint32_t>> bodiesOf(const Soup& soup) {
   using Point = std::array<double, 3>;
   std::map<std::pair<Point, Point>, std::vector<std::uint32_t>> edges;
@@ -199,12 +209,14 @@ bool isInside(const Soup& soup, const std::vector<std::vector<std::uint32_t>>& b
 }
 
 struct Deviations {
-  double outward = 0, inward = 0;      // m, the largest of any product
+  double outward = 0, inward = 0;  // m, the largest of any product
   std::string outward_id, inward_id;
-  std::uint64_t overfull = 0, points = 0;  // points inside of convex shapes of walls, and those more than 10 mm out of the wall
+  std::uint64_t overfull = 0,
+                points = 0;  // points inside of convex shapes of walls, and those more than 10 mm out of the wall
 };
 
-void deviationOf(const std::string& id, bool wall, const Soup& raw, const std::vector<const CollisionShape*>& shapes, Deviations& sum) {
+void deviationOf(const std::string& id, bool wall, const Soup& raw, const std::vector<const CollisionShape*>& shapes,
+                 Deviations& sum) {
   Soup made;
   for (std::uint32_t i = 0; i < shapes.size(); ++i) made.add(shapes[i]->mesh, Eigen::Affine3d::Identity(), i);
   const TriangleTree raw_tree(raw.positions, raw.triangles), made_tree(made.positions, made.triangles);
@@ -212,13 +224,18 @@ void deviationOf(const std::string& id, bool wall, const Soup& raw, const std::v
   double outward = 0, inward = 0;
   for (const auto& point : pointsByArea(made.positions, made.triangles, kSamples, {3, 0})) {
     const auto own = made.owner[point.triangle];
-    const bool covered = std::any_of(shapes.begin(), shapes.end(), [&](const auto* s) { return s != shapes[own] && inside(*s, point.position, 1e-4); });
+    const bool covered = std::any_of(shapes.begin(), shapes.end(), [&](const auto* s) {
+      return s != shapes[own] && inside(*s, point.position, 1e-4);
+    });
     if (covered) continue;
     // Between pieces there may be a crack within the solid: only what is out of the model's surface is too much.
-    if (const double off = std::sqrt(raw_tree.squaredDistance(point.position)); off > outward && !isInside(raw, bodies, point.position)) outward = off;
+    if (const double off = std::sqrt(raw_tree.squaredDistance(point.position));
+        off > outward && !isInside(raw, bodies, point.position))
+      outward = off;
   }
   for (const auto& point : pointsByArea(raw.positions, raw.triangles, kSamples, {4, 0})) {
-    const bool covered = std::any_of(shapes.begin(), shapes.end(), [&](const auto* s) { return inside(*s, point.position, 1e-4); });
+    const bool covered =
+        std::any_of(shapes.begin(), shapes.end(), [&](const auto* s) { return inside(*s, point.position, 1e-4); });
     if (!covered) inward = std::max(inward, std::sqrt(made_tree.squaredDistance(point.position)));
   }
   if (outward > sum.outward) sum.outward = outward, sum.outward_id = id;
@@ -228,7 +245,9 @@ void deviationOf(const std::string& id, bool wall, const Soup& raw, const std::v
     const auto random = philox({5, 0}, i, 0, 0);
     const auto& shape = *shapes[i % shapes.size()];
     if (shape.kind == CollisionShapeKind::mesh) continue;
-    const auto corner = [&](std::uint32_t r) { return shape.mesh.positions[r % shape.mesh.positions.size()].cast<double>(); };
+    const auto corner = [&](std::uint32_t r) {
+      return shape.mesh.positions[r % shape.mesh.positions.size()].cast<double>();
+    };
     const double u = uniform(random[3]), v = uniform(random[2] ^ random[1]);
     const Vector3d p = corner(random[0]) * u + (1 - u) * (corner(random[1]) * v + (1 - v) * corner(random[2]));
     ++sum.points;
@@ -242,9 +261,11 @@ Deviations deviations(const Environment& environment, const CollideResult& resul
   for (const auto& shape : result.shapes) shapes[shape.product].push_back(&shape);
   std::map<std::uint32_t, Soup> soups;
   for (const auto& instance : environment.instances)
-    if (shapes.contains(instance.product)) soups[instance.product].add(*environment.meshes[instance.mesh], instance.world_from_mesh, 0);
+    if (shapes.contains(instance.product))
+      soups[instance.product].add(*environment.meshes[instance.mesh], instance.world_from_mesh, 0);
   for (const auto& [product, own] : shapes)
-    deviationOf(environment.products[product].id, environment.products[product].ifc_class.starts_with("IfcWall"), soups.at(product), own, sum);
+    deviationOf(environment.products[product].id, environment.products[product].ifc_class.starts_with("IfcWall"),
+                soups.at(product), own, sum);
   return sum;
 }
 
@@ -254,13 +275,19 @@ using Column = std::array<long long, 2>;
 std::map<Column, std::vector<double>> columns(const Mesh& mesh) {
   std::map<Column, std::vector<double>> result;
   for (const auto& t : mesh.triangles) {
-    const Vector3d a = mesh.positions[t[0]].cast<double>(), b = mesh.positions[t[1]].cast<double>(), c = mesh.positions[t[2]].cast<double>();
+    const Vector3d a = mesh.positions[t[0]].cast<double>(), b = mesh.positions[t[1]].cast<double>(),
+                   c = mesh.positions[t[2]].cast<double>();
     const Vector3d low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
-    for (auto x = static_cast<long long>(std::ceil(low.x() / kGrid - 0.37)); (static_cast<double>(x) + 0.37) * kGrid <= high.x(); ++x)
-      for (auto y = static_cast<long long>(std::ceil(low.y() / kGrid - 0.61)); (static_cast<double>(y) + 0.61) * kGrid <= high.y(); ++y) {
+    for (auto x = static_cast<long long>(std::ceil(low.x() / kGrid - 0.37));
+         (static_cast<double>(x) + 0.37) * kGrid <= high.x(); ++x)
+      for (auto y = static_cast<long long>(std::ceil(low.y() / kGrid - 0.61));
+           (static_cast<double>(y) + 0.61) * kGrid <= high.y(); ++y) {
         const Vector3d p((static_cast<double>(x) + 0.37) * kGrid, (static_cast<double>(y) + 0.61) * kGrid, 0);
-        const auto side = [&](const Vector3d& s, const Vector3d& e) { return (e.x() - s.x()) * (p.y() - s.y()) - (e.y() - s.y()) * (p.x() - s.x()); };
-        if (side(a, b) >= 0 && side(b, c) >= 0 && side(c, a) > 0) result[{x, y}].push_back(a.z());  // level rectangles, seen from above
+        const auto side = [&](const Vector3d& s, const Vector3d& e) {
+          return (e.x() - s.x()) * (p.y() - s.y()) - (e.y() - s.y()) * (p.x() - s.x());
+        };
+        if (side(a, b) >= 0 && side(b, c) >= 0 && side(c, a) > 0)
+          result[{x, y}].push_back(a.z());  // level rectangles, seen from above
       }
   }
   return result;
@@ -268,8 +295,8 @@ std::map<Column, std::vector<double>> columns(const Mesh& mesh) {
 
 struct Floors {
   double area_m2 = 0, truth_m2 = 0, overlap = 0;
-  double largest_gap_m = 0;      // the shapes' floor over the model's
-  int points = 0, gaps = 0;      // on a grid of 0.1 m; of more than 20 mm
+  double largest_gap_m = 0;  // the shapes' floor over the model's
+  int points = 0, gaps = 0;  // on a grid of 0.1 m; of more than 20 mm
 };
 
 Mesh rawWalkable(const Soup& raw) {
@@ -299,7 +326,8 @@ Floors judgeFloors(const Soup& raw, const Mesh& raw_walkable, const CollideResul
   floors.truth_m2 = static_cast<double>(theirs) * kGrid * kGrid;
   floors.overlap = ours + theirs > both ? static_cast<double>(both) / static_cast<double>(ours + theirs - both) : 1;
   Soup made;
-  for (std::uint32_t i = 0; i < result.shapes.size(); ++i) made.add(result.shapes[i].mesh, Eigen::Affine3d::Identity(), i);
+  for (std::uint32_t i = 0; i < result.shapes.size(); ++i)
+    made.add(result.shapes[i].mesh, Eigen::Affine3d::Identity(), i);
   const TriangleTree raw_tree(raw.positions, raw.triangles), made_tree(made.positions, made.triangles);
   for (const auto& [at, heights] : here) {
     if (at[0] % 2 != 0 || at[1] % 2 != 0) continue;
@@ -322,12 +350,14 @@ std::map<std::string, std::uint32_t> openingsOf(const std::string& file) {
   const std::regex voids(R"(=\s*IFCRELVOIDSELEMENT\s*\(.*,\s*(#\d+)\s*,\s*#\d+\s*\)\s*;)");
   std::smatch found;
   for (std::string line; std::getline(in, line);)
-    if (line.find("IFCRELVOIDSELEMENT") != std::string::npos && std::regex_search(line, found, voids)) ++openings[found[1]];
+    if (line.find("IFCRELVOIDSELEMENT") != std::string::npos && std::regex_search(line, found, voids))
+      ++openings[found[1]];
   return openings;
 }
 
 struct Walk {
-  int steps = 0, through = 0, floats = 0, starts = 0;  // what of the steps met the model's triangles, and ended over its floor
+  int steps = 0, through = 0, floats = 0,
+      starts = 0;  // what of the steps met the model's triangles, and ended over its floor
   double way_m = 0, climbed_m = 0;
 };
 
@@ -357,8 +387,8 @@ Walk walkAtRandom(const Soup& raw, const CollideResult& result) {
       walk.way_m += (after - before).norm();
       lowest = std::min(lowest, after.z()), highest = std::max(highest, after.z());
       const double level = std::max(before.z(), after.z());
-      walk.through += meets(raw, tree, {kWalker.radius_m - kLet, kWalker.height_m - kStepHeight - kLet}, Vector3d(before.x(), before.y(), level) + up,
-                            Vector3d(after.x(), after.y(), level) + up);
+      walk.through += meets(raw, tree, {kWalker.radius_m - kLet, kWalker.height_m - kStepHeight - kLet},
+                            Vector3d(before.x(), before.y(), level) + up, Vector3d(after.x(), after.y(), level) + up);
       walk.floats += after.z() - floorUnder(raw, tree, after, 0.02, 0.5) > 0.020;
     }
     walk.climbed_m = std::max(walk.climbed_m, highest - lowest);
@@ -373,15 +403,18 @@ void printRooms(const Environment& environment, const Soup& raw, const CollideRe
   int same = 0;
   std::string rows;
   for (const auto& room : result.rooms) {
-    const auto own = std::find_if(flooded.begin(), flooded.end(), [&](const FloodedRoom& f) { return f.product == room.product; });
+    const auto own =
+        std::find_if(flooded.begin(), flooded.end(), [&](const FloodedRoom& f) { return f.product == room.product; });
     if (own == flooded.end()) continue;
     const bool truth = own->mainland_m2 + own->entered_m2 > 0.05;
     same += truth == room.reached;
     if (truth && room.reached) continue;
     const auto& product = environment.products[room.product];
-    rows += fmt::format("    room {} {}: {}, {:.1f} m2; flood: {}, {:.1f} m2, {:.1f} with most rooms, {:.1f} from an entrance, with {} other rooms\n", product.id, product.name,
-                        room.reached ? "reached" : "unreached", room.walkable_m2, truth ? "reached" : "unreached", own->area_m2, own->mainland_m2, own->entered_m2,
-                        own->others);
+    rows += fmt::format(
+        "    room {} {}: {}, {:.1f} m2; flood: {}, {:.1f} m2, {:.1f} with most rooms, {:.1f} from an entrance, with {} "
+        "other rooms\n",
+        product.id, product.name, room.reached ? "reached" : "unreached", room.walkable_m2,
+        truth ? "reached" : "unreached", own->area_m2, own->mainland_m2, own->entered_m2, own->others);
   }
   fmt::print("  rooms: {} of {} reached, the flood agrees on {}\n{}", reached, result.rooms.size(), same, rows);
 }
@@ -397,11 +430,14 @@ void printPieces(const std::string& file, const Environment& environment, const 
   }
   std::map<std::string, std::set<std::uint32_t>> fell_back;
   for (const auto& shape : result.shapes)
-    if (shape.kind == CollisionShapeKind::mesh) fell_back[environment.products[shape.product].ifc_class].insert(shape.product);
+    if (shape.kind == CollisionShapeKind::mesh)
+      fell_back[environment.products[shape.product].ifc_class].insert(shape.product);
   std::sort(walls.begin(), walls.end());
   if (!walls.empty())
-    fmt::print("  pieces per wall: median {}, most {}, {} of {} walls over 2 + 3 x openings\n", walls[(walls.size() - 1) / 2], walls.back(), over, walls.size());
-  for (const auto& [ifc_class, products] : fell_back) fmt::print("  stays triangles: {} {}\n", products.size(), ifc_class);
+    fmt::print("  pieces per wall: median {}, most {}, {} of {} walls over 2 + 3 x openings\n",
+               walls[(walls.size() - 1) / 2], walls.back(), over, walls.size());
+  for (const auto& [ifc_class, products] : fell_back)
+    fmt::print("  stays triangles: {} {}\n", products.size(), ifc_class);
 }
 
 int judge(const std::string& file) {
@@ -418,26 +454,32 @@ int judge(const std::string& file) {
   const auto closed = collide(environment, shut, progress);
   if (!closed) return fmt::print("{}: {}\n", file, describe(closed.error())), 1;
   const Soup raw = rawTriangles(environment);
-  fmt::print("{}\n  {} shapes in {:.2f} s\n", std::filesystem::path(file).stem().string(), result->shapes.size(), seconds);
+  fmt::print("{}\n  {} shapes in {:.2f} s\n", std::filesystem::path(file).stem().string(), result->shapes.size(),
+             seconds);
   const Mesh raw_walkable = rawWalkable(raw);
   const auto doors = judgeDoors(environment, raw, raw_walkable, *result, *closed);
-  fmt::print("  doors: {} of {} that are passable in truth ({} more of {}), {} when closed{}{}\n", doors.kept, doors.truth, doors.added, doors.doors, doors.closed_passable,
+  fmt::print("  doors: {} of {} that are passable in truth ({} more of {}), {} when closed{}{}\n", doors.kept,
+             doors.truth, doors.added, doors.doors, doors.closed_passable,
              doors.lost.empty() ? "" : ", lost:", doors.lost);
-  fmt::print("  ways: the surface leads through {} of {} that are passable and have a floor in truth, that of the raw triangles through {}{}{}\n", doors.joined,
-             doors.floored, doors.joined_raw, doors.parted.empty() ? "" : ", parted:", doors.parted);
+  fmt::print(
+      "  ways: the surface leads through {} of {} that are passable and have a floor in truth, that of the raw "
+      "triangles through {}{}{}\n",
+      doors.joined, doors.floored, doors.joined_raw, doors.parted.empty() ? "" : ", parted:", doors.parted);
   const auto leaks = sweepWalls(environment, raw, *result);
-  fmt::print("  leaks: ball {}, walker {} of {} each, {} of them confirmed by distances\n", leaks.ball, leaks.walker, kSweeps / 2, leaks.exact);
+  fmt::print("  leaks: ball {}, walker {} of {} each, {} of them confirmed by distances\n", leaks.ball, leaks.walker,
+             kSweeps / 2, leaks.exact);
   printPieces(file, environment, *result);
   printRooms(environment, raw, *result);
   const auto off = deviations(environment, *result);
-  fmt::print("  deviation: outward {:.1f} mm ({}), inward {:.1f} mm ({}), overfill {} of {} points in walls\n", off.outward * 1000, off.outward_id,
-             off.inward * 1000, off.inward_id, off.overfull, off.points);
+  fmt::print("  deviation: outward {:.1f} mm ({}), inward {:.1f} mm ({}), overfill {} of {} points in walls\n",
+             off.outward * 1000, off.outward_id, off.inward * 1000, off.inward_id, off.overfull, off.points);
   const auto floors = judgeFloors(raw, raw_walkable, *result);
-  fmt::print("  walkable: {:.1f} m2 of {:.1f} m2, overlap {:.2f} %, gap at most {:.1f} mm, over 20 mm at {} of {} points\n", floors.area_m2, floors.truth_m2,
-             floors.overlap * 100, floors.largest_gap_m * 1000, floors.gaps, floors.points);
+  fmt::print(
+      "  walkable: {:.1f} m2 of {:.1f} m2, overlap {:.2f} %, gap at most {:.1f} mm, over 20 mm at {} of {} points\n",
+      floors.area_m2, floors.truth_m2, floors.overlap * 100, floors.largest_gap_m * 1000, floors.gaps, floors.points);
   const auto walk = walkAtRandom(raw, *result);
-  fmt::print("  walk: {} steps, {:.0f} m from {} places, {} through something, {} over the floor, climbed {:.1f} m\n", walk.steps, walk.way_m, walk.starts, walk.through,
-             walk.floats, walk.climbed_m);
+  fmt::print("  walk: {} steps, {:.0f} m from {} places, {} through something, {} over the floor, climbed {:.1f} m\n",
+             walk.steps, walk.way_m, walk.starts, walk.through, walk.floats, walk.climbed_m);
   std::fflush(stdout);
   return 0;
 }

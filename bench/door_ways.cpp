@@ -12,14 +12,16 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kStep = 0.01;    // m between the points
-constexpr double kFeet = 0.15;    // m beside the middle of a way that need a floor too
-constexpr double kReach = 0.6;    // m above and below the door's lower edge that its way may lie
+constexpr double kStep = 0.01;  // m between the points
+constexpr double kFeet = 0.15;  // m beside the middle of a way that need a floor too
+constexpr double kReach = 0.6;  // m above and below the door's lower edge that its way may lie
 
 struct Points {
   int along = 0, across = 0;
   std::vector<std::vector<double>> heights;  // of the surface over each
-  std::size_t at(int i, int j) const { return static_cast<std::size_t>(j) * static_cast<std::size_t>(along) + static_cast<std::size_t>(i); }
+  std::size_t at(int i, int j) const {
+    return static_cast<std::size_t>(j) * static_cast<std::size_t>(along) + static_cast<std::size_t>(i);
+  }
 };
 
 // Level rectangles of two triangles each, as the walkable surface is made of.
@@ -30,13 +32,16 @@ Points pointsOn(const Mesh& walkable, const Passage& door, double reach) {
   points.heights.resize(static_cast<std::size_t>(points.along) * static_cast<std::size_t>(points.across));
   const Vector3d margin(reach + door.half_width, reach + door.half_width, kReach);
   for (std::size_t t = 0; t + 1 < walkable.triangles.size(); t += 2) {
-    const Vector3d a = walkable.positions[walkable.triangles[t][0]].cast<double>(), b = walkable.positions[walkable.triangles[t][2]].cast<double>();
+    const Vector3d a = walkable.positions[walkable.triangles[t][0]].cast<double>(),
+                   b = walkable.positions[walkable.triangles[t][2]].cast<double>();
     const Vector3d low = a.cwiseMin(b), high = a.cwiseMax(b);
     if (((low - door.middle - margin).array() > 0).any() || ((high - door.middle + margin).array() < 0).any()) continue;
     for (int j = 0; j < points.across; ++j)
       for (int i = 0; i < points.along; ++i) {
-        const Vector3d p = door.middle + door.through * ((i - points.along / 2) * kStep) + door.across * ((j - points.across / 2) * kStep);
-        if (p.x() >= low.x() && p.x() <= high.x() && p.y() >= low.y() && p.y() <= high.y()) points.heights[points.at(i, j)].push_back(low.z());
+        const Vector3d p = door.middle + door.through * ((i - points.along / 2) * kStep) +
+                           door.across * ((j - points.across / 2) * kStep);
+        if (p.x() >= low.x() && p.x() <= high.x() && p.y() >= low.y() && p.y() <= high.y())
+          points.heights[points.at(i, j)].push_back(low.z());
       }
   }
   return points;
@@ -53,7 +58,8 @@ bool leadsThrough(const Mesh& walkable, const Passage& door, double radius_m) {
     if (i < 0 || j < 0 || i >= points.along || j >= points.across) return;
     const auto at = points.at(i, j);
     for (std::size_t k = 0; k < points.heights[at].size(); ++k)
-      if (!seen[at][k] && std::abs(points.heights[at][k] - from) <= kStepHeight + 1e-3) seen[at][k] = 1, flood.push_back({i, j, static_cast<int>(k)});
+      if (!seen[at][k] && std::abs(points.heights[at][k] - from) <= kStepHeight + 1e-3)
+        seen[at][k] = 1, flood.push_back({i, j, static_cast<int>(k)});
   };
   for (int j = 0; j < points.across; ++j)
     for (const double z : points.heights[points.at(0, j)]) visit(0, j, z);

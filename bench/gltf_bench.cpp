@@ -2,15 +2,16 @@
 // How long a GLB of 350 MB takes to become an environment, beside what only reads the file and what other programs use:
 // assimp and tinygltf. The file is made of six terrains of a million vertices, as a foreign program writes them: with
 // normals and texture coordinates, indices of 32 bits.
-#include <assimp/Importer.hpp>
-#include <assimp/scene.h>
-#include <benchmark/benchmark.h>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
+
+#include <assimp/Importer.hpp>
+#include <assimp/scene.h>
+#include <benchmark/benchmark.h>
 
 #define TINYGLTF_IMPLEMENTATION
 #define TINYGLTF_NO_STB_IMAGE

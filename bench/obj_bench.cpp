@@ -19,18 +19,21 @@ namespace {
 
 std::string bigFile(benchmark::State& state) {
   const char* file = std::getenv("STANDPOINT_BIG_OBJ");
-  if (file == nullptr || !std::filesystem::exists(file)) state.SkipWithError("set STANDPOINT_BIG_OBJ to a file of bench/make_big_obj.py");
+  if (file == nullptr || !std::filesystem::exists(file))
+    state.SkipWithError("set STANDPOINT_BIG_OBJ to a file of bench/make_big_obj.py");
   return file == nullptr ? "" : file;
 }
 
 void countBytes(benchmark::State& state, const std::string& file) {
   std::error_code code;
-  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations()) * static_cast<std::int64_t>(std::filesystem::file_size(file, code)));
+  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations()) *
+                          static_cast<std::int64_t>(std::filesystem::file_size(file, code)));
 }
 
 void standpointImport(benchmark::State& state) {
   const auto file = bigFile(state);
-  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(state.range(0)));
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(state.range(0)));
   for (auto _ : state) {
     Progress progress;
     const auto model = importFile(file, {}, progress);
@@ -50,13 +53,20 @@ void tinyobjloader(benchmark::State& state) {
     std::vector<tinyobj::shape_t> shapes;
     std::vector<tinyobj::material_t> materials;
     std::string warnings, errors;
-    if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warnings, &errors, file.c_str(), folder.c_str(), state.range(0) != 0))
+    if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warnings, &errors, file.c_str(), folder.c_str(),
+                          state.range(0) != 0))
       return state.SkipWithError(errors.c_str());
     benchmark::DoNotOptimize(attributes.vertices.data());
   }
   countBytes(state, file);
 }
-BENCHMARK(tinyobjloader)->ArgName("triangulate")->Arg(0)->Arg(1)->UseRealTime()->Unit(benchmark::kMillisecond)->Iterations(3);
+BENCHMARK(tinyobjloader)
+    ->ArgName("triangulate")
+    ->Arg(0)
+    ->Arg(1)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(3);
 
 }  // namespace
 }  // namespace standpoint

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Our simplification beside CGAL's Lindstrom–Turk and meshoptimizer on the same meshes, in one run: seconds, their ratio to
-// ours, the error by a tree that is not ours, peak memory. What counts are the ratios; rates differ threefold between machines.
+// Our simplification beside CGAL's Lindstrom–Turk and meshoptimizer on the same meshes, in one run: seconds, their
+// ratio to ours, the error by a tree that is not ours, peak memory. What counts are the ratios; rates differ threefold
+// between machines.
 //   build/release/bin/bench_optimizer [--only NAME] [PROJECT[:BUDGET] | MESH.obj[:BUDGET] …]
-// Each step runs in a process of its own, so that its memory is its own. Ours is optimize() as a whole, measuring included.
-#include <sys/wait.h>
-#include <unistd.h>
-
+// Each step runs in a process of its own, so that its memory is its own. Ours is optimize() as a whole, measuring
+// included.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -14,6 +13,8 @@
 #include <fstream>
 #include <functional>
 #include <string>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <vector>
 
 #include <tbb/global_control.h>
@@ -49,13 +50,16 @@ Mesh flattened(const Environment& environment) {
   for (const auto& instance : environment.instances) {
     const Mesh& mesh = *environment.meshes[instance.mesh];
     const auto first = static_cast<std::uint32_t>(soup.positions.size());
-    for (const auto& p : mesh.positions) soup.positions.emplace_back((instance.world_from_mesh * p.cast<double>()).cast<float>());
+    for (const auto& p : mesh.positions)
+      soup.positions.emplace_back((instance.world_from_mesh * p.cast<double>()).cast<float>());
     for (const auto& t : mesh.triangles) soup.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   }
   std::vector<std::uint32_t> order(soup.positions.size()), index(soup.positions.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
   const auto& p = soup.positions;
-  const auto less = [&](std::uint32_t a, std::uint32_t b) { return std::lexicographical_compare(p[a].begin(), p[a].end(), p[b].begin(), p[b].end()); };
+  const auto less = [&](std::uint32_t a, std::uint32_t b) {
+    return std::lexicographical_compare(p[a].begin(), p[a].end(), p[b].begin(), p[b].end());
+  };
   std::sort(order.begin(), order.end(), less);
   std::vector<Eigen::Vector3f> welded;
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -124,7 +128,8 @@ Figures run(const Case& c, const std::function<Simplified(const Environment&)>& 
     const Environment environment = c.make();
     peakMegabytes(true);
     const auto simplified = simplify(environment);
-    write(file, simplified.mesh, {simplified.seconds, simplified.cpu_seconds, peakMegabytes(false), simplified.mesh.triangles.size(), {}});
+    write(file, simplified.mesh,
+          {simplified.seconds, simplified.cpu_seconds, peakMegabytes(false), simplified.mesh.triangles.size(), {}});
   });
   if (made && read(file, result, figures))
     inChild([&] {
@@ -144,15 +149,17 @@ Simplified ours(const Environment& environment, std::size_t budget, std::size_t 
   const auto result = optimize(environment, {budget, 1e6, {}, {}}, progress);
   auto simplified = watch.stop({});
   if (!result) return {};
-  std::printf("    (states a mean of %.3f mm and a maximum of %.2f mm)\n", 1000 * result->all.mean_deviation_m, 1000 * result->all.max_deviation_m);
+  std::printf("    (states a mean of %.3f mm and a maximum of %.2f mm)\n", 1000 * result->all.mean_deviation_m,
+              1000 * result->all.max_deviation_m);
   std::fflush(stdout);
   simplified.mesh = flattened(result->environment);
   return simplified;
 }
 
 void print(const char* who, const Figures& f, const Figures& ours) {
-  std::printf("  %-22s %9zu triangles %7.2f s (x%6.2f) %7.2f s of CPU (x%6.2f)  mean %.4f %%  max %.3f %%  %6.0f MB\n", who, f.triangles, f.seconds, f.seconds / ours.seconds,
-              f.cpu_seconds, f.cpu_seconds / ours.cpu_seconds, f.error.mean, f.error.max, f.megabytes);
+  std::printf("  %-22s %9zu triangles %7.2f s (x%6.2f) %7.2f s of CPU (x%6.2f)  mean %.4f %%  max %.3f %%  %6.0f MB\n",
+              who, f.triangles, f.seconds, f.seconds / ours.seconds, f.cpu_seconds, f.cpu_seconds / ours.cpu_seconds,
+              f.error.mean, f.error.max, f.megabytes);
   std::fflush(stdout);
 }
 
@@ -162,13 +169,18 @@ void compare(const Case& c) {
   print("ours, two threads", two, two);
   print("ours, one thread", run(c, [&](const Environment& e) { return ours(e, c.budget, 1); }), two);
   print("meshoptimizer", run(c, [&](const Environment& e) { return meshoptimizer(flattened(e), c.budget); }), two);
-  if (c.lindstrom_turk) print("CGAL Lindstrom-Turk", run(c, [&](const Environment& e) { return lindstromTurk(flattened(e), c.budget); }), two);
+  if (c.lindstrom_turk)
+    print("CGAL Lindstrom-Turk", run(c, [&](const Environment& e) { return lindstromTurk(flattened(e), c.budget); }),
+          two);
 }
 
 Case caseOf(const std::string& argument) {
   const auto colon = argument.rfind(':');
   const std::filesystem::path path = argument.substr(0, colon);
-  Case c{path.filename().string(), {}, colon == std::string::npos ? 30'000 : std::strtoull(argument.c_str() + colon + 1, nullptr, 10), true};
+  Case c{path.filename().string(),
+         {},
+         colon == std::string::npos ? 30'000 : std::strtoull(argument.c_str() + colon + 1, nullptr, 10),
+         true};
   c.lindstrom_turk = path.extension() == ".obj";
   c.make = [path] {
     Progress progress;
@@ -186,8 +198,10 @@ int main(int count, char** arguments) {
   std::vector<Case> cases;
   std::string only_one;
   for (int i = 1; i < count; ++i) {
-    if (std::strcmp(arguments[i], "--only") == 0 && i + 1 < count) only_one = arguments[++i];
-    else cases.push_back(caseOf(arguments[i]));
+    if (std::strcmp(arguments[i], "--only") == 0 && i + 1 < count)
+      only_one = arguments[++i];
+    else
+      cases.push_back(caseOf(arguments[i]));
   }
   cases.push_back({"scan", [] { return only(scanLike()); }});
   cases.push_back({"facade", [] { return only(facade()); }});

@@ -70,10 +70,13 @@ class Relief {
 // The faces of an icosahedron, each a triangular grid; vertices on shared edges are made once.
 Mesh geodesic(int n) {
   const double g = (1 + std::sqrt(5.0)) / 2;
-  const std::array<Vector3d, 12> corners{Vector3d(-1, g, 0), {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                                         {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-  const std::array<std::array<int, 3>, 20> faces{{{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                                                  {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}}};
+  const std::array<Vector3d, 12> corners{Vector3d(-1, g, 0), {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
+                                         {0, -1, g},         {0, 1, g}, {0, -1, -g}, {0, 1, -g},
+                                         {g, 0, -1},         {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+  const std::array<std::array<int, 3>, 20> faces{{{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                                                  {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                                                  {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                                                  {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}}};
   Mesh mesh;
   std::map<std::array<int, 6>, std::uint32_t> made;  // by corners and their weights, zeros left out
   for (const auto& face : faces) {
@@ -82,7 +85,8 @@ Mesh geodesic(int n) {
       for (auto& w : weights)
         if (w.second == 0) w.first = -1;
       std::sort(weights.begin(), weights.end());
-      const auto [place, fresh] = made.try_emplace({weights[0].first, weights[0].second, weights[1].first, weights[1].second, weights[2].first, weights[2].second},
+      const auto [place, fresh] = made.try_emplace({weights[0].first, weights[0].second, weights[1].first,
+                                                    weights[1].second, weights[2].first, weights[2].second},
                                                    static_cast<std::uint32_t>(mesh.positions.size()));
       if (fresh) {
         const Vector3d p = (n - i - j) * corners[face[0]] + i * corners[face[1]] + j * corners[face[2]];
@@ -100,7 +104,8 @@ Mesh geodesic(int n) {
 }
 
 void addPanel(Mesh& mesh, int n, const Vector3d& corner, const std::function<double(double, double)>& depth) {
-  addGrid(mesh, n, n, false, [&](double s, double t) { return Vector3d(corner + Vector3d(2.8 * s, -depth(s, t), 2.8 * t)); });
+  addGrid(mesh, n, n, false,
+          [&](double s, double t) { return Vector3d(corner + Vector3d(2.8 * s, -depth(s, t), 2.8 * t)); });
 }
 
 double rosette(double s, double t, int petals) {
@@ -110,14 +115,16 @@ double rosette(double s, double t, int petals) {
 
 double blocks(double s, double t, int rows) {
   const double v = t * rows, row = std::floor(v), u = s * 4 + 0.5 * std::fmod(row, 2);
-  const double joint = std::min({v - row, 1 - (v - row), 4 * (u - std::floor(u)) / 2, 4 * (1 - (u - std::floor(u))) / 2});
+  const double joint =
+      std::min({v - row, 1 - (v - row), 4 * (u - std::floor(u)) / 2, 4 * (1 - (u - std::floor(u))) / 2});
   return 0.015 * std::min(1.0, joint * 8);
 }
 
 void addColumn(Mesh& mesh, const Vector3d& foot, int flutes) {
   const int u = 74, v = 16;
   addGrid(mesh, u, v, true, [&](double s, double t) {
-    const double turn = -2 * kPi * s, r = 0.3 * (1 - 0.15 * t * t) + 0.05 * std::exp(-60 * t * t) + 0.05 * std::exp(-60 * (1 - t) * (1 - t)) + 0.006 * std::cos(flutes * turn);
+    const double turn = -2 * kPi * s, r = 0.3 * (1 - 0.15 * t * t) + 0.05 * std::exp(-60 * t * t) +
+                                          0.05 * std::exp(-60 * (1 - t) * (1 - t)) + 0.006 * std::cos(flutes * turn);
     const double close = t == 0 || t == 1 ? 0.0 : 1.0;  // its ends are closed by a fan without thickness
     return Vector3d(foot + Vector3d(close * r * std::cos(turn), close * r * std::sin(turn), 2.8 * t));
   });
@@ -140,7 +147,8 @@ void addFins(Mesh& mesh, std::uint32_t first, int n, int count) {
   }
 }
 
-// A chair, a lamp, a plant, …: turned parts. The first kinds are finely made, of about 16 000 triangles, the others of a few hundred.
+// A chair, a lamp, a plant, …: turned parts. The first kinds are finely made, of about 16 000 triangles, the others of
+// a few hundred.
 constexpr std::uint32_t kFineKinds = 12;
 
 Mesh furniture(std::uint32_t kind) {
@@ -150,7 +158,8 @@ Mesh furniture(std::uint32_t kind) {
   const int parts = fine ? 5 : 2, around = fine ? 40 : 12, along = fine ? 40 : 6;
   for (int k = 0; k < parts; ++k) {
     const auto i = static_cast<std::uint32_t>(10 * k);
-    const double r = 0.015 + 0.2 * random(i + 1) * random(i + 2), h = 0.1 + 0.7 * random(i + 3), waist = 0.5 * random(i + 4);
+    const double r = 0.015 + 0.2 * random(i + 1) * random(i + 2), h = 0.1 + 0.7 * random(i + 3),
+                 waist = 0.5 * random(i + 4);
     const Vector3d foot(0.4 * random(i + 5), 0.4 * random(i + 6), 0.3 * random(i + 7));
     addGrid(mesh, around, along, true, [&](double s, double t) {
       const double radius = t == 0 || t == 1 ? 0 : r * (1 - waist * std::sin(kPi * t)), turn = -2 * kPi * s;
@@ -163,13 +172,27 @@ Mesh furniture(std::uint32_t kind) {
 void addBox(Mesh& mesh, const Vector3d& low, const Vector3d& high) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   for (int i = 0; i < 8; ++i)
-    mesh.positions.emplace_back(Vector3d((i & 1) != 0 ? high.x() : low.x(), (i & 2) != 0 ? high.y() : low.y(), (i & 4) != 0 ? high.z() : low.z()).cast<float>());
-  for (const auto& t : {Triangle{0, 3, 1}, {0, 2, 3}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4}, {2, 7, 3}, {2, 6, 7}, {0, 6, 2}, {0, 4, 6}, {1, 3, 7}, {1, 7, 5}})
+    mesh.positions.emplace_back(Vector3d((i & 1) != 0 ? high.x() : low.x(), (i & 2) != 0 ? high.y() : low.y(),
+                                         (i & 4) != 0 ? high.z() : low.z())
+                                    .cast<float>());
+  for (const auto& t : {Triangle{0, 3, 1},
+                        {0, 2, 3},
+                        {4, 5, 7},
+                        {4, 7, 6},
+                        {0, 1, 5},
+                        {0, 5, 4},
+                        {2, 7, 3},
+                        {2, 6, 7},
+                        {0, 6, 2},
+                        {0, 4, 6},
+                        {1, 3, 7},
+                        {1, 7, 5}})
     add(mesh, first + t[0], first + t[1], first + t[2]);
 }
 
 void place(Environment& environment, Mesh mesh, const char* ifc_class) {
-  environment.instances.push_back({static_cast<std::uint32_t>(environment.meshes.size()), static_cast<std::uint32_t>(environment.products.size()), Affine3d::Identity()});
+  environment.instances.push_back({static_cast<std::uint32_t>(environment.meshes.size()),
+                                   static_cast<std::uint32_t>(environment.products.size()), Affine3d::Identity()});
   environment.products.push_back({.id = "#" + std::to_string(environment.products.size() + 1), .ifc_class = ifc_class});
   environment.meshes.push_back(std::make_shared<const Mesh>(std::move(mesh)));
 }
@@ -223,11 +246,14 @@ Environment restaurant() {
   std::vector<Mesh> kinds;
   for (std::uint32_t k = 0; k < 420; ++k) kinds.push_back(furniture(k));
   std::size_t triangles = 0;
-  for (std::uint32_t piece = 0; triangles < 9'400'000; ++piece) {  // each light kind once, the fine ones as often as it takes
+  for (std::uint32_t piece = 0; triangles < 9'400'000;
+       ++piece) {  // each light kind once, the fine ones as often as it takes
     const auto block = philox({21, 1}, piece, 0, 0);
-    const std::uint32_t kind = piece % 2 == 0 && piece / 2 + kFineKinds < kinds.size() ? piece / 2 + kFineKinds : block[0] % kFineKinds;
+    const std::uint32_t kind =
+        piece % 2 == 0 && piece / 2 + kFineKinds < kinds.size() ? piece / 2 + kFineKinds : block[0] % kFineKinds;
     Mesh mesh = kinds[kind];
-    const Affine3d stands = Translation3d(95 * uniform(block[2]), 1 + 38 * uniform(block[3]), 0) * Eigen::AngleAxisd(kPi / 6 * (block[1] % 12), Vector3d::UnitZ());
+    const Affine3d stands = Translation3d(95 * uniform(block[2]), 1 + 38 * uniform(block[3]), 0) *
+                            Eigen::AngleAxisd(kPi / 6 * (block[1] % 12), Vector3d::UnitZ());
     for (auto& p : mesh.positions) p = (stands * p.cast<double>()).cast<float>();
     triangles += mesh.triangles.size();
     place(environment, std::move(mesh), "IfcFurnishingElement");

@@ -27,7 +27,9 @@ using Kernel = CGAL::Simple_cartesian<double>;
 using Point = Kernel::Point_3;
 using Surface = CGAL::Surface_mesh<Point>;
 
-double wallSeconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double wallSeconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 double cpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -37,7 +39,9 @@ struct FewEnough {  // counts faces, as borders make edges a poor measure of the
   const Surface& surface;
   std::size_t target;
   template <class Cost, class Profile>
-  bool operator()(const Cost&, const Profile&, std::size_t, std::size_t) const { return surface.number_of_faces() <= target; }
+  bool operator()(const Cost&, const Profile&, std::size_t, std::size_t) const {
+    return surface.number_of_faces() <= target;
+  }
 };
 
 Mesh meshOf(const Surface& surface) {
@@ -63,7 +67,8 @@ using Corners = std::vector<Kernel::Triangle_3>;
 Corners cornersOf(const Mesh& mesh) {
   Corners corners;
   for (const auto& t : mesh.triangles) {
-    const Kernel::Triangle_3 triangle(pointOf(mesh.positions[t[0]]), pointOf(mesh.positions[t[1]]), pointOf(mesh.positions[t[2]]));
+    const Kernel::Triangle_3 triangle(pointOf(mesh.positions[t[0]]), pointOf(mesh.positions[t[1]]),
+                                      pointOf(mesh.positions[t[2]]));
     if (!triangle.is_degenerate()) corners.push_back(triangle);
   }
   return corners;
@@ -131,8 +136,9 @@ Simplified meshoptimizer(const Mesh& mesh, std::size_t target) {
   for (const auto& t : mesh.triangles) indices.insert(indices.end(), t.begin(), t.end());
   std::vector<unsigned> result(indices.size());
   const Stopwatch watch;
-  const auto count = meshopt_simplify(result.data(), indices.data(), indices.size(), mesh.positions[0].data(), mesh.positions.size(), sizeof(mesh.positions[0]),
-                                      3 * target, std::numeric_limits<float>::max(), 0, nullptr);
+  const auto count =
+      meshopt_simplify(result.data(), indices.data(), indices.size(), mesh.positions[0].data(), mesh.positions.size(),
+                       sizeof(mesh.positions[0]), 3 * target, std::numeric_limits<float>::max(), 0, nullptr);
   auto made = watch.stop({});
   made.mesh.positions = mesh.positions;
   for (std::size_t i = 0; i + 2 < count; i += 3) {

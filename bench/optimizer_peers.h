@@ -13,8 +13,9 @@ struct Simplified {
   double cpu_seconds = 0;  // of all threads: what counts where others use the machine, too
 };
 
-Simplified lindstromTurk(const Mesh& mesh, std::size_t target);   // CGAL's Surface_mesh_simplification, its default cost and placement
-Simplified meshoptimizer(const Mesh& mesh, std::size_t target);   // meshopt_simplify without a limit on the error
+Simplified lindstromTurk(const Mesh& mesh,
+                         std::size_t target);  // CGAL's Surface_mesh_simplification, its default cost and placement
+Simplified meshoptimizer(const Mesh& mesh, std::size_t target);  // meshopt_simplify without a limit on the error
 
 // Since it was made.
 class Stopwatch {

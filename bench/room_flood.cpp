@@ -18,12 +18,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kStep = 0.05;       // m between the places
-constexpr std::size_t kStride = 3;   // places
-constexpr double kAround = 2;        // m around the rooms that are looked at
-constexpr double kGround = 1.5;      // m above the lowest door outside of which one comes in
-constexpr double kChest = 0.9;       // m above the floor where a room is asked for
-constexpr double kFewest = 0.05;     // m² that count
+constexpr double kStep = 0.05;      // m between the places
+constexpr std::size_t kStride = 3;  // places
+constexpr double kAround = 2;       // m around the rooms that are looked at
+constexpr double kGround = 1.5;     // m above the lowest door outside of which one comes in
+constexpr double kChest = 0.9;      // m above the floor where a room is asked for
+constexpr double kFewest = 0.05;    // m² that count
 
 struct Space {
   std::uint32_t product = 0;
@@ -73,7 +73,9 @@ std::vector<double> floorsAt(const Soup& soup, const TriangleTree& tree, double 
     const auto t = soup.corners(i);
     const Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
     if (std::abs(normal.z()) < 0.7 * normal.norm() || normal.norm() < 1e-12) return true;
-    const auto side = [&](int a, int b) { return (t[b].x() - t[a].x()) * (y - t[a].y()) - (t[b].y() - t[a].y()) * (x - t[a].x()); };
+    const auto side = [&](int a, int b) {
+      return (t[b].x() - t[a].x()) * (y - t[a].y()) - (t[b].y() - t[a].y()) * (x - t[a].x());
+    };
     const double s = side(0, 1), q = side(1, 2), r = side(2, 0);
     if ((s >= 0 && q >= 0 && r >= 0) || (s <= 0 && q <= 0 && r <= 0))
       result.push_back(t[0].z() - ((x - t[0].x()) * normal.x() + (y - t[0].y()) * normal.y()) / normal.z());
@@ -94,14 +96,16 @@ struct Place {
 }  // namespace
 
 bool meets(const Soup& soup, const TriangleTree& tree, const Body& body, const Vector3d& from, const Vector3d& to) {
-  const Vector3d low(0, 0, body.radius_m), high(0, 0, body.height_m - body.radius_m), margin = Vector3d::Constant(body.radius_m);
+  const Vector3d low(0, 0, body.radius_m), high(0, 0, body.height_m - body.radius_m),
+      margin = Vector3d::Constant(body.radius_m);
   const Corners first{from + low, to + low, to + high}, second{from + low, to + high, from + high};
   bool result = false;
-  tree.inBox((from + low).cwiseMin(to + low) - margin, (from + high).cwiseMax(to + high) + margin, [&](std::uint32_t i) {
-    const auto t = soup.corners(i);
-    result = distance(first, t) < body.radius_m || distance(second, t) < body.radius_m;
-    return !result;
-  });
+  tree.inBox((from + low).cwiseMin(to + low) - margin, (from + high).cwiseMax(to + high) + margin,
+             [&](std::uint32_t i) {
+               const auto t = soup.corners(i);
+               result = distance(first, t) < body.radius_m || distance(second, t) < body.radius_m;
+               return !result;
+             });
   return result;
 }
 
@@ -111,14 +115,19 @@ std::vector<FloodedRoom> floodRooms(const Environment& environment, const Soup& 
   const Body upper{body.radius_m - 1e-3, body.height_m - kStepHeight};
   const Vector3d lift(0, 0, kStepHeight);
   Bounds box;
-  for (const auto& space : spaces) box.extend(space.box.min - Vector3d(kAround, kAround, kAround)), box.extend(space.box.max + Vector3d(kAround, kAround, 0));
+  for (const auto& space : spaces)
+    box.extend(space.box.min - Vector3d(kAround, kAround, kAround)),
+        box.extend(space.box.max + Vector3d(kAround, kAround, 0));
   if (spaces.empty()) return {};
-  const auto columns = static_cast<std::size_t>((box.max.x() - box.min.x()) / kStep), rows = static_cast<std::size_t>((box.max.y() - box.min.y()) / kStep);
+  const auto columns = static_cast<std::size_t>((box.max.x() - box.min.x()) / kStep),
+             rows = static_cast<std::size_t>((box.max.y() - box.min.y()) / kStep);
   std::vector<std::vector<Place>> places(columns * rows);
   tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t at) {
-    const double x = box.min.x() + (static_cast<double>(at % columns) + 0.317) * kStep, y = box.min.y() + (static_cast<double>(at / columns) + 0.613) * kStep;
+    const double x = box.min.x() + (static_cast<double>(at % columns) + 0.317) * kStep,
+                 y = box.min.y() + (static_cast<double>(at / columns) + 0.613) * kStep;
     for (const double z : floorsAt(model, tree, x, y, box))
-      if (const Vector3d feet(x, y, z); !meets(model, tree, upper, feet + lift, feet + lift)) places[at].push_back({feet, spacesAt(spaces, feet + Vector3d(0, 0, kChest))});
+      if (const Vector3d feet(x, y, z); !meets(model, tree, upper, feet + lift, feet + lift))
+        places[at].push_back({feet, spacesAt(spaces, feet + Vector3d(0, 0, kChest))});
   });
   std::vector<std::size_t> first(places.size() + 1, 0);
   for (std::size_t i = 0; i < places.size(); ++i) first[i + 1] = first[i] + places[i].size();
@@ -128,7 +137,8 @@ std::vector<FloodedRoom> floodRooms(const Environment& environment, const Soup& 
     while (joined[i] != i) i = joined[i] = joined[joined[i]];
     return i;
   };
-  // A stride goes up by a step before the body is over the higher floor, so some places between are passed and not stood on.
+  // A stride goes up by a step before the body is over the higher floor, so some places between are passed and not
+  // stood on.
   for (std::size_t at = 0; at < places.size(); ++at)
     for (std::size_t stride = 1; stride <= kStride; ++stride)
       for (const bool sideways : {false, true}) {
@@ -151,10 +161,12 @@ std::vector<FloodedRoom> floodRooms(const Environment& environment, const Soup& 
   // Where one comes in: inside of those doors that lead from none into a room, near the lowest.
   std::vector<Vector3d> behind;
   for (std::uint32_t i = 0; i < environment.products.size(); ++i) {
-    const auto door = environment.products[i].ifc_class.starts_with("IfcDoor") ? passageOf(environment, i) : std::nullopt;
+    const auto door =
+        environment.products[i].ifc_class.starts_with("IfcDoor") ? passageOf(environment, i) : std::nullopt;
     if (!door) continue;
     const Vector3d reach = door->through * (door->half_depth + 0.35), chest(0, 0, kChest);
-    const bool one = spacesAt(spaces, door->middle - reach + chest).empty(), other = spacesAt(spaces, door->middle + reach + chest).empty();
+    const bool one = spacesAt(spaces, door->middle - reach + chest).empty(),
+               other = spacesAt(spaces, door->middle + reach + chest).empty();
     if (one != other) behind.emplace_back(door->middle + reach * (one ? 1 : -1));
   }
   double ground = 1e300;
@@ -169,7 +181,8 @@ std::vector<FloodedRoom> floodRooms(const Environment& environment, const Soup& 
         own = std::min(own, place.feet.z());
       }
       for (const auto& p : behind)
-        if (p.z() < ground && (p - place.feet).head<2>().norm() < 0.3 && std::abs(p.z() - place.feet.z()) < 0.4) entered.insert(root(first[at] + i));
+        if (p.z() < ground && (p - place.feet).head<2>().norm() < 0.3 && std::abs(p.z() - place.feet.z()) < 0.4)
+          entered.insert(root(first[at] + i));
     }
   std::size_t mainland = std::numeric_limits<std::size_t>::max();
   double most = 0;

@@ -36,8 +36,10 @@ std::shared_ptr<const Environment> hall() {
     }
   column->surface_of_triangle.assign(column->triangles.size(), 0);
   auto room = std::make_shared<Mesh>();
-  for (int i = 0; i < 8; ++i) room->positions.emplace_back((i & 1) != 0 ? 20 : -20, (i & 2) != 0 ? 12 : -12, (i & 4) != 0 ? 4 : 0);
-  room->triangles = {{0, 3, 2}, {0, 1, 3}, {4, 7, 5}, {4, 6, 7}, {0, 5, 1}, {0, 4, 5}, {2, 7, 6}, {2, 3, 7}, {0, 6, 4}, {0, 2, 6}, {1, 7, 3}, {1, 5, 7}};
+  for (int i = 0; i < 8; ++i)
+    room->positions.emplace_back((i & 1) != 0 ? 20 : -20, (i & 2) != 0 ? 12 : -12, (i & 4) != 0 ? 4 : 0);
+  room->triangles = {{0, 3, 2}, {0, 1, 3}, {4, 7, 5}, {4, 6, 7}, {0, 5, 1}, {0, 4, 5},
+                     {2, 7, 6}, {2, 3, 7}, {0, 6, 4}, {0, 2, 6}, {1, 7, 3}, {1, 5, 7}};
   room->surface_of_triangle.assign(12, 0);
   e->meshes = {room, column};
   e->products.resize(1);
@@ -45,7 +47,8 @@ std::shared_ptr<const Environment> hall() {
   for (int y = -1; y <= 1; ++y)
     for (int x = -6; x <= 6; ++x) {
       if (x == 0 && y == 0) continue;
-      e->instances.push_back({1, static_cast<std::uint32_t>(e->products.size()), Eigen::Affine3d(Eigen::Translation3d(x * 3.0, y * 6.0, 0))});
+      e->instances.push_back({1, static_cast<std::uint32_t>(e->products.size()),
+                              Eigen::Affine3d(Eigen::Translation3d(x * 3.0, y * 6.0, 0))});
       e->products.emplace_back();
     }
   return e;
@@ -85,8 +88,9 @@ BENCHMARK(scanToE57)->UseRealTime()->Unit(benchmark::kMillisecond)->MinTime(3);
 
 constexpr int kColumns = 2000;
 
-// A fence 10 m around the station, 10 cm before a wall. Every second column's axis meets a picket, 1.6 mm from its edge, and
-// those between meet the wall 1.6 mm beside it: the edge is in every beam of 8 mm, so each has its nineteen rays.
+// A fence 10 m around the station, 10 cm before a wall. Every second column's axis meets a picket, 1.6 mm from its
+// edge, and those between meet the wall 1.6 mm beside it: the edge is in every beam of 8 mm, so each has its nineteen
+// rays.
 std::shared_ptr<const Environment> fence() {
   auto e = std::make_shared<Environment>();
   e->surfaces.resize(1);
@@ -95,7 +99,8 @@ std::shared_ptr<const Environment> fence() {
     const auto first = static_cast<std::uint32_t>(mesh->positions.size());
     for (const double azimuth : {from_rad, to_rad})
       for (const double z : {-2.0, 2.0})
-        mesh->positions.push_back(Eigen::Vector3d(range_m * std::cos(azimuth), range_m * std::sin(azimuth), z).cast<float>());
+        mesh->positions.push_back(
+            Eigen::Vector3d(range_m * std::cos(azimuth), range_m * std::sin(azimuth), z).cast<float>());
     mesh->triangles.push_back({first, first + 2, first + 3});
     mesh->triangles.push_back({first, first + 3, first + 1});
   };
@@ -145,7 +150,13 @@ void nineteenRaysInEveryBeam(benchmark::State& state) {
   }
   state.counters["pulses"] = benchmark::Counter(static_cast<double>(pulses), benchmark::Counter::kIsRate);
 }
-BENCHMARK(nineteenRaysInEveryBeam)->Arg(1)->Arg(2)->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond)->MinTime(3);
+BENCHMARK(nineteenRaysInEveryBeam)
+    ->Arg(1)
+    ->Arg(2)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(3);
 
 // The peer: one flat Embree scene, packets of eight, nothing but the distance.
 void bareEmbree(benchmark::State& state) {
@@ -155,12 +166,14 @@ void bareEmbree(benchmark::State& state) {
   for (const auto& instance : environment->instances) {
     const Mesh& mesh = *environment->meshes[instance.mesh];
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, mesh.positions.size()));
+    auto* v = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, mesh.positions.size()));
     for (const auto& p : mesh.positions) {
       const Eigen::Vector3f placed = (instance.world_from_mesh * p.cast<double>()).cast<float>();
       for (int k = 0; k < 3; ++k) *v++ = placed[k];
     }
-    auto* t = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangles.size()));
+    auto* t = static_cast<unsigned*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangles.size()));
     for (const auto& triangle : mesh.triangles)
       for (const auto index : triangle) *t++ = index;
     rtcCommitGeometry(geometry);

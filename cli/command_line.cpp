@@ -25,7 +25,7 @@ struct Words {
   const Verb* verb = nullptr;
   CLI::App* app = nullptr;
   std::string project;
-  std::map<std::string, std::string> values;                // by parameter
+  std::map<std::string, std::string> values;  // by parameter
   std::map<std::string, std::vector<std::string>> lists;
   std::map<std::string, bool> flags;
   bool print_json = false;
@@ -46,7 +46,8 @@ std::string placeholder(const Parameter& p) {
 
 std::string helpOf(const Parameter& p) {
   std::string help = p.help;
-  if (!p.standard.is_null()) help += fmt::format(" (default {})", p.standard.is_string() ? p.standard.get<std::string>() : p.standard.dump());
+  if (!p.standard.is_null())
+    help += fmt::format(" (default {})", p.standard.is_string() ? p.standard.get<std::string>() : p.standard.dump());
   return help;
 }
 
@@ -62,7 +63,8 @@ void describeVerb(Words& words) {
     std::string names = p.positional ? std::string(p.name) : fmt::format("--{}", p.name);
     if (std::string_view(p.name) == "output") names = "-o," + names;
     const bool many = p.kind == ParameterKind::list || p.kind == ParameterKind::pairs;
-    auto* option = many ? app.add_option(names, words.lists[p.name], helpOf(p)) : app.add_option(names, words.values[p.name], helpOf(p));
+    auto* option = many ? app.add_option(names, words.lists[p.name], helpOf(p))
+                        : app.add_option(names, words.values[p.name], helpOf(p));
     option->type_name(placeholder(p));
     if (p.required) option->required();
   }
@@ -142,7 +144,8 @@ std::string asText(const json& value) { return value.dump(-1, ' ', false, json::
 
 void printText(const Outcome& outcome, const Streams& streams) {
   for (const auto& issue : outcome.report.issues)
-    streams.err << fmt::format("{}: {}{}{}\n", name(issue.severity), issue.source, issue.source.empty() ? "" : ": ", issue.message);
+    streams.err << fmt::format("{}: {}{}{}\n", name(issue.severity), issue.source, issue.source.empty() ? "" : ": ",
+                               issue.message);
   if (!outcome.description.empty()) streams.out << outcome.description << "\n";
   streams.out << outcome.text;
   if (!outcome.text.empty()) return;
@@ -153,7 +156,8 @@ void printText(const Outcome& outcome, const Streams& streams) {
 int finish(const Words& words, const Result<Outcome>& outcome, const Streams& streams) {
   if (!outcome) {
     if (words.print_json)
-      streams.out << asText({{"error", {{"message", outcome.error().message}, {"source", outcome.error().source}}}}) << "\n";
+      streams.out << asText({{"error", {{"message", outcome.error().message}, {"source", outcome.error().source}}}})
+                  << "\n";
     streams.err << "standpoint " << words.verb->name << ": " << describe(outcome.error()) << "\n";
     return exitCode(outcome.error().kind);
   }
@@ -185,7 +189,8 @@ int exitCode(ErrorKind kind) {
 
 int runCommandLine(std::span<const Verb> table, const std::vector<std::string>& words, const Streams& streams,
                    Progress& progress) {
-  CLI::App app("Standpoint turns a building model into an environment that a laser scanner can be rehearsed in.", "standpoint");
+  CLI::App app("Standpoint turns a building model into an environment that a laser scanner can be rehearsed in.",
+               "standpoint");
   app.set_version_flag("--version", "standpoint " STANDPOINT_VERSION);
   app.require_subcommand(1);
   app.set_help_all_flag("--help-all", "help for every verb");
@@ -215,7 +220,8 @@ int runCommandLine(std::span<const Verb> table, const std::vector<std::string>& 
       return kWrongUsage;
     }
     // App::help() would answer with the help of the subcommand that was parsed: this one.
-    streams.out << asked->get_formatter()->make_help(asked, asked == &app ? "standpoint" : "standpoint " + topic, CLI::AppFormatMode::Normal);
+    streams.out << asked->get_formatter()->make_help(asked, asked == &app ? "standpoint" : "standpoint " + topic,
+                                                     CLI::AppFormatMode::Normal);
     return kDone;
   }
   for (auto& parsed : all) {

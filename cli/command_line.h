@@ -21,9 +21,9 @@ constexpr int kCancelled = 130;
 int exitCode(ErrorKind kind);
 
 struct Streams {
-  std::ostream& out;      // answers
-  std::ostream& err;      // errors, issues, progress
-  bool bar = false;       // err is a terminal: draw a progress bar
+  std::ostream& out;  // answers
+  std::ostream& err;  // errors, issues, progress
+  bool bar = false;   // err is a terminal: draw a progress bar
 };
 
 // The whole command without process or terminal: parses the words (without the program's name) against the verb table,

@@ -3,9 +3,8 @@
 #include <filesystem>
 #include <iostream>
 #include <string>
-#include <vector>
-
 #include <unistd.h>
+#include <vector>
 
 #include "cli/command_line.h"
 #include "emulated-ui/verbs.h"
@@ -34,5 +33,6 @@ int main(int count, char** arguments) {
   std::signal(SIGINT, cancelOnSignal);
   std::signal(SIGTERM, cancelOnSignal);
   const std::vector<std::string> words(arguments + 1, arguments + count);
-  return standpoint::runCommandLine(standpoint::allVerbs(), words, {std::cout, std::cerr, isatty(STDERR_FILENO) == 1}, progress);
+  return standpoint::runCommandLine(standpoint::allVerbs(), words, {std::cout, std::cerr, isatty(STDERR_FILENO) == 1},
+                                    progress);
 }

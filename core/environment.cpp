@@ -34,7 +34,8 @@ void sortBySurface(Mesh& mesh) {
 }
 
 std::string validate(const Mesh& mesh, std::size_t surface_count) {
-  if (mesh.surface_of_triangle.size() != mesh.triangles.size()) return "surface_of_triangle and triangles differ in size";
+  if (mesh.surface_of_triangle.size() != mesh.triangles.size())
+    return "surface_of_triangle and triangles differ in size";
   for (const auto& p : mesh.positions)
     if (!p.allFinite()) return "a position is not finite";
   for (const auto& t : mesh.triangles)
@@ -48,7 +49,8 @@ std::string validate(const Mesh& mesh, std::size_t surface_count) {
     return "texture_coordinates and positions differ in size";
   for (const auto& t : mesh.texture_coordinates)
     if (!t.allFinite()) return "a texture coordinate is not finite";
-  if (!mesh.colours.empty() && mesh.colours.size() != mesh.positions.size()) return "colours and positions differ in size";
+  if (!mesh.colours.empty() && mesh.colours.size() != mesh.positions.size())
+    return "colours and positions differ in size";
   return {};
 }
 
@@ -120,7 +122,7 @@ bool keepsAxes(const Eigen::Matrix3d& linear) {
 
 Bounds bounds(const Mesh& mesh, const Eigen::Affine3d& world_from_mesh) {
   Bounds result;
-  std::vector<std::uint8_t> used(mesh.positions.size(), 0);   // not vector<bool>: bits are slow to set
+  std::vector<std::uint8_t> used(mesh.positions.size(), 0);  // not vector<bool>: bits are slow to set
   for (const auto& t : mesh.triangles)
     for (const auto index : t) used[index] = 1;
   if (mesh.triangles.empty() || !keepsAxes(world_from_mesh.linear())) {
@@ -168,7 +170,8 @@ std::size_t sceneTriangleCount(const Environment& environment) {
 
 Environment sceneOf(const Environment& environment) {
   Environment part = environment;
-  std::erase_if(part.instances, [&](const Instance& instance) { return !environment.products[instance.product].inScene(); });
+  std::erase_if(part.instances,
+                [&](const Instance& instance) { return !environment.products[instance.product].inScene(); });
   return part;
 }
 
@@ -181,7 +184,8 @@ std::string validate(const Environment& environment) {
   for (const auto& image : environment.images)
     if (!image) return "an image is missing";
   for (const auto& surface : environment.surfaces)
-    if (surface.image >= static_cast<std::int32_t>(environment.images.size())) return "a surface's image is out of range";
+    if (surface.image >= static_cast<std::int32_t>(environment.images.size()))
+      return "a surface's image is out of range";
   std::uint32_t last = 0;
   for (const auto& instance : environment.instances) {
     if (instance.mesh >= environment.meshes.size()) return "an instance's mesh is out of range";
@@ -195,7 +199,8 @@ std::string validate(const Environment& environment) {
     if (environment.spatial[i].parent >= i) return "a spatial node comes before its parent";
   for (const auto& product : environment.products) {
     if (product.container >= count) return "a product's container is out of range";
-    if (product.whole >= static_cast<std::int32_t>(environment.products.size())) return "a product's whole is out of range";
+    if (product.whole >= static_cast<std::int32_t>(environment.products.size()))
+      return "a product's whole is out of range";
   }
   return {};
 }
@@ -205,8 +210,8 @@ Eigen::Vector3d mapFromFile(const MapConversion& c, const Eigen::Vector3d& file_
   const double cosine = length > 0 ? c.x_axis_abscissa / length : 1;
   const double sine = length > 0 ? c.x_axis_ordinate / length : 0;
   const Eigen::Vector3d scaled = c.scale * file_m.cwiseProduct(c.factors);
-  return {cosine * scaled.x() - sine * scaled.y() + c.eastings_m, sine * scaled.x() + cosine * scaled.y() + c.northings_m,
-          scaled.z() + c.orthogonal_height_m};
+  return {cosine * scaled.x() - sine * scaled.y() + c.eastings_m,
+          sine * scaled.x() + cosine * scaled.y() + c.northings_m, scaled.z() + c.orthogonal_height_m};
 }
 
 Eigen::Vector3d fileFromMap(const MapConversion& c, const Eigen::Vector3d& map_m) {

@@ -44,13 +44,17 @@ class EdgeNeighbours {
   EdgeNeighbours(const Mesh& mesh, std::uint32_t surface) : mesh_(mesh), place_(mesh.positions.size()) {
     std::vector<std::uint32_t> order(mesh.positions.size());
     std::iota(order.begin(), order.end(), 0U);
-    const auto key = [&](std::uint32_t i) { return std::array{mesh.positions[i].x(), mesh.positions[i].y(), mesh.positions[i].z()}; };
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return std::pair(key(a), a) < std::pair(key(b), b); });
+    const auto key = [&](std::uint32_t i) {
+      return std::array{mesh.positions[i].x(), mesh.positions[i].y(), mesh.positions[i].z()};
+    };
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return std::pair(key(a), a) < std::pair(key(b), b); });
     for (std::size_t i = 0; i < order.size(); ++i)
       place_[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? place_[order[i - 1]] : order[i];
     const auto& of = mesh.surface_of_triangle;
     const auto [first, last] = std::equal_range(of.begin(), of.end(), surface);
-    for (auto t = static_cast<std::uint32_t>(first - of.begin()); t < static_cast<std::uint32_t>(last - of.begin()); ++t)
+    for (auto t = static_cast<std::uint32_t>(first - of.begin()); t < static_cast<std::uint32_t>(last - of.begin());
+         ++t)
       for (std::size_t k = 0; k < 3; ++k) edges_.push_back({edge(t, k), t});
     std::sort(edges_.begin(), edges_.end());
   }
@@ -59,7 +63,8 @@ class EdgeNeighbours {
   void visit(std::uint32_t triangle, const Visit& visitor) const {
     for (std::size_t k = 0; k < 3; ++k) {
       const Edge wanted = edge(triangle, k);
-      for (auto e = std::lower_bound(edges_.begin(), edges_.end(), std::pair(wanted, 0U)); e != edges_.end() && e->first == wanted; ++e)
+      for (auto e = std::lower_bound(edges_.begin(), edges_.end(), std::pair(wanted, 0U));
+           e != edges_.end() && e->first == wanted; ++e)
         visitor(e->second);
     }
   }
@@ -72,11 +77,12 @@ class EdgeNeighbours {
   }
 
   const Mesh& mesh_;
-  std::vector<std::uint32_t> place_;                       // the first corner that stands where this one does
-  std::vector<std::pair<Edge, std::uint32_t>> edges_;      // sorted
+  std::vector<std::uint32_t> place_;                   // the first corner that stands where this one does
+  std::vector<std::pair<Edge, std::uint32_t>> edges_;  // sorted
 };
 
-std::vector<PlacedTriangle> connectedFaces(const Environment& environment, const EdgeNeighbours& neighbours, PlacedTriangle seed, const Vector3d& direction) {
+std::vector<PlacedTriangle> connectedFaces(const Environment& environment, const EdgeNeighbours& neighbours,
+                                           PlacedTriangle seed, const Vector3d& direction) {
   const auto& instance = environment.instances[seed.instance];
   const Mesh& mesh = *environment.meshes[instance.mesh];
   std::vector<bool> seen(mesh.triangles.size(), false);
@@ -86,7 +92,8 @@ std::vector<PlacedTriangle> connectedFaces(const Environment& environment, const
     neighbours.visit(patch[i].triangle, [&](std::uint32_t next) {
       if (seen[next]) return;
       seen[next] = true;
-      if (placedNormal(mesh, mesh.triangles[next], instance.world_from_mesh).dot(direction) >= kFaceCone) patch.push_back({seed.instance, next});
+      if (placedNormal(mesh, mesh.triangles[next], instance.world_from_mesh).dot(direction) >= kFaceCone)
+        patch.push_back({seed.instance, next});
     });
   std::sort(patch.begin(), patch.end());
   return patch;
@@ -94,12 +101,14 @@ std::vector<PlacedTriangle> connectedFaces(const Environment& environment, const
 
 }  // namespace
 
-std::optional<PlacedTriangle> nearestFace(const Environment& environment, std::uint32_t product, std::optional<std::uint32_t> surface,
-                                          const Vector3d& direction, const Vector3d& point) {
+std::optional<PlacedTriangle> nearestFace(const Environment& environment, std::uint32_t product,
+                                          std::optional<std::uint32_t> surface, const Vector3d& direction,
+                                          const Vector3d& point) {
   std::optional<PlacedTriangle> nearest;
   double least = kPatchReach_m * kPatchReach_m;
   const auto& instances = environment.instances;
-  auto i = std::lower_bound(instances.begin(), instances.end(), product, [](const Instance& a, std::uint32_t p) { return a.product < p; });
+  auto i = std::lower_bound(instances.begin(), instances.end(), product,
+                            [](const Instance& a, std::uint32_t p) { return a.product < p; });
   for (; i != instances.end() && i->product == product; ++i) {
     const Mesh& mesh = *environment.meshes[i->mesh];
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -107,7 +116,8 @@ std::optional<PlacedTriangle> nearestFace(const Environment& environment, std::u
       const auto normal = placedNormal(mesh, mesh.triangles[t], i->world_from_mesh);
       if (!(normal.dot(direction) >= kFaceCone)) continue;
       std::array<Vector3d, 3> corner;
-      for (std::size_t k = 0; k < 3; ++k) corner[k] = i->world_from_mesh * mesh.positions[mesh.triangles[t][k]].cast<double>();
+      for (std::size_t k = 0; k < 3; ++k)
+        corner[k] = i->world_from_mesh * mesh.positions[mesh.triangles[t][k]].cast<double>();
       const double squared = squaredToTriangle(point, corner, normal);
       if (nearest ? squared >= least : squared > least) continue;
       least = squared;
@@ -119,7 +129,7 @@ std::optional<PlacedTriangle> nearestFace(const Environment& environment, std::u
 
 AssignedTriangles::AssignedTriangles(const Environment& environment, const MaterialAssignment& assignment)
     : environment_(environment), assignment_(assignment), patches_(assignment.faces.size()) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, EdgeNeighbours> neighbours;   // by instance's mesh and surface
+  std::map<std::pair<std::uint32_t, std::uint32_t>, EdgeNeighbours> neighbours;  // by instance's mesh and surface
   for (std::size_t i = 0; i < patches_.size(); ++i) {
     const auto& faces = assignment.faces[i];
     if (!faces.point) continue;

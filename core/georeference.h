@@ -8,7 +8,8 @@
 
 namespace standpoint {
 
-// IfcMapConversion: map = scale · R(θ) · diag(factors) · file + (E, N, H), θ = atan2(ordinate, abscissa); all in metres.
+// IfcMapConversion: map = scale · R(θ) · diag(factors) · file + (E, N, H), θ = atan2(ordinate, abscissa); all in
+// metres.
 struct MapConversion {
   double eastings_m = 0;
   double northings_m = 0;
@@ -16,7 +17,7 @@ struct MapConversion {
   double x_axis_abscissa = 1;
   double x_axis_ordinate = 0;
   double scale = 1;
-  Eigen::Vector3d factors = Eigen::Vector3d::Ones();   // IfcMapConversionScaled: of each axis of the file, positive
+  Eigen::Vector3d factors = Eigen::Vector3d::Ones();  // IfcMapConversionScaled: of each axis of the file, positive
 };
 
 // WGS84, degrees as in the file (this is an edge), metres above whatever the file means.
@@ -32,9 +33,9 @@ struct GeographicPosition {
 struct Georeference {
   Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();
   std::optional<MapConversion> map_from_file;
-  std::string crs;       // "EPSG:25832", or what the file calls it; empty when unknown
-  std::optional<GeographicPosition> site;      // IfcSite: often only the exporter's default city
-  std::optional<double> true_north_rad;        // clockwise from +Y of the file frame to geographic north
+  std::string crs;                         // "EPSG:25832", or what the file calls it; empty when unknown
+  std::optional<GeographicPosition> site;  // IfcSite: often only the exporter's default city
+  std::optional<double> true_north_rad;    // clockwise from +Y of the file frame to geographic north
 };
 
 Eigen::Vector3d mapFromFile(const MapConversion& conversion, const Eigen::Vector3d& file_m);

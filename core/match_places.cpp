@@ -57,7 +57,7 @@ class Search {
       for (std::size_t k = i + 1; k < from_.size(); ++k)
         for (std::size_t m = k + 1; m < from_.size(); ++m) triple(i, k, m);
   }
-  std::vector<PlaceMatch> best;    // all assignments that bring together most
+  std::vector<PlaceMatch> best;  // all assignments that bring together most
 
  private:
   bool same(std::size_t i, std::size_t k, std::size_t a, std::size_t b) const {

@@ -23,8 +23,8 @@ struct Mesh {
   std::vector<Eigen::Vector3f> positions;
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> surface_of_triangle;
-  std::vector<Eigen::Vector2f> texture_coordinates;        // (0, 0) is the image's upper left corner, as in glTF
-  std::vector<std::array<std::uint8_t, 4>> colours;        // sRGB and alpha; multiplies the surface's colour
+  std::vector<Eigen::Vector2f> texture_coordinates;  // (0, 0) is the image's upper left corner, as in glTF
+  std::vector<std::array<std::uint8_t, 4>> colours;  // sRGB and alpha; multiplies the surface's colour
 };
 
 // Sorts the triangles by surface, stably. Producers call it last.

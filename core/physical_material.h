@@ -24,32 +24,33 @@ struct ComplexIndex {
 
 // Where one figure of a material comes from.
 struct Citation {
-  std::string figure;    // the figure's key: "reflectance"
-  std::string text;      // "measured: ECOSTRESS …, sample 0424UUUCNC"; begins with "unsourced" where nobody measured it
-  std::string licence;   // of the source; empty where the figure is unsourced
+  std::string figure;  // the figure's key: "reflectance"
+  std::string text;    // "measured: ECOSTRESS …, sample 0424UUUCNC"; begins with "unsourced" where nobody measured it
+  std::string licence;  // of the source; empty where the figure is unsourced
   bool operator==(const Citation&) const = default;
 };
 
 // The physics of a surface for a monostatic laser (physics.md §2): reflectance is the Lambert-equivalent diffuse
-// reflectance at normal incidence. A material without reflectance is a named gap: people ask for it, nobody measured it.
+// reflectance at normal incidence. A material without reflectance is a named gap: people ask for it, nobody measured
+// it.
 struct PhysicalMaterial {
-  std::string id;        // "brick_red_bare"
-  std::string label;     // "Brick, red, bare"
-  Spectrum reflectance;  // diffuse part
-  double roughness_rad = 0;         // Oren–Nayar σ of the facets' slope; 0 = Lambert
-  double gloss_slope = 0;           // Beckmann slope m of the specular lobe; 0 = no lobe
-  double index_of_refraction = 0;   // n of the coat or body; 0 = no specular part, or a metal
-  std::vector<ComplexIndex> complex_index;   // of a metal, wavelengths ascending
-  double thickness_m = 0;           // of one pane; 0 = opaque
-  Spectrum transmittance;           // of one pane at normal incidence
-  int panes = 1;                    // equal panes, one behind the other …
-  double gap_m = 0;                 // … so far apart
-  double variation = 0;             // coefficient of variation of the reflectance within the class; 0 = a gap
-  double texture_scale_m = 0;       // correlation length on one surface; 0 = a gap
-  double retro_gain = 0;            // of a retroreflector over a white Lambert surface seen head-on; 0 = none
-  std::string wet_of;               // the dry material whose figures were wetted
-  std::vector<std::string> gaps;    // what is known to be missing, in words
-  std::vector<Citation> sources;    // one for each figure
+  std::string id;                           // "brick_red_bare"
+  std::string label;                        // "Brick, red, bare"
+  Spectrum reflectance;                     // diffuse part
+  double roughness_rad = 0;                 // Oren–Nayar σ of the facets' slope; 0 = Lambert
+  double gloss_slope = 0;                   // Beckmann slope m of the specular lobe; 0 = no lobe
+  double index_of_refraction = 0;           // n of the coat or body; 0 = no specular part, or a metal
+  std::vector<ComplexIndex> complex_index;  // of a metal, wavelengths ascending
+  double thickness_m = 0;                   // of one pane; 0 = opaque
+  Spectrum transmittance;                   // of one pane at normal incidence
+  int panes = 1;                            // equal panes, one behind the other …
+  double gap_m = 0;                         // … so far apart
+  double variation = 0;                     // coefficient of variation of the reflectance within the class; 0 = a gap
+  double texture_scale_m = 0;               // correlation length on one surface; 0 = a gap
+  double retro_gain = 0;                    // of a retroreflector over a white Lambert surface seen head-on; 0 = none
+  std::string wet_of;                       // the dry material whose figures were wetted
+  std::vector<std::string> gaps;            // what is known to be missing, in words
+  std::vector<Citation> sources;            // one for each figure
   bool operator==(const PhysicalMaterial&) const = default;
 };
 
@@ -74,22 +75,22 @@ struct AssignedSurface {
   double confidence = 0;       // 0..1, of the rule; 1 where the user said so
 };
 
-// Faces of a surface that the user gave another material: those that look within kFaceCone of a direction, or of them only
-// what hangs together with the one at a point (AssignedTriangles finds it).
+// Faces of a surface that the user gave another material: those that look within kFaceCone of a direction, or of them
+// only what hangs together with the one at a point (AssignedTriangles finds it).
 struct AssignedFaces {
   std::uint32_t product = 0;
   std::uint32_t surface = 0;
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();   // unit, local frame
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  // unit, local frame
   std::int32_t material = -1;
   std::string reason;
-  std::optional<Eigen::Vector3d> point;   // local frame
+  std::optional<Eigen::Vector3d> point;  // local frame
 };
-constexpr double kFaceCone = 0.984807753012208;   // cos 10°
+constexpr double kFaceCone = 0.984807753012208;  // cos 10°
 
 struct MaterialAssignment {
-  std::vector<PhysicalMaterial> materials;   // those in use, by id
+  std::vector<PhysicalMaterial> materials;  // those in use, by id
   std::vector<AssignedSurface> surfaces;
-  std::vector<AssignedFaces> faces;          // sorted by (product, surface); of several that fit, the last one holds
+  std::vector<AssignedFaces> faces;  // sorted by (product, surface); of several that fit, the last one holds
 };
 
 // -1 when the pair is not assigned. Of the surface as a whole: single faces are asked of AssignedTriangles.

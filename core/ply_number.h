@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The numbers of PLY files, meshes and clouds alike (Turk, "The PLY Polygon File Format", 1994; the sized names are later).
+// The numbers of PLY files, meshes and clouds alike (Turk, "The PLY Polygon File Format", 1994; the sized names are
+// later).
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,6 @@
 
 #include <Random123/philox.h>
 
-
 namespace standpoint {
 
 std::array<std::uint32_t, 4> philox(const RandomKey& key, std::uint32_t column, std::uint32_t row,

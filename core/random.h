@@ -13,7 +13,8 @@ struct RandomKey {
   std::uint32_t station = 0;
 };
 
-std::array<std::uint32_t, 4> philox(const RandomKey& key, std::uint32_t column, std::uint32_t row, std::uint32_t channel);
+std::array<std::uint32_t, 4> philox(const RandomKey& key, std::uint32_t column, std::uint32_t row,
+                                    std::uint32_t channel);
 
 // Uniform in (0, 1): (x + 0.5) / 2^32.
 double uniform(std::uint32_t x);

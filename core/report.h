@@ -15,7 +15,7 @@ enum class Severity {
 
 struct Issue {
   Severity severity = Severity::note;
-  std::string source;   // "#1234", "/meshes/3", "line 7"
+  std::string source;  // "#1234", "/meshes/3", "line 7"
   std::string message;
 };
 

@@ -9,11 +9,11 @@
 namespace standpoint {
 
 enum class ErrorKind {
-  usage,       // wrong option or argument: exit code 2
-  unusable,    // the input is not usable as it is: exit code 3
-  file_system, // cannot read, write, create, or the disk is full: exit code 4
-  cancelled,   // the user asked for it: exit code 130
-  internal,    // a defect of ours, or of a library: exit code 3
+  usage,        // wrong option or argument: exit code 2
+  unusable,     // the input is not usable as it is: exit code 3
+  file_system,  // cannot read, write, create, or the disk is full: exit code 4
+  cancelled,    // the user asked for it: exit code 130
+  internal,     // a defect of ours, or of a library: exit code 3
 };
 
 // `source` names file and place ("house.ifc #1234", "rtc360.json /range_noise_m", "job.json line 7").

@@ -41,7 +41,8 @@ double scaleSigma(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b, const Ei
 }  // namespace
 
 Result<RigidFit> fitRigid(std::span<const Eigen::Vector3d> from, std::span<const Eigen::Vector3d> to) {
-  if (from.size() != to.size()) return failure(ErrorKind::usage, "places of one frame lack their partners in the other");
+  if (from.size() != to.size())
+    return failure(ErrorKind::usage, "places of one frame lack their partners in the other");
   if (from.size() < 3)
     return failure(ErrorKind::usage, "three pairs at least hold a cloud; given: " + std::to_string(from.size()));
   const auto finite = [](const Eigen::Vector3d& p) { return p.allFinite(); };
@@ -52,7 +53,8 @@ Result<RigidFit> fitRigid(std::span<const Eigen::Vector3d> from, std::span<const
   RigidFit fit;
   fit.breadth = std::min(breadthOf(a), breadthOf(b));
   if (!(fit.breadth > kOnOneLine))
-    return failure(ErrorKind::usage, "the places lie on one line, so nothing holds the turn about it: add a pair beside it");
+    return failure(ErrorKind::usage,
+                   "the places lie on one line, so nothing holds the turn about it: add a pair beside it");
 
   const Eigen::Matrix4d motion = Eigen::umeyama(a, b, false);
   const Eigen::Matrix3d turn = motion.topLeftCorner<3, 3>();
@@ -61,7 +63,8 @@ Result<RigidFit> fitRigid(std::span<const Eigen::Vector3d> from, std::span<const
   fit.to_from.translation = to_middle - fit.to_from.rotation * from_middle;
   fit.scale = (b.array() * (turn * a).array()).sum() / a.squaredNorm();
   fit.scale_sigma = scaleSigma(a, b, turn, fit.scale);
-  for (Eigen::Index i = 0; i < a.cols(); ++i) fit.residual_m.push_back((b.col(i) - fit.to_from.rotation * a.col(i)).norm());
+  for (Eigen::Index i = 0; i < a.cols(); ++i)
+    fit.residual_m.push_back((b.col(i) - fit.to_from.rotation * a.col(i)).norm());
   for (const double r : fit.residual_m) fit.rms_m += r * r / static_cast<double>(from.size());
   fit.rms_m = std::sqrt(fit.rms_m);
   return fit;

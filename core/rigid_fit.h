@@ -15,11 +15,11 @@ namespace standpoint {
 // marks in a cloud and corners of a model. Each pair weighs the same. Coordinates may be as large as a national grid's.
 struct RigidFit {
   Pose to_from;
-  std::vector<double> residual_m;   // distance of each pair after the motion, in their order
+  std::vector<double> residual_m;  // distance of each pair after the motion, in their order
   double rms_m = 0;
   // What a fit with a free scale would use. It is told, never applied: instruments and models do not stretch, units do.
   double scale = 1;
-  double scale_sigma = 0;           // 1 σ by the residuals that this fit leaves; 0 when nothing is left over to judge by
+  double scale_sigma = 0;  // 1 σ by the residuals that this fit leaves; 0 when nothing is left over to judge by
   // Of the narrower frame's places: how far they spread across their longest line, as a share of it. Near 0, a turn
   // about that line is hardly held.
   double breadth = 0;

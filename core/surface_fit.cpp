@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kFewest = 100;
 constexpr double kTukey = 4.685, kFinest_m = 2e-4, kSettled_m = 2e-6;
-constexpr double kAtRest = 0.02, kClosing = 0.6;   // shares of the reach
+constexpr double kAtRest = 0.02, kClosing = 0.6;  // shares of the reach
 
 double medianOf(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -49,8 +49,8 @@ struct Frame {
 struct Round {
   std::vector<Vector3d> placed;
   std::vector<SurfaceTouch> touches;
-  std::vector<double> off_m;     // along the normal
-  std::vector<double> weight;    // 0 where not used
+  std::vector<double> off_m;   // along the normal
+  std::vector<double> weight;  // 0 where not used
   Frame frame;
 };
 
@@ -108,7 +108,7 @@ Equations assemble(Round& round) {
 
 struct Solution {
   Vector6 step = Vector6::Zero();
-  Matrix6 inverse = Matrix6::Zero();   // of the held part
+  Matrix6 inverse = Matrix6::Zero();  // of the held part
   std::vector<FreeMotion> free;
 };
 
@@ -179,13 +179,17 @@ double movedBy(std::span<const Vector3d> points, const Pose& a, const Pose& b) {
 Result<SurfaceFit> fitToSurface(std::span<const Vector3d> points, const Pose& start, const SurfaceSearch& search,
                                 const SurfaceFitOptions& options, Progress& progress) {
   if (points.size() < kFewest)
-    return failure(ErrorKind::unusable, "only " + std::to_string(points.size()) + " different places are in the cloud; 100 at least are needed");
-  Round round{std::vector<Vector3d>(points.size()), std::vector<SurfaceTouch>(points.size()),
-              std::vector<double>(points.size(), 0), std::vector<double>(points.size(), 0), {}};
+    return failure(ErrorKind::unusable, "only " + std::to_string(points.size()) +
+                                            " different places are in the cloud; 100 at least are needed");
+  Round round{std::vector<Vector3d>(points.size()),
+              std::vector<SurfaceTouch>(points.size()),
+              std::vector<double>(points.size(), 0),
+              std::vector<double>(points.size(), 0),
+              {}};
   SurfaceFit fit;
   fit.to_from = start;
-  // It closes in by steps, each begun when the last has come to rest: floors find their place at once, and by themselves
-  // would outvote the few walls that hold a motion along them.
+  // It closes in by steps, each begun when the last has come to rest: floors find their place at once, and by
+  // themselves would outvote the few walls that hold a motion along them.
   double reach = options.reach_m;
   Equations equations;
   Solution solution;
@@ -194,7 +198,9 @@ Result<SurfaceFit> fitToSurface(std::span<const Vector3d> points, const Pose& st
     progress.advance(static_cast<double>(fit.iterations) / options.most_iterations);
     place(round, points, fit.to_from);
     if (touch(round, search, reach) < kFewest)
-      return failure(ErrorKind::unusable, "fewer than 100 of the points lie near a surface: place the cloud first, by pairs, or search further");
+      return failure(
+          ErrorKind::unusable,
+          "fewer than 100 of the points lie near a surface: place the cloud first, by pairs, or search further");
     const bool closed_in = reach <= options.least_reach_m;
     weigh(round, closed_in ? 0 : reach);
     equations = assemble(round);

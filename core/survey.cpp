@@ -20,7 +20,8 @@ Pose at(const Trajectory& trajectory, double time_s) {
 
 void PointBlock::clear() {
   for (auto* column_of_floats : {&x_m, &y_m, &z_m, &intensity, &truth.x_m, &truth.y_m, &truth.z_m, &truth.range_m,
-                                 &truth.incidence_rad, &truth.received_db}) column_of_floats->clear();
+                                 &truth.incidence_rad, &truth.received_db})
+    column_of_floats->clear();
   for (auto* column_of_indices : {&row, &column, &product, &material}) column_of_indices->clear();
   for (auto* column_of_bytes : {&red, &green, &blue, &return_number, &return_count, &truth.flags})
     column_of_bytes->clear();

@@ -19,16 +19,16 @@ struct Pose {
 
 // A pose as a function of time: constant for a tripod (one sample), interpolated between samples for what moves.
 struct Trajectory {
-  std::vector<double> time_s;   // ascending
-  std::vector<Pose> pose;       // same size, at least one
+  std::vector<double> time_s;  // ascending
+  std::vector<Pose> pose;      // same size, at least one
 };
 Pose at(const Trajectory& trajectory, double time_s);
 
 // What a scan left behind; the points themselves stay in the file.
 struct Scan {
-  std::string instrument;       // id
-  std::string file;             // as the user gave it
-  std::string format;           // "e57", "ptx"
+  std::string instrument;  // id
+  std::string file;        // as the user gave it
+  std::string format;      // "e57", "ptx"
   std::vector<std::pair<std::string, std::string>> settings;
   std::uint64_t seed = 0;
   std::uint64_t pulses = 0;
@@ -56,7 +56,7 @@ struct Target {
 
 struct ControlPoint {
   std::string name;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero(); // local frame
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // local frame
   double sigma_m = 0;
 };
 

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 using Index = Eigen::Index;
 
 constexpr int kMostIterations = 30;
-constexpr double kSettled = 1e-10;         // metres and radians
+constexpr double kSettled = 1e-10;  // metres and radians
 
 Eigen::Matrix3d cross(const Vector3d& v) {
   return (Eigen::Matrix3d() << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0).finished();
@@ -98,7 +98,7 @@ Unknowns unknownsOf(const TargetNetwork& network, const Chain& chain) {
 struct Equations {
   Eigen::MatrixXd normal;
   Eigen::VectorXd right;
-  double squares = 0;              // weighted
+  double squares = 0;  // weighted
   int observations = 0;
 };
 

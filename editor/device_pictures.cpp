@@ -44,7 +44,11 @@ Result<std::vector<StoredSetup>> scannedHouse(const fs::path& folder) {
   const std::pair<const char*, std::array<double, 3>> kStations[] = {{"S1", {4.3, 1.6, 0}}, {"S2", {4.4, 5.9, 0}}};
   for (const auto& [name, on] : kStations)
     if (auto ok = run("station", {{"add", name}, {"on", on}}); !ok) return failure(ok.error());
-  if (auto ok = run("scan", {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/20", "quality=4x"}}, {"output", folder.string()}}); !ok) return failure(ok.error());
+  if (auto ok = run(
+          "scan",
+          {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/20", "quality=4x"}}, {"output", folder.string()}});
+      !ok)
+    return failure(ok.error());
   std::vector<StoredSetup> setups;
   for (const auto& station : document.job->stations) {
     StoredSetup s;
@@ -61,7 +65,8 @@ Result<std::vector<StoredSetup>> scannedHouse(const fs::path& folder) {
     if (!preview) return failure(preview.error());
     s.preview = *preview;
     if (s.number == 2) s.link = LinkResult{true, 0.0021, 0.43, 0.001, 0.01};
-    s.targets = {fitted("T1", "sphere", 142, 4.31), fitted("T2", "checkerboard", 388, 3.02), fitted("T3", "sphere", 0, 0)};
+    s.targets = {fitted("T1", "sphere", 142, 4.31), fitted("T2", "checkerboard", 388, 3.02),
+                 fitted("T3", "sphere", 0, 0)};
     setups.push_back(std::move(s));
   }
   return setups;
@@ -81,7 +86,8 @@ const PhaseRow& phaseFor(const DeviceDefinition& d, const std::string& screen) {
 // What only some devices have.
 void putDetails(Device& device, const std::string& screen, const std::vector<StoredSetup>& setups) {
   auto& s = device.change();
-  if (const auto* connection = findValue(device.type().definition, "connection"); connection != nullptr && connection->choices.front() == "OK")
+  if (const auto* connection = findValue(device.type().definition, "connection");
+      connection != nullptr && connection->choices.front() == "OK")
     s.values["connection"] = screen == "connect" ? "Disconnected" : "OK";
   if (screen == "error") s.entries["error"] = "Device_Moved", s.moved = true;
   for (const auto& setup : setups) s.values["registration." + setup.file] = "registered";
@@ -91,7 +97,8 @@ void putDetails(Device& device, const std::string& screen, const std::vector<Sto
         if (std::string(row.name) == action) (void)row.act(device, {});
 }
 
-void putInto(Device& device, const std::string& screen, const std::vector<StoredSetup>& setups, const std::string& language) {
+void putInto(Device& device, const std::string& screen, const std::vector<StoredSetup>& setups,
+             const std::string& language) {
   auto& s = device.change();
   const auto& phase = phaseFor(device.type().definition, screen);
   s.language = language;
@@ -110,7 +117,7 @@ void putInto(Device& device, const std::string& screen, const std::vector<Stored
   for (const auto& setup : setups) s.around.card_used_bytes += setup.bytes;
   s.phase = phase.id;
   s.screen = screen;
-  for (const auto& row : device.type().definition.screens)   // as one comes there
+  for (const auto& row : device.type().definition.screens)  // as one comes there
     if (row.entry && row.id != screen && phase.screen != screen) s.came_from = {row.id};
   s.elapsed_s = 0.4 * device.fact("phase.lasts")->number.value_or(0);
   if (phase.screen == screen && !phase.lasts.empty() && !phase.waits) {
@@ -158,7 +165,8 @@ Result<int> drawDevicePictures(Offscreen& offscreen, const fs::path& folder, con
         ImGui::End();
         ImGui::PopStyleVar();
       };
-      if (auto drawn = offscreen.picture(draw, folder / row.id / ((screen.empty() ? "off" : screen) + ".png")); !drawn) return failure(drawn.error());
+      if (auto drawn = offscreen.picture(draw, folder / row.id / ((screen.empty() ? "off" : screen) + ".png")); !drawn)
+        return failure(drawn.error());
       ++count;
     }
   }

@@ -10,7 +10,7 @@
 
 namespace standpoint {
 
-constexpr std::array<float, 2> kDevicePicture = {460, 640};   // points
+constexpr std::array<float, 2> kDevicePicture = {460, 640};  // points
 
 // A picture of each screen of each emulated device, OUT/<device>/<screen>.png, with a scan of the sample house on it.
 // Returns how many were written.

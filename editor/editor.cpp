@@ -58,7 +58,7 @@ void Editor::followLiveScan() {
   const auto& finished = session.finished();
   const auto scan =
       std::find_if(finished.begin(), finished.end(), [](const FinishedTask& t) { return t.verb == "scan"; });
-  if (scan == finished.end() || !scan->ok || cloud_->colours.empty()) cloud_.reset();   // back to the model
+  if (scan == finished.end() || !scan->ok || cloud_->colours.empty()) cloud_.reset();  // back to the model
 }
 
 void Editor::update() {
@@ -85,8 +85,10 @@ void Editor::update() {
     view.side = ModelSide::lighter;
     if (view.colour == ColourMode::deviation) view.colour = ColourMode::model;
   }
-  if (isExpected(view.colour)) view.side = ModelSide::lighter;   // what is scanned
-  else expected.drop();
+  if (isExpected(view.colour))
+    view.side = ModelSide::lighter;  // what is scanned
+  else
+    expected.drop();
   if (view.colour == ColourMode::deviation || std::exchange(wants_deviation, false))
     deviation.follow(session.document(), wake);
   for (auto& error : underlays.takeErrors())
@@ -114,7 +116,7 @@ void Editor::followPreview() {
 void Editor::startWaitingCloud() {
   if (waiting_clouds.empty() || preview.isOpen()) return;
   if (!session.document().imported) {
-    if (!session.running().empty()) return;   // perhaps the model
+    if (!session.running().empty()) return;  // perhaps the model
     session.errors().push_back({"A point cloud lies under a model",
                                 {ErrorKind::usage, "there is no model yet: import one first, then drop the cloud again",
                                  waiting_clouds.front().filename().string()}});

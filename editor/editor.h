@@ -13,12 +13,12 @@
 
 #include "editor/model/budget_preview.h"
 #include "editor/model/camera.h"
-#include "editor/model/import_preview.h"
 #include "editor/model/cloud.h"
 #include "editor/model/expected_view.h"
+#include "editor/model/import_preview.h"
+#include "editor/model/live_cloud.h"
 #include "editor/model/picker.h"
 #include "editor/model/placement_view.h"
-#include "editor/model/live_cloud.h"
 #include "editor/model/scan_outlook.h"
 #include "editor/model/scan_readiness.h"
 #include "editor/model/selection.h"
@@ -41,7 +41,7 @@ struct Fonts {
   ImFont* bold = nullptr;
   ImFont* small = nullptr;
   ImFont* mono = nullptr;
-  ImFont* huge = nullptr;    // icons of empty panels
+  ImFont* huge = nullptr;  // icons of empty panels
 };
 
 // What the next click in the viewport does.
@@ -52,8 +52,8 @@ enum class ModelSide { lighter, original, both };
 
 // Where one would stand with which instrument, to see what it would get. It is no station yet.
 struct Probe {
-  std::optional<Eigen::Vector3d> position;   // of the instrument's centre, local frame; nothing until it is asked for
-  double height_m = 1.7;                     // above what it stands on
+  std::optional<Eigen::Vector3d> position;  // of the instrument's centre, local frame; nothing until it is asked for
+  double height_m = 1.7;                    // above what it stands on
   std::string instrument = "leica-rtc360";
   bool dragged = false;
 };
@@ -62,20 +62,20 @@ struct ViewportState {
   Camera camera;
   ColourMode colour = ColourMode::model;
   ModelSide side = ModelSide::lighter;
-  double wavelength_nm = kReflectanceWavelength_nm;   // at which reflectance is shown
+  double wavelength_nm = kReflectanceWavelength_nm;  // at which reflectance is shown
   Probe probe;
   bool coverage_made = false;  // the map of coverage shows scans that were made, not the stations as planned
   bool edges = true, grid = true, walkable = false, shapes = false, labels = true;
   Tool tool = Tool::select;
-  std::optional<RayHit> hover;             // under the pointer
+  std::optional<RayHit> hover;  // under the pointer
   Eigen::Vector3d pivot = Eigen::Vector3d::Zero();
   double pivot_depth_m = 1;
-  Eigen::Vector2d size = {800, 600};       // of the picture, in interface points
+  Eigen::Vector2d size = {800, 600};  // of the picture, in interface points
   std::optional<Eigen::Vector3d> measured_from, measured_to;
   bool dragging = false;
   bool dragged = false;
-  bool in_right_half = false;              // where the pointer is, or began to drag, when both models are shown
-  int dragged_station = -1;                // by the pointer
+  bool in_right_half = false;  // where the pointer is, or began to drag, when both models are shown
+  int dragged_station = -1;    // by the pointer
   bool frame_wanted = false;
 };
 
@@ -89,40 +89,40 @@ struct Editor {
   Visibility visibility;
   ViewportState view;
   Picker picker;
-  PlacementView placement;                 // of what is picked
-  Walk walk;                               // while the tool is Tool::walk
+  PlacementView placement;  // of what is picked
+  Walk walk;                // while the tool is Tool::walk
   ImportPreview preview;
-  Selection preview_selection;             // products of what the preview shows
+  Selection preview_selection;  // products of what the preview shows
   UnderlayView underlays;
   BudgetPreview budget_preview;
-  std::optional<LighteningRequest> previewed;   // what a panel asks for
+  std::optional<LighteningRequest> previewed;  // what a panel asks for
   DeviationView deviation;
   KeptCoverage coverage;
   ExpectedView expected;
   ScanOutlookView scan_outlook;
   ScanReadiness scan_readiness;
   TargetList target_list;
-  bool wants_deviation = false;            // a panel shows it
-  std::deque<std::filesystem::path> waiting_clouds;   // dropped, each to become an underlay when the document is free
+  bool wants_deviation = false;                      // a panel shows it
+  std::deque<std::filesystem::path> waiting_clouds;  // dropped, each to become an underlay when the document is free
   PanelStates panels;
   DialogStates dialogs;
   Workspace workspace = Workspace::model;
-  std::array<std::string, 3> wanted_tab;   // by Area: the panel to bring to the front in the next frame
+  std::array<std::string, 3> wanted_tab;  // by Area: the panel to bring to the front in the next frame
 
   Fonts fonts;
-  float scale = 1;                         // pixels per point
-  SceneView* scene = nullptr;              // null: the viewport stays empty
-  SceneView* scene_beside = nullptr;       // the original's half
+  float scale = 1;                    // pixels per point
+  SceneView* scene = nullptr;         // null: the viewport stays empty
+  SceneView* scene_beside = nullptr;  // the original's half
   std::function<void()> wake;
-  std::function<void(Editor&)> draw_instrument;    // the emulated device; empty: this build has none
-  std::function<void(const Eigen::Vector3d&)> on_way;   // the tool Tool::layWay clicked there, in the file's frame
-  std::vector<Eigen::Vector3d> way;                // to be drawn, in the file's frame
+  std::function<void(Editor&)> draw_instrument;        // the emulated device; empty: this build has none
+  std::function<void(const Eigen::Vector3d&)> on_way;  // the tool Tool::layWay clicked there, in the file's frame
+  std::vector<Eigen::Vector3d> way;                    // to be drawn, in the file's frame
   std::function<void(const std::string&)> on_title;
-  bool fine_picture = false;               // the view stands still: smooth edges
-  bool quit = false;                       // confirmed
+  bool fine_picture = false;  // the view stands still: smooth edges
+  bool quit = false;          // confirmed
 
-  Eigen::Vector2f overlay_size = {0, 0};   // of the controls over the viewport, as drawn last
-  float overlay_end = 0;                   // where they must end on the right, on the screen
+  Eigen::Vector2f overlay_size = {0, 0};  // of the controls over the viewport, as drawn last
+  float overlay_end = 0;                  // where they must end on the right, on the screen
 
   float px(float points) const { return points * scale; }
   const std::shared_ptr<const Environment>& environment() const { return session.document().environment(); }
@@ -134,8 +134,8 @@ struct Editor {
 
   // To be called once a frame before drawing: results of tasks, and what follows from another document.
   void update();
-  ViewState viewState() const;             // of the lighter model where there is one
-  ViewState originalState() const;         // of the model as it was imported
+  ViewState viewState() const;      // of the lighter model where there is one
+  ViewState originalState() const;  // of the model as it was imported
   // What the probe's instrument gets from the model and its materials; null until picking is ready.
   std::shared_ptr<const Expectation> expectation();
   // Shows a scan's points instead of the model, once they are read; an empty path goes back to the model.
@@ -146,31 +146,31 @@ struct Editor {
   bool showsLiveScan() const { return live_ != nullptr; }
   bool readingCloud() const { return cloud_loader_.busy(); }
   Bounds visibleBounds() const;
-  Bounds buildingBounds() const;           // what is visible without the terrain around it
+  Bounds buildingBounds() const;  // what is visible without the terrain around it
   Bounds selectionBounds() const;
-  void frameSelection();                   // everything when nothing is selected
+  void frameSelection();  // everything when nothing is selected
   void select(std::uint32_t product, bool reveal);
 
-  const std::vector<Bounds>& boundsOfProducts() const;   // kept until the environment changes
+  const std::vector<Bounds>& boundsOfProducts() const;  // kept until the environment changes
   const std::vector<StoreyLevel>& storeys() const;
-  std::uint64_t triangles() const;          // placed, in the scene
-  const Treatment* treatmentOfProduct(std::uint32_t product) const;   // nullptr: none
+  std::uint64_t triangles() const;                                   // placed, in the scene
+  const Treatment* treatmentOfProduct(std::uint32_t product) const;  // nullptr: none
 
  private:
   void adoptDocument();
   void followPreview();
   void startWaitingCloud();
   void followLiveScan();
-  bool followModel(const Environment& before, const Environment& after);   // false when they have no product in common
-  Bounds boundsOfVisible(bool with_terrain) const;   // of the model
+  bool followModel(const Environment& before, const Environment& after);  // false when they have no product in common
+  Bounds boundsOfVisible(bool with_terrain) const;                        // of the model
   KeptExpectation kept_expectation_;
   Bounds shownScanBounds() const;
   std::optional<Camera> camera_before_preview_;
   CloudLoader cloud_loader_;
   std::shared_ptr<const Cloud> cloud_;
-  std::shared_ptr<LiveCloud> live_;        // null: none, or it is no longer looked at
-  const Task* live_task_ = nullptr;        // that it belongs to, while that runs
-  std::shared_ptr<const Environment> imported_;   // whose products selection and visibility speak of
+  std::shared_ptr<LiveCloud> live_;              // null: none, or it is no longer looked at
+  const Task* live_task_ = nullptr;              // that it belongs to, while that runs
+  std::shared_ptr<const Environment> imported_;  // whose products selection and visibility speak of
   std::uint64_t seen_revision_ = ~0ULL;
   mutable std::shared_ptr<const Environment> derived_from_;
   mutable std::vector<Bounds> product_bounds_;

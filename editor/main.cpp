@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "editor/editor.h"
 #include "editor/device_pictures.h"
+#include "editor/editor.h"
 #include "editor/instrument/instrument.h"
 #include "editor/pictures.h"
 #include "editor/shell/actions.h"
@@ -29,7 +29,7 @@ constexpr const char* kUsage =
     "  --devices   draws every screen of every emulated device, in a folder each\n";
 
 struct Arguments {
-  std::vector<std::string> paths;   // one project, or models that belong together
+  std::vector<std::string> paths;  // one project, or models that belong together
   std::string pictures, devices, language = "en";
   int width = 1280, height = 800;
   float scale = 1;

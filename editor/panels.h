@@ -16,7 +16,7 @@ struct Panel {
   const char* id;
   const char* title;
   const char* icon;
-  std::array<Area, kWorkspaces> area;   // by Workspace
+  std::array<Area, kWorkspaces> area;  // by Workspace
   void (*draw)(Editor&);
 };
 

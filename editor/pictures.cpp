@@ -132,7 +132,7 @@ void deviation(Editor& editor) {
 void expected(Editor& editor, ColourMode mode) {
   materials(editor);
   cutIntoStorey(editor);
-  *editor.visibility.cut_height_m += 0.6;   // above the lintels, where beams end
+  *editor.visibility.cut_height_m += 0.6;  // above the lintels, where beams end
   editor.view.colour = mode;
 }
 void expectedIntensity(Editor& editor) { expected(editor, ColourMode::expected_intensity); }
@@ -161,15 +161,18 @@ void importPreview(Editor& editor) {
   editor.preview.show(std::move(files), std::move(outcome));
 }
 
-constexpr std::array kPictures =
-    {Picture{"1-overview", overview},     Picture{"2-inspector", inspect}, Picture{"3-materials", materials},
-                                  Picture{"4-survey", survey},         Picture{"5-instrument", instrument},
-                                      Picture{"8-deviation", deviation},
+constexpr std::array kPictures = {Picture{"1-overview", overview},
+                                  Picture{"2-inspector", inspect},
+                                  Picture{"3-materials", materials},
+                                  Picture{"4-survey", survey},
+                                  Picture{"5-instrument", instrument},
+                                  Picture{"8-deviation", deviation},
                                   Picture{"9-expected-intensity", expectedIntensity},
                                   Picture{"10-expected-noise", expectedNoise},
-                                      Picture{"11-what-comes-back", expectedFate},
+                                  Picture{"11-what-comes-back", expectedFate},
                                   Picture{"12-measured", measured},
-                                  Picture{"13-coverage", coverage}, Picture{"14-coverage-spacing", coverageSpacing},
+                                  Picture{"13-coverage", coverage},
+                                  Picture{"14-coverage-spacing", coverageSpacing},
                                   Picture{"7-import-preview", importPreview},
                                   Picture{"6-palette", palette}};
 

@@ -25,7 +25,7 @@ using nlohmann::json;
 
 namespace {
 
-const char* const kCopies = "office";   // folder beside the scans, where copies go
+const char* const kCopies = "office";  // folder beside the scans, where copies go
 
 // Adds a scan to a station of the document as it is now.
 Document withScan(Document document, const std::string& station_name, const Scan& scan) {
@@ -52,7 +52,8 @@ LinkResult linkFrom(const json& answer, const Document& solved) {
   link.overlap = row["fit"].at("used_share");
   link.true_error_m = row.at("true_error_m");
   link.true_error_deg = row.at("true_turn_error_deg");
-  if (const auto* station = stationOf(solved, row.at("name").get<std::string>()); station != nullptr && station->solved_pose) {
+  if (const auto* station = stationOf(solved, row.at("name").get<std::string>());
+      station != nullptr && station->solved_pose) {
     const Pose &to = *station->solved_pose, &from = station->true_pose;
     link.error.rotation = to.rotation * from.rotation.conjugate();
     link.error.translation = to.translation - link.error.rotation * from.translation;
@@ -81,14 +82,16 @@ Result<void> copyFile(const fs::path& from, const fs::path& to, Progress& progre
     if (auto going = progress.check(); !going) return failure(going.error());
     const auto read = in->read(out->size(), buffer);
     if (!read) return failure(read.error());
-    if (*read == 0) return failure(ErrorKind::file_system, "the file has become shorter while it was copied", from.string());
+    if (*read == 0)
+      return failure(ErrorKind::file_system, "the file has become shorter while it was copied", from.string());
     if (auto written = out->append({buffer.data(), *read}); !written) return written;
     progress.advance(static_cast<double>(out->size()) / static_cast<double>(in->size()));
   }
   return out->commit();
 }
 
-Result<Outcome> copyFiles(const Document& document, const TransferOrder& order, const fs::path& folder, Progress& progress) {
+Result<Outcome> copyFiles(const Document& document, const TransferOrder& order, const fs::path& folder,
+                          Progress& progress) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder.string());
@@ -97,7 +100,8 @@ Result<Outcome> copyFiles(const Document& document, const TransferOrder& order, 
   const double each = 1.0 / static_cast<double>(order.files.size());
   for (const auto& file : order.files) {
     if (auto going = progress.check(); !going) return failure(going.error());
-    fs::path to = folder / (fs::path(file).parent_path().filename().string() + " - " + fs::path(file).filename().string());
+    fs::path to =
+        folder / (fs::path(file).parent_path().filename().string() + " - " + fs::path(file).filename().string());
     const double from_share = static_cast<double>(copied.size()) * each;
     progress.stage("Copying " + fs::path(file).filename().string(), from_share, from_share + each);
     const auto done = order.extension.empty() ? copyFile(file, to, progress)
@@ -111,7 +115,8 @@ Result<Outcome> copyFiles(const Document& document, const TransferOrder& order, 
 }  // namespace
 
 fs::path scanFile(const fs::path& scans_folder, const ScanOrder& order) {
-  const fs::path folder = order.folder.empty() ? scans_folder / order.project : scans_folder / order.project / order.folder;
+  const fs::path folder =
+      order.folder.empty() ? scans_folder / order.project : scans_folder / order.project / order.folder;
   return folder / (order.name + ".e57");
 }
 
@@ -146,7 +151,8 @@ std::vector<StoredSetup> storedSetups(const Document& document, const DeviceType
 
 Eigen::Quaterniond leaning(const Eigen::Quaterniond& rotation, double x_deg, double y_deg) {
   if (x_deg == 0 && y_deg == 0) return rotation;
-  const double angle_rad = std::acos(std::clamp(std::cos(x_deg * kRadPerDeg) * std::cos(y_deg * kRadPerDeg), -1.0, 1.0));
+  const double angle_rad =
+      std::acos(std::clamp(std::cos(x_deg * kRadPerDeg) * std::cos(y_deg * kRadPerDeg), -1.0, 1.0));
   return rotationOf(yawOf(rotation), {angle_rad, std::atan2(y_deg, x_deg)});
 }
 
@@ -175,7 +181,8 @@ void DeviceHost::startScan(const ScanOrder& order, const Document& document, con
   if (truth) options["truth"] = true;
   notes_ = order.notes;
   if (const auto* station = stationOf(document, order.station)) {
-    const auto readings = sensorReadings(document, *station, device_.type().definition.sensors, order.sensors, seed, order.number);
+    const auto readings =
+        sensorReadings(document, *station, device_.type().definition.sensors, order.sensors, seed, order.number);
     notes_.insert(notes_.end(), readings.begin(), readings.end());
   }
   for (const auto& [key, text] : notes_) options["note"].push_back(key + "=" + text);
@@ -185,8 +192,10 @@ void DeviceHost::startScan(const ScanOrder& order, const Document& document, con
 }
 
 // The device's own filters: what they take is never stored.
-void DeviceHost::startFiltered(const std::string& title, const ScanOrder& order, const Document& document, const json& options) {
-  auto work = [options, filters = order.filters, file = file_, station = order.station](const Document& d, Progress& p) -> Result<Outcome> {
+void DeviceHost::startFiltered(const std::string& title, const ScanOrder& order, const Document& document,
+                               const json& options) {
+  auto work = [options, filters = order.filters, file = file_, station = order.station](
+                  const Document& d, Progress& p) -> Result<Outcome> {
     const fs::path raw = file.parent_path() / (file.stem().string() + ".raw.e57");
     json all = options;
     all["output"] = raw.string();
@@ -209,7 +218,8 @@ void DeviceHost::startFiltered(const std::string& title, const ScanOrder& order,
     outcome->document.job = std::make_shared<const Job>(std::move(job));
     return outcome;
   };
-  task_ = std::make_unique<Task>(title, *findVerb(verbs(), "scan"), leaning(document, order.station), options, wake_, std::move(work));
+  task_ = std::make_unique<Task>(title, *findVerb(verbs(), "scan"), leaning(document, order.station), options, wake_,
+                                 std::move(work));
 }
 
 // The station leans as the device does: what its hands and the ground made of it.
@@ -219,13 +229,15 @@ Document DeviceHost::leaning(Document document, const std::string& station_name)
   Job job = *document.job;
   for (auto& station : job.stations)
     if (station.name == station_name)
-      station.true_pose.rotation = standpoint::leaning(station.true_pose.rotation, around.tilt_x_deg, around.tilt_y_deg);
+      station.true_pose.rotation =
+          standpoint::leaning(station.true_pose.rotation, around.tilt_x_deg, around.tilt_y_deg);
   document.job = std::make_shared<const Job>(std::move(job));
   return document;
 }
 
 void DeviceHost::startWork(const std::string& title, const Document& document, Task::Work work) {
-  task_ = std::make_unique<Task>(title, *findVerb(verbs(), "register"), document, json{{"files", json::array({"-"})}}, wake_, std::move(work));
+  task_ = std::make_unique<Task>(title, *findVerb(verbs(), "register"), document, json{{"files", json::array({"-"})}},
+                                 wake_, std::move(work));
 }
 
 void DeviceHost::start(const Order& order, const Document& document, const fs::path& scans_folder) {
@@ -238,7 +250,8 @@ void DeviceHost::start(const Order& order, const Document& document, const fs::p
       options["laid"] = fmt::format("{},{},{}", link->shift_x_m, link->shift_y_m, link->turn_deg);
     task_ = std::make_unique<Task>("Link", *findVerb(verbs(), "register"), document, options, wake_);
   } else if (const auto* targets = std::get_if<TargetOrder>(&order)) {
-    startWork("Targets", document, [file = targets->file, s = seed](const Document& d, Progress& p) { return targetsIn(d, file, s, p); });
+    startWork("Targets", document,
+              [file = targets->file, s = seed](const Document& d, Progress& p) { return targetsIn(d, file, s, p); });
   } else if (const auto* preview = std::get_if<PreviewOrder>(&order)) {
     startWork("Preview", document, [this, file = preview->file](const Document& d, Progress& p) -> Result<Outcome> {
       auto read = readPreview(file, p);
@@ -249,13 +262,15 @@ void DeviceHost::start(const Order& order, const Document& document, const fs::p
   } else if (const auto* sight = std::get_if<SightOrder>(&order)) {
     std::error_code ignored;
     fs::create_directories(scans_folder, ignored);
-    startWork("Target", document, [order = *sight, file = scans_folder / "target.e57", s = seed](const Document& d, Progress& p) {
-      return sightTarget(d, order, file, s, p);
-    });
+    startWork("Target", document,
+              [order = *sight, file = scans_folder / "target.e57", s = seed](const Document& d, Progress& p) {
+                return sightTarget(d, order, file, s, p);
+              });
   } else if (const auto* transfer = std::get_if<TransferOrder>(&order)) {
-    startWork("Transfer", document, [order = *transfer, folder = scans_folder.parent_path() / kCopies](const Document& d, Progress& p) {
-      return copyFiles(d, order, folder, p);
-    });
+    startWork("Transfer", document,
+              [order = *transfer, folder = scans_folder.parent_path() / kCopies](const Document& d, Progress& p) {
+                return copyFiles(d, order, folder, p);
+              });
   }
 }
 
@@ -301,7 +316,8 @@ Result<Outcome> DeviceHost::oriented(const Document& document, const StationOrie
   if (!level) return failure(level.error());
   Job job = *document.job;
   for (auto& s : job.stations)
-    if (s.name == orientation.station) s.solved_pose = Pose{orientation.pose.rotation * *level, orientation.pose.translation};
+    if (s.name == orientation.station)
+      s.solved_pose = Pose{orientation.pose.rotation * *level, orientation.pose.translation};
   Outcome outcome{document, json::object(), {}, {}, {}};
   outcome.document.job = std::make_shared<const Job>(std::move(job));
   outcome.description = fmt::format("Oriented {} with {}", orientation.station, device_.type().definition.title);
@@ -317,7 +333,7 @@ void DeviceHost::collect(const Document& document) {
   task_.reset();
   if (outcome) return takeResult(*std::move(outcome), document);
   if (outcome.error().kind == ErrorKind::cancelled) return;
-  if (std::holds_alternative<LinkOrder>(*running_)) return device_.linkDone({});   // nothing in common: no link
+  if (std::holds_alternative<LinkOrder>(*running_)) return device_.linkDone({});  // nothing in common: no link
   device_.orderFailed(describe(outcome.error()));
 }
 
@@ -327,7 +343,8 @@ Result<void> DeviceHost::remember(const fs::path& scans_folder) {
   if (!scans_folder.empty() && fs::exists(file, none)) {
     const auto memory = readJsonFile(file);
     if (!memory) return failure(memory.error());
-    if (auto recalled = recallMemory(device_, *memory, scans_folder); !recalled) return failure(recalled.error().kind, recalled.error().message, file.string());
+    if (auto recalled = recallMemory(device_, *memory, scans_folder); !recalled)
+      return failure(recalled.error().kind, recalled.error().message, file.string());
     kept_ = *memory;
   }
   kept_at_ = device_.state().noted;
@@ -340,22 +357,25 @@ void DeviceHost::keepMemory(const fs::path& scans_folder) {
   const auto& state = device_.state();
   if (!remembers_ || scans_folder.empty() || state.noted == kept_at_) return;
   kept_at_ = state.noted;
-  const bool used = std::any_of(state.log.begin(), state.log.end(), [](const DeviceEvent& e) { return e.what == "pressed"; });
+  const bool used =
+      std::any_of(state.log.begin(), state.log.end(), [](const DeviceEvent& e) { return e.what == "pressed"; });
   auto memory = deviceMemory(device_, scans_folder);
   if (!used || memory == kept_) return;
   const auto written = writeMemory(memoryFile(scans_folder, device_.type()), memory);
   if (!written) device_.ask("failed", describe(written.error()));
-  kept_at_ = state.noted;   // a full disk is told once, not in every frame
+  kept_at_ = state.noted;  // a full disk is told once, not in every frame
   kept_ = std::move(memory);
 }
 
-std::optional<Outcome> DeviceHost::update(const Document& document, const fs::path& scans_folder, double seconds, bool may_store) {
+std::optional<Outcome> DeviceHost::update(const Document& document, const fs::path& scans_folder, double seconds,
+                                          bool may_store) {
   auto outcome = goOn(document, scans_folder, seconds, may_store);
   keepMemory(scans_folder);
   return outcome;
 }
 
-std::optional<Outcome> DeviceHost::goOn(const Document& document, const fs::path& scans_folder, double seconds, bool may_store) {
+std::optional<Outcome> DeviceHost::goOn(const Document& document, const fs::path& scans_folder, double seconds,
+                                        bool may_store) {
   if (document.job != known_of_) {
     known_of_ = document.job;
     device_.know(controlOf(document));
@@ -383,7 +403,8 @@ std::optional<Outcome> DeviceHost::goOn(const Document& document, const fs::path
   }
   if (!finished_ || !device_.takeStored()) return std::nullopt;
   Outcome outcome{withScan(document, station_, *finished_), json::object(), {}, {}, {}};
-  outcome.description = fmt::format("Scanned '{}' at {} with {}", fs::path(finished_->file).stem().string(), station_, device_.type().definition.title);
+  outcome.description = fmt::format("Scanned '{}' at {} with {}", fs::path(finished_->file).stem().string(), station_,
+                                    device_.type().definition.title);
   finished_.reset();
   return outcome;
 }

@@ -13,14 +13,14 @@
 
 namespace standpoint {
 
-// Where a device's setup is stored in a project: scans/<project>/[<cluster>/]<name>.e57. The names are the record: a project
-// that is opened again fills the device's memory from them.
+// Where a device's setup is stored in a project: scans/<project>/[<cluster>/]<name>.e57. The names are the record: a
+// project that is opened again fills the device's memory from them.
 std::filesystem::path scanFile(const std::filesystem::path& scans_folder, const ScanOrder& order);
 std::vector<StoredSetup> storedSetups(const Document& document, const DeviceType& type);
 
-// Runs an emulated device against a document: its orders become tasks, its clock goes as fast as the user wants, and a setup
-// enters the document only when the device has stored it.
-// A station's pose whose standing axis leans by that much, about Y and X of the file's frame; level: as it is.
+// Runs an emulated device against a document: its orders become tasks, its clock goes as fast as the user wants, and a
+// setup enters the document only when the device has stored it. A station's pose whose standing axis leans by that
+// much, about Y and X of the file's frame; level: as it is.
 Eigen::Quaterniond leaning(const Eigen::Quaterniond& rotation, double x_deg, double y_deg);
 
 class DeviceHost {
@@ -30,17 +30,18 @@ class DeviceHost {
   Device& device() { return device_; }
   const Device& device() const { return device_; }
 
-  double time_factor = 20;         // device seconds per second: 1 is rehearsal in real time
+  double time_factor = 20;  // device seconds per second: 1 is rehearsal in real time
   std::uint64_t seed = 1;
-  bool truth = false;              // the files hold what is known of each point
+  bool truth = false;  // the files hold what is known of each point
 
-  // A project that is opened: the device gets back what it remembers in the folder of the scans, and remembers from here on.
-  // What cannot be read stays as it is, and nothing is written over it.
+  // A project that is opened: the device gets back what it remembers in the folder of the scans, and remembers from
+  // here on. What cannot be read stays as it is, and nothing is written over it.
   Result<void> remember(const std::filesystem::path& scans_folder);
 
   // Call once per frame. `seconds` since the last call; `scans_folder` empty while the project has no folder.
-  // Gives `document` with the setup in it, and the undo line, when the device has stored one; whatever else was done to the
-  // document meanwhile stays. `may_store` false: something else is changing the document just now, so a finished setup waits.
+  // Gives `document` with the setup in it, and the undo line, when the device has stored one; whatever else was done to
+  // the document meanwhile stays. `may_store` false: something else is changing the document just now, so a finished
+  // setup waits.
   std::optional<Outcome> update(const Document& document, const std::filesystem::path& scans_folder, double seconds,
                                 bool may_store = true);
 
@@ -51,12 +52,14 @@ class DeviceHost {
   bool clockStands() const { return task_ != nullptr && device_.idles(); }
 
  private:
-  std::optional<Outcome> goOn(const Document& document, const std::filesystem::path& scans_folder, double seconds, bool may_store);
+  std::optional<Outcome> goOn(const Document& document, const std::filesystem::path& scans_folder, double seconds,
+                              bool may_store);
   void keepMemory(const std::filesystem::path& scans_folder);
   void start(const Order& order, const Document& document, const std::filesystem::path& scans_folder);
   void startScan(const ScanOrder& order, const Document& document, const std::filesystem::path& scans_folder);
   Document leaning(Document document, const std::string& station) const;
-  void startFiltered(const std::string& title, const ScanOrder& order, const Document& document, const nlohmann::json& options);
+  void startFiltered(const std::string& title, const ScanOrder& order, const Document& document,
+                     const nlohmann::json& options);
   void startWork(const std::string& title, const Document& document, Task::Work work);
   void collect(const Document& document);
   Result<Outcome> oriented(const Document& document, const StationOrientation& orientation) const;
@@ -67,13 +70,13 @@ class DeviceHost {
   std::unique_ptr<Task> task_;
   std::optional<Order> running_;
   std::filesystem::path file_;
-  std::shared_ptr<const Job> known_of_;     // whose places the device was told
-  std::optional<Scan> finished_;   // waits for the device to store it
-  std::string station_;            // of the finished scan
-  SettingValues notes_;            // of the scan that runs
-  std::shared_ptr<const ScanPreview> preview_;   // that a task has read
+  std::shared_ptr<const Job> known_of_;         // whose places the device was told
+  std::optional<Scan> finished_;                // waits for the device to store it
+  std::string station_;                         // of the finished scan
+  SettingValues notes_;                         // of the scan that runs
+  std::shared_ptr<const ScanPreview> preview_;  // that a task has read
   bool remembers_ = false;
-  std::uint64_t kept_at_ = 0;      // events of the device when its memory was written last
+  std::uint64_t kept_at_ = 0;  // events of the device when its memory was written last
   nlohmann::json kept_;
 };
 

@@ -15,13 +15,15 @@ using nlohmann::json;
 namespace {
 
 constexpr int kMemoryVersion = 1;
-const std::string kScans = "scans:";   // stands for the folder
+const std::string kScans = "scans:";  // stands for the folder
 
 // Of the fields that were typed, those whose content is kept; the others are of the moment.
 constexpr std::array kKeptEntries = {"button", "bundle", "profile", "profile_settings", "station_id"};
 
 // What was typed need not be sound UTF-8.
-std::string textOf(const json& j, int indent = -1) { return j.dump(indent, ' ', false, json::error_handler_t::replace); }
+std::string textOf(const json& j, int indent = -1) {
+  return j.dump(indent, ' ', false, json::error_handler_t::replace);
+}
 
 // The folder as it begins a file's name within JSON.
 std::string inJson(const fs::path& folder) {
@@ -32,24 +34,40 @@ std::string inJson(const fs::path& folder) {
 json toJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 json toJson(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 json toJson(const Pose& pose) { return {{"turn", toJson(pose.rotation)}, {"place", toJson(pose.translation)}}; }
-Eigen::Vector3d vectorFrom(const json& j) { return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()}; }
+Eigen::Vector3d vectorFrom(const json& j) {
+  return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()};
+}
 Pose poseFrom(const json& j) {
   const auto& q = j.at("turn");
-  const Eigen::Quaterniond turn(q.at(0).get<double>(), q.at(1).get<double>(), q.at(2).get<double>(), q.at(3).get<double>());
+  const Eigen::Quaterniond turn(q.at(0).get<double>(), q.at(1).get<double>(), q.at(2).get<double>(),
+                                q.at(3).get<double>());
   return {turn.normalized(), vectorFrom(j.at("place"))};
 }
 
 json toJson(const LinkResult& l) {
-  return {{"joined", l.joined}, {"error_m", l.error_m}, {"overlap", l.overlap}, {"true_error_m", l.true_error_m},
-          {"true_error_deg", l.true_error_deg}, {"error", toJson(l.error)}};
+  return {{"joined", l.joined},
+          {"error_m", l.error_m},
+          {"overlap", l.overlap},
+          {"true_error_m", l.true_error_m},
+          {"true_error_deg", l.true_error_deg},
+          {"error", toJson(l.error)}};
 }
 LinkResult linkFrom(const json& j) {
-  return {j.at("joined"), j.at("error_m"), j.at("overlap"), j.at("true_error_m"), j.at("true_error_deg"), poseFrom(j.at("error"))};
+  return {j.at("joined"),       j.at("error_m"),        j.at("overlap"),
+          j.at("true_error_m"), j.at("true_error_deg"), poseFrom(j.at("error"))};
 }
 
 json toJson(const FittedTarget& t) {
-  return {{"name", t.name}, {"kind", t.kind}, {"points", t.points}, {"range_m", t.range_m}, {"residual_m", t.residual_m}, {"error_m", t.error_m},
-          {"found", t.found}, {"why_not", t.why_not}, {"levelled_m", toJson(t.levelled_m)}, {"centre_m", toJson(t.centre_m)}};
+  return {{"name", t.name},
+          {"kind", t.kind},
+          {"points", t.points},
+          {"range_m", t.range_m},
+          {"residual_m", t.residual_m},
+          {"error_m", t.error_m},
+          {"found", t.found},
+          {"why_not", t.why_not},
+          {"levelled_m", toJson(t.levelled_m)},
+          {"centre_m", toJson(t.centre_m)}};
 }
 FittedTarget targetFrom(const json& j) {
   FittedTarget t;
@@ -60,8 +78,17 @@ FittedTarget targetFrom(const json& j) {
 }
 
 json toJson(const StoredSetup& s) {
-  json j = {{"file", s.file}, {"number", s.number}, {"partial", s.partial}, {"unlevelled", s.unlevelled}, {"lean_deg", {s.lean_x_deg, s.lean_y_deg}}, {"stood_deg", {s.stood_x_deg, s.stood_y_deg}},
-            {"moved", s.moved}, {"tracked", s.tracked}, {"looked_at", s.looked_at}, {"transferred", s.transferred}, {"notes", s.notes}};
+  json j = {{"file", s.file},
+            {"number", s.number},
+            {"partial", s.partial},
+            {"unlevelled", s.unlevelled},
+            {"lean_deg", {s.lean_x_deg, s.lean_y_deg}},
+            {"stood_deg", {s.stood_x_deg, s.stood_y_deg}},
+            {"moved", s.moved},
+            {"tracked", s.tracked},
+            {"looked_at", s.looked_at},
+            {"transferred", s.transferred},
+            {"notes", s.notes}};
   for (const auto& t : s.targets) j["targets"].push_back(toJson(t));
   if (s.link) j["link"] = toJson(*s.link);
   return j;
@@ -91,15 +118,21 @@ std::vector<ControlPlace> placesFrom(const json& j) {
 }
 
 json toJson(const SightedTarget& s) {
-  return {{"id", s.id}, {"place_m", toJson(s.place_m)}, {"height_m", s.height_m}, {"residual_m", s.residual_m}, {"points", s.points}, {"used", s.used}};
+  return {{"id", s.id},
+          {"place_m", toJson(s.place_m)},
+          {"height_m", s.height_m},
+          {"residual_m", s.residual_m},
+          {"points", s.points},
+          {"used", s.used}};
 }
 SightedTarget sightFrom(const json& j) {
   return {j.at("id"), vectorFrom(j.at("place_m")), j.at("height_m"), j.at("residual_m"), j.at("points"), j.at("used")};
 }
 
 json toJson(const StationOrientation& o) {
-  json j = {{"method", o.method}, {"station", o.station}, {"pose", toJson(o.pose)}, {"rms_m", o.rms_m}, {"compensator", o.compensator},
-            {"local", o.local}, {"accepted", o.accepted}, {"targets", json::array()}};
+  json j = {{"method", o.method},     {"station", o.station},         {"pose", toJson(o.pose)},
+            {"rms_m", o.rms_m},       {"compensator", o.compensator}, {"local", o.local},
+            {"accepted", o.accepted}, {"targets", json::array()}};
   for (const auto& t : o.targets) j["targets"].push_back({{"id", t.id}, {"residual_m", t.residual_m}});
   return j;
 }
@@ -112,21 +145,29 @@ StationOrientation orientationFrom(const json& j) {
 }
 
 json toJson(const DeviceProject& p) {
-  json j = {{"name", p.name}, {"base", p.base}, {"note", p.note}, {"first", p.first}, {"cluster", p.cluster}, {"photo", p.photo},
-            {"carried", toJson(p.carried)}, {"setups", json::array()}};
+  json j = {{"name", p.name},
+            {"base", p.base},
+            {"note", p.note},
+            {"first", p.first},
+            {"cluster", p.cluster},
+            {"photo", p.photo},
+            {"carried", toJson(p.carried)},
+            {"setups", json::array()}};
   for (const auto& s : p.setups) j["setups"].push_back(toJson(s));
   return j;
 }
 
 bool isKept(const DeviceType& type, const std::string& value) {
   const auto* row = findValue(type.definition, value);
-  return row == nullptr ? value != "false_start" : row->kept;   // what code has added, such as annotations; a trouble is none
+  return row == nullptr ? value != "false_start"
+                        : row->kept;  // what code has added, such as annotations; a trouble is none
 }
 
 // A choice that the device does not have any more is as good as none.
 bool stillThere(const DeviceType& type, const std::string& id, const std::string& value) {
   const auto* row = findValue(type.definition, id);
-  return row == nullptr || row->choices.empty() || std::find(row->choices.begin(), row->choices.end(), value) != row->choices.end();
+  return row == nullptr || row->choices.empty() ||
+         std::find(row->choices.begin(), row->choices.end(), value) != row->choices.end();
 }
 
 // Takes the setup of that file out of the projects that hold it.
@@ -157,9 +198,12 @@ std::vector<DeviceProject> recalledProjects(const json& memory, std::vector<Devi
   }
   for (auto& p : held) {
     if (p.setups.empty()) continue;
-    const auto same = std::find_if(projects.begin(), projects.end(), [&](const DeviceProject& known) { return known.name == p.name; });
-    if (same == projects.end()) projects.push_back(std::move(p));
-    else same->setups.insert(same->setups.end(), p.setups.begin(), p.setups.end());
+    const auto same = std::find_if(projects.begin(), projects.end(),
+                                   [&](const DeviceProject& known) { return known.name == p.name; });
+    if (same == projects.end())
+      projects.push_back(std::move(p));
+    else
+      same->setups.insert(same->setups.end(), p.setups.begin(), p.setups.end());
   }
   return projects;
 }
@@ -172,7 +216,8 @@ void recallState(const json& m, const DeviceType& type, DeviceState& s) {
   if (const auto language = s.values.find("language"); language != s.values.end()) s.language = language->second;
   s.projects = recalledProjects(m.at("projects"), s.projects);
   const auto name = m.at("open").get<std::string>();
-  const auto open = std::find_if(s.projects.begin(), s.projects.end(), [&](const DeviceProject& p) { return p.name == name; });
+  const auto open =
+      std::find_if(s.projects.begin(), s.projects.end(), [&](const DeviceProject& p) { return p.name == name; });
   s.project = open == s.projects.end() ? -1 : static_cast<int>(open - s.projects.begin());
   s.shown = -1;
   s.around.card_used_bytes = m.at("card_used_bytes");
@@ -188,9 +233,15 @@ void recallState(const json& m, const DeviceType& type, DeviceState& s) {
 
 json deviceMemory(const Device& device, const fs::path& scans_folder) {
   const auto& s = device.state();
-  json m = {{"version", kMemoryVersion}, {"settings", s.settings}, {"values", json::object()}, {"entries", json::object()},
-            {"projects", json::array()}, {"open", device.project() == nullptr ? "" : device.project()->name},
-            {"card_used_bytes", s.around.card_used_bytes}, {"station", s.around.station}, {"sighted", json::array()}};
+  json m = {{"version", kMemoryVersion},
+            {"settings", s.settings},
+            {"values", json::object()},
+            {"entries", json::object()},
+            {"projects", json::array()},
+            {"open", device.project() == nullptr ? "" : device.project()->name},
+            {"card_used_bytes", s.around.card_used_bytes},
+            {"station", s.around.station},
+            {"sighted", json::array()}};
   for (const auto& [id, value] : s.values)
     if (isKept(device.type(), id)) m["values"][id] = value;
   for (const char* id : kKeptEntries)
@@ -203,13 +254,14 @@ json deviceMemory(const Device& device, const fs::path& scans_folder) {
 
 Result<void> recallMemory(Device& device, const json& memory, const fs::path& scans_folder) {
   try {
-    if (memory.at("version").get<int>() != kMemoryVersion) return failure(ErrorKind::unusable, "it is of another version", "/version");
+    if (memory.at("version").get<int>() != kMemoryVersion)
+      return failure(ErrorKind::unusable, "it is of another version", "/version");
     const auto m = json::parse(replaced(textOf(memory), kScans, inJson(scans_folder)));
     DeviceState recalled = device.state();
     recallState(m, device.type(), recalled);
     const auto settings = m.at("settings").get<SettingValues>();
     device.change() = std::move(recalled);
-    (void)device.setSettings(settings);   // those of a data sheet that has changed since are the standard ones
+    (void)device.setSettings(settings);  // those of a data sheet that has changed since are the standard ones
     return {};
   } catch (const json::exception& e) {
     return failure(ErrorKind::unusable, e.what(), "device memory");
@@ -219,10 +271,13 @@ Result<void> recallMemory(Device& device, const json& memory, const fs::path& sc
 Result<void> writeMemory(const fs::path& file, const json& memory) {
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
-  if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), file.parent_path().string());
+  if (error)
+    return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), file.parent_path().string());
   return writeWholeText(file, textOf(memory, 1) + "\n");
 }
 
-fs::path memoryFile(const fs::path& scans_folder, const DeviceType& type) { return scans_folder / (type.instrument.id + ".device.json"); }
+fs::path memoryFile(const fs::path& scans_folder, const DeviceType& type) {
+  return scans_folder / (type.instrument.id + ".device.json");
+}
 
 }  // namespace standpoint

@@ -26,7 +26,7 @@ constexpr std::array kDevices = {
     EmulatedDevice{"faro-focus", "FARO Focus", focusProgram},
     EmulatedDevice{"trimble-x7", "Trimble X7 / X9", x7Program},
     EmulatedDevice{"riegl-vz-i", "RIEGL VZ-i", vzIProgram},
-    EmulatedDevice{"generic", "Any laser scanner", genericProgram},   // last: for scanners that no other drives
+    EmulatedDevice{"generic", "Any laser scanner", genericProgram},  // last: for scanners that no other drives
 };
 
 }  // namespace
@@ -34,7 +34,8 @@ constexpr std::array kDevices = {
 std::span<const EmulatedDevice> emulatedDevices() { return kDevices; }
 
 const EmulatedDevice* findDevice(const std::string& id) {
-  const auto found = std::find_if(kDevices.begin(), kDevices.end(), [&](const EmulatedDevice& d) { return id == d.id; });
+  const auto found =
+      std::find_if(kDevices.begin(), kDevices.end(), [&](const EmulatedDevice& d) { return id == d.id; });
   return found == kDevices.end() ? nullptr : &*found;
 }
 
@@ -58,7 +59,9 @@ Result<std::shared_ptr<const DeviceType>> loadDevice(const EmulatedDevice& devic
 const EmulatedDevice& deviceFor(const std::string& instrument) {
   for (const auto& device : kDevices)
     if (const auto definition = readDefinition(dataFolder() / "emulated-ui" / device.program().definition))
-      if (std::find(definition->instruments.begin(), definition->instruments.end(), instrument) != definition->instruments.end()) return device;
+      if (std::find(definition->instruments.begin(), definition->instruments.end(), instrument) !=
+          definition->instruments.end())
+        return device;
   return kDevices.back();
 }
 

@@ -17,7 +17,8 @@ constexpr std::uint32_t kMostColumns = 512;
 class Thinner final : public PointSink {
  public:
   Result<void> begin(const ScanHeader& header) override {
-    if (header.rows == 0 || header.columns == 0) return failure(ErrorKind::unusable, "the scan has no grid", header.name);
+    if (header.rows == 0 || header.columns == 0)
+      return failure(ErrorKind::unusable, "the scan has no grid", header.name);
     step_ = std::max(1U, (header.columns + kMostColumns - 1) / kMostColumns);
     preview_->columns = (header.columns + step_ - 1) / step_;
     preview_->rows = (header.rows + step_ - 1) / step_;
@@ -56,7 +57,8 @@ class Thinner final : public PointSink {
     const float low = sorted[sorted.size() / 20], high = sorted[sorted.size() - 1 - sorted.size() / 20];
     for (std::size_t i = 0; i < intensity_.size(); ++i)
       if (std::isfinite(preview_->x_m[i]))
-        preview_->grey[i] = static_cast<std::uint8_t>(40 + 215 * std::clamp((intensity_[i] - low) / std::max(1e-6F, high - low), 0.0F, 1.0F));
+        preview_->grey[i] = static_cast<std::uint8_t>(
+            40 + 215 * std::clamp((intensity_[i] - low) / std::max(1e-6F, high - low), 0.0F, 1.0F));
     return {};
   }
   Result<void> close() override { return {}; }
@@ -81,7 +83,8 @@ std::array<std::uint8_t, 3> pixelOf(const ScanPreview& preview, std::size_t cell
 
 Result<std::shared_ptr<const ScanPreview>> readPreview(const std::filesystem::path& file, Progress& progress) {
   const auto* format = cloudFormatFor(file);
-  if (format == nullptr || format->read == nullptr) return failure(ErrorKind::unusable, "the file cannot be read", file.string());
+  if (format == nullptr || format->read == nullptr)
+    return failure(ErrorKind::unusable, "the file cannot be read", file.string());
   Thinner thinner;
   if (auto read = format->read(file, thinner, progress); !read) return failure(read.error());
   return thinner.take();

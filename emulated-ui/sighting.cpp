@@ -19,19 +19,24 @@ using nlohmann::json;
 
 namespace {
 
-Eigen::Vector3d placeFrom(const json& row) { return {row.at(0).get<double>(), row.at(1).get<double>(), row.at(2).get<double>()}; }
+Eigen::Vector3d placeFrom(const json& row) {
+  return {row.at(0).get<double>(), row.at(1).get<double>(), row.at(2).get<double>()};
+}
 
 // A window about the target, as large as it looks from there and a little more.
-SettingValues windowOn(const Target& target, const Station& station, const Instrument& instrument, SettingValues settings) {
+SettingValues windowOn(const Target& target, const Station& station, const Instrument& instrument,
+                       SettingValues settings) {
   const Eigen::Vector3d p = station.true_pose.rotation.conjugate() * (target.centre - station.true_pose.translation);
   const double half = std::atan((target.size_m + 0.1) / std::max(0.5, p.norm())) / kRadPerDeg;
-  const double azimuth = -std::atan2(p.y(), p.x()) / kRadPerDeg, elevation = std::atan2(p.z(), p.head<2>().norm()) / kRadPerDeg;
+  const double azimuth = -std::atan2(p.y(), p.x()) / kRadPerDeg,
+               elevation = std::atan2(p.z(), p.head<2>().norm()) / kRadPerDeg;
   const double wide = half / std::max(0.05, std::cos(elevation * kRadPerDeg));
   const auto round = [](double degrees) { return degrees - 360 * std::floor(degrees / 360); };
-  for (const auto& [key, value] : {std::pair{"horizontal_from", round(azimuth - wide)},
-                                   {"horizontal_to", round(azimuth + wide)},
-                                   {"vertical_from", std::max(instrument.min_elevation_rad / kRadPerDeg, elevation - half)},
-                                   {"vertical_to", std::min(instrument.max_elevation_rad / kRadPerDeg, elevation + half)}})
+  for (const auto& [key, value] :
+       {std::pair{"horizontal_from", round(azimuth - wide)},
+        {"horizontal_to", round(azimuth + wide)},
+        {"vertical_from", std::max(instrument.min_elevation_rad / kRadPerDeg, elevation - half)},
+        {"vertical_to", std::min(instrument.max_elevation_rad / kRadPerDeg, elevation + half)}})
     settings = withSetting(settings, key, fmt::format("{:.4f}", value));
   return settings;
 }
@@ -40,7 +45,8 @@ SettingValues windowOn(const Target& target, const Station& station, const Instr
 
 const Station* stationOf(const Document& document, const std::string& name) {
   if (!document.job) return nullptr;
-  const auto found = std::find_if(document.job->stations.begin(), document.job->stations.end(), [&](const Station& s) { return s.name == name; });
+  const auto found = std::find_if(document.job->stations.begin(), document.job->stations.end(),
+                                  [&](const Station& s) { return s.name == name; });
   return found == document.job->stations.end() ? nullptr : &*found;
 }
 
@@ -50,7 +56,8 @@ ControlList controlOf(const Document& document) {
   if (!document.job) return control;
   for (const auto& t : document.job->targets) {
     const auto& points = document.job->control_points;
-    const auto point = std::find_if(points.begin(), points.end(), [&](const ControlPoint& p) { return p.name == t.name; });
+    const auto point =
+        std::find_if(points.begin(), points.end(), [&](const ControlPoint& p) { return p.name == t.name; });
     control.targets.push_back({t.name, point == points.end() ? t.centre : point->position});
   }
   for (const auto& s : document.job->stations)
@@ -58,19 +65,22 @@ ControlList controlOf(const Document& document) {
   return control;
 }
 
-Result<Eigen::Quaterniond> levelledFromScanner(const Station& station, const Instrument& instrument, bool compensator, std::uint64_t seed) {
+Result<Eigen::Quaterniond> levelledFromScanner(const Station& station, const Instrument& instrument, bool compensator,
+                                               std::uint64_t seed) {
   Report report;
-  const auto believed = believedPose(station, instrument, {.compensator = compensator, .exact = false, .seed = seed}, report);
+  const auto believed =
+      believedPose(station, instrument, {.compensator = compensator, .exact = false, .seed = seed}, report);
   if (!believed) return failure(believed.error());
   const double yaw = yawOf(station.true_pose.rotation);
   return Eigen::Quaterniond(Eigen::AngleAxisd(-yaw, Eigen::Vector3d::UnitZ())) * believed->rotation;
 }
 
-json scanOptions(const std::string& instrument, const SettingValues& values, const std::string& station, std::uint64_t seed,
-               const fs::path& file) {
+json scanOptions(const std::string& instrument, const SettingValues& values, const std::string& station,
+                 std::uint64_t seed, const fs::path& file) {
   json settings = json::array();
   for (const auto& [key, value] : values) settings.push_back(key + "=" + value);
-  return {{"instrument", instrument}, {"set", settings}, {"stations", station}, {"seed", seed}, {"output", file.string()}};
+  return {
+      {"instrument", instrument}, {"set", settings}, {"stations", station}, {"seed", seed}, {"output", file.string()}};
 }
 
 Result<Outcome> targetsIn(const Document& document, const std::string& file, std::uint64_t seed, Progress& progress) {
@@ -83,7 +93,8 @@ Result<Outcome> targetsIn(const Document& document, const std::string& file, std
   const auto& job = *document.job;
   for (const auto& m : measured->found) {
     const auto& target = job.targets[m.target];
-    const auto truth = job.stations[m.station].true_pose.rotation.conjugate() * (target.centre - job.stations[m.station].true_pose.translation);
+    const auto truth = job.stations[m.station].true_pose.rotation.conjugate() *
+                       (target.centre - job.stations[m.station].true_pose.translation);
     outcome.answer.push_back({{"name", target.name},
                               {"kind", target.kind == TargetKind::sphere ? "sphere" : "checkerboard"},
                               {"points", m.fit.points},
@@ -98,17 +109,21 @@ Result<Outcome> targetsIn(const Document& document, const std::string& file, std
   return outcome;
 }
 
-Result<Outcome> sightTarget(const Document& document, const SightOrder& order, const fs::path& file, std::uint64_t seed, Progress& progress) {
+Result<Outcome> sightTarget(const Document& document, const SightOrder& order, const fs::path& file, std::uint64_t seed,
+                            Progress& progress) {
   const auto* station = stationOf(document, order.station);
   if (station == nullptr) return failure(ErrorKind::usage, "there is no such station", order.station);
   const auto& targets = document.job->targets;
-  const auto target = std::find_if(targets.begin(), targets.end(), [&](const Target& t) { return t.name == order.target; });
+  const auto target =
+      std::find_if(targets.begin(), targets.end(), [&](const Target& t) { return t.name == order.target; });
   if (target == targets.end()) return failure(ErrorKind::usage, "there is no such target", order.target);
-  Outcome missed{document, {{"name", target->name}, {"found", false}, {"why", "another kind of target stands there"}}, {}, {}, {}};
+  Outcome missed{
+      document, {{"name", target->name}, {"found", false}, {"why", "another kind of target stands there"}}, {}, {}, {}};
   if ((target->kind == TargetKind::sphere) != (order.kind == "sphere")) return missed;
   auto instrument = instrumentById(order.instrument);
   if (!instrument) return failure(instrument.error());
-  auto options = scanOptions(order.instrument, windowOn(*target, *station, *instrument, order.settings), order.station, seed, file);
+  auto options = scanOptions(order.instrument, windowOn(*target, *station, *instrument, order.settings), order.station,
+                             seed, file);
   if (!order.compensator) options["compensator"] = "off";
   const auto scanned = runVerb(*findVerb(verbs(), "scan"), document, options, progress);
   std::error_code ignored;

@@ -19,7 +19,10 @@ using K = ParameterKind;
 json listOf(const std::vector<KnownExercise>& known, const std::string& language) {
   json rows = json::array();
   for (const auto& one : known)
-    rows.push_back({{"id", one.exercise.id}, {"title", one.exercise.title.in(language)}, {"devices", one.exercise.devices}, {"file", one.file.string()}});
+    rows.push_back({{"id", one.exercise.id},
+                    {"title", one.exercise.title.in(language)},
+                    {"devices", one.exercise.devices},
+                    {"file", one.file.string()}});
   return rows;
 }
 
@@ -29,7 +32,8 @@ Result<Outcome> listExercises(const Document& document, const std::string& langu
   for (const auto& error : known.refused) outcome.report.warn(error.source, error.message);
   outcome.description = fmt::format("{} exercises", known.readable.size());
   for (const auto& one : known.readable)
-    outcome.text += fmt::format("{:6} {}  ({})\n", one.exercise.id, one.exercise.title.in(language), fmt::join(one.exercise.devices, ", "));
+    outcome.text += fmt::format("{:6} {}  ({})\n", one.exercise.id, one.exercise.title.in(language),
+                                fmt::join(one.exercise.devices, ", "));
   return outcome;
 }
 
@@ -122,7 +126,8 @@ Result<Outcome> runRehearse(const Document& document, const json& options, Progr
   std::vector<RehearsalAction> actions;
   const bool solution = options.value("solution", false);
   if (solution == options.contains("actions"))
-    return failure(ErrorKind::usage, "say what is done: --actions FILE, or --solution for the exercise's own", "--actions");
+    return failure(ErrorKind::usage, "say what is done: --actions FILE, or --solution for the exercise's own",
+                   "--actions");
   if (solution) {
     actions = known->exercise.solution;
   } else {
@@ -137,13 +142,15 @@ Result<Outcome> runRehearse(const Document& document, const json& options, Progr
   for (std::size_t i = 0; i < actions.size(); ++i)
     if (auto done = (*rehearsal)->act(actions[i], progress); !done) {
       if (done.error().kind == ErrorKind::cancelled) return failure(done.error());
-      outcome.report.warn(fmt::format("action {}", i), describe(done.error()));   // the device refused; the student goes on
+      outcome.report.warn(fmt::format("action {}", i),
+                          describe(done.error()));  // the device refused; the student goes on
     }
   outcome.answer = marksOf(**rehearsal, options.value("student", std::string()), language);
   if (auto written = writeMarks(**rehearsal, outcome.answer, folder); !written) return failure(written.error());
   outcome.text = marksText(outcome.answer);
   if (!outcome.answer["passed"].get<bool>()) outcome.report.lose(known->exercise.id, whyNotPassed(outcome.answer));
-  outcome.description = fmt::format("Rehearsed {}: {}", known->exercise.id, outcome.answer["passed"].get<bool>() ? "passed" : "not passed");
+  outcome.description = fmt::format("Rehearsed {}: {}", known->exercise.id,
+                                    outcome.answer["passed"].get<bool>() ? "passed" : "not passed");
   return outcome;
 }
 

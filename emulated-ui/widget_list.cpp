@@ -27,8 +27,9 @@ std::string effectOf(const WidgetRow& w) {
 }
 
 bool acts(WidgetKind kind) {
-  return kind != WidgetKind::status && kind != WidgetKind::readout && kind != WidgetKind::note && kind != WidgetKind::progress && kind != WidgetKind::lamp &&
-         kind != WidgetKind::level && kind != WidgetKind::plan;
+  return kind != WidgetKind::status && kind != WidgetKind::readout && kind != WidgetKind::note &&
+         kind != WidgetKind::progress && kind != WidgetKind::lamp && kind != WidgetKind::level &&
+         kind != WidgetKind::plan;
 }
 
 }  // namespace
@@ -40,12 +41,14 @@ Result<std::string> widgetList() {
     const auto type = loadDevice(device);
     if (!type) return failure(type.error());
     const Device d(*type);
-    std::map<std::string, std::pair<const WidgetRow*, std::string>> once;   // id: row, screens
+    std::map<std::string, std::pair<const WidgetRow*, std::string>> once;  // id: row, screens
     std::vector<std::string> order;
     const auto take = [&](const WidgetRow& w, const std::string& screen) {
       auto [at, fresh] = once.try_emplace(w.id, &w, screen);
-      if (fresh) order.push_back(w.id);
-      else at->second.second += ", " + screen;
+      if (fresh)
+        order.push_back(w.id);
+      else
+        at->second.second += ", " + screen;
     };
     for (const auto& key : (*type)->definition.keys) take(key, "body");
     for (const auto& screen : (*type)->definition.screens)
@@ -55,17 +58,22 @@ Result<std::string> widgetList() {
       const auto& [w, screens] = once[id];
       const bool act = acts(w->kind);
       acting += act ? 1 : 0;
-      rows += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", device.id, id, d.word(w->words), kWidgetKindNames[static_cast<int>(w->kind)], effectOf(*w), screens, w->source,
-                          act ? fmt::format("`Widgets.PressedOnEveryScreen` ({})", device.id) : fmt::format("`Widgets.ShowSomething` ({})", device.id));
+      rows += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", device.id, id, d.word(w->words),
+                          kWidgetKindNames[static_cast<int>(w->kind)], effectOf(*w), screens, w->source,
+                          act ? fmt::format("`Widgets.PressedOnEveryScreen` ({})", device.id)
+                              : fmt::format("`Widgets.ShowSomething` ({})", device.id));
     }
     summary += fmt::format("- {}: {} widgets, {} of them to press\n", device.title, order.size(), acting);
     all += order.size();
     all_act += acting;
   }
   return fmt::format(
-      "# Widgets of the emulated devices\n\nWritten by `list-widgets`; `WidgetList.DocsListThemAll` holds it against the tables. {} distinct widgets, {} of them to press.\n\n{}\n"
-      "Marks of the source: S… = read in that source, D = derived, G1 and G2 = general knowledge (weak: correct the label in emulated-ui/words), P = a choice of this emulator.\n\n"
-      "| device | widget | label | kind | what it does | screens | source | test |\n|---|---|---|---|---|---|---|---|\n{}",
+      "# Widgets of the emulated devices\n\nWritten by `list-widgets`; `WidgetList.DocsListThemAll` holds it against "
+      "the tables. {} distinct widgets, {} of them to press.\n\n{}\n"
+      "Marks of the source: S… = read in that source, D = derived, G1 and G2 = general knowledge (weak: correct the "
+      "label in emulated-ui/words), P = a choice of this emulator.\n\n"
+      "| device | widget | label | kind | what it does | screens | source | test "
+      "|\n|---|---|---|---|---|---|---|---|\n{}",
       all, all_act, summary, rows);
 }
 

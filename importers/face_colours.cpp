@@ -30,15 +30,17 @@ void asSurfaces(FaceSoup& soup, std::span<const std::uint32_t> colour_of_face) {
           surface_of.try_emplace(colour_of_face[f], static_cast<std::uint32_t>(soup.surfaces.size()));
       if (is_new) soup.surfaces.push_back(surfaceOf(colour_of_face[f]));
       const bool goes_on = !runs.empty() && runs.back().product == run.product && runs.back().surface == known->second;
-      if (goes_on) runs.back().end = f + 1;
-      else runs.push_back({f, f + 1, run.product, known->second});
+      if (goes_on)
+        runs.back().end = f + 1;
+      else
+        runs.push_back({f, f + 1, run.product, known->second});
     }
   soup.runs = std::move(runs);
 }
 
 void asVertexColours(FaceSoup& soup, std::span<const std::uint32_t> colour_of_face) {
   soup.surfaces[0].colour = {1, 1, 1, 1};
-  std::unordered_map<std::uint64_t, std::uint32_t> parted;   // looked up only, never walked
+  std::unordered_map<std::uint64_t, std::uint32_t> parted;  // looked up only, never walked
   std::vector<Eigen::Vector3d> positions;
   std::vector<std::array<std::uint8_t, 4>> colours;
   for (std::size_t f = 0; f < colour_of_face.size(); ++f)

@@ -37,7 +37,7 @@ class SoupModel {
 
  private:
   struct ProductRuns {
-    std::size_t begin = 0, end = 0;   // into runs
+    std::size_t begin = 0, end = 0;  // into runs
     Bounds box;
     Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   };

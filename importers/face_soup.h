@@ -27,12 +27,12 @@ struct FaceSoup {
   std::vector<Eigen::Vector2f> texture_coordinates;  // (0, 0) upper left
   std::vector<std::uint32_t> corners;                // in range
   std::vector<std::uint32_t> texture_corners;  // empty, or one for each corner; kNoTextureCorner where it has none
-  std::vector<std::uint64_t> face_begins;            // into corners, one more than faces; empty: triangles
-  std::vector<FaceRun> runs;                         // in the order of the faces
-  std::vector<Product> products;                     // each has a run
+  std::vector<std::uint64_t> face_begins;      // into corners, one more than faces; empty: triangles
+  std::vector<FaceRun> runs;                   // in the order of the faces
+  std::vector<Product> products;               // each has a run
   std::vector<Surface> surfaces;
   std::vector<std::shared_ptr<const Image>> images;
-  std::function<std::string(std::size_t face)> place;   // "line 7": where a face stands in the file
+  std::function<std::string(std::size_t face)> place;  // "line 7": where a face stands in the file
 
   std::uint64_t beginOf(std::size_t face) const { return face_begins.empty() ? 3 * face : face_begins[face]; }
 };

@@ -3,11 +3,10 @@
 
 #include <cerrno>
 #include <cstring>
-#include <utility>
-
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 namespace standpoint {
 
@@ -18,7 +17,7 @@ Result<FileBytes> FileBytes::open(const std::filesystem::path& file) {
   bytes.descriptor_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (bytes.descriptor_ < 0)
     return failure(ErrorKind::file_system, std::string("cannot read: ") + std::strerror(errno), file.string());
-  struct stat status{};
+  struct stat status {};
   if (::fstat(bytes.descriptor_, &status) != 0 || !S_ISREG(status.st_mode))
     return failure(ErrorKind::file_system, "is not a regular file", file.string());
   bytes.size_ = static_cast<std::uint64_t>(status.st_size);

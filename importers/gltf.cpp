@@ -49,7 +49,8 @@ class GltfImport {
     if (no_material_used_) environment().surfaces.push_back({"", {1, 1, 1, 1}, "no material"});  // glTF 2.0, 3.9.6
     listGltfRest(file_, seen, model_.report);
     if (collision_shapes_ > 0)
-      model_.report.note("/nodes", std::to_string(collision_shapes_) + " collision shapes for game engines (UCX_, -colonly) are left out");
+      model_.report.note("/nodes", std::to_string(collision_shapes_) +
+                                       " collision shapes for game engines (UCX_, -colonly) are left out");
     if (triangleCount(environment()) == 0)
       model_.report.warn("/nodes", "no node has a surface: there is nothing to scan");
     georeference(stored);
@@ -191,7 +192,7 @@ class GltfImport {
       if (product.name.empty()) product.name = whole + (whole.empty() ? "" : " ") + std::to_string(feature->row);
     }
     if (product.name.empty()) product.name = file_.text(mesh_json, "name");
-    std::vector<std::uint32_t> used;   // triangles are sorted by surface
+    std::vector<std::uint32_t> used;  // triangles are sorted by surface
     std::unique_copy(mesh.surface_of_triangle.begin(), mesh.surface_of_triangle.end(), std::back_inserter(used));
     for (const auto surface : used)
       if (surface < environment().surfaces.size()) product.materials.push_back(environment().surfaces[surface].name);

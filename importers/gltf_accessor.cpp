@@ -11,7 +11,14 @@ namespace standpoint {
 
 namespace {
 
-enum : std::size_t { kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126 };
+enum : std::size_t {
+  kByte = 5120,
+  kUnsignedByte = 5121,
+  kShort = 5122,
+  kUnsignedShort = 5123,
+  kUnsignedInt = 5125,
+  kFloat = 5126
+};
 
 std::size_t componentSize(std::size_t type) {
   switch (type) {
@@ -111,14 +118,20 @@ void GltfFile::decodeMeshopt(std::size_t buffer_view, const nlohmann::json& exte
 
   std::vector<std::uint8_t> out(count * stride);
   int wrong = 0;
-  if (attributes) wrong = meshopt_decodeVertexBuffer(out.data(), count, stride, packed_bytes.data(), packed_bytes.size());
+  if (attributes)
+    wrong = meshopt_decodeVertexBuffer(out.data(), count, stride, packed_bytes.data(), packed_bytes.size());
   if (triangles) wrong = meshopt_decodeIndexBuffer(out.data(), count, stride, packed_bytes.data(), packed_bytes.size());
-  if (sequence) wrong = meshopt_decodeIndexSequence(out.data(), count, stride, packed_bytes.data(), packed_bytes.size());
+  if (sequence)
+    wrong = meshopt_decodeIndexSequence(out.data(), count, stride, packed_bytes.data(), packed_bytes.size());
   if (wrong != 0) return fail(place, "the compressed data is damaged (meshoptimizer: " + std::to_string(wrong) + ")");
-  if (filter == "EXPONENTIAL" && attributes) meshopt_decodeFilterExp(out.data(), count, stride);
-  else if (filter == "OCTAHEDRAL" && attributes && (stride == 4 || stride == 8)) meshopt_decodeFilterOct(out.data(), count, stride);
-  else if (filter == "QUATERNION" && attributes && stride == 8) meshopt_decodeFilterQuat(out.data(), count, stride);
-  else if (!filter.empty() && filter != "NONE") return fail(place + "/filter", "'" + filter + "' does not fit the data");
+  if (filter == "EXPONENTIAL" && attributes)
+    meshopt_decodeFilterExp(out.data(), count, stride);
+  else if (filter == "OCTAHEDRAL" && attributes && (stride == 4 || stride == 8))
+    meshopt_decodeFilterOct(out.data(), count, stride);
+  else if (filter == "QUATERNION" && attributes && stride == 8)
+    meshopt_decodeFilterQuat(out.data(), count, stride);
+  else if (!filter.empty() && filter != "NONE")
+    return fail(place + "/filter", "'" + filter + "' does not fit the data");
   decoded_views_[buffer_view] = std::move(out);
 }
 
@@ -240,7 +253,8 @@ std::vector<std::uint32_t> GltfFile::indices(std::size_t accessor, const std::st
   const auto in = packed(accessor, asked_by);
   const bool right = in.components == 1 && (in.component_type == kUnsignedByte || in.component_type == kUnsignedShort ||
                                             in.component_type == kUnsignedInt);
-  if (!failed() && !right) fail("/accessors/" + std::to_string(accessor), "is not one of unsigned integers, as indices are");
+  if (!failed() && !right)
+    fail("/accessors/" + std::to_string(accessor), "is not one of unsigned integers, as indices are");
   if (failed() || !spend(in.count * sizeof(std::uint32_t), asked_by)) return {};
   std::vector<std::uint32_t> out(in.count);
   if (in.component_type == kUnsignedInt) {

@@ -16,15 +16,17 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kSeenAt = 1e-3;   // of the screen's height: a deviation that is larger shows
+constexpr double kSeenAt = 1e-3;  // of the screen's height: a deviation that is larger shows
 
 std::span<const Instance> instancesOf(const Environment& environment, std::uint32_t product) {
-  const auto range = std::equal_range(environment.instances.begin(), environment.instances.end(), Instance{0, product, {}},
-                                      [](const Instance& a, const Instance& b) { return a.product < b.product; });
+  const auto range =
+      std::equal_range(environment.instances.begin(), environment.instances.end(), Instance{0, product, {}},
+                       [](const Instance& a, const Instance& b) { return a.product < b.product; });
   return {range.first, range.second};
 }
 
-bool sameMeshes(const Environment& a, std::span<const Instance> of_a, const Environment& b, std::span<const Instance> of_b) {
+bool sameMeshes(const Environment& a, std::span<const Instance> of_a, const Environment& b,
+                std::span<const Instance> of_b) {
   return std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), [&](const Instance& x, const Instance& y) {
     return a.meshes[x.mesh] == b.meshes[y.mesh] && x.world_from_mesh.matrix() == y.world_from_mesh.matrix();
   });
@@ -69,7 +71,8 @@ class LevelWriter {
   }
 
  private:
-  // Not in the scene's tree: readers that do not know levels show the finest. Empty where nothing of the product is left.
+  // Not in the scene's tree: readers that do not know levels show the finest. Empty where nothing of the product is
+  // left.
   std::size_t levelNode(std::uint32_t product, std::size_t level, std::span<const Instance> instances) {
     const auto name = fmt::format("{} LOD{}", finest_.products[product].name, level + 1);
     Json parts = Json::array();
@@ -109,14 +112,16 @@ Json lossByClass(const Environment& finest, const GltfLevel& level) {
     row["max_deviation_m"] = std::max(row["max_deviation_m"].get<double>(), level.max_deviation_m[i]);
     row["mean_deviation_m"] = row["mean_deviation_m"].get<double>() + level.mean_deviation_m[i];
   }
-  for (auto& [name, row] : classes.items()) row["mean_deviation_m"] = row["mean_deviation_m"].get<double>() / static_cast<double>(counts[name]);
+  for (auto& [name, row] : classes.items())
+    row["mean_deviation_m"] = row["mean_deviation_m"].get<double>() / static_cast<double>(counts[name]);
   return classes;
 }
 
 // Unreal finds the shapes of a mesh by its name, so that it must be one word and no other's.
 std::string renderName(const std::string& name, std::uint32_t product) {
   std::string word;
-  for (const char c : name) word += std::isalnum(static_cast<unsigned char>(c)) != 0 && static_cast<unsigned char>(c) < 128 ? c : '_';
+  for (const char c : name)
+    word += std::isalnum(static_cast<unsigned char>(c)) != 0 && static_cast<unsigned char>(c) < 128 ? c : '_';
   return fmt::format("{}_{}", word.empty() ? "Object" : word, product);
 }
 
@@ -141,10 +146,12 @@ class CollisionWriter {
       if (!rename(product)) return;
       return place(shape, fmt::format("UCX_{}_{:02}", render_name_[product], ++count_[product]), true);
     }
-    if (collision_.naming == CollisionNaming::godot) return place(shape, name + (convex ? "-convcolonly" : "-colonly"), true);
+    if (collision_.naming == CollisionNaming::godot)
+      return place(shape, name + (convex ? "-convcolonly" : "-colonly"), true);
     place(shape, name + " shape", false);
     Json body = {{"name", name + " collider"}};
-    body["extensions"]["KHR_physics_rigid_bodies"]["collider"]["geometry"] = {{"node", scene_.json["nodes"].size() - 1}, {"convexHull", convex}};
+    body["extensions"]["KHR_physics_rigid_bodies"]["collider"]["geometry"] = {{"node", scene_.json["nodes"].size() - 1},
+                                                                              {"convexHull", convex}};
     body["extras"]["standpoint"] = {{"collision", true}};
     use(scene_.json, "KHR_physics_rigid_bodies");
     roots_.push_back(scene_.json["nodes"].size());
@@ -167,7 +174,8 @@ class CollisionWriter {
     name = renderName(model_.products[product].name, product);
     const auto mesh = scene_.mesh(model_.meshes[instances.front().mesh], name);
     scene_.json["meshes"][mesh]["name"] = name;
-    if (const auto node = node_of_product_.find(product); node != node_of_product_.end()) scene_.json["nodes"][node->second]["name"] = name;
+    if (const auto node = node_of_product_.find(product); node != node_of_product_.end())
+      scene_.json["nodes"][node->second]["name"] = name;
     return true;
   }
 
@@ -190,7 +198,9 @@ void addGltfLevels(GltfScene& scene, const Environment& finest, const std::vecto
   for (const auto& [product, node] : node_of_product) writer.add(product, node);
   auto& list = scene.json["asset"]["extras"]["standpoint"]["levels"];
   for (const auto& level : levels)
-    list.push_back({{"level", level.name}, {"triangles", triangleCount(*level.environment)}, {"classes", lossByClass(finest, level)}});
+    list.push_back({{"level", level.name},
+                    {"triangles", triangleCount(*level.environment)},
+                    {"classes", lossByClass(finest, level)}});
 }
 
 std::vector<std::size_t> addGltfCollision(GltfScene& scene, const Environment& model, const GltfCollision& collision,
@@ -201,12 +211,14 @@ std::vector<std::size_t> addGltfCollision(GltfScene& scene, const Environment& m
 bool isGltfCollision(const Json& node) {
   if (!node.is_object()) return false;
   if (const auto extras = node.find("extras"); extras != node.end() && extras->is_object())
-    if (const auto ours = extras->find("standpoint"); ours != extras->end() && ours->is_object() && ours->value("collision", Json()) == true)
+    if (const auto ours = extras->find("standpoint");
+        ours != extras->end() && ours->is_object() && ours->value("collision", Json()) == true)
       return true;
   const auto named = node.find("name");
   if (named == node.end() || !named->is_string()) return false;
   std::string name = *named;
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const std::string_view view = name;
   for (const char* prefix : {"ucx_", "ubx_", "usp_", "ucp_"})
     if (view.starts_with(prefix)) return true;

@@ -15,9 +15,10 @@ namespace standpoint {
 // The file being written, as far as companions add to it.
 struct GltfScene {
   nlohmann::json& json;
-  std::function<std::size_t(const std::shared_ptr<const Mesh>&, const std::string& name)> mesh;       // its index
-  std::function<nlohmann::json(const std::shared_ptr<const Mesh>&, const std::string& name)> bare;    // the same without materials
-  std::function<std::size_t(const Instance&, const nlohmann::json& mesh)> node;                       // adds one; its index
+  std::function<std::size_t(const std::shared_ptr<const Mesh>&, const std::string& name)> mesh;  // its index
+  std::function<nlohmann::json(const std::shared_ptr<const Mesh>&, const std::string& name)>
+      bare;                                                                      // the same without materials
+  std::function<std::size_t(const Instance&, const nlohmann::json& mesh)> node;  // adds one; its index
 };
 
 // Nodes of simpler levels, named by MSFT_lod in the node of each product that has them.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <draco/compression/decode.h>
 #include <exception>
 #include <limits>
+
+#include <draco/compression/decode.h>
 
 #include "importers/gltf_primitive.h"
 
@@ -19,16 +20,11 @@ bool wanted(const std::string& attribute) {
 // The accessor says whether integers are fractions of their type's largest.
 double largestOf(draco::DataType type) {
   switch (type) {
-    case draco::DT_INT8:
-      return 127;
-    case draco::DT_UINT8:
-      return 255;
-    case draco::DT_INT16:
-      return 32767;
-    case draco::DT_UINT16:
-      return 65535;
-    default:
-      return 1;
+    case draco::DT_INT8: return 127;
+    case draco::DT_UINT8: return 255;
+    case draco::DT_INT16: return 32767;
+    case draco::DT_UINT16: return 65535;
+    default: return 1;
   }
 }
 

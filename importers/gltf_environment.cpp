@@ -13,7 +13,7 @@ void readMeshes(GltfFile& file, const nlohmann::json& meshes, const GltfMaterial
                 Progress& progress) {
   const std::string place = "/asset/extras/standpoint/meshes";
   if (!meshes.is_array()) return file.fail(place, "is missing: this GLB is not one of ours, import it instead");
-  Report ignored;   // names points and nothing else: we wrote the file
+  Report ignored;  // names points and nothing else: we wrote the file
   const auto no_material = static_cast<std::uint32_t>(environment.surfaces.size());
   for (const auto& index : meshes) {
     if (file.failed() || progress.cancelled()) return;
@@ -33,7 +33,8 @@ void readMeshes(GltfFile& file, const nlohmann::json& meshes, const GltfMaterial
 void readInstances(GltfFile& file, Environment& environment) {
   const auto& children = memberOf(file.element("nodes", 0, ""), "children");
   for (std::size_t i = 0; !file.failed() && children.is_array() && i < children.size(); ++i) {
-    if (!children[i].is_number_unsigned()) return file.fail("/nodes/0/children", "holds something that is not an index");
+    if (!children[i].is_number_unsigned())
+      return file.fail("/nodes/0/children", "holds something that is not an index");
     const std::string place = "/nodes/" + std::to_string(children[i].get<std::size_t>());
     const auto& node = file.element("nodes", children[i].get<std::size_t>(), "/nodes/0/children");
     const auto& ours = memberOf(memberOf(node, "extras"), "standpoint");
@@ -61,7 +62,7 @@ Result<Environment> readEnvironmentGlb(const std::filesystem::path& path, Progre
     Report ignored;  // we wrote the file
     const auto& ours = memberOf(memberOf(memberOf(file.json(), "asset"), "extras"), "standpoint");
     auto materials = readGltfMaterials(file, ignored);
-    for (auto& use : materials.texture_of_material) use.vertex_alpha = true;   // in our own files nothing is left out
+    for (auto& use : materials.texture_of_material) use.vertex_alpha = true;  // in our own files nothing is left out
     materials.without_material.vertex_alpha = true;
     environment.surfaces = std::move(materials.surfaces);
     environment.images = std::move(materials.images);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "importers/gltf_extensions.h"
 
-#include "importers/gltf_physical_material.h"
-
 #include <algorithm>
 #include <array>
 #include <string_view>
+
+#include "importers/gltf_physical_material.h"
 
 namespace standpoint {
 
@@ -77,7 +77,8 @@ std::size_t seeCompanions(GltfFile& file, std::vector<bool>& seen) {
     const auto& ids = memberOf(memberOf(extensions, "MSFT_lod"), "ids");
     with_levels += ids.is_array() && !ids.empty() ? 1 : 0;
     pushAll(ids);
-    push(memberOf(memberOf(memberOf(memberOf(extensions, "KHR_physics_rigid_bodies"), "collider"), "geometry"), "node"));
+    push(
+        memberOf(memberOf(memberOf(memberOf(extensions, "KHR_physics_rigid_bodies"), "collider"), "geometry"), "node"));
   }
   while (!open.empty()) {
     const auto node = open.back();
@@ -107,7 +108,8 @@ void checkGltfExtensions(GltfFile& file, Report& report) {
 void listGltfRest(GltfFile& file, const std::vector<bool>& in_scene, Report& report) {
   auto seen = in_scene;
   if (const auto levels = seeCompanions(file, seen); levels > 0)
-    report.note("/nodes", std::to_string(levels) + " nodes have simpler levels of detail (MSFT_lod); the finest is read");
+    report.note("/nodes",
+                std::to_string(levels) + " nodes have simpler levels of detail (MSFT_lod); the finest is read");
   std::size_t elsewhere = 0;
   for (std::size_t i = 0; i < seen.size(); ++i)
     elsewhere += !seen[i] && memberOf(file.element("nodes", i, ""), "mesh").is_number() ? 1 : 0;

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstring>
 #include <optional>
-
 #include <sys/mman.h>
+
 #include <tbb/parallel_for.h>
 
 #include "importers/file_bytes.h"
@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint32_t kGlbMagic = 0x46546C67;
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
 constexpr std::uint32_t kBinaryChunk = 0x004E4942;
-constexpr std::size_t kLargest = 0xFFFFFFFFU;   // GLB lengths are 32 bit; no honest count is larger
+constexpr std::size_t kLargest = 0xFFFFFFFFU;  // GLB lengths are 32 bit; no honest count is larger
 
 std::uint32_t word(std::span<const std::uint8_t> bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -85,7 +85,8 @@ int hexDigit(char c) {
 std::string percentDecoded(std::string_view text) {
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool escape = text[i] == '%' && i + 2 < text.size() && hexDigit(text[i + 1]) >= 0 && hexDigit(text[i + 2]) >= 0;
+    const bool escape =
+        text[i] == '%' && i + 2 < text.size() && hexDigit(text[i + 1]) >= 0 && hexDigit(text[i + 2]) >= 0;
     result += escape ? static_cast<char>(hexDigit(text[i + 1]) * 16 + hexDigit(text[i + 2])) : text[i];
     if (escape) i += 2;
   }
@@ -124,7 +125,8 @@ void GltfFile::load() {
 }
 
 void GltfFile::splitBinary(std::span<const std::uint8_t> bytes) {
-  if (bytes.size() < 20) return fail("byte 0", "a GLB needs a header of 12 bytes and a JSON chunk; the file is cut off");
+  if (bytes.size() < 20)
+    return fail("byte 0", "a GLB needs a header of 12 bytes and a JSON chunk; the file is cut off");
   if (word(bytes, 4) != 2) return fail("byte 4", "GLB version " + std::to_string(word(bytes, 4)) + ", only 2 is read");
   if (word(bytes, 8) > bytes.size())
     return fail("byte 8", "the header states " + std::to_string(word(bytes, 8)) + " bytes, the file has " +
@@ -135,7 +137,8 @@ void GltfFile::splitBinary(std::span<const std::uint8_t> bytes) {
   for (int chunk = 0; at + 8 <= total; ++chunk) {
     const std::size_t length = word(bytes, at);
     const std::uint32_t kind = word(bytes, at + 4);
-    if (length > total - at - 8) return fail("byte " + std::to_string(at), "a chunk reaches beyond the end of the file");
+    if (length > total - at - 8)
+      return fail("byte " + std::to_string(at), "a chunk reaches beyond the end of the file");
     const auto content = bytes.subspan(at + 8, length);
     if (chunk == 0 && kind != kJsonChunk) return fail("byte 12", "the first chunk is not JSON");
     if (chunk == 0) parse(content);
@@ -155,7 +158,8 @@ void GltfFile::parse(std::span<const std::uint8_t> bytes) {
     std::replace_if(
         why.begin(), why.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
     return fail("byte " + std::to_string(e.byte), "not JSON: " + why);
-  } catch (const nlohmann::json::exception& e) {   // a number beyond double: the message quotes it, but does not say where
+  } catch (
+      const nlohmann::json::exception& e) {  // a number beyond double: the message quotes it, but does not say where
     const std::string why = e.what();
     const auto first = why.find('\''), last = why.rfind('\'');
     const std::string number = first < last ? why.substr(first + 1, last - first - 1) : std::string();
@@ -178,7 +182,7 @@ void askForLargePages(std::uint8_t* first, std::size_t size) {
   constexpr std::uintptr_t kLarge = std::uintptr_t{1} << 21U;
   const auto from = (reinterpret_cast<std::uintptr_t>(first) + kLarge - 1) / kLarge * kLarge;
   const auto to = (reinterpret_cast<std::uintptr_t>(first) + size) / kLarge * kLarge;
-  if (from < to) ::madvise(reinterpret_cast<void*>(from), to - from, MADV_HUGEPAGE);   // a wish only
+  if (from < to) ::madvise(reinterpret_cast<void*>(from), to - from, MADV_HUGEPAGE);  // a wish only
 }
 
 }  // namespace
@@ -186,7 +190,9 @@ void askForLargePages(std::uint8_t* first, std::size_t size) {
 Result<GltfFile::Block> GltfFile::readAll(const std::filesystem::path& file, const std::string& place,
                                           std::size_t at_most) {
   constexpr std::size_t kPart = std::size_t{1} << 24U;
-  const auto unread = [&](const Error& e) { return failure(e.kind, "cannot read " + file.string() + ": " + e.message, place); };
+  const auto unread = [&](const Error& e) {
+    return failure(e.kind, "cannot read " + file.string() + ": " + e.message, place);
+  };
   const auto bytes = FileBytes::open(file);
   if (!bytes) return unread(bytes.error());
   Block block{nullptr, std::min<std::size_t>(bytes->size(), at_most)};
@@ -195,7 +201,8 @@ Result<GltfFile::Block> GltfFile::readAll(const std::filesystem::path& file, con
   std::vector<std::optional<Error>> wrong(block.size / kPart + 1);
   tbb::parallel_for(std::size_t{0}, wrong.size(), [&](std::size_t part) {
     const std::size_t from = part * kPart, count = std::min(kPart, block.size - from);
-    if (auto read = bytes->read(from, reinterpret_cast<char*>(block.data.get()) + from, count); !read) wrong[part] = read.error();
+    if (auto read = bytes->read(from, reinterpret_cast<char*>(block.data.get()) + from, count); !read)
+      wrong[part] = read.error();
   });
   for (const auto& e : wrong)
     if (e) return unread(*e);
@@ -250,19 +257,20 @@ void GltfFile::loadBuffer(std::size_t index, std::span<const std::uint8_t> binar
   } else if (index == 0 && !binary_chunk.empty()) {
     buffers_.back() = binary_chunk.first(std::min(size, binary_chunk.size()));
   } else {
-    return;   // no data: allowed for the fallback of EXT_meshopt_compression; slice() refuses any other use
+    return;  // no data: allowed for the fallback of EXT_meshopt_compression; slice() refuses any other use
   }
   if (buffers_.back().size() < size)
     fail(place, "states " + std::to_string(size) + " bytes but has " + std::to_string(buffers_.back().size()));
 }
 
-std::size_t GltfFile::natural(const nlohmann::json& object, const char* key, std::size_t fallback, const std::string& place) {
+std::size_t GltfFile::natural(const nlohmann::json& object, const char* key, std::size_t fallback,
+                              const std::string& place) {
   const auto& value = memberOf(object, key);
   if (value.is_null()) return fallback;
   if (value.is_number_unsigned() && value.get<std::uint64_t>() <= kLargest) return value.get<std::size_t>();
   if (value.is_number_float() && value.get<double>() >= 0 && value.get<double>() <= static_cast<double>(kLargest) &&
       value.get<double>() == static_cast<double>(static_cast<std::size_t>(value.get<double>())))
-    return static_cast<std::size_t>(value.get<double>());   // "12.0", which some exporters write
+    return static_cast<std::size_t>(value.get<double>());  // "12.0", which some exporters write
   fail(place + "/" + key, "is not a whole number from 0 to 4294967295");
   return fallback;
 }

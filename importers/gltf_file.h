@@ -18,12 +18,12 @@
 
 namespace standpoint {
 
-// A glTF 2.0 file, .gltf or .glb, with every index, offset and size checked where it is used, so that a wrong or hostile
-// file ends in a message that names its place. The first fault is kept and every later answer is empty: callers test
-// `failed()` where they would otherwise loop, and once at the end.
+// A glTF 2.0 file, .gltf or .glb, with every index, offset and size checked where it is used, so that a wrong or
+// hostile file ends in a message that names its place. The first fault is kept and every later answer is empty: callers
+// test `failed()` where they would otherwise loop, and once at the end.
 //
-// Not tinygltf: version 2.7 as packaged follows unchecked indices in Draco primitives (a segmentation fault for one wrong
-// number), refuses EXT_meshopt_compression and names no place in its messages.
+// Not tinygltf: version 2.7 as packaged follows unchecked indices in Draco primitives (a segmentation fault for one
+// wrong number), refuses EXT_meshopt_compression and names no place in its messages.
 class GltfFile {
  public:
   explicit GltfFile(std::filesystem::path path) : path_(std::move(path)) {}
@@ -39,7 +39,8 @@ class GltfFile {
   // Members of an object, each with the place of the object for the message. A missing one gives the fallback.
   std::size_t natural(const nlohmann::json& object, const char* key, std::size_t fallback, const std::string& place);
   std::optional<std::size_t> index(const nlohmann::json& object, const char* key, const std::string& place);
-  std::vector<double> numbers(const nlohmann::json& object, const char* key, std::size_t count, const std::string& place);
+  std::vector<double> numbers(const nlohmann::json& object, const char* key, std::size_t count,
+                              const std::string& place);
   std::string text(const nlohmann::json& object, const char* key) const;
 
   std::size_t count(const char* array) const;

@@ -16,10 +16,14 @@ using Json = nlohmann::json;
 
 // Material extensions of which a surface keeps the factors; of any other the name is reported.
 constexpr std::array<std::string_view, 9> kKept = {kGltfPhysicalMaterial,
-                                                   "KHR_materials_transmission", "KHR_materials_ior",
-                                                   "KHR_materials_volume",       "KHR_materials_clearcoat",
-                                                   "KHR_materials_unlit",        "KHR_materials_pbrSpecularGlossiness",
-                                                   "KHR_materials_specular",     "KHR_materials_emissive_strength"};
+                                                   "KHR_materials_transmission",
+                                                   "KHR_materials_ior",
+                                                   "KHR_materials_volume",
+                                                   "KHR_materials_clearcoat",
+                                                   "KHR_materials_unlit",
+                                                   "KHR_materials_pbrSpecularGlossiness",
+                                                   "KHR_materials_specular",
+                                                   "KHR_materials_emissive_strength"};
 
 float floatOr(const Json& object, const char* key, double fallback) {
   const auto& value = memberOf(object, key);

@@ -27,14 +27,13 @@ struct GltfSurfaceFigure {
   const char* key;
   std::optional<float> Surface::*value;
 };
-inline constexpr std::array kGltfSurfaceFigures{
-    GltfSurfaceFigure{"metallic", &Surface::metallic},
-    GltfSurfaceFigure{"roughness", &Surface::roughness},
-    GltfSurfaceFigure{"transmission", &Surface::transmission},
-    GltfSurfaceFigure{"index_of_refraction", &Surface::index_of_refraction},
-    GltfSurfaceFigure{"thickness_m", &Surface::thickness_m},
-    GltfSurfaceFigure{"clearcoat", &Surface::clearcoat},
-    GltfSurfaceFigure{"specular", &Surface::specular}};
+inline constexpr std::array kGltfSurfaceFigures{GltfSurfaceFigure{"metallic", &Surface::metallic},
+                                                GltfSurfaceFigure{"roughness", &Surface::roughness},
+                                                GltfSurfaceFigure{"transmission", &Surface::transmission},
+                                                GltfSurfaceFigure{"index_of_refraction", &Surface::index_of_refraction},
+                                                GltfSurfaceFigure{"thickness_m", &Surface::thickness_m},
+                                                GltfSurfaceFigure{"clearcoat", &Surface::clearcoat},
+                                                GltfSurfaceFigure{"specular", &Surface::specular}};
 
 struct GltfMaterials {
   std::vector<Surface> surfaces;

@@ -138,8 +138,10 @@ class MeshReader {
           return file_.fail(primitive.place() + "/attributes/COLOR_0",
                             "element " + std::to_string(i) + " is not a finite number");
         const auto bits = sixteenBits(values[n * i + k]);
-        if (k < 3) c[k] = srgb8FromLinear16(bits);
-        else if (use.vertex_alpha) c[k] = static_cast<std::uint8_t>((bits + 128) / 257);
+        if (k < 3)
+          c[k] = srgb8FromLinear16(bits);
+        else if (use.vertex_alpha)
+          c[k] = static_cast<std::uint8_t>((bits + 128) / 257);
       }
     }
   }
@@ -215,7 +217,7 @@ Mesh readGltfPoints(GltfFile& file, std::size_t index) {
   const auto& primitives = memberOf(file.element("meshes", index, place), "primitives");
   Report ignored;
   GltfMaterials none;
-  none.without_material.vertex_alpha = true;   // our own file: nothing is left out
+  none.without_material.vertex_alpha = true;  // our own file: nothing is left out
   const GltfPose rest;
   MeshReader reader(file, none, 0, rest, ignored);
   if (primitives.is_array() && !primitives.empty()) reader.addPoints(primitives[0], place + "/primitives/0");

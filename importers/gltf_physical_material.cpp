@@ -19,7 +19,8 @@ nlohmann::json gltfPhysicalMaterial(const PhysicalMaterial& m) {
   if (m.retro_gain > 0) json["retroGain"] = m.retro_gain;
   if (!m.wet_of.empty()) json["wetOf"] = m.wet_of;
   for (const auto& gap : m.gaps) json["gaps"].push_back(gap);
-  for (const auto& source : m.sources) json["sources"].push_back({{"figure", source.figure}, {"text", source.text}, {"licence", source.licence}});
+  for (const auto& source : m.sources)
+    json["sources"].push_back({{"figure", source.figure}, {"text", source.text}, {"licence", source.licence}});
   return json;
 }
 

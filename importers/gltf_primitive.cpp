@@ -43,14 +43,10 @@ std::string GltfPrimitive::whatItIs() {
   const auto counted = indices ? indices : accessor("POSITION");
   const std::size_t n = counted ? file_.countOf(*counted, place_) : 0;
   switch (mode_) {
-    case kPoints:
-      return std::to_string(n) + " points";
-    case kLines:
-      return std::to_string(n / 2) + " lines";
-    case kLineLoop:
-      return "a loop of " + std::to_string(n) + " lines";
-    default:
-      return "a strip of " + std::to_string(n > 0 ? n - 1 : 0) + " lines";
+    case kPoints: return std::to_string(n) + " points";
+    case kLines: return std::to_string(n / 2) + " lines";
+    case kLineLoop: return "a loop of " + std::to_string(n) + " lines";
+    default: return "a strip of " + std::to_string(n > 0 ? n - 1 : 0) + " lines";
   }
 }
 

@@ -31,7 +31,8 @@ Eigen::Affine3d placement(GltfFile& file, const nlohmann::json& json, const std:
 }
 
 // Indices of an array of indices such as /scenes/0/nodes, last first, ready for a stack.
-std::vector<std::size_t> reversed(GltfFile& file, const nlohmann::json& object, const char* key, const std::string& place) {
+std::vector<std::size_t> reversed(GltfFile& file, const nlohmann::json& object, const char* key,
+                                  const std::string& place) {
   std::vector<std::size_t> result;
   const auto& list = memberOf(object, key);
   if (!list.is_null() && !list.is_array()) file.fail(place + "/" + key, "is not an array");
@@ -153,14 +154,17 @@ std::vector<Eigen::Affine3d> instancesOf(GltfFile& file, const GltfNode& node) {
   };
   const auto t = column("TRANSLATION", 3), r = column("ROTATION", 4), s = column("SCALE", 3);
   const std::size_t count = std::max({t.size() / 3, r.size() / 4, s.size() / 3});
-  const auto fits = [&](const std::vector<float>& values, std::size_t n) { return values.empty() || values.size() == n * count; };
+  const auto fits = [&](const std::vector<float>& values, std::size_t n) {
+    return values.empty() || values.size() == n * count;
+  };
   if (!fits(t, 3) || !fits(r, 4) || !fits(s, 3)) file.fail(place, "its accessors differ in count");
   if (file.failed() || !file.spend(count * sizeof(Eigen::Affine3d), place)) return {};
   std::vector<Eigen::Affine3d> result;
   for (std::size_t i = 0; i < count; ++i) {
     const auto row = [i](const std::vector<float>& values, std::size_t n) {
-      return values.empty() ? std::vector<double>{} : std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(i * n),
-                                                                          values.begin() + static_cast<std::ptrdiff_t>((i + 1) * n));
+      return values.empty() ? std::vector<double>{}
+                            : std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(i * n),
+                                                  values.begin() + static_cast<std::ptrdiff_t>((i + 1) * n));
     };
     result.push_back(compose(row(t, 3), row(r, 4), row(s, 3)));
   }

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "importers/gltf_companions.h"
-#include "importers/gltf_physical_material.h"
 #include "importers/gltf_georeference.h"
+#include "importers/gltf_physical_material.h"
 #include "importers/gltf_product.h"
 #include "importers/gltf_writer_material.h"
 #include "importers/importers.h"
@@ -44,7 +44,8 @@ class GlbWriter {
  public:
   enum class For { project, others };
 
-  GlbWriter(const Environment& environment, const Georeference& georeference, For reader, const GltfCompanions& companions = {})
+  GlbWriter(const Environment& environment, const Georeference& georeference, For reader,
+            const GltfCompanions& companions = {})
       : environment_(environment), reader_(reader) {
     json_["asset"] = {{"version", "2.0"}, {"generator", "Standpoint"}};
     auto& ours = json_["asset"]["extras"]["standpoint"];
@@ -82,7 +83,8 @@ class GlbWriter {
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const std::size_t total = 12 + 8 + text.size() + (size_ > 0 ? 8 + size_ : 0);
     if (total > 0xFFFFFFFFU)
-      return failure(ErrorKind::unusable, "the environment needs more than the 4 GiB that a GLB can hold", file.string());
+      return failure(ErrorKind::unusable, "the environment needs more than the 4 GiB that a GLB can hold",
+                     file.string());
     std::ofstream out(file, std::ios::binary);
     const auto word = [&](std::size_t value) {
       const auto v = static_cast<std::uint32_t>(value);
@@ -121,7 +123,8 @@ class GlbWriter {
     for (std::size_t i = 0; i < environment_.surfaces.size(); ++i)
       json_["materials"].push_back(gltfMaterial(environment_.surfaces[i]));
     for (std::size_t i = 0; i < companions.physical.size(); ++i)
-      if (companions.physical[i] != nullptr) json_["materials"][i]["extensions"][kGltfPhysicalMaterial] = gltfPhysicalMaterial(*companions.physical[i]);
+      if (companions.physical[i] != nullptr)
+        json_["materials"][i]["extensions"][kGltfPhysicalMaterial] = gltfPhysicalMaterial(*companions.physical[i]);
     addImages();
     for (std::size_t i = 0; i < environment_.surfaces.size(); ++i)
       if (const auto texture = textureOf(i); !texture.is_null())
@@ -210,7 +213,8 @@ class GlbWriter {
     return attributes;
   }
 
-  // One primitive for each run of a surface; a mesh of vertices only is kept as points, for a glTF mesh cannot be empty.
+  // One primitive for each run of a surface; a mesh of vertices only is kept as points, for a glTF mesh cannot be
+  // empty.
   Json addMesh(const std::shared_ptr<const Mesh>& shared, bool with_materials) {
     const Mesh& mesh = *shared;
     stored_.push_back(shared);
@@ -226,9 +230,7 @@ class GlbWriter {
                                          {"componentType", kUnsignedInt},
                                          {"type", "SCALAR"},
                                          {"count", (to - from) * 3}});
-      primitives.push_back({{"attributes", attributes},
-                            {"indices", accessor},
-                            {"mode", kTriangles}});
+      primitives.push_back({{"attributes", attributes}, {"indices", accessor}, {"mode", kTriangles}});
       if (with_materials) primitives.back()["material"] = materialFor(mesh, surfaces[from]);
     }
     if (primitives.empty()) primitives.push_back({{"attributes", attributes}, {"mode", kPoints}});
@@ -239,7 +241,8 @@ class GlbWriter {
   // Of a companion: stored once, whoever shows it.
   Json meshOf(const std::shared_ptr<const Mesh>& mesh, const std::string& name, bool with_materials) {
     if (gltf_mesh_.empty())
-      for (std::size_t i = 0; i < environment_.meshes.size(); ++i) gltf_mesh_.emplace(environment_.meshes[i].get(), gltf_mesh_of_[i]);
+      for (std::size_t i = 0; i < environment_.meshes.size(); ++i)
+        gltf_mesh_.emplace(environment_.meshes[i].get(), gltf_mesh_of_[i]);
     const auto [found, fresh] = gltf_mesh_.try_emplace(mesh.get(), nullptr);
     if (!fresh) return found->second;
     found->second = addMesh(mesh, with_materials);
@@ -268,7 +271,8 @@ class GlbWriter {
         children.push_back(addProduct(first, last));
         node_of_product_[instances[first].product] = children.back();
       } else {
-        for (std::size_t i = first; i < last; ++i) children.push_back(addInstance(instances[i], gltf_mesh_of_[instances[i].mesh]));
+        for (std::size_t i = first; i < last; ++i)
+          children.push_back(addInstance(instances[i], gltf_mesh_of_[instances[i].mesh]));
       }
     }
     GltfScene scene{json_, [&](const auto& mesh, const auto& name) { return meshOf(mesh, name, true); },
@@ -276,7 +280,8 @@ class GlbWriter {
                     [&](const auto& instance, const auto& mesh) { return addInstance(instance, mesh); }};
     addGltfLevels(scene, environment_, companions.levels, node_of_product_);
     if (companions.collision)
-      for (const auto node : addGltfCollision(scene, environment_, *companions.collision, node_of_product_)) children.push_back(node);
+      for (const auto node : addGltfCollision(scene, environment_, *companions.collision, node_of_product_))
+        children.push_back(node);
     if (!children.empty()) json_["nodes"][0]["children"] = std::move(children);
     json_["scene"] = 0;
     json_["scenes"] = Json::array({Json{{"nodes", Json::array({0})}}});
@@ -330,11 +335,18 @@ class GlbWriter {
 
   // A node's matrix must be rotation · scale (glTF 2.0 §3.5.3); what is sheared becomes two nodes by M = (U S) Vᵀ.
   void addSheared(const Instance& instance, const Json& mesh, Json& node) {
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(instance.world_from_mesh.linear(), Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(instance.world_from_mesh.linear(),
+                                                Eigen::ComputeFullU | Eigen::ComputeFullV);
     Eigen::Matrix3d u = svd.matrixU(), v = svd.matrixV();
     Eigen::Vector3d s = svd.singularValues();
-    if (u.determinant() < 0) { u = -u; s = -s; }
-    if (v.determinant() < 0) { v = -v; s = -s; }
+    if (u.determinant() < 0) {
+      u = -u;
+      s = -s;
+    }
+    if (v.determinant() < 0) {
+      v = -v;
+      s = -s;
+    }
     const auto rotation = [](const Eigen::Matrix3d& r) {
       const Eigen::Quaterniond q = Eigen::Quaterniond(r).normalized();
       return Json{q.x(), q.y(), q.z(), q.w()};
@@ -343,7 +355,9 @@ class GlbWriter {
     node["translation"] = {t.x(), t.y(), t.z()};
     node["rotation"] = rotation(u);
     node["scale"] = {s.x(), s.y(), s.z()};
-    Json inner = {{"name", node["name"]}, {"rotation", rotation(v.transpose())}, {"extras", {{"standpoint", {{"product", instance.product}}}}}};
+    Json inner = {{"name", node["name"]},
+                  {"rotation", rotation(v.transpose())},
+                  {"extras", {{"standpoint", {{"product", instance.product}}}}}};
     if (!mesh.is_null()) inner["mesh"] = mesh;
     json_["nodes"].push_back(std::move(inner));
     node["children"] = Json::array({json_["nodes"].size() - 1});
@@ -386,13 +400,13 @@ class GlbWriter {
   const Environment& environment_;
   For reader_;
   Json json_ = Json::object();
-  std::vector<Json> gltf_mesh_of_;               // of the environment's meshes; null for one without vertices
-  std::map<const Mesh*, Json> gltf_mesh_;        // with those of companions
+  std::vector<Json> gltf_mesh_of_;         // of the environment's meshes; null for one without vertices
+  std::map<const Mesh*, Json> gltf_mesh_;  // with those of companions
   std::map<std::uint32_t, std::size_t> node_of_product_;
-  std::vector<std::shared_ptr<const Mesh>> stored_;   // in the order of the views
-  std::vector<Json> texture_of_image_;           // null for an image that glTF does not know
-  std::map<std::size_t, std::size_t> plain_of_;  // surface with an image → material without it
-  std::size_t size_ = 0;             // of the binary chunk; every part is a multiple of 4
+  std::vector<std::shared_ptr<const Mesh>> stored_;  // in the order of the views
+  std::vector<Json> texture_of_image_;               // null for an image that glTF does not know
+  std::map<std::size_t, std::size_t> plain_of_;      // surface with an image → material without it
+  std::size_t size_ = 0;                             // of the binary chunk; every part is a multiple of 4
 };
 
 Result<void> writable(const Environment& environment, const std::filesystem::path& file) {
@@ -412,7 +426,8 @@ Result<void> writeEnvironmentGlb(const Environment& environment, const Georefere
 }
 
 Result<void> exportEnvironmentGltf(const Environment& environment, const Georeference& georeference,
-                                   const std::filesystem::path& file, Progress& progress, const GltfCompanions& companions) {
+                                   const std::filesystem::path& file, Progress& progress,
+                                   const GltfCompanions& companions) {
   progress.stage("Writing glTF");
   if (auto ok = writable(environment, file); !ok) return ok;
   GlbWriter writer(environment, georeference, GlbWriter::For::others, companions);

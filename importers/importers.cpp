@@ -27,9 +27,10 @@ struct Magic {
   const char* importer;
 };
 // The first bytes after a byte-order mark and white space.
-constexpr std::array kMagics{Magic{"ISO-10303-21", "ifc"}, Magic{"PK\x03\x04", "ifc"}, Magic{"\x1F\x8B", "ifc"}, Magic{"glTF", "gltf"}, Magic{"{", "gltf"},
-                             Magic{"ply\n", "ply"}, Magic{"ply\r", "ply"}, Magic{"solid ", "stl"}, Magic{"solid\n", "stl"}, Magic{"solid\r", "stl"},
-                             Magic{"mtllib ", "obj"}, Magic{"v ", "obj"}};
+constexpr std::array kMagics{Magic{"ISO-10303-21", "ifc"}, Magic{"PK\x03\x04", "ifc"}, Magic{"\x1F\x8B", "ifc"},
+                             Magic{"glTF", "gltf"},        Magic{"{", "gltf"},         Magic{"ply\n", "ply"},
+                             Magic{"ply\r", "ply"},        Magic{"solid ", "stl"},     Magic{"solid\n", "stl"},
+                             Magic{"solid\r", "stl"},      Magic{"mtllib ", "obj"},    Magic{"v ", "obj"}};
 
 std::string firstBytes(const std::filesystem::path& file) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"), &std::fclose);
@@ -60,7 +61,8 @@ bool hasSizeOfStl(const std::filesystem::path& file) {
 
 const Importer* byExtension(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const Importer& i : importers())
     if (std::find(i.extensions.begin(), i.extensions.end(), extension) != i.extensions.end()) return &i;
   return nullptr;
@@ -70,11 +72,7 @@ const Importer* byExtension(const std::filesystem::path& file) {
 
 std::span<const Importer> importers() {
   static const std::array kImporters{
-      kIfcImporter,
-      kGltfImporter,
-      kObjImporter,
-      kPlyImporter,
-      kStlImporter,
+      kIfcImporter, kGltfImporter, kObjImporter, kPlyImporter, kStlImporter,
   };
   return kImporters;
 }
@@ -86,7 +84,9 @@ Result<ImportedModel> importFile(const std::filesystem::path& file, const Import
   const Importer* importer = byContent(firstBytes(file));
   if (!importer) importer = byExtension(file);
   if (!importer && hasSizeOfStl(file)) importer = &kStlImporter;
-  if (!importer) return failure(ErrorKind::unusable, "no importer knows this format: IFC, glTF, OBJ, PLY and STL are read", file.string());
+  if (!importer)
+    return failure(ErrorKind::unusable, "no importer knows this format: IFC, glTF, OBJ, PLY and STL are read",
+                   file.string());
   auto model = importer->read(file, options, progress);
   if (!model) return model;
   const double stated = model->metres_per_unit > 0 ? model->metres_per_unit : 1;

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMaxImageBytes = 256U << 20U;
-constexpr std::size_t kMaxEntries = 100000;   // of a folder that is searched for a name in another case
+constexpr std::size_t kMaxEntries = 100000;  // of a folder that is searched for a name in another case
 
 std::string lower(std::string text) {
   for (auto& c : text)
@@ -104,9 +104,12 @@ Result<std::int32_t> ImageFiles::add(const fs::path& file) {
   if (!text) return failure(text.error());
   Image image;
   image.name = file.filename().string();
-  if (text->starts_with("\x89PNG\r\n\x1A\n")) image.media_type = "image/png";
-  else if (text->starts_with("\xFF\xD8\xFF")) image.media_type = "image/jpeg";
-  else return failure(ErrorKind::unusable, "is neither PNG nor JPEG, which are what is read; convert it", image.name);
+  if (text->starts_with("\x89PNG\r\n\x1A\n"))
+    image.media_type = "image/png";
+  else if (text->starts_with("\xFF\xD8\xFF"))
+    image.media_type = "image/jpeg";
+  else
+    return failure(ErrorKind::unusable, "is neither PNG nor JPEG, which are what is read; convert it", image.name);
   image.bytes.resize(text->size());
   std::memcpy(image.bytes.data(), text->data(), text->size());
   images_.push_back(std::make_shared<const Image>(std::move(image)));

@@ -20,7 +20,7 @@ class ModelFolder {
 
   struct Found {
     std::filesystem::path file;
-    bool as_named = true;   // false: the case differs, or the folders of the name were left out
+    bool as_named = true;  // false: the case differs, or the folders of the name were left out
   };
   // `name` as written: with backslashes, quotes, another case, or a path of another machine, of which only the last
   // part is looked for. Relative to `base` first (the folder of the file that names it), then to the model's folder.

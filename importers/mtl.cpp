@@ -52,23 +52,35 @@ class MtlParser {
     if (!current_) return orphan(key);
     if (isMap(key)) return map(key, rest);
     auto& s = current_->surface;
-    if (key == "kd") kd(rest);
+    if (key == "kd")
+      kd(rest);
     else if (key == "d")
       number(rest.starts_with("-halo") ? rest.substr(5) : rest, [&](double v) { s.colour.a = unit(v), has_d_ = true; });
-    else if (key == "tr") number(rest, [&](double v) { if (!has_d_) s.colour.a = unit(1 - v); });
+    else if (key == "tr")
+      number(rest, [&](double v) {
+        if (!has_d_) s.colour.a = unit(1 - v);
+      });
     else if (key == "ni")
       number(rest, [&](double v) {
         if (v > 1 && v <= 10) s.index_of_refraction = static_cast<float>(v);
       });
-    else if (key == "pr") number(rest, [&](double v) { s.roughness = unit(v); });
-    else if (key == "pm") number(rest, [&](double v) { s.metallic = unit(v); });
-    else if (key == "pc") number(rest, [&](double v) { s.clearcoat = unit(v); });
-    else if (key == "ks") ks(rest);
-    else if (key == "illum") number(rest, [&](double v) { s.unlit = v == 0; });
-    else other(key, rest);
+    else if (key == "pr")
+      number(rest, [&](double v) { s.roughness = unit(v); });
+    else if (key == "pm")
+      number(rest, [&](double v) { s.metallic = unit(v); });
+    else if (key == "pc")
+      number(rest, [&](double v) { s.clearcoat = unit(v); });
+    else if (key == "ks")
+      ks(rest);
+    else if (key == "illum")
+      number(rest, [&](double v) { s.unlit = v == 0; });
+    else
+      other(key, rest);
     // Light goes through what is not opaque.
-    if (s.colour.a < 1) s.transmission = 1 - s.colour.a;
-    else s.transmission.reset();
+    if (s.colour.a < 1)
+      s.transmission = 1 - s.colour.a;
+    else
+      s.transmission.reset();
   }
 
   void begin(const std::string& name) {
@@ -153,9 +165,12 @@ class MtlParser {
     Eigen::Vector2f scale(1, 1), offset(0, 0);
     const auto file = withoutOptions(rest, scale, offset);
     if (file.empty()) return report_.warn(place(), key + " names no file");
-    if (key == "map_kd") current_->texture = file, current_->texture_scale = scale, current_->texture_offset = offset;
-    else if (key == "map_d") current_->cutout = file;
-    else current_->other_maps.try_emplace(key, file);
+    if (key == "map_kd")
+      current_->texture = file, current_->texture_scale = scale, current_->texture_offset = offset;
+    else if (key == "map_d")
+      current_->cutout = file;
+    else
+      current_->other_maps.try_emplace(key, file);
   }
 
   // "-s 2 2 -clamp on brick wall.png" → "brick wall.png"
@@ -177,13 +192,14 @@ class MtlParser {
           scale = Eigen::Vector2f(static_cast<float>(n[0]), static_cast<float>(count > 1 ? n[1] : 1));
         else if (option == "-o" && count > 0)
           offset = Eigen::Vector2f(static_cast<float>(n[0]), static_cast<float>(n[1]));
-        else options_.insert(option);
+        else
+          options_.insert(option);
       } else if (takesOne(option)) {
         cursor.skipSpaces();
         cursor.word();
         if (option != "-type") options_.insert(option);
       } else {
-        return rest.substr(static_cast<std::size_t>(from - line.data()));   // a file may be called so
+        return rest.substr(static_cast<std::size_t>(from - line.data()));  // a file may be called so
       }
     }
   }

@@ -10,7 +10,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kLargest = 1e13;   // no coordinate is beyond, in whatever unit; and float can hold it
+constexpr double kLargest = 1e13;  // no coordinate is beyond, in whatever unit; and float can hold it
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
 class ChunkParser {
@@ -20,8 +20,10 @@ class ChunkParser {
   ObjChunk run() {
     while (!text_.done() && !out_.fault) {
       text_.skipSpaces();
-      if (text_.atLineEnd()) text_.finishStatement();
-      else statement();
+      if (text_.atLineEnd())
+        text_.finishStatement();
+      else
+        statement();
     }
     if (!out_.texture_corners.empty()) out_.texture_corners.resize(out_.corners.size(), kNoObjIndex);
     out_.lines = text_.line();
@@ -33,12 +35,18 @@ class ChunkParser {
     line_ = text_.line();
     const char* p = text_.at();
     const bool space_second = p[1] == ' ' || p[1] == '\t';
-    if (p[0] == 'v' && space_second) vertex();
-    else if (p[0] == 'f' && space_second) face(1);
-    else if (p[0] == 'v' && p[1] == 'n') text_.skipStatement(), ++out_.known_statements;
-    else if (p[0] == 'v' && p[1] == 't') textureCoordinate();
-    else if (p[0] == '#') text_.skipComment();
-    else seldom();
+    if (p[0] == 'v' && space_second)
+      vertex();
+    else if (p[0] == 'f' && space_second)
+      face(1);
+    else if (p[0] == 'v' && p[1] == 'n')
+      text_.skipStatement(), ++out_.known_statements;
+    else if (p[0] == 'v' && p[1] == 't')
+      textureCoordinate();
+    else if (p[0] == '#')
+      text_.skipComment();
+    else
+      seldom();
   }
 
   void fault(std::string message) {
@@ -98,7 +106,7 @@ class ChunkParser {
     double n[2] = {0, 0};
     ++out_.known_statements;
     if (numbers(n, 2) < 1) n[0] = kNone;
-    const Eigen::Vector2f uv(static_cast<float>(n[0]), static_cast<float>(1 - n[1]));   // OBJ's origin is at the bottom
+    const Eigen::Vector2f uv(static_cast<float>(n[0]), static_cast<float>(1 - n[1]));  // OBJ's origin is at the bottom
     if (!uv.allFinite()) out_.tallies[std::string(kWrongTexture)].add(line_);
     out_.texture_coordinates.push_back(uv.allFinite() ? uv : Eigen::Vector2f::Zero());
   }
@@ -179,13 +187,18 @@ class ChunkParser {
 
   void seldom() {
     const auto key = text_.word();
-    if (key == "f" || key == "fo") return face(0);   // `fo` is what version 2 called it
+    if (key == "f" || key == "fo") return face(0);  // `fo` is what version 2 called it
     if (key == "v") return text_.finishStatement(), badVertex("a vertex needs three numbers");
-    if (key == "o") event(ObjChange::object);
-    else if (key == "g") event(ObjChange::group);
-    else if (key == "usemtl") event(ObjChange::material);
-    else if (key == "mtllib") event(ObjChange::library);
-    else other(key);
+    if (key == "o")
+      event(ObjChange::object);
+    else if (key == "g")
+      event(ObjChange::group);
+    else if (key == "usemtl")
+      event(ObjChange::material);
+    else if (key == "mtllib")
+      event(ObjChange::library);
+    else
+      other(key);
   }
 
   void event(ObjChange what) {
@@ -204,8 +217,10 @@ class ChunkParser {
     const bool silent = std::find(kSilent.begin(), kSilent.end(), key) != kSilent.end();
     if (lost || !silent) out_.tallies[std::string(lost ? key : kUnknown)].add(line_);
     if (lost || silent) ++out_.known_statements;
-    if (!text_.atLineEnd()) text_.skipStatement();
-    else text_.finishStatement();
+    if (!text_.atLineEnd())
+      text_.skipStatement();
+    else
+      text_.finishStatement();
   }
 
   TextCursor text_;

@@ -15,7 +15,7 @@ namespace standpoint {
 
 // A corner's number of a vertex as the statement gives it: counted from the file's first vertex, or back from the last
 // one so far. The latter is known only relative to the chunk until the vertices before it have been counted.
-constexpr std::int32_t kMaxObjIndex = 1'000'000'000;   // nobody has a vertex of ten digits
+constexpr std::int32_t kMaxObjIndex = 1'000'000'000;  // nobody has a vertex of ten digits
 constexpr std::int32_t kNoObjIndex = INT32_MAX;
 
 // Where in the file, as it will be known when the chunks before this one have been counted.
@@ -51,24 +51,24 @@ struct ObjBadVertex {
 // What a piece of an OBJ file says, read without knowing the rest. Lines are counted from the piece's first, as 0.
 struct ObjChunk {
   std::vector<Eigen::Vector3d> positions;
-  std::vector<ObjBadVertex> bad_vertices;            // their positions are NaN
-  std::vector<Eigen::Vector3f> colours;              // empty, or for the first vertices; NaN where one has none
+  std::vector<ObjBadVertex> bad_vertices;  // their positions are NaN
+  std::vector<Eigen::Vector3f> colours;    // empty, or for the first vertices; NaN where one has none
   std::vector<Eigen::Vector2f> texture_coordinates;
   std::vector<std::int32_t> corners;
-  std::vector<std::int32_t> texture_corners;         // empty, or for the first corners
-  std::vector<std::uint32_t> face_ends;              // into corners
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> face_lines;   // (face, its line) where lines do not go on by one
+  std::vector<std::int32_t> texture_corners;                        // empty, or for the first corners
+  std::vector<std::uint32_t> face_ends;                             // into corners
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> face_lines;  // (face, its line) where lines do not go on by one
   std::vector<ObjEvent> events;
-  std::map<std::string, ObjTally, std::less<>> tallies;              // by the statement's word, or what is odd
+  std::map<std::string, ObjTally, std::less<>> tallies;  // by the statement's word, or what is odd
   std::size_t lines = 0, known_statements = 0;
   std::optional<ObjFault> fault;
   struct Extreme {
     std::int64_t value = 0;
-    std::int64_t written = 0;      // as the file has it
-    std::int64_t preceding = 0;    // vertices of the chunk before it
+    std::int64_t written = 0;    // as the file has it
+    std::int64_t preceding = 0;  // vertices of the chunk before it
     std::size_t line = 0;
   };
-  Extreme largest, lowest;         // absolute index from 1; index before the chunk's first vertex, below 0
+  Extreme largest, lowest;  // absolute index from 1; index before the chunk's first vertex, below 0
 };
 
 // Tallies besides statements; no statement begins with a capital.

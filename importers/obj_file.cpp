@@ -113,7 +113,7 @@ class Joiner {
     }
     if (has_texture_) copyTexture(chunk, base, wrong_texture);
     if (has_colours_) copyColours(chunk, base);
-    chunk.positions = {};   // the memory is wanted
+    chunk.positions = {};  // the memory is wanted
     chunk.corners = {};
     chunk.texture_corners = {};
     chunk.texture_coordinates = {};
@@ -127,8 +127,10 @@ class Joiner {
       auto& to = out_.texture_corners[base.corner + i] = kNoTextureCorner;
       if (i >= chunk.texture_corners.size() || chunk.texture_corners[i] == kNoObjIndex) continue;
       const auto index = decodeIndex(chunk.texture_corners[i], before);
-      if (index >= 0 && index < count) to = static_cast<std::uint32_t>(index);
-      else if (wrong.count++ == 0) wrong.first_line = lineInChunk(chunk, i);
+      if (index >= 0 && index < count)
+        to = static_cast<std::uint32_t>(index);
+      else if (wrong.count++ == 0)
+        wrong.first_line = lineInChunk(chunk, i);
     }
   }
 
@@ -190,19 +192,22 @@ Result<ObjFile> readObjFile(const FileBytes& bytes, const std::string& name, std
   std::vector<Error> unread(chunks.size());
   std::atomic<std::size_t> done = 0;
   std::atomic<bool> stop = false;
-  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t i) {
-    if (stop || progress.cancelled()) return;
-    auto text = textPiece(bytes, i * piece, piece);
-    if (!text) {
-      unread[i] = text.error();
-      stop = true;
-      return;
-    }
-    std::string_view content = *text;
-    if (i == 0 && content.starts_with("\xEF\xBB\xBF")) content.remove_prefix(3);
-    if (!content.empty()) chunks[i] = parseObjChunk(content);
-    progress.advance(0.6 * static_cast<double>(++done) / static_cast<double>(chunks.size()));
-  }, tbb::simple_partitioner());
+  tbb::parallel_for(
+      std::size_t{0}, chunks.size(),
+      [&](std::size_t i) {
+        if (stop || progress.cancelled()) return;
+        auto text = textPiece(bytes, i * piece, piece);
+        if (!text) {
+          unread[i] = text.error();
+          stop = true;
+          return;
+        }
+        std::string_view content = *text;
+        if (i == 0 && content.starts_with("\xEF\xBB\xBF")) content.remove_prefix(3);
+        if (!content.empty()) chunks[i] = parseObjChunk(content);
+        progress.advance(0.6 * static_cast<double>(++done) / static_cast<double>(chunks.size()));
+      },
+      tbb::simple_partitioner());
   if (auto ok = progress.check(); !ok) return failure(ok.error());
   for (const auto& error : unread)
     if (!error.message.empty()) return failure(error);

@@ -40,7 +40,7 @@ class Grouping {
         current_product_ = -1;
         break;
       case ObjChange::group:
-        group_ = event.text == "default" ? std::string() : event.text;   // Maya's word for none
+        group_ = event.text == "default" ? std::string() : event.text;  // Maya's word for none
         group_has_faces_ = false;
         current_product_ = -1;
         break;
@@ -49,8 +49,7 @@ class Grouping {
         material_line_ = event.line;
         current_surface_ = -1;
         break;
-      case ObjChange::library:
-        out_.libraries.push_back({event.line, event.text});
+      case ObjChange::library: out_.libraries.push_back({event.line, event.text});
     }
   }
 
@@ -59,8 +58,10 @@ class Grouping {
     group_has_faces_ = true;
     const auto p = product(), s = surface();
     auto& runs = out_.runs;
-    if (!runs.empty() && runs.back().product == p && runs.back().surface == s) runs.back().end = face;
-    else runs.push_back({done_, face, p, s});
+    if (!runs.empty() && runs.back().product == p && runs.back().surface == s)
+      runs.back().end = face;
+    else
+      runs.push_back({done_, face, p, s});
     done_ = face;
   }
 
@@ -93,7 +94,7 @@ class Grouping {
       Surface s;
       s.name = material_;
       s.source = material_.empty() ? "no usemtl" : "usemtl " + material_;
-      if (material_.empty() && !file_.colours.empty()) s.colour = {1, 1, 1, 1};   // the vertices have the colour
+      if (material_.empty() && !file_.colours.empty()) s.colour = {1, 1, 1, 1};  // the vertices have the colour
       out_.surfaces.push_back(std::move(s));
       out_.first_use.push_back(material_line_);
     }

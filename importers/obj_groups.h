@@ -13,11 +13,11 @@ namespace standpoint {
 struct ObjGroups {
   std::vector<FaceRun> runs;
   std::vector<Product> products;
-  std::vector<Surface> surfaces;                // names only; in the order of their first use
-  std::vector<std::size_t> first_use;           // of each surface: its line
+  std::vector<Surface> surfaces;       // names only; in the order of their first use
+  std::vector<std::size_t> first_use;  // of each surface: its line
   struct Library {
     std::size_t line;
-    std::string names;                          // as written: one, or several parted by spaces
+    std::string names;  // as written: one, or several parted by spaces
   };
   std::vector<Library> libraries;
 };

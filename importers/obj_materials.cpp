@@ -23,9 +23,12 @@ std::vector<std::string> words(const std::string& text) {
   std::vector<std::string> result(1);
   for (std::size_t i = 0; i < text.size(); ++i) {
     const bool escaped = text[i] == '\\' && i + 1 < text.size() && text[i + 1] == ' ';
-    if (escaped) result.back() += text[++i];
-    else if (text[i] != ' ') result.back() += text[i];
-    else if (!result.back().empty()) result.emplace_back();
+    if (escaped)
+      result.back() += text[++i];
+    else if (text[i] != ' ')
+      result.back() += text[i];
+    else if (!result.back().empty())
+      result.emplace_back();
   }
   if (result.back().empty()) result.pop_back();
   return result;
@@ -46,7 +49,8 @@ class Materials {
         return loadFile(library.names, *whole, place);
     for (const auto& name : names) {
       if (!asked_.insert(name).second) continue;
-      if (const auto found = folder_.find(name, folder_.root()); found) loadFile(name, *found, place);
+      if (const auto found = folder_.find(name, folder_.root()); found)
+        loadFile(name, *found, place);
       else if (!loadNamesake(name, found.error().message, place))
         report_.warn(place,
                      "material file '" + name + "' " + found.error().message + "; its materials keep their names only");
@@ -57,7 +61,8 @@ class Materials {
     for (std::size_t i = 0; i < soup_.surfaces.size(); ++i) {
       auto& s = soup_.surfaces[i];
       const auto found = known_.find(s.name);
-      if (found != known_.end()) describe(*found->second, static_cast<std::uint32_t>(i));
+      if (found != known_.end())
+        describe(*found->second, static_cast<std::uint32_t>(i));
       else if (!s.name.empty())
         report_.warn("line " + std::to_string(first_use[i]),
                      "material '" + s.name + "' is not defined; only its name is known");
@@ -126,7 +131,7 @@ class Materials {
   }
 
   void moveTexture(std::uint32_t surface, const Eigen::Vector2f& scale, const Eigen::Vector2f& offset) {
-    std::unordered_map<std::uint32_t, std::uint32_t> moved;   // looked up only, never walked
+    std::unordered_map<std::uint32_t, std::uint32_t> moved;  // looked up only, never walked
     for (const auto& run : soup_.runs) {
       if (run.surface != surface || soup_.texture_corners.empty()) continue;
       for (auto c = soup_.beginOf(run.begin); c < soup_.beginOf(run.end); ++c) {

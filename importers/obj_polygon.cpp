@@ -44,7 +44,7 @@ bool isConvex(const std::vector<Point>& p) {
     if (turn < 0) return false;
     turned += std::atan2(turn, (b - a).dot(c - b));
   }
-  return turned < 6.3;   // once round: a star polygon turns twice
+  return turned < 6.3;  // once round: a star polygon turns twice
 }
 
 // The axis along which fewer edges lie above each other.

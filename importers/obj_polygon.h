@@ -13,7 +13,7 @@ namespace standpoint {
 struct PolygonTriangles {
   std::vector<Triangle>
       triangles;  // corner numbers 0 … n − 1, turning as the polygon does; n − 2 of them unless corners coincide
-  bool clean = true;                 // false: the polygon crosses itself or has no area, so a fan stands for it
+  bool clean = true;  // false: the polygon crosses itself or has no area, so a fan stands for it
 };
 
 // In the plane of Newell's normal. Convex polygons become a fan, others are cut by geometry::triangulate(), which also

@@ -26,7 +26,7 @@ std::string materialName(const Environment& environment, std::uint32_t surface) 
   const std::string number = std::to_string(surface);
   const auto& name = environment.surfaces[surface].name;
   for (std::uint32_t i = 0; i < surface; ++i)
-    if (environment.surfaces[i].name == name) return asName(name, "surface") + "." + number;   // names are keys in MTL
+    if (environment.surfaces[i].name == name) return asName(name, "surface") + "." + number;  // names are keys in MTL
   return asName(name, "surface." + number);
 }
 

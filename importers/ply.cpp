@@ -19,7 +19,7 @@ void addSurfaces(const std::filesystem::path& path, const PlyHeader& header, boo
   const auto place = [&](std::size_t i) { return "comment TextureFile " + header.texture_files[i]; };
   Surface plain;
   plain.source = "PLY";
-  if (!soup.colours.empty()) plain.colour = {1, 1, 1, 1};   // the vertices have the colour
+  if (!soup.colours.empty()) plain.colour = {1, 1, 1, 1};  // the vertices have the colour
   soup.surfaces.push_back(plain);
   if (!textured && !header.texture_files.empty())
     report.note(place(0), "is not used: no corner has texture coordinates");
@@ -33,8 +33,10 @@ void addSurfaces(const std::filesystem::path& path, const PlyHeader& header, boo
     s.colour = {1, 1, 1, 1};
     const auto found = folder.find(header.texture_files[i], folder.root());
     const auto image = found ? images.add(found->file) : Result<std::int32_t>(failure(found.error()));
-    if (image) s.image = *image;
-    else s.colour = plain.colour, report.lose(s.source, image.error().message);
+    if (image)
+      s.image = *image;
+    else
+      s.colour = plain.colour, report.lose(s.source, image.error().message);
     if (found && !found->as_named) report.note(s.source, "is taken from " + found->file.filename().string());
     soup.surfaces.push_back(std::move(s));
   }
@@ -56,8 +58,10 @@ Result<ImportedModel> read(const std::filesystem::path& path, const ImportOption
   if (!read->colour_of_face.empty()) {
     const bool plain =
         std::all_of(read->soup.runs.begin(), read->soup.runs.end(), [](const FaceRun& r) { return r.surface == 0; });
-    if (plain && read->soup.colours.empty()) paintFaces(read->soup, read->colour_of_face);
-    else report.note("", "faces have colours of their own, which are not used: vertices or textures have the colour");
+    if (plain && read->soup.colours.empty())
+      paintFaces(read->soup, read->colour_of_face);
+    else
+      report.note("", "faces have colours of their own, which are not used: vertices or textures have the colour");
   }
   Product product;
   product.name = path.stem().string();

@@ -67,7 +67,7 @@ class HeaderReader {
   }
 
   Result<void> statement(const std::vector<std::string>& w, std::string_view line) {
-    if (lines_ == 1) return {};   // "ply", which is how the file was recognised
+    if (lines_ == 1) return {};  // "ply", which is how the file was recognised
     if (w[0] == "format") return format(w);
     if (w[0] == "element") return element(w);
     if (w[0] == "property") return property(w);
@@ -82,10 +82,14 @@ class HeaderReader {
 
   Result<void> format(const std::vector<std::string>& w) {
     has_format_ = true;
-    if (w.size() > 1 && w[1] == "ascii") out_.form = PlyForm::text;
-    else if (w.size() > 1 && w[1] == "binary_little_endian") out_.form = PlyForm::little_endian;
-    else if (w.size() > 1 && w[1] == "binary_big_endian") out_.form = PlyForm::big_endian;
-    else return fault("the format is none of ascii, binary_little_endian, binary_big_endian");
+    if (w.size() > 1 && w[1] == "ascii")
+      out_.form = PlyForm::text;
+    else if (w.size() > 1 && w[1] == "binary_little_endian")
+      out_.form = PlyForm::little_endian;
+    else if (w.size() > 1 && w[1] == "binary_big_endian")
+      out_.form = PlyForm::big_endian;
+    else
+      return fault("the format is none of ascii, binary_little_endian, binary_big_endian");
     return {};
   }
 
@@ -133,7 +137,7 @@ bool PlyElement::hasLists() const {
 
 std::uint64_t PlyElement::leastBytes(bool text) const {
   std::uint64_t sum = 0;
-  for (const auto& p : properties) sum += text ? 2 : sizeOf(p.count_type.value_or(p.type));   // a digit and a space
+  for (const auto& p : properties) sum += text ? 2 : sizeOf(p.count_type.value_or(p.type));  // a digit and a space
   return sum;
 }
 

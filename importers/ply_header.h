@@ -15,16 +15,16 @@ namespace standpoint {
 struct PlyProperty {
   std::string name;
   PlyType type = PlyType::float32;
-  std::optional<PlyType> count_type;   // of a list
+  std::optional<PlyType> count_type;  // of a list
 };
 
 struct PlyElement {
   std::string name;
   std::uint64_t count = 0;
   std::vector<PlyProperty> properties;
-  std::size_t line = 0;                // of the header
+  std::size_t line = 0;  // of the header
 
-  std::uint64_t leastBytes(bool text) const;   // of one row
+  std::uint64_t leastBytes(bool text) const;  // of one row
   bool hasLists() const;
 };
 
@@ -33,8 +33,8 @@ enum class PlyForm { text, little_endian, big_endian };
 struct PlyHeader {
   PlyForm form = PlyForm::text;
   std::vector<PlyElement> elements;
-  std::vector<std::string> texture_files;   // "comment TextureFile brick.png"
-  std::uint64_t bytes = 0;                  // where the data begins
+  std::vector<std::string> texture_files;  // "comment TextureFile brick.png"
+  std::uint64_t bytes = 0;                 // where the data begins
   std::size_t lines = 0;
 };
 

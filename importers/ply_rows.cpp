@@ -83,7 +83,7 @@ Result<void> PlyRows::textRow(const PlyElement& element, PlyRow& out) {
     double v = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       if (auto ok = textValue(v); !ok) return ok;
-      out.values.push_back(v);   // all digits, also of what is called a float: large coordinates are written so
+      out.values.push_back(v);  // all digits, also of what is called a float: large coordinates are written so
     }
   }
   return {};

@@ -42,7 +42,7 @@ class PlyRows {
   const PlyHeader& header_;
   const std::string& name_;
   ByteStream stream_;
-  std::string text_;                // a piece of whole lines
+  std::string text_;  // a piece of whole lines
   std::optional<TextCursor> cursor_;
   std::uint64_t next_piece_;
   std::size_t line_;

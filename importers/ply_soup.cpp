@@ -134,7 +134,7 @@ class SoupReader {
     std::string unread;
     for (int i = 0; i < static_cast<int>(element.properties.size()); ++i) {
       const auto& name = element.properties[static_cast<std::size_t>(i)].name;
-      const bool normal = name == "nx" || name == "ny" || name == "nz";   // what a beam meets is the face
+      const bool normal = name == "nx" || name == "ny" || name == "nz";  // what a beam meets is the face
       if (!normal && !colour.uses(i) && std::find(used.begin(), used.end(), i) == used.end())
         unread += (unread.empty() ? "" : ", ") + name.substr(0, 40);
     }
@@ -248,8 +248,10 @@ class SoupReader {
     soup.face_begins.push_back(soup.corners.size());
     if (soup.runs.empty() || soup.runs.back().surface != surface) soup.runs.push_back({face, face, 0, surface});
     soup.runs.back().end = face + 1;
-    if (header_.form == PlyForm::text) out_.line_of_face.push_back(rows_.line());
-    else out_.row_of_face.push_back(static_cast<std::uint32_t>(row));
+    if (header_.form == PlyForm::text)
+      out_.line_of_face.push_back(rows_.line());
+    else
+      out_.row_of_face.push_back(static_cast<std::uint32_t>(row));
   }
 
   // Each corner after the second makes a triangle with the two before it, turned every other time; -1 begins anew.
@@ -306,7 +308,7 @@ class SoupReader {
   PlySoup out_;
   bool vertex_textured_ = false;
   std::vector<std::pair<std::uint64_t, std::string>> bad_;
-  std::unordered_map<std::uint64_t, std::uint32_t> texture_of_;   // looked up only, never walked
+  std::unordered_map<std::uint64_t, std::uint32_t> texture_of_;  // looked up only, never walked
   std::size_t short_faces_ = 0;
   std::string first_short_;
 };

@@ -14,10 +14,10 @@
 namespace standpoint {
 
 struct PlySoup {
-  FaceSoup soup;                                // one product and no surface yet; runs name surface texture + 1
-  std::vector<std::uint32_t> colour_of_face;    // empty, or one for each face
-  std::vector<std::uint32_t> row_of_face;       // of its element; from 0, as the format counts
-  std::vector<std::size_t> line_of_face;        // of a text file
+  FaceSoup soup;                              // one product and no surface yet; runs name surface texture + 1
+  std::vector<std::uint32_t> colour_of_face;  // empty, or one for each face
+  std::vector<std::uint32_t> row_of_face;     // of its element; from 0, as the format counts
+  std::vector<std::size_t> line_of_face;      // of a text file
 };
 
 // Reads vertices, faces and triangle strips; what else there is is listed in the report. A file without faces is

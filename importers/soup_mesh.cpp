@@ -11,7 +11,7 @@ namespace standpoint {
 
 namespace {
 
-std::uint64_t mix(std::uint64_t x) {   // SplitMix64's finaliser (Steele, Lea, Flood 2014)
+std::uint64_t mix(std::uint64_t x) {  // SplitMix64's finaliser (Steele, Lea, Flood 2014)
   x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
   x = (x ^ (x >> 27U)) * 0x94D049BB133111EBU;
   return x ^ (x >> 31U);

@@ -23,13 +23,13 @@ struct FaceTally {
 };
 
 struct SoupFindings {
-  FaceTally unclean;       // polygons that cross themselves or have no area
-  FaceTally collapsed;     // triangles with two corners in one place: left out
-  FaceTally twice;         // the same triangle again: left out
-  FaceTally repainted;     // the same again with another material: left out
-  FaceTally flat;          // triangles of three places and no area: kept, since their edges may close a solid
-  FaceTally unpainted;     // corners without texture coordinates on a surface that has an image
-  FaceTally inside_out;    // products that are closed and have a negative volume
+  FaceTally unclean;     // polygons that cross themselves or have no area
+  FaceTally collapsed;   // triangles with two corners in one place: left out
+  FaceTally twice;       // the same triangle again: left out
+  FaceTally repainted;   // the same again with another material: left out
+  FaceTally flat;        // triangles of three places and no area: kept, since their edges may close a solid
+  FaceTally unpainted;   // corners without texture coordinates on a surface that has an image
+  FaceTally inside_out;  // products that are closed and have a negative volume
   void add(const SoupFindings& other);
 };
 
@@ -59,11 +59,11 @@ class SoupMesher {
   void judgeOrientation();
 
   const FaceSoup& soup_;
-  std::vector<std::uint32_t> first_of_;                   // position → its first vertex of the mesh
-  std::vector<std::uint32_t> next_;                       // vertex → the next at the same position
-  std::vector<std::uint32_t> position_of_, texture_of_;   // vertex → soup
-  std::unordered_map<std::uint64_t, std::uint32_t> many_; // (position, texture) → vertex, where a position has many
-  std::vector<std::uint32_t> face_of_;                    // triangle → face
+  std::vector<std::uint32_t> first_of_;                    // position → its first vertex of the mesh
+  std::vector<std::uint32_t> next_;                        // vertex → the next at the same position
+  std::vector<std::uint32_t> position_of_, texture_of_;    // vertex → soup
+  std::unordered_map<std::uint64_t, std::uint32_t> many_;  // (position, texture) → vertex, where a position has many
+  std::vector<std::uint32_t> face_of_;                     // triangle → face
   std::vector<std::uint32_t> polygon_vertices_;
   std::vector<Eigen::Vector3d> polygon_;
   Eigen::Vector3d origin_;

@@ -33,8 +33,10 @@ class TextReader {
     TextCursor cursor(text, line);
     while (!cursor.done()) {
       cursor.skipSpaces();
-      if (cursor.atLineEnd()) cursor.finishStatement();
-      else if (auto ok = statement(cursor); !ok) return ok;
+      if (cursor.atLineEnd())
+        cursor.finishStatement();
+      else if (auto ok = statement(cursor); !ok)
+        return ok;
     }
     line = cursor.line();
     return {};

@@ -28,9 +28,9 @@ class StlSoup {
   void grow();
 
   FaceSoup soup_{.face_begins = {0}};
-  std::vector<std::uint32_t> table_;          // open addressing: index of a position, or kNoTextureCorner
-  std::vector<std::uint32_t> colours_;        // of facets, once one has a colour
-  std::vector<std::size_t> lines_;            // of facets, where there are lines
+  std::vector<std::uint32_t> table_;    // open addressing: index of a position, or kNoTextureCorner
+  std::vector<std::uint32_t> colours_;  // of facets, once one has a colour
+  std::vector<std::size_t> lines_;      // of facets, where there are lines
   std::uint32_t facet_colour_ = kNoFaceColour;
 };
 

@@ -31,8 +31,10 @@ class TextCursor {
   // Over spaces and continued line ends.
   void skipSpaces() {
     for (;;) {
-      if (static_cast<unsigned char>(*at_) <= ' ' && !atLineEnd()) ++at_;
-      else if (*at_ != '\\' || !continues()) return;
+      if (static_cast<unsigned char>(*at_) <= ' ' && !atLineEnd())
+        ++at_;
+      else if (*at_ != '\\' || !continues())
+        return;
     }
   }
 
@@ -100,7 +102,7 @@ class TextCursor {
     if (at_[1] != '\n' && at_[1] != '\r') return false;
     ++at_;
     nextLine();
-    if (done()) at_ = end_ - 1;   // the last line's end stays, whatever came before it
+    if (done()) at_ = end_ - 1;  // the last line's end stays, whatever came before it
     return true;
   }
 

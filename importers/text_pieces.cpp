@@ -7,7 +7,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr std::size_t kBefore = 3;   // "\\\r\n" before a piece decides whether it begins a line
+constexpr std::size_t kBefore = 3;  // "\\\r\n" before a piece decides whether it begins a line
 constexpr std::size_t kMore = 1U << 16U;
 
 // The first index >= at of `text` where a statement may begin: after LF, or CR without LF, that no backslash precedes.

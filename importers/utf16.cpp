@@ -14,7 +14,7 @@ void append(std::string& text, std::uint32_t c) {
     text += static_cast<char>(c);
     return;
   }
-  const unsigned more = c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;   // bytes after the first
+  const unsigned more = c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;  // bytes after the first
   const unsigned lead = more == 1 ? 0xC0 : more == 2 ? 0xE0 : 0xF0;
   text += static_cast<char>(lead | c >> 6U * more);
   for (unsigned i = more; i-- > 0;) text += static_cast<char>(0x80U | (c >> 6U * i & 0x3FU));

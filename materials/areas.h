@@ -19,8 +19,8 @@ struct SurfaceOfProduct {
 // By product, then surface.
 Result<std::vector<SurfaceOfProduct>> measuredSurfaces(const Environment& environment, Progress& progress);
 
-// How thick the solids are that a surface bounds, on average: 2 V / A of its triangles in the mesh, which for a pane is its
-// thickness less some thousandths. 0 where they bound none: a pane without thickness.
+// How thick the solids are that a surface bounds, on average: 2 V / A of its triangles in the mesh, which for a pane is
+// its thickness less some thousandths. 0 where they bound none: a pane without thickness.
 double solidThickness(const Mesh& mesh, std::uint32_t surface);
 
 }  // namespace standpoint

@@ -36,7 +36,8 @@ class Assigner {
 
   Result<void> checkIds() const {
     for (const auto& rule : rules_.rules)
-      if (!by_id_.contains(rule.assign)) return failure(ErrorKind::usage, "'" + rule.assign + "' is not in the library", rule.place);
+      if (!by_id_.contains(rule.assign))
+        return failure(ErrorKind::usage, "'" + rule.assign + "' is not in the library", rule.place);
     for (const auto& o : overrides_)
       if (!by_id_.contains(o.material))
         return failure(ErrorKind::usage, "'" + o.material + "' is not in the library of materials", o.selector);
@@ -48,8 +49,10 @@ class Assigner {
     AssignedSurface result{pair.product, pair.surface, -1, {}, 0};
     const bool in_scene = environment_.products[pair.product].inScene();
     const auto said = table_.of(pair);
-    if (said.whole >= 0) byUser(said.whole, result);
-    else if (in_scene && !byFile(pair, result)) byRules(pair, result);
+    if (said.whole >= 0)
+      byUser(said.whole, result);
+    else if (in_scene && !byFile(pair, result))
+      byRules(pair, result);
     if (result.material >= 0 && isGap(material(result.material))) {
       if (in_scene) checks_.gap(pair, material(result.material));
       result.material = -1;
@@ -59,8 +62,10 @@ class Assigner {
     } else if (in_scene) {
       checks_.assigned(pair, material(result.material));
     }
-    if (!said.faces.empty()) assignFaces(pair, said.faces, result, in_scene);
-    else if (in_scene) account(pair.product, result.material, result.confidence, pair.area_m2);
+    if (!said.faces.empty())
+      assignFaces(pair, said.faces, result, in_scene);
+    else if (in_scene)
+      account(pair.product, result.material, result.confidence, pair.area_m2);
     assigned_.push_back(std::move(result));
   }
 
@@ -93,7 +98,9 @@ class Assigner {
 
   const PhysicalMaterial& material(std::int32_t index) const { return library_[static_cast<std::size_t>(index)]; }
 
-  std::int32_t assignedBy(const RuleMatcher::Decision& decision) const { return of_rule_[static_cast<std::size_t>(decision.rule)]; }
+  std::int32_t assignedBy(const RuleMatcher::Decision& decision) const {
+    return of_rule_[static_cast<std::size_t>(decision.rule)];
+  }
 
   void byUser(int index, AssignedSurface& result) const {
     const auto& o = overrides_[static_cast<std::size_t>(index)];
@@ -118,7 +125,8 @@ class Assigner {
     asked_rules_ = true;
     auto decision = matcher_.decide(product, surface);
     // "Glass door" tells of a pane somewhere; this surface is not drawn as one.
-    if (decision.rule >= 0 && decision.named >= RuleMatcher::Named::type && !isTransparent(surface) && transmits(material(assignedBy(decision))))
+    if (decision.rule >= 0 && decision.named >= RuleMatcher::Named::type && !isTransparent(surface) &&
+        transmits(material(assignedBy(decision))))
       decision = matcher_.decide(product, surface, false);
     if (decision.rule < 0) return;
     own_decided_ = own_decided_ || static_cast<std::size_t>(decision.rule) < rules_.own;
@@ -128,26 +136,31 @@ class Assigner {
     if (!isGap(material(result.material))) checks_.byRule(pair, material(result.material), decision, result.reason);
   }
 
-  void assignFaces(const SurfaceOfProduct& pair, const std::vector<int>& said, const AssignedSurface& whole, bool in_scene) {
-    MaterialAssignment own;   // what is said of this surface, in indices of the library
+  void assignFaces(const SurfaceOfProduct& pair, const std::vector<int>& said, const AssignedSurface& whole,
+                   bool in_scene) {
+    MaterialAssignment own;  // what is said of this surface, in indices of the library
     own.surfaces.push_back(whole);
     for (const int index : said) {
       const auto& o = overrides_[static_cast<std::size_t>(index)];
-      own.faces.push_back({pair.product, pair.surface, table_.direction(index), by_id_.at(o.material), "override " + o.selector, table_.point(index)});
+      own.faces.push_back({pair.product, pair.surface, table_.direction(index), by_id_.at(o.material),
+                           "override " + o.selector, table_.point(index)});
     }
     faces_.insert(faces_.end(), own.faces.begin(), own.faces.end());
     if (!in_scene) return;
     const AssignedTriangles triangles(environment_, own);
     std::map<std::int32_t, double> area;
     const auto& instances = environment_.instances;
-    auto i = std::lower_bound(instances.begin(), instances.end(), pair.product, [](const Instance& a, std::uint32_t p) { return a.product < p; });
+    auto i = std::lower_bound(instances.begin(), instances.end(), pair.product,
+                              [](const Instance& a, std::uint32_t p) { return a.product < p; });
     for (; i != instances.end() && i->product == pair.product; ++i) {
       const Mesh& mesh = *environment_.meshes[i->mesh];
       for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
         if (mesh.surface_of_triangle[t] == pair.surface)
-          area[triangles.materialOf(static_cast<std::uint32_t>(i - instances.begin()), t)] += placedArea(mesh, mesh.triangles[t], i->world_from_mesh);
+          area[triangles.materialOf(static_cast<std::uint32_t>(i - instances.begin()), t)] +=
+              placedArea(mesh, mesh.triangles[t], i->world_from_mesh);
     }
-    for (const auto& [material, m2] : area) account(pair.product, material, material == whole.material ? whole.confidence : 1, m2);
+    for (const auto& [material, m2] : area)
+      account(pair.product, material, material == whole.material ? whole.confidence : 1, m2);
   }
 
   void account(std::uint32_t product, std::int32_t index, double confidence, double area_m2) {
@@ -172,7 +185,8 @@ class Assigner {
       result.push_back(row);
       result.back().name = name;
     }
-    std::stable_sort(result.begin(), result.end(), [](const CoverageRow& a, const CoverageRow& b) { return a.area_m2 > b.area_m2; });
+    std::stable_sort(result.begin(), result.end(),
+                     [](const CoverageRow& a, const CoverageRow& b) { return a.area_m2 > b.area_m2; });
     return result;
   }
 
@@ -211,7 +225,9 @@ class Assigner {
       new_index[static_cast<std::size_t>(index)] = static_cast<std::int32_t>(assignment.materials.size());
       assignment.materials.push_back(material(index));
     }
-    const auto renumber = [&](std::int32_t& index) { index = index < 0 ? -1 : new_index[static_cast<std::size_t>(index)]; };
+    const auto renumber = [&](std::int32_t& index) {
+      index = index < 0 ? -1 : new_index[static_cast<std::size_t>(index)];
+    };
     for (auto& surface : assigned_) renumber(surface.material);
     for (auto& face : faces_) renumber(face.material);
     assignment.surfaces = std::move(assigned_);
@@ -230,11 +246,11 @@ class Assigner {
   std::vector<std::int32_t> of_rule_;
   std::vector<AssignedSurface> assigned_;
   std::vector<AssignedFaces> faces_;
-  std::map<std::int32_t, MaterialUse> uses_;   // by index into the library, which is sorted by id
+  std::map<std::int32_t, MaterialUse> uses_;  // by index into the library, which is sorted by id
   CoverageRow all_;
   Rows by_class_, by_storey_;
-  std::optional<std::uint32_t> product_;   // that is being accounted for
-  std::array<CoverageRow*, 3> rows_{};     // where it counts
+  std::optional<std::uint32_t> product_;  // that is being accounted for
+  std::array<CoverageRow*, 3> rows_{};    // where it counts
   bool own_decided_ = false, asked_rules_ = false;
 };
 

@@ -12,16 +12,17 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kThickestGlass = 0.06;       // m; a triple glazing is thinner
-constexpr double kThicknessTolerance = 0.5;   // share of the build-up's thickness; models draw panes as thick as they like
-constexpr double kBeyondData_nm = 25;         // a figure still holds so far from where it was measured
+constexpr double kThickestGlass = 0.06;  // m; a triple glazing is thinner
+constexpr double kThicknessTolerance =
+    0.5;                               // share of the build-up's thickness; models draw panes as thick as they like
+constexpr double kBeyondData_nm = 25;  // a figure still holds so far from where it was measured
 
 bool isWindow(const std::string& ifc_class) { return ifc_class.starts_with("IfcWindow"); }
 
 }  // namespace
 
-AssignmentChecks::AssignmentChecks(const Environment& environment, const std::vector<PhysicalMaterial>& library, const RuleSet& rules,
-                                   FindingCollector& findings)
+AssignmentChecks::AssignmentChecks(const Environment& environment, const std::vector<PhysicalMaterial>& library,
+                                   const RuleSet& rules, FindingCollector& findings)
     : environment_(environment), library_(library), findings_(findings), words_(rules.words) {
   for (const auto& entry : rules.implausible)
     implausible_.push_back({Pattern(entry.ifc_class, words_), Pattern(entry.assigned, words_), entry.why});
@@ -41,19 +42,23 @@ std::string AssignmentChecks::selectorOf(const SurfaceOfProduct& pair) const {
   const auto& surface = environment_.surfaces[pair.surface];
   std::string text = product.ifc_class.empty() ? "" : "class:" + product.ifc_class;
   const auto add = [&](const std::string& condition) { text += (text.empty() ? "" : "&") + condition; };
-  if (!surface.name.empty()) add("material:" + literalPattern(surface.name));
-  else if (product.materials.size() == 1) add("material:" + literalPattern(product.materials.front()));
-  else if (const auto band = colourBand(surface); !band.empty()) add("colour:" + std::string(band));
+  if (!surface.name.empty())
+    add("material:" + literalPattern(surface.name));
+  else if (product.materials.size() == 1)
+    add("material:" + literalPattern(product.materials.front()));
+  else if (const auto band = colourBand(surface); !band.empty())
+    add("colour:" + std::string(band));
   return text.empty() ? product.id : text;
 }
 
 template <class Describe>
-void AssignmentChecks::tell(const char* kind, bool warning, const SurfaceOfProduct& pair, const PhysicalMaterial* about, Describe describe) {
+void AssignmentChecks::tell(const char* kind, bool warning, const SurfaceOfProduct& pair, const PhysicalMaterial* about,
+                            Describe describe) {
   const auto& product = environment_.products[pair.product];
   std::string like = product.ifc_class;
   if (environment_.surfaces[pair.surface].name.empty())
     for (const auto& name : product.materials) like += '/' + name;
-  if (like.empty()) like = product.id;   // nothing but its number to select it by
+  if (like.empty()) like = product.id;  // nothing but its number to select it by
   auto*& extent = told_[{kind, pair.surface, about, std::move(like)}];
   if (extent == nullptr) {
     FindingCollector::Cause cause;
@@ -92,14 +97,18 @@ void AssignmentChecks::gap(const SurfaceOfProduct& pair, const PhysicalMaterial&
   });
 }
 
-void AssignmentChecks::byRule(const SurfaceOfProduct& pair, const PhysicalMaterial& material, const RuleMatcher::Decision& decision,
-                              const std::string& reason) {
+void AssignmentChecks::byRule(const SurfaceOfProduct& pair, const PhysicalMaterial& material,
+                              const RuleMatcher::Decision& decision, const std::string& reason) {
   if (decision.confidence >= kWeakConfidence) return;
   tell("weak-rule", false, pair, &material, [&](FindingCollector::Cause& c) {
-    c.what = (decision.text.empty() ? "only class and colour decided for " : "a weak rule decided for ") + surfaceText(pair) + " of";
+    c.what = (decision.text.empty() ? "only class and colour decided for " : "a weak rule decided for ") +
+             surfaceText(pair) + " of";
     c.then = ": " + material.id + ", " + reason;
-    c.why = fmt::format("The rule's confidence is {:.2g}: it knows what such things are often made of, not what this one is.", decision.confidence);
-    c.remedies = {{"Keep " + material.label, selectorOf(pair), material.id}, {"Choose another material", selectorOf(pair), ""}};
+    c.why = fmt::format(
+        "The rule's confidence is {:.2g}: it knows what such things are often made of, not what this one is.",
+        decision.confidence);
+    c.remedies = {{"Keep " + material.label, selectorOf(pair), material.id},
+                  {"Choose another material", selectorOf(pair), ""}};
   });
 }
 
@@ -123,7 +132,8 @@ void AssignmentChecks::transparency(const SurfaceOfProduct& pair, const Physical
       c.what = "transparent " + surfaceText(pair) + " of";
       c.then = " has the opaque material " + material.id;
       c.why = "The model draws it as something to look through; a beam would stop at it.";
-      c.remedies = {{"Take these for glass", selectorOf(pair), isWindow(ifc_class) ? "glass_double_clear_4mm" : "glass_float_clear_6mm"},
+      c.remedies = {{"Take these for glass", selectorOf(pair),
+                     isWindow(ifc_class) ? "glass_double_clear_4mm" : "glass_float_clear_6mm"},
                     {"Choose another material", selectorOf(pair), ""}};
     });
   }
@@ -143,7 +153,8 @@ void AssignmentChecks::implausible(const SurfaceOfProduct& pair, const PhysicalM
   if (is_new)
     for (std::size_t i = 0; i < implausible_.size() && place->second < 0; ++i) {
       Folded id(material.id, words_);
-      if ((implausible_[i].ifc_class.empty() || fitClass(implausible_[i].ifc_class, ifc_class) >= 0) && implausible_[i].assigned.fit(id) >= 0)
+      if ((implausible_[i].ifc_class.empty() || fitClass(implausible_[i].ifc_class, ifc_class) >= 0) &&
+          implausible_[i].assigned.fit(id) >= 0)
         place->second = static_cast<int>(i);
     }
   if (place->second < 0) return;
@@ -158,7 +169,8 @@ void AssignmentChecks::implausible(const SurfaceOfProduct& pair, const PhysicalM
 // The thickest solid that the surface bounds in any of the product's meshes; 0 where it bounds none.
 double AssignmentChecks::modelledThickness(const SurfaceOfProduct& pair) {
   const auto& instances = environment_.instances;
-  auto i = std::lower_bound(instances.begin(), instances.end(), pair.product, [](const Instance& a, std::uint32_t p) { return a.product < p; });
+  auto i = std::lower_bound(instances.begin(), instances.end(), pair.product,
+                            [](const Instance& a, std::uint32_t p) { return a.product < p; });
   double thickest = 0;
   for (; i != instances.end() && i->product == pair.product; ++i) {
     const auto [place, is_new] = thickness_.try_emplace({i->mesh, pair.surface}, 0);
@@ -172,7 +184,8 @@ const PhysicalMaterial* AssignmentChecks::paneOf(double thickness_m, double inde
   const PhysicalMaterial* nearest = nullptr;
   for (const auto& m : library_)
     if (transmits(m) && m.index_of_refraction == index &&
-        (nearest == nullptr || std::abs(buildUpThickness(m) - thickness_m) < std::abs(buildUpThickness(*nearest) - thickness_m)))
+        (nearest == nullptr ||
+         std::abs(buildUpThickness(m) - thickness_m) < std::abs(buildUpThickness(*nearest) - thickness_m)))
       nearest = &m;
   return nearest;
 }
@@ -183,7 +196,9 @@ void AssignmentChecks::thickness(const SurfaceOfProduct& pair, const PhysicalMat
     tell("thick-glass", true, pair, &material, [&](FindingCollector::Cause& c) {
       c.what = surfaceText(pair) + " of";
       c.then = fmt::format(" is a solid {:.0f} mm thick and has the material {}", modelled * 1000, material.id);
-      c.why = fmt::format("Glass is thin; this library's is {:.0f} mm in all. A frame drawn with its pane as one body, or a block?", wanted * 1000);
+      c.why = fmt::format(
+          "Glass is thin; this library's is {:.0f} mm in all. A frame drawn with its pane as one body, or a block?",
+          wanted * 1000);
       c.remedies = {{"Choose another material", selectorOf(pair), ""}};
     });
   } else if (modelled == 0) {
@@ -197,7 +212,8 @@ void AssignmentChecks::thickness(const SurfaceOfProduct& pair, const PhysicalMat
       c.what = surfaceText(pair) + " of";
       c.then = fmt::format(" is drawn {:.0f} mm thick, {} is {:.0f} mm", modelled * 1000, material.id, wanted * 1000);
       c.why = "The library's build-up decides what passes, not the thickness in the model: is it the right one?";
-      if (const auto* nearest = paneOf(modelled, material.index_of_refraction); nearest != nullptr && nearest->id != material.id)
+      if (const auto* nearest = paneOf(modelled, material.index_of_refraction);
+          nearest != nullptr && nearest->id != material.id)
         c.remedies.push_back({"Take " + nearest->label, selectorOf(pair), nearest->id});
       c.remedies.push_back({"Choose another material", selectorOf(pair), ""});
     });
@@ -221,9 +237,11 @@ void AssignmentChecks::closeProduct() {
 }
 
 void AssignmentChecks::namesAssignedTwoWays() {
-  std::map<std::string, std::map<std::string, std::vector<const Share*>>> by_name;   // the surface's, then the material's
+  std::map<std::string, std::map<std::string, std::vector<const Share*>>>
+      by_name;  // the surface's, then the material's
   for (const auto& [key, share] : shares_)
-    if (const auto& name = environment_.surfaces[key.first].name; !name.empty()) by_name[name][key.second->id].push_back(&share);
+    if (const auto& name = environment_.surfaces[key.first].name; !name.empty())
+      by_name[name][key.second->id].push_back(&share);
   for (const auto& [name, materials] : by_name) {
     if (materials.size() < 2) continue;
     std::vector<std::pair<double, std::string>> order;
@@ -241,7 +259,8 @@ void AssignmentChecks::namesAssignedTwoWays() {
       c.remedies.push_back({"All of them " + id, "material:" + literalPattern(name), id});
     }
     c.what += " of";
-    c.why = "One name in the model, several materials: rules for a class, a colour or single products decided differently.";
+    c.why =
+        "One name in the model, several materials: rules for a class, a colour or single products decided differently.";
     auto& extent = findings_.of(std::move(c));
     for (const auto& [id, shares] : materials)
       for (const auto* share : shares) addShare(extent, *share);
@@ -249,7 +268,8 @@ void AssignmentChecks::namesAssignedTwoWays() {
 }
 
 void AssignmentChecks::addShare(FindingCollector::Extent& extent, const Share& share) {
-  for (const auto product : share.products) FindingCollector::add(extent, product, share.area_m2 / static_cast<double>(share.products.size()));
+  for (const auto product : share.products)
+    FindingCollector::add(extent, product, share.area_m2 / static_cast<double>(share.products.size()));
 }
 
 void AssignmentChecks::withoutData(const std::vector<double>& wavelengths_nm) {
@@ -257,7 +277,8 @@ void AssignmentChecks::withoutData(const std::vector<double>& wavelengths_nm) {
     const auto& material = *key.second;
     for (const double wavelength : wavelengths_nm) {
       const auto covers = [&](const Spectrum& table) {
-        return table.empty() || (wavelength >= table.front().first - kBeyondData_nm && wavelength <= table.back().first + kBeyondData_nm);
+        return table.empty() || (wavelength >= table.front().first - kBeyondData_nm &&
+                                 wavelength <= table.back().first + kBeyondData_nm);
       };
       if (covers(material.reflectance) && covers(material.transmittance)) continue;
       FindingCollector::Cause c;
@@ -265,7 +286,8 @@ void AssignmentChecks::withoutData(const std::vector<double>& wavelengths_nm) {
       c.warning = true;
       c.subject = fmt::format("{} / {:.0f}", material.id, wavelength);
       c.what = fmt::format("{} has no figure at {:.0f} nm:", material.id, wavelength);
-      c.then = fmt::format(", the table runs from {:.0f} to {:.0f} nm", material.reflectance.front().first, material.reflectance.back().first);
+      c.then = fmt::format(", the table runs from {:.0f} to {:.0f} nm", material.reflectance.front().first,
+                           material.reflectance.back().first);
       c.why = "The instrument would be given the nearest figure, which may be far off.";
       addShare(findings_.of(std::move(c)), share);
     }

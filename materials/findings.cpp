@@ -23,7 +23,8 @@ std::uint32_t fingerprint(const std::vector<std::string>& texts) {
   return hash;
 }
 
-std::string causeOf(const FindingCollector::Cause& cause, const std::vector<std::uint32_t>& products, const Environment& environment) {
+std::string causeOf(const FindingCollector::Cause& cause, const std::vector<std::uint32_t>& products,
+                    const Environment& environment) {
   std::vector<std::string> texts{cause.what, cause.then};
   std::vector<std::string> names;
   for (const auto p : products) {
@@ -54,7 +55,8 @@ void FindingCollector::addAbout(Cause cause, std::string source) {
   extent.source = std::move(source);
 }
 
-std::vector<MaterialFinding> FindingCollector::findings(const Environment& environment, const std::vector<AcceptedFinding>& accepted) const {
+std::vector<MaterialFinding> FindingCollector::findings(const Environment& environment,
+                                                        const std::vector<AcceptedFinding>& accepted) const {
   std::vector<MaterialFinding> result;
   for (const auto& [key, extent] : extents_) {
     const auto& cause = extent.cause;
@@ -87,7 +89,9 @@ std::vector<MaterialFinding> FindingCollector::findings(const Environment& envir
 
 void putInOrder(std::vector<MaterialFinding>& findings) {
   std::stable_sort(findings.begin(), findings.end(), [](const MaterialFinding& a, const MaterialFinding& b) {
-    const auto order = [](const MaterialFinding& f) { return std::tuple(!f.because.empty(), f.severity != "warning", -f.area_m2); };
+    const auto order = [](const MaterialFinding& f) {
+      return std::tuple(!f.because.empty(), f.severity != "warning", -f.area_m2);
+    };
     return order(a) < order(b);
   });
 }

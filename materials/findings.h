@@ -12,14 +12,15 @@
 
 namespace standpoint {
 
-// Gathers findings that have the same kind and subject into one: the first product stands for all, the rest are counted.
+// Gathers findings that have the same kind and subject into one: the first product stands for all, the rest are
+// counted.
 class FindingCollector {
  public:
   // `what` reads on with the product: "no rule fits surface 'X' of" … "IfcWall 'W1'", then `then`.
   struct Cause {
     std::string kind;
     bool warning = false;
-    std::string subject;      // tells findings of one kind apart, in every run alike
+    std::string subject;  // tells findings of one kind apart, in every run alike
     std::string what, then;
     std::string why;
     std::vector<Remedy> remedies;
@@ -35,10 +36,11 @@ class FindingCollector {
   static void add(Extent& extent, std::uint32_t product, double area_m2);
   // One that no product stands for: it is about what the user said.
   void addAbout(Cause cause, std::string source);
-  std::vector<MaterialFinding> findings(const Environment& environment, const std::vector<AcceptedFinding>& accepted) const;
+  std::vector<MaterialFinding> findings(const Environment& environment,
+                                        const std::vector<AcceptedFinding>& accepted) const;
 
  private:
-  std::map<std::pair<std::string, std::string>, Extent> extents_;   // by kind and subject
+  std::map<std::pair<std::string, std::string>, Extent> extents_;  // by kind and subject
 };
 
 // Those that nobody accepted first; of them warnings first, then by falling area.

@@ -32,9 +32,9 @@ Result<nlohmann::json> readJsonArray(const std::filesystem::path& file);
 Result<nlohmann::json> parseJson(const std::string& text, const std::string& file_name);
 
 Result<void> checkKeys(const nlohmann::json& value, const JsonPlace& at, std::initializer_list<std::string_view> known);
-Result<std::string> textOf(const nlohmann::json& value, const JsonPlace& at);   // not blank
+Result<std::string> textOf(const nlohmann::json& value, const JsonPlace& at);  // not blank
 Result<std::string> readText(const nlohmann::json& object, const JsonPlace& at, const char* key);
-Result<std::string> readId(const nlohmann::json& object, const JsonPlace& at);   // of a-z, 0-9 and _
+Result<std::string> readId(const nlohmann::json& object, const JsonPlace& at);  // of a-z, 0-9 and _
 Result<double> readNumber(const nlohmann::json& value, const JsonPlace& at, double minimum, double maximum);
 
 }  // namespace standpoint

@@ -70,7 +70,8 @@ Result<void> readMaterials(const LibraryFile& file, const SourceTable& sources, 
     const auto id = material->id;
     const auto [place, is_new] = entries.try_emplace(id, Entry{std::move(*material), at});
     if (!is_new)
-      return (at / "id").unusable("'" + id + "' is already in " + place->second.at.file + ' ' + place->second.at.pointer);
+      return (at / "id").unusable("'" + id + "' is already in " + place->second.at.file + ' ' +
+                                  place->second.at.pointer);
   }
   return {};
 }
@@ -144,8 +145,10 @@ std::vector<PhysicalMaterial> withOwn(std::vector<PhysicalMaterial> library, con
   const auto before = [](const PhysicalMaterial& a, const PhysicalMaterial& b) { return a.id < b.id; };
   for (const auto& material : own) {
     const auto place = std::lower_bound(library.begin(), library.end(), material, before);
-    if (place != library.end() && place->id == material.id) *place = material;
-    else library.insert(place, material);
+    if (place != library.end() && place->id == material.id)
+      *place = material;
+    else
+      library.insert(place, material);
   }
   return library;
 }

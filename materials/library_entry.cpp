@@ -30,9 +30,10 @@ constexpr Figure kFigures[] = {
 };
 
 // What a source may be given for, and has to be where the entry has it.
-constexpr const char* kSourced[] = {"wet_of", "reflectance", "roughness_rad", "gloss_slope", "index_of_refraction",
-                                    "complex_index", "thickness_m", "transmittance", "panes", "gap_m", "variation",
-                                    "texture_scale_m", "retro_gain"};
+constexpr const char* kSourced[] = {
+    "wet_of",        "reflectance",     "roughness_rad", "gloss_slope", "index_of_refraction",
+    "complex_index", "thickness_m",     "transmittance", "panes",       "gap_m",
+    "variation",     "texture_scale_m", "retro_gain"};
 
 Result<Spectrum> readSpectrum(const nlohmann::json& value, const JsonPlace& at) {
   if (!value.is_array() || value.empty()) return at.unusable("must be a list of [wavelength_nm, share]");
@@ -60,7 +61,8 @@ Result<std::vector<ComplexIndex>> readComplexIndex(const nlohmann::json& value, 
     ComplexIndex row;
     for (const auto& [column, field, minimum, maximum] :
          {std::tuple{std::size_t{0}, &ComplexIndex::wavelength_nm, 200.0, 20000.0},
-          {std::size_t{1}, &ComplexIndex::n, 0.001, 1000.0}, {std::size_t{2}, &ComplexIndex::k, 0.0, 1000.0}}) {
+          {std::size_t{1}, &ComplexIndex::n, 0.001, 1000.0},
+          {std::size_t{2}, &ComplexIndex::k, 0.0, 1000.0}}) {
       const auto number = readNumber(value[i][column], here / column, minimum, maximum);
       if (!number) return failure(number.error());
       row.*field = *number;
@@ -87,7 +89,8 @@ Result<Citation> readCitation(const std::string& figure, const std::string& text
     }
     const auto id = text.substr(open + 1, close - open - 1);
     const auto source = sources.find(id);
-    if (source == sources.end()) return at.unusable("refers to the source [" + id + "], which is not listed under \"sources\"");
+    if (source == sources.end())
+      return at.unusable("refers to the source [" + id + "], which is not listed under \"sources\"");
     citation.text += source->second.text;
     if (citation.licence.find(source->second.licence) == std::string::npos)
       citation.licence += (citation.licence.empty() ? "" : "; ") + source->second.licence;
@@ -95,7 +98,8 @@ Result<Citation> readCitation(const std::string& figure, const std::string& text
     from = close + 1;
   }
   if (!refers && !text.starts_with("unsourced"))
-    return at.unusable("refers to no source: write [id] of one that is listed under \"sources\", or begin with 'unsourced'");
+    return at.unusable(
+        "refers to no source: write [id] of one that is listed under \"sources\", or begin with 'unsourced'");
   return citation;
 }
 
@@ -104,11 +108,13 @@ Result<void> readCitations(const nlohmann::json& entry, const JsonPlace& at, con
   static const nlohmann::json kNone = nlohmann::json::object();
   const auto here = at / "source";
   const auto found = entry.find("source");
-  if (found == entry.end() && !isGap(material)) return here.unusable("is missing: every figure names where it comes from");
+  if (found == entry.end() && !isGap(material))
+    return here.unusable("is missing: every figure names where it comes from");
   const auto& texts = found == entry.end() ? kNone : *found;
   if (!texts.is_object()) return here.unusable("must be an object with one text for each figure");
   for (const auto& item : texts.items())
-    if (std::find(std::begin(kSourced), std::end(kSourced), item.key()) == std::end(kSourced) || !entry.contains(item.key()))
+    if (std::find(std::begin(kSourced), std::end(kSourced), item.key()) == std::end(kSourced) ||
+        !entry.contains(item.key()))
       return (here / item.key()).unusable("is the source of a figure that the entry does not have");
   for (const char* key : kSourced) {
     if (!entry.contains(key)) continue;
@@ -136,7 +142,8 @@ Result<void> checkEnergy(const PhysicalMaterial& material, const JsonPlace& at) 
   for (std::size_t i = 0; i < material.transmittance.size(); ++i) {
     const auto [wavelength, through] = material.transmittance[i];
     // Both faces of a pane reflect r(1 + T) without absorption and less with it, so no real pane is refused.
-    const double back = specularAtNormal(material, wavelength) * (1 + through) + atWavelength(material.reflectance, wavelength);
+    const double back =
+        specularAtNormal(material, wavelength) * (1 + through) + atWavelength(material.reflectance, wavelength);
     if (through + back > 1 + kRounding)
       return (at / "transmittance" / i).unusable("transmitted and reflected part together exceed 1");
   }
@@ -147,7 +154,8 @@ Result<void> checkParts(const PhysicalMaterial& material, const JsonPlace& at) {
   const bool metal = !material.complex_index.empty();
   if (metal && material.index_of_refraction > 0)
     return (at / "complex_index").unusable("stands for index_of_refraction: give one of them");
-  if (metal && material.thickness_m > 0) return (at / "complex_index").unusable("is for opaque bodies; a pane has index_of_refraction");
+  if (metal && material.thickness_m > 0)
+    return (at / "complex_index").unusable("is for opaque bodies; a pane has index_of_refraction");
   if (material.gloss_slope > 0 && material.index_of_refraction == 0 && !metal)
     return (at / "gloss_slope").unusable("needs index_of_refraction or complex_index");
   if (material.panes > 1 && material.gap_m == 0) return (at / "panes").unusable("needs gap_m");
@@ -217,8 +225,8 @@ Result<void> readBasis(const nlohmann::json& entry, const JsonPlace& at, Physica
   return {};
 }
 
-// Reflectance of a wetted diffuse surface: light enters through the film's face (0.02 is sent back) and leaves it again,
-// of which 0.47 is thrown back each time (physics.md §4.8).
+// Reflectance of a wetted diffuse surface: light enters through the film's face (0.02 is sent back) and leaves it
+// again, of which 0.47 is thrown back each time (physics.md §4.8).
 Spectrum wetted(const Spectrum& dry) {
   constexpr double kFace = 0.02, kInside = 0.47;
   Spectrum wet = dry;

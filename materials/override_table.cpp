@@ -7,8 +7,12 @@
 
 namespace standpoint {
 
-OverrideTable::OverrideTable(const Environment& environment, const std::vector<MaterialOverride>& overrides, const Eigen::Vector3d& shift_m)
-    : environment_(environment), shift_m_(shift_m), of_product_(environment.products.size(), -1), selects_(overrides.size(), false) {
+OverrideTable::OverrideTable(const Environment& environment, const std::vector<MaterialOverride>& overrides,
+                             const Eigen::Vector3d& shift_m)
+    : environment_(environment),
+      shift_m_(shift_m),
+      of_product_(environment.products.size(), -1),
+      selects_(overrides.size(), false) {
   selectors_.reserve(overrides.size());
   for (std::size_t i = 0; i < overrides.size(); ++i) {
     const auto& selector = selectors_.emplace_back(environment, overrides[i].selector);
@@ -30,8 +34,10 @@ OverrideTable::Said OverrideTable::of(const SurfaceOfProduct& pair) {
     const auto& selector = selectors_[static_cast<std::size_t>(index)];
     if (!selector.fits(pair.product, pair.surface) || (selector.point() && !isAt(index, pair))) continue;
     selects_[static_cast<std::size_t>(index)] = true;
-    if (selector.direction()) said.faces.push_back(index);
-    else said.whole = std::max(said.whole, index);
+    if (selector.direction())
+      said.faces.push_back(index);
+    else
+      said.whole = std::max(said.whole, index);
   }
   std::erase_if(said.faces, [&](int index) { return index < said.whole; });
   return said;
@@ -45,7 +51,9 @@ std::optional<Eigen::Vector3d> OverrideTable::point(int index) const {
 // Of all faces of the product the one at the point: beside it, that of another surface is not meant.
 bool OverrideTable::isAt(int index, const SurfaceOfProduct& pair) const {
   const auto found = nearestFace(environment_, pair.product, std::nullopt, direction(index), *point(index));
-  return found && environment_.meshes[environment_.instances[found->instance].mesh]->surface_of_triangle[found->triangle] == pair.surface;
+  return found &&
+         environment_.meshes[environment_.instances[found->instance].mesh]->surface_of_triangle[found->triangle] ==
+             pair.surface;
 }
 
 }  // namespace standpoint

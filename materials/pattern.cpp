@@ -14,19 +14,68 @@ struct Run {
 };
 // Latin-1 Supplement and Latin Extended-A by their base letters (Unicode 15, charts U0080 and U0100).
 constexpr Run kBases[] = {
-    {0xA0, 0xA0, " "},      {0xB2, 0xB2, "2"},    {0xB3, 0xB3, "3"},   {0xD7, 0xD7, "x"},      {0xC0, 0xC5, "a"},    {0xC6, 0xC6, "ae"},  {0xC7, 0xC7, "c"},   {0xC8, 0xCB, "e"},
-    {0xCC, 0xCF, "i"},      {0xD0, 0xD0, "d"},    {0xD1, 0xD1, "n"},   {0xD2, 0xD6, "o"},   {0xD8, 0xD8, "o"},
-    {0xD9, 0xDC, "u"},      {0xDD, 0xDD, "y"},    {0xDE, 0xDE, "th"},  {0xDF, 0xDF, "ss"},  {0xE0, 0xE5, "a"},
-    {0xE6, 0xE6, "ae"},     {0xE7, 0xE7, "c"},    {0xE8, 0xEB, "e"},   {0xEC, 0xEF, "i"},   {0xF0, 0xF0, "d"},
-    {0xF1, 0xF1, "n"},      {0xF2, 0xF6, "o"},    {0xF8, 0xF8, "o"},   {0xF9, 0xFC, "u"},   {0xFD, 0xFD, "y"},
-    {0xFE, 0xFE, "th"},     {0xFF, 0xFF, "y"},    {0x100, 0x105, "a"}, {0x106, 0x10D, "c"}, {0x10E, 0x111, "d"},
-    {0x112, 0x11B, "e"},    {0x11C, 0x123, "g"},  {0x124, 0x127, "h"}, {0x128, 0x131, "i"}, {0x132, 0x133, "ij"},
-    {0x134, 0x135, "j"},    {0x136, 0x138, "k"},  {0x139, 0x142, "l"}, {0x143, 0x14B, "n"}, {0x14C, 0x151, "o"},
-    {0x152, 0x153, "oe"},   {0x154, 0x159, "r"},  {0x15A, 0x161, "s"}, {0x162, 0x167, "t"}, {0x168, 0x173, "u"},
-    {0x174, 0x175, "w"},    {0x176, 0x178, "y"},  {0x179, 0x17E, "z"}, {0x17F, 0x17F, "s"}, {0x300, 0x36F, ""},
-    {0x1E9E, 0x1E9E, "ss"}, {0x2000, 0x200A, " "},  {0x2010, 0x2015, "-"},  {0x2018, 0x201F, "'"}, {0xFEFF, 0xFEFF, ""},
+    {0xA0, 0xA0, " "},
+    {0xB2, 0xB2, "2"},
+    {0xB3, 0xB3, "3"},
+    {0xD7, 0xD7, "x"},
+    {0xC0, 0xC5, "a"},
+    {0xC6, 0xC6, "ae"},
+    {0xC7, 0xC7, "c"},
+    {0xC8, 0xCB, "e"},
+    {0xCC, 0xCF, "i"},
+    {0xD0, 0xD0, "d"},
+    {0xD1, 0xD1, "n"},
+    {0xD2, 0xD6, "o"},
+    {0xD8, 0xD8, "o"},
+    {0xD9, 0xDC, "u"},
+    {0xDD, 0xDD, "y"},
+    {0xDE, 0xDE, "th"},
+    {0xDF, 0xDF, "ss"},
+    {0xE0, 0xE5, "a"},
+    {0xE6, 0xE6, "ae"},
+    {0xE7, 0xE7, "c"},
+    {0xE8, 0xEB, "e"},
+    {0xEC, 0xEF, "i"},
+    {0xF0, 0xF0, "d"},
+    {0xF1, 0xF1, "n"},
+    {0xF2, 0xF6, "o"},
+    {0xF8, 0xF8, "o"},
+    {0xF9, 0xFC, "u"},
+    {0xFD, 0xFD, "y"},
+    {0xFE, 0xFE, "th"},
+    {0xFF, 0xFF, "y"},
+    {0x100, 0x105, "a"},
+    {0x106, 0x10D, "c"},
+    {0x10E, 0x111, "d"},
+    {0x112, 0x11B, "e"},
+    {0x11C, 0x123, "g"},
+    {0x124, 0x127, "h"},
+    {0x128, 0x131, "i"},
+    {0x132, 0x133, "ij"},
+    {0x134, 0x135, "j"},
+    {0x136, 0x138, "k"},
+    {0x139, 0x142, "l"},
+    {0x143, 0x14B, "n"},
+    {0x14C, 0x151, "o"},
+    {0x152, 0x153, "oe"},
+    {0x154, 0x159, "r"},
+    {0x15A, 0x161, "s"},
+    {0x162, 0x167, "t"},
+    {0x168, 0x173, "u"},
+    {0x174, 0x175, "w"},
+    {0x176, 0x178, "y"},
+    {0x179, 0x17E, "z"},
+    {0x17F, 0x17F, "s"},
+    {0x300, 0x36F, ""},
+    {0x1E9E, 0x1E9E, "ss"},
+    {0x2000, 0x200A, " "},
+    {0x2010, 0x2015, "-"},
+    {0x2018, 0x201F, "'"},
+    {0xFEFF, 0xFEFF, ""},
     // Cyrillic letters that stand for one another in names: ё for е, ґ for г.
-    {0x401, 0x401, "е"},    {0x451, 0x451, "е"},  {0x490, 0x491, "г"},
+    {0x401, 0x401, "е"},
+    {0x451, 0x451, "е"},
+    {0x490, 0x491, "г"},
 };
 
 std::size_t sequenceLength(unsigned char lead) {
@@ -79,7 +128,8 @@ bool beginsAt(std::string_view text, std::size_t at) {
   return at < text.size() && kindAt(text, at) != Kind::other && (at == 0 || kindAt(text, at - 1) != kindAt(text, at));
 }
 bool endsAt(std::string_view text, std::size_t at) {
-  return at > 0 && kindAt(text, at - 1) != Kind::other && (at == text.size() || kindAt(text, at) != kindAt(text, at - 1));
+  return at > 0 && kindAt(text, at - 1) != Kind::other &&
+         (at == text.size() || kindAt(text, at) != kindAt(text, at - 1));
 }
 
 // One glob against the whole text; remembers only the last star, so time is bounded by the product of the lengths.
@@ -153,14 +203,15 @@ std::string folded(std::string_view utf8) {
 std::uint64_t bytePairs(std::string_view text) {
   std::uint64_t pairs = 0;
   for (std::size_t i = 1; i < text.size(); ++i) {
-    const auto code = static_cast<std::uint64_t>(static_cast<unsigned char>(text[i - 1])) << 8U | static_cast<unsigned char>(text[i]);
+    const auto code =
+        static_cast<std::uint64_t>(static_cast<unsigned char>(text[i - 1])) << 8U | static_cast<unsigned char>(text[i]);
     pairs |= std::uint64_t{1} << (code * 0x9E3779B97F4A7C15ULL >> 58U);
   }
   return pairs;
 }
 
 Glob::Glob(std::string_view folded_glob) : glob_(folded_glob) {
-  for (std::size_t begin = 0; begin < glob_.size();) {   // between two signs that may stand for anything
+  for (std::size_t begin = 0; begin < glob_.size();) {  // between two signs that may stand for anything
     const auto end = std::min(glob_.find_first_of("*?#<>", begin), glob_.size());
     pairs_ |= bytePairs(std::string_view(glob_).substr(begin, end - begin));
     begin = end + 1;
@@ -226,7 +277,8 @@ int Pattern::fit(Folded& text) const {
   for (std::size_t i = 0; i < alternatives_.size(); ++i) {
     bool all = true;
     for (const auto& term : alternatives_[i])
-      all = all && (term.list >= 0 ? wordIn(term.list, text) >= 0 : term.glob.fits(text.text, text.pairs)) != term.negated;
+      all = all &&
+            (term.list >= 0 ? wordIn(term.list, text) >= 0 : term.glob.fits(text.text, text.pairs)) != term.negated;
     if (all) return static_cast<int>(i);
   }
   return -1;
@@ -245,7 +297,8 @@ std::string Pattern::found(int alternative, Folded& text) const {
   std::string all;
   for (const auto& term : alternatives_[static_cast<std::size_t>(alternative)])
     if (!term.negated)
-      all += (all.empty() ? "" : " & ") + (term.list >= 0 ? words_->word(term.list, wordIn(term.list, text)) : term.written);
+      all += (all.empty() ? "" : " & ") +
+             (term.list >= 0 ? words_->word(term.list, wordIn(term.list, text)) : term.written);
   return all;
 }
 
@@ -256,7 +309,8 @@ std::string flawOf(std::string_view alternatives, const WordLists& lists) {
       auto text = trimmed(written);
       if (text.starts_with('!')) text = trimmed(text.substr(1));
       if (!flaw.empty()) return;
-      if (text.empty()) flaw = "holds an empty pattern";
+      if (text.empty())
+        flaw = "holds an empty pattern";
       else if (isList(text) && !lists.contains(std::string(text.substr(1, text.size() - 2))))
         flaw = "refers to the list of words " + std::string(text) + ", which is not there";
       else if (!isList(text) && text.find_first_of("{}") != std::string_view::npos)

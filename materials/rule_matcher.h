@@ -40,7 +40,8 @@ class RuleMatcher {
     Pattern ifc_class, material, name, type, storey, group, layer, colour;
   };
   using Field = Pattern RulePatterns::*;
-  using Memo = std::map<std::string, std::vector<bool>, std::less<>>;   // by name: for each rule, whether it lets that pass
+  using Memo =
+      std::map<std::string, std::vector<bool>, std::less<>>;  // by name: for each rule, whether it lets that pass
 
   const std::vector<bool>& passes(Memo& memo, Field field, const std::string& text);
   bool asks(Field field) const;
@@ -54,7 +55,7 @@ class RuleMatcher {
   const RuleSet& set_;
   WordTable words_;
   std::vector<RulePatterns> patterns_;
-  std::vector<bool> all_pass_;          // for what no rule asks of
+  std::vector<bool> all_pass_;  // for what no rule asks of
   bool asks_name_ = false, asks_type_ = false;
   Memo classes_, materials_, names_, types_, storeys_, groups_, layers_;
   std::map<std::string, Known, std::less<>> known_;

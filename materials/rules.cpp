@@ -44,7 +44,8 @@ class RulesReader {
     for (const char* key : {"rules", "implausible"})
       if (content.contains(key) && !content[key].is_array()) return (root_ / key).unusable("must be a list");
     const auto& list = content["rules"];
-    if (list.size() > kMostRules) return (root_ / "rules").unusable("holds more than " + std::to_string(kMostRules) + " rules");
+    if (list.size() > kMostRules)
+      return (root_ / "rules").unusable("holds more than " + std::to_string(kMostRules) + " rules");
     for (std::size_t i = 0; i < list.size(); ++i) {
       auto rule = readRule(list[i], root_ / "rules" / i);
       if (!rule) return failure(rule.error());
@@ -68,14 +69,16 @@ class RulesReader {
     if (!found->is_object()) return (root_ / "words").unusable("must be an object of lists");
     for (const auto& [name, list] : found->items()) {
       const auto at = root_ / "words" / name;
-      if (name.empty() || name.find_first_of("{}|&!") != std::string::npos) return at.unusable("may not hold { } | & !");
+      if (name.empty() || name.find_first_of("{}|&!") != std::string::npos)
+        return at.unusable("may not hold { } | & !");
       if (!list.is_array() || list.empty()) return at.unusable("must be a list of texts");
       auto& words = words_[name];
       words.clear();
       for (std::size_t i = 0; i < list.size(); ++i) {
         auto word = textOf(list[i], at / i);
         if (!word) return failure(word.error());
-        if (word->find_first_of("{}|&") != std::string::npos) return (at / i).unusable("is one word: { } | & belong into patterns");
+        if (word->find_first_of("{}|&") != std::string::npos)
+          return (at / i).unusable("is one word: { } | & belong into patterns");
         words.push_back(std::move(*word));
       }
     }
@@ -90,7 +93,8 @@ class RulesReader {
     return text;
   }
 
-  static Result<std::optional<ValueRange>> readRange(const nlohmann::json& entry, const JsonPlace& at, const char* key) {
+  static Result<std::optional<ValueRange>> readRange(const nlohmann::json& entry, const JsonPlace& at,
+                                                     const char* key) {
     const auto found = entry.find(key);
     if (found == entry.end()) return std::optional<ValueRange>();
     if (!found->is_array() || found->size() != 2) return (at / key).unusable("must be [from, to]");
@@ -108,23 +112,30 @@ class RulesReader {
   }
 
   Result<AssignmentRule> readRule(const nlohmann::json& entry, const JsonPlace& at) const {
-    if (auto checked = checkKeys(entry, at, {"ifc_class", "material", "name", "type", "storey", "group", "layer", "colour", "metallic", "roughness",
-                                             "transmission", "assign", "hidden", "confidence"});
+    if (auto checked = checkKeys(entry, at,
+                                 {"ifc_class", "material", "name", "type", "storey", "group", "layer", "colour",
+                                  "metallic", "roughness", "transmission", "assign", "hidden", "confidence"});
         !checked)
       return failure(checked.error());
     AssignmentRule rule;
     bool asks = false;
-    for (const auto& [key, field] :
-         {std::pair{"ifc_class", &AssignmentRule::ifc_class}, {"material", &AssignmentRule::material}, {"name", &AssignmentRule::name},
-          {"type", &AssignmentRule::type}, {"storey", &AssignmentRule::storey}, {"group", &AssignmentRule::group},
-          {"layer", &AssignmentRule::layer}, {"colour", &AssignmentRule::colour}}) {
+    for (const auto& [key, field] : {std::pair{"ifc_class", &AssignmentRule::ifc_class},
+                                     {"material", &AssignmentRule::material},
+                                     {"name", &AssignmentRule::name},
+                                     {"type", &AssignmentRule::type},
+                                     {"storey", &AssignmentRule::storey},
+                                     {"group", &AssignmentRule::group},
+                                     {"layer", &AssignmentRule::layer},
+                                     {"colour", &AssignmentRule::colour}}) {
       auto pattern = readPattern(entry, at, key);
       if (!pattern) return failure(pattern.error());
       asks = asks || !pattern->empty();
       rule.*field = std::move(*pattern);
     }
     if (auto checked = checkColours(rule.colour, at / "colour"); !checked) return failure(checked.error());
-    for (const auto& [key, field] : {std::pair{"metallic", &AssignmentRule::metallic}, {"roughness", &AssignmentRule::roughness}, {"transmission", &AssignmentRule::transmission}}) {
+    for (const auto& [key, field] : {std::pair{"metallic", &AssignmentRule::metallic},
+                                     {"roughness", &AssignmentRule::roughness},
+                                     {"transmission", &AssignmentRule::transmission}}) {
       auto range = readRange(entry, at, key);
       if (!range) return failure(range.error());
       asks = asks || range->has_value();
@@ -148,7 +159,8 @@ class RulesReader {
   }
 
   Result<Implausible> readImplausible(const nlohmann::json& entry, const JsonPlace& at) const {
-    if (auto checked = checkKeys(entry, at, {"ifc_class", "assigned", "why"}); !checked) return failure(checked.error());
+    if (auto checked = checkKeys(entry, at, {"ifc_class", "assigned", "why"}); !checked)
+      return failure(checked.error());
     auto ifc_class = readPattern(entry, at, "ifc_class");
     if (!ifc_class) return failure(ifc_class.error());
     if (!entry.contains("assigned")) return (at / "assigned").unusable("is missing");
@@ -190,12 +202,13 @@ Result<RuleSet> parseAssignmentRules(const std::string& text, const std::string&
   }
   auto set = RulesReader(file_name, library, defaults.words).read(*content);
   if (!set) return set;
-  set->own = default_file.empty() ? 0 : set->rules.size();   // else they are the default rules themselves
+  set->own = default_file.empty() ? 0 : set->rules.size();  // else they are the default rules themselves
   if (!*more) return set;
   // The default patterns keep the words that they were written with.
   for (const auto& [name, words] : defaults.words)
     if (set->words.at(name) != words)
-      return (JsonPlace{file_name, {}} / "words" / name).unusable("is a list of the default rules: give yours another name");
+      return (JsonPlace{file_name, {}} / "words" / name)
+          .unusable("is a list of the default rules: give yours another name");
   set->rules.insert(set->rules.end(), defaults.rules.begin(), defaults.rules.end());
   set->implausible.insert(set->implausible.end(), defaults.implausible.begin(), defaults.implausible.end());
   return set;

@@ -13,7 +13,8 @@ namespace standpoint {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> kKinds = {"class", "type", "name", "storey", "group", "layer", "material", "colour"};
+constexpr std::array<std::string_view, 8> kKinds = {"class", "type",  "name",     "storey",
+                                                    "group", "layer", "material", "colour"};
 
 struct Condition {
   std::string_view kind;  // "class", …; empty: an id or a GlobalId
@@ -75,7 +76,8 @@ Faces takeFaces(std::string_view& text) {
 }
 
 bool fitsAny(const Pattern& pattern, const std::vector<std::string>& names) {
-  return std::any_of(names.begin(), names.end(), [&](const std::string& name) { return pattern.fit(folded(name)) >= 0; });
+  return std::any_of(names.begin(), names.end(),
+                     [&](const std::string& name) { return pattern.fit(folded(name)) >= 0; });
 }
 
 bool fits(const Condition& condition, const Pattern& pattern, const Product& product) {
@@ -84,7 +86,8 @@ bool fits(const Condition& condition, const Pattern& pattern, const Product& pro
   if (condition.kind == "name") return pattern.fit(folded(product.name)) >= 0;
   if (condition.kind == "storey") return pattern.fit(folded(product.storey)) >= 0;
   if (condition.kind == "group") return fitsAny(pattern, product.groups);
-  if (condition.kind == "layer") return anyPresentationLayer(product, [&](const std::string& name) { return pattern.fit(folded(name)) >= 0; });
+  if (condition.kind == "layer")
+    return anyPresentationLayer(product, [&](const std::string& name) { return pattern.fit(folded(name)) >= 0; });
   return !condition.value.empty() && (product.id == condition.value || product.global_id == condition.value);
 }
 

@@ -12,9 +12,9 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kStride = 0.05;    // m
-constexpr int kMostSlides = 4;      // of one stride: into a corner and out of it
-constexpr double kCrack = 0.04;     // m, between two floors, that a foot does not notice
+constexpr double kStride = 0.05;  // m
+constexpr int kMostSlides = 4;    // of one stride: into a corner and out of it
+constexpr double kCrack = 0.04;   // m, between two floors, that a foot does not notice
 const Vector3d kStepUp(0, 0, kStepHeight);
 
 }  // namespace

@@ -10,14 +10,15 @@
 
 namespace standpoint {
 
-// Somebody who walks: an upright capsule whose feet are on the floor under its axis, who climbs what is no higher than a step
-// and lets nothing else through. It does not fall: where the floor ends, or goes down by more than a step, it stops.
-// No window, no clock: whoever steers it says how far it wants to go. Keeps a reference to the obstacles.
+// Somebody who walks: an upright capsule whose feet are on the floor under its axis, who climbs what is no higher than
+// a step and lets nothing else through. It does not fall: where the floor ends, or goes down by more than a step, it
+// stops. No window, no clock: whoever steers it says how far it wants to go. Keeps a reference to the obstacles.
 class Avatar {
  public:
   explicit Avatar(const Obstacles& obstacles, const Body& body = {}) : obstacles_(&obstacles), body_(body) {}
 
-  // Puts it on the highest floor at most `reach_m` under p on which it has room; false, and it stays where it is, where there is none.
+  // Puts it on the highest floor at most `reach_m` under p on which it has room; false, and it stays where it is, where
+  // there is none.
   bool stand(const Eigen::Vector3d& p, double reach_m = 3);
 
   // Goes by this much, in strides so short that no step is left out, and slides along what is in the way.

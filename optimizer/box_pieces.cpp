@@ -12,10 +12,10 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kFlat = 0.001;              // m; faces this flat in one axis are square to it, planes this near are one
+constexpr double kFlat = 0.001;  // m; faces this flat in one axis are square to it, planes this near are one
 constexpr std::size_t kMostCells = 100'000;
 constexpr std::size_t kMostBoxes = 200;
-constexpr std::size_t kFewBlocks = 4;        // that need not become fewer
+constexpr std::size_t kFewBlocks = 4;  // that need not become fewer
 
 // The part's own axes (rows): the two largest perpendicular face directions and their cross product.
 std::optional<Matrix3d> ownAxes(const Shape& part) {
@@ -47,7 +47,9 @@ int cellBelow(const std::vector<double>& planes, double value) {  // index of th
 }
 
 bool covers(const std::array<Vector3d, 3>& t, double y, double z) {
-  const auto side = [&](int i, int j) { return (t[j].y() - t[i].y()) * (z - t[i].z()) - (t[j].z() - t[i].z()) * (y - t[i].y()); };
+  const auto side = [&](int i, int j) {
+    return (t[j].y() - t[i].y()) * (z - t[i].z()) - (t[j].z() - t[i].z()) * (y - t[i].y());
+  };
   const double a = side(0, 1), b = side(1, 2), c = side(2, 0);
   return (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
 }
@@ -59,19 +61,22 @@ void crossFace(Cells& cells, const std::array<Vector3d, 3>& t) {
   const auto middle = [&](int axis, int i) { return 0.5 * (cells.planes[axis][i] + cells.planes[axis][i + 1]); };
   const auto range = [&](int axis) {
     const auto [low, high] = std::minmax({t[0][axis], t[1][axis], t[2][axis]});
-    return std::pair(cellBelow(cells.planes[axis], low), std::min(cellBelow(cells.planes[axis], high), cells.size[axis]));
+    return std::pair(cellBelow(cells.planes[axis], low),
+                     std::min(cellBelow(cells.planes[axis], high), cells.size[axis]));
   };
   const auto [y0, y1] = range(1);
   const auto [z0, z1] = range(2);
   for (int z = z0; z < z1; ++z)
     for (int y = y0; y < y1; ++y)
       // A diagonal shared by two triangles must not run through the point that is asked for.
-      if (covers(t, middle(1, y) + 1e-7 * (1 + y), middle(2, z) + 1.7e-7 * (1 + z))) cells.solid[cells.at(x, y, z)] ^= 1;
+      if (covers(t, middle(1, y) + 1e-7 * (1 + y), middle(2, z) + 1.7e-7 * (1 + z)))
+        cells.solid[cells.at(x, y, z)] ^= 1;
 }
 
 std::optional<Cells> cut(const Shape& part, const Matrix3d& axes) {
   std::vector<Vector3d> points(part.positions.size());
-  std::transform(part.positions.begin(), part.positions.end(), points.begin(), [&](const Vector3d& p) { return axes * p; });
+  std::transform(part.positions.begin(), part.positions.end(), points.begin(),
+                 [&](const Vector3d& p) { return axes * p; });
   Cells cells;
   std::size_t count = 1;
   for (int axis = 0; axis < 3; ++axis) {
@@ -145,7 +150,8 @@ std::vector<Block> coveringBlocks(const Cells& cells) {
     return sum;
   };
   const auto isSolid = [&](const Block& b) {
-    return count(b, cells.solid) == static_cast<std::size_t>(b.high[0] - b.low[0]) * (b.high[1] - b.low[1]) * (b.high[2] - b.low[2]);
+    return count(b, cells.solid) ==
+           static_cast<std::size_t>(b.high[0] - b.low[0]) * (b.high[1] - b.low[1]) * (b.high[2] - b.low[2]);
   };
   const auto grown = [&](const std::array<int, 3>& at, const std::array<int, 3>& order) {
     Block block{at, {at[0] + 1, at[1] + 1, at[2] + 1}};

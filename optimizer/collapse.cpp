@@ -17,11 +17,11 @@ namespace standpoint {
 namespace {
 
 constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t kSplit = 100'000;      // triangles; a shape with more is simplified in cells first …
-constexpr std::size_t kOneQueue = 40'000;    // … until so many are left
-constexpr double kAllButLast = 1.1;          // times what shall be left is left to one queue over all
-constexpr std::size_t kChunk = 16'384;        // triangles that one task looks at
-constexpr double kWorthwhile = 0.9;          // a round that leaves more was the last one
+constexpr std::size_t kSplit = 100'000;    // triangles; a shape with more is simplified in cells first …
+constexpr std::size_t kOneQueue = 40'000;  // … until so many are left
+constexpr double kAllButLast = 1.1;        // times what shall be left is left to one queue over all
+constexpr std::size_t kChunk = 16'384;     // triangles that one task looks at
+constexpr double kWorthwhile = 0.9;        // a round that leaves more was the last one
 
 constexpr double kShareOfRound = 0.25, kShareOfRefining = 0.6;
 
@@ -34,7 +34,8 @@ void appendNamed(const std::vector<Step>& steps, const std::vector<std::uint32_t
   }
 }
 
-void runRounds(Region& region, std::size_t floor, double share, const CollapseOptions& options, const Shape& shape, std::vector<Collapse>& log, const Progress& progress) {
+void runRounds(Region& region, std::size_t floor, double share, const CollapseOptions& options, const Shape& shape,
+               std::vector<Collapse>& log, const Progress& progress) {
   const auto enough = static_cast<std::size_t>(kAllButLast * static_cast<double>(floor));
   Round round{0.5, share, enough};
   for (std::size_t before = 0; region.patch.triangles.size() > std::max(kOneQueue, enough) && !progress.cancelled();) {
@@ -58,7 +59,8 @@ std::vector<Collapse> recordCollapses(const Shape& shape, const CollapseOptions&
   Collapser last(std::move(region.patch), limited, shape);
   appendNamed(last.run(options.floor, progress), region.names, log);
   // The last step of all: whatever is left goes at once.
-  if (!limited.lossless && limited.max_deviation_m >= shape.diagonal() / 2 && last.triangles() > options.floor && !progress.cancelled())
+  if (!limited.lossless && limited.max_deviation_m >= shape.diagonal() / 2 && last.triangles() > options.floor &&
+      !progress.cancelled())
     log.push_back({0, 0, static_cast<std::uint32_t>(last.triangles()), false, Eigen::Vector3d::Zero()});
   return log;
 }
@@ -85,7 +87,8 @@ LogPlayer::LogPlayer(const Shape& shape, const std::vector<Collapse>& log)
 const Shape& LogPlayer::at(std::size_t steps) {
   if (steps <= done_) return form_;
   for (auto k = done_; k < steps; ++k) form_.positions[log_[k].kept] = log_[k].position;
-  for (auto k = steps; k-- > done_;) joined_[log_[k].removed] = joined_[log_[k].kept];  // the last first: that one's end is known
+  for (auto k = steps; k-- > done_;)
+    joined_[log_[k].removed] = joined_[log_[k].kept];  // the last first: that one's end is known
   done_ = steps;
   const bool nothing_left = log_[steps - 1].kept == log_[steps - 1].removed;
   const auto count = nothing_left ? 0 : form_.triangles.size();
@@ -181,7 +184,8 @@ Shape withoutUnused(const Shape& shape, std::vector<std::uint32_t>& names) {
   return result;
 }
 
-Shape replay(const Shape& shape, const std::vector<Collapse>& log, std::size_t steps, std::vector<std::uint32_t>* image) {
+Shape replay(const Shape& shape, const std::vector<Collapse>& log, std::size_t steps,
+             std::vector<std::uint32_t>* image) {
   LogPlayer player(shape, log);
   player.at(steps);
   if (image) *image = player.image();

@@ -13,16 +13,24 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr std::uint32_t kMaxCorners = 400;       // of one vertex; bounds the time of a fan
-constexpr double kShortestFirst = 1e-12;         // among equal costs: 1 m of edge weighs like 1 µm of deviation
-constexpr double kLargestTurnCosine = 0.2;       // a triangle may turn by 78° in one step
+constexpr std::uint32_t kMaxCorners = 400;  // of one vertex; bounds the time of a fan
+constexpr double kShortestFirst = 1e-12;    // among equal costs: 1 m of edge weighs like 1 µm of deviation
+constexpr double kLargestTurnCosine = 0.2;  // a triangle may turn by 78° in one step
 
 }  // namespace
 
 Collapser::Collapser(Patch patch, const CollapseOptions& options, const Shape& whole)
-    : options_(options), rounding_(whole.rounding()), capped_(options.max_deviation_m < whole.diagonal()), half_size_(whole.half_size), patch_(std::move(patch)),
-      alive_(patch_.triangles.size()), first_corner_(patch_.positions.size(), kNone), last_corner_(patch_.positions.size(), kNone),
-      next_corner_(3 * patch_.triangles.size(), kNone), corner_count_(patch_.positions.size(), 0), age_(patch_.positions.size(), 0),
+    : options_(options),
+      rounding_(whole.rounding()),
+      capped_(options.max_deviation_m < whole.diagonal()),
+      half_size_(whole.half_size),
+      patch_(std::move(patch)),
+      alive_(patch_.triangles.size()),
+      first_corner_(patch_.positions.size(), kNone),
+      last_corner_(patch_.positions.size(), kNone),
+      next_corner_(3 * patch_.triangles.size(), kNone),
+      corner_count_(patch_.positions.size(), 0),
+      age_(patch_.positions.size(), 0),
       mark_(patch_.positions.size(), 0) {
   linkCorners();
   if (options_.memoryless) {
@@ -84,7 +92,8 @@ void Collapser::placeBySolid(std::uint32_t a, std::uint32_t b, const Solid& soli
   const Vector3d &pa = patch_.positions[a], &pb = patch_.positions[b], middle = 0.5 * (pa + pb);
   merger.position = pa;
   if (!fixed(a)) {
-    merger.position = merger.q.minimumInPlane(middle, solid.normal, solid.offset).cwiseMax(-half_size_).cwiseMin(half_size_);
+    merger.position =
+        merger.q.minimumInPlane(middle, solid.normal, solid.offset).cwiseMax(-half_size_).cwiseMin(half_size_);
     if (!((merger.position - middle).squaredNorm() <= (pa - pb).squaredNorm() * 4)) merger.position = middle;
   }
   merger.value = merger.q(merger.position);
@@ -93,8 +102,10 @@ void Collapser::placeBySolid(std::uint32_t a, std::uint32_t b, const Solid& soli
 void Collapser::linkCorners() {
   for (std::uint32_t corner = 0; corner < next_corner_.size(); ++corner) {
     const auto v = patch_.triangles[corner / 3][corner % 3];
-    if (first_corner_[v] == kNone) first_corner_[v] = corner;
-    else next_corner_[last_corner_[v]] = corner;
+    if (first_corner_[v] == kNone)
+      first_corner_[v] = corner;
+    else
+      next_corner_[last_corner_[v]] = corner;
     last_corner_[v] = corner;
     ++corner_count_[v];
   }
@@ -130,7 +141,8 @@ void Collapser::place(std::uint32_t a, std::uint32_t b, Merger& merger) const {
   if (!options_.lossless && !fixed(a)) {
     const Vector3d middle = 0.5 * (pa + pb), best = q.minimum(middle);
     const bool inside = (best.cwiseAbs().array() <= half_size_.array()).all();
-    const bool near = (best - middle).squaredNorm() <= 4 * (pb - pa).squaredNorm();  // else ill-conditioned, or not finite
+    const bool near =
+        (best - middle).squaredNorm() <= 4 * (pb - pa).squaredNorm();  // else ill-conditioned, or not finite
     take(near ? best.cwiseMax(-half_size_).cwiseMin(half_size_) : middle);
     if (inside && near && merger.value > same) return;  // no end is better
   }
@@ -149,7 +161,8 @@ std::optional<CollapseQueue::Entry> Collapser::candidate(std::uint32_t a, std::u
   if (fixed(b)) return std::nullopt;
   const Merger merger = merge(a, b);
   const auto& q = merger.q;
-  if (!options_.memoryless && merger.value > 4 * q.weight * options_.max_deviation_m * options_.max_deviation_m) return std::nullopt;
+  if (!options_.memoryless && merger.value > 4 * q.weight * options_.max_deviation_m * options_.max_deviation_m)
+    return std::nullopt;
   if (options_.lossless) {
     Quadric f = patch_.features[a];
     f += patch_.features[b];
@@ -191,11 +204,13 @@ Collapser::Effect Collapser::effect(std::uint32_t a, std::uint32_t b, const Vect
   return e;
 }
 
-// What a candidate really costs. Folding a triangle over costs as if its whole neighbourhood moved by the edge's length;
-// a part that vanishes costs its area times its squared size. Both keep a shape able to reach any count, last of all.
+// What a candidate really costs. Folding a triangle over costs as if its whole neighbourhood moved by the edge's
+// length; a part that vanishes costs its area times its squared size. Both keep a shape able to reach any count, last
+// of all.
 double Collapser::price(std::uint32_t a, std::uint32_t b, const Merger& merger, const Effect& e) const {
   if (e.surviving == 0) return std::max(merger.cost, merger.q.weight * e.longest_edge * e.longest_edge / 4);
-  if (e.flips) return std::max(merger.cost, merger.q.weight * (patch_.positions[a] - patch_.positions[b]).squaredNorm());
+  if (e.flips)
+    return std::max(merger.cost, merger.q.weight * (patch_.positions[a] - patch_.positions[b]).squaredNorm());
   return merger.cost;
 }
 
@@ -209,7 +224,8 @@ bool Collapser::tooFar(std::uint32_t a, std::uint32_t b, const Vector3d& p, cons
     return std::sqrt(best);
   };
   const double here = e.surviving == 0 ? e.longest_edge / 2
-                                       : std::max({distance(patch_.positions[a], after_), distance(patch_.positions[b], after_), distance(p, before_)});
+                                       : std::max({distance(patch_.positions[a], after_),
+                                                   distance(patch_.positions[b], after_), distance(p, before_)});
   deviation = before + here;
   return deviation > options_.max_deviation_m;
 }
@@ -218,11 +234,15 @@ void Collapser::apply(std::uint32_t a, std::uint32_t b, const Vector3d& p) {
   for (std::uint32_t corner = first_corner_[b]; corner != kNone; corner = next_corner_[corner]) {
     auto& t = patch_.triangles[corner / 3];
     if (t[0] == kNone) continue;
-    if (t[0] == a || t[1] == a || t[2] == a) t = {kNone, kNone, kNone}, --alive_;
-    else t[corner % 3] = a;
+    if (t[0] == a || t[1] == a || t[2] == a)
+      t = {kNone, kNone, kNone}, --alive_;
+    else
+      t[corner % 3] = a;
   }
-  if (first_corner_[a] == kNone) first_corner_[a] = first_corner_[b];
-  else next_corner_[last_corner_[a]] = first_corner_[b];
+  if (first_corner_[a] == kNone)
+    first_corner_[a] = first_corner_[b];
+  else
+    next_corner_[last_corner_[a]] = first_corner_[b];
   if (first_corner_[b] != kNone) last_corner_[a] = last_corner_[b];
   corner_count_[a] += corner_count_[b];
   first_corner_[b] = kNone;

@@ -18,21 +18,21 @@ namespace standpoint {
 struct Patch {
   std::vector<Eigen::Vector3d> positions;
   std::vector<Triangle> triangles;
-  std::vector<Quadric> quadrics;         // of each vertex: the planes around it, and those that hold borders and creases
-  std::vector<Quadric> features;         // lossless only: unweighted, so that its root bounds the distance to each
-  std::vector<float> deviation_m;        // of what was gathered at a vertex, from the surface that it has now
-  std::vector<std::uint8_t> fixed;       // stays where it is; empty: none. What is not fixed may still join it
+  std::vector<Quadric> quadrics;    // of each vertex: the planes around it, and those that hold borders and creases
+  std::vector<Quadric> features;    // lossless only: unweighted, so that its root bounds the distance to each
+  std::vector<float> deviation_m;   // of what was gathered at a vertex, from the surface that it has now
+  std::vector<std::uint8_t> fixed;  // stays where it is; empty: none. What is not fixed may still join it
 };
 
 struct Step {
   Collapse collapse;
-  double cost = 0;         // never falls along a log: the largest so far
+  double cost = 0;  // never falls along a log: the largest so far
   float deviation_m = 0;
   std::uint32_t cell = 0;  // whose step it is, where several work side by side
 };
 
-// Collapses edges of a patch, cheapest first. Triangles are an array, each corner a link in its vertex's list of corners
-// (corner = 3 * triangle + k).
+// Collapses edges of a patch, cheapest first. Triangles are an array, each corner a link in its vertex's list of
+// corners (corner = 3 * triangle + k).
 class Collapser {
  public:
   Collapser(Patch patch, const CollapseOptions& options, const Shape& whole);
@@ -79,7 +79,8 @@ class Collapser {
   bool fixed(std::uint32_t v) const { return !patch_.fixed.empty() && patch_.fixed[v] != 0; }
 
   bool isFlat(const Eigen::Vector3d& normal, const Eigen::Vector3d& e1, const Eigen::Vector3d& e2) const {
-    return normal.squaredNorm() <= rounding_ * rounding_ * std::max({e1.squaredNorm(), e2.squaredNorm(), (e2 - e1).squaredNorm()});
+    return normal.squaredNorm() <=
+           rounding_ * rounding_ * std::max({e1.squaredNorm(), e2.squaredNorm(), (e2 - e1).squaredNorm()});
   }
   bool dead(std::uint32_t triangle) const { return patch_.triangles[triangle][0] == kNone; }
 
@@ -108,7 +109,7 @@ class Collapser {
   Patch patch_;
   std::size_t alive_ = 0;
   std::vector<std::uint32_t> first_corner_, last_corner_, next_corner_, corner_count_, age_, mark_;
-  std::vector<Solid> solids_;            // memoryless only
+  std::vector<Solid> solids_;  // memoryless only
   CollapseQueue queue_;
   std::vector<Corners> before_, after_;  // the triangles around a candidate
   std::uint32_t epoch_ = 0;

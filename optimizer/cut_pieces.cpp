@@ -17,9 +17,9 @@ constexpr double kOn = 1e-6;              // m; a point this near to a plane is 
 constexpr double kSamePlane = 1 - 1e-10;  // cosine
 constexpr std::size_t kMostPieces = 300;
 constexpr std::size_t kMostCandidates = 24;
-constexpr std::size_t kManyFacets = 400;  // of which each cut is not tried, but judged by what it severs
-constexpr double kClear = 1e-4;            // m; a face this little within a hull is at its surface
-constexpr std::size_t kMostMerged = 120;  // pieces of which pairs are tried
+constexpr std::size_t kManyFacets = 400;         // of which each cut is not tried, but judged by what it severs
+constexpr double kClear = 1e-4;                  // m; a face this little within a hull is at its surface
+constexpr std::size_t kMostMerged = 120;         // pieces of which pairs are tried
 constexpr std::uint64_t kMostWork = 60'000'000;  // points held against planes: a third of a second
 
 struct Plane {
@@ -62,7 +62,9 @@ Loop capOf(const std::vector<Loop>& walls, const Plane& plane) {
   Loop points;
   for (const auto& loop : walls)
     for (const auto& p : loop)
-      if (std::abs(plane.above(p)) <= 2 * kOn && std::none_of(points.begin(), points.end(), [&](const Vector3d& q) { return (p - q).squaredNorm() < kOn * kOn; }))
+      if (std::abs(plane.above(p)) <= 2 * kOn && std::none_of(points.begin(), points.end(), [&](const Vector3d& q) {
+            return (p - q).squaredNorm() < kOn * kOn;
+          }))
         points.push_back(p);
   if (points.size() < 3) return {};
   Vector3d middle = Vector3d::Zero();
@@ -78,8 +80,12 @@ Loop capOf(const std::vector<Loop>& walls, const Plane& plane) {
 std::vector<Vector3d> cornersOf(const std::vector<Facet>& facets) {
   std::vector<Vector3d> points;
   for (const auto& facet : facets) points.insert(points.end(), facet.loop.begin(), facet.loop.end());
-  std::sort(points.begin(), points.end(), [](const Vector3d& a, const Vector3d& b) { return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end()); });
-  points.erase(std::unique(points.begin(), points.end(), [](const Vector3d& a, const Vector3d& b) { return (a - b).squaredNorm() < kOn * kOn; }), points.end());
+  std::sort(points.begin(), points.end(), [](const Vector3d& a, const Vector3d& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  });
+  points.erase(std::unique(points.begin(), points.end(),
+                           [](const Vector3d& a, const Vector3d& b) { return (a - b).squaredNorm() < kOn * kOn; }),
+               points.end());
   return points;
 }
 
@@ -157,7 +163,8 @@ class Cutter {
   Cell half(const Cell& cell, const Plane& plane, double side) const {
     Cell result;
     for (const auto& loop : cell.walls)
-      if (auto part = clipped(loop, plane, side); !part.empty() && !liesOn(part, plane)) result.walls.push_back(std::move(part));
+      if (auto part = clipped(loop, plane, side); !part.empty() && !liesOn(part, plane))
+        result.walls.push_back(std::move(part));
     if (auto cap = capOf(result.walls, plane); !cap.empty()) result.walls.push_back(std::move(cap));
     result.facets = halfOf(cell.facets, plane, side);
     return result;
@@ -171,7 +178,8 @@ class Cutter {
     std::sort(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());
     std::erase_if(result, [&](std::uint32_t i) {
-      const auto before = std::find_if(corners.begin(), corners.end(), [&](const Vector3d& p) { return planes_[i].above(p) > tolerance_; });
+      const auto before = std::find_if(corners.begin(), corners.end(),
+                                       [&](const Vector3d& p) { return planes_[i].above(p) > tolerance_; });
       work_ += static_cast<std::uint64_t>(before - corners.begin()) + 1;
       return before == corners.end();
     });
@@ -181,14 +189,17 @@ class Cutter {
   // The plane of a face that leaves least to do, or nothing where all is convex already.
   std::optional<Plane> cutOf(const Cell& cell) {
     auto candidates = reflexPlanes(cell.facets);
-    std::stable_sort(candidates.begin(), candidates.end(), [&](auto a, auto b) { return planes_[a].area > planes_[b].area; });
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [&](auto a, auto b) { return planes_[a].area > planes_[b].area; });
     if (candidates.size() > kMostCandidates) candidates.resize(kMostCandidates);
     std::optional<Plane> best;
     std::size_t least = std::numeric_limits<std::size_t>::max();
     for (const auto i : candidates) {
       const auto& plane = planes_[i];
-      const std::size_t cost = cell.facets.size() > kManyFacets ? severed(cell.facets, plane)
-                                                                : reflexPlanes(halfOf(cell.facets, plane, -1)).size() + reflexPlanes(halfOf(cell.facets, plane, 1)).size();
+      const std::size_t cost = cell.facets.size() > kManyFacets
+                                   ? severed(cell.facets, plane)
+                                   : reflexPlanes(halfOf(cell.facets, plane, -1)).size() +
+                                         reflexPlanes(halfOf(cell.facets, plane, 1)).size();
       if (cost < least) best = plane, least = cost;
     }
     return best;
@@ -201,8 +212,10 @@ class Cutter {
     for (const auto& facet : facets) {
       double low = 0, high = 0;
       for (const auto& p : facet.loop) low = std::min(low, plane.above(p)), high = std::max(high, plane.above(p));
-      if (low < -kOn && high > kOn) ++both;
-      else if (high > kOn) ++before;
+      if (low < -kOn && high > kOn)
+        ++both;
+      else if (high > kOn)
+        ++before;
     }
     const std::size_t behind = facets.size() - before;
     return 8 * both + std::max(before, behind) - std::min(before, behind);
@@ -214,7 +227,9 @@ class Cutter {
     std::vector<Vector3d> corners;
     for (const auto& loop : cell.walls)
       for (const auto& p : loop)
-        if (std::none_of(corners.begin(), corners.end(), [&](const Vector3d& q) { return (p - q).squaredNorm() < kOn * kOn; })) corners.push_back(p);
+        if (std::none_of(corners.begin(), corners.end(),
+                         [&](const Vector3d& q) { return (p - q).squaredNorm() < kOn * kOn; }))
+          corners.push_back(p);
     work_ += corners.size() * part_.triangles.size() * 10;
     for (const auto& p : corners) {
       // A corner of the cell may lie in the plane of a face without being on it: asked a little inwards.
@@ -227,11 +242,13 @@ class Cutter {
     return piece;
   }
 
-  // Whether nothing of the surface runs through the hull, but for a depth of `tolerance_m`: then it is all solid, or all not.
+  // Whether nothing of the surface runs through the hull, but for a depth of `tolerance_m`: then it is all solid, or
+  // all not.
   bool isClear(const Piece& hull, double tolerance_m) const {
     std::vector<Plane> planes;
     for (const auto& t : hull.triangles) {
-      const Vector3d &a = hull.positions[t[0]], ab = hull.positions[t[1]] - a, ac = hull.positions[t[2]] - a, normal = ab.cross(ac);
+      const Vector3d &a = hull.positions[t[0]], ab = hull.positions[t[1]] - a, ac = hull.positions[t[2]] - a,
+                     normal = ab.cross(ac);
       if (normal.norm() < 1e-5 * std::max(ab.norm(), ac.norm())) continue;
       const Vector3d unit = normal.normalized();
       planes.push_back({unit, unit.dot(a) - tolerance_m});
@@ -240,7 +257,9 @@ class Cutter {
     for (const auto& p : hull.positions) low = low.cwiseMin(p), high = high.cwiseMax(p);
     for (const auto& t : part_.triangles) {
       const Vector3d &a = part_.positions[t[0]], &b = part_.positions[t[1]], &c = part_.positions[t[2]];
-      if ((a.cwiseMin(b).cwiseMin(c).array() > high.array()).any() || (a.cwiseMax(b).cwiseMax(c).array() < low.array()).any()) continue;
+      if ((a.cwiseMin(b).cwiseMin(c).array() > high.array()).any() ||
+          (a.cwiseMax(b).cwiseMax(c).array() < low.array()).any())
+        continue;
       Loop loop{a, b, c};
       for (const auto& plane : planes)
         if (loop = clipped(loop, plane, -1); loop.empty()) break;
@@ -268,7 +287,8 @@ class Cutter {
   void merge(std::vector<Piece>& pieces) const {
     if (pieces.size() > kMostMerged) return;
     const auto volume = [](const Piece& p) { return volumeOf(p.positions, p.triangles); };
-    std::stable_sort(pieces.begin(), pieces.end(), [&](const Piece& a, const Piece& b) { return volume(a) > volume(b); });
+    std::stable_sort(pieces.begin(), pieces.end(),
+                     [&](const Piece& a, const Piece& b) { return volume(a) > volume(b); });
     const auto touch = [](const Piece& a, const Piece& b) {
       for (int axis = 0; axis < 3; ++axis) {
         const auto by_axis = [&](const Vector3d& p, const Vector3d& q) { return p[axis] < q[axis]; };

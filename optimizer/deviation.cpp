@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
 
-constexpr std::size_t kChunk = 2048;     // points or triangles that one task looks at
+constexpr std::size_t kChunk = 2048;  // points or triangles that one task looks at
 
 std::vector<double> areasOf(std::span<const Vector3d> positions, std::span<const Triangle> triangles) {
   std::vector<double> areas(triangles.size());
@@ -57,7 +57,8 @@ double angleBetween(const Vector3d& a, const Vector3d& b) { return std::atan2(a.
 template <class Task>
 OneWay inChunks(std::size_t count, Task task) {
   std::vector<OneWay> parts((count + kChunk - 1) / kChunk);
-  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) { parts[i] = task(i * kChunk, std::min(count, (i + 1) * kChunk)); });
+  tbb::parallel_for(std::size_t{0}, parts.size(),
+                    [&](std::size_t i) { parts[i] = task(i * kChunk, std::min(count, (i + 1) * kChunk)); });
   OneWay all;
   for (const auto& part : parts) all += part;
   return all;
@@ -74,14 +75,17 @@ OneWay ofPoints(const OneWaySurfaces& way, const std::vector<SurfacePoint>& poin
       TriangleTree::Near near;
       for (const auto known : {own, lately}) {
         if (known == kNone) continue;
-        if (const double squared = way.squaredDistance(point.position, known); squared < near.squared) near = {squared, known};
+        if (const double squared = way.squaredDistance(point.position, known); squared < near.squared)
+          near = {squared, known};
       }
       const auto better = way.tree.nearestTriangle(point.position, near.squared);
       if (better.triangle != kNone) near = better;
       lately = near.triangle;
       part.max_squared = std::max(part.max_squared, near.squared);
       part.sum += std::sqrt(near.squared);
-      part.turn += near.triangle == kNone ? 0 : angleBetween(normalOf(way.from, point.triangle), normalOf(way.to, near.triangle));
+      part.turn += near.triangle == kNone
+                       ? 0
+                       : angleBetween(normalOf(way.from, point.triangle), normalOf(way.to, near.triangle));
       ++part.count;
     }
     return part;
@@ -96,13 +100,14 @@ std::vector<std::uint32_t> inverseOf(const std::vector<std::uint32_t>& image, st
   return origin;
 }
 
-std::vector<SurfacePoint> spread(std::span<const Vector3d> positions, std::span<const Triangle> triangles, const std::vector<double>& areas, std::uint32_t count,
-                                 const RandomKey& key) {
+std::vector<SurfacePoint> spread(std::span<const Vector3d> positions, std::span<const Triangle> triangles,
+                                 const std::vector<double>& areas, std::uint32_t count, const RandomKey& key) {
   std::vector<SurfacePoint> points;
   const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
   if (!(total > 0)) return points;
   points.reserve(count);
-  // A start by chance: with few points on each of many equal instances a fixed one would look at the same triangles of all.
+  // A start by chance: with few points on each of many equal instances a fixed one would look at the same triangles of
+  // all.
   const double start = uniform(philox(key, std::numeric_limits<std::uint32_t>::max(), 0, 0)[0]);
   double walked = 0;
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
@@ -127,8 +132,8 @@ Deviation deviationOfDropped(const Shape& shape, const std::vector<SurfacePoint>
 
 }  // namespace
 
-std::vector<SurfacePoint> pointsByArea(std::span<const Vector3d> positions, std::span<const Triangle> triangles, std::uint32_t count,
-                                       const RandomKey& key) {
+std::vector<SurfacePoint> pointsByArea(std::span<const Vector3d> positions, std::span<const Triangle> triangles,
+                                       std::uint32_t count, const RandomKey& key) {
   return spread(positions, triangles, areasOf(positions, triangles), count, key);
 }
 
@@ -139,11 +144,14 @@ DeviationMeter::DeviationMeter(const Shape& before, const TriangleTree& tree, st
   points_ = spread(before.positions, before.triangles, areas, samples, {seed, 0});
 }
 
-Deviation DeviationMeter::of(const Shape& after, const std::vector<std::uint32_t>& image) const { return measure(after, image, samples_, true); }
+Deviation DeviationMeter::of(const Shape& after, const std::vector<std::uint32_t>& image) const {
+  return measure(after, image, samples_, true);
+}
 
 Deviation DeviationMeter::ofItself() const { return {.area_m2 = area_m2_}; }
 
-Deviation DeviationMeter::measure(const Shape& after, const std::vector<std::uint32_t>& image, std::uint32_t samples, bool search) const {
+Deviation DeviationMeter::measure(const Shape& after, const std::vector<std::uint32_t>& image, std::uint32_t samples,
+                                  bool search) const {
   Deviation result;
   if (before_.triangles.empty()) return result;
   if (after.triangles.empty()) {
@@ -153,7 +161,8 @@ Deviation DeviationMeter::measure(const Shape& after, const std::vector<std::uin
     const TriangleTree tree(after.positions, after.triangles);
     const OneWaySurfaces forth{before_, after, tree, image}, back{after, before_, tree_, origin};
     const std::size_t stride = std::max<std::size_t>(1, points_.size() / std::max<std::uint32_t>(samples, 1));
-    const OneWay there = ofPoints(forth, points_, stride), here = ofPoints(back, pointsByArea(after.positions, after.triangles, samples, {seed_, 1}), 1);
+    const OneWay there = ofPoints(forth, points_, stride),
+                 here = ofPoints(back, pointsByArea(after.positions, after.triangles, samples, {seed_, 1}), 1);
     double max_squared = std::max(there.max_squared, here.max_squared);
     if (search) max_squared = farthestSquared(forth, farthestSquared(back, max_squared));
     result.max_m = std::sqrt(max_squared);
@@ -169,7 +178,8 @@ bool DeviationMeter::exceeds(const Shape& after, const std::vector<std::uint32_t
   if (after.triangles.empty()) return deviationOfDropped(before_, points_).max_m > limit_m;
   const auto origin = inverseOf(image, after.triangles.size());
   const TriangleTree tree(after.positions, after.triangles);
-  return isAnyFurther({after, before_, tree_, origin}, limit_m * limit_m) || isAnyFurther({before_, after, tree, image}, limit_m * limit_m);
+  return isAnyFurther({after, before_, tree_, origin}, limit_m * limit_m) ||
+         isAnyFurther({before_, after, tree, image}, limit_m * limit_m);
 }
 
 }  // namespace standpoint

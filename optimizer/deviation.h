@@ -12,7 +12,8 @@
 
 namespace standpoint {
 
-inline constexpr std::uint32_t kDeviationSamples = 50'000;  // on all placed surfaces, each way; of the whole more where few places hold the loss
+inline constexpr std::uint32_t kDeviationSamples =
+    50'000;  // on all placed surfaces, each way; of the whole more where few places hold the loss
 
 struct SurfacePoint {
   std::uint32_t triangle = 0;
@@ -24,15 +25,18 @@ std::vector<SurfacePoint> pointsByArea(std::span<const Eigen::Vector3d> position
                                        std::uint32_t count, const RandomKey& key);
 
 struct Deviation {
-  double max_m = 0;   // symmetric Hausdorff distance, searched; of dense meshes at vertices, middles of faces and edges, and samples
-  double mean_m = 0;  // mean of the two directions' area-weighted means
-  double area_m2 = 0; // of the shape before
-  double turn_rad = 0;  // mean angle between the normals of the shape before and of what is nearest; its area decides. 0..π/2
+  double max_m = 0;  // symmetric Hausdorff distance, searched; of dense meshes at vertices, middles of faces and edges,
+                     // and samples
+  double mean_m = 0;   // mean of the two directions' area-weighted means
+  double area_m2 = 0;  // of the shape before
+  double turn_rad =
+      0;  // mean angle between the normals of the shape before and of what is nearest; its area decides. 0..π/2
 };
 
-// Measures how far shapes are from the one that they were made of: points spread by area on each, and for the maximum a search of
-// every triangle (where both together have more than 200 000: a look at its corners and middles), each against the other's nearest triangle. An empty shape counts as the centre: it was dropped.
-// Parallel, the same figures for any number of threads. Keeps references to `before` and its tree.
+// Measures how far shapes are from the one that they were made of: points spread by area on each, and for the maximum a
+// search of every triangle (where both together have more than 200 000: a look at its corners and middles), each
+// against the other's nearest triangle. An empty shape counts as the centre: it was dropped. Parallel, the same figures
+// for any number of threads. Keeps references to `before` and its tree.
 class DeviationMeter {
  public:
   DeviationMeter(const Shape& before, const TriangleTree& tree, std::uint32_t samples, std::uint64_t seed);
@@ -57,7 +61,8 @@ class DeviationMeter {
   }
 
  private:
-  Deviation measure(const Shape& after, const std::vector<std::uint32_t>& image, std::uint32_t samples, bool search) const;
+  Deviation measure(const Shape& after, const std::vector<std::uint32_t>& image, std::uint32_t samples,
+                    bool search) const;
 
   const Shape& before_;
   std::uint32_t samples_;

@@ -16,15 +16,17 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFloorReach = 0.35;   // m above and below the door's lower edge in which its floor is looked for
-constexpr double kTouch = 1e-3;        // m; a capsule that only touches still passes
-constexpr double kBeside = 0.30;       // m from the door's middle that a way through it is looked for …
-constexpr double kBesideStep = 0.02;   // … in steps of
-constexpr double kWidest = 2;          // m that a clear width is measured to
-constexpr double kDeep = 1.5;          // times its width, that no door is
-constexpr double kPlate = 0.04;        // m, thickness of the leaf of a door that has none
+constexpr double kFloorReach = 0.35;  // m above and below the door's lower edge in which its floor is looked for
+constexpr double kTouch = 1e-3;       // m; a capsule that only touches still passes
+constexpr double kBeside = 0.30;      // m from the door's middle that a way through it is looked for …
+constexpr double kBesideStep = 0.02;  // … in steps of
+constexpr double kWidest = 2;         // m that a clear width is measured to
+constexpr double kDeep = 1.5;         // times its width, that no door is
+constexpr double kPlate = 0.04;       // m, thickness of the leaf of a door that has none
 
-bool isDoor(const Product& product) { return product.ifc_class == "IfcDoor" || product.ifc_class == "IfcDoorStandardCase"; }
+bool isDoor(const Product& product) {
+  return product.ifc_class == "IfcDoor" || product.ifc_class == "IfcDoorStandardCase";
+}
 
 // Height of the uppermost surface below or above p within reach.
 std::optional<double> floorAt(const Obstacles& obstacles, const Vector3d& p) {
@@ -34,8 +36,8 @@ std::optional<double> floorAt(const Obstacles& obstacles, const Vector3d& p) {
 }
 
 struct Way {
-  Vector3d from, to;    // of the feet of what passes, in the door's middle
-  Body upper;           // the agent without what it steps over, as in the walkable surface
+  Vector3d from, to;  // of the feet of what passes, in the door's middle
+  Body upper;         // the agent without what it steps over, as in the walkable surface
   bool floor = false;
 };
 
@@ -43,14 +45,17 @@ Way wayThrough(const Passage& passage, const Obstacles& obstacles, const Collide
   const Vector3d reach = passage.through * (passage.half_depth + options.agent_radius_m);
   const auto before = floorAt(obstacles, passage.middle - reach), behind = floorAt(obstacles, passage.middle + reach);
   const double lift = std::min(kStepHeight, options.agent_height_m - 2 * options.agent_radius_m);
-  Way way{passage.middle - reach, passage.middle + reach, {options.agent_radius_m, options.agent_height_m - lift}, before && behind};
+  Way way{passage.middle - reach,
+          passage.middle + reach,
+          {options.agent_radius_m, options.agent_height_m - lift},
+          before && behind};
   way.from.z() = way.to.z() = std::max({passage.middle.z(), before.value_or(-1e300), behind.value_or(-1e300)}) + lift;
   return way;
 }
 
 struct Attempt {
-  std::optional<Vector3d> beside;            // of the free way that is nearest to the door's middle
-  std::optional<std::uint32_t> blocked_by;   // the product that stops a body in the middle, where none is free
+  std::optional<Vector3d> beside;           // of the free way that is nearest to the door's middle
+  std::optional<std::uint32_t> blocked_by;  // the product that stops a body in the middle, where none is free
 };
 
 Attempt tryWays(const Obstacles& obstacles, const Passage& passage, const Way& way, double radius) {
@@ -82,7 +87,8 @@ struct Verdict {
   std::optional<std::uint32_t> blocked_by;  // product
 };
 
-Verdict judge(const Environment& environment, std::uint32_t product, const Obstacles& obstacles, const CollideOptions& options) {
+Verdict judge(const Environment& environment, std::uint32_t product, const Obstacles& obstacles,
+              const CollideOptions& options) {
   Verdict verdict;
   verdict.door.product = product;
   const auto passage = passageOf(environment, product);
@@ -106,19 +112,22 @@ std::vector<std::uint32_t> doorsOf(const Environment& environment) {
 
 void reportDoor(const Environment& environment, const Verdict& verdict, Report& report) {
   const auto& product = environment.products[verdict.door.product];
-  if (verdict.shapeless) return report.warn(product.id, fmt::format("door {} has no geometry: whether one can pass is unknown", product.name));
+  if (verdict.shapeless)
+    return report.warn(product.id,
+                       fmt::format("door {} has no geometry: whether one can pass is unknown", product.name));
   if (!verdict.door.floor) report.warn(product.id, fmt::format("door {} has no floor on both sides", product.name));
   if (!verdict.blocked_by || verdict.door.closed) return;
   const auto& other = environment.products[*verdict.blocked_by];
   report.warn(product.id, verdict.door.clear_width_m > 0
-                              ? fmt::format("door {} lets nobody pass: {:.2f} m are clear beside {} {}", product.name, verdict.door.clear_width_m, other.ifc_class, other.id)
+                              ? fmt::format("door {} lets nobody pass: {:.2f} m are clear beside {} {}", product.name,
+                                            verdict.door.clear_width_m, other.ifc_class, other.id)
                               : fmt::format("door {} is blocked by {} {}", product.name, other.ifc_class, other.id));
 }
 
 }  // namespace
 
-// A door's leaf and glass are most of its area, so their normals say which way leads through, unless it would be much deeper
-// than wide. Angles are doubled, as a normal and its opposite are the same direction.
+// A door's leaf and glass are most of its area, so their normals say which way leads through, unless it would be much
+// deeper than wide. Angles are doubled, as a normal and its opposite are the same direction.
 std::optional<Passage> passageOf(const Environment& environment, std::uint32_t product) {
   double cosine = 0, sine = 0;
   std::vector<Vector3d> points;
@@ -127,7 +136,8 @@ std::optional<Passage> passageOf(const Environment& environment, std::uint32_t p
     const auto& mesh = *environment.meshes[instance.mesh];
     for (const auto& t : mesh.triangles) {
       Vector3d corner[3];
-      for (int k = 0; k < 3; ++k) points.push_back(corner[k] = instance.world_from_mesh * mesh.positions[t[k]].cast<double>());
+      for (int k = 0; k < 3; ++k)
+        points.push_back(corner[k] = instance.world_from_mesh * mesh.positions[t[k]].cast<double>());
       const Vector3d normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
       const double level = normal.head<2>().norm(), angle = 2 * std::atan2(normal.y(), normal.x());
       cosine += level * std::cos(angle);
@@ -149,7 +159,8 @@ std::optional<Passage> passageOf(const Environment& environment, std::uint32_t p
     passage.through = passage.across;
     box = boxAlong();
   }
-  passage.middle = passage.through * (0.5 * (box.min.x() + box.max.x())) + passage.across * (0.5 * (box.min.y() + box.max.y()));
+  passage.middle =
+      passage.through * (0.5 * (box.min.x() + box.max.x())) + passage.across * (0.5 * (box.min.y() + box.max.y()));
   passage.middle.z() = box.min.z();
   const Vector3d size = box.max - box.min;
   passage.half_depth = 0.5 * size.x();
@@ -190,7 +201,8 @@ std::vector<bool> closedDoors(const Environment& environment, const CollideOptio
   return result;
 }
 
-void closeWhatIsOpen(const Environment& environment, const CollideOptions& options, std::vector<CollisionShape>& shapes, Report& report) {
+void closeWhatIsOpen(const Environment& environment, const CollideOptions& options, std::vector<CollisionShape>& shapes,
+                     Report& report) {
   const auto closed = closedDoors(environment, options);
   const Obstacles obstacles(shapes);
   std::vector<CollisionShape> plates;
@@ -199,7 +211,8 @@ void closeWhatIsOpen(const Environment& environment, const CollideOptions& optio
     if (!passage || !freeWay(obstacles, *passage, options)) continue;
     std::vector<Vector3d> bottom;
     for (const auto& [along, beside] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
-      bottom.push_back(passage->middle + passage->through * (along * kPlate / 2) + passage->across * (beside * passage->half_width));
+      bottom.push_back(passage->middle + passage->through * (along * kPlate / 2) +
+                       passage->across * (beside * passage->half_width));
     auto top = bottom;
     for (auto& p : top) p.z() += passage->height;
     const auto plate = prism(bottom, top, CollisionShapeKind::box);
@@ -214,13 +227,15 @@ void closeWhatIsOpen(const Environment& environment, const CollideOptions& optio
   std::stable_sort(shapes.begin(), shapes.end(), [](const auto& a, const auto& b) { return a.product < b.product; });
 }
 
-std::vector<Door> checkDoors(const Environment& environment, const std::vector<CollisionShape>& shapes, const CollideOptions& options, Report& report) {
+std::vector<Door> checkDoors(const Environment& environment, const std::vector<CollisionShape>& shapes,
+                             const CollideOptions& options, Report& report) {
   const auto doors = doorsOf(environment);
   if (doors.empty()) return {};
   const auto closed = closedDoors(environment, options);
   const Obstacles obstacles(shapes);
   std::vector<Verdict> verdicts(doors.size());
-  tbb::parallel_for(std::size_t{0}, doors.size(), [&](std::size_t i) { verdicts[i] = judge(environment, doors[i], obstacles, options); });
+  tbb::parallel_for(std::size_t{0}, doors.size(),
+                    [&](std::size_t i) { verdicts[i] = judge(environment, doors[i], obstacles, options); });
   std::vector<Door> result;
   for (auto& verdict : verdicts) {
     verdict.door.closed = closed[verdict.door.product];

@@ -36,12 +36,14 @@ std::vector<std::int32_t> doorOf(const Environment& environment);
 // For each product whether it is a door that stands closed, or a part of one.
 std::vector<bool> closedDoors(const Environment& environment, const CollideOptions& options);
 
-// The doors that the agent still passes although they are closed get a plate across, as many have no leaf that closes them:
-// it is drawn open, or as a line.
-void closeWhatIsOpen(const Environment& environment, const CollideOptions& options, std::vector<CollisionShape>& shapes, Report& report);
+// The doors that the agent still passes although they are closed get a plate across, as many have no leaf that closes
+// them: it is drawn open, or as a line.
+void closeWhatIsOpen(const Environment& environment, const CollideOptions& options, std::vector<CollisionShape>& shapes,
+                     Report& report);
 
-// Looks for a floor on both sides of each door and moves the agent's capsule through it, straight and with small offsets,
-// between the obstacles. What is wrong goes to the report.
-std::vector<Door> checkDoors(const Environment& environment, const std::vector<CollisionShape>& shapes, const CollideOptions& options, Report& report);
+// Looks for a floor on both sides of each door and moves the agent's capsule through it, straight and with small
+// offsets, between the obstacles. What is wrong goes to the report.
+std::vector<Door> checkDoors(const Environment& environment, const std::vector<CollisionShape>& shapes,
+                             const CollideOptions& options, Report& report);
 
 }  // namespace standpoint

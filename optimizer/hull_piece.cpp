@@ -14,12 +14,15 @@ std::optional<Piece> hullPiece(const std::vector<Eigen::Vector3d>& points) {
   hull.compute(coordinates.data(), 3 * sizeof(float), static_cast<int>(points.size()), 0, 0);
   Piece piece;
   for (int i = 0; i < hull.vertices.size(); ++i)
-    piece.positions.push_back(points[static_cast<std::size_t>(hull.original_vertex_index[i])]);  // Bullet's own are rounded
+    piece.positions.push_back(
+        points[static_cast<std::size_t>(hull.original_vertex_index[i])]);  // Bullet's own are rounded
   for (int i = 0; i < hull.faces.size(); ++i) {
     const auto* first = &hull.edges[hull.faces[i]];
     const auto apex = static_cast<std::uint32_t>(first->getSourceVertex());
-    for (const auto* edge = first->getNextEdgeOfFace(); edge->getTargetVertex() != first->getSourceVertex(); edge = edge->getNextEdgeOfFace())
-      piece.triangles.push_back({apex, static_cast<std::uint32_t>(edge->getSourceVertex()), static_cast<std::uint32_t>(edge->getTargetVertex())});
+    for (const auto* edge = first->getNextEdgeOfFace(); edge->getTargetVertex() != first->getSourceVertex();
+         edge = edge->getNextEdgeOfFace())
+      piece.triangles.push_back({apex, static_cast<std::uint32_t>(edge->getSourceVertex()),
+                                 static_cast<std::uint32_t>(edge->getTargetVertex())});
   }
   const double volume = volumeOf(piece.positions, piece.triangles);
   if (volume < 0)

@@ -19,14 +19,15 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr std::uint32_t kSamples = 256;
-constexpr std::uint32_t kMostMeasured = 50'000;  // triangles; a larger form is not measured, as its tree would cost more than its log
-constexpr std::size_t kMostBoxed = 200'000;    // triangles; what has more is not a small thing
+constexpr std::uint32_t kMostMeasured =
+    50'000;  // triangles; a larger form is not measured, as its tree would cost more than its log
+constexpr std::size_t kMostBoxed = 200'000;                 // triangles; what has more is not a small thing
 constexpr double kFineSpacing = 0.8, kCoarseSpacing = 0.5;  // of the triangle counts at which is measured
 constexpr std::uint32_t kFineBelow = 5000;
-// A form that reaches further than this out of the shape, at the height of the knees, closes a doorway, of which half is
-// 0.3 m or more. A window may be closed: it begins higher, and its frame is a product of its own.
+// A form that reaches further than this out of the shape, at the height of the knees, closes a doorway, of which half
+// is 0.3 m or more. A window may be closed: it begins higher, and its frame is a product of its own.
 constexpr double kMostFilled = 0.25, kKneeLow = 0.3, kKneeHigh = 0.8;  // m
-constexpr double kDoorway = 1.8;  // m; a shape that is lower has no room for one
+constexpr double kDoorway = 1.8;                                       // m; a shape that is lower has no room for one
 
 struct Point {
   std::uint32_t triangles = 0;
@@ -42,7 +43,8 @@ Matrix3d ownAxes(const Shape& shape) {
   Matrix3d axes = Matrix3d::Identity();
   if (directions.empty()) return axes;
   Vector3d second = directions[0].unitOrthogonal();
-  const auto square = std::find_if(directions.begin(), directions.end(), [&](const Vector3d& d) { return std::abs(d.dot(directions[0])) < 1e-3; });
+  const auto square = std::find_if(directions.begin(), directions.end(),
+                                   [&](const Vector3d& d) { return std::abs(d.dot(directions[0])) < 1e-3; });
   if (square != directions.end()) second = (*square - directions[0] * directions[0].dot(*square)).normalized();
   axes.row(0) = directions[0];
   axes.row(1) = second;
@@ -54,9 +56,11 @@ std::uint32_t largestSurface(const Shape& shape) {
   std::map<std::uint32_t, double> areas;
   for (std::size_t i = 0; i < shape.triangles.size(); ++i) {
     const auto& t = shape.triangles[i];
-    areas[shape.surface_of_triangle[i]] += (shape.positions[t[1]] - shape.positions[t[0]]).cross(shape.positions[t[2]] - shape.positions[t[0]]).norm();
+    areas[shape.surface_of_triangle[i]] +=
+        (shape.positions[t[1]] - shape.positions[t[0]]).cross(shape.positions[t[2]] - shape.positions[t[0]]).norm();
   }
-  return std::max_element(areas.begin(), areas.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+  return std::max_element(areas.begin(), areas.end(), [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
 }
 
 // The box around the shape in its own axes, and both sides of the rectangle in the middle of its thinnest direction.
@@ -99,7 +103,8 @@ std::vector<Shape> standIns(const Shape& shape) {
 // Tells forms that close a doorway.
 class DoorwayGuard {
  public:
-  DoorwayGuard(const Shape& shape, const DeviationMeter& meter, const Placement& placement) : meter_(meter), up_(placement.up), scale_(placement.scale) {
+  DoorwayGuard(const Shape& shape, const DeviationMeter& meter, const Placement& placement)
+      : meter_(meter), up_(placement.up), scale_(placement.scale) {
     double high = -std::numeric_limits<double>::infinity();
     low_ = -high;
     for (const auto& p : shape.positions) {
@@ -123,11 +128,15 @@ class DoorwayGuard {
   bool has_room_ = false;
 };
 
-std::vector<Point> measure(const Shape& shape, const TriangleTree& tree, const ShapeLevels& made, double max_deviation_m, const Placement& placement, std::uint64_t seed, const Progress& progress) {
+std::vector<Point> measure(const Shape& shape, const TriangleTree& tree, const ShapeLevels& made,
+                           double max_deviation_m, const Placement& placement, std::uint64_t seed,
+                           const Progress& progress) {
   auto left = static_cast<std::uint32_t>(shape.triangles.size());
   std::vector<Point> points{{left}};
   const DeviationMeter meter(shape, tree, kSamples, seed);
-  const auto target = [](std::uint32_t count) { return static_cast<std::uint32_t>(count * (count <= kFineBelow ? kFineSpacing : kCoarseSpacing)); };
+  const auto target = [](std::uint32_t count) {
+    return static_cast<std::uint32_t>(count * (count <= kFineBelow ? kFineSpacing : kCoarseSpacing));
+  };
   std::uint32_t next = std::min(target(left), kMostMeasured);
   std::uint32_t refused = 0;
   LogPlayer player(shape, made.log);
@@ -138,22 +147,29 @@ std::vector<Point> measure(const Shape& shape, const TriangleTree& tree, const S
     if (progress.cancelled()) return points;
     const Shape& form = player.at(i + 1);
     const auto deviation = meter.roughlyOf(form, kSamples);
-    if (guard.refuses(form)) ++refused;
-    else points.push_back({left, deviation.mean_m * deviation.area_m2, i + 1, -1, refused});
+    if (guard.refuses(form))
+      ++refused;
+    else
+      points.push_back({left, deviation.mean_m * deviation.area_m2, i + 1, -1, refused});
     next = target(left);
   }
   for (std::size_t i = 0; i < made.stand_ins.size(); ++i) {
     const auto deviation = meter.of(made.stand_ins[i]);
     if (deviation.max_m > max_deviation_m || guard.refuses(made.stand_ins[i])) continue;
-    points.push_back({static_cast<std::uint32_t>(made.stand_ins[i].triangles.size()), deviation.mean_m * deviation.area_m2, 0, static_cast<std::int32_t>(i)});
+    points.push_back({static_cast<std::uint32_t>(made.stand_ins[i].triangles.size()),
+                      deviation.mean_m * deviation.area_m2, 0, static_cast<std::int32_t>(i)});
   }
   return points;
 }
 
-double slope(const Point& a, const Point& b) { return (b.loss - a.loss) / (static_cast<double>(a.triangles) - b.triangles); }
+double slope(const Point& a, const Point& b) {
+  return (b.loss - a.loss) / (static_cast<double>(a.triangles) - b.triangles);
+}
 
 std::vector<Point> lowerHull(std::vector<Point> points) {
-  std::stable_sort(points.begin() + 1, points.end(), [](const Point& a, const Point& b) { return a.triangles > b.triangles || (a.triangles == b.triangles && a.loss < b.loss); });
+  std::stable_sort(points.begin() + 1, points.end(), [](const Point& a, const Point& b) {
+    return a.triangles > b.triangles || (a.triangles == b.triangles && a.loss < b.loss);
+  });
   std::vector<Point> hull;
   for (const auto& point : points) {
     if (!hull.empty() && point.triangles >= hull.back().triangles) continue;
@@ -165,11 +181,13 @@ std::vector<Point> lowerHull(std::vector<Point> points) {
 
 }  // namespace
 
-ShapeLevels makeLevels(const Shape& shape, std::unique_ptr<TriangleTree>& tree, const CollapseOptions& options, const Placement& placement, std::uint64_t seed,
-                       const Progress& progress) {
+ShapeLevels makeLevels(const Shape& shape, std::unique_ptr<TriangleTree>& tree, const CollapseOptions& options,
+                       const Placement& placement, std::uint64_t seed, const Progress& progress) {
   ShapeLevels made;
   tbb::parallel_invoke([&] { made.log = recordCollapses(shape, options, progress); },
-                       [&] { if (!tree) tree = std::make_unique<TriangleTree>(shape.positions, shape.triangles); });
+                       [&] {
+                         if (!tree) tree = std::make_unique<TriangleTree>(shape.positions, shape.triangles);
+                       });
   if (shape.triangles.empty()) return made;
   if (made.log.empty() && options.lossless) return made;
   std::vector<Point> hull{{static_cast<std::uint32_t>(shape.triangles.size())}};
@@ -180,7 +198,8 @@ ShapeLevels makeLevels(const Shape& shape, std::unique_ptr<TriangleTree>& tree, 
   } else {
     if (shape.wedges.empty() && shape.triangles.size() <= kMostBoxed) made.stand_ins = standIns(shape);
     auto points = measure(shape, *tree, made, options.max_deviation_m, placement, seed, progress);
-    const bool reached = std::any_of(points.begin(), points.end(), [&](const Point& p) { return p.collapses == made.log.size(); });
+    const bool reached =
+        std::any_of(points.begin(), points.end(), [&](const Point& p) { return p.collapses == made.log.size(); });
     if (options.floor > 0 && !reached && !progress.cancelled()) {  // the last form was refused: a simpler one may do
       auto whole = options;
       whole.floor = 0;

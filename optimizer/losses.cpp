@@ -14,7 +14,8 @@ void addLoss(ProductLoss& sum, double& area_sum, const Work& work, const Instanc
   const double stretch = meanStretch(instance.world_from_mesh);
   const double area_m2 = work.deviation.area_m2 * stretch * stretch;
   sum.triangles_after += work.lighter.triangles.size();
-  sum.max_deviation_m = std::max(sum.max_deviation_m, work.deviation.max_m * largestStretch(instance.world_from_mesh) + residual_m);
+  sum.max_deviation_m =
+      std::max(sum.max_deviation_m, work.deviation.max_m * largestStretch(instance.world_from_mesh) + residual_m);
   sum.mean_deviation_m += area_m2 * work.deviation.mean_m * stretch;  // divided by the area at the end, as the angle
   sum.mean_turn_rad += area_m2 * work.deviation.turn_rad;
   area_sum += area_m2;
@@ -23,12 +24,15 @@ void addLoss(ProductLoss& sum, double& area_sum, const Work& work, const Instanc
 ProductLoss lossOfDropped(const Environment& environment, const std::vector<const Instance*>& instances) {
   ProductLoss loss;
   Bounds box;
-  for (const auto* instance : instances) box.extend(bounds(*environment.meshes[instance->mesh], instance->world_from_mesh));
+  for (const auto* instance : instances)
+    box.extend(bounds(*environment.meshes[instance->mesh], instance->world_from_mesh));
   const Eigen::Vector3d centre = 0.5 * (box.min + box.max);
   double area_sum = 0;
   for (const auto* instance : instances) {
     const Mesh& mesh = *environment.meshes[instance->mesh];
-    const auto corner = [&](std::uint32_t i) { return Eigen::Vector3d(instance->world_from_mesh * mesh.positions[i].cast<double>()); };
+    const auto corner = [&](std::uint32_t i) {
+      return Eigen::Vector3d(instance->world_from_mesh * mesh.positions[i].cast<double>());
+    };
     for (const auto& t : mesh.triangles) {
       const Eigen::Vector3d a = corner(t[0]), b = corner(t[1]), c = corner(t[2]);
       const double area_m2 = 0.5 * (b - a).cross(c - a).norm();
@@ -43,7 +47,8 @@ ProductLoss lossOfDropped(const Environment& environment, const std::vector<cons
 
 }  // namespace
 
-void sumLosses(const Environment& before, const std::vector<Work>& works, const std::vector<double>& residual_m, OptimizeResult& result) {
+void sumLosses(const Environment& before, const std::vector<Work>& works, const std::vector<double>& residual_m,
+               OptimizeResult& result) {
   result.products.assign(before.products.size(), {});
   std::vector<double> areas(before.products.size(), 0);
   double area_of_all = 0;
@@ -65,8 +70,9 @@ void addDropped(const Environment& environment, const OptimizeOptions& options, 
     if (dropped[i].empty()) continue;
     result.products[i] = lossOfDropped(environment, dropped[i]);
     const auto& product = environment.products[i];
-    result.report.lose(product.id, fmt::format("{} {} is dropped by the rule \"{}\" of {}", product.ifc_class.empty() ? "product" : product.ifc_class,
-                                               product.name, options.products[i].reason, options.products[i].lod));
+    result.report.lose(product.id, fmt::format("{} {} is dropped by the rule \"{}\" of {}",
+                                               product.ifc_class.empty() ? "product" : product.ifc_class, product.name,
+                                               options.products[i].reason, options.products[i].lod));
   }
 }
 
@@ -83,9 +89,11 @@ void reportDropped(const Environment& before, const std::vector<Work>& works, Re
     if (parts[i].first == 0) continue;
     const auto& product = before.products[i];
     const Eigen::Vector3d centre = 0.5 * (gone[i].min + gone[i].max);
-    report.lose(product.id, fmt::format("{} of {} parts of {} {} dropped to reach the budget: {:.3f} m across, at {:.2f} {:.2f} {:.2f}",
-                                        parts[i].first, parts[i].second, product.ifc_class.empty() ? "product" : product.ifc_class,
-                                        product.name, gone[i].diagonal(), centre.x(), centre.y(), centre.z()));
+    report.lose(
+        product.id,
+        fmt::format("{} of {} parts of {} {} dropped to reach the budget: {:.3f} m across, at {:.2f} {:.2f} {:.2f}",
+                    parts[i].first, parts[i].second, product.ifc_class.empty() ? "product" : product.ifc_class,
+                    product.name, gone[i].diagonal(), centre.x(), centre.y(), centre.z()));
   }
 }
 
@@ -102,9 +110,13 @@ void reportLossless(const Environment& before, const std::vector<Work>& works, R
     again += works[i].welded.repeated;
     for (const auto& step : works[i].steps) flat += step.flat ? step.triangles : 0;
   }
-  if (repeated > 0) report.note("lossless", fmt::format("{} of {} meshes repeat the shape of another and share it: {} triangles", repeated, meshes, repeated_triangles));
+  if (repeated > 0)
+    report.note("lossless", fmt::format("{} of {} meshes repeat the shape of another and share it: {} triangles",
+                                        repeated, meshes, repeated_triangles));
   if (positions > 0) report.note("lossless", fmt::format("{} positions were welded to equal ones", positions));
-  if (degenerate + again > 0) report.note("lossless", fmt::format("{} triangles without area and {} repeated ones were left out", degenerate, again));
+  if (degenerate + again > 0)
+    report.note("lossless",
+                fmt::format("{} triangles without area and {} repeated ones were left out", degenerate, again));
   if (flat > 0) report.note("lossless", fmt::format("{} triangles went by merging plane regions", flat));
 }
 
@@ -117,10 +129,14 @@ void checkBudgets(const std::vector<Work>& works, const OptimizeOptions& options
     if (budget == 0 || left <= budget) continue;
     result.budget_reached = false;
     result.smallest_budget += left;
-    const auto named = std::find_if(options.products.begin(), options.products.end(), [&](const auto& a) { return a.share == share; });
+    const auto named =
+        std::find_if(options.products.begin(), options.products.end(), [&](const auto& a) { return a.share == share; });
     const std::string whose = named == options.products.end() ? "" : named->lod + ": ";
-    const std::string cap = options.products.empty() ? fmt::format("deviations of at most {} m", options.max_deviation_m) : "the deviations allowed";
-    result.report.warn("budget", fmt::format("{}{} triangles cannot be reached with {}; the least is {}", whose, budget, cap, left));
+    const std::string cap = options.products.empty()
+                                ? fmt::format("deviations of at most {} m", options.max_deviation_m)
+                                : "the deviations allowed";
+    result.report.warn(
+        "budget", fmt::format("{}{} triangles cannot be reached with {}; the least is {}", whose, budget, cap, left));
   }
 }
 

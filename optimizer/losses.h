@@ -7,10 +7,13 @@
 
 namespace standpoint {
 
-// What each product lost, and what all lost together, from what each mesh lost. `before` is what `works` were prepared from.
-void sumLosses(const Environment& before, const std::vector<Work>& works, const std::vector<double>& residual_m, OptimizeResult& result);
+// What each product lost, and what all lost together, from what each mesh lost. `before` is what `works` were prepared
+// from.
+void sumLosses(const Environment& before, const std::vector<Work>& works, const std::vector<double>& residual_m,
+               OptimizeResult& result);
 
-// What went before anything was simplified, by its rule: counts with its distance from its own centre, as there is nothing left of it.
+// What went before anything was simplified, by its rule: counts with its distance from its own centre, as there is
+// nothing left of it.
 void addDropped(const Environment& environment, const OptimizeOptions& options, OptimizeResult& result);
 
 // What went to reach the budget, and what was done without loss.

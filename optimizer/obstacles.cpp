@@ -19,9 +19,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTouch = 1e-5;      // m; this near is contact
-constexpr double kSliding = 1e-6;    // approach for each metre of way that is no approach
-constexpr double kDeep = 1e-3;       // m; a body this far in something is stuck, wherever it goes
+constexpr double kTouch = 1e-5;    // m; this near is contact
+constexpr double kSliding = 1e-6;  // approach for each metre of way that is no approach
+constexpr double kDeep = 1e-3;     // m; a body this far in something is stuck, wherever it goes
 constexpr int kMostAdvances = 100;
 
 btVector3 toBullet(const Vector3d& p) { return {p.x(), p.y(), p.z()}; }
@@ -77,15 +77,20 @@ struct Obstacles::World {
     tree.collideTV(tree.m_root, btDbvtVolume::FromMM(toBullet(low), toBullet(high)), visitor);
   }
 
-  Corners corners(const Shape& shape, const Triangle& t) const { return {shape.positions[t[0]], shape.positions[t[1]], shape.positions[t[2]]}; }
+  Corners corners(const Shape& shape, const Triangle& t) const {
+    return {shape.positions[t[0]], shape.positions[t[1]], shape.positions[t[2]]};
+  }
 
   // The points of the core and of the item that are nearest to each other; nothing where the two overlap.
   std::optional<NearestPoints> nearest(const Core& core, const Item& item) const {
     const Shape& shape = shapes[item.shape];
-    if (!shape.hull) return nearestPoints(core.low, core.high, corners(shape, shape.triangles[static_cast<std::size_t>(item.triangle)]));
+    if (!shape.hull)
+      return nearestPoints(core.low, core.high,
+                           corners(shape, shape.triangles[static_cast<std::size_t>(item.triangle)]));
     btGjkEpaSolver2::sResults result;
     const Vector3d guess = core.low - shape.positions[0];
-    if (btGjkEpaSolver2::Distance(&core, at(core.low), shape.hull.get(), btTransform::getIdentity(), toBullet(guess), result)) {
+    if (btGjkEpaSolver2::Distance(&core, at(core.low), shape.hull.get(), btTransform::getIdentity(), toBullet(guess),
+                                  result)) {
       const NearestPoints found{fromBullet(result.witnesses[0]), fromBullet(result.witnesses[1])};
       if (isNearest(core, shape, found)) return found;
     }
@@ -134,7 +139,8 @@ Obstacles::Obstacles(std::span<const CollisionShape> shapes) : world_(std::make_
     for (const auto& p : shapes[i].mesh.positions) shape.positions.push_back(p.cast<double>());
     const auto add = [&](std::int32_t triangle, const Bounds& box) {
       if (box.empty()) return;
-      world_->tree.insert(btDbvtVolume::FromMM(toBullet(box.min), toBullet(box.max)), nullptr)->dataAsInt = static_cast<int>(world_->items.size());
+      world_->tree.insert(btDbvtVolume::FromMM(toBullet(box.min), toBullet(box.max)), nullptr)->dataAsInt =
+          static_cast<int>(world_->items.size());
       world_->items.push_back({i, triangle});
     };
     if (shapes[i].kind == CollisionShapeKind::mesh) {
@@ -162,10 +168,11 @@ Obstacles::Obstacles(Obstacles&&) noexcept = default;
 Obstacles& Obstacles::operator=(Obstacles&&) noexcept = default;
 
 std::optional<Contact> Obstacles::sweep(const Body& body, const Vector3d& from, const Vector3d& to) const {
-  const Vector3d way = to - from, side(body.radius_m, body.radius_m, 0), up(0, 0, std::max(body.height_m, 2 * body.radius_m));
+  const Vector3d way = to - from, side(body.radius_m, body.radius_m, 0),
+                 up(0, 0, std::max(body.height_m, 2 * body.radius_m));
   std::optional<Contact> first;
-  // Conservative advancement: the distance between convex things is a convex function of the way, so a body that does not
-  // come nearer now never will, and one that goes on by (gap / speed of approach) cannot yet have met the other.
+  // Conservative advancement: the distance between convex things is a convex function of the way, so a body that does
+  // not come nearer now never will, and one that goes on by (gap / speed of approach) cannot yet have met the other.
   world_->inBox(from.cwiseMin(to) - side, from.cwiseMax(to) + side + up, [&](const Item& item) {
     Contact contact{0, from, -way.normalized(), item.shape, world_->shapes[item.shape].product};
     for (int i = 0; i < kMostAdvances; ++i) {
@@ -176,14 +183,17 @@ std::optional<Contact> Obstacles::sweep(const Body& body, const Vector3d& from, 
       contact.share += gap / approach;
       if (contact.share >= 1 || (first && contact.share > first->share)) return;
     }
-    if (!first || contact.share < first->share || (contact.share == first->share && item.shape < first->shape)) first = contact;
+    if (!first || contact.share < first->share || (contact.share == first->share && item.shape < first->shape))
+      first = contact;
   });
   return first;
 }
 
-void Obstacles::near(const Body& body, const Vector3d& feet, double within_m, const std::function<void(const Contact&, double)>& visit) const {
+void Obstacles::near(const Body& body, const Vector3d& feet, double within_m,
+                     const std::function<void(const Contact&, double)>& visit) const {
   const Core core(body, feet);
-  const Vector3d side(body.radius_m + within_m, body.radius_m + within_m, within_m), up(0, 0, std::max(body.height_m, 2 * body.radius_m));
+  const Vector3d side(body.radius_m + within_m, body.radius_m + within_m, within_m),
+      up(0, 0, std::max(body.height_m, 2 * body.radius_m));
   world_->inBox(feet - side, feet + side + up, [&](const Item& item) {
     Contact contact{0, feet, Vector3d::UnitZ(), item.shape, world_->shapes[item.shape].product};
     if (const double gap = world_->gap(body, core, item, contact); gap < within_m) visit(contact, gap);
@@ -215,11 +225,13 @@ std::optional<Contact> Obstacles::ray(const Vector3d& from, const Vector3d& to) 
       const double share = (a - from).dot(normal) / along;
       if (!(share >= 0 && share <= 1) || (first && share >= first->share)) return;
       const Vector3d p = from + share * way - a;
-      const double u = p.cross(ac).dot(normal) / normal.squaredNorm(), v = ab.cross(p).dot(normal) / normal.squaredNorm();
+      const double u = p.cross(ac).dot(normal) / normal.squaredNorm(),
+                   v = ab.cross(p).dot(normal) / normal.squaredNorm();
       if (u < -1e-9 || v < -1e-9 || u + v > 1 + 1e-9) return;
       first = Contact{share, p + a, (along > 0 ? -1 : 1) * normal.normalized(), item.shape, shape.product};
     };
-    if (item.triangle >= 0) meet(shape.triangles[static_cast<std::size_t>(item.triangle)]);
+    if (item.triangle >= 0)
+      meet(shape.triangles[static_cast<std::size_t>(item.triangle)]);
     else
       for (const auto& t : shape.triangles) meet(t);
   });

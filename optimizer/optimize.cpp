@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "optimizer/optimizer.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +9,7 @@
 
 #include "core/unused_meshes.h"
 #include "optimizer/losses.h"
+#include "optimizer/optimizer.h"
 #include "optimizer/paint.h"
 #include "optimizer/scene_deviation.h"
 #include "optimizer/simplify.h"
@@ -23,11 +22,12 @@ namespace {
 void addIntangible(const Environment& environment, Environment& lighter) {
   for (const auto& instance : environment.instances)
     if (!environment.products[instance.product].inScene()) lighter.instances.push_back(instance);
-  std::stable_sort(lighter.instances.begin(), lighter.instances.end(), [](const Instance& a, const Instance& b) { return a.product < b.product; });
+  std::stable_sort(lighter.instances.begin(), lighter.instances.end(),
+                   [](const Instance& a, const Instance& b) { return a.product < b.product; });
 }
 
-// Without the triangles that nobody can see. A product whose every triangle is hidden stays as it is: what it is made of is not for
-// rays to say.
+// Without the triangles that nobody can see. A product whose every triangle is hidden stays as it is: what it is made
+// of is not for rays to say.
 void takeHidden(Environment& environment, const OptimizeOptions& options, Report& report, const Progress& progress) {
   const auto hidden = hiddenTriangles(environment, progress);
   std::vector<bool> kept(environment.meshes.size(), false);
@@ -52,7 +52,11 @@ void takeHidden(Environment& environment, const OptimizeOptions& options, Report
     environment.meshes[m] = std::make_shared<const Mesh>(std::move(mesh));
     gone += copies[m] * count;
   }
-  if (gone > 0) report.note("hidden faces", fmt::format("{} triangles that cannot be seen from anywhere were left out; deviations count from what is left", gone));
+  if (gone > 0)
+    report.note(
+        "hidden faces",
+        fmt::format("{} triangles that cannot be seen from anywhere were left out; deviations count from what is left",
+                    gone));
 }
 
 // `shared` with its meshes as light as they became. What is not placed any more is not held any more.
@@ -62,14 +66,16 @@ Environment assemble(const Environment& shared, const std::vector<Work>& works) 
     const Work& work = works[i];
     const Mesh& before = *shared.meshes[i];
     if (work.copies == 0 || work.lighter.triangles.size() == before.triangles.size()) return;
-    result.meshes[i] = std::make_shared<const Mesh>(isPainted(before) ? paintedMesh(before, work.shape, work.steps) : meshOf(work.lighter));
+    result.meshes[i] = std::make_shared<const Mesh>(isPainted(before) ? paintedMesh(before, work.shape, work.steps)
+                                                                      : meshOf(work.lighter));
   });
   std::erase_if(result.instances, [&](const Instance& instance) { return works[instance.mesh].dropped(); });
   return result;
 }
 
 void countTriangles(const Environment& tangible, OptimizeResult& result) {
-  for (const auto& instance : tangible.instances) result.products[instance.product].triangles_before += tangible.meshes[instance.mesh]->triangles.size();
+  for (const auto& instance : tangible.instances)
+    result.products[instance.product].triangles_before += tangible.meshes[instance.mesh]->triangles.size();
   for (const auto& product : result.products) result.all.triangles_before += product.triangles_before;
 }
 
@@ -78,17 +84,20 @@ Environment withDropped(const Environment& shared, const Environment& tangible, 
   Environment result = shared;
   for (const auto& instance : tangible.instances)
     if (allowanceOf(options, instance.product).drop) result.instances.push_back(instance);
-  std::stable_sort(result.instances.begin(), result.instances.end(), [](const Instance& a, const Instance& b) { return a.product < b.product; });
+  std::stable_sort(result.instances.begin(), result.instances.end(),
+                   [](const Instance& a, const Instance& b) { return a.product < b.product; });
   return result;
 }
 
 // What bounds each instance's distance from the whole: that from what became of itself, if something did.
-std::vector<double> mostOf(const Environment& environment, const std::vector<Work>& works, const OptimizeOptions& options) {
+std::vector<double> mostOf(const Environment& environment, const std::vector<Work>& works,
+                           const OptimizeOptions& options) {
   std::vector<double> most_m;
   for (const auto& instance : environment.instances) {
     const Work& work = works[instance.mesh];
     const bool gone = work.dropped() || allowanceOf(options, instance.product).drop;
-    most_m.push_back(gone ? std::numeric_limits<double>::infinity() : work.deviation.max_m * largestStretch(instance.world_from_mesh));
+    most_m.push_back(gone ? std::numeric_limits<double>::infinity()
+                          : work.deviation.max_m * largestStretch(instance.world_from_mesh));
   }
   return most_m;
 }
@@ -103,12 +112,15 @@ Environment withoutDropped(const Environment& environment, const OptimizeOptions
 
 Result<void> checkOptions(const Environment& environment, const OptimizeOptions& options) {
   const auto wrong = [](double deviation_m) { return !std::isfinite(deviation_m) || deviation_m < 0; };
-  if (wrong(options.max_deviation_m)) return failure(ErrorKind::usage, "the largest deviation must be zero or more metres", "max_deviation_m");
-  if (auto invalid = validate(environment); !invalid.empty()) return failure(ErrorKind::unusable, invalid, "environment");
+  if (wrong(options.max_deviation_m))
+    return failure(ErrorKind::usage, "the largest deviation must be zero or more metres", "max_deviation_m");
+  if (auto invalid = validate(environment); !invalid.empty())
+    return failure(ErrorKind::unusable, invalid, "environment");
   if (!options.products.empty() && options.products.size() != environment.products.size())
     return failure(ErrorKind::internal, "not one allowance for each product", "products");
   for (const auto& a : options.products)
-    if (wrong(a.max_deviation_m) || !(a.weight > 0) || !std::isfinite(a.weight) || a.share > options.further_budgets.size())
+    if (wrong(a.max_deviation_m) || !(a.weight > 0) || !std::isfinite(a.weight) ||
+        a.share > options.further_budgets.size())
       return failure(ErrorKind::usage, "an allowance is out of range", a.lod + " " + a.reason);
   return {};
 }
@@ -131,7 +143,8 @@ Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOp
   reportLossless(rest, works, result.report);
   reportDropped(shared, works, result.report);
   progress.stage("Measure the whole", 0.9, 1);
-  // Of an empty one the products' own figures, to their centres, are all there is; of one mesh they are those of the whole.
+  // Of an empty one the products' own figures, to their centres, are all there is; of one mesh they are those of the
+  // whole.
   if (result.all.triangles_after > 0 && tangible.instances.size() > 1) {
     KnownOfScene known;
     for (const auto& work : works) known.meshes.push_back({&work.shape, work.tree.get()});

@@ -51,15 +51,20 @@ class Painter {
   Paint paintAt(const Vector3d& p, std::uint32_t group) const;
 
   std::vector<Vector3d> positions_;
-  std::vector<Triangle> triangles_, wedges_;   // the latter indices into paints_
+  std::vector<Triangle> triangles_, wedges_;  // the latter indices into paints_
   std::vector<Paint> paints_;
   std::vector<std::uint32_t> first_corner_, next_corner_;
-  std::vector<std::uint32_t> ring_;                                // the triangles around a step
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> groups_;    // wedges at the step's two vertices, and which of them become one
+  std::vector<std::uint32_t> ring_;  // the triangles around a step
+  std::vector<std::pair<std::uint32_t, std::uint32_t>>
+      groups_;  // wedges at the step's two vertices, and which of them become one
 };
 
 Painter::Painter(const Mesh& mesh, const Shape& shape)
-    : positions_(shape.positions), triangles_(shape.triangles), wedges_(shape.wedges), paints_(mesh.positions.size()), first_corner_(shape.positions.size(), kNone),
+    : positions_(shape.positions),
+      triangles_(shape.triangles),
+      wedges_(shape.wedges),
+      paints_(mesh.positions.size()),
+      first_corner_(shape.positions.size(), kNone),
       next_corner_(3 * shape.triangles.size(), kNone) {
   for (std::size_t i = 0; i < paints_.size(); ++i) {
     if (!mesh.texture_coordinates.empty()) paints_[i].uv = mesh.texture_coordinates[i].cast<double>();
@@ -96,8 +101,10 @@ Paint Painter::paintAt(const Vector3d& p, std::uint32_t group) const {
   double nearest = std::numeric_limits<double>::infinity();
   Paint best;
   for (const auto i : ring_) {
-    if (std::none_of(wedges_[i].begin(), wedges_[i].end(), [&](std::uint32_t w) { return groupOf(w) == group; })) continue;
-    const Vector3d &a = positions_[triangles_[i][0]], &b = positions_[triangles_[i][1]], &c = positions_[triangles_[i][2]];
+    if (std::none_of(wedges_[i].begin(), wedges_[i].end(), [&](std::uint32_t w) { return groupOf(w) == group; }))
+      continue;
+    const Vector3d &a = positions_[triangles_[i][0]], &b = positions_[triangles_[i][1]],
+                   &c = positions_[triangles_[i][2]];
     const Vector3d foot = closestPoint(p, a, b, c);
     const double squared = (foot - p).squaredNorm();
     if (!(squared < nearest)) continue;
@@ -162,13 +169,15 @@ Mesh Painter::result(const Mesh& before, const Shape& shape) const {
     if (!before.texture_coordinates.empty()) mesh.texture_coordinates.emplace_back(paints_[wedge].uv.cast<float>());
     if (before.colours.empty()) continue;
     auto& colour = mesh.colours.emplace_back();
-    for (int k = 0; k < 4; ++k) colour[k] = static_cast<std::uint8_t>(std::lround(std::clamp(paints_[wedge].colour[k], 0.0, 255.0)));
+    for (int k = 0; k < 4; ++k)
+      colour[k] = static_cast<std::uint8_t>(std::lround(std::clamp(paints_[wedge].colour[k], 0.0, 255.0)));
   }
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     if (triangles_[i][0] == kNone) continue;
     Triangle t{};
     for (int k = 0; k < 3; ++k)
-      t[k] = static_cast<std::uint32_t>(std::lower_bound(corners.begin(), corners.end(), Corner(triangles_[i][k], wedges_[i][k])) - corners.begin());
+      t[k] = static_cast<std::uint32_t>(
+          std::lower_bound(corners.begin(), corners.end(), Corner(triangles_[i][k], wedges_[i][k])) - corners.begin());
     mesh.triangles.push_back(t);
     mesh.surface_of_triangle.push_back(shape.surface_of_triangle[i]);
   }

@@ -58,7 +58,9 @@ class Cutter {
     }
     int axis = 0;
     (high - low).maxCoeff(&axis);
-    const auto middle = first + std::clamp<std::size_t>(static_cast<std::size_t>(cut_ * static_cast<double>(last - first)), 1, last - first - 1);
+    const auto middle =
+        first + std::clamp<std::size_t>(static_cast<std::size_t>(cut_ * static_cast<double>(last - first)), 1,
+                                        last - first - 1);
     const auto at = [&](std::size_t i) { return items_.begin() + static_cast<std::ptrdiff_t>(i); };
     std::nth_element(at(first), at(middle), at(last), [axis](const Item& a, const Item& b) {
       return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis] : a.first < b.first;
@@ -76,7 +78,8 @@ class Cutter {
 
 }  // namespace
 
-Partition partition(std::span<const Vector3d> positions, std::span<const Triangle> triangles, std::size_t most, double cut) {
+Partition partition(std::span<const Vector3d> positions, std::span<const Triangle> triangles, std::size_t most,
+                    double cut) {
   Partition result;
   result.shared.assign(positions.size(), 0);
   if (triangles.empty()) return result;
@@ -84,8 +87,10 @@ Partition partition(std::span<const Vector3d> positions, std::span<const Triangl
   std::vector<std::uint32_t> size(positions.size(), 0);
   for (const auto p : part) ++size[p];
   std::vector<Item> items;
-  items.reserve(static_cast<std::size_t>(std::count_if(part.begin(), part.end(), [&](std::uint32_t p) { return size[p] > most; })));
-  std::vector<std::uint32_t> item_of_part(positions.size(), kNone), next(triangles.size(), kNone), last(positions.size(), kNone);
+  items.reserve(static_cast<std::size_t>(
+      std::count_if(part.begin(), part.end(), [&](std::uint32_t p) { return size[p] > most; })));
+  std::vector<std::uint32_t> item_of_part(positions.size(), kNone), next(triangles.size(), kNone),
+      last(positions.size(), kNone);
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     const auto& t = triangles[i];
     const Vector3d centre = (positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3;
@@ -112,8 +117,10 @@ Partition partition(std::span<const Vector3d> positions, std::span<const Triangl
       for (auto t = items[i].first; t != kNone; t = whole ? next[t] : kNone) {
         cell.push_back(t);
         for (const auto v : triangles[t]) {
-          if (cell_of_vertex[v] == kNone) cell_of_vertex[v] = index;
-          else if (cell_of_vertex[v] != index) result.shared[v] = 1, result.any_shared = true;
+          if (cell_of_vertex[v] == kNone)
+            cell_of_vertex[v] = index;
+          else if (cell_of_vertex[v] != index)
+            result.shared[v] = 1, result.any_shared = true;
         }
       }
     }

@@ -18,22 +18,23 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kMostParts = 1000;          // a mesh of more stays a mesh
-constexpr std::size_t kMostTriangles = 20'000;    // of a part that is taken apart
-constexpr double kSameVolume = 1e-3;              // a part with this little concavity is convex
-constexpr double kSameDirection = 0.99996;        // half a degree
-constexpr std::size_t kMostInVain = 20'000;        // triangles of a shape that are cut for nothing before it is given up
-constexpr std::size_t kFew = 4;                   // pieces that need not become fewer
-constexpr double kThin = 1e-6;                     // m of volume for each m² of a part that is a sheet
-constexpr double kCovered = 1e-4;                 // m; a point this near to a piece is covered by it
-constexpr double kSliver = 1e-4;                  // m; a triangle lower than this
-constexpr std::size_t kManyTriangles = 300;        // of a part that is flattened before it is cut
-constexpr double kCutShare = 0.4;                  // of the largest deviation
-constexpr double kSectionShare = 0.85;             // …
+constexpr std::size_t kMostParts = 1000;        // a mesh of more stays a mesh
+constexpr std::size_t kMostTriangles = 20'000;  // of a part that is taken apart
+constexpr double kSameVolume = 1e-3;            // a part with this little concavity is convex
+constexpr double kSameDirection = 0.99996;      // half a degree
+constexpr std::size_t kMostInVain = 20'000;     // triangles of a shape that are cut for nothing before it is given up
+constexpr std::size_t kFew = 4;                 // pieces that need not become fewer
+constexpr double kThin = 1e-6;                  // m of volume for each m² of a part that is a sheet
+constexpr double kCovered = 1e-4;               // m; a point this near to a piece is covered by it
+constexpr double kSliver = 1e-4;                // m; a triangle lower than this
+constexpr std::size_t kManyTriangles = 300;     // of a part that is flattened before it is cut
+constexpr double kCutShare = 0.4;               // of the largest deviation
+constexpr double kSectionShare = 0.85;          // …
 constexpr double kFlattenShares[] = {0.4, 0.1, 0.05, 0.025};
 constexpr std::uint32_t kSamples = 2000, kLeastSamples = 150;  // of a part, and of each of its pieces
 
-// The sets of triangles that `root` calls one, in the order of their first triangles; one set where there would be too many.
+// The sets of triangles that `root` calls one, in the order of their first triangles; one set where there would be too
+// many.
 template <class Root>
 std::vector<Shape> gathered(const Shape& shape, Root root) {
   constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
@@ -132,12 +133,14 @@ struct Box {
   explicit Box(const Piece& piece) : low(piece.positions[0]), high(low) {
     for (const auto& p : piece.positions) low = low.cwiseMin(p), high = high.cwiseMax(p);
   }
-  bool holds(const Vector3d& p) const { return ((p - low).array() >= -kCovered).all() && ((high - p).array() >= -kCovered).all(); }
+  bool holds(const Vector3d& p) const {
+    return ((p - low).array() >= -kCovered).all() && ((high - p).array() >= -kCovered).all();
+  }
 };
 
-// Both ways: the part's surface from the pieces, and the pieces' surface from the part's where no other piece covers it.
-// Where the pieces have the part's volume, a face within them is one that the file put into its solid, and not a hollow.
-// Infinite as soon as it is more than max_deviation_m.
+// Both ways: the part's surface from the pieces, and the pieces' surface from the part's where no other piece covers
+// it. Where the pieces have the part's volume, a face within them is one that the file put into its solid, and not a
+// hollow. Infinite as soon as it is more than max_deviation_m.
 double deviationOf(const std::vector<Piece>& pieces, const Shape& part, double max_deviation_m) {
   std::vector<Vector3d> positions;
   std::vector<Triangle> triangles;
@@ -183,7 +186,8 @@ double deviationOf(const std::vector<Piece>& pieces, const Shape& part, double m
       for (int k = 0; k < 3; ++k)
         if (!outward(0.5 * (p[t[k]] + p[t[(k + 1) % 3]]), i)) return kInfinite;
     }
-    for (const auto& point : pointsByArea(p, pieces[i].triangles, kSamples / static_cast<std::uint32_t>(pieces.size()) + kLeastSamples, {2, 0}))
+    for (const auto& point : pointsByArea(p, pieces[i].triangles,
+                                          kSamples / static_cast<std::uint32_t>(pieces.size()) + kLeastSamples, {2, 0}))
       if (!outward(point.position, i)) return kInfinite;
   }
   return std::sqrt(worst);
@@ -194,10 +198,11 @@ struct Attempt {
   double deviation_m = std::numeric_limits<double>::infinity();
 };
 
-
 double areaOf(const Shape& part) {
   double sum = 0;
-  for (const auto& t : part.triangles) sum += 0.5 * (part.positions[t[1]] - part.positions[t[0]]).cross(part.positions[t[2]] - part.positions[t[0]]).norm();
+  for (const auto& t : part.triangles)
+    sum +=
+        0.5 * (part.positions[t[1]] - part.positions[t[0]]).cross(part.positions[t[2]] - part.positions[t[0]]).norm();
   return sum;
 }
 
@@ -229,7 +234,8 @@ Attempt takeApart(Shape part, double max_deviation_m, bool cheaply, const Progre
   }
   if (closed && (best.pieces.empty() || best.pieces.size() > kFew)) {
     take(prismPieces(part, volume, 0));
-    if (best.pieces.empty() || best.pieces.size() > kFew) take(prismPieces(part, volume, kSectionShare * max_deviation_m));
+    if (best.pieces.empty() || best.pieces.size() > kFew)
+      take(prismPieces(part, volume, kSectionShare * max_deviation_m));
   }
   if (cheaply || (!best.pieces.empty() && best.pieces.size() <= kFew)) return best;
   if (part.triangles.size() <= kManyTriangles) take(cutPieces(part, kCutShare * max_deviation_m));
@@ -262,7 +268,8 @@ double windingNumber(const Shape& part, const Vector3d& p) {
 
 double volumeOf(const std::vector<Vector3d>& positions, const std::vector<Triangle>& triangles) {
   double sum = 0;
-  for (const auto& t : triangles) sum += (positions[t[0]] - positions[0]).dot((positions[t[1]] - positions[0]).cross(positions[t[2]] - positions[0]));
+  for (const auto& t : triangles)
+    sum += (positions[t[0]] - positions[0]).dot((positions[t[1]] - positions[0]).cross(positions[t[2]] - positions[0]));
   return sum / 6;
 }
 
@@ -297,16 +304,20 @@ std::vector<Vector3d> faceDirections(const Shape& part) {
   };
   std::vector<Face> faces;
   for (const auto& t : part.triangles) {
-    const Vector3d normal = (part.positions[t[1]] - part.positions[t[0]]).cross(part.positions[t[2]] - part.positions[t[0]]);
+    const Vector3d normal =
+        (part.positions[t[1]] - part.positions[t[0]]).cross(part.positions[t[2]] - part.positions[t[0]]);
     if (normal.norm() > 0) faces.push_back({normal.norm(), normal.normalized()});
   }
   const auto larger = [](const Face& a, const Face& b) { return a.area > b.area; };
   std::stable_sort(faces.begin(), faces.end(), larger);
   std::vector<Face> directions;
   for (const auto& face : faces) {
-    const auto same = std::find_if(directions.begin(), directions.end(), [&](const Face& d) { return std::abs(d.normal.dot(face.normal)) > kSameDirection; });
-    if (same != directions.end()) same->area += face.area;
-    else if (directions.size() < 32) directions.push_back(face);  // a round part has no directions worth more
+    const auto same = std::find_if(directions.begin(), directions.end(),
+                                   [&](const Face& d) { return std::abs(d.normal.dot(face.normal)) > kSameDirection; });
+    if (same != directions.end())
+      same->area += face.area;
+    else if (directions.size() < 32)
+      directions.push_back(face);  // a round part has no directions worth more
   }
   std::stable_sort(directions.begin(), directions.end(), larger);
   std::vector<Vector3d> result;

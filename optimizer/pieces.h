@@ -26,9 +26,9 @@ struct Pieces {
   bool fell_back = false;      // a part that no convex pieces describe stays a triangle mesh
 };
 
-// Connected part by part: boxes between the planes of its faces where these are square to each other, else its convex hull,
-// else prisms over a convex partition of its section, else what cuts along its reflex planes leave: whatever is least and
-// deviates by at most max_deviation_m; else its triangles.
+// Connected part by part: boxes between the planes of its faces where these are square to each other, else its convex
+// hull, else prisms over a convex partition of its section, else what cuts along its reflex planes leave: whatever is
+// least and deviates by at most max_deviation_m; else its triangles.
 Pieces collisionPieces(const Shape& shape, double max_deviation_m, const Progress& progress);
 
 // The ways, each empty when it does not apply. `volume_m3` of the closed part tells whether nothing was lost.
@@ -50,7 +50,8 @@ double windingNumber(const Shape& part, const Eigen::Vector3d& p);
 double volumeOf(const std::vector<Eigen::Vector3d>& positions, const std::vector<Triangle>& triangles);
 
 // A convex prism over a counter-clockwise polygon, given by its corners at the bottom and at the top.
-Piece prism(const std::vector<Eigen::Vector3d>& bottom, const std::vector<Eigen::Vector3d>& top, CollisionShapeKind kind);
+Piece prism(const std::vector<Eigen::Vector3d>& bottom, const std::vector<Eigen::Vector3d>& top,
+            CollisionShapeKind kind);
 
 // Sorted, values closer than `tolerance` to the one before joined.
 std::vector<double> distinct(std::vector<double> values, double tolerance);

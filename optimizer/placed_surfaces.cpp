@@ -17,7 +17,8 @@ namespace {
 
 bool keepsAngles(const Eigen::Affine3d& transform) {
   const Eigen::Matrix3d product = transform.linear().transpose() * transform.linear();
-  return (product - Eigen::Matrix3d::Identity() * (product.trace() / 3)).norm() <= 1e-6 * product.trace() && product.trace() > 0;
+  return (product - Eigen::Matrix3d::Identity() * (product.trace() / 3)).norm() <= 1e-6 * product.trace() &&
+         product.trace() > 0;
 }
 
 std::vector<std::uint32_t> usedPositions(std::size_t count, const std::vector<Triangle>& triangles) {
@@ -78,9 +79,12 @@ PlacedSurfaces::PlacedSurfaces(const Environment& environment, const std::vector
     }
   });
   for (std::uint32_t i = 0; i < instances_.size(); ++i) {
-    const auto box = bounds(*environment.meshes[environment.instances[i].mesh], environment.instances[i].world_from_mesh);
-    if (box.empty()) corners_.insert(corners_.end(), 2, Vector3d::Constant(1e300));  // infinitely far
-    else corners_.insert(corners_.end(), {box.min, box.max});
+    const auto box =
+        bounds(*environment.meshes[environment.instances[i].mesh], environment.instances[i].world_from_mesh);
+    if (box.empty())
+      corners_.insert(corners_.end(), 2, Vector3d::Constant(1e300));  // infinitely far
+    else
+      corners_.insert(corners_.end(), {box.min, box.max});
     boxes_.push_back({2 * i, 2 * i + 1, 2 * i});
   }
   tree_ = std::make_unique<TriangleTree>(corners_, boxes_);
@@ -88,11 +92,14 @@ PlacedSurfaces::PlacedSurfaces(const Environment& environment, const std::vector
 
 double PlacedSurfaces::Placed::squaredDistance(const Vector3d& p, double bound, double enough) const {
   const double scale_squared = scale * scale;
-  return solid->tree->nearestTriangle(solid_from_world * p, bound / scale_squared, enough / scale_squared).squared * scale_squared;
+  return solid->tree->nearestTriangle(solid_from_world * p, bound / scale_squared, enough / scale_squared).squared *
+         scale_squared;
 }
 
 double PlacedSurfaces::squaredDistance(const Vector3d& p, double enough) const {
-  const auto to_instance = [&](std::uint32_t i, double bound) { return instances_[i].squaredDistance(p, bound, enough); };
+  const auto to_instance = [&](std::uint32_t i, double bound) {
+    return instances_[i].squaredDistance(p, bound, enough);
+  };
   return tree_->nearest(p, std::numeric_limits<double>::infinity(), to_instance, enough);
 }
 
@@ -105,11 +112,13 @@ double PlacedSurfaces::squaredDistance(const Vector3d& p, std::size_t first, std
   return best;
 }
 
-PlacedSurfaces::Hit PlacedSurfaces::firstHit(const Vector3d& origin, const Vector3d& unit_direction, double reach) const {
+PlacedSurfaces::Hit PlacedSurfaces::firstHit(const Vector3d& origin, const Vector3d& unit_direction,
+                                             double reach) const {
   Hit result;
   result.distance = tree_->alongRay(origin, unit_direction, reach, [&](std::uint32_t i, double far) {
     const auto& placed = instances_[i];  // the same t on both sides, as the direction is not made a unit again
-    const double t = placed.solid->tree->firstHit(placed.solid_from_world * origin, placed.solid_from_world.linear() * unit_direction, far);
+    const double t = placed.solid->tree->firstHit(placed.solid_from_world * origin,
+                                                  placed.solid_from_world.linear() * unit_direction, far);
     if (t < far) result.instance = i;
     return t;
   });

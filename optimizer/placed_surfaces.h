@@ -12,8 +12,8 @@
 
 namespace standpoint {
 
-// All surfaces of an environment, to be asked for distances: trees over the meshes, and one over the instances' boxes, so
-// that a mesh with a thousand copies is held once. Keeps references: the environment's meshes must outlive it.
+// All surfaces of an environment, to be asked for distances: trees over the meshes, and one over the instances' boxes,
+// so that a mesh with a thousand copies is held once. Keeps references: the environment's meshes must outlive it.
 class PlacedSurfaces {
  public:
   // For a mesh: its welded shape and that one's tree, if someone has them already.
@@ -59,7 +59,7 @@ class PlacedSurfaces {
     const std::vector<Eigen::Vector3d>* positions = &own_positions;
     const std::vector<Triangle>* triangles = nullptr;
     const TriangleTree* tree = nullptr;
-    std::vector<std::uint32_t> used;  // positions
+    std::vector<std::uint32_t> used;                   // positions
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // what was taken from the positions
   };
   struct Placed {

@@ -10,11 +10,11 @@
 
 namespace standpoint {
 
-Result<std::unique_ptr<OptimizePreview>> OptimizePreview::prepare(const std::shared_ptr<const Environment>& environment, const OptimizeOptions& options,
-                                                                  Progress& progress) {
+Result<std::unique_ptr<OptimizePreview>> OptimizePreview::prepare(const std::shared_ptr<const Environment>& environment,
+                                                                  const OptimizeOptions& options, Progress& progress) {
   std::unique_ptr<OptimizePreview> preview(new OptimizePreview);
   preview->options_ = options;
-  preview->options_.budget = 1;            // no share is lossless for want of a budget
+  preview->options_.budget = 1;  // no share is lossless for want of a budget
   if (auto fit = checkOptions(*environment, preview->options_); !fit) return failure(fit.error());
   preview->shared_ = withoutDropped(sceneOf(*environment), options);
   progress.stage("Prepare the preview");
@@ -27,7 +27,8 @@ Result<std::unique_ptr<OptimizePreview>> OptimizePreview::prepare(const std::sha
     const auto& work = preview->works_[i];
     preview->meshes_[i] = preview->shared_.meshes[i];
     preview->most_ += work.shape.triangles.size() * work.copies;
-    preview->least_ += (work.limit > 0 ? work.levels.levels[work.limit - 1].triangles : work.shape.triangles.size()) * work.copies;
+    preview->least_ +=
+        (work.limit > 0 ? work.levels.levels[work.limit - 1].triangles : work.shape.triangles.size()) * work.copies;
   }
   return preview;
 }
@@ -39,12 +40,17 @@ std::shared_ptr<const Environment> OptimizePreview::at(std::uint64_t budget) {
     const Work& work = works_[i];
     if (work.copies == 0 || work.taken == made_[i]) return;
     const Mesh& before = *shared_.meshes[i];
-    const auto steps = work.taken > 0 && work.levels.levels[work.taken - 1].stand_in < 0 ? work.levels.levels[work.taken - 1].collapses : 0;
+    const auto steps = work.taken > 0 && work.levels.levels[work.taken - 1].stand_in < 0
+                           ? work.levels.levels[work.taken - 1].collapses
+                           : 0;
     std::vector<std::uint32_t> image;
-    if (work.taken == 0) meshes_[i] = shared_.meshes[i];
+    if (work.taken == 0)
+      meshes_[i] = shared_.meshes[i];
     else if (isPainted(before))
-      meshes_[i] = std::make_shared<const Mesh>(paintedMesh(before, work.shape, {work.levels.log.begin(), work.levels.log.begin() + steps}));
-    else meshes_[i] = std::make_shared<const Mesh>(meshOf(atLevel(work.shape, work.levels, work.taken, image)));
+      meshes_[i] = std::make_shared<const Mesh>(
+          paintedMesh(before, work.shape, {work.levels.log.begin(), work.levels.log.begin() + steps}));
+    else
+      meshes_[i] = std::make_shared<const Mesh>(meshOf(atLevel(work.shape, work.levels, work.taken, image)));
     made_[i] = work.taken;
   });
   auto result = std::make_shared<Environment>(shared_);

@@ -22,21 +22,23 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
-using FaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel, CGAL::Triangulation_face_base_with_info_2<int, Kernel>>;
-using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
-                                                                 CGAL::Exact_predicates_tag>;
+using FaceBase =
+    CGAL::Constrained_triangulation_face_base_2<Kernel, CGAL::Triangulation_face_base_with_info_2<int, Kernel>>;
+using Triangulation =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+                                               CGAL::Exact_predicates_tag>;
 
-constexpr double kFlat = 0.001;     // m; a face this flat along the axis is a cap
-constexpr double kUpright = 2e-3;   // sine of the largest angle between the axis and a side
-constexpr double kSnap = 1e-5;      // m; points of the section this near are one
+constexpr double kFlat = 0.001;    // m; a face this flat along the axis is a cap
+constexpr double kUpright = 2e-3;  // sine of the largest angle between the axis and a side
+constexpr double kSnap = 1e-5;     // m; points of the section this near are one
 constexpr std::size_t kMostPieces = 100;
 constexpr std::size_t kMostSheetTriangles = 2000;
 constexpr double kHalfSheet = 0.0005;  // m
 constexpr std::size_t kMostDirections = 6;
 constexpr std::size_t kMostSegments = 4000;
-constexpr std::size_t kFewPolygons = 4;   // that need not become fewer
-constexpr std::size_t kMostOblique = 8;   // planes that cut off a prism's ends
-constexpr double kInside = 0.001;         // m from its caps where a prism with oblique ends is sliced
+constexpr std::size_t kFewPolygons = 4;  // that need not become fewer
+constexpr std::size_t kMostOblique = 8;  // planes that cut off a prism's ends
+constexpr double kInside = 0.001;        // m from its caps where a prism with oblique ends is sliced
 
 using Key = std::array<long long, 2>;
 using Segment = std::pair<Key, Key>;
@@ -64,8 +66,8 @@ double cross(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return (b - a).x() * (c - b).y() - (b - a).y() * (c - b).x();
 }
 
-// Heights of the caps, and the planes of faces that are neither cap nor side, such as mitred ends; no heights where the part
-// does not lie behind such planes.
+// Heights of the caps, and the planes of faces that are neither cap nor side, such as mitred ends; no heights where the
+// part does not lie behind such planes.
 std::vector<double> levels(const Shape& part, const Vector3d& axis, std::vector<Plane>& oblique) {
   std::vector<double> heights;
   for (const auto& t : part.triangles) {
@@ -79,9 +81,13 @@ std::vector<double> levels(const Shape& part, const Vector3d& axis, std::vector<
     }
     if (normal.norm() <= kFlat * longest || std::abs(normal.normalized().dot(axis)) <= kUpright) continue;
     const Plane plane{normal.normalized(), normal.normalized().dot(a)};
-    if (std::any_of(oblique.begin(), oblique.end(), [&](const Plane& p) { return (p.normal - plane.normal).norm() < kFlat && std::abs(p.offset - plane.offset) < kFlat; }))
+    if (std::any_of(oblique.begin(), oblique.end(), [&](const Plane& p) {
+          return (p.normal - plane.normal).norm() < kFlat && std::abs(p.offset - plane.offset) < kFlat;
+        }))
       continue;
-    if (oblique.size() == kMostOblique || std::any_of(part.positions.begin(), part.positions.end(), [&](const Vector3d& p) { return plane.normal.dot(p) > plane.offset + kFlat; }))
+    if (oblique.size() == kMostOblique ||
+        std::any_of(part.positions.begin(), part.positions.end(),
+                    [&](const Vector3d& p) { return plane.normal.dot(p) > plane.offset + kFlat; }))
       return {};
     oblique.push_back(plane);
   }
@@ -100,13 +106,16 @@ std::vector<Segment> slice(const Shape& part, const Frame& frame, double height)
       const Vector2d at = frame.flat(p + (q - p) * (hp / (hp - hq)));
       ends.push_back({std::llround(at.x() / kSnap), std::llround(at.y() / kSnap)});
     }
-    if (ends.size() == 2 && ends[0] != ends[1]) segments.emplace_back(std::min(ends[0], ends[1]), std::max(ends[0], ends[1]));
+    if (ends.size() == 2 && ends[0] != ends[1])
+      segments.emplace_back(std::min(ends[0], ends[1]), std::max(ends[0], ends[1]));
   }
   std::sort(segments.begin(), segments.end());
   std::vector<Segment> odd;  // two faces at one place bound nothing
   for (const auto& segment : segments) {
-    if (!odd.empty() && odd.back() == segment) odd.pop_back();
-    else odd.push_back(segment);
+    if (!odd.empty() && odd.back() == segment)
+      odd.pop_back();
+    else
+      odd.push_back(segment);
   }
   return odd;
 }
@@ -124,8 +133,10 @@ void countBorders(Triangulation& triangulation) {
       if (next->info() >= 0) continue;
       const bool border = triangulation.is_constrained({face, k});
       next->info() = face->info() + (border ? 1 : 0);
-      if (border) near.push_back(next);
-      else near.push_front(next);
+      if (border)
+        near.push_back(next);
+      else
+        near.push_front(next);
     }
   }
 }
@@ -137,7 +148,8 @@ Polygon joined(const std::vector<Vector2d>& points, Polygon p, Polygon q, int a,
   p.insert(p.end(), q.begin() + 1, q.end() - 1);
   for (std::size_t i = 0; i < p.size(); ++i) {
     const auto &x = points[p[i]], &y = points[p[(i + 1) % p.size()]], &z = points[p[(i + 2) % p.size()]];
-    if (cross(x, y, z) < -1e-4 * (y - x).norm() * (z - y).norm() * std::min(1.0, (y - x).norm() + (z - y).norm())) return {};
+    if (cross(x, y, z) < -1e-4 * (y - x).norm() * (z - y).norm() * std::min(1.0, (y - x).norm() + (z - y).norm()))
+      return {};
   }
   return p;
 }
@@ -156,8 +168,10 @@ std::vector<Polygon> convexPartition(const std::vector<Vector2d>& points, std::v
   for (const auto& [edge, left] : side)
     if (edge.first < edge.second)
       if (const auto other = side.find({edge.second, edge.first}); other != side.end())
-        diagonals.push_back({(points[edge.first] - points[edge.second]).norm(), edge.first, edge.second, left, other->second});
-  std::stable_sort(diagonals.begin(), diagonals.end(), [](const Diagonal& x, const Diagonal& y) { return x.length > y.length; });
+        diagonals.push_back(
+            {(points[edge.first] - points[edge.second]).norm(), edge.first, edge.second, left, other->second});
+  std::stable_sort(diagonals.begin(), diagonals.end(),
+                   [](const Diagonal& x, const Diagonal& y) { return x.length > y.length; });
   std::vector<std::size_t> now(polygons.size());
   for (std::size_t i = 0; i < now.size(); ++i) now[i] = i;
   const auto find = [&](std::size_t i) {
@@ -177,7 +191,8 @@ std::vector<Polygon> convexPartition(const std::vector<Vector2d>& points, std::v
   return polygons;
 }
 
-// Closed loops of segments with fewer sides that stay within tolerance_m; the segments as they are where they make no such loops.
+// Closed loops of segments with fewer sides that stay within tolerance_m; the segments as they are where they make no
+// such loops.
 std::vector<Segment> withFewerSides(const std::vector<Segment>& segments, double tolerance_m) {
   std::map<Key, std::vector<Key>> next;
   for (const auto& [a, b] : segments) next[a].push_back(b), next[b].push_back(a);
@@ -208,7 +223,9 @@ Section section(const Shape& part, const Frame& frame, double height, double tol
   if (segments.size() > kMostSegments) return {};
   if (tolerance_m > 0) segments = withFewerSides(segments, tolerance_m);
   Triangulation triangulation;
-  const auto point = [](const Key& key) { return Kernel::Point_2(static_cast<double>(key[0]) * kSnap, static_cast<double>(key[1]) * kSnap); };
+  const auto point = [](const Key& key) {
+    return Kernel::Point_2(static_cast<double>(key[0]) * kSnap, static_cast<double>(key[1]) * kSnap);
+  };
   for (const auto& [a, b] : segments) triangulation.insert_constraint(point(a), point(b));
   Section result;
   if (triangulation.dimension() < 2) return result;
@@ -218,7 +235,8 @@ Section section(const Shape& part, const Frame& frame, double height, double tol
     result.points.emplace_back(vertex->point().x(), vertex->point().y());
   }
   for (const auto face : triangulation.finite_face_handles())
-    (face->info() % 2 == 1 ? result.polygons : result.gaps).push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+    (face->info() % 2 == 1 ? result.polygons : result.gaps)
+        .push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
   result.polygons = convexPartition(result.points, std::move(result.polygons));
   result.gaps = convexPartition(result.points, std::move(result.gaps));
   return result;
@@ -237,8 +255,10 @@ Piece lift(const Outline& outline, const Frame& frame, double low, double high) 
   std::vector<Vector3d> bottom, top;
   std::vector<Vector2d> corners;
   for (std::size_t i = 0; i < outline.size(); ++i) {
-    const auto &x = outline[(i + outline.size() - 1) % outline.size()], &y = outline[i], &z = outline[(i + 1) % outline.size()];
-    if (std::abs(cross(x, y, z)) <= 1e-4 * (z - x).norm() * std::min((y - x).norm(), (z - y).norm())) continue;  // on a line
+    const auto &x = outline[(i + outline.size() - 1) % outline.size()], &y = outline[i],
+               &z = outline[(i + 1) % outline.size()];
+    if (std::abs(cross(x, y, z)) <= 1e-4 * (z - x).norm() * std::min((y - x).norm(), (z - y).norm()))
+      continue;  // on a line
     bottom.push_back(frame.lifted(y, low));
     top.push_back(frame.lifted(y, high));
     corners.push_back(y);
@@ -256,7 +276,9 @@ Piece lift(const Outline& outline, const Frame& frame, double low, double high) 
 Piece cutOff(Piece piece, const std::vector<Plane>& planes) {
   for (const auto& plane : planes) {
     const auto above = [&](const Vector3d& p) { return plane.normal.dot(p) - plane.offset; };
-    if (std::all_of(piece.positions.begin(), piece.positions.end(), [&](const Vector3d& p) { return above(p) <= kSnap; })) continue;
+    if (std::all_of(piece.positions.begin(), piece.positions.end(),
+                    [&](const Vector3d& p) { return above(p) <= kSnap; }))
+      continue;
     std::vector<Vector3d> points;
     for (const auto& p : piece.positions)
       if (above(p) <= 0) points.push_back(p);
@@ -271,11 +293,13 @@ Piece cutOff(Piece piece, const std::vector<Plane>& planes) {
 }
 
 // A layer of a part, parted or covered, whichever takes fewer pieces; `volume_m3` grows by what is parted.
-std::vector<Piece> layer(const Section& section, const Frame& frame, double low, double high, const std::vector<Plane>& oblique, double& volume_m3) {
+std::vector<Piece> layer(const Section& section, const Frame& frame, double low, double high,
+                         const std::vector<Plane>& oblique, double& volume_m3) {
   const auto lifted = [&](const std::vector<Outline>& outlines) {
     std::vector<Piece> pieces;
     for (const auto& outline : outlines)
-      if (auto piece = cutOff(lift(outline, frame, low, high), oblique); !piece.triangles.empty()) pieces.push_back(std::move(piece));
+      if (auto piece = cutOff(lift(outline, frame, low, high), oblique); !piece.triangles.empty())
+        pieces.push_back(std::move(piece));
     return pieces;
   };
   const auto parts = outlinesOf(section, section.polygons);
@@ -292,7 +316,8 @@ std::vector<Piece> prismsAlong(const Shape& part, const Vector3d& axis, double v
   if (heights.size() < 2 || (heights.size() > 2 && !oblique.empty())) return {};
   const Frame frame{axis.unitOrthogonal(), axis.cross(axis.unitOrthogonal()), axis};
   // With oblique ends, the section is as long as it gets beside one of the caps, and they are cut off afterwards.
-  const auto slices = oblique.empty() ? std::vector<double>{0} : std::vector<double>{heights[0] + kInside, heights[1] - kInside};
+  const auto slices =
+      oblique.empty() ? std::vector<double>{0} : std::vector<double>{heights[0] + kInside, heights[1] - kInside};
   std::vector<Piece> best;
   double least = 0.01 * std::abs(volume_m3);
   for (const double beside : slices) {
@@ -303,7 +328,8 @@ std::vector<Piece> prismsAlong(const Shape& part, const Vector3d& axis, double v
       auto pieces = layer(section(part, frame, at, tolerance_m), frame, heights[i], heights[i + 1], oblique, sum);
       std::move(pieces.begin(), pieces.end(), std::back_inserter(result));
     }
-    if (const double off = std::abs(sum - std::abs(volume_m3)); result.size() <= kMostPieces && off <= least) least = off, best = std::move(result);
+    if (const double off = std::abs(sum - std::abs(volume_m3)); result.size() <= kMostPieces && off <= least)
+      least = off, best = std::move(result);
   }
   return best;
 }
@@ -335,7 +361,8 @@ std::vector<Piece> sheetPieces(const Shape& part) {
   sheet.polygons = convexPartition(sheet.points, std::move(sheet.polygons));
   std::vector<Piece> result;
   for (const auto& outline : outlinesOf(sheet, sheet.polygons))
-    if (auto piece = lift(outline, frame, height - kHalfSheet, height + kHalfSheet); !piece.triangles.empty()) result.push_back(std::move(piece));
+    if (auto piece = lift(outline, frame, height - kHalfSheet, height + kHalfSheet); !piece.triangles.empty())
+      result.push_back(std::move(piece));
   return result.size() > kMostPieces ? std::vector<Piece>{} : result;
 }
 

@@ -37,7 +37,8 @@ struct Quadric {
 
   double operator()(const Eigen::Vector3d& p) const {
     const double x = p.x(), y = p.y(), z = p.z();
-    const double value = x * (xx * x + 2 * (xy * y + xz * z + bx)) + y * (yy * y + 2 * (yz * z + by)) + z * (zz * z + 2 * bz) + c;
+    const double value =
+        x * (xx * x + 2 * (xy * y + xz * z + bx)) + y * (yy * y + 2 * (yz * z + by)) + z * (zz * z + 2 * bz) + c;
     return value > 0 ? value : 0;
   }
 
@@ -46,13 +47,15 @@ struct Quadric {
     const double damping = 1e-6 * (xx + yy + zz) + 1e-300;  // well above what rounding does to the determinant
     const double axx = xx + damping, ayy = yy + damping, azz = zz + damping;
     const double x = start.x(), y = start.y(), z = start.z();
-    const Eigen::Vector3d r(-(xx * x + xy * y + xz * z + bx), -(xy * x + yy * y + yz * z + by), -(xz * x + yz * y + zz * z + bz));
+    const Eigen::Vector3d r(-(xx * x + xy * y + xz * z + bx), -(xy * x + yy * y + yz * z + by),
+                            -(xz * x + yz * y + zz * z + bz));
     const double m00 = ayy * azz - yz * yz, m01 = xz * yz - xy * azz, m02 = xy * yz - xz * ayy;
     const double m11 = axx * azz - xz * xz, m12 = xy * xz - axx * yz, m22 = axx * ayy - xy * xy;
     const double determinant = axx * m00 + xy * m01 + xz * m02;
     if (!(determinant > 0)) return start;
     return start + Eigen::Vector3d(m00 * r.x() + m01 * r.y() + m02 * r.z(), m01 * r.x() + m11 * r.y() + m12 * r.z(),
-                                   m02 * r.x() + m12 * r.y() + m22 * r.z()) / determinant;
+                                   m02 * r.x() + m12 * r.y() + m22 * r.z()) /
+                       determinant;
   }
 
   // The same among the points with normal.p = offset; where nothing tells, near `start`.
@@ -61,7 +64,10 @@ struct Quadric {
     if (!(squared > 0)) return minimum(start);
     const Eigen::Vector3d foot = start + normal * ((offset - normal.dot(start)) / squared);
     const Eigen::Vector3d u = normal.unitOrthogonal(), v = normal.cross(u) / std::sqrt(squared);
-    const auto times = [&](const Eigen::Vector3d& p) { return Eigen::Vector3d(xx * p.x() + xy * p.y() + xz * p.z(), xy * p.x() + yy * p.y() + yz * p.z(), xz * p.x() + yz * p.y() + zz * p.z()); };
+    const auto times = [&](const Eigen::Vector3d& p) {
+      return Eigen::Vector3d(xx * p.x() + xy * p.y() + xz * p.z(), xy * p.x() + yy * p.y() + yz * p.z(),
+                             xz * p.x() + yz * p.y() + zz * p.z());
+    };
     const Eigen::Vector3d r = -(times(foot) + Eigen::Vector3d(bx, by, bz)), au = times(u), av = times(v);
     const double damping = 1e-6 * (xx + yy + zz) + 1e-300;
     const double a = u.dot(au) + damping, b = u.dot(av), d = v.dot(av) + damping, ru = u.dot(r), rv = v.dot(r);

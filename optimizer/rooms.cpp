@@ -35,7 +35,7 @@ struct Patch {
 
 struct Space {
   std::uint32_t product = 0;
-  std::vector<Vector3d> corners;     // three for each triangle
+  std::vector<Vector3d> corners;  // three for each triangle
   Bounds box;
   std::map<std::uint32_t, Patch> patches;  // by island
   double area_m2 = 0;
@@ -48,7 +48,9 @@ bool isInside(const Space& space, const Vector3d& p) {
   const double x = p.x() + 1.7e-6, y = p.y() + 2.3e-6;
   for (std::size_t i = 0; i + 2 < space.corners.size(); i += 3) {
     const Vector3d &a = space.corners[i], &b = space.corners[i + 1], &c = space.corners[i + 2];
-    const auto side = [&](const Vector3d& s, const Vector3d& e) { return (e.x() - s.x()) * (y - s.y()) - (e.y() - s.y()) * (x - s.x()); };
+    const auto side = [&](const Vector3d& s, const Vector3d& e) {
+      return (e.x() - s.x()) * (y - s.y()) - (e.y() - s.y()) * (x - s.x());
+    };
     const double u = side(b, c), v = side(c, a), w = side(a, b), sum = u + v + w;
     if (sum == 0 || u * sum < 0 || v * sum < 0 || w * sum < 0) continue;
     if ((u * a.z() + v * b.z() + w * c.z()) / sum > p.z()) inside = !inside;
@@ -77,16 +79,19 @@ std::vector<Space> spacesOf(const Environment& environment) {
 void measure(const Walkable& walkable, Space& space) {
   const auto& mesh = walkable.mesh;
   for (std::size_t i = 0; i + 1 < mesh.triangles.size(); i += 2) {  // two triangles make a level rectangle
-    const Vector3d low = mesh.positions[mesh.triangles[i][0]].cast<double>(), high = mesh.positions[mesh.triangles[i][2]].cast<double>();
+    const Vector3d low = mesh.positions[mesh.triangles[i][0]].cast<double>(),
+                   high = mesh.positions[mesh.triangles[i][2]].cast<double>();
     const double z = low.z() + kBodyMiddle;
-    if (low.x() > space.box.max.x() || high.x() < space.box.min.x() || low.y() > space.box.max.y() || high.y() < space.box.min.y() || z < space.box.min.z() ||
-        z > space.box.max.z())
+    if (low.x() > space.box.max.x() || high.x() < space.box.min.x() || low.y() > space.box.max.y() ||
+        high.y() < space.box.min.y() || z < space.box.min.z() || z > space.box.max.z())
       continue;
-    const int columns = std::max(1, static_cast<int>(std::ceil((high.x() - low.x()) / kStep))), rows = std::max(1, static_cast<int>(std::ceil((high.y() - low.y()) / kStep)));
+    const int columns = std::max(1, static_cast<int>(std::ceil((high.x() - low.x()) / kStep))),
+              rows = std::max(1, static_cast<int>(std::ceil((high.y() - low.y()) / kStep)));
     const double share = (high.x() - low.x()) * (high.y() - low.y()) / (static_cast<double>(columns) * rows);
     for (int column = 0; column < columns; ++column)
       for (int row = 0; row < rows; ++row) {
-        const Vector3d p(low.x() + (column + 0.5) * (high.x() - low.x()) / columns, low.y() + (row + 0.5) * (high.y() - low.y()) / rows, z);
+        const Vector3d p(low.x() + (column + 0.5) * (high.x() - low.x()) / columns,
+                         low.y() + (row + 0.5) * (high.y() - low.y()) / rows, z);
         if (!isInside(space, p)) continue;
         auto& patch = space.patches[walkable.island_of_triangle[i]];
         patch.area_m2 += share;
@@ -122,16 +127,20 @@ std::optional<std::uint32_t> islandOfMost(const std::vector<Space>& spaces, doub
 void addIslandsAt(const Walkable& walkable, const Vector3d& p, std::set<std::uint32_t>& islands) {
   const auto& mesh = walkable.mesh;
   for (std::size_t i = 0; i + 1 < mesh.triangles.size(); i += 2) {
-    const Vector3d low = mesh.positions[mesh.triangles[i][0]].cast<double>(), high = mesh.positions[mesh.triangles[i][2]].cast<double>();
+    const Vector3d low = mesh.positions[mesh.triangles[i][0]].cast<double>(),
+                   high = mesh.positions[mesh.triangles[i][2]].cast<double>();
     const Vector3d off = p - p.cwiseMax(low.cwiseMin(high)).cwiseMin(low.cwiseMax(high));
     if (off.head<2>().norm() <= kNearDoor && std::abs(off.z()) <= kSill) islands.insert(walkable.island_of_triangle[i]);
   }
 }
 
 // Just behind the passable doors that lead from where no room is into one, at their lower edge.
-std::vector<Vector3d> entrances(const Environment& environment, const std::vector<Space>& spaces, const std::vector<Door>& doors) {
+std::vector<Vector3d> entrances(const Environment& environment, const std::vector<Space>& spaces,
+                                const std::vector<Door>& doors) {
   std::vector<Vector3d> found;
-  const auto isInAny = [&](const Vector3d& p) { return std::any_of(spaces.begin(), spaces.end(), [&](const Space& space) { return isInside(space, p); }); };
+  const auto isInAny = [&](const Vector3d& p) {
+    return std::any_of(spaces.begin(), spaces.end(), [&](const Space& space) { return isInside(space, p); });
+  };
   for (const auto& door : doors) {
     const auto passage = door.passable ? passageOf(environment, door.product) : std::nullopt;
     if (!passage) continue;
@@ -142,10 +151,11 @@ std::vector<Vector3d> entrances(const Environment& environment, const std::vecto
   return found;
 }
 
-// The islands that one gets to. Behind an entrance not all islands of its room: the upper end of a stair that nobody climbs
-// may begin there too. An upper entrance may only lead from a balcony, an upper island hang together with many rooms and
-// with no way down.
-std::set<std::uint32_t> reachedIslands(const Environment& environment, const Walkable& walkable, const std::vector<Space>& spaces, const std::vector<Door>& doors) {
+// The islands that one gets to. Behind an entrance not all islands of its room: the upper end of a stair that nobody
+// climbs may begin there too. An upper entrance may only lead from a balcony, an upper island hang together with many
+// rooms and with no way down.
+std::set<std::uint32_t> reachedIslands(const Environment& environment, const Walkable& walkable,
+                                       const std::vector<Space>& spaces, const std::vector<Door>& doors) {
   const auto entered = entrances(environment, spaces, doors);
   double ceiling = std::numeric_limits<double>::infinity();
   for (const auto& p : entered) ceiling = std::min(ceiling, p.z() + kGround);
@@ -158,18 +168,22 @@ std::set<std::uint32_t> reachedIslands(const Environment& environment, const Wal
 
 }  // namespace
 
-std::vector<Room> checkRooms(const Environment& environment, const Walkable& walkable, const std::vector<Door>& doors, Report& report) {
+std::vector<Room> checkRooms(const Environment& environment, const Walkable& walkable, const std::vector<Door>& doors,
+                             Report& report) {
   auto spaces = spacesOf(environment);
   tbb::parallel_for(std::size_t{0}, spaces.size(), [&](std::size_t i) { measure(walkable, spaces[i]); });
   const auto reached = reachedIslands(environment, walkable, spaces, doors);
   std::vector<Room> rooms;
   for (const auto& space : spaces) {
     Room room{space.product, space.area_m2, false, 0.5 * (space.box.min + space.box.max)};
-    for (const auto& [island, patch] : space.patches) room.reached = room.reached || (patch.area_m2 > kLeast && reached.contains(island));
+    for (const auto& [island, patch] : space.patches)
+      room.reached = room.reached || (patch.area_m2 > kLeast && reached.contains(island));
     room.position.z() = space.box.min.z();
     const auto& product = environment.products[space.product];
-    if (space.area_m2 <= kLeast) report.warn(product.id, fmt::format("room {} has no floor with room to stand", product.name));
-    else if (!room.reached) report.warn(product.id, fmt::format("room {} cannot be reached: no way leads in", product.name));
+    if (space.area_m2 <= kLeast)
+      report.warn(product.id, fmt::format("room {} has no floor with room to stand", product.name));
+    else if (!room.reached)
+      report.warn(product.id, fmt::format("room {} cannot be reached: no way leads in", product.name));
     rooms.push_back(room);
   }
   return rooms;

@@ -16,11 +16,12 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kMostVertices = 3'000'000;  // that are looked at for the maximum, each way
 constexpr int kSteps = 6;                         // along the edges of a long triangle
-constexpr double kSettled = 1.04 * 1.04;          // what can only be 4 % further than what was found is not looked at (farthest.h)
-constexpr std::size_t kFirstFew = 8;              // instances that are looked at before others are
-constexpr std::size_t kChunk = 1024;              // points that one task looks at
-constexpr double kMeanError = 0.01;               // standard error of the mean, relative, that is good enough
-constexpr double kMostSamples = 800'000;          // each way
+constexpr double kSettled =
+    1.04 * 1.04;                      // what can only be 4 % further than what was found is not looked at (farthest.h)
+constexpr std::size_t kFirstFew = 8;  // instances that are looked at before others are
+constexpr std::size_t kChunk = 1024;  // points that one task looks at
+constexpr double kMeanError = 0.01;   // standard error of the mean, relative, that is good enough
+constexpr double kMostSamples = 800'000;  // each way
 
 struct OneWay {
   double max_squared = 0, sum = 0, sum_squared = 0;
@@ -41,7 +42,8 @@ std::vector<bool> unchanged(const Environment& here, const Environment& there) {
     while (other != there.instances.end() && other->product < instance.product) ++other;
     bool found = false;
     for (auto i = other; i != there.instances.end() && i->product == instance.product && !found; ++i)
-      found = there.meshes[i->mesh] == here.meshes[instance.mesh] && i->world_from_mesh.matrix() == instance.world_from_mesh.matrix();
+      found = there.meshes[i->mesh] == here.meshes[instance.mesh] &&
+              i->world_from_mesh.matrix() == instance.world_from_mesh.matrix();
     result.push_back(found);
   }
   return result;
@@ -62,7 +64,8 @@ std::vector<std::uint32_t> countsByArea(const PlacedSurfaces& surfaces, std::uin
   return counts;
 }
 
-OneWay ofPoints(const PlacedSurfaces& from, const PlacedSurfaces& to, const std::vector<bool>& same, std::uint32_t samples, const Progress& progress) {
+OneWay ofPoints(const PlacedSurfaces& from, const PlacedSurfaces& to, const std::vector<bool>& same,
+                std::uint32_t samples, const Progress& progress) {
   const auto counts = countsByArea(from, samples);
   std::vector<OneWay> parts(from.instances());
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {  // each into its own slot, summed in order below
@@ -95,7 +98,8 @@ OneWay ofPoints(const PlacedSurfaces& from, const PlacedSurfaces& to, const std:
 }
 
 // Once more with as many points as it takes: where few places hold the loss, a mean by 50 000 points was 5 % off.
-OneWay ofEnoughPoints(const PlacedSurfaces& from, const PlacedSurfaces& to, const std::vector<bool>& same, std::uint32_t samples, const Progress& progress) {
+OneWay ofEnoughPoints(const PlacedSurfaces& from, const PlacedSurfaces& to, const std::vector<bool>& same,
+                      std::uint32_t samples, const Progress& progress) {
   const OneWay first = ofPoints(from, to, same, samples, progress);
   const double short_of = first.relativeError() / kMeanError;
   const double wanted = std::min(kMostSamples, samples * short_of * short_of);
@@ -103,17 +107,25 @@ OneWay ofEnoughPoints(const PlacedSurfaces& from, const PlacedSurfaces& to, cons
   return ofPoints(from, to, same, static_cast<std::uint32_t>(wanted), progress);
 }
 
-// The largest squared distance of one instance's vertices, or `known`, if none is further: most are settled by a surface that is near enough.
-double farthestOf(const PlacedSurfaces& from, const PlacedSurfaces& to, std::size_t i, std::size_t stride, double known) {
+// The largest squared distance of one instance's vertices, or `known`, if none is further: most are settled by a
+// surface that is near enough.
+double farthestOf(const PlacedSurfaces& from, const PlacedSurfaces& to, std::size_t i, std::size_t stride,
+                  double known) {
   const tbb::blocked_range<std::size_t> all(0, (from.vertices(i) + stride - 1) / stride, kChunk);
-  double most = tbb::parallel_reduce(all, known, [&](const auto& range, double so_far) {
-    for (auto k = range.begin(); k < range.end(); ++k)
-      if (const double s = to.squaredDistance(from.vertex(i, k * stride), so_far); std::isfinite(s)) so_far = std::max(so_far, s);
-    return so_far;
-  }, [](double a, double b) { return std::max(a, b); });  // the maximum is the same in any order
-  for (std::size_t k = 0; k < from.triangles(i) && stride == 1; ++k) {  // between its corners a long triangle may bulge away
+  double most = tbb::parallel_reduce(
+      all, known,
+      [&](const auto& range, double so_far) {
+        for (auto k = range.begin(); k < range.end(); ++k)
+          if (const double s = to.squaredDistance(from.vertex(i, k * stride), so_far); std::isfinite(s))
+            so_far = std::max(so_far, s);
+        return so_far;
+      },
+      [](double a, double b) { return std::max(a, b); });  // the maximum is the same in any order
+  for (std::size_t k = 0; k < from.triangles(i) && stride == 1;
+       ++k) {  // between its corners a long triangle may bulge away
     const auto t = from.triangle(i, k);
-    if (std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()}) < 4 * most) continue;
+    if (std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()}) < 4 * most)
+      continue;
     for (int u = 0; u <= kSteps; ++u)
       for (int v = 0; u + v <= kSteps; ++v) {
         const Vector3d p = (t[0] * u + t[1] * v + t[2] * (kSteps - u - v)) / kSteps;
@@ -123,9 +135,10 @@ double farthestOf(const PlacedSurfaces& from, const PlacedSurfaces& to, std::siz
   return most;
 }
 
-// Of all instances, or `known`. Those that can be furthest come first, so that most others need no look: `most_m` bounds each.
-double farthest(const PlacedSurfaces& from, const PlacedSurfaces& to, const std::vector<bool>& same, const std::vector<double>& most_m, double known,
-                const Progress& progress) {
+// Of all instances, or `known`. Those that can be furthest come first, so that most others need no look: `most_m`
+// bounds each.
+double farthest(const PlacedSurfaces& from, const PlacedSurfaces& to, const std::vector<bool>& same,
+                const std::vector<double>& most_m, double known, const Progress& progress) {
   std::size_t vertices = 0;
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < from.instances(); ++i) {
@@ -136,12 +149,14 @@ double farthest(const PlacedSurfaces& from, const PlacedSurfaces& to, const std:
   const std::size_t stride = 1 + vertices / kMostVertices;
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return most_m[a] > most_m[b]; });
   std::vector<double> parts;
-  for (std::size_t first = 0, count = kFirstFew; first < order.size(); first += count, count *= 4) {  // together, so that threads change nothing
+  for (std::size_t first = 0, count = kFirstFew; first < order.size();
+       first += count, count *= 4) {  // together, so that threads change nothing
     count = std::min(count, order.size() - first);
     parts.assign(count, known);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
       const auto i = order[first + k];
-      if (!progress.cancelled() && most_m[i] * most_m[i] > kSettled * known) parts[k] = farthestOf(from, to, i, stride, known);
+      if (!progress.cancelled() && most_m[i] * most_m[i] > kSettled * known)
+        parts[k] = farthestOf(from, to, i, stride, known);
     });
     known = *std::max_element(parts.begin(), parts.end());
   }
@@ -150,11 +165,13 @@ double farthest(const PlacedSurfaces& from, const PlacedSurfaces& to, const std:
 
 }  // namespace
 
-Deviation sceneDeviation(const Environment& before, const Environment& after, std::uint32_t samples, const KnownOfScene& known, const Progress& progress) {
+Deviation sceneDeviation(const Environment& before, const Environment& after, std::uint32_t samples,
+                         const KnownOfScene& known, const Progress& progress) {
   if (before.instances.empty() || after.instances.empty()) return {};
   const PlacedSurfaces a(before, known.meshes), b(after);
   const auto same_before = unchanged(before, after), same_after = unchanged(after, before);
-  const OneWay there = ofEnoughPoints(a, b, same_before, samples, progress), back = ofEnoughPoints(b, a, same_after, samples, progress);
+  const OneWay there = ofEnoughPoints(a, b, same_before, samples, progress),
+               back = ofEnoughPoints(b, a, same_after, samples, progress);
   double max_squared = std::max(there.max_squared, back.max_squared);
   max_squared = farthest(b, a, same_after, known.most_after_m, max_squared, progress);
   max_squared = farthest(a, b, same_before, known.most_before_m, max_squared, progress);

@@ -12,13 +12,13 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kOn = 1e-5;          // m; a point this near to a line is on it
-constexpr double kNothing = 1e-6;     // m² of a bit that need not be covered
-constexpr std::size_t kMostGiven = 60;   // solids, or gaps: more are parted fast but not covered
+constexpr double kOn = 1e-5;            // m; a point this near to a line is on it
+constexpr double kNothing = 1e-6;       // m² of a bit that need not be covered
+constexpr std::size_t kMostGiven = 60;  // solids, or gaps: more are parted fast but not covered
 constexpr std::size_t kMostBits = 200;
-constexpr std::size_t kMostSeeds = 16;   // bits that outlines are grown from, of which the best is taken
-constexpr std::size_t kManySides = 60;   // of an outline that is thinned out before it is simplified …
-constexpr double kThinned = 0.05;        // … by this share of the tolerance
+constexpr std::size_t kMostSeeds = 16;  // bits that outlines are grown from, of which the best is taken
+constexpr std::size_t kManySides = 60;  // of an outline that is thinned out before it is simplified …
+constexpr double kThinned = 0.05;       // … by this share of the tolerance
 constexpr std::size_t kMostSides = 1000;
 
 struct Line {
@@ -68,8 +68,11 @@ bool isBehind(const Outline& outline, const Line& line) {
 Outline hullOf(const std::vector<Outline>& outlines) {
   Outline points, hull;
   for (const auto& outline : outlines) points.insert(points.end(), outline.begin(), outline.end());
-  std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); });
-  const auto turn = [](const Vector2d& a, const Vector2d& b, const Vector2d& c) { return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x(); };
+  std::sort(points.begin(), points.end(),
+            [](const Vector2d& a, const Vector2d& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); });
+  const auto turn = [](const Vector2d& a, const Vector2d& b, const Vector2d& c) {
+    return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
+  };
   for (int pass = 0; pass < 2; ++pass, std::reverse(points.begin(), points.end())) {
     const auto first = hull.size();
     for (const auto& p : points) {
@@ -141,8 +144,8 @@ std::pair<double, double> rangeBetween(const Outline& loop, std::size_t from, st
   return range;
 }
 
-// The corners of chords that go as far as they stay within the tolerance, from one of them round to it again; none where that
-// takes more than `most`.
+// The corners of chords that go as far as they stay within the tolerance, from one of them round to it again; none
+// where that takes more than `most`.
 std::vector<std::size_t> chordsFrom(const Outline& loop, std::size_t start, double tolerance_m, std::size_t most) {
   const auto n = loop.size();
   std::vector<std::size_t> corners{start};
@@ -152,8 +155,10 @@ std::vector<std::size_t> chordsFrom(const Outline& loop, std::size_t start, doub
     auto to = from + 1;
     for (auto next = to + 1; next <= start + n && next < from + n / 2; ++next) {
       const auto [low, high] = rangeBetween(loop, from % n, from % n + next - from);
-      if (high - low <= 2 * tolerance_m) to = next;
-      else if (high - low > 20 * tolerance_m) break;
+      if (high - low <= 2 * tolerance_m)
+        to = next;
+      else if (high - low > 20 * tolerance_m)
+        break;
     }
     corners.push_back(to);
   }
@@ -176,7 +181,8 @@ std::vector<Outline> coverOf(const std::vector<Outline>& solids, const std::vect
   std::erase_if(left, [](const Outline& bit) { return areaOf(bit) <= kNothing; });
   while (!left.empty()) {
     if (left.size() > kMostBits || regions.size() > kMostGiven) return {};
-    std::stable_sort(left.begin(), left.end(), [](const Outline& a, const Outline& b) { return areaOf(a) > areaOf(b); });
+    std::stable_sort(left.begin(), left.end(),
+                     [](const Outline& a, const Outline& b) { return areaOf(a) > areaOf(b); });
     Outline best;
     double most = 0;
     for (std::size_t i = 0; i < std::min(left.size(), kMostSeeds); ++i) {
@@ -193,7 +199,8 @@ std::vector<Outline> coverOf(const std::vector<Outline>& solids, const std::vect
     auto bits = solids;
     for (std::size_t k = 0; k < regions.size(); ++k)
       if (k != i) bits = without(bits, regions[k]);
-    if (std::all_of(bits.begin(), bits.end(), [](const Outline& bit) { return areaOf(bit) <= 10 * kNothing; })) regions.erase(regions.begin() + static_cast<std::ptrdiff_t>(i));
+    if (std::all_of(bits.begin(), bits.end(), [](const Outline& bit) { return areaOf(bit) <= 10 * kNothing; }))
+      regions.erase(regions.begin() + static_cast<std::ptrdiff_t>(i));
   }
   return regions;
 }
@@ -205,7 +212,8 @@ Outline simplified(const Outline& given, double tolerance_m) {
   if (n > 2 * kManySides) return loop;
   std::vector<std::size_t> best;
   for (std::size_t start = 0; start < n; ++start)
-    if (auto corners = chordsFrom(loop, start, tolerance_m, best.empty() ? n : best.size()); !corners.empty() && (best.empty() || corners.size() < best.size()))
+    if (auto corners = chordsFrom(loop, start, tolerance_m, best.empty() ? n : best.size());
+        !corners.empty() && (best.empty() || corners.size() < best.size()))
       best = std::move(corners);
   if (best.size() < 3 || best.size() >= n) return loop;
   // Each chord is moved to the middle of what it stands for; where two cross is a corner.
@@ -222,7 +230,10 @@ Outline simplified(const Outline& given, double tolerance_m) {
     const double sine = a.normal.x() * b.normal.y() - a.normal.y() * b.normal.x();
     const Vector2d corner = loop[best[i] % n];
     const double da = -a.before(corner), db = -b.before(corner);  // how far the lines are from the corner
-    const Vector2d off = std::abs(sine) < 1e-3 ? Vector2d(0, 0) : Vector2d(da * b.normal.y() - db * a.normal.y(), db * a.normal.x() - da * b.normal.x()) / sine;
+    const Vector2d off =
+        std::abs(sine) < 1e-3
+            ? Vector2d(0, 0)
+            : Vector2d(da * b.normal.y() - db * a.normal.y(), db * a.normal.x() - da * b.normal.x()) / sine;
     if (off.norm() > 4 * tolerance_m) return loop;
     result.push_back(corner + off);
   }

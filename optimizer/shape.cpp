@@ -18,8 +18,9 @@ namespace {
 
 constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
 
-constexpr std::uint32_t kPartBits = 6;   // what is looked up is told apart by hash into so many parts, that are looked at side by side
-constexpr std::size_t kChunk = 16'384;   // things that one task looks at
+constexpr std::uint32_t kPartBits =
+    6;  // what is looked up is told apart by hash into so many parts, that are looked at side by side
+constexpr std::size_t kChunk = 16'384;  // things that one task looks at
 
 template <class Task>
 void forEachIndex(std::size_t count, Task task) {
@@ -48,21 +49,25 @@ std::vector<std::uint32_t> firstAlike(std::size_t count, Hash hash, Key key) {
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   auto next = begin;
   for (std::size_t i = 0; i < count; ++i) order[next[part(i)]++] = static_cast<std::uint32_t>(i);
-  tbb::parallel_for(std::size_t{0}, begin.size() - 1, [&](std::size_t p) {  // each its own things, the first of them first
-    const auto size = std::bit_ceil(2 * (begin[p + 1] - begin[p]) + 1);
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> table(size, {0, kNone});  // hash, thing
-    for (auto k = begin[p]; k < begin[p + 1]; ++k) {
-      const auto i = order[k];
-      auto at = hashes[i] & (size - 1);
-      while (table[at].second != kNone && (table[at].first != hashes[i] || key(table[at].second) != key(i))) at = (at + 1) & (size - 1);
-      if (table[at].second == kNone) table[at] = {hashes[i], i};
-      first[i] = table[at].second;
-    }
-  });
+  tbb::parallel_for(
+      std::size_t{0}, begin.size() - 1, [&](std::size_t p) {  // each its own things, the first of them first
+        const auto size = std::bit_ceil(2 * (begin[p + 1] - begin[p]) + 1);
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> table(size, {0, kNone});  // hash, thing
+        for (auto k = begin[p]; k < begin[p + 1]; ++k) {
+          const auto i = order[k];
+          auto at = hashes[i] & (size - 1);
+          while (table[at].second != kNone && (table[at].first != hashes[i] || key(table[at].second) != key(i)))
+            at = (at + 1) & (size - 1);
+          if (table[at].second == kNone) table[at] = {hashes[i], i};
+          first[i] = table[at].second;
+        }
+      });
   return first;
 }
 
-auto placeOf(const Mesh& mesh, std::uint32_t i) { return std::tuple(mesh.positions[i].x(), mesh.positions[i].y(), mesh.positions[i].z()); }
+auto placeOf(const Mesh& mesh, std::uint32_t i) {
+  return std::tuple(mesh.positions[i].x(), mesh.positions[i].y(), mesh.positions[i].z());
+}
 
 auto paintOf(const Mesh& mesh, std::uint32_t i) {
   const auto uv = mesh.texture_coordinates.empty() ? Eigen::Vector2f(0, 0) : mesh.texture_coordinates[i];
@@ -81,7 +86,9 @@ void removeRepetitions(Shape& shape) {
     const int k = t[0] < t[1] ? (t[0] < t[2] ? 0 : 2) : (t[1] < t[2] ? 1 : 2);
     return std::tuple(t[k], t[(k + 1) % 3], t[(k + 2) % 3], shape.surface_of_triangle[i]);
   };
-  const auto first = firstAlike(shape.triangles.size(), [&](std::uint32_t i) { return std::apply([](auto... part) { return hashOf(part...); }, turned(i)); }, turned);
+  const auto first = firstAlike(
+      shape.triangles.size(),
+      [&](std::uint32_t i) { return std::apply([](auto... part) { return hashOf(part...); }, turned(i)); }, turned);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < first.size(); ++i) {
     if (first[i] != i) continue;
@@ -110,9 +117,12 @@ Shape weld(const Mesh& mesh, WeldCounts* counts) {
   std::vector<std::uint32_t> wedge;
   const auto painted_hash = [&](std::uint32_t i) {
     const auto uv = mesh.texture_coordinates.empty() ? Eigen::Vector2f(0, 0) : mesh.texture_coordinates[i];
-    return hashOf(placeHash(mesh, i), bitsOf(uv.x()), bitsOf(uv.y()), mesh.colours.empty() ? 0U : std::bit_cast<std::uint32_t>(mesh.colours[i]));
+    return hashOf(placeHash(mesh, i), bitsOf(uv.x()), bitsOf(uv.y()),
+                  mesh.colours.empty() ? 0U : std::bit_cast<std::uint32_t>(mesh.colours[i]));
   };
-  if (isPainted(mesh)) wedge = firstAlike(mesh.positions.size(), painted_hash, [&](std::uint32_t i) { return std::tuple(placeOf(mesh, i), paintOf(mesh, i)); });
+  if (isPainted(mesh))
+    wedge = firstAlike(mesh.positions.size(), painted_hash,
+                       [&](std::uint32_t i) { return std::tuple(placeOf(mesh, i), paintOf(mesh, i)); });
   shape.triangles.reserve(mesh.triangles.size());
   shape.surface_of_triangle.reserve(mesh.triangles.size());
   std::vector<std::uint32_t> index(mesh.positions.size(), kNone);
@@ -129,11 +139,14 @@ Shape weld(const Mesh& mesh, WeldCounts* counts) {
     }
     shape.triangles.push_back(t);
     shape.surface_of_triangle.push_back(mesh.surface_of_triangle[i]);
-    if (!wedge.empty()) shape.wedges.push_back({wedge[mesh.triangles[i][0]], wedge[mesh.triangles[i][1]], wedge[mesh.triangles[i][2]]});
+    if (!wedge.empty())
+      shape.wedges.push_back({wedge[mesh.triangles[i][0]], wedge[mesh.triangles[i][1]], wedge[mesh.triangles[i][2]]});
   }
   const auto proper = shape.triangles.size();
   removeRepetitions(shape);
-  if (counts) *counts = {mesh.positions.size() - shape.positions.size(), mesh.triangles.size() - proper, proper - shape.triangles.size()};
+  if (counts)
+    *counts = {mesh.positions.size() - shape.positions.size(), mesh.triangles.size() - proper,
+               proper - shape.triangles.size()};
   if (shape.positions.empty()) return shape;
   Eigen::Vector3d low = shape.positions[0], high = low;
   for (const auto& p : shape.positions) {

@@ -12,10 +12,10 @@ namespace standpoint {
 
 // A mesh made ready for simplification: welded, in double, about its own centre.
 struct Shape {
-  std::vector<Eigen::Vector3d> positions;       // minus centre
-  std::vector<Triangle> triangles;              // no two corners alike, no triangle twice
+  std::vector<Eigen::Vector3d> positions;  // minus centre
+  std::vector<Triangle> triangles;         // no two corners alike, no triangle twice
   std::vector<std::uint32_t> surface_of_triangle;
-  std::vector<Triangle> wedges;                 // painted meshes only: for each corner the position of the mesh whose paint it has
+  std::vector<Triangle> wedges;  // painted meshes only: for each corner the position of the mesh whose paint it has
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   Eigen::Vector3d half_size = Eigen::Vector3d::Zero();
 

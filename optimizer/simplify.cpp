@@ -15,8 +15,10 @@ namespace standpoint {
 namespace {
 
 constexpr std::uint32_t kRoughSamples = 5000;
-constexpr std::size_t kRefineFrom = 6;           // times the triangles that shall be left
-constexpr std::size_t kRefineMin = 300, kRefineMost = 200'000;  // triangles of a form that is worth refining, and of one whose last steps are few enough
+constexpr std::size_t kRefineFrom = 6;  // times the triangles that shall be left
+constexpr std::size_t
+    kRefineMin = 300,
+    kRefineMost = 200'000;  // triangles of a form that is worth refining, and of one whose last steps are few enough
 
 // Largest first, so that the last threads do not wait for the largest.
 template <class Task>
@@ -53,7 +55,8 @@ void measure(Work& work, const DeviationMeter& meter, std::size_t taken) {
   work.deviation = taken > 0 ? meter.of(work.lighter, image) : meter.ofItself();
 }
 
-// The same count by steps that look at the surface as it is. Only where that turns out nearer to the original, and within the limit.
+// The same count by steps that look at the surface as it is. Only where that turns out nearer to the original, and
+// within the limit.
 bool refine(Work& work, const DeviationMeter& meter, const Progress& progress) {
   const auto taken = stepsTaken(work, work.taken);
   if (work.lossless || taken == 0) return false;
@@ -61,7 +64,8 @@ bool refine(Work& work, const DeviationMeter& meter, const Progress& progress) {
   if (triangles < kRefineMin || triangles > kRefineMost || 2 * triangles > work.shape.triangles.size()) return false;
   const auto& log = work.levels.log;
   std::size_t first = 0;
-  for (auto left = work.shape.triangles.size(); first < taken && left > kRefineFrom * triangles; ++first) left -= log[first].triangles;
+  for (auto left = work.shape.triangles.size(); first < taken && left > kRefineFrom * triangles; ++first)
+    left -= log[first].triangles;
   LogPlayer player(work.shape, log);
   std::vector<std::uint32_t> names;
   Shape start = withoutUnused(player.at(first), names);
@@ -70,11 +74,14 @@ bool refine(Work& work, const DeviationMeter& meter, const Progress& progress) {
   auto steps = refined(start, triangles, progress);
   LogPlayer refining(start, steps);
   const Shape& lighter = refining.at(steps.size());
-  if (progress.cancelled() || lighter.triangles.empty() || lighter.triangles.size() > triangles || 100 * lighter.triangles.size() < 99 * triangles) return false;
+  if (progress.cancelled() || lighter.triangles.empty() || lighter.triangles.size() > triangles ||
+      100 * lighter.triangles.size() < 99 * triangles)
+    return false;
   const auto last_image = refining.image();
   for (auto& i : image) i = i < last_image.size() ? last_image[i] : i;
   const auto deviation = meter.of(lighter, image);
-  if (deviation.max_m > work.cap_m || deviation.mean_m >= meter.roughlyOf(player.at(taken), kRoughSamples).mean_m) return false;
+  if (deviation.max_m > work.cap_m || deviation.mean_m >= meter.roughlyOf(player.at(taken), kRoughSamples).mean_m)
+    return false;
   work.steps.assign(log.begin(), log.begin() + static_cast<std::ptrdiff_t>(first));
   for (auto& step : steps) {
     step.kept = names[step.kept];
@@ -86,8 +93,8 @@ bool refine(Work& work, const DeviationMeter& meter, const Progress& progress) {
   return true;
 }
 
-// The simplest level whose measured deviation stays within the limit. The log was made with a bound on each step's effect,
-// so that this is rarely needed; what counts is the measurement.
+// The simplest level whose measured deviation stays within the limit. The log was made with a bound on each step's
+// effect, so that this is rarely needed; what counts is the measurement.
 void shrinkToDeviation(Work& work, const DeviationMeter& meter) {
   std::size_t good = 0, bad = work.taken;
   while (bad - good > 1) {
@@ -108,7 +115,8 @@ void shareOne(std::vector<Work>& works, std::uint32_t share, std::uint64_t budge
     const Work& work = works[i];
     if (work.share != share) continue;
     lossless = work.lossless;
-    bidders.push_back({&work.levels.levels, work.limit, work.shape.triangles.size(), work.copies, work.scale, work.weight});
+    bidders.push_back(
+        {&work.levels.levels, work.limit, work.shape.triangles.size(), work.copies, work.scale, work.weight});
     work_of_bidder.push_back(i);
   }
   const auto taken = shareBudget(bidders, lossless ? 0 : budget);
@@ -125,7 +133,8 @@ void findFloors(std::vector<Work>& works, const OptimizeOptions& options) {
   for (const auto& work : works) all[work.share] += work.shape.triangles.size() * work.copies;
   for (auto& work : works) {
     if (work.copies == 0 || work.lossless) continue;
-    const auto others = all[work.share] - work.shape.triangles.size() * work.copies, budget = budgetOf(options, work.share);
+    const auto others = all[work.share] - work.shape.triangles.size() * work.copies,
+               budget = budgetOf(options, work.share);
     work.floor = budget > others ? (budget - others) / work.copies : 0;
   }
 }
@@ -133,7 +142,8 @@ void findFloors(std::vector<Work>& works, const OptimizeOptions& options) {
 }  // namespace
 
 void shareAll(std::vector<Work>& works, const OptimizeOptions& options) {
-  for (std::uint32_t share = 0; share <= options.further_budgets.size(); ++share) shareOne(works, share, budgetOf(options, share));
+  for (std::uint32_t share = 0; share <= options.further_budgets.size(); ++share)
+    shareOne(works, share, budgetOf(options, share));
 }
 
 Result<void> makeAllLevels(std::vector<Work>& works, Progress& progress) {

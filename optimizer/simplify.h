@@ -13,8 +13,8 @@ namespace standpoint {
 Result<void> makeAllLevels(std::vector<Work>& works, Progress& progress);
 void shareAll(std::vector<Work>& works, const OptimizeOptions& options);
 
-// Brings all works to the budgets of their shares: logs, shared by cost; then measured, and where a deviation is over its cap the
-// work's levels are cut and the budget is shared again. Large smooth shapes are refined (collapse.h).
+// Brings all works to the budgets of their shares: logs, shared by cost; then measured, and where a deviation is over
+// its cap the work's levels are cut and the budget is shared again. Large smooth shapes are refined (collapse.h).
 Result<void> simplify(std::vector<Work>& works, const OptimizeOptions& options, Progress& progress);
 
 }  // namespace standpoint

@@ -55,8 +55,10 @@ double distance(const Corners& a, const Corners& b) {
   double best = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     if (pierces(a[i], a[(i + 1) % 3], b) || pierces(b[i], b[(i + 1) % 3], a)) return 0;
-    best = std::min({best, (closestPoint(a[i], b[0], b[1], b[2]) - a[i]).squaredNorm(), (closestPoint(b[i], a[0], a[1], a[2]) - b[i]).squaredNorm()});
-    for (int k = 0; k < 3; ++k) best = std::min(best, nearestPoints(a[i], a[(i + 1) % 3], b[k], b[(k + 1) % 3]).squaredDistance());
+    best = std::min({best, (closestPoint(a[i], b[0], b[1], b[2]) - a[i]).squaredNorm(),
+                     (closestPoint(b[i], a[0], a[1], a[2]) - b[i]).squaredNorm()});
+    for (int k = 0; k < 3; ++k)
+      best = std::min(best, nearestPoints(a[i], a[(i + 1) % 3], b[k], b[(k + 1) % 3]).squaredDistance());
   }
   return std::sqrt(best);
 }

@@ -25,7 +25,8 @@ std::pair<std::uint32_t, std::uint32_t> below(std::uint32_t n) {
 
 }  // namespace
 
-Eigen::Vector3d closestPoint(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+Eigen::Vector3d closestPoint(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                             const Eigen::Vector3d& c) {
   const Eigen::Vector3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
   if (d1 <= 0 && d2 <= 0) return a;
@@ -48,21 +49,23 @@ TriangleTree::TriangleTree(std::span<const Eigen::Vector3d> positions, std::span
     : positions_(positions), triangles_(triangles), order_(triangles.size()) {
   if (triangles.empty()) return;
   std::vector<Item> items(triangles.size());
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(items.size()), kAlone), [&](const auto& range) {
-    for (auto i = range.begin(); i < range.end(); ++i) {
-      const auto& t = triangles[i];
-      const Eigen::Vector3d centre = positions[t[0]] / 3 + positions[t[1]] / 3 + positions[t[2]] / 3;
-      items[i].centre = centre.cast<float>();
-      items[i].triangle = i;
-    }
-  });
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(items.size()), kAlone),
+                    [&](const auto& range) {
+                      for (auto i = range.begin(); i < range.end(); ++i) {
+                        const auto& t = triangles[i];
+                        const Eigen::Vector3d centre = positions[t[0]] / 3 + positions[t[1]] / 3 + positions[t[2]] / 3;
+                        items[i].centre = centre.cast<float>();
+                        items[i].triangle = i;
+                      }
+                    });
   pairs_.resize(1 + below(static_cast<std::uint32_t>(items.size())).first / 2);
   node(0) = {{}, {}, 0, static_cast<std::uint32_t>(items.size())};
   build(0, 2, items);
 }
 
-// The node's triangles are items [first, first + count); the nodes below it begin at `below`: its two children, then all below the
-// left one, then all below the right one. So each task has its own place, whoever runs it. A median split bounds the depth to log2 n.
+// The node's triangles are items [first, first + count); the nodes below it begin at `below`: its two children, then
+// all below the left one, then all below the right one. So each task has its own place, whoever runs it. A median split
+// bounds the depth to log2 n.
 void TriangleTree::build(std::uint32_t index, std::uint32_t below_node, std::vector<Item>& items) {
   const auto [first, count] = std::pair(node(index).first, node(index).count);
   if (count <= kLeaf) {
@@ -78,15 +81,20 @@ void TriangleTree::build(std::uint32_t index, std::uint32_t below_node, std::vec
   int axis = 0;
   (high - low).maxCoeff(&axis);
   const std::uint32_t half = count / 2;
-  std::nth_element(items.begin() + first, items.begin() + first + half, items.begin() + first + count, [axis](const Item& a, const Item& b) {
-    return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis] : a.triangle < b.triangle;
-  });
+  std::nth_element(items.begin() + first, items.begin() + first + half, items.begin() + first + count,
+                   [axis](const Item& a, const Item& b) {
+                     return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis]
+                                                             : a.triangle < b.triangle;
+                   });
   Node &left = node(below_node), &right = node(below_node + 1);
   left = {{}, {}, first, half};
   right = {{}, {}, first + half, count - half};
   const auto below_left = below_node + 2, below_right = below_left + below(half).first;
-  if (count > kAlone) tbb::parallel_invoke([&] { build(below_node, below_left, items); }, [&] { build(below_node + 1, below_right, items); });
-  else build(below_node, below_left, items), build(below_node + 1, below_right, items);
+  if (count > kAlone)
+    tbb::parallel_invoke([&] { build(below_node, below_left, items); },
+                         [&] { build(below_node + 1, below_right, items); });
+  else
+    build(below_node, below_left, items), build(below_node + 1, below_right, items);
   node(index) = {left.low.cwiseMin(right.low), left.high.cwiseMax(right.high), below_node, 0};
 }
 
@@ -106,19 +114,24 @@ void TriangleTree::fitLeaf(Node& node) const {
 
 TriangleTree::Near TriangleTree::nearestTriangle(const Eigen::Vector3d& p, double bound, double enough) const {
   Near result{bound};
-  result.squared = nearest(p, bound, [&](std::uint32_t i, double best) {
-    const auto& t = triangles_[i];
-    const double squared = (closestPoint(p, positions_[t[0]], positions_[t[1]], positions_[t[2]]) - p).squaredNorm();
-    if (squared < best) result.triangle = i;
-    return squared;
-  }, enough);
+  result.squared = nearest(
+      p, bound,
+      [&](std::uint32_t i, double best) {
+        const auto& t = triangles_[i];
+        const double squared =
+            (closestPoint(p, positions_[t[0]], positions_[t[1]], positions_[t[2]]) - p).squaredNorm();
+        if (squared < best) result.triangle = i;
+        return squared;
+      },
+      enough);
   return result;
 }
 
 bool TriangleTree::meetsBox(std::uint32_t triangle, const Eigen::Vector3d& low, const Eigen::Vector3d& high) const {
   const auto& t = triangles_[triangle];
   const auto &a = positions_[t[0]], &b = positions_[t[1]], &c = positions_[t[2]];
-  return (a.cwiseMin(b).cwiseMin(c).array() <= high.array()).all() && (a.cwiseMax(b).cwiseMax(c).array() >= low.array()).all();
+  return (a.cwiseMin(b).cwiseMin(c).array() <= high.array()).all() &&
+         (a.cwiseMax(b).cwiseMax(c).array() >= low.array()).all();
 }
 
 bool TriangleTree::isOutside(const Eigen::Vector3d& p) const {
@@ -143,7 +156,8 @@ double TriangleTree::squaredDistance(const Eigen::Vector3d& p, double bound) con
 double TriangleTree::firstHit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double reach) const {
   return alongRay(origin, direction, reach, [&](std::uint32_t i, double far) {
     const auto& t = triangles_[i];
-    const Eigen::Vector3d e1 = positions_[t[1]] - positions_[t[0]], e2 = positions_[t[2]] - positions_[t[0]], h = direction.cross(e2);
+    const Eigen::Vector3d e1 = positions_[t[1]] - positions_[t[0]], e2 = positions_[t[2]] - positions_[t[0]],
+                          h = direction.cross(e2);
     const double determinant = e1.dot(h);
     if (determinant == 0) return far;
     const Eigen::Vector3d s = origin - positions_[t[0]], q = s.cross(e1);

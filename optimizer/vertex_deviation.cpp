@@ -32,8 +32,8 @@ Range instancesOf(const Environment& environment, std::uint32_t product) {
 
 // What must be equal for two instances to have the same deviation: the meshes, and how they stand to each other.
 struct Situation {
-  std::vector<const Mesh*> meshes;   // its own, then those of its product in the other environment
-  std::vector<Affine3d> places;      // of the others, seen from it; then its own linear part, as lengths are the world's
+  std::vector<const Mesh*> meshes;  // its own, then those of its product in the other environment
+  std::vector<Affine3d> places;     // of the others, seen from it; then its own linear part, as lengths are the world's
   std::size_t instance = 0;
 };
 
@@ -44,7 +44,9 @@ Situation situationOf(const Environment& from, std::size_t i, const Environment&
   for (auto k = range.first; k < range.second; ++k) {
     const Instance& other = to.instances[k];
     result.meshes.push_back(to.meshes[other.mesh].get());
-    result.places.push_back(own.world_from_mesh.matrix() == other.world_from_mesh.matrix() ? Affine3d::Identity() : own_from_world * other.world_from_mesh);
+    result.places.push_back(own.world_from_mesh.matrix() == other.world_from_mesh.matrix()
+                                ? Affine3d::Identity()
+                                : own_from_world * other.world_from_mesh);
   }
   Affine3d lengths = Affine3d::Identity();
   lengths.linear() = own.world_from_mesh.linear().transpose() * own.world_from_mesh.linear();
@@ -61,7 +63,8 @@ bool alike(const Situation& a, const Situation& b) {
 // For each instance the first one that has the same deviation. One whose product is gone from `to` stands for itself.
 std::vector<std::size_t> representatives(const Environment& from, const Environment& to) {
   std::vector<std::size_t> result(from.instances.size());
-  std::map<std::vector<std::uint32_t>, std::vector<Situation>> known;  // by mesh indices: pointers would order by chance
+  std::map<std::vector<std::uint32_t>, std::vector<Situation>>
+      known;  // by mesh indices: pointers would order by chance
   for (std::size_t i = 0; i < result.size(); ++i) {
     result[i] = i;
     const Range range = instancesOf(to, from.instances[i].product);
@@ -70,9 +73,12 @@ std::vector<std::size_t> representatives(const Environment& from, const Environm
     std::vector<std::uint32_t> key{from.instances[i].mesh};
     for (auto k = range.first; k < range.second; ++k) key.push_back(to.instances[k].mesh);
     auto& same_meshes = known[key];
-    const auto found = std::find_if(same_meshes.begin(), same_meshes.end(), [&](const Situation& s) { return alike(s, now); });
-    if (found != same_meshes.end()) result[i] = found->instance;
-    else same_meshes.push_back(std::move(now));
+    const auto found =
+        std::find_if(same_meshes.begin(), same_meshes.end(), [&](const Situation& s) { return alike(s, now); });
+    if (found != same_meshes.end())
+      result[i] = found->instance;
+    else
+      same_meshes.push_back(std::move(now));
   }
   return result;
 }
@@ -80,7 +86,8 @@ std::vector<std::size_t> representatives(const Environment& from, const Environm
 std::vector<float> areas(const Mesh& mesh, const Affine3d& world_from_mesh) {
   std::vector<double> sums(mesh.positions.size(), 0);
   const auto edge = [&](std::uint32_t a, std::uint32_t b) {
-    return Eigen::Vector3d(world_from_mesh.linear() * (mesh.positions[b].cast<double>() - mesh.positions[a].cast<double>()));
+    return Eigen::Vector3d(world_from_mesh.linear() *
+                           (mesh.positions[b].cast<double>() - mesh.positions[a].cast<double>()));
   };
   for (const auto& t : mesh.triangles) {
     const double share = edge(t[0], t[1]).cross(edge(t[0], t[2])).norm() / 6;
@@ -92,13 +99,17 @@ std::vector<float> areas(const Mesh& mesh, const Affine3d& world_from_mesh) {
 bool standsUnchanged(const Environment& from, std::size_t i, const Environment& to, Range range) {
   const Instance& own = from.instances[i];
   for (auto k = range.first; k < range.second; ++k)
-    if (to.meshes[to.instances[k].mesh] == from.meshes[own.mesh] && to.instances[k].world_from_mesh.matrix() == own.world_from_mesh.matrix()) return true;
+    if (to.meshes[to.instances[k].mesh] == from.meshes[own.mesh] &&
+        to.instances[k].world_from_mesh.matrix() == own.world_from_mesh.matrix())
+      return true;
   return false;
 }
 
 }  // namespace
 
-Result<std::vector<std::shared_ptr<const InstanceDeviation>>> vertexDeviation(const Environment& from, const Environment& to, Progress& progress) {
+Result<std::vector<std::shared_ptr<const InstanceDeviation>>> vertexDeviation(const Environment& from,
+                                                                              const Environment& to,
+                                                                              Progress& progress) {
   const PlacedSurfaces surfaces(to);
   const auto representative = representatives(from, to);
   std::vector<std::shared_ptr<InstanceDeviation>> own(from.instances.size());
@@ -119,7 +130,8 @@ Result<std::vector<std::shared_ptr<const InstanceDeviation>>> vertexDeviation(co
         if (progress.cancelled()) return;
         for (std::size_t v = vertices.begin(); v < vertices.end(); ++v) {
           const Eigen::Vector3d p = instance.world_from_mesh * mesh.positions[v].cast<double>();
-          const double squared = range.first < range.second ? surfaces.squaredDistance(p, range.first, range.second) : surfaces.squaredDistance(p);
+          const double squared = range.first < range.second ? surfaces.squaredDistance(p, range.first, range.second)
+                                                            : surfaces.squaredDistance(p);
           result->distance_m[v] = static_cast<float>(std::sqrt(squared));
         }
       });

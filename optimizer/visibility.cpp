@@ -19,18 +19,19 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::uint32_t kSkyPoints = 128, kSkyRays = 8;   // of a product; from each point
-constexpr double kSkyLow = 0.1;                           // lowest sine of the elevation: the horizon is no sky
-constexpr double kEyeHeight = 1.6;                        // m
+constexpr std::uint32_t kSkyPoints = 128, kSkyRays = 8;  // of a product; from each point
+constexpr double kSkyLow = 0.1;                          // lowest sine of the elevation: the horizon is no sky
+constexpr double kEyeHeight = 1.6;                       // m
 constexpr std::uint32_t kWalkers = 2000, kWalkersRays = 500;
 constexpr double kLeastWeight = 0.1, kMostWeight = 10;
-constexpr std::uint32_t kHiddenRays = 48;                 // from each side
-constexpr double kFree = 0.6, kOff = 1e-3;                // m; a ray that runs so far is free; where it begins off the surface
-constexpr double kFar = 1e6;                              // m
+constexpr std::uint32_t kHiddenRays = 48;   // from each side
+constexpr double kFree = 0.6, kOff = 1e-3;  // m; a ray that runs so far is free; where it begins off the surface
+constexpr double kFar = 1e6;                // m
 
 // Uniform on the sphere.
 Vector3d direction(const std::array<std::uint32_t, 4>& block, double lowest_sine = -1) {
-  const double z = lowest_sine + (1 - lowest_sine) * uniform(block[0]), turn = 2 * std::numbers::pi * uniform(block[1]), r = std::sqrt(std::max(0.0, 1 - z * z));
+  const double z = lowest_sine + (1 - lowest_sine) * uniform(block[0]), turn = 2 * std::numbers::pi * uniform(block[1]),
+               r = std::sqrt(std::max(0.0, 1 - z * z));
   return {r * std::cos(turn), r * std::sin(turn), z};
 }
 
@@ -84,21 +85,24 @@ std::vector<double> walkersView(const Environment& environment, const Mesh& walk
   for (const auto& list : seen)
     for (const auto product : list) ++hits[product];
   for (std::size_t i = 0; i < tangible.instances.size(); ++i) areas[tangible.instances[i].product] += surfaces.area(i);
-  const double all_hits = std::accumulate(hits.begin(), hits.end(), 0.0), all_area = std::accumulate(areas.begin(), areas.end(), 0.0);
+  const double all_hits = std::accumulate(hits.begin(), hits.end(), 0.0),
+               all_area = std::accumulate(areas.begin(), areas.end(), 0.0);
   if (!(all_hits > 0) || !(all_area > 0)) return view;
   for (std::size_t p = 0; p < view.size(); ++p)
     if (areas[p] > 0) view[p] = hits[p] / areas[p] / (all_hits / all_area);
   return view;
 }
 
-void weighByView(OptimizeOptions& options, const Environment& environment, const Mesh& walkable, const Progress& progress) {
+void weighByView(OptimizeOptions& options, const Environment& environment, const Mesh& walkable,
+                 const Progress& progress) {
   if (options.products.empty()) {
     ProductAllowance same;
     same.max_deviation_m = options.max_deviation_m;
     options.products.assign(environment.products.size(), same);
   }
   const auto view = walkersView(environment, walkable, progress);
-  for (std::size_t p = 0; p < view.size() && p < options.products.size(); ++p) options.products[p].weight *= std::clamp(std::sqrt(view[p]), kLeastWeight, kMostWeight);
+  for (std::size_t p = 0; p < view.size() && p < options.products.size(); ++p)
+    options.products[p].weight *= std::clamp(std::sqrt(view[p]), kLeastWeight, kMostWeight);
 }
 
 std::vector<std::vector<bool>> hiddenTriangles(const Environment& environment, const Progress& progress) {
@@ -113,7 +117,8 @@ std::vector<std::vector<bool>> hiddenTriangles(const Environment& environment, c
     for (std::uint32_t r = 0; r < kHiddenRays; ++r) {
       const auto block = philox({instance.mesh, 8}, index, r, 0);
       const double u = std::sqrt(uniform(block[2])), v = uniform(block[3]);
-      const Vector3d random_place = (1 - u) * corners[0] + u * (1 - v) * corners[1] + u * v * corners[2], place = r % 2 == 0 ? middle : random_place;
+      const Vector3d random_place = (1 - u) * corners[0] + u * (1 - v) * corners[1] + u * v * corners[2],
+                     place = r % 2 == 0 ? middle : random_place;
       Vector3d d = direction(block);
       if (d.dot(normal) < 0) d = -d;
       for (const double side : {1.0, -1.0})
@@ -130,7 +135,8 @@ std::vector<std::vector<bool>> hiddenTriangles(const Environment& environment, c
     std::vector<bool> result(mesh.triangles.size(), false);
     bool any = false;
     for (std::uint32_t i = 0; i < result.size() && !progress.cancelled(); ++i) {
-      result[i] = std::all_of(copies[m].begin(), copies[m].end(), [&](const Instance* instance) { return isHidden(*instance, mesh.triangles[i], i); });
+      result[i] = std::all_of(copies[m].begin(), copies[m].end(),
+                              [&](const Instance* instance) { return isHidden(*instance, mesh.triangles[i], i); });
       any = any || result[i];
     }
     if (any) hidden[m] = std::move(result);

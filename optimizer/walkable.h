@@ -10,7 +10,7 @@
 
 namespace standpoint {
 
-inline constexpr double kStepHeight = 0.25;        // m that an agent climbs: a stair's riser is at most about 0.2 (DIN 18065)
+inline constexpr double kStepHeight = 0.25;  // m that an agent climbs: a stair's riser is at most about 0.2 (DIN 18065)
 inline constexpr double kSteepestSlopeDeg = 45;
 
 struct Walkable {
@@ -20,7 +20,9 @@ struct Walkable {
   std::vector<std::uint32_t> island_of_triangle;  // triangles of one island can be walked to from each other
 };
 
-// By Recast's voxels over the collision shapes, of which convex ones are solid. Islands smaller than the agent do not count.
-Result<Walkable> walkableSurface(const std::vector<CollisionShape>& shapes, const CollideOptions& options, Progress& progress);
+// By Recast's voxels over the collision shapes, of which convex ones are solid. Islands smaller than the agent do not
+// count.
+Result<Walkable> walkableSurface(const std::vector<CollisionShape>& shapes, const CollideOptions& options,
+                                 Progress& progress);
 
 }  // namespace standpoint

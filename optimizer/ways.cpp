@@ -16,9 +16,9 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kReach = 0.6;       // m above and below the door's lower edge that its way may lie
-constexpr double kTouch = 1e-4;      // m; rectangles this near are side by side
-constexpr double kBeyond = 0.15;     // m past the ends of a free way where the surface may only begin
+constexpr double kReach = 0.6;    // m above and below the door's lower edge that its way may lie
+constexpr double kTouch = 1e-4;   // m; rectangles this near are side by side
+constexpr double kBeyond = 0.15;  // m past the ends of a free way where the surface may only begin
 constexpr double kClimb = kStepHeight + 1e-3;
 
 // Two triangles of the surface.
@@ -33,7 +33,8 @@ std::size_t rectangles(const Walkable& walkable) { return walkable.mesh.triangle
 Rectangle rectangleAt(const Walkable& walkable, std::size_t i) {
   const auto& t = walkable.mesh.triangles[2 * i];
   const Vector3d a = walkable.mesh.positions[t[0]].cast<double>(), b = walkable.mesh.positions[t[2]].cast<double>();
-  return {a.head<2>().cwiseMin(b.head<2>()), a.head<2>().cwiseMax(b.head<2>()), a.z(), walkable.island_of_triangle[2 * i]};
+  return {a.head<2>().cwiseMin(b.head<2>()), a.head<2>().cwiseMax(b.head<2>()), a.z(),
+          walkable.island_of_triangle[2 * i]};
 }
 
 // Those about the door.
@@ -84,8 +85,8 @@ std::optional<Rectangle> surfaceAt(const std::vector<Rectangle>& near, const Vec
   return best;
 }
 
-// Points a third of a cell apart on the floor under a way and a little past its ends; empty where there is a hole, or a step
-// that nobody climbs.
+// Points a third of a cell apart on the floor under a way and a little past its ends; empty where there is a hole, or a
+// step that nobody climbs.
 std::vector<Vector3d> floorUnder(const Obstacles& obstacles, const FreeWay& way, double cell) {
   const Vector3d along = (way.to - way.from).normalized();
   const double length = (way.to - way.from).norm() + 2 * kBeyond;
@@ -97,9 +98,12 @@ std::vector<Vector3d> floorUnder(const Obstacles& obstacles, const FreeWay& way,
     if (!result.empty()) p.z() = result.back().z();
     const Vector3d reach(0, 0, kReach);
     const auto hit = obstacles.ray(p + reach, p - reach);
-    if (hit && (result.empty() || std::abs(hit->point.z() - p.z()) <= kClimb)) result.push_back({p.x(), p.y(), hit->point.z()});
-    else if (!beyond) return {};
-    else if (!result.empty()) break;
+    if (hit && (result.empty() || std::abs(hit->point.z() - p.z()) <= kClimb))
+      result.push_back({p.x(), p.y(), hit->point.z()});
+    else if (!beyond)
+      return {};
+    else if (!result.empty())
+      break;
   }
   return result;
 }
@@ -127,14 +131,17 @@ bool join(const Obstacles& obstacles, const Passage& passage, const CollideOptio
   for (std::size_t i = 0; i < path.size() && !behind; ++i) {
     const auto here = surfaceAt(near, path[i]);
     if (!here) continue;
-    if ((path[i] - passage.middle).dot(passage.through) < 0) before = here, first = i;
-    else behind = here, last = i;
+    if ((path[i] - passage.middle).dot(passage.through) < 0)
+      before = here, first = i;
+    else
+      behind = here, last = i;
   }
   if (!before || !behind) return false;
   const Vector2d origin = before->low;  // cells lie on the grid that the rectangles are made of
   std::array<double, 3> done{NAN, NAN, NAN};
   for (std::size_t i = first; i <= last; ++i) {
-    const Vector2d low = origin + ((path[i].head<2>() - origin) / walkable.cell_m).array().floor().matrix() * walkable.cell_m;
+    const Vector2d low =
+        origin + ((path[i].head<2>() - origin) / walkable.cell_m).array().floor().matrix() * walkable.cell_m;
     if (done == std::array<double, 3>{low.x(), low.y(), path[i].z()} || surfaceAt(near, path[i])) continue;
     addCell(walkable, low, path[i].z(), before->island);
     done = {low.x(), low.y(), path[i].z()};
@@ -164,7 +171,9 @@ bool leadsThrough(const Walkable& walkable, const Passage& passage, double radiu
     front.pop_back();
     if (touches(near[at], 1)) return true;
     for (std::size_t i = 0; i < near.size(); ++i) {
-      if (seen[i] || near[i].island != near[at].island || std::abs(near[i].level - near[at].level) > kClimb || within(passage, near[at], near[i], reach).empty()) continue;
+      if (seen[i] || near[i].island != near[at].island || std::abs(near[i].level - near[at].level) > kClimb ||
+          within(passage, near[at], near[i], reach).empty())
+        continue;
       seen[i] = 1;
       front.push_back(i);
     }
@@ -172,17 +181,20 @@ bool leadsThrough(const Walkable& walkable, const Passage& passage, double radiu
   return false;
 }
 
-void joinThroughDoors(const Environment& environment, const std::vector<CollisionShape>& shapes, const CollideOptions& options,
-                      std::vector<Door>& doors, Walkable& walkable, Report& report) {
+void joinThroughDoors(const Environment& environment, const std::vector<CollisionShape>& shapes,
+                      const CollideOptions& options, std::vector<Door>& doors, Walkable& walkable, Report& report) {
   const Obstacles obstacles(shapes);
   for (auto& door : doors) {
     if (!door.passable || !door.floor) continue;
     const auto passage = passageOf(environment, door.product);
     if (!passage) continue;
-    door.led_through = leadsThrough(walkable, *passage, options.agent_radius_m) || join(obstacles, *passage, options, walkable);
+    door.led_through =
+        leadsThrough(walkable, *passage, options.agent_radius_m) || join(obstacles, *passage, options, walkable);
     const auto& product = environment.products[door.product];
     if (!door.led_through)
-      report.warn(product.id, fmt::format("door {} is passable, but the walkable surface does not lead through it: there is a step, a hole or too little room before or behind it", product.name));
+      report.warn(product.id, fmt::format("door {} is passable, but the walkable surface does not lead through it: "
+                                          "there is a step, a hole or too little room before or behind it",
+                                          product.name));
   }
 }
 

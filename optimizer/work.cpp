@@ -33,8 +33,8 @@ void decideLossless(std::vector<Work>& works, const OptimizeOptions& options) {
   }
 }
 
-// What the products of a mesh allow, as a number: only meshes with the same are shared, so that a chair that stays as it is does not
-// keep all others of its kind from becoming simpler.
+// What the products of a mesh allow, as a number: only meshes with the same are shared, so that a chair that stays as
+// it is does not keep all others of its kind from becoming simpler.
 std::vector<std::uint32_t> kindsOf(const Environment& environment, const OptimizeOptions& options) {
   using Allowed = std::tuple<std::uint32_t, double, double, bool>;
   std::vector<std::vector<Allowed>> asked(environment.meshes.size());
@@ -47,11 +47,13 @@ std::vector<std::uint32_t> kindsOf(const Environment& environment, const Optimiz
   }
   std::map<std::vector<Allowed>, std::uint32_t> known;
   std::vector<std::uint32_t> kinds;
-  for (const auto& all : asked) kinds.push_back(known.try_emplace(all, static_cast<std::uint32_t>(known.size())).first->second);
+  for (const auto& all : asked)
+    kinds.push_back(known.try_emplace(all, static_cast<std::uint32_t>(known.size())).first->second);
   return kinds;
 }
 
-void shareRepetitions(Environment& environment, const OptimizeOptions& options, std::vector<Work>& works, std::vector<double>& residual_m) {
+void shareRepetitions(Environment& environment, const OptimizeOptions& options, std::vector<Work>& works,
+                      std::vector<double>& residual_m) {
   std::vector<Shape> shapes(works.size());
   for (std::size_t i = 0; i < works.size(); ++i) shapes[i] = std::move(works[i].shape);
   const auto repetitions = findRepetitions(shapes, kindsOf(environment, options));
@@ -61,7 +63,8 @@ void shareRepetitions(Environment& environment, const OptimizeOptions& options, 
     const auto& repetition = repetitions[instance.mesh];
     if (repetition.first == instance.mesh) continue;
     residual_m[i] = repetition.residual_m * largestStretch(instance.world_from_mesh);
-    instance.world_from_mesh = instance.world_from_mesh * Eigen::Translation3d(shapes[instance.mesh].centre) * Eigen::Affine3d(repetition.motion) *
+    instance.world_from_mesh = instance.world_from_mesh * Eigen::Translation3d(shapes[instance.mesh].centre) *
+                               Eigen::Affine3d(repetition.motion) *
                                Eigen::Translation3d(-shapes[repetition.first].centre);
     instance.mesh = repetition.first;
   }
@@ -86,7 +89,8 @@ std::uint64_t budgetOf(const OptimizeOptions& options, std::uint32_t share) {
   return share == 0 ? options.budget : options.further_budgets[share - 1];
 }
 
-std::vector<Work> prepareWorks(Environment& environment, const OptimizeOptions& options, std::vector<double>& residual_m) {
+std::vector<Work> prepareWorks(Environment& environment, const OptimizeOptions& options,
+                               std::vector<double>& residual_m) {
   std::vector<Work> works(environment.meshes.size());
   std::vector<bool> placed(works.size(), false);
   for (const auto& instance : environment.instances) placed[instance.mesh] = true;
@@ -109,7 +113,8 @@ std::vector<Work> prepareWorks(Environment& environment, const OptimizeOptions& 
     all += works[i].placed_area_m2;
   }
   for (auto& work : works)
-    work.samples = static_cast<std::uint32_t>(std::clamp(kDeviationSamples * work.placed_area_m2 / std::max(all, 1e-300), kFewestSamples, kMostSamples));
+    work.samples = static_cast<std::uint32_t>(
+        std::clamp(kDeviationSamples * work.placed_area_m2 / std::max(all, 1e-300), kFewestSamples, kMostSamples));
   decideLossless(works, options);
   return works;
 }

@@ -21,11 +21,11 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kLook = 0.35;             // of the side: within this radius the pattern is looked for
-constexpr double kUsed = 0.42;             // of the side, either way from the middle: the plate's border stays out
+constexpr double kLook = 0.35;  // of the side: within this radius the pattern is looked for
+constexpr double kUsed = 0.42;  // of the side, either way from the middle: the plate's border stays out
 constexpr std::size_t kMostSeeds = 40000;
-constexpr double kRival = 0.6;             // of the best score
-constexpr double kExplained = 0.5;         // of the intensities' variance, by the pattern
+constexpr double kRival = 0.6;      // of the best score
+constexpr double kExplained = 0.5;  // of the intensities' variance, by the pattern
 
 struct Plane {
   Vector3d place = Vector3d::Zero(), normal = Vector3d::Zero();
@@ -68,7 +68,7 @@ Plane robustPlane(const std::vector<Vector3d>& points) {
 // harmonic less the first is largest where the edges cross.
 struct Harmonics {
   double score = 0;
-  double turn_rad = 0;             // of the edges
+  double turn_rad = 0;  // of the edges
 };
 Harmonics harmonics(const std::vector<Vector2d>& places, const std::vector<float>& intensity, double leave_out_m) {
   double mean = 0;
@@ -122,7 +122,7 @@ struct Pattern {
   Vector2d centre = Vector2d::Zero();
   double turn_rad = 0, mean = 0, contrast = 0, width_m = 0;
 };
-using Vector5d = Eigen::Matrix<double, 5, 1>;   // centre, turn, mean, contrast
+using Vector5d = Eigen::Matrix<double, 5, 1>;  // centre, turn, mean, contrast
 
 Vector2d turned(const Pattern& p, const Vector2d& at) {
   const Vector2d d = at - p.centre;
@@ -134,7 +134,7 @@ double slope(double x) { return std::sqrt(2 / std::numbers::pi) * std::exp(-x * 
 
 struct PatternFit {
   Pattern pattern;
-  double squares = 0, variance = 0;        // of residuals in all; of the intensities in all
+  double squares = 0, variance = 0;  // of residuals in all; of the intensities in all
   std::size_t points = 0;
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
 };
@@ -189,8 +189,10 @@ double emptyStrip(const std::vector<Vector2d>& places, const Pattern& p, double 
   for (const auto& place : places) {
     const Vector2d q = turned(p, place);
     if (q.cwiseAbs().maxCoeff() > kUsed * side_m) continue;
-    if (q[axis] < 0) below = std::max(below, q[axis]);
-    else above = std::min(above, q[axis]);
+    if (q[axis] < 0)
+      below = std::max(below, q[axis]);
+    else
+      above = std::min(above, q[axis]);
   }
   return above - below;
 }

@@ -25,7 +25,7 @@ struct ClassMap {
   std::string name;
   std::vector<Class> classes;
   std::vector<Rule> rules;
-  std::size_t unknown = 0, noise = 0;       // of every other product, and of a point without a surface
+  std::size_t unknown = 0, noise = 0;  // of every other product, and of a point without a surface
 
   // Below and above the scanner; the rule with the longest beginning holds.
   std::array<std::size_t, 2> classesOf(std::string_view ifc_class) const;

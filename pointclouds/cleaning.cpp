@@ -12,16 +12,17 @@
 namespace standpoint {
 namespace {
 
-constexpr std::uint8_t kFlawed = point_flag::kMixed | point_flag::kMirrored | point_flag::kWeather | point_flag::kMoving |
-                                 point_flag::kNoise;
+constexpr std::uint8_t kFlawed =
+    point_flag::kMixed | point_flag::kMirrored | point_flag::kWeather | point_flag::kMoving | point_flag::kNoise;
 
 // Shows a filter the whole file.
 class PassSink final : public PointSink {
  public:
-  PassSink(PointFilter& filter, Fates& fates, std::uint8_t number) : filter_(filter), fates_(fates), remaining_(fates, number) {}
+  PassSink(PointFilter& filter, Fates& fates, std::uint8_t number)
+      : filter_(filter), fates_(fates), remaining_(fates, number) {}
   Result<void> begin(const ScanHeader& header) override { return filter_.beginScan(header); }
   Result<void> write(const PointBlock& block) override {
-    if (next_ + block.size() > fates_.size()) fates_.resize(next_ + block.size(), 0);   // in the first pass
+    if (next_ + block.size() > fates_.size()) fates_.resize(next_ + block.size(), 0);  // in the first pass
     auto seen = filter_.see(block, next_, remaining_);
     next_ += block.size();
     return seen;
@@ -40,13 +41,14 @@ class PassSink final : public PointSink {
 template <class T>
 void keepOnly(std::vector<T>& values, const std::vector<std::uint32_t>& stay) {
   if (values.empty()) return;
-  for (std::size_t i = 0; i < stay.size(); ++i) values[i] = values[stay[i]];   // stay[i] >= i
+  for (std::size_t i = 0; i < stay.size(); ++i) values[i] = values[stay[i]];  // stay[i] >= i
   values.resize(stay.size());
 }
 
 void keepOnly(PointBlock& b, const std::vector<std::uint32_t>& stay) {
   PointTruth& t = b.truth;
-  for (auto* floats : {&b.x_m, &b.y_m, &b.z_m, &b.intensity, &t.x_m, &t.y_m, &t.z_m, &t.range_m, &t.incidence_rad, &t.received_db})
+  for (auto* floats :
+       {&b.x_m, &b.y_m, &b.z_m, &b.intensity, &t.x_m, &t.y_m, &t.z_m, &t.range_m, &t.incidence_rad, &t.received_db})
     keepOnly(*floats, stay);
   for (auto* indices : {&b.row, &b.column, &b.product, &b.material}) keepOnly(*indices, stay);
   for (auto* bytes : {&b.red, &b.green, &b.blue, &b.return_number, &b.return_count, &t.flags}) keepOnly(*bytes, stay);
@@ -64,7 +66,7 @@ class LastSink final : public PointSink {
     header_ = header;
     countsOfClass();
     for (FilterFigures& f : cleaning_.filters) f.has_truth |= header.has_truth, f.has_labels |= header.has_labels;
-    ScanHeader cleaned = header;   // it is another scan than it was
+    ScanHeader cleaned = header;  // it is another scan than it was
     const std::uint64_t hash = stableHash(words_.c_str(), stableHash(header.guid.c_str()));
     char guid[64];
     std::snprintf(guid, sizeof guid, "{%08x-%04x-8%03x-8%03x-%012llx}", static_cast<unsigned>(hash >> 32U),
@@ -110,8 +112,9 @@ class LastSink final : public PointSink {
   void count(const PointBlock& block, std::size_t i, std::uint8_t fate) {
     const std::uint8_t flags = header_.has_truth ? block.truth.flags[i] : std::uint8_t{0};
     const bool good = (flags & kFlawed) == 0;
-    const bool plainly_mixed = (flags & point_flag::kMixed) != 0 &&
-        std::abs(Eigen::Vector3f(block.x_m[i], block.y_m[i], block.z_m[i]).norm() - block.truth.range_m[i]) > kPlainly_m;
+    const bool plainly_mixed =
+        (flags & point_flag::kMixed) != 0 && std::abs(Eigen::Vector3f(block.x_m[i], block.y_m[i], block.z_m[i]).norm() -
+                                                      block.truth.range_m[i]) > kPlainly_m;
     const std::size_t last = fate == 0 ? cleaning_.filters.size() : fate;
     for (std::size_t k = 0; k < last; ++k) {
       FilterFigures& f = cleaning_.filters[k];
@@ -136,7 +139,7 @@ class LastSink final : public PointSink {
   ScanHeader header_;
   std::uint64_t next_ = 0;
   std::vector<std::uint32_t> stay_;
-  std::vector<std::vector<Taken*>> of_product_;   // by filter, then label
+  std::vector<std::vector<Taken*>> of_product_;  // by filter, then label
 };
 
 Error placed(Error error, const std::filesystem::path& in, const ChosenFilter& filter) {
@@ -161,7 +164,8 @@ Result<void> apply(const CloudFormat& format, const std::filesystem::path& in, c
 }  // namespace
 
 const std::array<const char*, 8>& flagNames() {
-  static const std::array<const char*, 8> names = {"mixed", "mirrored", "through_pane", "weather", "saturated", "moving", "noise", "filtered"};
+  static const std::array<const char*, 8> names = {"mixed",     "mirrored", "through_pane", "weather",
+                                                   "saturated", "moving",   "noise",        "filtered"};
   return names;
 }
 
@@ -170,10 +174,12 @@ Result<Cleaning> cleanCloud(const std::filesystem::path& in, const std::filesyst
   if (filters.empty() || filters.size() > 255)
     return failure(ErrorKind::usage, "name from 1 to 255 filters: " + filterList(), "--filters");
   const CloudFormat* const format = cloudFormatFor(in);
-  if (!format || !format->read) return failure(ErrorKind::usage, "no readable point-cloud format has this extension", in.string());
+  if (!format || !format->read)
+    return failure(ErrorKind::usage, "no readable point-cloud format has this extension", in.string());
   // A wrong option shows before anything is read.
   const CloudFormat* const to = cloudFormatFor(out);
-  if (!to || !to->writer) return failure(ErrorKind::usage, "no writable point-cloud format has this extension", out.string());
+  if (!to || !to->writer)
+    return failure(ErrorKind::usage, "no writable point-cloud format has this extension", out.string());
   for (const ChosenFilter& chosen : filters)
     if (auto made = chosen.kind->make(chosen.values); !made)
       return failure(ErrorKind::usage, made.error().message, "--filters " + chosen.text);

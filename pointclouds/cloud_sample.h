@@ -16,24 +16,25 @@
 
 namespace standpoint {
 
-// Where a scan's scanner stood, in the frame of the cloud's file; nothing where the file does not say (a LAS, a merged cloud).
+// Where a scan's scanner stood, in the frame of the cloud's file; nothing where the file does not say (a LAS, a merged
+// cloud).
 std::optional<Eigen::Vector3d> stationOf(const ScanHeader& header);
 
 struct SampledScan {
   std::string name, sensor_vendor, sensor_model;
-  std::optional<Eigen::Vector3d> station;   // stationOf
-  std::uint64_t points = 0;        // that the file holds
+  std::optional<Eigen::Vector3d> station;  // stationOf
+  std::uint64_t points = 0;                // that the file holds
 };
 
 // Points drawn evenly from a cloud by a hash of their number in the file: the same file gives the same sample.
 struct CloudSample {
-  std::vector<Eigen::Vector3d> position;   // frame of the cloud's file
-  std::vector<float> intensity;            // raw; empty where the file has none
+  std::vector<Eigen::Vector3d> position;  // frame of the cloud's file
+  std::vector<float> intensity;           // raw; empty where the file has none
   std::vector<std::uint32_t> scan;
   std::vector<SampledScan> scans;
-  std::uint64_t points = 0;                // that the file holds
-  float least_intensity = 0, most_intensity = 0;   // of all points
-  Report report;                           // of reading
+  std::uint64_t points = 0;                       // that the file holds
+  float least_intensity = 0, most_intensity = 0;  // of all points
+  Report report;                                  // of reading
 };
 
 // Reads the file once; keeps between most/2 and `most` points of a larger cloud, all of a smaller one.

@@ -8,9 +8,9 @@ namespace standpoint {
 
 // A labelled set that networks are trained on: a folder instead of a file.
 struct Dataset {
-  const char* name;          // "s3dis"; its classes are pointclouds/classes/s3dis.json
+  const char* name;  // "s3dis"; its classes are pointclouds/classes/s3dis.json
   const char* description;
-  std::unique_ptr<CloudWriter> (*writer)(const std::filesystem::path& folder, ClassMap map);   // not yet started
+  std::unique_ptr<CloudWriter> (*writer)(const std::filesystem::path& folder, ClassMap map);  // not yet started
 };
 std::span<const Dataset> datasets();
 

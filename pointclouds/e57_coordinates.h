@@ -29,7 +29,7 @@ class StoredPlaces {
   // Records [from, from + n) of the block that was taken, into the streams from `stream` on; returns the next stream.
   std::size_t put(PacketWriter& packets, std::size_t stream, const PointBlock& block, std::size_t from,
                   std::size_t n) const;
-  std::uint64_t clamped() const { return clamped_; }   // intensities outside the sensor's range, where it matters
+  std::uint64_t clamped() const { return clamped_; }  // intensities outside the sensor's range, where it matters
   PlaceBounds bounds;
 
  private:

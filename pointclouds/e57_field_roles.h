@@ -19,10 +19,32 @@ struct Roles {
 
   template <class F>
   void forEach(F f) const {
-    for (const Place& place :
-        {x, y, z, intensity, colour[0], colour[1], colour[2], row, column, product, material, time, return_index,
-         return_count, truth[0], truth[1], truth[2], truth[3], truth[4], truth[5], truth[6], cartesian_state,
-         spherical_state, intensity_invalid, colour_invalid, time_invalid})
+    for (const Place& place : {x,
+                               y,
+                               z,
+                               intensity,
+                               colour[0],
+                               colour[1],
+                               colour[2],
+                               row,
+                               column,
+                               product,
+                               material,
+                               time,
+                               return_index,
+                               return_count,
+                               truth[0],
+                               truth[1],
+                               truth[2],
+                               truth[3],
+                               truth[4],
+                               truth[5],
+                               truth[6],
+                               cartesian_state,
+                               spherical_state,
+                               intensity_invalid,
+                               colour_invalid,
+                               time_invalid})
       if (place) f(*place);
   }
 };

@@ -21,8 +21,8 @@ namespace standpoint::e57 {
 inline constexpr const char* kLabelNamespace = "urn:standpoint:e57:ground-truth:1";
 inline constexpr const char* kLabelPrefix = "gt";
 
-inline constexpr std::array<const char*, 7> kTruthFields = {
-    "trueX", "trueY", "trueZ", "trueRange", "incidence", "receivedPower", "flags"};
+inline constexpr std::array<const char*, 7> kTruthFields = {"trueX",     "trueY",         "trueZ", "trueRange",
+                                                            "incidence", "receivedPower", "flags"};
 
 std::string productsText(const std::vector<LabelledProduct>& products);
 std::string materialsText(const std::vector<std::string>& materials);

@@ -62,9 +62,9 @@ void appendPicture(XmlWriter& xml, const StationPicture& picture, std::uint64_t 
   if (picture.acquired_gps_s > 0) appendTime(xml, "acquisitionDateTime", picture.acquired_gps_s);
   appendPose(xml, picture.file_from_camera);
   xml.open(representation, kStructure);
-  xml.leaf(picture.media_type == kPng ? "pngImage" : "jpegImage",
-           "type=\"Blob\" fileOffset=\"" + numberText(blob_offset) + "\" length=\"" + numberText(picture.bytes.size()) +
-               "\"");
+  xml.leaf(picture.media_type == kPng ? "pngImage" : "jpegImage", "type=\"Blob\" fileOffset=\"" +
+                                                                      numberText(blob_offset) + "\" length=\"" +
+                                                                      numberText(picture.bytes.size()) + "\"");
   xml.integer("imageWidth", picture.width);
   xml.integer("imageHeight", picture.height);
   if (pinhole) xml.real("focalLength", picture.focal_length_m);
@@ -94,8 +94,7 @@ std::vector<std::vector<ListedPicture>> picturesOfScans(const Document& document
     if (!only && (guid.empty() || found == scan_of_guid.end()))
       ++homeless;
     else
-      of_scan[only ? 0 : found->second].push_back(
-          {&image, document.file.name() + " images2D/" + std::to_string(i)});
+      of_scan[only ? 0 : found->second].push_back({&image, document.file.name() + " images2D/" + std::to_string(i)});
   }
   if (homeless > 0)
     report.lose(document.file.name(), std::to_string(homeless) + " pictures belong to no scan of the file");

@@ -22,7 +22,7 @@ void appendPicture(XmlWriter& xml, const StationPicture& picture, std::uint64_t 
 // those without a guid to that.
 struct ListedPicture {
   const Element* element = nullptr;
-  std::string source;        // "name.e57 images2D/0"
+  std::string source;  // "name.e57 images2D/0"
 };
 std::vector<std::vector<ListedPicture>> picturesOfScans(const Document& document, std::size_t scans, Report& report);
 

@@ -17,7 +17,7 @@ class ScanRecords {
   Result<void> write(PagedWriter& out, const PointBlock& block);
   // What the XML says of them.
   Result<void> finish(PagedWriter& out, WrittenScan& scan);
-  std::uint64_t clamped() const { return places_.clamped(); }   // intensities outside the sensor's range
+  std::uint64_t clamped() const { return places_.clamped(); }  // intensities outside the sensor's range
 
  private:
   // For groupingByLine; one entry per column, as long as they ascend.

@@ -15,8 +15,8 @@ namespace standpoint::e57 {
 // The scan as the XML describes it: what a data3D says, and what of it is missing or garbled.
 struct ScanPlan {
   ScanHeader header;
-  std::string source;        // "name.e57 data3D/0"
-  std::string prefix;        // of our namespace: "gt:", or empty when the file does not have it
+  std::string source;  // "name.e57 data3D/0"
+  std::string prefix;  // of our namespace: "gt:", or empty when the file does not have it
   bool has_index_bounds = false;
   double first_row = 0, first_column = 0;
   double colour_least[3] = {0, 0, 0}, colour_most[3] = {255, 255, 255};

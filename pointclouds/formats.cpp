@@ -125,8 +125,9 @@ Result<CloudFormat::Writer> writerOf(const CloudFormat& format, const std::strin
     if (as == variant.name) return variant.writer;
     names += std::string(names.empty() ? "" : ", ") + variant.name;
   }
-  return failure(ErrorKind::usage, std::string(format.name) + " has no variant '" + as + "'" +
-                                       (names.empty() ? "" : "; there is " + names), "--as");
+  return failure(
+      ErrorKind::usage,
+      std::string(format.name) + " has no variant '" + as + "'" + (names.empty() ? "" : "; there is " + names), "--as");
 }
 
 const CloudFormat* readableCloudFormat(const std::filesystem::path& file) {
@@ -152,8 +153,7 @@ Result<CloudExtent> measureCloud(const std::filesystem::path& file, Progress& pr
 
 Result<std::vector<std::filesystem::path>> convertCloud(const std::filesystem::path& in,
                                                         const std::filesystem::path& out, const std::string& as,
-                                                        Report& report, Progress& progress,
-                                                        const SinkBefore& through) {
+                                                        Report& report, Progress& progress, const SinkBefore& through) {
   const auto from = known(in), to = known(out);
   if (!from) return failure(from.error());
   if (!to) return failure(to.error());

@@ -37,7 +37,9 @@ class Gate final : public PointFilter {
 };
 
 template <class Judge>
-MadeFilter gate(Judge judge) { return std::make_unique<Gate<Judge>>(std::move(judge)); }
+MadeFilter gate(Judge judge) {
+  return std::make_unique<Gate<Judge>>(std::move(judge));
+}
 
 struct Interval {
   double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
@@ -57,7 +59,8 @@ struct RangeJudge {
   Interval interval;
   Result<void> begin(const ScanHeader& header) {
     if (stationOf(header)) return {};
-    return failure(ErrorKind::unusable, "it does not say where its scanner stood, so its points have no range", header.name);
+    return failure(ErrorKind::unusable, "it does not say where its scanner stood, so its points have no range",
+                   header.name);
   }
   bool stays(const PointBlock& b, std::size_t i, std::uint64_t) const {
     return interval.has(Eigen::Vector3d(b.x_m[i], b.y_m[i], b.z_m[i]).norm());
@@ -74,10 +77,11 @@ struct IntensityJudge {
 };
 
 struct IncidenceJudge {
-  Interval interval;   // rad
+  Interval interval;  // rad
   Result<void> begin(const ScanHeader& header) {
     if (header.has_truth) return {};
-    return failure(ErrorKind::unusable, "it has no truth, so the incidence of its points is not known: scan with --truth", header.name);
+    return failure(ErrorKind::unusable,
+                   "it has no truth, so the incidence of its points is not known: scan with --truth", header.name);
   }
   bool stays(const PointBlock& b, std::size_t i, std::uint64_t) const { return interval.has(b.truth.incidence_rad[i]); }
 };
@@ -109,8 +113,8 @@ struct BoxJudge {
 struct SphereJudge {
   double radius;
   bool inside;
-  std::string station;                        // looked for …
-  std::optional<Eigen::Vector3d> centre;      // … unless the place is given
+  std::string station;                    // looked for …
+  std::optional<Eigen::Vector3d> centre;  // … unless the place is given
   Pose pose{};
   Result<void> know(const std::vector<FilterScan>& scans) {
     if (centre) return {};
@@ -119,7 +123,8 @@ struct SphereJudge {
       if (scan.name == station && scan.station) return centre = scan.station, Result<void>{};
       if (scan.station) names += (names.empty() ? "" : ", ") + scan.name;
     }
-    return failure(ErrorKind::usage, "the file has no station '" + station + "'; it has " + (names.empty() ? "none" : names));
+    return failure(ErrorKind::usage,
+                   "the file has no station '" + station + "'; it has " + (names.empty() ? "none" : names));
   }
   Result<void> begin(const ScanHeader& header) { return pose = header.file_from_scanner, Result<void>{}; }
   bool stays(const PointBlock& b, std::size_t i, std::uint64_t) const {
@@ -157,15 +162,19 @@ MadeFilter makeEveryFilter(const FilterValues& values) {
 
 MadeFilter makeBoxFilter(const FilterValues& values) {
   const Bounds box{values.triple("from"), values.triple("to")};
-  if ((box.min.array() > box.max.array()).any()) return failure(ErrorKind::usage, "'from' lies beyond 'to': the box is empty");
+  if ((box.min.array() > box.max.array()).any())
+    return failure(ErrorKind::usage, "'from' lies beyond 'to': the box is empty");
   return gate(BoxJudge{box, values.word("keep") == "inside"});
 }
 
 MadeFilter makeSphereFilter(const FilterValues& values) {
-  if (values.has("at") == values.has("station")) return failure(ErrorKind::usage, "a sphere is about a 'station' or 'at' a place");
+  if (values.has("at") == values.has("station"))
+    return failure(ErrorKind::usage, "a sphere is about a 'station' or 'at' a place");
   SphereJudge judge{values.number("radius"), values.word("keep") == "inside", {}, {}};
-  if (values.has("at")) judge.centre = values.triple("at");
-  else judge.station = values.word("station");
+  if (values.has("at"))
+    judge.centre = values.triple("at");
+  else
+    judge.station = values.word("station");
   return gate(std::move(judge));
 }
 

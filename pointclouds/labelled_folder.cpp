@@ -13,7 +13,7 @@ namespace standpoint {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double kFarthest_m = 1000;   // the sets' loaders keep coordinates as single floats
+constexpr double kFarthest_m = 1000;  // the sets' loaders keep coordinates as single floats
 
 // A value of a CSV line.
 std::string quoted(const std::string& value) {
@@ -156,11 +156,16 @@ std::string LabelledFolder::description() const {
   for (const auto& c : map_.classes) classes.push_back({{"id", c.id}, {"name", c.name}});
   for (const Station& s : stations_) {
     const auto& [q, t] = s.set_from_scanner;
-    stations.push_back({{"name", s.name}, {"split", s.validation ? "val" : "train"}, {"place", s.place},
-                        {"translation", {t.x(), t.y(), t.z()}}, {"rotation", {q.w(), q.x(), q.y(), q.z()}}});
+    stations.push_back({{"name", s.name},
+                        {"split", s.validation ? "val" : "train"},
+                        {"place", s.place},
+                        {"translation", {t.x(), t.y(), t.z()}},
+                        {"rotation", {q.w(), q.x(), q.y(), q.z()}}});
   }
-  const nlohmann::ordered_json all = {{"set", map_.name}, {"file_from_set_m", {shift_.x(), shift_.y(), shift_.z()}},
-                                      {"classes", classes}, {"stations", stations}};
+  const nlohmann::ordered_json all = {{"set", map_.name},
+                                      {"file_from_set_m", {shift_.x(), shift_.y(), shift_.z()}},
+                                      {"classes", classes},
+                                      {"stations", stations}};
   return all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -51,13 +51,13 @@ class LabelledFolder : public CloudWriter {
     const PointBlock& block;
     std::size_t i;
     std::size_t class_index;
-    std::uint32_t instance;      // from 1, the same product in every station
+    std::uint32_t instance;  // from 1, the same product in every station
   };
   struct Station {
-    std::string name;            // as a file's name, unique
+    std::string name;  // as a file's name, unique
     bool validation = false;
-    std::size_t of_split = 0;    // how many of its split stand before it
-    std::string place;           // in the folder, set by the set
+    std::size_t of_split = 0;  // how many of its split stand before it
+    std::string place;         // in the folder, set by the set
     Pose set_from_scanner;
   };
   virtual Result<void> beginStation() = 0;
@@ -72,9 +72,9 @@ class LabelledFolder : public CloudWriter {
   std::filesystem::path path(const std::string& inside) const { return part_ / inside; }
   // Makes the folders on the way.
   Result<BufferedFile> create(const std::string& inside) const;
-  Eigen::Vector3d place(const Point& p) const;   // in the set's frame
-  float share(const Point& p) const;             // of the sensor's range of intensity; 0.5 without one
-  std::array<std::uint8_t, 3> colour(const Point& p) const;   // grey by intensity where there is none
+  Eigen::Vector3d place(const Point& p) const;               // in the set's frame
+  float share(const Point& p) const;                         // of the sensor's range of intensity; 0.5 without one
+  std::array<std::uint8_t, 3> colour(const Point& p) const;  // grey by intensity where there is none
 
  private:
   std::string uniqueName(const std::string& name) const;

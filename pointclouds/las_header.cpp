@@ -19,7 +19,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "LAS numbers are little-endian and copied as they stand");
 
 constexpr std::uint64_t kLongestRecord = 1 << 20;  // of a coordinate system; real ones have some kilobytes
-constexpr std::uint64_t kLongestText = 1 << 26;   // of the stations and labels of a file of ours
+constexpr std::uint64_t kLongestText = 1 << 26;    // of the stations and labels of a file of ours
 constexpr std::size_t kMostScans = 65535, kMostEntries = std::size_t{1} << 24;
 constexpr std::uint32_t kMostRecords = 100000;
 constexpr std::uint16_t kGeoKeys = 34735, kWkt = 2112;
@@ -58,8 +58,8 @@ struct RecordList {
   std::uint64_t begins_at = 0;
   std::uint32_t records = 0;
   std::size_t head_bytes = 0;
-  std::uint64_t ends_at = 0;   // no record reaches beyond it
-  bool extended = false;       // its lengths have 64 bits
+  std::uint64_t ends_at = 0;  // no record reaches beyond it
+  bool extended = false;      // its lengths have 64 bits
 };
 
 class HeaderReader {
@@ -91,8 +91,9 @@ class HeaderReader {
 Result<void> HeaderReader::readFormat() {
   const auto raw = block_[104];
   if (raw >= 0x40)
-    return broken("the points are compressed (LAZ), which cannot be read: write them as LAS first, for instance with "
-                  "`laszip -i FILE.laz -o FILE.las`, `pdal translate` or CloudCompare");
+    return broken(
+        "the points are compressed (LAZ), which cannot be read: write them as LAS first, for instance with "
+        "`laszip -i FILE.laz -o FILE.las`, `pdal translate` or CloudCompare");
   header_.point_format = raw;
   if (header_.point_format >= static_cast<int>(kFormats.size()))
     return broken("point format " + std::to_string(raw) + " is not known, only 0 to 10");
@@ -295,9 +296,7 @@ Result<Header> HeaderReader::read() {
 
 }  // namespace
 
-const PointFormat& pointFormat(const Header& header) {
-  return kFormats[static_cast<std::size_t>(header.point_format)];
-}
+const PointFormat& pointFormat(const Header& header) { return kFormats[static_cast<std::size_t>(header.point_format)]; }
 
 Result<Header> readHeader(const InputFile& file, Report& report) { return HeaderReader(file, report).read(); }
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kRecordHead = 54, kExtendedHead = 60, kExtraBytes = 192;
 constexpr std::uint16_t kAdjustedTime = 1, kWktBit = 16;
-constexpr std::uint32_t kRecordBytes[] = {30, 36, 38};   // of point formats 6 to 8
+constexpr std::uint32_t kRecordBytes[] = {30, 36, 38};  // of point formats 6 to 8
 
 void putText(std::uint8_t* to, std::size_t room, const std::string& text) {
   std::memcpy(to, text.data(), std::min(room, text.size()));
@@ -29,7 +29,9 @@ void putDate(double created_gps_s, std::uint8_t* header) {
 }  // namespace
 
 Layout layoutFor(const ScanHeader& header, bool near_infrared) {
-  Layout layout{.point_format = near_infrared ? 8 : header.has_colour ? 7 : 6,
+  Layout layout{.point_format = near_infrared       ? 8
+                                : header.has_colour ? 7
+                                                    : 6,
                 .colour = header.has_colour,
                 .labels = header.has_labels,
                 .grid = hasGrid(header),

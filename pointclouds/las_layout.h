@@ -32,9 +32,9 @@ std::vector<std::uint8_t> extraRecords(const Layout& layout, const std::array<do
 inline constexpr std::size_t kHeaderBytes = 375;
 struct WrittenFile {
   std::string system;
-  double created_gps_s = 0;        // 0: not known
+  double created_gps_s = 0;  // 0: not known
   std::uint64_t points_at = 0, extended_at = 0;
-  std::uint32_t records = 0;       // before the points
+  std::uint32_t records = 0;  // before the points
   std::array<double, 3> offset{};
   std::array<std::int32_t, 3> low{}, high{};
   std::uint64_t points = 0;

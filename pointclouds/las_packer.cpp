@@ -99,7 +99,7 @@ Result<void> RecordPacker::put(const PointBlock& b, std::size_t i, std::uint8_t*
   const bool surfaceless = header_.has_truth && (b.truth.flags[i] & (point_flag::kNoise | point_flag::kWeather)) != 0;
   record[16] = surfaceless ? kLowNoise : header_.has_labels ? class_of_product_[b.product[i]] : 1;
   store(record + 20, station_);
-  if (header_.acquisition_start_gps_s > 0 || header_.has_time)   // the large numbers first: steps of 6e-8 s are left
+  if (header_.acquisition_start_gps_s > 0 || header_.has_time)  // the large numbers first: steps of 6e-8 s are left
     store(record + 22, header_.acquisition_start_gps_s - kAdjustedGps_s + (header_.has_time ? b.time_s[i] : 0.0));
   if (layout_.colour && header_.has_colour) {
     store(record + 30, static_cast<std::uint16_t>(b.red[i] * 257));

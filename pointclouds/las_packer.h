@@ -15,10 +15,10 @@ class RecordPacker {
   // The first scan decides where the integers begin.
   void start(const Layout& layout, const std::array<double, 3>& offset);
   void begin(const ScanHeader& header, std::uint16_t station, const JointTable::Offset& labels);
-  Result<void> put(const PointBlock& block, std::size_t i, std::uint8_t* record);   // which is all 0
+  Result<void> put(const PointBlock& block, std::size_t i, std::uint8_t* record);  // which is all 0
   void count(WrittenFile& file) const;
 
-  std::uint64_t clamped = 0, beyond_returns = 0, beyond_truth = 0;   // of the scan
+  std::uint64_t clamped = 0, beyond_returns = 0, beyond_truth = 0;  // of the scan
 
  private:
   std::int32_t step(double value, std::size_t axis) const;

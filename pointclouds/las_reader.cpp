@@ -81,7 +81,7 @@ struct Part {
   std::uint64_t first = 0, points = 0;
   ScanHeader header;
   bool ours = false;
-  double time_shift_s = 0;   // of a point's GPS time, to the scan's own
+  double time_shift_s = 0;  // of a point's GPS time, to the scan's own
   double intensity_scale = 1;
 };
 
@@ -97,8 +97,12 @@ bool hasTruth(const Header& h) {
 class RecordTaker {
  public:
   RecordTaker(const Header& header, const Part& part, int colour_shift)
-      : h_(header), part_(part), colour_shift_(colour_shift), colour_at_(pointFormat(header).colour_at),
-        time_at_(pointFormat(header).time_at), back_(part.header.file_from_scanner.rotation.conjugate()) {}
+      : h_(header),
+        part_(part),
+        colour_shift_(colour_shift),
+        colour_at_(pointFormat(header).colour_at),
+        time_at_(pointFormat(header).time_at),
+        back_(part.header.file_from_scanner.rotation.conjugate()) {}
   Result<void> take(const std::uint8_t* record, FoundPoints& to);
   std::uint64_t senseless_returns = 0, senseless_times = 0, senseless_truth = 0;
 

@@ -12,12 +12,22 @@ namespace standpoint::las {
 
 // The extra bytes of a record that are ours (LAS 1.4 R15, table 24, "LASF_Spec" 4), by their names in the file.
 enum class Extra : std::uint8_t {
-  product, material, row, column, true_x, true_y, true_z, true_range, incidence, received_power, flags
+  product,
+  material,
+  row,
+  column,
+  true_x,
+  true_y,
+  true_z,
+  true_range,
+  incidence,
+  received_power,
+  flags
 };
 struct ExtraKind {
   const char* name;
-  const char* description;   // at most 31 characters
-  std::uint8_t type;         // 1 u8, 3 u16, 5 u32, 6 i32, 9 f32
+  const char* description;  // at most 31 characters
+  std::uint8_t type;        // 1 u8, 3 u16, 5 u32, 6 i32, 9 f32
   std::uint8_t bytes;
 };
 inline constexpr ExtraKind kExtras[] = {{"product", "index into the products' table", 5, 4},
@@ -36,12 +46,12 @@ inline constexpr std::size_t kExtraKinds = std::size(kExtras);
 // Where the extra bytes of a kind stand in a record; those of a file that are not ours have no place here.
 struct ExtraPlaces {
   std::optional<std::uint32_t> at[kExtraKinds];
-  std::uint32_t end = 0;     // where the next one would stand
+  std::uint32_t end = 0;  // where the next one would stand
   const std::optional<std::uint32_t>& operator[](Extra kind) const { return at[static_cast<std::size_t>(kind)]; }
 };
 
-inline constexpr const char* kOurRecord = "Standpoint";   // user id of the record with the lines of scan_text.h
+inline constexpr const char* kOurRecord = "Standpoint";  // user id of the record with the lines of scan_text.h
 inline constexpr std::uint16_t kOurRecordId = 1;
-inline constexpr double kAdjustedGps_s = 1e9;             // "adjusted standard GPS time" is less by that
+inline constexpr double kAdjustedGps_s = 1e9;  // "adjusted standard GPS time" is less by that
 
 }  // namespace standpoint::las

@@ -37,7 +37,7 @@ class Writer final : public CloudWriter {
   std::uint16_t station_ = 0;
   std::optional<ScanHeader> header_;
   JointTable table_;
-  std::vector<std::string> lines_;   // of all scans
+  std::vector<std::string> lines_;  // of all scans
   std::vector<std::uint8_t> bytes_;
 };
 
@@ -47,8 +47,7 @@ Result<void> Writer::start(const ScanHeader& header) {
   wkt_ = header.coordinate_metadata;
   written_.system = header.sensor_vendor + (header.sensor_vendor.empty() ? "" : " ") + header.sensor_model;
   std::array<double, 3> offset;
-  for (std::size_t k = 0; k < 3; ++k)
-    offset[k] = std::round(header.file_from_scanner.translation[static_cast<int>(k)]);
+  for (std::size_t k = 0; k < 3; ++k) offset[k] = std::round(header.file_from_scanner.translation[static_cast<int>(k)]);
   packer_.start(layout_, offset);
   std::vector<std::uint8_t> bytes(kHeaderBytes);
   const auto extras = extraRecords(layout_, offset);

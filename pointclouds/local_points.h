@@ -15,7 +15,7 @@ namespace standpoint {
 struct FoundPoints {
   std::vector<double> x, y, z;
   std::vector<double> true_x, true_y, true_z;  // where the scan has truth: in the frame of x, y, z
-  PointBlock columns;  // all but the coordinates
+  PointBlock columns;                          // all but the coordinates
   std::size_t size() const { return x.size(); }
   void clear();
 };
@@ -27,8 +27,8 @@ class LocalPoints {
   // `moves_frame`: whether the file's coordinates are finer than a float at all. Rounding up to `fineness_m`, half a
   // step of the file's own coordinates, loses nothing.
   LocalPoints(PointSink& sink, ScanHeader header, bool moves_frame, double fineness_m = 0);
-  Result<void> write(FoundPoints& points);  // drops points that are not finite; clears `points`
-  Result<void> picture(const StationPicture& picture);   // after the last point
+  Result<void> write(FoundPoints& points);              // drops points that are not finite; clears `points`
+  Result<void> picture(const StationPicture& picture);  // after the last point
   Result<void> finish(Report& report);
 
  private:

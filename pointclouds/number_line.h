@@ -17,7 +17,7 @@ class NumberLine {
  public:
   explicit NumberLine(std::string_view line) : at_(line.data()), end_(line.data() + line.size()) {}
 
-  enum class Word { number, none, end };   // none: something that is no number
+  enum class Word { number, none, end };  // none: something that is no number
   Word next(double& value) {
     while (at_ != end_ && isBetween(*at_)) ++at_;
     if (at_ == end_) return Word::end;
@@ -69,7 +69,7 @@ class NumberLine {
       const char* const behind = ++at_;
       takeDigits(digits);
       count += at_ - behind;
-      if (count > kMostDigits) return false;   // before the place of the point is made an int
+      if (count > kMostDigits) return false;  // before the place of the point is made an int
       exponent = -static_cast<int>(at_ - behind);
     }
     if (count == 0 || count > kMostDigits || digits > kLargestExact) return false;

@@ -23,7 +23,7 @@ void appendNumber(std::string& text, T value) {
 inline void appendFixed(std::string& text, double value, unsigned decimals) {
   constexpr double kPower[10] = {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
   const double scaled = std::abs(value) * kPower[decimals] + 0.5;
-  if (!(scaled < 9e15)) return appendNumber(text, value);   // a double has no finer steps
+  if (!(scaled < 9e15)) return appendNumber(text, value);  // a double has no finer steps
   auto rest = static_cast<std::uint64_t>(scaled);
   char digits[32];
   char* at = digits + sizeof digits;
@@ -42,7 +42,12 @@ inline void appendFloat(std::string& text, float value) {
   const float size = std::abs(value);
   if (!(size >= 0x1p-6F && size < 0x1p20F)) return appendNumber(text, value);
   appendFixed(text, static_cast<double>(value),
-              size < 0x1p-3F ? 9 : size < 1 ? 8 : size < 16 ? 7 : size < 128 ? 6 : size < 1024 ? 5 : 4);
+              size < 0x1p-3F ? 9
+              : size < 1     ? 8
+              : size < 16    ? 7
+              : size < 128   ? 6
+              : size < 1024  ? 5
+                             : 4);
 }
 
 template <class T>

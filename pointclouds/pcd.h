@@ -17,7 +17,7 @@ namespace pcd {
 Result<std::unique_ptr<CloudWriter>> createWriter(const std::filesystem::path& file, bool organised = true);
 // Text and binary; of compressed points only what to do about them.
 Result<Report> read(const std::filesystem::path& file, PointSink& sink, Progress& progress);
-Result<CloudInfo> info(const std::filesystem::path& file);   // reads no points
+Result<CloudInfo> info(const std::filesystem::path& file);  // reads no points
 }  // namespace pcd
 
 }  // namespace standpoint

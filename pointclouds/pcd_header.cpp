@@ -44,7 +44,7 @@ class HeaderReader {
   tl::unexpected<Error> broken(const std::string& what) const {
     return failure(ErrorKind::unusable, what, lines_.place());
   }
-  Result<bool> takeLine(std::string_view line);   // false after DATA
+  Result<bool> takeLine(std::string_view line);  // false after DATA
   Result<void> takeList(const Words& parts);
   Result<void> takeNumber(const Words& parts);
   Result<void> takeViewpoint(const Words& parts);
@@ -101,8 +101,9 @@ Result<void> HeaderReader::takeData(const Words& parts) {
   const std::string_view how = parts.size() > 1 ? parts[1] : "";
   header_.binary = how == "binary";
   if (how == "binary_compressed")
-    return broken("the points are compressed, which is not read: write them as binary first, for instance with "
-                  "`pcl_convert_pcd_ascii_binary IN OUT 1`");
+    return broken(
+        "the points are compressed, which is not read: write them as binary first, for instance with "
+        "`pcl_convert_pcd_ascii_binary IN OUT 1`");
   if (how != "ascii" && how != "binary") return broken("DATA is neither ascii nor binary");
   return {};
 }

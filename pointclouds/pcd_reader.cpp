@@ -44,7 +44,7 @@ class Reading {
   }
   Result<void> readText(LocalPoints& local, Progress& progress);
   Result<void> readBinary(LocalPoints& local, Progress& progress);
-  Result<void> take(std::uint64_t index, FoundPoints& to);   // of values_
+  Result<void> take(std::uint64_t index, FoundPoints& to);  // of values_
   const std::filesystem::path& path_;
   const Header& header_;
   ScanHeader scan_;
@@ -55,7 +55,7 @@ class Reading {
 
 Result<void> Reading::take(std::uint64_t index, FoundPoints& to) {
   for (const PointField axis : {PointField::x, PointField::y, PointField::z})
-    if (!std::isfinite(values_[*places_[axis]])) return {};   // a cell without a point
+    if (!std::isfinite(values_[*places_[axis]])) return {};  // a cell without a point
   if (const auto& rgb = places_[PointField::packed_colour]) values_[*rgb] = packed(header_.fields[*rgb], values_[*rgb]);
   if (header_.organised()) {
     values_[header_.fields.size()] = static_cast<double>(index % header_.width);
@@ -154,7 +154,7 @@ Result<Report> read(const std::filesystem::path& path, PointSink& sink, Progress
   const std::string name = path.filename().string();
   listUnread(*opened, name, report);
   const bool ours = !opened->header.scan.guid.empty() || !opened->header.scan.name.empty();
-  if (opened->header.places[PointField::intensity] && !ours) {   // the file states no limits: they are looked at first
+  if (opened->header.places[PointField::intensity] && !ours) {  // the file states no limits: they are looked at first
     IntensityRange range;
     Report ignored;
     progress.stage("Measuring " + name, 0, 0.5);

@@ -7,8 +7,8 @@
 #include "pointclouds/block_check.h"
 #include "pointclouds/file_access.h"
 #include "pointclouds/number_text.h"
-#include "pointclouds/raw_bytes.h"
 #include "pointclouds/pcd.h"
+#include "pointclouds/raw_bytes.h"
 #include "pointclouds/scan_text.h"
 
 namespace standpoint {
@@ -37,7 +37,7 @@ class Writer final : public CloudWriter {
   PartFile file_;
   bool wants_grid_, organised_ = false, ended_ = false;
   std::optional<ScanHeader> header_;
-  std::vector<std::uint8_t> missing_;   // a cell without a point
+  std::vector<std::uint8_t> missing_;  // a cell without a point
   std::uint64_t next_cell_ = 0, points_ = 0, crowded_ = 0;
   std::vector<std::uint8_t> bytes_;
 };
@@ -94,7 +94,8 @@ void Writer::putPoint(const PointBlock& b, std::size_t i) {
   if (h.has_returns) append(bytes_, b.return_number[i]), append(bytes_, b.return_count[i]);
   if (!h.has_truth) return;
   const PointTruth& t = b.truth;
-  append(bytes_, t.x_m[i]), append(bytes_, t.y_m[i]), append(bytes_, t.z_m[i]), append(bytes_, t.range_m[i]), append(bytes_, t.incidence_rad[i]), append(bytes_, t.received_db[i]);
+  append(bytes_, t.x_m[i]), append(bytes_, t.y_m[i]), append(bytes_, t.z_m[i]), append(bytes_, t.range_m[i]),
+      append(bytes_, t.incidence_rad[i]), append(bytes_, t.received_db[i]);
   append(bytes_, t.flags[i]);
 }
 
@@ -195,7 +196,13 @@ Result<std::unique_ptr<CloudWriter>> createWriter(const std::filesystem::path& f
 
 }  // namespace pcd
 
-const CloudFormat kPcd = {"pcd", "PCD: one scan in its scanner's frame, organised where it has a grid", ".pcd", false,
-                          pcd::createOrganised, pcd::read, pcd::info, pcd::kVariants};
+const CloudFormat kPcd = {"pcd",
+                          "PCD: one scan in its scanner's frame, organised where it has a grid",
+                          ".pcd",
+                          false,
+                          pcd::createOrganised,
+                          pcd::read,
+                          pcd::info,
+                          pcd::kVariants};
 
 }  // namespace standpoint

@@ -19,19 +19,19 @@ enum class Encoding { ascii, little_endian, big_endian };
 struct Property {
   std::string name;
   PlyType type = PlyType::float32;
-  std::size_t at = 0;            // in a binary vertex
+  std::size_t at = 0;  // in a binary vertex
 };
 
 struct Header {
   Encoding encoding = Encoding::ascii;
-  std::uint64_t skipped_lines = 0;   // of elements before the vertices, ASCII
-  std::uint64_t vertices_at = 0;     // byte of the first vertex, binary
-  std::uint64_t vertices = 0;        // the file has room for as many
+  std::uint64_t skipped_lines = 0;  // of elements before the vertices, ASCII
+  std::uint64_t vertices_at = 0;    // byte of the first vertex, binary
+  std::uint64_t vertices = 0;       // the file has room for as many
   std::uint64_t faces = 0;
   std::vector<Property> properties;  // of a vertex
   std::size_t vertex_bytes = 0;
-  FieldPlaces places;                // into `properties`
-  ScanHeader scan;                   // what the comments of a file of ours say
+  FieldPlaces places;  // into `properties`
+  ScanHeader scan;     // what the comments of a file of ours say
   bool ours = false;
 };
 

@@ -30,12 +30,12 @@ Result<void> Reading::readBinary(LocalPoints& local, Progress& progress) {
   const bool turned = header_.encoding == Encoding::big_endian;
   std::vector<double> values(header_.properties.size());
   const PointRecords records{"vertex", header_.vertices_at, header_.vertices, header_.vertex_bytes};
-  return readRecordPoints(path_, records, local, progress,
-                          [&](std::uint64_t, const std::uint8_t* bytes, FoundPoints& to) {
-                            for (std::size_t k = 0; k < values.size(); ++k)
-                              values[k] = plyNumber(header_.properties[k].type, bytes + header_.properties[k].at, turned);
-                            return taker_.take(values, to);
-                          });
+  return readRecordPoints(
+      path_, records, local, progress, [&](std::uint64_t, const std::uint8_t* bytes, FoundPoints& to) {
+        for (std::size_t k = 0; k < values.size(); ++k)
+          values[k] = plyNumber(header_.properties[k].type, bytes + header_.properties[k].at, turned);
+        return taker_.take(values, to);
+      });
 }
 
 Result<void> Reading::readText(LocalPoints& local, Progress& progress) {
@@ -81,7 +81,7 @@ struct Opened {
   Header header;
   ScanHeader scan;
   std::string name;
-  std::string unread;   // properties that have no place here
+  std::string unread;  // properties that have no place here
 };
 
 Result<Opened> open(const std::filesystem::path& path) {

@@ -12,7 +12,7 @@
 namespace standpoint {
 
 const CloudFormat kPly = {
-    "ply", "PLY: one cloud in the file's frame, with labels as scalars", ".ply", false, ply::createWriter, ply::read,
+    "ply",    "PLY: one cloud in the file's frame, with labels as scalars", ".ply", false, ply::createWriter, ply::read,
     ply::info};
 
 namespace ply {
@@ -74,15 +74,18 @@ void Writer::putPoint(const PointBlock& b, std::size_t i) {
   for (int axis = 0; axis < 3; ++axis) append(bytes_, p[axis]);
   if (hasIntensity(*header_)) append(bytes_, b.intensity[i]);
   if (header_->has_colour) append(bytes_, b.red[i]), append(bytes_, b.green[i]), append(bytes_, b.blue[i]);
-  if (header_->has_labels) append(bytes_, static_cast<std::int32_t>(b.material[i])), append(bytes_, static_cast<std::int32_t>(b.product[i]));
-  if (hasGrid(*header_)) append(bytes_, static_cast<std::int32_t>(b.row[i])), append(bytes_, static_cast<std::int32_t>(b.column[i]));
+  if (header_->has_labels)
+    append(bytes_, static_cast<std::int32_t>(b.material[i])), append(bytes_, static_cast<std::int32_t>(b.product[i]));
+  if (hasGrid(*header_))
+    append(bytes_, static_cast<std::int32_t>(b.row[i])), append(bytes_, static_cast<std::int32_t>(b.column[i]));
   if (header_->has_time) append(bytes_, b.time_s[i]);
   if (header_->has_returns) append(bytes_, b.return_number[i]), append(bytes_, b.return_count[i]);
   if (!header_->has_truth) return;
   const PointTruth& t = b.truth;
   const Eigen::Vector3d true_place = header_->file_from_scanner * Eigen::Vector3d(t.x_m[i], t.y_m[i], t.z_m[i]);
   for (int axis = 0; axis < 3; ++axis) append(bytes_, true_place[axis]);
-  append(bytes_, t.range_m[i]), append(bytes_, t.incidence_rad[i]), append(bytes_, t.received_db[i]), append(bytes_, t.flags[i]);
+  append(bytes_, t.range_m[i]), append(bytes_, t.incidence_rad[i]), append(bytes_, t.received_db[i]),
+      append(bytes_, t.flags[i]);
 }
 
 Result<void> Writer::write(const PointBlock& block) {

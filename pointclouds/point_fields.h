@@ -13,14 +13,34 @@ namespace standpoint {
 
 // What a named number of a point can be, in formats that name them: PLY, PCD, text with a header.
 enum class PointField : std::uint8_t {
-  x, y, z, intensity, red, green, blue, packed_colour, label, product, row, column, time, return_number, return_count,
-  true_x, true_y, true_z, true_range, incidence, received_power, flags
+  x,
+  y,
+  z,
+  intensity,
+  red,
+  green,
+  blue,
+  packed_colour,
+  label,
+  product,
+  row,
+  column,
+  time,
+  return_number,
+  return_count,
+  true_x,
+  true_y,
+  true_z,
+  true_range,
+  incidence,
+  received_power,
+  flags
 };
 inline constexpr std::size_t kPointFields = 22;
 
 struct FieldPlaces {
-  std::array<std::optional<std::size_t>, kPointFields> at{};   // into the numbers of a point
-  std::array<double, 3> colour_scale{1, 1, 1};                 // to 0..255
+  std::array<std::optional<std::size_t>, kPointFields> at{};  // into the numbers of a point
+  std::array<double, 3> colour_scale{1, 1, 1};                // to 0..255
   const std::optional<std::size_t>& operator[](PointField f) const { return at[static_cast<std::size_t>(f)]; }
   std::optional<std::size_t>& operator[](PointField f) { return at[static_cast<std::size_t>(f)]; }
   bool all(PointField first, PointField last) const;
@@ -34,8 +54,8 @@ class FieldTaker {
   FieldTaker(FieldPlaces places, ScanHeader& scan, bool placed);
   // An error when an index lies outside its table or grid; without a place.
   Result<void> take(const std::vector<double>& numbers, FoundPoints& to);
-  void list(const std::string& source, Report& report) const;   // what was mended
-  bool isRead(std::size_t number) const;                         // whether anything is taken from it
+  void list(const std::string& source, Report& report) const;  // what was mended
+  bool isRead(std::size_t number) const;                       // whether anything is taken from it
 
  private:
   void takeColour(const std::vector<double>& numbers, PointBlock& block);

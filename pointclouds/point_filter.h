@@ -34,7 +34,7 @@ class Remaining {
 
 struct FilterScan {
   std::string name;
-  std::optional<Eigen::Vector3d> station;   // where its scanner stood, file frame, if the file says so
+  std::optional<Eigen::Vector3d> station;  // where its scanner stood, file frame, if the file says so
 };
 
 // One filter at work: it sees the file's points as often as it asks for, and takes what it does not want. What it takes
@@ -43,10 +43,10 @@ class PointFilter {
  public:
   virtual ~PointFilter() = default;
   virtual Result<void> know(const std::vector<FilterScan>& /*scans of the file*/) { return {}; }
-  virtual Result<void> beginScan(const ScanHeader&) { return {}; }     // an error where the filter does not apply
+  virtual Result<void> beginScan(const ScanHeader&) { return {}; }  // an error where the filter does not apply
   virtual Result<void> see(const PointBlock& block, std::uint64_t first, Remaining& remaining) = 0;
   virtual Result<void> endScan(Remaining&) { return {}; }
-  virtual bool endPass(Remaining&) { return false; }   // true: another pass, please
+  virtual bool endPass(Remaining&) { return false; }  // true: another pass, please
 };
 
 // A value that a filter takes: "angle=10". Lengths in metres, angles in degrees.
@@ -55,7 +55,7 @@ struct FilterKey {
   const char* name;
   Kind kind;
   const char* help;
-  const char* standard = nullptr;      // null: none
+  const char* standard = nullptr;  // null: none
   bool required = false;
   double minimum = std::numeric_limits<double>::lowest(), maximum = std::numeric_limits<double>::max();
   std::vector<const char*> words = {};
@@ -67,7 +67,7 @@ class FilterValues {
   double number(const std::string& key) const { return numbers_.at(key)[0]; }
   Eigen::Vector3d triple(const std::string& key) const { return numbers_.at(key); }
   const std::string& word(const std::string& key) const { return text_.at(key); }
-  Result<void> set(const FilterKey& key, const std::string& text);   // errors without a place
+  Result<void> set(const FilterKey& key, const std::string& text);  // errors without a place
 
  private:
   std::map<std::string, std::string> text_;
@@ -75,7 +75,7 @@ class FilterValues {
 };
 
 struct FilterKind {
-  const char* name;                    // "mixed"
+  const char* name;  // "mixed"
   const char* description;
   std::vector<FilterKey> keys;
   Result<std::unique_ptr<PointFilter>> (*make)(const FilterValues&);
@@ -83,7 +83,7 @@ struct FilterKind {
 
 // The table of filters; a new one is a function and one line in point_filters.cpp.
 std::span<const FilterKind> filterKinds();
-std::string filterList();              // names, keys and what they are, for help
+std::string filterList();  // names, keys and what they are, for help
 
 // "mixed" or "range:from=0.5,to=30"; an error says what there is instead.
 struct ChosenFilter {

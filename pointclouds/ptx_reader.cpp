@@ -66,7 +66,7 @@ class Reader {
   Result<void> readScan(const Frame& frame);
   Result<void> readCells(const Frame& frame, LocalPoints& local);
   Result<void> takeCell(const Frame& frame, FoundPoints& to);
-  Result<void> nextCell();   // into cell_
+  Result<void> nextCell();  // into cell_
 
   LineReader lines_;
   PointSink& sink_;
@@ -77,7 +77,7 @@ class Reader {
   bool has_colour_ = false;
   std::uint64_t colours_lost_ = 0, colours_missing_ = 0;
   Numbers cell_;
-  std::uint32_t row_ = 0, column_ = 0;   // of cell_
+  std::uint32_t row_ = 0, column_ = 0;  // of cell_
 };
 
 // Blank lines between scans and at the end are forgiven.
@@ -93,7 +93,8 @@ Result<Numbers> Reader::headerLine(std::size_t count) {
   if (!line) return failure(line.error());
   if (!*line) return broken("the file ends inside a scan's header");
   Numbers numbers;
-  if (!numbersOf(**line, numbers) || numbers.count != count) return broken("a PTX header has " + std::to_string(count) + " numbers here");
+  if (!numbersOf(**line, numbers) || numbers.count != count)
+    return broken("a PTX header has " + std::to_string(count) + " numbers here");
   for (std::size_t i = 0; i < count; ++i)
     if (!std::isfinite(numbers.value[i])) return broken("a number of the header is not finite");
   return numbers;
@@ -120,7 +121,8 @@ void Reader::setPose(const Eigen::Matrix4d& matrix, Frame& frame) {
 
 Result<Frame> Reader::readFrame(std::string_view columns_line) {
   Numbers columns;
-  if (!numbersOf(columns_line, columns) || columns.count != 1) return broken("a PTX scan begins with its number of columns");
+  if (!numbersOf(columns_line, columns) || columns.count != 1)
+    return broken("a PTX scan begins with its number of columns");
   const auto rows = headerLine(1);
   if (!rows) return failure(rows.error());
   const auto side = [](double n) { return n >= 0 && n <= kLargestSide && n == std::floor(n); };

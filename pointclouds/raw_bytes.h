@@ -8,7 +8,8 @@
 
 namespace standpoint {
 
-static_assert(std::endian::native == std::endian::little, "numbers of files are little-endian and copied as they stand");
+static_assert(std::endian::native == std::endian::little,
+              "numbers of files are little-endian and copied as they stand");
 
 template <class T>
 T load(const std::uint8_t* bytes) {

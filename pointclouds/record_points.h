@@ -15,12 +15,12 @@ namespace standpoint {
 
 // Records of one size in a file, a point each.
 struct PointRecords {
-  const char* noun;                // "vertex": what the format calls one
+  const char* noun;  // "vertex": what the format calls one
   std::uint64_t at = 0, count = 0;
-  std::size_t bytes = 0;           // of one
+  std::size_t bytes = 0;  // of one
 };
 
-constexpr std::uint64_t kPointsAtOnce = 65536;   // that are handed on together; records hold at most 8 MiB meanwhile
+constexpr std::uint64_t kPointsAtOnce = 65536;  // that are handed on together; records hold at most 8 MiB meanwhile
 
 // `take(index, bytes, points)` reads one; what is wrong with it is told with its place in the file.
 template <class Take>
@@ -29,7 +29,9 @@ Result<void> readRecordPoints(const std::filesystem::path& path, const PointReco
   constexpr std::uint64_t kMostBytes = 8 << 20;
   auto file = InputFile::open(path);
   if (!file) return failure(file.error());
-  const auto place = [&](std::uint64_t index) { return file->name() + " " + records.noun + " " + std::to_string(index); };
+  const auto place = [&](std::uint64_t index) {
+    return file->name() + " " + records.noun + " " + std::to_string(index);
+  };
   const std::uint64_t at_once = std::clamp<std::uint64_t>(kMostBytes / records.bytes, 1, kPointsAtOnce);
   std::vector<std::uint8_t> bytes;
   FoundPoints found;
@@ -38,7 +40,8 @@ Result<void> readRecordPoints(const std::filesystem::path& path, const PointReco
     bytes.resize(count * records.bytes);
     const auto n = file->read(records.at + done * records.bytes, bytes);
     if (!n) return failure(n.error());
-    if (*n < bytes.size()) return failure(ErrorKind::unusable, "the file became shorter while it was read", place(done));
+    if (*n < bytes.size())
+      return failure(ErrorKind::unusable, "the file became shorter while it was read", place(done));
     for (std::uint64_t i = 0; i < count; ++i)
       if (auto taken = take(done + i, bytes.data() + i * records.bytes, found); !taken)
         return failure(ErrorKind::unusable, taken.error().message, place(done + i));

@@ -23,7 +23,9 @@ struct Cloud {
   std::size_t kdtree_get_point_count() const { return places.size(); }
   float kdtree_get_pt(std::size_t i, std::size_t axis) const { return places[i][static_cast<Eigen::Index>(axis)]; }
   template <class Box>
-  bool kdtree_get_bbox(Box&) const { return false; }
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
 };
 
 using KdTree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud, 3, std::size_t>;
@@ -46,11 +48,13 @@ GridIndex::GridIndex(ScanPoints& points) : points_(points) {
   if (!std::is_sorted(points.cell.begin(), points.cell.end())) {
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return points.cell[a] < points.cell[b]; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return points.cell[a] < points.cell[b]; });
     arrange(points.place_m, order), arrange(points.number, order), arrange(points.cell, order);
   }
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (i == 0 || points.cell[i] >> 32U != points.cell[i - 1] >> 32U) columns_.push_back(points.cell[i] >> 32U), begins_.push_back(i);
+    if (i == 0 || points.cell[i] >> 32U != points.cell[i - 1] >> 32U)
+      columns_.push_back(points.cell[i] >> 32U), begins_.push_back(i);
   begins_.push_back(points.size());
 }
 
@@ -71,7 +75,8 @@ std::optional<std::size_t> GridIndex::at(std::int64_t column, std::int64_t row) 
 struct NearestPoints::Tree {
   Cloud cloud;
   KdTree index;
-  explicit Tree(const ScanPoints& points) : cloud{points.place_m}, index(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16)) {}
+  explicit Tree(const ScanPoints& points)
+      : cloud{points.place_m}, index(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16)) {}
 };
 
 NearestPoints::NearestPoints(const ScanPoints& points, std::size_t count)
@@ -84,7 +89,8 @@ NearestPoints::~NearestPoints() = default;
 void NearestPoints::of(std::size_t point, std::vector<std::size_t>& neighbours, std::vector<float>& squared_m) const {
   neighbours.resize(count_ + 1);
   squared_m.resize(count_ + 1);
-  const std::size_t found = tree_->index.knnSearch(points_.place_m[point].data(), count_ + 1, neighbours.data(), squared_m.data());
+  const std::size_t found =
+      tree_->index.knnSearch(points_.place_m[point].data(), count_ + 1, neighbours.data(), squared_m.data());
   // The point itself is among them, unless more than `count` others lie in the very same place.
   const auto end = neighbours.begin() + static_cast<std::ptrdiff_t>(found);
   const auto self = std::min(std::find(neighbours.begin(), end, point), end - 1);

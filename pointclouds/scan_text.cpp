@@ -18,9 +18,12 @@ struct TextKey {
   const char* key;
   std::string ScanHeader::*value;
 };
-constexpr TextKey kTexts[] = {{"name", &ScanHeader::name},           {"guid", &ScanHeader::guid},
-                              {"vendor", &ScanHeader::sensor_vendor}, {"model", &ScanHeader::sensor_model},
-                              {"serial", &ScanHeader::sensor_serial}, {"description", &ScanHeader::description},
+constexpr TextKey kTexts[] = {{"name", &ScanHeader::name},
+                              {"guid", &ScanHeader::guid},
+                              {"vendor", &ScanHeader::sensor_vendor},
+                              {"model", &ScanHeader::sensor_model},
+                              {"serial", &ScanHeader::sensor_serial},
+                              {"description", &ScanHeader::description},
                               {"crs", &ScanHeader::coordinate_metadata}};
 
 void appendValue(std::string& line, const std::string& value, std::size_t longest) {

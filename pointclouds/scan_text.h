@@ -14,7 +14,7 @@ namespace standpoint {
 //   name, guid, vendor, model, serial, description, crs: a text · pose: x y z of the place, then w x y z of the
 //   quaternion grid: rows, columns · intensity: least, most · acquired: GPS second, seconds material: index, name ·
 //   product: index, id, GlobalId, IFC class, name
-std::vector<std::string> scanLines(const ScanHeader& header);        // without the tables
+std::vector<std::string> scanLines(const ScanHeader& header);  // without the tables
 std::vector<std::string> tableLines(const std::vector<LabelledProduct>& products,
                                     const std::vector<std::string>& materials);
 

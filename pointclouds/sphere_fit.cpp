@@ -20,8 +20,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kSine60 = 0.86602540378443865;
-constexpr double kCaptured = 0.25;         // of the radius: how far a point may be off at first
-constexpr double kLeastShare = 0.7;        // of the beams that meet the sphere, to be used
+constexpr double kCaptured = 0.25;   // of the radius: how far a point may be off at first
+constexpr double kLeastShare = 0.7;  // of the beams that meet the sphere, to be used
 constexpr int kMostIterations = 50;
 constexpr std::size_t kMostSeeds = 30000;
 constexpr int kMostCandidates = 6;
@@ -39,7 +39,7 @@ double passing(const Vector3d& p, const Vector3d& centre) {
 
 struct Solved {
   TargetFit fit;
-  std::size_t met = 0;             // beams within 60°, whatever they came back from
+  std::size_t met = 0;  // beams within 60°, whatever they came back from
   bool settled = false;
 };
 

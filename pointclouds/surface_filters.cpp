@@ -38,7 +38,7 @@ class ScanFilter : public PointFilter {
   }
 
  protected:
-  virtual std::vector<std::uint8_t> wrong(ScanPoints& points) const = 0;   // an entry for each point
+  virtual std::vector<std::uint8_t> wrong(ScanPoints& points) const = 0;  // an entry for each point
   bool grid_ = false, has_station_ = false;
 
  private:
@@ -52,8 +52,8 @@ void forEachPoint(std::size_t count, Judge judge) {
   });
 }
 
-// Statistical outliers after Rusu et al. 2008 (Towards 3D point cloud based object maps), but of the mean distance to the
-// neighbours as a share of the range: a scanner's points lie the farther apart the farther off they are.
+// Statistical outliers after Rusu et al. 2008 (Towards 3D point cloud based object maps), but of the mean distance to
+// the neighbours as a share of the range: a scanner's points lie the farther apart the farther off they are.
 class OutlierFilter final : public ScanFilter {
  public:
   OutlierFilter(std::size_t neighbours, double sigmas) : neighbours_(neighbours), sigmas_(sigmas) {}
@@ -62,8 +62,8 @@ class OutlierFilter final : public ScanFilter {
   std::vector<std::uint8_t> wrong(ScanPoints& points) const override {
     const NearestPoints nearest(points, neighbours_);
     std::vector<std::uint8_t> marks(points.size(), 0);
-    if (nearest.count() < neighbours_) return marks;   // too few to say what is usual
-    std::vector<double> spacing(points.size());        // logarithm; points in one place have the smallest there is
+    if (nearest.count() < neighbours_) return marks;  // too few to say what is usual
+    std::vector<double> spacing(points.size());       // logarithm; points in one place have the smallest there is
     forEachPoint(points.size(), [&](std::size_t i) {
       thread_local std::vector<std::size_t> around;
       thread_local std::vector<float> squared_m;
@@ -91,19 +91,25 @@ class OutlierFilter final : public ScanFilter {
 class MixedFilter final : public ScanFilter {
  public:
   MixedFilter(double angle_rad, double jump_m, std::size_t neighbours, std::string by)
-      : sine_(std::sin(angle_rad)), cosine_(std::cos(angle_rad)), jump_m_(jump_m), neighbours_(neighbours), by_(std::move(by)) {}
+      : sine_(std::sin(angle_rad)),
+        cosine_(std::cos(angle_rad)),
+        jump_m_(jump_m),
+        neighbours_(neighbours),
+        by_(std::move(by)) {}
 
   Result<void> beginScan(const ScanHeader& header) override {
     if (auto begun = ScanFilter::beginScan(header); !begun) return begun;
     if (!has_station_)
-      return failure(ErrorKind::unusable, "it does not say where its scanner stood, so its points have no beams", header.name);
+      return failure(ErrorKind::unusable, "it does not say where its scanner stood, so its points have no beams",
+                     header.name);
     if (by_ == "grid" && !grid_)
-      return failure(ErrorKind::unusable, "it has no grid of rows and columns; leave 'by' out, or use by=distance", header.name);
+      return failure(ErrorKind::unusable, "it has no grid of rows and columns; leave 'by' out, or use by=distance",
+                     header.name);
     return {};
   }
 
  private:
-  static constexpr int kReach = 2;   // cells: a beam wider than the grid's step leaves two mixed points side by side
+  static constexpr int kReach = 2;  // cells: a beam wider than the grid's step leaves two mixed points side by side
 
   std::vector<std::uint8_t> wrong(ScanPoints& points) const override {
     return grid_ && by_ != "distance" ? byGrid(points) : byDistance(points);
@@ -121,7 +127,7 @@ class MixedFilter final : public ScanFilter {
   }
 
   struct Line {
-    std::optional<Eigen::Vector3f> at[2 * kReach + 1];   // the point itself in the middle
+    std::optional<Eigen::Vector3f> at[2 * kReach + 1];  // the point itself in the middle
   };
 
   bool between(const ScanPoints& points, const GridIndex& grid, std::size_t i, int columns, int rows) const {
@@ -152,8 +158,9 @@ class MixedFilter final : public ScanFilter {
     return false;
   }
 
-  // Whether the next but one point to that side lies where a straight line through the next one leads: of a straight line
-  // the inverse range changes by equal steps from beam to beam. Nothing where a point is missing, as at the scan's border.
+  // Whether the next but one point to that side lies where a straight line through the next one leads: of a straight
+  // line the inverse range changes by equal steps from beam to beam. Nothing where a point is missing, as at the scan's
+  // border.
   static std::optional<bool> goesOn(const Line& line, int side) {
     const auto &next = line.at[kReach + side], &second = line.at[kReach + 2 * side];
     if (!next || !second) return std::nullopt;
@@ -200,7 +207,8 @@ class MixedFilter final : public ScanFilter {
 }  // namespace
 
 MadeFilter makeOutlierFilter(const FilterValues& values) {
-  return std::make_unique<OutlierFilter>(static_cast<std::size_t>(values.number("neighbours")), values.number("sigmas"));
+  return std::make_unique<OutlierFilter>(static_cast<std::size_t>(values.number("neighbours")),
+                                         values.number("sigmas"));
 }
 
 MadeFilter makeMixedFilter(const FilterValues& values) {

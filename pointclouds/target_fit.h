@@ -15,18 +15,18 @@ namespace standpoint {
 struct TargetFit {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_m2 =
-      Eigen::Matrix3d::Zero();     // of the centre, by the scatter of the points: no bias is in it
-  std::size_t points = 0;          // used
-  double residual_m = 0;           // root mean square, across the surface
-  double radius_m = 0;             // of a sphere: as given, or as fitted
+      Eigen::Matrix3d::Zero();  // of the centre, by the scatter of the points: no bias is in it
+  std::size_t points = 0;       // used
+  double residual_m = 0;        // root mean square, across the surface
+  double radius_m = 0;          // of a sphere: as given, or as fitted
   double radius_sigma_m = 0;
-  double incidence_rad = 0;        // of a plate
+  double incidence_rad = 0;  // of a plate
   Eigen::Vector3d sigma_m() const { return covariance_m2.diagonal().cwiseSqrt(); }
 };
 
 struct TargetSearch {
-  double search_m = 0.5;           // how far from the predicted place the centre may be
-  std::size_t least_points = 20;   // fewer are no measurement
+  double search_m = 0.5;          // how far from the predicted place the centre may be
+  std::size_t least_points = 20;  // fewer are no measurement
 };
 
 // Sphere of a known radius: found by votes of the surface's normals within reach of the prediction, then least squares
@@ -35,7 +35,7 @@ struct TargetSearch {
 struct SphereSearch : TargetSearch {
   double radius_m = 0.0725;
   bool free_radius = false;  // the radius is a result, too; it moves the centre towards the scanner (physics.md §6)
-  double radius_tolerance_m = 0.002;   // as office software has it: sets differ by that much
+  double radius_tolerance_m = 0.002;  // as office software has it: sets differ by that much
 };
 Result<TargetFit> findSphere(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& predicted,
                              const SphereSearch& search);

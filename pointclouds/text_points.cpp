@@ -12,10 +12,20 @@
 
 namespace standpoint {
 
-const CloudFormat kPts = {"pts", "Leica PTS: text, a count and points", ".pts", false, text_points::createPtsWriter,
-                          text_points::readPts, text_points::infoPts};
-const CloudFormat kXyz = {"xyz", "Text: a point per line", ".xyz", false, text_points::createXyzWriter,
-                          text_points::readXyz, text_points::infoXyz};
+const CloudFormat kPts = {"pts",
+                          "Leica PTS: text, a count and points",
+                          ".pts",
+                          false,
+                          text_points::createPtsWriter,
+                          text_points::readPts,
+                          text_points::infoPts};
+const CloudFormat kXyz = {"xyz",
+                          "Text: a point per line",
+                          ".xyz",
+                          false,
+                          text_points::createXyzWriter,
+                          text_points::readXyz,
+                          text_points::infoXyz};
 const CloudFormat kCsv = {"csv",
                           "Text with the names of its columns first",
                           ".csv",
@@ -57,7 +67,7 @@ class Reader {
   FoundPoints found_;
   std::vector<double> numbers_;
   FieldPlaces places_;
-  std::vector<std::string> names_;   // of the columns, where the file says them
+  std::vector<std::string> names_;  // of the columns, where the file says them
   std::optional<FieldTaker> taker_;
   std::size_t width_ = 0;      // numbers of each point, as of the first
   std::uint64_t missing_ = 0;  // points of the block that are still to come
@@ -66,7 +76,7 @@ class Reader {
 
 Result<bool> Reader::takeHead(std::string_view line) {
   const bool numbers = numbersOf(line, kMostNumbers, numbers_);
-  if (numbers && numbers_.empty()) return true;   // blanks
+  if (numbers && numbers_.empty()) return true;  // blanks
   if (counted_ && missing_ == 0) {
     if (numbers && width_ > 0 && numbers_.size() == width_) return ++surplus_, true;
     if (!numbers || numbers_.size() != 1 || !(numbers_[0] >= 0) || numbers_[0] != std::floor(numbers_[0]))
@@ -185,7 +195,8 @@ Result<void> Reader::run(Report& report) {
   if (!unread.empty()) report.lose(lines_.name(), "columns that are not read: " + unread);
   taker_->list(lines_.name(), report);
   if (names_.empty() && width_ != 3 && width_ != 4 && width_ != 6 && width_ != 7)
-    report.lose(lines_.name(), "points have " + std::to_string(width_) + " numbers, of which x y z and the fourth, as "
+    report.lose(lines_.name(), "points have " + std::to_string(width_) +
+                                   " numbers, of which x y z and the fourth, as "
                                    "intensity, are read: what the others are is not stated");
   if (surplus_ > 0)
     report.lose(lines_.name(), std::to_string(surplus_) + " points stand behind the number that is stated");
@@ -210,7 +221,7 @@ Result<void> Reader::measure(IntensityRange& range) {
     while (before < *places_[PointField::intensity] && words.skip()) ++before;
     double value = 0;
     const auto word = words.next(value);
-    if (before == 0 && word == Words::Word::end) continue;   // blanks
+    if (before == 0 && word == Words::Word::end) continue;  // blanks
     if (word == Words::Word::number && std::isfinite(static_cast<float>(value))) range.add(static_cast<float>(value));
     missing_ -= counted_ ? 1 : 0;
     if (lines % kChunk != 0) continue;

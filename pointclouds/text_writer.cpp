@@ -15,7 +15,7 @@ namespace {
 enum class Kind { pts, xyz, csv };
 
 constexpr std::size_t kBuffered = 1 << 20;
-constexpr unsigned kPlaceDecimals = 5;   // 0.01 mm, of a national grid's millions of metres, too
+constexpr unsigned kPlaceDecimals = 5;  // 0.01 mm, of a national grid's millions of metres, too
 constexpr std::size_t kCountDigits = 20;
 
 // One scan in the file's frame, a line for each point.
@@ -75,7 +75,10 @@ Result<void> Writer::begin(const ScanHeader& header) {
   if (auto checked = checkHeader(header); !checked) return checked;
   header_ = header;
   const bool all = kind_ == Kind::csv;
-  listUnheld(header, kind_ == Kind::pts ? "PTS" : kind_ == Kind::xyz ? "XYZ" : "CSV",
+  listUnheld(header,
+             kind_ == Kind::pts   ? "PTS"
+             : kind_ == Kind::xyz ? "XYZ"
+                                  : "CSV",
              {.labels = all, .time = all, .returns = all, .truth = all}, report_);
   if (all && header.has_labels)
     report_.warn(header.name, "CSV has the labels' numbers, and no place for what they are called");

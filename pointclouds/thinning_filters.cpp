@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Filters by which points near each other become one, in all scans of a file together. Their memory grows with what they
-// leave, not with what they see.
+// Filters by which points near each other become one, in all scans of a file together. Their memory grows with what
+// they leave, not with what they see.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -41,11 +41,11 @@ class VoxelFilter final : public PointFilter {
   };
   double cell_m_;
   Pose pose_;
-  std::unordered_map<std::uint64_t, Nearest> nearest_;   // by the cell's hash; never walked through
+  std::unordered_map<std::uint64_t, Nearest> nearest_;  // by the cell's hash; never walked through
 };
 
-// Points that are at least a distance apart, in a hash of cells four times as wide: a point then mostly looks into one to
-// four of them, and no more than a dozen points or so of a surface are in each.
+// Points that are at least a distance apart, in a hash of cells four times as wide: a point then mostly looks into one
+// to four of them, and no more than a dozen points or so of a surface are in each.
 class Apart {
  public:
   explicit Apart(double distance_m) : distance_m_(distance_m) {}
@@ -74,7 +74,7 @@ class Apart {
   }
   struct Kept {
     Eigen::Vector3d place;
-    std::uint64_t next;       // in the same cell
+    std::uint64_t next;  // in the same cell
   };
   double distance_m_;
   std::vector<Kept> kept_;
@@ -95,30 +95,32 @@ class DuplicateFilter final : public PointFilter {
     for (std::size_t i = 0; i < b.size(); ++i) {
       if (!remaining.has(first + i)) continue;
       const Eigen::Vector3f p(b.x_m[i], b.y_m[i], b.z_m[i]);
-      const float range_m = has_range_ ? p.norm() : 0;   // then the order in the file decides
+      const float range_m = has_range_ ? p.norm() : 0;  // then the order in the file decides
       const std::size_t bin = std::bit_cast<std::uint32_t>(range_m) >> kShift;
-      if (counting_) ++counts_[bin];
-      else if (bin >= from_ && bin < to_) shell_.push_back({range_m, first + i, pose_ * p.cast<double>()});
+      if (counting_)
+        ++counts_[bin];
+      else if (bin >= from_ && bin < to_)
+        shell_.push_back({range_m, first + i, pose_ * p.cast<double>()});
     }
     return {};
   }
   bool endPass(Remaining& remaining) override {
     counting_ = false;
-    std::sort(shell_.begin(), shell_.end(), [](const Seen& a, const Seen& b) {
-      return std::tie(a.range_m, a.point) < std::tie(b.range_m, b.point);
-    });
+    std::sort(shell_.begin(), shell_.end(),
+              [](const Seen& a, const Seen& b) { return std::tie(a.range_m, a.point) < std::tie(b.range_m, b.point); });
     for (const Seen& seen : shell_)
       if (!apart_.add(seen.place)) remaining.take(seen.point);
     shell_.clear();
     from_ = to_;
     for (std::uint64_t points = 0; to_ < kBins && (points == 0 || points + counts_[to_] <= kMostInShell); ++to_)
       points += counts_[to_];
-    return std::any_of(counts_.begin() + static_cast<std::ptrdiff_t>(from_), counts_.end(), [](auto n) { return n > 0; });
+    return std::any_of(counts_.begin() + static_cast<std::ptrdiff_t>(from_), counts_.end(),
+                       [](auto n) { return n > 0; });
   }
 
  private:
-  static constexpr unsigned kShift = 11;                     // bits of a float's mantissa that a bin does not tell
-  static constexpr std::size_t kBins = std::size_t{1} << (31 - kShift);   // each 1/4096 of a range wide
+  static constexpr unsigned kShift = 11;  // bits of a float's mantissa that a bin does not tell
+  static constexpr std::size_t kBins = std::size_t{1} << (31 - kShift);  // each 1/4096 of a range wide
   static constexpr std::uint64_t kMostInShell = 8'000'000;
   struct Seen {
     float range_m;

@@ -6,7 +6,7 @@
 
 namespace standpoint {
 
-inline constexpr double kTukey = 4.685;   // 95 % efficiency for normal noise
+inline constexpr double kTukey = 4.685;  // 95 % efficiency for normal noise
 
 // Tukey's biweight of a residual as a share of where it ends.
 inline double tukeyWeight(double share) {

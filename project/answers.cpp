@@ -36,12 +36,10 @@ json toJson(const Report& report) {
 json georeferenceToJson(const Georeference& g) {
   json object = {{"shift", toJson(g.shift_m)}, {"crs", g.crs.empty() ? json(nullptr) : json(g.crs)}};
   if (g.map_from_file)
-    object["map_conversion"] = {{"eastings", g.map_from_file->eastings_m},
-                                {"northings", g.map_from_file->northings_m},
-                                {"height", g.map_from_file->orthogonal_height_m},
-                                {"abscissa", g.map_from_file->x_axis_abscissa},
-                                {"ordinate", g.map_from_file->x_axis_ordinate},
-                                {"scale", g.map_from_file->scale}};
+    object["map_conversion"] = {
+        {"eastings", g.map_from_file->eastings_m},        {"northings", g.map_from_file->northings_m},
+        {"height", g.map_from_file->orthogonal_height_m}, {"abscissa", g.map_from_file->x_axis_abscissa},
+        {"ordinate", g.map_from_file->x_axis_ordinate},   {"scale", g.map_from_file->scale}};
   if (g.map_from_file && g.map_from_file->factors != Eigen::Vector3d::Ones())
     object["map_conversion"]["factors"] = toJson(g.map_from_file->factors);
   if (g.site)

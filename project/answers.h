@@ -13,10 +13,10 @@
 namespace standpoint {
 
 nlohmann::json toJson(const Eigen::Vector3d& v);
-Eigen::Vector3d vectorFrom(const nlohmann::json& array);             // of three numbers
-nlohmann::json toJson(const Bounds& bounds_local, const Eigen::Vector3d& shift_m);   // file frame; null when empty
+Eigen::Vector3d vectorFrom(const nlohmann::json& array);                            // of three numbers
+nlohmann::json toJson(const Bounds& bounds_local, const Eigen::Vector3d& shift_m);  // file frame; null when empty
 nlohmann::json toJson(const Report& report);
-nlohmann::json identity(const Product& product);                     // id, GlobalId, class, name
+nlohmann::json identity(const Product& product);  // id, GlobalId, class, name
 nlohmann::json georeferenceToJson(const Georeference& georeference);
 Result<Georeference> georeferenceFrom(const nlohmann::json& object);
 

@@ -58,7 +58,8 @@ std::optional<std::uint32_t> bodyRound(const Environment& environment, const std
       parts.push_back(i);
       whole.extend(instances[i]);
     }
-    if (whole.empty() || (place.array() < whole.min.array()).any() || (place.array() > whole.max.array()).any()) continue;
+    if (whole.empty() || (place.array() < whole.min.array()).any() || (place.array() > whole.max.array()).any())
+      continue;
     const double winding = windingOf(environment, parts, place);
     if ((environment.products[product].ifc_class.empty() ? winding : std::abs(winding)) >= kInside) return product;
   }

@@ -18,8 +18,8 @@ double windingOf(const Environment& environment, const std::vector<std::uint32_t
 // Of each instance; empty for what is not in the scene.
 std::vector<Bounds> instanceBounds(const Environment& environment);
 
-// The product whose closed body a place is inside of. A product with a class of its own is a body whichever way its faces
-// look; of a mesh that only draws a room from inside, the faces look inwards, and its inside is open.
+// The product whose closed body a place is inside of. A product with a class of its own is a body whichever way its
+// faces look; of a mesh that only draws a room from inside, the faces look inwards, and its inside is open.
 std::optional<std::uint32_t> bodyRound(const Environment& environment, const std::vector<Bounds>& instances,
                                        const Eigen::Vector3d& place);
 

@@ -22,11 +22,13 @@ json shareOf(std::uint64_t part, std::uint64_t whole) {
 json takenJson(const Taken& t) { return {{"in", t.in}, {"removed", t.taken}, {"share", shareOf(t.taken, t.in)}}; }
 
 json figuresJson(const FilterFigures& f) {
-  json row = {{"filter", f.filter}, {"in", f.points.in}, {"removed", f.points.taken}, {"out", f.points.in - f.points.taken}};
+  json row = {
+      {"filter", f.filter}, {"in", f.points.in}, {"removed", f.points.taken}, {"out", f.points.in - f.points.taken}};
   if (f.has_truth) {
     json flags = json::object();
     for (std::size_t bit = 0; bit < f.flags.size(); ++bit)
-      flags[flagNames()[bit]] = {{"in", f.flags[bit].in}, {"removed", f.flags[bit].taken},
+      flags[flagNames()[bit]] = {{"in", f.flags[bit].in},
+                                 {"removed", f.flags[bit].taken},
                                  {"recall", shareOf(f.flags[bit].taken, f.flags[bit].in)},
                                  {"precision", shareOf(f.flags[bit].taken, f.with_truth.taken)}};
     row["truth"] = std::move(flags);
@@ -57,8 +59,7 @@ std::string csv(const Cleaning& cleaning) {
   for (const FilterFigures& f : cleaning.filters) {
     line(f, "all", f.points);
     if (f.has_truth) {
-      for (std::size_t bit = 0; bit < f.flags.size(); ++bit)
-        line(f, flagNames()[bit], f.flags[bit]);
+      for (std::size_t bit = 0; bit < f.flags.size(); ++bit) line(f, flagNames()[bit], f.flags[bit]);
       line(f, "mixed by over 1 cm", f.plainly_mixed);
       line(f, "good", f.good);
     }
@@ -79,14 +80,15 @@ std::string table(const Cleaning& cleaning) {
                         percent(f.points.taken, f.points.in), f.points.in - f.points.taken);
     for (std::size_t bit = 0; f.has_truth && bit < f.flags.size(); ++bit)
       if (f.flags[bit].in > 0)
-        text += fmt::format("  {:<14} {} of {} found ({}), {} of what was removed\n", flagNames()[bit], f.flags[bit].taken,
-                            f.flags[bit].in, percent(f.flags[bit].taken, f.flags[bit].in),
+        text += fmt::format("  {:<14} {} of {} found ({}), {} of what was removed\n", flagNames()[bit],
+                            f.flags[bit].taken, f.flags[bit].in, percent(f.flags[bit].taken, f.flags[bit].in),
                             percent(f.flags[bit].taken, f.with_truth.taken));
     if (f.plainly_mixed.in > 0)
       text += fmt::format("  {:<14} {} of {} found ({})\n", "mixed > 1 cm", f.plainly_mixed.taken, f.plainly_mixed.in,
                           percent(f.plainly_mixed.taken, f.plainly_mixed.in));
     if (f.has_truth)
-      text += fmt::format("  {:<14} {} of {} lost ({})\n", "good", f.good.taken, f.good.in, percent(f.good.taken, f.good.in));
+      text += fmt::format("  {:<14} {} of {} lost ({})\n", "good", f.good.taken, f.good.in,
+                          percent(f.good.taken, f.good.in));
     for (const auto& [name, taken] : f.good_of_class)
       if (taken.taken > 0)
         text += fmt::format("    {:<22} {} of {} ({})\n", name, taken.taken, taken.in, percent(taken.taken, taken.in));
@@ -127,13 +129,16 @@ Result<Outcome> runClean(const Document& document, const json& options, Progress
   json rows = json::array(), files = json::array();
   for (const FilterFigures& f : cleaning->filters) rows.push_back(figuresJson(f));
   for (const auto& file : cleaning->files) files.push_back(file.string());
-  outcome.answer = {{"points_in", cleaning->points_in}, {"points_out", cleaning->points_out}, {"filters", std::move(rows)}};
+  outcome.answer = {
+      {"points_in", cleaning->points_in}, {"points_out", cleaning->points_out}, {"filters", std::move(rows)}};
   if (!report.empty())
-    if (auto written = writeReport(report, report.extension() == ".csv" ? csv(*cleaning) : outcome.answer.dump(2) + "\n"); !written)
+    if (auto written =
+            writeReport(report, report.extension() == ".csv" ? csv(*cleaning) : outcome.answer.dump(2) + "\n");
+        !written)
       return failure(written.error());
   outcome.answer["files"] = std::move(files);
-  outcome.description = fmt::format("Cleaned {}: {} of {} points are left", in.filename().string(), cleaning->points_out,
-                                    cleaning->points_in);
+  outcome.description = fmt::format("Cleaned {}: {} of {} points are left", in.filename().string(),
+                                    cleaning->points_out, cleaning->points_in);
   outcome.text = table(*cleaning);
   return outcome;
 }

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 constexpr double kCell_m = 0.15;
 constexpr std::size_t kLeastInCell = 6;
-constexpr double kFlat_m = 0.01;           // off its plane: more is an edge or a bush
+constexpr double kFlat_m = 0.01;  // off its plane: more is an edge or a bush
 constexpr double kThinning_m = 0.05;
 constexpr std::size_t kPointsOfFit = 40000;
 

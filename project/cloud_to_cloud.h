@@ -12,7 +12,7 @@ namespace standpoint {
 // Points of a station that is placed already.
 struct PlacedCloud {
   Pose local_from_station;
-  std::span<const Eigen::Vector3d> points;   // the station's own frame
+  std::span<const Eigen::Vector3d> points;  // the station's own frame
 };
 
 // Fits a station's points to the surface that others show: planes of their points in cells of 15 cm.

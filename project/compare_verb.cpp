@@ -10,7 +10,8 @@ namespace {
 using nlohmann::json;
 
 json toJson(const Distribution& d) {
-  return {{"samples", d.samples}, {"mean", d.mean}, {"sigma", d.sigma}, {"p5", d.p5}, {"median", d.median}, {"p95", d.p95}};
+  return {{"samples", d.samples}, {"mean", d.mean},     {"sigma", d.sigma},
+          {"p5", d.p5},           {"median", d.median}, {"p95", d.p95}};
 }
 
 json toJson(const CloudStatistics& s) {

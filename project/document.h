@@ -23,11 +23,11 @@ namespace standpoint {
 
 // How a lighter model was asked for, so that it can be asked for again when the model has changed.
 struct LighteningRequest {
-  std::optional<std::uint64_t> budget;               // of the main part; nothing: the rules' own, without rules lossless
-  double max_deviation_m = 0.015;                    // where no rules say how far
-  std::string lod_rules;                             // file, or "default"; empty: all products alike
-  std::vector<std::string> surroundings;             // selectors
-  bool by_view = false;                              // errors weigh by what is seen from the walkable surface
+  std::optional<std::uint64_t> budget;    // of the main part; nothing: the rules' own, without rules lossless
+  double max_deviation_m = 0.015;         // where no rules say how far
+  std::string lod_rules;                  // file, or "default"; empty: all products alike
+  std::vector<std::string> surroundings;  // selectors
+  bool by_view = false;                   // errors weigh by what is seen from the walkable surface
   bool operator==(const LighteningRequest&) const = default;
 };
 
@@ -37,67 +37,67 @@ struct Lightening {
   std::vector<ProductLoss> products;
   ProductLoss all;
   LighteningRequest request;
-  std::vector<std::string> levels;                   // of detail, one for each product; empty: all alike
+  std::vector<std::string> levels;  // of detail, one for each product; empty: all alike
 };
 
 // What the author says of some products; later ones win.
 enum class TreatmentKind {
-  as_rules,      // takes an earlier treatment back
-  excluded,      // not in the scene: not seen, walked on, scanned, counted or exported
-  kept,          // never simplified, and never dropped
-  simplified,    // within its own limits
+  as_rules,    // takes an earlier treatment back
+  excluded,    // not in the scene: not seen, walked on, scanned, counted or exported
+  kept,        // never simplified, and never dropped
+  simplified,  // within its own limits
 };
 struct Treatment {
-  std::string selector;                         // as of MaterialOverride
+  std::string selector;  // as of MaterialOverride
   TreatmentKind kind = TreatmentKind::as_rules;
-  std::optional<double> max_deviation_m;        // of what is simplified
+  std::optional<double> max_deviation_m;  // of what is simplified
   std::optional<double> weight;
 };
 
 struct MaterialChoice {
-  std::string rules_file;                       // name of the user's rules; empty = the default rules
-  std::string rules_text;                       // their content, so that they outlive their file
-  std::vector<PhysicalMaterial> own;            // materials of the user, by id; they stand in for the library's
+  std::string rules_file;             // name of the user's rules; empty = the default rules
+  std::string rules_text;             // their content, so that they outlive their file
+  std::vector<PhysicalMaterial> own;  // materials of the user, by id; they stand in for the library's
   std::vector<MaterialOverride> overrides;
   std::vector<AcceptedFinding> accepted;
-  std::string instrument;                       // at whose wavelength there must be figures; empty: those of the scans made
+  std::string instrument;  // at whose wavelength there must be figures; empty: those of the scans made
   MaterialResult result;
 };
 
 // A measured cloud that lies under the model to be compared with. Its points stay in their file.
 struct Underlay {
   std::string name;
-  std::string file;             // absolute
-  std::string format;           // "e57"
+  std::string file;    // absolute
+  std::string format;  // "e57"
   std::uint64_t points = 0;
-  Bounds bounds_cloud_m;        // in the cloud's own frame: what its file has, the poses of its scans applied
-  Pose file_from_cloud;         // into the model's file frame
-  std::string crs;              // that the cloud states, as WKT or "EPSG:n", or empty
+  Bounds bounds_cloud_m;  // in the cloud's own frame: what its file has, the poses of its scans applied
+  Pose file_from_cloud;   // into the model's file frame
+  std::string crs;        // that the cloud states, as WKT or "EPSG:n", or empty
   bool visible = true;
 };
 
 // How the last scan was asked for: what the next one begins with.
 struct ScanChoice {
-  std::string instrument;                       // id
-  std::vector<std::pair<std::string, std::string>> settings;   // key, value; in the device's own words
+  std::string instrument;                                     // id
+  std::vector<std::pair<std::string, std::string>> settings;  // key, value; in the device's own words
   std::uint64_t seed = 1;
   Effects effects;
   Weather weather;
   bool truth = false;
   bool compensator = true;
   bool panorama = false;
-  std::uint32_t panorama_columns = 0;           // 0: as the instrument's camera delivers it
+  std::uint32_t panorama_columns = 0;  // 0: as the instrument's camera delivers it
   bool operator==(const ScanChoice&) const = default;
 };
 
-struct Verification;   // of the materials, by a cloud: project/verification.h
+struct Verification;  // of the materials, by a cloud: project/verification.h
 
 // The document is a value: every part is shared and immutable; two parts with the same pointer have not changed, so a
 // viewport or a ray engine rebuilds only what did. Parts that do not exist yet are null.
 struct Document {
-  std::string name;                                  // of the project
-  std::vector<std::string> sources;                  // the model files it came from
-  std::shared_ptr<const Environment> imported;       // as read from the model
+  std::string name;                             // of the project
+  std::vector<std::string> sources;             // the model files it came from
+  std::shared_ptr<const Environment> imported;  // as read from the model
   std::shared_ptr<const Georeference> georeference;
   std::shared_ptr<const Report> import_report;
   std::shared_ptr<const std::vector<Treatment>> treatments;
@@ -105,7 +105,7 @@ struct Document {
   std::shared_ptr<const CollideResult> collision;
   std::shared_ptr<const MaterialChoice> materials;
   std::shared_ptr<const Job> job;
-  std::shared_ptr<const ScanChoice> scanning;        // null until something was scanned
+  std::shared_ptr<const ScanChoice> scanning;  // null until something was scanned
   std::vector<std::shared_ptr<const Underlay>> underlays;
   std::shared_ptr<const Verification> verification;
 

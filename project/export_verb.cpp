@@ -13,10 +13,10 @@
 #include "core/unused_meshes.h"
 #include "core/visible_colour.h"
 #include "importers/importers.h"
-#include "project/output_place.h"
 #include "project/answers.h"
 #include "project/file_verbs.h"
 #include "project/optimize_verb.h"
+#include "project/output_place.h"
 #include "project/project_json.h"
 
 namespace standpoint {
@@ -26,11 +26,12 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr double kNoLimit = 1000;   // m: a level of detail is bought with deviation, which is measured and written
+constexpr double kNoLimit = 1000;  // m: a level of detail is bought with deviation, which is measured and written
 
 std::string lowerExtension(const fs::path& file) {
   auto extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   return extension;
 }
 
@@ -43,7 +44,10 @@ Result<std::vector<std::uint64_t>> budgetsOf(const std::vector<std::string>& tex
       return failure(ErrorKind::usage, fmt::format("'{}' is not a number of triangles", text), "--levels");
     const auto before = budgets.empty() ? triangles : budgets.back();
     if (value >= before)
-      return failure(ErrorKind::usage, fmt::format("each level must have fewer triangles than the one before: {} after {}", value, before), "--levels");
+      return failure(
+          ErrorKind::usage,
+          fmt::format("each level must have fewer triangles than the one before: {} after {}", value, before),
+          "--levels");
     budgets.push_back(value);
   }
   return budgets;
@@ -56,7 +60,8 @@ struct Levels {
   json answer = json::array();
 };
 
-Result<Levels> makeLevels(const Document& document, const std::vector<std::uint64_t>& budgets, Report& report, Progress& progress) {
+Result<Levels> makeLevels(const Document& document, const std::vector<std::uint64_t>& budgets, Report& report,
+                          Progress& progress) {
   Levels result;
   for (const auto budget : budgets) {
     LighteningRequest request;
@@ -67,14 +72,19 @@ Result<Levels> makeLevels(const Document& document, const std::vector<std::uint6
     auto lighter = optimize(*document.imported, plan->options, progress);
     if (!lighter) return failure(lighter.error());
     result.environments.push_back(std::make_unique<Environment>(sceneOf(lighter->environment)));
-    GltfLevel level{fmt::format("LOD{}: {} triangles", result.levels.size() + 1, lighter->all.triangles_after), result.environments.back().get(), {}, {}};
+    GltfLevel level{fmt::format("LOD{}: {} triangles", result.levels.size() + 1, lighter->all.triangles_after),
+                    result.environments.back().get(),
+                    {},
+                    {}};
     for (const auto& loss : lighter->products) {
       level.max_deviation_m.push_back(loss.max_deviation_m);
       level.mean_deviation_m.push_back(loss.mean_deviation_m);
     }
     if (!lighter->budget_reached)
-      report.warn("--levels", fmt::format("{} triangles cannot be reached; the level has {}", budget, lighter->all.triangles_after));
-    result.answer.push_back({{"triangles", lighter->all.triangles_after}, {"max_deviation_m", lighter->all.max_deviation_m},
+      report.warn("--levels", fmt::format("{} triangles cannot be reached; the level has {}", budget,
+                                          lighter->all.triangles_after));
+    result.answer.push_back({{"triangles", lighter->all.triangles_after},
+                             {"max_deviation_m", lighter->all.max_deviation_m},
                              {"mean_deviation_m", lighter->all.mean_deviation_m}});
     result.levels.push_back(std::move(level));
   }
@@ -82,13 +92,18 @@ Result<Levels> makeLevels(const Document& document, const std::vector<std::uint6
 }
 
 GltfCollision collisionOf(const CollideResult& collision, const Environment& shapes, const std::string& naming) {
-  GltfCollision result{&shapes, {}, naming == "unreal" ? CollisionNaming::unreal : naming == "godot" ? CollisionNaming::godot : CollisionNaming::physics};
+  GltfCollision result{&shapes,
+                       {},
+                       naming == "unreal"  ? CollisionNaming::unreal
+                       : naming == "godot" ? CollisionNaming::godot
+                                           : CollisionNaming::physics};
   for (const auto& shape : collision.shapes) result.convex.push_back(shape.kind != CollisionShapeKind::mesh);
   return result;
 }
 
 // One for each surface; empty where the project has no materials.
-std::vector<const PhysicalMaterial*> physicalSurfaces(const Document& document, std::span<Environment* const> environments, LooksOfSplit looks) {
+std::vector<const PhysicalMaterial*> physicalSurfaces(const Document& document,
+                                                      std::span<Environment* const> environments, LooksOfSplit looks) {
   std::vector<const PhysicalMaterial*> physical;
   if (!document.materials) return physical;
   const auto& assignment = document.materials->result.assignment;
@@ -97,8 +112,8 @@ std::vector<const PhysicalMaterial*> physicalSurfaces(const Document& document, 
   return physical;
 }
 
-Result<void> exportGltf(const Document& document, Environment& scene, const fs::path& file, const json& options, Outcome& outcome,
-                        Progress& progress) {
+Result<void> exportGltf(const Document& document, Environment& scene, const fs::path& file, const json& options,
+                        Outcome& outcome, Progress& progress) {
   GltfCompanions companions;
   const auto budgets = budgetsOf(options.value("levels", std::vector<std::string>{}), triangleCount(scene));
   if (!budgets) return failure(budgets.error());
@@ -111,7 +126,8 @@ Result<void> exportGltf(const Document& document, Environment& scene, const fs::
   if (!levels->answer.empty()) outcome.answer["levels"] = std::move(levels->answer);
   Environment shapes;
   if (options.contains("collision")) {
-    if (!document.collision) return failure(ErrorKind::usage, "there are no collision shapes yet: `collide` makes them", "--collision");
+    if (!document.collision)
+      return failure(ErrorKind::usage, "there are no collision shapes yet: `collide` makes them", "--collision");
     shapes = collisionEnvironment(*document.collision);
     companions.collision = collisionOf(*document.collision, shapes, options.at("collision"));
     outcome.answer["collision_shapes"] = shapes.instances.size();
@@ -120,8 +136,10 @@ Result<void> exportGltf(const Document& document, Environment& scene, const fs::
 }
 
 // The physical materials instead of the looks.
-Result<void> exportPhysical(const Document& document, Environment& scene, const fs::path& file, bool helios, Report& report, Progress& progress) {
-  if (!document.materials) return failure(ErrorKind::usage, "there are no materials yet: `materials` assigns them", file.string());
+Result<void> exportPhysical(const Document& document, Environment& scene, const fs::path& file, bool helios,
+                            Report& report, Progress& progress) {
+  if (!document.materials)
+    return failure(ErrorKind::usage, "there are no materials yet: `materials` assigns them", file.string());
   const std::array all = {&scene};
   const auto physical = physicalSurfaces(document, all, LooksOfSplit::left_out);
   if (helios) return writeHeliosScene(scene, physical, *document.georeference, file, report, progress);
@@ -144,9 +162,12 @@ Result<Outcome> runExport(const Document& document, const json& options, Progres
   const bool gltf = extension == ".glb" || extension == ".gltf", helios = extension == ".xml";
   const bool physical = options.value("physical", false);
   if (!gltf && !helios && extension != ".obj")
-    return failure(ErrorKind::usage, fmt::format("'{}' cannot be written; there is .glb, .gltf, .obj, and .xml for HELIOS++", extension), "--output");
+    return failure(ErrorKind::usage,
+                   fmt::format("'{}' cannot be written; there is .glb, .gltf, .obj, and .xml for HELIOS++", extension),
+                   "--output");
   if (physical && extension != ".obj")
-    return failure(ErrorKind::usage, "glTF and HELIOS++ scenes have the physical materials always; it is for .obj", "--physical");
+    return failure(ErrorKind::usage, "glTF and HELIOS++ scenes have the physical materials always; it is for .obj",
+                   "--physical");
   if (!gltf && (options.contains("levels") || options.contains("collision")))
     return failure(ErrorKind::usage, "levels of detail and collision shapes go into .glb or .gltf only", "--output");
   if (auto there = checkFolderOf(file, "--output"); !there) return failure(there.error());
@@ -158,7 +179,9 @@ Result<Outcome> runExport(const Document& document, const json& options, Progres
                                       : writeEnvironmentObj(scene, *document.georeference, file, progress);
   if (!written) return failure(written.error());
   if (const auto left_out = document.environment()->instances.size() - scene.instances.size(); left_out > 0)
-    outcome.report.note("spaces", fmt::format("{} bodies that are not in the scene (spaces, what is excluded) are not exported", left_out));
+    outcome.report.note(
+        "spaces",
+        fmt::format("{} bodies that are not in the scene (spaces, what is excluded) are not exported", left_out));
   outcome.description = "Exported " + file.filename().string();
   return outcome;
 }

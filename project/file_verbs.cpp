@@ -34,8 +34,9 @@ json scanInfo(const ScanInfo& scan) {
           {"colour", h.has_colour},
           {"labels", h.has_labels},
           {"translation", toJson(h.file_from_scanner.translation)},
-          {"rotation", {h.file_from_scanner.rotation.w(), h.file_from_scanner.rotation.x(), h.file_from_scanner.rotation.y(),
-                        h.file_from_scanner.rotation.z()}}};
+          {"rotation",
+           {h.file_from_scanner.rotation.w(), h.file_from_scanner.rotation.x(), h.file_from_scanner.rotation.y(),
+            h.file_from_scanner.rotation.z()}}};
 }
 
 Result<void> mustExist(const fs::path& file) {
@@ -71,7 +72,8 @@ Result<Outcome> runConvert(const Document& document, const json& options, Progre
   Outcome outcome{document, json::object(), {}, {}};
   if (options.contains("dataset")) return convertTo(options, std::move(outcome), progress);
   if (auto there = checkFolderOf(options.at("out").get<std::string>(), "OUT"); !there) return failure(there.error());
-  auto files = convertCloud(in, options.at("out").get<std::string>(), options.value("as", ""), outcome.report, progress);
+  auto files =
+      convertCloud(in, options.at("out").get<std::string>(), options.value("as", ""), outcome.report, progress);
   if (!files) return failure(files.error());
   json names = json::array();
   for (const auto& f : *files) names.push_back(f.string());
@@ -100,7 +102,9 @@ Result<Outcome> runInfo(const Document& document, const json& options, Progress&
       scans.push_back(scanInfo(s));
       points += s.points;
     }
-    outcome.answer = {{"format", info->format}, {"points", points}, {"scans", std::move(scans)},
+    outcome.answer = {{"format", info->format},
+                      {"points", points},
+                      {"scans", std::move(scans)},
                       {"crs", info->crs.empty() ? json(nullptr) : json(info->crs)}};
     outcome.report = info->report;
     return outcome;
@@ -122,7 +126,7 @@ Result<Outcome> runJob(const Document& document, const json& options, Progress& 
   json steps;
   try {
     steps = json::parse(in);
-  } catch (const json::exception& e) {   // also a number beyond double
+  } catch (const json::exception& e) {  // also a number beyond double
     return failure(ErrorKind::unusable, e.what(), file.string());
   }
   if (!steps.is_array()) return failure(ErrorKind::unusable, "a job is a list of {\"verb\": …}", file.string());

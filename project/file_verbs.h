@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Verbs about files: taking the model elsewhere, converting, cleaning, describing and comparing point clouds, instruments, replaying jobs.
+// Verbs about files: taking the model elsewhere, converting, cleaning, describing and comparing point clouds,
+// instruments, replaying jobs.
 
 #include "project/verb.h"
 

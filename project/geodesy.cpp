@@ -45,12 +45,14 @@ Pj findPj(PJ_CONTEXT* context, const std::string& code) {
 double metresPerUnit(PJ_CONTEXT* context, const PJ* crs) {
   Pj part(proj_clone(context, crs));
   if (part && proj_get_type(part.get()) == PJ_TYPE_BOUND_CRS) part.reset(proj_get_source_crs(context, part.get()));
-  if (part && proj_get_type(part.get()) == PJ_TYPE_COMPOUND_CRS) part.reset(proj_crs_get_sub_crs(context, part.get(), 0));
+  if (part && proj_get_type(part.get()) == PJ_TYPE_COMPOUND_CRS)
+    part.reset(proj_crs_get_sub_crs(context, part.get(), 0));
   if (part && proj_get_type(part.get()) == PJ_TYPE_BOUND_CRS) part.reset(proj_get_source_crs(context, part.get()));
   if (part && proj_get_type(part.get()) != PJ_TYPE_PROJECTED_CRS) return 1;
   const Pj system(part ? proj_crs_get_coordinate_system(context, part.get()) : nullptr);
   double factor = 1;
-  if (system && !proj_cs_get_axis_info(context, system.get(), 0, nullptr, nullptr, nullptr, &factor, nullptr, nullptr, nullptr))
+  if (system &&
+      !proj_cs_get_axis_info(context, system.get(), 0, nullptr, nullptr, nullptr, &factor, nullptr, nullptr, nullptr))
     return 1;
   return factor > 0 ? factor : 1;
 }
@@ -72,7 +74,8 @@ Result<CoordinateReferenceSystem> findCrs(const std::string& code) {
   CoordinateReferenceSystem result;
   const char* authority = proj_get_id_auth_name(crs.get(), 0);
   const char* number = proj_get_id_code(crs.get(), 0);
-  result.code = authority != nullptr && number != nullptr ? fmt::format("{}:{}", authority, number) : withAuthority(code);
+  result.code =
+      authority != nullptr && number != nullptr ? fmt::format("{}:{}", authority, number) : withAuthority(code);
   if (const char* crs_name = proj_get_name(crs.get())) result.name = crs_name;
   if (const char* wkt = proj_as_wkt(context.get(), crs.get(), PJ_WKT2_2019, nullptr)) result.wkt = wkt;
   const PJ_TYPE type = proj_get_type(crs.get());
@@ -103,7 +106,8 @@ Result<MapFactors> geographic(const std::string& code, const Eigen::Vector3d& ma
   MapFactors result;
   result.geographic = {out.lp.phi, out.lp.lam, map_m.z()};
   // Factors are asked of the CRS itself, at its own geographic coordinates (radians).
-  const PJ_FACTORS factors = proj_factors(crs.get(), proj_coord(out.lp.lam * kRadPerDeg, out.lp.phi * kRadPerDeg, 0, 0));
+  const PJ_FACTORS factors =
+      proj_factors(crs.get(), proj_coord(out.lp.lam * kRadPerDeg, out.lp.phi * kRadPerDeg, 0, 0));
   if (factors.meridional_scale > 0) {
     result.grid_convergence_deg = factors.meridian_convergence / kRadPerDeg;
     result.scale_factor = factors.meridional_scale;

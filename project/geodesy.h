@@ -10,14 +10,15 @@
 namespace standpoint {
 
 struct CoordinateReferenceSystem {
-  std::string code;      // "EPSG:25832"
-  std::string name;      // "ETRS89 / UTM zone 32N"
-  std::string wkt;       // WKT2:2019, for the files that carry one
+  std::string code;  // "EPSG:25832"
+  std::string name;  // "ETRS89 / UTM zone 32N"
+  std::string wkt;   // WKT2:2019, for the files that carry one
   bool projected = false;
-  double metres_per_unit = 1;   // of the eastings and northings
+  double metres_per_unit = 1;  // of the eastings and northings
 };
 
-// By code ("EPSG:25832", or just "25832") or WKT, through PROJ. Unknown: an error of kind usage that says what to write.
+// By code ("EPSG:25832", or just "25832") or WKT, through PROJ. Unknown: an error of kind usage that says what to
+// write.
 Result<CoordinateReferenceSystem> findCrs(const std::string& code);
 
 struct UtmPosition {
@@ -27,12 +28,12 @@ struct UtmPosition {
   double convergence_deg = 0;  // bearing of grid north from true north, clockwise
   double scale = 1;
 };
-UtmPosition utm(double latitude_deg, double longitude_deg);   // GeographicLib (Karney 2011)
+UtmPosition utm(double latitude_deg, double longitude_deg);  // GeographicLib (Karney 2011)
 
 struct MapFactors {
   GeographicPosition geographic;
-  double grid_convergence_deg = 0;   // of the CRS, same sense as UtmPosition's
-  double scale_factor = 1;           // of the projection at the point
+  double grid_convergence_deg = 0;  // of the CRS, same sense as UtmPosition's
+  double scale_factor = 1;          // of the projection at the point
 };
 // From map coordinates (easting, northing, height) of a projected CRS to WGS84, through PROJ.
 Result<MapFactors> geographic(const std::string& crs, const Eigen::Vector3d& map_m);

@@ -15,13 +15,16 @@ namespace {
 using nlohmann::json;
 
 json geographicAnswer(const GeographicPosition& g, const char* from) {
-  return {{"latitude_deg", g.latitude_deg}, {"longitude_deg", g.longitude_deg}, {"height", g.elevation_m}, {"from", from}};
+  return {
+      {"latitude_deg", g.latitude_deg}, {"longitude_deg", g.longitude_deg}, {"height", g.elevation_m}, {"from", from}};
 }
 
-// Where the model's centre is on the Earth. A model without map conversion whose CRS is named has map coordinates itself.
+// Where the model's centre is on the Earth. A model without map conversion whose CRS is named has map coordinates
+// itself.
 Result<void> locate(const Document& document, const Georeference& g, json& answer, Report& report) {
   const Bounds b = bounds(*document.imported);
-  const Eigen::Vector3d file_m = (b.empty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(0.5 * (b.min + b.max))) + g.shift_m;
+  const Eigen::Vector3d file_m =
+      (b.empty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(0.5 * (b.min + b.max))) + g.shift_m;
   answer["reference_point"] = toJson(file_m);
   std::optional<GeographicPosition> position;
   if (!g.crs.empty()) {
@@ -44,8 +47,11 @@ Result<void> locate(const Document& document, const Georeference& g, json& answe
   }
   if (!position) return {};
   const UtmPosition u = utm(position->latitude_deg, position->longitude_deg);
-  answer["utm"] = {{"zone", fmt::format("{}{}", u.zone, u.north ? "N" : "S")}, {"easting", u.easting_m},
-                   {"northing", u.northing_m}, {"convergence_deg", u.convergence_deg}, {"scale_factor", u.scale}};
+  answer["utm"] = {{"zone", fmt::format("{}{}", u.zone, u.north ? "N" : "S")},
+                   {"easting", u.easting_m},
+                   {"northing", u.northing_m},
+                   {"convergence_deg", u.convergence_deg},
+                   {"scale_factor", u.scale}};
   if (answer["grid_convergence_deg"].is_null()) {
     answer["grid_convergence_deg"] = u.convergence_deg;
     answer["scale_factor"] = u.scale;

@@ -21,7 +21,7 @@ class History {
   bool canRedo() const { return position_ + 1 < entries_.size(); }
   void undo();
   void redo();
-  std::string undoDescription() const;   // of what undo() would take back; "" when there is nothing
+  std::string undoDescription() const;  // of what undo() would take back; "" when there is nothing
   std::string redoDescription() const;
 
   // For the title's "modified" mark: is the current value the one that was saved?

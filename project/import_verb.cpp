@@ -10,8 +10,8 @@
 
 #include "project/answers.h"
 #include "project/geodesy.h"
-#include "project/update_verb.h"
 #include "project/model_verbs.h"
+#include "project/update_verb.h"
 
 namespace standpoint {
 
@@ -116,13 +116,14 @@ json propertySets(const std::vector<Property>& properties) {
 json spatialRows(const Environment& environment) {
   json rows = json::array();
   for (const auto& n : environment.spatial)
-    rows.push_back({{"id", n.id},
-                    {"global_id", n.global_id},
-                    {"class", n.ifc_class},
-                    {"name", n.name},
-                    {"parent", n.parent < 0 ? json(nullptr) : json(environment.spatial[static_cast<std::size_t>(n.parent)].id)},
-                    {"elevation", n.elevation_m},
-                    {"properties", propertySets(n.properties)}});
+    rows.push_back(
+        {{"id", n.id},
+         {"global_id", n.global_id},
+         {"class", n.ifc_class},
+         {"name", n.name},
+         {"parent", n.parent < 0 ? json(nullptr) : json(environment.spatial[static_cast<std::size_t>(n.parent)].id)},
+         {"elevation", n.elevation_m},
+         {"properties", propertySets(n.properties)}});
   return rows;
 }
 
@@ -136,14 +137,15 @@ json surfaceRows(const Environment& environment) {
   return rows;
 }
 
-using SurfaceAreas = std::map<std::uint32_t, double>;   // m² by surface
+using SurfaceAreas = std::map<std::uint32_t, double>;  // m² by surface
 
 SurfaceAreas surfaceAreas(const Mesh& mesh, const Eigen::Matrix3d& linear) {
   SurfaceAreas areas;
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     const auto& t = mesh.triangles[k];
     const Eigen::Vector3d a = mesh.positions[t[0]].cast<double>();
-    const Eigen::Vector3d u = linear * (mesh.positions[t[1]].cast<double>() - a), v = linear * (mesh.positions[t[2]].cast<double>() - a);
+    const Eigen::Vector3d u = linear * (mesh.positions[t[1]].cast<double>() - a),
+                          v = linear * (mesh.positions[t[2]].cast<double>() - a);
     areas[mesh.surface_of_triangle[k]] += u.cross(v).norm() / 2;
   }
   return areas;
@@ -157,14 +159,16 @@ std::vector<SurfaceAreas> productSurfaces(const Environment& environment) {
     const bool rigid = (linear.transpose() * linear).isIdentity(1e-9);
     auto& kept = of_mesh[i.mesh];
     if (rigid && kept.empty()) kept = surfaceAreas(*environment.meshes[i.mesh], Eigen::Matrix3d::Identity());
-    for (const auto& [surface, area] : rigid ? kept : surfaceAreas(*environment.meshes[i.mesh], linear)) result[i.product][surface] += area;
+    for (const auto& [surface, area] : rigid ? kept : surfaceAreas(*environment.meshes[i.mesh], linear))
+      result[i.product][surface] += area;
   }
   return result;
 }
 
 json surfacesOf(const SurfaceAreas& areas, const Environment& environment) {
   json rows = json::array();
-  for (const auto& [surface, area] : areas) rows.push_back({{"surface", surface}, {"name", environment.surfaces[surface].name}, {"area", area}});
+  for (const auto& [surface, area] : areas)
+    rows.push_back({{"surface", surface}, {"name", environment.surfaces[surface].name}, {"area", area}});
   return rows;
 }
 
@@ -177,24 +181,25 @@ json productRows(const Environment& environment, const Eigen::Vector3d& shift_m)
   json rows = json::array();
   for (std::size_t i = 0; i < environment.products.size(); ++i) {
     const auto& p = environment.products[i];
-    rows.push_back({{"id", p.id},
-                    {"global_id", p.global_id},
-                    {"class", p.ifc_class},
-                    {"predefined_type", p.predefined_type},
-                    {"name", p.name},
-                    {"type", p.type_name},
-                    {"storey", p.storey},
-                    {"place", placeOf(environment, p)},
-                    {"whole", p.whole < 0 ? json(nullptr) : json(environment.products[static_cast<std::size_t>(p.whole)].id)},
-                    {"tangible", p.tangible},
-                    {"groups", p.groups},
-                    {"triangles", triangles[i]},
-                    {"bounds", toJson(product_bounds[i], shift_m)},
-                    {"volume", volumes[i]},
-                    {"materials", p.materials},
-                    {"layers", layerRows(p)},
-                    {"surfaces", surfacesOf(surfaces[i], environment)},
-                    {"properties", propertySets(p.properties)}});
+    rows.push_back(
+        {{"id", p.id},
+         {"global_id", p.global_id},
+         {"class", p.ifc_class},
+         {"predefined_type", p.predefined_type},
+         {"name", p.name},
+         {"type", p.type_name},
+         {"storey", p.storey},
+         {"place", placeOf(environment, p)},
+         {"whole", p.whole < 0 ? json(nullptr) : json(environment.products[static_cast<std::size_t>(p.whole)].id)},
+         {"tangible", p.tangible},
+         {"groups", p.groups},
+         {"triangles", triangles[i]},
+         {"bounds", toJson(product_bounds[i], shift_m)},
+         {"volume", volumes[i]},
+         {"materials", p.materials},
+         {"layers", layerRows(p)},
+         {"surfaces", surfacesOf(surfaces[i], environment)},
+         {"properties", propertySets(p.properties)}});
   }
   return rows;
 }
@@ -213,7 +218,8 @@ Result<ImportOptions> importOptions(const json& options) {
   }
   if (options.contains("up")) result.up = options["up"] == "z" ? UpAxis::z : UpAxis::y;
   if (options.contains("unit")) {
-    static const std::map<std::string, double> metres = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
+    static const std::map<std::string, double> metres = {
+        {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
     result.metres_per_unit = metres.at(options["unit"].get<std::string>());
   }
   return result;
@@ -248,12 +254,16 @@ Result<Outcome> importModels(const Document& document, const std::vector<std::fi
       continue;
     }
     if (model->georeference.crs != georeference.crs || !sameConversion(model->georeference, georeference))
-      outcome.report.warn(files[i].filename().string(), "its georeference differs from the first file's, which is used");
+      outcome.report.warn(files[i].filename().string(),
+                          "its georeference differs from the first file's, which is used");
     appendEnvironment(environment, std::move(model->environment), model->georeference.shift_m - georeference.shift_m);
   }
-  const bool building = std::any_of(environment.spatial.begin(), environment.spatial.end(), [](const SpatialNode& n) { return n.ifc_class == "IfcBuilding"; });
+  const bool building = std::any_of(environment.spatial.begin(), environment.spatial.end(),
+                                    [](const SpatialNode& n) { return n.ifc_class == "IfcBuilding"; });
   if (building && crs.empty() && georeference.crs.empty() && !georeference.map_from_file)
-    outcome.report.warn("georeference", "the model does not say where on a map it stands; `georeference` sets it (--crs, --origin, --rotation-deg)");
+    outcome.report.warn(
+        "georeference",
+        "the model does not say where on a map it stands; `georeference` sets it (--crs, --origin, --rotation-deg)");
   if (!crs.empty()) {
     auto found = findCrs(crs);
     if (!found) return failure(found.error());
@@ -287,7 +297,9 @@ Result<Outcome> runImport(const Document& document, const json& options, Progres
 Result<Outcome> addImported(const Document& document, Outcome imported, Progress& progress) {
   const Georeference &mine = *document.georeference, &its = *imported.document.georeference;
   Outcome outcome{document, std::move(imported.answer), std::move(imported.report), {}};
-  const std::string source = imported.document.sources.empty() ? "" : std::filesystem::path(imported.document.sources.front()).filename().string();
+  const std::string source = imported.document.sources.empty()
+                                 ? ""
+                                 : std::filesystem::path(imported.document.sources.front()).filename().string();
   if (its.crs != mine.crs || !sameConversion(its, mine))
     outcome.report.warn(source, "its georeference differs from the environment's, which is used");
   Report all = *document.import_report;
@@ -300,7 +312,8 @@ Result<Outcome> addImported(const Document& document, Outcome imported, Progress
   d.import_report = std::make_shared<const Report>(std::move(all));
   d.sources.insert(d.sources.end(), imported.document.sources.begin(), imported.document.sources.end());
   if (d.lightening || d.collision)
-    outcome.report.note(source, "the lighter model and the collision shapes were of the model as it was: make them again");
+    outcome.report.note(source,
+                        "the lighter model and the collision shapes were of the model as it was: make them again");
   d.lightening.reset();
   d.collision.reset();
   if (d.materials) {

@@ -15,7 +15,8 @@ Result<Outcome> importModels(const Document& document, const std::vector<std::fi
                              const ImportOptions& options, const std::string& crs, Progress& progress);
 
 // The outcome of importModels, put beside what `document` has: its georeference, job and underlays stay, materials are
-// assigned anew by its rules, and what was derived from the model as it was (lighter model, collision shapes) is dropped.
+// assigned anew by its rules, and what was derived from the model as it was (lighter model, collision shapes) is
+// dropped.
 Result<Outcome> addImported(const Document& document, Outcome imported, Progress& progress);
 
 Result<Outcome> runAdd(const Document& document, const nlohmann::json& options, Progress& progress);

@@ -33,8 +33,10 @@ Result<void> addFrom(std::vector<KnownInstrument>& known, const fs::path& folder
     const fs::path file = folder / (i.id + ".json");
     for (const auto& k : known)
       if (k.instrument.id == i.id)
-        return failure(ErrorKind::unusable, fmt::format("the id '{}' is that of {}, too: give one of the files another",
-                                                        i.id, k.file.string()), file.string());
+        return failure(
+            ErrorKind::unusable,
+            fmt::format("the id '{}' is that of {}, too: give one of the files another", i.id, k.file.string()),
+            file.string());
     known.push_back({std::move(i), file, own});
   }
   return {};
@@ -109,7 +111,8 @@ Result<Instrument> instrumentById(const std::string& id) {
   if (!all) return failure(all.error());
   for (auto& i : *all)
     if (i.id == id) return std::move(i);
-  return failure(ErrorKind::usage, fmt::format("there is no instrument '{}'; there is {}", id, idsOf(*all)), "--instrument");
+  return failure(ErrorKind::usage, fmt::format("there is no instrument '{}'; there is {}", id, idsOf(*all)),
+                 "--instrument");
 }
 
 Result<fs::path> copyInstrument(const std::string& id, const std::string& new_id) {

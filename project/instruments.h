@@ -13,7 +13,7 @@ namespace standpoint {
 std::filesystem::path shippedInstrumentsFolder();
 // Where the user's own lie: STANDPOINT_INSTRUMENTS, else XDG_CONFIG_HOME/standpoint/instruments. It need not be there.
 std::filesystem::path ownInstrumentsFolder();
-std::filesystem::path tripodStandFile();   // what readTripodStand reads
+std::filesystem::path tripodStandFile();  // what readTripodStand reads
 
 struct KnownInstrument {
   Instrument instrument;

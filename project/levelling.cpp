@@ -73,11 +73,12 @@ Result<Pose> believedPose(const Station& station, const Instrument& instrument, 
         ErrorKind::unusable,
         fmt::format("station {} stands {} out of level, and the compensator of the {} {} works up to {}; level it "
                     "(station --move {} --tilt-deg 0) or switch the compensator off (--compensator off)",
-                    station.name, angleText(tilt.angle_rad), instrument.maker, instrument.model,
-                    angleText(limit_rad), station.name));
+                    station.name, angleText(tilt.angle_rad), instrument.maker, instrument.model, angleText(limit_rad),
+                    station.name));
   if (levelling.exact) return pose;
-  const double accuracy_rad = tilt.angle_rad > compensator.range_rad && compensator.reduced_range_rad > 0 ? compensator.reduced_accuracy_rad
-                                                                                                         : compensator.accuracy_rad;
+  const double accuracy_rad = tilt.angle_rad > compensator.range_rad && compensator.reduced_range_rad > 0
+                                  ? compensator.reduced_accuracy_rad
+                                  : compensator.accuracy_rad;
   const auto drawn = normals(philox(keyOf(levelling.seed, station.name), kOfTheStand, kOfTheStand, kCompensator));
   const double x = tilt.angle_rad * std::cos(tilt.towards_rad) + accuracy_rad * drawn[0];
   const double y = tilt.angle_rad * std::sin(tilt.towards_rad) + accuracy_rad * drawn[1];

@@ -21,7 +21,8 @@ Result<std::vector<std::string>> readSelectors(const json& object, const JsonPla
   const JsonPlace place = at / "products";
   if (!found->is_array() || found->empty()) return place.unusable("must be a list of selectors");
   for (std::size_t i = 0; i < found->size(); ++i) {
-    if (!(*found)[i].is_string() || (*found)[i].get<std::string>().empty()) return (place / i).unusable("must be a selector such as class:IfcWall*");
+    if (!(*found)[i].is_string() || (*found)[i].get<std::string>().empty())
+      return (place / i).unusable("must be a selector such as class:IfcWall*");
     selectors.push_back((*found)[i].get<std::string>());
   }
   return selectors;
@@ -43,7 +44,10 @@ Result<void> readFlag(const json& object, const JsonPlace& at, const char* key, 
 }
 
 Result<LodRule> readRule(const json& entry, const JsonPlace& at) {
-  if (auto known = checkKeys(entry, at, {"reason", "products", "smaller_than_m", "thinner_than_m", "sees_sky_less_than", "drop", "keep", "max_deviation_m", "weight"}); !known)
+  if (auto known = checkKeys(entry, at,
+                             {"reason", "products", "smaller_than_m", "thinner_than_m", "sees_sky_less_than", "drop",
+                              "keep", "max_deviation_m", "weight"});
+      !known)
     return failure(known.error());
   LodRule rule;
   auto reason = readText(entry, at, "reason");
@@ -52,8 +56,10 @@ Result<LodRule> readRule(const json& entry, const JsonPlace& at) {
   auto selectors = readSelectors(entry, at);
   if (!selectors) return failure(selectors.error());
   rule.products = *std::move(selectors);
-  for (const auto& [key, field] : {std::pair{"smaller_than_m", &LodRule::smaller_than_m}, std::pair{"thinner_than_m", &LodRule::thinner_than_m},
-                                   std::pair{"sees_sky_less_than", &LodRule::sees_sky_less_than}, std::pair{"max_deviation_m", &LodRule::max_deviation_m}})
+  for (const auto& [key, field] :
+       {std::pair{"smaller_than_m", &LodRule::smaller_than_m}, std::pair{"thinner_than_m", &LodRule::thinner_than_m},
+        std::pair{"sees_sky_less_than", &LodRule::sees_sky_less_than},
+        std::pair{"max_deviation_m", &LodRule::max_deviation_m}})
     if (auto read = readOptional(entry, at, key, rule.*field); !read) return failure(read.error());
   for (const auto& [key, field] : {std::pair{"drop", &LodRule::drop}, std::pair{"keep", &LodRule::keep}})
     if (auto read = readFlag(entry, at, key, rule.*field); !read) return failure(read.error());
@@ -67,7 +73,10 @@ Result<LodRule> readRule(const json& entry, const JsonPlace& at) {
 }
 
 Result<LodLevel> readLevel(const json& entry, const JsonPlace& at, const char* part) {
-  if (auto known = checkKeys(entry, at, {"part", "level", "budget", "max_deviation_m", "hidden_faces", "farther_than_m", "products", "rules"}); !known)
+  if (auto known = checkKeys(
+          entry, at,
+          {"part", "level", "budget", "max_deviation_m", "hidden_faces", "farther_than_m", "products", "rules"});
+      !known)
     return failure(known.error());
   LodLevel level;
   for (const auto& [key, field] : {std::pair{"part", &LodLevel::part}, std::pair{"level", &LodLevel::level}}) {
@@ -75,7 +84,9 @@ Result<LodLevel> readLevel(const json& entry, const JsonPlace& at, const char* p
     if (!text) return failure(text.error());
     level.*field = *std::move(text);
   }
-  if (level.part != part) return (at / "part").unusable(std::string("must be ") + part + ": the main part comes first, then the surroundings");
+  if (level.part != part)
+    return (at / "part")
+        .unusable(std::string("must be ") + part + ": the main part comes first, then the surroundings");
   for (const char* key : {"budget", "max_deviation_m", "rules"})
     if (!entry.contains(key)) return (at / key).unusable("is missing");
   auto budget = readNumber(entry.at("budget"), at / "budget", 0, 1e12);
@@ -86,7 +97,8 @@ Result<LodLevel> readLevel(const json& entry, const JsonPlace& at, const char* p
   level.max_deviation_m = *deviation;
   if (auto read = readOptional(entry, at, "farther_than_m", level.farther_than_m); !read) return failure(read.error());
   if (auto read = readFlag(entry, at, "hidden_faces", level.hidden_faces); !read) return failure(read.error());
-  if (level.hidden_faces && level.part != "main") return (at / "hidden_faces").unusable("belongs to the main part, and is meant for the whole");
+  if (level.hidden_faces && level.part != "main")
+    return (at / "hidden_faces").unusable("belongs to the main part, and is meant for the whole");
   auto selectors = readSelectors(entry, at);
   if (!selectors) return failure(selectors.error());
   level.products = *std::move(selectors);
@@ -117,7 +129,8 @@ double distance(const Bounds& a, const Bounds& b) {
 void addDistant(const std::vector<Bounds>& boxes, double gap_m, std::vector<bool>& around) {
   std::size_t seed = boxes.size();
   for (std::size_t i = 0; i < boxes.size(); ++i)
-    if (!around[i] && !boxes[i].empty() && (seed == boxes.size() || boxes[i].diagonal() > boxes[seed].diagonal())) seed = i;
+    if (!around[i] && !boxes[i].empty() && (seed == boxes.size() || boxes[i].diagonal() > boxes[seed].diagonal()))
+      seed = i;
   if (seed == boxes.size()) return;
   std::vector<bool> reached(boxes.size(), false);
   std::vector<std::size_t> open{seed};
@@ -126,7 +139,8 @@ void addDistant(const std::vector<Bounds>& boxes, double gap_m, std::vector<bool
     const std::size_t from = open.back();
     open.pop_back();
     for (std::size_t i = 0; i < boxes.size(); ++i)
-      if (!reached[i] && !around[i] && !boxes[i].empty() && distance(boxes[from], boxes[i]) <= gap_m) reached[i] = true, open.push_back(i);
+      if (!reached[i] && !around[i] && !boxes[i].empty() && distance(boxes[from], boxes[i]) <= gap_m)
+        reached[i] = true, open.push_back(i);
   }
   for (std::size_t i = 0; i < boxes.size(); ++i)
     if (!reached[i] && !boxes[i].empty()) around[i] = true;
@@ -137,7 +151,8 @@ bool fitsSize(const LodRule& rule, const Bounds& box) {
   if (box.empty()) return false;
   Eigen::Vector3d edges = box.max - box.min;
   std::sort(edges.data(), edges.data() + 3);
-  return (!rule.smaller_than_m || box.diagonal() < *rule.smaller_than_m) && (!rule.thinner_than_m || edges.y() < *rule.thinner_than_m);
+  return (!rule.smaller_than_m || box.diagonal() < *rule.smaller_than_m) &&
+         (!rule.thinner_than_m || edges.y() < *rule.thinner_than_m);
 }
 
 // Only where a rule asks for it, as it takes some million rays.
@@ -164,7 +179,8 @@ Result<std::vector<LodLevel>> readLodRules(const std::filesystem::path& file) {
   return levels;
 }
 
-OptimizeOptions allowances(const Environment& environment, const std::vector<LodLevel>& levels, const LodChoice& choice) {
+OptimizeOptions allowances(const Environment& environment, const std::vector<LodLevel>& levels,
+                           const LodChoice& choice) {
   const auto boxes = productBounds(environment);
   auto selectors = levels[1].products;
   selectors.insert(selectors.end(), choice.surroundings.begin(), choice.surroundings.end());

@@ -21,7 +21,7 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>;
 constexpr std::size_t kMostAlike = 3;
 
 std::map<Pair, double> areas(const Environment& environment) {
-  Progress progress;   // that nobody cancels
+  Progress progress;  // that nobody cancels
   const auto measured = measuredSurfaces(environment, progress);
   std::map<Pair, double> result;
   if (measured)
@@ -33,8 +33,10 @@ std::vector<Remedy> remediesOf(const json& proposal) {
   Remedy remedy;
   for (const auto& word : proposal.at("assign").get<std::vector<std::string>>()) {
     const auto selector = word.substr(0, word.rfind('='));
-    if (remedy.selector.empty()) remedy.selector = selector;
-    else remedy.more.push_back(selector);
+    if (remedy.selector.empty())
+      remedy.selector = selector;
+    else
+      remedy.more.push_back(selector);
   }
   remedy.material = proposal.at("behaves_like").get<std::string>();
   auto instead = proposal.at("alike").get<std::vector<std::string>>();
@@ -57,8 +59,10 @@ FindingCollector::Cause causeOf(const json& proposal, const json& answer, const 
   FindingCollector::Cause c;
   c.kind = "measured-otherwise";
   c.warning = true;
-  c.subject = fmt::format("{}\n{}\n{}\n{}", underlay, assigned, instead, first.global_id.empty() ? first.id : first.global_id);
-  c.what = assigned.empty() ? std::string("without a material, and measured:") : fmt::format("'{}' was measured otherwise on", assigned);
+  c.subject =
+      fmt::format("{}\n{}\n{}\n{}", underlay, assigned, instead, first.global_id.empty() ? first.id : first.global_id);
+  c.what = assigned.empty() ? std::string("without a material, and measured:")
+                            : fmt::format("'{}' was measured otherwise on", assigned);
   c.then = fmt::format(": it behaves like '{}'", instead);
   c.why = fmt::format("By the cloud '{}': {}.{}", underlay, proposal.at("evidence").get<std::string>(),
                       alike.empty() ? "" : fmt::format(" As well as it do: {}.", fmt::join(alike, ", ")));
@@ -72,7 +76,8 @@ std::vector<Pair> standing(const json& proposal, const Document& document) {
   const auto pairs = surfacesOf(proposal, document);
   std::vector<Pair> result;
   for (const auto& s : assignment.surfaces) {
-    const json has = s.material < 0 ? json(nullptr) : json(assignment.materials[static_cast<std::size_t>(s.material)].id);
+    const json has =
+        s.material < 0 ? json(nullptr) : json(assignment.materials[static_cast<std::size_t>(s.material)].id);
     if (has == proposal.at("material") && std::binary_search(pairs.begin(), pairs.end(), Pair(s.product, s.surface)))
       result.emplace_back(s.product, s.surface);
   }
@@ -106,7 +111,7 @@ std::vector<MaterialFinding> materialFindings(const Document& document) {
   try {
     for (auto& f : measuredOtherwise(document)) findings.push_back(std::move(f));
   } catch (const json::exception&) {
-    return findings;   // a project.json that somebody edited: the verification says nothing
+    return findings;  // a project.json that somebody edited: the verification says nothing
   }
   putInOrder(findings);
   return findings;

@@ -7,8 +7,9 @@
 
 namespace standpoint {
 
-// What there is to look at: the findings of the assignment, and those of its verification by a cloud, which the assignment
-// knows nothing of. The latter are gone when cloud, placement or other materials have changed, and when they were followed.
+// What there is to look at: the findings of the assignment, and those of its verification by a cloud, which the
+// assignment knows nothing of. The latter are gone when cloud, placement or other materials have changed, and when they
+// were followed.
 std::vector<MaterialFinding> materialFindings(const Document& document);
 
 }  // namespace standpoint

@@ -31,19 +31,23 @@ void appendUses(std::string& text, const MaterialReport& report) {
   for (const auto& use : report.uses) width = std::max(width, use.material.size());
   text += fmt::format("\n  {:<{}}  {:>11}  {:>7}  {:>8}\n", "material", width, "area", "share", "products");
   for (const auto& use : report.uses)
-    text += fmt::format("  {:<{}}  {:>8.1f} m²  {:>7}  {:>8}\n", use.material.empty() ? "(none)" : use.material, width, use.area_m2,
-                        percent(report.area_m2 > 0 ? use.area_m2 / report.area_m2 : 0), use.products.size());
+    text +=
+        fmt::format("  {:<{}}  {:>8.1f} m²  {:>7}  {:>8}\n", use.material.empty() ? "(none)" : use.material, width,
+                    use.area_m2, percent(report.area_m2 > 0 ? use.area_m2 / report.area_m2 : 0), use.products.size());
 }
 
 // The classes that lack most.
 void appendClasses(std::string& text, const MaterialReport& report) {
   auto rows = report.by_class;
   std::erase_if(rows, [](const CoverageRow& r) { return !(r.area_m2 - r.assigned_m2 > 1e-9 * r.area_m2); });
-  std::stable_sort(rows.begin(), rows.end(), [](const CoverageRow& a, const CoverageRow& b) { return a.area_m2 - a.assigned_m2 > b.area_m2 - b.assigned_m2; });
+  std::stable_sort(rows.begin(), rows.end(), [](const CoverageRow& a, const CoverageRow& b) {
+    return a.area_m2 - a.assigned_m2 > b.area_m2 - b.assigned_m2;
+  });
   if (rows.empty()) return;
   text += "\n  without a material, by class\n";
   for (std::size_t i = 0; i < std::min(rows.size(), kMostClasses); ++i)
-    text += fmt::format("  {:.1f} m² of {:.1f} m² of {}\n", rows[i].area_m2 - rows[i].assigned_m2, rows[i].area_m2, rows[i].name.empty() ? "what has no class" : rows[i].name);
+    text += fmt::format("  {:.1f} m² of {:.1f} m² of {}\n", rows[i].area_m2 - rows[i].assigned_m2, rows[i].area_m2,
+                        rows[i].name.empty() ? "what has no class" : rows[i].name);
   if (rows.size() > kMostClasses) text += fmt::format("  … and of {} more classes\n", rows.size() - kMostClasses);
 }
 
@@ -74,9 +78,11 @@ void appendFindings(std::string& text, const MaterialReport& report, const std::
   text += fmt::format("\n  findings: {} open, {} accepted\n", open, report.findings.size() - open);
   for (const auto& kind : kinds) {
     const auto& f = *kind.first;
-    text += fmt::format("  {:>5} {:<15} {}{}{}\n", kind.open, f.kind, f.source, f.source.empty() ? "" : ": ", f.message);
+    text +=
+        fmt::format("  {:>5} {:<15} {}{}{}\n", kind.open, f.kind, f.source, f.source.empty() ? "" : ": ", f.message);
     text += fmt::format("  {:21} {}\n", "", f.id);
-    for (const auto& remedy : f.remedies) text += fmt::format("  {:21} {}: {}\n", "", remedy.text, assignOption(remedy));
+    for (const auto& remedy : f.remedies)
+      text += fmt::format("  {:21} {}: {}\n", "", remedy.text, assignOption(remedy));
   }
 }
 
@@ -88,7 +94,9 @@ void appendSteps(std::string& text, const std::vector<Kind>& kinds) {
     text += fmt::format("  standpoint materials PROJECT {}\n", assignOption(any));
     text += fmt::format("  standpoint materials PROJECT --accept {} --because 'it is so'\n", first.id);
   }
-  text += "  standpoint materials PROJECT --report materials.html    every finding and surface, to print; --json has them for programs\n";
+  text +=
+      "  standpoint materials PROJECT --report materials.html    every finding and surface, to print; --json has them "
+      "for programs\n";
 }
 
 }  // namespace
@@ -97,9 +105,11 @@ std::string materialsText(const Environment& environment, const MaterialReport& 
   double weak_m2 = 0;
   for (const auto& row : report.by_class) weak_m2 += row.weak_m2;
   std::string text = fmt::format("  {:.1f} m² of {} products", report.area_m2,
-                                 std::count_if(environment.products.begin(), environment.products.end(), [](const Product& p) { return p.inScene(); }));
+                                 std::count_if(environment.products.begin(), environment.products.end(),
+                                               [](const Product& p) { return p.inScene(); }));
   if (report.area_m2 <= 0) return text + ": nothing has a surface\n";
-  text += fmt::format(": {} has a material, {} by a weak rule\n", percent(report.coverage), percent(weak_m2 / report.area_m2));
+  text += fmt::format(": {} has a material, {} by a weak rule\n", percent(report.coverage),
+                      percent(weak_m2 / report.area_m2));
   const auto kinds = openKinds(report);
   appendUses(text, report);
   appendClasses(text, report);
@@ -111,19 +121,24 @@ std::string materialsText(const Environment& environment, const MaterialReport& 
 std::string libraryText(const nlohmann::json& answer) {
   std::string text;
   for (const auto& file : answer.value("libraries", nlohmann::json::array())) {
-    text += fmt::format("\n  {}: {} added, {} changed\n", file.at("file").get<std::string>(), file.at("added").size(), file.at("changed").size());
+    text += fmt::format("\n  {}: {} added, {} changed\n", file.at("file").get<std::string>(), file.at("added").size(),
+                        file.at("changed").size());
     for (const auto& used : file.at("used"))
-      text += fmt::format("  {} is on {:.1f} m² of {} products\n", used.at("material").get<std::string>(), used.at("area_m2").get<double>(), used.at("products").size());
+      text += fmt::format("  {} is on {:.1f} m² of {} products\n", used.at("material").get<std::string>(),
+                          used.at("area_m2").get<double>(), used.at("products").size());
   }
   return text;
 }
 
 std::string whereText(const nlohmann::json& where) {
   const auto& products = where.at("products");
-  std::string text = fmt::format("  {} is on {:.1f} m² of {} products\n", where.at("material").get<std::string>(), where.at("area_m2").get<double>(), products.size());
+  std::string text = fmt::format("  {} is on {:.1f} m² of {} products\n", where.at("material").get<std::string>(),
+                                 where.at("area_m2").get<double>(), products.size());
   for (std::size_t i = 0; i < std::min(products.size(), kMostProducts); ++i)
-    text += fmt::format("  {} {} '{}'\n", products[i].value("id", ""), products[i].value("class", ""), products[i].value("name", ""));
-  if (products.size() > kMostProducts) text += fmt::format("  … and {} more: --json lists them\n", products.size() - kMostProducts);
+    text += fmt::format("  {} {} '{}'\n", products[i].value("id", ""), products[i].value("class", ""),
+                        products[i].value("name", ""));
+  if (products.size() > kMostProducts)
+    text += fmt::format("  … and {} more: --json lists them\n", products.size() - kMostProducts);
   return text;
 }
 

@@ -10,7 +10,8 @@
 
 namespace standpoint {
 
-// What the command line tells of `materials`: the coverage, each material's share, the findings by kind, and how to go on.
+// What the command line tells of `materials`: the coverage, each material's share, the findings by kind, and how to go
+// on.
 std::string materialsText(const Environment& environment, const MaterialReport& report);
 
 // Of the answer's "libraries": what was taken in, and where what changed is used. Empty without.

@@ -33,11 +33,18 @@ json findingAnswer(const Environment& environment, const MaterialFinding& f) {
   json remedies = json::array();
   for (const auto& r : f.remedies) {
     json remedy = {{"text", r.text}, {"selector", r.selector}};
-    if (!r.material.empty()) remedy["options"] = {{"assign", assignWords(r, r.material)}};   // of this verb: one click
+    if (!r.material.empty()) remedy["options"] = {{"assign", assignWords(r, r.material)}};  // of this verb: one click
     remedies.push_back(std::move(remedy));
   }
-  json row = {{"id", f.id}, {"kind", f.kind}, {"severity", f.severity}, {"source", f.source}, {"message", f.message}, {"why", f.why},
-              {"area_m2", f.area_m2}, {"products", productIds(environment, f.products)}, {"remedies", remedies}};
+  json row = {{"id", f.id},
+              {"kind", f.kind},
+              {"severity", f.severity},
+              {"source", f.source},
+              {"message", f.message},
+              {"why", f.why},
+              {"area_m2", f.area_m2},
+              {"products", productIds(environment, f.products)},
+              {"remedies", remedies}};
   if (!f.because.empty()) row["accepted"] = f.because;
   return row;
 }
@@ -45,7 +52,9 @@ json findingAnswer(const Environment& environment, const MaterialFinding& f) {
 json coverageRows(const std::vector<CoverageRow>& rows, const char* key) {
   json result = json::array();
   for (const auto& r : rows)
-    result.push_back({{key, r.name}, {"area_m2", r.area_m2}, {"coverage", r.area_m2 > 0 ? r.assigned_m2 / r.area_m2 : 0},
+    result.push_back({{key, r.name},
+                      {"area_m2", r.area_m2},
+                      {"coverage", r.area_m2 > 0 ? r.assigned_m2 / r.area_m2 : 0},
                       {"weak", r.area_m2 > 0 ? r.weak_m2 / r.area_m2 : 0}});
   return result;
 }
@@ -56,8 +65,10 @@ json surfaceReasons(const Environment& environment, const MaterialAssignment& as
     double confidence = 0;
     json surfaces = json::array();
   };
-  std::map<std::pair<std::string, std::string>, Group> groups;   // by material and reason
-  const auto id = [&](std::int32_t material) { return material < 0 ? std::string() : assignment.materials[static_cast<std::size_t>(material)].id; };
+  std::map<std::pair<std::string, std::string>, Group> groups;  // by material and reason
+  const auto id = [&](std::int32_t material) {
+    return material < 0 ? std::string() : assignment.materials[static_cast<std::size_t>(material)].id;
+  };
   for (const auto& s : assignment.surfaces) {
     auto& group = groups[{id(s.material), s.reason}];
     group.confidence = s.confidence;
@@ -70,12 +81,15 @@ json surfaceReasons(const Environment& environment, const MaterialAssignment& as
   }
   json result = json::array();
   for (auto& [key, group] : groups)
-    result.push_back({{"material", key.first.empty() ? json(nullptr) : json(key.first)}, {"reason", key.second},
-                      {"confidence", group.confidence}, {"surfaces", std::move(group.surfaces)}});
+    result.push_back({{"material", key.first.empty() ? json(nullptr) : json(key.first)},
+                      {"reason", key.second},
+                      {"confidence", group.confidence},
+                      {"surfaces", std::move(group.surfaces)}});
   return result;
 }
 
-json materialAnswer(const Environment& environment, const MaterialChoice& choice, const std::vector<MaterialFinding>& all) {
+json materialAnswer(const Environment& environment, const MaterialChoice& choice,
+                    const std::vector<MaterialFinding>& all) {
   const auto& report = choice.result.report;
   json uses = json::array();
   for (const auto& use : report.uses)
@@ -88,8 +102,13 @@ json materialAnswer(const Environment& environment, const MaterialChoice& choice
     findings.push_back(findingAnswer(environment, f));
     open += f.because.empty() ? 1 : 0;
   }
-  return {{"coverage", report.coverage}, {"area_m2", report.area_m2}, {"materials", uses}, {"findings", findings}, {"open", open},
-          {"by_class", coverageRows(report.by_class, "class")}, {"by_storey", coverageRows(report.by_storey, "storey")},
+  return {{"coverage", report.coverage},
+          {"area_m2", report.area_m2},
+          {"materials", uses},
+          {"findings", findings},
+          {"open", open},
+          {"by_class", coverageRows(report.by_class, "class")},
+          {"by_storey", coverageRows(report.by_storey, "storey")},
           {"reasons", surfaceReasons(environment, choice.result.assignment)}};
 }
 
@@ -110,9 +129,12 @@ Result<json> takeLibrary(MaterialChoice& choice, const fs::path& file, const std
   json added = json::array(), changed = json::array();
   const auto known = withOwn(shipped, choice.own);
   for (const auto& m : *own) {
-    const auto before = std::find_if(known.begin(), known.end(), [&](const PhysicalMaterial& k) { return k.id == m.id; });
-    if (before == known.end()) added.push_back(m.id);
-    else if (!(*before == m)) changed.push_back(m.id);
+    const auto before =
+        std::find_if(known.begin(), known.end(), [&](const PhysicalMaterial& k) { return k.id == m.id; });
+    if (before == known.end())
+      added.push_back(m.id);
+    else if (!(*before == m))
+      changed.push_back(m.id);
   }
   choice.own = withOwn(choice.own, *own);
   return json{{"file", file.filename().string()}, {"added", added}, {"changed", changed}};
@@ -129,7 +151,8 @@ Result<void> takeOverrides(MaterialChoice& choice, const std::vector<MaterialOve
   for (const auto& o : said) {
     if (o.material != "rules") {
       choice.overrides.push_back(o);
-    } else if (std::erase_if(choice.overrides, [&](const MaterialOverride& old) { return old.selector == o.selector; }) == 0) {
+    } else if (std::erase_if(choice.overrides,
+                             [&](const MaterialOverride& old) { return old.selector == o.selector; }) == 0) {
       return failure(ErrorKind::usage, "nothing was assigned by this selector that could be taken back", o.selector);
     }
   }
@@ -144,12 +167,14 @@ Result<RuleSet> rulesOf(MaterialChoice& choice, const std::vector<PhysicalMateri
     if (!text) return failure(text.error());
     choice.rules_text = std::move(*text);
   }
-  return parseAssignmentRules(choice.rules_text, fs::path(choice.rules_file).filename().string(), library, defaultRules());
+  return parseAssignmentRules(choice.rules_text, fs::path(choice.rules_file).filename().string(), library,
+                              defaultRules());
 }
 
 Result<std::vector<double>> wavelengths(const Document& document, const std::string& instrument) {
   std::vector<std::string> ids;
-  if (!instrument.empty()) ids.push_back(instrument);
+  if (!instrument.empty())
+    ids.push_back(instrument);
   else
     for (const auto& station : document.job->stations)
       for (const auto& scan : station.scans) ids.push_back(scan.instrument);
@@ -159,14 +184,16 @@ Result<std::vector<double>> wavelengths(const Document& document, const std::str
   std::vector<double> result;
   for (const auto& each : *instruments)
     if (std::find(ids.begin(), ids.end(), each.id) != ids.end()) result.push_back(each.wavelength_nm);
-  if (!instrument.empty() && result.empty()) return failure(ErrorKind::usage, "there is no such instrument", instrument);
+  if (!instrument.empty() && result.empty())
+    return failure(ErrorKind::usage, "there is no such instrument", instrument);
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
 }
 
 // Takes up or lets go of what the user accepted. Acceptances whose finding has another cause by now do not hold.
-Result<bool> judge(MaterialChoice& choice, const std::vector<MaterialFinding>& findings, const MaterialRequest& request) {
+Result<bool> judge(MaterialChoice& choice, const std::vector<MaterialFinding>& findings,
+                   const MaterialRequest& request) {
   if (request.accept.empty() && request.reopen.empty()) return false;
   if (!request.accept.empty() && request.because.find_first_not_of(" \t\n") == std::string::npos)
     return failure(ErrorKind::usage, "a finding is accepted because of something: say what", "because");
@@ -174,8 +201,10 @@ Result<bool> judge(MaterialChoice& choice, const std::vector<MaterialFinding>& f
     if (std::erase_if(choice.accepted, [&](const AcceptedFinding& a) { return a.finding == id; }) == 0)
       return failure(ErrorKind::usage, "no such finding was accepted", id);
   for (const auto& id : request.accept) {
-    const auto found = std::find_if(findings.begin(), findings.end(), [&](const MaterialFinding& f) { return f.id == id; });
-    if (found == findings.end()) return failure(ErrorKind::usage, "there is no such finding; `materials` lists them", id);
+    const auto found =
+        std::find_if(findings.begin(), findings.end(), [&](const MaterialFinding& f) { return f.id == id; });
+    if (found == findings.end())
+      return failure(ErrorKind::usage, "there is no such finding; `materials` lists them", id);
     std::erase_if(choice.accepted, [&](const AcceptedFinding& a) { return a.finding == id; });
     choice.accepted.push_back({id, found->cause, request.because});
   }
@@ -185,8 +214,10 @@ Result<bool> judge(MaterialChoice& choice, const std::vector<MaterialFinding>& f
 std::string description(const MaterialRequest& request, const MaterialReport& report) {
   if (!request.accept.empty()) return fmt::format("Accepted {}", fmt::join(request.accept, ", "));
   if (!request.reopen.empty()) return fmt::format("Opened {} again", fmt::join(request.reopen, ", "));
-  if (!request.assign.empty()) return fmt::format("Assigned {} to {}", request.assign.back().material, request.assign.back().selector);
-  if (!request.libraries.empty()) return fmt::format("Took in materials of {}", request.libraries.back().filename().string());
+  if (!request.assign.empty())
+    return fmt::format("Assigned {} to {}", request.assign.back().material, request.assign.back().selector);
+  if (!request.libraries.empty())
+    return fmt::format("Took in materials of {}", request.libraries.back().filename().string());
   return fmt::format("Assigned materials to {:.1f} % of the area", report.coverage * 100);
 }
 
@@ -215,7 +246,8 @@ Result<Outcome> assignDocumentMaterials(const Document& document, const Material
   if (!rules) return failure(rules.error());
   auto waves = wavelengths(document, choice.instrument);
   if (!waves) return failure(waves.error());
-  AssignOptions options{choice.accepted, std::move(*waves), document.georeference ? document.georeference->shift_m : Eigen::Vector3d::Zero()};
+  AssignOptions options{choice.accepted, std::move(*waves),
+                        document.georeference ? document.georeference->shift_m : Eigen::Vector3d::Zero()};
   const auto& environment = *document.environment();
   auto result = assignMaterials(environment, library, *rules, choice.overrides, options, progress);
   if (!result) return failure(result.error());

@@ -19,18 +19,21 @@ constexpr std::size_t kBlock = 1 << 16;
 // Product, surface, and the index of what is assigned there: single faces may have a material of their own.
 using GroupKey = std::array<std::uint32_t, 3>;
 
-GroupKey keyOf(const MetSurface& met) { return {met.product, met.surface, static_cast<std::uint32_t>(met.material + 1)}; }
+GroupKey keyOf(const MetSurface& met) {
+  return {met.product, met.surface, static_cast<std::uint32_t>(met.material + 1)};
+}
 
 }  // namespace
 
-Result<MeasuredReturns> measuredReturns(const Document& document, const CloudSample& sample, const Pose& file_from_cloud,
-                                        const Expectation& expectation, const std::vector<PhysicalMaterial>& library,
-                                        const MeetingTolerance& tolerance, Progress& progress) {
+Result<MeasuredReturns> measuredReturns(const Document& document, const CloudSample& sample,
+                                        const Pose& file_from_cloud, const Expectation& expectation,
+                                        const std::vector<PhysicalMaterial>& library, const MeetingTolerance& tolerance,
+                                        Progress& progress) {
   Pose local_from_cloud = file_from_cloud;
   local_from_cloud.translation -= document.georeference->shift_m;
   const auto count = sample.position.size();
   std::vector<MetSurface> met(count);
-  std::vector<std::uint8_t> counts(count, 0);   // of what has a station and is a number
+  std::vector<std::uint8_t> counts(count, 0);  // of what has a station and is a number
   const auto& assignment = document.materials->result.assignment;
   const SharedFaces shared(*document.environment(), assignment);
   MeasuredReturns result;
@@ -45,8 +48,7 @@ Result<MeasuredReturns> measuredReturns(const Document& document, const CloudSam
       counts[i] = 1;
       if (met[i].meeting != BeamMeeting::met) return;
       const Eigen::Vector3d place = local_from_cloud * sample.position[i] + met[i].normal * met[i].off_m;
-      if (shared.at(place, met[i].normal, met[i].material))
-        met[i].meeting = BeamMeeting::shared;
+      if (shared.at(place, met[i].normal, met[i].material)) met[i].meeting = BeamMeeting::shared;
     });
   }
   std::map<GroupKey, std::uint32_t> group_of;
@@ -76,7 +78,8 @@ Result<MeasuredReturns> measuredReturns(const Document& document, const CloudSam
     if (!on) continue;
     ++result.on[m.product];
     if (m.meeting != BeamMeeting::met) continue;
-    result.returns.push_back({sample.intensity[i], static_cast<float>(m.range_m), static_cast<float>(m.cosine), group_of.at(keyOf(m))});
+    result.returns.push_back(
+        {sample.intensity[i], static_cast<float>(m.range_m), static_cast<float>(m.cosine), group_of.at(keyOf(m))});
   }
   if (!off.empty()) {
     const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);

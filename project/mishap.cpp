@@ -44,7 +44,7 @@ class TruthMoved final : public PointSink {
 // Puts a person in front of what lies behind, over the directions that a body covers.
 class Person final : public PointSink {
  public:
-  Person(PointSink& sink, double away_m, double azimuth_rad)   // azimuths go clockwise
+  Person(PointSink& sink, double away_m, double azimuth_rad)  // azimuths go clockwise
       : sink_(sink), away_m_(away_m), towards_(std::cos(azimuth_rad), -std::sin(azimuth_rad)) {}
   Result<void> begin(const ScanHeader& header) override { return sink_.begin(header); }
   Result<void> write(const PointBlock& block) override {
@@ -96,11 +96,16 @@ Result<Mishap> mishapFrom(const std::vector<std::string>& pairs) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool number = error == std::errc() && end == text.data() + text.size();
     const bool share = number && value >= 0 && value <= 1;
-    if (key == "until" && share) mishap.until_share = value;
-    else if (key == "push" && share) mishap.pushed_at_share = value;
-    else if (key == "walk" && share) mishap.walked_at_share = value;
-    else if (key == "stand" && share) mishap.stood_at_share = value;
-    else if (key == "noise" && number && value >= 1 && value <= 100) mishap.noise_factor = value;
+    if (key == "until" && share)
+      mishap.until_share = value;
+    else if (key == "push" && share)
+      mishap.pushed_at_share = value;
+    else if (key == "walk" && share)
+      mishap.walked_at_share = value;
+    else if (key == "stand" && share)
+      mishap.stood_at_share = value;
+    else if (key == "noise" && number && value >= 1 && value <= 100)
+      mishap.noise_factor = value;
     else
       return failure(ErrorKind::usage,
                      fmt::format("'{}' is none of until=SHARE, push=SHARE, walk=SHARE, stand=SHARE (0 to 1), "
@@ -118,9 +123,10 @@ Pose pushed(const Pose& pose) {
   return moved;
 }
 
-Result<ScanCount> scanWithMishap(const RayScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
-                                 const ScanSettings& settings, const Pose& pose, const ScanOptions& options, const Mishap& mishap,
-                                 PointSink& sink, Progress& progress) {
+Result<ScanCount> scanWithMishap(const RayScene& scene, const MaterialAssignment& assignment,
+                                 const Instrument& instrument, const ScanSettings& settings, const Pose& pose,
+                                 const ScanOptions& options, const Mishap& mishap, PointSink& sink,
+                                 Progress& progress) {
   const auto azimuth = [&](double share) {
     return std::lerp(settings.azimuth_from_rad, settings.azimuth_to_rad, share);
   };
@@ -133,7 +139,8 @@ Result<ScanCount> scanWithMishap(const RayScene& scene, const MaterialAssignment
   if (mishap.walked_at_share) {
     Mishap others = mishap;
     others.walked_at_share.reset();
-    if (settings.passes > 1) return scanWithMishap(scene, assignment, instrument, settings, pose, options, others, sink, progress);
+    if (settings.passes > 1)
+      return scanWithMishap(scene, assignment, instrument, settings, pose, options, others, sink, progress);
     Person walked(sink, kWalksBy_m, azimuth(*mishap.walked_at_share));
     return scanWithMishap(scene, assignment, instrument, settings, pose, options, others, walked, progress);
   }
@@ -142,18 +149,21 @@ Result<ScanCount> scanWithMishap(const RayScene& scene, const MaterialAssignment
   noisier.noise_factor *= mishap.noise_factor;
   ScanOptions part = options;
   part.end_column = std::min(options.end_column, columnAt(mishap.until_share, settings.columns));
-  if (!mishap.pushed_at_share) return scan(scene, assignment, instrument, noisier, standing(pose), part, sink, progress);
+  if (!mishap.pushed_at_share)
+    return scan(scene, assignment, instrument, noisier, standing(pose), part, sink, progress);
   const auto push = std::clamp(columnAt(*mishap.pushed_at_share, settings.columns), part.first_column, part.end_column);
   ScanOptions after = part;
   part.end_column = after.first_column = push;
   ScanCount count;
   const Pose moved = pushed(pose);
-  const Pose before_after{pose.rotation.conjugate() * moved.rotation, pose.rotation.conjugate() * (moved.translation - pose.translation)};
+  const Pose before_after{pose.rotation.conjugate() * moved.rotation,
+                          pose.rotation.conjugate() * (moved.translation - pose.translation)};
   TruthMoved truth(sink, before_after);
   for (const bool late : {false, true}) {
     const auto& options_of_part = late ? after : part;
     if (options_of_part.first_column >= options_of_part.end_column) continue;
-    const auto some = scan(scene, assignment, instrument, noisier, standing(late ? moved : pose), options_of_part, late ? static_cast<PointSink&>(truth) : sink, progress);
+    const auto some = scan(scene, assignment, instrument, noisier, standing(late ? moved : pose), options_of_part,
+                           late ? static_cast<PointSink&>(truth) : sink, progress);
     if (!some) return some;
     count.pulses += some->pulses;
     count.returns += some->returns;

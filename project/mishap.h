@@ -30,13 +30,13 @@ Result<Mishap> mishapFrom(const std::vector<std::string>& pairs);
 // How a push moves the instrument: 4 mm aside and 0.05° about its standing axis; a choice of ours.
 Pose pushed(const Pose& pose);
 
-// Who walks by is a cylinder of 0.5 m by 1.75 m, 2 m from the instrument, whose centre is 1.6 m above the floor; what stands
-// nearer hides it. A second pass of the laser shows it as moving, and the device takes it out: then nothing is left of it.
-// Who stays beside the instrument is such a cylinder, 0.9 m from it, and is there in a second pass, too.
-// Scans from a tripod as `scan` does, with what went wrong. After a push the points stand in the frame that the instrument
-// believes to be the old one; what is true of them is told in the old frame.
-Result<ScanCount> scanWithMishap(const RayScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
-                                 const ScanSettings& settings, const Pose& pose, const ScanOptions& options, const Mishap& mishap,
-                                 PointSink& sink, Progress& progress);
+// Who walks by is a cylinder of 0.5 m by 1.75 m, 2 m from the instrument, whose centre is 1.6 m above the floor; what
+// stands nearer hides it. A second pass of the laser shows it as moving, and the device takes it out: then nothing is
+// left of it. Who stays beside the instrument is such a cylinder, 0.9 m from it, and is there in a second pass, too.
+// Scans from a tripod as `scan` does, with what went wrong. After a push the points stand in the frame that the
+// instrument believes to be the old one; what is true of them is told in the old frame.
+Result<ScanCount> scanWithMishap(const RayScene& scene, const MaterialAssignment& assignment,
+                                 const Instrument& instrument, const ScanSettings& settings, const Pose& pose,
+                                 const ScanOptions& options, const Mishap& mishap, PointSink& sink, Progress& progress);
 
 }  // namespace standpoint

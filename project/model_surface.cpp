@@ -18,7 +18,7 @@ ModelSurface::ModelSurface(const Environment& environment) {
       const Triangle placed = {first + t[0], first + t[mirrors ? 2 : 1], first + t[mirrors ? 1 : 2]};
       const Eigen::Vector3d& a = positions_[placed[0]];
       const Eigen::Vector3d across = (positions_[placed[1]] - a).cross(positions_[placed[2]] - a);
-      if (!(across.norm() > 0)) continue;   // no area, no normal
+      if (!(across.norm() > 0)) continue;  // no area, no normal
       triangles_.push_back(placed);
       normals_.push_back(across.normalized());
     }

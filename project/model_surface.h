@@ -23,7 +23,7 @@ class ModelSurface {
  private:
   std::vector<Eigen::Vector3d> positions_;
   std::vector<Triangle> triangles_;
-  std::vector<Eigen::Vector3d> normals_;   // unit
+  std::vector<Eigen::Vector3d> normals_;  // unit
   std::unique_ptr<TriangleTree> tree_;
 };
 

@@ -19,7 +19,8 @@ Result<void> setDoors(const Document& document, const json& options, CollideOpti
   const auto doors = options.at("doors").get<std::string>();
   typed.doors = doors == "closed" ? DoorState::closed : doors == "as-set" ? DoorState::as_set : DoorState::open;
   if (typed.doors != DoorState::as_set) {
-    if (options.contains("closed")) return failure(ErrorKind::usage, "names doors that are set one by one: give --doors as-set as well", "closed");
+    if (options.contains("closed"))
+      return failure(ErrorKind::usage, "names doors that are set one by one: give --doors as-set as well", "closed");
     return {};
   }
   typed.closed.assign(document.imported->products.size(), false);
@@ -80,12 +81,9 @@ Result<Outcome> collideDocument(const Document& document, const CollideOptions& 
     row["at"] = toJson(r.position + shift);
     rooms.push_back(std::move(row));
   }
-  outcome.answer = {{"products", std::move(rows)},
-                    {"shapes", result->shapes.size()},
-                    {"walkable_area_m2", result->walkable_area_m2},
-                    {"doors", std::move(doors)},
-                    {"doors_passable", passable},
-                    {"rooms", std::move(rooms)}};
+  outcome.answer = {
+      {"products", std::move(rows)}, {"shapes", result->shapes.size()}, {"walkable_area_m2", result->walkable_area_m2},
+      {"doors", std::move(doors)},   {"doors_passable", passable},      {"rooms", std::move(rooms)}};
   outcome.description = fmt::format("Made {} collision shapes; {:.1f} m² walkable, {} of {} doors passable",
                                     result->shapes.size(), result->walkable_area_m2, passable, result->doors.size());
   outcome.document.collision = std::make_shared<const CollideResult>(*std::move(result));

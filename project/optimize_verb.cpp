@@ -20,12 +20,9 @@ namespace {
 using nlohmann::json;
 
 json toJson(const ProductLoss& loss, const std::string& lod) {
-  return {{"triangles_before", loss.triangles_before},
-          {"triangles_after", loss.triangles_after},
-          {"max_deviation_m", loss.max_deviation_m},
-          {"mean_deviation_m", loss.mean_deviation_m},
-          {"mean_turn_deg", loss.mean_turn_rad / kRadPerDeg},
-          {"lod", lod}};
+  return {{"triangles_before", loss.triangles_before},        {"triangles_after", loss.triangles_after},
+          {"max_deviation_m", loss.max_deviation_m},          {"mean_deviation_m", loss.mean_deviation_m},
+          {"mean_turn_deg", loss.mean_turn_rad / kRadPerDeg}, {"lod", lod}};
 }
 
 std::string alikeName(const OptimizeOptions& options) {
@@ -45,19 +42,25 @@ void reportRules(const LighteningPlan& plan, Report& report) {
   for (std::uint32_t share = 0; share < plan.levels.size(); ++share) {
     const LodLevel& level = plan.levels[share];
     const auto count = [&](const std::string& reason) {
-      return std::count_if(products.begin(), products.end(), [&](const auto& a) { return a.share == share && a.reason == reason; });
+      return std::count_if(products.begin(), products.end(),
+                           [&](const auto& a) { return a.share == share && a.reason == reason; });
     };
-    const auto members = std::count_if(products.begin(), products.end(), [&](const auto& a) { return a.share == share; });
+    const auto members =
+        std::count_if(products.begin(), products.end(), [&](const auto& a) { return a.share == share; });
     if (members == 0) continue;
     const auto budget = share == 0 ? plan.options.budget : plan.options.further_budgets[share - 1];
-    report.note(level.level, fmt::format("{}: {} products, {} triangles, deviations of at most {} m where no rule says otherwise",
-                                         level.part, members, budget, level.max_deviation_m));
+    report.note(level.level,
+                fmt::format("{}: {} products, {} triangles, deviations of at most {} m where no rule says otherwise",
+                            level.part, members, budget, level.max_deviation_m));
     for (const auto& rule : level.rules)
       if (const auto decided = count(rule.reason); decided > 0)
-        report.note(level.level, fmt::format("{}: {} products {}", rule.reason, decided,
-                                             rule.drop   ? "dropped"
-                                             : rule.keep ? "kept as they are"
-                                                         : fmt::format("within {} m, weight {}", rule.max_deviation_m.value_or(level.max_deviation_m), rule.weight)));
+        report.note(
+            level.level,
+            fmt::format("{}: {} products {}", rule.reason, decided,
+                        rule.drop   ? "dropped"
+                        : rule.keep ? "kept as they are"
+                                    : fmt::format("within {} m, weight {}",
+                                                  rule.max_deviation_m.value_or(level.max_deviation_m), rule.weight)));
   }
 }
 
@@ -69,22 +72,26 @@ void reportTreatments(const Document& document, Report& report) {
 
 }  // namespace
 
-Result<LighteningPlan> planLightening(const Document& document, const LighteningRequest& request, const Progress& progress) {
+Result<LighteningPlan> planLightening(const Document& document, const LighteningRequest& request,
+                                      const Progress& progress) {
   LighteningPlan plan;
   if (request.by_view && !document.collision)
-    return failure(ErrorKind::usage, "what walkers see is told from the walkable surface: `collide` makes it", "--by-view");
+    return failure(ErrorKind::usage, "what walkers see is told from the walkable surface: `collide` makes it",
+                   "--by-view");
   if (request.lod_rules.empty()) {
     plan.options.budget = request.budget.value_or(0);
     plan.options.max_deviation_m = request.max_deviation_m;
   } else {
-    const std::filesystem::path file = request.lod_rules == "default" ? dataFolder() / "optimizer" / "lod" / "default.json"
-                                                                      : std::filesystem::path(request.lod_rules);
+    const std::filesystem::path file = request.lod_rules == "default"
+                                           ? dataFolder() / "optimizer" / "lod" / "default.json"
+                                           : std::filesystem::path(request.lod_rules);
     auto levels = readLodRules(file);
     if (!levels) return failure(levels.error());
     plan.levels = *std::move(levels);
     plan.options = allowances(*document.imported, plan.levels, {request.budget, request.surroundings});
   }
-  if (document.treatments) applyTreatments(*document.imported, *document.treatments, alikeName(plan.options), plan.options);
+  if (document.treatments)
+    applyTreatments(*document.imported, *document.treatments, alikeName(plan.options), plan.options);
   if (request.by_view) weighByView(plan.options, sceneOf(*document.imported), document.collision->walkable, progress);
   return plan;
 }
@@ -100,7 +107,9 @@ Result<Outcome> optimizeDocument(const Document& document, const LighteningReque
   reportRules(*plan, outcome.report);
   reportTreatments(document, outcome.report);
   outcome.report.append(result->report);
-  const auto lod = [&](std::size_t product) { return options.products.empty() ? alikeName(options) : options.products[product].lod; };
+  const auto lod = [&](std::size_t product) {
+    return options.products.empty() ? alikeName(options) : options.products[product].lod;
+  };
   outcome.answer = toJson(result->all, levelsOf(options));
   outcome.answer["budget_reached"] = result->budget_reached;
   if (!result->budget_reached) outcome.answer["smallest_budget"] = result->smallest_budget;
@@ -116,7 +125,10 @@ Result<Outcome> optimizeDocument(const Document& document, const LighteningReque
   outcome.description = fmt::format("Optimised {} to {} triangles, at most {:.1f} mm off", result->all.triangles_before,
                                     result->all.triangles_after, result->all.max_deviation_m * 1000);
   Lightening lightening{std::make_shared<const Environment>(std::move(result->environment)),
-                        std::move(result->products), result->all, request, {}};
+                        std::move(result->products),
+                        result->all,
+                        request,
+                        {}};
   for (const auto& allowance : options.products) lightening.levels.push_back(allowance.lod);
   outcome.document.lightening = std::make_shared<const Lightening>(std::move(lightening));
   return outcome;

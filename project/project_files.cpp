@@ -22,16 +22,18 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr const char* kProjectFile = "project.json";
-constexpr auto kReplace = json::error_handler_t::replace;   // of a name that is not UTF-8 the bytes that are wrong
+constexpr auto kReplace = json::error_handler_t::replace;  // of a name that is not UTF-8 the bytes that are wrong
 
 tl::unexpected<Error> cannotWrite(const fs::path& file) {
   return failure(ErrorKind::file_system,
-                 fmt::format("cannot write it ({}); the project is as it was before", std::strerror(errno)), file.string());
+                 fmt::format("cannot write it ({}); the project is as it was before", std::strerror(errno)),
+                 file.string());
 }
 
 Result<std::string> readText(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) return failure(ErrorKind::file_system, fmt::format("cannot read it ({})", std::strerror(errno)), file.string());
+  if (!in)
+    return failure(ErrorKind::file_system, fmt::format("cannot read it ({})", std::strerror(errno)), file.string());
   return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
@@ -48,7 +50,8 @@ Result<json> readJson(const fs::path& file) {
   if (!text) return failure(text.error());
   json value = json::parse(*text, nullptr, false);
   if (value.is_discarded())
-    return failure(ErrorKind::unusable, "this is not JSON: the file is damaged or not a Standpoint project", file.string());
+    return failure(ErrorKind::unusable, "this is not JSON: the file is damaged or not a Standpoint project",
+                   file.string());
   return value;
 }
 
@@ -90,8 +93,8 @@ void removeUnreferenced(const fs::path& geometry, const std::set<std::string>& n
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(geometry, ignored)) {
     const auto name = entry.path().filename().string();
-    const bool ours = name.rfind("imported-", 0) == 0 || name.rfind("products-", 0) == 0 || name.rfind("light-", 0) == 0 ||
-                      name.rfind("collision-", 0) == 0 || name.rfind(".new-", 0) == 0;
+    const bool ours = name.rfind("imported-", 0) == 0 || name.rfind("products-", 0) == 0 ||
+                      name.rfind("light-", 0) == 0 || name.rfind("collision-", 0) == 0 || name.rfind(".new-", 0) == 0;
     if (ours && !named.contains(name)) fs::remove(entry.path(), ignored);
   }
 }
@@ -170,14 +173,21 @@ Result<void> saveProject(const Document& document, const fs::path& folder, Progr
     return {};
   };
   const auto& g = *document.georeference;
-  if (auto ok = store(project, "products", storeJson(recordsToJson(*document.imported), geometry, "products")); !ok) return ok;
-  if (auto ok = store(project, "imported", storeEnvironment(*document.imported, g, geometry, "imported", progress)); !ok) return ok;
+  if (auto ok = store(project, "products", storeJson(recordsToJson(*document.imported), geometry, "products")); !ok)
+    return ok;
+  if (auto ok = store(project, "imported", storeEnvironment(*document.imported, g, geometry, "imported", progress));
+      !ok)
+    return ok;
   if (document.lightening)
     if (auto ok = store(project["lightening"], "geometry",
-                        storeEnvironment(*document.lightening->environment, g, geometry, "light", progress)); !ok) return ok;
+                        storeEnvironment(*document.lightening->environment, g, geometry, "light", progress));
+        !ok)
+      return ok;
   if (document.collision)
-    if (auto ok = store(project["collision"], "geometry",
-                        storeEnvironment(collisionEnvironment(*document.collision), g, geometry, "collision", progress)); !ok)
+    if (auto ok =
+            store(project["collision"], "geometry",
+                  storeEnvironment(collisionEnvironment(*document.collision), g, geometry, "collision", progress));
+        !ok)
       return ok;
 
   const auto fresh = folder / ".project.json.new";
@@ -186,7 +196,8 @@ Result<void> saveProject(const Document& document, const fs::path& folder, Progr
     return written;
   }
   fs::rename(fresh, folder / kProjectFile, error);
-  if (error) return failure(ErrorKind::file_system, "cannot replace it: " + error.message(), (folder / kProjectFile).string());
+  if (error)
+    return failure(ErrorKind::file_system, "cannot replace it: " + error.message(), (folder / kProjectFile).string());
   removeUnreferenced(geometry, named);
   return {};
 }
@@ -197,7 +208,8 @@ Result<Document> loadProject(const fs::path& folder, Progress& progress) {
   if (!fs::exists(file, ignored))
     return failure(ErrorKind::file_system,
                    "this is not a Standpoint project (there is no project.json in it); make one with "
-                   "`standpoint import FILE -o " + folder.string() + "`",
+                   "`standpoint import FILE -o " +
+                       folder.string() + "`",
                    folder.string());
   progress.stage("Open " + folder.filename().string());
   auto project = readJson(file);
@@ -205,17 +217,21 @@ Result<Document> loadProject(const fs::path& folder, Progress& progress) {
   try {
     const int version = project->at("version").get<int>();
     if (version > kProjectVersion)
-      return failure(ErrorKind::unusable,
-                     fmt::format("it was made by a newer Standpoint (project version {}, this program knows {}); update "
-                                 "the program", version, kProjectVersion),
-                     file.string() + " /version");
+      return failure(
+          ErrorKind::unusable,
+          fmt::format("it was made by a newer Standpoint (project version {}, this program knows {}); update "
+                      "the program",
+                      version, kProjectVersion),
+          file.string() + " /version");
     auto document = fromJson(*project, folder, progress);
     if (!document) return document;
     document->name = fs::absolute(folder).filename().string();
-    if (auto wrong = inconsistency(*document); !wrong.empty()) return failure(ErrorKind::unusable, wrong, file.string());
+    if (auto wrong = inconsistency(*document); !wrong.empty())
+      return failure(ErrorKind::unusable, wrong, file.string());
     return document;
   } catch (const json::exception& e) {
-    return failure(ErrorKind::unusable, fmt::format("something is missing or of the wrong kind: {}", e.what()), file.string());
+    return failure(ErrorKind::unusable, fmt::format("something is missing or of the wrong kind: {}", e.what()),
+                   file.string());
   }
 }
 

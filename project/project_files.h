@@ -11,9 +11,9 @@ namespace standpoint {
 
 constexpr int kProjectVersion = 1;
 
-// A project is a folder: project.json (versioned, readable), geometry/*.glb, products.json; scans/ holds what was scanned.
-// Saving writes beside the old files and swaps project.json last, so a full disk or a crash leaves the project as it was.
-// load(save(d)) scans to the same bytes as d.
+// A project is a folder: project.json (versioned, readable), geometry/*.glb, products.json; scans/ holds what was
+// scanned. Saving writes beside the old files and swaps project.json last, so a full disk or a crash leaves the project
+// as it was. load(save(d)) scans to the same bytes as d.
 Result<void> saveProject(const Document& document, const std::filesystem::path& folder, Progress& progress);
 
 // A newer version, a missing part, a wrong index: an error that names file and place.

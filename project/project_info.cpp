@@ -30,7 +30,8 @@ json projectInfo(const Document& document) {
   if (document.imported) {
     const auto& products = document.imported->products;
     answer["products"] = products.size();
-    answer["products_excluded"] = std::count_if(products.begin(), products.end(), [](const Product& p) { return p.excluded; });
+    answer["products_excluded"] =
+        std::count_if(products.begin(), products.end(), [](const Product& p) { return p.excluded; });
     answer["triangles_imported"] = sceneTriangleCount(*document.imported);
     answer["triangles"] = sceneTriangleCount(*document.environment());
     const Eigen::Vector3d shift = document.georeference ? document.georeference->shift_m : Eigen::Vector3d::Zero();

@@ -7,7 +7,8 @@
 
 namespace standpoint {
 
-// What a project holds and how far it is: the model, what was made of it, and the survey. Numbers in the file's own frame.
+// What a project holds and how far it is: the model, what was made of it, and the survey. Numbers in the file's own
+// frame.
 nlohmann::json projectInfo(const Document& document);
 
 }  // namespace standpoint

@@ -15,7 +15,8 @@ namespace standpoint {
 using nlohmann::json;
 
 json poseToJson(const Pose& p) {
-  return {{"rotation", {p.rotation.w(), p.rotation.x(), p.rotation.y(), p.rotation.z()}}, {"translation", toJson(p.translation)}};
+  return {{"rotation", {p.rotation.w(), p.rotation.x(), p.rotation.y(), p.rotation.z()}},
+          {"translation", toJson(p.translation)}};
 }
 
 Pose poseFrom(const json& j) {
@@ -26,13 +27,19 @@ Pose poseFrom(const json& j) {
 namespace {
 
 json scanToJson(const Scan& s) {
-  return {{"instrument", s.instrument}, {"file", s.file}, {"format", s.format}, {"settings", s.settings}, {"seed", s.seed},
-          {"pulses", s.pulses}, {"points", s.points}, {"instrument_seconds", s.instrument_seconds}};
+  return {{"instrument", s.instrument},
+          {"file", s.file},
+          {"format", s.format},
+          {"settings", s.settings},
+          {"seed", s.seed},
+          {"pulses", s.pulses},
+          {"points", s.points},
+          {"instrument_seconds", s.instrument_seconds}};
 }
 
 Scan scanFrom(const json& j) {
-  return {j.at("instrument"), j.at("file"), j.at("format"), j.at("settings"), j.at("seed"),
-          j.at("pulses"), j.at("points"), j.at("instrument_seconds")};
+  return {j.at("instrument"), j.at("file"),   j.at("format"), j.at("settings"),
+          j.at("seed"),       j.at("pulses"), j.at("points"), j.at("instrument_seconds")};
 }
 
 json jobToJson(const Job& job) {
@@ -40,15 +47,20 @@ json jobToJson(const Job& job) {
   for (const auto& s : job.stations) {
     json scans = json::array();
     for (const auto& scan : s.scans) scans.push_back(scanToJson(scan));
-    json row = {{"name", s.name}, {"instrument_height_m", s.instrument_height_m}, {"true_pose", poseToJson(s.true_pose)},
+    json row = {{"name", s.name},
+                {"instrument_height_m", s.instrument_height_m},
+                {"true_pose", poseToJson(s.true_pose)},
                 {"scans", std::move(scans)}};
     if (s.solved_pose) row["solved_pose"] = poseToJson(*s.solved_pose);
     stations.push_back(std::move(row));
   }
   json targets = json::array();
   for (const auto& t : job.targets)
-    targets.push_back({{"name", t.name}, {"kind", t.kind == TargetKind::sphere ? "sphere" : "checkerboard"},
-                       {"centre", toJson(t.centre)}, {"normal", toJson(t.normal)}, {"size_m", t.size_m}});
+    targets.push_back({{"name", t.name},
+                       {"kind", t.kind == TargetKind::sphere ? "sphere" : "checkerboard"},
+                       {"centre", toJson(t.centre)},
+                       {"normal", toJson(t.normal)},
+                       {"size_m", t.size_m}});
   json controls = json::array();
   for (const auto& c : job.control_points)
     controls.push_back({{"name", c.name}, {"position", toJson(c.position)}, {"sigma_m", c.sigma_m}});
@@ -74,9 +86,16 @@ Job jobFrom(const json& j) {
 
 json scanningToJson(const ScanChoice& c) {
   const auto& w = c.weather;
-  json part = {{"instrument", c.instrument}, {"settings", c.settings}, {"seed", c.seed}, {"without", leftOut(c.effects)},
-               {"weather", {{"rain_mm_h", w.rain_mm_h}, {"snow_mm_h", w.snow_mm_h}, {"fog_m", w.fog_mor_m}, {"dust_m", w.dust_mor_m}}},
-               {"truth", c.truth}, {"compensator", c.compensator}, {"panorama", c.panorama}};
+  json part = {
+      {"instrument", c.instrument},
+      {"settings", c.settings},
+      {"seed", c.seed},
+      {"without", leftOut(c.effects)},
+      {"weather",
+       {{"rain_mm_h", w.rain_mm_h}, {"snow_mm_h", w.snow_mm_h}, {"fog_m", w.fog_mor_m}, {"dust_m", w.dust_mor_m}}},
+      {"truth", c.truth},
+      {"compensator", c.compensator},
+      {"panorama", c.panorama}};
   if (std::isfinite(w.visibility_km)) part["weather"]["visibility_km"] = w.visibility_km;
   if (c.panorama_columns > 0) part["panorama_size"] = c.panorama_columns;
   return part;
@@ -85,9 +104,15 @@ json scanningToJson(const ScanChoice& c) {
 ScanChoice scanningFrom(const json& j) {
   const auto& w = j.at("weather");
   const auto without = j.at("without").get<std::string>();
-  ScanChoice c{.instrument = j.at("instrument"), .settings = j.at("settings"), .seed = j.at("seed"),
-               .effects = {}, .weather = {w.value("visibility_km", kNoAir.visibility_km), w.at("rain_mm_h"), w.at("snow_mm_h"), w.at("fog_m"), w.at("dust_m")},
-               .truth = j.at("truth"), .compensator = j.at("compensator"), .panorama = j.at("panorama"),
+  ScanChoice c{.instrument = j.at("instrument"),
+               .settings = j.at("settings"),
+               .seed = j.at("seed"),
+               .effects = {},
+               .weather = {w.value("visibility_km", kNoAir.visibility_km), w.at("rain_mm_h"), w.at("snow_mm_h"),
+                           w.at("fog_m"), w.at("dust_m")},
+               .truth = j.at("truth"),
+               .compensator = j.at("compensator"),
+               .panorama = j.at("panorama"),
                .panorama_columns = j.value("panorama_size", 0U)};
   // A name that a later version knows is none of ours: all effects then.
   if (const auto effects = effectsWithout(without); !without.empty() && effects) c.effects = *effects;
@@ -99,13 +124,19 @@ json lossToJson(const ProductLoss& l) {
 }
 
 // The turn of the normals came later.
-ProductLoss lossFrom(const json& j) { return {j.at(0), j.at(1), j.at(2), j.at(3), j.size() > 4 ? j.at(4).get<double>() : 0}; }
+ProductLoss lossFrom(const json& j) {
+  return {j.at(0), j.at(1), j.at(2), j.at(3), j.size() > 4 ? j.at(4).get<double>() : 0};
+}
 
 json lighteningToJson(const Lightening& l) {
   json losses = json::array();
   for (const auto& loss : l.products) losses.push_back(lossToJson(loss));
-  json part = {{"max_deviation_m", l.request.max_deviation_m}, {"lod_rules", l.request.lod_rules}, {"surroundings", l.request.surroundings},
-               {"all", lossToJson(l.all)}, {"products", losses}, {"levels", l.levels}};
+  json part = {{"max_deviation_m", l.request.max_deviation_m},
+               {"lod_rules", l.request.lod_rules},
+               {"surroundings", l.request.surroundings},
+               {"all", lossToJson(l.all)},
+               {"products", losses},
+               {"levels", l.levels}};
   if (l.request.by_view) part["by_view"] = true;
   if (l.request.budget) part["budget"] = *l.request.budget;
   return part;
@@ -117,10 +148,15 @@ json collisionToJson(const CollideResult& c) {
   json products = json::array();
   for (const auto& p : c.products) products.push_back({p.shapes, p.triangles, p.max_deviation_m});
   json doors = json::array();
-  for (const auto& d : c.doors) doors.push_back({d.product, d.floor, d.passable, d.closed, d.clear_width_m, toJson(d.position), d.led_through});
+  for (const auto& d : c.doors)
+    doors.push_back({d.product, d.floor, d.passable, d.closed, d.clear_width_m, toJson(d.position), d.led_through});
   json rooms = json::array();
   for (const auto& r : c.rooms) rooms.push_back({r.product, r.walkable_m2, r.reached, toJson(r.position)});
-  return {{"shapes", shapes}, {"products", products}, {"doors", doors}, {"rooms", rooms}, {"walkable_area_m2", c.walkable_area_m2}};
+  return {{"shapes", shapes},
+          {"products", products},
+          {"doors", doors},
+          {"rooms", rooms},
+          {"walkable_area_m2", c.walkable_area_m2}};
 }
 
 json propertiesToJson(const std::vector<Property>& properties) {
@@ -144,7 +180,9 @@ Severity severityFrom(const std::string& text) {
 }  // namespace
 
 json documentToJson(const Document& d) {
-  json project = {{"version", kProjectVersion}, {"sources", d.sources}, {"georeference", georeferenceToJson(*d.georeference)},
+  json project = {{"version", kProjectVersion},
+                  {"sources", d.sources},
+                  {"georeference", georeferenceToJson(*d.georeference)},
                   {"job", jobToJson(*d.job)}};
   if (d.import_report) project["import_report"] = toJson(*d.import_report);
   if (d.lightening) project["lightening"] = lighteningToJson(*d.lightening);
@@ -166,8 +204,10 @@ Document documentFrom(const json& project) {
   d.import_report = std::make_shared<const Report>(std::move(report));
   if (project.contains("treatments"))
     d.treatments = std::make_shared<const std::vector<Treatment>>(treatmentsFrom(project.at("treatments")));
-  if (project.contains("materials")) d.materials = std::make_shared<const MaterialChoice>(materialsFrom(project.at("materials")));
-  if (project.contains("scanning")) d.scanning = std::make_shared<const ScanChoice>(scanningFrom(project.at("scanning")));
+  if (project.contains("materials"))
+    d.materials = std::make_shared<const MaterialChoice>(materialsFrom(project.at("materials")));
+  if (project.contains("scanning"))
+    d.scanning = std::make_shared<const ScanChoice>(scanningFrom(project.at("scanning")));
   return d;
 }
 
@@ -176,15 +216,31 @@ json recordsToJson(const Environment& environment) {
   for (const auto& p : environment.products) {
     json layers = json::array();
     for (const auto& l : p.layers) layers.push_back({l.name, l.thickness_m});
-    products.push_back({{"id", p.id}, {"global_id", p.global_id}, {"class", p.ifc_class}, {"predefined_type", p.predefined_type},
-                        {"name", p.name}, {"type_name", p.type_name}, {"storey", p.storey}, {"container", p.container},
-                        {"whole", p.whole}, {"tangible", p.tangible}, {"excluded", p.excluded}, {"materials", p.materials}, {"groups", p.groups},
-                        {"layers", std::move(layers)}, {"properties", propertiesToJson(p.properties)}});
+    products.push_back({{"id", p.id},
+                        {"global_id", p.global_id},
+                        {"class", p.ifc_class},
+                        {"predefined_type", p.predefined_type},
+                        {"name", p.name},
+                        {"type_name", p.type_name},
+                        {"storey", p.storey},
+                        {"container", p.container},
+                        {"whole", p.whole},
+                        {"tangible", p.tangible},
+                        {"excluded", p.excluded},
+                        {"materials", p.materials},
+                        {"groups", p.groups},
+                        {"layers", std::move(layers)},
+                        {"properties", propertiesToJson(p.properties)}});
   }
   json spatial = json::array();
   for (const auto& n : environment.spatial)
-    spatial.push_back({{"id", n.id}, {"class", n.ifc_class}, {"name", n.name}, {"global_id", n.global_id},
-                       {"parent", n.parent}, {"elevation_m", n.elevation_m}, {"properties", propertiesToJson(n.properties)}});
+    spatial.push_back({{"id", n.id},
+                       {"class", n.ifc_class},
+                       {"name", n.name},
+                       {"global_id", n.global_id},
+                       {"parent", n.parent},
+                       {"elevation_m", n.elevation_m},
+                       {"properties", propertiesToJson(n.properties)}});
   return {{"products", std::move(products)}, {"spatial", std::move(spatial)}};
 }
 
@@ -210,7 +266,8 @@ Environment recordsFrom(const json& records) {
     e.products.push_back(std::move(p));
   }
   for (const auto& n : records.at("spatial"))
-    e.spatial.push_back({n.at("id"), n.at("class"), n.at("name"), n.at("global_id"), n.at("parent"), n.at("elevation_m"), propertiesFrom(n)});
+    e.spatial.push_back({n.at("id"), n.at("class"), n.at("name"), n.at("global_id"), n.at("parent"),
+                         n.at("elevation_m"), propertiesFrom(n)});
   return e;
 }
 
@@ -222,7 +279,7 @@ std::shared_ptr<const Lightening> lighteningFrom(const json& part, std::shared_p
   l.request.by_view = part.value("by_view", false);
   l.request.lod_rules = part.value("lod_rules", "");
   l.request.surroundings = part.value("surroundings", std::vector<std::string>{});
-  l.levels = part.value("levels", std::vector<std::string>{});   // not in the projects of the first version
+  l.levels = part.value("levels", std::vector<std::string>{});  // not in the projects of the first version
   l.all = lossFrom(part.at("all"));
   for (const auto& loss : part.at("products")) l.products.push_back(lossFrom(loss));
   return std::make_shared<const Lightening>(std::move(l));
@@ -253,9 +310,11 @@ std::shared_ptr<const CollideResult> collisionFrom(const json& part, const Envir
     c.doors.back().closed = d.at(3);
     c.doors.back().clear_width_m = d.at(4);
     c.doors.back().position = vectorFrom(d.at(5));
-    c.doors.back().led_through = d.size() > 6 ? d.at(6).get<bool>() : c.doors.back().passable;  // before it was looked for
+    c.doors.back().led_through =
+        d.size() > 6 ? d.at(6).get<bool>() : c.doors.back().passable;  // before it was looked for
   }
-  for (const auto& r : part.value("rooms", json::array())) c.rooms.push_back({r.at(0), r.at(1), r.at(2), vectorFrom(r.at(3))});
+  for (const auto& r : part.value("rooms", json::array()))
+    c.rooms.push_back({r.at(0), r.at(1), r.at(2), vectorFrom(r.at(3))});
   c.walkable_area_m2 = part.at("walkable_area_m2");
   return std::make_shared<const CollideResult>(std::move(c));
 }

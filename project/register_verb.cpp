@@ -16,8 +16,8 @@ namespace standpoint {
 
 namespace {
 
-using nlohmann::json;
 using Eigen::Vector3d;
+using nlohmann::json;
 
 // How an operator lays one cloud beside another by eye, before the fit.
 constexpr double kByEye_m = 0.15, kByEye_rad = 1.5 * kRadPerDeg;
@@ -37,9 +37,11 @@ Result<Pose> laidByHand(Pose pose, const json& options) {
   const auto text = options["laid"].get<std::string>();
   double x_m = 0, y_m = 0, turn_deg = 0;
   int read = 0;
-  const bool whole = std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &x_m, &y_m, &turn_deg, &read) == 3 && static_cast<std::size_t>(read) == text.size();
+  const bool whole = std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &x_m, &y_m, &turn_deg, &read) == 3 &&
+                     static_cast<std::size_t>(read) == text.size();
   if (!whole || !std::isfinite(x_m + y_m + turn_deg))
-    return failure(ErrorKind::usage, fmt::format("'{}' is not three numbers: x,y,turn in m and degrees", text), "--laid");
+    return failure(ErrorKind::usage, fmt::format("'{}' is not three numbers: x,y,turn in m and degrees", text),
+                   "--laid");
   pose.translation += Vector3d(x_m, y_m, 0);
   pose.rotation = Eigen::AngleAxisd(turn_deg * kRadPerDeg, Vector3d::UnitZ()) * pose.rotation;
   return pose;

@@ -25,8 +25,8 @@ Pose inverse(const Pose& p) {
 
 // Another pose makes another scan.
 std::string guidAt(const ScanHeader& header, const Pose& pose) {
-  const auto text = fmt::format("{} {} {}", header.guid, fmt::join(pose.translation, " "),
-                                fmt::join(pose.rotation.coeffs(), " "));
+  const auto text =
+      fmt::format("{} {} {}", header.guid, fmt::join(pose.translation, " "), fmt::join(pose.rotation.coeffs(), " "));
   const std::uint64_t a = stableHash(text.c_str()), b = stableHash(text.c_str(), a);
   return fmt::format("{{{:08x}-{:04x}-8{:03x}-8{:03x}-{:012x}}}", a >> 32U, (a >> 16U) & 0xFFFFU, (a >> 4U) & 0xFFFU,
                      a & 0xFFFU, b & 0xFFFFFFFFFFFFU);
@@ -41,8 +41,7 @@ class PosedSink final : public PointSink {
     auto index = stations_.next(header);
     if (!index) return failure(index.error());
     const Station& station = job_.stations[*index];
-    if (!station.solved_pose)
-      return failure(ErrorKind::internal, "this station was not registered", station.name);
+    if (!station.solved_pose) return failure(ErrorKind::internal, "this station was not registered", station.name);
     ScanHeader posed = header;
     posed.file_from_scanner = *station.solved_pose;
     posed.file_from_scanner.translation += shift_m_;
@@ -65,7 +64,7 @@ class PosedSink final : public PointSink {
   const Job& job_;
   Eigen::Vector3d shift_m_;
   StationsOfFile stations_;
-  Pose moved_;   // from where the file had it to where it is now
+  Pose moved_;  // from where the file had it to where it is now
 };
 
 }  // namespace
@@ -91,8 +90,9 @@ Result<std::vector<fs::path>> registeredFiles(const std::vector<fs::path>& files
       return failure(ErrorKind::usage, "it would be written over itself: name another folder", files[i].string());
     for (std::size_t k = 0; k < i; ++k)
       if (to[k] == to[i])
-        return failure(ErrorKind::usage, fmt::format("{} has the same name: register them one folder at a time",
-                                                     files[k].string()), files[i].string());
+        return failure(ErrorKind::usage,
+                       fmt::format("{} has the same name: register them one folder at a time", files[k].string()),
+                       files[i].string());
   }
   return to;
 }
@@ -104,7 +104,8 @@ Result<void> writeRegistered(const Job& job, const Eigen::Vector3d& shift_m, con
   if (!folder.empty()) fs::create_directories(folder, code);
   if (code) return failure(ErrorKind::file_system, "cannot create the folder: " + code.message(), folder.string());
   for (std::size_t i = 0; i < files.size(); ++i) {
-    progress.stage("Writing " + to[i].filename().string(), 0.95 + 0.05 * static_cast<double>(i) / static_cast<double>(files.size()),
+    progress.stage("Writing " + to[i].filename().string(),
+                   0.95 + 0.05 * static_cast<double>(i) / static_cast<double>(files.size()),
                    0.95 + 0.05 * static_cast<double>(i + 1) / static_cast<double>(files.size()));
     const auto posed = [&](PointSink& writer) { return std::make_unique<PosedSink>(writer, job, shift_m, files[i]); };
     if (auto written = convertCloud(files[i], to[i], "", report, progress, posed); !written)

@@ -16,8 +16,8 @@ namespace standpoint {
 
 namespace {
 
-using nlohmann::json;
 using Eigen::Vector3d;
+using nlohmann::json;
 
 constexpr double kThinning_m = 0.05;
 constexpr std::size_t kPointsOfFit = 40000;
@@ -57,7 +57,8 @@ Result<PlacePair> placePairFrom(const std::string& text) {
   const auto cloud = parseNumbers(text.substr(0, equals));
   const auto model = parseNumbers(equals == std::string::npos ? "" : text.substr(equals + 1));
   if (!cloud || !model || cloud->size() != 3 || model->size() != 3)
-    return failure(ErrorKind::usage, fmt::format("'{}' is not X,Y,Z in the cloud = X,Y,Z in the model", text), "--pairs");
+    return failure(ErrorKind::usage, fmt::format("'{}' is not X,Y,Z in the cloud = X,Y,Z in the model", text),
+                   "--pairs");
   return PlacePair{vectorFrom(*cloud), vectorFrom(*model)};
 }
 
@@ -66,7 +67,8 @@ std::string unitFor(double scale) {
     double scale;
     const char* what;
   };
-  constexpr std::array units = {Unit{0.001, "millimetres"}, Unit{0.01, "centimetres"}, Unit{0.3048, "feet"}, Unit{0.0254, "inches"}};
+  constexpr std::array units = {Unit{0.001, "millimetres"}, Unit{0.01, "centimetres"}, Unit{0.3048, "feet"},
+                                Unit{0.0254, "inches"}};
   for (const auto& unit : units)
     if (std::abs(scale / unit.scale - 1) < 0.01) return fmt::format(": the cloud seems to be in {}", unit.what);
   return {};
@@ -93,11 +95,12 @@ Result<Pose> byPairs(const std::vector<PlacePair>& pairs, const std::string& nam
   answer["scale"] = fit->scale;
   answer["scale_sigma"] = fit->scale_sigma;
   if (scaleDiffers(*fit, pairs))
-    report.warn(name, fmt::format("the pairs fit best with a scale of {:.6f} ± {:.6f}, which is not applied{}", fit->scale,
-                                  fit->scale_sigma, unitFor(fit->scale)));
+    report.warn(name, fmt::format("the pairs fit best with a scale of {:.6f} ± {:.6f}, which is not applied{}",
+                                  fit->scale, fit->scale_sigma, unitFor(fit->scale)));
   if (fit->breadth < 0.02)
     report.warn(name, "the pairs lie nearly on one line, which hardly holds the turn about it: add a pair beside it");
-  if (pairs.size() == 3) report.note(name, "three pairs leave little to judge them by: a fourth would show a wrong one");
+  if (pairs.size() == 3)
+    report.note(name, "three pairs leave little to judge them by: a fourth would show a wrong one");
   const auto worst = std::max_element(fit->residual_m.begin(), fit->residual_m.end());
   report.note(name, fmt::format("the pairs fit to {:.4f} m, the worst is pair {} with {:.4f} m", fit->rms_m,
                                 worst - fit->residual_m.begin() + 1, *worst));
@@ -105,16 +108,20 @@ Result<Pose> byPairs(const std::vector<PlacePair>& pairs, const std::string& nam
 }
 
 void tell(const SurfaceFit& fit, const std::string& name, Report& report) {
-  report.note(name, fmt::format("fitted to the surface in {} iterations: {:.4f} m RMS along its normals over {:.1f} % of the "
-                                "points, placed to {:.4f} m (1 σ)",
-                                fit.iterations, fit.rms_m, fit.used_share * 100, fit.sigma_shift_m.norm()));
+  report.note(name,
+              fmt::format("fitted to the surface in {} iterations: {:.4f} m RMS along its normals over {:.1f} % of the "
+                          "points, placed to {:.4f} m (1 σ)",
+                          fit.iterations, fit.rms_m, fit.used_share * 100, fit.sigma_shift_m.norm()));
   for (const auto& motion : fit.free)
-    report.warn(name, fmt::format("the surface does not hold the cloud {}: there it stays as it was placed", describe(motion)));
+    report.warn(
+        name, fmt::format("the surface does not hold the cloud {}: there it stays as it was placed", describe(motion)));
   if (!fit.settled)
     report.warn(name, fmt::format("it still moved after {} iterations: start nearer, by pairs", fit.iterations));
   if (fit.used_share < 0.5)
-    report.warn(name, fmt::format("only {:.1f} % of the points lie on the model: it may sit in a wrong place, or the model "
-                                  "lacks what was scanned", fit.used_share * 100));
+    report.warn(name,
+                fmt::format("only {:.1f} % of the points lie on the model: it may sit in a wrong place, or the model "
+                            "lacks what was scanned",
+                            fit.used_share * 100));
 }
 
 }  // namespace
@@ -177,11 +184,12 @@ json toJson(const SurfaceFit& fit) {
           {"not_held", std::move(free)}};
 }
 
-Result<Underlay> registered(const Document& document, const Underlay& underlay, const RegisterRequest& request, json& answer,
-                            Report& report, Progress& progress) {
+Result<Underlay> registered(const Document& document, const Underlay& underlay, const RegisterRequest& request,
+                            json& answer, Report& report, Progress& progress) {
   Underlay result = underlay;
   if (request.pairs.empty() && !request.to_surface)
-    return failure(ErrorKind::usage, "say by what: --pairs x,y,z=X,Y,Z … (three or more), --icp, or both", "--register");
+    return failure(ErrorKind::usage, "say by what: --pairs x,y,z=X,Y,Z … (three or more), --icp, or both",
+                   "--register");
   if (!request.pairs.empty()) {
     auto pose = byPairs(request.pairs, underlay.name, answer, report);
     if (!pose) return failure(pose.error());

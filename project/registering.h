@@ -19,7 +19,8 @@ struct PlacePair {
 // "x,y,z=X,Y,Z" of each; errors name the pair.
 Result<std::vector<PlacePair>> placePairsFrom(const nlohmann::json& texts);
 
-// Fits the cloud to the model's scene from where `file_from_cloud` puts it; the fit's poses are in the model's file frame.
+// Fits the cloud to the model's scene from where `file_from_cloud` puts it; the fit's poses are in the model's file
+// frame.
 Result<SurfaceFit> fitCloudToModel(const Document& document, const CloudSample& sample, const Pose& file_from_cloud,
                                    double reach_m, Progress& progress);
 constexpr std::size_t kSampleForFit = 1000000;

@@ -17,9 +17,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSighting_m = 0.001;      // of every measured centre: what the instrument adds to the fit's own σ
-constexpr double kSameDistance_m = 0.01;   // by geometry
-constexpr double kOfficeWarning_m = 0.005; // instruments.md §4.2: where office software turns yellow
+constexpr double kSighting_m = 0.001;       // of every measured centre: what the instrument adds to the fit's own σ
+constexpr double kSameDistance_m = 0.01;    // by geometry
+constexpr double kOfficeWarning_m = 0.005;  // instruments.md §4.2: where office software turns yellow
 constexpr std::size_t kLargestControlFile = 1U << 20U;
 
 // What is known of one station before the network: its sightings by numbers of the measurements.
@@ -61,8 +61,10 @@ class Numbering {
       for (const auto f : all[s].found) add(s, measured_.found[f].target, f);
     for (const auto& c : request.control) {
       const auto at = std::find(r_.target_names.begin(), r_.target_names.end(), c.name);
-      if (at == r_.target_names.end()) report.note(c.name, "this control point is no target of the project");
-      else r_.network.known.push_back({static_cast<std::size_t>(at - r_.target_names.begin()), c.position, c.sigma_m});
+      if (at == r_.target_names.end())
+        report.note(c.name, "this control point is no target of the project");
+      else
+        r_.network.known.push_back({static_cast<std::size_t>(at - r_.target_names.begin()), c.position, c.sigma_m});
     }
   }
 
@@ -106,7 +108,8 @@ class Numbering {
       if (!match)
         why +=
             fmt::format("{}{}: {}", why.empty() ? "" : "; ", job_.stations[all[s].station].name, match.error().message);
-      else if (!best || match->pairs.size() > best->second.pairs.size()) best = {s, *std::move(match)};
+      else if (!best || match->pairs.size() > best->second.pairs.size())
+        best = {s, *std::move(match)};
     }
     if (!best) return failure(ErrorKind::unusable, "the targets cannot be told apart by their distances: " + why);
     const auto& [s, match] = *best;
@@ -176,8 +179,10 @@ Result<TargetRegistration> registerByTargets(const Job& job, const TargetMeasure
     return failure(ErrorKind::usage,
                    fmt::format("station {} is in none of these files", job.stations[request.held].name), "--fix");
   Numbering numbering(job, measured, r);
-  if (request.matching == TargetMatching::by_names) numbering.byNames(all, request, report);
-  else if (auto ok = numbering.byGeometry(all, request); !ok) return failure(ok.error());
+  if (request.matching == TargetMatching::by_names)
+    numbering.byNames(all, request, report);
+  else if (auto ok = numbering.byGeometry(all, request); !ok)
+    return failure(ok.error());
   r.network.stations = all.size();
   r.network.targets = r.target_names.size();
   NetworkProblem problem;

@@ -17,19 +17,19 @@ enum class TargetMatching { by_names, by_geometry };
 
 // What a registration by targets came to. Stations and targets of the network have numbers of their own.
 struct TargetRegistration {
-  std::vector<std::size_t> station_of;     // of the job, for each of the network
-  std::vector<std::string> target_names;   // for each of the network
-  std::vector<std::size_t> found;          // of the measurements, for each sighting
+  std::vector<std::size_t> station_of;    // of the job, for each of the network
+  std::vector<std::string> target_names;  // for each of the network
+  std::vector<std::size_t> found;         // of the measurements, for each sighting
   TargetNetwork network;
   NetworkFit fit;
   std::vector<NetworkLink> links;
-  std::size_t wrong_matches = 0;           // by geometry: that the truth says otherwise
+  std::size_t wrong_matches = 0;  // by geometry: that the truth says otherwise
 };
 
 struct RegistrationRequest {
   TargetMatching matching = TargetMatching::by_names;
-  std::size_t held = 0;                    // of the job; not used with control points
-  std::vector<ControlPoint> control;       // local frame
+  std::size_t held = 0;               // of the job; not used with control points
+  std::vector<ControlPoint> control;  // local frame
 };
 
 Result<TargetRegistration> registerByTargets(const Job& job, const TargetMeasurements& measured,

@@ -12,8 +12,8 @@ namespace standpoint {
 
 namespace {
 
-using nlohmann::json;
 using Eigen::Vector3d;
+using nlohmann::json;
 
 Vector3d trueCentre(const Station& station, const Target& target) {
   return station.true_pose.rotation.conjugate() * (target.centre - station.true_pose.translation);
@@ -107,13 +107,11 @@ json registrationRows(const Job& job, const TargetRegistration& r, const Vector3
     links.push_back(linkRow(job, r, link));
     mean += link.mean_m * static_cast<double>(link.rows.size()), count += static_cast<double>(link.rows.size());
   }
-  return {{"stations", std::move(stations)},
-          {"links", std::move(links)},
-          {"targets", targetRows(job, r, shift_m)},
-          {"mean_target_error_m", count > 0 ? json(mean / count) : json(nullptr)},
-          {"sigma_factor", r.fit.sigma_factor},
-          {"redundancy", r.fit.redundancy},
-          {"wrong_matches", r.wrong_matches}};
+  return {
+      {"stations", std::move(stations)},        {"links", std::move(links)},
+      {"targets", targetRows(job, r, shift_m)}, {"mean_target_error_m", count > 0 ? json(mean / count) : json(nullptr)},
+      {"sigma_factor", r.fit.sigma_factor},     {"redundancy", r.fit.redundancy},
+      {"wrong_matches", r.wrong_matches}};
 }
 
 // What people read: links as office software lists them, and what only a simulation can say beside it. Millimetres.

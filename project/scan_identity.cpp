@@ -45,8 +45,7 @@ std::uint64_t mix(std::uint64_t hash, const PhysicalMaterial& m) {
   hash = mix(mix(mix(hash, m.id), m.reflectance), m.transmittance);
   for (const auto& c : m.complex_index) hash = mix(hash, fmt::format("{} {} {}", c.wavelength_nm, c.n, c.k));
   return mix(hash, fmt::format("{} {} {} {} {} {} {} {} {}", m.roughness_rad, m.gloss_slope, m.index_of_refraction,
-                               m.thickness_m, m.panes, m.gap_m, m.variation, m.texture_scale_m,
-                               m.retro_gain));
+                               m.thickness_m, m.panes, m.gap_m, m.variation, m.texture_scale_m, m.retro_gain));
 }
 
 }  // namespace
@@ -91,7 +90,7 @@ std::string guidOf(std::uint64_t world_fingerprint, const Station& station, cons
   if (o.sun) a = mix(a, fmt::format("sun {} {} {}", o.sun->azimuth_rad, o.sun->elevation_rad, o.sun->irradiance_W_m2));
   if (o.interference > 0) a = mix(a, fmt::format("interference {}", o.interference));
   if (request.panorama) a = mix(a, "panorama");
-  if (!request.as.empty()) a = mix(a, request.as);   // a run that goes on takes no station that was written otherwise
+  if (!request.as.empty()) a = mix(a, request.as);  // a run that goes on takes no station that was written otherwise
   if (request.panorama_columns > 0) a = mix(a, std::uint64_t{request.panorama_columns});
   if (const auto& m = request.mishap; m.any())
     a = mix(a, fmt::format("mishap {} {} {} {} {}", m.until_share, m.noise_factor, m.pushed_at_share.value_or(-1),

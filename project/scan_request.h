@@ -22,16 +22,16 @@ struct ScanRequest {
   ScanOptions options;
   std::vector<std::size_t> stations;  // indices into the job
   const CloudFormat* format = nullptr;
-  std::string as;                     // variant of the format, or empty
+  std::string as;  // variant of the format, or empty
   CloudFormat::Writer writer = nullptr;
   std::filesystem::path output;
   bool one_file = false;  // all stations in `output`; else a file each
   Levelling levelling;
-  bool panorama = false;  // each station takes its pictures, and the points are coloured from them
+  bool panorama = false;               // each station takes its pictures, and the points are coloured from them
   std::uint32_t panorama_columns = 0;  // that were asked for; 0: the instrument's own
   Mishap mishap;
   std::vector<std::string> notes;  // "key=text" for the files' record
-  bool resume = false;  // stations that an earlier run finished are not scanned again
+  bool resume = false;             // stations that an earlier run finished are not scanned again
 };
 
 // What of it the next scan would begin with.

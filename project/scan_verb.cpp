@@ -99,10 +99,16 @@ Scan record(const ScanCount& count, const ScanRequest& request, const fs::path& 
 class WatchedSink : public PointSink {
  public:
   WatchedSink(PointSink& file, PointSink& watcher) : file_(file), watcher_(watcher) {}
-  Result<void> begin(const ScanHeader& header) override { return both([&](PointSink& s) { return s.begin(header); }); }
-  Result<void> write(const PointBlock& block) override { return both([&](PointSink& s) { return s.write(block); }); }
+  Result<void> begin(const ScanHeader& header) override {
+    return both([&](PointSink& s) { return s.begin(header); });
+  }
+  Result<void> write(const PointBlock& block) override {
+    return both([&](PointSink& s) { return s.write(block); });
+  }
   Result<void> picture(const StationPicture& picture) override { return file_.picture(picture); }
-  Result<void> end() override { return both([](PointSink& s) { return s.end(); }); }
+  Result<void> end() override {
+    return both([](PointSink& s) { return s.end(); });
+  }
   Result<void> close() override { return {}; }
 
  private:
@@ -122,21 +128,23 @@ struct StationShare {
 
 // One station into an open sink. Its pictures are taken to be half of it: how long they take depends on both sizes.
 Result<ScanCount> scanStation(const RayScene& scene, const ScanWorld& world, const Station& station,
-                              const ScanHeader& header, const ScanRequest& request, PointSink& file,
-                              Report& report, const StationShare& share, Progress& progress) {
+                              const ScanHeader& header, const ScanRequest& request, PointSink& file, Report& report,
+                              const StationShare& share, Progress& progress) {
   std::unique_ptr<PointSink> coloured;
-  const double pictures_to = !request.panorama ? share.from : request.settings.laser ? (share.from + share.to) / 2 : share.to;
+  const double pictures_to = !request.panorama        ? share.from
+                             : request.settings.laser ? (share.from + share.to) / 2
+                                                      : share.to;
   if (request.panorama) {
     progress.stage("Pictures at " + share.name, share.from, pictures_to);
-    auto panorama = takePanorama(scene, request.instrument, station.true_pose, request.options.threads, report, progress,
-                                 meteringOf(request.instrument, request.settings.values));
+    auto panorama = takePanorama(scene, request.instrument, station.true_pose, request.options.threads, report,
+                                 progress, meteringOf(request.instrument, request.settings.values));
     if (!panorama) return failure(panorama.error());
     coloured = colouring(file, std::make_shared<const Panorama>(*std::move(panorama)));
   }
   progress.stage("Scan " + share.name, pictures_to, share.to);
   PointSink& sink = coloured ? *coloured : file;
   if (auto ok = sink.begin(header); !ok) return failure(ok.error());
-  if (!request.settings.laser) {   // pictures only
+  if (!request.settings.laser) {  // pictures only
     if (auto ok = sink.end(); !ok) return failure(ok.error());
     return ScanCount{};
   }
@@ -224,7 +232,8 @@ class ScanRun {
   StationShare shareOf(std::size_t k) const {
     const double each = 1.0 / static_cast<double>(request_.stations.size());
     const std::string place = isBatch() ? fmt::format(" ({} of {})", k + 1, request_.stations.size()) : "";
-    return {job_.stations[request_.stations[k]].name + place, static_cast<double>(k) * each, static_cast<double>(k + 1) * each};
+    return {job_.stations[request_.stations[k]].name + place, static_cast<double>(k) * each,
+            static_cast<double>(k + 1) * each};
   }
 
   bool isWhole(const std::string& name, const fs::path& file, std::uint64_t bytes) const {

@@ -15,8 +15,10 @@ using nlohmann::json;
 Result<std::filesystem::path> projectFolder(const Verb& verb, const json& options) {
   const char* key = verb.scope == VerbScope::creates ? "output" : "project";
   if (!options.contains(key) || !options[key].is_string() || options[key].get<std::string>().empty())
-    return failure(ErrorKind::usage, verb.scope == VerbScope::creates ? "say where the project goes: -o PROJECT"
-                                                                      : "name the project's folder", verb.name);
+    return failure(
+        ErrorKind::usage,
+        verb.scope == VerbScope::creates ? "say where the project goes: -o PROJECT" : "name the project's folder",
+        verb.name);
   return std::filesystem::path(options[key].get<std::string>());
 }
 
@@ -30,10 +32,11 @@ Result<Outcome> runOnProject(const Verb& verb, const json& options, Progress& pr
   std::error_code ignored;
   const bool update = options.value("update", false);
   if (update && options.value("replace", false))
-    return failure(ErrorKind::usage, "--update keeps what is in the project and --replace does not; say one of them", "--update");
+    return failure(ErrorKind::usage, "--update keeps what is in the project and --replace does not; say one of them",
+                   "--update");
   const bool creates = verb.scope == VerbScope::creates && !update;
-  if (creates && std::filesystem::exists(*folder, ignored) &&
-      !std::filesystem::is_empty(*folder, ignored) && !options.value("replace", false))
+  if (creates && std::filesystem::exists(*folder, ignored) && !std::filesystem::is_empty(*folder, ignored) &&
+      !options.value("replace", false))
     return failure(ErrorKind::usage, "there is something here already; choose another folder, or say --replace",
                    folder->string());
   Document document;
@@ -54,7 +57,8 @@ Result<Outcome> runOnProject(const Verb& verb, const json& options, Progress& pr
 
 Result<Outcome> runOnDisk(const Verb& verb, const json& options, Progress& progress) {
   const auto started = std::chrono::steady_clock::now();
-  auto outcome = verb.scope == VerbScope::files ? runVerb(verb, {}, options, progress) : runOnProject(verb, options, progress);
+  auto outcome =
+      verb.scope == VerbScope::files ? runVerb(verb, {}, options, progress) : runOnProject(verb, options, progress);
   if (!outcome) return outcome;
   outcome->answer["issues"] = toJson(outcome->report);
   outcome->answer["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();

@@ -7,8 +7,9 @@
 
 namespace standpoint {
 
-// A verb on a project on disk: read it (`project`; for a creating verb nothing is read and `output` is the new project),
-// run, and write what changed. `options` has the verb's own plus "project". What the command line and job files do.
+// A verb on a project on disk: read it (`project`; for a creating verb nothing is read and `output` is the new
+// project), run, and write what changed. `options` has the verb's own plus "project". What the command line and job
+// files do.
 Result<Outcome> runOnDisk(const Verb& verb, const nlohmann::json& options, Progress& progress);
 
 }  // namespace standpoint

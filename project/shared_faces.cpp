@@ -30,7 +30,7 @@ SharedFaces::SharedFaces(const Environment& environment, const MaterialAssignmen
       const Triangle placed = {first + corners[0], first + corners[1], first + corners[2]};
       const Eigen::Vector3d& a = positions_[placed[0]];
       const Eigen::Vector3d across = (positions_[placed[1]] - a).cross(positions_[placed[2]] - a);
-      if (!(across.norm() > 0)) continue;   // no area
+      if (!(across.norm() > 0)) continue;  // no area
       triangles_.push_back(placed);
       faces_.push_back({across.normalized(), materials.materialOf(i, t)});
     }
@@ -45,7 +45,8 @@ bool SharedFaces::at(const Eigen::Vector3d& place, const Eigen::Vector3d& normal
     const Face& face = faces_[t];
     if (std::abs(face.normal.dot(normal)) < kParallel || face.material == material) return true;
     const auto& corners = triangles_[t];
-    const Eigen::Vector3d nearest = closestPoint(place, positions_[corners[0]], positions_[corners[1]], positions_[corners[2]]);
+    const Eigen::Vector3d nearest =
+        closestPoint(place, positions_[corners[0]], positions_[corners[1]], positions_[corners[2]]);
     shared = (nearest - place).norm() <= kOnePlane_m;
     return !shared;
   });

@@ -11,8 +11,8 @@
 
 namespace standpoint {
 
-// Places where faces of two materials lie in one plane: a wall drawn into the terrain, a door into the wall's face. Which
-// of them a beam meets there is chance, in the model as in a scan of it.
+// Places where faces of two materials lie in one plane: a wall drawn into the terrain, a door into the wall's face.
+// Which of them a beam meets there is chance, in the model as in a scan of it.
 class SharedFaces {
  public:
   SharedFaces(const Environment& environment, const MaterialAssignment& assignment);
@@ -21,12 +21,12 @@ class SharedFaces {
 
  private:
   struct Face {
-    Eigen::Vector3d normal;          // unit
+    Eigen::Vector3d normal;  // unit
     std::int32_t material = -1;
   };
   std::vector<Eigen::Vector3d> positions_;
   std::vector<Triangle> triangles_;
-  std::vector<Face> faces_;          // of the triangles
+  std::vector<Face> faces_;  // of the triangles
   std::unique_ptr<TriangleTree> tree_;
 };
 

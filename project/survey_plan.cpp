@@ -15,8 +15,8 @@ namespace standpoint {
 
 namespace {
 
-// Of a point in an E57 of ours: four floats, the grid, the labels, the colour, what is known of it; of each 1024 bytes of a page 4 are its
-// sum.
+// Of a point in an E57 of ours: four floats, the grid, the labels, the colour, what is known of it; of each 1024 bytes
+// of a page 4 are its sum.
 double bytesPerPoint(const ScanSettings& settings, const ScanChannels& channels, const Environment& environment,
                      std::size_t materials) {
   using e57::bitsFor;
@@ -89,7 +89,8 @@ Result<SurveyPlan> planSurvey(const Job& job, std::shared_ptr<const RayScene> sc
                               std::shared_ptr<const MaterialAssignment> assignment, const PlanRequest& request,
                               Progress& progress) {
   const auto& environment = scene->environment();
-  const double bytes_per_point = bytesPerPoint(request.settings, request.channels, environment, assignment->materials.size());
+  const double bytes_per_point =
+      bytesPerPoint(request.settings, request.channels, environment, assignment->materials.size());
   progress.stage("Sample surfaces", 0, 0.2);
   auto samples = sampleSurfaces(*scene, request.samples, request.seed, progress);
   if (!samples) return failure(samples.error());

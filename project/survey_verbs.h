@@ -9,11 +9,11 @@
 
 namespace standpoint {
 
-constexpr double kUsualHeight_m = 1.6;      // of the instrument's centre, where no instrument says its own
-constexpr double kUsualTrunnion_m = 0.2;    // above the tripod's plate, likewise
+constexpr double kUsualHeight_m = 1.6;    // of the instrument's centre, where no instrument says its own
+constexpr double kUsualTrunnion_m = 0.2;  // above the tripod's plate, likewise
 
-// Where a tripod of that height can stand at (x, y): upward faces below which the beam from above ends, with room for the
-// instrument. Heights of the floor in the local frame, ascending.
+// Where a tripod of that height can stand at (x, y): upward faces below which the beam from above ends, with room for
+// the instrument. Heights of the floor in the local frame, ascending.
 std::vector<double> floorsAt(const RayScene& scene, double x_m, double y_m, double instrument_height_m);
 
 Result<Outcome> runStation(const Document& document, const nlohmann::json& options, Progress& progress);
@@ -27,7 +27,8 @@ struct ScanWorld {
 };
 ScanWorld scanWorld(const Document& document, const MaterialAssignment& assignment);
 
-// What the stations' scans would bring, before they are made: coverage, overlap, points, time, and a place for another one.
+// What the stations' scans would bring, before they are made: coverage, overlap, points, time, and a place for another
+// one.
 Result<Outcome> runPlan(const Document& document, const nlohmann::json& options, Progress& progress);
 Result<Outcome> runScan(const Document& document, const nlohmann::json& options, Progress& progress);
 

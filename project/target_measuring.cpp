@@ -49,7 +49,7 @@ class Kept {
 
 struct Near {
   std::size_t target;
-  Vector3d predicted;              // own frame of the station
+  Vector3d predicted;  // own frame of the station
   double radius_m;
   Kept points{kMostNearTarget};
 };
@@ -133,8 +133,10 @@ void measure(const Job& job, StationPoints& station, TargetMeasurements& result)
     fits[i] = measured(job.targets[station.near[i].target], station.near[i], station.scan.has_intensity);
   });
   for (std::size_t i = 0; i < fits.size(); ++i) {
-    if (fits[i]) result.found.push_back({station.scan.station, station.near[i].target, *fits[i]});
-    else result.missed.push_back({station.scan.station, station.near[i].target, fits[i].error().message});
+    if (fits[i])
+      result.found.push_back({station.scan.station, station.near[i].target, *fits[i]});
+    else
+      result.missed.push_back({station.scan.station, station.near[i].target, fits[i].error().message});
   }
 }
 
@@ -160,11 +162,10 @@ Result<std::size_t> StationsOfFile::next(const ScanHeader& header) {
   if (number < in_file_.size()) return in_file_[number];
   std::vector<std::string> names;
   for (const auto& s : job_.stations) names.push_back(s.name);
-  return failure(
-      ErrorKind::usage,
-      fmt::format("scan '{}' is of no station of this project ({}): scan it here, or name a station so", header.name,
-                  names.empty() ? "there is none" : fmt::format("{}", fmt::join(names, ", "))),
-      file_.string());
+  return failure(ErrorKind::usage,
+                 fmt::format("scan '{}' is of no station of this project ({}): scan it here, or name a station so",
+                             header.name, names.empty() ? "there is none" : fmt::format("{}", fmt::join(names, ", "))),
+                 file_.string());
 }
 
 Result<TargetMeasurements> measureTargets(const Document& document, const MeasuringRequest& request,

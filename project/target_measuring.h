@@ -14,7 +14,7 @@ namespace standpoint {
 // A job's targets as the scans in point-cloud files show them. Indices are into the job's lists.
 struct MeasuredTarget {
   std::size_t station = 0, target = 0;
-  TargetFit fit;                   // in the station's own frame
+  TargetFit fit;  // in the station's own frame
 };
 struct MissedTarget {
   std::size_t station = 0, target = 0;
@@ -24,20 +24,20 @@ struct ScannedStation {
   std::size_t station = 0;
   std::string file;
   bool has_intensity = false;
-  std::vector<Eigen::Vector3d> sample;   // of its points, own frame; only when asked for
+  std::vector<Eigen::Vector3d> sample;  // of its points, own frame; only when asked for
 };
 struct TargetMeasurements {
-  std::vector<ScannedStation> scans;     // in the order of the job's stations
+  std::vector<ScannedStation> scans;  // in the order of the job's stations
   std::vector<MeasuredTarget> found;
   std::vector<MissedTarget> missed;
-  Report report;                         // of reading
+  Report report;  // of reading
 };
 
 // Which station each scan of a file is of: its name says it, else the file that the job says its scans are in.
 class StationsOfFile {
  public:
   StationsOfFile(const Job& job, std::filesystem::path file);
-  Result<std::size_t> next(const ScanHeader& header);   // of the next scan of the file
+  Result<std::size_t> next(const ScanHeader& header);  // of the next scan of the file
 
  private:
   const Job& job_;
@@ -49,7 +49,7 @@ class StationsOfFile {
 struct MeasuringRequest {
   std::vector<std::filesystem::path> files;
   std::uint64_t seed = 1;
-  double click_m = 0.2;            // how far at most the operator's click is from a target: the search starts there
+  double click_m = 0.2;  // how far at most the operator's click is from a target: the search starts there
   bool targets = true;
   bool sample = false;
 };

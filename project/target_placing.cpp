@@ -10,22 +10,22 @@
 #include <fmt/format.h>
 
 #include "project/answers.h"
-#include "project/model_surface.h"
 #include "project/body_winding.h"
+#include "project/model_surface.h"
 #include "project/survey_verbs.h"
 
 namespace standpoint {
 
 namespace {
 
-using nlohmann::json;
 using Eigen::Vector3d;
+using nlohmann::json;
 
-constexpr double kFloorSearch_m = 0.5;     // how far a stated floor height may be off, as for stations
-constexpr double kSurfaceSearch_m = 0.5;   // of --on-surface
-constexpr double kPlate_m = 0.002;         // a plate in front of its wall
+constexpr double kFloorSearch_m = 0.5;    // how far a stated floor height may be off, as for stations
+constexpr double kSurfaceSearch_m = 0.5;  // of --on-surface
+constexpr double kPlate_m = 0.002;        // a plate in front of its wall
 constexpr double kTallestPole_m = 2.5;
-constexpr double kTouch = 0.98;            // of its radius: what it stands on touches it
+constexpr double kTouch = 0.98;  // of its radius: what it stands on touches it
 
 // The environment's instances whose product reaches into the ball: a search there need not build a tree of the whole.
 Environment around(const Environment& environment, const Vector3d& place, double radius_m) {
@@ -72,7 +72,8 @@ std::optional<RayHit> whatCuts(const RayScene& scene, const Target& t) {
 
 Result<void> fits(const Document& document, const RayScene& scene, const Target& t) {
   const auto& products = scene.environment().products;
-  if (const auto solid = bodyRound(scene.environment(), instanceBounds(scene.environment()), t.centre); solid && !stationSees(document, scene, t.centre))
+  if (const auto solid = bodyRound(scene.environment(), instanceBounds(scene.environment()), t.centre);
+      solid && !stationSees(document, scene, t.centre))
     return failure(ErrorKind::unusable,
                    fmt::format("target {} is refused: it would be inside of {}; choose a place in the open", t.name,
                                nameOf(products[*solid])));

@@ -15,10 +15,10 @@ namespace standpoint {
 
 namespace {
 
-using nlohmann::json;
 using Eigen::Vector3d;
+using nlohmann::json;
 
-constexpr double kEnoughSeen = 0.6;   // of its face: less moves the centre of a checkerboard, and holds a sphere badly
+constexpr double kEnoughSeen = 0.6;  // of its face: less moves the centre of a checkerboard, and holds a sphere badly
 
 Result<std::optional<ScanSettings>> settingsAt(const Station& station, const SightRequest& request) {
   if (request.instrument.empty() && station.scans.empty()) return std::nullopt;
@@ -52,8 +52,10 @@ void look(const RayScene& scene, const Target& t, const Vector3d& from, TargetSi
   for (const auto& place : places) {
     const Vector3d way = place - from;
     const auto hit = scene.intersect(from, way.normalized(), way.norm() - 1e-4);
-    if (!hit) sight.seen_share += 1.0 / static_cast<double>(places.size());
-    else if (sight.hidden_by.empty()) sight.hidden_by = nameOf(scene.environment().products[hit->product]);
+    if (!hit)
+      sight.seen_share += 1.0 / static_cast<double>(places.size());
+    else if (sight.hidden_by.empty())
+      sight.hidden_by = nameOf(scene.environment().products[hit->product]);
   }
 }
 
@@ -122,8 +124,10 @@ void tell(const Target& target, const std::vector<TargetSight>& sights, Report& 
   const bool hidden =
       std::all_of(sights.begin(), sights.end(), [](const TargetSight& s) { return s.seen_share < 1e-9; });
   const auto good = std::count_if(sights.begin(), sights.end(), [](const TargetSight& s) { return s.why_not.empty(); });
-  if (hidden) report.warn(target.name, "it is hidden from every station");
-  else if (good == 0) report.warn(target.name, "no station can measure it");
+  if (hidden)
+    report.warn(target.name, "it is hidden from every station");
+  else if (good == 0)
+    report.warn(target.name, "no station can measure it");
   for (const auto& s : sights)
     if (!s.why_not.empty() && !hidden)
       report.note(target.name, fmt::format("not measurable from {}: {}", s.station, s.why_not));

@@ -78,12 +78,12 @@ Result<json> sightsOfAll(const Document& document, const json& options, Report& 
 // A unit sphere by subdividing an icosahedron: faceting error 0.06 mm on a 145 mm sphere at 4 levels.
 Mesh sphereMesh(float radius, std::uint32_t surface) {
   const float g = (1 + std::sqrt(5.0F)) / 2;
-  std::vector<Eigen::Vector3f> p = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                                    {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+  std::vector<Eigen::Vector3f> p = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                                    {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
   for (auto& v : p) v.normalize();
-  std::vector<Triangle> t = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                             {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
-                             {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+  std::vector<Triangle> t = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                             {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                             {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   for (int level = 0; level < 4; ++level) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle;
     const auto between = [&](std::uint32_t a, std::uint32_t b) {
@@ -187,8 +187,7 @@ ScanWorld scanWorld(const Document& document, const MaterialAssignment& assignme
     Instance i;
     i.mesh = static_cast<std::uint32_t>(environment->meshes.size());
     i.product = product;
-    i.world_from_mesh = Eigen::Translation3d(t.centre) *
-                        shortestRotation(Eigen::Vector3d::UnitX(), t.normal);
+    i.world_from_mesh = Eigen::Translation3d(t.centre) * shortestRotation(Eigen::Vector3d::UnitX(), t.normal);
     environment->meshes.push_back(std::make_shared<const Mesh>(
         t.kind == TargetKind::sphere ? sphereMesh(size / 2, white) : checkerboardMesh(size, white, white + 1)));
     environment->instances.push_back(i);

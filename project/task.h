@@ -14,7 +14,8 @@
 
 namespace standpoint {
 
-// One background run of a verb on a snapshot. Whoever started it polls `done()` from its own thread, then takes the result.
+// One background run of a verb on a snapshot. Whoever started it polls `done()` from its own thread, then takes the
+// result.
 class Task {
  public:
   // What runs instead of the verb when it has been half done already: the rest, with the same result.
@@ -22,7 +23,7 @@ class Task {
   // `wake` is called from the worker when progress has moved visibly and once at the end (e.g. glfwPostEmptyEvent).
   Task(std::string title, const Verb& verb, Document snapshot, nlohmann::json options, std::function<void()> wake,
        Work work = {});
-  ~Task();   // cancels and waits
+  ~Task();  // cancels and waits
   Task(const Task&) = delete;
   Task& operator=(const Task&) = delete;
 
@@ -33,7 +34,7 @@ class Task {
   Progress& progress() { return progress_; }
   double seconds() const;
   bool done() const { return done_.load(std::memory_order_acquire); }
-  Result<Outcome> take();   // once, after done()
+  Result<Outcome> take();  // once, after done()
 
  private:
   std::string title_;

@@ -69,22 +69,29 @@ Result<Outcome> runTreat(const Document& document, const json& options, Progress
   const auto selectors = options.value("products", std::vector<std::string>{});
   const auto now = document.treatments ? *document.treatments : std::vector<Treatment>{};
   if (selectors.empty()) {
-    if (options.contains("as")) return failure(ErrorKind::usage, "say which products: #id, a GlobalId, class:IfcFurniture, name:*chair*, storey:…", "products");
+    if (options.contains("as"))
+      return failure(ErrorKind::usage,
+                     "say which products: #id, a GlobalId, class:IfcFurniture, name:*chair*, storey:…", "products");
     return Outcome{document, answerOf(*document.imported, now), {}, {}};
   }
-  if (!options.contains("as")) return failure(ErrorKind::usage, "say how they are treated: excluded, kept, simplified or rules", "--as");
+  if (!options.contains("as"))
+    return failure(ErrorKind::usage, "say how they are treated: excluded, kept, simplified or rules", "--as");
   const auto kind = treatmentKind(options.at("as"));
   Treatment treatment{{}, kind, {}, {}};
   if (options.contains("max-deviation")) treatment.max_deviation_m = options.at("max-deviation").get<double>();
   if (options.contains("weight")) treatment.weight = options.at("weight").get<double>();
   if (kind != TreatmentKind::simplified && (treatment.max_deviation_m || treatment.weight))
-    return failure(ErrorKind::usage, "limits are for products that are simplified: --as simplified", treatment.weight ? "--weight" : "--max-deviation");
+    return failure(ErrorKind::usage, "limits are for products that are simplified: --as simplified",
+                   treatment.weight ? "--weight" : "--max-deviation");
   auto treatments = now;
   std::size_t count = 0;
   const Product* last = nullptr;
   for (const auto& selector : selectors) {
     const auto meant = select(*document.imported, selector);
-    if (meant.empty()) return failure(ErrorKind::usage, "no product is meant by it; #id, a GlobalId, class:IfcFurniture, name:*chair* and storey:… select", selector);
+    if (meant.empty())
+      return failure(ErrorKind::usage,
+                     "no product is meant by it; #id, a GlobalId, class:IfcFurniture, name:*chair* and storey:… select",
+                     selector);
     count += meant.size();
     last = &document.imported->products[meant.back()];
     treatment.selector = selector;
@@ -100,8 +107,10 @@ Result<Outcome> runTreat(const Document& document, const json& options, Progress
   if (document.lightening && kind != TreatmentKind::excluded)
     outcome.report.note("optimize", "the lighter model follows when it is optimised again");
   outcome.answer = answerOf(*after.imported, *after.treatments);
-  const char* done = kind == TreatmentKind::excluded ? "Excluded" : kind == TreatmentKind::kept ? "Keep as it is:"
-                     : kind == TreatmentKind::simplified ? "Simplify within own limits:" : "By the rules again:";
+  const char* done = kind == TreatmentKind::excluded     ? "Excluded"
+                     : kind == TreatmentKind::kept       ? "Keep as it is:"
+                     : kind == TreatmentKind::simplified ? "Simplify within own limits:"
+                                                         : "By the rules again:";
   outcome.description = fmt::format("{} {}", done, count == 1 ? nameOf(last) : fmt::format("{} products", count));
   return outcome;
 }

@@ -18,7 +18,9 @@ std::vector<const Treatment*> treatmentOf(const Environment& environment, const 
 std::shared_ptr<const Environment> withExclusions(const std::shared_ptr<const Environment>& environment,
                                                   const std::vector<Treatment>& treatments) {
   const auto decided = treatmentOf(*environment, treatments);
-  const auto excluded = [&](std::size_t i) { return decided[i] != nullptr && decided[i]->kind == TreatmentKind::excluded; };
+  const auto excluded = [&](std::size_t i) {
+    return decided[i] != nullptr && decided[i]->kind == TreatmentKind::excluded;
+  };
   std::shared_ptr<Environment> changed;
   for (std::size_t i = 0; i < decided.size(); ++i) {
     if (environment->products[i].excluded == excluded(i)) continue;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the author says of single products, beside the rules: left out, kept as they are, or held to limits of their own.
+// What the author says of single products, beside the rules: left out, kept as they are, or held to limits of their
+// own.
 
 #include <memory>
 #include <vector>

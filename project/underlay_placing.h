@@ -12,7 +12,7 @@ namespace standpoint {
 // conversion and the cloud states the model's CRS, or states none and only so comes near the model, by that conversion;
 // else as the cloud's own coordinates are. The report says which, and names what does not fit.
 struct CloudPlace {
-  std::string name, crs;         // of the cloud; the CRS as WKT or "EPSG:n", or empty
+  std::string name, crs;  // of the cloud; the CRS as WKT or "EPSG:n", or empty
   Bounds bounds_cloud_m;
 };
 Pose placeCloud(const CloudPlace& cloud, const Georeference& model, const Bounds& model_file_m, Report& report);

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "project/import_verb.h"
 #include "project/answers.h"
+#include "project/import_verb.h"
 #include "project/model_verbs.h"
 #include "project/optimize_verb.h"
 #include "project/product_match.h"
@@ -27,23 +27,30 @@ Result<std::vector<fs::path>> sourcesAfter(const Document& document, const std::
   std::vector<fs::path> all(document.sources.begin(), document.sources.end());
   if (all.size() <= 1 || files.size() >= all.size()) return files;
   for (const auto& file : files) {
-    const auto old = std::find_if(all.begin(), all.end(), [&](const fs::path& p) { return p.filename() == file.filename(); });
+    const auto old =
+        std::find_if(all.begin(), all.end(), [&](const fs::path& p) { return p.filename() == file.filename(); });
     if (old == all.end())
-      return failure(ErrorKind::usage, fmt::format("the project was made from {} models and none of them is called so; name all of them", all.size()), file.string());
+      return failure(ErrorKind::usage,
+                     fmt::format("the project was made from {} models and none of them is called so; name all of them",
+                                 all.size()),
+                     file.string());
     *old = file;
   }
   for (const auto& file : all) {
     std::error_code ignored;
     if (!fs::exists(file, ignored))
-      return failure(ErrorKind::usage, "one of the project's models is no longer there; name all of them", file.string());
+      return failure(ErrorKind::usage, "one of the project's models is no longer there; name all of them",
+                     file.string());
   }
   return all;
 }
 
-// A selector of one product (`#12`, a GlobalId) in the numbers of the new model. A number may mean another product there.
+// A selector of one product (`#12`, a GlobalId) in the numbers of the new model. A number may mean another product
+// there.
 class Selectors {
  public:
-  Selectors(const Environment& before, const Environment& after, const ProductMatch& match) : before_(before), after_(after), match_(match) {
+  Selectors(const Environment& before, const Environment& after, const ProductMatch& match)
+      : before_(before), after_(after), match_(match) {
     for (std::size_t i = 0; i < before.products.size(); ++i) {
       old_of_name_.emplace(before.products[i].id, i);
       if (!before.products[i].global_id.empty()) old_of_name_.emplace(before.products[i].global_id, i);
@@ -60,7 +67,8 @@ class Selectors {
   std::string followed(const std::string& selector) const {
     const Product& old = *named(selector);
     const auto now = match_.new_of_old[old_of_name_.at(selector)];
-    if (now == kNoProduct) return old.global_id.empty() ? "gone:" + old.id : old.global_id;   // means nothing until it comes back
+    if (now == kNoProduct)
+      return old.global_id.empty() ? "gone:" + old.id : old.global_id;  // means nothing until it comes back
     if (selector == old.global_id) return selector;
     return after_.products[static_cast<std::size_t>(now)].id;
   }
@@ -79,13 +87,15 @@ struct Update {
   json kept = json::array();
 
   // What was said of a product that is gone stays in the list, so that it holds again when the product comes back.
-  std::string follow(const Selectors& selectors, const std::string& selector, const char* what, const std::string& value) {
+  std::string follow(const Selectors& selectors, const std::string& selector, const char* what,
+                     const std::string& value) {
     const std::string id(selectedProduct(selector));
     const Product* product = selectors.named(id);
     if (product == nullptr) return selector;
     if (selectors.gone(id)) {
       kept.push_back({{"what", what}, {"selector", selector}, {what, value}, {"product", identity(*product)}});
-      outcome.report.warn(selector, fmt::format("the product '{}' is gone; its {} {} is kept for when it comes back", product->name, what, value));
+      outcome.report.warn(selector, fmt::format("the product '{}' is gone; its {} {} is kept for when it comes back",
+                                                product->name, what, value));
     }
     return selectors.followed(id) + selector.substr(id.size());
   }
@@ -95,7 +105,8 @@ struct Update {
     const Selectors selectors(*before.imported, *outcome.document.imported, match);
     auto now = *before.treatments;
     const json rows = treatmentsToJson(now);
-    for (std::size_t i = 0; i < now.size(); ++i) now[i].selector = follow(selectors, now[i].selector, "treatment", rows[i].at("as"));
+    for (std::size_t i = 0; i < now.size(); ++i)
+      now[i].selector = follow(selectors, now[i].selector, "treatment", rows[i].at("as"));
     outcome.document.imported = withExclusions(outcome.document.imported, now);
     outcome.document.treatments = std::make_shared<const std::vector<Treatment>>(std::move(now));
   }
@@ -115,7 +126,8 @@ struct Update {
   Result<void> lightening(Progress& progress) {
     if (!before.lightening) return {};
     auto request = before.lightening->request;
-    if (std::exchange(request.by_view, false)) outcome.report.note("optimize", "what walkers see of the changed model is not known yet: it does not weigh");
+    if (std::exchange(request.by_view, false))
+      outcome.report.note("optimize", "what walkers see of the changed model is not known yet: it does not weigh");
     auto light = optimizeDocument(outcome.document, request, progress);
     if (!light) return failure(light.error());
     outcome.document.lightening = light->document.lightening;
@@ -129,7 +141,8 @@ struct Update {
     std::size_t scans = 0;
     for (const Station& s : before.job->stations) scans += s.scans.size();
     if (scans > 0) outcome.report.note("scan", fmt::format("{} scans show the model as it was before", scans));
-    if (before.collision) outcome.report.note("collide", "the collision shapes were those of the model before; compute them again");
+    if (before.collision)
+      outcome.report.note("collide", "the collision shapes were those of the model before; compute them again");
   }
 
   // The project's own position stays: a map position may be the user's work.
@@ -138,15 +151,21 @@ struct Update {
     Georeference now = *outcome.document.georeference;
     const bool other_crs = crs.empty() && !old.crs.empty() && !now.crs.empty() && old.crs != now.crs;
     const Eigen::Vector3d probe(10, 20, 3);
-    const bool other_map = old.map_from_file && now.map_from_file && (mapFromFile(*old.map_from_file, probe) - mapFromFile(*now.map_from_file, probe)).norm() > 1e-4;
-    if (other_crs || other_map) outcome.report.warn("georeference", "the changed model states another place on the map; the project's own is kept, `georeference` changes it");
+    const bool other_map =
+        old.map_from_file && now.map_from_file &&
+        (mapFromFile(*old.map_from_file, probe) - mapFromFile(*now.map_from_file, probe)).norm() > 1e-4;
+    if (other_crs || other_map)
+      outcome.report.warn(
+          "georeference",
+          "the changed model states another place on the map; the project's own is kept, `georeference` changes it");
     if (old.map_from_file) now.map_from_file = old.map_from_file;
     if (!old.crs.empty() && crs.empty()) now.crs = old.crs;
     outcome.document.georeference = std::make_shared<const Georeference>(std::move(now));
   }
 };
 
-json changesAnswer(const Environment& before, const Environment& after, const ProductMatch& match, std::string& summary) {
+json changesAnswer(const Environment& before, const Environment& after, const ProductMatch& match,
+                   std::string& summary) {
   const auto changes = productChanges(before, after, match);
   json added = json::array(), removed = json::array(), changed = json::array();
   std::size_t unchanged = 0, geometry = 0, material = 0, properties = 0;
@@ -170,18 +189,24 @@ json changesAnswer(const Environment& before, const Environment& after, const Pr
   for (std::size_t i = 0; i < after.products.size(); ++i)
     if (match.old_of_new[i] == kNoProduct) added.push_back(identity(after.products[i]));
   summary = fmt::format("{} products added, {} removed, {} changed", added.size(), removed.size(), changed.size());
-  const json counts = {{"added", added.size()}, {"removed", removed.size()}, {"changed", changed.size()}, {"unchanged", unchanged},
-                       {"geometry", geometry}, {"material", material}, {"properties", properties}};
-  return {{"counts", counts}, {"added", std::move(added)}, {"removed", std::move(removed)}, {"changed", std::move(changed)}};
+  const json counts = {{"added", added.size()},   {"removed", removed.size()}, {"changed", changed.size()},
+                       {"unchanged", unchanged},  {"geometry", geometry},      {"material", material},
+                       {"properties", properties}};
+  return {{"counts", counts},
+          {"added", std::move(added)},
+          {"removed", std::move(removed)},
+          {"changed", std::move(changed)}};
 }
 
 }  // namespace
 
-Result<Outcome> updateModels(const Document& document, std::vector<fs::path> files, const ImportOptions& options, const std::string& crs,
-                             Progress& progress) {
-  if (!document.imported) return failure(ErrorKind::usage, "there is no model yet that could be updated; import it first", "--update");
+Result<Outcome> updateModels(const Document& document, std::vector<fs::path> files, const ImportOptions& options,
+                             const std::string& crs, Progress& progress) {
+  if (!document.imported)
+    return failure(ErrorKind::usage, "there is no model yet that could be updated; import it first", "--update");
   if (options.shift != ShiftMode::automatic)
-    return failure(ErrorKind::usage, "an update keeps the project's shift, for the sake of its stations; leave --shift out", "--shift");
+    return failure(ErrorKind::usage,
+                   "an update keeps the project's shift, for the sake of its stations; leave --shift out", "--shift");
   auto all = sourcesAfter(document, files);
   if (!all) return failure(all.error());
   ImportOptions same_frame = options;

@@ -17,20 +17,20 @@
 namespace standpoint {
 
 enum class ParameterKind {
-  text,      // string
-  number,    // double, in Parameter::unit, within [minimum, maximum]
-  integer,   // whole number, within [minimum, maximum]
-  flag,      // true when given
-  choice,    // one of Parameter::choices
-  path,      // file or folder
-  triple,    // "E,N,H" or "X,Y,Z": array of three numbers
-  pairs,     // "key=value ...": array of strings
-  list,      // array of strings
+  text,     // string
+  number,   // double, in Parameter::unit, within [minimum, maximum]
+  integer,  // whole number, within [minimum, maximum]
+  flag,     // true when given
+  choice,   // one of Parameter::choices
+  path,     // file or folder
+  triple,   // "E,N,H" or "X,Y,Z": array of three numbers
+  pairs,    // "key=value ...": array of strings
+  list,     // array of strings
 };
 
 // One option of a verb: the one truth for command line, help, job files, and the editor's widgets.
 struct Parameter {
-  const char* name;              // "max-deviation"; on the command line --max-deviation, in a job "max-deviation"
+  const char* name;  // "max-deviation"; on the command line --max-deviation, in a job "max-deviation"
   ParameterKind kind;
   const char* help;
   const char* unit = "";         // "m", "deg"
@@ -42,14 +42,15 @@ struct Parameter {
 };
 
 enum class VerbScope {
-  creates,   // makes a document (import): `project` is written
-  changes,   // document → document: the project is read, changed and written
-  reads,     // document → answer: the project is read
-  files,     // no document at all
+  creates,  // makes a document (import): `project` is written
+  changes,  // document → document: the project is read, changed and written
+  reads,    // document → answer: the project is read
+  files,    // no document at all
 };
 
-// What a verb gives back. `answer` is what --json prints; `description` is the undo list's line ("Moved station S2 by 0.35 m");
-// `text` is what people read below it on the command line, where the plain figures of `answer` do not say enough.
+// What a verb gives back. `answer` is what --json prints; `description` is the undo list's line ("Moved station S2 by
+// 0.35 m"); `text` is what people read below it on the command line, where the plain figures of `answer` do not say
+// enough.
 struct Outcome {
   Document document;
   nlohmann::json answer = nlohmann::json::object();
@@ -60,10 +61,10 @@ struct Outcome {
 
 // A verb never changes its argument: undo is the previous value.
 struct Verb {
-  const char* name;                          // "optimize"
+  const char* name;  // "optimize"
   const char* summary;
   VerbScope scope;
-  std::vector<Parameter> parameters;         // without the project itself
+  std::vector<Parameter> parameters;  // without the project itself
   Result<Outcome> (*run)(const Document&, const nlohmann::json& options, Progress&);
 };
 

@@ -23,14 +23,16 @@ std::uint64_t ofPlacement(const Document& document, const std::string& underlay)
     if (u->name == underlay) {
       const auto& q = u->file_from_cloud.rotation;
       const auto& t = u->file_from_cloud.translation;
-      hash = mixed(fmt::format("{} {} {} {} {} {} {} {}", u->points, q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()), hash);
+      hash = mixed(fmt::format("{} {} {} {} {} {} {} {}", u->points, q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()),
+                   hash);
     }
   return hash;
 }
 
 std::string faceText(const AssignedFaces& f, const std::string& material) {
   const auto text = [](const Eigen::Vector3d& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); };
-  return fmt::format("{} {} {} {} {}", f.product, f.surface, material, text(f.direction), f.point ? text(*f.point) : "");
+  return fmt::format("{} {} {} {} {}", f.product, f.surface, material, text(f.direction),
+                     f.point ? text(*f.point) : "");
 }
 
 std::uint64_t basisOf(const Document& document, const std::string& underlay) {
@@ -38,7 +40,8 @@ std::uint64_t basisOf(const Document& document, const std::string& underlay) {
   if (!document.materials) return hash;
   const auto& assignment = document.materials->result.assignment;
   for (const auto& m : assignment.materials) hash = mixed(m.id, hash);
-  for (const auto& s : assignment.surfaces) hash = mixed(fmt::format("{} {} {}", s.product, s.surface, s.material), hash);
+  for (const auto& s : assignment.surfaces)
+    hash = mixed(fmt::format("{} {} {}", s.product, s.surface, s.material), hash);
   for (const auto& f : assignment.faces) hash = mixed(faceText(f, std::to_string(f.material)), hash);
   return hash;
 }
@@ -51,9 +54,12 @@ std::uint64_t restOf(const Document& document, const json& answer) {
   for (const auto& proposal : answer.at("proposals"))
     for (const auto& pair : surfacesOf(proposal, document)) proposed.insert(pair);
   const auto& assignment = document.materials->result.assignment;
-  const auto id = [&](std::int32_t m) { return m < 0 ? std::string() : assignment.materials[static_cast<std::size_t>(m)].id; };
+  const auto id = [&](std::int32_t m) {
+    return m < 0 ? std::string() : assignment.materials[static_cast<std::size_t>(m)].id;
+  };
   for (const auto& s : assignment.surfaces)
-    if (!proposed.contains({s.product, s.surface})) hash = mixed(fmt::format("{} {} {}", s.product, s.surface, id(s.material)), hash);
+    if (!proposed.contains({s.product, s.surface}))
+      hash = mixed(fmt::format("{} {} {}", s.product, s.surface, id(s.material)), hash);
   for (const auto& f : assignment.faces) hash = mixed(faceText(f, id(f.material)), hash);
   return hash;
 }
@@ -91,13 +97,15 @@ Verification verificationOf(const Document& document, json answer) {
 }
 
 nlohmann::json verificationToJson(const Verification& verification) {
-  return {{"basis", fmt::format("{:016x}", verification.basis)}, {"rest", fmt::format("{:016x}", verification.rest)}, {"answer", verification.answer}};
+  return {{"basis", fmt::format("{:016x}", verification.basis)},
+          {"rest", fmt::format("{:016x}", verification.rest)},
+          {"answer", verification.answer}};
 }
 
 std::shared_ptr<const Verification> verificationFrom(const nlohmann::json& part) {
   Verification v;
   v.basis = std::strtoull(part.at("basis").get<std::string>().c_str(), nullptr, 16);
-  v.rest = std::strtoull(part.value("rest", "").c_str(), nullptr, 16);   // an old project has none: compare again
+  v.rest = std::strtoull(part.value("rest", "").c_str(), nullptr, 16);  // an old project has none: compare again
   v.answer = part.at("answer");
   return std::make_shared<const Verification>(std::move(v));
 }

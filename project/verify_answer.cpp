@@ -69,7 +69,11 @@ json materialRow(const VerifyFound& found, const MaterialEvidence& m) {
     groups.push_back(g.group);
     if (!g.supported || g.agrees) continue;
     const auto& product = productOf(found, g.group);
-    outlying.push_back({{"product", product.id}, {"name", product.name}, {"points", g.points}, {"off_db", g.off_db}, {"sigma_db", g.sigma_db}});
+    outlying.push_back({{"product", product.id},
+                        {"name", product.name},
+                        {"points", g.points},
+                        {"off_db", g.off_db},
+                        {"sigma_db", g.sigma_db}});
   }
   return {{"material", idOrNull(found, m.material)},
           {"points", m.points},
@@ -83,8 +87,8 @@ json materialRow(const VerifyFound& found, const MaterialEvidence& m) {
           {"outlying", std::move(outlying)}};
 }
 
-// What `materials --assign` takes. Of a product of several surfaces (a window) only those that were measured are meant, where
-// they have a name.
+// What `materials --assign` takes. Of a product of several surfaces (a window) only those that were measured are meant,
+// where they have a name.
 json assignWords(const VerifyFound& found, const MaterialProposal& p) {
   std::map<std::uint32_t, std::set<std::uint32_t>> surfaces_of;
   for (const auto& s : found.document->materials->result.assignment.surfaces) surfaces_of[s.product].insert(s.surface);
@@ -101,9 +105,11 @@ json assignWords(const VerifyFound& found, const MaterialProposal& p) {
 }
 
 std::string evidenceOf(const VerifyFound& found, const MaterialProposal& p) {
-  return fmt::format("{} points at {:.1f}–{:.1f} m and {:.0f}–{:.0f}° are {:+.1f} dB off; as '{}' they fit to {:.1f} dB instead of {:.1f}",
-                     p.points, p.range_from_m, p.range_to_m, p.incidence_from_deg, p.incidence_to_deg, p.off_db,
-                     idOf(found, p.instead), p.misfit_instead_db, p.misfit_db);
+  return fmt::format(
+      "{} points at {:.1f}–{:.1f} m and {:.0f}–{:.0f}° are {:+.1f} dB off; as '{}' they fit to {:.1f} dB instead of "
+      "{:.1f}",
+      p.points, p.range_from_m, p.range_to_m, p.incidence_from_deg, p.incidence_to_deg, p.off_db,
+      idOf(found, p.instead), p.misfit_instead_db, p.misfit_db);
 }
 
 json proposalRow(const VerifyFound& found, const MaterialProposal& p) {
@@ -126,7 +132,8 @@ json proposalRow(const VerifyFound& found, const MaterialProposal& p) {
 
 json scaleRow(const MaterialComparison& c) {
   json knots = json::array();
-  for (std::size_t k = 0; k < c.scale.db.size(); ++k) knots.push_back({c.scale.measured[k], c.scale.db[k] + c.level_db});
+  for (std::size_t k = 0; k < c.scale.db.size(); ++k)
+    knots.push_back({c.scale.measured[k], c.scale.db[k] + c.level_db});
   return {{"reads", c.scale.db.empty() ? json(nullptr) : json(c.scale.describe())},
           {"range_compensated", c.scale.range_compensated},
           {"explained", c.scale.explained},
@@ -137,10 +144,16 @@ json scaleRow(const MaterialComparison& c) {
 
 json meetingRow(const MeasuredReturns& m) {
   const auto of = [&](BeamMeeting meeting) { return m.meetings[static_cast<std::size_t>(meeting)]; };
-  return {{"met", of(BeamMeeting::met)}, {"near", of(BeamMeeting::near)}, {"in_front", of(BeamMeeting::in_front)},
-          {"behind", of(BeamMeeting::behind)}, {"behind_pane", of(BeamMeeting::behind_pane)}, {"edge", of(BeamMeeting::edge)},
+  return {{"met", of(BeamMeeting::met)},
+          {"near", of(BeamMeeting::near)},
+          {"in_front", of(BeamMeeting::in_front)},
+          {"behind", of(BeamMeeting::behind)},
+          {"behind_pane", of(BeamMeeting::behind_pane)},
+          {"edge", of(BeamMeeting::edge)},
           {"shared", of(BeamMeeting::shared)},
-          {"without_station", m.without_station}, {"not_a_number", m.not_a_number}, {"median_off_m", m.median_off_m}};
+          {"without_station", m.without_station},
+          {"not_a_number", m.not_a_number},
+          {"median_off_m", m.median_off_m}};
 }
 
 // Products that beams mostly pass: a door that stood open, or glass that is called something else.
@@ -180,17 +193,23 @@ json verifyAnswer(const VerifyFound& found) {
 void tellVerified(const VerifyFound& found, Report& report) {
   const auto& c = found.comparison;
   if (!c.scale.db.empty())
-    report.note(found.underlay, fmt::format("the vendor's scale reads as {}{}; it explains {:.1f} % of what range and incidence do, "
-                                            "to {:.2f} dB", c.scale.describe(), c.scale.range_compensated ? ", without the range" : "",
-                                            c.scale.explained * 100, c.scale.scatter_db));
+    report.note(found.underlay,
+                fmt::format("the vendor's scale reads as {}{}; it explains {:.1f} % of what range and incidence do, "
+                            "to {:.2f} dB",
+                            c.scale.describe(), c.scale.range_compensated ? ", without the range" : "",
+                            c.scale.explained * 100, c.scale.scatter_db));
   for (const auto& m : c.materials)
     report.note(idOf(found, m.material),
                 fmt::format("{} points: {:+.1f} dB (quartiles {:+.1f}, {:+.1f}){}", m.points, tenths(m.off_db.median),
-                            tenths(m.off_db.lower), tenths(m.off_db.upper), !m.supported ? ", which is not enough to judge by" : m.agrees ? "" : ", does not agree"));
+                            tenths(m.off_db.lower), tenths(m.off_db.upper),
+                            !m.supported ? ", which is not enough to judge by"
+                            : m.agrees   ? ""
+                                         : ", does not agree"));
   for (const auto& p : c.proposals)
     report.warn(idOf(found, p.material),
                 fmt::format("behaves like '{1}' ({0}): {2}",
-                            p.whole_material ? "all that can be judged of it" : fmt::format("{} of its products", productIds(found, p.groups).size()),
+                            p.whole_material ? "all that can be judged of it"
+                                             : fmt::format("{} of its products", productIds(found, p.groups).size()),
                             idOf(found, p.instead), evidenceOf(found, p)));
   if (!c.no_verdict.empty()) report.warn(found.underlay, "nothing is proposed: " + c.no_verdict);
 }

@@ -18,7 +18,7 @@ struct VerifyFound {
   const std::vector<PhysicalMaterial>* library = nullptr;
   const Document* document = nullptr;
   MeasuredReturns measured;
-  Result<SurfaceFit> placement = SurfaceFit();   // where a fit to the surface would put the cloud
+  Result<SurfaceFit> placement = SurfaceFit();  // where a fit to the surface would put the cloud
   MaterialComparison comparison;
 };
 

@@ -31,7 +31,8 @@ std::string lower(std::string text) {
 Result<std::shared_ptr<const Underlay>> underlayFor(const Document& document, const json& options) {
   const auto& all = document.underlays;
   if (all.empty())
-    return failure(ErrorKind::usage, "no cloud lies under the model: add one with `standpoint underlay PROJECT --add FILE`", "verify");
+    return failure(ErrorKind::usage,
+                   "no cloud lies under the model: add one with `standpoint underlay PROJECT --add FILE`", "verify");
   if (!options.contains("underlay") && all.size() == 1) return all.front();
   const auto name = options.value("underlay", std::string());
   std::vector<std::string> names;
@@ -39,8 +40,10 @@ Result<std::shared_ptr<const Underlay>> underlayFor(const Document& document, co
     if (u->name == name) return u;
     names.push_back(u->name);
   }
-  return failure(ErrorKind::usage, name.empty() ? fmt::format("say which cloud: {}", fmt::join(names, ", "))
-                                                : fmt::format("there is no underlay '{}'; there is {}", name, fmt::join(names, ", ")), "verify");
+  return failure(ErrorKind::usage,
+                 name.empty() ? fmt::format("say which cloud: {}", fmt::join(names, ", "))
+                              : fmt::format("there is no underlay '{}'; there is {}", name, fmt::join(names, ", ")),
+                 "verify");
 }
 
 // The one that is named, else the one whose maker and model the cloud's scans name.
@@ -58,9 +61,13 @@ Result<Instrument> instrumentFor(const json& options, const CloudSample& sample,
         best = &i;
   }
   if (best == nullptr)
-    return failure(ErrorKind::usage, fmt::format("the cloud does not say which instrument measured it: name the one whose wavelength "
-                                                 "is nearest with --instrument; there is {}", idsOf(*all)), "--instrument");
-  report.note("instrument", fmt::format("{} {} at {:.0f} nm, as the cloud says", best->maker, best->model, best->wavelength_nm));
+    return failure(ErrorKind::usage,
+                   fmt::format("the cloud does not say which instrument measured it: name the one whose wavelength "
+                               "is nearest with --instrument; there is {}",
+                               idsOf(*all)),
+                   "--instrument");
+  report.note("instrument",
+              fmt::format("{} {} at {:.0f} nm, as the cloud says", best->maker, best->model, best->wavelength_nm));
   return *best;
 }
 
@@ -68,10 +75,13 @@ Result<CloudSample> usableSample(const Underlay& underlay, const json& options, 
   auto sample = sampleCloud(underlay.file, options.at("points").get<std::size_t>(), progress);
   if (!sample) return failure(sample.error());
   if (sample->intensity.empty())
-    return failure(ErrorKind::unusable, "the cloud has no intensity: export it with intensity from the scanner's software", underlay.name);
+    return failure(ErrorKind::unusable,
+                   "the cloud has no intensity: export it with intensity from the scanner's software", underlay.name);
   if (!(sample->most_intensity > sample->least_intensity))
-    return failure(ErrorKind::unusable, fmt::format("every point has the same intensity, {}: it was lost on the way; export the cloud again",
-                                                    sample->least_intensity), underlay.name);
+    return failure(ErrorKind::unusable,
+                   fmt::format("every point has the same intensity, {}: it was lost on the way; export the cloud again",
+                               sample->least_intensity),
+                   underlay.name);
   std::size_t without = 0;
   for (auto& scan : sample->scans) {
     if (options.contains("from")) {
@@ -82,13 +92,16 @@ Result<CloudSample> usableSample(const Underlay& underlay, const json& options, 
     without += scan.station ? 0 : 1;
   }
   if (without == sample->scans.size())
-    return failure(ErrorKind::unusable, "the cloud does not say where its scanner stood: import the single scans with their poses (E57 or "
-                                        "PTX with grid), or say it with --from X,Y,Z", underlay.name);
+    return failure(ErrorKind::unusable,
+                   "the cloud does not say where its scanner stood: import the single scans with their poses (E57 or "
+                   "PTX with grid), or say it with --from X,Y,Z",
+                   underlay.name);
   return sample;
 }
 
-Result<VerifyFound> found(const Document& document, const Underlay& underlay, const CloudSample& sample, const Instrument& instrument,
-                          const std::vector<PhysicalMaterial>& library, const json& options, Progress& progress) {
+Result<VerifyFound> found(const Document& document, const Underlay& underlay, const CloudSample& sample,
+                          const Instrument& instrument, const std::vector<PhysicalMaterial>& library,
+                          const json& options, Progress& progress) {
   VerifyFound f;
   f.underlay = underlay.name;
   f.instrument = &instrument;
@@ -100,27 +113,36 @@ Result<VerifyFound> found(const Document& document, const Underlay& underlay, co
   auto scene = RayScene::build(document.environment(), progress);
   if (!scene) return failure(scene.error());
   // A part of the document: it outlives the expectation.
-  const std::shared_ptr<const MaterialAssignment> assignment(document.materials, &document.materials->result.assignment);
+  const std::shared_ptr<const MaterialAssignment> assignment(document.materials,
+                                                             &document.materials->result.assignment);
   const Expectation expectation(*scene, assignment, ReturnLaw(instrument, *settings));
   MeetingTolerance tolerance;
   tolerance.met_m = options.at("tolerance").get<double>();
   tolerance.window_m = std::max(tolerance.window_m, tolerance.met_m);
   progress.stage("Beams to the points", 0.45, 0.6);
-  auto measured = measuredReturns(document, sample, underlay.file_from_cloud, expectation, library, tolerance, progress);
+  auto measured =
+      measuredReturns(document, sample, underlay.file_from_cloud, expectation, library, tolerance, progress);
   if (!measured) return failure(measured.error());
   f.measured = *std::move(measured);
   std::uint64_t with_station = 0;
   for (const auto n : f.measured.meetings) with_station += n;
   const auto of = [&](BeamMeeting meeting) { return f.measured.meetings[static_cast<std::size_t>(meeting)]; };
   const auto near = of(BeamMeeting::met) + of(BeamMeeting::near) + of(BeamMeeting::edge) + of(BeamMeeting::shared);
-  constexpr std::uint64_t kFewest = 100;   // fewer say nothing of any material
+  constexpr std::uint64_t kFewest = 100;  // fewer say nothing of any material
   if (with_station < kFewest)
-    return failure(ErrorKind::unusable, fmt::format("it has {} point{} seen from a known place, and fewer than {} are no evidence of a material: "
-                                                    "lay a fuller export of the scan under the model, `standpoint underlay PROJECT --add FILE`",
-                                                    with_station, with_station == 1 ? "" : "s", kFewest), underlay.name);
+    return failure(
+        ErrorKind::unusable,
+        fmt::format("it has {} point{} seen from a known place, and fewer than {} are no evidence of a material: "
+                    "lay a fuller export of the scan under the model, `standpoint underlay PROJECT --add FILE`",
+                    with_station, with_station == 1 ? "" : "s", kFewest),
+        underlay.name);
   if (near < kFewest || static_cast<double>(near) < kFewOnModel * static_cast<double>(with_station))
-    return failure(ErrorKind::unusable, fmt::format("{} of {} points lie on the model: register the cloud first, `standpoint underlay PROJECT "
-                                                    "--register {} --pairs … --icp`", near, with_station, underlay.name), underlay.name);
+    return failure(
+        ErrorKind::unusable,
+        fmt::format("{} of {} points lie on the model: register the cloud first, `standpoint underlay PROJECT "
+                    "--register {} --pairs … --icp`",
+                    near, with_station, underlay.name),
+        underlay.name);
   progress.stage("Placement of the cloud", 0.6, 0.85);
   f.placement = fitCloudToModel(document, sample, underlay.file_from_cloud, kPlacementReach_m, progress);
   if (!f.placement && f.placement.error().kind == ErrorKind::cancelled) return failure(f.placement.error());
@@ -134,12 +156,14 @@ Result<VerifyFound> found(const Document& document, const Underlay& underlay, co
 // A cloud that lies wrong has points on the wrong products: what they seem to be made of is no evidence.
 void judgePlacement(VerifyFound& f) {
   std::string wrong;
-  if (!f.placement) wrong = "its placement cannot be checked: " + f.placement.error().message;
+  if (!f.placement)
+    wrong = "its placement cannot be checked: " + f.placement.error().message;
   else if (f.placement->moved_m > kMisplaced_m && !f.placement->settled)
     wrong = "its placement cannot be checked: a fit to the model's surface does not come to rest";
   else if (f.placement->moved_m > kMisplaced_m)
-    wrong = fmt::format("the cloud lies {:.3f} m off the model: register it first, `standpoint underlay PROJECT --register {} --icp`",
-                        f.placement->moved_m, f.underlay);
+    wrong = fmt::format(
+        "the cloud lies {:.3f} m off the model: register it first, `standpoint underlay PROJECT --register {} --icp`",
+        f.placement->moved_m, f.underlay);
   if (wrong.empty()) return;
   f.comparison.no_verdict = wrong;
   f.comparison.proposals.clear();
@@ -169,7 +193,8 @@ Result<Outcome> runVerify(const Document& document, const json& options, Progres
   tellVerified(*f, outcome.report);
   const auto proposals = f->comparison.proposals.size();
   outcome.description = f->comparison.no_verdict.empty()
-                            ? fmt::format("Held the materials against {}: {} proposal{}", f->underlay, proposals, proposals == 1 ? "" : "s")
+                            ? fmt::format("Held the materials against {}: {} proposal{}", f->underlay, proposals,
+                                          proposals == 1 ? "" : "s")
                             : fmt::format("Held the materials against {}: no verdict", f->underlay);
   outcome.document.verification = std::make_shared<const Verification>(verificationOf(document, outcome.answer));
   return outcome;

@@ -51,7 +51,7 @@ struct Wall {
 
 constexpr double kExternal_m = 0.35, kInternal_m = 0.115;
 
-double volumeOf(const Wall& wall);   // less its openings
+double volumeOf(const Wall& wall);  // less its openings
 
 // What the parts of one building have in common; each kind of wall is layered once.
 class Building {
@@ -60,17 +60,19 @@ class Building {
   Building(IfcText& ifc, int site_placement, const std::string& name, P3 origin, P2 x);
 
   int id() const { return building_; }
-  void storey(const std::string& name, double elevation);   // what follows stands in it, z from its elevation
-  void close();                                              // after the last storey
+  void storey(const std::string& name, double elevation);  // what follows stands in it, z from its elevation
+  void close();                                            // after the last storey
 
   void wall(const Wall& wall);
   // A plate with vertical sides: outline in plan, from z upward.
-  int plate(const char* ifc_class, const char* type, const std::string& name, const std::vector<P2>& outline, double z, double thickness,
-            const Paint& paint, const std::vector<std::vector<P2>>& holes = {});
-  int solid(const char* ifc_class, const std::string& name, P3 origin, P2 x, const std::vector<int>& items, const std::string& tail,
-            const std::string& material, const char* kind = "SweptSolid", bool in_storey = true);
+  int plate(const char* ifc_class, const char* type, const std::string& name, const std::vector<P2>& outline, double z,
+            double thickness, const Paint& paint, const std::vector<std::vector<P2>>& holes = {});
+  int solid(const char* ifc_class, const std::string& name, P3 origin, P2 x, const std::vector<int>& items,
+            const std::string& tail, const std::string& material, const char* kind = "SweptSolid",
+            bool in_storey = true);
   // A piece that stands several times: one mesh, many places.
-  int furnitureType(const char* type_class, const std::string& name, const std::vector<int>& items, const std::string& tail);
+  int furnitureType(const char* type_class, const std::string& name, const std::vector<int>& items,
+                    const std::string& tail);
   void place(const char* ifc_class, int type_map, const std::string& name, P3 origin, P2 x, const std::string& material,
              const std::string& tail = ".NOTDEFINED.");
 

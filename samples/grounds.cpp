@@ -40,13 +40,15 @@ int Grounds::stand(const char* ifc_class, const std::string& name, int placement
   return id;
 }
 
-void Grounds::terrain(const Rectangle& extent, const std::vector<Rectangle>& flat, const std::vector<Rectangle>& holes) {
+void Grounds::terrain(const Rectangle& extent, const std::vector<Rectangle>& flat,
+                      const std::vector<Rectangle>& holes) {
   flat_ = flat;
   const int nx = static_cast<int>(extent.x1 - extent.x0), ny = static_cast<int>(extent.y1 - extent.y0);
   std::vector<P3> vertices;
   std::vector<std::array<int, 3>> triangles;
   for (int j = 0; j <= ny; ++j)
-    for (int i = 0; i <= nx; ++i) vertices.push_back({extent.x0 + i, extent.y0 + j, height(extent.x0 + i, extent.y0 + j)});
+    for (int i = 0; i <= nx; ++i)
+      vertices.push_back({extent.x0 + i, extent.y0 + j, height(extent.x0 + i, extent.y0 + j)});
   for (int j = 0; j < ny; ++j)
     for (int i = 0; i < nx; ++i) {
       const double x = extent.x0 + i + 0.5, y = extent.y0 + j + 0.5;
@@ -72,7 +74,7 @@ void Grounds::path(const std::string& name, const Rectangle& strip) {
     triangles.push_back({a, c, d});
   };
   for (int j = 0; j < n; ++j) {
-    const int at = 4 * j, next = at + 4;                       // upper left, upper right, lower left, lower right
+    const int at = 4 * j, next = at + 4;  // upper left, upper right, lower left, lower right
     quad(at, at + 1, next + 1, next);
     quad(at + 1, at + 3, next + 3, next + 1);
     quad(at + 2, at, next, next + 2);
@@ -84,9 +86,10 @@ void Grounds::path(const std::string& name, const Rectangle& strip) {
   stand("IFCGEOGRAPHICELEMENT", name, ifc_.placement(placement_, {0, 0, 0}), shape, ".USERDEFINED.", "PATH", "Gravel");
 }
 
-void Grounds::block(const char* ifc_class, const char* type, const std::string& name, const Rectangle& plan, double z0, double z1,
-                    const Paint& paint, const std::string& object_type) {
-  const int shape = ifc_.body({ifc_.box({plan.x0, plan.y0, z0}, {plan.x1 - plan.x0, plan.y1 - plan.y0, z1 - z0}, paint)});
+void Grounds::block(const char* ifc_class, const char* type, const std::string& name, const Rectangle& plan, double z0,
+                    double z1, const Paint& paint, const std::string& object_type) {
+  const int shape =
+      ifc_.body({ifc_.box({plan.x0, plan.y0, z0}, {plan.x1 - plan.x0, plan.y1 - plan.y0, z1 - z0}, paint)});
   stand(ifc_class, name, ifc_.placement(placement_, {0, 0, 0}), shape, type, object_type, paint.name);
 }
 
@@ -99,7 +102,8 @@ int Grounds::treeMap() {
     for (int s = 0; s < kSectors; ++s) {
       const double polar = std::numbers::pi * r / kRings, around = 2 * std::numbers::pi * s / kSectors;
       const double lump = 1 + 0.12 * std::sin(5 * around + 3 * polar) * std::sin(polar) * std::sin(4 * polar);
-      vertices.push_back({1.7 * lump * std::sin(polar) * std::cos(around), 1.7 * lump * std::sin(polar) * std::sin(around), 3.9 + 2 * lump * std::cos(polar)});
+      vertices.push_back({1.7 * lump * std::sin(polar) * std::cos(around),
+                          1.7 * lump * std::sin(polar) * std::sin(around), 3.9 + 2 * lump * std::cos(polar)});
     }
   const int last = static_cast<int>(vertices.size());
   vertices.push_back({0, 0, 1.9});
@@ -130,7 +134,8 @@ int Grounds::treeMap() {
   const int crown_item = ifc_.faces(vertices, triangles, true, paint::kFoliage);
   const int trunk_item = ifc_.faces(trunk, bark, true, paint::kBark);
   const int map = ifc_.shared({crown_item, trunk_item}, "Tessellation");
-  ifc_.add(fmt::format("IFCGEOGRAPHICELEMENTTYPE('{}',#{},'Lime tree',$,$,$,(#{}),$,'TREE',.USERDEFINED.)", ifc_.guid(), ifc_.owner(), map));
+  ifc_.add(fmt::format("IFCGEOGRAPHICELEMENTTYPE('{}',#{},'Lime tree',$,$,$,(#{}),$,'TREE',.USERDEFINED.)", ifc_.guid(),
+                       ifc_.owner(), map));
   return map;
 }
 
@@ -139,27 +144,31 @@ int Grounds::lampMap() {
   const int arm = ifc_.box({-0.1, -0.04, 4.42}, {1.0, 0.08, 0.06}, paint::kSteel);
   const int lamp = ifc_.box({0.4, -0.12, 4.34}, {0.5, 0.24, 0.08}, paint::kGlass);
   const int map = ifc_.shared({pole, arm, lamp});
-  ifc_.add(fmt::format("IFCLIGHTFIXTURETYPE('{}',#{},'Lamp post',$,$,$,(#{}),$,'LAMP POST',.USERDEFINED.)", ifc_.guid(), ifc_.owner(), map));
+  ifc_.add(fmt::format("IFCLIGHTFIXTURETYPE('{}',#{},'Lamp post',$,$,$,(#{}),$,'LAMP POST',.USERDEFINED.)", ifc_.guid(),
+                       ifc_.owner(), map));
   return map;
 }
 
 int Grounds::carMap() {
-  std::vector<int> items = {ifc_.box({-2.1, -0.87, 0.25}, {4.2, 1.74, 0.55}, paint::kCarPaint), ifc_.box({-1.3, -0.78, 0.8}, {2.4, 1.56, 0.5}, paint::kGlass),
+  std::vector<int> items = {ifc_.box({-2.1, -0.87, 0.25}, {4.2, 1.74, 0.55}, paint::kCarPaint),
+                            ifc_.box({-1.3, -0.78, 0.8}, {2.4, 1.56, 0.5}, paint::kGlass),
                             ifc_.box({-1.2, -0.75, 1.3}, {2.2, 1.5, 0.06}, paint::kCarPaint)};
   for (const double x : {-1.3, 1.3})
     for (const double y : {-0.88, 0.68}) {
       const int frame = ifc_.axes({x, y + 0.2, 0.32}, {0, -1, 0}, {1, 0, 0});
       std::vector<P2> wheel;
-      for (int k = 0; k < 16; ++k) wheel.push_back({0.32 * std::cos(std::numbers::pi * k / 8), 0.32 * std::sin(std::numbers::pi * k / 8)});
+      for (int k = 0; k < 16; ++k)
+        wheel.push_back({0.32 * std::cos(std::numbers::pi * k / 8), 0.32 * std::sin(std::numbers::pi * k / 8)});
       items.push_back(ifc_.prism(wheel, {}, frame, 0.2, paint::kRubber));
     }
   const int map = ifc_.shared(items);
-  ifc_.add(fmt::format("IFCBUILDINGELEMENTPROXYTYPE('{}',#{},'Car',$,$,$,(#{}),$,'CAR',.USERDEFINED.)", ifc_.guid(), ifc_.owner(), map));
+  ifc_.add(fmt::format("IFCBUILDINGELEMENTPROXYTYPE('{}',#{},'Car',$,$,$,(#{}),$,'CAR',.USERDEFINED.)", ifc_.guid(),
+                       ifc_.owner(), map));
   return map;
 }
 
-void Grounds::place(const char* ifc_class, int map, const std::string& name, P3 origin, P2 x, const std::string& material,
-                    const std::string& tail, const std::string& object_type) {
+void Grounds::place(const char* ifc_class, int map, const std::string& name, P3 origin, P2 x,
+                    const std::string& material, const std::string& tail, const std::string& object_type) {
   const int shape = ifc_.mapped(map);
   const int id = stand(ifc_class, name, ifc_.placement(placement_, origin, x), shape, tail, object_type, material);
   ifc_.type(id, map + 1);

@@ -25,11 +25,11 @@ class IfcText {
  public:
   explicit IfcText(std::string file_name);
 
-  int add(const std::string& entity);                          // "IFCWALL(…)" → its number
+  int add(const std::string& entity);  // "IFCWALL(…)" → its number
   std::string guid();
-  static std::string real(double value);                       // "0.35", "10."
+  static std::string real(double value);  // "0.35", "10."
   static std::string quoted(const std::string& ascii) { return "'" + ascii + "'"; }
-  static std::string list(const std::vector<int>& ids);        // "(#1,#2)"
+  static std::string list(const std::vector<int>& ids);  // "(#1,#2)"
 
   // Placements: origin and the direction of local x in the parent's plan.
   int point(P3 p);
@@ -39,16 +39,18 @@ class IfcText {
 
   // Solids in the product's frame, each painted (the style bears the paint's name).
   int box(P3 corner, P3 size, const Paint& paint);
-  int prism(const std::vector<P2>& outline, const std::vector<std::vector<P2>>& holes, int frame, double depth, const Paint& paint);
+  int prism(const std::vector<P2>& outline, const std::vector<std::vector<P2>>& holes, int frame, double depth,
+            const Paint& paint);
   int cylinder(P3 foot, double radius, double height, const Paint& paint);
   int rod(const std::vector<P3>& path, double radius, const Paint& paint);
-  int faces(const std::vector<P3>& vertices, const std::vector<std::array<int, 3>>& triangles, bool closed, const Paint& paint);
+  int faces(const std::vector<P3>& vertices, const std::vector<std::array<int, 3>>& triangles, bool closed,
+            const Paint& paint);
   // The inside of an opening has no paint.
   int unpaintedBox(P3 corner, P3 size);
 
-  int body(const std::vector<int>& items, const char* kind = "SweptSolid");          // IfcProductDefinitionShape
-  int shared(const std::vector<int>& items, const char* kind = "SweptSolid");        // IfcRepresentationMap
-  int mapped(int map);                                                               // IfcProductDefinitionShape
+  int body(const std::vector<int>& items, const char* kind = "SweptSolid");    // IfcProductDefinitionShape
+  int shared(const std::vector<int>& items, const char* kind = "SweptSolid");  // IfcRepresentationMap
+  int mapped(int map);                                                         // IfcProductDefinitionShape
 
   int material(const std::string& name);
   int layers(const std::string& name, const std::vector<std::pair<std::string, double>>& outside_to_inside);
@@ -65,13 +67,15 @@ class IfcText {
   void voids(int element, int opening);
   void fills(int opening, int element);
   void type(int product, int type_object) { typed_[type_object].push_back(product); }
-  void properties(int product, const std::string& set, const std::vector<std::pair<std::string, std::string>>& name_and_value);
-  void quantities(int product, const std::string& set, const std::vector<std::pair<std::string, std::string>>& name_and_entity);
+  void properties(int product, const std::string& set,
+                  const std::vector<std::pair<std::string, std::string>>& name_and_value);
+  void quantities(int product, const std::string& set,
+                  const std::vector<std::pair<std::string, std::string>>& name_and_entity);
 
   int owner() const { return owner_; }
   int bodyContext() const { return body_context_; }
   int project(const std::string& name);
-  std::string finish();                                        // writes the relations and closes the file
+  std::string finish();  // writes the relations and closes the file
 
  private:
   int painted(int item, const Paint& paint);

@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
   std::error_code code;
   std::filesystem::create_directories(folder, code);
   using namespace standpoint::samples;
-  const bool ok = write(folder / "house.ifc", houseIfc()) && write(folder / "street.ifc", streetIfc()) && write(folder / "ornament.glb", ornamentGlb());
+  const bool ok = write(folder / "house.ifc", houseIfc()) && write(folder / "street.ifc", streetIfc()) &&
+                  write(folder / "ornament.glb", ornamentGlb());
   return ok ? 0 : 4;
 }

@@ -14,11 +14,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kRings = 500, kSectors = 502;       // 2 · 502 · 499 = 500 996 triangles
+constexpr int kRings = 500, kSectors = 502;  // 2 · 502 · 499 = 500 996 triangles
 constexpr double kRadius_m = 0.3, kHeight_m = 1.35;
 
-// A carved finial: r³ = R³ (1 + f) where f has no mean around the axis, so that the volume is that of the sphere whatever
-// the carving: V = ∫ r³/3 dΩ = 4π R³ / 3. That is the number a reader is tested with.
+// A carved finial: r³ = R³ (1 + f) where f has no mean around the axis, so that the volume is that of the sphere
+// whatever the carving: V = ∫ r³/3 dΩ = 4π R³ / 3. That is the number a reader is tested with.
 double radius(double polar, double around) {
   const double s = std::sin(polar), c = std::cos(polar);
   const double leaves = 0.30 * std::pow(s, 4) * std::cos(12 * around + 6 * c);
@@ -36,8 +36,8 @@ class Glb {
   }
 
   // `vertices` in metres, Y up.
-  void add(const std::string& name, const std::vector<std::array<float, 3>>& vertices, const std::vector<std::uint32_t>& indices,
-           const Paint& paint, double roughness) {
+  void add(const std::string& name, const std::vector<std::array<float, 3>>& vertices,
+           const std::vector<std::uint32_t>& indices, const Paint& paint, double roughness) {
     const std::size_t number = json_["nodes"].size();
     const auto linear = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
     auto low = vertices[0], high = vertices[0];
@@ -45,15 +45,23 @@ class Glb {
       for (std::size_t k = 0; k < 3; ++k) low[k] = std::min(low[k], v[k]), high[k] = std::max(high[k], v[k]);
     view(vertices.data(), vertices.size() * 12, 34962);
     view(indices.data(), indices.size() * 4, 34963);
-    json_["accessors"].push_back({{"bufferView", 2 * number}, {"componentType", 5126}, {"type", "VEC3"}, {"count", vertices.size()}, {"min", low}, {"max", high}});
-    json_["accessors"].push_back({{"bufferView", 2 * number + 1}, {"componentType", 5125}, {"type", "SCALAR"}, {"count", indices.size()}});
-    const Json primitive = {{"attributes", {{"POSITION", 2 * number}}}, {"indices", 2 * number + 1}, {"material", number}};
+    json_["accessors"].push_back({{"bufferView", 2 * number},
+                                  {"componentType", 5126},
+                                  {"type", "VEC3"},
+                                  {"count", vertices.size()},
+                                  {"min", low},
+                                  {"max", high}});
+    json_["accessors"].push_back(
+        {{"bufferView", 2 * number + 1}, {"componentType", 5125}, {"type", "SCALAR"}, {"count", indices.size()}});
+    const Json primitive = {
+        {"attributes", {{"POSITION", 2 * number}}}, {"indices", 2 * number + 1}, {"material", number}};
     json_["meshes"].push_back({{"name", name}, {"primitives", Json::array({primitive})}});
-    json_["materials"].push_back({{"name", paint.name},
-                                  {"pbrMetallicRoughness",
-                                   {{"baseColorFactor", {linear(paint.rgb[0]), linear(paint.rgb[1]), linear(paint.rgb[2]), 1.0}},
-                                    {"metallicFactor", 0.0},
-                                    {"roughnessFactor", roughness}}}});
+    json_["materials"].push_back(
+        {{"name", paint.name},
+         {"pbrMetallicRoughness",
+          {{"baseColorFactor", {linear(paint.rgb[0]), linear(paint.rgb[1]), linear(paint.rgb[2]), 1.0}},
+           {"metallicFactor", 0.0},
+           {"roughnessFactor", roughness}}}});
     json_["nodes"].push_back({{"name", name}, {"mesh", number}});
   }
 
@@ -73,7 +81,8 @@ class Glb {
     for (unsigned shift = 0; shift < 32; shift += 8) out += static_cast<char>(value >> shift & 0xFFU);
   }
   void view(const void* data, std::size_t size, int target) {
-    json_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", size}, {"target", target}});
+    json_["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", size}, {"target", target}});
     binary_.append(static_cast<const char*>(data), size);
   }
 
@@ -86,7 +95,8 @@ void addFinial(Glb& glb) {
   std::vector<std::uint32_t> indices;
   const auto vertex = [&](double polar, double around) {
     const double r = radius(polar, around);
-    vertices.push_back({static_cast<float>(r * std::sin(polar) * std::cos(around)), static_cast<float>(kHeight_m + r * std::cos(polar)),
+    vertices.push_back({static_cast<float>(r * std::sin(polar) * std::cos(around)),
+                        static_cast<float>(kHeight_m + r * std::cos(polar)),
                         static_cast<float>(-r * std::sin(polar) * std::sin(around))});
   };
   vertex(0, 0);
@@ -95,7 +105,9 @@ void addFinial(Glb& glb) {
   vertex(std::numbers::pi, 0);
   const auto ring = [](int r, int s) { return static_cast<std::uint32_t>(1 + (r - 1) * kSectors + s % kSectors); };
   const auto last = static_cast<std::uint32_t>(vertices.size() - 1);
-  const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) { indices.insert(indices.end(), {a, b, c}); };
+  const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    indices.insert(indices.end(), {a, b, c});
+  };
   for (int s = 0; s < kSectors; ++s) {
     triangle(0, ring(1, s), ring(1, s + 1));
     for (int r = 1; r < kRings - 1; ++r) {
@@ -116,7 +128,8 @@ void addPlinth(Glb& glb) {
     for (const auto& face : kFaces) {
       const auto first = static_cast<std::uint32_t>(vertices.size());
       for (const int k : face)
-        vertices.push_back({static_cast<float>((k & 4) != 0 ? half : -half), static_cast<float>((k & 2) != 0 ? high : low),
+        vertices.push_back({static_cast<float>((k & 4) != 0 ? half : -half),
+                            static_cast<float>((k & 2) != 0 ? high : low),
                             static_cast<float>((k & 1) != 0 ? half : -half)});
       for (const std::uint32_t k : {0U, 1U, 2U, 0U, 2U, 3U}) indices.push_back(first + k);
     }

@@ -28,11 +28,15 @@ constexpr double kWest = -30, kEast = 40;
 
 // Six metres of carriageway, kerbs 12 cm high, pavements level with the gardens.
 void street(Grounds& grounds) {
-  grounds.block("IFCSLAB", ".USERDEFINED.", "Carriageway", {kWest, -22, kEast, -16}, -0.6, -0.27, paint::kAsphalt, "PAVING");
+  grounds.block("IFCSLAB", ".USERDEFINED.", "Carriageway", {kWest, -22, kEast, -16}, -0.6, -0.27, paint::kAsphalt,
+                "PAVING");
   for (const auto& [side, y] : {std::pair{"north", -16.0}, {"south", -22.15}})
-    grounds.block("IFCBUILDINGELEMENTPROXY", ".USERDEFINED.", std::string("Kerb ") + side, {kWest, y, kEast, y + 0.15}, -0.6, kGround_m, paint::kStone, "KERB");
-  grounds.block("IFCSLAB", ".USERDEFINED.", "Pavement north", {kWest, -15.85, kEast, -14}, -0.45, kGround_m, paint::kConcrete, "PAVING");
-  grounds.block("IFCSLAB", ".USERDEFINED.", "Pavement south", {kWest, -24, kEast, -22.15}, -0.45, kGround_m, paint::kConcrete, "PAVING");
+    grounds.block("IFCBUILDINGELEMENTPROXY", ".USERDEFINED.", std::string("Kerb ") + side, {kWest, y, kEast, y + 0.15},
+                  -0.6, kGround_m, paint::kStone, "KERB");
+  grounds.block("IFCSLAB", ".USERDEFINED.", "Pavement north", {kWest, -15.85, kEast, -14}, -0.45, kGround_m,
+                paint::kConcrete, "PAVING");
+  grounds.block("IFCSLAB", ".USERDEFINED.", "Pavement south", {kWest, -24, kEast, -22.15}, -0.45, kGround_m,
+                paint::kConcrete, "PAVING");
 }
 
 void furnishStreet(Grounds& grounds) {
@@ -40,16 +44,18 @@ void furnishStreet(Grounds& grounds) {
   int number = 0;
   for (const double x : {-24.0, -3.0, 13.0, 31.0})
     for (const double y : {-11.0, -27.0})
-      grounds.place("IFCGEOGRAPHICELEMENT", tree, fmt::format("Tree {}", ++number), {x, y, kGround_m}, {1, 0}, "Foliage", ".USERDEFINED.", "TREE");
+      grounds.place("IFCGEOGRAPHICELEMENT", tree, fmt::format("Tree {}", ++number), {x, y, kGround_m}, {1, 0},
+                    "Foliage", ".USERDEFINED.", "TREE");
   const int lamp = grounds.lampMap();
   number = 0;
   for (const double x : {-20.0, 0.0, 20.0})
-    grounds.place("IFCLIGHTFIXTURE", lamp, fmt::format("Lamp post {}", ++number), {x, -15.4, kGround_m}, {0, -1}, "Stainless steel", ".USERDEFINED.", "LAMP POST");
+    grounds.place("IFCLIGHTFIXTURE", lamp, fmt::format("Lamp post {}", ++number), {x, -15.4, kGround_m}, {0, -1},
+                  "Stainless steel", ".USERDEFINED.", "LAMP POST");
   const int car = grounds.carMap();
   number = 0;
   for (const double x : {-12.0, 5.0, 11.5, 28.0})
-    grounds.place("IFCBUILDINGELEMENTPROXY", car, fmt::format("Car {}", ++number), {x, -17.1, -0.27}, {number % 2 == 0 ? 1.0 : -1.0, 0}, "Car paint",
-                  ".USERDEFINED.", "CAR");
+    grounds.place("IFCBUILDINGELEMENTPROXY", car, fmt::format("Car {}", ++number), {x, -17.1, -0.27},
+                  {number % 2 == 0 ? 1.0 : -1.0, 0}, "Car paint", ".USERDEFINED.", "CAR");
 }
 
 }  // namespace
@@ -58,10 +64,13 @@ std::string streetIfc() {
   IfcText ifc("street.ifc");
   const int project = ifc.project("Street");
   const int placement = ifc.placement(0, {0, 0, 0});
-  const int site = ifc.add(fmt::format("IFCSITE('{}',#{},'Street',$,$,#{},$,$,.ELEMENT.,(49,0,43,0),(8,24,32,0),115.3,$,$)", ifc.guid(), ifc.owner(), placement));
+  const int site =
+      ifc.add(fmt::format("IFCSITE('{}',#{},'Street',$,$,#{},$,$,.ELEMENT.,(49,0,43,0),(8,24,32,0),115.3,$,$)",
+                          ifc.guid(), ifc.owner(), placement));
   ifc.aggregate(project, {site});
   std::vector<int> buildings = {furnishedHouse(ifc, placement, {0, 0, 0}, {1, 0})};
-  std::vector<Rectangle> flat = {{kWest, -24, kEast, -14}, {0, -14, 10, 8}}, holes = {{kWest, -24, kEast, -14}, {0, 0, 10, 8}};
+  std::vector<Rectangle> flat = {{kWest, -24, kEast, -14}, {0, -14, 10, 8}},
+                         holes = {{kWest, -24, kEast, -14}, {0, 0, 10, 8}};
   for (const auto& n : kNeighbours) {
     buildings.push_back(plainHouse(ifc, placement, n.name, n.origin, n.x, n.eaves));
     flat.push_back(n.plan);

@@ -18,7 +18,7 @@ struct Quantity {
   const char* key;
   const char* unit;
   double Weather::*value;
-  double least, most;      // besides the value that stands for clear
+  double least, most;  // besides the value that stands for clear
 };
 
 // Below 5 m of optical range no instrument sees anything, and 300 mm/h is the heaviest rain that lasts for minutes.
@@ -105,9 +105,7 @@ double extinction_per_m(const Weather& weather, double wavelength_nm) {
          extinctionOfRange(weather.dust_mor_m);
 }
 
-DropSizes rainDrops(double mm_h) {
-  return mm_h > 0 ? DropSizes{8000, 4.1 * portable::pow(mm_h, -0.21)} : DropSizes{};
-}
+DropSizes rainDrops(double mm_h) { return mm_h > 0 ? DropSizes{8000, 4.1 * portable::pow(mm_h, -0.21)} : DropSizes{}; }
 
 DropSizes snowFlakes(double mm_h) {
   return mm_h > 0 ? DropSizes{7600 * portable::pow(mm_h, -0.87), 2.55 * portable::pow(mm_h, -0.48)} : DropSizes{};
@@ -119,6 +117,6 @@ double extinction_per_m(const DropSizes& sizes) {
   return 1e-6 * std::numbers::pi * sizes.n0_per_m3_mm * length * length * length;
 }
 
-double extinctionOfRange(double mor_m) { return mor_m > 0 ? 2.995732273553991 / mor_m : 0; }   // ln 20
+double extinctionOfRange(double mor_m) { return mor_m > 0 ? 2.995732273553991 / mor_m : 0; }  // ln 20
 
 }  // namespace standpoint

@@ -10,10 +10,10 @@ namespace standpoint {
 
 // The air of a scan. Fog and dust lie in it besides the haze that the visibility stands for.
 struct Weather {
-  double visibility_km = 23;    // at 550 nm, 2 % contrast; infinity = no air at all
+  double visibility_km = 23;  // at 550 nm, 2 % contrast; infinity = no air at all
   double rain_mm_h = 0;
-  double snow_mm_h = 0;         // of melted water
-  double fog_mor_m = 0;         // meteorological optical range, 5 % contrast; 0 = no fog
+  double snow_mm_h = 0;  // of melted water
+  double fog_mor_m = 0;  // meteorological optical range, 5 % contrast; 0 = no fog
   double dust_mor_m = 0;
   bool operator==(const Weather&) const = default;
 };

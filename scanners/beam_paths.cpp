@@ -29,7 +29,7 @@ void BeamPaths::follow(const Ray& ray, NearestHit hit, std::vector<PathEnd>& end
     const double range = rangeOnPlane(seen.facet, ray.origin, ray.direction, hit.range_m);
     if (range > farthest) return;
     if (seen.plain) return addEnd(ray, passage, seen, range, ends);
-    const MetFacet met = seen;   // a copy: a mirror's image asks for others
+    const MetFacet met = seen;  // a copy: a mirror's image asks for others
     const bool front = met.facet.normal.dot(ray.direction) < 0;
     const bool passes = plan_.passes(*met.optics);
     if (passes && passage.isOtherFace(met.facet, front, range)) {
@@ -62,8 +62,8 @@ void BeamPaths::addEnd(const Ray& ray, const PanePassage& passage, const MetFace
   end.product = met.facet.product, end.surface = met.facet.surface, end.material = met.material;
 }
 
-void BeamPaths::reflect(const Ray& ray, const MetFacet& met, double range_m, double cosine, double gain, double excess_m,
-                        std::vector<PathEnd>& ends) {
+void BeamPaths::reflect(const Ray& ray, const MetFacet& met, double range_m, double cosine, double gain,
+                        double excess_m, std::vector<PathEnd>& ends) {
   if (ray.mirrors >= kMostMirrors) return;
   const double reflected = mirrorReflectance(*met.optics, cosine);
   Ray image{.origin = ray.origin + range_m * ray.direction,

@@ -9,7 +9,8 @@ std::optional<double> chosenEffect(const Instrument& instrument, const SettingVa
   for (const auto& setting : instrument.settings)
     for (const auto& choice : setting.choices) {
       const auto effect = choice.effects.find(key);
-      if (effect != choice.effects.end() && std::find(values.begin(), values.end(), std::pair(setting.key, choice.value)) != values.end())
+      if (effect != choice.effects.end() &&
+          std::find(values.begin(), values.end(), std::pair(setting.key, choice.value)) != values.end())
         return effect->second;
     }
   return std::nullopt;

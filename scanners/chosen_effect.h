@@ -8,8 +8,8 @@
 
 namespace standpoint {
 
-// What the chosen settings say of one thing: the figure that the choice states under `key`, such as "most_returns"; nothing
-// where none of the instrument's choices speaks of it.
+// What the chosen settings say of one thing: the figure that the choice states under `key`, such as "most_returns";
+// nothing where none of the instrument's choices speaks of it.
 std::optional<double> chosenEffect(const Instrument& instrument, const SettingValues& values, const std::string& key);
 
 }  // namespace standpoint

@@ -27,7 +27,7 @@ void appendCells(const Facet& facet, std::uint64_t number, std::vector<InCell>& 
   constexpr double near[4] = {kNear, kNear, kNear, kOffsetNear_m / kOffsetCell_m};
   std::uint64_t low[4], high[4];
   for (int k = 0; k < 4; ++k) {
-    constexpr double kShift = 0.63;   // round figures are frequent: they shall not lie at a bound
+    constexpr double kShift = 0.63;  // round figures are frequent: they shall not lie at a bound
     low[k] = static_cast<std::uint64_t>(at[k] + kShift - near[k]);
     high[k] = static_cast<std::uint64_t>(at[k] + kShift + near[k]);
   }
@@ -79,7 +79,7 @@ CoincidentFacets::CoincidentFacets(const EmbreeScene& scene) {
                                                              3 * sizeof(float), 3 * facets.size()));
   auto* index = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), facets.size()));
-  if (vertex == nullptr || index == nullptr) {   // no memory: the picture is speckled then
+  if (vertex == nullptr || index == nullptr) {  // no memory: the picture is speckled then
     rtcReleaseGeometry(geometry);
     return;
   }
@@ -109,7 +109,7 @@ CoincidentFacets::~CoincidentFacets() {
 }
 
 struct CoincidentFacets::Choice {
-  RTCIntersectContext context;   // first, so that Embree's pointer to it is one to this
+  RTCIntersectContext context;  // first, so that Embree's pointer to it is one to this
   const Shared* met[kPacket];
   const Shared* best[kPacket];
 };

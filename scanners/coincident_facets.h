@@ -7,8 +7,8 @@
 
 namespace standpoint {
 
-// Bodies that lie in each other share faces: a slab's edge in the plane of the wall that it runs into. Which of two such
-// faces a ray meets first is a matter of rounding, and a picture of them is speckled. Here one of them is seen
+// Bodies that lie in each other share faces: a slab's edge in the plane of the wall that it runs into. Which of two
+// such faces a ray meets first is a matter of rounding, and a picture of them is speckled. Here one of them is seen
 // everywhere: an opaque one before a transparent one, then the one that comes first in the scene.
 class CoincidentFacets {
  public:
@@ -31,9 +31,9 @@ class CoincidentFacets {
     return index_[first_[facet >> 32U] + static_cast<std::uint32_t>(facet)];
   }
 
-  std::vector<std::size_t> first_;     // of each placement, into index_
-  std::vector<std::uint32_t> index_;   // of each facet, into shared_; or kAlone
-  std::vector<Shared> shared_;         // facets whose plane has another surface in it, too
+  std::vector<std::size_t> first_;    // of each placement, into index_
+  std::vector<std::uint32_t> index_;  // of each facet, into shared_; or kAlone
+  std::vector<Shared> shared_;        // facets whose plane has another surface in it, too
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
 };

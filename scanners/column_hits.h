@@ -18,8 +18,8 @@ struct alignas(64) AxisLanes {
   double direction_x[kPacket] = {}, direction_y[kPacket] = {}, direction_z[kPacket] = {};
 };
 
-// The beams of one column: where they start and what their axes meet first. Sixteen rows are traced when they are needed:
-// of the columns beside those that are worked on, few are.
+// The beams of one column: where they start and what their axes meet first. Sixteen rows are traced when they are
+// needed: of the columns beside those that are worked on, few are.
 class ColumnHits {
  public:
   explicit ColumnHits(const ScanPlan& plan);
@@ -58,7 +58,7 @@ class ColumnHits {
   Axes still_;                       // of a scanner that does not move
   AxisLanes lanes_;                  // of the rows looked at last
   RayPacket rays_{};
-  std::vector<char> traced_;         // each sixteen rows
+  std::vector<char> traced_;  // each sixteen rows
   std::vector<std::uint64_t> facets_;
   std::vector<float> ranges_;
   std::vector<std::uint32_t> planes_;

@@ -183,15 +183,15 @@ bool ColumnTracer::struck(std::uint32_t row) const {
 void ColumnTracer::gatherStray(std::uint32_t row, std::size_t from) {
   const RayLine axis = current_->axis(row);
   if (plan_.halo && plan_.halo->reaches(current_->column(), row)) gatherWings(current_->beam(row));
-  if (plan_.scatterers) {   // the air's return, from before the nearest surface
+  if (plan_.scatterers) {  // the air's return, from before the nearest surface
     double nearest = plan_.settings.max_range_m;
     for (std::size_t i = from; i < ends_.size(); ++i) nearest = std::min(nearest, ends_[i].path_m);
     if (const auto found = plan_.scatterers->strongest(current_->column(), row, nearest, plan_.drop_threshold))
       addSurfaceless(axis, found->range_m, found->x, point_flag::kWeather);
   }
   if (plan_.interference <= 0 || !struck(row)) return;
-  // At any time of the listening window, as strong as it may be: the power of a source at an unknown distance is above the
-  // threshold by a factor f with the chance 1/f.
+  // At any time of the listening window, as strong as it may be: the power of a source at an unknown distance is above
+  // the threshold by a factor f with the chance 1/f.
   const auto draw = interferenceDraw(plan_.options, current_->column(), row);
   const double nearest = plan_.instrument.min_range_m;
   addSurfaceless(axis, nearest + uniform(draw[1]) * (plan_.settings.max_range_m - nearest),
@@ -227,8 +227,10 @@ std::uint32_t ColumnTracer::reported(std::uint32_t lanes) {
   std::uint32_t kept = lanes;
   for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
     const int lane = std::countr_zero(left);
-    if (!plan_.reports(returns_.range_m[lane])) kept &= ~(left & -left);
-    else if (returns_.range_m[lane] >= plan_.unambiguous_m) returns_.flag(lane, point_flag::kMirrored);
+    if (!plan_.reports(returns_.range_m[lane]))
+      kept &= ~(left & -left);
+    else if (returns_.range_m[lane] >= plan_.unambiguous_m)
+      returns_.flag(lane, point_flag::kMirrored);
   }
   return kept;
 }
@@ -251,8 +253,11 @@ void ColumnTracer::light(ReturnLanes& r, int count) {
   const Daylight& day = *plan_.daylight;
   constexpr float kOff_m = 0.002F;
   for (int k = 0; k < count; ++k)
-    rays.set(k, {static_cast<double>(r.place_x[k] + kOff_m * r.normal_x[k]), static_cast<double>(r.place_y[k] + kOff_m * r.normal_y[k]),
-                 static_cast<double>(r.place_z[k] + kOff_m * r.normal_z[k])}, day.towards());
+    rays.set(k,
+             {static_cast<double>(r.place_x[k] + kOff_m * r.normal_x[k]),
+              static_cast<double>(r.place_y[k] + kOff_m * r.normal_y[k]),
+              static_cast<double>(r.place_z[k] + kOff_m * r.normal_z[k])},
+             day.towards());
   plan_.scene.intersect(rays, count, std::numeric_limits<float>::infinity(), shade, ranges);
   const Eigen::Quaterniond rotation = at(plan_.trajectory, 0).rotation;
   for (int k = 0; k < count; ++k) {

@@ -13,8 +13,8 @@
 
 namespace standpoint {
 
-// Traces columns of a plan into a block, in place of what it holds, from ray to point. One per thread; it only remembers facets, so what it yields
-// depends on the arguments alone, and a column's points on the column alone.
+// Traces columns of a plan into a block, in place of what it holds, from ray to point. One per thread; it only
+// remembers facets, so what it yields depends on the arguments alone, and a column's points on the column alone.
 //
 // A pulse whose axis and whose neighbours' axes meet one surface is that surface's return; most are, and they are dealt
 // with sixteen at a time. Where a neighbour meets another one (edge_finder.h), the beam's other rays are traced
@@ -69,16 +69,16 @@ class ColumnTracer {
   BeamPaths paths_;
   ColumnWindow columns_;
   EdgeFinder edges_;
-  WideBeams wide_;            // of a stretch of rows
+  WideBeams wide_;  // of a stretch of rows
   std::size_t next_wide_ = 0;
   ColumnHits* current_ = nullptr;
   PlaneLanes planes_;
-  ReturnLanes returns_;                // a row each
-  std::uint64_t held_[kPacket];        // facets whose surfaces and planes the lanes have
+  ReturnLanes returns_;          // a row each
+  std::uint64_t held_[kPacket];  // facets whose surfaces and planes the lanes have
   Surfaces held_surfaces_;
   std::vector<Special> specials_;
-  std::vector<PathEnd> ends_;          // of all of them
-  std::vector<float> powers_;          // that comes back from the ends
+  std::vector<PathEnd> ends_;  // of all of them
+  std::vector<float> powers_;  // that comes back from the ends
   SignalLanes signal_{};
   std::vector<Contribution> contributions_;
   std::vector<Echo> echoes_;

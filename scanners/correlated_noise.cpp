@@ -18,8 +18,8 @@ constexpr auto kColumnChannel = static_cast<NoiseChannel>(48);
 constexpr std::uint32_t kPhaseChannel = 49;
 constexpr std::uint32_t kOctaveChannel = 50;
 
-constexpr std::uint32_t kTabulated = 1024;          // rows of the longest octave with a table of every row
-constexpr std::uint32_t kBlock = 4 * kNoiseLanes;   // normal numbers of one call
+constexpr std::uint32_t kTabulated = 1024;         // rows of the longest octave with a table of every row
+constexpr std::uint32_t kBlock = 4 * kNoiseLanes;  // normal numbers of one call
 
 // Numbers `first`, `first` + 1 … of a column's channel.
 void normalNumbers(const RandomKey& key, std::uint32_t column, std::uint32_t channel, std::vector<float>& numbers) {
@@ -132,7 +132,7 @@ STANDPOINT_CLONES void ColumnNoise::addOctaves(float* rows, std::uint32_t count,
         addShortCells(sum, nodes, octave.falling, octave.rising);
       } else if (octave.length <= kTabulated) {
         addOneCell(sum, nodes, octave.falling + place, octave.rising + place);
-      } else {   // so long that it does not change in sixteen rows
+      } else {  // so long that it does not change in sixteen rows
         const std::uint32_t step = place / kNoiseLanes;
         const float value = nodes[0] * octave.falling[step] + nodes[1] * octave.rising[step];
         for (float& row : sum) row += value;

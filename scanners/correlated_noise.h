@@ -25,9 +25,9 @@ class ColumnNoise {
   float common() const { return common_; }
 
   struct Column {
-    float common = 0, extra = 0;             // c_j and e_j: AR(1) from column to column, independent of each other
-    float azimuth_rad = 0;                   // flicker of the head
-    float wobble_sine = 0, wobble_cosine = 1;   // of φ_j; a column in front and its opposite behind are one turn
+    float common = 0, extra = 0;               // c_j and e_j: AR(1) from column to column, independent of each other
+    float azimuth_rad = 0;                     // flicker of the head
+    float wobble_sine = 0, wobble_cosine = 1;  // of φ_j; a column in front and its opposite behind are one turn
   };
   const Column& column(std::uint32_t column) const { return columns_[column]; }
 
@@ -56,7 +56,7 @@ class ColumnNoise {
   float white_ = 1, along_ = 0, common_ = 0;
   std::uint32_t rows_ = 0, half_ = 1;
   std::vector<Column> columns_;
-  std::vector<float> wobble_sine_, wobble_cosine_;   // of 2πk v_i in front
+  std::vector<float> wobble_sine_, wobble_cosine_;  // of 2πk v_i in front
   std::vector<Octave> octaves_;
 };
 

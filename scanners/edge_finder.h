@@ -5,7 +5,8 @@
 
 namespace standpoint {
 
-// The column that is being worked on and those that its beams reach, sixteen rows of each traced when they are asked for.
+// The column that is being worked on and those that its beams reach, sixteen rows of each traced when they are asked
+// for.
 class ColumnWindow {
  public:
   ColumnWindow(const ScanPlan& plan, FacetCache& facets)

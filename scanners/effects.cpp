@@ -49,7 +49,8 @@ Result<Effects> effectsWithout(std::string_view names) {
     const auto& known = effectNames();
     const auto found = std::find_if(known.begin(), known.end(), [&](const EffectName& e) { return e.name == name; });
     if (found == known.end())
-      return failure(ErrorKind::usage, "there is no effect '" + std::string(name) + "'; there are " + effectList(), "--without");
+      return failure(ErrorKind::usage, "there is no effect '" + std::string(name) + "'; there are " + effectList(),
+                     "--without");
     effects = effects.without(found->effect);
     from = comma + 1;
   }

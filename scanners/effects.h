@@ -29,18 +29,18 @@ enum class Effect : std::uint32_t {
   saturation = 1U << 13U,    // too much light bends the range
   quantisation = 1U << 14U,  // the intensity is stored in steps
   levelling = 1U << 15U,     // the compensator's error: the file's pose is not the true one
-  amplitude_noise = 1U << 16U,   // speckle, the pulse's energy and the receiver's own noise in the intensity
-  filters = 1U << 17U,       // the instrument's own: points that they flag or drop
-  ambiguity = 1U << 18U,     // a phase-shift instrument folds what is too far back to the front
-  halo = 1U << 19U,          // the beam's wings meet retroreflectors beside it
-  sun = 1U << 20U,           // daylight in the receiver
-  interference = 1U << 21U,  // returns of another instrument's light
-  rough_mirrors = 1U << 22U, // mirror images in what is not quite smooth: wet ground, varnish
+  amplitude_noise = 1U << 16U,  // speckle, the pulse's energy and the receiver's own noise in the intensity
+  filters = 1U << 17U,          // the instrument's own: points that they flag or drop
+  ambiguity = 1U << 18U,        // a phase-shift instrument folds what is too far back to the front
+  halo = 1U << 19U,             // the beam's wings meet retroreflectors beside it
+  sun = 1U << 20U,              // daylight in the receiver
+  interference = 1U << 21U,     // returns of another instrument's light
+  rough_mirrors = 1U << 22U,    // mirror images in what is not quite smooth: wet ground, varnish
 };
 
 class Effects {
  public:
-  constexpr Effects() = default;                          // all
+  constexpr Effects() = default;  // all
   static constexpr Effects none() { return Effects(0); }
   constexpr bool has(Effect effect) const { return (bits_ & static_cast<std::uint32_t>(effect)) != 0; }
   constexpr Effects with(Effect effect) const { return Effects(bits_ | static_cast<std::uint32_t>(effect)); }
@@ -60,7 +60,7 @@ struct EffectName {
 };
 const std::array<EffectName, 23>& effectNames();
 
-std::string effectList();   // the names, separated by commas
+std::string effectList();  // the names, separated by commas
 // Everything but the listed ones: "striping,footprint". An unknown name is an error that lists the known ones.
 Result<Effects> effectsWithout(std::string_view names);
 

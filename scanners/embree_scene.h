@@ -20,7 +20,7 @@ constexpr std::uint64_t kNoFacet = ~std::uint64_t{0};
 // A triangle where it stands: the plane n·p = offset in double, so that a range does not suffer from the float BVH.
 // The number of a facet is placement << 32 | triangle; a placement is an instance that beams can meet.
 struct Facet {
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   // unit, of either side; zero for a degenerate triangle
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // unit, of either side; zero for a degenerate triangle
   double offset = 0;
   std::uint32_t product = 0, surface = 0, instance = 0, triangle = 0;
 };
@@ -76,14 +76,15 @@ class EmbreeScene final : public RayScene {
   RTCGeometry triangles(const Mesh& mesh, const Eigen::Affine3d& world_from_mesh);
 
   std::shared_ptr<const Environment> environment_;
-  std::vector<std::uint32_t> placements_;    // indices into Environment::instances
-  std::vector<RTCScene> mesh_scenes_;        // by mesh; null unless instanced
+  std::vector<std::uint32_t> placements_;  // indices into Environment::instances
+  std::vector<RTCScene> mesh_scenes_;      // by mesh; null unless instanced
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
 };
 
 // The range at which the ray meets the facet's plane, or `fallback_m` when the plane is seen edge-on or degenerate.
-inline double rangeOnPlane(const Facet& facet, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double fallback_m) {
+inline double rangeOnPlane(const Facet& facet, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                           double fallback_m) {
   const double range = (facet.offset - facet.normal.dot(origin)) / facet.normal.dot(direction);
   // Edge-on, the plane says nothing; Embree's own range is good to about 1e-6 of the distances involved.
   return std::abs(range - fallback_m) <= 1e-3 + 1e-4 * fallback_m ? range : fallback_m;

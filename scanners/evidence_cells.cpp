@@ -50,8 +50,8 @@ std::vector<EvidenceCell> evidenceCells(const std::vector<MeasuredReturn>& retur
                                         MaterialComparison& counts, std::vector<bool>& is_used) {
   is_used.assign(returns.size(), false);
   if (returns.empty()) return {};
-  const auto [least, most] = std::minmax_element(returns.begin(), returns.end(),
-                                                 [](const auto& a, const auto& b) { return a.intensity < b.intensity; });
+  const auto [least, most] = std::minmax_element(
+      returns.begin(), returns.end(), [](const auto& a, const auto& b) { return a.intensity < b.intensity; });
   const float low = least->intensity, high = most->intensity;
   std::uint64_t at_low = 0, at_high = 0;
   for (const auto& r : returns) at_low += r.intensity == low ? 1 : 0, at_high += r.intensity == high ? 1 : 0;
@@ -71,7 +71,8 @@ std::vector<EvidenceCell> evidenceCells(const std::vector<MeasuredReturn>& retur
     }
   }
   counts.used = keyed.size();
-  std::sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
+  std::sort(keyed.begin(), keyed.end(),
+            [](const Keyed& a, const Keyed& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
   std::vector<EvidenceCell> cells;
   for (std::size_t from = 0; from < keyed.size();) {
     std::size_t to = from;
@@ -84,7 +85,8 @@ std::vector<EvidenceCell> evidenceCells(const std::vector<MeasuredReturn>& retur
 
 double wayDb(const Instrument& instrument, double range_m, bool range_compensated) {
   if (range_compensated) return 0;
-  return 10 * std::log10(static_cast<double>(nearRangeFactor(instrument, static_cast<float>(range_m))) / (range_m * range_m));
+  return 10 * std::log10(static_cast<double>(nearRangeFactor(instrument, static_cast<float>(range_m))) /
+                         (range_m * range_m));
 }
 
 double surfaceDb(const Optics& optics, double cosine) {
@@ -106,7 +108,8 @@ Spread spreadOf(std::vector<float>& values) {
   if (values.empty()) return s;
   std::sort(values.begin(), values.end());
   const auto at = [&](double share) {
-    return static_cast<double>(values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))]);
+    return static_cast<double>(
+        values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))]);
   };
   return {values.size(), at(0.05), at(0.25), at(0.5), at(0.75), at(0.95)};
 }

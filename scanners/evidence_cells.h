@@ -13,9 +13,9 @@ namespace standpoint {
 struct EvidenceCell {
   std::uint32_t group = 0;
   std::uint64_t points = 0;
-  double measured = 0;          // median
-  double range_m = 0, cosine = 0;   // geometric means
-  double weight() const;        // √points: neighbours share what is wrong with them
+  double measured = 0;             // median
+  double range_m = 0, cosine = 0;  // geometric means
+  double weight() const;           // √points: neighbours share what is wrong with them
 };
 // In the order of groups, ranges, incidences. Takes what is not grazing and not at the end of the vendor's scale.
 std::vector<EvidenceCell> evidenceCells(const std::vector<MeasuredReturn>& returns, const EvidenceOptions& options,
@@ -29,7 +29,7 @@ double surfaceDb(const Optics& optics, double cosine);
 struct Weighted {
   double value = 0, weight = 1;
 };
-double weightedMedian(std::vector<Weighted> values);   // 0 of none
-Spread spreadOf(std::vector<float>& values);           // sorts them
+double weightedMedian(std::vector<Weighted> values);  // 0 of none
+Spread spreadOf(std::vector<float>& values);          // sorts them
 
 }  // namespace standpoint

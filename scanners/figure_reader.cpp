@@ -68,7 +68,7 @@ double FigureReader::checked(const std::string& pointer, const Json& value, cons
     std::ostringstream message;
     message << number << " is out of range: from " << domain.low << " to " << domain.high;
     fail(pointer, message.str());
-    return domain.low * domain.scale;   // what comes after may make an integer of it
+    return domain.low * domain.scale;  // what comes after may make an integer of it
   }
   return number * domain.scale;
 }

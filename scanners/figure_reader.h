@@ -23,14 +23,14 @@ class FigureReader {
   struct Group {
     const Json* object = nullptr;
     std::string pointer;
-    std::string source;   // of its figures that state none themselves
+    std::string source;  // of its figures that state none themselves
     std::string note{};
     std::set<std::string> seen{};
   };
 
   struct Domain {
     double low, high;
-    double scale = 1;     // from the file's unit to ours
+    double scale = 1;  // from the file's unit to ours
   };
 
   explicit FigureReader(std::string file) : file_(std::move(file)) {}

@@ -10,17 +10,18 @@
 
 namespace standpoint {
 
-// A beam as rays that share its power (physics.md §4.1): its axis and two rings at 0.4 and 0.8 of the radius w where the
-// intensity of a Gaussian beam has fallen to 1/e². The rays are skew lines: they start D0/2 off the axis and lean by half
-// of the divergence across it, so that at a range R they are w(R) = ½ √(D0² + (γR)²) apart from it, as the beam is.
+// A beam as rays that share its power (physics.md §4.1): its axis and two rings at 0.4 and 0.8 of the radius w where
+// the intensity of a Gaussian beam has fallen to 1/e². The rays are skew lines: they start D0/2 off the axis and lean
+// by half of the divergence across it, so that at a range R they are w(R) = ½ √(D0² + (γR)²) apart from it, as the beam
+// is.
 struct SubRay {
-  double cosine, sine;         // of its place on the ring
-  double share;                // of w
-  float weight;                // of the beam's power
+  double cosine, sine;  // of its place on the ring
+  double share;         // of w
+  float weight;         // of the beam's power
 };
 constexpr double kOuterShare = 0.8;
 constexpr float kAxisWeight = 0.0889F;
-constexpr int kProbes = 6;     // the first ones, on the outer ring, tell whether the beam meets anything but one surface
+constexpr int kProbes = 6;  // the first ones, on the outer ring, tell whether the beam meets anything but one surface
 constexpr int kSubRays = 18;
 const std::array<SubRay, kSubRays>& subRays();
 
@@ -30,7 +31,9 @@ inline double beamRadius(const Instrument& instrument, double range_m) {
 }
 
 // How far a place may lie off a surface, along the beam, and still be taken for a part of it.
-inline double edgeTolerance(const Instrument& instrument, double range_m) { return 0.005 + 0.5 * beamRadius(instrument, range_m); }
+inline double edgeTolerance(const Instrument& instrument, double range_m) {
+  return 0.005 + 0.5 * beamRadius(instrument, range_m);
+}
 
 // A beam that a pulse sends: local frame, right-handed axes.
 struct Beam {

@@ -32,8 +32,10 @@ class Reader : FigureReader {
     readSources(root);
     instrument_.technology = word(root, "technology", {"time_of_flight", "phase_shift"});
     readOptics(root);
-    if (root.object->contains("moving")) readMoving(root);
-    else readTripod(root);
+    if (root.object->contains("moving"))
+      readMoving(root);
+    else
+      readTripod(root);
     readAngles(root);
     readSignal(root);
     readNoise(root);
@@ -125,7 +127,8 @@ class Reader : FigureReader {
     head.turn_rad = figure(group, "turn_deg", {1, 360, kRadPerDeg});
     head.cloud_accuracy_m = figure(group, "cloud_accuracy_mm", {0, 10000, 1e-3});
     close(group);
-    if (head.least_rotation_hz > head.most_rotation_hz) fail("/moving/most_rotation_hz", "must not be below least_rotation_hz");
+    if (head.least_rotation_hz > head.most_rotation_hz)
+      fail("/moving/most_rotation_hz", "must not be below least_rotation_hz");
     const auto& elevations = head.channel_elevations_rad;
     if (!elevations.empty()) {
       instrument_.min_elevation_rad = *std::min_element(elevations.begin(), elevations.end());
@@ -187,8 +190,10 @@ class Reader : FigureReader {
   void readWaveform(Group& root) {
     Group group = child(root, "waveform");
     auto& waveform = instrument_.waveform;
-    if (instrument_.technology == "phase_shift") waveform.fine_wavelength_m = figure(group, "fine_wavelength_m", {0.01, 1000});
-    else waveform.pulse_width_s = figure(group, "pulse_width_ns", {0.01, 1000, 1e-9});
+    if (instrument_.technology == "phase_shift")
+      waveform.fine_wavelength_m = figure(group, "fine_wavelength_m", {0.01, 1000});
+    else
+      waveform.pulse_width_s = figure(group, "pulse_width_ns", {0.01, 1000, 1e-9});
     waveform.most_returns = count(group, "most_returns", {1, 255});
     close(group);
   }
@@ -232,17 +237,21 @@ class Reader : FigureReader {
     cite(group.pointer, group.source, group.note);
     for (const auto& other : instrument_.settings)
       if (other.key == setting.key) fail(group.pointer + "/key", "\"" + setting.key + "\" is there twice");
-    if (group.object->contains("choices")) readChoices(group, setting);
-    else readNumber(group, setting);
+    if (group.object->contains("choices"))
+      readChoices(group, setting);
+    else
+      readNumber(group, setting);
     close(group);
     instrument_.settings.push_back(std::move(setting));
   }
 
   void readNumber(Group& group, InstrumentSetting& setting) {
     static const std::set<std::string> kKnown = {"horizontal_from", "horizontal_to", "vertical_from", "vertical_to",
-                                                "nearest_m", "farthest_m", "line_step", "frame_step"};
+                                                 "nearest_m",       "farthest_m",    "line_step",     "frame_step"};
     if (!kKnown.contains(setting.key))
-      return fail(group.pointer + "/key", "only the edges of an area and of the range and the steps of a pattern are numbers; a setting needs choices");
+      return fail(
+          group.pointer + "/key",
+          "only the edges of an area and of the range and the steps of a pattern are numbers; a setting needs choices");
     const Domain domain = setting.key.ends_with("_m") ? Domain{0, 10000} : Domain{-360, 360};
     setting.minimum = figure(group, "minimum", domain);
     setting.maximum = figure(group, "maximum", domain);
@@ -267,18 +276,38 @@ class Reader : FigureReader {
   }
 
   SettingChoice readChoice(Group& entry) {
-    static const std::map<std::string, Domain> kEffects = {
-        {"columns", {2, 1e6}},      {"rows", {1, 1e6}},   {"scan_seconds", {0.01, 1e5}}, {"rate_hz", {1, 1e9}},
-        {"noise_factor", {0.01, 100}}, {"passes", {1, 16}},  {"imaging", {0, 1}},           {"imaging_seconds", {0, 1e4}},
-        {"stepped", {0, 1}},        {"points_per_s", {1, 1e9}}, {"imaging_factor", {0, 100}},
-        {"area", {0, 1}},           {"max_range_m", {1, 10000}}, {"reference_reflectivity", {0.001, 1}},
-        {"rotation_hz", {0.01, 10000}}, {"most_returns", {1, 255}}, {"unambiguous_m", {0, 100000}},
-        {"drop_mixed_mm", {0, 10000}}, {"drop_weak", {0, 1000}}, {"drop_overload", {0, 1}}, {"laser", {0, 1}},
-        {"seconds_factor", {0.01, 100}}, {"compression", {1, 16}}, {"mode", {1, 9}}, {"of_mode", {1, 9}},
-        {"picture_columns", {16, 32768}},
-        {"picture_hdr", {0, 1}},     {"picture_metered", {0, 1}}, {"picture_stops", {-8, 8}},
-        {"picture_warmth", {-1, 1}}, {"picture_flash", {0, 1}},
-        {"picture_metering", {0, 2}}};
+    static const std::map<std::string, Domain> kEffects = {{"columns", {2, 1e6}},
+                                                           {"rows", {1, 1e6}},
+                                                           {"scan_seconds", {0.01, 1e5}},
+                                                           {"rate_hz", {1, 1e9}},
+                                                           {"noise_factor", {0.01, 100}},
+                                                           {"passes", {1, 16}},
+                                                           {"imaging", {0, 1}},
+                                                           {"imaging_seconds", {0, 1e4}},
+                                                           {"stepped", {0, 1}},
+                                                           {"points_per_s", {1, 1e9}},
+                                                           {"imaging_factor", {0, 100}},
+                                                           {"area", {0, 1}},
+                                                           {"max_range_m", {1, 10000}},
+                                                           {"reference_reflectivity", {0.001, 1}},
+                                                           {"rotation_hz", {0.01, 10000}},
+                                                           {"most_returns", {1, 255}},
+                                                           {"unambiguous_m", {0, 100000}},
+                                                           {"drop_mixed_mm", {0, 10000}},
+                                                           {"drop_weak", {0, 1000}},
+                                                           {"drop_overload", {0, 1}},
+                                                           {"laser", {0, 1}},
+                                                           {"seconds_factor", {0.01, 100}},
+                                                           {"compression", {1, 16}},
+                                                           {"mode", {1, 9}},
+                                                           {"of_mode", {1, 9}},
+                                                           {"picture_columns", {16, 32768}},
+                                                           {"picture_hdr", {0, 1}},
+                                                           {"picture_metered", {0, 1}},
+                                                           {"picture_stops", {-8, 8}},
+                                                           {"picture_warmth", {-1, 1}},
+                                                           {"picture_flash", {0, 1}},
+                                                           {"picture_metering", {0, 2}}};
     SettingChoice choice;
     choice.value = text(entry, "value");
     choice.label = text(entry, "label");
@@ -311,20 +340,24 @@ class Reader : FigureReader {
         if (const auto rotation = choice.effects.find("rotation_hz"); rotation != choice.effects.end())
           if (!instrument_.moving || rotation->second < instrument_.moving->least_rotation_hz ||
               rotation->second > instrument_.moving->most_rotation_hz)
-            fail("/settings", "\"" + choice.value + "\" of " + setting.key + " turns the head as /moving does not allow");
+            fail("/settings",
+                 "\"" + choice.value + "\" of " + setting.key + " turns the head as /moving does not allow");
   }
 
   // Parts cannot be more than the whole.
   void checkShares() {
     const auto& noise = instrument_.correlated;
     if (noise.column_share + noise.along_share > 1)
-      fail("/correlated_noise/along_share", "must not be above 1 together with column_share: they are shares of one variance");
+      fail("/correlated_noise/along_share",
+           "must not be above 1 together with column_share: they are shares of one variance");
     const double rest = instrument_.angle_sigma_rad * instrument_.angle_sigma_rad -
                         instrument_.angle_jitter_rad * instrument_.angle_jitter_rad;
     if (noise.azimuth_flicker_rad * noise.azimuth_flicker_rad > rest)
       fail("/correlated_noise/azimuth_flicker_arcsec", "must not be above accuracy_arcsec together with jitter_arcsec");
-    if (noise.elevation_wobble_rad * noise.elevation_wobble_rad / 2 > rest)   // the variance of a sine is half its amplitude squared
-      fail("/correlated_noise/elevation_wobble_arcsec", "must not be above accuracy_arcsec together with jitter_arcsec");
+    if (noise.elevation_wobble_rad * noise.elevation_wobble_rad / 2 >
+        rest)  // the variance of a sine is half its amplitude squared
+      fail("/correlated_noise/elevation_wobble_arcsec",
+           "must not be above accuracy_arcsec together with jitter_arcsec");
   }
 
   const Json& document_;
@@ -339,7 +372,8 @@ Result<Instrument> readInstrument(const std::filesystem::path& file) {
   const auto size = std::filesystem::file_size(file, code);
   std::ifstream stream(file, std::ios::binary);
   if (code || !stream) return failure(ErrorKind::file_system, "cannot be read", file.string());
-  if (size > kLargestFile) return failure(ErrorKind::unusable, "is larger than an instrument file can be (1 MiB)", name);
+  if (size > kLargestFile)
+    return failure(ErrorKind::unusable, "is larger than an instrument file can be (1 MiB)", name);
   const std::string content{std::istreambuf_iterator<char>(stream), {}};
   try {
     const Json document = Json::parse(content);
@@ -356,7 +390,8 @@ Result<std::vector<Instrument>> readInstruments(const std::filesystem::path& fol
   std::error_code code;
   std::vector<std::filesystem::path> files;
   for (std::filesystem::directory_iterator entry(folder, code), last; !code && entry != last; entry.increment(code))
-    if (entry->path().extension() == ".json" && entry->path().filename() != "schema.json") files.push_back(entry->path());
+    if (entry->path().extension() == ".json" && entry->path().filename() != "schema.json")
+      files.push_back(entry->path());
   if (code) return failure(ErrorKind::file_system, "cannot be listed: " + code.message(), folder.string());
   std::sort(files.begin(), files.end());
   std::vector<Instrument> instruments;

@@ -16,7 +16,7 @@ constexpr std::size_t kKnots = 12, kFewestCells = 8;
 constexpr int kReweightings = 15, kSweeps = 400;
 constexpr double kHuber = 1.345, kStiffness = 1e-3;
 constexpr double kBeyond_db = 1, kBeyondSteps = 10, kClearlyLess = 0.5;
-constexpr double kStraight_db = 0.25;   // to which the curve is called a straight line
+constexpr double kStraight_db = 0.25;  // to which the curve is called a straight line
 
 // What the curve is taken over.
 double axis(const IntensityScale& scale, double measured) {
@@ -45,7 +45,7 @@ std::vector<double> knotsOf(const std::vector<IntensityCell>& cells) {
 }
 
 struct Problem {
-  Eigen::MatrixXd rows;       // cells × steps
+  Eigen::MatrixXd rows;  // cells × steps
   Eigen::VectorXd expected, weight;
   std::vector<std::uint32_t> group;
   std::uint32_t groups = 0;
@@ -72,8 +72,7 @@ void centre(const Problem& problem, const Eigen::VectorXd& weight, Eigen::Matrix
 Eigen::VectorXd nonNegative(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(b.size());
   for (int sweep = 0; sweep < kSweeps; ++sweep)
-    for (Eigen::Index k = 0; k < u.size(); ++k)
-      u[k] = std::max(0.0, u[k] + (b[k] - a.row(k).dot(u)) / a(k, k));
+    for (Eigen::Index k = 0; k < u.size(); ++k) u[k] = std::max(0.0, u[k] + (b[k] - a.row(k).dot(u)) / a(k, k));
   return u;
 }
 
@@ -114,7 +113,8 @@ Problem problemOf(const std::vector<IntensityCell>& cells, const IntensityScale&
 double offLine(const std::vector<double>& x, const std::vector<double>& y, double& slope) {
   const auto n = static_cast<double>(x.size());
   double sx = 0, sy = 0, sxx = 0, syy = 0, sxy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) sx += x[i], sy += y[i], sxx += x[i] * x[i], syy += y[i] * y[i], sxy += x[i] * y[i];
+  for (std::size_t i = 0; i < x.size(); ++i)
+    sx += x[i], sy += y[i], sxx += x[i] * x[i], syy += y[i] * y[i], sxy += x[i] * y[i];
   const double xx = sxx - sx * sx / n, yy = syy - sy * sy / n, xy = sxy - sx * sy / n;
   slope = xx > 0 ? xy / xx : 0;
   return std::sqrt(std::max(0.0, yy - slope * xy) / n);
@@ -149,7 +149,7 @@ double IntensityScale::dbAt(double figure) const {
 }
 
 std::string IntensityScale::describe() const {
-  std::vector<double> plain, lg, y;   // without the outermost knots, which few cells hold
+  std::vector<double> plain, lg, y;  // without the outermost knots, which few cells hold
   for (std::size_t k = 1; k + 1 < measured.size(); ++k) {
     plain.push_back(measured[k]);
     lg.push_back(std::log10(std::max(measured[k], 1e-12)));
@@ -159,8 +159,10 @@ std::string IntensityScale::describe() const {
   const double off = offLine(plain, y, slope), lg_off = measured.front() > 0 ? offLine(lg, y, lg_slope) : off;
   char text[96];
   if (std::min(off, lg_off) > kStraight_db || !(slope > 0)) return "another rising curve";
-  if (lg_off < kClearlyLess * off) std::snprintf(text, sizeof text, "power law: measured ~ power^%.2f", 10 / lg_slope);
-  else std::snprintf(text, sizeof text, "linear in dB: %.4g per dB", 1 / slope);
+  if (lg_off < kClearlyLess * off)
+    std::snprintf(text, sizeof text, "power law: measured ~ power^%.2f", 10 / lg_slope);
+  else
+    std::snprintf(text, sizeof text, "linear in dB: %.4g per dB", 1 / slope);
   return text;
 }
 
@@ -185,7 +187,8 @@ IntensityScale fitIntensityScale(const std::vector<IntensityCell>& cells, bool l
     scatter = 1.4826 * medianAbsolute({residual.data(), residual.data() + residual.size()});
     scale.step_covariance = a.inverse() * std::max(1e-6, scatter * scatter) * problem.weight.mean();
     for (Eigen::Index i = 0; i < weight.size(); ++i)
-      weight[i] = problem.weight[i] * std::min(1.0, kHuber * std::max(scatter, 1e-3) / std::max(1e-12, std::abs(residual[i])));
+      weight[i] =
+          problem.weight[i] * std::min(1.0, kHuber * std::max(scatter, 1e-3) / std::max(1e-12, std::abs(residual[i])));
   }
   scale.scatter_db = scatter;
   // By all cells, outliers too, and for what is left free: a dozen steps follow a few cells of any noise.
@@ -193,8 +196,10 @@ IntensityScale fitIntensityScale(const std::vector<IntensityCell>& cells, bool l
   residual = expected - rows * steps;
   std::vector<bool> has_cells(problem.groups, false);
   for (const auto g : problem.group) has_cells[g] = true;
-  const double free = static_cast<double>(problem.group.size()) - static_cast<double>(std::count(has_cells.begin(), has_cells.end(), true));
-  const double left = problem.weight.dot(residual.cwiseAbs2()) / std::max(1e-9, free - static_cast<double>(steps.size()));
+  const double free = static_cast<double>(problem.group.size()) -
+                      static_cast<double>(std::count(has_cells.begin(), has_cells.end(), true));
+  const double left =
+      problem.weight.dot(residual.cwiseAbs2()) / std::max(1e-9, free - static_cast<double>(steps.size()));
   const double all = problem.weight.dot(expected.cwiseAbs2()) / std::max(1e-9, free);
   scale.explained = free > static_cast<double>(steps.size()) && all > 0 ? std::clamp(1 - left / all, 0.0, 1.0) : 0;
   scale.db = {0};

@@ -91,7 +91,8 @@ class Comparison {
   void spread();
   void propose();
   std::vector<std::vector<GroupEvidence>> odd(const MaterialEvidence& evidence) const;
-  std::optional<MaterialProposal> proposalFor(const MaterialEvidence& evidence, const std::vector<GroupEvidence>& groups) const;
+  std::optional<MaterialProposal> proposalFor(const MaterialEvidence& evidence,
+                                              const std::vector<GroupEvidence>& groups) const;
   double misfit(const std::vector<const EvidenceCell*>& cells, const Optics& optics) const;
 
   const std::vector<MeasuredReturn>& returns_;
@@ -102,9 +103,9 @@ class Comparison {
   std::vector<bool> known_;
   Optics grey_;
   std::vector<EvidenceCell> cells_;
-  std::vector<std::size_t> first_cell_;   // of each group, and the end
+  std::vector<std::size_t> first_cell_;  // of each group, and the end
   std::vector<bool> is_used_;
-  std::vector<bool> set_aside_;           // groups that the scale is not fitted to
+  std::vector<bool> set_aside_;  // groups that the scale is not fitted to
   MaterialComparison result_;
 };
 
@@ -112,7 +113,8 @@ std::vector<IntensityCell> Comparison::scaleCells(bool range_compensated, bool b
   std::vector<IntensityCell> cells;
   for (const auto& cell : cells_) {
     if (!holdsScale(cell.group)) continue;
-    const double db = wayDb(instrument_, cell.range_m, range_compensated) + surfaceDb(opticsOfGroup(cell.group), cell.cosine);
+    const double db =
+        wayDb(instrument_, cell.range_m, range_compensated) + surfaceDb(opticsOfGroup(cell.group), cell.cosine);
     const auto group = by_material ? static_cast<std::uint32_t>(groups_[cell.group].material) : cell.group;
     cells.push_back({cell.measured, db, group, cell.weight()});
   }
@@ -127,7 +129,8 @@ bool Comparison::fitScale() {
     const auto cells = scaleCells(range_compensated, by_material);
     auto scale = fitIntensityScale(cells, false);
     if (positive)
-      if (auto other = fitIntensityScale(cells, true); other.scatter_db < kClearlyLess * scale.scatter_db) scale = std::move(other);
+      if (auto other = fitIntensityScale(cells, true); other.scatter_db < kClearlyLess * scale.scatter_db)
+        scale = std::move(other);
     return scale;
   };
   const bool compensated = best(true, true).explained > best(false, true).explained + kClearlyMore;
@@ -139,11 +142,14 @@ bool Comparison::fitScale() {
     return false;
   }
   if (result_.scale.spread_db < kLeastSpread_db) {
-    std::snprintf(text, sizeof text, "ranges and incidences differ too little within the surfaces to learn the vendor's scale "
-                  "from (%.1f dB)", result_.scale.spread_db);
+    std::snprintf(text, sizeof text,
+                  "ranges and incidences differ too little within the surfaces to learn the vendor's scale "
+                  "from (%.1f dB)",
+                  result_.scale.spread_db);
     result_.no_verdict = text;
   } else if (result_.scale.explained < kLeastExplained) {
-    std::snprintf(text, sizeof text, "the intensities do not follow range and incidence: %.0f %% explained, %.1f dB scatter",
+    std::snprintf(text, sizeof text,
+                  "the intensities do not follow range and incidence: %.0f %% explained, %.1f dB scatter",
                   result_.scale.explained * 100, result_.scale.scatter_db);
     result_.no_verdict = text;
   }
@@ -174,8 +180,8 @@ GroupEvidence Comparison::judged(std::uint32_t group) const {
   middle.head(share.size() / 2).setOnes();
   const double curve = (share - middle).dot(result_.scale.step_covariance * (share - middle));
   e.sigma_db = std::sqrt(scatter * scatter / static_cast<double>(off.size()) + std::max(0.0, curve));
-  e.supported = e.points >= options_.fewest_points && off.size() >= options_.fewest_cells && e.sigma_db < options_.agree_db &&
-                result_.scale.covers(weightedMedian(figures));
+  e.supported = e.points >= options_.fewest_points && off.size() >= options_.fewest_cells &&
+                e.sigma_db < options_.agree_db && result_.scale.covers(weightedMedian(figures));
   return e;
 }
 
@@ -239,9 +245,10 @@ void Comparison::findLevel() {
   }
   if (!result_.no_verdict.empty()) return;
   if (agreeing.size() < 2 || most < all / 2)
-    result_.no_verdict = off.size() < 2 ? "points on two materials at least are needed to tell which one is wrong"
-                                        : "no two materials, or less than half of what was measured, agree on the scale's constant, so "
-                                          "nothing tells which are wrong: check the instrument and the placement";
+    result_.no_verdict =
+        off.size() < 2 ? "points on two materials at least are needed to tell which one is wrong"
+                       : "no two materials, or less than half of what was measured, agree on the scale's constant, so "
+                         "nothing tells which are wrong: check the instrument and the placement";
 }
 
 void Comparison::spread() {
@@ -255,13 +262,15 @@ void Comparison::spread() {
   std::vector<Bins> bins(result_.materials.size());
   const auto binOf = [](const auto& edges, double value) {
     const auto above = std::upper_bound(edges.begin(), edges.end(), value) - edges.begin();
-    return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above - 1, 0, static_cast<std::ptrdiff_t>(edges.size()) - 2));
+    return static_cast<std::size_t>(
+        std::clamp<std::ptrdiff_t>(above - 1, 0, static_cast<std::ptrdiff_t>(edges.size()) - 2));
   };
   for (std::size_t i = 0; i < returns_.size(); ++i) {
     const auto found = is_used_[i] ? row.find(groups_[returns_[i].group].material) : row.end();
     if (found == row.end()) continue;
     const auto& r = returns_[i];
-    const EvidenceCell alone{r.group, 1, static_cast<double>(r.intensity), static_cast<double>(r.range_m), static_cast<double>(r.cosine)};
+    const EvidenceCell alone{r.group, 1, static_cast<double>(r.intensity), static_cast<double>(r.range_m),
+                             static_cast<double>(r.cosine)};
     const auto off = static_cast<float>(offDb(alone, opticsOfGroup(r.group)));
     auto& b = bins[found->second];
     b.all.push_back(off);
@@ -285,7 +294,8 @@ std::vector<std::vector<GroupEvidence>> Comparison::odd(const MaterialEvidence& 
   std::vector<GroupEvidence> odd;
   const bool pane = hasFigures(evidence.material) && optics_[static_cast<std::size_t>(evidence.material)].transparent;
   for (const auto& g : evidence.groups)
-    if (g.supported && (!hasFigures(evidence.material) || (pane ? g.off_db > kBrighterThanDust_db : !g.agrees))) odd.push_back(g);
+    if (g.supported && (!hasFigures(evidence.material) || (pane ? g.off_db > kBrighterThanDust_db : !g.agrees)))
+      odd.push_back(g);
   std::stable_sort(odd.begin(), odd.end(), [](const auto& a, const auto& b) { return a.off_db < b.off_db; });
   std::vector<std::vector<GroupEvidence>> together;
   for (const auto& g : odd) {
@@ -314,25 +324,29 @@ std::optional<MaterialProposal> Comparison::proposalFor(const MaterialEvidence& 
     off.push_back({g.off_db, std::sqrt(static_cast<double>(g.points))});
     for (std::size_t c = first_cell_[g.group]; c < first_cell_[g.group + 1]; ++c) {
       const double degrees = std::acos(std::min(1.0, cells_[c].cosine)) / kRadPerDeg;
-      p.range_from_m = std::min(p.range_from_m, cells_[c].range_m), p.range_to_m = std::max(p.range_to_m, cells_[c].range_m);
-      p.incidence_from_deg = std::min(p.incidence_from_deg, degrees), p.incidence_to_deg = std::max(p.incidence_to_deg, degrees);
+      p.range_from_m = std::min(p.range_from_m, cells_[c].range_m),
+      p.range_to_m = std::max(p.range_to_m, cells_[c].range_m);
+      p.incidence_from_deg = std::min(p.incidence_from_deg, degrees),
+      p.incidence_to_deg = std::max(p.incidence_to_deg, degrees);
       cells.push_back(&cells_[c]);
     }
   }
   std::sort(p.groups.begin(), p.groups.end());
   p.off_db = weightedMedian(off);
   p.misfit_db = misfit(cells, opticsOfGroup(groups.front().group));
-  std::vector<Weighted> candidates;   // weight: index
+  std::vector<Weighted> candidates;  // weight: index
   for (std::size_t m = 0; m < optics_.size(); ++m)
     if (known_[m] && !optics_[m].transparent && static_cast<std::int32_t>(m) != p.material)
       candidates.push_back({misfit(cells, optics_[m]), static_cast<double>(m)});
-  std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto& a, const auto& b) { return a.value < b.value; });
   if (candidates.empty()) return std::nullopt;
   // Not explained by anything, or not clearly better than what is assigned: no proposal.
   const double best = candidates.front().value;
   const double noise = std::max(result_.scale.scatter_db, 0.1);
   if (best > std::max(options_.agree_db, 2 * noise)) return std::nullopt;
-  if (hasFigures(evidence.material) && (best > p.misfit_db / 2 || p.misfit_db - best < options_.agree_db * 0.75)) return std::nullopt;
+  if (hasFigures(evidence.material) && (best > p.misfit_db / 2 || p.misfit_db - best < options_.agree_db * 0.75))
+    return std::nullopt;
   // What explains it as well: of those, one that the building has anyway is named first.
   std::set<std::int32_t> in_use;
   for (const auto& m : result_.materials)
@@ -343,7 +357,8 @@ std::optional<MaterialProposal> Comparison::proposalFor(const MaterialEvidence& 
   p.instead = p.alike.front();
   p.alike.erase(p.alike.begin());
   p.misfit_instead_db = misfit(cells, optics_[static_cast<std::size_t>(p.instead)]);
-  const auto judgeable = std::count_if(evidence.groups.begin(), evidence.groups.end(), [](const auto& g) { return g.supported; });
+  const auto judgeable =
+      std::count_if(evidence.groups.begin(), evidence.groups.end(), [](const auto& g) { return g.supported; });
   p.whole_material = static_cast<std::size_t>(judgeable) == groups.size();
   return p;
 }
@@ -358,7 +373,8 @@ void Comparison::propose() {
 
 }  // namespace
 
-Result<MaterialComparison> compareMaterials(const std::vector<MeasuredReturn>& returns, const std::vector<SurfaceGroup>& groups,
+Result<MaterialComparison> compareMaterials(const std::vector<MeasuredReturn>& returns,
+                                            const std::vector<SurfaceGroup>& groups,
                                             const std::vector<PhysicalMaterial>& library, const Instrument& instrument,
                                             const EvidenceOptions& options, Progress& progress) {
   return Comparison(returns, groups, library, instrument, options).run(progress);

@@ -15,7 +15,8 @@ namespace standpoint {
 namespace {
 
 // Whether beams a little beside the point meet the same surface in the same plane.
-bool isEdge(const RayScene& scene, const Eigen::Vector3d& station, const Eigen::Vector3d& point, const MetSurface& met, double edge_m) {
+bool isEdge(const RayScene& scene, const Eigen::Vector3d& station, const Eigen::Vector3d& point, const MetSurface& met,
+            double edge_m) {
   const Eigen::Vector3d direction = (point - station) / met.range_m;
   const Eigen::Vector3d u = direction.unitOrthogonal() * edge_m, v = direction.cross(u);
   for (const Eigen::Vector3d& beside : {u, Eigen::Vector3d(-u), v, Eigen::Vector3d(-v)}) {
@@ -50,14 +51,17 @@ MetSurface meetSurface(const Expectation& expectation, const Eigen::Vector3d& st
     if (off < -tolerance.window_m) break;
     const bool pane = expectation.opticsAt(facet.instance, facet.triangle).transparent;
     if (off <= tolerance.window_m && (!pane || std::abs(off) <= tolerance.met_m)) {
-      met.meeting = std::abs(off) > tolerance.met_m ? BeamMeeting::near : through_glass ? BeamMeeting::behind_pane : BeamMeeting::met;
+      met.meeting = std::abs(off) > tolerance.met_m ? BeamMeeting::near
+                    : through_glass                 ? BeamMeeting::behind_pane
+                                                    : BeamMeeting::met;
       met.cosine = cosine;
       met.off_m = off;
       met.normal = met_side;
       met.product = facet.product;
       met.surface = facet.surface;
       met.material = expectation.materialAt(facet.instance, facet.triangle);
-      if (met.meeting == BeamMeeting::met && isEdge(scene, station, point, met, tolerance.edge_m)) met.meeting = BeamMeeting::edge;
+      if (met.meeting == BeamMeeting::met && isEdge(scene, station, point, met, tolerance.edge_m))
+        met.meeting = BeamMeeting::edge;
       return met;
     }
     if (!pane) {

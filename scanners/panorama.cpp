@@ -19,15 +19,15 @@ namespace standpoint {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr float kMiddleGrey = 0.18F;        // that an exposure brings the mean brightness to
-constexpr float kAdaptation = 0.6F;         // how much of that it does: a dark wall stays darker than a white one
-constexpr float kWarmth = 0.25F;            // more red and less blue, at the ends of a white balance
+constexpr float kMiddleGrey = 0.18F;  // that an exposure brings the mean brightness to
+constexpr float kAdaptation = 0.6F;   // how much of that it does: a dark wall stays darker than a white one
+constexpr float kWarmth = 0.25F;      // more red and less blue, at the ends of a white balance
 constexpr double kBlend_rad = 3 * kPi / 180;
 
-// How much a row counts for the exposure: its area, and what the metering makes of its place. Half of the weight lies within
-// 14 degrees of the horizon, or above 52 degrees.
+// How much a row counts for the exposure: its area, and what the metering makes of its place. Half of the weight lies
+// within 14 degrees of the horizon, or above 52 degrees.
 double meteredWeight(PictureMetering metering, double polar_rad) {
-  const double area = std::sin(polar_rad);   // a row near a pole is short
+  const double area = std::sin(polar_rad);  // a row near a pole is short
   switch (metering) {
     case PictureMetering::even: break;
     case PictureMetering::horizon: return area * std::pow(std::sin(polar_rad), 6);
@@ -55,7 +55,9 @@ std::vector<float> exposures(const std::vector<Light>& pixels, std::uint32_t wid
   }
   std::vector<float> gain;
   for (std::size_t k = 0; k < count; ++k)
-    gain.push_back(given * std::clamp(std::pow(kMiddleGrey / std::max(0.01F, static_cast<float>(sum[k] / weight[k])), kAdaptation), 0.25F, 4.0F));
+    gain.push_back(
+        given * std::clamp(std::pow(kMiddleGrey / std::max(0.01F, static_cast<float>(sum[k] / weight[k])), kAdaptation),
+                           0.25F, 4.0F));
   std::vector<float> of_column(width);
   const double shot_wide = static_cast<double>(width) / static_cast<double>(count);
   const double blend = std::min(kBlend_rad * width / (2 * kPi), 0.5 * shot_wide);
@@ -63,7 +65,7 @@ std::vector<float> exposures(const std::vector<Light>& pixels, std::uint32_t wid
     const std::size_t shot = std::min(count - 1, static_cast<std::size_t>(x / shot_wide));
     const double from = x + 0.5 - static_cast<double>(shot) * shot_wide, to = shot_wide - from;
     const std::size_t other = from < to ? (shot + count - 1) % count : (shot + 1) % count;
-    const auto share = static_cast<float>(std::max(0.0, 0.5 - std::min(from, to) / blend));   // half at the seam
+    const auto share = static_cast<float>(std::max(0.0, 0.5 - std::min(from, to) / blend));  // half at the seam
     of_column[x] = (1 - share) * gain[shot] + share * gain[other];
   }
   return of_column;
@@ -114,7 +116,8 @@ const std::array<std::uint8_t, 3>& Panorama::at(const Eigen::Vector3d& point) co
 }
 
 PictureMetering meteringOf(const Instrument& instrument, const SettingValues& values) {
-  return static_cast<PictureMetering>(static_cast<int>(chosenEffect(instrument, values, "picture_metering").value_or(0)));
+  return static_cast<PictureMetering>(
+      static_cast<int>(chosenEffect(instrument, values, "picture_metering").value_or(0)));
 }
 
 Result<Panorama> takePanorama(const RayScene& scene, const Instrument& instrument, const Pose& local_from_scanner,
@@ -125,13 +128,16 @@ Result<Panorama> takePanorama(const RayScene& scene, const Instrument& instrumen
   panorama.camera_m = {0, 0, instrument.camera.offset_up_m};
   const std::uint32_t width = panorama.width, height = panorama.height;
   const PanoramaRays rays(static_cast<const EmbreeScene&>(scene),
-                          {local_from_scanner.rotation, local_from_scanner * panorama.camera_m}, width, instrument.camera.flash, report);
+                          {local_from_scanner.rotation, local_from_scanner * panorama.camera_m}, width,
+                          instrument.camera.flash, report);
   std::vector<Light> light(std::size_t{width} * height);
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   const auto forEachRow = [&](const auto& work) {
-    arena.execute([&] { tbb::parallel_for(std::uint32_t{0}, height, [&](std::uint32_t y) {
-      if (!progress.cancelled()) work(y, std::size_t{y} * width);
-    }); });
+    arena.execute([&] {
+      tbb::parallel_for(std::uint32_t{0}, height, [&](std::uint32_t y) {
+        if (!progress.cancelled()) work(y, std::size_t{y} * width);
+      });
+    });
   };
   std::atomic<std::uint32_t> rows_done{0};
   forEachRow([&](std::uint32_t y, std::size_t at) {

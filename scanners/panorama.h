@@ -17,12 +17,12 @@
 
 namespace standpoint {
 
-// What the camera on a scanner sees all around, as a spherical picture: the middle looks along +X of the scanner's frame,
-// left has the larger azimuth, the first row is the zenith.
+// What the camera on a scanner sees all around, as a spherical picture: the middle looks along +X of the scanner's
+// frame, left has the larger azimuth, the first row is the zenith.
 struct Panorama {
-  std::uint32_t width = 0, height = 0;           // width = 2 height
-  std::vector<std::array<std::uint8_t, 3>> pixels;   // sRGB, row by row from above
-  Eigen::Vector3d camera_m = Eigen::Vector3d::Zero();   // in the scanner's frame
+  std::uint32_t width = 0, height = 0;                 // width = 2 height
+  std::vector<std::array<std::uint8_t, 3>> pixels;     // sRGB, row by row from above
+  Eigen::Vector3d camera_m = Eigen::Vector3d::Zero();  // in the scanner's frame
   // Of the pixel into which a point of the scanner's frame falls, whatever stands between it and the camera.
   const std::array<std::uint8_t, 3>& at(const Eigen::Vector3d& point) const;
 };
@@ -32,11 +32,13 @@ enum class PictureMetering { even, horizon, zenith };
 // What the chosen settings say of it: the effect "picture_metering" of a choice; else even.
 PictureMetering meteringOf(const Instrument& instrument, const SettingValues& values);
 
-// Renders it, four rays for each pixel: the surfaces' colours, vertex colours and images, under the sky and a little light
-// from where the camera stands; what is transparent lets see through. Without HDR each of the instrument's shots has the exposure
-// that its own brightness asks for, blended over a few degrees with the next. Same pixels for any number of threads.
+// Renders it, four rays for each pixel: the surfaces' colours, vertex colours and images, under the sky and a little
+// light from where the camera stands; what is transparent lets see through. Without HDR each of the instrument's shots
+// has the exposure that its own brightness asks for, blended over a few degrees with the next. Same pixels for any
+// number of threads.
 Result<Panorama> takePanorama(const RayScene& scene, const Instrument& instrument, const Pose& local_from_scanner,
-                              int threads, Report& report, Progress& progress, PictureMetering metering = PictureMetering::even);
+                              int threads, Report& report, Progress& progress,
+                              PictureMetering metering = PictureMetering::even);
 
 // As a JPEG, for PointSink::picture.
 Result<StationPicture> pictureOf(const Panorama& panorama, const ScanHeader& header, double acquired_gps_s);

@@ -10,11 +10,11 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr float kFarthest_m = 2000;
-constexpr int kMostPanes = 8;               // that a ray is followed through
-constexpr double kBehindPane_m = 1e-3;      // beyond the float error of the ray, within a pane
-constexpr double kFlash = 0.6;              // of a flash, on a wall that is near
+constexpr int kMostPanes = 8;           // that a ray is followed through
+constexpr double kBehindPane_m = 1e-3;  // beyond the float error of the ray, within a pane
+constexpr double kFlash = 0.6;          // of a flash, on a wall that is near
 constexpr int kInPixel = 4;
-constexpr double kAcross[kInPixel] = {0.375, 0.875, 0.125, 0.625};   // a turned grid
+constexpr double kAcross[kInPixel] = {0.375, 0.875, 0.125, 0.625};  // a turned grid
 constexpr double kDown[kInPixel] = {0.125, 0.375, 0.625, 0.875};
 
 Light sky(const Eigen::Vector3d& direction) {
@@ -38,15 +38,21 @@ struct PanoramaRays::Beams {
   int pixel[kPacket];
   Eigen::Vector3d direction[kPacket];
   double way_m[kPacket];
-  float left[kPacket];                      // of what lies behind the panes so far
+  float left[kPacket];  // of what lies behind the panes so far
   Light* pixels = nullptr;
-  Facet facet;                              // met last
+  Facet facet;  // met last
   std::uint64_t facet_number = kNoFacet;
 };
 
-PanoramaRays::PanoramaRays(const EmbreeScene& scene, const Pose& local_from_camera, std::uint32_t width, double flash, Report& report)
-    : scene_(scene), colours_(scene.environment(), report), coincident_(scene), origin_(local_from_camera.translation),
-      up_(local_from_camera.rotation * Eigen::Vector3d::UnitZ()), width_(width), flash_(flash) {
+PanoramaRays::PanoramaRays(const EmbreeScene& scene, const Pose& local_from_camera, std::uint32_t width, double flash,
+                           Report& report)
+    : scene_(scene),
+      colours_(scene.environment(), report),
+      coincident_(scene),
+      origin_(local_from_camera.translation),
+      up_(local_from_camera.rotation * Eigen::Vector3d::UnitZ()),
+      width_(width),
+      flash_(flash) {
   ahead_.reserve(std::size_t{kInPixel} * width);
   for (std::uint32_t x = 0; x < width; ++x)
     for (const double across : kAcross) {

@@ -25,8 +25,8 @@ STANDPOINT_CLONES void place(const PointLanes::Figures& f, const double* cyclic_
   for (int k = 0; k < kReturnLanes; ++k) {
     const double cosine = r.cosine[k], sine = r.sine[k];
     const auto wobble = static_cast<double>(r.wobble[k]);
-    const double lateral =
-        f.jitter_rad * static_cast<double>(r.noise.lateral[k]) + f.lateral_rad + f.trunnion_rad * sine + f.azimuth_rad * cosine;
+    const double lateral = f.jitter_rad * static_cast<double>(r.noise.lateral[k]) + f.lateral_rad +
+                           f.trunnion_rad * sine + f.azimuth_rad * cosine;
     const double systematic = f.lift_rad + f.lift_cosine_rad * cosine + f.lift_sine_rad * sine +
                               f.lift_cosine2_rad * (1 - 2 * sine * sine) + f.lift_sine2_rad * 2 * sine * cosine;
     const double lift =
@@ -162,8 +162,10 @@ std::uint32_t PointLanes::filtered(ReturnLanes& returns, std::uint32_t lanes) co
   std::uint32_t kept = lanes;
   for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
     const int lane = std::countr_zero(left);
-    if (faulted(returns, lane, plan_.drops)) kept &= ~(left & -left);
-    else if (faulted(returns, lane, plan_.flags)) returns.flag(lane, point_flag::kFiltered);
+    if (faulted(returns, lane, plan_.drops))
+      kept &= ~(left & -left);
+    else if (faulted(returns, lane, plan_.flags))
+      returns.flag(lane, point_flag::kFiltered);
   }
   return kept;
 }

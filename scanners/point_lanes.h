@@ -25,7 +25,7 @@ class PointLanes {
     double lateral_rad = 0, azimuth_rad = 0;  // that does not, and that does shrink towards the zenith
     double trunnion_rad = 0;                  // that grows towards it
     double lift_rad = 0, lift_by_wobble_rad = 0;
-    double lift_cosine_rad = 0, lift_sine_rad = 0, lift_cosine2_rad = 0, lift_sine2_rad = 0;   // of v and 2v
+    double lift_cosine_rad = 0, lift_sine_rad = 0, lift_cosine2_rad = 0, lift_sine2_rad = 0;  // of v and 2v
     double scale = 1, bias_m = 0, bias_sine_m = 0;
     double noise_scale = 0, white_share = 0, along_share = 0, common = 0;
     double extra_m = 0, wobble_m = 0;

@@ -15,15 +15,15 @@ namespace standpoint::portable {
 STANDPOINT_INLINE float log2(float x) {
   std::uint32_t bits;
   std::memcpy(&bits, &x, sizeof bits);
-  const std::uint32_t from_root_half = bits - 0x3F3504F3U;   // of sqrt(1/2)
+  const std::uint32_t from_root_half = bits - 0x3F3504F3U;  // of sqrt(1/2)
   const auto exponent = static_cast<float>(static_cast<std::int32_t>(from_root_half) >> 23);
   const std::uint32_t mantissa_bits = (from_root_half & 0x007FFFFFU) + 0x3F3504F3U;
   float mantissa;
   std::memcpy(&mantissa, &mantissa_bits, sizeof mantissa);
-  const float s = (mantissa - 1) / (mantissa + 1);           // ln m = 2 artanh s, |s| < 0.172
+  const float s = (mantissa - 1) / (mantissa + 1);  // ln m = 2 artanh s, |s| < 0.172
   const float q = s * s;
   const float artanh = s * (1 + q * (1.0F / 3 + q * (1.0F / 5 + q * (1.0F / 7 + q * (1.0F / 9)))));
-  return exponent + 2.885390081777927F * artanh;             // 2 / ln 2
+  return exponent + 2.885390081777927F * artanh;  // 2 / ln 2
 }
 
 // sin and cos of 2πu for u in [0, 1], absolute error below 4e-7.
@@ -42,8 +42,8 @@ STANDPOINT_INLINE void sinCosTurn(float u, float& sine, float& cosine) {
 
 // 2^x for x from -120 to 120, relative error below 3e-7.
 STANDPOINT_INLINE float exp2(float x) {
-  const auto shifted = static_cast<std::int32_t>(x + 127.5F);    // truncation is rounding of what is positive
-  const float rest = (x - static_cast<float>(shifted - 127)) * 0.6931471805599453F;   // |rest| < 0.35
+  const auto shifted = static_cast<std::int32_t>(x + 127.5F);  // truncation is rounding of what is positive
+  const float rest = (x - static_cast<float>(shifted - 127)) * 0.6931471805599453F;  // |rest| < 0.35
   const float upper = 1.0F / 6 + rest * (1.0F / 24 + rest * (1.0F / 120 + rest * (1.0F / 720)));
   const float series = 1 + rest * (1 + rest * (1.0F / 2 + rest * upper));
   const std::int32_t bits = shifted * (1 << 23);
@@ -58,10 +58,10 @@ inline double turnOf(double y, double x) {
   // Halving the angle three times leaves less than π/8, where sixteen terms of the series are enough.
   for (int k = 0; k < 3; ++k) {
     const double length = std::sqrt(x * x + y * y);
-    if (x < 0) {                                   // without cancellation: (x + length) = y² / (length - x)
+    if (x < 0) {  // without cancellation: (x + length) = y² / (length - x)
       const double sum = y * y / (length - x);
       x = sum;
-      if (sum == 0) y = std::copysign(1.0, y);     // half of a half turn is a quarter
+      if (sum == 0) y = std::copysign(1.0, y);  // half of a half turn is a quarter
     } else {
       x += length;
     }
@@ -75,12 +75,12 @@ inline double turnOf(double y, double x) {
 // ln of a positive normal number, relative error below 1e-15 of max(1, |ln|).
 inline double log(double x) {
   int exponent = 0;
-  double mantissa = std::frexp(x, &exponent);                // [1/2, 1)
+  double mantissa = std::frexp(x, &exponent);  // [1/2, 1)
   if (mantissa < 0.7071067811865476) {
     mantissa *= 2;
     --exponent;
   }
-  const double s = (mantissa - 1) / (mantissa + 1);          // ln m = 2 artanh s, |s| < 0.172
+  const double s = (mantissa - 1) / (mantissa + 1);  // ln m = 2 artanh s, |s| < 0.172
   const double q = s * s;
   constexpr double kSeries[] = {1.0 / 21, 1.0 / 19, 1.0 / 17, 1.0 / 15, 1.0 / 13, 1.0 / 11,
                                 1.0 / 9,  1.0 / 7,  1.0 / 5,  1.0 / 3,  1};
@@ -91,11 +91,11 @@ inline double log(double x) {
 
 // e^x for |x| up to 700, relative error below 2e-16 (1 + |x|).
 inline double exp(double x) {
-  const double turns = std::floor(x * 1.4426950408889634 + 0.5);   // 1 / ln 2
+  const double turns = std::floor(x * 1.4426950408889634 + 0.5);  // 1 / ln 2
   const double rest = x - turns * 0.6931471805599453;
   constexpr double kInverse[] = {1.0 / 15, 1.0 / 14, 1.0 / 13, 1.0 / 12, 1.0 / 11, 1.0 / 10, 1.0 / 9, 1.0 / 8,
                                  1.0 / 7,  1.0 / 6,  1.0 / 5,  1.0 / 4,  1.0 / 3,  1.0 / 2,  1};
-  double sum = 1;                                            // |rest| < 0.35
+  double sum = 1;  // |rest| < 0.35
   for (const double inverse : kInverse) sum = 1 + sum * rest * inverse;
   return std::ldexp(sum, static_cast<int>(turns));
 }

@@ -16,7 +16,8 @@ struct Lanes {
   std::uint32_t word[4][kNoiseLanes];
 };
 
-void philoxOneByOne(Lanes& lanes, std::uint32_t column, std::uint32_t first_row, std::uint32_t channel, const RandomKey& key) {
+void philoxOneByOne(Lanes& lanes, std::uint32_t column, std::uint32_t first_row, std::uint32_t channel,
+                    const RandomKey& key) {
   for (int k = 0; k < kNoiseLanes; ++k) {
     const auto block = philox(key, column, first_row + static_cast<std::uint32_t>(k), channel);
     for (int n = 0; n < 4; ++n) lanes.word[n][k] = block[n];
@@ -27,8 +28,8 @@ void philoxOneByOne(Lanes& lanes, std::uint32_t column, std::uint32_t first_row,
 
 constexpr std::uint32_t kWeyl_0 = 0x9E3779B9U, kWeyl_1 = 0xBB67AE85U;
 
-// Philox4x32-10 (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3"), a counter in each 64-bit lane. Only
-// the low halves of the lanes count; what the products leave in the high halves is never looked at.
+// Philox4x32-10 (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3"), a counter in each 64-bit lane.
+// Only the low halves of the lanes count; what the products leave in the high halves is never looked at.
 __attribute__((target("avx2"))) void philoxByFours(Lanes& lanes, std::uint32_t column, std::uint32_t first_row,
                                                    std::uint32_t channel, const RandomKey& key) {
   constexpr int kStep = 8;
@@ -50,16 +51,16 @@ __attribute__((target("avx2"))) void philoxByFours(Lanes& lanes, std::uint32_t c
       for (int half = 0; half < 2; ++half) {
         const __m256i a = _mm256_mul_epu32(word[0][half], multiplier_0);
         const __m256i b = _mm256_mul_epu32(word[2][half], multiplier_2);
-        word[0][half] = _mm256_xor_si256(_mm256_xor_si256(_mm256_srli_epi64(b, 32), word[1][half]),
-                                         _mm256_set1_epi64x(key_0));
+        word[0][half] =
+            _mm256_xor_si256(_mm256_xor_si256(_mm256_srli_epi64(b, 32), word[1][half]), _mm256_set1_epi64x(key_0));
         word[1][half] = b;
-        word[2][half] = _mm256_xor_si256(_mm256_xor_si256(_mm256_srli_epi64(a, 32), word[3][half]),
-                                         _mm256_set1_epi64x(key_1));
+        word[2][half] =
+            _mm256_xor_si256(_mm256_xor_si256(_mm256_srli_epi64(a, 32), word[3][half]), _mm256_set1_epi64x(key_1));
         word[3][half] = a;
       }
     for (int k = 0; k < 4; ++k) {
-      const __m256 low = _mm256_shuffle_ps(_mm256_castsi256_ps(word[k][0]), _mm256_castsi256_ps(word[k][1]),
-                                           _MM_SHUFFLE(2, 0, 2, 0));
+      const __m256 low =
+          _mm256_shuffle_ps(_mm256_castsi256_ps(word[k][0]), _mm256_castsi256_ps(word[k][1]), _MM_SHUFFLE(2, 0, 2, 0));
       _mm256_storeu_si256(reinterpret_cast<__m256i*>(&lanes.word[k][from]), _mm256_castps_si256(low));
     }
   }
@@ -85,11 +86,11 @@ __attribute__((target("avx512f"))) void philoxByEights(Lanes& lanes, std::uint32
       constexpr int kXorOfThree = 0x96;
       const __m512i a = _mm512_mul_epu32(word[0][half], multiplier_0);
       const __m512i b = _mm512_mul_epu32(word[2][half], multiplier_2);
-      word[0][half] = _mm512_ternarylogic_epi64(_mm512_srli_epi64(b, 32), word[1][half], _mm512_set1_epi64(key_0),
-                                                kXorOfThree);
+      word[0][half] =
+          _mm512_ternarylogic_epi64(_mm512_srli_epi64(b, 32), word[1][half], _mm512_set1_epi64(key_0), kXorOfThree);
       word[1][half] = b;
-      word[2][half] = _mm512_ternarylogic_epi64(_mm512_srli_epi64(a, 32), word[3][half], _mm512_set1_epi64(key_1),
-                                                kXorOfThree);
+      word[2][half] =
+          _mm512_ternarylogic_epi64(_mm512_srli_epi64(a, 32), word[3][half], _mm512_set1_epi64(key_1), kXorOfThree);
       word[3][half] = a;
     }
   for (int k = 0; k < 4; ++k)
@@ -99,7 +100,8 @@ __attribute__((target("avx512f"))) void philoxByEights(Lanes& lanes, std::uint32
 
 #endif
 
-void philoxLanes(Lanes& lanes, std::uint32_t column, std::uint32_t first_row, std::uint32_t channel, const RandomKey& key) {
+void philoxLanes(Lanes& lanes, std::uint32_t column, std::uint32_t first_row, std::uint32_t channel,
+                 const RandomKey& key) {
 #if defined(__x86_64__)
   static const bool has_eights = __builtin_cpu_supports("avx512f"), has_fours = __builtin_cpu_supports("avx2");
   if (has_eights) return philoxByEights(lanes, column, first_row, channel, key);
@@ -116,7 +118,7 @@ STANDPOINT_INLINE float unit(std::uint32_t word) {
 STANDPOINT_INLINE void normalPair(const std::uint32_t* a, const std::uint32_t* b, float* first, float* second) {
   for (int k = 0; k < kNoiseLanes; ++k) {
     const float log2_u = portable::log2(unit(a[k]));
-    const float radius = std::sqrt(log2_u < 0 ? -1.3862943611198906F * log2_u : 0.0F);   // -2 ln 2 log2 u
+    const float radius = std::sqrt(log2_u < 0 ? -1.3862943611198906F * log2_u : 0.0F);  // -2 ln 2 log2 u
     float sine, cosine;
     portable::sinCosTurn(unit(b[k]), sine, cosine);
     first[k] = radius * cosine;
@@ -131,7 +133,8 @@ STANDPOINT_CLONES void normalLanes(const Lanes& lanes, PulseNoise& noise) {
 
 }  // namespace
 
-void pulseNoise(const RandomKey& key, std::uint32_t column, std::uint32_t first_row, NoiseChannel channel, PulseNoise& noise) {
+void pulseNoise(const RandomKey& key, std::uint32_t column, std::uint32_t first_row, NoiseChannel channel,
+                PulseNoise& noise) {
   Lanes lanes;
   philoxLanes(lanes, column, first_row, static_cast<std::uint32_t>(channel), key);
   normalLanes(lanes, noise);

@@ -17,8 +17,10 @@ struct PulseNoise {
   float range[kNoiseLanes], lateral[kNoiseLanes], elevation[kNoiseLanes], detection[kNoiseLanes];
 };
 
-// The same block that core/random.h's philox() gives for (column, row, channel), sixteen rows at a time; 24 bits of each
-// word make the uniform numbers, so a normal number is at most 5.9. The same numbers by AVX-512, by AVX2 and without.
-void pulseNoise(const RandomKey& key, std::uint32_t column, std::uint32_t first_row, NoiseChannel channel, PulseNoise& noise);
+// The same block that core/random.h's philox() gives for (column, row, channel), sixteen rows at a time; 24 bits of
+// each word make the uniform numbers, so a normal number is at most 5.9. The same numbers by AVX-512, by AVX2 and
+// without.
+void pulseNoise(const RandomKey& key, std::uint32_t column, std::uint32_t first_row, NoiseChannel channel,
+                PulseNoise& noise);
 
 }  // namespace standpoint

@@ -77,7 +77,7 @@ double roughMirrorShare(double lobe_slope, double beam_radius_m, double to_mirro
 
 float glossEquivalent(const Optics& optics, float cosine) {
   const float square = cosine * cosine;
-  const float exponent = (1 - square) / square * optics.steepness;   // tan²θ / m²
+  const float exponent = (1 - square) / square * optics.steepness;  // tan²θ / m²
   if (!(exponent < 40)) return 0;
   return optics.glint * portable::exp2(-1.4426950408889634F * exponent) / (square * square * cosine);
 }
@@ -104,7 +104,8 @@ double detectionThreshold(const ScanSettings& settings, double clear_air_extinct
 
 SlabPower slab(double index, double inner_transmittance_at_normal, double cosine) {
   const double cosine_inside = std::sqrt(1 - (1 - cosine * cosine) / (index * index));
-  const double t = (inner_transmittance_at_normal > 0 ? portable::pow(inner_transmittance_at_normal, 1 / cosine_inside) : 0);
+  const double t =
+      (inner_transmittance_at_normal > 0 ? portable::pow(inner_transmittance_at_normal, 1 / cosine_inside) : 0);
   SlabPower sum{0, 0};
   const double across = (cosine - index * cosine_inside) / (cosine + index * cosine_inside);
   const double along = (index * cosine - cosine_inside) / (index * cosine + cosine_inside);
@@ -120,8 +121,9 @@ SlabPower slab(double index, double inner_transmittance_at_normal, double cosine
 SlabPower stack(SlabPower one, int panes) {
   SlabPower all = one;
   for (int pane = 1; pane < panes; ++pane) {
-    const double between = 1 - all.reflected * one.reflected;   // what runs to and fro between them
-    all = {all.reflected + all.transmitted * all.transmitted * one.reflected / between, all.transmitted * one.transmitted / between};
+    const double between = 1 - all.reflected * one.reflected;  // what runs to and fro between them
+    all = {all.reflected + all.transmitted * all.transmitted * one.reflected / between,
+           all.transmitted * one.transmitted / between};
   }
   return all;
 }
@@ -152,7 +154,8 @@ RangeNoiseLaw::RangeNoiseLaw(const Instrument& instrument) {
     slope = std::max(0.0, slope);
     double floor = (sum_v - slope * sum_q) / n;
     if (floor < 0) floor = 0, slope = sum_qv / sum_qq;
-    curves_.push_back({portable::log2(static_cast<float>(reflectivity)), static_cast<float>(floor), static_cast<float>(slope)});
+    curves_.push_back(
+        {portable::log2(static_cast<float>(reflectivity)), static_cast<float>(floor), static_cast<float>(slope)});
   }
 }
 

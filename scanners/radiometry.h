@@ -21,16 +21,16 @@ struct Optics {
   float lobe_slope = 0;          // m
   float steepness = 0;           // 1 / m²
   bool transparent = false;
-  double index = 1;              // n of a pane
+  double index = 1;                // n of a pane
   double inner_transmittance = 1;  // of one way through its body at normal incidence
-  double thickness_m = 0;        // of one pane
+  double thickness_m = 0;          // of one pane
   int panes = 1;
-  bool smooth = false;           // shows mirror images
-  bool glossy = false;           // shows them dimly: its lobe is sharp, but wider than the beam
-  float mirror_f0 = 0;           // of an opaque smooth surface at normal incidence
-  float retro_gain = 0;          // over a white surface, within kRetroEntrance; 0 = none
-  float variation = 0;           // coefficient of variation of the reflectance on one surface …
-  float texture_scale_m = 0;     // … over this length
+  bool smooth = false;        // shows mirror images
+  bool glossy = false;        // shows them dimly: its lobe is sharp, but wider than the beam
+  float mirror_f0 = 0;        // of an opaque smooth surface at normal incidence
+  float retro_gain = 0;       // over a white surface, within kRetroEntrance; 0 = none
+  float variation = 0;        // coefficient of variation of the reflectance on one surface …
+  float texture_scale_m = 0;  // … over this length
 };
 
 Optics opticsOf(const PhysicalMaterial& material, double wavelength_nm);
@@ -44,17 +44,19 @@ inline float diffuseEquivalent(const Optics& optics, float cosine) {
   return optics.diffuse * (optics.oren_a * cosine + optics.oren_b * (1 - cosine * cosine));
 }
 float glossEquivalent(const Optics& optics, float cosine);
-// A retroreflector keeps its gain within 30° of entrance (physics.md §4.9, where 20 to 30° is the range); beyond it is a
-// diffuse surface.
-constexpr float kRetroEntrance = 0.8660254F;   // cosine
-inline float retroEquivalent(const Optics& optics, float cosine) { return cosine > kRetroEntrance ? optics.retro_gain : 0; }
+// A retroreflector keeps its gain within 30° of entrance (physics.md §4.9, where 20 to 30° is the range); beyond it is
+// a diffuse surface.
+constexpr float kRetroEntrance = 0.8660254F;  // cosine
+inline float retroEquivalent(const Optics& optics, float cosine) {
+  return cosine > kRetroEntrance ? optics.retro_gain : 0;
+}
 inline float lambertEquivalent(const Optics& optics, float cosine) {
   const float diffuse = diffuseEquivalent(optics, cosine) + retroEquivalent(optics, cosine);
   return optics.glint > 0 ? diffuse + glossEquivalent(optics, cosine) : diffuse;
 }
 
-// What a smooth surface mirrors of unpolarised light: a pane by its slabs, an opaque body by Schlick's approximation (1994)
-// of Fresnel's law from its F0.
+// What a smooth surface mirrors of unpolarised light: a pane by its slabs, an opaque body by Schlick's approximation
+// (1994) of Fresnel's law from its F0.
 double mirrorReflectance(const Optics& optics, double cosine);
 
 // η_opt(R) of a measured curve below its bound: 2 to the power of c0 + c1 R + c2 R² + c3 R³ + 2 log2 R.
@@ -70,8 +72,9 @@ inline float nearRangeFactor(const Instrument& instrument, float range_m) {
   return 1 / (1 + power);
 }
 
-// What of a mirror image is left where the mirror's lobe is wider than the beam: it lights Ω = 8π m² and not one direction,
-// and of what comes back the receiver sees the spot that its beam lit, A: A (R1 + R2)² / (R1² R2² Ω), at most 1.
+// What of a mirror image is left where the mirror's lobe is wider than the beam: it lights Ω = 8π m² and not one
+// direction, and of what comes back the receiver sees the spot that its beam lit, A: A (R1 + R2)² / (R1² R2² Ω), at
+// most 1.
 double roughMirrorShare(double lobe_slope, double beam_radius_m, double to_mirror_m, double from_mirror_m);
 
 // x_min = ρ_ref / R_max² · air of the data sheet (§2.7): its range holds in clear air.
@@ -87,15 +90,15 @@ SlabPower stack(SlabPower one, int panes);
 // The one-way inner transmittance that makes the whole slab transmit `transmittance` at normal incidence.
 double innerTransmittance(double index, double transmittance);
 
-// White range noise over (range, reflectivity): for each tabulated reflectivity σ² = σ0² + (k/x)² (§3.1) is fitted to the
-// sheet's figures, exactly where there are one or two; between reflectivities σ is linear in log ρ_eq. A single figure
-// cannot give two numbers: half of its variance is taken as σ0².
+// White range noise over (range, reflectivity): for each tabulated reflectivity σ² = σ0² + (k/x)² (§3.1) is fitted to
+// the sheet's figures, exactly where there are one or two; between reflectivities σ is linear in log ρ_eq. A single
+// figure cannot give two numbers: half of its variance is taken as σ0².
 class RangeNoiseLaw {
  public:
   struct Curve {
     float log2_reflectivity = 0;
-    float floor_m2 = 0;      // σ0²
-    float slope_m2 = 0;      // k²
+    float floor_m2 = 0;  // σ0²
+    float slope_m2 = 0;  // k²
   };
   explicit RangeNoiseLaw(const Instrument& instrument);
   const std::vector<Curve>& curves() const { return curves_; }

@@ -30,7 +30,8 @@ struct RayHit {
 // The editor picks with it, too. Products that are not in the scene are left out.
 class RayScene {
  public:
-  static Result<std::shared_ptr<const RayScene>> build(std::shared_ptr<const Environment> environment, Progress& progress);
+  static Result<std::shared_ptr<const RayScene>> build(std::shared_ptr<const Environment> environment,
+                                                       Progress& progress);
   virtual ~RayScene() = default;
   virtual std::optional<RayHit> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
                                           double max_range_m) const = 0;
@@ -47,13 +48,13 @@ struct ScanChannels {
 struct ScanOptions {
   std::uint64_t seed = 1;
   Effects effects;
-  int threads = 0;                 // 0 = all
-  std::uint32_t station_key = 0;   // random numbers belong to the station: a stable hash of its name
+  int threads = 0;                // 0 = all
+  std::uint32_t station_key = 0;  // random numbers belong to the station: a stable hash of its name
   ScanChannels channels;
   Weather weather;
-  std::optional<Sun> sun;          // none: night, or a room without windows
-  double interference = 0;         // chance that a pulse finds another instrument's light and takes it for its own
-  std::uint32_t first_column = 0, end_column = ~0U;   // of the grid: a part of a scan has the points that the whole has
+  std::optional<Sun> sun;   // none: night, or a room without windows
+  double interference = 0;  // chance that a pulse finds another instrument's light and takes it for its own
+  std::uint32_t first_column = 0, end_column = ~0U;  // of the grid: a part of a scan has the points that the whole has
 };
 
 struct ScanCount {

@@ -25,7 +25,8 @@ Result<void> checkDevice(RTCDevice device) {
   const RTCError code = rtcGetDeviceError(device);
   if (code == RTC_ERROR_NONE) return {};
   if (code == RTC_ERROR_CANCELLED) return failure(ErrorKind::cancelled, "cancelled");
-  if (code == RTC_ERROR_OUT_OF_MEMORY) return failure(ErrorKind::unusable, "the environment does not fit into memory", "ray scene");
+  if (code == RTC_ERROR_OUT_OF_MEMORY)
+    return failure(ErrorKind::unusable, "the environment does not fit into memory", "ray scene");
   return failure(ErrorKind::internal, "Embree error " + std::to_string(code) + " while building", "ray scene");
 }
 
@@ -50,7 +51,8 @@ Result<void> EmbreeScene::commit(std::shared_ptr<const Environment> environment,
   std::vector<std::uint32_t> uses(environment_->meshes.size(), 0);
   for (std::uint32_t i = 0; i < environment_->instances.size(); ++i) {
     const Instance& instance = environment_->instances[i];
-    if (!environment_->products[instance.product].inScene() || environment_->meshes[instance.mesh]->triangles.empty()) continue;
+    if (!environment_->products[instance.product].inScene() || environment_->meshes[instance.mesh]->triangles.empty())
+      continue;
     placements_.push_back(i);
     ++uses[instance.mesh];
   }
@@ -60,8 +62,10 @@ Result<void> EmbreeScene::commit(std::shared_ptr<const Environment> environment,
   one_thread.execute([&] {
     for (std::uint32_t k = 0; k < placements_.size() && !progress.cancelled(); ++k) {
       const auto mesh = environment_->instances[placements_[k]].mesh;
-      if (uses[mesh] == 1 || environment_->meshes[mesh]->triangles.size() <= kSmallMesh) attachPlaced(k);
-      else attachInstanced(k);
+      if (uses[mesh] == 1 || environment_->meshes[mesh]->triangles.size() <= kSmallMesh)
+        attachPlaced(k);
+      else
+        attachInstanced(k);
     }
     rtcSetSceneProgressMonitorFunction(scene_, onProgress, &progress);
     rtcCommitScene(scene_);
@@ -75,8 +79,8 @@ RTCGeometry EmbreeScene::triangles(const Mesh& mesh, const Eigen::Affine3d& worl
   RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                3 * sizeof(float), mesh.positions.size()));
-  auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                                      sizeof(Triangle), mesh.triangles.size()));
+  auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), mesh.triangles.size()));
   if (vertices != nullptr && indices != nullptr) {
     for (const auto& position : mesh.positions) {
       const Eigen::Vector3f placed = (world_from_mesh * position.cast<double>()).cast<float>();
@@ -138,7 +142,7 @@ void EmbreeScene::intersect(const RayPacket& rays, int count, float max_range_m,
                             float* ranges_m) const {
   alignas(64) int valid[kPacket];
   static thread_local RTCRayHit16 query = fromOrigins();
-  std::copy_n(rays.origin_x, 3 * kPacket, query.ray.org_x);   // x, y, z lie side by side in both
+  std::copy_n(rays.origin_x, 3 * kPacket, query.ray.org_x);  // x, y, z lie side by side in both
   std::copy_n(rays.direction_x, 3 * kPacket, query.ray.dir_x);
   for (int k = 0; k < kPacket; ++k) {
     valid[k] = k < count ? -1 : 0;
@@ -150,7 +154,8 @@ void EmbreeScene::intersect(const RayPacket& rays, int count, float max_range_m,
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect16(valid, scene_, &context, &query);
-  for (int k = 0; k < count; ++k) facets[k] = facetNumber(query.hit.instID[0][k], query.hit.geomID[k], query.hit.primID[k]);
+  for (int k = 0; k < count; ++k)
+    facets[k] = facetNumber(query.hit.instID[0][k], query.hit.geomID[k], query.hit.primID[k]);
   std::copy_n(query.ray.tfar, count, ranges_m);
 }
 
@@ -161,8 +166,8 @@ void EmbreeScene::intersect(const RayPacket& rays, int count, float max_range_m,
   for (int k = 0; k < count; ++k) hits[k] = {facets[k], ranges_m[k]};
 }
 
-NearestHit EmbreeScene::nearest(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit, double min_range_m,
-                                double max_range_m) const {
+NearestHit EmbreeScene::nearest(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
+                                double min_range_m, double max_range_m) const {
   RTCRayHit query{};
   query.ray.org_x = static_cast<float>(origin.x());
   query.ray.org_y = static_cast<float>(origin.y());
@@ -188,7 +193,9 @@ Facet EmbreeScene::facet(std::uint64_t number) const {
   const Instance& instance = environment_->instances[facet.instance];
   const Mesh& mesh = *environment_->meshes[instance.mesh];
   const Triangle& triangle = mesh.triangles[facet.triangle];
-  const auto corner = [&](int k) -> Eigen::Vector3d { return instance.world_from_mesh * mesh.positions[triangle[k]].cast<double>(); };
+  const auto corner = [&](int k) -> Eigen::Vector3d {
+    return instance.world_from_mesh * mesh.positions[triangle[k]].cast<double>();
+  };
   const Eigen::Vector3d a = corner(0);
   const Eigen::Vector3d normal = (corner(1) - a).cross(corner(2) - a);
   const double length = normal.norm();
@@ -215,7 +222,8 @@ std::optional<RayHit> EmbreeScene::intersect(const Eigen::Vector3d& origin, cons
   return result;
 }
 
-Result<std::shared_ptr<const RayScene>> RayScene::build(std::shared_ptr<const Environment> environment, Progress& progress) {
+Result<std::shared_ptr<const RayScene>> RayScene::build(std::shared_ptr<const Environment> environment,
+                                                        Progress& progress) {
   if (!environment) return failure(ErrorKind::internal, "there is no environment", "ray scene");
   auto scene = std::make_shared<EmbreeScene>();
   if (auto done = scene->commit(std::move(environment), progress); !done) return failure(done.error());

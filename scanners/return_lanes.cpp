@@ -68,7 +68,8 @@ void ReturnLanes::setEcho(const ScanPlan& plan, int lane, const PathEnd& end, co
   const double tolerance = edgeTolerance(plan.instrument, end.path_m);
   const bool mixed = static_cast<double>(echo.spread_m) > tolerance;
   const bool folded = plan.unambiguous_m > 0 && echo.range_m >= plan.unambiguous_m;
-  flags[lane] = static_cast<std::uint8_t>(end.flags | (mixed ? point_flag::kMixed : 0) | (folded ? point_flag::kMirrored : 0));
+  flags[lane] =
+      static_cast<std::uint8_t>(end.flags | (mixed ? point_flag::kMixed : 0) | (folded ? point_flag::kMirrored : 0));
   deviation_m[lane] = echo.deviation_m;
   normal_x[lane] = end.normal.x(), normal_y[lane] = end.normal.y(), normal_z[lane] = end.normal.z();
 }

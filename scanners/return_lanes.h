@@ -26,14 +26,14 @@ struct alignas(64) ReturnLanes {
   std::uint32_t product[kReturnLanes] = {}, material[kReturnLanes] = {};
   std::uint8_t red[kReturnLanes] = {}, green[kReturnLanes] = {}, blue[kReturnLanes] = {};
   std::uint8_t flags[kReturnLanes] = {};
-  float deviation_m[kReturnLanes] = {};                       // of an echo of several surfaces
+  float deviation_m[kReturnLanes] = {};  // of an echo of several surfaces
   float normal_x[kReturnLanes] = {}, normal_y[kReturnLanes] = {},
-        normal_z[kReturnLanes] = {};                          // of the surface, towards the light; where there is daylight
+        normal_z[kReturnLanes] = {};  // of the surface, towards the light; where there is daylight
   PulseNoise noise{};
   float along[kReturnLanes] = {}, wobble[kReturnLanes] = {};  // of the row
   SignalLanes signal;
   float x_m[kReturnLanes] = {}, y_m[kReturnLanes] = {}, z_m[kReturnLanes] = {};  // the point
-  bool marked = false;                                        // a lane holds what only echoes and flags have
+  bool marked = false;  // a lane holds what only echoes and flags have
 
   ReturnLanes();
   // The rows from `first_row` on, a lane each.

@@ -20,10 +20,11 @@ namespace {
 // Each block traces columns on either side of it, too, to know its neighbours: as many as a beam can reach.
 constexpr std::uint32_t kColumnsPerReach = 16;
 constexpr std::uint32_t kPulsesPerBlock = 1U << 17U;
-constexpr std::uint32_t kFirstColumns = 4;   // of the first block: whoever watches shall see points soon
+constexpr std::uint32_t kFirstColumns = 4;  // of the first block: whoever watches shall see points soon
 
 Result<void> checkArguments(const ScanSettings& settings, const Trajectory& trajectory) {
-  if (settings.columns == 0 || settings.rows == 0) return failure(ErrorKind::usage, "the grid has no columns or no rows", "settings");
+  if (settings.columns == 0 || settings.rows == 0)
+    return failure(ErrorKind::usage, "the grid has no columns or no rows", "settings");
   if (trajectory.pose.empty() || trajectory.pose.size() != trajectory.time_s.size())
     return failure(ErrorKind::usage, "a trajectory needs a pose for each of its times", "trajectory");
   for (const auto& pose : trajectory.pose)
@@ -49,10 +50,12 @@ class Pipeline {
   Result<ScanCount> run(int threads) {
     tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
     arena.execute([&] {
-      // A block for each thread, one that is written and one that waits for its turn: a block of the finest grid has 90 MB.
+      // A block for each thread, one that is written and one that waits for its turn: a block of the finest grid has 90
+      // MB.
       const auto tokens = static_cast<std::size_t>(arena.max_concurrency() + 2);
       tbb::parallel_pipeline(
-          tokens, tbb::make_filter<void, Work>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& flow) { return next(flow); }) &
+          tokens, tbb::make_filter<void, Work>(tbb::filter_mode::serial_in_order,
+                                               [&](tbb::flow_control& flow) { return next(flow); }) &
                       tbb::make_filter<Work, Work>(tbb::filter_mode::parallel, [&](Work work) { return trace(work); }) &
                       tbb::make_filter<Work, void>(tbb::filter_mode::serial_in_order, [&](Work work) { write(work); }));
     });
@@ -63,7 +66,7 @@ class Pipeline {
 
  private:
   struct Work {
-    std::uint32_t from = 0, to = 0;    // columns
+    std::uint32_t from = 0, to = 0;  // columns
     std::shared_ptr<PointBlock> block;
   };
 
@@ -118,7 +121,8 @@ Result<ScanCount> scan(const RayScene& scene, const MaterialAssignment& assignme
                        const ScanSettings& settings, const Trajectory& local_from_scanner, const ScanOptions& options,
                        PointSink& sink, Progress& progress) {
   const auto* embree = dynamic_cast<const EmbreeScene*>(&scene);
-  if (embree == nullptr) return failure(ErrorKind::internal, "this ray scene was not made by RayScene::build", "ray scene");
+  if (embree == nullptr)
+    return failure(ErrorKind::internal, "this ray scene was not made by RayScene::build", "ray scene");
   if (auto valid = checkArguments(settings, local_from_scanner); !valid) return failure(valid.error());
   for (const auto& surface : assignment.surfaces)
     if (surface.material >= static_cast<std::int32_t>(assignment.materials.size()))
@@ -129,7 +133,7 @@ Result<ScanCount> scan(const RayScene& scene, const MaterialAssignment& assignme
   try {
     const ScanPlan plan(*embree, assignment, instrument, settings, local_from_scanner, options);
     return Pipeline(plan, sink, progress).run(options.threads);
-  } catch (const std::exception& exception) {   // TBB and memory
+  } catch (const std::exception& exception) {  // TBB and memory
     return failure(ErrorKind::internal, exception.what(), "scan");
   }
 }

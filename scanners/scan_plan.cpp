@@ -35,14 +35,16 @@ double ScanPlan::azimuth_rad(std::uint32_t column) const {
 
 // In the middle of its row, so that no two columns share the zenith.
 double ScanPlan::elevation_rad(std::uint32_t row) const {
-  return settings.elevation_from_rad + (row + 0.5) * (settings.elevation_to_rad - settings.elevation_from_rad) / settings.rows;
+  return settings.elevation_from_rad +
+         (row + 0.5) * (settings.elevation_to_rad - settings.elevation_from_rad) / settings.rows;
 }
 
 // At the shortest range a beam is wide beside the steps between pulses.
 std::uint32_t ScanPlan::mostReach() const {
   const double nearest = std::max(0.3, instrument.min_range_m);
   const double radius = kOuterShare * beamRadius(instrument, nearest) / nearest;
-  return static_cast<std::uint32_t>(std::clamp(std::ceil(radius / std::min(rowStep_rad(), columnStep_rad())), 1.0, static_cast<double>(kMostReach)));
+  return static_cast<std::uint32_t>(
+      std::clamp(std::ceil(radius / std::min(rowStep_rad(), columnStep_rad())), 1.0, static_cast<double>(kMostReach)));
 }
 
 ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignment_, const Instrument& instrument_,
@@ -64,10 +66,12 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
   if (!effects.has(Effect::weather)) weather = {.visibility_km = weather.visibility_km};
   if (!effects.has(Effect::atmosphere)) weather = kNoAir;
   const Weather clear = effects.has(Effect::atmosphere) ? Weather{} : kNoAir;
-  if (effects.has(Effect::detection)) threshold = detectionThreshold(settings, extinction_per_m(clear, instrument.wavelength_nm));
+  if (effects.has(Effect::detection))
+    threshold = detectionThreshold(settings, extinction_per_m(clear, instrument.wavelength_nm));
   if (effects.has(Effect::chance)) softness = threshold * instrument.detection_softness;
-  saturation = effects.has(Effect::saturation) ? std::pow(10.0F, static_cast<float>(instrument.saturation.level_db) / 10)
-                                               : std::numeric_limits<float>::infinity();
+  saturation = effects.has(Effect::saturation)
+                   ? std::pow(10.0F, static_cast<float>(instrument.saturation.level_db) / 10)
+                   : std::numeric_limits<float>::infinity();
   if (effects.has(Effect::bias)) errors = SystematicErrors::drawn(instrument, {options.seed, options.station_key});
   farthest_m = farthest_reported_m = settings.max_range_m;
   if (effects.has(Effect::ambiguity) && settings.unambiguous_m > 0) {
@@ -78,10 +82,12 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
   if (settings.farthest_m > 0) farthest_reported_m = std::min(farthest_reported_m, settings.farthest_m);
   if (effects.has(Effect::filters)) flags = instrument.filters, drops = settings.drops;
   if (effects.has(Effect::interference)) interference = options.interference;
-  if (effects.has(Effect::sun) && options.sun) daylight.emplace(scene, instrument, *options.sun, at(trajectory, 0).translation);
+  if (effects.has(Effect::sun) && options.sun)
+    daylight.emplace(scene, instrument, *options.sun, at(trajectory, 0).translation);
   receiver = receiverOf(instrument, noise_law, effects, extinction_per_m(weather, instrument.wavelength_nm));
   if (effects.has(Effect::amplitude_noise))
-    receiver.fluctuation = fluctuationOf(instrument, detectionThreshold(settings, 0) * instrument.detection_softness, settings.passes);
+    receiver.fluctuation =
+        fluctuationOf(instrument, detectionThreshold(settings, 0) * instrument.detection_softness, settings.passes);
   if (effects.has(Effect::footprint)) reach_ = mostReach();
   drop_threshold = detectionThreshold(settings, 0);
   std::vector<double> elevations;

@@ -39,7 +39,7 @@ class PulseClock {
 struct ScanPlan {
   const EmbreeScene& scene;
   const MaterialAssignment& assignment;
-  AssignedTriangles triangles;               // what single faces are assigned
+  AssignedTriangles triangles;  // what single faces are assigned
   const Instrument& instrument;
   const ScanSettings& settings;
   const Trajectory& trajectory;
@@ -48,26 +48,26 @@ struct ScanPlan {
   SystematicErrors errors;
   RangeNoiseLaw noise_law;
   Receiver receiver;
-  double noise_scale = 0;          // of σ: noise_factor / √passes
+  double noise_scale = 0;  // of σ: noise_factor / √passes
   double jitter_rad = 0;
-  double threshold = 0;            // x_min; 0 = all that is met returns
-  double drop_threshold = 0;       // of what the air sends back
-  double softness = 0;             // σ of the threshold, absolute
-  float saturation = 0;            // x from which the receiver saturates
-  double white_share = 0;          // of σ, of the noise that is each pulse's own
+  double threshold = 0;       // x_min; 0 = all that is met returns
+  double drop_threshold = 0;  // of what the air sends back
+  double softness = 0;        // σ of the threshold, absolute
+  float saturation = 0;       // x from which the receiver saturates
+  double white_share = 0;     // of σ, of the noise that is each pulse's own
   std::optional<ColumnNoise> column_noise;
   std::optional<Scatterers> scatterers;
   std::optional<Daylight> daylight;
-  std::optional<ReflectorHalo> halo;         // only where there is a retroreflector
-  double interference = 0;         // chance that a pulse finds another instrument's light
-  double unambiguous_m = 0;        // longer ranges are folded by it; 0 = they are not
-  double farthest_m = 0;           // that light is followed
-  double nearest_reported_m = 0, farthest_reported_m = 0;   // of measured ranges
-  PointFilters flags, drops;       // of the points that the instrument's filters find fault with
-  bool varies = false;             // some material is not the same everywhere
-  std::vector<double> sine, cosine;          // of each row's elevation, in full packets
-  std::vector<Optics> optics;                // materials, then surfaces without one
-  std::vector<std::array<std::uint8_t, 3>> colours;   // sRGB of each surface: what the camera sees, unshaded
+  std::optional<ReflectorHalo> halo;                       // only where there is a retroreflector
+  double interference = 0;                                 // chance that a pulse finds another instrument's light
+  double unambiguous_m = 0;                                // longer ranges are folded by it; 0 = they are not
+  double farthest_m = 0;                                   // that light is followed
+  double nearest_reported_m = 0, farthest_reported_m = 0;  // of measured ranges
+  PointFilters flags, drops;                         // of the points that the instrument's filters find fault with
+  bool varies = false;                               // some material is not the same everywhere
+  std::vector<double> sine, cosine;                  // of each row's elevation, in full packets
+  std::vector<Optics> optics;                        // materials, then surfaces without one
+  std::vector<std::array<std::uint8_t, 3>> colours;  // sRGB of each surface: what the camera sees, unshaded
 
   ScanPlan(const EmbreeScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
            const ScanSettings& settings, const Trajectory& trajectory, const ScanOptions& options);
@@ -76,7 +76,8 @@ struct ScanPlan {
   double elevation_rad(std::uint32_t row) const;
   // What the instrument takes a range for.
   double folded(double range_m) const {
-    return unambiguous_m > 0 && range_m >= unambiguous_m ? range_m - unambiguous_m * std::floor(range_m / unambiguous_m) : range_m;
+    return unambiguous_m > 0 && range_m >= unambiguous_m ? range_m - unambiguous_m * std::floor(range_m / unambiguous_m)
+                                                         : range_m;
   }
   bool reports(double range_m) const {
     const double measured = folded(range_m);
@@ -85,7 +86,8 @@ struct ScanPlan {
   bool moves() const { return trajectory.pose.size() > 1; }
   bool passes(const Optics& surface) const { return surface.transparent && options.effects.has(Effect::panes); }
   bool mirrors(const Optics& surface) const {
-    return (surface.smooth && options.effects.has(Effect::mirrors)) || (surface.glossy && options.effects.has(Effect::rough_mirrors));
+    return (surface.smooth && options.effects.has(Effect::mirrors)) ||
+           (surface.glossy && options.effects.has(Effect::rough_mirrors));
   }
   double rowStep_rad() const { return (settings.elevation_to_rad - settings.elevation_from_rad) / settings.rows; }
   double columnStep_rad() const { return (settings.azimuth_to_rad - settings.azimuth_from_rad) / settings.columns; }

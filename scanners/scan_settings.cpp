@@ -28,7 +28,8 @@ std::string allowed(const InstrumentSetting& setting) {
 }
 
 const SettingChoice* choiceOf(const InstrumentSetting& setting, const std::string& value) {
-  const auto found = std::find_if(setting.choices.begin(), setting.choices.end(), [&](const auto& c) { return c.value == value; });
+  const auto found =
+      std::find_if(setting.choices.begin(), setting.choices.end(), [&](const auto& c) { return c.value == value; });
   return found == setting.choices.end() ? nullptr : &*found;
 }
 
@@ -45,7 +46,8 @@ Result<SettingValues> complete(const Instrument& instrument, const SettingValues
   std::vector<bool> given(result.size(), false);
   for (const auto& pair : values) {
     const std::string &key = pair.first, &value = pair.second;
-    const auto found = std::find_if(instrument.settings.begin(), instrument.settings.end(), [&](const auto& s) { return s.key == key; });
+    const auto found = std::find_if(instrument.settings.begin(), instrument.settings.end(),
+                                    [&](const auto& s) { return s.key == key; });
     if (found == instrument.settings.end()) {
       std::vector<std::string> keys;
       for (const auto& setting : instrument.settings) keys.push_back(setting.key);
@@ -57,7 +59,9 @@ Result<SettingValues> complete(const Instrument& instrument, const SettingValues
     const auto angle = number(value);
     const bool fits = found->choices.empty() ? angle && *angle >= found->minimum && *angle <= found->maximum
                                              : choiceOf(*found, value) != nullptr;
-    if (!fits) return failure(ErrorKind::usage, "\"" + value + "\" is not allowed; the " + instrument.model + " takes " + allowed(*found), key);
+    if (!fits)
+      return failure(ErrorKind::usage,
+                     "\"" + value + "\" is not allowed; the " + instrument.model + " takes " + allowed(*found), key);
     result[index].second = value;
   }
   return result;
@@ -66,7 +70,8 @@ Result<SettingValues> complete(const Instrument& instrument, const SettingValues
 bool isStep(const std::string& key) { return key == "line_step" || key == "frame_step"; }
 
 struct Effects {
-  double columns = 0, rows = 0, seconds = 0, rate_hz = 0, noise_factor = 1, passes = 1, imaging = 0, imaging_seconds = 0;
+  double columns = 0, rows = 0, seconds = 0, rate_hz = 0, noise_factor = 1, passes = 1, imaging = 0,
+         imaging_seconds = 0;
   double seconds_factor = 1, compression = 1, mode = 0;
   bool laser = true;
   PanoramaCamera camera;
@@ -121,7 +126,7 @@ Effects gather(const Instrument& instrument, const SettingValues& values) {
       if (key.starts_with("picture_")) addToCamera(sum.camera, key, value);
     }
   }
-  if (sum.camera.hdr) sum.camera.flash = 0;   // brackets of the light that there is
+  if (sum.camera.hdr) sum.camera.flash = 0;  // brackets of the light that there is
   return sum;
 }
 
@@ -153,9 +158,9 @@ Result<void> checkGrid(const Instrument& instrument, const SettingValues& values
   const GridLimits limits(instrument, effects.columns);
   const bool turns = limits.turns(effects.rate_hz);
   if (turns && limits.compresses(effects.compression)) return {};
-  const std::string why = turns ? "for its noise compression needs a finer grid than the finest"
-                                : "for the mirror would exceed " +
-                                      std::to_string(static_cast<int>(instrument.mirror_max_hz)) + " Hz";
+  const std::string why =
+      turns ? "for its noise compression needs a finer grid than the finest"
+            : "for the mirror would exceed " + std::to_string(static_cast<int>(instrument.mirror_max_hz)) + " Hz";
   for (std::size_t i = 0; i < values.size(); ++i) {
     std::vector<std::string> words;
     bool decides = false;
@@ -164,8 +169,10 @@ Result<void> checkGrid(const Instrument& instrument, const SettingValues& values
       if (limits.takes(choice)) words.push_back(choice.value);
     }
     if (decides)
-      return failure(ErrorKind::usage, "\"" + values[i].second + "\" is not allowed at this resolution, " + why +
-                                           "; allowed here: " + list(words), values[i].first);
+      return failure(
+          ErrorKind::usage,
+          "\"" + values[i].second + "\" is not allowed at this resolution, " + why + "; allowed here: " + list(words),
+          values[i].first);
   }
   return failure(ErrorKind::usage, "is not allowed, " + why, "settings");
 }
@@ -196,7 +203,7 @@ double gateOf(const SettingValues& values, const std::string& key) {
 }
 
 struct Area {
-  double horizontal_from = 0, horizontal_to = 360, vertical_from = 0, vertical_to = 0;   // degrees
+  double horizontal_from = 0, horizontal_to = 360, vertical_from = 0, vertical_to = 0;  // degrees
 };
 
 Result<Area> areaOf(const Instrument& instrument, const SettingValues& values, bool allowed_here) {
@@ -214,8 +221,9 @@ Result<Area> areaOf(const Instrument& instrument, const SettingValues& values, b
     if (key == "vertical_from") area.vertical_from = angle;
     if (key == "vertical_to") area.vertical_to = angle;
   }
-  if (area.horizontal_to <= area.horizontal_from) area.horizontal_to += 360;   // an area across the zero direction
-  if (area.vertical_to <= area.vertical_from) return failure(ErrorKind::usage, "must be above vertical_from", "vertical_to");
+  if (area.horizontal_to <= area.horizontal_from) area.horizontal_to += 360;  // an area across the zero direction
+  if (area.vertical_to <= area.vertical_from)
+    return failure(ErrorKind::usage, "must be above vertical_from", "vertical_to");
   return area;
 }
 
@@ -228,7 +236,8 @@ Result<void> applySteps(const Instrument& instrument, const SettingValues& value
     const double step = *number(value);
     if (!effects.stepped && step != *number(instrument.settings[i].standard))
       return failure(ErrorKind::usage, "a step belongs to a pattern of one's own: choose that pattern as well", key);
-    if (effects.stepped) (key == "frame_step" ? effects.columns : effects.rows) = std::round((key == "frame_step" ? 360 : full) / step);
+    if (effects.stepped)
+      (key == "frame_step" ? effects.columns : effects.rows) = std::round((key == "frame_step" ? 360 : full) / step);
   }
   return {};
 }
@@ -237,13 +246,17 @@ Result<void> applySteps(const Instrument& instrument, const SettingValues& value
 
 Result<ScanSettings> resolveSettings(const Instrument& instrument, const SettingValues& values) {
   if (instrument.moving)
-    return failure(ErrorKind::usage, "the " + instrument.maker + " " + instrument.model + " scans while it moves: it needs a "
-                   "trajectory, and a station has none; choose an instrument for a tripod", instrument.id);
+    return failure(ErrorKind::usage,
+                   "the " + instrument.maker + " " + instrument.model +
+                       " scans while it moves: it needs a "
+                       "trajectory, and a station has none; choose an instrument for a tripod",
+                   instrument.id);
   auto filled = complete(instrument, values);
   if (!filled) return failure(filled.error());
   Effects effects = gather(instrument, *filled);
   if (auto steps = applySteps(instrument, *filled, effects); !steps) return failure(steps.error());
-  if (effects.columns < 2) return failure(ErrorKind::unusable, "no choice states the columns", instrument.id + " /settings");
+  if (effects.columns < 2)
+    return failure(ErrorKind::unusable, "no choice states the columns", instrument.id + " /settings");
   if (auto belongs = checkMode(instrument, *filled, effects); !belongs) return failure(belongs.error());
   if (auto fits = checkGrid(instrument, *filled, effects); !fits) return failure(fits.error());
   auto area = areaOf(instrument, *filled, effects.area);
@@ -254,16 +267,19 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
   const double rows = effects.rows > 0 ? effects.rows : effects.columns * full / 360;
   const double mirror_hz = effects.rate_hz / effects.columns;
   // A pattern has a time of its own, unless the laser is too slow for it.
-  if (effects.points_per_s > 0) effects.seconds = std::max(effects.seconds, effects.columns * rows / effects.points_per_s);
+  if (effects.points_per_s > 0)
+    effects.seconds = std::max(effects.seconds, effects.columns * rows / effects.points_per_s);
   const double turning = effects.seconds > 0 ? effects.seconds - instrument.overhead_s
                          : mirror_hz > 0     ? effects.columns / 2 * instrument.column_factor / mirror_hz
                                              : 0;
-  if (turning <= 0) return failure(ErrorKind::unusable, "no choice states the time or the rate", instrument.id + " /settings");
+  if (turning <= 0)
+    return failure(ErrorKind::unusable, "no choice states the time or the rate", instrument.id + " /settings");
 
   ScanSettings settings;
   settings.values = std::move(*filled);
   settings.columns = static_cast<std::uint32_t>(std::max(1.0, std::round(effects.columns * share)));
-  settings.rows = static_cast<std::uint32_t>(std::max(1.0, std::round(rows * (area->vertical_to - area->vertical_from) / full)));
+  settings.rows =
+      static_cast<std::uint32_t>(std::max(1.0, std::round(rows * (area->vertical_to - area->vertical_from) / full)));
   settings.azimuth_from_rad = area->horizontal_from * kRadPerDeg;
   settings.azimuth_to_rad = area->horizontal_to * kRadPerDeg;
   settings.elevation_from_rad = area->vertical_from * kRadPerDeg;

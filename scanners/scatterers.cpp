@@ -15,12 +15,12 @@ namespace standpoint {
 namespace {
 
 constexpr std::size_t kNodes = 1024;
-constexpr std::uint32_t kDropChannel = 32;       // of Philox; further blocks of a pulse 256 apart, kinds 128 apart
-constexpr double kNearest_m = 0.1;               // an instrument without a shortest range
-constexpr double kSmallest_m = 5e-5;             // smaller drops are mist and belong to the haze
-constexpr double kWater = 0.02;                  // ((n - 1) / (n + 1))², n = 1.33
-constexpr double kIce = 0.0173;                  // n = 1.303
-constexpr double kFogBackscatter = 0.046;        // β · MOR, per steradian
+constexpr std::uint32_t kDropChannel = 32;  // of Philox; further blocks of a pulse 256 apart, kinds 128 apart
+constexpr double kNearest_m = 0.1;          // an instrument without a shortest range
+constexpr double kSmallest_m = 5e-5;        // smaller drops are mist and belong to the haze
+constexpr double kWater = 0.02;             // ((n - 1) / (n + 1))², n = 1.33
+constexpr double kIce = 0.0173;             // n = 1.303
+constexpr double kFogBackscatter = 0.046;   // β · MOR, per steradian
 
 }  // namespace
 
@@ -69,8 +69,8 @@ void Scatterers::count(Population& population) const {
   };
   population.number.assign(kNodes, 0);
   for (std::size_t i = 1; i < kNodes; ++i)
-    population.number[i] = population.number[i - 1] +
-                           (per_m(nodes_m_[i - 1]) + per_m(nodes_m_[i])) / 2 * (nodes_m_[i] - nodes_m_[i - 1]);
+    population.number[i] =
+        population.number[i - 1] + (per_m(nodes_m_[i - 1]) + per_m(nodes_m_[i])) / 2 * (nodes_m_[i] - nodes_m_[i - 1]);
 }
 
 // The node at or before a range, never the last.
@@ -109,7 +109,7 @@ void Scatterers::drops(const Population& population, std::uint32_t column, std::
   for (;; channel += 256) {
     const auto block = philox(key_, column, row, channel);
     for (std::size_t k = 0; k < 4; k += 2) {
-      if (uniform(block[k]) <= 1 - (total - number)) return;   // -ln u ≥ 1 - u: most pulses need no logarithm
+      if (uniform(block[k]) <= 1 - (total - number)) return;  // -ln u ≥ 1 - u: most pulses need no logarithm
       number -= portable::log(uniform(block[k]));
       if (number >= total) return;
       const double range_m = rangeOf(population, number);

@@ -39,15 +39,15 @@ class Scatterers {
   struct Population {
     ScattererKind kind = ScattererKind::drop;
     DropSizes sizes;
-    double backscatter = 0;          // F: share of what meets a drop's disc that comes back, as of a Lambert disc
+    double backscatter = 0;  // F: share of what meets a drop's disc that comes back, as of a Lambert disc
     std::vector<double> number;
   };
   struct SoftReturn {
-    double range_m = 0, x = 0;       // the strongest up to this node
+    double range_m = 0, x = 0;  // the strongest up to this node
   };
 
   double beamDiameter(double range_m) const;
-  double white(double range_m) const;                     // x of a white target that fills the beam
+  double white(double range_m) const;  // x of a white target that fills the beam
   // m; infinity: none is large enough. `white_x` is white() there.
   double leastDiameter(const Population& population, double range_m, double white_x) const;
   void count(Population& population) const;
@@ -62,7 +62,7 @@ class Scatterers {
   const Instrument& instrument_;
   RandomKey key_;
   double least_x_, extinction_per_m_;
-  std::vector<double> nodes_m_;      // of equal ratio, from the shortest range on
+  std::vector<double> nodes_m_;  // of equal ratio, from the shortest range on
   std::vector<Population> populations_;
   std::vector<SoftReturn> fog_;
 };

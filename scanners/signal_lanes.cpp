@@ -37,10 +37,11 @@ STANDPOINT_INLINE void reflect(SignalLanes& lanes) {
   for (int k = 0; k < kSignalLanes; ++k) {
     const float cosine = lanes.cosine[k] > 1e-4F ? lanes.cosine[k] : 1e-4F;
     const float square = cosine * cosine;
-    const float tail = (1 - square) / square * lanes.steepness[k];                // tan²θ / m²
+    const float tail = (1 - square) / square * lanes.steepness[k];  // tan²θ / m²
     const float kept = tail < 40 ? tail : 40;
     const float lobe = lanes.glint[k] * portable::exp2(-1.4426950408889634F * kept) / (square * square * cosine);
-    lanes.equivalent[k] = lanes.diffuse[k] * (lanes.oren_a[k] * cosine + lanes.oren_b[k] * (1 - square)) + (tail < 40 ? lobe : 0);
+    lanes.equivalent[k] =
+        lanes.diffuse[k] * (lanes.oren_a[k] * cosine + lanes.oren_b[k] * (1 - square)) + (tail < 40 ? lobe : 0);
   }
 }
 
@@ -49,7 +50,8 @@ STANDPOINT_INLINE void nearRange(const SignalLanes& lanes, const Receiver& recei
   if (receiver.near_curve_below_m > 0) {
     const float below = receiver.near_curve_below_m;
     if (none(lanes.range_m, [below](float range) { return range < below; })) return fill(near, 1);
-    const float c0 = receiver.near_curve[0], c1 = receiver.near_curve[1], c2 = receiver.near_curve[2], c3 = receiver.near_curve[3];
+    const float c0 = receiver.near_curve[0], c1 = receiver.near_curve[1], c2 = receiver.near_curve[2],
+                c3 = receiver.near_curve[3];
     for (int k = 0; k < kSignalLanes; ++k) {
       const float range = lanes.range_m[k] < below ? lanes.range_m[k] : below;
       const float power = c0 + range * (c1 + range * (c2 + range * c3)) + 2 * portable::log2(range);
@@ -113,8 +115,9 @@ STANDPOINT_INLINE void store(SignalLanes& lanes, const float* measured, float lo
 STANDPOINT_INLINE void noise(SignalLanes& lanes, const RangeNoiseLaw::Curve* curves, int count,
                              const float* inverse_x2) {
   float place[kSignalLanes] = {};
-  if (count > 1)   // one curve is that of every reflectivity
-    for (int k = 0; k < kSignalLanes; ++k) place[k] = portable::log2(lanes.equivalent[k] > 1e-6F ? lanes.equivalent[k] : 1e-6F);
+  if (count > 1)  // one curve is that of every reflectivity
+    for (int k = 0; k < kSignalLanes; ++k)
+      place[k] = portable::log2(lanes.equivalent[k] > 1e-6F ? lanes.equivalent[k] : 1e-6F);
   for (int i = 0; i < count; ++i) {
     const float floor = curves[i].floor_m2;
     const float slope = curves[i].slope_m2;

@@ -12,18 +12,19 @@ constexpr int kSignalLanes = 16;
 
 // Received power and range noise of sixteen returns at once; the same laws as in radiometry.h, in float.
 struct SignalLanes {
-  float range_m[kSignalLanes];      // in
-  float cosine[kSignalLanes];       // in: of the incidence
-  float diffuse[kSignalLanes], oren_a[kSignalLanes], oren_b[kSignalLanes];   // in: as in Optics
-  float glint[kSignalLanes], steepness[kSignalLanes];                        // in: F0 / 4m² and 1 / m²
-  float gain[kSignalLanes];         // in: two ways, of what lies between
-  float variation[kSignalLanes];    // in: of the material at this place
+  float range_m[kSignalLanes];                                              // in
+  float cosine[kSignalLanes];                                               // in: of the incidence
+  float diffuse[kSignalLanes], oren_a[kSignalLanes], oren_b[kSignalLanes];  // in: as in Optics
+  float glint[kSignalLanes], steepness[kSignalLanes];                       // in: F0 / 4m² and 1 / m²
+  float gain[kSignalLanes];                                                 // in: two ways, of what lies between
+  float variation[kSignalLanes];                                            // in: of the material at this place
   float known_x[kSignalLanes];      // in: the power of an echo of several surfaces; below 0 where there is but one
   float background[kSignalLanes];   // in: variance that daylight adds to the dark receiver's, in its units
   float fluctuation[kSignalLanes];  // in: standard normal
   float equivalent[kSignalLanes];   // out: ρ_eq(θ)
   float x[kSignalLanes];            // out
-  float intensity[kSignalLanes];    // out: 10 lg of x as measured, between the instrument's limits as 0..1, in its levels; raw: falls with range
+  float intensity[kSignalLanes];    // out: 10 lg of x as measured, between the instrument's limits as 0..1, in its
+                                    // levels; raw: falls with range
   float sigma_m[kSignalLanes];      // out
 };
 
@@ -44,11 +45,11 @@ struct Fluctuation {
 struct Receiver {
   float near_range_m = 0;
   int near_range_power = 2;
-  float near_curve_below_m = 0;     // instead, where there is one: nearRangePolynomial
+  float near_curve_below_m = 0;  // instead, where there is one: nearRangePolynomial
   std::array<float, 4> near_curve{};
-  float decay_per_m = 0;            // log2 of what the air leaves of two ways, negative
-  float low_db = 0, high_db = 1;    // of the stored intensity
-  float levels = 0;                 // less one; 0 = stored as it is
+  float decay_per_m = 0;          // log2 of what the air leaves of two ways, negative
+  float low_db = 0, high_db = 1;  // of the stored intensity
+  float levels = 0;               // less one; 0 = stored as it is
   const RangeNoiseLaw::Curve* curves = nullptr;
   int curve_count = 0;
   Fluctuation fluctuation;

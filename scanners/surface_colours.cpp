@@ -41,7 +41,7 @@ float linearOf(float srgb) { return srgb <= 0.04045F ? srgb / 12.92F : std::pow(
 std::uint8_t srgbOf(float linear) {
   constexpr int kSteps = 1024;
   struct Table {
-    std::array<float, 257> begins{};                 // the last is never reached
+    std::array<float, 257> begins{};  // the last is never reached
     std::array<std::uint8_t, kSteps + 1> at_step{};
     Table() {
       for (std::size_t i = 1; i < 256; ++i) begins[i] = linearOf((static_cast<float>(i) - 0.5F) / 255);
@@ -67,7 +67,8 @@ SurfaceColours::SurfaceColours(const Environment& environment, Report& report) :
     const auto* bytes = reinterpret_cast<const stbi_uc*>(image->bytes.data());
     const int size = static_cast<int>(std::min(image->bytes.size(), std::size_t{1} << 30U));
     int width = 0, height = 0, channels = 0;
-    const bool known = stbi_info_from_memory(bytes, size, &width, &height, &channels) != 0 && width <= kLargestSide && height <= kLargestSide;
+    const bool known = stbi_info_from_memory(bytes, size, &width, &height, &channels) != 0 && width <= kLargestSide &&
+                       height <= kLargestSide;
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
         known ? stbi_load_from_memory(bytes, size, &width, &height, &channels, 4) : nullptr, stbi_image_free);
     if (!pixels) {
@@ -75,7 +76,8 @@ SurfaceColours::SurfaceColours(const Environment& environment, Report& report) :
       continue;
     }
     picture.width = width, picture.height = height;
-    picture.rgba.assign(pixels.get(), pixels.get() + std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    picture.rgba.assign(pixels.get(), pixels.get() + std::size_t{4} * static_cast<std::size_t>(width) *
+                                                         static_cast<std::size_t>(height));
   }
 }
 
@@ -88,8 +90,9 @@ Eigen::Array4f SurfaceColours::Picture::at(const Eigen::Vector2f& uv) const {
     const int column = left + k % 2, row = top + k / 2;
     const float share = (k % 2 == 0 ? 1 - (x - static_cast<float>(left)) : x - static_cast<float>(left)) *
                         (k / 2 == 0 ? 1 - (y - static_cast<float>(top)) : y - static_cast<float>(top));
-    const std::uint8_t* p = &rgba[4 * (static_cast<std::size_t>((row + height) % height) * static_cast<std::size_t>(width) +
-                                       static_cast<std::size_t>((column + width) % width))];
+    const std::uint8_t* p =
+        &rgba[4 * (static_cast<std::size_t>((row + height) % height) * static_cast<std::size_t>(width) +
+                   static_cast<std::size_t>((column + width) % width))];
     const auto& linear = linearOfByte();
     sum += share * Eigen::Array4f(linear[p[0]], linear[p[1]], linear[p[2]], static_cast<float>(p[3]) / 255);
   }
@@ -102,7 +105,8 @@ SurfaceColours::Look SurfaceColours::at(const RayHit& hit) const {
   const Instance& instance = environment_.instances[hit.instance];
   const Mesh& mesh = *environment_.meshes[instance.mesh];
   const bool painted = surface.image >= 0 && static_cast<std::size_t>(surface.image) < pictures_.size() &&
-                       !pictures_[static_cast<std::size_t>(surface.image)].rgba.empty() && !mesh.texture_coordinates.empty();
+                       !pictures_[static_cast<std::size_t>(surface.image)].rgba.empty() &&
+                       !mesh.texture_coordinates.empty();
   if (!painted && mesh.colours.empty()) return look;
   const Triangle& triangle = mesh.triangles[hit.triangle];
   std::array<Eigen::Vector3d, 3> corner;
@@ -111,7 +115,8 @@ SurfaceColours::Look SurfaceColours::at(const RayHit& hit) const {
   Eigen::Array4f paint = Eigen::Array4f::Ones();
   if (painted) {
     Eigen::Vector2f uv = Eigen::Vector2f::Zero();
-    for (std::size_t k = 0; k < 3; ++k) uv += share[static_cast<Eigen::Index>(k)] * mesh.texture_coordinates[triangle[k]];
+    for (std::size_t k = 0; k < 3; ++k)
+      uv += share[static_cast<Eigen::Index>(k)] * mesh.texture_coordinates[triangle[k]];
     paint *= pictures_[static_cast<std::size_t>(surface.image)].at(uv);
   }
   if (!mesh.colours.empty()) {
@@ -119,7 +124,8 @@ SurfaceColours::Look SurfaceColours::at(const RayHit& hit) const {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& c = mesh.colours[triangle[k]];
       const auto& linear = linearOfByte();
-      sum += share[static_cast<Eigen::Index>(k)] * Eigen::Array4f(linear[c[0]], linear[c[1]], linear[c[2]], static_cast<float>(c[3]) / 255);
+      sum += share[static_cast<Eigen::Index>(k)] *
+             Eigen::Array4f(linear[c[0]], linear[c[1]], linear[c[2]], static_cast<float>(c[3]) / 255);
     }
     paint *= sum.max(0);
   }

@@ -13,22 +13,22 @@ namespace standpoint {
 
 // A target as it is sold: a shape and a size.
 struct TargetArticle {
-  std::string id, label;           // "sphere-145"
+  std::string id, label;  // "sphere-145"
   TargetKind shape = TargetKind::sphere;
-  double size_m = 0;               // diameter or side
+  double size_m = 0;  // diameter or side
 };
 
 // What office people go by when they set up targets.
 struct TargetRules {
-  int least_points = 0;            // on a target, to be fitted well
+  int least_points = 0;  // on a target, to be fitted well
   double most_distance_m = 0;
-  double most_incidence_rad = 0;   // of what is flat
+  double most_incidence_rad = 0;  // of what is flat
 };
 
 struct TargetKinds {
   TargetRules rules;
-  std::vector<TargetArticle> articles;           // at least one
-  std::map<std::string, Evidence> evidence;      // by JSON pointer
+  std::vector<TargetArticle> articles;       // at least one
+  std::map<std::string, Evidence> evidence;  // by JSON pointer
 };
 
 // Errors name the file and the JSON pointer.

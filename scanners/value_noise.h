@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-
 #include <cstring>
 
 #include "scanners/portable_math.h"
@@ -19,7 +18,7 @@ STANDPOINT_INLINE float cornerNumber(std::uint32_t place) {
   return static_cast<float>(static_cast<std::int32_t>(sum) - 510);
 }
 
-constexpr float kShift = 0x1.8p23F;      // adding it rounds to a whole number
+constexpr float kShift = 0x1.8p23F;  // adding it rounds to a whole number
 constexpr float kFarthest = 0x1p21F;
 
 // Where a coordinate lies between two corners, with weights a² + b² = 1: whatever the place, the variance is the same.
@@ -32,9 +31,9 @@ STANDPOINT_INLINE Axis axisAt(float coordinate) {
   const float bounded = low < kFarthest ? low : kFarthest;
   const float shifted = bounded + kShift;
   std::int32_t corner;
-  std::memcpy(&corner, &shifted, sizeof corner);            // counts in ones there; where it begins does not matter
-  const float t = bounded - (shifted - kShift);          // from the middle of the cell, -1/2 to 1/2
-  const float u = t * (1.5F - 2 * t * t) * 1.5707963267948966F;   // smooth at the corners
+  std::memcpy(&corner, &shifted, sizeof corner);  // counts in ones there; where it begins does not matter
+  const float t = bounded - (shifted - kShift);   // from the middle of the cell, -1/2 to 1/2
+  const float u = t * (1.5F - 2 * t * t) * 1.5707963267948966F;  // smooth at the corners
   const float q = u * u;
   const float sine = u * (1 - q * (1.0F / 6) * (1 - q * (1.0F / 20) * (1 - q * (1.0F / 42))));
   const float cosine = 1 - q * 0.5F * (1 - q * (1.0F / 12) * (1 - q * (1.0F / 30)));
@@ -57,11 +56,11 @@ STANDPOINT_INLINE Corners cornersOf(std::int32_t i, std::int32_t j, std::int32_t
 STANDPOINT_INLINE float blend(const Corners& c, const Axis& i, const Axis& j, const Axis& k) {
   const float near = j.a * (i.a * c.number[0] + i.b * c.number[1]) + j.b * (i.a * c.number[2] + i.b * c.number[3]);
   const float far = j.a * (i.a * c.number[4] + i.b * c.number[5]) + j.b * (i.a * c.number[6] + i.b * c.number[7]);
-  return (k.a * near + k.b * far) * 0.0067659F;             // 1 / √21845
+  return (k.a * near + k.b * far) * 0.0067659F;  // 1 / √21845
 }
 
-// Zero mean, unit variance; the field's cells are 1 wide. Of many places, which mostly lie in one cell: then its corners
-// are worked out once.
+// Zero mean, unit variance; the field's cells are 1 wide. Of many places, which mostly lie in one cell: then its
+// corners are worked out once.
 template <int kLanes>
 STANDPOINT_INLINE void fieldLanes(const float* x, const float* y, const float* z, std::uint32_t salt, float* values) {
   std::int32_t corner[3][kLanes];
@@ -94,8 +93,8 @@ namespace standpoint {
 template <int kLanes>
 STANDPOINT_INLINE void textureFactors(const float* x_m, const float* y_m, const float* z_m, const float* coefficient,
                                       const float* scale_m, float* factor) {
-  constexpr float kCellsPerLength = 0.85F;   // makes the blend's correlation 1/e at the length
-  constexpr float kWeathering = 0.8F;        // weights of the octaves; their squares add up to 1
+  constexpr float kCellsPerLength = 0.85F;  // makes the blend's correlation 1/e at the length
+  constexpr float kWeathering = 0.8F;       // weights of the octaves; their squares add up to 1
   constexpr float kGrain = 0.6F;
   float x[kLanes], y[kLanes], z[kLanes], weathering[kLanes], grain[kLanes];
   for (int k = 0; k < kLanes; ++k) {
@@ -111,7 +110,7 @@ STANDPOINT_INLINE void textureFactors(const float* x_m, const float* y_m, const 
   for (int k = 0; k < kLanes; ++k) {
     const float cv = scale_m[k] > 0 ? coefficient[k] : 0.0F;
     const float exponent = cv * (kWeathering * weathering[k] + kGrain * grain[k]) - cv * cv / 2;
-    factor[k] = portable::exp2(1.4426950408889634F * exponent);   // 1 / ln 2
+    factor[k] = portable::exp2(1.4426950408889634F * exponent);  // 1 / ln 2
   }
 }
 

@@ -13,7 +13,7 @@ namespace standpoint {
 namespace {
 
 constexpr double kLight_m_per_s = 299792458.0;
-constexpr double kSigmaPerWidth = 2.354820045;   // FWHM of a Gaussian in its σ
+constexpr double kSigmaPerWidth = 2.354820045;  // FWHM of a Gaussian in its σ
 
 using Group = std::span<const Contribution>;  // by range
 
@@ -106,8 +106,8 @@ void receiveEchoes(const Waveform& waveform, std::vector<Contribution>& contribu
   for (std::size_t begin = 0, to = 1; begin < all.size(); begin = to++) {
     while (to < all.size() && all[to].range_m - all[to - 1].range_m < apart) ++to;
     const Echo next = mergedPulse(all.subspan(begin, to - begin));
-    if (!echoes.empty() && !standApart((next.range_m - echoes.back().range_m) / apart,
-                                       static_cast<double>(next.x / echoes.back().x))) {
+    if (!echoes.empty() &&
+        !standApart((next.range_m - echoes.back().range_m) / apart, static_cast<double>(next.x / echoes.back().x))) {
       echoes.back() = mergedPulse(all.subspan(from, to - from));
       continue;
     }
@@ -115,7 +115,8 @@ void receiveEchoes(const Waveform& waveform, std::vector<Contribution>& contribu
     echoes.push_back(next);
   }
   while (static_cast<int>(echoes.size()) > waveform.most_returns) {
-    const auto weakest = std::min_element(echoes.begin(), echoes.end(), [](const Echo& a, const Echo& b) { return a.x < b.x; });
+    const auto weakest =
+        std::min_element(echoes.begin(), echoes.end(), [](const Echo& a, const Echo& b) { return a.x < b.x; });
     echoes.erase(weakest);
   }
 }

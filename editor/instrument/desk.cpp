@@ -49,7 +49,7 @@ void watch(InstrumentDesk& desk) {
   if (desk.rehearsal->seconds() < desk.next_watched_s) return;
   const auto& action = solution[desk.watched++];
   if (action.kind != Kind::finish && action.kind != Kind::wait) act(desk, action);
-  desk.next_watched_s = desk.rehearsal->seconds() + 1.2;   // a second or so of the viewer's time
+  desk.next_watched_s = desk.rehearsal->seconds() + 1.2;  // a second or so of the viewer's time
 }
 
 void putWayAway(InstrumentDesk& desk, Editor& editor) {
@@ -64,17 +64,23 @@ void saveEnvironment(Editor& editor) {
 }
 
 // Empty while the project has no folder.
-fs::path scansFolder(const Editor& editor) { return editor.session.folder().empty() ? fs::path() : editor.session.folder() / "scans"; }
+fs::path scansFolder(const Editor& editor) {
+  return editor.session.folder().empty() ? fs::path() : editor.session.folder() / "scans";
+}
 
 }  // namespace
 
 void act(InstrumentDesk& desk, const RehearsalAction& action) {
   Progress quiet;
   Result<void> done;
-  if (desk.ended()) done = failure(ErrorKind::usage, "The exercise has ended: leave it, or do it once more.");
-  else if (desk.rehearsal) done = desk.rehearsal->act(action, quiet);
-  else if (action.kind == Kind::press) done = desk.shown()->act(action.name, action.value);
-  else if (action.kind == Kind::hand) done = desk.shown()->hand(action.name, action.value);
+  if (desk.ended())
+    done = failure(ErrorKind::usage, "The exercise has ended: leave it, or do it once more.");
+  else if (desk.rehearsal)
+    done = desk.rehearsal->act(action, quiet);
+  else if (action.kind == Kind::press)
+    done = desk.shown()->act(action.name, action.value);
+  else if (action.kind == Kind::hand)
+    done = desk.shown()->hand(action.name, action.value);
   desk.view.said = done ? desk.shown()->state().moved_along : done.error().message;
   desk.view.pointed.clear();
   if (done && desk.recording) desk.recorded.push_back(action);
@@ -93,7 +99,8 @@ void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& de
   }
   desk.scanners = scannersOf(**type);
   desk.host = std::make_unique<DeviceHost>(*std::move(type), editor.session.document(), editor.wake);
-  if (auto recalled = desk.host->remember(scansFolder(editor)); !recalled) desk.refused = "The device has lost its memory: " + describe(recalled.error());
+  if (auto recalled = desk.host->remember(scansFolder(editor)); !recalled)
+    desk.refused = "The device has lost its memory: " + describe(recalled.error());
   desk.last = std::chrono::steady_clock::now();
 }
 
@@ -103,12 +110,14 @@ void followProject(InstrumentDesk& desk, Editor& editor) {
   if (desk.host && (key == desk.project || desk.host->busy())) return;
   const bool moved_only = desk.host && key.second == desk.project.second;
   desk.project = key;
-  if (!moved_only) chooseDevice(desk, editor, *desk.device, desk.instrument);   // saved elsewhere: the same device goes on
+  if (!moved_only)
+    chooseDevice(desk, editor, *desk.device, desk.instrument);  // saved elsewhere: the same device goes on
 }
 
 void advance(InstrumentDesk& desk, Editor& editor) {
   const auto now = std::chrono::steady_clock::now();
-  // A window that slept gives no lump of time to a device that was idle meanwhile; in an exercise the clock always runs.
+  // A window that slept gives no lump of time to a device that was idle meanwhile; in an exercise the clock always
+  // runs.
   const double seconds = desk.was_busy ? std::min(1.0, std::chrono::duration<double>(now - desk.last).count()) : 0;
   desk.last = now;
   // Only waiting is shortened: what the student needs to read and press takes its own time, also in an exercise.
@@ -119,14 +128,18 @@ void advance(InstrumentDesk& desk, Editor& editor) {
     const auto& job = desk.rehearsal->document().job;
     if (job != desk.adopted && editor.session.whyNotAdopt().empty()) {
       desk.adopted = job;
-      editor.session.adopt({desk.rehearsal->document(), nlohmann::json::object(), {}, "Scanned in exercise " + desk.rehearsal->exercise().id, {}});
+      editor.session.adopt({desk.rehearsal->document(),
+                            nlohmann::json::object(),
+                            {},
+                            "Scanned in exercise " + desk.rehearsal->exercise().id,
+                            {}});
     }
   } else {
     const auto scans = scansFolder(editor);
     const bool may_store = editor.session.whyNotAdopt().empty();
     if (auto stored = desk.host->update(editor.session.document(), scans, seconds, may_store)) {
       editor.session.adopt(*std::move(stored));
-      editor.wake();   // panels that were drawn before this one show it, too
+      editor.wake();  // panels that were drawn before this one show it, too
     }
   }
   if (const auto view = desk.shown()->takeView()) editor.showCloud(view->file);
@@ -169,7 +182,9 @@ void takeFieldWork(InstrumentDesk& desk, const Session& session, std::string_vie
 
 void connect(InstrumentDesk& desk, Session& session) {
   session.forbids = [&](std::string_view verb) { return whyForbidden(desk, session, verb); };
-  session.done = [&](const Verb& verb, const nlohmann::json& options) { takeFieldWork(desk, session, verb.name, options); };
+  session.done = [&](const Verb& verb, const nlohmann::json& options) {
+    takeFieldWork(desk, session, verb.name, options);
+  };
 }
 
 nlohmann::json timedWay(const std::vector<WayPoint>& way) {
@@ -186,7 +201,8 @@ void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercis
   desk.refused.clear();
   const auto folder = freshFolder(exercise.id);
   Progress quiet;
-  auto rehearsal = Rehearsal::start(exercise, isFor(exercise, desk.device->id) ? desk.device->id : std::string(), folder, editor.wake, quiet);
+  auto rehearsal = Rehearsal::start(exercise, isFor(exercise, desk.device->id) ? desk.device->id : std::string(),
+                                    folder, editor.wake, quiet);
   if (!rehearsal) {
     desk.refused = describe(rehearsal.error());
     return;
@@ -196,7 +212,7 @@ void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercis
     return;
   }
   if (!editor.session.open(folder / "project")) return;
-  editor.showCloud({});   // what was looked at before belongs to another environment
+  editor.showCloud({});  // what was looked at before belongs to another environment
   editor.view.colour = ColourMode::model;
   editor.panels.scan.asked = ScanChoice{.instrument = (*rehearsal)->device().type().instrument.id};
   desk.opener.forget();
@@ -213,7 +229,8 @@ void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercis
 void finishExercise(InstrumentDesk& desk, Editor& editor) {
   desk.marks = marksOf(*desk.rehearsal, desk.student, desk.rehearsal->device().state().language);
   desk.marks_folder = desk.rehearsal->folder();
-  if (auto written = writeMarks(*desk.rehearsal, desk.marks, desk.marks_folder); !written) desk.refused = describe(written.error());
+  if (auto written = writeMarks(*desk.rehearsal, desk.marks, desk.marks_folder); !written)
+    desk.refused = describe(written.error());
   saveEnvironment(editor);
 }
 

@@ -24,8 +24,8 @@ enum class Guidance { shown, hinted, watched, tested };
 // A place on the way of a handheld scanner, in the file's frame, as it is being planned.
 struct WayPoint {
   double x_m = 0, y_m = 0;
-  double z_m = 0;                // for the picture only
-  double speed_m_s = 0.8;        // on the way there
+  double z_m = 0;          // for the picture only
+  double speed_m_s = 0.8;  // on the way there
 };
 // Places with the seconds at which one is there, as the action "walk" has them: [[x, y, seconds], …].
 nlohmann::json timedWay(const std::vector<WayPoint>& way);
@@ -33,27 +33,27 @@ nlohmann::json timedWay(const std::vector<WayPoint>& way);
 // What lies on the student's desk: a device on the open project, or one in an exercise; what is beside it.
 struct InstrumentDesk {
   const EmulatedDevice* device = &emulatedDevices().front();
-  std::string instrument;                     // of the device; empty: its first
-  std::unique_ptr<DeviceHost> host;           // on the open project
-  std::unique_ptr<Rehearsal> rehearsal;       // else
+  std::string instrument;                // of the device; empty: its first
+  std::unique_ptr<DeviceHost> host;      // on the open project
+  std::unique_ptr<Rehearsal> rehearsal;  // else
   DeviceView view;
-  std::string refused;                        // what the device refused last
-  std::string problem;                        // why there is no device
-  std::string station;                        // where it stands on the open project
-  std::string search;                         // in the help
+  std::string refused;  // what the device refused last
+  std::string problem;  // why there is no device
+  std::string station;  // where it stands on the open project
+  std::string search;   // in the help
   double time_factor = 20;
 
   Guidance guidance = Guidance::shown;
   std::vector<KnownExercise> exercises;
-  std::vector<std::string> exercises_refused; // files of the user's folder, and why
+  std::vector<std::string> exercises_refused;  // files of the user's folder, and why
   bool exercises_read = false;
   std::string student;
-  nlohmann::json marks;                       // of the exercise that was finished last
+  nlohmann::json marks;  // of the exercise that was finished last
   std::filesystem::path marks_folder;
-  DesktopOpener opener;                       // of the certificate
-  std::shared_ptr<const Job> adopted;         // of the exercise's document, as the editor shows it
-  std::vector<WayPoint> way;                  // of a handheld scanner, as it is being planned
-  std::size_t watched = 0;                    // actions of the solution that were shown
+  DesktopOpener opener;                // of the certificate
+  std::shared_ptr<const Job> adopted;  // of the exercise's document, as the editor shows it
+  std::vector<WayPoint> way;           // of a handheld scanner, as it is being planned
+  std::size_t watched = 0;             // actions of the solution that were shown
   double next_watched_s = 0;
 
   bool recording = false;
@@ -62,8 +62,9 @@ struct InstrumentDesk {
   std::chrono::steady_clock::time_point last = std::chrono::steady_clock::now();
   std::pair<std::filesystem::path, const Environment*> project{"?", nullptr};
   bool was_busy = false;
-  std::vector<std::pair<std::string, std::string>> scanners;   // that the device can drive: id and name
-  std::pair<std::shared_ptr<const ScanPreview>, std::string> pictured;   // what `picture` was made from, and its colouring
+  std::vector<std::pair<std::string, std::string>> scanners;  // that the device can drive: id and name
+  std::pair<std::shared_ptr<const ScanPreview>, std::string>
+      pictured;  // what `picture` was made from, and its colouring
   std::shared_ptr<const PixelPicture> picture;
 
   Device* shown() { return rehearsal ? &rehearsal->device() : host ? &host->device() : nullptr; }
@@ -80,8 +81,8 @@ void followProject(InstrumentDesk& desk, Editor& editor);
 // The clock goes on, and what was stored enters the project. Call before drawing.
 void advance(InstrumentDesk& desk, Editor& editor);
 
-// From now on an exercise has a say in what happens to the session's document, and what is done there in the survey belongs
-// to the exercise that runs or is recorded. The desk must live as long as the session has something to do.
+// From now on an exercise has a say in what happens to the session's document, and what is done there in the survey
+// belongs to the exercise that runs or is recorded. The desk must live as long as the session has something to do.
 void connect(InstrumentDesk& desk, Session& session);
 
 void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercise);

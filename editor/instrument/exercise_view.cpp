@@ -121,13 +121,15 @@ void steps(InstrumentDesk& desk, const std::string& language) {
     const auto& state = rehearsal.steps()[i];
     const bool current = &step == next;
     if (desk.guidance == Guidance::hinted && !current && !state.done) continue;
-    marked(state.done ? ICON_CHECK : current ? "›" : "·", step.text.in(language),
+    marked(state.done ? ICON_CHECK
+           : current  ? "›"
+                      : "·",
+           step.text.in(language),
            state.done ? kHeld : ImGui::GetColorU32(current ? ImGuiCol_Text : ImGuiCol_TextDisabled));
     if (!current) continue;
     if (state.hinted)
       marked("", step.hint.in(language), ImGui::GetColorU32(ImGuiCol_TextDisabled));
-    else if (!desk.ended() && !step.hint.texts.empty() &&
-             ui::button(("Hint###hint" + step.id).c_str())) {
+    else if (!desk.ended() && !step.hint.texts.empty() && ui::button(("Hint###hint" + step.id).c_str())) {
       act(desk, {Kind::hint, step.id, "", 0, {}});
       desk.view.pointed = step.widget;
     }
@@ -180,7 +182,8 @@ void marks(InstrumentDesk& desk, Editor& editor) {
     if (rule.contains("because")) marked("", rule["because"].get<std::string>(), dim);
     if (!rule.contains("proof") || rule["proof"]["value"] == "") continue;
     const auto& proof = rule["proof"];
-    marked("", fmt::format("in the data: {} = {}", proof["fact"].get<std::string>(), proof["text"].get<std::string>()), dim);
+    marked("", fmt::format("in the data: {} = {}", proof["fact"].get<std::string>(), proof["text"].get<std::string>()),
+           dim);
   }
   ui::gap(editor);
 }

@@ -44,8 +44,9 @@ void drawHelp(InstrumentDesk& desk, Editor& editor) {
     return;
   }
   if (desk.view.explained.empty())
-    return ui::dimWrapped("Press Explain, then tap what you want to know about. "
-                          "Nothing happens to the scan meanwhile.");
+    return ui::dimWrapped(
+        "Press Explain, then tap what you want to know about. "
+        "Nothing happens to the scan meanwhile.");
   const auto& id = desk.view.explained;
   const auto screen = device.screen();
   if (const auto* widget = findWidget(screen, id)) ui::wrapped(widget->label);

@@ -17,7 +17,7 @@ namespace standpoint {
 namespace {
 
 constexpr float kWaitsInSilence_s = 0.5F;
-constexpr float kNarrowestDevice_em = 13.5F, kNarrowestText_em = 11;   // in heights of the text
+constexpr float kNarrowestDevice_em = 13.5F, kNarrowestText_em = 11;  // in heights of the text
 constexpr std::array kClockFactors = {1.0, 5.0, 20.0, 100.0};
 
 class InstrumentPanel {
@@ -26,14 +26,15 @@ class InstrumentPanel {
 
   void draw(Editor& editor) {
     followProject(desk_, editor);
-    if (desk_.shown() == nullptr) return ui::emptyState(editor, ICON_TABLET, "The device cannot start", desk_.problem.c_str());
+    if (desk_.shown() == nullptr)
+      return ui::emptyState(editor, ICON_TABLET, "The device cannot start", desk_.problem.c_str());
     standSomewhere(editor);
-    advance(desk_, editor);   // before drawing: the last state of a clock that then stops is on the screen
+    advance(desk_, editor);  // before drawing: the last state of a clock that then stops is on the screen
     controls();
     if (desk_.shown() == nullptr) return;
     const ImVec2 room = ImGui::GetContentRegionAvail();
     const float least = kNarrowestDevice_em * ImGui::GetFontSize();
-    const bool beside = room.x > least + kNarrowestText_em * ImGui::GetFontSize();   // else the rest comes below
+    const bool beside = room.x > least + kNarrowestText_em * ImGui::GetFontSize();  // else the rest comes below
     const float below = beside ? 0 : std::min(editor.px(260), 0.4F * room.y);
     const float wanted = deviceWidth(*desk_.shown(), room.y - editor.px(40));
     const float most = std::max(least, std::min(0.54F * room.x, editor.px(560)));
@@ -54,7 +55,9 @@ class InstrumentPanel {
   void device(Editor& editor) {
     const ImVec2 room = ImGui::GetContentRegionAvail();
     auto* task = desk_.running()->task();
-    desk_.view.working = task != nullptr && !desk_.shown()->state().running ? std::optional(task->progress().fraction()) : std::nullopt;   // a scan has a bar of its own
+    desk_.view.working = task != nullptr && !desk_.shown()->state().running
+                             ? std::optional(task->progress().fraction())
+                             : std::nullopt;  // a scan has a bar of its own
     desk_.view.waits = waits();
     const auto press = drawDevice(*desk_.shown(), desk_.view, room.x, room.y - editor.px(40));
     if (press) {
@@ -63,8 +66,10 @@ class InstrumentPanel {
       const auto& moved = device.state().moved_along;
       if (!moved.empty()) editor.session.say(LogLevel::note, device.type().definition.title, moved);
     }
-    if (desk_.refused.empty()) ui::dimWrapped("Screens are ours; not affiliated with or endorsed by the makers.");
-    else ui::wrapped(desk_.refused);
+    if (desk_.refused.empty())
+      ui::dimWrapped("Screens are ours; not affiliated with or endorsed by the makers.");
+    else
+      ui::wrapped(desk_.refused);
   }
 
   // In words what the device's clock waits for, once that has taken a moment.
@@ -95,7 +100,9 @@ class InstrumentPanel {
   // On the open project the tripod begins at its first station; in an exercise the student carries it there.
   void standSomewhere(Editor& editor) {
     const auto& job = editor.session.document().job;
-    if (desk_.rehearsal || desk_.host->busy() || !desk_.shown()->state().around.station.empty() || !job || job->stations.empty()) return;
+    if (desk_.rehearsal || desk_.host->busy() || !desk_.shown()->state().around.station.empty() || !job ||
+        job->stations.empty())
+      return;
     (void)desk_.shown()->hand("stand_at", job->stations.front().name);
   }
 
@@ -152,13 +159,15 @@ class InstrumentPanel {
   }
 
  private:
-  static std::string clockName(double factor) { return factor == 1 ? "real time" : fmt::format("{:.0f} times faster", factor); }
+  static std::string clockName(double factor) {
+    return factor == 1 ? "real time" : fmt::format("{:.0f} times faster", factor);
+  }
 
   Ticker ticker_;
   InstrumentDesk desk_;
   const EmulatedDevice* wanted_ = nullptr;
   std::string wanted_instrument_;
-  float stood_s_ = 0;   // how long the device's clock has stood
+  float stood_s_ = 0;  // how long the device's clock has stood
 };
 
 }  // namespace

@@ -12,7 +12,8 @@ std::shared_ptr<const PixelPicture> pictureOf(const ScanPreview& preview, const 
   picture->rgba.resize(preview.grey.size());
   for (std::uint32_t row = 0; row < preview.rows; ++row)
     for (std::uint32_t column = 0; column < preview.columns; ++column) {
-      const auto [red, green, blue] = pixelOf(preview, std::size_t{preview.rows - 1 - row} * preview.columns + column, colouring);
+      const auto [red, green, blue] =
+          pixelOf(preview, std::size_t{preview.rows - 1 - row} * preview.columns + column, colouring);
       picture->rgba[std::size_t{row} * preview.columns + column] = {red, green, blue, 255};
     }
   return picture;

@@ -75,8 +75,7 @@ void drawWay(InstrumentDesk& desk, Editor& editor) {
   ImGui::SameLine();
   if (ui::button(ICON_ADD "###add-place")) desk.way.push_back(desk.way.empty() ? WayPoint() : desk.way.back());
   ui::tooltip("Add a place to type in");
-  if (ui::primaryButton("Plan this way###plan-way", whyNoWay(desk.way)))
-    act(desk, {Kind::walk, "", "", 0, timed});
+  if (ui::primaryButton("Plan this way###plan-way", whyNoWay(desk.way))) act(desk, {Kind::walk, "", "", 0, timed});
   editor.on_way = [&way = desk.way](const Eigen::Vector3d& place) {
     auto next = way.empty() ? WayPoint() : way.back();
     next.x_m = place.x(), next.y_m = place.y(), next.z_m = place.z();

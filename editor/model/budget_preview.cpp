@@ -57,8 +57,10 @@ void BudgetPreview::prepare(const Wish& wish) {
   const std::lock_guard lock(mutex_);
   progress_.reset();
   state_.preparing = false;
-  if (made) preview_ = std::move(*made);
-  else if (made.error().kind != ErrorKind::cancelled) state_.error = describe(made.error());
+  if (made)
+    preview_ = std::move(*made);
+  else if (made.error().kind != ErrorKind::cancelled)
+    state_.error = describe(made.error());
 }
 
 void BudgetPreview::work() {

@@ -21,11 +21,11 @@ class BudgetPreview {
   ~BudgetPreview();
   // Of the imported model with the document's treatments. Other limits, or another model, are prepared first.
   void want(const Document& document, const LighteningRequest& request);
-  void drop();   // shows nothing and forgets what was prepared
+  void drop();  // shows nothing and forgets what was prepared
 
   struct State {
     bool preparing = false;
-    std::shared_ptr<const Environment> shown;   // null until there is one
+    std::shared_ptr<const Environment> shown;  // null until there is one
     std::uint64_t triangles = 0, least = 0;
     std::string error;
   };
@@ -54,8 +54,8 @@ class BudgetPreview {
   std::optional<Wish> wish_;
   bool ended_ = false;
   State state_;
-  std::unique_ptr<Progress> progress_;         // of what is prepared
-  std::unique_ptr<OptimizePreview> preview_;   // the worker's own
+  std::unique_ptr<Progress> progress_;        // of what is prepared
+  std::unique_ptr<OptimizePreview> preview_;  // the worker's own
   std::thread worker_;
 };
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kNearestDistance_m = 0.05;
 constexpr double kFarthestDistance_m = 50000;
-constexpr double kRadPerPixel = 0.006;   // half a turn for a drag of about 500 pixels
+constexpr double kRadPerPixel = 0.006;  // half a turn for a drag of about 500 pixels
 
 double wrapped(double angle_rad) { return std::remainder(angle_rad, 2 * kPi); }
 

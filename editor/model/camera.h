@@ -16,8 +16,8 @@ struct Camera {
   double distance_m = 20;
   double azimuth_rad = 0.7;
   double elevation_rad = 0.5;
-  double view_angle_rad = 0.7;   // vertical
-  bool orthographic = false;     // then the picture is as high as the perspective one is at `target`
+  double view_angle_rad = 0.7;  // vertical
+  bool orthographic = false;    // then the picture is as high as the perspective one is at `target`
   bool operator==(const Camera&) const = default;
 
   Eigen::Vector3d forward() const;
@@ -31,7 +31,7 @@ struct Camera {
 
 struct ViewRay {
   Eigen::Vector3d origin;
-  Eigen::Vector3d direction;   // unit
+  Eigen::Vector3d direction;  // unit
 };
 
 // Pixels have their origin at the top left of a picture of the given size.

@@ -23,12 +23,12 @@ namespace standpoint {
 // A point cloud as it is shown over the model: an even sample of the file's points, in the local frame.
 struct Cloud {
   std::filesystem::path file;
-  std::vector<float> positions;                           // x, y, z
-  std::vector<std::array<std::uint8_t, 4>> colours;       // the scan's own, shaded by its intensity
+  std::vector<float> positions;                      // x, y, z
+  std::vector<std::array<std::uint8_t, 4>> colours;  // the scan's own, shaded by its intensity
   std::uint64_t points_in_file = 0;
 };
 
-constexpr std::uint64_t kMostShownPoints = 600000;   // what software rendering still turns smoothly
+constexpr std::uint64_t kMostShownPoints = 600000;  // what software rendering still turns smoothly
 
 // Keeps every k-th point of the scans that are written to it; k doubles whenever more than `most` would be kept.
 class CloudSampler : public PointSink {
@@ -43,7 +43,7 @@ class CloudSampler : public PointSink {
   // The colours shaded by intensity, from what nearly all points have at least to what nearly all have at most: formats
   // state the sensor's possible range, of which a scan fills a corner. Without any intensity height stands for it.
   Cloud shaded() const;
-  std::uint64_t seen() const { return seen_; }   // points, kept or not
+  std::uint64_t seen() const { return seen_; }  // points, kept or not
   bool empty() const { return colours_.empty(); }
 
  private:
@@ -54,7 +54,7 @@ class CloudSampler : public PointSink {
   double low_ = 0, span_ = 1;
   bool coloured_ = false;
   std::vector<float> positions_, shares_;
-  std::vector<std::array<std::uint8_t, 4>> colours_;   // not shaded
+  std::vector<std::array<std::uint8_t, 4>> colours_;  // not shaded
 };
 
 // Every k-th point, so that at most `most` are kept; memory does not grow with the file.

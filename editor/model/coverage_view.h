@@ -28,14 +28,14 @@ struct SeenFrom {
 
 struct PlaceCoverage {
   int stations = 0;
-  double spacing_m = 0, incidence_rad = 0;   // where there is a station
-  std::vector<std::size_t> from;             // of the list, which see it
+  double spacing_m = 0, incidence_rad = 0;  // where there is a station
+  std::vector<std::size_t> from;            // of the list, which see it
 };
 PlaceCoverage coverageAt(std::span<const SeenFrom> scans, const SurfacePlace& place, const SeenWhen& wanted);
 
-constexpr std::array<std::uint8_t, 4> kHoleColour = {178, 52, 122, 255};   // of what no station sees
-constexpr int kMostCounted = 4;                                            // stations: more have the same colour
-constexpr double kFinestSpacing_m = 0.001, kCoarsestSpacing_m = 0.1;       // of the scale, which is logarithmic
+constexpr std::array<std::uint8_t, 4> kHoleColour = {178, 52, 122, 255};  // of what no station sees
+constexpr int kMostCounted = 4;                                           // stations: more have the same colour
+constexpr double kFinestSpacing_m = 0.001, kCoarsestSpacing_m = 0.1;      // of the scale, which is logarithmic
 std::array<std::uint8_t, 4> countColour(int stations);
 // 0..1 of the scale of spacing or incidence, good to bad.
 std::array<std::uint8_t, 4> coverageScale(double share);
@@ -57,7 +57,7 @@ class KeptCoverage {
     std::shared_ptr<const Job> job;
     std::shared_ptr<const MaterialChoice> materials;
     std::shared_ptr<const RayScene> scene;
-    std::string instrument;   // empty: scans made
+    std::string instrument;  // empty: scans made
     std::vector<std::pair<std::string, std::string>> settings;
     bool operator==(const Asked&) const = default;
   };

@@ -3,11 +3,11 @@
 
 #include <chrono>
 #include <cstring>
+#include <spawn.h>
+#include <sys/wait.h>
 #include <thread>
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 
 extern char** environ;
 
@@ -23,7 +23,7 @@ void DesktopOpener::open(const std::filesystem::path& path, std::function<void()
     return;
   }
   std::string program = program_, argument = std::filesystem::absolute(path, error).string();
-  char* const words[] = {program.data(), argument.data(), nullptr};   // no shell reads them
+  char* const words[] = {program.data(), argument.data(), nullptr};  // no shell reads them
   pid_t child = 0;
   if (const int failed = posix_spawnp(&child, program_.c_str(), nullptr, nullptr, words, environ); failed != 0) {
     problem_ = fmt::format("'{}' does not start ({}). The file is {}", program_, std::strerror(failed), path.string());

@@ -24,7 +24,7 @@ class DesktopOpener {
  private:
   std::string program_, problem_;
   std::filesystem::path path_;
-  std::future<int> ended_;   // with the exit status of the program, or -1
+  std::future<int> ended_;  // with the exit status of the program, or -1
 };
 
 }  // namespace standpoint

@@ -16,8 +16,8 @@ namespace standpoint {
 // How far each vertex of one of the two models is from the other.
 struct DeviationField {
   std::shared_ptr<const Environment> environment;
-  std::vector<std::shared_ptr<const InstanceDeviation>> of_instance;   // empty ones for what is not in the scene
-  double full_scale_m = 0;    // the distance that has the last colour
+  std::vector<std::shared_ptr<const InstanceDeviation>> of_instance;  // empty ones for what is not in the scene
+  double full_scale_m = 0;                                            // the distance that has the last colour
 };
 
 // The area of both models by its distance from the other one.
@@ -48,7 +48,7 @@ class DeviationView {
 
  private:
   void stop();
-  std::shared_ptr<const Environment> original_, lighter_;   // of what is computed or there
+  std::shared_ptr<const Environment> original_, lighter_;  // of what is computed or there
   std::unique_ptr<Progress> progress_;
   std::thread worker_;
   std::atomic<bool> done_{false};

@@ -18,7 +18,7 @@
 namespace standpoint {
 
 enum class ExpectedQuantity { intensity, noise, fate };
-constexpr double kNoiseFullScale_m = 0.005;   // what has the last colour
+constexpr double kNoiseFullScale_m = 0.005;  // what has the last colour
 
 std::array<std::uint8_t, 4> fateColour(ReturnFate fate);
 const char* fateName(ReturnFate fate);
@@ -46,14 +46,14 @@ class KeptExpectation {
 // All that a picture of expected returns depends on.
 struct ExpectedRequest {
   std::shared_ptr<const Expectation> expectation;
-  std::shared_ptr<const RayScene> scene;   // that the camera sees
-  ViewState view;                          // camera, and what is hidden or cut away
-  Eigen::Vector3d station = Eigen::Vector3d::Zero();   // the instrument's centre, local frame
+  std::shared_ptr<const RayScene> scene;              // that the camera sees
+  ViewState view;                                     // camera, and what is hidden or cut away
+  Eigen::Vector3d station = Eigen::Vector3d::Zero();  // the instrument's centre, local frame
   ExpectedQuantity quantity = ExpectedQuantity::intensity;
-  std::optional<CoverageQuantity> coverage;            // instead: what these see of it
+  std::optional<CoverageQuantity> coverage;  // instead: what these see of it
   std::vector<SeenFrom> scans;
   SeenWhen wanted;
-  int width = 0, height = 0;               // pixels
+  int width = 0, height = 0;  // pixels
   bool operator==(const ExpectedRequest&) const = default;
 };
 
@@ -70,7 +70,7 @@ class ExpectedView {
 
   void want(const ExpectedRequest& request);
   void drop();
-  void wait();   // until the finest picture of what is wanted is there
+  void wait();  // until the finest picture of what is wanted is there
   // The newest there is through this camera; null: none.
   std::shared_ptr<const PixelPicture> picture(const Camera& camera) const;
 
@@ -99,10 +99,10 @@ class ExpectedView {
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
   std::optional<ExpectedRequest> wanted_;
-  std::uint64_t revision_ = 0, done_ = 0;        // of what is wanted, and of what has its finest picture
+  std::uint64_t revision_ = 0, done_ = 0;  // of what is wanted, and of what has its finest picture
   std::shared_ptr<const PixelPicture> picture_;
   Camera picture_camera_;
-  std::optional<ExpectedRequest> looked_;        // what rasters_ were made for; the worker's own
+  std::optional<ExpectedRequest> looked_;  // what rasters_ were made for; the worker's own
   std::array<Raster, kSteps.size()> rasters_;
   std::jthread worker_;
 };

@@ -38,7 +38,7 @@ FileListing listFolder(const std::filesystem::path& folder, std::span<const std:
     FileRow row;
     row.name = entries->path().filename().string();
     if (row.name.empty() || row.name[0] == '.') continue;
-    std::error_code ignored;   // of one entry: a broken link is listed as an empty file
+    std::error_code ignored;  // of one entry: a broken link is listed as an empty file
     row.folder = entries->is_directory(ignored);
     const auto extension = lower(entries->path().extension().string());
     if (!row.folder && !extensions.empty() &&

@@ -12,7 +12,7 @@ namespace standpoint {
 struct FileRow {
   std::string name;
   bool folder = false;
-  bool project = false;        // a folder that holds project.json
+  bool project = false;  // a folder that holds project.json
   std::uint64_t bytes = 0;
   std::filesystem::file_time_type changed;
 };
@@ -20,8 +20,8 @@ struct FileRow {
 enum class FileOrder { name, size, date };
 
 struct FileListing {
-  std::vector<FileRow> rows;   // folders first
-  std::string problem;         // why it could not be read; rows is then empty
+  std::vector<FileRow> rows;  // folders first
+  std::string problem;        // why it could not be read; rows is then empty
 };
 
 // Hidden files are left out. `extensions` are lower case with the dot; empty = all files; folders are always listed.
@@ -29,6 +29,6 @@ FileListing listFolder(const std::filesystem::path& folder, std::span<const std:
                        bool descending);
 
 bool isProjectFolder(const std::filesystem::path& folder);
-std::string readableSize(std::uint64_t bytes);   // "2.4 MB"
+std::string readableSize(std::uint64_t bytes);  // "2.4 MB"
 
 }  // namespace standpoint

@@ -142,7 +142,7 @@ bool ImportPreview::poll() {
   if (!result) {
     error_ = result.error();
     if (!outcome_) stage_ = Stage::failed;
-    overrides = read_with_ = outcome_with_;   // what could be read is shown on
+    overrides = read_with_ = outcome_with_;  // what could be read is shown on
     return true;
   }
   error_ = {};

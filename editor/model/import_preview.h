@@ -19,9 +19,9 @@ namespace standpoint {
 
 // What the user says where the file is silent or wrong; empty = as the file says.
 struct ImportOverrides {
-  std::string unit, up;          // "mm", "z"
-  std::string shift = "auto";    // auto, none, E,N,H
-  std::string crs;               // EPSG:n
+  std::string unit, up;        // "mm", "z"
+  std::string shift = "auto";  // auto, none, E,N,H
+  std::string crs;             // EPSG:n
   bool operator==(const ImportOverrides&) const = default;
 };
 nlohmann::json importOptions(const std::vector<std::filesystem::path>& files, const ImportOverrides& overrides);
@@ -34,13 +34,13 @@ struct ClassCount {
 
 // What the preview says of a model that was read, but not taken in.
 struct ImportFacts {
-  std::vector<ClassCount> classes;          // most triangles first
-  std::size_t products = 0;                 // with those that have no geometry
+  std::vector<ClassCount> classes;  // most triangles first
+  std::size_t products = 0;         // with those that have no geometry
   std::uint64_t triangles = 0;
   Bounds bounds_file_m;
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
   std::size_t notes = 0, warnings = 0, losses = 0;
-  std::string doubt;                        // why the size looks wrong, and what to do; empty when it does not
+  std::string doubt;  // why the size looks wrong, and what to do; empty when it does not
 };
 ImportFacts factsOf(const Document& document, const Report& report);
 // "12.40 × 8.10 × 6.35 m"
@@ -59,14 +59,14 @@ class ImportPreview {
   void show(std::vector<std::filesystem::path> files, Outcome outcome);
   // Reads again when the overrides were changed; what was read before stays until then.
   void readAgain();
-  void close();                       // cancels what still reads, without waiting for it
-  bool poll();                        // once a frame; true when something came in
+  void close();  // cancels what still reads, without waiting for it
+  bool poll();   // once a frame; true when something came in
   void wait();
-  Outcome take();                     // only when ready; closes
+  Outcome take();  // only when ready; closes
 
   Stage stage() const { return stage_; }
   bool isOpen() const { return stage_ != Stage::closed; }
-  bool reading() const { return task_ != nullptr; }       // also when an earlier result is still shown
+  bool reading() const { return task_ != nullptr; }  // also when an earlier result is still shown
   bool changed() const { return !(overrides == read_with_); }
   const std::vector<std::filesystem::path>& files() const { return files_; }
   std::string fileNames() const;
@@ -79,8 +79,8 @@ class ImportPreview {
   // Size with the first overrides, to be compared with what it is now; nothing while they are the first.
   const std::optional<Eigen::Vector3d>& firstSize_m() const { return first_size_m_; }
 
-  ImportOverrides overrides;          // as the user edits them
-  LogFilter filter;                   // of its issues
+  ImportOverrides overrides;  // as the user edits them
+  LogFilter filter;           // of its issues
 
  private:
   void start();
@@ -89,7 +89,7 @@ class ImportPreview {
   const Verb* verb_ = nullptr;
   std::function<void()> wake_;
   std::unique_ptr<Task> task_;
-  std::vector<std::unique_ptr<Task>> leaving_;   // cancelled, not yet done
+  std::vector<std::unique_ptr<Task>> leaving_;  // cancelled, not yet done
   std::optional<Outcome> outcome_;
   ImportOverrides read_with_, outcome_with_;
   ImportFacts facts_;

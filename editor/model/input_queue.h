@@ -6,14 +6,14 @@
 
 namespace standpoint {
 
-constexpr int kKeyPlus = '=', kKeyMinus = '-';   // wherever the keyboard has them
+constexpr int kKeyPlus = '=', kKeyMinus = '-';  // wherever the keyboard has them
 
 // Codes of keys and buttons are GLFW's numbers: letters and digits are their ASCII capitals.
 struct InputEvent {
   enum class Kind { move, button, scroll, key, character };
   Kind kind = Kind::move;
-  double x = 0, y = 0;     // pointer position; of scroll, the steps
-  int code = 0;            // button, key or Unicode code point
+  double x = 0, y = 0;  // pointer position; of scroll, the steps
+  int code = 0;         // button, key or Unicode code point
   bool down = false;
   int modifiers = 0;
 };

@@ -29,7 +29,7 @@ class LiveCloud : public PointSink {
   std::function<void()> wake_;
   std::mutex mutex_;
   CloudSampler sampler_;
-  std::uint64_t given_ = 0;               // points seen when the last cloud was given
+  std::uint64_t given_ = 0;  // points seen when the last cloud was given
   Clock::time_point given_at_, woken_at_;
 };
 

@@ -15,13 +15,13 @@ enum class LogLevel { note, done, warning, loss, error };
 
 struct LogEntry {
   LogLevel level = LogLevel::note;
-  std::string time;       // "10:41:03"
-  std::string source;     // "#1234", "house.ifc line 7"; may be empty
+  std::string time;    // "10:41:03"
+  std::string source;  // "#1234", "house.ifc line 7"; may be empty
   std::string message;
 };
 
 struct LogFilter {
-  bool notes = true, warnings = true, losses = true;   // what is done counts as a note, an error as a loss
+  bool notes = true, warnings = true, losses = true;  // what is done counts as a note, an error as a loss
   std::string text;
 };
 

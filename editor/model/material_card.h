@@ -15,9 +15,9 @@ constexpr std::array<const char*, 3> kCardInstruments = {"leica-rtc360", "faro-f
 constexpr std::array<double, 3> kCardRanges_m = {10, 30, 60};
 
 struct CardRow {
-  std::string instrument;   // "RTC360"
+  std::string instrument;  // "RTC360"
   double wavelength_nm = 0;
-  std::array<ExpectedReturn, kCardRanges_m.size()> at;   // of kCardRanges_m
+  std::array<ExpectedReturn, kCardRanges_m.size()> at;  // of kCardRanges_m
 };
 
 // What the card's instruments report of a plane of the material at that incidence, with their default settings.

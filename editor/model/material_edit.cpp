@@ -74,8 +74,10 @@ MaterialEdit editOf(const PhysicalMaterial& m) {
 json libraryFileOf(const MaterialEdit& edit) {
   json entry = {{"id", edit.id}, {"label", edit.label}, {"reflectance", spectrumOf(edit.reflectance_percent)}};
   if (edit.roughness_deg > 0) entry["roughness_rad"] = edit.roughness_deg * kRadPerDeg;
-  if (edit.metal) entry["complex_index"] = rowsOf(edit.complex_index);
-  else if (edit.index_of_refraction > 0) entry["index_of_refraction"] = edit.index_of_refraction;
+  if (edit.metal)
+    entry["complex_index"] = rowsOf(edit.complex_index);
+  else if (edit.index_of_refraction > 0)
+    entry["index_of_refraction"] = edit.index_of_refraction;
   if (edit.gloss_slope > 0) entry["gloss_slope"] = edit.gloss_slope;
   if (edit.pane && !edit.metal) {
     entry["transmittance"] = spectrumOf(edit.transmittance_percent);

@@ -15,19 +15,19 @@ namespace standpoint {
 // A user's own material as fields; percent and degrees as people write them.
 struct MaterialEdit {
   static constexpr std::array<double, 7> kWavelengths_nm = {532, 660, 785, 830, 905, 1064, 1550};
-  std::string from;                              // id of the material that it was copied from
+  std::string from;  // id of the material that it was copied from
   std::string id, label;
   std::array<double, 7> reflectance_percent = {};
   double roughness_deg = 0;
   double gloss_slope = 0, index_of_refraction = 0;
-  bool metal = false;                            // n and k at wavelengths instead of one index
+  bool metal = false;  // n and k at wavelengths instead of one index
   std::vector<ComplexIndex> complex_index;
   bool pane = false;
   std::array<double, 7> transmittance_percent = {};
   double thickness_mm = 0;
   int panes = 1;
   double gap_mm = 0;
-  std::string source;                            // what the user says of the figures; empty: unsourced
+  std::string source;  // what the user says of the figures; empty: unsourced
 };
 
 MaterialEdit editOf(const PhysicalMaterial& material);

@@ -29,11 +29,11 @@ std::vector<MaterialScope> materialScopes(const Environment& environment, const 
                                                 instance.world_from_mesh);  // hit.normal is of the side that is seen
   const Eigen::Vector3d point = hit.position + shift_m;
   const auto looking = fmt::format("{}@{:.3f},{:.3f},{:.3f}", own, outwards.x(), outwards.y(), outwards.z());
-  std::vector<MaterialScope> scopes =
-      {{fmt::format("This face of '{}'", label),
-        fmt::format("{}@{:.4f},{:.4f},{:.4f}", looking, point.x(), point.y(), point.z()), 1},
-                                       {fmt::format("The faces of '{}' that look this way", label), looking, 1},
-                                       {fmt::format("All of '{}'", label), own, 1}};
+  std::vector<MaterialScope> scopes = {
+      {fmt::format("This face of '{}'", label),
+       fmt::format("{}@{:.4f},{:.4f},{:.4f}", looking, point.x(), point.y(), point.z()), 1},
+      {fmt::format("The faces of '{}' that look this way", label), looking, 1},
+      {fmt::format("All of '{}'", label), own, 1}};
   const auto add = [&](std::string title, std::string selector) {
     const auto products = select(environment, selector).size();
     if (products > scopes.back().products) scopes.push_back({std::move(title), std::move(selector), products});
@@ -52,7 +52,7 @@ std::vector<MaterialScope> materialScopes(const Environment& environment, const 
       scopes.push_back({fmt::format("All on layer '{}'", layer), selector, products});
     return false;
   });
-  if (!surface.name.empty()) {   // single surfaces of many products: never the same as whole products
+  if (!surface.name.empty()) {  // single surfaces of many products: never the same as whole products
     const auto selector = "material:" + literalPattern(surface.name);
     scopes.push_back(
         {fmt::format("Every surface of '{}'", surface.name), selector, select(environment, selector).size()});

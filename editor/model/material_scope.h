@@ -12,7 +12,7 @@ namespace standpoint {
 
 // How far a material goes that is put on a surface, as the verb `materials` takes it.
 struct MaterialScope {
-  std::string title;      // "All walls of type 'Ext 36'"
+  std::string title;  // "All walls of type 'Ext 36'"
   std::string selector;
   std::size_t products = 0;
 };

@@ -14,9 +14,9 @@ namespace standpoint {
 // What a user has filled in for the options of a verb: one field per parameter, generated from the verb's own table.
 struct OptionField {
   const Parameter* parameter = nullptr;
-  bool given = false;                    // an optional one that is not given is not sent
-  std::string text;                      // text, path, choice; list and pairs: one item per line
-  double number = 0;                     // number, integer
+  bool given = false;  // an optional one that is not given is not sent
+  std::string text;    // text, path, choice; list and pairs: one item per line
+  double number = 0;   // number, integer
   bool flag = false;
   std::array<double, 3> triple = {0, 0, 0};
 };
@@ -24,11 +24,11 @@ struct OptionField {
 class OptionForm {
  public:
   OptionForm() = default;
-  explicit OptionForm(const Verb& verb);   // filled with the defaults
+  explicit OptionForm(const Verb& verb);  // filled with the defaults
 
   std::vector<OptionField>& fields() { return fields_; }
   OptionField* find(const char* name);
-  void fill(const nlohmann::json& options);   // sets what it names, leaves the rest
+  void fill(const nlohmann::json& options);  // sets what it names, leaves the rest
   nlohmann::json options() const;
   // "" when it can be run, else the first thing that is missing or wrong.
   std::string problem() const;

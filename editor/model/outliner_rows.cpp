@@ -105,7 +105,7 @@ void Outliner::addProducts(const Environment& environment) {
 }
 
 void Outliner::countProducts() {
-  for (std::size_t n = nodes_.size(); n-- > 0;) {   // children come after their parents
+  for (std::size_t n = nodes_.size(); n-- > 0;) {  // children come after their parents
     auto& node = nodes_[n];
     if (node.kind == Kind::product) ++node.products;
     if (node.parent >= 0) nodes_[static_cast<std::size_t>(node.parent)].products += node.products;

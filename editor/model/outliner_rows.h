@@ -14,7 +14,7 @@ struct OutlinerRow {
   enum class Kind { spatial, group, product };
   Kind kind = Kind::product;
   int depth = 0;
-  std::uint32_t node = 0;       // into Outliner's nodes
+  std::uint32_t node = 0;  // into Outliner's nodes
   bool expandable = false;
   bool expanded = false;
 };
@@ -25,11 +25,11 @@ class Outliner {
  public:
   struct Node {
     OutlinerRow::Kind kind = OutlinerRow::Kind::spatial;
-    std::uint32_t index = 0;              // of the spatial node or product; of a group, its first product
+    std::uint32_t index = 0;  // of the spatial node or product; of a group, its first product
     std::int32_t parent = -1;
     std::string label;
     std::vector<std::uint32_t> children;
-    std::uint32_t products = 0;           // below
+    std::uint32_t products = 0;  // below
   };
 
   Outliner() = default;

@@ -8,7 +8,7 @@ namespace standpoint {
 namespace {
 
 constexpr double kFar_m = 1e6;
-constexpr int kMostHidden = 512;   // surfaces that a ray passes through before it gives up
+constexpr int kMostHidden = 512;  // surfaces that a ray passes through before it gives up
 constexpr double kStep_m = 1e-4;
 
 bool shown(const RayHit& hit, const ViewState& view) {

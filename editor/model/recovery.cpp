@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/model/recovery.h"
 
-#include <signal.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <fstream>
+#include <signal.h>
 
 #include <nlohmann/json.hpp>
 
@@ -71,7 +70,7 @@ std::vector<RecoveryCopy> findRecoveryCopies(const std::filesystem::path& root) 
 }
 
 void removeRecovery(const std::filesystem::path& folder) {
-  std::error_code ignored;   // what cannot be removed is offered again at the next start
+  std::error_code ignored;  // what cannot be removed is offered again at the next start
   std::filesystem::remove_all(folder, ignored);
 }
 

@@ -12,10 +12,10 @@ namespace standpoint {
 
 // A copy of unsaved work that a start finds after a crash: <root>/<process id>/{owner.json, copy/}.
 struct RecoveryCopy {
-  std::filesystem::path folder;     // to be removed when it is no longer wanted
-  std::filesystem::path project;    // the copy, a project like any other
-  std::string name;                 // of the project
-  std::string saved_in;             // where the project itself lies; "" when it was never saved
+  std::filesystem::path folder;   // to be removed when it is no longer wanted
+  std::filesystem::path project;  // the copy, a project like any other
+  std::string name;               // of the project
+  std::string saved_in;           // where the project itself lies; "" when it was never saved
 };
 
 std::filesystem::path recoveryFolder(const std::filesystem::path& root, long process);

@@ -19,9 +19,9 @@ namespace standpoint {
 // All that the outlook on a scan depends on.
 struct OutlookRequest {
   std::shared_ptr<const RayScene> scene;
-  std::shared_ptr<const MaterialChoice> materials;   // null: by the colours of the model
+  std::shared_ptr<const MaterialChoice> materials;  // null: by the colours of the model
   std::shared_ptr<const Job> job;
-  std::vector<std::size_t> stations;                 // indices into the job
+  std::vector<std::size_t> stations;  // indices into the job
   ScanChoice asked;
   bool operator==(const OutlookRequest&) const = default;
 };
@@ -29,8 +29,8 @@ struct OutlookRequest {
 // What these scans would bring: by rays to some thousand places, in clear air and with all effects on.
 struct ScanOutlook {
   double points = 0;
-  double bytes = 0;      // as E57
-  double seconds = 0;    // of the instrument, with its pictures
+  double bytes = 0;    // as E57
+  double seconds = 0;  // of the instrument, with its pictures
 };
 
 // Works it out in the background; of several wishes only the last counts.
@@ -41,7 +41,7 @@ class ScanOutlookView {
   void want(const OutlookRequest& request, const Instrument& instrument);
   // Of what is wanted; nothing while it is being worked out, or when the settings cannot be.
   std::optional<ScanOutlook> outlook() const;
-  void wait();   // until there is an answer to what is wanted
+  void wait();  // until there is an answer to what is wanted
 
  private:
   void work(const std::stop_token& stop);
@@ -52,7 +52,7 @@ class ScanOutlookView {
   std::optional<OutlookRequest> wanted_, answered_;
   Instrument instrument_;
   std::optional<ScanOutlook> outlook_;
-  std::jthread worker_;   // last: it ends before the rest goes
+  std::jthread worker_;  // last: it ends before the rest goes
 };
 
 }  // namespace standpoint

@@ -27,13 +27,13 @@ void ScanReadiness::follow(const Document& document, const std::shared_ptr<const
   if (!document.environment() || !document.job || !of_model) return;
   const Wish wish{document.environment(), document.materials, document.job};
   if (wish == wish_) return;
-  if (const auto made = at_hand(); made && made->fits(document)) {   // a station has moved
+  if (const auto made = at_hand(); made && made->fits(document)) {  // a station has moved
     wish_ = wish;
     return;
   }
   stop();
   done_.store(false);
-  made_.reset();   // two of a large model need not lie in memory
+  made_.reset();  // two of a large model need not lie in memory
   wish_ = wish;
   progress_ = std::make_unique<Progress>();
   worker_ = std::thread([this, document, of_model, wake] {

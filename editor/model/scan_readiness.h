@@ -37,7 +37,7 @@ class ScanReadiness {
 
   std::optional<Wish> wish_;
   std::shared_ptr<const ScanPreparation> made_;
-  std::shared_ptr<const ScanPreparation> result_;   // the worker's, until done_
+  std::shared_ptr<const ScanPreparation> result_;  // the worker's, until done_
   std::unique_ptr<Progress> progress_;
   std::atomic<bool> done_{false};
   std::thread worker_;

@@ -39,9 +39,11 @@ Result<Outcome> runOpen(const Document&, const json& options, Progress& progress
 
 // Saving, opening and keeping a recovery copy run as tasks like every verb; only the editor has a use for them.
 std::vector<Verb> fileVerbs() {
-  const std::vector<Parameter> folder = {
-      {.name = "folder", .kind = ParameterKind::path, .help = "Folder of the project", .positional = true,
-       .required = true}};
+  const std::vector<Parameter> folder = {{.name = "folder",
+                                          .kind = ParameterKind::path,
+                                          .help = "Folder of the project",
+                                          .positional = true,
+                                          .required = true}};
   auto with_owner = folder;
   with_owner.push_back({.name = "name", .kind = ParameterKind::text, .help = "of the project"});
   with_owner.push_back(
@@ -242,8 +244,8 @@ void Session::succeed(Task& task, Outcome outcome) {
     folder_ = folderOf(task.options());
     ++revision_;
   } else if (verb_name == "open-recovery") {
-    history_ = History();   // an empty saved value below it: what was recovered counts as unsaved
-    outcome.document.name = task.options().at("name").get<std::string>();   // it was loaded as the copy's folder
+    history_ = History();  // an empty saved value below it: what was recovered counts as unsaved
+    outcome.document.name = task.options().at("name").get<std::string>();  // it was loaded as the copy's folder
     history_.push(std::move(outcome.document), text);
     folder_ = task.options().at("saved-in").get<std::string>();
     removeRecovery(folderOf(task.options()).parent_path());
@@ -271,8 +273,9 @@ void Session::fail(const Task& task, const Error& error) {
 }
 
 const FinishedTask* Session::lastOf(std::string_view name) const {
-  const auto found =
-      std::find_if(finished_.begin(), finished_.end(), [&](const FinishedTask& t) { return t.ok && t.verb == name && t.revision >= project_since_; });
+  const auto found = std::find_if(finished_.begin(), finished_.end(), [&](const FinishedTask& t) {
+    return t.ok && t.verb == name && t.revision >= project_since_;
+  });
   return found == finished_.end() ? nullptr : &*found;
 }
 

@@ -22,7 +22,7 @@ struct FinishedTask {
   std::string title, verb;
   bool ok = false;
   bool cancelled = false;
-  std::string text;            // what was done, or what went wrong
+  std::string text;  // what was done, or what went wrong
   std::string time;
   double seconds = 0;
   nlohmann::json answer;
@@ -30,7 +30,7 @@ struct FinishedTask {
 };
 
 struct ShownError {
-  std::string title;   // "Import could not be done"
+  std::string title;  // "Import could not be done"
   Error error;
 };
 
@@ -46,7 +46,8 @@ class Session {
   std::span<const Verb> verbs() const { return verbs_; }
   const Verb* verb(std::string_view name) const { return findVerb(verbs_, name); }
 
-  // Whoever has a say in what happens to the document besides: "" or the reason why the verb, "undo" or "redo" may not be now.
+  // Whoever has a say in what happens to the document besides: "" or the reason why the verb, "undo" or "redo" may not
+  // be now.
   std::function<std::string(std::string_view verb)> forbids;
   // Told of every verb that was done, with its options, after its result came in.
   std::function<void(const Verb& verb, const nlohmann::json& options)> done;
@@ -66,14 +67,14 @@ class Session {
   bool save(const std::filesystem::path& folder);
   bool open(const std::filesystem::path& folder);
   bool saveRecovery(const std::filesystem::path& folder);
-  bool recover(const RecoveryCopy& copy);   // opens it as unsaved work of the project it is a copy of
-  void clear();   // a new, empty project
+  bool recover(const RecoveryCopy& copy);  // opens it as unsaved work of the project it is a copy of
+  void clear();                            // a new, empty project
   void undo();
   void redo();
 
   // Takes the results of what has finished; true when there were any. Call once a frame.
   bool poll();
-  void wait();   // until nothing runs
+  void wait();  // until nothing runs
   void cancelAll();
   // Takes in what ran elsewhere on the current document (an emulated instrument's scan); false when whyNotAdopt() says
   // why not.
@@ -85,22 +86,22 @@ class Session {
   bool startAdding(Outcome outcome, std::string title);
 
   const std::vector<std::unique_ptr<Task>>& running() const { return running_; }
-  const std::deque<FinishedTask>& finished() const { return finished_; }   // newest first
+  const std::deque<FinishedTask>& finished() const { return finished_; }  // newest first
   // That went well, and on this project.
   const FinishedTask* lastOf(std::string_view verb) const;
   const std::vector<LogEntry>& log() const { return log_; }
   void clearLog() { log_.clear(); }
   void say(LogLevel level, std::string source, std::string message);
-  std::deque<ShownError>& errors() { return errors_; }                     // not yet read by the user, oldest first
+  std::deque<ShownError>& errors() { return errors_; }  // not yet read by the user, oldest first
 
-  const std::filesystem::path& folder() const { return folder_; }          // empty until saved or opened
+  const std::filesystem::path& folder() const { return folder_; }  // empty until saved or opened
   std::string name() const;
   bool modified() const { return history_.modified(); }
   // Rises with every change of the document, for what is derived from it.
   std::uint64_t revision() const { return revision_; }
 
  private:
-  std::string whyHeld() const;   // by a task; "" when it is free
+  std::string whyHeld() const;  // by a task; "" when it is free
   std::string whyForbidden(std::string_view name) const;
   bool launch(const Verb& verb, nlohmann::json options, std::string title);
   void takeResult(Task& task);
@@ -116,7 +117,7 @@ class Session {
   std::vector<LogEntry> log_;
   std::deque<ShownError> errors_;
   std::uint64_t revision_ = 0;
-  std::uint64_t project_since_ = 0;   // its first revision
+  std::uint64_t project_since_ = 0;  // its first revision
 };
 
 }  // namespace standpoint

@@ -16,7 +16,8 @@ constexpr std::size_t kRecent = 12;
 
 std::filesystem::path baseFolder(const char* variable, const char* fallback) {
   if (const char* set = std::getenv(variable); set != nullptr && *set != 0) return set;
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home != 0) return std::filesystem::path(home) / fallback;
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != 0)
+    return std::filesystem::path(home) / fallback;
   return std::filesystem::temp_directory_path();
 }
 
@@ -67,7 +68,9 @@ Settings settingsFrom(const json& object) {
 
 std::filesystem::path settingsFile() { return baseFolder("XDG_CONFIG_HOME", ".config") / "standpoint" / "editor.json"; }
 
-std::filesystem::path recoveryRoot() { return baseFolder("XDG_STATE_HOME", ".local/state") / "standpoint" / "recovery"; }
+std::filesystem::path recoveryRoot() {
+  return baseFolder("XDG_STATE_HOME", ".local/state") / "standpoint" / "recovery";
+}
 
 Settings readSettings(const std::filesystem::path& file) {
   std::ifstream in(file);

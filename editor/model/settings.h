@@ -23,12 +23,12 @@ struct AreaSizes {
 
 // What the editor remembers from one start to the next.
 struct Settings {
-  std::vector<std::string> recent;        // projects and models, newest first
+  std::vector<std::string> recent;  // projects and models, newest first
   std::array<AreaSizes, kWorkspaces> areas = {AreaSizes{}, AreaSizes{350, 320, 170}, AreaSizes{330, 340, 170},
                                               AreaSizes{260, 620, 130}};
-  std::string last_folder;                // of the file dialog
-  double user_scale = 1;                  // on top of the monitor's
-  int recovery_minutes = 3;               // 0 = keep no recovery copy
+  std::string last_folder;   // of the file dialog
+  double user_scale = 1;     // on top of the monitor's
+  int recovery_minutes = 3;  // 0 = keep no recovery copy
   bool operator==(const Settings&) const = default;
 
   void remember(const std::filesystem::path& path);
@@ -38,8 +38,8 @@ nlohmann::json toJson(const Settings& settings);
 // What is missing or makes no sense keeps its default: a settings file must never keep the editor from starting.
 Settings settingsFrom(const nlohmann::json& object);
 
-std::filesystem::path settingsFile();     // XDG_CONFIG_HOME/standpoint/editor.json
-std::filesystem::path recoveryRoot();     // XDG_STATE_HOME/standpoint/recovery
+std::filesystem::path settingsFile();  // XDG_CONFIG_HOME/standpoint/editor.json
+std::filesystem::path recoveryRoot();  // XDG_STATE_HOME/standpoint/recovery
 Settings readSettings(const std::filesystem::path& file);
 Result<void> writeSettings(const Settings& settings, const std::filesystem::path& file);
 

@@ -85,7 +85,7 @@ void TargetList::follow(const Document& document, const std::shared_ptr<const Ra
   if (wish == wish_) return;
   stop();
   wish_ = wish;
-  busy_ = true;   // no worker yet
+  busy_ = true;  // no worker yet
   progress_ = std::make_unique<Progress>();
   worker_ = std::thread([this, document, scene, settings] { work(document, *scene, settings, *progress_); });
 }
@@ -104,14 +104,16 @@ void TargetList::work(const Document& document, const RayScene& scene, const std
   if (key != measured_key_ && !files.empty() && !job.targets.empty()) {
     {
       const std::lock_guard lock(mutex_);
-      rows_ = rows;   // to be looked at while the scans are read
+      rows_ = rows;  // to be looked at while the scans are read
     }
     if (wake_) wake_();
     // The operator clicks on the target itself.
     auto measured =
         measureTargets(document, {.files = files, .seed = 1, .click_m = 0, .targets = true, .sample = false}, progress);
-    if (measured) measured_ = *std::move(measured);
-    else problem = describe(measured.error());
+    if (measured)
+      measured_ = *std::move(measured);
+    else
+      problem = describe(measured.error());
   }
   const bool cancelled = progress.cancelled();
   if (!cancelled) measured_key_ = problem.empty() ? key : std::string();

@@ -16,11 +16,11 @@ namespace standpoint {
 
 // A target as one station sees it: by what is to be expected, and as its last scan shows it.
 struct TargetRow {
-  std::size_t target = 0, station = 0;   // indices into the job
+  std::size_t target = 0, station = 0;  // indices into the job
   TargetSight sight;
-  bool scanned = false;                  // by this station, since the target stands
+  bool scanned = false;  // by this station, since the target stands
   std::optional<TargetFit> fit;
-  std::string why_not;                   // of a scan in which it was not found
+  std::string why_not;  // of a scan in which it was not found
 };
 
 // The list of all of them, kept beside the interface: what is expected at once, fits when the scans have been read.
@@ -37,7 +37,7 @@ class TargetList {
   void wait();
   bool busy() const;
   std::vector<TargetRow> rows() const;
-  std::string problem() const;           // why the scans could not be read; empty when they could
+  std::string problem() const;  // why the scans could not be read; empty when they could
   // What the program ships; null when it cannot be read.
   const TargetKinds* kinds();
 
@@ -59,7 +59,7 @@ class TargetList {
   std::optional<Wish> wish_;
   std::unique_ptr<Progress> progress_;
   std::thread worker_;
-  mutable std::mutex mutex_;             // of what follows
+  mutable std::mutex mutex_;  // of what follows
   bool busy_ = false;
   std::vector<TargetRow> rows_;
   std::string problem_;

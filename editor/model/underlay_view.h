@@ -26,11 +26,11 @@ class UnderlayView {
  public:
   // To be called once a frame. Reads what is visible and not there yet; forgets what the document no longer has.
   void follow(const Document& document, const std::function<void()>& wake);
-  std::vector<ShownUnderlay> shown(const Document& document) const;   // visible ones that are read
+  std::vector<ShownUnderlay> shown(const Document& document) const;  // visible ones that are read
   // Of what shown() gives, in the local frame: of the whole clouds, not their samples.
   Bounds visibleBounds(const Document& document) const;
 
-  std::string reading() const;          // name of the file, or empty
+  std::string reading() const;  // name of the file, or empty
   Progress* progress() { return loader_.progress(); }
   // What could not be read, once each.
   std::vector<Error> takeErrors() { return std::exchange(errors_, {}); }
@@ -40,10 +40,10 @@ class UnderlayView {
   void takeResult();
   CloudLoader loader_;
   std::string loading_;
-  std::map<std::string, std::shared_ptr<const Cloud>> clouds_;   // by file; null: could not be read, or was cancelled
+  std::map<std::string, std::shared_ptr<const Cloud>> clouds_;  // by file; null: could not be read, or was cancelled
   std::vector<Error> errors_;
 };
 
-Bounds underlayBounds(const Underlay& underlay, const Georeference& georeference);   // local frame
+Bounds underlayBounds(const Underlay& underlay, const Georeference& georeference);  // local frame
 
 }  // namespace standpoint

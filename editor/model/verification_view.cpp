@@ -78,7 +78,7 @@ VerificationView verificationView(const Document& document) {
     view.there = true;
     view.current = isCurrent(*document.verification, document);
   } catch (const json::exception&) {
-    return {};   // a project.json that somebody edited
+    return {};  // a project.json that somebody edited
   }
   return view;
 }

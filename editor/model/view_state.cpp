@@ -19,7 +19,7 @@ float channel(double hue, double lightness, double chroma, double offset) {
 }  // namespace
 
 Colour materialColour(const PhysicalMaterial* material) {
-  if (material == nullptr) return {0.93F, 0.26F, 0.60F, 1};   // nothing else in the picture is pink
+  if (material == nullptr) return {0.93F, 0.26F, 0.60F, 1};  // nothing else in the picture is pink
   const Colour own = visibleColour(*material);
   if (!material->transmittance.empty()) return own;
   // Hues leave out the pink of "unassigned".

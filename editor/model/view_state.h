@@ -18,7 +18,7 @@
 
 namespace standpoint {
 
-constexpr double kReflectanceWavelength_nm = 1550;   // what most of the emulated scanners emit
+constexpr double kReflectanceWavelength_nm = 1550;  // what most of the emulated scanners emit
 
 enum class ColourMode {
   model,
@@ -49,17 +49,17 @@ struct ViewState {
   std::shared_ptr<const Environment> environment;
   std::shared_ptr<const MaterialChoice> materials;
   std::shared_ptr<const CollideResult> collision;
-  std::shared_ptr<const DeviationField> deviation;   // of `environment`; null until it is there
+  std::shared_ptr<const DeviationField> deviation;  // of `environment`; null until it is there
   std::shared_ptr<const HiddenProducts> hidden;
   std::shared_ptr<const std::vector<std::uint32_t>> selected;
   std::optional<double> cut_height_m;
   ColourMode colour = ColourMode::model;
-  double wavelength_nm = kReflectanceWavelength_nm;   // at which reflectance is shown
+  double wavelength_nm = kReflectanceWavelength_nm;  // at which reflectance is shown
   bool edges = true;
   bool grid = true;
   bool walkable = false;
-  bool shapes = false;        // collision shapes instead of the model
-  std::shared_ptr<const Cloud> cloud;   // a scan instead of the model; null: none
+  bool shapes = false;                 // collision shapes instead of the model
+  std::shared_ptr<const Cloud> cloud;  // a scan instead of the model; null: none
   std::vector<ShownUnderlay> underlays;
   Camera camera;
   bool operator==(const ViewState&) const = default;

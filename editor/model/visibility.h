@@ -11,7 +11,7 @@
 
 namespace standpoint {
 
-using HiddenProducts = std::vector<std::uint8_t>;   // one per product; 1 = hidden
+using HiddenProducts = std::vector<std::uint8_t>;  // one per product; 1 = hidden
 
 // What of the model is shown. It is a way of looking, not a change of the document: nothing here is undone or saved.
 class Visibility {
@@ -25,7 +25,7 @@ class Visibility {
 
   void show(std::span<const std::uint32_t> products, bool shown);
   void isolate(std::span<const std::uint32_t> products);
-  bool alone() const { return alone_; }   // some were isolated: clouds under the model would stand in the way
+  bool alone() const { return alone_; }  // some were isolated: clouds under the model would stand in the way
   void showAll() { reset(hidden_->size()); }
 
   // What lies above is cut away, local frame.
@@ -39,8 +39,8 @@ class Visibility {
 };
 
 struct StoreyLevel {
-  std::int32_t node = -1;     // index into Environment::spatial
-  double elevation_m = 0;     // local frame
+  std::int32_t node = -1;  // index into Environment::spatial
+  double elevation_m = 0;  // local frame
 };
 // Lowest first. Elevations are taken from the geometry that stands on the storey when the file's own do not fit it
 // (many exporters write 0 for all of them).

@@ -10,10 +10,10 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kEyes = 0.92;              // of the height
-constexpr double kSpeed = 1.4, kFast = 4;   // m/s
-constexpr double kLongestFrame_s = 0.2;     // a picture that took longer does not make one run
-constexpr double kLookAhead_m = 1;          // the camera's target is this far before the eyes
+constexpr double kEyes = 0.92;             // of the height
+constexpr double kSpeed = 1.4, kFast = 4;  // m/s
+constexpr double kLongestFrame_s = 0.2;    // a picture that took longer does not make one run
+constexpr double kLookAhead_m = 1;         // the camera's target is this far before the eyes
 constexpr std::size_t kMostTries = 200;
 
 }  // namespace

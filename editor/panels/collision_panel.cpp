@@ -66,11 +66,11 @@ void drawDoors(Editor& editor, const CollideResult& result) {
                       : !door.floor || (door.passable && !door.led_through) ? tone::kWarning
                       : door.passable                                       ? tone::kGood
                                                                             : tone::kBad;
-    const auto text = door.closed      ? std::string(ICON_STOP "  closed")
-                      : !door.floor    ? std::string(ICON_INFO "  no floor")
+    const auto text = door.closed                          ? std::string(ICON_STOP "  closed")
+                      : !door.floor                        ? std::string(ICON_INFO "  no floor")
                       : door.passable && !door.led_through ? std::string(ICON_INFO "  not led through")
-                      : door.passable  ? fmt::format("{}  {:.2f} m clear", ICON_CHECK, door.clear_width_m)
-                                       : fmt::format("{}  {:.2f} m clear", ICON_BAN, door.clear_width_m);
+                      : door.passable ? fmt::format("{}  {:.2f} m clear", ICON_CHECK, door.clear_width_m)
+                                      : fmt::format("{}  {:.2f} m clear", ICON_BAN, door.clear_width_m);
     ImGui::TextColored(colour(tone), "%s", text.c_str());
     ImGui::PopID();
   }

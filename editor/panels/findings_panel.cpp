@@ -28,7 +28,7 @@ void choose(Editor& editor, const MaterialFinding& finding) {
 void look(Editor& editor, const MaterialFinding& finding) {
   editor.selection.set(finding.products);
   editor.visibility.isolate(finding.products);
-  editor.visibility.cut_height_m.reset();   // some of it may stand above
+  editor.visibility.cut_height_m.reset();  // some of it may stand above
   editor.frameSelection();
 }
 

@@ -23,7 +23,7 @@ struct Choice {
   const char* label;
 };
 constexpr std::array kUnits = {Choice{"", "As the file says"}, Choice{"m", "Metre"}, Choice{"cm", "Centimetre"},
-                               Choice{"mm", "Millimetre"},     Choice{"in", "Inch"},  Choice{"ft", "Foot"}};
+                               Choice{"mm", "Millimetre"},     Choice{"in", "Inch"}, Choice{"ft", "Foot"}};
 constexpr std::array kUps = {Choice{"", "As the file says"}, Choice{"y", "Y points up"}, Choice{"z", "Z points up"}};
 
 template <std::size_t N>
@@ -252,7 +252,7 @@ void drawImportPreview(Editor& editor) {
     ImGui::EndDisabled();
     const float row = ImGui::GetTextLineHeightWithSpacing();
     const float free = ImGui::GetContentRegionAvail().y - 4 * row - editor.px(24);
-    const float share = preview.outcome()->report.issues.empty() ? 1 : 0.5F;   // of the room that the two lists have
+    const float share = preview.outcome()->report.issues.empty() ? 1 : 0.5F;  // of the room that the two lists have
     const float classes = std::clamp(row * (static_cast<float>(preview.facts().classes.size()) + 0.5F), row,
                                      std::max(row, free * share - 2 * row));
     drawClasses(editor, classes);

@@ -101,7 +101,7 @@ void drawLogPanel(Editor& editor) {
   if (!ImGui::BeginTable("entries", 4, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupColumn("level", ImGuiTableColumnFlags_WidthFixed, editor.px(18));
   ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthFixed, editor.px(62));
-  const bool sourced = std::any_of(shown.begin(), shown.end(),   // else the room is the message's
+  const bool sourced = std::any_of(shown.begin(), shown.end(),  // else the room is the message's
                                    [&](int i) { return !log[static_cast<std::size_t>(i)].source.empty(); });
   const float source = std::min(editor.px(120), 0.25F * ImGui::GetContentRegionAvail().x);
   ImGui::TableSetupColumn("source", ImGuiTableColumnFlags_WidthFixed, sourced ? source : 1);

@@ -174,8 +174,10 @@ void drawReported(Editor& editor, const PhysicalMaterial& m) {
     ui::dimText(fmt::format("{:.0f} nm", row.wavelength_nm));
     for (const auto& expected : row.at) {
       ImGui::TableNextColumn();
-      if (expected.fate == ReturnFate::returned) ImGui::TextUnformatted(reading(expected).c_str());
-      else ui::wrapped(reading(expected));
+      if (expected.fate == ReturnFate::returned)
+        ImGui::TextUnformatted(reading(expected).c_str());
+      else
+        ui::wrapped(reading(expected));
     }
   }
   ImGui::EndTable();

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <unistd.h>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -126,8 +125,10 @@ void drawMaterialForm(Editor& editor) {
   ImGui::BeginChild("fields");
   drawFields(edit);
   ImGui::EndChild();
-  if (kept) keep(editor, edit);
-  else if (given_up) editor.panels.materials.edit.reset();
+  if (kept)
+    keep(editor, edit);
+  else if (given_up)
+    editor.panels.materials.edit.reset();
 }
 
 }  // namespace standpoint

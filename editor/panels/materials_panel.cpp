@@ -44,8 +44,9 @@ void drawButtons(Editor& editor) {
   if (ui::button(ICON_FILE "  Rules file…###rules-file", why, {width, 0}, "Use other rules than the default ones"))
     askForFile(editor, FileDialogState::Purpose::openFile, "Assignment rules", "Use", {".json"}, "",
                [&editor](const std::filesystem::path& file) {
-      editor.session.start("materials", {{"rules", file.string()}}, "Assign materials by " + file.filename().string());
-    });
+                 editor.session.start("materials", {{"rules", file.string()}},
+                                      "Assign materials by " + file.filename().string());
+               });
 }
 
 // What one row of either list shows, and that it can be dragged onto a surface.
@@ -180,8 +181,10 @@ void drawMaterialsPanel(Editor& editor) {
   drawListSwitch(editor);
   const float bulk = ImGui::GetFrameHeightWithSpacing() * (editor.panels.materials.bulk.empty() ? 1 : 2) + editor.px(2);
   const float height = ImGui::GetContentRegionAvail().y - bulk;
-  if (editor.panels.materials.whole_library) drawLibrary(editor, height);
-  else drawUses(editor, choice->result, height);
+  if (editor.panels.materials.whole_library)
+    drawLibrary(editor, height);
+  else
+    drawUses(editor, choice->result, height);
   drawBulk(editor);
 }
 

@@ -92,8 +92,8 @@ void drawWorst(Editor& editor, const Lightening& light) {
   const auto shown = std::min<std::size_t>(order.size(), 50);
   std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(shown), order.end(),
                     [&](std::uint32_t a, std::uint32_t b) {
-    return light.products[a].max_deviation_m > light.products[b].max_deviation_m;
-  });
+                      return light.products[a].max_deviation_m > light.products[b].max_deviation_m;
+                    });
   ui::heading(editor, "Largest deviations");
   if (!ImGui::BeginTable("worst", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupScrollFreeze(0, 1);
@@ -133,12 +133,15 @@ void drawPreview(Editor& editor, std::uint64_t budget) {
     editor.previewed = std::move(request);
   }
   const auto preview = editor.budget_preview.state();
-  if (!preview.error.empty()) ImGui::TextColored(colour(tone::kWarning), "%s  %s", ICON_WARNING, preview.error.c_str());
-  else if (preview.preparing || !preview.shown) ui::dimText("Preparing all levels …");
+  if (!preview.error.empty())
+    ImGui::TextColored(colour(tone::kWarning), "%s  %s", ICON_WARNING, preview.error.c_str());
+  else if (preview.preparing || !preview.shown)
+    ui::dimText("Preparing all levels …");
   else if (preview.triangles > budget)
     ImGui::TextColored(colour(tone::kWarning), "%s  About %s are the least with this deviation", ICON_WARNING,
                        groupedDigits(preview.least).c_str());
-  else ui::dimText(fmt::format("The view shows {} triangles", groupedDigits(preview.triangles)));
+  else
+    ui::dimText(fmt::format("The view shows {} triangles", groupedDigits(preview.triangles)));
 }
 
 }  // namespace

@@ -160,7 +160,7 @@ void underlayMenu(Editor& editor, const Underlay& underlay) {
 
 // Clouds under the model; a double click frames one.
 void drawUnderlays(Editor& editor) {
-  const auto underlays = editor.session.document().underlays;   // a copy: a click may change them
+  const auto underlays = editor.session.document().underlays;  // a copy: a click may change them
   for (std::size_t i = 0; i < underlays.size(); ++i) {
     const Underlay& u = *underlays[i];
     ImGui::PushID(static_cast<int>(i));

@@ -28,8 +28,8 @@ namespace standpoint {
 struct OutlinerPanelState {
   Outliner tree;
   std::string filter;
-  std::int64_t scroll_to = -1;      // product to bring into view
-  std::uint32_t anchor = 0;         // row where a Shift-selection starts
+  std::int64_t scroll_to = -1;  // product to bring into view
+  std::uint32_t anchor = 0;     // row where a Shift-selection starts
 };
 
 struct InspectorPanelState {
@@ -39,80 +39,80 @@ struct InspectorPanelState {
 
 struct MaterialsPanelState {
   std::string filter;
-  std::string chosen;               // material id; "" with chosen_unassigned
+  std::string chosen;  // material id; "" with chosen_unassigned
   bool chosen_unassigned = false;
-  int incidence_deg = 0;            // of the card's readings
-  bool whole_library = false;       // listed, not only what is in use
-  std::optional<MaterialEdit> edit; // the card shows its fields
-  std::string bulk;                 // selector of what gets the chosen material
-  std::pair<RayHit, std::string> painted;   // where a material was dropped, and its id: a menu asks how far it goes
+  int incidence_deg = 0;                   // of the card's readings
+  bool whole_library = false;              // listed, not only what is in use
+  std::optional<MaterialEdit> edit;        // the card shows its fields
+  std::string bulk;                        // selector of what gets the chosen material
+  std::pair<RayHit, std::string> painted;  // where a material was dropped, and its id: a menu asks how far it goes
 };
 
 struct FindingsPanelState {
-  std::string chosen;               // MaterialFinding::id
-  std::string because;              // what stands in the field
+  std::string chosen;   // MaterialFinding::id
+  std::string because;  // what stands in the field
   std::uint64_t seen_revision = ~0ULL;
-  std::vector<MaterialFinding> all; // of that revision
+  std::vector<MaterialFinding> all;  // of that revision
 };
 
 struct VerifyPanelState {
-  std::string underlay, instrument; // instrument "": as the cloud says
-  std::string chosen;               // material id
+  std::string underlay, instrument;  // instrument "": as the cloud says
+  std::string chosen;                // material id
   std::uint64_t seen_revision = ~0ULL;
-  VerificationView view;            // of that revision
+  VerificationView view;  // of that revision
 };
 
 struct OptimisePanelState {
-  double budget_share = 0.25;       // of the imported model's triangles
+  double budget_share = 0.25;  // of the imported model's triangles
   bool only_lossless = false;
   double max_deviation_mm = 15;
-  bool by_view = false;             // what walkers see weighs more
-  bool live = false;                // the view follows the sliders
+  bool by_view = false;  // what walkers see weighs more
+  bool live = false;     // the view follows the sliders
 };
 
 struct CollisionPanelState {
   double agent_radius_m = 0.3;
   double agent_height_m = 1.8;
-  int doors = 0;                        // 0 open, 1 closed, 2 one by one
-  std::set<std::string> closed;         // ids of the doors that stand closed, one by one
+  int doors = 0;                 // 0 open, 1 closed, 2 one by one
+  std::set<std::string> closed;  // ids of the doors that stand closed, one by one
 };
 
 struct GeoreferencePanelState {
   std::string crs;
   std::array<double, 3> origin_m = {0, 0, 0};
   double rotation_deg = 0;
-  const void* filled_from = nullptr;    // the georeference that the fields were filled from
+  const void* filled_from = nullptr;  // the georeference that the fields were filled from
   const void* derived_from = nullptr;
   Result<MapFactors> derived = MapFactors();
 };
 
 struct SurveyPanelState {
-  int station = -1;                 // chosen, index into Job::stations
+  int station = -1;  // chosen, index into Job::stations
   int target = -1;
-  bool copies_of_registered = true; // registering writes the scans with their solved poses
+  bool copies_of_registered = true;  // registering writes the scans with their solved poses
   std::array<double, 3> move_to = {0, 0, 0};
-  int move_of = -1;                 // station that `move_to` was filled from
+  int move_of = -1;  // station that `move_to` was filled from
   Eigen::Vector3d move_from = Eigen::Vector3d::Zero();
 };
 
 struct ScanPanelState {
   ScanChoice asked{.instrument = "leica-rtc360"};
-  std::shared_ptr<const ScanChoice> remembered;   // the document's, that `asked` was last filled from
-  std::optional<ScanChoice> started;              // with the last press of "Scan"
+  std::shared_ptr<const ScanChoice> remembered;  // the document's, that `asked` was last filled from
+  std::optional<ScanChoice> started;             // with the last press of "Scan"
   bool all_stations = true;
-  bool resume = true;               // what a cancelled run has finished is taken where it is the same
+  bool resume = true;  // what a cancelled run has finished is taken where it is the same
   int format = 0;
   std::string folder;
 };
 
 struct PlanPanelState {
-  double spacing_mm = 0;            // 0: any
+  double spacing_mm = 0;  // 0: any
   double max_incidence_deg = 90;
 };
 
 struct LogPanelState {
   LogFilter filter;
-  std::size_t seen = 0;             // entries when it was drawn last: new ones scroll into view
+  std::size_t seen = 0;  // entries when it was drawn last: new ones scroll into view
 };
 
 // Read once from the program's data folder.
@@ -120,9 +120,9 @@ struct Catalogue {
   bool read = false;
   std::vector<PhysicalMaterial> materials;
   std::vector<Instrument> instruments;
-  std::string problem;              // why something could not be read
-  std::vector<PhysicalMaterial> offered;                  // with the user's own in place of those that have their id …
-  std::shared_ptr<const MaterialChoice> offered_for;      // … of this document
+  std::string problem;                                // why something could not be read
+  std::vector<PhysicalMaterial> offered;              // with the user's own in place of those that have their id …
+  std::shared_ptr<const MaterialChoice> offered_for;  // … of this document
 };
 
 struct PanelStates {

@@ -12,7 +12,7 @@ void drawInspectorPanel(Editor& editor);
 void drawInstrumentPanel(Editor& editor);
 void drawLogPanel(Editor& editor);
 void drawMaterialCardPanel(Editor& editor);
-void drawMaterialForm(Editor& editor);   // in the card's place, while a material is edited
+void drawMaterialForm(Editor& editor);  // in the card's place, while a material is edited
 void drawMaterialsPanel(Editor& editor);
 void drawOptimisePanel(Editor& editor);
 void drawOutlinerPanel(Editor& editor);

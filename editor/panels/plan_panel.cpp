@@ -41,12 +41,11 @@ void drawMapSwitch(Editor& editor) {
     ColourMode mode;
     const char* help;
   };
-  static constexpr Map kMaps[] =
-      {{"Stations###map-stations", ColourMode::coverage, "How many stations see each surface; holes are magenta"},
-                                  {"Spacing###map-spacing", ColourMode::coverage_spacing,
-                                   "How far apart points are, of the densest scan"},
-                                  {"Incidence###map-incidence", ColourMode::coverage_incidence,
-                                   "How far off its normal a surface is met, at best"}};
+  static constexpr Map kMaps[] = {
+      {"Stations###map-stations", ColourMode::coverage, "How many stations see each surface; holes are magenta"},
+      {"Spacing###map-spacing", ColourMode::coverage_spacing, "How far apart points are, of the densest scan"},
+      {"Incidence###map-incidence", ColourMode::coverage_incidence,
+       "How far off its normal a surface is met, at best"}};
   ui::dimText("Show on the model");
   const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
   for (const auto& map : kMaps) {

@@ -114,7 +114,9 @@ void drawPanorama(ScanChoice& asked, const Instrument& instrument, const ScanSet
 
 std::string extrasSummary(const ScanChoice& asked, bool resume) {
   std::string text;
-  const auto add = [&](bool on, const char* word) { if (on) text += (text.empty() ? "" : ", ") + std::string(word); };
+  const auto add = [&](bool on, const char* word) {
+    if (on) text += (text.empty() ? "" : ", ") + std::string(word);
+  };
   add(asked.truth, "truth");
   add(asked.panorama, "panorama");
   add(!asked.compensator, "no compensator");

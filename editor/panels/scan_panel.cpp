@@ -36,7 +36,7 @@ void followDocument(Editor& editor) {
 const Instrument* chosenInstrument(Editor& editor) {
   auto& asked = editor.panels.scan.asked;
   const auto& all = readCatalogue(editor.panels.catalogue).instruments;
-  const auto on_tripod = [](const Instrument& i) { return !i.moving; };   // a station has no trajectory
+  const auto on_tripod = [](const Instrument& i) { return !i.moving; };  // a station has no trajectory
   auto found = std::find_if(all.begin(), all.end(),
                             [&](const Instrument& i) { return on_tripod(i) && i.id == asked.instrument; });
   if (found == all.end()) found = std::find_if(all.begin(), all.end(), on_tripod);

@@ -13,7 +13,7 @@ struct Editor;
 constexpr int kKeyEscape = 256, kKeyDelete = 261, kKeyF1 = 290;
 
 struct Shortcut {
-  int key = 0;         // 0 = none
+  int key = 0;  // 0 = none
   bool ctrl = false, shift = false;
 };
 
@@ -24,14 +24,14 @@ struct Action {
   const char* icon;
   Shortcut shortcut;
   void (*run)(Editor&);
-  std::string (*why_not)(const Editor&);   // null = always possible; else "" or the reason
+  std::string (*why_not)(const Editor&);  // null = always possible; else "" or the reason
 };
 
 std::span<const Action> actions();
 const Action* findAction(const char* id);
 std::string whyNot(const Action& action, const Editor& editor);
 bool invoke(Editor& editor, const char* id);
-std::string shortcutText(const Shortcut& shortcut);   // "Ctrl+Shift+S"
+std::string shortcutText(const Shortcut& shortcut);  // "Ctrl+Shift+S"
 
 // Runs what a pressed key stands for; not while a text is being typed or a dialog is open.
 void runShortcuts(Editor& editor);

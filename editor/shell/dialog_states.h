@@ -16,15 +16,15 @@ struct FileDialogState {
   enum class Purpose { openFile, openFolder, saveFile, saveFolder };
   bool open = false;
   Purpose purpose = Purpose::openFile;
-  std::string title, accept;                // "Import a model", "Import"
+  std::string title, accept;  // "Import a model", "Import"
   std::filesystem::path folder;
-  std::string folder_text;                  // the editable path line
-  std::string name;                         // chosen or typed
+  std::string folder_text;  // the editable path line
+  std::string name;         // chosen or typed
   std::vector<std::string> extensions;
   FileOrder order = FileOrder::name;
   bool descending = false;
   FileListing listing;
-  bool stale = true;                        // the folder must be read again
+  bool stale = true;  // the folder must be read again
   bool confirm_overwrite = false;
   std::function<void(const std::filesystem::path&)> done;
 };
@@ -49,9 +49,9 @@ struct DialogStates {
   bool about = false;
   bool preferences = false;
   bool unsaved = false;
-  std::function<void()> after_unsaved;      // what the user was about to do
-  std::function<void()> after_save;         // once the save that the prompt started has gone well
-  std::vector<RecoveryCopy> recovery;       // found at the start, offered one by one
+  std::function<void()> after_unsaved;  // what the user was about to do
+  std::function<void()> after_save;     // once the save that the prompt started has gone well
+  std::vector<RecoveryCopy> recovery;   // found at the start, offered one by one
 };
 
 }  // namespace standpoint

@@ -25,7 +25,7 @@ void askForFile(Editor& editor, FileDialogState::Purpose purpose, std::string ti
 void drawFileDialog(Editor& editor);
 void drawVerbDialog(Editor& editor);
 void drawPalette(Editor& editor);
-void drawMessages(Editor& editor);   // errors, unsaved changes, recovery, shortcuts, preferences, about
+void drawMessages(Editor& editor);  // errors, unsaved changes, recovery, shortcuts, preferences, about
 
 // The widgets of a verb's options.
 void drawOptionForm(Editor& editor, OptionForm& form);

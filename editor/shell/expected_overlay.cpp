@@ -17,8 +17,8 @@ namespace standpoint {
 
 namespace {
 
-constexpr float kGrip_pt = 11;   // how near the pointer must be to take the probe
-constexpr double kFloor = 0.7;   // upward part of a normal that can be stood on
+constexpr float kGrip_pt = 11;  // how near the pointer must be to take the probe
+constexpr double kFloor = 0.7;  // upward part of a normal that can be stood on
 
 ImU32 packed(const std::array<std::uint8_t, 4>& c) { return IM_COL32(c[0], c[1], c[2], c[3]); }
 
@@ -36,7 +36,8 @@ void placeProbe(Editor& editor) {
   const Bounds all = editor.buildingBounds();
   const Eigen::Vector3d middle = (all.min + all.max) / 2;
   const auto scene = editor.picker.scene();
-  const auto below = scene->intersect({middle.x(), middle.y(), std::min(middle.z(), all.min.z() + 2.0)}, -Eigen::Vector3d::UnitZ(), 1e4);
+  const auto below = scene->intersect({middle.x(), middle.y(), std::min(middle.z(), all.min.z() + 2.0)},
+                                      -Eigen::Vector3d::UnitZ(), 1e4);
   putProbeOn(editor, below ? below->position : Eigen::Vector3d(middle.x(), middle.y(), all.min.z()));
 }
 
@@ -66,7 +67,8 @@ void drawProbe(const Editor& editor, ImVec2 origin) {
   const auto& probe = editor.view.probe;
   const Eigen::Vector3d floor = *probe.position - Eigen::Vector3d(0, 0, probe.height_m);
   if (const auto foot = project(editor.view.camera, floor, editor.view.size))
-    list.AddLine(*at, {origin.x + static_cast<float>(foot->x()), origin.y + static_cast<float>(foot->y())}, IM_COL32(255, 255, 255, 170), editor.px(2));
+    list.AddLine(*at, {origin.x + static_cast<float>(foot->x()), origin.y + static_cast<float>(foot->y())},
+                 IM_COL32(255, 255, 255, 170), editor.px(2));
   list.AddCircleFilled(*at, editor.px(kGrip_pt - 3), IM_COL32(255, 255, 255, 235));
   list.AddCircleFilled(*at, editor.px(kGrip_pt - 6), tone::kAccent);
 }
@@ -81,11 +83,15 @@ void drawScale(Editor& editor, const Legend& legend, ExpectedQuantity quantity, 
   constexpr int kParts = 48;
   const float height = editor.px(8);
   for (int i = 0; i < kParts; ++i)
-    list.AddRectFilled({legend.at.x + legend.width * static_cast<float>(i) / kParts, legend.at.y}, {legend.at.x + legend.width * static_cast<float>(i + 1) / kParts, legend.at.y + height},
+    list.AddRectFilled({legend.at.x + legend.width * static_cast<float>(i) / kParts, legend.at.y},
+                       {legend.at.x + legend.width * static_cast<float>(i + 1) / kParts, legend.at.y + height},
                        packed(scaleColour(quantity, (i + 0.5) / kParts)));
-  const auto text = [&](float x, const std::string& words) { list.AddText({x, legend.at.y + height + editor.px(2)}, tone::kText, words.c_str()); };
+  const auto text = [&](float x, const std::string& words) {
+    list.AddText({x, legend.at.y + height + editor.px(2)}, tone::kText, words.c_str());
+  };
   const bool noise = quantity == ExpectedQuantity::noise;
-  const auto most = noise ? fmt::format("{:.0f} mm and more", kNoiseFullScale_m * 1000) : fmt::format("1 ({:.0f} dB)", instrument.intensity_high_db);
+  const auto most = noise ? fmt::format("{:.0f} mm and more", kNoiseFullScale_m * 1000)
+                          : fmt::format("1 ({:.0f} dB)", instrument.intensity_high_db);
   text(legend.at.x, noise ? "0" : fmt::format("0 ({:.0f} dB)", instrument.intensity_low_db));
   text(legend.at.x + legend.width - ImGui::CalcTextSize(most.c_str()).x, most);
   const char* title = noise ? "Range noise expected, 1 σ" : "Intensity expected";
@@ -95,9 +101,11 @@ void drawScale(Editor& editor, const Legend& legend, ExpectedQuantity quantity, 
 void drawFates(Editor& editor, ImVec2 at, bool with_returned) {
   auto& list = *ImGui::GetWindowDrawList();
   const float swatch = editor.px(10);
-  for (const auto fate : {ReturnFate::returned, ReturnFate::too_weak, ReturnFate::seen_through, ReturnFate::hidden, ReturnFate::too_near, ReturnFate::too_far}) {
+  for (const auto fate : {ReturnFate::returned, ReturnFate::too_weak, ReturnFate::seen_through, ReturnFate::hidden,
+                          ReturnFate::too_near, ReturnFate::too_far}) {
     if (fate == ReturnFate::returned && !with_returned) continue;
-    list.AddRectFilled({at.x, at.y + editor.px(2)}, {at.x + swatch, at.y + editor.px(2) + swatch}, packed(fateColour(fate)));
+    list.AddRectFilled({at.x, at.y + editor.px(2)}, {at.x + swatch, at.y + editor.px(2) + swatch},
+                       packed(fateColour(fate)));
     list.AddText({at.x + swatch + editor.px(5), at.y}, tone::kText, fateName(fate));
     at.x += swatch + editor.px(19) + ImGui::CalcTextSize(fateName(fate)).x;
   }
@@ -106,12 +114,17 @@ void drawFates(Editor& editor, ImVec2 at, bool with_returned) {
 void drawReading(Editor& editor, const Expectation& expectation) {
   const auto& hit = editor.view.hover;
   if (!hit || editor.view.probe.dragged || editor.view.dragging) return;
-  const auto expected = expectation.from(*editor.view.probe.position, {hit->position, hit->normal, hit->instance, hit->triangle});
+  const auto expected =
+      expectation.from(*editor.view.probe.position, {hit->position, hit->normal, hit->instance, hit->triangle});
   const auto& choice = editor.session.document().materials;
   const std::int32_t material = choice ? expectation.materialAt(hit->instance, hit->triangle) : -1;
-  auto text = fmt::format("{}\n{:.2f} m, {:.0f}° off normal", material < 0 ? "No material" : choice->result.assignment.materials[static_cast<std::size_t>(material)].label, expected.range_m, expected.incidence_rad / kRadPerDeg);
+  auto text = fmt::format(
+      "{}\n{:.2f} m, {:.0f}° off normal",
+      material < 0 ? "No material" : choice->result.assignment.materials[static_cast<std::size_t>(material)].label,
+      expected.range_m, expected.incidence_rad / kRadPerDeg);
   if (expected.fate == ReturnFate::returned)
-    text += fmt::format("\nintensity {:.3f}, σ {:.2f} mm, {:.0f} % come back", expected.intensity, expected.sigma_m * 1000, expected.probability * 100);
+    text += fmt::format("\nintensity {:.3f}, σ {:.2f} mm, {:.0f} % come back", expected.intensity,
+                        expected.sigma_m * 1000, expected.probability * 100);
   else
     text += fmt::format("\n{}", fateName(expected.fate));
   ImGui::SetTooltip("%s", text.c_str());
@@ -150,7 +163,7 @@ void drawExpected(Editor& editor, ImVec2 origin, ImVec2 size) {
   const auto expectation = quantity && !editor.cloud() ? editor.expectation() : nullptr;
   if (!expectation) return;
   if (!editor.view.probe.position) placeProbe(editor);
-  ViewState view;   // what rays depend on, no more
+  ViewState view;  // what rays depend on, no more
   view.camera = editor.view.camera;
   view.hidden = editor.visibility.shared();
   view.cut_height_m = editor.visibility.cut_height_m;
@@ -162,7 +175,8 @@ void drawExpected(Editor& editor, ImVec2 origin, ImVec2 size) {
   const auto picture = editor.expected.picture(editor.view.camera);
   const std::uint64_t texture = editor.scene != nullptr && picture ? editor.scene->texture(picture) : 0;
   if (texture != 0)
-    ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), origin, {origin.x + size.x, origin.y + size.y});
+    ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), origin,
+                                         {origin.x + size.x, origin.y + size.y});
 }
 
 void drawExpectedLegend(Editor& editor, ImVec2 origin, ImVec2 size) {
@@ -170,16 +184,21 @@ void drawExpectedLegend(Editor& editor, ImVec2 origin, ImVec2 size) {
   if (!quantity) return;
   const auto expectation = editor.expectation();
   if (!expectation || !editor.view.probe.position) {
-    ImGui::GetWindowDrawList()->AddText({origin.x + editor.px(10), origin.y + size.y - editor.px(24)}, tone::kDim, "One moment: the model is being prepared for rays");
+    ImGui::GetWindowDrawList()->AddText({origin.x + editor.px(10), origin.y + size.y - editor.px(24)}, tone::kDim,
+                                        "One moment: the model is being prepared for rays");
     return;
   }
   drawProbe(editor, origin);
   const bool fates_only = *quantity == ExpectedQuantity::fate;
   const float line = ImGui::GetTextLineHeight(), x = origin.x + editor.px(10);
   const float top = origin.y + size.y - line - editor.px(12) - (fates_only ? 0 : 2 * line + editor.px(18));
-  ImGui::GetWindowDrawList()->AddRectFilled({x - editor.px(6), top}, {x + editor.px(fates_only ? 530 : 430), origin.y + size.y - editor.px(4)}, tone::kOverlay, editor.px(4));
+  ImGui::GetWindowDrawList()->AddRectFilled({x - editor.px(6), top},
+                                            {x + editor.px(fates_only ? 530 : 430), origin.y + size.y - editor.px(4)},
+                                            tone::kOverlay, editor.px(4));
   drawFates(editor, {x, origin.y + size.y - line - editor.px(8)}, fates_only);
-  if (!fates_only) drawScale(editor, {{x, origin.y + size.y - 2 * line - editor.px(26)}, editor.px(220)}, *quantity, expectation->law().instrument());
+  if (!fates_only)
+    drawScale(editor, {{x, origin.y + size.y - 2 * line - editor.px(26)}, editor.px(220)}, *quantity,
+              expectation->law().instrument());
   if (ImGui::IsItemHovered()) drawReading(editor, *expectation);
 }
 
@@ -189,9 +208,14 @@ void expectedChips(Editor& editor) {
   const auto* instrument = instrumentIn(readCatalogue(editor.panels.catalogue), probe.instrument);
   ImGui::NewLine();
   ImGui::SetNextItemWidth(editor.px(166));
-  if (ImGui::BeginCombo("###probe-instrument", fmt::format("{}  {}", ICON_TABLET, instrument != nullptr ? instrument->model : "Instrument").c_str(), ImGuiComboFlags_NoArrowButton)) {
+  if (ImGui::BeginCombo(
+          "###probe-instrument",
+          fmt::format("{}  {}", ICON_TABLET, instrument != nullptr ? instrument->model : "Instrument").c_str(),
+          ImGuiComboFlags_NoArrowButton)) {
     for (const auto& i : readCatalogue(editor.panels.catalogue).instruments)
-      if (ImGui::Selectable(fmt::format("{} {}, {:.0f} nm###{}", i.maker, i.model, i.wavelength_nm, i.id).c_str(), i.id == probe.instrument)) probe.instrument = i.id;
+      if (ImGui::Selectable(fmt::format("{} {}, {:.0f} nm###{}", i.maker, i.model, i.wavelength_nm, i.id).c_str(),
+                            i.id == probe.instrument))
+        probe.instrument = i.id;
     ImGui::EndCombo();
   }
   ImGui::SameLine();
@@ -199,8 +223,14 @@ void expectedChips(Editor& editor) {
   const auto& job = editor.session.document().job;
   if (!job || job->stations.empty()) return ImGui::TextUnformatted("Drag the white dot: there the scanner stands");
   ImGui::SetNextItemWidth(editor.px(128));
-  const auto standing = std::find_if(job->stations.begin(), job->stations.end(), [&](const Station& s) { return probe.position == s.true_pose.translation; });
-  if (!ImGui::BeginCombo("###probe-place", fmt::format("{}  {}", ICON_STATION, standing != job->stations.end() ? standing->name : "Drag the dot").c_str(), ImGuiComboFlags_NoArrowButton)) return;
+  const auto standing = std::find_if(job->stations.begin(), job->stations.end(),
+                                     [&](const Station& s) { return probe.position == s.true_pose.translation; });
+  if (!ImGui::BeginCombo(
+          "###probe-place",
+          fmt::format("{}  {}", ICON_STATION, standing != job->stations.end() ? standing->name : "Drag the dot")
+              .c_str(),
+          ImGuiComboFlags_NoArrowButton))
+    return;
   for (const auto& s : job->stations)
     if (ImGui::Selectable(s.name.c_str())) {
       probe.position = s.true_pose.translation;

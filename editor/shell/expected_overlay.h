@@ -13,8 +13,8 @@ struct Editor;
 
 // The views of what a station is expected to get (ColourMode::expected_*), over the picture of the scene.
 void drawExpected(Editor& editor, ImVec2 origin, ImVec2 size);
-void drawExpectedLegend(Editor& editor, ImVec2 origin, ImVec2 size);   // with what the pointer is on
-void expectedChips(Editor& editor);                                    // instrument, place
+void drawExpectedLegend(Editor& editor, ImVec2 origin, ImVec2 size);  // with what the pointer is on
+void expectedChips(Editor& editor);                                   // instrument, place
 
 // The probe follows the pointer while it is dragged. True while the pointer is on it or drags it.
 bool dragProbe(Editor& editor, ImVec2 origin, bool hovered);

@@ -33,7 +33,6 @@ void enter(FileDialogState& state, const std::filesystem::path& folder) {
   if (state.purpose == Purpose::openFile) state.name.clear();
 }
 
-
 bool forWriting(const FileDialogState& s) { return s.purpose == Purpose::saveFile || s.purpose == Purpose::saveFolder; }
 
 std::filesystem::path chosenPath(const FileDialogState& state) {
@@ -48,7 +47,8 @@ std::string whyNotAccept(const FileDialogState& state) {
     case Purpose::openFile:
       if (state.name.empty()) return "Choose a file";
       return std::filesystem::is_regular_file(path, ignored) ? "" : "There is no such file";
-    case Purpose::openFolder: return isProjectFolder(path) ? "" : "Choose the folder of a project: it holds project.json";
+    case Purpose::openFolder:
+      return isProjectFolder(path) ? "" : "Choose the folder of a project: it holds project.json";
     case Purpose::saveFile:
     case Purpose::saveFolder:
       if (state.name.empty()) return "Give it a name";
@@ -116,8 +116,10 @@ void drawRow(Editor& editor, const FileRow& row) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   const char* icon = row.project ? ICON_BUILDING : row.folder ? ICON_FOLDER : ICON_FILE;
-  const auto flags = ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups;
-  const bool pressed = ImGui::Selectable(fmt::format("{}  {}###{}", icon, row.name, row.name).c_str(), state.name == row.name, flags);
+  const auto flags = ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick |
+                     ImGuiSelectableFlags_DontClosePopups;
+  const bool pressed =
+      ImGui::Selectable(fmt::format("{}  {}###{}", icon, row.name, row.name).c_str(), state.name == row.name, flags);
   const bool twice = pressed && ImGui::IsMouseDoubleClicked(0);
   const bool takes_folder = state.purpose == Purpose::openFolder && row.project;
   if (pressed && (!row.folder || takes_folder)) {
@@ -135,7 +137,8 @@ void drawRow(Editor& editor, const FileRow& row) {
 
 void drawRows(Editor& editor, float height) {
   auto& state = editor.dialogs.file;
-  const auto flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_Sortable | ImGuiTableFlags_BordersOuter;
+  const auto flags =
+      ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_Sortable | ImGuiTableFlags_BordersOuter;
   if (!ImGui::BeginTable("files", 3, flags, {0, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch);
@@ -151,7 +154,8 @@ void drawRows(Editor& editor, float height) {
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(state.listing.rows.size()));
   while (clipper.Step())
-    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)   // every row: the clipper measures what it announced
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd;
+         ++i)  // every row: the clipper measures what it announced
       drawRow(editor, FileRow(state.listing.rows[static_cast<std::size_t>(i)]));
   if (!state.listing.problem.empty()) {
     ImGui::TableNextRow();
@@ -180,7 +184,8 @@ void drawFooter(Editor& editor) {
     ImGui::CloseCurrentPopup();
   }
   if (state.confirm_overwrite && state.open)
-    ImGui::TextColored(colour(tone::kWarning), "%s  '%s' exists already. Press again to replace it.", ICON_WARNING, state.name.c_str());
+    ImGui::TextColored(colour(tone::kWarning), "%s  '%s' exists already. Press again to replace it.", ICON_WARNING,
+                       state.name.c_str());
 }
 
 std::vector<std::string> modelExtensions() {
@@ -193,14 +198,16 @@ std::vector<std::string> modelExtensions() {
 std::vector<std::string> modelAndCloudExtensions() {
   auto all = modelExtensions();
   for (const auto& format : cloudFormats())
-    if (format.read != nullptr && std::find(all.begin(), all.end(), format.extension) == all.end()) all.emplace_back(format.extension);
+    if (format.read != nullptr && std::find(all.begin(), all.end(), format.extension) == all.end())
+      all.emplace_back(format.extension);
   return all;
 }
 
 }  // namespace
 
-void askForFile(Editor& editor, Purpose purpose, std::string title, std::string accept_label, std::vector<std::string> extensions,
-                std::string name, std::function<void(const std::filesystem::path&)> done) {
+void askForFile(Editor& editor, Purpose purpose, std::string title, std::string accept_label,
+                std::vector<std::string> extensions, std::string name,
+                std::function<void(const std::filesystem::path&)> done) {
   auto& state = editor.dialogs.file;
   const FileOrder order = state.order;
   state = FileDialogState();
@@ -226,26 +233,25 @@ void askForProject(Editor& editor) {
 }
 
 void askForModel(Editor& editor) {
-  askForFile(editor, Purpose::openFile, "Import a model, or lay a cloud under it", "Open", modelAndCloudExtensions(), "",
-             [&editor](const std::filesystem::path& file) {
-               openFiles(editor, {file});
-             });
+  askForFile(editor, Purpose::openFile, "Import a model, or lay a cloud under it", "Open", modelAndCloudExtensions(),
+             "", [&editor](const std::filesystem::path& file) { openFiles(editor, {file}); });
 }
 
 void askForChangedModel(Editor& editor) {
-  askForFile(editor, Purpose::openFile, "Update from a changed model", "Update", modelExtensions(), "", [&editor](const std::filesystem::path& file) {
-    editor.session.start("import", {{"files", {file.string()}}, {"update", true}}, "Update from " + file.filename().string());
-  });
+  askForFile(editor, Purpose::openFile, "Update from a changed model", "Update", modelExtensions(), "",
+             [&editor](const std::filesystem::path& file) {
+               editor.session.start("import", {{"files", {file.string()}}, {"update", true}},
+                                    "Update from " + file.filename().string());
+             });
 }
 
-void askForExport(Editor& editor) {
-  openVerbForm(editor, "export");
-}
+void askForExport(Editor& editor) { openVerbForm(editor, "export"); }
 
 void askWhereToSave(Editor& editor) {
   const auto& folder = editor.session.folder();
   askForFile(editor, Purpose::saveFolder, "Save the project as a folder", "Save", {".none"},
-             folder.empty() ? editor.session.name() : folder.filename().string(), [&editor](const std::filesystem::path& chosen) {
+             folder.empty() ? editor.session.name() : folder.filename().string(),
+             [&editor](const std::filesystem::path& chosen) {
                if (editor.session.save(chosen)) editor.settings.remember(chosen);
              });
 }
@@ -255,7 +261,8 @@ void drawFileDialog(Editor& editor) {
   const std::string title = state.title + kTitle;
   if (state.open && !ImGui::IsPopupOpen(title.c_str())) ImGui::OpenPopup(title.c_str());
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowSize({std::min(editor.px(760), display.x * 0.95F), std::min(editor.px(520), display.y * 0.95F)}, ImGuiCond_Appearing);
+  ImGui::SetNextWindowSize({std::min(editor.px(760), display.x * 0.95F), std::min(editor.px(520), display.y * 0.95F)},
+                           ImGuiCond_Appearing);
   ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Appearing, {0.5F, 0.5F});
   if (!ImGui::BeginPopupModal(title.c_str(), nullptr, ImGuiWindowFlags_NoSavedSettings)) return;
   if (state.stale) {
@@ -263,7 +270,8 @@ void drawFileDialog(Editor& editor) {
     state.stale = false;
   }
   drawPathLine(state);
-  const float footer = ImGui::GetFrameHeightWithSpacing() + (state.confirm_overwrite ? ImGui::GetTextLineHeightWithSpacing() : 0);
+  const float footer =
+      ImGui::GetFrameHeightWithSpacing() + (state.confirm_overwrite ? ImGui::GetTextLineHeightWithSpacing() : 0);
   drawRows(editor, ImGui::GetContentRegionAvail().y - footer - ImGui::GetStyle().ItemSpacing.y);
   if (state.open) drawFooter(editor);
   if (!state.open) ImGui::CloseCurrentPopup();

@@ -16,8 +16,8 @@ namespace standpoint {
 namespace {
 
 // Latin, Greek, Cyrillic, punctuation, arrows, mathematics: what names in models and our own texts need.
-constexpr std::array<ImWchar, 13> kTextRanges = {0x20, 0x17f, 0x370, 0x3ff, 0x400, 0x52f, 0x2010, 0x2044,
-                                                 0x2070, 0x22ff, 0x25a0, 0x25ff, 0};
+constexpr std::array<ImWchar, 13> kTextRanges = {0x20,   0x17f,  0x370,  0x3ff,  0x400,  0x52f, 0x2010,
+                                                 0x2044, 0x2070, 0x22ff, 0x25a0, 0x25ff, 0};
 constexpr std::array<ImWchar, 3> kIconRanges = {0xf000, 0xf2e0, 0};
 
 std::string firstFile(std::initializer_list<const char*> candidates) {
@@ -58,13 +58,16 @@ Fonts buildFonts(float scale) {
   atlas.Clear();
   atlas.FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
   atlas.FontBuilderFlags = ImGuiFreeTypeBuilderFlags_LightHinting;
-  const auto regular = firstFile({"opentype/inter/Inter-Regular.otf", "truetype/inter/Inter-Regular.ttf",
-                                  "truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf", "truetype/dejavu/DejaVuSans.ttf"});
+  const auto regular =
+      firstFile({"opentype/inter/Inter-Regular.otf", "truetype/inter/Inter-Regular.ttf",
+                 "truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf", "truetype/dejavu/DejaVuSans.ttf"});
   const auto bold = firstFile({"opentype/inter/Inter-SemiBold.otf", "truetype/inter/Inter-SemiBold.ttf",
                                "truetype/dejavu/DejaVuSans-Bold.ttf"});
-  const auto mono = firstFile({"truetype/jetbrains-mono/JetBrainsMono-Regular.ttf", "truetype/dejavu/DejaVuSansMono.ttf"});
-  const auto icons = firstFile({"truetype/font-awesome/fontawesome-webfont.ttf", "opentype/font-awesome/FontAwesome.otf",
-                                "fonts-font-awesome/fonts/fontawesome-webfont.ttf"});
+  const auto mono =
+      firstFile({"truetype/jetbrains-mono/JetBrainsMono-Regular.ttf", "truetype/dejavu/DejaVuSansMono.ttf"});
+  const auto icons =
+      firstFile({"truetype/font-awesome/fontawesome-webfont.ttf", "opentype/font-awesome/FontAwesome.otf",
+                 "fonts-font-awesome/fonts/fontawesome-webfont.ttf"});
   Fonts fonts;
   const auto sized = [&](float points) { return std::round(points * scale); };
   fonts.text = addFont(regular, sized(14.5F));

@@ -45,7 +45,7 @@ void acceptPreview(Editor& editor) {
   whenSaved(editor, [&editor] {
     if (!ready(editor)) return;
     for (const auto& file : editor.preview.files()) editor.settings.remember(file);
-    editor.selection.clear();        // of the products of another model
+    editor.selection.clear();  // of the products of another model
     editor.view.frame_wanted = true;
     editor.session.adoptImport(editor.preview.take());
   });
@@ -60,14 +60,17 @@ void addPreview(Editor& editor) {
 void closePreview(Editor& editor) {
   editor.preview.close();
   editor.preview_selection.clear();
-  if (!editor.session.document().imported) editor.waiting_clouds.clear();   // came with the model that was given up
+  if (!editor.session.document().imported) editor.waiting_clouds.clear();  // came with the model that was given up
 }
 
 void runPreviewKeys(Editor& editor) {
   if (ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
-  if (pressed(ImGuiKey_Escape)) closePreview(editor);
-  else if (pressed(ImGuiKey_Enter) || pressed(ImGuiKey_KeyPadEnter)) acceptPreview(editor);
-  else if (ImGui::IsKeyPressed('F', false)) editor.frameSelection();
+  if (pressed(ImGuiKey_Escape))
+    closePreview(editor);
+  else if (pressed(ImGuiKey_Enter) || pressed(ImGuiKey_KeyPadEnter))
+    acceptPreview(editor);
+  else if (ImGui::IsKeyPressed('F', false))
+    editor.frameSelection();
 }
 
 }  // namespace standpoint

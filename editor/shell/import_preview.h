@@ -12,8 +12,8 @@ struct Editor;
 // underlays once there is a model.
 void openFiles(Editor& editor, const std::vector<std::filesystem::path>& files);
 
-void acceptPreview(Editor& editor);   // a new project; asks about unsaved changes first
-void addPreview(Editor& editor);      // to the open environment
+void acceptPreview(Editor& editor);  // a new project; asks about unsaved changes first
+void addPreview(Editor& editor);     // to the open environment
 void closePreview(Editor& editor);
 void runPreviewKeys(Editor& editor);  // Enter, Esc, F
 

@@ -59,7 +59,8 @@ void drawTripod(const Pen& pen, const Eigen::Vector3d& centre, double height_m, 
   const Eigen::Vector3d head = centre - Eigen::Vector3d(0, 0, std::min(0.2, height_m * 0.3));
   for (int leg = 0; leg < 3; ++leg) {
     const double azimuth = leg * 2 * std::numbers::pi / 3 + 0.4;
-    const Eigen::Vector3d foot = centre + Eigen::Vector3d(std::cos(azimuth) * 0.38 * height_m, std::sin(azimuth) * 0.38 * height_m, -height_m);
+    const Eigen::Vector3d foot =
+        centre + Eigen::Vector3d(std::cos(azimuth) * 0.38 * height_m, std::sin(azimuth) * 0.38 * height_m, -height_m);
     pen.line(head, foot, tone, width);
   }
   pen.line(head, centre, tone, width + 1);
@@ -146,7 +147,8 @@ void tellTargetHere(Editor& editor, const Pen& pen) {
   if (kinds == nullptr) return;
   const auto& article = kinds->articles.front();
   const bool sphere = article.shape == TargetKind::sphere;
-  const Target target{article.label, article.shape, hit.position + (sphere ? article.size_m / 2 : 0.0) * hit.normal, hit.normal, article.size_m};
+  const Target target{article.label, article.shape, hit.position + (sphere ? article.size_m / 2 : 0.0) * hit.normal,
+                      hit.normal, article.size_m};
   if (const auto place = pen.at(target.centre)) pen.circle(*place, 5, IM_COL32(245, 245, 245, 200), tone::kGood);
   const auto scene = editor.picker.scene();
   const auto& job = editor.session.document().job;
@@ -156,7 +158,9 @@ void tellTargetHere(Editor& editor, const Pen& pen) {
   for (const auto& station : job->stations) {
     const auto sight = sightFrom(station, *scene, target, kinds->rules, settings);
     text += fmt::format("\n{}   {:.1f} m   {}", station.name, sight.distance_m,
-                        !sight.why_not.empty() ? sight.why_not : sight.points ? fmt::format("about {:.0f} points", *sight.points) : "in sight");
+                        !sight.why_not.empty() ? sight.why_not
+                        : sight.points         ? fmt::format("about {:.0f} points", *sight.points)
+                                               : "in sight");
   }
   ImGui::SetTooltip("%s", text.c_str());
 }
@@ -167,10 +171,10 @@ void drawPreview(Editor& editor, const Pen& pen) {
   if (view.tool == Tool::placeStation) {
     drawWouldStand(editor, pen, kUsualHeight_m);
   }
-  if (const auto& job = editor.session.document().job; job && view.dragged_station >= 0 && view.dragged_station < static_cast<int>(job->stations.size()))
+  if (const auto& job = editor.session.document().job;
+      job && view.dragged_station >= 0 && view.dragged_station < static_cast<int>(job->stations.size()))
     drawWouldStand(editor, pen, job->stations[static_cast<std::size_t>(view.dragged_station)].instrument_height_m);
-  if (view.tool == Tool::placeTarget)
-    tellTargetHere(editor, pen);
+  if (view.tool == Tool::placeTarget) tellTargetHere(editor, pen);
 }
 
 }  // namespace
@@ -179,7 +183,9 @@ void drawMarkers(Editor& editor, ImVec2 origin) {
   const Pen pen(editor, origin);
   const ViewState state = editor.viewState();
   auto& list = *ImGui::GetWindowDrawList();
-  list.PushClipRect(origin, {origin.x + static_cast<float>(editor.view.size.x()), origin.y + static_cast<float>(editor.view.size.y())}, true);
+  list.PushClipRect(
+      origin,
+      {origin.x + static_cast<float>(editor.view.size.x()), origin.y + static_cast<float>(editor.view.size.y())}, true);
   drawStations(editor, pen, state);
   drawTargets(editor, pen, state);
   drawMeasure(editor, pen);

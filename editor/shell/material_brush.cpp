@@ -14,7 +14,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr const char* kDragged = "material";   // a payload's text is the material's id
+constexpr const char* kDragged = "material";  // a payload's text is the material's id
 constexpr const char* kMenu = "###material-menu";
 
 void ask(Editor& editor, const RayHit& hit, std::string material) {
@@ -42,7 +42,8 @@ void acceptMaterial(Editor& editor, ImVec2 origin) {
   if (const auto* payload = ImGui::AcceptDragDropPayload(kDragged)) {
     const ImVec2 p = ImGui::GetIO().MousePos;
     const auto ray = rayThrough(editor.view.camera, {p.x - origin.x, p.y - origin.y}, editor.view.size);
-    if (const auto hit = editor.picker.pick(ray, editor.viewState())) ask(editor, *hit, static_cast<const char*>(payload->Data));
+    if (const auto hit = editor.picker.pick(ray, editor.viewState()))
+      ask(editor, *hit, static_cast<const char*>(payload->Data));
   }
   ImGui::EndDragDropTarget();
 }
@@ -70,10 +71,14 @@ void drawMaterialMenu(Editor& editor) {
     return;
   }
   ui::dimText(fmt::format("{} on", material->label));
-  for (const auto& scope : materialScopes(*editor.environment(), hit, editor.session.document().georeference->shift_m)) {
-    const auto label = scope.products > 1 ? fmt::format("{}   {} products###{}", scope.title, scope.products, scope.selector) : fmt::format("{}###{}", scope.title, scope.selector);
+  for (const auto& scope :
+       materialScopes(*editor.environment(), hit, editor.session.document().georeference->shift_m)) {
+    const auto label = scope.products > 1
+                           ? fmt::format("{}   {} products###{}", scope.title, scope.products, scope.selector)
+                           : fmt::format("{}###{}", scope.title, scope.selector);
     if (ImGui::MenuItem(label.c_str(), nullptr, false, why.empty()))
-      editor.session.start("materials", {{"assign", {scope.selector + "=" + material->id}}}, fmt::format("Assign {} to {}", material->label, scope.title));
+      editor.session.start("materials", {{"assign", {scope.selector + "=" + material->id}}},
+                           fmt::format("Assign {} to {}", material->label, scope.title));
   }
   ui::tooltip(why);
   ImGui::EndPopup();

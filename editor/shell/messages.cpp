@@ -38,8 +38,10 @@ const char* remedy(ErrorKind kind) {
   switch (kind) {
     case ErrorKind::usage: return "Change what was filled in and try again.";
     case ErrorKind::unusable: return "Nothing was changed. Repair the file, or leave out what is named above.";
-    case ErrorKind::file_system: return "Nothing was changed. Check that the place exists, may be written to, and has room.";
-    case ErrorKind::internal: return "Nothing was changed. This is a defect of the program: please report it with the file.";
+    case ErrorKind::file_system:
+      return "Nothing was changed. Check that the place exists, may be written to, and has room.";
+    case ErrorKind::internal:
+      return "Nothing was changed. This is a defect of the program: please report it with the file.";
     case ErrorKind::cancelled: return "";
   }
   return "";
@@ -185,13 +187,15 @@ void drawPreferences(Editor& editor) {
                      editor.settings.recovery_minutes == 0 ? "never" : "%d min");
     ui::endProperties();
   }
-  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || escapePressed()) editor.dialogs.preferences = false;
+  if (ui::primaryButton("Close###close", {}, {editor.px(110), 0}) || escapePressed())
+    editor.dialogs.preferences = false;
   ImGui::EndPopup();
 }
 
 void drawAbout(Editor& editor) {
   if (!beginModal(editor, "About Standpoint###about", editor.dialogs.about, 440)) return;
-  ui::wrapped("Standpoint turns a building model into an environment in which terrestrial laser scanning can be rehearsed.");
+  ui::wrapped(
+      "Standpoint turns a building model into an environment in which terrestrial laser scanning can be rehearsed.");
   ui::gap(editor);
   ui::dimText("Free software under the GNU General Public License, version 3 or later.");
   ui::gap(editor, 6);

@@ -43,8 +43,10 @@ void drawPath(Editor& editor, OptionField& field) {
   const bool written = name == "o" || name == "output";
   const auto purpose = written ? FileDialogState::Purpose::saveFile : FileDialogState::Purpose::openFile;
   askForFile(editor, purpose, readableOption(field.parameter->name), "Choose", {},
-             std::filesystem::path(field.text).filename().string(), [&editor, name](const std::filesystem::path& chosen) {
-               if (auto* again = editor.dialogs.verb.form.find(name.c_str())) again->text = chosen.string(), again->given = true;
+             std::filesystem::path(field.text).filename().string(),
+             [&editor, name](const std::filesystem::path& chosen) {
+               if (auto* again = editor.dialogs.verb.form.find(name.c_str()))
+                 again->text = chosen.string(), again->given = true;
                editor.dialogs.verb.open = true;
              });
 }

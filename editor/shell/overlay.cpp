@@ -52,11 +52,15 @@ const char* colourName(ColourMode mode) {
 
 void colourChip(Editor& editor) {
   ImGui::SetNextItemWidth(editor.px(152));
-  if (!ImGui::BeginCombo("###colour", fmt::format("{}  {}", ICON_PAINT, colourName(editor.view.colour)).c_str(), ImGuiComboFlags_NoArrowButton)) return;
-  for (const auto mode : {ColourMode::model, ColourMode::material, ColourMode::reflectance, ColourMode::confidence, ColourMode::expected_intensity, ColourMode::expected_noise, ColourMode::expected_fate,
+  if (!ImGui::BeginCombo("###colour", fmt::format("{}  {}", ICON_PAINT, colourName(editor.view.colour)).c_str(),
+                         ImGuiComboFlags_NoArrowButton))
+    return;
+  for (const auto mode : {ColourMode::model, ColourMode::material, ColourMode::reflectance, ColourMode::confidence,
+                          ColourMode::expected_intensity, ColourMode::expected_noise, ColourMode::expected_fate,
                           ColourMode::coverage, ColourMode::coverage_spacing, ColourMode::coverage_incidence})
     if (ImGui::Selectable(colourName(mode), editor.view.colour == mode)) editor.view.colour = mode;
-  if (editor.session.document().lightening && ImGui::Selectable(colourName(ColourMode::deviation), editor.view.colour == ColourMode::deviation))
+  if (editor.session.document().lightening &&
+      ImGui::Selectable(colourName(ColourMode::deviation), editor.view.colour == ColourMode::deviation))
     editor.view.colour = ColourMode::deviation;
   ImGui::EndCombo();
 }
@@ -68,7 +72,8 @@ void wavelengthChip(Editor& editor) {
   ImGui::SetNextItemWidth(editor.px(90));
   if (!ImGui::BeginCombo("###wavelength", fmt::format("{:.0f} nm", editor.view.wavelength_nm).c_str())) return;
   for (const double wavelength : {532.0, 660.0, 785.0, 830.0, 905.0, 1064.0, 1550.0})
-    if (ImGui::Selectable(fmt::format("{:.0f} nm", wavelength).c_str(), editor.view.wavelength_nm == wavelength)) editor.view.wavelength_nm = wavelength;
+    if (ImGui::Selectable(fmt::format("{:.0f} nm", wavelength).c_str(), editor.view.wavelength_nm == wavelength))
+      editor.view.wavelength_nm = wavelength;
   ImGui::EndCombo();
 }
 
@@ -85,7 +90,9 @@ void sideChip(Editor& editor) {
   if (!editor.session.document().lightening || isExpected(editor.view.colour)) return;
   beside(editor, 112);
   ImGui::SetNextItemWidth(editor.px(112));
-  if (!ImGui::BeginCombo("###side", fmt::format("{}  {}", ICON_COMPRESS, sideName(editor.view.side)).c_str(), ImGuiComboFlags_NoArrowButton)) return;
+  if (!ImGui::BeginCombo("###side", fmt::format("{}  {}", ICON_COMPRESS, sideName(editor.view.side)).c_str(),
+                         ImGuiComboFlags_NoArrowButton))
+    return;
   for (const auto side : {ModelSide::lighter, ModelSide::original, ModelSide::both})
     if (ImGui::Selectable(sideName(side), editor.view.side == side)) editor.view.side = side;
   ImGui::EndCombo();
@@ -102,14 +109,17 @@ constexpr double kCutAboveFloor_m = 1.2;
 void cutChip(Editor& editor) {
   auto& cut = editor.visibility.cut_height_m;
   const double shift = editor.shift_m().z();
-  const std::string label = cut ? fmt::format("{}  Cut at {:.2f} m", ICON_CUT, *cut + shift) : std::string(ICON_CUT) + "  No cut";
+  const std::string label =
+      cut ? fmt::format("{}  Cut at {:.2f} m", ICON_CUT, *cut + shift) : std::string(ICON_CUT) + "  No cut";
   ImGui::SetNextItemWidth(editor.px(116));
   if (ImGui::BeginCombo("###cut", label.c_str(), ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton)) {
     if (ImGui::Selectable("No cut", !cut)) cut.reset();
     const auto& storeys = editor.storeys();
     for (std::size_t i = storeys.size(); i-- > 0;) {
       const double height = storeys[i].elevation_m + kCutAboveFloor_m;
-      if (ImGui::Selectable(fmt::format("Into {}   {:+.2f} m###storey{}", storeyName(editor, storeys[i]), storeys[i].elevation_m + shift, i).c_str(),
+      if (ImGui::Selectable(fmt::format("Into {}   {:+.2f} m###storey{}", storeyName(editor, storeys[i]),
+                                        storeys[i].elevation_m + shift, i)
+                                .c_str(),
                             cut && std::abs(*cut - height) < 1e-6))
         cut = height;
     }
@@ -129,7 +139,8 @@ void cutChip(Editor& editor) {
 
 void toggle(Editor& editor, const char* icon, const char* id, bool lit) {
   const auto& action = *findAction(id);
-  if (ui::iconButton(fmt::format("{}###view_{}", icon, id).c_str(), action.title, whyNot(action, editor), lit)) action.run(editor);
+  if (ui::iconButton(fmt::format("{}###view_{}", icon, id).c_str(), action.title, whyNot(action, editor), lit))
+    action.run(editor);
   ImGui::SameLine(0, editor.px(2));
 }
 
@@ -148,11 +159,13 @@ void cloudChip(Editor& editor) {
     return;
   }
   const std::string name = cloud.file.empty() ? "The scan" : cloud.file.filename().string();
-  ui::tooltip(fmt::format("{}: {} of {} points are shown", name, groupedDigits(cloud.colours.size()), groupedDigits(cloud.points_in_file)));
+  ui::tooltip(fmt::format("{}: {} of {} points are shown", name, groupedDigits(cloud.colours.size()),
+                          groupedDigits(cloud.points_in_file)));
   if (!editor.showsLiveScan()) return;
   beside(editor, 180);
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(fmt::format("{:.1f} million points so far", static_cast<double>(cloud.points_in_file) / 1e6).c_str());
+  ImGui::TextUnformatted(
+      fmt::format("{:.1f} million points so far", static_cast<double>(cloud.points_in_file) / 1e6).c_str());
 }
 
 void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
@@ -167,13 +180,15 @@ void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
     case Tool::walk: hint = "W A S D to walk, Shift to hurry, drag to look around.   Esc to leave"; break;
     case Tool::select: break;
   }
-  if (editor.environment() && !editor.picker.ready() && hint != nullptr && editor.view.tool != Tool::walk) hint = "One moment: the model is being prepared for picking";
+  if (editor.environment() && !editor.picker.ready() && hint != nullptr && editor.view.tool != Tool::walk)
+    hint = "One moment: the model is being prepared for picking";
   if (hint == nullptr) return;
   const ImVec2 text = ImGui::CalcTextSize(hint);
   const float pad = editor.px(8);
   const ImVec2 at(origin.x + (size.x - text.x) / 2, origin.y + size.y - text.y - editor.px(26));
   auto& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled({at.x - pad, at.y - pad / 2}, {at.x + text.x + pad, at.y + text.y + pad / 2}, IM_COL32(38, 84, 148, 235), pad / 2);
+  list.AddRectFilled({at.x - pad, at.y - pad / 2}, {at.x + text.x + pad, at.y + text.y + pad / 2},
+                     IM_COL32(38, 84, 148, 235), pad / 2);
   list.AddText(at, IM_COL32(255, 255, 255, 255), hint);
 }
 
@@ -203,13 +218,15 @@ void drawAxes(Editor& editor, ImVec2 origin, ImVec2 size) {
   const ImVec2 centre = axesCentre(editor, origin, size);
   std::array<int, 6> order = {0, 1, 2, 3, 4, 5};
   std::sort(order.begin(), order.end(), [&](int a, int b) {
-    return axes[static_cast<std::size_t>(a)].direction.dot(forward) > axes[static_cast<std::size_t>(b)].direction.dot(forward);
+    return axes[static_cast<std::size_t>(a)].direction.dot(forward) >
+           axes[static_cast<std::size_t>(b)].direction.dot(forward);
   });
   auto& list = *ImGui::GetWindowDrawList();
   const float reach = editor.px(kAxesRadius - 8), ball = editor.px(8);
   for (const int i : order) {
     const Axis& axis = axes[static_cast<std::size_t>(i)];
-    const ImVec2 p(centre.x + static_cast<float>(axis.direction.dot(right)) * reach, centre.y - static_cast<float>(axis.direction.dot(up)) * reach);
+    const ImVec2 p(centre.x + static_cast<float>(axis.direction.dot(right)) * reach,
+                   centre.y - static_cast<float>(axis.direction.dot(up)) * reach);
     const bool named = *axis.name != 0;
     ImVec4 fill = colour(axis.tone);
     fill.w = named ? 1 : 0.28F;
@@ -225,9 +242,10 @@ void drawAxes(Editor& editor, ImVec2 origin, ImVec2 size) {
 void drawReflectanceLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
   if (editor.view.colour != ColourMode::reflectance) return;
   auto& list = *ImGui::GetWindowDrawList();
-  const float width = editor.px(160), height = editor.px(8), x = origin.x + editor.px(kMargin), y = origin.y + size.y - editor.px(38);
-  list.AddRectFilledMultiColor({x, y}, {x + width, y + height}, IM_COL32(20, 20, 20, 255), IM_COL32(245, 245, 245, 255), IM_COL32(245, 245, 245, 255),
-                               IM_COL32(20, 20, 20, 255));
+  const float width = editor.px(160), height = editor.px(8), x = origin.x + editor.px(kMargin),
+              y = origin.y + size.y - editor.px(38);
+  list.AddRectFilledMultiColor({x, y}, {x + width, y + height}, IM_COL32(20, 20, 20, 255), IM_COL32(245, 245, 245, 255),
+                               IM_COL32(245, 245, 245, 255), IM_COL32(20, 20, 20, 255));
   list.AddText({x, y + height + editor.px(2)}, tone::kDim, "0");
   const char* most = "100 %";
   list.AddText({x + width - ImGui::CalcTextSize(most).x, y + height + editor.px(2)}, tone::kDim, most);
@@ -238,9 +256,13 @@ void drawConfidenceLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
   auto& list = *ImGui::GetWindowDrawList();
   float x = origin.x + editor.px(kMargin);
   const float y = origin.y + size.y - editor.px(24), swatch = editor.px(10);
-  for (const auto& [confidence, text] : {std::pair{1.0, "named"}, {0.65, "by a general word"}, {0.2, "a guess by class or colour"}, {-1.0, "no material"}}) {
+  for (const auto& [confidence, text] : {std::pair{1.0, "named"},
+                                         {0.65, "by a general word"},
+                                         {0.2, "a guess by class or colour"},
+                                         {-1.0, "no material"}}) {
     const Colour c = confidenceColour(confidence);
-    list.AddRectFilled({x, y + editor.px(2)}, {x + swatch, y + editor.px(2) + swatch}, ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1}));
+    list.AddRectFilled({x, y + editor.px(2)}, {x + swatch, y + editor.px(2) + swatch},
+                       ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1}));
     list.AddText({x + swatch + editor.px(5), y}, tone::kText, text);
     x += swatch + editor.px(19) + ImGui::CalcTextSize(text).x;
   }
@@ -250,7 +272,8 @@ void drawDeviationLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
   if (editor.view.colour != ColourMode::deviation) return;
   auto& list = *ImGui::GetWindowDrawList();
   const float caption = editor.view.side == ModelSide::both ? editor.px(22) : 0;
-  const float width = editor.px(160), height = editor.px(8), x = origin.x + editor.px(kMargin), y = origin.y + size.y - editor.px(38) - caption;
+  const float width = editor.px(160), height = editor.px(8), x = origin.x + editor.px(kMargin),
+              y = origin.y + size.y - editor.px(38) - caption;
   const auto both = editor.deviation.of(editor.session.document());
   if (!both) {
     list.AddText({x, y}, tone::kDim, editor.deviation.busy() ? "Comparing with the original …" : "");
@@ -259,7 +282,8 @@ void drawDeviationLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
   constexpr int kSteps = 32;
   for (int i = 0; i < kSteps; ++i) {
     const auto c = deviationColour((i + 0.5) / kSteps, 1);
-    list.AddRectFilled({x + width * static_cast<float>(i) / kSteps, y}, {x + width * static_cast<float>(i + 1) / kSteps, y + height}, IM_COL32(c[0], c[1], c[2], 255));
+    list.AddRectFilled({x + width * static_cast<float>(i) / kSteps, y},
+                       {x + width * static_cast<float>(i + 1) / kSteps, y + height}, IM_COL32(c[0], c[1], c[2], 255));
   }
   list.AddText({x, y + height + editor.px(2)}, tone::kDim, "0");
   const auto most = fmt::format("{:.3g} mm and more", both->lighter->full_scale_m * 1000);
@@ -271,7 +295,8 @@ void drawDeviationLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
 bool overOverlay(const Editor& editor, ImVec2 origin, ImVec2 size) {
   const ImVec2 p = ImGui::GetIO().MousePos, c = axesCentre(editor, origin, size);
   if (std::hypot(p.x - c.x, p.y - c.y) < editor.px(kAxesRadius)) return true;
-  return p.y < origin.y + editor.px(kMargin) + editor.overlay_size.y() && p.x < origin.x + editor.px(kMargin) + editor.overlay_size.x();
+  return p.y < origin.y + editor.px(kMargin) + editor.overlay_size.y() &&
+         p.x < origin.x + editor.px(kMargin) + editor.overlay_size.x();
 }
 
 void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
@@ -285,7 +310,7 @@ void drawOverlay(Editor& editor, ImVec2 origin, ImVec2 size) {
   beside(editor, 116);
   cutChip(editor);
   cloudChip(editor);
-  beside(editor, 5 * 32);   // they stay together
+  beside(editor, 5 * 32);  // they stay together
   toggle(editor, ICON_CUBE, "edges", editor.view.edges);
   toggle(editor, ICON_GRID, "grid", editor.view.grid);
   toggle(editor, ICON_WALK, "walkable", editor.view.walkable);

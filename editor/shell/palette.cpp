@@ -49,10 +49,11 @@ std::vector<Entry> entries(Editor& editor) {
                    [&editor, &action] { action.run(editor); }});
   for (const auto& verb : editor.session.verbs())
     if (!ownToEditor(verb))
-      all.push_back({fmt::format("verb-{}", verb.name), ICON_GEAR, verb.summary, verb.name, editor.session.whyNot(verb.name),
-                     [&editor, &verb] { openVerbForm(editor, verb.name); }});
+      all.push_back({fmt::format("verb-{}", verb.name), ICON_GEAR, verb.summary, verb.name,
+                     editor.session.whyNot(verb.name), [&editor, &verb] { openVerbForm(editor, verb.name); }});
   for (const auto& recent : editor.settings.recent)
-    all.push_back({fmt::format("recent-{}", recent), ICON_HISTORY, "Open " + std::filesystem::path(recent).filename().string(), recent,
+    all.push_back({fmt::format("recent-{}", recent), ICON_HISTORY,
+                   "Open " + std::filesystem::path(recent).filename().string(), recent,
                    editor.session.whyNot("open-project"), [&editor, recent] { openPath(editor, recent); }});
   return all;
 }
@@ -102,7 +103,8 @@ void drawPalette(Editor& editor) {
   for (auto& entry : entries(editor))
     if (matches(entry, state.query)) shown.push_back(std::move(entry));
   const int last = std::max(0, static_cast<int>(shown.size()) - 1);
-  const int step = (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_DownArrow)) ? 1 : 0) - (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_UpArrow)) ? 1 : 0);
+  const int step = (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_DownArrow)) ? 1 : 0) -
+                   (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_UpArrow)) ? 1 : 0);
   const bool moved = step != 0;
   state.chosen += step;
   state.chosen = std::clamp(state.chosen, 0, last);

@@ -34,8 +34,9 @@ constexpr std::array kWorkspaceTabs = {
     WorkspaceTab{Workspace::instrument, "workspace-instrument", "Instrument"},
 };
 
-constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNavFocus;
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                    ImGuiWindowFlags_NoNavFocus;
 
 struct Box {
   float x = 0, y = 0, w = 0, h = 0;
@@ -64,7 +65,9 @@ void items(Editor& editor, std::initializer_list<const char*> ids) {
 }
 
 void recentMenu(Editor& editor) {
-  if (!ImGui::BeginMenu((std::string(ICON_HISTORY) + "  Open recent###recent").c_str(), !editor.settings.recent.empty())) return;
+  if (!ImGui::BeginMenu((std::string(ICON_HISTORY) + "  Open recent###recent").c_str(),
+                        !editor.settings.recent.empty()))
+    return;
   const auto recent = editor.settings.recent;
   for (const auto& path : recent) {
     const auto shown = std::filesystem::path(path).filename().string();
@@ -81,17 +84,53 @@ void runMenu(Editor& editor) {
     const std::string_view name = verb.name;
     if (name.ends_with("-project") || name.ends_with("-recovery")) continue;
     const auto why = editor.session.whyNot(verb.name);
-    if (ImGui::MenuItem(fmt::format("      {}…###run-{}", readableOption(verb.name), verb.name).c_str(), nullptr, false, why.empty()))
+    if (ImGui::MenuItem(fmt::format("      {}…###run-{}", readableOption(verb.name), verb.name).c_str(), nullptr, false,
+                        why.empty()))
       openVerbForm(editor, verb.name);
     ui::tooltip(why.empty() ? verb.summary : why);
   }
 }
 
 void viewMenu(Editor& editor) {
-  items(editor, {"frame", "view-corner", "view-front", "view-back", "view-right", "view-left", "view-top", "view-parallel", "",
-                 "hide", "isolate", "show-all", "", "edges", "grid", "labels", "walkable", "shapes", "walk", "", "colour-model",
-                 "colour-material", "colour-reflectance", "colour-confidence", "colour-intensity", "colour-noise", "colour-fate", "colour-coverage", "colour-spacing", "colour-incidence", "", "workspace-model", "workspace-materials", "workspace-survey",
-                 "workspace-instrument", "", "interface-larger", "interface-smaller", "interface-usual"});
+  items(editor, {"frame",
+                 "view-corner",
+                 "view-front",
+                 "view-back",
+                 "view-right",
+                 "view-left",
+                 "view-top",
+                 "view-parallel",
+                 "",
+                 "hide",
+                 "isolate",
+                 "show-all",
+                 "",
+                 "edges",
+                 "grid",
+                 "labels",
+                 "walkable",
+                 "shapes",
+                 "walk",
+                 "",
+                 "colour-model",
+                 "colour-material",
+                 "colour-reflectance",
+                 "colour-confidence",
+                 "colour-intensity",
+                 "colour-noise",
+                 "colour-fate",
+                 "colour-coverage",
+                 "colour-spacing",
+                 "colour-incidence",
+                 "",
+                 "workspace-model",
+                 "workspace-materials",
+                 "workspace-survey",
+                 "workspace-instrument",
+                 "",
+                 "interface-larger",
+                 "interface-smaller",
+                 "interface-usual"});
 }
 
 void drawMenuBar(Editor& editor) {
@@ -106,7 +145,8 @@ void drawMenuBar(Editor& editor) {
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu("Edit")) {
-    items(editor, {"undo", "redo", "", "select-all", "select-none", "", "remove", "", "take-material", "paint-material", "", "measure"});
+    items(editor, {"undo", "redo", "", "select-all", "select-none", "", "remove", "", "take-material", "paint-material",
+                   "", "measure"});
     ImGui::EndMenu();
   }
   if (ImGui::BeginMenu("View")) {
@@ -150,7 +190,8 @@ void drawWorkspaceTabs(Editor& editor, bool titles) {
     const bool chosen = editor.workspace == tab.workspace;
     ImGui::PushStyleColor(ImGuiCol_Button, chosen ? ImVec4(0.25F, 0.56F, 0.97F, 0.26F) : ImVec4(0, 0, 0, 0));
     ImGui::PushStyleColor(ImGuiCol_Text, chosen ? ImVec4(0.62F, 0.79F, 1, 1) : ImVec4(0.72F, 0.75F, 0.80F, 1));
-    const std::string label = fmt::format("{}{}{}###{}", findAction(tab.action)->icon, titles ? "  " : "", titles ? tab.title : "", tab.action);
+    const std::string label = fmt::format("{}{}{}###{}", findAction(tab.action)->icon, titles ? "  " : "",
+                                          titles ? tab.title : "", tab.action);
     if (ImGui::Button(label.c_str())) editor.workspace = tab.workspace;
     ImGui::PopStyleColor(2);
     if (!titles) ui::tooltip(tab.title);
@@ -170,7 +211,8 @@ void drawToolbar(Editor& editor, const Box& box) {
   for (const char* id : {"add-station", "add-target", "measure"}) actionToolButton(editor, id);
   const float right = editor.px(96) + editor.px(36);
   ImGui::SameLine(box.w - right - editor.px(8));
-  if (ui::primaryButton(ICON_PLAY "  Scan###tool_scan", editor.session.whyNot("scan"), {editor.px(96), 0})) invoke(editor, "scan");
+  if (ui::primaryButton(ICON_PLAY "  Scan###tool_scan", editor.session.whyNot("scan"), {editor.px(96), 0}))
+    invoke(editor, "scan");
   ImGui::SameLine(0, editor.px(4));
   actionToolButton(editor, "palette");
   ImGui::PopStyleVar();
@@ -182,7 +224,8 @@ bool roomForIcons(const Editor& editor, Area area) {
   float width = 0;
   for (const auto& panel : panels())
     if (panel.area[static_cast<std::size_t>(editor.workspace)] == area)
-      width += ImGui::CalcTextSize(panel.title).x + editor.px(26) + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetStyle().ItemInnerSpacing.x;
+      width += ImGui::CalcTextSize(panel.title).x + editor.px(26) + 2 * ImGui::GetStyle().FramePadding.x +
+               ImGui::GetStyle().ItemInnerSpacing.x;
   return width <= ImGui::GetContentRegionAvail().x;
 }
 
@@ -195,7 +238,10 @@ void drawPanelTabs(Editor& editor, Area area, const char* id) {
     for (const auto& panel : panels()) {
       if (panel.area[workspace] != area) continue;
       const auto flags = wanted == panel.id ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
-      if (!ImGui::BeginTabItem(fmt::format("{}{}{}###{}", icons ? panel.icon : "", icons ? "  " : "", panel.title, panel.id).c_str(), nullptr, flags)) continue;
+      if (!ImGui::BeginTabItem(
+              fmt::format("{}{}{}###{}", icons ? panel.icon : "", icons ? "  " : "", panel.title, panel.id).c_str(),
+              nullptr, flags))
+        continue;
       ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(editor.px(10), editor.px(6)));
       ImGui::BeginChild(panel.id, {0, 0}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
       ImGui::PopStyleVar();
@@ -214,7 +260,8 @@ bool anyPanel(const Editor& editor, Area area) {
                      [&](const Panel& p) { return p.area[static_cast<std::size_t>(editor.workspace)] == area; });
 }
 
-void splitter(Editor& editor, const char* id, const Box& box, ImGuiAxis axis, float sign, float& size, float smallest, float largest) {
+void splitter(Editor& editor, const char* id, const Box& box, ImGuiAxis axis, float sign, float& size, float smallest,
+              float largest) {
   ImGui::SetCursorScreenPos({box.x, box.y});
   ImGui::InvisibleButton(id, {std::max(box.w, 1.0F), std::max(box.h, 1.0F)});
   const bool active = ImGui::IsItemActive();
@@ -256,11 +303,14 @@ void drawSplitters(Editor& editor, const Layout& l) {
   const float gap = editor.px(3);
   beginFixed("###splitters", l.all, {0, 0}, IM_COL32(22, 24, 29, 255));
   if (l.left.w > 0)
-    splitter(editor, "###split-left", {l.left.x + l.left.w, l.all.y, gap, l.all.h}, ImGuiAxis_X, 1, sizes.left, 160, 900);
+    splitter(editor, "###split-left", {l.left.x + l.left.w, l.all.y, gap, l.all.h}, ImGuiAxis_X, 1, sizes.left, 160,
+             900);
   if (l.right.w > 0)
-    splitter(editor, "###split-right", {l.right.x - gap, l.all.y, gap, l.all.h}, ImGuiAxis_X, -1, sizes.right, 200, 1200);
+    splitter(editor, "###split-right", {l.right.x - gap, l.all.y, gap, l.all.h}, ImGuiAxis_X, -1, sizes.right, 200,
+             1200);
   if (l.bottom.h > 0)
-    splitter(editor, "###split-bottom", {l.middle.x, l.bottom.y - gap, l.middle.w, gap}, ImGuiAxis_Y, -1, sizes.bottom, 80, 700);
+    splitter(editor, "###split-bottom", {l.middle.x, l.bottom.y - gap, l.middle.w, gap}, ImGuiAxis_Y, -1, sizes.bottom,
+             80, 700);
   ImGui::End();
 }
 
@@ -278,7 +328,8 @@ std::string hoverText(const Editor& editor) {
   if (!hover || !editor.environment() || hover->product >= editor.environment()->products.size()) return {};
   const auto& product = editor.environment()->products[hover->product];
   const Eigen::Vector3d p = hover->position + editor.shift_m();
-  return fmt::format("{}   {}   {:.3f}  {:.3f}  {:.3f} m", readableClass(product.ifc_class), productLabel(product), p.x(), p.y(), p.z());
+  return fmt::format("{}   {}   {:.3f}  {:.3f}  {:.3f} m", readableClass(product.ifc_class), productLabel(product),
+                     p.x(), p.y(), p.z());
 }
 
 // A task, else the cloud that is being read to be shown.
@@ -302,7 +353,8 @@ void drawRunningTask(Editor& editor) {
   ImGui::SetCursorScreenPos({at.x, at.y + (ImGui::GetFrameHeight() - editor.px(6)) / 2});
   ui::meter(editor, progress.fraction(), tone::kAccent, bar);
   ImGui::SetCursorScreenPos({at.x + bar + editor.px(10), at.y});
-  if (ui::button("Cancel###cancel-task", progress.cancelled() ? "It stops at the next safe place" : "", {cancel, 0})) progress.cancel();
+  if (ui::button("Cancel###cancel-task", progress.cancelled() ? "It stops at the next safe place" : "", {cancel, 0}))
+    progress.cancel();
 }
 
 void drawStatusBar(Editor& editor, const Box& box) {
@@ -327,7 +379,8 @@ void drawStatusBar(Editor& editor, const Box& box) {
 // While a model is looked at before it is taken in, there is it and the question, and nothing else.
 void drawPreviewLayout(Editor& editor, const Box& all) {
   const float panel = std::min(editor.px(400), all.w * 0.5F), gap = editor.px(3);
-  beginFixed("###preview", {all.x + all.w - panel, all.y, panel, all.h}, {editor.px(14), editor.px(12)}, IM_COL32(35, 39, 46, 255));
+  beginFixed("###preview", {all.x + all.w - panel, all.y, panel, all.h}, {editor.px(14), editor.px(12)},
+             IM_COL32(35, 39, 46, 255));
   drawImportPreview(editor);
   ImGui::End();
   beginFixed("###viewport", {all.x, all.y, all.w - panel - gap, all.h}, {0, 0}, IM_COL32(35, 39, 46, 255));
@@ -345,7 +398,7 @@ void drawPreviewShell(Editor& editor) {
   ui::dimText("Enter imports   Esc gives it up   F frames");
   ImGui::End();
   drawPreviewLayout(editor, {0, head, display.x, display.y - head});
-  drawFileDialog(editor);   // where to save what is open, before it gives way
+  drawFileDialog(editor);  // where to save what is open, before it gives way
   drawMessages(editor);
 }
 
@@ -353,7 +406,7 @@ void drawPreviewShell(Editor& editor) {
 
 void drawShell(Editor& editor) {
   editor.update();
-  if (editor.preview.isOpen()) runPreviewKeys(editor);   // which may close it, and then there is nothing of it to draw
+  if (editor.preview.isOpen()) runPreviewKeys(editor);  // which may close it, and then there is nothing of it to draw
   if (editor.preview.isOpen()) {
     drawPreviewShell(editor);
     return;
@@ -361,7 +414,8 @@ void drawShell(Editor& editor) {
   runShortcuts(editor);
   drawMenuBar(editor);
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float menu = ImGui::GetFrameHeight(), tools = ImGui::GetFrameHeight() + editor.px(12), status = ImGui::GetFrameHeight() + editor.px(4);
+  const float menu = ImGui::GetFrameHeight(), tools = ImGui::GetFrameHeight() + editor.px(12),
+              status = ImGui::GetFrameHeight() + editor.px(4);
   drawToolbar(editor, {0, menu, display.x, tools});
   const Layout l = layOut(editor, {0, menu + tools, display.x, display.y - menu - tools - status});
   drawArea(editor, "###left", l.left, Area::left);
@@ -370,7 +424,7 @@ void drawShell(Editor& editor) {
   beginFixed("###viewport", l.middle, {0, 0}, IM_COL32(35, 39, 46, 255));
   drawViewport(editor);
   ImGui::End();
-  drawSplitters(editor, l);   // last: windows that keep their place lie behind those made before them
+  drawSplitters(editor, l);  // last: windows that keep their place lie behind those made before them
   drawStatusBar(editor, {0, display.y - status, display.x, status});
   drawFileDialog(editor);
   drawVerbDialog(editor);

@@ -40,8 +40,10 @@ void startDrag(Editor& editor) {
 void continueDrag(Editor& editor) {
   auto& view = editor.view;
   const auto& io = ImGui::GetIO();
-  const ImVec2 total0 = ImGui::GetMouseDragDelta(0, 0), total1 = ImGui::GetMouseDragDelta(1, 0), total2 = ImGui::GetMouseDragDelta(2, 0);
-  const float moved = std::max({std::hypot(total0.x, total0.y), std::hypot(total1.x, total1.y), std::hypot(total2.x, total2.y)});
+  const ImVec2 total0 = ImGui::GetMouseDragDelta(0, 0), total1 = ImGui::GetMouseDragDelta(1, 0),
+               total2 = ImGui::GetMouseDragDelta(2, 0);
+  const float moved =
+      std::max({std::hypot(total0.x, total0.y), std::hypot(total1.x, total1.y), std::hypot(total2.x, total2.y)});
   if (moved > kClickSlack_px * editor.scale) view.dragged = true;
   if (!view.dragged || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) return;
   const Eigen::Vector2d drag(io.MouseDelta.x, io.MouseDelta.y);
@@ -54,7 +56,8 @@ void continueDrag(Editor& editor) {
 
 std::string nextName(const char* prefix, const std::vector<std::string>& taken) {
   for (int i = 1;; ++i)
-    if (const auto name = fmt::format("{}{}", prefix, i); std::find(taken.begin(), taken.end(), name) == taken.end()) return name;
+    if (const auto name = fmt::format("{}{}", prefix, i); std::find(taken.begin(), taken.end(), name) == taken.end())
+      return name;
 }
 
 void placeStation(Editor& editor, const RayHit& hit) {
@@ -71,7 +74,7 @@ void placeTarget(Editor& editor, const RayHit& hit) {
   if (const auto& job = editor.session.document().job)
     for (const auto& t : job->targets) names.push_back(t.name);
   const auto name = nextName("T", names);
-  constexpr double kBefore_m = 0.05;     // says on which side of what was clicked it sticks
+  constexpr double kBefore_m = 0.05;  // says on which side of what was clicked it sticks
   const Eigen::Vector3d p = hit.position + hit.normal * kBefore_m + editor.shift_m();
   editor.session.start("target", {{"add", name}, {"on-surface", {p.x(), p.y(), p.z()}}}, "Add target " + name);
 }
@@ -119,24 +122,32 @@ void click(Editor& editor) {
 void contextMenu(Editor& editor) {
   if (!ImGui::BeginPopup("###viewport-menu")) return;
   const auto& hit = editor.view.hover;
-  if (!editor.selection.empty() && editor.environment() && editor.selection.primary() < editor.environment()->products.size())
+  if (!editor.selection.empty() && editor.environment() &&
+      editor.selection.primary() < editor.environment()->products.size())
     ui::dimText(productLabel(editor.environment()->products[editor.selection.primary()]));
   for (const char* id : {"frame", "hide", "isolate", "show-all"}) actionMenuItem(editor, id);
   ImGui::Separator();
   for (const char* id : {"exclude", "keep", "by-rules"}) actionMenuItem(editor, id);
   ImGui::Separator();
   const auto why = hit ? editor.session.whyNot("station") : "There is nothing under the pointer";
-  if (ImGui::MenuItem(ICON_STATION "  Set up a station here###station-here", nullptr, false, why.empty())) placeStation(editor, *hit);
+  if (ImGui::MenuItem(ICON_STATION "  Set up a station here###station-here", nullptr, false, why.empty()))
+    placeStation(editor, *hit);
   ui::tooltip(why);
-  if (hit && expectedQuantity(editor.view.colour) && ImGui::MenuItem(ICON_EYE "  Look from here###probe-here")) putProbeOn(editor, hit->position);
-  if (ImGui::MenuItem(ICON_TARGET "  Put a target here###target-here", nullptr, false, why.empty())) placeTarget(editor, *hit);
+  if (hit && expectedQuantity(editor.view.colour) && ImGui::MenuItem(ICON_EYE "  Look from here###probe-here"))
+    putProbeOn(editor, hit->position);
+  if (ImGui::MenuItem(ICON_TARGET "  Put a target here###target-here", nullptr, false, why.empty()))
+    placeTarget(editor, *hit);
   ImGui::EndPopup();
 }
 
 void handleWalking(Editor& editor) {
   const auto& io = ImGui::GetIO();
-  if (editor.view.tool != Tool::walk || io.WantTextInput || io.KeyCtrl || ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId)) return;
-  const auto axis = [](int less, int more) { return (ImGui::IsKeyDown(more) ? 1.0 : 0.0) - (ImGui::IsKeyDown(less) ? 1.0 : 0.0); };
+  if (editor.view.tool != Tool::walk || io.WantTextInput || io.KeyCtrl ||
+      ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId))
+    return;
+  const auto axis = [](int less, int more) {
+    return (ImGui::IsKeyDown(more) ? 1.0 : 0.0) - (ImGui::IsKeyDown(less) ? 1.0 : 0.0);
+  };
   editor.walk.go({axis('A', 'D'), axis('S', 'W')}, io.KeyShift, io.DeltaTime, editor.view.camera);
 }
 
@@ -145,11 +156,13 @@ void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
   const auto& io = ImGui::GetIO();
   if (!view.dragging && !ImGui::IsPopupOpen("###viewport-menu")) {
     view.hover.reset();
-    if (hovered && !editor.preview.isOpen()) view.hover = editor.picker.pick(rayThrough(view.camera, pointer(origin), view.size), editor.viewState());
+    if (hovered && !editor.preview.isOpen())
+      view.hover = editor.picker.pick(rayThrough(view.camera, pointer(origin), view.size), editor.viewState());
   }
-  if (hovered && !view.dragging && (ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2))) startDrag(editor);
+  if (hovered && !view.dragging && (ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2)))
+    startDrag(editor);
   if (view.dragging) continueDrag(editor);
-  const bool previewed = editor.preview.isOpen();   // it can be turned and nothing else
+  const bool previewed = editor.preview.isOpen();  // it can be turned and nothing else
   if (view.dragging && !view.dragged && ImGui::IsMouseReleased(0) && !previewed) click(editor);
   if (view.dragging && !view.dragged && ImGui::IsMouseReleased(1) && !previewed) {
     if (view.hover && !editor.selection.contains(view.hover->product)) editor.select(view.hover->product, true);
@@ -160,7 +173,8 @@ void handleMouse(Editor& editor, ImVec2 origin, bool hovered) {
   if (hovered && io.MouseWheel != 0 && view.tool != Tool::walk) {
     const auto ray = rayThrough(view.camera, pointer(origin), view.size);
     const Eigen::Vector3d on_target_plane =
-        ray.origin + ray.direction * ((view.camera.target - ray.origin).dot(view.camera.forward()) / ray.direction.dot(view.camera.forward()));
+        ray.origin + ray.direction * ((view.camera.target - ray.origin).dot(view.camera.forward()) /
+                                      ray.direction.dot(view.camera.forward()));
     zoom(view.camera, io.MouseWheel, view.hover ? view.hover->position : on_target_plane);
   }
 }
@@ -169,19 +183,24 @@ void drawWelcome(Editor& editor, ImVec2 origin, ImVec2 size) {
   const float width = std::min(editor.px(420), size.x * 0.9F);
   ImGui::SetCursorScreenPos({origin.x + (size.x - width) / 2, origin.y + size.y * 0.26F});
   ImGui::BeginChild("welcome", {width, editor.px(330)}, false, ImGuiWindowFlags_NoBackground);
-  ui::emptyState(editor, ICON_CUBE, "No model yet", "Import an IFC, glTF, OBJ, PLY or STL file, or drop one here. A project is a folder: open it, or drop it, too.");
+  ui::emptyState(
+      editor, ICON_CUBE, "No model yet",
+      "Import an IFC, glTF, OBJ, PLY or STL file, or drop one here. A project is a folder: open it, or drop it, too.");
   const float button = std::min(editor.px(150), (width - editor.px(8)) / 2);
   ImGui::SetCursorPosX((width - 2 * button - editor.px(8)) / 2);
-  if (ui::primaryButton(ICON_IMPORT "  Import model…###welcome-import", editor.session.whyNot("import"), {button, editor.px(30)}))
+  if (ui::primaryButton(ICON_IMPORT "  Import model…###welcome-import", editor.session.whyNot("import"),
+                        {button, editor.px(30)}))
     invoke(editor, "import");
   ImGui::SameLine();
-  if (ui::button(ICON_FOLDER_OPEN "  Open project…###welcome-open", editor.session.whyNot("open-project"), {button, editor.px(30)}))
+  if (ui::button(ICON_FOLDER_OPEN "  Open project…###welcome-open", editor.session.whyNot("open-project"),
+                 {button, editor.px(30)}))
     invoke(editor, "open");
   ui::gap(editor, 8);
   const auto recent = editor.settings.recent;
   for (std::size_t i = 0; i < std::min<std::size_t>(recent.size(), 5); ++i) {
     const std::filesystem::path path = recent[i];
-    if (ImGui::Selectable(fmt::format("{}  {}###recent{}", ICON_HISTORY, path.filename().string(), i).c_str())) openPath(editor, recent[i]);
+    if (ImGui::Selectable(fmt::format("{}  {}###recent{}", ICON_HISTORY, path.filename().string(), i).c_str()))
+      openPath(editor, recent[i]);
     ui::tooltip(recent[i]);
   }
   ImGui::EndChild();
@@ -189,14 +208,18 @@ void drawWelcome(Editor& editor, ImVec2 origin, ImVec2 size) {
 
 void drawScene(SceneView* scene, const ViewState& state, ImVec2 origin, ImVec2 size, bool fine) {
   const float pixels = ImGui::GetIO().DisplayFramebufferScale.x > 0 ? ImGui::GetIO().DisplayFramebufferScale.x : 1;
-  const std::uint64_t texture = scene == nullptr ? 0 : scene->texture(state, static_cast<int>(size.x * pixels), static_cast<int>(size.y * pixels), fine);
+  const std::uint64_t texture = scene == nullptr ? 0
+                                                 : scene->texture(state, static_cast<int>(size.x * pixels),
+                                                                  static_cast<int>(size.y * pixels), fine);
   if (texture == 0) return;
-  ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), origin, {origin.x + size.x, origin.y + size.y}, {0, 1}, {1, 0});
+  ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), origin,
+                                       {origin.x + size.x, origin.y + size.y}, {0, 1}, {1, 0});
 }
 
 void drawCaption(const Editor& editor, ImVec2 origin, ImVec2 size, const std::string& text) {
   const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
-  ImGui::GetWindowDrawList()->AddText({origin.x + (size.x - extent.x) / 2, origin.y + size.y - extent.y - editor.px(8)}, tone::kDim, text.c_str());
+  ImGui::GetWindowDrawList()->AddText({origin.x + (size.x - extent.x) / 2, origin.y + size.y - extent.y - editor.px(8)},
+                                      tone::kDim, text.c_str());
 }
 
 // The original on the left, what was made of it on the right, through one camera. The half under the pointer is turned.
@@ -206,8 +229,10 @@ void drawBothModels(Editor& editor, ImVec2 origin, ImVec2 half) {
   drawScene(editor.scene, editor.viewState(), right, half, editor.fine_picture);
   ImGui::GetWindowDrawList()->AddLine(right, {right.x, right.y + half.y}, IM_COL32(12, 14, 17, 255), editor.px(2));
   const auto& document = editor.session.document();
-  drawCaption(editor, origin, half, fmt::format("Original  {} triangles", groupedDigits(document.lightening->all.triangles_before)));
-  drawCaption(editor, right, half, fmt::format("Lighter  {} triangles", groupedDigits(document.lightening->all.triangles_after)));
+  drawCaption(editor, origin, half,
+              fmt::format("Original  {} triangles", groupedDigits(document.lightening->all.triangles_before)));
+  drawCaption(editor, right, half,
+              fmt::format("Lighter  {} triangles", groupedDigits(document.lightening->all.triangles_after)));
 }
 
 }  // namespace
@@ -216,7 +241,8 @@ void drawViewport(Editor& editor) {
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const ImVec2 whole = ImGui::GetContentRegionAvail();
   if (whole.x < 16 || whole.y < 8) return;
-  const bool both = editor.view.side == ModelSide::both && editor.session.document().lightening && !editor.preview.isOpen();
+  const bool both =
+      editor.view.side == ModelSide::both && editor.session.document().lightening && !editor.preview.isOpen();
   const ImVec2 size = both ? ImVec2(whole.x / 2, whole.y) : whole;
   auto& view = editor.view;
   view.size = {size.x, size.y};
@@ -224,8 +250,11 @@ void drawViewport(Editor& editor) {
     frame(view.camera, editor.buildingBounds(), size.x / size.y);
     view.frame_wanted = false;
   }
-  if (both) drawBothModels(editor, origin, size);
-  else drawScene(editor.scene, view.side == ModelSide::original ? editor.originalState() : editor.viewState(), origin, size, editor.fine_picture);
+  if (both)
+    drawBothModels(editor, origin, size);
+  else
+    drawScene(editor.scene, view.side == ModelSide::original ? editor.originalState() : editor.viewState(), origin,
+              size, editor.fine_picture);
   const bool previewed = editor.preview.isOpen();
   if (!previewed) drawExpected(editor, origin, size);
   if (!previewed) drawCoverage(editor, origin, size);
@@ -235,7 +264,9 @@ void drawViewport(Editor& editor) {
     return;
   }
   ImGui::SetCursorScreenPos(origin);
-  ImGui::InvisibleButton("###scene", whole, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+  ImGui::InvisibleButton(
+      "###scene", whole,
+      ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   ImGui::SetItemAllowOverlap();
   if (!previewed) acceptMaterial(editor, origin);
   const bool hovered = ImGui::IsItemHovered() && !overOverlay(editor, origin, whole);

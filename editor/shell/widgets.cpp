@@ -18,7 +18,7 @@ namespace ui {
 
 void tooltip(const std::string& text) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-  ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1.0F);   // also inside a disabled block
+  ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1.0F);  // also inside a disabled block
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26);
   ImGui::TextUnformatted(text.c_str());
@@ -136,7 +136,8 @@ void property(const char* label, const std::string& value) {
   ImGui::PushTextWrapPos(0);
   ImGui::TextUnformatted(value.empty() ? "–" : value.c_str());
   ImGui::PopTextWrapPos();
-  if (!value.empty() && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) ImGui::SetClipboardText(value.c_str());
+  if (!value.empty() && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0))
+    ImGui::SetClipboardText(value.c_str());
 }
 
 void endProperties() { ImGui::EndTable(); }
@@ -156,7 +157,8 @@ void swatch(const Editor& editor, const Colour& shown) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float top = at.y + (ImGui::GetTextLineHeight() - size) / 2;
   ImGui::GetWindowDrawList()->AddRectFilled({at.x, top}, {at.x + size, top + size},
-                                            ImGui::ColorConvertFloat4ToU32({shown.r, shown.g, shown.b, 1}), editor.px(3));
+                                            ImGui::ColorConvertFloat4ToU32({shown.r, shown.g, shown.b, 1}),
+                                            editor.px(3));
   ImGui::Dummy({size, ImGui::GetTextLineHeight()});
 }
 
@@ -185,7 +187,10 @@ void textRightAligned(const std::string& text) {
 std::string fittingLabel(const char* icon, const char* text, const char* id, float width) {
   const std::string whole = std::string(icon) + "  " + text;
   const float room = width - 2 * ImGui::GetStyle().FramePadding.x;
-  return (ImGui::CalcTextSize(whole.c_str()).x <= room ? whole : ImGui::CalcTextSize(text).x <= room ? std::string(text) : std::string(icon)) + "###" + id;
+  return (ImGui::CalcTextSize(whole.c_str()).x <= room ? whole
+          : ImGui::CalcTextSize(text).x <= room        ? std::string(text)
+                                                       : std::string(icon)) +
+         "###" + id;
 }
 
 void fitted(const std::string& text, float width) {
@@ -195,10 +200,10 @@ void fitted(const std::string& text, float width) {
   }
   ImVec2 at = ImGui::GetCursorScreenPos();
   const float height = ImGui::GetTextLineHeight(), down = ImGui::GetCurrentWindow()->DC.CurrLineTextBaseOffset;
-  at.y += down;   // beside what has a frame
+  at.y += down;  // beside what has a frame
   ImGui::Dummy({std::max(width, 1.0F), height + down});
-  ImGui::RenderTextEllipsis(ImGui::GetWindowDrawList(), at, {at.x + width, at.y + height + 2}, at.x + width, at.x + width,
-                            text.c_str(), nullptr, nullptr);
+  ImGui::RenderTextEllipsis(ImGui::GetWindowDrawList(), at, {at.x + width, at.y + height + 2}, at.x + width,
+                            at.x + width, text.c_str(), nullptr, nullptr);
   tooltip(text);
 }
 

@@ -22,7 +22,7 @@ bool primaryButton(const char* label, const std::string& why = {}, ImVec2 size =
 bool wideButton(const char* id, const std::string& text, const std::string& why = {}, const char* tooltip = nullptr);
 // An icon without a frame, for rows and bars.
 bool iconButton(const char* label, const char* tooltip, const std::string& why = {}, bool lit = false);
-void tooltip(const std::string& text);   // of the last item, also when it is disabled
+void tooltip(const std::string& text);  // of the last item, also when it is disabled
 
 void heading(const Editor& editor, const char* text);
 void dimText(const std::string& text);
@@ -35,10 +35,10 @@ void gap(const Editor& editor, float points = 4);
 // Rows of label and value with aligned columns. Values can be selected by a double click: it copies them.
 bool beginProperties(const char* id, float label_share = 0.40F);
 void property(const char* label, const std::string& value);
-void propertyLabel(const char* label);   // then draw a widget in the value's column
+void propertyLabel(const char* label);  // then draw a widget in the value's column
 void endProperties();
 
-void meter(const Editor& editor, double fraction, ImU32 tone, float width = 0);   // 0 = all there is
+void meter(const Editor& editor, double fraction, ImU32 tone, float width = 0);  // 0 = all there is
 void swatch(const Editor& editor, const Colour& colour);
 bool searchField(const char* id, const char* hint, std::string& text);
 void textRightAligned(const std::string& text);
@@ -49,7 +49,7 @@ void fitted(const std::string& text, float width);
 
 }  // namespace ui
 
-std::string groupedDigits(std::uint64_t number);      // 12 345 678
-std::string metres(double value, int decimals = 3);   // "1.250 m"
+std::string groupedDigits(std::uint64_t number);     // 12 345 678
+std::string metres(double value, int decimals = 3);  // "1.250 m"
 
 }  // namespace standpoint

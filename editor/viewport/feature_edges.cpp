@@ -26,7 +26,7 @@ std::vector<std::uint32_t> weldedIndices(const std::vector<Eigen::Vector3f>& pos
 }
 
 struct Side {
-  std::uint32_t low, high;   // welded ends, low < high
+  std::uint32_t low, high;  // welded ends, low < high
   std::uint32_t triangle;
 };
 

@@ -9,7 +9,7 @@
 
 namespace standpoint {
 
-using EdgeLine = std::array<std::uint32_t, 2>;   // indices into Mesh::positions
+using EdgeLine = std::array<std::uint32_t, 2>;  // indices into Mesh::positions
 
 // The edges that a draughtsman would draw: where the surface ends, and where two faces meet at more than `angle_rad`.
 // Positions that are equal count as one, so that a mesh that is not welded gives the same lines.

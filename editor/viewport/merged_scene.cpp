@@ -15,7 +15,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kSharp_rad = 0.5;   // 29°: a cylinder of 12 or more sides has no lines along it
+constexpr double kSharp_rad = 0.5;  // 29°: a cylinder of 12 or more sides has no lines along it
 
 std::uint8_t byte(float value) { return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * 255)); }
 Rgba rgba(const Colour& c) { return {byte(c.r), byte(c.g), byte(c.b), byte(c.a)}; }
@@ -33,7 +33,8 @@ void appendPositions(std::vector<float>& out, const Mesh& mesh, const Eigen::Aff
 }
 
 void appendTriangle(MergedTriangles& out, const Triangle& t, std::int64_t offset, bool mirrored, Rgba colour) {
-  out.corners.insert(out.corners.end(), {offset + t[0], offset + (mirrored ? t[2] : t[1]), offset + (mirrored ? t[1] : t[2])});
+  out.corners.insert(out.corners.end(),
+                     {offset + t[0], offset + (mirrored ? t[2] : t[1]), offset + (mirrored ? t[1] : t[2])});
   out.colours.push_back(colour);
 }
 
@@ -69,25 +70,30 @@ class Painter {
   }
 
   Rgba ofFace(PlacedTriangle face) const {
-    return rgba(physicalColour(state_.materials->result.assignment, triangles_->materialOf(face.instance, face.triangle), state_));
+    return rgba(physicalColour(state_.materials->result.assignment,
+                               triangles_->materialOf(face.instance, face.triangle), state_));
   }
 
   Rgba of(std::uint32_t product, std::uint32_t surface) const {
-    if (state_.colour == ColourMode::deviation) return state_.deviation ? Rgba{255, 255, 255, 255} : deviationColour(0, 1);
+    if (state_.colour == ColourMode::deviation)
+      return state_.deviation ? Rgba{255, 255, 255, 255} : deviationColour(0, 1);
     if (isExpected(state_.colour)) return deviationColour(0, 1);
     if (state_.colour != ColourMode::model) {
       if (!state_.materials) return rgba(materialColour(nullptr));
       const auto& assignment = state_.materials->result.assignment;
-      if (state_.colour == ColourMode::confidence) return rgba(confidenceColour(confidenceOf(assignment, product, surface)));
+      if (state_.colour == ColourMode::confidence)
+        return rgba(confidenceColour(confidenceOf(assignment, product, surface)));
       return rgba(physicalColour(assignment, materialOf(assignment, product, surface), state_));
     }
     Colour c = state_.environment->surfaces[surface].colour;
-    if (c.a < 1) c.a = std::clamp(c.a, 0.15F, 0.85F);   // glass stays to be seen
+    if (c.a < 1) c.a = std::clamp(c.a, 0.15F, 0.85F);  // glass stays to be seen
     return rgba(c);
   }
 
  private:
-  bool showsMaterials() const { return state_.colour == ColourMode::material || state_.colour == ColourMode::reflectance; }
+  bool showsMaterials() const {
+    return state_.colour == ColourMode::material || state_.colour == ColourMode::reflectance;
+  }
 
   const ViewState& state_;
   std::optional<AssignedTriangles> triangles_;
@@ -98,7 +104,8 @@ class Painter {
 class MeshMerger {
  public:
   // `gradation` is empty, or has what each vertex's colour multiplies that of the surface with.
-  MeshMerger(const ViewState& state, const Mesh& mesh, const Instance& instance, std::span<const Rgba> gradation, MergedScene& scene)
+  MeshMerger(const ViewState& state, const Mesh& mesh, const Instance& instance, std::span<const Rgba> gradation,
+             MergedScene& scene)
       : state_(state),
         mesh_(mesh),
         instance_(instance),
@@ -112,8 +119,10 @@ class MeshMerger {
     const auto& t = mesh_.triangles[triangle];
     const bool opaque = colour[3] == 255 && (!graded_ || opaqueCorners(t));
     if (out_ == nullptr || surface != surface_ || opaque != opaque_) aim(surface, opaque);
-    if (graded_) addGraded(t, colour);
-    else appendTriangle(*out_, t, offset_, mirrored_, colour);
+    if (graded_)
+      addGraded(t, colour);
+    else
+      appendTriangle(*out_, t, offset_, mirrored_, colour);
   }
 
  private:
@@ -176,10 +185,10 @@ class MeshMerger {
   std::span<const Rgba> gradation_;
   MergedScene& scene_;
   bool mirrored_, graded_;
-  std::map<const MergedTriangles*, std::int64_t> offsets_;               // of the mesh's first vertex in each part
-  std::unordered_map<std::uint32_t, std::int64_t> graded_vertex_;        // of this surface
-  MergedTriangles* out_ = nullptr;                                       // where the last triangle went
-  PaintedTriangles* painted_ = nullptr;                                  // the same, when it shows an image
+  std::map<const MergedTriangles*, std::int64_t> offsets_;         // of the mesh's first vertex in each part
+  std::unordered_map<std::uint32_t, std::int64_t> graded_vertex_;  // of this surface
+  MergedTriangles* out_ = nullptr;                                 // where the last triangle went
+  PaintedTriangles* painted_ = nullptr;                            // the same, when it shows an image
   std::int64_t offset_ = 0;
   std::uint32_t surface_ = 0;
   bool opaque_ = true;
@@ -187,7 +196,8 @@ class MeshMerger {
 
 std::vector<Rgba> coloursOf(const DeviationField& field, std::size_t instance) {
   std::vector<Rgba> colours;
-  for (const float d : field.of_instance[instance]->distance_m) colours.push_back(deviationColour(d, field.full_scale_m));
+  for (const float d : field.of_instance[instance]->distance_m)
+    colours.push_back(deviationColour(d, field.full_scale_m));
   return colours;
 }
 
@@ -204,8 +214,10 @@ MergedScene mergeVisible(const ViewState& state) {
     const Mesh& mesh = *state.environment->meshes[instance.mesh];
     if (deviations) distances = coloursOf(*state.deviation, i);
     std::span<const Rgba> gradation;
-    if (deviations) gradation = distances;
-    else if (state.colour == ColourMode::model) gradation = mesh.colours;
+    if (deviations)
+      gradation = distances;
+    else if (state.colour == ColourMode::model)
+      gradation = mesh.colours;
     MeshMerger merger(state, mesh, instance, gradation, scene);
     std::uint32_t surface = ~0U;
     bool by_face = false;
@@ -213,8 +225,10 @@ MergedScene mergeVisible(const ViewState& state) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const bool next = mesh.surface_of_triangle[t] != surface;
       if (next) by_face = painter.byFace(instance.product, surface = mesh.surface_of_triangle[t]);
-      if (by_face) colour = painter.ofFace({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(t)});
-      else if (next) colour = painter.of(instance.product, surface);
+      if (by_face)
+        colour = painter.ofFace({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(t)});
+      else if (next)
+        colour = painter.of(instance.product, surface);
       merger.add(t, colour);
     }
   }
@@ -225,7 +239,8 @@ std::optional<MergedColours> mergeColours(const ViewState& state) {
   const auto& environment = *state.environment;
   if (state.colour == ColourMode::deviation && state.deviation) return std::nullopt;
   if (state.colour == ColourMode::model &&
-      (!environment.images.empty() || std::any_of(environment.meshes.begin(), environment.meshes.end(), [](const auto& m) { return !m->colours.empty(); })))
+      (!environment.images.empty() || std::any_of(environment.meshes.begin(), environment.meshes.end(),
+                                                  [](const auto& m) { return !m->colours.empty(); })))
     return std::nullopt;
   MergedColours merged;
   merged.runs.push_back(0);
@@ -242,10 +257,13 @@ std::optional<MergedColours> mergeColours(const ViewState& state) {
     if (!visible(state, instance.product)) continue;
     const auto& of = environment.meshes[instance.mesh]->surface_of_triangle;
     for (std::size_t t = 0; t < of.size();) {
-      const auto end = static_cast<std::size_t>(std::upper_bound(of.begin() + static_cast<std::ptrdiff_t>(t), of.end(), of[t]) - of.begin());
-      if (!painter.byFace(instance.product, of[t])) append(painter.of(instance.product, of[t]), static_cast<std::uint32_t>(end - t));
+      const auto end = static_cast<std::size_t>(
+          std::upper_bound(of.begin() + static_cast<std::ptrdiff_t>(t), of.end(), of[t]) - of.begin());
+      if (!painter.byFace(instance.product, of[t]))
+        append(painter.of(instance.product, of[t]), static_cast<std::uint32_t>(end - t));
       else
-        for (auto face = t; face < end; ++face) append(painter.ofFace({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(face)}), 1);
+        for (auto face = t; face < end; ++face)
+          append(painter.ofFace({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(face)}), 1);
       t = end;
     }
   }
@@ -265,12 +283,14 @@ MergedTriangles mergeProducts(const Environment& environment, const std::vector<
 }
 
 MergedTriangles mergeShapes(const CollideResult& collision) {
-  static constexpr std::array<Rgba, 3> kColours = {Rgba{116, 170, 222, 255}, Rgba{134, 196, 148, 255}, Rgba{222, 178, 110, 255}};
+  static constexpr std::array<Rgba, 3> kColours = {Rgba{116, 170, 222, 255}, Rgba{134, 196, 148, 255},
+                                                   Rgba{222, 178, 110, 255}};
   MergedTriangles out;
   for (const auto& shape : collision.shapes) {
     const auto offset = pointCount(out);
     appendPositions(out.positions, shape.mesh, Eigen::Affine3d::Identity());
-    for (const auto& t : shape.mesh.triangles) appendTriangle(out, t, offset, false, kColours[static_cast<std::size_t>(shape.kind)]);
+    for (const auto& t : shape.mesh.triangles)
+      appendTriangle(out, t, offset, false, kColours[static_cast<std::size_t>(shape.kind)]);
   }
   return out;
 }

@@ -19,14 +19,14 @@ using Rgba = std::array<std::uint8_t, 4>;
 // Plain arrays, ready to be handed to the graphics library: one mesh of all placed triangles, whatever they belong to.
 // Ten thousand small actors are twenty times slower to draw than one merged mesh.
 struct MergedTriangles {
-  std::vector<float> positions;          // x, y, z
-  std::vector<std::int64_t> corners;     // three per triangle
-  std::vector<Rgba> colours;             // one per triangle; where graded, one per position
-  bool graded = false;                   // the colour runs from corner to corner
+  std::vector<float> positions;       // x, y, z
+  std::vector<std::int64_t> corners;  // three per triangle
+  std::vector<Rgba> colours;          // one per triangle; where graded, one per position
+  bool graded = false;                // the colour runs from corner to corner
 };
 struct MergedLines {
   std::vector<float> positions;
-  std::vector<std::int64_t> ends;        // two per line
+  std::vector<std::int64_t> ends;  // two per line
 };
 
 // What shows an image: at most two for each image of the environment that is in sight, with and without vertex colours.
@@ -48,8 +48,8 @@ MergedScene mergeVisible(const ViewState& state);
 // The colours of mergeVisible() without the geometry, for a view that shows the same triangles in another paint.
 struct MergedColours {
   std::vector<Rgba> opaque, transparent;
-  std::vector<std::uint32_t> runs;       // triangles that go to `opaque`, then to `transparent`, and on in turns: where these are
-                                         // equal, every triangle is where it was
+  std::vector<std::uint32_t> runs;  // triangles that go to `opaque`, then to `transparent`, and on in turns: where
+                                    // these are equal, every triangle is where it was
   bool operator==(const MergedColours&) const = default;
 };
 // Nothing where images or vertex colours are shown: their geometry depends on what is painted.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/viewport/offscreen.h"
 
-#include <vtk_glew.h>
-
 #include <vector>
 
 #include <EGL/egl.h>
@@ -10,6 +8,7 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 #include <stb/stb_image_write.h>
+#include <vtk_glew.h>
 
 #include "editor/shell/shell.h"
 #include "editor/shell/theme.h"
@@ -19,7 +18,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr int kFramesUntilStill = 6;   // layouts settle within two or three; popups take one more
+constexpr int kFramesUntilStill = 6;  // layouts settle within two or three; popups take one more
 
 struct EglContext {
   EGLDisplay display = EGL_NO_DISPLAY;
@@ -34,20 +33,25 @@ struct EglContext {
 
   // "" when a context is current, else what failed.
   const char* make() {
-    const auto platform = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
+    const auto platform =
+        reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
     if (platform == nullptr) return "EGL cannot make a display without a window";
     display = platform(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-    if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE) return "EGL has no surfaceless display";
+    if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE)
+      return "EGL has no surfaceless display";
     if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) return "EGL has no OpenGL";
     const EGLint config_wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
     EGLConfig config = nullptr;
     EGLint found = 0;
     eglChooseConfig(display, config_wanted, &config, 1, &found);
-    const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 2, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                             EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+    const EGLint wanted[] = {
+        EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 2, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
     context = eglCreateContext(display, found > 0 ? config : nullptr, EGL_NO_CONTEXT, wanted);
     if (context == EGL_NO_CONTEXT) return "OpenGL 3.2 is not available";
-    return eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_TRUE ? "" : "the OpenGL context cannot be used";
+    return eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_TRUE
+               ? ""
+               : "the OpenGL context cannot be used";
   }
 };
 
@@ -66,7 +70,7 @@ class EglOffscreen : public Offscreen {
     fonts_ = buildFonts(scale);
     scene_ = makeVtkSceneView();
     beside_ = makeVtkSceneView();
-    scene_->texture(ViewState(), 8, 8, false);   // loads the OpenGL functions
+    scene_->texture(ViewState(), 8, 8, false);  // loads the OpenGL functions
     ImGui_ImplOpenGL3_Init("#version 150");
     makeTarget();
   }

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <functional>
 #include <memory>
 
 #include "core/result.h"

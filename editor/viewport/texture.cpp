@@ -2,8 +2,8 @@
 #include "editor/viewport/texture.h"
 
 #include <cstring>
-#include <stb/stb_image.h>
 
+#include <stb/stb_image.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/viewport/vtk_scene_view.h"
 
-#include <vtk_glew.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -29,12 +27,13 @@
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkRenderer.h>
-#include <vtkTranslucentPass.h>
 #include <vtkRenderStepsPass.h>
+#include <vtkRenderer.h>
 #include <vtkTexture.h>
 #include <vtkTextureObject.h>
+#include <vtkTranslucentPass.h>
 #include <vtkUnsignedCharArray.h>
+#include <vtk_glew.h>
 
 #include "core/units.h"
 #include "editor/viewport/merged_scene.h"
@@ -45,8 +44,8 @@ namespace standpoint {
 namespace {
 
 constexpr std::uint64_t kMostEdges = 1500000;
-// A fine picture is drawn twice as large and shrunk, up to this many pixels: VTK makes its framebuffer once with the number
-// of samples of that time, so multisampling cannot be switched on for a view that comes to rest.
+// A fine picture is drawn twice as large and shrunk, up to this many pixels: VTK makes its framebuffer once with the
+// number of samples of that time, so multisampling cannot be switched on for a view that comes to rest.
 constexpr int kFineFactor = 2;
 constexpr std::int64_t kMostFinePixels = 12000000;
 
@@ -103,10 +102,14 @@ struct Layer {
     vtkNew<vtkPolyData> data;
     data->SetPoints(pointsOf(triangles.positions));
     data->SetPolys(cellsOf(triangles.corners, 3));
-    if (triangles.graded) data->GetPointData()->SetScalars(coloursOf(triangles.colours));
-    else data->GetCellData()->SetScalars(coloursOf(triangles.colours));
-    if (triangles.graded) mapper->SetScalarModeToUsePointData();
-    else mapper->SetScalarModeToUseCellData();
+    if (triangles.graded)
+      data->GetPointData()->SetScalars(coloursOf(triangles.colours));
+    else
+      data->GetCellData()->SetScalars(coloursOf(triangles.colours));
+    if (triangles.graded)
+      mapper->SetScalarModeToUsePointData();
+    else
+      mapper->SetScalarModeToUseCellData();
     set(data, triangles.colours.empty());
   }
   void show(const PaintedTriangles& painted, vtkTexture* texture) {
@@ -131,7 +134,8 @@ struct Layer {
     std::vector<float> positions;
     std::vector<Rgba> colours;
     for (std::size_t i = 0; i < cloud.colours.size(); i += step) {
-      positions.insert(positions.end(), {cloud.positions[3 * i], cloud.positions[3 * i + 1], cloud.positions[3 * i + 2]});
+      positions.insert(positions.end(),
+                       {cloud.positions[3 * i], cloud.positions[3 * i + 1], cloud.positions[3 * i + 2]});
       colours.push_back(cloud.colours[i]);
     }
     std::vector<std::int64_t> indices(colours.size());
@@ -156,12 +160,14 @@ struct Layer {
 
 // Squares of 1 m and, where the model is large, of 10 m; they fade towards the rim.
 vtkSmartPointer<vtkPolyData> groundGrid(const Bounds& bounds) {
-  const double reach = std::max(4.0, 0.9 * std::hypot(bounds.max.x() - bounds.min.x(), bounds.max.y() - bounds.min.y()));
+  const double reach =
+      std::max(4.0, 0.9 * std::hypot(bounds.max.x() - bounds.min.x(), bounds.max.y() - bounds.min.y()));
   const double step = std::pow(10.0, std::max(0.0, std::floor(std::log10(reach / 8))));
   const Eigen::Vector3d centre = (bounds.min + bounds.max) / 2;
-  const double cx = std::round(centre.x() / step) * step, cy = std::round(centre.y() / step) * step, z = bounds.min.z() - 0.02;
+  const double cx = std::round(centre.x() / step) * step, cy = std::round(centre.y() / step) * step,
+               z = bounds.min.z() - 0.02;
   const int lines = static_cast<int>(std::ceil(reach / step));
-  constexpr int kParts = 40;   // of a line, so that each can have its own strength
+  constexpr int kParts = 40;  // of a line, so that each can have its own strength
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> cells;
   vtkNew<vtkUnsignedCharArray> colours;
@@ -236,7 +242,8 @@ class VtkSceneView : public SceneView {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, picture->width, picture->height, 0, GL_RGBA, GL_UNSIGNED_BYTE, picture->rgba.data());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, picture->width, picture->height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                 picture->rgba.data());
     glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(bound));
     return pixels_texture_;
   }
@@ -267,11 +274,11 @@ class VtkSceneView : public SceneView {
     window_->SetIsDirect(1);
     window_->SetSupportsOpenGL(1);
     window_->SetIsCurrent(true);
-    window_->SetFrameBlitModeToNoBlit();   // the picture is taken from the display framebuffer's texture
+    window_->SetFrameBlitModeToNoBlit();  // the picture is taken from the display framebuffer's texture
     window_->SetMultiSamples(0);
     window_->SetSize(8, 8);
     window_->AddRenderer(renderer_);
-    renderer_->GradientBackgroundOn();     // also gives the texture an alpha of 1
+    renderer_->GradientBackgroundOn();  // also gives the texture an alpha of 1
     renderer_->SetBackground(0.118, 0.129, 0.149);
     renderer_->SetBackground2(0.267, 0.298, 0.345);
     renderer_->SetAutomaticLightCreation(0);
@@ -334,7 +341,7 @@ class VtkSceneView : public SceneView {
   }
 
   void setUpLayers() {
-    setUpLines(grid_, {0.6, 0.6, 0.6}, 1, 1);   // what is translucent is blended in this order
+    setUpLines(grid_, {0.6, 0.6, 0.6}, 1, 1);  // what is translucent is blended in this order
     grid_.actor->ForceTranslucentOn();
     setUpSurface(opaque_, 1);
     setUpSurface(transparent_, 1);
@@ -352,19 +359,25 @@ class VtkSceneView : public SceneView {
     setUpLines(edges_, {0.07, 0.08, 0.10}, 0.55, 1);
     setUpLines(outline_, {0.42, 0.71, 1.0}, 1, 2);
     setUpPoints(cloud_);
-    for (Layer* layer : {&opaque_, &transparent_, &graded_, &graded_transparent_, &shapes_, &selected_, &walkable_, &edges_, &outline_, &grid_, &cloud_}) layer->hide();
+    for (Layer* layer : {&opaque_, &transparent_, &graded_, &graded_transparent_, &shapes_, &selected_, &walkable_,
+                         &edges_, &outline_, &grid_, &cloud_})
+      layer->hide();
   }
 
   void update(const ViewState& state) {
     const ViewState* last = drawn_ ? &*drawn_ : nullptr;
     const bool environment = last == nullptr || last->environment != state.environment;
-    const bool shown = environment || last->hidden != state.hidden || last->shapes != state.shapes || last->cloud != state.cloud;
+    const bool shown =
+        environment || last->hidden != state.hidden || last->shapes != state.shapes || last->cloud != state.cloud;
     if (environment) bounds_ = state.environment ? bounds(*state.environment) : Bounds();
-    const bool painted = shown || last->materials != state.materials || last->colour != state.colour || last->wavelength_nm != state.wavelength_nm || last->deviation != state.deviation;
+    const bool painted = shown || last->materials != state.materials || last->colour != state.colour ||
+                         last->wavelength_nm != state.wavelength_nm || last->deviation != state.deviation;
     if (painted) updateSurfaces(state, !shown);
     if (shown || last->edges != state.edges) updateEdges(state);
     if (shown || last->selected != state.selected) updateSelection(state);
-    if (last == nullptr || last->collision != state.collision || last->walkable != state.walkable || last->shapes != state.shapes) updateCollision(state);
+    if (last == nullptr || last->collision != state.collision || last->walkable != state.walkable ||
+        last->shapes != state.shapes)
+      updateCollision(state);
     if (environment || last->grid != state.grid) updateGrid(state);
     if (last == nullptr || last->cloud != state.cloud) updateCloud(state);
     if (last == nullptr || last->underlays != state.underlays || last->cloud != state.cloud) updateUnderlays(state);
@@ -403,7 +416,8 @@ class VtkSceneView : public SceneView {
 
   void updateEdges(const ViewState& state) {
     edges_.hide();
-    if (state.environment && state.edges && !state.shapes && !state.cloud) edges_.show(edge_cache_.edges(state, nullptr, kMostEdges));
+    if (state.environment && state.edges && !state.shapes && !state.cloud)
+      edges_.show(edge_cache_.edges(state, nullptr, kMostEdges));
   }
 
   void updateSelection(const ViewState& state) {
@@ -447,7 +461,8 @@ class VtkSceneView : public SceneView {
       shown_step = step;
       vtkNew<vtkMatrix4x4> matrix;
       for (int row = 0; row < 4; ++row)
-        for (int column = 0; column < 4; ++column) matrix->SetElement(row, column, wanted.local_from_cloud(row, column));
+        for (int column = 0; column < 4; ++column)
+          matrix->SetElement(row, column, wanted.local_from_cloud(row, column));
       layer.actor->SetUserMatrix(matrix);
       layer.actor->SetVisibility(1);
     }
@@ -474,7 +489,9 @@ class VtkSceneView : public SceneView {
   }
 
   void updateCut(const ViewState& state) {
-    std::vector<Layer*> layers = {&opaque_, &transparent_, &graded_, &graded_transparent_, &shapes_, &selected_, &walkable_, &edges_, &outline_, &cloud_};
+    std::vector<Layer*> layers = {&opaque_,  &transparent_, &graded_,   &graded_transparent_,
+                                  &shapes_,  &selected_,    &walkable_, &edges_,
+                                  &outline_, &cloud_};
     for (const auto& u : underlays_) layers.push_back(&u->layer);
     for (const auto& layer : painted_) layers.push_back(layer.get());
     for (Layer* layer : layers) {
@@ -501,7 +518,7 @@ class VtkSceneView : public SceneView {
       return;
     }
     const Eigen::Vector3d centre = (reach_.min + reach_.max) / 2;
-    const double reach = 2 * reach_.diagonal() + 10;   // the grid reaches farther than the model
+    const double reach = 2 * reach_.diagonal() + 10;  // the grid reaches farther than the model
     const double depth = (centre - eye).dot(camera.forward());
     if (camera.orthographic) {
       vtk->SetClippingRange(depth - reach, depth + reach);
@@ -515,9 +532,11 @@ class VtkSceneView : public SceneView {
 
   vtkNew<ForeignContextWindow> window_;
   vtkNew<vtkRenderer> renderer_;
-  Layer opaque_, transparent_, graded_, graded_transparent_, shapes_, selected_, walkable_, edges_, outline_, grid_, cloud_;
-  std::vector<std::unique_ptr<Layer>> painted_;   // one for each image in sight
-  std::vector<std::uint32_t> runs_;               // of what opaque_ and transparent_ show; empty: their colours cannot be changed alone
+  Layer opaque_, transparent_, graded_, graded_transparent_, shapes_, selected_, walkable_, edges_, outline_, grid_,
+      cloud_;
+  std::vector<std::unique_ptr<Layer>> painted_;  // one for each image in sight
+  std::vector<std::uint32_t>
+      runs_;  // of what opaque_ and transparent_ show; empty: their colours cannot be changed alone
   TextureCache textures_;
   EdgeCache edge_cache_;
   struct UnderlayLayer {
@@ -526,12 +545,12 @@ class VtkSceneView : public SceneView {
     std::size_t step = 0;
   };
   std::vector<std::unique_ptr<UnderlayLayer>> underlays_;
-  Bounds bounds_, reach_;   // of the environment; of all that is shown
+  Bounds bounds_, reach_;  // of the environment; of all that is shown
   std::optional<ViewState> drawn_;
-  std::shared_ptr<const PixelPicture> pixels_;   // what pixels_texture_ shows
+  std::shared_ptr<const PixelPicture> pixels_;  // what pixels_texture_ shows
   GLuint pixels_texture_ = 0;
   bool fine_ = false;
-  int width_ = 0, height_ = 0;   // of the picture as it is shown
+  int width_ = 0, height_ = 0;  // of the picture as it is shown
 };
 
 }  // namespace

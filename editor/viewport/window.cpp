@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "editor/viewport/window.h"
 
-#include <vtk_glew.h>
-
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <cstring>
+#include <unistd.h>
 
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 #include <imgui_internal.h>
+#include <vtk_glew.h>
 
 #include "editor/model/input_queue.h"
 #include "editor/model/interface_scale.h"
@@ -27,12 +25,13 @@ namespace standpoint {
 
 namespace {
 
-constexpr int kFramesAfterInput = 3;       // hovering and layouts settle one frame late
-constexpr double kStill_s = 0.25;          // without input the picture is made fine
+constexpr int kFramesAfterInput = 3;  // hovering and layouts settle one frame late
+constexpr double kStill_s = 0.25;     // without input the picture is made fine
 std::atomic<bool> window_open{false};
 
-// Dear ImGui drops a comma from a field for numbers, so that 0,3 would become 3: it is the decimal sign there. Between two
-// frames nothing tells such a field but what stood in it when editing began: a number with a decimal point, and a unit.
+// Dear ImGui drops a comma from a field for numbers, so that 0,3 would become 3: it is the decimal sign there. Between
+// two frames nothing tells such a field but what stood in it when editing began: a number with a decimal point, and a
+// unit.
 unsigned numberSign(unsigned code) {
   const auto* edited = ImGui::GetInputTextState(ImGui::GetActiveID());
   if (code != ',' || edited == nullptr || edited->InitialTextA.empty()) return code;
@@ -43,13 +42,28 @@ unsigned numberSign(unsigned code) {
   return decimal && std::strpbrk(end, ".,") == nullptr ? '.' : code;
 }
 
-constexpr std::pair<int, int> kKeyMap[] = {
-    {ImGuiKey_Tab, GLFW_KEY_TAB},       {ImGuiKey_LeftArrow, GLFW_KEY_LEFT}, {ImGuiKey_RightArrow, GLFW_KEY_RIGHT}, {ImGuiKey_UpArrow, GLFW_KEY_UP},
-    {ImGuiKey_DownArrow, GLFW_KEY_DOWN}, {ImGuiKey_PageUp, GLFW_KEY_PAGE_UP}, {ImGuiKey_PageDown, GLFW_KEY_PAGE_DOWN}, {ImGuiKey_Home, GLFW_KEY_HOME},
-    {ImGuiKey_End, GLFW_KEY_END},       {ImGuiKey_Insert, GLFW_KEY_INSERT},  {ImGuiKey_Delete, GLFW_KEY_DELETE},    {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
-    {ImGuiKey_Space, GLFW_KEY_SPACE},   {ImGuiKey_Enter, GLFW_KEY_ENTER},    {ImGuiKey_Escape, GLFW_KEY_ESCAPE},    {ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER},
-    {ImGuiKey_A, GLFW_KEY_A},           {ImGuiKey_C, GLFW_KEY_C},            {ImGuiKey_V, GLFW_KEY_V},              {ImGuiKey_X, GLFW_KEY_X},
-    {ImGuiKey_Y, GLFW_KEY_Y},           {ImGuiKey_Z, GLFW_KEY_Z}};
+constexpr std::pair<int, int> kKeyMap[] = {{ImGuiKey_Tab, GLFW_KEY_TAB},
+                                           {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
+                                           {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
+                                           {ImGuiKey_UpArrow, GLFW_KEY_UP},
+                                           {ImGuiKey_DownArrow, GLFW_KEY_DOWN},
+                                           {ImGuiKey_PageUp, GLFW_KEY_PAGE_UP},
+                                           {ImGuiKey_PageDown, GLFW_KEY_PAGE_DOWN},
+                                           {ImGuiKey_Home, GLFW_KEY_HOME},
+                                           {ImGuiKey_End, GLFW_KEY_END},
+                                           {ImGuiKey_Insert, GLFW_KEY_INSERT},
+                                           {ImGuiKey_Delete, GLFW_KEY_DELETE},
+                                           {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
+                                           {ImGuiKey_Space, GLFW_KEY_SPACE},
+                                           {ImGuiKey_Enter, GLFW_KEY_ENTER},
+                                           {ImGuiKey_Escape, GLFW_KEY_ESCAPE},
+                                           {ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER},
+                                           {ImGuiKey_A, GLFW_KEY_A},
+                                           {ImGuiKey_C, GLFW_KEY_C},
+                                           {ImGuiKey_V, GLFW_KEY_V},
+                                           {ImGuiKey_X, GLFW_KEY_X},
+                                           {ImGuiKey_Y, GLFW_KEY_Y},
+                                           {ImGuiKey_Z, GLFW_KEY_Z}};
 
 class Window {
  public:
@@ -60,12 +74,14 @@ class Window {
     io.BackendFlags |= ImGuiBackendFlags_HasMouseCursors;
     for (const auto& [key, glfw] : kKeyMap) io.KeyMap[key] = glfw;
     io.ClipboardUserData = handle_;
-    io.SetClipboardTextFn = [](void* window, const char* text) { glfwSetClipboardString(static_cast<GLFWwindow*>(window), text); };
+    io.SetClipboardTextFn = [](void* window, const char* text) {
+      glfwSetClipboardString(static_cast<GLFWwindow*>(window), text);
+    };
     io.GetClipboardTextFn = [](void* window) { return glfwGetClipboardString(static_cast<GLFWwindow*>(window)); };
     listen();
     scene_ = makeVtkSceneView();
     beside_ = makeVtkSceneView();
-    scene_->texture(ViewState(), 8, 8, false);   // loads the OpenGL functions
+    scene_->texture(ViewState(), 8, 8, false);  // loads the OpenGL functions
     editor_.scene = scene_.get();
     editor_.scene_beside = beside_.get();
     ImGui_ImplOpenGL3_Init("#version 150");
@@ -105,7 +121,8 @@ class Window {
     last_input_s_ = glfwGetTime();
   }
 
-  // GLFW names keys by their place on an American keyboard; plus and minus lie elsewhere on others, and on the number pad.
+  // GLFW names keys by their place on an American keyboard; plus and minus lie elsewhere on others, and on the number
+  // pad.
   static int plusOrMinus(int key, int scancode) {
     if (key == GLFW_KEY_KP_ADD) return kKeyPlus;
     if (key == GLFW_KEY_KP_SUBTRACT) return kKeyMinus;
@@ -125,16 +142,21 @@ class Window {
     });
     glfwSetScrollCallback(handle_, [](GLFWwindow* w, double x, double y) { of(w).push({Kind::scroll, x, y}); });
     glfwSetKeyCallback(handle_, [](GLFWwindow* w, int key, int scancode, int action, int modifiers) {
-      if (key >= 0 && action != GLFW_REPEAT) of(w).push({Kind::key, 0, 0, plusOrMinus(key, scancode), action == GLFW_PRESS, modifiers});
+      if (key >= 0 && action != GLFW_REPEAT)
+        of(w).push({Kind::key, 0, 0, plusOrMinus(key, scancode), action == GLFW_PRESS, modifiers});
     });
-    glfwSetCharCallback(handle_, [](GLFWwindow* w, unsigned code) { of(w).push({Kind::character, 0, 0, static_cast<int>(code)}); });
-    glfwSetWindowFocusCallback(handle_, [](GLFWwindow* w, int focused) { of(w).focus_lost_ = of(w).focus_lost_ || focused == 0; });
+    glfwSetCharCallback(handle_, [](GLFWwindow* w, unsigned code) {
+      of(w).push({Kind::character, 0, 0, static_cast<int>(code)});
+    });
+    glfwSetWindowFocusCallback(
+        handle_, [](GLFWwindow* w, int focused) { of(w).focus_lost_ = of(w).focus_lost_ || focused == 0; });
     glfwSetDropCallback(handle_, [](GLFWwindow* w, int count, const char** paths) {
       if (count > 0) openFiles(of(w).editor_, {paths, paths + count});
       of(w).frames_wanted_ = kFramesAfterInput;
     });
     glfwSetFramebufferSizeCallback(handle_, [](GLFWwindow* w, int, int) { of(w).frames_wanted_ = kFramesAfterInput; });
-    glfwSetWindowContentScaleCallback(handle_, [](GLFWwindow* w, float, float) { of(w).frames_wanted_ = kFramesAfterInput; });
+    glfwSetWindowContentScaleCallback(handle_,
+                                      [](GLFWwindow* w, float, float) { of(w).frames_wanted_ = kFramesAfterInput; });
     glfwSetWindowRefreshCallback(handle_, [](GLFWwindow* w) { of(w).frames_wanted_ = kFramesAfterInput; });
   }
 
@@ -154,7 +176,7 @@ class Window {
     const auto& io = ImGui::GetIO();
     const bool key_held = std::any_of(std::begin(io.KeysDown), std::end(io.KeysDown), [](bool down) { return down; });
     if (key_held) {
-      glfwWaitEventsTimeout(1.0 / 30);   // Dear ImGui repeats held keys itself, once a frame
+      glfwWaitEventsTimeout(1.0 / 30);  // Dear ImGui repeats held keys itself, once a frame
     } else if (io.WantTextInput) {
       glfwWaitEventsTimeout(0.4);
     } else if (!editor_.fine_picture) {
@@ -228,10 +250,11 @@ class Window {
     glfwGetWindowSize(handle_, &window_w, &window_h);
     glfwGetFramebufferSize(handle_, &w, &h);
     if (frames_wanted_ > 0) --frames_wanted_;
-    if (w <= 0 || h <= 0) return;   // minimised
+    if (w <= 0 || h <= 0) return;  // minimised
     auto& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(window_w), static_cast<float>(window_h)};
-    io.DisplayFramebufferScale = {static_cast<float>(w) / static_cast<float>(window_w), static_cast<float>(h) / static_cast<float>(window_h)};
+    io.DisplayFramebufferScale = {static_cast<float>(w) / static_cast<float>(window_w),
+                                  static_cast<float>(h) / static_cast<float>(window_h)};
     const double now = glfwGetTime();
     io.DeltaTime = static_cast<float>(std::clamp(now - last_frame_s_, 1e-4, 0.2));
     last_frame_s_ = now;
@@ -267,7 +290,9 @@ class Window {
     const auto& session = editor_.session;
     const int minutes = editor_.settings.recovery_minutes;
     const double now = glfwGetTime();
-    if (minutes == 0 || !session.modified() || kept_revision_ == session.revision() || now - last_kept_s_ < minutes * 60.0) return;
+    if (minutes == 0 || !session.modified() || kept_revision_ == session.revision() ||
+        now - last_kept_s_ < minutes * 60.0)
+      return;
     const auto folder = recoveryFolder(recoveryRoot(), getpid());
     if (!writeRecoveryOwner(folder, session.name(), session.folder().string())) return;
     if (!editor_.session.saveRecovery(folder / "copy")) return;
@@ -298,7 +323,8 @@ Result<void> runWindow(Editor& editor, int width, int height) {
   static std::string last_glfw_error;
   glfwSetErrorCallback([](int, const char* text) { last_glfw_error = text; });
   if (glfwInit() == GLFW_FALSE)
-    return failure(ErrorKind::unusable, last_glfw_error + "; without a display use --pictures OUTDIR PROJECT", "window");
+    return failure(ErrorKind::unusable, last_glfw_error + "; without a display use --pictures OUTDIR PROJECT",
+                   "window");
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 2);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -317,7 +343,7 @@ Result<void> runWindow(Editor& editor, int width, int height) {
     Window window(editor, handle);
     window.run();
   }
-  editor.session.cancelAll();   // a task that still runs may wake a window that is about to go
+  editor.session.cancelAll();  // a task that still runs may wake a window that is about to go
   editor.session.wait();
   window_open.store(false);
   glfwDestroyWindow(handle);

@@ -78,7 +78,8 @@ Result<void> createProject(Device& device, const std::string&) {
 Result<void> openProject(Device& device, const std::string& row) {
   auto& s = device.change();
   const auto at = wholeNumber(row);
-  if (!at || *at < 0 || *at >= static_cast<int>(s.projects.size())) return failure(ErrorKind::usage, "there is no such row");
+  if (!at || *at < 0 || *at >= static_cast<int>(s.projects.size()))
+    return failure(ErrorKind::usage, "there is no such row");
   s.project = *at;
   s.shown = -1;
   device.note("project_opened", s.projects[s.project].name);
@@ -150,7 +151,8 @@ Result<void> measure(Device& device, const std::string& at) {
   const auto* setup = device.shownSetup();
   if (setup == nullptr || !setup->preview) return failure(ErrorKind::usage, device.word("no_preview"));
   const auto comma = at.find(',');
-  if (comma == std::string::npos) return failure(ErrorKind::usage, "u,v is needed: shares of the picture from its upper left");
+  if (comma == std::string::npos)
+    return failure(ErrorKind::usage, "u,v is needed: shares of the picture from its upper left");
   const double u = std::strtod(at.c_str(), nullptr), v = std::strtod(at.c_str() + comma + 1, nullptr);
   if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return failure(ErrorKind::usage, "the point is beside the picture");
   const auto& p = *setup->preview;
@@ -234,11 +236,21 @@ Result<void> standardArea(Device& device, const std::string&) {
 
 const std::vector<DeviceAction>& sharedActions() {
   static const std::vector<DeviceAction> actions = {
-      {"propose_project", proposeProject}, {"create_project", createProject},  {"open_project", openProject},
-      {"rename_project", renameProject},   {"set_cluster", setCluster},        {"show_setup", showSetup},
-      {"look_at_setup", lookAtSetup},      {"view_setup", viewSetup},          {"measure", measure},
-      {"measure_targets", measureTargets}, {"link_newest", linkNewest},        {"transfer_by_cable", transferByCable}, {"transfer_by_wlan", transferByWlan},
-      {"standard_settings", standardSettings}, {"standard_area", standardArea},
+      {"propose_project", proposeProject},
+      {"create_project", createProject},
+      {"open_project", openProject},
+      {"rename_project", renameProject},
+      {"set_cluster", setCluster},
+      {"show_setup", showSetup},
+      {"look_at_setup", lookAtSetup},
+      {"view_setup", viewSetup},
+      {"measure", measure},
+      {"measure_targets", measureTargets},
+      {"link_newest", linkNewest},
+      {"transfer_by_cable", transferByCable},
+      {"transfer_by_wlan", transferByWlan},
+      {"standard_settings", standardSettings},
+      {"standard_area", standardArea},
   };
   return actions;
 }
@@ -260,7 +272,11 @@ const std::vector<ListRow>& sharedLists() {
              const auto& s = p->setups[i];
              std::string marks = s.moved ? "  !" : s.unlevelled ? "  ~" : "";
              if (s.link) marks += s.link->joined ? "  ↔" : "  ×";
-             rows.push_back({std::to_string(i), fmt::format("{}  {}  {:.1f} M{}", s.name, s.station, static_cast<double>(s.points) / 1e6, marks), true, {}});
+             rows.push_back(
+                 {std::to_string(i),
+                  fmt::format("{}  {}  {:.1f} M{}", s.name, s.station, static_cast<double>(s.points) / 1e6, marks),
+                  true,
+                  {}});
            }
          return rows;
        }},
@@ -268,7 +284,8 @@ const std::vector<ListRow>& sharedLists() {
        [](const Device& d) {
          std::vector<WidgetOption> rows;
          if (const auto* setup = d.shownSetup())
-           for (const auto& [key, text] : setup->notes) rows.push_back({key, d.word("note." + key) + "  " + text, true, {}});
+           for (const auto& [key, text] : setup->notes)
+             rows.push_back({key, d.word("note." + key) + "  " + text, true, {}});
          return rows;
        }},
       {"targets",
@@ -277,8 +294,12 @@ const std::vector<ListRow>& sharedLists() {
          const auto* setup = d.shownSetup() != nullptr ? d.shownSetup() : d.newestSetup();
          if (setup != nullptr)
            for (const auto& t : setup->targets)
-             rows.push_back({t.name, t.found ? fmt::format("{}  {}  {} pts  {}", t.name, lengthText(t.range_m, d.showsFeet()), t.points, smallLengthText(t.residual_m, d.showsFeet()))
-                                             : fmt::format("{}  {}", t.name, t.why_not), true, {}});
+             rows.push_back({t.name,
+                             t.found ? fmt::format("{}  {}  {} pts  {}", t.name, lengthText(t.range_m, d.showsFeet()),
+                                                   t.points, smallLengthText(t.residual_m, d.showsFeet()))
+                                     : fmt::format("{}  {}", t.name, t.why_not),
+                             true,
+                             {}});
          return rows;
        }},
   };

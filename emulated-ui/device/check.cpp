@@ -16,9 +16,11 @@ namespace standpoint {
 namespace {
 
 // What the engine, the host and the hands send by themselves.
-const std::set<std::string> kOwnEvents = {"elapsed", "data", "linked", "targets_measured", "transferred", "failed",
-                                          "battery_low", "battery_critical", "battery_empty", "card_inserted", "card_removed",
-                                          "moved", "blocked", "temperature", "tilted", "tracking_lost", "wlan_lost", "set_down", "sighted", "not_sighted"};
+const std::set<std::string> kOwnEvents = {"elapsed",       "data",          "linked",       "targets_measured",
+                                          "transferred",   "failed",        "battery_low",  "battery_critical",
+                                          "battery_empty", "card_inserted", "card_removed", "moved",
+                                          "blocked",       "temperature",   "tilted",       "tracking_lost",
+                                          "wlan_lost",     "set_down",      "sighted",      "not_sighted"};
 // What every device has to know, whatever it answers.
 const std::set<std::string> kOwnDialogs = {"refused", "failed"};
 
@@ -64,7 +66,9 @@ bool hasWord(const std::string& text) {
 class Checker {
  public:
   explicit Checker(const DeviceType& type)
-      : type_(type), device_(std::make_shared<const DeviceType>(type)), lookup_([this](const std::string& name) { return device_.domain(name); }) {}
+      : type_(type),
+        device_(std::make_shared<const DeviceType>(type)),
+        lookup_([this](const std::string& name) { return device_.domain(name); }) {}
 
   std::vector<Error> structure() {
     collectEvents();
@@ -113,16 +117,20 @@ class Checker {
     checkCondition(w.enabled, place + "/enabled");
     checkCondition(w.warns, place + "/warns");
     const auto& settings = type_.instrument.settings;
-    if (!w.setting.empty() && std::none_of(settings.begin(), settings.end(), [&](const auto& s) { return s.key == w.setting; }) &&
+    if (!w.setting.empty() &&
+        std::none_of(settings.begin(), settings.end(), [&](const auto& s) { return s.key == w.setting; }) &&
         d().instruments.size() == 1)
       fault(place + "/setting", fmt::format("the scanner has no setting '{}'", w.setting));
-    if (!w.value.empty() && findValue(d(), w.value) == nullptr) fault(place + "/value", fmt::format("there is no value '{}'", w.value));
+    if (!w.value.empty() && findValue(d(), w.value) == nullptr)
+      fault(place + "/value", fmt::format("there is no value '{}'", w.value));
     if (!w.list.empty() && !hasName(type_.program.lists, w.list) && !hasName(sharedLists(), w.list))
       fault(place + "/list", fmt::format("there is no list '{}'", w.list));
     if (!w.does.empty() && !hasName(type_.program.actions, w.does) && !hasName(sharedActions(), w.does))
       fault(place + "/does", fmt::format("there is no action '{}'", w.does));
-    if (!w.event.empty() && !known_.contains(w.event)) fault(place + "/event", fmt::format("no phase knows the event '{}'", w.event));
-    if (!w.go.empty() && w.go != "back" && findScreen(d(), w.go) == nullptr) fault(place + "/go", fmt::format("there is no screen '{}'", w.go));
+    if (!w.event.empty() && !known_.contains(w.event))
+      fault(place + "/event", fmt::format("no phase knows the event '{}'", w.event));
+    if (!w.go.empty() && w.go != "back" && findScreen(d(), w.go) == nullptr)
+      fault(place + "/go", fmt::format("there is no screen '{}'", w.go));
     if (w.shows.find('{') == std::string::npos && !w.shows.empty() && !device_.domain(w.shows))
       fault(place + "/shows", fmt::format("there is no fact '{}'", w.shows));
     for (auto open = w.shows.find('{'); open != std::string::npos; open = w.shows.find('{', open + 1)) {
@@ -147,13 +155,16 @@ class Checker {
       for (const auto& from : split(t.from))
         if (from != "*" && findPhase(d(), from) == nullptr) fault(place, fmt::format("there is no phase '{}'", from));
       if (*t.to != '\0' && findPhase(d(), t.to) == nullptr) fault(place, fmt::format("there is no phase '{}'", t.to));
-      if (*t.show != '\0' && findScreen(d(), t.show) == nullptr) fault(place, fmt::format("there is no screen '{}'", t.show));
-      if (*t.ask != '\0' && findDialog(d(), t.ask) == nullptr) fault(place, fmt::format("there is no dialogue '{}'", t.ask));
+      if (*t.show != '\0' && findScreen(d(), t.show) == nullptr)
+        fault(place, fmt::format("there is no screen '{}'", t.show));
+      if (*t.ask != '\0' && findDialog(d(), t.ask) == nullptr)
+        fault(place, fmt::format("there is no dialogue '{}'", t.ask));
       if (!sent_.contains(t.event) && !kOwnEvents.contains(t.event)) fault(place, "nobody sends this event");
     }
   }
 
-  // A number, a number of the file or of the scanner, or a fact in seconds, but not what depends on the phase's own time.
+  // A number, a number of the file or of the scanner, or a fact in seconds, but not what depends on the phase's own
+  // time.
   bool isTime(const std::string& lasts) const {
     if (numberIn(lasts)) return true;
     const auto domain = device_.domain(lasts);
@@ -177,16 +188,19 @@ class Checker {
     const auto back = reached(turned(graph), {first});
     for (const auto& phase : d().phases) {
       if (!forth.contains(phase.id)) fault("/phases/" + phase.id, "no way leads to this phase");
-      if (!back.contains(phase.id)) fault("/phases/" + phase.id, fmt::format("no way leads from this phase back to '{}'", first));
+      if (!back.contains(phase.id))
+        fault("/phases/" + phase.id, fmt::format("no way leads from this phase back to '{}'", first));
       if (!phase.screen.empty() && findScreen(d(), phase.screen) == nullptr)
         fault("/phases/" + phase.id + "/screen", fmt::format("there is no screen '{}'", phase.screen));
       if (!phase.lasts.empty() && !isTime(phase.lasts))
         fault("/phases/" + phase.id + "/lasts", fmt::format("'{}' is no number of seconds", phase.lasts));
-      const bool ends = std::any_of(type_.program.transitions.begin(), type_.program.transitions.end(), [&](const Transition& t) {
-        const auto froms = split(t.from);
-        return std::string(t.event) == "elapsed" && std::find(froms.begin(), froms.end(), phase.id) != froms.end();
-      });
-      if (!phase.lasts.empty() && !ends) fault("/phases/" + phase.id, "it takes a time, but nothing happens when that is over");
+      const bool ends =
+          std::any_of(type_.program.transitions.begin(), type_.program.transitions.end(), [&](const Transition& t) {
+            const auto froms = split(t.from);
+            return std::string(t.event) == "elapsed" && std::find(froms.begin(), froms.end(), phase.id) != froms.end();
+          });
+      if (!phase.lasts.empty() && !ends)
+        fault("/phases/" + phase.id, "it takes a time, but nothing happens when that is over");
     }
   }
 
@@ -198,7 +212,8 @@ class Checker {
     for (const auto& dialog : d().dialogs) {
       if (!asked.contains(dialog.id)) fault("/dialogs/" + dialog.id, "nothing asks this");
       for (const auto& b : dialog.buttons)
-        if (!b.event.empty() && !known_.contains(b.event)) fault("/dialogs/" + dialog.id + "/" + b.id, fmt::format("no phase knows the event '{}'", b.event));
+        if (!b.event.empty() && !known_.contains(b.event))
+          fault("/dialogs/" + dialog.id + "/" + b.id, fmt::format("no phase knows the event '{}'", b.event));
     }
   }
 
@@ -226,7 +241,8 @@ class Checker {
 
   void needWord(const std::string& key, const std::string& place) {
     for (const auto& language : type_.words->languages())
-      if (!type_.words->has(d().id, key, language)) fault(place, fmt::format("'{}' has no word in '{}'", key, language));
+      if (!type_.words->has(d().id, key, language))
+        fault(place, fmt::format("'{}' has no word in '{}'", key, language));
   }
 
   void checkWidgetWords(const WidgetRow& w, const std::string& place) {
@@ -239,7 +255,8 @@ class Checker {
       if (setting.key == w.setting)
         for (const auto& choice : setting.choices)
           if (hasWord(choice.label)) needWord(setting.key + "=" + choice.value, place);
-    if (const auto* value = w.value.empty() ? nullptr : findValue(d(), w.value); value != nullptr && w.value != "language")
+    if (const auto* value = w.value.empty() ? nullptr : findValue(d(), w.value);
+        value != nullptr && w.value != "language")
       for (const auto& choice : value->choices)
         if (hasWord(choice)) needWord(value->kind == WidgetKind::toggle ? choice : value->id + "=" + choice, place);
   }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "emulated-ui/device/condition.h"
-#include "emulated-ui/device/numbers.h"
 
 #include <algorithm>
 #include <cctype>
@@ -8,12 +7,14 @@
 
 #include <fmt/format.h>
 
+#include "emulated-ui/device/numbers.h"
+
 namespace standpoint {
 
 struct Condition::Node {
   enum class Kind { comparison, all, any, none } kind = Kind::comparison;
   Comparison comparison;
-  std::vector<std::shared_ptr<const Node>> parts;   // of all and any; one of none
+  std::vector<std::shared_ptr<const Node>> parts;  // of all and any; one of none
 };
 
 namespace {
@@ -25,7 +26,7 @@ using Sign = Condition::Sign;
 
 constexpr int kDeepest = 32;
 constexpr std::size_t kLongest = 2000;
-constexpr std::size_t kMostCases = 4096;   // of a condition's disjunctive form
+constexpr std::size_t kMostCases = 4096;  // of a condition's disjunctive form
 
 struct Token {
   enum class Kind { word, quoted, sign, end } kind = Kind::end;
@@ -48,7 +49,8 @@ Result<std::vector<Token>> tokens(std::string_view text) {
       ++i;
     } else if (c == '\'') {
       const auto end = text.find('\'', i + 1);
-      if (end == std::string_view::npos) return failure(ErrorKind::unusable, fmt::format("column {}: the quote is not closed", i + 1));
+      if (end == std::string_view::npos)
+        return failure(ErrorKind::unusable, fmt::format("column {}: the quote is not closed", i + 1));
       found.push_back({Token::Kind::quoted, std::string(text.substr(i + 1, end - i - 1)), from + 1});
       i = end + 1;
     } else if (partOfWord(c)) {
@@ -90,10 +92,12 @@ class Parser {
     return true;
   }
   tl::unexpected<Error> wrong(const char* wanted) const {
-    return failure(ErrorKind::unusable, fmt::format("column {}: '{}' where {} should be", next().column, next().text, wanted));
+    return failure(ErrorKind::unusable,
+                   fmt::format("column {}: '{}' where {} should be", next().column, next().text, wanted));
   }
 
-  Result<NodePointer> series(const char* between, Node::Kind kind, int depth, Result<NodePointer> (Parser::*part)(int)) {
+  Result<NodePointer> series(const char* between, Node::Kind kind, int depth,
+                             Result<NodePointer> (Parser::*part)(int)) {
     std::vector<NodePointer> parts;
     do {
       auto node = (this->*part)(depth);
@@ -123,8 +127,9 @@ class Parser {
     if (next().kind != Token::Kind::word) return wrong("a fact");
     Node node;
     node.comparison.fact = tokens_[at_++].text;
-    constexpr std::pair<const char*, Sign> kSigns[] = {{"==", Sign::equal}, {"!=", Sign::unequal}, {"<=", Sign::at_most},
-                                                       {">=", Sign::at_least}, {"<", Sign::less}, {">", Sign::more}};
+    constexpr std::pair<const char*, Sign> kSigns[] = {{"==", Sign::equal},   {"!=", Sign::unequal},
+                                                       {"<=", Sign::at_most}, {">=", Sign::at_least},
+                                                       {"<", Sign::less},     {">", Sign::more}};
     bool signed_ = false;
     for (const auto& [text, sign] : kSigns)
       if (!signed_ && take(text)) {
@@ -186,7 +191,8 @@ bool compares(const Comparison& c, const FactLookup& lookup) {
     }
   }
   const auto one = [&](const Fact& other) {
-    if (fact->number && other.number) return ordered(c.sign == Sign::unequal ? Sign::equal : c.sign, *fact->number, *other.number);
+    if (fact->number && other.number)
+      return ordered(c.sign == Sign::unequal ? Sign::equal : c.sign, *fact->number, *other.number);
     return (c.sign == Sign::equal || c.sign == Sign::unequal) && fact->text == other.text;
   };
   const bool any = std::any_of(right.begin(), right.end(), one);
@@ -208,7 +214,7 @@ struct Literal {
   Comparison comparison;
   bool negated = false;
 };
-using Case = std::vector<Literal>;   // all of them hold
+using Case = std::vector<Literal>;  // all of them hold
 
 tl::unexpected<Error> tooManyCases() { return failure(ErrorKind::unusable, "the condition has too many cases"); }
 
@@ -245,7 +251,7 @@ class Possible {
 
   void narrow(const Literal& literal) {
     const auto& c = literal.comparison;
-    if (c.of_fact) return;   // may hold or not
+    if (c.of_fact) return;  // may hold or not
     const bool out = literal.negated != (c.sign == Sign::unequal);
     if (c.sign == Sign::equal || c.sign == Sign::unequal) return out ? exclude(c.words) : demand(c.words);
     const double bound = numberIn(c.words[0]).value_or(0);
@@ -275,10 +281,13 @@ class Possible {
       demanded_ = words;
       return;
     }
-    std::erase_if(*demanded_, [&](const std::string& w) { return std::find(words.begin(), words.end(), w) == words.end(); });
+    std::erase_if(*demanded_,
+                  [&](const std::string& w) { return std::find(words.begin(), words.end(), w) == words.end(); });
   }
   bool inDomain(const std::string& word) const {
-    if (!domain_.is_number) return domain_.words.empty() || std::find(domain_.words.begin(), domain_.words.end(), word) != domain_.words.end();
+    if (!domain_.is_number)
+      return domain_.words.empty() ||
+             std::find(domain_.words.begin(), domain_.words.end(), word) != domain_.words.end();
     const double v = numberIn(word).value_or(-1e301);
     return v >= low_ && v <= high_ && !(v == low_ && low_open_) && !(v == high_ && high_open_);
   }
@@ -334,8 +343,10 @@ void collectFacts(const Node& node, std::vector<std::string>& names) {
 bool canHold(const Case& one, const DomainLookup& lookup) {
   std::vector<std::pair<std::string, Possible>> facts;
   for (const auto& literal : one) {
-    auto found = std::find_if(facts.begin(), facts.end(), [&](const auto& f) { return f.first == literal.comparison.fact; });
-    if (found == facts.end()) found = facts.emplace(facts.end(), literal.comparison.fact, Possible(*lookup(literal.comparison.fact)));
+    auto found =
+        std::find_if(facts.begin(), facts.end(), [&](const auto& f) { return f.first == literal.comparison.fact; });
+    if (found == facts.end())
+      found = facts.emplace(facts.end(), literal.comparison.fact, Possible(*lookup(literal.comparison.fact)));
     found->second.narrow(literal);
   }
   return std::all_of(facts.begin(), facts.end(), [](const auto& f) { return f.second.any(); });

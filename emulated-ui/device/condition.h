@@ -23,7 +23,7 @@ inline Fact yesNo(bool yes) { return wordFact(yes ? "yes" : "no"); }
 
 // What a fact can be.
 struct FactDomain {
-  std::vector<std::string> words;      // it is one of these; none: any word, unless it is a number
+  std::vector<std::string> words;  // it is one of these; none: any word, unless it is a number
   bool is_number = false;
   double minimum = -1e300, maximum = 1e300;
 };
@@ -36,11 +36,11 @@ using DomainLookup = std::function<std::optional<FactDomain>(const std::string& 
 //   setting.resolution in {3mm, 6mm} or not (tilt <= 2)
 //   card.free >= @expected.bytes          the right side is a fact, too
 //   link                                  alone: it is "yes"
-// `or` binds weakest, then `and`, then `not`. Words with blanks or signs stand in 'quotes'. A condition on a fact that is
-// not there does not hold. The empty condition always holds.
+// `or` binds weakest, then `and`, then `not`. Words with blanks or signs stand in 'quotes'. A condition on a fact that
+// is not there does not hold. The empty condition always holds.
 class Condition {
  public:
-  static Result<Condition> parse(std::string_view text);   // the error names the column
+  static Result<Condition> parse(std::string_view text);  // the error names the column
 
   bool holds(const FactLookup& fact) const;
   const std::string& text() const { return text_; }
@@ -54,8 +54,8 @@ class Condition {
   struct Comparison {
     std::string fact;
     Sign sign = Sign::equal;
-    std::vector<std::string> words;    // right side; `in` has several
-    bool of_fact = false;              // the right side is a fact's name
+    std::vector<std::string> words;  // right side; `in` has several
+    bool of_fact = false;            // the right side is a fact's name
   };
   struct Node;
 

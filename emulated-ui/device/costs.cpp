@@ -19,10 +19,12 @@ std::string choiceCosts(const Device& device, const InstrumentSetting& setting) 
   std::string text;
   for (const auto& choice : setting.choices) {
     const auto adapted = adaptedSettings(device.type().instrument, device.state().settings, setting.key, choice.value);
-    const auto costs = adapted ? resolveSettings(device.type().instrument, *adapted) : Result<ScanSettings>(failure(adapted.error()));
+    const auto costs =
+        adapted ? resolveSettings(device.type().instrument, *adapted) : Result<ScanSettings>(failure(adapted.error()));
     if (!costs) continue;
-    text += fmt::format("\n{}: {}, {}, {} × {:.2g}", choice.label, clockText(costs->scan_seconds + costs->imaging_seconds),
-                        pointsText(static_cast<double>(costs->columns) * costs->rows), device.word("help.noise"), costs->noise_factor);
+    text += fmt::format(
+        "\n{}: {}, {}, {} × {:.2g}", choice.label, clockText(costs->scan_seconds + costs->imaging_seconds),
+        pointsText(static_cast<double>(costs->columns) * costs->rows), device.word("help.noise"), costs->noise_factor);
   }
   return text;
 }
@@ -38,7 +40,7 @@ const std::string* screenOf(const DeviceDefinition& d, const WidgetRow& row) {
 
 std::string wayTo(const Device& device, const std::string& screen) {
   const auto& d = device.type().definition;
-  std::map<std::string, std::string> came;   // screen: the one before
+  std::map<std::string, std::string> came;  // screen: the one before
   std::deque<std::string> open;
   for (const auto& s : d.screens)
     if (s.entry) open.push_back(s.id), came[s.id] = "";

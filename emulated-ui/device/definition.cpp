@@ -41,7 +41,8 @@ WidgetRow widgetRow(JsonFields& f) {
   w.why_not = f.textOr("why_not", "");
   w.words = f.textOr("words", w.id);
   w.source = f.text("source");
-  const int bound = static_cast<int>(!w.setting.empty()) + static_cast<int>(!w.value.empty()) + static_cast<int>(!w.list.empty());
+  const int bound =
+      static_cast<int>(!w.setting.empty()) + static_cast<int>(!w.value.empty()) + static_cast<int>(!w.list.empty());
   if (bound > 1) f.wrong("id", "a widget has one of setting, value and list");
   if (w.kind == WidgetKind::list && w.list.empty()) f.wrong("list", "a list needs to know of what");
   return w;
@@ -75,8 +76,10 @@ PhaseRow phaseRow(JsonFields& f) {
   p.id = f.text("id");
   p.screen = f.textOr("screen", "");
   const auto* lasts = f.raw("lasts");
-  if (lasts != nullptr && lasts->is_number()) p.lasts = fmt::format("{}", f.number("lasts", 0, 86400));
-  else p.lasts = f.textOr("lasts", "");
+  if (lasts != nullptr && lasts->is_number())
+    p.lasts = fmt::format("{}", f.number("lasts", 0, 86400));
+  else
+    p.lasts = f.textOr("lasts", "");
   p.lamp = f.textOr("lamp", "off");
   p.on = f.flagOr("on", true);
   p.laser = f.flagOr("laser", false);
@@ -101,10 +104,12 @@ ValueRow valueRow(JsonFields& f) {
     const auto standard = numberIn(v.standard);
     if (!standard || *standard < v.minimum || *standard > v.maximum)
       f.wrong("standard", fmt::format("a number from {} to {} is needed, in quotes", v.minimum, v.maximum));
-  } else if (v.kind != WidgetKind::text && std::find(v.choices.begin(), v.choices.end(), v.standard) == v.choices.end()) {
+  } else if (v.kind != WidgetKind::text &&
+             std::find(v.choices.begin(), v.choices.end(), v.standard) == v.choices.end()) {
     f.wrong("standard", fmt::format("'{}' is not one of the choices", v.standard));
   }
-  if (v.kind != WidgetKind::choice && v.kind != WidgetKind::toggle && v.kind != WidgetKind::text && v.kind != WidgetKind::number)
+  if (v.kind != WidgetKind::choice && v.kind != WidgetKind::toggle && v.kind != WidgetKind::text &&
+      v.kind != WidgetKind::number)
     f.wrong("kind", "a value is a choice, toggle, text or number");
   return v;
 }

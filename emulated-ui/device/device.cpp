@@ -15,7 +15,7 @@ namespace standpoint {
 namespace {
 
 constexpr std::size_t kLongestLog = 20000;
-constexpr double kAsleepDrain = 0.5;   // [P] what a device uses while its display is dark
+constexpr double kAsleepDrain = 0.5;  // [P] what a device uses while its display is dark
 
 bool namesPhase(const char* from, const std::string& phase, bool on) {
   std::istringstream words(from);
@@ -33,7 +33,7 @@ void spellOutSettings(std::vector<WidgetRow>& widgets, const Instrument& instrum
   for (const auto& setting : instrument.settings) {
     WidgetRow row = pattern;
     row.setting = setting.key;
-    row.id = row.words = "setting." + setting.key;   // so that no key is taken for another widget
+    row.id = row.words = "setting." + setting.key;  // so that no key is taken for another widget
     row.kind = setting.choices.empty() ? WidgetKind::number : WidgetKind::choice;
     rows.push_back(std::move(row));
   }
@@ -49,7 +49,8 @@ Result<std::shared_ptr<const DeviceType>> makeDeviceType(DeviceDefinition defini
   if (!any && std::find(drives.begin(), drives.end(), instrument.id) == drives.end())
     return failure(ErrorKind::usage, fmt::format("it drives {}, not '{}'", fmt::join(drives, ", "), instrument.id),
                    definition.id);
-  if (instrument.moving) return failure(ErrorKind::usage, "it stands on a tripod; this instrument moves", instrument.id);
+  if (instrument.moving)
+    return failure(ErrorKind::usage, "it stands on a tripod; this instrument moves", instrument.id);
   if (auto standard = resolveSettings(instrument, {}); !standard) return failure(standard.error());
   for (auto& screen : definition.screens) spellOutSettings(screen.widgets, instrument);
   auto type = std::make_shared<DeviceType>();
@@ -59,7 +60,9 @@ Result<std::shared_ptr<const DeviceType>> makeDeviceType(DeviceDefinition defini
   type->words = std::move(words);
   for (const auto& transition : type->program.transitions) {
     auto guard = Condition::parse(transition.guard);
-    if (!guard) return failure(ErrorKind::internal, guard.error().message, type->definition.id + " transition " + transition.event);
+    if (!guard)
+      return failure(ErrorKind::internal, guard.error().message,
+                     type->definition.id + " transition " + transition.event);
     type->guards.push_back(*std::move(guard));
   }
   return type;
@@ -145,7 +148,9 @@ double Device::expectedBytes() const {
 }
 
 double Device::tilt() const {
-  return std::acos(std::clamp(std::cos(state_.around.tilt_x_deg * kRadPerDeg) * std::cos(state_.around.tilt_y_deg * kRadPerDeg), -1.0, 1.0)) /
+  return std::acos(std::clamp(
+             std::cos(state_.around.tilt_x_deg * kRadPerDeg) * std::cos(state_.around.tilt_y_deg * kRadPerDeg), -1.0,
+             1.0)) /
          kRadPerDeg;
 }
 
@@ -159,7 +164,9 @@ void Device::note(const std::string& what, const std::string& detail) {
 bool Device::can(const std::string& event) const {
   const auto& transitions = type_->program.transitions;
   for (std::size_t i = 0; i < transitions.size(); ++i)
-    if (event == transitions[i].event && namesPhase(transitions[i].from, state_.phase, on()) && type_->guards[i].holds(facts())) return true;
+    if (event == transitions[i].event && namesPhase(transitions[i].from, state_.phase, on()) &&
+        type_->guards[i].holds(facts()))
+      return true;
   return false;
 }
 
@@ -198,8 +205,10 @@ void Device::show(const std::string& screen) {
     from.pop_back();
   } else if (screen != state_.screen) {
     const auto earlier = std::find(from.begin(), from.end(), screen);
-    if (earlier != from.end()) from.erase(earlier, from.end());
-    else from.push_back(state_.screen);
+    if (earlier != from.end())
+      from.erase(earlier, from.end());
+    else
+      from.push_back(state_.screen);
     state_.screen = screen;
   }
   note("screen", state_.screen);
@@ -232,8 +241,9 @@ void Device::pass(double seconds) {
   if (state_.running && phase->laser) state_.laser_s += seconds;
 }
 
-// The device's clock and the simulation behind it run side by side: a phase whose time is over stays until what it waits
-// for is there. The real instrument would be done by then, so meanwhile the clock stands still and the battery keeps.
+// The device's clock and the simulation behind it run side by side: a phase whose time is over stays until what it
+// waits for is there. The real instrument would be done by then, so meanwhile the clock stands still and the battery
+// keeps.
 void Device::run(double seconds) {
   for (int i = 0; i < 1000; ++i) {
     const auto left = on() ? leftOfPhase() : std::nullopt;
@@ -242,7 +252,7 @@ void Device::run(double seconds) {
     seconds -= step;
     if (!left || step < *left) return;
     if (fire("elapsed")) continue;
-    if (findPhase(type_->definition, state_.phase)->waits) pass(seconds);   // for people, whose time is real
+    if (findPhase(type_->definition, state_.phase)->waits) pass(seconds);  // for people, whose time is real
     return;
   }
 }
@@ -294,7 +304,7 @@ void Device::takeBack() {
 }
 
 void Device::scanDone(StoredSetup setup) {
-  if (!state_.running) return;   // it was taken back meanwhile
+  if (!state_.running) return;  // it was taken back meanwhile
   setup.moved = state_.running->bumped_at_share.has_value();
   setup.partial = state_.running->until_share < 1;
   setup.tracked = state_.around.tracking;
@@ -324,7 +334,8 @@ void Device::targetsDone(std::vector<FittedTarget> targets) {
   if (setup != nullptr) setup->targets = std::move(targets);
   note("targets", std::to_string(found));
   fire("targets_measured");
-  if (found == 0 && !busy() && state_.dialog.empty()) ask("refused", word("target_not_found"));   // else the press seems to have done nothing
+  if (found == 0 && !busy() && state_.dialog.empty())
+    ask("refused", word("target_not_found"));  // else the press seems to have done nothing
 }
 
 // What was picked comes under the ID that was typed, in the place of an earlier sight of that ID.
@@ -336,7 +347,8 @@ void Device::sightDone(FittedTarget target) {
     const auto id = typed.empty() ? target.name : typed;
     std::erase_if(all, [&](const SightedTarget& s) { return s.id == id; });
     const auto height = fact("entry.target_height");
-    all.push_back({id, target.levelled_m, std::strtod(height->text.c_str(), nullptr), target.residual_m, target.points, true});
+    all.push_back(
+        {id, target.levelled_m, std::strtod(height->text.c_str(), nullptr), target.residual_m, target.points, true});
     state_.orientation.reset();
   }
   fire(target.found ? "sighted" : "not_sighted");
@@ -387,7 +399,8 @@ void Device::load(const std::vector<StoredSetup>& stored) {
   state_.project = -1;
   state_.around.card_used_bytes = 0;
   for (const auto& setup : stored) {
-    auto found = std::find_if(state_.projects.begin(), state_.projects.end(), [&](const DeviceProject& p) { return p.name == setup.project; });
+    auto found = std::find_if(state_.projects.begin(), state_.projects.end(),
+                              [&](const DeviceProject& p) { return p.name == setup.project; });
     if (found == state_.projects.end()) {
       found = state_.projects.insert(found, DeviceProject{});
       found->name = setup.project;

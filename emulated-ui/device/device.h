@@ -22,14 +22,16 @@ struct DeviceType {
   DeviceProgram program;
   Instrument instrument;
   std::shared_ptr<const Words> words;
-  std::vector<Condition> guards;           // of the program's transitions
+  std::vector<Condition> guards;  // of the program's transitions
 };
-// `instrument` is one of the definition's; refuses an instrument that the definition does not name or that needs a trajectory.
+// `instrument` is one of the definition's; refuses an instrument that the definition does not name or that needs a
+// trajectory.
 Result<std::shared_ptr<const DeviceType>> makeDeviceType(DeviceDefinition definition, const DeviceProgram& program,
                                                          Instrument instrument, std::shared_ptr<const Words> words);
 
-// An emulated instrument: a state machine without window, clock or thread of its own. A copy is another instrument in the
-// same state. Screens and wording are our own, after the field's labels; not affiliated with or endorsed by the makers.
+// An emulated instrument: a state machine without window, clock or thread of its own. A copy is another instrument in
+// the same state. Screens and wording are our own, after the field's labels; not affiliated with or endorsed by the
+// makers.
 class Device {
  public:
   explicit Device(std::shared_ptr<const DeviceType> type);
@@ -87,16 +89,16 @@ class Device {
   // For the code of devices, actions and hands.
   DeviceState& change() { return state_; }
   bool can(const std::string& event) const;
-  bool fire(const std::string& event);               // false: the phase knows no such event now
-  void show(const std::string& screen);              // "back": where one came from
+  bool fire(const std::string& event);   // false: the phase knows no such event now
+  void show(const std::string& screen);  // "back": where one came from
   void ask(const std::string& dialog, const std::string& detail = {});
   void note(const std::string& what, const std::string& detail = {});
   Result<void> setSettings(const SettingValues& wanted);
   const ScanSettings& expected() const { return expected_; }
-  std::string value(const std::string& id) const;    // of the device's own values
+  std::string value(const std::string& id) const;  // of the device's own values
   std::string setting(const std::string& key) const;
-  std::string entry(const std::string& id) const;    // what was typed into a field; empty: nothing
-  double number(const std::string& fact) const;      // 0 where it is none
+  std::string entry(const std::string& id) const;  // what was typed into a field; empty: nothing
+  double number(const std::string& fact) const;    // 0 where it is none
   const DeviceProject* project() const;
   DeviceProject* project();
   StoredSetup* shownSetup();
@@ -104,12 +106,12 @@ class Device {
   StoredSetup* newestSetup();
   const StoredSetup* newestSetup() const;
   void give(Order order);
-  void takeBack();                                    // the running order
+  void takeBack();  // the running order
   void markStored() { stored_ = true; }
   void view(const StoredSetup& setup) { view_ = setup; }
   void acceptOrientation();
   double expectedBytes() const;
-  double tilt() const;                                // degrees
+  double tilt() const;  // degrees
   bool showsFeet() const { return value("units") == "feet"; }
   // At rest for so long that its display went dark: what is pressed next only wakes it.
   bool asleep() const;
@@ -140,15 +142,15 @@ class Device {
 
 // What hands can do to an instrument, and the troubles that a lecturer, or chance, can send.
 struct HandRow {
-  const char* id;                  // "insert_card"; its word is "hand.insert_card"
-  const char* group;               // "memory", "power", "tripod", "around"; its word is "hands.memory"; rows of one stand together
-  const char* value;               // what its value is: "" none, "x,y in degrees", …
+  const char* id;     // "insert_card"; its word is "hand.insert_card"
+  const char* group;  // "memory", "power", "tripod", "around"; its word is "hands.memory"; rows of one stand together
+  const char* value;  // what its value is: "" none, "x,y in degrees", …
   Result<void> (*act)(Device&, const std::string& value);
 };
 const std::vector<HandRow>& handRows();
 
 struct TroubleRow {
-  const char* id;                  // "card_full"; its word is "trouble.card_full"
+  const char* id;  // "card_full"; its word is "trouble.card_full"
   void (*happens)(Device&);
 };
 const std::vector<TroubleRow>& troubleRows();

@@ -16,16 +16,25 @@ constexpr std::size_t kLongestEntry = 60;
 
 bool pressable(WidgetKind kind) {
   switch (kind) {
-    case WidgetKind::button: case WidgetKind::key: case WidgetKind::choice: case WidgetKind::toggle: case WidgetKind::text:
-    case WidgetKind::number: case WidgetKind::list: case WidgetKind::area: case WidgetKind::preview: return true;
+    case WidgetKind::button:
+    case WidgetKind::key:
+    case WidgetKind::choice:
+    case WidgetKind::toggle:
+    case WidgetKind::text:
+    case WidgetKind::number:
+    case WidgetKind::list:
+    case WidgetKind::area:
+    case WidgetKind::preview: return true;
     default: return false;
   }
 }
 
 Result<void> checkEntry(const std::string& text, const std::string& id) {
-  if (text.size() > kLongestEntry) return failure(ErrorKind::usage, fmt::format("at most {} bytes fit", kLongestEntry), id);
+  if (text.size() > kLongestEntry)
+    return failure(ErrorKind::usage, fmt::format("at most {} bytes fit", kLongestEntry), id);
   for (const char c : text)
-    if (static_cast<unsigned char>(c) < 0x20) return failure(ErrorKind::usage, "control characters cannot be typed", id);
+    if (static_cast<unsigned char>(c) < 0x20)
+      return failure(ErrorKind::usage, "control characters cannot be typed", id);
   return {};
 }
 
@@ -65,9 +74,11 @@ Result<void> Device::act(const std::string& id, const std::string& value) {
   }
   const Widget* shown = findWidget(now, id);
   const WidgetRow* row = rowOf(id);
-  if ((shown == nullptr || row == nullptr) && !on()) return failure(ErrorKind::usage, fmt::format("the device is off: '{}' cannot be pressed", id), id);
+  if ((shown == nullptr || row == nullptr) && !on())
+    return failure(ErrorKind::usage, fmt::format("the device is off: '{}' cannot be pressed", id), id);
   if (shown == nullptr || row == nullptr || !pressable(shown->kind))
-    return failure(ErrorKind::usage, fmt::format("screen '{}' has no '{}' to press", now.has_dialog ? now.dialog.id : now.id, id), id);
+    return failure(ErrorKind::usage,
+                   fmt::format("screen '{}' has no '{}' to press", now.has_dialog ? now.dialog.id : now.id, id), id);
   if (!shown->enabled) {
     note("refused", id);
     return failure(ErrorKind::usage, shown->why_not.empty() ? "it is grey" : shown->why_not, id);
@@ -91,7 +102,8 @@ Result<void> Device::bind(const WidgetRow& row, const Widget& widget, const std:
   } else if (widget.kind == WidgetKind::number) {
     const auto number = numberIn(value);
     if (!number || *number < widget.minimum || *number > widget.maximum)
-      return failure(ErrorKind::usage, fmt::format("a number from {} to {} is needed", widget.minimum, widget.maximum), row.id);
+      return failure(ErrorKind::usage, fmt::format("a number from {} to {} is needed", widget.minimum, widget.maximum),
+                     row.id);
     if (widget.unit == "ft") value = fmt::format("{:.6g}", *number * kMetresPerFoot);
     if (widget.unit == "°F") value = fmt::format("{:.6g}", (*number - 32) / 1.8);
   } else if (widget.kind == WidgetKind::text) {
@@ -143,7 +155,8 @@ Result<void> Device::press(const WidgetRow& row, const Widget& widget, const std
     return {};
   }
   if (widget.kind == WidgetKind::list) {
-    const auto known = std::any_of(widget.options.begin(), widget.options.end(), [&](const WidgetOption& o) { return o.value == value && o.enabled; });
+    const auto known = std::any_of(widget.options.begin(), widget.options.end(),
+                                   [&](const WidgetOption& o) { return o.value == value && o.enabled; });
     if (!known) return failure(ErrorKind::usage, fmt::format("the list has no row '{}'", value), row.id);
   } else if (auto ok = bind(row, widget, value); !ok) {
     return ok;

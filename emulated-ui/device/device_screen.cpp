@@ -30,7 +30,8 @@ std::string filled(const Device& device, const std::string& text, const std::str
 }
 
 const InstrumentSetting* settingOf(const Instrument& instrument, const std::string& key) {
-  const auto found = std::find_if(instrument.settings.begin(), instrument.settings.end(), [&](const auto& s) { return s.key == key; });
+  const auto found =
+      std::find_if(instrument.settings.begin(), instrument.settings.end(), [&](const auto& s) { return s.key == key; });
   return found == instrument.settings.end() ? nullptr : &*found;
 }
 
@@ -113,7 +114,8 @@ Leads leadsOf(const WidgetRow& row, const DeviceProgram& program, const DeviceSt
   if (row.go.empty()) return !row.event.empty() && shows(program, row.event) ? Leads::onwards : Leads::nowhere;
   const auto& from = state.came_from;
   if (row.go != "back" && std::find(from.begin(), from.end(), row.go) == from.end()) return Leads::onwards;
-  return row.does.empty() ? Leads::back : Leads::nowhere;   // "Create" does something, though it then shows what one came from
+  return row.does.empty() ? Leads::back
+                          : Leads::nowhere;  // "Create" does something, though it then shows what one came from
 }
 
 }  // namespace
@@ -168,19 +170,23 @@ std::optional<Widget> Device::widget(const WidgetRow& row) const {
   } else if (row.kind == WidgetKind::area) {
     addArea(*this, w);
   } else if (row.kind == WidgetKind::level) {
-    w.options = {{fmt::format("{:.4f}", state_.around.tilt_x_deg), "x", true, {}}, {fmt::format("{:.4f}", state_.around.tilt_y_deg), "y", true, {}}};
+    w.options = {{fmt::format("{:.4f}", state_.around.tilt_x_deg), "x", true, {}},
+                 {fmt::format("{:.4f}", state_.around.tilt_y_deg), "y", true, {}}};
     w.maximum = type_->definition.body.tilt_limit_deg;
   }
   if (showsFeet()) turnIntoFeet(w);
-  if (!row.shows.empty()) w.value = row.shows.find('{') == std::string::npos ? shown(row.shows) : filled(*this, row.shows, {});
-  if (row.kind == WidgetKind::progress || row.kind == WidgetKind::number) w.number = std::strtod(w.value.c_str(), nullptr);
+  if (!row.shows.empty())
+    w.value = row.shows.find('{') == std::string::npos ? shown(row.shows) : filled(*this, row.shows, {});
+  if (row.kind == WidgetKind::progress || row.kind == WidgetKind::number)
+    w.number = std::strtod(w.value.c_str(), nullptr);
   if (row.kind == WidgetKind::progress) w.number = fact(row.shows).value_or(numberFact(0)).number.value_or(0);
   if (row.kind == WidgetKind::lamp) w.value = findPhase(type_->definition, state_.phase)->lamp;
   if (row.kind == WidgetKind::preview && shownSetup() != nullptr) w.value = shownSetup()->file;
   w.leads = leadsOf(row, type_->program, state_);
   w.acts = row.kind != WidgetKind::list || !row.does.empty() || !row.event.empty() || !row.go.empty();
   w.enabled = row.enabled.holds(facts());
-  if ((!w.enabled || (!row.warns.empty() && row.warns.holds(facts()))) && !row.why_not.empty()) w.why_not = word(row.why_not);
+  if ((!w.enabled || (!row.warns.empty() && row.warns.holds(facts()))) && !row.why_not.empty())
+    w.why_not = word(row.why_not);
   return w;
 }
 

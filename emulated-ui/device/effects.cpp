@@ -10,15 +10,16 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kDustNoise = 2;        // [P] instrument facts §3.3 M01: twice the noise
-constexpr double kColdNoise = 1.5;      // [P] an instrument that is not used to its temperature
+constexpr double kDustNoise = 2;    // [P] instrument facts §3.3 M01: twice the noise
+constexpr double kColdNoise = 1.5;  // [P] an instrument that is not used to its temperature
 constexpr std::size_t kLongestName = 60;
 
 // Who measured for whom, for the file's record.
 SettingValues notesOf(const Device& device) {
   SettingValues notes;
   if (const auto name = device.value("operator"); !name.empty()) notes.emplace_back("operator", name);
-  if (const auto* project = device.project(); project != nullptr && !project->note.empty()) notes.emplace_back("project", project->note);
+  if (const auto* project = device.project(); project != nullptr && !project->note.empty())
+    notes.emplace_back("project", project->note);
   return notes;
 }
 
@@ -102,7 +103,7 @@ void markMoved(Device& device) {
   if (!s.running) return;
   ScanOrder order = *s.running;
   order.bumped_at_share = std::clamp(s.laser_s / std::max(1.0, device.expected().scan_seconds), 0.0, 1.0);
-  device.takeBack();               // what was simulated so far did not know of the push
+  device.takeBack();  // what was simulated so far did not know of the push
   s.running = order;
   device.give(order);
 }
@@ -118,7 +119,9 @@ void keepPartial(Device& device) {
   device.give(order);
 }
 
-double falseStart(const Device& device) { return device.value("false_start").empty() ? 0 : std::strtod(device.value("false_start").c_str(), nullptr); }
+double falseStart(const Device& device) {
+  return device.value("false_start").empty() ? 0 : std::strtod(device.value("false_start").c_str(), nullptr);
+}
 
 void mislay(Device& device, LinkOrder& order) {
   constexpr double kNothingThere_m = 1000;

@@ -6,21 +6,22 @@
 namespace standpoint {
 
 // What transitions do, for the tables of the devices' code.
-void beginScan(Device& device);      // gives the order and reserves the number
-void storeScan(Device& device);      // the data go onto the card, and the setup is listed and shown
-void dropScan(Device& device);       // the running scan is taken back
-void markMoved(Device& device);      // the tripod was pushed: the rest of the scan stands elsewhere
-void keepPartial(Device& device);    // the columns that are done are kept as a scan of their own
-// Degrees by which the newest setup lies turned in plan before it is fitted, where a room looks the same from both sides.
+void beginScan(Device& device);    // gives the order and reserves the number
+void storeScan(Device& device);    // the data go onto the card, and the setup is listed and shown
+void dropScan(Device& device);     // the running scan is taken back
+void markMoved(Device& device);    // the tripod was pushed: the rest of the scan stands elsewhere
+void keepPartial(Device& device);  // the columns that are done are kept as a scan of their own
+// Degrees by which the newest setup lies turned in plan before it is fitted, where a room looks the same from both
+// sides.
 double falseStart(const Device& device);
 // The trouble of a registration that fails: it begins where there is nothing.
 void mislay(Device& device, LinkOrder& order);
-void orderLink(Device& device);      // of the newest setup to the one before, where there is one
+void orderLink(Device& device);  // of the newest setup to the one before, where there is one
 void loseTracking(Device& device);
 void resetTracking(Device& device);  // it watches the way from here on
 
 void deleteShownSetup(Device& device);
-void deleteOpenProject(Device& device);   // with its setups
+void deleteOpenProject(Device& device);  // with its setups
 // Everything on the card is gone; what was not copied before is lost, as in the field.
 void formatCard(Device& device);
 

@@ -23,7 +23,9 @@ const BodyRow& body(const Device& d) { return d.type().definition.body; }
 const Surroundings& around(const Device& d) { return d.state().around; }
 
 double freeBytes(const Device& d) {
-  return around(d).card_present && !around(d).card_locked ? std::max(0.0, around(d).card_bytes - around(d).card_used_bytes) : 0;
+  return around(d).card_present && !around(d).card_locked
+             ? std::max(0.0, around(d).card_bytes - around(d).card_used_bytes)
+             : 0;
 }
 
 double phaseLasts(const Device& d) {
@@ -42,13 +44,16 @@ double phaseProgress(const Device& d) {
 double progress(const Device& d) {
   const auto& s = d.state();
   if (!s.running) return 0;
-  const double share = std::clamp(s.scanned_s / std::max(1.0, d.expected().scan_seconds + d.expected().imaging_seconds), 0.0, 1.0);
+  const double share =
+      std::clamp(s.scanned_s / std::max(1.0, d.expected().scan_seconds + d.expected().imaging_seconds), 0.0, 1.0);
   return s.data ? share : std::min(share, s.engine_share);
 }
 
 // By the instrument's clock, which may be ahead of the simulation.
 double remaining(const Device& d) {
-  return d.state().running ? std::max(0.0, d.expected().scan_seconds + d.expected().imaging_seconds - d.state().scanned_s) : 0;
+  return d.state().running
+             ? std::max(0.0, d.expected().scan_seconds + d.expected().imaging_seconds - d.state().scanned_s)
+             : 0;
 }
 
 double spacing(const Device& d) {
@@ -72,12 +77,15 @@ double setups(const Device& d) { return d.project() == nullptr ? 0 : static_cast
 
 double countAll(const Device& d, bool (*which)(const StoredSetup&)) {
   double n = 0;
-  for (const auto& p : d.state().projects) n += static_cast<double>(std::count_if(p.setups.begin(), p.setups.end(), which));
+  for (const auto& p : d.state().projects)
+    n += static_cast<double>(std::count_if(p.setups.begin(), p.setups.end(), which));
   return n;
 }
 
 double foundTargets(const StoredSetup* s) {
-  return s == nullptr ? 0 : static_cast<double>(std::count_if(s->targets.begin(), s->targets.end(), [](const FittedTarget& t) { return t.found; }));
+  return s == nullptr ? 0
+                      : static_cast<double>(std::count_if(s->targets.begin(), s->targets.end(),
+                                                          [](const FittedTarget& t) { return t.found; }));
 }
 
 double worstResidual(const StoredSetup* s) {
@@ -87,7 +95,9 @@ double worstResidual(const StoredSetup* s) {
   return worst;
 }
 
-double newest(const Device& d, bool (*which)(const StoredSetup&)) { return d.newestSetup() != nullptr && which(*d.newestSetup()) ? 1 : 0; }
+double newest(const Device& d, bool (*which)(const StoredSetup&)) {
+  return d.newestSetup() != nullptr && which(*d.newestSetup()) ? 1 : 0;
+}
 
 std::string linkState(const StoredSetup* s) {
   if (s == nullptr || !s->link) return "none";
@@ -115,62 +125,134 @@ Fact measured(const Device& d, const char* entry) {
 
 const std::vector<FactRow>& sharedFacts() {
   static const std::vector<FactRow> rows = {
-      {"power", Unit::none, {{"on", "off"}}, [](const Device& d) { return wordFact(d.on() ? "on" : "off"); }, "whether the device has power"},
-      {"asleep", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(d.asleep()); }, "its display went dark at rest"},
-      {"clock", Unit::seconds, numbers(0, 1e9), [](const Device& d) { return numberFact(d.state().clock_s); }, "seconds of the device's own time"},
-      {"phase.lasts", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(phaseLasts(d)); }, "seconds that the phase takes"},
-      {"phase.elapsed", Unit::seconds, numbers(0, 1e9), [](const Device& d) { return numberFact(d.state().elapsed_s); }, "seconds in the phase"},
-      {"phase.progress", Unit::share, numbers(0, 1), [](const Device& d) { return numberFact(phaseProgress(d)); }, "of the phase's time"},
-      {"battery", Unit::share, numbers(0, 1), [](const Device& d) { return numberFact(around(d).battery); }, "share that is left"},
-      {"battery.state", Unit::none, {{"good", "low", "critical"}},
+      {"power",
+       Unit::none,
+       {{"on", "off"}},
+       [](const Device& d) { return wordFact(d.on() ? "on" : "off"); },
+       "whether the device has power"},
+      {"asleep", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(d.asleep()); },
+       "its display went dark at rest"},
+      {"clock", Unit::seconds, numbers(0, 1e9), [](const Device& d) { return numberFact(d.state().clock_s); },
+       "seconds of the device's own time"},
+      {"phase.lasts", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(phaseLasts(d)); },
+       "seconds that the phase takes"},
+      {"phase.elapsed", Unit::seconds, numbers(0, 1e9), [](const Device& d) { return numberFact(d.state().elapsed_s); },
+       "seconds in the phase"},
+      {"phase.progress", Unit::share, numbers(0, 1), [](const Device& d) { return numberFact(phaseProgress(d)); },
+       "of the phase's time"},
+      {"battery", Unit::share, numbers(0, 1), [](const Device& d) { return numberFact(around(d).battery); },
+       "share that is left"},
+      {"battery.state",
+       Unit::none,
+       {{"good", "low", "critical"}},
        [](const Device& d) {
          const double b = around(d).battery;
          return wordFact(b < body(d).battery_critical ? "critical" : b < body(d).battery_warning ? "low" : "good");
-       }, "by the device's own limits"},
-      {"mains", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(around(d).mains); }, "a mains adapter is plugged in"},
-      {"card", Unit::none, {{"present", "absent", "locked"}},
-       [](const Device& d) { return wordFact(!around(d).card_present ? "absent" : around(d).card_locked ? "locked" : "present"); }, "the memory card or stick"},
-      {"card.free", Unit::bytes, numbers(0, 1e16), [](const Device& d) { return numberFact(freeBytes(d)); }, "bytes that can be written"},
+       },
+       "by the device's own limits"},
+      {"mains", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(around(d).mains); },
+       "a mains adapter is plugged in"},
+      {"card",
+       Unit::none,
+       {{"present", "absent", "locked"}},
+       [](const Device& d) {
+         return wordFact(!around(d).card_present ? "absent" : around(d).card_locked ? "locked" : "present");
+       },
+       "the memory card or stick"},
+      {"card.free", Unit::bytes, numbers(0, 1e16), [](const Device& d) { return numberFact(freeBytes(d)); },
+       "bytes that can be written"},
       {"card.scans_left", Unit::none, numbers(0, 1e9),
-       [](const Device& d) { return numberFact(std::floor(freeBytes(d) / std::max(1.0, d.expectedBytes()))); }, "scans of these settings that still fit"},
-      {"cover", Unit::none, {{"open", "closed"}}, [](const Device& d) { return wordFact(around(d).cover_open ? "open" : "closed"); }, "of the compartment for battery and memory"},
-      {"temperature", Unit::celsius, numbers(-60, 90), [](const Device& d) { return numberFact(around(d).temperature_c); }, "of the instrument"},
-      {"temperature.state", Unit::none, {{"good", "cold", "hot"}}, [](const Device& d) { return wordFact(temperatureState(d)); }, "by the device's limits"},
-      {"warm", Unit::none, yesOrNo(), [](const Device& d) { return wordFact(warmState(d)); }, "it is used to its temperature"},
-      {"tilt", Unit::degrees, numbers(0, 90), [](const Device& d) { return numberFact(d.tilt()); }, "of the standing axis"},
+       [](const Device& d) { return numberFact(std::floor(freeBytes(d) / std::max(1.0, d.expectedBytes()))); },
+       "scans of these settings that still fit"},
+      {"cover",
+       Unit::none,
+       {{"open", "closed"}},
+       [](const Device& d) { return wordFact(around(d).cover_open ? "open" : "closed"); },
+       "of the compartment for battery and memory"},
+      {"temperature", Unit::celsius, numbers(-60, 90),
+       [](const Device& d) { return numberFact(around(d).temperature_c); }, "of the instrument"},
+      {"temperature.state",
+       Unit::none,
+       {{"good", "cold", "hot"}},
+       [](const Device& d) { return wordFact(temperatureState(d)); },
+       "by the device's limits"},
+      {"warm", Unit::none, yesOrNo(), [](const Device& d) { return wordFact(warmState(d)); },
+       "it is used to its temperature"},
+      {"tilt", Unit::degrees, numbers(0, 90), [](const Device& d) { return numberFact(d.tilt()); },
+       "of the standing axis"},
       {"tilt.x", Unit::degrees, numbers(-90, 90), [](const Device& d) { return numberFact(around(d).tilt_x_deg); }, ""},
       {"tilt.y", Unit::degrees, numbers(-90, 90), [](const Device& d) { return numberFact(around(d).tilt_y_deg); }, ""},
-      {"level", Unit::none, {{"good", "reduced", "out"}}, [](const Device& d) { return wordFact(levelState(d)); }, "by the compensator's limits"},
+      {"level",
+       Unit::none,
+       {{"good", "reduced", "out"}},
+       [](const Device& d) { return wordFact(levelState(d)); },
+       "by the compensator's limits"},
       {"dust", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(around(d).dust); }, "on the optics"},
-      {"station", Unit::none, anyWord(), [](const Device& d) { return wordFact(around(d).station); }, "where the tripod stands"},
-      {"standing", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(!around(d).station.empty()); }, "the tripod stands at a station"},
-      {"nearest", Unit::metres, numbers(0, 1e6), [](const Device& d) { return numberFact(around(d).nearest_m); }, "metres to the nearest surface"},
+      {"station", Unit::none, anyWord(), [](const Device& d) { return wordFact(around(d).station); },
+       "where the tripod stands"},
+      {"standing", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(!around(d).station.empty()); },
+       "the tripod stands at a station"},
+      {"nearest", Unit::metres, numbers(0, 1e6), [](const Device& d) { return numberFact(around(d).nearest_m); },
+       "metres to the nearest surface"},
       {"nearest.least", Unit::metres, numbers(0, 1e6),
        [](const Device& d) { return numberFact(d.type().instrument.min_range_m); },
        "the shortest range of the data sheet"},
       {"operator.in_view", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(around(d).operator_in_view); },
        "who scans stays where the scanner sees them"},
-      {"tracking", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(around(d).tracking); }, "the way between setups is followed"},
+      {"tracking", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(around(d).tracking); },
+       "the way between setups is followed"},
       {"wlan", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(around(d).wlan); }, "the wireless link works"},
-      {"moved", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(d.state().moved); }, "the tripod was pushed during this scan"},
-      {"project", Unit::none, anyWord(), [](const Device& d) { return wordFact(d.project() == nullptr ? "" : d.project()->name); }, "name of the open project or job"},
-      {"project.open", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(d.project() != nullptr); }, "a project is open"},
-      {"project.base", Unit::none, anyWord(), [](const Device& d) { return wordFact(d.project() == nullptr ? "" : d.project()->base); }, "base of the scans' names"},
-      {"project.cluster", Unit::none, anyWord(), [](const Device& d) { return wordFact(d.project() == nullptr ? "" : d.project()->cluster); }, "folder of the next scans"},
-      {"project.first", Unit::none, numbers(0, 1e6), [](const Device& d) { return numberFact(d.project() == nullptr ? 0 : d.project()->first); }, "number of its first setup"},
-      {"projects", Unit::none, numbers(0, 1e6), [](const Device& d) { return numberFact(static_cast<double>(d.state().projects.size())); }, "on the device"},
-      {"setups", Unit::none, numbers(0, 1e6), [](const Device& d) { return numberFact(setups(d)); }, "stored in the open project"},
-      {"setups.all", Unit::none, numbers(0, 1e6), [](const Device& d) { return numberFact(countAll(d, [](const StoredSetup&) { return true; })); }, "on the device"},
-      {"setups.transferred", Unit::none, numbers(0, 1e6), [](const Device& d) { return numberFact(countAll(d, [](const StoredSetup& s) { return s.transferred; })); }, "with a copy in the office"},
-      {"setups.untransferred", Unit::none, numbers(0, 1e6), [](const Device& d) { return numberFact(countAll(d, [](const StoredSetup& s) { return !s.transferred; })); }, "that are on the card only"},
-      {"setups.looked_at", Unit::none, numbers(0, 1e6), [](const Device& d) { return numberFact(countAll(d, [](const StoredSetup& s) { return s.looked_at; })); }, "whose preview was opened"},
-      {"setups.moved", Unit::none, numbers(0, 1e6), [](const Device& d) { return numberFact(countAll(d, [](const StoredSetup& s) { return s.moved; })); }, "spoilt by a push"},
-      {"setup.next", Unit::none, numbers(0, 1e6), [](const Device& d) { return numberFact(nextNumber(d)); }, "number of the next setup"},
-      {"newest.name", Unit::none, anyWord(), [](const Device& d) { return wordFact(d.newestSetup() == nullptr ? "" : d.newestSetup()->name); }, "of the newest setup"},
-      {"newest.partial", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(newest(d, [](const StoredSetup& s) { return s.partial; }) > 0); }, "it was cut short"},
-      {"newest.unlevelled", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(newest(d, [](const StoredSetup& s) { return s.unlevelled; }) > 0); }, "stored without levelling"},
-      {"newest.moved", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(newest(d, [](const StoredSetup& s) { return s.moved; }) > 0); }, "the tripod was pushed meanwhile"},
-      {"newest.targets", Unit::none, numbers(0, 1e4), [](const Device& d) { return numberFact(foundTargets(d.newestSetup())); }, "targets found in the newest setup"},
+      {"moved", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(d.state().moved); },
+       "the tripod was pushed during this scan"},
+      {"project", Unit::none, anyWord(),
+       [](const Device& d) { return wordFact(d.project() == nullptr ? "" : d.project()->name); },
+       "name of the open project or job"},
+      {"project.open", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(d.project() != nullptr); },
+       "a project is open"},
+      {"project.base", Unit::none, anyWord(),
+       [](const Device& d) { return wordFact(d.project() == nullptr ? "" : d.project()->base); },
+       "base of the scans' names"},
+      {"project.cluster", Unit::none, anyWord(),
+       [](const Device& d) { return wordFact(d.project() == nullptr ? "" : d.project()->cluster); },
+       "folder of the next scans"},
+      {"project.first", Unit::none, numbers(0, 1e6),
+       [](const Device& d) { return numberFact(d.project() == nullptr ? 0 : d.project()->first); },
+       "number of its first setup"},
+      {"projects", Unit::none, numbers(0, 1e6),
+       [](const Device& d) { return numberFact(static_cast<double>(d.state().projects.size())); }, "on the device"},
+      {"setups", Unit::none, numbers(0, 1e6), [](const Device& d) { return numberFact(setups(d)); },
+       "stored in the open project"},
+      {"setups.all", Unit::none, numbers(0, 1e6),
+       [](const Device& d) { return numberFact(countAll(d, [](const StoredSetup&) { return true; })); },
+       "on the device"},
+      {"setups.transferred", Unit::none, numbers(0, 1e6),
+       [](const Device& d) { return numberFact(countAll(d, [](const StoredSetup& s) { return s.transferred; })); },
+       "with a copy in the office"},
+      {"setups.untransferred", Unit::none, numbers(0, 1e6),
+       [](const Device& d) { return numberFact(countAll(d, [](const StoredSetup& s) { return !s.transferred; })); },
+       "that are on the card only"},
+      {"setups.looked_at", Unit::none, numbers(0, 1e6),
+       [](const Device& d) { return numberFact(countAll(d, [](const StoredSetup& s) { return s.looked_at; })); },
+       "whose preview was opened"},
+      {"setups.moved", Unit::none, numbers(0, 1e6),
+       [](const Device& d) { return numberFact(countAll(d, [](const StoredSetup& s) { return s.moved; })); },
+       "spoilt by a push"},
+      {"setup.next", Unit::none, numbers(0, 1e6), [](const Device& d) { return numberFact(nextNumber(d)); },
+       "number of the next setup"},
+      {"newest.name", Unit::none, anyWord(),
+       [](const Device& d) { return wordFact(d.newestSetup() == nullptr ? "" : d.newestSetup()->name); },
+       "of the newest setup"},
+      {"newest.partial", Unit::none, yesOrNo(),
+       [](const Device& d) { return yesNo(newest(d, [](const StoredSetup& s) { return s.partial; }) > 0); },
+       "it was cut short"},
+      {"newest.unlevelled", Unit::none, yesOrNo(),
+       [](const Device& d) { return yesNo(newest(d, [](const StoredSetup& s) { return s.unlevelled; }) > 0); },
+       "stored without levelling"},
+      {"newest.moved", Unit::none, yesOrNo(),
+       [](const Device& d) { return yesNo(newest(d, [](const StoredSetup& s) { return s.moved; }) > 0); },
+       "the tripod was pushed meanwhile"},
+      {"newest.targets", Unit::none, numbers(0, 1e4),
+       [](const Device& d) { return numberFact(foundTargets(d.newestSetup())); }, "targets found in the newest setup"},
       {"newest.sampled", Unit::none, numbers(0, 1e9),
        [](const Device& d) {
          double least = -1;
@@ -178,43 +260,93 @@ const std::vector<FactRow>& sharedFacts() {
            for (const auto& t : d.newestSetup()->targets)
              if (t.found) least = least < 0 ? t.points : std::min<double>(least, t.points);
          return numberFact(std::max(0.0, least));
-       }, "fewest points on a target of the newest setup"},
-      {"newest.residual", Unit::millimetres, numbers(0, 1e6), [](const Device& d) { return numberFact(worstResidual(d.newestSetup())); }, "the worst of its targets, in millimetres"},
-      {"link", Unit::none, {{"none", "joined", "failed"}}, [](const Device& d) { return wordFact(linkState(d.newestSetup())); }, "of the newest setup to the one before"},
-      {"link.overlap", Unit::share, numbers(0, 1), [](const Device& d) { return numberFact(d.newestSetup() != nullptr && d.newestSetup()->link ? d.newestSetup()->link->overlap : 0); }, "share of the newer cloud"},
-      {"link.error", Unit::millimetres, numbers(0, 1e6), [](const Device& d) { return numberFact(d.newestSetup() != nullptr && d.newestSetup()->link ? d.newestSetup()->link->error_m * 1000 : 0); }, "r.m.s. in millimetres"},
-      {"shown.name", Unit::none, anyWord(), [](const Device& d) { return wordFact(d.shownSetup() == nullptr ? "" : d.shownSetup()->name); }, "of the setup on view"},
-      {"shown.station", Unit::none, anyWord(), [](const Device& d) { return wordFact(d.shownSetup() == nullptr ? "" : d.shownSetup()->station); }, ""},
-      {"shown.points", Unit::points, numbers(0, 1e12), [](const Device& d) { return numberFact(d.shownSetup() == nullptr ? 0 : static_cast<double>(d.shownSetup()->points)); }, ""},
-      {"shown.bytes", Unit::bytes, numbers(0, 1e16), [](const Device& d) { return numberFact(d.shownSetup() == nullptr ? 0 : d.shownSetup()->bytes); }, ""},
-      {"shown.seconds", Unit::seconds, numbers(0, 1e9), [](const Device& d) { return numberFact(d.shownSetup() == nullptr ? 0 : d.shownSetup()->instrument_seconds); }, ""},
-      {"shown.targets", Unit::none, numbers(0, 1e4), [](const Device& d) { return numberFact(foundTargets(d.shownSetup())); }, "targets found in the setup on view"},
-      {"shown.transferred", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(d.shownSetup() != nullptr && d.shownSetup()->transferred); }, ""},
+       },
+       "fewest points on a target of the newest setup"},
+      {"newest.residual", Unit::millimetres, numbers(0, 1e6),
+       [](const Device& d) { return numberFact(worstResidual(d.newestSetup())); },
+       "the worst of its targets, in millimetres"},
+      {"link",
+       Unit::none,
+       {{"none", "joined", "failed"}},
+       [](const Device& d) { return wordFact(linkState(d.newestSetup())); },
+       "of the newest setup to the one before"},
+      {"link.overlap", Unit::share, numbers(0, 1),
+       [](const Device& d) {
+         return numberFact(d.newestSetup() != nullptr && d.newestSetup()->link ? d.newestSetup()->link->overlap : 0);
+       },
+       "share of the newer cloud"},
+      {"link.error", Unit::millimetres, numbers(0, 1e6),
+       [](const Device& d) {
+         return numberFact(d.newestSetup() != nullptr && d.newestSetup()->link ? d.newestSetup()->link->error_m * 1000
+                                                                               : 0);
+       },
+       "r.m.s. in millimetres"},
+      {"shown.name", Unit::none, anyWord(),
+       [](const Device& d) { return wordFact(d.shownSetup() == nullptr ? "" : d.shownSetup()->name); },
+       "of the setup on view"},
+      {"shown.station", Unit::none, anyWord(),
+       [](const Device& d) { return wordFact(d.shownSetup() == nullptr ? "" : d.shownSetup()->station); }, ""},
+      {"shown.points", Unit::points, numbers(0, 1e12),
+       [](const Device& d) {
+         return numberFact(d.shownSetup() == nullptr ? 0 : static_cast<double>(d.shownSetup()->points));
+       },
+       ""},
+      {"shown.bytes", Unit::bytes, numbers(0, 1e16),
+       [](const Device& d) { return numberFact(d.shownSetup() == nullptr ? 0 : d.shownSetup()->bytes); }, ""},
+      {"shown.seconds", Unit::seconds, numbers(0, 1e9),
+       [](const Device& d) { return numberFact(d.shownSetup() == nullptr ? 0 : d.shownSetup()->instrument_seconds); },
+       ""},
+      {"shown.targets", Unit::none, numbers(0, 1e4),
+       [](const Device& d) { return numberFact(foundTargets(d.shownSetup())); }, "targets found in the setup on view"},
+      {"shown.transferred", Unit::none, yesOrNo(),
+       [](const Device& d) { return yesNo(d.shownSetup() != nullptr && d.shownSetup()->transferred); }, ""},
       {"measured", Unit::metres, numbers(0, 1e6), [](const Device& d) { return measured(d, "measured"); },
        "metres between the two points picked in the preview"},
       {"measured.horizontal", Unit::metres, numbers(0, 1e6),
        [](const Device& d) { return measured(d, "measured_horizontal"); }, "their distance in plan"},
       {"measured.vertical", Unit::metres, numbers(-1e6, 1e6),
        [](const Device& d) { return measured(d, "measured_vertical"); }, "how much the second is higher"},
-      {"expected.seconds", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(d.expected().scan_seconds + d.expected().imaging_seconds); }, "the next scan with its pictures"},
-      {"expected.scan", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(d.expected().scan_seconds); }, "of the laser alone"},
-      {"expected.pass", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(d.expected().scan_seconds / d.expected().passes); }, "of one pass of the laser"},
-      {"expected.overhead", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(d.type().instrument.overhead_s); }, "of a scan's time, before and after the sweep"},
-      {"expected.sweep", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(std::max(0.0, d.expected().scan_seconds - d.type().instrument.overhead_s)); }, "of the head's turn"},
-      {"expected.imaging", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(d.expected().imaging_seconds); }, "of the pictures"},
+      {"expected.seconds", Unit::seconds, numbers(0, 1e6),
+       [](const Device& d) { return numberFact(d.expected().scan_seconds + d.expected().imaging_seconds); },
+       "the next scan with its pictures"},
+      {"expected.scan", Unit::seconds, numbers(0, 1e6),
+       [](const Device& d) { return numberFact(d.expected().scan_seconds); }, "of the laser alone"},
+      {"expected.pass", Unit::seconds, numbers(0, 1e6),
+       [](const Device& d) { return numberFact(d.expected().scan_seconds / d.expected().passes); },
+       "of one pass of the laser"},
+      {"expected.overhead", Unit::seconds, numbers(0, 1e6),
+       [](const Device& d) { return numberFact(d.type().instrument.overhead_s); },
+       "of a scan's time, before and after the sweep"},
+      {"expected.sweep", Unit::seconds, numbers(0, 1e6),
+       [](const Device& d) {
+         return numberFact(std::max(0.0, d.expected().scan_seconds - d.type().instrument.overhead_s));
+       },
+       "of the head's turn"},
+      {"expected.imaging", Unit::seconds, numbers(0, 1e6),
+       [](const Device& d) { return numberFact(d.expected().imaging_seconds); }, "of the pictures"},
       {"expected.points", Unit::points, numbers(0, 1e12), [](const Device& d) { return numberFact(points(d)); },
        "none with pictures only"},
-      {"expected.columns", Unit::none, numbers(0, 1e9), [](const Device& d) { return numberFact(d.expected().columns); }, ""},
+      {"expected.columns", Unit::none, numbers(0, 1e9),
+       [](const Device& d) { return numberFact(d.expected().columns); }, ""},
       {"expected.rows", Unit::none, numbers(0, 1e9), [](const Device& d) { return numberFact(d.expected().rows); }, ""},
-      {"expected.bytes", Unit::bytes, numbers(0, 1e16), [](const Device& d) { return numberFact(d.expectedBytes()); }, ""},
-      {"expected.spacing", Unit::millimetres, numbers(0, 1e6), [](const Device& d) { return numberFact(spacing(d)); }, "millimetres between columns at 10 m"},
-      {"expected.noise", Unit::none, numbers(0, 1000), [](const Device& d) { return numberFact(d.expected().noise_factor); }, "factor on the sheet's range noise"},
-      {"expected.range", Unit::metres, numbers(0, 1e5), [](const Device& d) { return numberFact(d.expected().max_range_m); }, "greatest range of these settings"},
-      {"passes", Unit::none, numbers(1, 2), [](const Device& d) { return numberFact(d.expected().passes); }, "of the laser: two in a double scan"},
-      {"imaging", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(d.expected().imaging); }, "pictures are taken"},
-      {"progress", Unit::share, numbers(0, 1), [](const Device& d) { return numberFact(progress(d)); }, "of the running scan"},
-      {"remaining", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(remaining(d)); }, "of the running scan"},
-      {"data", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(d.state().data.has_value()); }, "the simulation behind the running scan is done"},
+      {"expected.bytes", Unit::bytes, numbers(0, 1e16), [](const Device& d) { return numberFact(d.expectedBytes()); },
+       ""},
+      {"expected.spacing", Unit::millimetres, numbers(0, 1e6), [](const Device& d) { return numberFact(spacing(d)); },
+       "millimetres between columns at 10 m"},
+      {"expected.noise", Unit::none, numbers(0, 1000),
+       [](const Device& d) { return numberFact(d.expected().noise_factor); }, "factor on the sheet's range noise"},
+      {"expected.range", Unit::metres, numbers(0, 1e5),
+       [](const Device& d) { return numberFact(d.expected().max_range_m); }, "greatest range of these settings"},
+      {"passes", Unit::none, numbers(1, 2), [](const Device& d) { return numberFact(d.expected().passes); },
+       "of the laser: two in a double scan"},
+      {"imaging", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(d.expected().imaging); },
+       "pictures are taken"},
+      {"progress", Unit::share, numbers(0, 1), [](const Device& d) { return numberFact(progress(d)); },
+       "of the running scan"},
+      {"remaining", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(remaining(d)); },
+       "of the running scan"},
+      {"data", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(d.state().data.has_value()); },
+       "the simulation behind the running scan is done"},
   };
   return rows;
 }
@@ -293,7 +425,9 @@ std::string Device::shown(const std::string& name) const {
   const auto found = fact(name);
   if (!found) return {};
   // What stands in a word's braces is not filled in once more: words that name each other would never end.
-  const auto plain = [&](const std::string& key) { return type_->words->text(type_->definition.id, key, state_.language); };
+  const auto plain = [&](const std::string& key) {
+    return type_->words->text(type_->definition.id, key, state_.language);
+  };
   FactUnit unit = FactUnit::none;
   for (const auto* rows : {&type_->program.facts, &sharedFacts()})
     for (const auto& row : *rows)

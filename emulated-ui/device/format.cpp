@@ -24,7 +24,9 @@ std::string pointsText(double points) {
   return points >= 1e5 ? fmt::format("{:.1f} M", points / 1e6) : fmt::format("{:.0f}", points);
 }
 
-std::string lengthText(double metres, bool feet) { return feet ? fmt::format("{:.2f} ft", metres / kMetresPerFoot) : fmt::format("{:.2f} m", metres); }
+std::string lengthText(double metres, bool feet) {
+  return feet ? fmt::format("{:.2f} ft", metres / kMetresPerFoot) : fmt::format("{:.2f} m", metres);
+}
 
 std::string smallLengthText(double metres, bool feet) {
   return feet ? fmt::format("{:.3f} in", metres / kMetresPerFoot * 12) : fmt::format("{:.1f} mm", metres * 1000);

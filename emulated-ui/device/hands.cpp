@@ -10,7 +10,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kLevelled_deg = 0.01;   // what a careful hand reaches with the foot screws
+constexpr double kLevelled_deg = 0.01;  // what a careful hand reaches with the foot screws
 
 Result<void> insertCard(Device& d, const std::string&) {
   auto& a = d.change().around;
@@ -63,7 +63,7 @@ Result<void> carryCard(Device& d, const std::string&) {
 
 Result<void> changeBattery(Device& d, const std::string&) {
   if (d.on() && !d.state().around.mains) {
-    d.fire("battery_empty");   // it goes out while the battery is out
+    d.fire("battery_empty");  // it goes out while the battery is out
   }
   d.change().around.battery = 1;
   return {};
@@ -100,7 +100,8 @@ Result<void> tiltTo(Device& d, const std::string& value) {
   const auto comma = value.find(',');
   const double x = std::strtod(value.c_str(), nullptr);
   const double y = comma == std::string::npos ? 0 : std::strtod(value.c_str() + comma + 1, nullptr);
-  if (value.empty() || !(std::abs(x) <= 60 && std::abs(y) <= 60)) return failure(ErrorKind::usage, "two tilts in degrees are needed: x,y");
+  if (value.empty() || !(std::abs(x) <= 60 && std::abs(y) <= 60))
+    return failure(ErrorKind::usage, "two tilts in degrees are needed: x,y");
   return turnScrews(d, x, y);
 }
 
@@ -243,7 +244,7 @@ const std::vector<TroubleRow>& troubleRows() {
          d.fire("wlan_lost");
        }},
       {"target_hidden", [](Device& d) { d.change().around.targets_visible = false; }},
-      {"symmetrical_room", [](Device& d) { d.change().values["false_start"] = "180"; }},   // degrees
+      {"symmetrical_room", [](Device& d) { d.change().values["false_start"] = "180"; }},  // degrees
       {"registration_fails", [](Device& d) { d.change().around.registration_fails = true; }},
       {"somebody_walks", [](Device& d) { d.change().around.somebody_walks = true; }},
       {"cover_open", [](Device& d) { d.change().around.cover_open = true; }},

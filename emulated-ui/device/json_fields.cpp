@@ -129,7 +129,8 @@ std::vector<std::string> JsonFields::texts(const char* key) {
     needs(key, *value, "a list of texts, such as [\"a\", \"b\"],");
   else
     for (const auto& text : *value) {
-      if (text.is_string()) found.push_back(text.get<std::string>());
+      if (text.is_string())
+        found.push_back(text.get<std::string>());
       else
         wrong(key, fmt::format("a list of texts is needed here; {} stands in it", described(text)));
     }
@@ -147,7 +148,8 @@ void JsonFields::list(const char* key, const std::function<void(JsonFields&)>& o
   }
 }
 
-void JsonFields::each(const char* key, const std::function<void(const std::string&, const nlohmann::json&, const std::string&)>& one) {
+void JsonFields::each(const char* key,
+                      const std::function<void(const std::string&, const nlohmann::json&, const std::string&)>& one) {
   const auto* value = find(key, false);
   if (value == nullptr) return;
   if (!value->is_object()) return needs(key, *value, "an object, {…},");
@@ -157,7 +159,8 @@ void JsonFields::each(const char* key, const std::function<void(const std::strin
 
 void JsonFields::everyText(const std::function<void(const std::string&, const std::string&)>& one) {
   for (const auto& [name, value] : object_.items()) {
-    if (value.is_string()) one(name, value.get<std::string>());
+    if (value.is_string())
+      one(name, value.get<std::string>());
     else
       needs(name.c_str(), value, "a text, in quotes,");
   }

@@ -26,8 +26,8 @@ class JsonFault {
   std::optional<Error> error_;
 };
 
-// The fields of one JSON object. What is missing, of another kind, out of its bounds or unknown is a fault with its JSON
-// pointer; what is returned then is only there to go on.
+// The fields of one JSON object. What is missing, of another kind, out of its bounds or unknown is a fault with its
+// JSON pointer; what is returned then is only there to go on.
 class JsonFields {
  public:
   JsonFields(JsonFault& fault, const nlohmann::json& object, std::string pointer);
@@ -40,16 +40,17 @@ class JsonFields {
   double number(const char* key, double minimum, double maximum);
   double numberOr(const char* key, double standard, double minimum, double maximum);
   bool flagOr(const char* key, bool standard);
-  Condition condition(const char* key);                       // empty when it is missing
-  std::vector<std::string> texts(const char* key);            // empty when it is missing
+  Condition condition(const char* key);             // empty when it is missing
+  std::vector<std::string> texts(const char* key);  // empty when it is missing
   // Objects of a list that may be missing, in their order.
   void list(const char* key, const std::function<void(JsonFields&)>& one);
   // Values of an object that may be missing.
-  void each(const char* key, const std::function<void(const std::string& name, const nlohmann::json&, const std::string& pointer)>& one);
+  void each(const char* key,
+            const std::function<void(const std::string& name, const nlohmann::json&, const std::string& pointer)>& one);
   void everyText(const std::function<void(const std::string& key, const std::string& text)>& one);
-  const nlohmann::json* raw(const char* key);                 // null when it is missing
+  const nlohmann::json* raw(const char* key);  // null when it is missing
   void skip(const char* key) { known_.insert(key); }
-  void close();                                               // unknown keys are a fault
+  void close();  // unknown keys are a fault
 
   void wrong(const char* key, const std::string& message);
   // The same where a value is of another kind: what is needed, and what was found.

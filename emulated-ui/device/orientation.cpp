@@ -15,8 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSameDistance_m = 0.02;   // of the resection without names
-constexpr double kOnePlace_m = 0.05;       // targets nearer to one another give no direction
+constexpr double kSameDistance_m = 0.02;  // of the resection without names
+constexpr double kOnePlace_m = 0.05;      // targets nearer to one another give no direction
 
 struct Pairs {
   std::vector<std::string> ids;
@@ -77,9 +77,10 @@ Result<Pose> sixParameters(const Pairs& pairs) {
 // Over a known mark: the first target in use gives the direction.
 Result<Pose> overMark(const OrientationTask& task, const Pairs& pairs) {
   if (!task.axis_m) return failure(ErrorKind::usage, "no_known_mark");
-  const double azimuth = std::numbers::pi / 2 - task.azimuth_deg * kRadPerDeg;   // counter-clockwise from east
+  const double azimuth = std::numbers::pi / 2 - task.azimuth_deg * kRadPerDeg;  // counter-clockwise from east
   if (task.method == "quick") return turned(azimuth, *task.axis_m);
-  const auto first = std::find_if(task.sighted.begin(), task.sighted.end(), [](const SightedTarget& s) { return s.used; });
+  const auto first =
+      std::find_if(task.sighted.begin(), task.sighted.end(), [](const SightedTarget& s) { return s.used; });
   if (task.method == "azimuth") return turned(azimuth - headingOf(first->place_m), *task.axis_m);
   return turned(headingOf(pairs.known.front() - *task.axis_m) - headingOf(pairs.measured.front()), *task.axis_m);
 }
@@ -88,7 +89,8 @@ Result<Pairs> pairsByGeometry(const OrientationTask& task) {
   std::vector<Vector3d> from, to;
   std::vector<const SightedTarget*> used;
   for (const auto& s : task.sighted)
-    if (s.used && from.size() < kMostPlacesToMatch) from.push_back(s.place_m - Vector3d(0, 0, s.height_m)), used.push_back(&s);
+    if (s.used && from.size() < kMostPlacesToMatch)
+      from.push_back(s.place_m - Vector3d(0, 0, s.height_m)), used.push_back(&s);
   for (const auto& k : task.known)
     if (to.size() < kMostPlacesToMatch) to.push_back(k.place_m);
   const auto match = matchPlaces(from, to, kSameDistance_m);
@@ -130,7 +132,8 @@ Result<StationOrientation> solveOrientation(const OrientationTask& task) {
     result.local = true;
     return result;
   }
-  if (targetsUsable(task) < targetsNeeded(task.method, task.compensator)) return failure(ErrorKind::usage, "too_few_targets");
+  if (targetsUsable(task) < targetsNeeded(task.method, task.compensator))
+    return failure(ErrorKind::usage, "too_few_targets");
   Result<Pairs> pairs = task.method == "auto" ? pairsByGeometry(task) : pairsByName(task);
   if (!pairs) return failure(pairs.error());
   const auto pose = solved(task, *pairs);

@@ -22,40 +22,40 @@ struct ControlPlace {
 // What was copied to the instrument before the job.
 struct ControlList {
   std::vector<ControlPlace> targets, stations;
-  Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();   // file frame less project frame, for show
+  Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();  // file frame less project frame, for show
 };
 
 // A target that was picked and scanned from here.
 struct SightedTarget {
-  std::string id;                  // as it was typed
-  Eigen::Vector3d place_m = Eigen::Vector3d::Zero();   // in the scanner's frame, levelled by what the compensator told
-  double height_m = 0;             // of the centre above the known place, as it was typed
-  double residual_m = 0;           // of the fit
+  std::string id;                                     // as it was typed
+  Eigen::Vector3d place_m = Eigen::Vector3d::Zero();  // in the scanner's frame, levelled by what the compensator told
+  double height_m = 0;                                // of the centre above the known place, as it was typed
+  double residual_m = 0;                              // of the fit
   int points = 0;
   bool used = true;
 };
 
 struct OrientedTarget {
   std::string id;
-  double residual_m = 0;           // distance of the target as measured to where it is known to be
+  double residual_m = 0;  // distance of the target as measured to where it is known to be
 };
 struct StationOrientation {
   std::string method, station;
-  Pose pose;                       // project frame from the levelled scanner frame
+  Pose pose;  // project frame from the levelled scanner frame
   std::vector<OrientedTarget> targets;
   double rms_m = 0;
-  bool compensator = true;         // it was on
-  bool local = false;              // no coordinates: the station is the origin
+  bool compensator = true;  // it was on
+  bool local = false;       // no coordinates: the station is the origin
   bool accepted = false;
 };
 
 struct OrientationTask {
-  std::string method;              // quick, azimuth, backsight, resection_4, resection_6, auto, traverse, standard
+  std::string method;  // quick, azimuth, backsight, resection_4, resection_6, auto, traverse, standard
   std::string station;
   std::vector<SightedTarget> sighted;
-  std::vector<ControlPlace> known;                 // of the traverse: what was carried from the station before
-  std::optional<Eigen::Vector3d> axis_m;           // of the instrument over a known mark, with the typed height
-  double azimuth_deg = 0;          // typed, clockwise from grid north
+  std::vector<ControlPlace> known;        // of the traverse: what was carried from the station before
+  std::optional<Eigen::Vector3d> axis_m;  // of the instrument over a known mark, with the typed height
+  double azimuth_deg = 0;                 // typed, clockwise from grid north
   bool compensator = true;
 };
 

@@ -9,8 +9,8 @@ namespace standpoint {
 // What an emulated instrument shows at one moment, as data: the draw half shows it in the device's skin, a test or an
 // exercise reads it and acts on it.
 enum class WidgetKind {
-  status,    // in the status row: battery, memory, …
-  readout,   // label and value
+  status,   // in the status row: battery, memory, …
+  readout,  // label and value
   button,
   key,       // a hard key on the body, or the one that starts and stops the laser
   lamp,      // on the body: `value` is "green", "red flashing", "off"
@@ -26,8 +26,9 @@ enum class WidgetKind {
   plan,      // the stations from above with their links
   note,      // a paragraph
 };
-inline constexpr const char* kWidgetKindNames[] = {"status", "readout", "button", "key",  "lamp",  "choice",  "toggle", "text",
-                                                   "number", "list",    "progress", "area", "level", "preview", "plan",   "note"};
+inline constexpr const char* kWidgetKindNames[] = {"status", "readout", "button", "key",  "lamp",     "choice",
+                                                   "toggle", "text",    "number", "list", "progress", "area",
+                                                   "level",  "preview", "plan",   "note"};
 
 // Where a press leads: a mark of it is drawn.
 enum class Leads { nowhere, onwards, back };
@@ -42,14 +43,14 @@ struct Widget {
   std::string id;
   WidgetKind kind = WidgetKind::readout;
   std::string label;
-  std::string value;                    // as it is shown
-  std::vector<WidgetOption> options;    // of a choice or list
+  std::string value;                  // as it is shown
+  std::vector<WidgetOption> options;  // of a choice or list
   double number = 0, minimum = 0, maximum = 0;
   std::string unit;
   bool enabled = true;
-  std::string why_not;                  // when it is not enabled; a warning when it is
+  std::string why_not;  // when it is not enabled; a warning when it is
   Leads leads = Leads::nowhere;
-  bool acts = true;                     // a press does something; a list that only shows has rows that do not
+  bool acts = true;  // a press does something; a list that only shows has rows that do not
 };
 
 struct Dialog {
@@ -59,13 +60,13 @@ struct Dialog {
 };
 
 struct Screen {
-  std::string id;                       // empty: the display is dark
+  std::string id;  // empty: the display is dark
   std::string title;
   std::vector<Widget> widgets;
-  std::vector<Widget> body;             // keys and lamps; always there
+  std::vector<Widget> body;  // keys and lamps; always there
   bool has_dialog = false;
-  Dialog dialog;                        // over the widgets, which wait meanwhile
-  double light = 1;                     // of the display, as a share
+  Dialog dialog;     // over the widgets, which wait meanwhile
+  double light = 1;  // of the display, as a share
 };
 
 // On the dialogue, the screen or the body, in this order; null when it is nowhere.

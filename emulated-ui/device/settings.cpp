@@ -15,8 +15,11 @@ std::vector<std::string> nearestFirst(const InstrumentSetting& setting, const Se
   for (const auto& [key, value] : now)
     if (key == setting.key) at = std::find(values.begin(), values.end(), value) - values.begin();
   const auto all = values;
-  const auto away = [&](const std::string& v) { return std::abs(std::find(all.begin(), all.end(), v) - all.begin() - at); };
-  std::stable_sort(values.begin(), values.end(), [&](const std::string& a, const std::string& b) { return away(a) < away(b); });
+  const auto away = [&](const std::string& v) {
+    return std::abs(std::find(all.begin(), all.end(), v) - all.begin() - at);
+  };
+  std::stable_sort(values.begin(), values.end(),
+                   [&](const std::string& a, const std::string& b) { return away(a) < away(b); });
   return values;
 }
 
@@ -40,7 +43,7 @@ Result<SettingValues> adaptedSettings(const Instrument& instrument, const Settin
         if (const auto moved = withSetting(wanted, other.key, choice); resolveSettings(instrument, moved)) return moved;
     after = after || other.key == key;
   }
-  auto plain = wanted;   // the edges of an area, the steps of a pattern of one's own
+  auto plain = wanted;  // the edges of an area, the steps of a pattern of one's own
   for (const auto& other : instrument.settings)
     if (other.choices.empty() && other.key != key) plain = withSetting(plain, other.key, other.standard);
   if (resolveSettings(instrument, plain)) return plain;

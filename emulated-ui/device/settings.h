@@ -10,9 +10,9 @@ namespace standpoint {
 SettingValues withSetting(SettingValues values, const std::string& key, const std::string& value);
 
 // The settings with `key` at `value`. Where that does not go with the others, one that comes after it in the data sheet
-// moves to its nearest choice that does: a resolution moves the quality that does not fit it, while a quality that does not
-// fit the resolution is an error, so it is grey. Else the numbers go back to their standards: those of an area that is no
-// longer chosen. An error when that does not help either.
+// moves to its nearest choice that does: a resolution moves the quality that does not fit it, while a quality that does
+// not fit the resolution is an error, so it is grey. Else the numbers go back to their standards: those of an area that
+// is no longer chosen. An error when that does not help either.
 Result<SettingValues> adaptedSettings(const Instrument& instrument, const SettingValues& now, const std::string& key,
                                       const std::string& value);
 

@@ -33,7 +33,8 @@ Result<Words> Words::read(const std::filesystem::path& folder) {
     root.each("words", [&](const std::string& key, const nlohmann::json& by_language, const std::string& at) {
       JsonFields fields(fault, by_language, at);
       fields.everyText([&](const std::string& language, const std::string& text) {
-        if (text.empty() || text.size() > kLongestWord) fault.say(at + "/" + language, "a word of 1 to 2000 bytes is needed");
+        if (text.empty() || text.size() > kLongestWord)
+          fault.say(at + "/" + language, "a word of 1 to 2000 bytes is needed");
         if (!words.texts_[of.empty() ? key : of + "/" + key].emplace(language, text).second)
           fault.say(at + "/" + language, "another file has said this before");
       });

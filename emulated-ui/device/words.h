@@ -21,12 +21,12 @@ class Words {
   // The device's own word, else the shared one; in English where the language lacks it; the key where nobody has it.
   std::string text(const std::string& device, const std::string& key, const std::string& language) const;
   bool has(const std::string& device, const std::string& key, const std::string& language) const;
-  std::vector<std::string> languages() const;   // "de", "en", "uk", …
+  std::vector<std::string> languages() const;  // "de", "en", "uk", …
 
  private:
   const std::string* find(const std::string& device, const std::string& key, const std::string& language) const;
 
-  std::map<std::string, std::map<std::string, std::string>> texts_;   // "leica-rtc360/scan" or "scan": language: text
+  std::map<std::string, std::map<std::string, std::string>> texts_;  // "leica-rtc360/scan" or "scan": language: text
 };
 
 }  // namespace standpoint

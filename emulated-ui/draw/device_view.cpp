@@ -12,10 +12,13 @@ namespace standpoint {
 namespace {
 
 ImU32 lampColour(const std::string& word, double seconds) {
-  const bool flashing = word.ends_with("flashing") || word.ends_with("pulsating") || word.ends_with("spinning") || word.ends_with("blinking");
+  const bool flashing = word.ends_with("flashing") || word.ends_with("pulsating") || word.ends_with("spinning") ||
+                        word.ends_with("blinking");
   if (flashing && std::fmod(seconds, 1.0) > 0.5) return IM_COL32(70, 72, 75, 255);
-  constexpr std::pair<const char*, ImU32> kColours[] = {{"green", IM_COL32(60, 200, 90, 255)}, {"red", IM_COL32(235, 60, 50, 255)},     {"yellow", IM_COL32(250, 200, 50, 255)},
-                                                        {"blue", IM_COL32(70, 150, 250, 255)}, {"orange", IM_COL32(250, 140, 40, 255)}, {"white", IM_COL32(240, 244, 248, 255)}};
+  constexpr std::pair<const char*, ImU32> kColours[] = {
+      {"green", IM_COL32(60, 200, 90, 255)},   {"red", IM_COL32(235, 60, 50, 255)},
+      {"yellow", IM_COL32(250, 200, 50, 255)}, {"blue", IM_COL32(70, 150, 250, 255)},
+      {"orange", IM_COL32(250, 140, 40, 255)}, {"white", IM_COL32(240, 244, 248, 255)}};
   for (const auto& [name, colour] : kColours)
     if (word.starts_with(name)) return colour;
   return IM_COL32(70, 72, 75, 255);
@@ -26,12 +29,17 @@ void titleBar(Pen& pen, const Screen& screen, float width, float height) {
   ImDrawList* list = ImGui::GetWindowDrawList();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   list->AddRectFilled(at, {at.x + width, at.y + height}, pen.skin.title_bar);
-  const auto back = std::find_if(screen.widgets.begin(), screen.widgets.end(), [](const Widget& w) { return w.id == "back" && w.enabled; });
+  const auto back = std::find_if(screen.widgets.begin(), screen.widgets.end(),
+                                 [](const Widget& w) { return w.id == "back" && w.enabled; });
   const bool leads_back = back != screen.widgets.end() && !screen.has_dialog;
   float left = at.x + 0.8F * pen.unit;
   if (leads_back) {
-    if (area("title_back", at, {std::max(pen.touch(), 2 * pen.unit + ImGui::CalcTextSize(screen.title.c_str()).x), height})) pen.pressed(back->id);
-    if (ImGui::IsItemHovered()) list->AddRectFilled(at, {at.x + 2 * pen.unit + ImGui::CalcTextSize(screen.title.c_str()).x, at.y + height}, IM_COL32(255, 255, 255, 24));
+    if (area("title_back", at,
+             {std::max(pen.touch(), 2 * pen.unit + ImGui::CalcTextSize(screen.title.c_str()).x), height}))
+      pen.pressed(back->id);
+    if (ImGui::IsItemHovered())
+      list->AddRectFilled(at, {at.x + 2 * pen.unit + ImGui::CalcTextSize(screen.title.c_str()).x, at.y + height},
+                          IM_COL32(255, 255, 255, 24));
     chevron(pen, {at.x + 0.7F * pen.unit, at.y + height / 2}, false, pen.skin.title_text);
     left += 0.8F * pen.unit;
   }
@@ -44,12 +52,13 @@ void titleBar(Pen& pen, const Screen& screen, float width, float height) {
       // A state that holds is its own word: "WLAN".
       const std::string text = w.value.empty() ? w.label : labels ? w.label + " " + w.value : w.value;
       right -= ImGui::CalcTextSize(text.c_str()).x;
-      if (draw) list->AddText({right, y}, w.why_not.empty() ? pen.skin.title_text : IM_COL32(255, 190, 120, 255), text.c_str());
+      if (draw)
+        list->AddText({right, y}, w.why_not.empty() ? pen.skin.title_text : IM_COL32(255, 190, 120, 255), text.c_str());
       right -= pen.unit;
     }
     return right;
   };
-  const bool labels = drawn(true, false) - at.x > title;   // else the figures alone
+  const bool labels = drawn(true, false) - at.x > title;  // else the figures alone
   const float right = drawn(labels, true);
   list->PushClipRect(at, {std::max(at.x, right), at.y + height}, true);
   list->AddText({left, y}, pen.skin.title_text, screen.title.c_str());
@@ -85,10 +94,12 @@ void dialogCard(Pen& pen, const Dialog& dialog, ImVec2 at, ImVec2 size) {
   list->AddRectFilled(at, {at.x + size.x, at.y + size.y}, IM_COL32(0, 0, 0, 110));
   const float margin = 1.2F * pen.unit, inner = size.x - 4 * margin;
   const float text_height = ImGui::CalcTextSize(dialog.text.c_str(), nullptr, false, inner).y;
-  const float height = text_height + 3 * margin + static_cast<float>(dialog.buttons.size()) * (pen.touch() + 0.5F * pen.unit) - 0.5F * pen.unit;
+  const float height = text_height + 3 * margin +
+                       static_cast<float>(dialog.buttons.size()) * (pen.touch() + 0.5F * pen.unit) - 0.5F * pen.unit;
   const ImVec2 card{at.x + margin, at.y + std::max(margin, (size.y - height) / 2)};
   list->AddRectFilled(card, {card.x + size.x - 2 * margin, card.y + height}, pen.skin.display, 0.5F * pen.unit);
-  list->AddRect(card, {card.x + size.x - 2 * margin, card.y + height}, pen.skin.accent, 0.5F * pen.unit, 0, pen.hair(1.5F));
+  list->AddRect(card, {card.x + size.x - 2 * margin, card.y + height}, pen.skin.accent, 0.5F * pen.unit, 0,
+                pen.hair(1.5F));
   wrapped({card.x + margin, card.y + margin}, inner, pen.skin.text, dialog.text);
   ImVec2 next{card.x + margin, card.y + 2 * margin + text_height};
   for (const auto& button : dialog.buttons) {
@@ -108,15 +119,18 @@ void body(Pen& pen, const Screen& screen, ImVec2 at, ImVec2 size) {
       list->AddCircleFilled({x + 0.7F * pen.unit, y}, 0.95F * pen.unit, (colour & 0x00FFFFFFU) | 0x40000000U, 24);
       list->AddCircleFilled({x + 0.7F * pen.unit, y}, 0.6F * pen.unit, colour, 24);
       list->AddCircle({x + 0.7F * pen.unit, y}, 0.6F * pen.unit, IM_COL32(40, 42, 45, 255), 24, pen.hair());
-      if (area("lamp", {x - 0.3F * pen.unit, y - pen.unit}, {2 * pen.unit, 2 * pen.unit}) && pen.view.asking) pen.pressed(w.id);
+      if (area("lamp", {x - 0.3F * pen.unit, y - pen.unit}, {2 * pen.unit, 2 * pen.unit}) && pen.view.asking)
+        pen.pressed(w.id);
       tip(w.label + ": " + w.value);
       x += 3 * pen.unit;
     } else {
-      const float width = std::max(pen.touch(), ImGui::CalcTextSize(w.label.c_str()).x + 1.6F * pen.unit), h = pen.touch();
+      const float width = std::max(pen.touch(), ImGui::CalcTextSize(w.label.c_str()).x + 1.6F * pen.unit),
+                  h = pen.touch();
       if (area("key", {x, y - h / 2}, {width, h})) pen.pressed(w.id);
       const bool hovered = ImGui::IsItemHovered();
       tip(w.why_not);
-      list->AddRectFilled({x, y - h / 2}, {x + width, y + h / 2}, hovered ? IM_COL32(112, 116, 122, 255) : IM_COL32(88, 92, 98, 255), h / 2);
+      list->AddRectFilled({x, y - h / 2}, {x + width, y + h / 2},
+                          hovered ? IM_COL32(112, 116, 122, 255) : IM_COL32(88, 92, 98, 255), h / 2);
       list->AddRect({x, y - h / 2}, {x + width, y + h / 2}, IM_COL32(30, 31, 33, 160), h / 2, 0, pen.hair());
       centred(list, {x, y - h / 2}, {width, h}, IM_COL32_WHITE, w.label);
       frame(pen, w, {x, y - h / 2}, {width, h});
@@ -132,13 +146,15 @@ void scrollByFinger(const Pen& pen) {
   const auto& io = ImGui::GetIO();
   if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
     view.scrolling = false;
-    view.grabbed = ImGui::GetScrollMaxY() > 0 && ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) &&
+    view.grabbed = ImGui::GetScrollMaxY() > 0 &&
+                   ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) &&
                    io.MousePos.x < ImGui::GetWindowPos().x + pen.left + pen.width;
   }
   if (!view.grabbed) return;
   if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) view.grabbed = false;
-  const bool elsewhere = view.dragged_edge >= 0 || io.WantTextInput;   // the finger does something else
-  if (!elsewhere && std::abs(ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 0).y) > 0.6F * pen.unit) view.scrolling = true;
+  const bool elsewhere = view.dragged_edge >= 0 || io.WantTextInput;  // the finger does something else
+  if (!elsewhere && std::abs(ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 0).y) > 0.6F * pen.unit)
+    view.scrolling = true;
   if (view.scrolling && view.grabbed) ImGui::SetScrollY(ImGui::GetScrollY() - io.MouseDelta.y);
 }
 
@@ -224,8 +240,10 @@ std::optional<Press> drawDevice(const Device& device, DeviceView& view, float wi
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_ScrollbarSize, 0.8F * unit);
   ImGui::PushID(definition.id.c_str());
-  const bool open = ImGui::BeginChild("display", {display_width, display_height}, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-  if (open && device.asleep() && ImGui::InvisibleButton("asleep", {display_width, display_height})) pen.press = Press{"display", {}};
+  const bool open = ImGui::BeginChild("display", {display_width, display_height}, false,
+                                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+  if (open && device.asleep() && ImGui::InvisibleButton("asleep", {display_width, display_height}))
+    pen.press = Press{"display", {}};
   if (open && !dark) {
     const ImVec2 inside = ImGui::GetCursorScreenPos();
     titleBar(pen, screen, display_width, 2.3F * unit);
@@ -252,7 +270,8 @@ std::optional<Press> drawDevice(const Device& device, DeviceView& view, float wi
     if (screen.has_dialog) {
       pen.press.reset();
       ImGui::SetCursorScreenPos(inside);
-      if (ImGui::BeginChild("dialog", {display_width, display_height}, false, ImGuiWindowFlags_NoBackground)) dialogCard(pen, screen.dialog, inside, {display_width, display_height});
+      if (ImGui::BeginChild("dialog", {display_width, display_height}, false, ImGuiWindowFlags_NoBackground))
+        dialogCard(pen, screen.dialog, inside, {display_width, display_height});
       ImGui::EndChild();
     }
   }

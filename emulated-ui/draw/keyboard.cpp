@@ -109,14 +109,19 @@ std::vector<KeyCap> keyCaps(KeyPage page, float width, float height, float gap) 
 void pressKey(Keyboard& keyboard, const std::string& key) {
   auto& page = keyboard.page;
   if (key == "ok") return;
-  if (key == "shift") page = page == KeyPage::capitals ? KeyPage::letters : KeyPage::capitals;
-  else if (key == "signs") page = KeyPage::signs;
-  else if (key == "letters") page = KeyPage::letters;
-  else if (key == "back") keyboard.typed += '\b';
-  else if (page != KeyPage::capitals) keyboard.typed += key;
+  if (key == "shift")
+    page = page == KeyPage::capitals ? KeyPage::letters : KeyPage::capitals;
+  else if (key == "signs")
+    page = KeyPage::signs;
+  else if (key == "letters")
+    page = KeyPage::letters;
+  else if (key == "back")
+    keyboard.typed += '\b';
+  else if (page != KeyPage::capitals)
+    keyboard.typed += key;
   else {
     keyboard.typed += static_cast<char>(std::toupper(static_cast<unsigned char>(key[0])));
-    page = KeyPage::letters;   // one capital begins a name
+    page = KeyPage::letters;  // one capital begins a name
   }
 }
 

@@ -10,17 +10,17 @@ enum class KeyPage { letters, capitals, signs, figures };
 
 // The keyboard that a device shows while one of its fields is edited. A real one goes on working beside it.
 struct Keyboard {
-  std::string field;                  // the widget that is edited; empty: there is no keyboard
+  std::string field;  // the widget that is edited; empty: there is no keyboard
   KeyPage page = KeyPage::letters;
-  bool fresh = false;                 // the field is to be moved out from below it
-  std::string typed;                  // what the field has not taken yet; '\b' takes back
-  float left = 0, top = 0, width = 0, height = 0;   // where it was drawn last, in pixels
+  bool fresh = false;                              // the field is to be moved out from below it
+  std::string typed;                               // what the field has not taken yet; '\b' takes back
+  float left = 0, top = 0, width = 0, height = 0;  // where it was drawn last, in pixels
 };
 
 // `key` is what it types, or "shift", "signs", "letters", "back", "ok".
 struct KeyCap {
   std::string key;
-  float x = 0, y = 0, width = 0, height = 0;   // in the keyboard, pixels
+  float x = 0, y = 0, width = 0, height = 0;  // in the keyboard, pixels
 };
 std::vector<KeyCap> keyCaps(KeyPage page, float width, float height, float gap);
 int keyRows(KeyPage page);

@@ -17,34 +17,37 @@ struct Pen {
   DeviceView& view;
   const Skin& skin;
   float unit;
-  float left = 0, width = 0;       // of the column that widgets stand in, in the window
+  float left = 0, width = 0;  // of the column that widgets stand in, in the window
   std::optional<Press> press = {};
-  bool editing = false;            // a field was drawn that is edited
+  bool editing = false;  // a field was drawn that is edited
 
   // The press, or the wish to have the widget explained.
   void pressed(const std::string& widget, const std::string& value = {}) {
-    if (view.scrolling) return;   // the finger moved the screen
-    if (view.asking) view.explained = widget;
-    else press = Press{widget, value};
+    if (view.scrolling) return;  // the finger moved the screen
+    if (view.asking)
+      view.explained = widget;
+    else
+      press = Press{widget, value};
   }
-  float touch() const { return 2.6F * unit; }   // the least height of what is pressed by a finger
-  float hair(float points = 1) const { return points * unit / 11.6F; }   // the width of a line; a unit has 11.6 points
+  float touch() const { return 2.6F * unit; }  // the least height of what is pressed by a finger
+  float hair(float points = 1) const { return points * unit / 11.6F; }  // the width of a line; a unit has 11.6 points
 };
 
-ImVec2 screenAt(const Pen& pen);                // the next widget's upper left
-bool area(const char* id, ImVec2 at, ImVec2 size);   // an invisible button, also of what is grey: the device then says why
-void tip(const std::string& text);               // of the last item, when it is hovered
+ImVec2 screenAt(const Pen& pen);  // the next widget's upper left
+bool area(const char* id, ImVec2 at,
+          ImVec2 size);             // an invisible button, also of what is grey: the device then says why
+void tip(const std::string& text);  // of the last item, when it is hovered
 void centred(ImDrawList* list, ImVec2 at, ImVec2 size, ImU32 colour, const std::string& text);
-void chevron(const Pen& pen, ImVec2 tip, bool to_the_right, ImU32 colour);   // points where a press leads
+void chevron(const Pen& pen, ImVec2 tip, bool to_the_right, ImU32 colour);  // points where a press leads
 ImU32 faded(ImU32 colour, bool enabled);
-void frame(const Pen& pen, const Widget& w, ImVec2 at, ImVec2 size);   // about the widget that a hint points to
+void frame(const Pen& pen, const Widget& w, ImVec2 at, ImVec2 size);  // about the widget that a hint points to
 float wrappedHeight(const std::string& text, float width);
 void wrapped(ImVec2 at, float width, ImU32 colour, const std::string& text);
 
 // The keyboard below the screen, while a field is edited.
 float keyboardHeight(const Pen& pen, float room);
 void drawKeyboard(Pen& pen, ImVec2 at, ImVec2 size);
-bool keyboardIsPressed(const Pen& pen);         // the pointer is on it, and not on the key that ends the editing
+bool keyboardIsPressed(const Pen& pen);  // the pointer is on it, and not on the key that ends the editing
 
 void caption(const Pen& pen, const std::string& text);
 void drawWidget(Pen& pen, const Widget& w);

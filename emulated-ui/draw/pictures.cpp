@@ -58,7 +58,8 @@ void drawLevel(Pen& pen, const Widget& w) {
   list->AddLine({centre.x - radius, centre.y}, {centre.x + radius, centre.y}, IM_COL32(60, 70, 30, 80));
   list->AddLine({centre.x, centre.y - radius}, {centre.x, centre.y + radius}, IM_COL32(60, 70, 30, 80));
   const double limit = std::max(1e-6, w.maximum);
-  double x = -std::strtod(w.options[0].value.c_str(), nullptr) / limit * 0.5, y = std::strtod(w.options[1].value.c_str(), nullptr) / limit * 0.5;
+  double x = -std::strtod(w.options[0].value.c_str(), nullptr) / limit * 0.5,
+         y = std::strtod(w.options[1].value.c_str(), nullptr) / limit * 0.5;
   const double far = std::hypot(x, y);
   if (far > 0.8) x *= 0.8 / far, y *= 0.8 / far;
   const ImVec2 bubble{centre.x + radius * static_cast<float>(x), centre.y + radius * static_cast<float>(y)};
@@ -74,7 +75,8 @@ void drawArea(Pen& pen, const Widget& w) {
   const ImVec2 size{pen.width, pen.width * 0.42F};
   picture(pen, newestPreview(pen.device), at, size);
   const auto& instrument = pen.device.type().instrument;
-  const double low = instrument.min_elevation_rad * 57.29577951308232, high = instrument.max_elevation_rad * 57.29577951308232;
+  const double low = instrument.min_elevation_rad * 57.29577951308232,
+               high = instrument.max_elevation_rad * 57.29577951308232;
   std::array<double, 4> edges{};
   for (int i = 0; i < 4; ++i) edges[i] = std::strtod(w.options[i].value.c_str(), nullptr);
   if (pen.view.dragged_edge >= 0) edges = pen.view.area;
@@ -86,7 +88,7 @@ void drawArea(Pen& pen, const Widget& w) {
   constexpr ImU32 kOutside = IM_COL32(0, 0, 0, 150);
   list->AddRectFilled(at, {at.x + size.x, from.y}, kOutside);
   list->AddRectFilled({at.x, to.y}, plus(at, size), kOutside);
-  if (from.x > to.x) {   // it goes on over the picture's edge
+  if (from.x > to.x) {  // it goes on over the picture's edge
     list->AddRectFilled({to.x, from.y}, {from.x, to.y}, kOutside);
     list->AddRect({at.x, from.y}, to, pen.skin.accent, 0, 0, pen.hair(2));
     list->AddRect(from, {at.x + size.x, to.y}, pen.skin.accent, 0, 0, pen.hair(2));
@@ -99,13 +101,15 @@ void drawArea(Pen& pen, const Widget& w) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   if (ImGui::IsItemActivated()) {
     if (pen.view.asking) return pen.pressed(w.id);
-    const std::array<float, 4> far = {std::abs(mouse.x - from.x), std::abs(mouse.x - to.x), std::abs(mouse.y - to.y), std::abs(mouse.y - from.y)};
+    const std::array<float, 4> far = {std::abs(mouse.x - from.x), std::abs(mouse.x - to.x), std::abs(mouse.y - to.y),
+                                      std::abs(mouse.y - from.y)};
     pen.view.dragged_edge = static_cast<int>(std::min_element(far.begin(), far.end()) - far.begin());
     pen.view.area = edges;
   }
   if (pen.view.dragged_edge >= 0 && ImGui::IsItemActive()) {
     auto& e = pen.view.area;
-    const double h = std::clamp(360.0 * (mouse.x - at.x) / size.x, 0.0, 360.0), v = std::clamp(high - (high - low) * (mouse.y - at.y) / size.y, low, high);
+    const double h = std::clamp(360.0 * (mouse.x - at.x) / size.x, 0.0, 360.0),
+                 v = std::clamp(high - (high - low) * (mouse.y - at.y) / size.y, low, high);
     if (pen.view.dragged_edge == 0) e[0] = std::min(std::round(h), e[1] - 1);
     if (pen.view.dragged_edge == 1) e[1] = std::max(std::round(h), e[0] + 1);
     if (pen.view.dragged_edge == 2) e[2] = std::min(std::round(v), e[3] - 1);
@@ -136,20 +140,28 @@ void drawPreview(Pen& pen, const Widget& w) {
   const auto* setup = pen.device.shownSetup();
   const auto preview = setup == nullptr ? nullptr : setup->preview;
   const auto& instrument = pen.device.type().instrument;
-  const auto whole = static_cast<float>((instrument.max_elevation_rad - instrument.min_elevation_rad) / (2 * std::numbers::pi));
-  const float aspect = preview && preview->columns > 0 ? static_cast<float>(preview->rows) / static_cast<float>(preview->columns) : whole;
+  const auto whole =
+      static_cast<float>((instrument.max_elevation_rad - instrument.min_elevation_rad) / (2 * std::numbers::pi));
+  const float aspect = preview && preview->columns > 0
+                           ? static_cast<float>(preview->rows) / static_cast<float>(preview->columns)
+                           : whole;
   const ImVec2 at = screenAt(pen);
   const ImVec2 size{pen.width, pen.width * aspect};
   const bool has = picture(pen, preview, at, size);
-  if (!has) centred(ImGui::GetWindowDrawList(), at, size, IM_COL32(200, 204, 210, 255), w.label);
-  else drawTaps(pen, at, size);
-  double u = 0, v = 0;   // where its laser pointer rests
+  if (!has)
+    centred(ImGui::GetWindowDrawList(), at, size, IM_COL32(200, 204, 210, 255), w.label);
+  else
+    drawTaps(pen, at, size);
+  double u = 0, v = 0;  // where its laser pointer rests
   const auto spot = pen.device.fact("pointer.range");
   if (spot && spot->number.value_or(0) > 0 && std::sscanf(pen.device.entry("pointer").c_str(), "%lf,%lf", &u, &v) == 2)
-    ImGui::GetWindowDrawList()->AddCircleFilled({at.x + size.x * static_cast<float>(u), at.y + size.y * static_cast<float>(v)}, 0.35F * pen.unit, IM_COL32(255, 30, 20, 255), 16);
+    ImGui::GetWindowDrawList()->AddCircleFilled(
+        {at.x + size.x * static_cast<float>(u), at.y + size.y * static_cast<float>(v)}, 0.35F * pen.unit,
+        IM_COL32(255, 30, 20, 255), 16);
   if (area(("##" + w.id).c_str(), at, size)) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
-    pen.pressed(w.id, fmt::format("{:.4f},{:.4f}", std::clamp((mouse.x - at.x) / size.x, 0.0F, 0.9999F), std::clamp((mouse.y - at.y) / size.y, 0.0F, 0.9999F)));
+    pen.pressed(w.id, fmt::format("{:.4f},{:.4f}", std::clamp((mouse.x - at.x) / size.x, 0.0F, 0.9999F),
+                                  std::clamp((mouse.y - at.y) / size.y, 0.0F, 0.9999F)));
   }
 }
 
@@ -170,13 +182,16 @@ void drawPlan(Pen& pen, const Widget& w) {
     low_y = std::min(low_y, s.plan_y_m), high_y = std::max(high_y, s.plan_y_m);
   }
   const float inset = 2 * pen.unit;
-  const double scale = std::min((size.x - 2 * inset) / std::max(1.0, high_x - low_x), (size.y - 2 * inset) / std::max(1.0, high_y - low_y));
+  const double scale = std::min((size.x - 2 * inset) / std::max(1.0, high_x - low_x),
+                                (size.y - 2 * inset) / std::max(1.0, high_y - low_y));
   const auto place = [&](const StoredSetup& s) {
-    return ImVec2{at.x + size.x / 2 + static_cast<float>((s.plan_x_m - (low_x + high_x) / 2) * scale), at.y + size.y / 2 - static_cast<float>((s.plan_y_m - (low_y + high_y) / 2) * scale)};
+    return ImVec2{at.x + size.x / 2 + static_cast<float>((s.plan_x_m - (low_x + high_x) / 2) * scale),
+                  at.y + size.y / 2 - static_cast<float>((s.plan_y_m - (low_y + high_y) / 2) * scale)};
   };
   for (std::size_t i = 1; i < project->setups.size(); ++i)
     if (const auto& link = project->setups[i].link)
-      list->AddLine(place(project->setups[i - 1]), place(project->setups[i]), link->joined ? IM_COL32(40, 150, 70, 255) : IM_COL32(200, 50, 40, 255), pen.hair(2));
+      list->AddLine(place(project->setups[i - 1]), place(project->setups[i]),
+                    link->joined ? IM_COL32(40, 150, 70, 255) : IM_COL32(200, 50, 40, 255), pen.hair(2));
   for (const auto& s : project->setups) {
     const ImVec2 p = place(s);
     list->AddCircleFilled(p, 0.45F * pen.unit, pen.skin.accent, 20);

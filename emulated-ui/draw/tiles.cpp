@@ -8,7 +8,9 @@ namespace standpoint {
 
 void chevron(const Pen& pen, ImVec2 tip, bool to_the_right, ImU32 colour) {
   const float s = 0.35F * pen.unit, back = to_the_right ? -s : s;
-  ImGui::GetWindowDrawList()->AddPolyline(std::array<ImVec2, 3>{ImVec2{tip.x + back, tip.y - s}, tip, ImVec2{tip.x + back, tip.y + s}}.data(), 3, colour, 0, pen.hair(1.5F));
+  ImGui::GetWindowDrawList()->AddPolyline(
+      std::array<ImVec2, 3>{ImVec2{tip.x + back, tip.y - s}, tip, ImVec2{tip.x + back, tip.y + s}}.data(), 3, colour, 0,
+      pen.hair(1.5F));
 }
 
 namespace {
@@ -16,7 +18,8 @@ namespace {
 // Label on the left and value on the right of a row; the value below where both do not fit beside one another.
 class TwoTexts {
  public:
-  TwoTexts(const std::string& label, const std::string& value, float room, float gap) : label_(label), value_(value), room_(room) {
+  TwoTexts(const std::string& label, const std::string& value, float room, float gap)
+      : label_(label), value_(value), room_(room) {
     value_width_ = ImGui::CalcTextSize(value.c_str()).x;
     beside_ = ImGui::CalcTextSize(label.c_str()).x + (value.empty() ? 0 : gap + value_width_) <= room;
     label_height_ = beside_ ? ImGui::GetTextLineHeight() : wrappedHeight(label, room);
@@ -36,7 +39,7 @@ class TwoTexts {
 };
 
 struct Row {
-  std::string id, value;              // what a press sends
+  std::string id, value;  // what a press sends
   std::string label, shown;
   bool enabled = true;
   Leads leads = Leads::nowhere;
@@ -44,7 +47,8 @@ struct Row {
 
 void pressedRow(Pen& pen, const Widget& w, const Row& row) {
   const float inset = 0.8F * pen.unit, mark = 1.2F * pen.unit;
-  const float left = inset + (row.leads == Leads::back ? mark : 0), right = inset + (row.leads == Leads::onwards ? mark : 0);
+  const float left = inset + (row.leads == Leads::back ? mark : 0),
+              right = inset + (row.leads == Leads::onwards ? mark : 0);
   const TwoTexts texts(row.label, row.shown, pen.width - left - right, inset);
   const ImVec2 size{pen.width, std::max(pen.touch(), texts.height() + inset)};
   const ImVec2 at = screenAt(pen);
@@ -55,14 +59,17 @@ void pressedRow(Pen& pen, const Widget& w, const Row& row) {
   const float rounding = pen.skin.rounding * pen.unit, middle = at.y + size.y / 2;
   list->AddRectFilled(at, {at.x + size.x, at.y + size.y}, hovered ? pen.skin.tile_hover : pen.skin.tile, rounding);
   list->AddRect(at, {at.x + size.x, at.y + size.y}, pen.skin.line, rounding, 0, pen.hair());
-  if (row.leads == Leads::onwards) chevron(pen, {at.x + size.x - inset, middle}, true, faded(pen.skin.dim, row.enabled));
+  if (row.leads == Leads::onwards)
+    chevron(pen, {at.x + size.x - inset, middle}, true, faded(pen.skin.dim, row.enabled));
   if (row.leads == Leads::back) chevron(pen, {at.x + inset, middle}, false, faded(pen.skin.dim, row.enabled));
-  texts.draw({at.x + left, middle - texts.height() / 2}, faded(pen.skin.tile_text, row.enabled), faded(pen.skin.dim, row.enabled));
+  texts.draw({at.x + left, middle - texts.height() / 2}, faded(pen.skin.tile_text, row.enabled),
+             faded(pen.skin.dim, row.enabled));
   frame(pen, w, at, size);
 }
 
 // A row that is only read, with a line below.
-void readRow(Pen& pen, const Widget& w, const std::string& label, const std::string& value, ImU32 label_colour, ImU32 value_colour, bool line) {
+void readRow(Pen& pen, const Widget& w, const std::string& label, const std::string& value, ImU32 label_colour,
+             ImU32 value_colour, bool line) {
   const float inset = 0.4F * pen.unit;
   const TwoTexts texts(label, value, pen.width - 2 * inset, 2 * inset);
   const ImVec2 size{pen.width, texts.height() + inset};
@@ -70,20 +77,26 @@ void readRow(Pen& pen, const Widget& w, const std::string& label, const std::str
   if (area(("##" + w.id + label).c_str(), at, size) && pen.view.asking) pen.pressed(w.id);
   tip(w.why_not);
   texts.draw({at.x + inset, at.y + (line ? inset / 2 : 0)}, label_colour, value_colour);
-  if (line) ImGui::GetWindowDrawList()->AddLine({at.x, at.y + size.y}, {at.x + size.x, at.y + size.y}, pen.skin.line, pen.hair());
+  if (line)
+    ImGui::GetWindowDrawList()->AddLine({at.x, at.y + size.y}, {at.x + size.x, at.y + size.y}, pen.skin.line,
+                                        pen.hair());
   frame(pen, w, at, size);
 }
 
 }  // namespace
 
-void drawTile(Pen& pen, const Widget& w) { pressedRow(pen, w, {"##" + w.id, "", w.label, w.value, w.enabled, w.leads}); }
+void drawTile(Pen& pen, const Widget& w) {
+  pressedRow(pen, w, {"##" + w.id, "", w.label, w.value, w.enabled, w.leads});
+}
 
 void drawRows(Pen& pen, const Widget& w) {
   if (w.options.empty() || !w.acts) caption(pen, w.options.empty() ? w.label + ": –" : w.label);
   ImGui::PushID(w.id.c_str());
   for (const auto& option : w.options) {
-    if (w.acts) pressedRow(pen, w, {option.value, option.value, option.label, "", w.enabled && option.enabled, w.leads});
-    else readRow(pen, w, option.label, "", pen.skin.text, pen.skin.text, true);
+    if (w.acts)
+      pressedRow(pen, w, {option.value, option.value, option.label, "", w.enabled && option.enabled, w.leads});
+    else
+      readRow(pen, w, option.label, "", pen.skin.text, pen.skin.text, true);
   }
   ImGui::PopID();
 }
@@ -100,7 +113,8 @@ void drawBigKey(Pen& pen, const Widget& w) {
   tip(w.why_not);
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddRectFilled(at, {at.x + size.x, at.y + size.y}, faded(pen.skin.key, w.enabled), pen.skin.rounding * pen.unit);
-  if (hovered) list->AddRectFilled(at, {at.x + size.x, at.y + size.y}, IM_COL32(255, 255, 255, 28), pen.skin.rounding * pen.unit);
+  if (hovered)
+    list->AddRectFilled(at, {at.x + size.x, at.y + size.y}, IM_COL32(255, 255, 255, 28), pen.skin.rounding * pen.unit);
   centred(list, at, size, pen.skin.key_text, w.label);
   frame(pen, w, at, size);
 }
@@ -115,7 +129,8 @@ void drawToggle(Pen& pen, const Widget& w) {
   const bool hovered = ImGui::IsItemHovered() && w.enabled;
   tip(w.why_not);
   ImDrawList* list = ImGui::GetWindowDrawList();
-  list->AddRectFilled(at, {at.x + size.x, at.y + size.y}, hovered ? pen.skin.tile_hover : pen.skin.tile, pen.skin.rounding * pen.unit);
+  list->AddRectFilled(at, {at.x + size.x, at.y + size.y}, hovered ? pen.skin.tile_hover : pen.skin.tile,
+                      pen.skin.rounding * pen.unit);
   list->AddRect(at, {at.x + size.x, at.y + size.y}, pen.skin.line, pen.skin.rounding * pen.unit, 0, pen.hair());
   wrapped({at.x + inset, at.y + (size.y - label) / 2}, room, faded(pen.skin.tile_text, w.enabled), w.label);
   const bool on = w.value == "on";

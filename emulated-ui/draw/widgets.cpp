@@ -37,7 +37,8 @@ void tip(const std::string& text) {
 void centred(ImDrawList* list, ImVec2 at, ImVec2 size, ImU32 colour, const std::string& text) {
   const ImVec2 text_size = ImGui::CalcTextSize(text.c_str());
   list->PushClipRect(at, {at.x + size.x, at.y + size.y}, true);
-  list->AddText({at.x + std::max(2.0F, (size.x - text_size.x) / 2), at.y + (size.y - text_size.y) / 2}, colour, text.c_str());
+  list->AddText({at.x + std::max(2.0F, (size.x - text_size.x) / 2), at.y + (size.y - text_size.y) / 2}, colour,
+                text.c_str());
   list->PopClipRect();
 }
 
@@ -46,10 +47,13 @@ ImU32 faded(ImU32 colour, bool enabled) { return enabled ? colour : (colour & 0x
 void frame(const Pen& pen, const Widget& w, ImVec2 at, ImVec2 size) {
   if (pen.view.pointed != w.id) return;
   const float off = pen.hair(3);
-  ImGui::GetWindowDrawList()->AddRect({at.x - off, at.y - off}, {at.x + size.x + off, at.y + size.y + off}, IM_COL32(255, 178, 0, 255), pen.skin.rounding * pen.unit, 0, off);
+  ImGui::GetWindowDrawList()->AddRect({at.x - off, at.y - off}, {at.x + size.x + off, at.y + size.y + off},
+                                      IM_COL32(255, 178, 0, 255), pen.skin.rounding * pen.unit, 0, off);
 }
 
-float wrappedHeight(const std::string& text, float width) { return ImGui::CalcTextSize(text.c_str(), nullptr, false, std::max(1.0F, width)).y; }
+float wrappedHeight(const std::string& text, float width) {
+  return ImGui::CalcTextSize(text.c_str(), nullptr, false, std::max(1.0F, width)).y;
+}
 
 void wrapped(ImVec2 at, float width, ImU32 colour, const std::string& text) {
   ImGui::GetWindowDrawList()->AddText(nullptr, 0, at, colour, text.c_str(), nullptr, std::max(1.0F, width));
@@ -69,25 +73,37 @@ void choice(Pen& pen, const Widget& w) {
   caption(pen, w.label);
   const float gap = 0.3F * pen.unit;
   float widest = 1;
-  for (const auto& option : w.options) widest = std::max(widest, ImGui::CalcTextSize(option.label.c_str()).x + 1.6F * pen.unit);
+  for (const auto& option : w.options)
+    widest = std::max(widest, ImGui::CalcTextSize(option.label.c_str()).x + 1.6F * pen.unit);
   const int count = static_cast<int>(w.options.size());
   int columns = std::clamp(static_cast<int>((pen.width + gap) / (widest + gap)), 1, std::max(1, count));
-  if (count > columns) columns = (count + (count + columns - 1) / columns - 1) / ((count + columns - 1) / columns);   // rows of about the same length
-  const float width = (pen.width - gap * static_cast<float>(columns - 1)) / static_cast<float>(columns), height = 0.9F * pen.touch();
+  if (count > columns)
+    columns = (count + (count + columns - 1) / columns - 1) /
+              ((count + columns - 1) / columns);  // rows of about the same length
+  const float width = (pen.width - gap * static_cast<float>(columns - 1)) / static_cast<float>(columns),
+              height = 0.9F * pen.touch();
   const ImVec2 at = screenAt(pen);
   ImDrawList* list = ImGui::GetWindowDrawList();
   ImGui::PushID(w.id.c_str());
   for (int i = 0; i < count; ++i) {
     const auto& option = w.options[i];
-    const ImVec2 from{at.x + static_cast<float>(i % columns) * (width + gap), at.y + static_cast<float>(i / columns) * (height + gap)};
+    const ImVec2 from{at.x + static_cast<float>(i % columns) * (width + gap),
+                      at.y + static_cast<float>(i / columns) * (height + gap)};
     const bool enabled = w.enabled && option.enabled;
     if (area(option.value.c_str(), from, {width, height})) pen.pressed(w.id, option.value);
     const bool hovered = ImGui::IsItemHovered() && enabled;
     tip(option.why_not);
     const bool chosen = option.label == w.value;
-    list->AddRectFilled(from, {from.x + width, from.y + height}, chosen ? pen.skin.accent : hovered ? pen.skin.tile_hover : pen.skin.tile, pen.skin.rounding * pen.unit);
-    if (!chosen) list->AddRect(from, {from.x + width, from.y + height}, pen.skin.line, pen.skin.rounding * pen.unit, 0, pen.hair());
-    centred(list, from, {width, height}, chosen ? pen.skin.accent_text : faded(pen.skin.tile_text, enabled), option.label);
+    list->AddRectFilled(from, {from.x + width, from.y + height},
+                        chosen    ? pen.skin.accent
+                        : hovered ? pen.skin.tile_hover
+                                  : pen.skin.tile,
+                        pen.skin.rounding * pen.unit);
+    if (!chosen)
+      list->AddRect(from, {from.x + width, from.y + height}, pen.skin.line, pen.skin.rounding * pen.unit, 0,
+                    pen.hair());
+    centred(list, from, {width, height}, chosen ? pen.skin.accent_text : faded(pen.skin.tile_text, enabled),
+            option.label);
   }
   ImGui::PopID();
   const auto rows = static_cast<float>((count + columns - 1) / columns);
@@ -109,7 +125,7 @@ int takeKeys(ImGuiInputTextCallbackData* data) {
       data->InsertChars(data->CursorPos, &key, &key + 1);
     } else if (!replaces && data->CursorPos > 0) {
       int bytes = 1;
-      while (bytes < data->CursorPos && (data->Buf[data->CursorPos - bytes] & 0xC0) == 0x80) ++bytes;   // of one letter
+      while (bytes < data->CursorPos && (data->Buf[data->CursorPos - bytes] & 0xC0) == 0x80) ++bytes;  // of one letter
       data->DeleteChars(data->CursorPos - bytes, bytes);
     }
   }
@@ -132,7 +148,7 @@ bool typedField(Pen& pen, const Widget& w, std::string& text, bool number) {
   if (edited) keyboard.fresh = false;
   if (!ImGui::IsItemActive()) return entered;
   pen.editing = true;
-  if (!edited && !ImGui::IsMouseDown(ImGuiMouseButton_Left))   // else it would come up below the finger
+  if (!edited && !ImGui::IsMouseDown(ImGuiMouseButton_Left))  // else it would come up below the finger
     keyboard = {w.id, number ? KeyPage::figures : KeyPage::letters, true, {}};
   return entered;
 }
@@ -160,12 +176,15 @@ void entry(Pen& pen, const Widget& w, bool number) {
   ImGui::PopStyleColor(3);
   if (number) {
     for (int i = 0; i < 2; ++i) {
-      const ImVec2 from{at.x + pen.width - buttons + 0.3F * pen.unit + static_cast<float>(i) * (pen.touch() + 0.3F * pen.unit), at.y};
+      const ImVec2 from{
+          at.x + pen.width - buttons + 0.3F * pen.unit + static_cast<float>(i) * (pen.touch() + 0.3F * pen.unit), at.y};
       const auto next = stepped(w.value, i == 0 ? -1 : 1, w.minimum, w.maximum);
       if (area((w.id + (i == 0 ? "-" : "+")).c_str(), from, {pen.touch(), pen.touch()})) pen.pressed(w.id, next);
       ImDrawList* list = ImGui::GetWindowDrawList();
-      list->AddRectFilled(from, {from.x + pen.touch(), from.y + pen.touch()}, ImGui::IsItemHovered() ? pen.skin.tile_hover : pen.skin.tile, pen.skin.rounding * pen.unit);
-      list->AddRect(from, {from.x + pen.touch(), from.y + pen.touch()}, pen.skin.line, pen.skin.rounding * pen.unit, 0, pen.hair());
+      list->AddRectFilled(from, {from.x + pen.touch(), from.y + pen.touch()},
+                          ImGui::IsItemHovered() ? pen.skin.tile_hover : pen.skin.tile, pen.skin.rounding * pen.unit);
+      list->AddRect(from, {from.x + pen.touch(), from.y + pen.touch()}, pen.skin.line, pen.skin.rounding * pen.unit, 0,
+                    pen.hair());
       centred(list, from, {pen.touch(), pen.touch()}, pen.skin.tile_text, i == 0 ? "−" : "+");
     }
   }
@@ -180,7 +199,8 @@ void progress(Pen& pen, const Widget& w) {
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddRectFilled(at, {at.x + pen.width, at.y + height}, pen.skin.line, height / 2);
   const float share = std::clamp(static_cast<float>(w.number), 0.0F, 1.0F);
-  if (share > 0) list->AddRectFilled(at, {at.x + std::max(height, share * pen.width), at.y + height}, pen.skin.accent, height / 2);
+  if (share > 0)
+    list->AddRectFilled(at, {at.x + std::max(height, share * pen.width), at.y + height}, pen.skin.accent, height / 2);
   const float width = ImGui::CalcTextSize(w.value.c_str()).x;
   list->AddText({at.x + pen.width - width, at.y + height + 0.2F * pen.unit}, pen.skin.text, w.value.c_str());
   ImGui::Dummy({0, height + ImGui::GetTextLineHeight() + 0.4F * pen.unit});
@@ -201,7 +221,7 @@ void paragraph(const Pen& pen, const std::string& text) {
 void drawWidget(Pen& pen, const Widget& w) {
   switch (w.kind) {
     case WidgetKind::status:
-    case WidgetKind::lamp: return;   // the title bar and the body have them
+    case WidgetKind::lamp: return;  // the title bar and the body have them
     case WidgetKind::readout: return drawReadout(pen, w);
     case WidgetKind::button: return drawTile(pen, w);
     case WidgetKind::key: return drawBigKey(pen, w);

@@ -17,8 +17,8 @@ namespace {
 
 constexpr const char* kWorking = "spin_up scanning paused photographing";
 constexpr const char* kHolding = "spin_up scanning paused photographing saving error";
-constexpr double kSpinUp_s = 9;             // [S6]: 8 to 10 s
-constexpr double kDisplayColumns = 1.00684;   // the display counts the overlap, too: 10310 of 10240 [S7]
+constexpr double kSpinUp_s = 9;              // [S6]: 8 to 10 s
+constexpr double kDisplayColumns = 1.00684;  // the display counts the overlap, too: 10310 of 10240 [S7]
 
 // Of rows the display counts both ends: 150 degrees are 4266.67 steps of 1/4 and 4268 rows [S7].
 double displayRows(const ScanSettings& settings) {
@@ -31,13 +31,13 @@ struct Profile {
   const char* name;
   const char* resolution;
   const char* quality;
-  bool reduced = false;   // the area is: a quarter of the turn about the object
+  bool reduced = false;  // the area is: a quarter of the turn about the object
 };
 constexpr std::array kProfiles = {Profile{"Indoor ...10 m", "1/8", "3x"},  Profile{"Indoor 10 m...", "1/5", "3x"},
                                   Profile{"Indoor HD", "1/2", "4x"},       Profile{"Outdoor ...20 m", "1/5", "4x"},
                                   Profile{"Outdoor 20 m...", "1/4", "4x"}, Profile{"Object HD", "1/1", "4x", true},
                                   Profile{"Preview", "1/20", "4x"}};
-constexpr const char* kOwnProfile = "profile.";   // an own one is a value of the device under this name
+constexpr const char* kOwnProfile = "profile.";  // an own one is a value of the device under this name
 
 SettingValues settingsOf(const Profile& profile) {
   SettingValues settings = {{"resolution", profile.resolution}, {"quality", profile.quality}};
@@ -57,14 +57,17 @@ std::vector<std::string> ownProfiles(const Device& device) {
 
 std::vector<WidgetOption> profileRows(const Device& device) {
   std::vector<WidgetOption> rows;
-  for (const auto& p : kProfiles) rows.push_back({p.name, fmt::format("{}  {} {}", p.name, p.resolution, p.quality), true, {}});
+  for (const auto& p : kProfiles)
+    rows.push_back({p.name, fmt::format("{}  {} {}", p.name, p.resolution, p.quality), true, {}});
   for (const auto& name : ownProfiles(device)) rows.push_back({name, name, true, {}});
   return rows;
 }
 
 Result<void> useProfile(Device& device, const std::string& name) {
-  const auto factory = std::find_if(kProfiles.begin(), kProfiles.end(), [&](const Profile& p) { return name == p.name; });
-  const auto settings = factory != kProfiles.end() ? settingsOf(*factory) : settingsFromText(device.value(kOwnProfile + name));
+  const auto factory =
+      std::find_if(kProfiles.begin(), kProfiles.end(), [&](const Profile& p) { return name == p.name; });
+  const auto settings =
+      factory != kProfiles.end() ? settingsOf(*factory) : settingsFromText(device.value(kOwnProfile + name));
   if (auto ok = device.setSettings(settings); !ok) return ok;
   device.change().entries["profile"] = name;
   device.change().entries["profile_settings"] = settingsText(device.state().settings);
@@ -126,15 +129,22 @@ void prepare(const Device& device, ScanOrder& order) {
 const FactDomain kNumber{{}, true, 0, 1e9};
 
 const DeviceRoles kRoles = {
-    .working = kWorking, .measuring = "scanning", .camera = "spin_up paused photographing", .holding = kHolding, .kept = "saving",
-    .scans = "view_scans", .tools = "service",
-    .tilted = "level != good and value.inclinometer == on", .first = "spin_up",
+    .working = kWorking,
+    .measuring = "scanning",
+    .camera = "spin_up paused photographing",
+    .holding = kHolding,
+    .kept = "saving",
+    .scans = "view_scans",
+    .tools = "service",
+    .tilted = "level != good and value.inclinometer == on",
+    .first = "spin_up",
     .begin = beginScan,
     .marks = {{"S9", "power_key"},
-              {"G1", "power_key/shut_down shut_down elapsed start start_anyway start/card_absent start/card_locked "
-                     "start/card_full start/battery_critical start/temperature_question start/tilt_question "
-                     "tilted/tilt_warning temperature/temperature_warning battery_low battery_critical transferred "
-                     "delete/delete_question delete_confirmed format/format_question format_confirmed adjust"},
+              {"G1",
+               "power_key/shut_down shut_down elapsed start start_anyway start/card_absent start/card_locked "
+               "start/card_full start/battery_critical start/temperature_question start/tilt_question "
+               "tilted/tilt_warning temperature/temperature_warning battery_low battery_critical transferred "
+               "delete/delete_question delete_confirmed format/format_question format_confirmed adjust"},
               {"G2", "stop/stop_question stop_confirmed"}},
 };
 
@@ -159,13 +169,29 @@ const DeviceProgram kProgram = {
             {"scanning photographing", "battery_critical", "", "saving", "", "battery_critical", keepPartial, "P"},
         },
         kRoles),
-    {{"use_profile", useProfile}, {"save_profile", saveProfile}, {"delete_profile", deleteProfile},
-     {"area_from_head", areaFromHead}, {"area_to_head", areaToHead}},
-    {{"profile", FactUnit::none, {}, [](const Device& d) { return wordFact(profileName(d)); }, "the chosen profile; a star where it was changed"},
-     {"expected.saving", FactUnit::seconds, kNumber, [](const Device& d) { return numberFact(std::max(3.0, d.type().instrument.overhead_s - kSpinUp_s)); }, "warm-up columns and saving"},
-     {"eye_safety", FactUnit::none, {}, [](const Device&) { return wordFact("7.5 m / 2.8 m"); }, "axial and radial distance of eye safety [S7]"},
-     {"display.columns", FactUnit::none, kNumber, [](const Device& d) { return numberFact(std::round(d.expected().columns * kDisplayColumns)); }, "columns as the display counts them"},
-     {"display.rows", FactUnit::none, kNumber, [](const Device& d) { return numberFact(displayRows(d.expected())); }, "rows as the display counts them"}},
+    {{"use_profile", useProfile},
+     {"save_profile", saveProfile},
+     {"delete_profile", deleteProfile},
+     {"area_from_head", areaFromHead},
+     {"area_to_head", areaToHead}},
+    {{"profile",
+      FactUnit::none,
+      {},
+      [](const Device& d) { return wordFact(profileName(d)); },
+      "the chosen profile; a star where it was changed"},
+     {"expected.saving", FactUnit::seconds, kNumber,
+      [](const Device& d) { return numberFact(std::max(3.0, d.type().instrument.overhead_s - kSpinUp_s)); },
+      "warm-up columns and saving"},
+     {"eye_safety",
+      FactUnit::none,
+      {},
+      [](const Device&) { return wordFact("7.5 m / 2.8 m"); },
+      "axial and radial distance of eye safety [S7]"},
+     {"display.columns", FactUnit::none, kNumber,
+      [](const Device& d) { return numberFact(std::round(d.expected().columns * kDisplayColumns)); },
+      "columns as the display counts them"},
+     {"display.rows", FactUnit::none, kNumber, [](const Device& d) { return numberFact(displayRows(d.expected())); },
+      "rows as the display counts them"}},
     {{"profiles", profileRows}},
     prepare,
 };

@@ -41,11 +41,17 @@ void storeAndLink(Device& device) {
 const FactDomain kYesNo{{"yes", "no"}, false, 0, 0};
 
 const DeviceRoles kRoles = {
-    .working = kWorking, .measuring = kWorking, .camera = "photographing", .holding = kHolding, .kept = "storing",
+    .working = kWorking,
+    .measuring = kWorking,
+    .camera = "photographing",
+    .holding = kHolding,
+    .kept = "storing",
     .scans = "scans",
-    .tilted = "levelled == no and value.compensator == on", .begin = beginScan,
-    .marks = {{"G1", "start/card_absent start/card_full start/battery_critical start/temperature_question "
-                     "start/tilt_question"},
+    .tilted = "levelled == no and value.compensator == on",
+    .begin = beginScan,
+    .marks = {{"G1",
+               "start/card_absent start/card_full start/battery_critical start/temperature_question "
+               "start/tilt_question"},
               {"S10", "moved set_down/moved"},
               {"S18", "tilted/tilt_warning"},
               {"S35", "transferred"}},

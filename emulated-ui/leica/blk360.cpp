@@ -17,9 +17,9 @@ constexpr const char* kIdle = "ready connected";
 constexpr const char* kMeasuring = "shooting scanning";
 constexpr const char* kBusy = "self_timer shooting scanning";
 constexpr const char* kHolding = "self_timer shooting scanning finishing storing error";
-constexpr const char* kStandaloneJob = "Standalone";   // where scans without the app go [P]
-constexpr double kOperatorGone_s = 5;                   // who presses the key needs so long to get out of sight [P]
-constexpr double kFatal_c = 10;                         // beyond the limits: critical [P]
+constexpr const char* kStandaloneJob = "Standalone";  // where scans without the app go [P]
+constexpr double kOperatorGone_s = 5;                 // who presses the key needs so long to get out of sight [P]
+constexpr double kFatal_c = 10;                       // beyond the limits: critical [P]
 
 bool isG1(const Device& d) { return d.type().instrument.id == "leica-blk360-g1"; }
 
@@ -49,9 +49,12 @@ void suddenError(Device& d) {
 void temperatureError(Device& d) {
   const auto& body = d.type().definition.body;
   const double t = d.state().around.temperature_c;
-  if (t < body.coldest_c) fail(d, "Temp_Low", "WarnLow");
-  else if (t > body.hottest_c + kFatal_c) fail(d, "Temp_Critical", "CritHigh");
-  else fail(d, "Temp_High", "ErrHigh");
+  if (t < body.coldest_c)
+    fail(d, "Temp_Low", "WarnLow");
+  else if (t > body.hottest_c + kFatal_c)
+    fail(d, "Temp_Critical", "CritHigh");
+  else
+    fail(d, "Temp_High", "ErrHigh");
 }
 
 void result(Device& d, const char* capture, const char* data) {
@@ -101,7 +104,8 @@ void byApp(Device& d) { d.change().entries["by"] = "app"; }
 void useStandaloneJob(Device& d) {
   auto& s = d.change();
   if (d.value("connection") == "OK" && d.project() != nullptr) return;
-  const auto found = std::find_if(s.projects.begin(), s.projects.end(), [](const DeviceProject& p) { return p.name == kStandaloneJob; });
+  const auto found = std::find_if(s.projects.begin(), s.projects.end(),
+                                  [](const DeviceProject& p) { return p.name == kStandaloneJob; });
   s.project = static_cast<int>(found - s.projects.begin());
   s.shown = -1;
   if (found == s.projects.end()) s.projects.push_back({.name = kStandaloneJob});
@@ -160,7 +164,7 @@ void emptied(Device& d) {
   forceDisconnect(d);
   if (d.state().running) d.change().entries["sudden"] = "yes";
   dropScan(d);
-  d.takeBack();   // a transfer, too
+  d.takeBack();  // a transfer, too
   result(d, "Aborted", "none");
 }
 
@@ -188,7 +192,8 @@ std::vector<WidgetOption> tagRows(const Device& d) {
   if (setup == nullptr) return rows;
   const auto stem = "tag." + d.project()->name + "/" + setup->name + ".";
   for (const auto& [id, at] : d.state().values)
-    if (id.starts_with(stem)) rows.push_back({id.substr(stem.size()), id.substr(stem.size()) + (at.empty() ? "" : "  (" + at + ")"), true, {}});
+    if (id.starts_with(stem))
+      rows.push_back({id.substr(stem.size()), id.substr(stem.size()) + (at.empty() ? "" : "  (" + at + ")"), true, {}});
   return rows;
 }
 
@@ -203,7 +208,10 @@ std::vector<WidgetOption> linkRows(const Device& d) {
     for (std::size_t i = 1; i < p->setups.size(); ++i) {
       const auto& s = p->setups[i];
       const double quality = s.link && s.link->joined ? s.link->overlap * 100 : 0;
-      rows.push_back({std::to_string(i), fmt::format("{} – {}  {}  {:.0f} %", p->setups[i - 1].name, s.name, accuracyOf(s), quality), true, {}});
+      rows.push_back({std::to_string(i),
+                      fmt::format("{} – {}  {}  {:.0f} %", p->setups[i - 1].name, s.name, accuracyOf(s), quality),
+                      true,
+                      {}});
     }
   return rows;
 }
@@ -222,8 +230,9 @@ Result<void> optimise(Device& d, const std::string&) {
 
 Result<void> send(Device& d, const std::string&) {
   if (d.value("server").empty()) return failure(ErrorKind::usage, d.word("no_server"));
-  for (const char* id : {"server", "port"})   // the office's listens where the file says
-    if (d.value(id) != findValue(d.type().definition, id)->standard) return failure(ErrorKind::usage, d.word("no_answer"));
+  for (const char* id : {"server", "port"})  // the office's listens where the file says
+    if (d.value(id) != findValue(d.type().definition, id)->standard)
+      return failure(ErrorKind::usage, d.word("no_answer"));
   if (!d.state().around.wlan) return failure(ErrorKind::usage, d.word("wlan_lost"));
   TransferOrder order{{}, "wlan"};
   for (const auto& p : d.state().projects)
@@ -264,7 +273,8 @@ std::string deviceState(const Device& d) {
 
 std::string operation(const Device& d) {
   const auto& phase = d.state().phase;
-  const bool busy = phase == "self_timer" || phase == "shooting" || phase == "scanning" || phase == "finishing" || phase == "storing";
+  const bool busy =
+      phase == "self_timer" || phase == "shooting" || phase == "scanning" || phase == "finishing" || phase == "storing";
   if (phase == "formatting") return "FormattingStorage";
   if (busy && entry(d, "by") == "key") return "Standalone";
   if (phase == "shooting") return "PanoramaShoot";
@@ -290,7 +300,9 @@ Fact entryFact(const Device& d, const char* id, const char* none) {
 }
 
 void addStart(std::vector<Transition>& rows, const char* event, void (*by)(Device&), const char* mark) {
-  const auto ask = [&](const char* guard, const char* dialog, const char* source) { rows.push_back({kIdle, event, guard, "", "", dialog, by, source}); };
+  const auto ask = [&](const char* guard, const char* dialog, const char* source) {
+    rows.push_back({kIdle, event, guard, "", "", dialog, by, source});
+  };
   const auto error = [&](const char* guard, void (*effect)(Device&), const char* phase = "error") {
     rows.push_back({kIdle, event, guard, phase, "", "", effect, "S10 S11"});
   };
@@ -318,8 +330,13 @@ void addStart(std::vector<Transition>& rows, const char* event, void (*by)(Devic
 
 // Power, start and errors are its own: an error is a phase, and the generations call it by other names.
 const DeviceRoles kRoles = {
-    .off = nullptr, .rest = nullptr, .idle = "connected", .measuring = kMeasuring, .laser = nullptr,
-    .scans = "setups", .targets = nullptr,
+    .off = nullptr,
+    .rest = nullptr,
+    .idle = "connected",
+    .measuring = kMeasuring,
+    .laser = nullptr,
+    .scans = "setups",
+    .targets = nullptr,
     .card_needed = nullptr,
     .marks = {{"S10", "format/format_question"},
               {"S11", "battery_low temperature/temperature_warning linked/link_joined linked/link_failed"}},
@@ -335,7 +352,8 @@ std::vector<Transition> transitions() {
       {kIdle, "elapsed", "value.standby == on", "standby", "", "", disconnect, "S10"},
       {"standby", "key", "", "ready", "", "", nullptr, "S10"},
       {"ready", "connect", "wlan == yes", "connected", "", "", connect, "S10"},
-      {"self_timer shooting scanning finishing storing error fatal", "connect", "wlan == yes", "", "", "", connect, "S10"},
+      {"self_timer shooting scanning finishing storing error fatal", "connect", "wlan == yes", "", "", "", connect,
+       "S10"},
       {"*", "connect", "", "", "", "wlan_lost", lose, "S10"},
       {"connected", "disconnect", "", "ready", "", "", disconnect, "S10"},
       {"connected", "wlan_lost", "", "ready", "", "wlan_lost", lose, "S10"},
@@ -384,7 +402,8 @@ std::vector<Transition> transitions() {
       {"finishing", "elapsed", "data == yes", "storing", "", "", nullptr, "P"},
       {kHolding, "failed", "value.connection == OK", "connected", "", "", noScan, "P"},
       {kHolding, "failed", "", "ready", "", "", noScan, "P"},
-      {kIdle, "set_down", "value.tracking == on and tracking == yes and setups > 0 and generation == g2", "", "", "link_proposed", nullptr, "S11"},
+      {kIdle, "set_down", "value.tracking == on and tracking == yes and setups > 0 and generation == g2", "", "",
+       "link_proposed", nullptr, "S11"},
       {kIdle, "set_down", "setups > 0 and generation == g2", "", "", "link_lost", loseTracking, "S11"},
       {kIdle, "tracking_lost", "value.tracking == on and generation == g2", "", "", "tracking_lost", nullptr, "S11"},
       {"connected", "send", "", "transferring", "", "", nullptr, "S11"},
@@ -409,23 +428,89 @@ const DeviceProgram kProgram = {
     "leica/blk360.json",
     transitions(),
     {{"store_button", storeButton}, {"add_tag", addTag}, {"optimise", optimise}, {"send", send}},
-    {{"generation", FactUnit::none, {{"g1", "g2"}}, [](const Device& d) { return wordFact(isG1(d) ? "g1" : "g2"); }, "of the BLK360"},
-     {"device.state", FactUnit::none, {{"Invalid", "Idle", "Busy", "Error", "FatalError", "ShuttingDown"}}, [](const Device& d) { return wordFact(deviceState(d)); }, "as the maker's programming interface names it [S10]"},
-     {"operation", FactUnit::none, {{"None", "Standalone", "PanoramaShoot", "PointCloudScan", "FormattingStorage"}}, [](const Device& d) { return wordFact(operation(d)); }, "as the maker's programming interface names it [S10]"},
-     {"data.state", FactUnit::none, {{"none", "InProgress", "Partial", "Complete"}}, [](const Device& d) { return entryFact(d, "data", "none"); }, "of the newest scan [S10]"},
-     {"capture", FactUnit::none, {{"none", "InProgress", "Completed", "Cancelled", "Aborted"}}, [](const Device& d) { return entryFact(d, "capture", "none"); }, "of the newest scan [S11]"},
-     {"error", FactUnit::none, {}, [](const Device& d) { return entryFact(d, "error", "none"); }, "that is shown, in the maker's name for it"},
-     {"error.action", FactUnit::none, {{"none", "Acknowledge", "Reboot", "SoftwareUpdate", "Service"}}, [](const Device& d) { return wordFact(errorAction(d)); }, "what helps [S11]"},
-     {"temperature.level", FactUnit::none, {{"Ok", "Temp_Low", "Temp_High", "Temp_Critical", "WarnLow", "WarnHigh", "ErrHigh", "CritHigh"}}, [](const Device& d) { return wordFact(temperatureLevel(d)); }, "in the generation's names"},
-     {"temperature.critical", FactUnit::none, kYesNo, [](const Device& d) { return yesNo(d.state().around.temperature_c > d.type().definition.body.hottest_c + kFatal_c); }, "far above the limit"},
-     {"storage.state", FactUnit::none, {{"OK", "Low", "Crit"}}, [](const Device& d) { return wordFact(storageState(d)); }, "Crit: the next scan does not fit [S11]"},
-     {"partial", FactUnit::none, kYesNo, [](const Device& d) { return yesNo(d.state().running.has_value()); }, "a part of the scan waits to be stored"},
-     {"vis.accuracy", FactUnit::none, {{"Unset", "Inaccurate", "Accurate"}}, [](const Device& d) { return wordFact(d.newestSetup() == nullptr ? "Unset" : accuracyOf(*d.newestSetup())); }, "of the newest link [S11]"},
-     {"vis.quality", FactUnit::share, {{}, true, 0, 1}, [](const Device& d) { return numberFact(d.newestSetup() != nullptr && d.newestSetup()->link && d.newestSetup()->link->joined ? d.newestSetup()->link->overlap : 0); }, "of the newest link [S11]"},
-     {"button.bytes", FactUnit::bytes, kNumber, [](const Device& d) { const auto s = buttonSettings(d); return numberFact(static_cast<double>(s.columns) * s.rows * d.type().definition.body.bytes_per_point); }, "of a scan that the key starts"},
-     {"button.seconds", FactUnit::seconds, kNumber, [](const Device& d) { const auto s = buttonSettings(d); return numberFact(s.scan_seconds + s.imaging_seconds); }, "of a scan that the key starts"},
-     {"button.imaging", FactUnit::none, kYesNo, [](const Device& d) { return yesNo(buttonSettings(d).imaging); }, "the key's scan takes pictures"},
-     {"bundle", FactUnit::none, kYesNo, [](const Device& d) { return yesNo(d.project() != nullptr && entry(d, "bundle") == d.project()->name); }, "the links of the job were optimised"}},
+    {{"generation",
+      FactUnit::none,
+      {{"g1", "g2"}},
+      [](const Device& d) { return wordFact(isG1(d) ? "g1" : "g2"); },
+      "of the BLK360"},
+     {"device.state",
+      FactUnit::none,
+      {{"Invalid", "Idle", "Busy", "Error", "FatalError", "ShuttingDown"}},
+      [](const Device& d) { return wordFact(deviceState(d)); },
+      "as the maker's programming interface names it [S10]"},
+     {"operation",
+      FactUnit::none,
+      {{"None", "Standalone", "PanoramaShoot", "PointCloudScan", "FormattingStorage"}},
+      [](const Device& d) { return wordFact(operation(d)); },
+      "as the maker's programming interface names it [S10]"},
+     {"data.state",
+      FactUnit::none,
+      {{"none", "InProgress", "Partial", "Complete"}},
+      [](const Device& d) { return entryFact(d, "data", "none"); },
+      "of the newest scan [S10]"},
+     {"capture",
+      FactUnit::none,
+      {{"none", "InProgress", "Completed", "Cancelled", "Aborted"}},
+      [](const Device& d) { return entryFact(d, "capture", "none"); },
+      "of the newest scan [S11]"},
+     {"error",
+      FactUnit::none,
+      {},
+      [](const Device& d) { return entryFact(d, "error", "none"); },
+      "that is shown, in the maker's name for it"},
+     {"error.action",
+      FactUnit::none,
+      {{"none", "Acknowledge", "Reboot", "SoftwareUpdate", "Service"}},
+      [](const Device& d) { return wordFact(errorAction(d)); },
+      "what helps [S11]"},
+     {"temperature.level",
+      FactUnit::none,
+      {{"Ok", "Temp_Low", "Temp_High", "Temp_Critical", "WarnLow", "WarnHigh", "ErrHigh", "CritHigh"}},
+      [](const Device& d) { return wordFact(temperatureLevel(d)); },
+      "in the generation's names"},
+     {"temperature.critical", FactUnit::none, kYesNo,
+      [](const Device& d) {
+        return yesNo(d.state().around.temperature_c > d.type().definition.body.hottest_c + kFatal_c);
+      },
+      "far above the limit"},
+     {"storage.state",
+      FactUnit::none,
+      {{"OK", "Low", "Crit"}},
+      [](const Device& d) { return wordFact(storageState(d)); },
+      "Crit: the next scan does not fit [S11]"},
+     {"partial", FactUnit::none, kYesNo, [](const Device& d) { return yesNo(d.state().running.has_value()); },
+      "a part of the scan waits to be stored"},
+     {"vis.accuracy",
+      FactUnit::none,
+      {{"Unset", "Inaccurate", "Accurate"}},
+      [](const Device& d) { return wordFact(d.newestSetup() == nullptr ? "Unset" : accuracyOf(*d.newestSetup())); },
+      "of the newest link [S11]"},
+     {"vis.quality",
+      FactUnit::share,
+      {{}, true, 0, 1},
+      [](const Device& d) {
+        return numberFact(d.newestSetup() != nullptr && d.newestSetup()->link && d.newestSetup()->link->joined
+                              ? d.newestSetup()->link->overlap
+                              : 0);
+      },
+      "of the newest link [S11]"},
+     {"button.bytes", FactUnit::bytes, kNumber,
+      [](const Device& d) {
+        const auto s = buttonSettings(d);
+        return numberFact(static_cast<double>(s.columns) * s.rows * d.type().definition.body.bytes_per_point);
+      },
+      "of a scan that the key starts"},
+     {"button.seconds", FactUnit::seconds, kNumber,
+      [](const Device& d) {
+        const auto s = buttonSettings(d);
+        return numberFact(s.scan_seconds + s.imaging_seconds);
+      },
+      "of a scan that the key starts"},
+     {"button.imaging", FactUnit::none, kYesNo, [](const Device& d) { return yesNo(buttonSettings(d).imaging); },
+      "the key's scan takes pictures"},
+     {"bundle", FactUnit::none, kYesNo,
+      [](const Device& d) { return yesNo(d.project() != nullptr && entry(d, "bundle") == d.project()->name); },
+      "the links of the job were optimised"}},
     {{"tags", tagRows}, {"links", linkRows}},
     prepare,
 };

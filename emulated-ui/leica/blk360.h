@@ -5,8 +5,8 @@
 
 namespace standpoint {
 
-// Leica BLK360, both generations: one key, a ring of light, and an app on a tablet that may be connected or not. The key
-// scans with a stored configuration after a self-timer; what the generations call their states and errors stands in
+// Leica BLK360, both generations: one key, a ring of light, and an app on a tablet that may be connected or not. The
+// key scans with a stored configuration after a self-timer; what the generations call their states and errors stands in
 // facts. Transitions: instrument facts, section 2.3.
 const DeviceProgram& blk360Program();
 

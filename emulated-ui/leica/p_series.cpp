@@ -49,7 +49,8 @@ void pausedImaging(Device& d) { d.change().entries["paused_in"] = "imaging"; }
 double flagged(const Device& d) {
   double n = 0;
   for (const auto& p : d.state().projects)
-    n += static_cast<double>(std::count_if(p.setups.begin(), p.setups.end(), [](const StoredSetup& s) { return s.unlevelled && !s.transferred; }));
+    n += static_cast<double>(std::count_if(p.setups.begin(), p.setups.end(),
+                                           [](const StoredSetup& s) { return s.unlevelled && !s.transferred; }));
   return n;
 }
 
@@ -73,19 +74,27 @@ void prepare(const Device& d, ScanOrder& order) {
 }
 
 const DeviceRoles kRoles = {
-    .working = kWorking, .measuring = kLaserOrCamera, .camera = "imaging paused", .holding = kHolding,
+    .working = kWorking,
+    .measuring = kLaserOrCamera,
+    .camera = "imaging paused",
+    .holding = kHolding,
     .kept = "finishing",
-    .home = "", .scans = "setups", .targets = "setup_targets", .tools = "tools",
+    .home = "",
+    .scans = "setups",
+    .targets = "setup_targets",
+    .tools = "tools",
     .first_questions = {{"idle", "start", "cover == open", "", "", "cover_open", nullptr, "G1"},
                         {"idle", "start", "value.compensator == on and level == out", "", "", "level_question", nullptr,
                          "G1"}},
     .last_questions = {{"idle", "start", "orientation.accepted == no", "", "", "no_setup_question", nullptr, "P"},
                        {"idle", "start", "setting.images == only", "imaging", "", "", beginScan, "G1"}},
     .begin = beginScan,
-    .card_needed = nullptr, .links = false,
-    .marks = {{"G1", "power_key start start/no_project start/card_full start/battery_critical "
-                     "start/temperature_question stop_confirmed battery_low battery_critical "
-                     "temperature/temperature_warning format/format_question adjust"}},
+    .card_needed = nullptr,
+    .links = false,
+    .marks = {{"G1",
+               "power_key start start/no_project start/card_full start/battery_critical "
+               "start/temperature_question stop_confirmed battery_low battery_critical "
+               "temperature/temperature_warning format/format_question adjust"}},
 };
 
 std::vector<Transition> transitions() {
@@ -126,7 +135,11 @@ std::vector<DeviceAction> actions() {
 
 std::vector<FactRow> facts() {
   std::vector<FactRow> all = setupFacts();
-  all.push_back({"flagged", FactUnit::none, {{}, true, 0, 1e6}, [](const Device& d) { return numberFact(flagged(d)); }, "setups without a copy whose lines are not levelled"});
+  all.push_back({"flagged",
+                 FactUnit::none,
+                 {{}, true, 0, 1e6},
+                 [](const Device& d) { return numberFact(flagged(d)); },
+                 "setups without a copy whose lines are not levelled"});
   return all;
 }
 
@@ -134,7 +147,8 @@ std::vector<FactRow> facts() {
 
 // Made at its first use: its parts come from two files.
 const DeviceProgram& pSeriesProgram() {
-  static const DeviceProgram program = {"leica/p_series.json", transitions(), actions(), facts(), setupLists(), prepare};
+  static const DeviceProgram program = {"leica/p_series.json", transitions(), actions(), facts(),
+                                        setupLists(),          prepare};
   return program;
 }
 

@@ -7,8 +7,8 @@
 
 namespace standpoint {
 
-// Leica ScanStation P-series (P30, P40, P50) with its touch screen: station set-up, scan, image, targets, status, tools.
-// Transitions: instrument facts, section 2.4.
+// Leica ScanStation P-series (P30, P40, P50) with its touch screen: station set-up, scan, image, targets, status,
+// tools. Transitions: instrument facts, section 2.4.
 const DeviceProgram& pSeriesProgram();
 
 // Its station set-up and target half, in p_series_setup.cpp.

@@ -14,10 +14,10 @@ namespace standpoint {
 
 namespace {
 
-constexpr const char* kSightResolution = "1.6mm";   // of a target's window [P]
-constexpr double kPpmPerDegree = 1.0;               // of the range: air of 1 degree more is about 1 ppm thinner
+constexpr const char* kSightResolution = "1.6mm";  // of a target's window [P]
+constexpr double kPpmPerDegree = 1.0;              // of the range: air of 1 degree more is about 1 ppm thinner
 constexpr double kPpmPerHectopascal = -0.3;
-constexpr double kPressure_hpa = 1013;              // that it truly has, everywhere
+constexpr double kPressure_hpa = 1013;  // that it truly has, everywhere
 
 std::string entry(const Device& d, const char* id) {
   const auto found = d.state().entries.find(id);
@@ -49,7 +49,8 @@ OrientationTask taskOf(const Device& d) {
   task.sighted = d.state().sighted;
   for (auto& s : task.sighted) s.place_m *= wrongAir(d);
   task.known = d.state().control.targets;
-  if (task.method == "traverse") task.known = d.project() == nullptr ? std::vector<ControlPlace>() : d.project()->carried;
+  if (task.method == "traverse")
+    task.known = d.project() == nullptr ? std::vector<ControlPlace>() : d.project()->carried;
   task.axis_m = axisOver(d);
   task.azimuth_deg = d.number("value.azimuth");
   task.compensator = compensatorOn(d);
@@ -113,7 +114,8 @@ void sight(Device& d) {
   order.station = d.state().around.station;
   order.target = entry(d, "picked");
   order.kind = d.value("target_type") == "sphere" ? "sphere" : "checkerboard";
-  order.settings = withSetting(withSetting(resolveSettings(d.type().instrument, {})->values, "resolution", kSightResolution), "images", "off");
+  order.settings = withSetting(
+      withSetting(resolveSettings(d.type().instrument, {})->values, "resolution", kSightResolution), "images", "off");
   order.compensator = compensatorOn(d) && d.tilt() <= d.type().definition.body.tilt_limit_deg;
   d.change().entries.erase("sight");
   d.give(order);
@@ -180,11 +182,16 @@ void addSetupTransitions(std::vector<Transition>& rows) {
       {"idle", "setup_station", "standing == no", "", "", "no_station", nullptr, "P"},
       {"idle", "setup_station", "", "", "station_setup", "", proposeStation, "G1"},
       {"idle", "solve", "value.method == standard", "", "main_menu", "station_local", solveAndAccept, "S17"},
-      {"idle", "solve", "value.method in {resection_4, traverse, azimuth, backsight, quick} and value.compensator == off", "", "", "needs_compensator", nullptr, "S17"},
+      {"idle", "solve",
+       "value.method in {resection_4, traverse, azimuth, backsight, quick} and value.compensator == off", "", "",
+       "needs_compensator", nullptr, "S17"},
       {"idle", "solve", "value.compensator == on and level == out", "", "", "level_first", nullptr, "G1"},
-      {"idle", "solve", "value.method in {resection_6, auto} and value.compensator == off and targets.usable < 4", "", "", "needs_four", nullptr, "S48"},
-      {"idle", "solve", "value.method in {resection_6, auto} and targets.usable < 3", "", "", "needs_three", nullptr, "S17"},
-      {"idle", "solve", "value.method in {resection_4, traverse} and targets.usable < 2", "", "", "needs_two", nullptr, "S17"},
+      {"idle", "solve", "value.method in {resection_6, auto} and value.compensator == off and targets.usable < 4", "",
+       "", "needs_four", nullptr, "S48"},
+      {"idle", "solve", "value.method in {resection_6, auto} and targets.usable < 3", "", "", "needs_three", nullptr,
+       "S17"},
+      {"idle", "solve", "value.method in {resection_4, traverse} and targets.usable < 2", "", "", "needs_two", nullptr,
+       "S17"},
       {"idle", "solve", "targets.usable < @targets.needed", "", "", "needs_one", nullptr, "S17"},
       {"idle", "solve", "", "", "", "", solveAndShow, "S17"},
       {"idle", "accept", "", "", "main_menu", "station_accepted", accept, "S17"},
@@ -197,10 +204,13 @@ void addSetupTransitions(std::vector<Transition>& rows) {
       {"idle", "pick_all", "targets_visible == no", "", "", "target_not_found", nullptr, "G1"},
       {"idle", "pick_all", "value.compensator == on and level == out", "", "", "level_first", nullptr, "G1"},
       {"idle", "pick_all", "", "searching_target", "", "", sightSeries, "G1"},
-      {"searching_target", "elapsed", "entry.series == yes and entry.sight in {found, missed} and targets.left > 0", "searching_target", "", "", sightNext, "P"},
-      {"searching_target", "elapsed", "entry.series == yes and entry.sight in {found, missed}", "idle", "targets", "", nullptr, "P"},
+      {"searching_target", "elapsed", "entry.series == yes and entry.sight in {found, missed} and targets.left > 0",
+       "searching_target", "", "", sightNext, "P"},
+      {"searching_target", "elapsed", "entry.series == yes and entry.sight in {found, missed}", "idle", "targets", "",
+       nullptr, "P"},
       {"searching_target", "elapsed", "entry.sight == found", "idle", "target_result", "", nullptr, "G1"},
-      {"searching_target", "elapsed", "entry.sight == missed", "idle", "pick_target", "target_not_found", nullptr, "G1"},
+      {"searching_target", "elapsed", "entry.sight == missed", "idle", "pick_target", "target_not_found", nullptr,
+       "G1"},
       {"searching_target", "sighted", "", "", "", "", sightCame, "G1"},
       {"searching_target", "not_sighted", "", "", "", "", sightMissed, "G1"},
       {"searching_target", "battery_empty", "", "off", "", "", dropSight, "P"},
@@ -213,30 +223,70 @@ void addSetupTransitions(std::vector<Transition>& rows) {
 }
 
 const std::vector<DeviceAction>& setupActions() {
-  static const std::vector<DeviceAction> actions = {{"pick_station", pickStation}, {"toggle_sighting", toggleSighting},
-                                              {"forget_sightings", forgetSightings}, {"pick_target", pickTarget}};
+  static const std::vector<DeviceAction> actions = {{"pick_station", pickStation},
+                                                    {"toggle_sighting", toggleSighting},
+                                                    {"forget_sightings", forgetSightings},
+                                                    {"pick_target", pickTarget}};
   return actions;
 }
 
 const std::vector<FactRow>& setupFacts() {
   static const std::vector<FactRow> rows = {
-      {"targets.sighted", FactUnit::none, kCount, [](const Device& d) { return numberFact(static_cast<double>(d.state().sighted.size())); }, "measured from here"},
-      {"targets.usable", FactUnit::none, kCount, [](const Device& d) { return numberFact(targetsUsable(taskOf(d))); }, "of them in use, that the method can use"},
-      {"targets.needed", FactUnit::none, {{}, true, 0, 4}, [](const Device& d) { return numberFact(targetsNeeded(d.value("method"), compensatorOn(d))); }, "by the method"},
-      {"targets.left", FactUnit::none, kCount, [](const Device& d) { return numberFact(nextTarget(d) == nullptr ? 0 : 1); }, "1: some were not measured from here"},
-      {"targets_visible", FactUnit::none, kYesNo, [](const Device& d) { return yesNo(d.state().around.targets_visible); }, "nothing stands before them"},
-      {"orientation.method", FactUnit::none, {}, [](const Device& d) { return wordFact(here(d) == nullptr ? "" : here(d)->method); }, "of the station set-up"},
-      {"orientation.accepted", FactUnit::none, kYesNo, [](const Device& d) { return yesNo(here(d) != nullptr && here(d)->accepted); }, "the station has coordinates"},
-      {"orientation.solved", FactUnit::none, kYesNo, [](const Device& d) { return yesNo(here(d) != nullptr); }, "a result waits to be accepted, or was"},
-      {"orientation.local", FactUnit::none, kYesNo, [](const Device& d) { return yesNo(here(d) != nullptr && here(d)->local); }, "the station is its own origin"},
-      {"orientation.targets", FactUnit::none, kCount, [](const Device& d) { return numberFact(here(d) == nullptr ? 0 : static_cast<double>(here(d)->targets.size())); }, "that were used"},
-      {"orientation.rms", FactUnit::millimetres, kNumber, [](const Device& d) { return numberFact(here(d) == nullptr ? 0 : here(d)->rms_m * 1000); }, "of the residuals, in millimetres"},
-      {"orientation.worst", FactUnit::millimetres, kNumber, [](const Device& d) { return numberFact(worstResidual(here(d))); }, "residual, in millimetres"},
-      {"orientation.place", FactUnit::none, {}, [](const Device& d) { return wordFact(coordinates(d)); }, "of the instrument, in the project's coordinates"},
-      {"sight.range", FactUnit::metres, kNumber, [](const Device& d) { return numberFact(lastRange(d)); }, "to the newest target"},
-      {"sight.residual", FactUnit::millimetres, kNumber, [](const Device& d) { return numberFact(d.state().sighted.empty() ? 0 : d.state().sighted.back().residual_m * 1000); }, "of its fit"},
-      {"sight.points", FactUnit::none, kNumber, [](const Device& d) { return numberFact(d.state().sighted.empty() ? 0 : d.state().sighted.back().points); }, "on it"},
-      {"sight.name", FactUnit::none, {}, [](const Device& d) { return wordFact(d.state().sighted.empty() ? "" : d.state().sighted.back().id); }, "its ID"},
+      {"targets.sighted", FactUnit::none, kCount,
+       [](const Device& d) { return numberFact(static_cast<double>(d.state().sighted.size())); }, "measured from here"},
+      {"targets.usable", FactUnit::none, kCount, [](const Device& d) { return numberFact(targetsUsable(taskOf(d))); },
+       "of them in use, that the method can use"},
+      {"targets.needed",
+       FactUnit::none,
+       {{}, true, 0, 4},
+       [](const Device& d) { return numberFact(targetsNeeded(d.value("method"), compensatorOn(d))); },
+       "by the method"},
+      {"targets.left", FactUnit::none, kCount,
+       [](const Device& d) { return numberFact(nextTarget(d) == nullptr ? 0 : 1); },
+       "1: some were not measured from here"},
+      {"targets_visible", FactUnit::none, kYesNo,
+       [](const Device& d) { return yesNo(d.state().around.targets_visible); }, "nothing stands before them"},
+      {"orientation.method",
+       FactUnit::none,
+       {},
+       [](const Device& d) { return wordFact(here(d) == nullptr ? "" : here(d)->method); },
+       "of the station set-up"},
+      {"orientation.accepted", FactUnit::none, kYesNo,
+       [](const Device& d) { return yesNo(here(d) != nullptr && here(d)->accepted); }, "the station has coordinates"},
+      {"orientation.solved", FactUnit::none, kYesNo, [](const Device& d) { return yesNo(here(d) != nullptr); },
+       "a result waits to be accepted, or was"},
+      {"orientation.local", FactUnit::none, kYesNo,
+       [](const Device& d) { return yesNo(here(d) != nullptr && here(d)->local); }, "the station is its own origin"},
+      {"orientation.targets", FactUnit::none, kCount,
+       [](const Device& d) {
+         return numberFact(here(d) == nullptr ? 0 : static_cast<double>(here(d)->targets.size()));
+       },
+       "that were used"},
+      {"orientation.rms", FactUnit::millimetres, kNumber,
+       [](const Device& d) { return numberFact(here(d) == nullptr ? 0 : here(d)->rms_m * 1000); },
+       "of the residuals, in millimetres"},
+      {"orientation.worst", FactUnit::millimetres, kNumber,
+       [](const Device& d) { return numberFact(worstResidual(here(d))); }, "residual, in millimetres"},
+      {"orientation.place",
+       FactUnit::none,
+       {},
+       [](const Device& d) { return wordFact(coordinates(d)); },
+       "of the instrument, in the project's coordinates"},
+      {"sight.range", FactUnit::metres, kNumber, [](const Device& d) { return numberFact(lastRange(d)); },
+       "to the newest target"},
+      {"sight.residual", FactUnit::millimetres, kNumber,
+       [](const Device& d) {
+         return numberFact(d.state().sighted.empty() ? 0 : d.state().sighted.back().residual_m * 1000);
+       },
+       "of its fit"},
+      {"sight.points", FactUnit::none, kNumber,
+       [](const Device& d) { return numberFact(d.state().sighted.empty() ? 0 : d.state().sighted.back().points); },
+       "on it"},
+      {"sight.name",
+       FactUnit::none,
+       {},
+       [](const Device& d) { return wordFact(d.state().sighted.empty() ? "" : d.state().sighted.back().id); },
+       "its ID"},
   };
   return rows;
 }
@@ -246,20 +296,24 @@ const std::vector<ListRow>& setupLists() {
       {"known_stations",
        [](const Device& d) {
          std::vector<WidgetOption> rows;
-         for (const auto& p : d.state().control.stations) rows.push_back({p.name, p.name + (entry(d, "station_id") == p.name ? "  •" : ""), true, {}});
+         for (const auto& p : d.state().control.stations)
+           rows.push_back({p.name, p.name + (entry(d, "station_id") == p.name ? "  •" : ""), true, {}});
          return rows;
        }},
       {"targets_in_view",
        [](const Device& d) {
          std::vector<WidgetOption> rows;
-         for (const auto& p : d.state().control.targets) rows.push_back({p.name, p.name + (entry(d, "picked") == p.name ? "  •" : ""), true, {}});
+         for (const auto& p : d.state().control.targets)
+           rows.push_back({p.name, p.name + (entry(d, "picked") == p.name ? "  •" : ""), true, {}});
          return rows;
        }},
       {"sightings",
        [](const Device& d) {
          std::vector<WidgetOption> rows;
          for (const auto& s : d.state().sighted) {
-           std::string row = fmt::format("{} {}  {}  {} pts  {}", s.used ? "•" : "–", s.id, lengthText(s.place_m.norm(), d.showsFeet()), s.points, smallLengthText(s.residual_m, d.showsFeet()));
+           std::string row = fmt::format("{} {}  {}  {} pts  {}", s.used ? "•" : "–", s.id,
+                                         lengthText(s.place_m.norm(), d.showsFeet()), s.points,
+                                         smallLengthText(s.residual_m, d.showsFeet()));
            rows.push_back({s.id, row, true, {}});
          }
          return rows;
@@ -268,7 +322,8 @@ const std::vector<ListRow>& setupLists() {
        [](const Device& d) {
          std::vector<WidgetOption> rows;
          if (const auto* o = here(d))
-           for (const auto& t : o->targets) rows.push_back({t.id, t.id + "  " + smallLengthText(t.residual_m, d.showsFeet()), true, {}});
+           for (const auto& t : o->targets)
+             rows.push_back({t.id, t.id + "  " + smallLengthText(t.residual_m, d.showsFeet()), true, {}});
          return rows;
        }},
   };

@@ -42,17 +42,27 @@ void prepare(const Device& device, ScanOrder& order) {
 }
 
 const DeviceRoles kRoles = {
-    .rest = kIdle, .idle = kIdle, .working = kWorking, .measuring = kWorking, .laser = kLaser, .camera = "photographing", .holding = kHolding,
+    .rest = kIdle,
+    .idle = kIdle,
+    .working = kWorking,
+    .measuring = kWorking,
+    .laser = kLaser,
+    .camera = "photographing",
+    .holding = kHolding,
     .kept = "finishing",
-    .scans = "setups", .tools = "tools",
+    .scans = "setups",
+    .tools = "tools",
     .first_questions = {{kIdle, "start", "setting.scan == off and imaging == no", "", "", "nothing_chosen", nullptr,
                          "P"}},
     .last_questions = {{kIdle, "start", "setting.scan == off", "photographing", "", "", beginScan, "G1"}},
-    .tilted = "level == out", .first = "scanning_pass_1", .begin = beginScan,
-    .marks = {{"G1", "power_key elapsed shut_down start start/card_absent start/card_full start/battery_critical "
-                     "start/temperature_question start/tilt_question moved blocked temperature/temperature_warning "
-                     "battery_low linked/link_joined linked/link_failed delete/delete_question delete_confirmed "
-                     "format/format_question format_confirmed adjust"},
+    .tilted = "level == out",
+    .first = "scanning_pass_1",
+    .begin = beginScan,
+    .marks = {{"G1",
+               "power_key elapsed shut_down start start/card_absent start/card_full start/battery_critical "
+               "start/temperature_question start/tilt_question moved blocked temperature/temperature_warning "
+               "battery_low linked/link_joined linked/link_failed delete/delete_question delete_confirmed "
+               "format/format_question format_confirmed adjust"},
               {"S19", "targets_measured"},
               {"S35", "transferred"}},
 };
@@ -79,7 +89,10 @@ const DeviceProgram kProgram = {
         },
         kRoles),
     {},
-    {{"settings.summary", FactUnit::none, {}, [](const Device& d) { return wordFact(summary(d)); },
+    {{"settings.summary",
+      FactUnit::none,
+      {},
+      [](const Device& d) { return wordFact(summary(d)); },
       "of the next scan: resolution, double scan, images"}},
     {},
     prepare,

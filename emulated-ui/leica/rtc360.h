@@ -5,8 +5,8 @@
 
 namespace standpoint {
 
-// Leica RTC360 with its touch display and what FIELD 360 adds: off, booting, idle, one or two passes of the laser, pictures,
-// storing, and the tracking of the way to the next setup. Transitions: instrument facts, section 2.2.
+// Leica RTC360 with its touch display and what FIELD 360 adds: off, booting, idle, one or two passes of the laser,
+// pictures, storing, and the tracking of the way to the next setup. Transitions: instrument facts, section 2.2.
 const DeviceProgram& rtc360Program();
 
 }  // namespace standpoint

@@ -54,26 +54,16 @@ std::vector<std::string> answers(const Device& device) {
 std::optional<std::vector<std::string>> details(Detail detail, const Device& device) {
   const auto& d = device.type().definition;
   switch (detail) {
-    case Detail::none:
-      return std::vector<std::string>();
-    case Detail::text:
-      return std::nullopt;
-    case Detail::screen:
-      return idsOf(d.screens);
-    case Detail::phase:
-      return idsOf(d.phases);
-    case Detail::dialog:
-      return idsOf(d.dialogs);
-    case Detail::answer:
-      return answers(device);
-    case Detail::press:
-      return presses(device);
-    case Detail::hand:
-      return idsOf(handRows());
-    case Detail::trouble:
-      return idsOf(troubleRows());
-    case Detail::field_verb:
-      return std::vector<std::string>{"station", "target", "plan", "walk"};
+    case Detail::none: return std::vector<std::string>();
+    case Detail::text: return std::nullopt;
+    case Detail::screen: return idsOf(d.screens);
+    case Detail::phase: return idsOf(d.phases);
+    case Detail::dialog: return idsOf(d.dialogs);
+    case Detail::answer: return answers(device);
+    case Detail::press: return presses(device);
+    case Detail::hand: return idsOf(handRows());
+    case Detail::trouble: return idsOf(troubleRows());
+    case Detail::field_verb: return std::vector<std::string>{"station", "target", "plan", "walk"};
   }
   return std::nullopt;
 }

@@ -32,13 +32,14 @@ Spoken spoken(JsonFields& f, const char* key, bool required) {
   }
   JsonFields texts(f.fault(), *raw, f.pointer() + "/" + key);
   texts.everyText([&](const std::string& language, const std::string& text) {
-    if (text.find_first_not_of(" \t\r\n") != std::string::npos) s.texts[language] = text;   // a blank is no translation
+    if (text.find_first_not_of(" \t\r\n") != std::string::npos) s.texts[language] = text;  // a blank is no translation
   });
   if (!s.texts.contains("en")) f.wrong(key, "it has no text in 'en'");
   return s;
 }
 
-std::vector<double> numbersIn(JsonFault& fault, const nlohmann::json& list, const std::string& pointer, std::size_t count, const char* needed) {
+std::vector<double> numbersIn(JsonFault& fault, const nlohmann::json& list, const std::string& pointer,
+                              std::size_t count, const char* needed) {
   std::vector<double> found;
   for (const auto& number : list.is_array() ? list : nlohmann::json::array())
     if (number.is_number() && std::abs(number.get<double>()) <= 1e9) found.push_back(number.get<double>());
@@ -49,13 +50,15 @@ std::vector<double> numbersIn(JsonFault& fault, const nlohmann::json& list, cons
   return found;
 }
 
-constexpr std::size_t kMostPlaces = 2000;   // of a walk
+constexpr std::size_t kMostPlaces = 2000;  // of a walk
 
 void checkWalk(JsonFields& f, const nlohmann::json& way) {
-  if (!way.is_array() || way.size() < 2 || way.size() > kMostPlaces) return f.wrong("walk", fmt::format("2 to {} places are needed: x, y, seconds", kMostPlaces));
+  if (!way.is_array() || way.size() < 2 || way.size() > kMostPlaces)
+    return f.wrong("walk", fmt::format("2 to {} places are needed: x, y, seconds", kMostPlaces));
   double before = -1;
   for (std::size_t i = 0; i < way.size(); ++i) {
-    const auto at = numbersIn(f.fault(), way[i], fmt::format("{}/walk/{}", f.pointer(), i), 3, "x, y and seconds are needed");
+    const auto at =
+        numbersIn(f.fault(), way[i], fmt::format("{}/walk/{}", f.pointer(), i), 3, "x, y and seconds are needed");
     if (at[2] <= before) f.wrong("walk", fmt::format("place {}: its seconds do not go on", i));
     before = at[2];
   }
@@ -133,7 +136,8 @@ ExerciseRule rule(JsonFields& f) {
 
 fs::path ownExercisesFolder() {
   if (const char* folder = std::getenv("STANDPOINT_EXERCISES")) return folder;
-  if (const char* config = std::getenv("XDG_CONFIG_HOME"); config != nullptr && *config != '\0') return fs::path(config) / "standpoint" / "exercises";
+  if (const char* config = std::getenv("XDG_CONFIG_HOME"); config != nullptr && *config != '\0')
+    return fs::path(config) / "standpoint" / "exercises";
   const char* home = std::getenv("HOME");
   return home == nullptr ? fs::path() : fs::path(home) / ".config" / "standpoint" / "exercises";
 }
@@ -149,7 +153,8 @@ const std::string& Spoken::in(const std::string& language) const {
 }
 
 bool isFor(const Exercise& exercise, const std::string& device) {
-  return std::any_of(exercise.devices.begin(), exercise.devices.end(), [&](const std::string& d) { return d == "*" || d == device; });
+  return std::any_of(exercise.devices.begin(), exercise.devices.end(),
+                     [&](const std::string& d) { return d == "*" || d == device; });
 }
 
 bool isFieldVerb(std::string_view verb) { return verb == "station" || verb == "target" || verb == "plan"; }
@@ -210,7 +215,8 @@ Result<Exercise> readExercise(const fs::path& file) {
   if (e.devices.empty()) f.wrong("devices", "an exercise is for at least one device");
   e.instrument = f.textOr("instrument", "", "faro-focus-s350");
   e.model = f.text("model", "house");
-  if (const auto* area = f.raw("area")) e.area = numbersIn(fault, *area, "/area", 6, "six numbers are needed: the least and the greatest x, y, z");
+  if (const auto* area = f.raw("area"))
+    e.area = numbersIn(fault, *area, "/area", 6, "six numbers are needed: the least and the greatest x, y, z");
   f.each("places", [&](const std::string& name, const nlohmann::json& at, const std::string& pointer) {
     e.places[name] = numbersIn(fault, at, pointer, 2, "x and y are needed");
   });
@@ -277,13 +283,15 @@ KnownExercises knownExercises() {
         known.refused.push_back(exercise.error());
         continue;
       }
-      const auto other = std::find_if(found.begin(), found.end(), [&](const auto& one) { return one.exercise.id == exercise->id; });
+      const auto other =
+          std::find_if(found.begin(), found.end(), [&](const auto& one) { return one.exercise.id == exercise->id; });
       if (other == found.end())
         found.push_back({*std::move(exercise), file});
       else
-        known.refused.push_back({ErrorKind::unusable,
-                                 fmt::format("'{}' is the id of {}, too: give it another one", exercise->id, other->file.string()),
-                                 file.string() + " /id"});
+        known.refused.push_back(
+            {ErrorKind::unusable,
+             fmt::format("'{}' is the id of {}, too: give it another one", exercise->id, other->file.string()),
+             file.string() + " /id"});
     }
   }
   // Whoever is new begins with them.
@@ -304,7 +312,9 @@ Result<KnownExercise> findExercise(const std::string& name) {
     if (one.exercise.id == name) return std::move(one);
     ids.push_back(one.exercise.id);
   }
-  return failure(ErrorKind::usage, fmt::format("there is no exercise '{}'; known are {}, or give a file", name, fmt::join(ids, ", ")), "exercise");
+  return failure(ErrorKind::usage,
+                 fmt::format("there is no exercise '{}'; known are {}, or give a file", name, fmt::join(ids, ", ")),
+                 "exercise");
 }
 
 }  // namespace standpoint

@@ -56,7 +56,7 @@ struct ExerciseEvent {
 struct ExerciseStep {
   std::string id;
   Spoken text, hint;
-  std::string widget;              // that the hint points to
+  std::string widget;  // that the hint points to
   Condition done;
   double points = 0;
 };
@@ -69,14 +69,14 @@ struct ExerciseStep {
 struct ExerciseRule {
   std::string id;
   Spoken text;
-  std::string when;                // "end", "once", "always", "each"
-  std::string event;               // of each
+  std::string when;   // "end", "once", "always", "each"
+  std::string event;  // of each
   Condition holds;
   double points = 0;
-  bool must = false;               // without it the exercise is not passed
-  std::string mistake;             // of the reference's list: "M08"
-  Spoken because;                  // what the mistake does to the data
-  std::string proof;               // fact that shows it in the points
+  bool must = false;    // without it the exercise is not passed
+  std::string mistake;  // of the reference's list: "M08"
+  Spoken because;       // what the mistake does to the data
+  std::string proof;    // fact that shows it in the points
 };
 
 struct ExerciseQuestion {
@@ -91,23 +91,23 @@ struct Exercise {
   std::string id;
   bool tutorial = false;  // it is listed before the others
   Spoken title, goal;
-  std::string source;                       // what it is based on
-  std::vector<std::string> devices;         // ids; the first is the standard
-  std::string instrument;                   // of the device; empty: its first
-  std::string model;                        // of the samples: "house"
-  std::vector<double> area;                 // x, y, z of its least and of its greatest corner: what survey.* asks of; empty: all
-  std::map<std::string, std::vector<double>> places;   // x, y of what place.NAME asks of
-  std::vector<nlohmann::json> setup;        // verbs that prepare the environment: station, target
-  std::vector<RehearsalAction> start;       // done by nobody: how the device is found
-  std::vector<std::string> troubles;        // that are there from the start
+  std::string source;                // what it is based on
+  std::vector<std::string> devices;  // ids; the first is the standard
+  std::string instrument;            // of the device; empty: its first
+  std::string model;                 // of the samples: "house"
+  std::vector<double> area;  // x, y, z of its least and of its greatest corner: what survey.* asks of; empty: all
+  std::map<std::string, std::vector<double>> places;  // x, y of what place.NAME asks of
+  std::vector<nlohmann::json> setup;                  // verbs that prepare the environment: station, target
+  std::vector<RehearsalAction> start;                 // done by nobody: how the device is found
+  std::vector<std::string> troubles;                  // that are there from the start
   std::vector<ExerciseEvent> events;
   bool in_order = true;
   std::vector<ExerciseStep> steps;
   std::vector<ExerciseRule> rules;
   std::vector<ExerciseQuestion> questions;
-  double time_limit_s = 0;                  // of the device's clock; 0 = none
-  double pass_mark = 0.7;                   // share of the points
-  std::vector<RehearsalAction> solution;    // one way to do it: to be watched, and it is tested
+  double time_limit_s = 0;                // of the device's clock; 0 = none
+  double pass_mark = 0.7;                 // share of the points
+  std::vector<RehearsalAction> solution;  // one way to do it: to be watched, and it is tested
 };
 
 // Whether it can be done on the device; "*" stands for all.
@@ -122,8 +122,8 @@ std::vector<Error> checkExercise(const Exercise& exercise);
 // step that is done before the student comes; a later step that holds already is a warning in `report`.
 Result<void> checkStart(const Exercise& exercise, Report& report, Progress& progress);
 
-// A new exercise from what somebody did: its actions are the solution, and each thing that was reached on the device is a
-// step with a point, to be kept or struck out. Texts are to be filled in.
+// A new exercise from what somebody did: its actions are the solution, and each thing that was reached on the device is
+// a step with a point, to be kept or struck out. Texts are to be filled in.
 nlohmann::json recordedExercise(const class Device& device, const std::vector<RehearsalAction>& actions);
 
 struct KnownExercise {
@@ -131,8 +131,8 @@ struct KnownExercise {
   std::filesystem::path file;
 };
 struct KnownExercises {
-  std::vector<KnownExercise> readable;   // each id once; the tutorials stand before all others
-  std::vector<Error> refused;            // files that are none, or whose id another one has
+  std::vector<KnownExercise> readable;  // each id once; the tutorials stand before all others
+  std::vector<Error> refused;           // files that are none, or whose id another one has
 };
 // The shipped ones and those of the user's folder (STANDPOINT_EXERCISES, else XDG_CONFIG_HOME/standpoint/exercises), by
 // file within each.

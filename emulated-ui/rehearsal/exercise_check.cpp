@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <numeric>
 #include <cstdlib>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -72,7 +72,8 @@ class Checker {
     checkTexts();
     checkQuestions();
     const auto points = [](double sum, const auto& one) { return sum + one.points; };
-    if (std::accumulate(e_.rules.begin(), e_.rules.end(), std::accumulate(e_.steps.begin(), e_.steps.end(), 0.0, points), points) <= 0)
+    if (std::accumulate(e_.rules.begin(), e_.rules.end(),
+                        std::accumulate(e_.steps.begin(), e_.steps.end(), 0.0, points), points) <= 0)
       fault("", "nothing counts: give a step or a rule its points, so that there is something to mark");
     checkIds(e_.steps, "steps");
     checkIds(e_.rules, "rules");
@@ -115,7 +116,8 @@ class Checker {
         for (const auto& device : emulatedDevices()) load(device, place);
         continue;
       }
-      if (const auto* device = findDevice(e_.devices[i])) load(*device, place);
+      if (const auto* device = findDevice(e_.devices[i]))
+        load(*device, place);
       else
         fault(place, fmt::format("there is no device '{}'; {}", e_.devices[i],
                                  knownInstead(e_.devices[i], idsOf(emulatedDevices()))));
@@ -123,8 +125,10 @@ class Checker {
   }
   void load(const EmulatedDevice& device, const std::string& place) {
     auto type = loadDevice(device, e_.instrument);
-    if (type) devices_.emplace_back(*type);
-    else fault(place, describe(type.error()));
+    if (type)
+      devices_.emplace_back(*type);
+    else
+      fault(place, describe(type.error()));
   }
 
   std::optional<FactDomain> domain(const std::string& name, const Device& device) const {
@@ -227,11 +231,13 @@ class Checker {
   void checkIds(const Rows& rows, const char* list) {
     std::set<std::string> seen;
     for (std::size_t i = 0; i < rows.size(); ++i)
-      if (!seen.insert(rows[i].id).second) fault(fmt::format("/{}/{}", list, i), fmt::format("'{}' is there before", rows[i].id));
+      if (!seen.insert(rows[i].id).second)
+        fault(fmt::format("/{}/{}", list, i), fmt::format("'{}' is there before", rows[i].id));
   }
 
   void checkAnswer(const RehearsalAction& action, const std::string& place) {
-    const auto question = std::find_if(e_.questions.begin(), e_.questions.end(), [&](const ExerciseQuestion& q) { return q.id == action.name; });
+    const auto question = std::find_if(e_.questions.begin(), e_.questions.end(),
+                                       [&](const ExerciseQuestion& q) { return q.id == action.name; });
     if (question == e_.questions.end())
       return fault(place + "/answer", fmt::format("there is no question '{}'; {}", action.name,
                                                   knownInstead(action.name, idsOf(e_.questions))));

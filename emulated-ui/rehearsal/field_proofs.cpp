@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "emulated-ui/rehearsal/field_proofs.h"
-#include "emulated-ui/device/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <Eigen/Dense>
 
 #include "core/units.h"
+#include "emulated-ui/device/numbers.h"
 #include "emulated-ui/rehearsal/all_setups.h"
 #include "scanners/expectation.h"
 
@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kWrong_m = 0.5, kWrong_deg = 5;   // instrument facts 3.3, M18
+constexpr double kWrong_m = 0.5, kWrong_deg = 5;  // instrument facts 3.3, M18
 
 // The device takes the link: where it asks first, the answer was not no.
 bool accepted(const Device& device, const StoredSetup& setup) {
@@ -48,7 +48,8 @@ std::optional<Fact> closure(const Device& device, const Document& document) {
   }
   if (last == nullptr) return std::nullopt;
   for (const auto& station : document.job->stations)
-    if (station.name == last->station) return numberFact((moved * station.true_pose.translation - station.true_pose.translation).norm() * 1000);
+    if (station.name == last->station)
+      return numberFact((moved * station.true_pose.translation - station.true_pose.translation).norm() * 1000);
   return std::nullopt;
 }
 
@@ -72,7 +73,8 @@ std::optional<Fact> worstDistance(const Device& device, const Document& document
   for (const auto* s : allSetups(device))
     eachDistance(*s, [&](const FittedTarget& a, const FittedTarget& b, double measured) {
       const auto *first = targetOf(document, a.name), *second = targetOf(document, b.name);
-      if (first != nullptr && second != nullptr) worst = std::max(worst.value_or(0), std::abs(measured - (first->centre - second->centre).norm()) * 1000);
+      if (first != nullptr && second != nullptr)
+        worst = std::max(worst.value_or(0), std::abs(measured - (first->centre - second->centre).norm()) * 1000);
     });
   return factOf(worst);
 }
@@ -136,11 +138,14 @@ Tied tied(const Device& device, const Document& document) {
   result.spread_deg = covered_deg(std::move(azimuth_deg));
   if (from.size() < 3) return result;
   Eigen::Matrix3Xd a(3, from.size()), b(3, from.size());
-  for (std::size_t i = 0; i < from.size(); ++i) a.col(static_cast<Eigen::Index>(i)) = from[i], b.col(static_cast<Eigen::Index>(i)) = to[i];
+  for (std::size_t i = 0; i < from.size(); ++i)
+    a.col(static_cast<Eigen::Index>(i)) = from[i], b.col(static_cast<Eigen::Index>(i)) = to[i];
   const Eigen::Affine3d fit(Eigen::umeyama(a, b, false));
-  for (std::size_t i = 0; i < from.size(); ++i) result.residual_mm = std::max(result.residual_mm, (fit * from[i] - to[i]).norm() * 1000);
+  for (std::size_t i = 0; i < from.size(); ++i)
+    result.residual_mm = std::max(result.residual_mm, (fit * from[i] - to[i]).norm() * 1000);
   for (const auto& station : document.job->stations)
-    if (station.name == setup->station) result.error_mm = (fit.translation() - station.true_pose.translation).norm() * 1000;
+    if (station.name == setup->station)
+      result.error_mm = (fit.translation() - station.true_pose.translation).norm() * 1000;
   return result;
 }
 
@@ -153,14 +158,16 @@ std::optional<Fact> worstSight(const Device& device, const Document& document) {
     for (const auto& b : sighted) {
       const auto *first = targetOf(document, a.id), *second = targetOf(document, b.id);
       if (first == nullptr || second == nullptr || first == second) continue;
-      worst = std::max(worst.value_or(0), std::abs((a.place_m - b.place_m).norm() - (first->centre - second->centre).norm()) * 1000);
+      worst = std::max(worst.value_or(0),
+                       std::abs((a.place_m - b.place_m).norm() - (first->centre - second->centre).norm()) * 1000);
     }
   return factOf(worst);
 }
 
 double namedSights(const Device& device, const Document& document) {
   const auto& sighted = device.state().sighted;
-  return static_cast<double>(std::count_if(sighted.begin(), sighted.end(), [&](const SightedTarget& s) { return targetOf(document, s.id) != nullptr; }));
+  return static_cast<double>(std::count_if(
+      sighted.begin(), sighted.end(), [&](const SightedTarget& s) { return targetOf(document, s.id) != nullptr; }));
 }
 
 double sightSpread(const Device& device) {
@@ -181,7 +188,8 @@ std::optional<Fact> orientationError(const Device& device, const Document& docum
   const auto& solved = device.state().orientation;
   if (!solved || solved->local || !document.job) return std::nullopt;
   for (const auto& station : document.job->stations)
-    if (station.name == device.state().around.station) return numberFact((solved->pose.translation - station.true_pose.translation).norm() * 1000);
+    if (station.name == device.state().around.station)
+      return numberFact((solved->pose.translation - station.true_pose.translation).norm() * 1000);
   return std::nullopt;
 }
 
@@ -190,13 +198,13 @@ struct WalkFigures {
   double length_m = 0, closure_m = 0, stretch_m = 0, speed_m_s = 0, door_speed_m_s = 0;
 };
 constexpr double kSamePlace_m = 1, kAwayBetween_m = 10, kAtDoor_m = 1.5;
-constexpr double kDrift_mm_per_m = 0.3;   // [P] of the way since the last place that was seen before
+constexpr double kDrift_mm_per_m = 0.3;  // [P] of the way since the last place that was seen before
 
 WalkFigures walked(const WalkedWay& walk, const Exercise& exercise) {
   WalkFigures w;
   if (walk.size() < 2) return w;
   std::vector<double> way = {0};
-  double closed_at = 0;   // on the way: up to there the walk is tied to itself
+  double closed_at = 0;  // on the way: up to there the walk is tied to itself
   for (std::size_t i = 1; i < walk.size(); ++i) {
     const double step = std::hypot(walk[i][0] - walk[i - 1][0], walk[i][1] - walk[i - 1][1]);
     const double seconds = std::max(walk[i][2] - walk[i - 1][2], 1e-3);
@@ -204,11 +212,13 @@ WalkFigures walked(const WalkedWay& walk, const Exercise& exercise) {
     way.push_back(way.back() + step);
     for (const auto& [name, place] : exercise.places) {
       if (!name.starts_with("door")) continue;
-      const bool at = std::min(std::hypot(walk[i][0] - place[0], walk[i][1] - place[1]), std::hypot(walk[i - 1][0] - place[0], walk[i - 1][1] - place[1])) <= kAtDoor_m;
+      const bool at = std::min(std::hypot(walk[i][0] - place[0], walk[i][1] - place[1]),
+                               std::hypot(walk[i - 1][0] - place[0], walk[i - 1][1] - place[1])) <= kAtDoor_m;
       if (at) w.door_speed_m_s = std::max(w.door_speed_m_s, step / seconds);
     }
     for (std::size_t k = 0; k < i; ++k)
-      if (way[i] - way[k] >= kAwayBetween_m && std::hypot(walk[i][0] - walk[k][0], walk[i][1] - walk[k][1]) <= kSamePlace_m) {
+      if (way[i] - way[k] >= kAwayBetween_m &&
+          std::hypot(walk[i][0] - walk[k][0], walk[i][1] - walk[k][1]) <= kSamePlace_m) {
         w.stretch_m = std::max(w.stretch_m, way[i] - closed_at);
         closed_at = way[i];
         break;
@@ -285,9 +295,11 @@ const std::vector<double>* placeOf(const std::string& name, const Exercise& exer
 
 const std::vector<ProofRow>& fieldProofRows() {
   static const std::vector<ProofRow> rows = {
-      {"links.closure", "mm", numbers(0, 1e7), "how far the chain of the links puts the newest setup from where it stands"},
+      {"links.closure", "mm", numbers(0, 1e7),
+       "how far the chain of the links puts the newest setup from where it stands"},
       {"links.wrong", "", numbers(0, 1e4), "accepted links that are more than 0.5 m or 5° from the truth"},
-      {"targets.distances", "mm", numbers(0, 1e6), "worst difference of a distance between two fitted centres to the known one"},
+      {"targets.distances", "mm", numbers(0, 1e6),
+       "worst difference of a distance between two fitted centres to the known one"},
       {"control.targets", "", numbers(0, 1e4), "targets with known coordinates in the newest setup"},
       {"control.spread", "°", numbers(0, 360), "directions that they cover, seen from the newest setup"},
       {"control.residual", "mm", numbers(0, 1e6), "worst residual of the newest setup laid onto them"},
@@ -310,8 +322,10 @@ const std::vector<ProofRow>& walkProofRows() {
       {"walk.closure", "m", numbers(0, 1e6), "between its start and its end"},
       {"walk.stretch", "m", numbers(0, 1e6), "longest way without coming back to within 1 m of where it was before"},
       {"walk.speed", "m/s", numbers(0, 1e6), "greatest between two of its places"},
-      {"walk.door_speed", "m/s", numbers(0, 1e6), "the same of each leg that begins or ends within 1.5 m of a place whose name begins with door"},
-      {"walk.drift", "mm", numbers(0, 1e6), "to be expected at the end of the longest stretch: 0.3 mm each metre, half where it closes"},
+      {"walk.door_speed", "m/s", numbers(0, 1e6),
+       "the same of each leg that begins or ends within 1.5 m of a place whose name begins with door"},
+      {"walk.drift", "mm", numbers(0, 1e6),
+       "to be expected at the end of the longest stretch: 0.3 mm each metre, half where it closes"},
   };
   return rows;
 }
@@ -340,7 +354,7 @@ std::optional<Fact> fieldProof(const std::string& name, const Device& device, co
   if (name == "control.spread") return numberFact(tied(device, document).spread_deg);
   if (name == "control.residual" || name == "control.error") {
     const auto t = tied(device, document);
-    if (t.targets < 3) return std::nullopt;   // three are needed to lay it
+    if (t.targets < 3) return std::nullopt;  // three are needed to lay it
     return numberFact(name == "control.residual" ? t.residual_mm : t.error_mm);
   }
   if (name == "sights.named") return numberFact(namedSights(device, document));
@@ -354,11 +368,13 @@ std::optional<Fact> fieldProof(const std::string& name, const Device& device, co
   return std::nullopt;
 }
 
-std::optional<Fact> namedProof(const std::string& name, const Exercise& exercise, const Device& device, const Document& document) {
+std::optional<Fact> namedProof(const std::string& name, const Exercise& exercise, const Device& device,
+                               const Document& document) {
   if (const auto at = sigmaAt(name)) {
     Optics surface;
     surface.diffuse = static_cast<float>(at->percent / 100);
-    return numberFact(ReturnLaw(device.type().instrument, device.expected()).of(surface, at->range_m, 1).sigma_m * 1000);
+    return numberFact(ReturnLaw(device.type().instrument, device.expected()).of(surface, at->range_m, 1).sigma_m *
+                      1000);
   }
   if (const auto percent = reachOf(name)) return numberFact(reach_m(device, *percent));
   const auto* place = placeOf(name, exercise);

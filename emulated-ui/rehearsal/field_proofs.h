@@ -27,11 +27,12 @@ using WalkedWay = std::vector<std::array<double, 3>>;
 const std::vector<ProofRow>& walkProofRows();
 std::optional<Fact> walkProof(const std::string& name, const Exercise& exercise, const WalkedWay& walk);
 
-// Facts with a name of their own: "place.door" of an exercise's places: metres from there to the nearest setup, in plan;
-// "walk.near.corner": metres from there to the nearest spot of the planned walk;
-// "expected.reach.10": the range at which half of the pulses come back from a surface that returns 10 %;
-// "expected.sigma.25.10": σ of the range in mm at 25 m on a surface that returns 10 %, with the device's settings.
-std::optional<Fact> namedProof(const std::string& name, const Exercise& exercise, const Device& device, const Document& document);
+// Facts with a name of their own: "place.door" of an exercise's places: metres from there to the nearest setup, in
+// plan; "walk.near.corner": metres from there to the nearest spot of the planned walk; "expected.reach.10": the range
+// at which half of the pulses come back from a surface that returns 10 %; "expected.sigma.25.10": σ of the range in mm
+// at 25 m on a surface that returns 10 %, with the device's settings.
+std::optional<Fact> namedProof(const std::string& name, const Exercise& exercise, const Device& device,
+                               const Document& document);
 std::optional<FactDomain> namedProofDomain(const std::string& name, const Exercise& exercise);
 
 }  // namespace standpoint

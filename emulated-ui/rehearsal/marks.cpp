@@ -48,7 +48,8 @@ struct NamedUnitRow {
   std::string_view prefix;
   const char* name;
 };
-constexpr NamedUnitRow kNamedUnits[] = {{"place.", "m"}, {"walk.near.", "m"}, {"expected.reach.", "m"}, {"expected.sigma.", "mm"}};
+constexpr NamedUnitRow kNamedUnits[] = {
+    {"place.", "m"}, {"walk.near.", "m"}, {"expected.reach.", "m"}, {"expected.sigma.", "mm"}};
 
 const FactRow* deviceRow(const Device& device, const std::string& fact) {
   for (const auto* rows : {&device.type().program.facts, &sharedFacts()})

@@ -56,8 +56,7 @@ class Page {
   // Of the marks' words, with its places filled; to be put into the page as it is.
   std::string word(const std::string& key, Places places = {}) const {
     auto out = rehearsal_.device().type().words->text({}, "marks." + key, text(m_, "language"));
-    for (const auto& [place, by] : places)
-      out = replaced(std::move(out), place, by);
+    for (const auto& [place, by] : places) out = replaced(std::move(out), place, by);
     return htmlText(out);
   }
 

@@ -29,7 +29,7 @@ double percentile(std::vector<float>& values, double share) {
   return *at;
 }
 
-constexpr std::size_t kMostKept = 4000000;   // of a scan's points; a larger one is thinned
+constexpr std::size_t kMostKept = 4000000;  // of a scan's points; a larger one is thinned
 
 // Holds each point against what is known of it.
 class TruthReader final : public PointSink {
@@ -113,8 +113,10 @@ std::map<std::string, double> readPlan(const Device& device, const Document& doc
   nlohmann::json settings = nlohmann::json::array();
   for (const auto& [key, value] : newest->settings) settings.push_back(key + "=" + value);
   Progress quiet;
-  const auto outcome = runVerb(*findVerb(verbs(), "plan"), document,
-                               {{"stations", stations}, {"instrument", device.type().instrument.id}, {"set", settings}, {"samples", 10000}}, quiet);
+  const auto outcome = runVerb(
+      *findVerb(verbs(), "plan"), document,
+      {{"stations", stations}, {"instrument", device.type().instrument.id}, {"set", settings}, {"samples", 10000}},
+      quiet);
   if (!outcome) return {};
   const auto& answer = outcome->answer;
   std::map<std::string, double> figures;
@@ -143,7 +145,8 @@ Eigen::Vector3d spreadOf(const std::vector<Target>& targets) {
 
 double heightSpread(const std::vector<Target>& targets) {
   if (targets.empty()) return 0;
-  const auto [low, high] = std::minmax_element(targets.begin(), targets.end(), [](const Target& a, const Target& b) { return a.centre.z() < b.centre.z(); });
+  const auto [low, high] = std::minmax_element(
+      targets.begin(), targets.end(), [](const Target& a, const Target& b) { return a.centre.z() < b.centre.z(); });
   return high->centre.z() - low->centre.z();
 }
 
@@ -199,7 +202,9 @@ double goodCopies(const Device& device, const fs::path& folder) {
     std::error_code a, b;
     const auto size = fs::file_size(from, a);
     const bool same = !a && size == fs::file_size(to, b) && !b;
-    const auto converted = [&](const char* extension) { return s->transferred && fs::exists(fs::path(to).replace_extension(extension), b); };
+    const auto converted = [&](const char* extension) {
+      return s->transferred && fs::exists(fs::path(to).replace_extension(extension), b);
+    };
     good += same || converted(".las") || converted(".ptx") ? 1 : 0;
   }
   return good;
@@ -231,7 +236,8 @@ const std::vector<ProofRow>& proofRows() {
       {"links.failed", "", numbers(0, 1e4), "links that were not found"},
       {"links.overlap", "", numbers(0, 1), "the least overlap of a joined link"},
       {"links.error", "mm", numbers(0, 1e6), "worst true error of a joined link"},
-      {"office.copies", "", numbers(0, 1e4), "copies in the office: as large as their source, or whole in another format"},
+      {"office.copies", "", numbers(0, 1e4),
+       "copies in the office: as large as their source, or whole in another format"},
       {"survey.walls", "", numbers(0, 1), "share of the area's walls that a station meets at 60° or steeper"},
       {"survey.coverage", "", numbers(0, 1), "share of the area's surfaces that a station sees"},
       {"survey.reached", "", numbers(0, 1), "share of what can be seen from anywhere in the area that a station sees"},
@@ -247,10 +253,12 @@ const std::vector<ProofRow>& proofRows() {
   return rows;
 }
 
-std::optional<Fact> Proofs::fact(const std::string& name, const Exercise& exercise, const Device& device, const Document& document, const fs::path& folder) {
+std::optional<Fact> Proofs::fact(const std::string& name, const Exercise& exercise, const Device& device,
+                                 const Document& document, const fs::path& folder) {
   if (auto own = namedProof(name, exercise, device, document)) return own;
   const auto& rows = proofRows();
-  if (std::none_of(rows.begin(), rows.end(), [&](const ProofRow& row) { return name == row.name; })) return std::nullopt;
+  if (std::none_of(rows.begin(), rows.end(), [&](const ProofRow& row) { return name == row.name; }))
+    return std::nullopt;
   const auto* newest = device.newestSetup();
   if (name.starts_with("data.")) {
     if (newest == nullptr) return std::nullopt;
@@ -275,7 +283,8 @@ std::optional<Fact> Proofs::fact(const std::string& name, const Exercise& exerci
     double count = 0;
     if (document.job)
       for (const auto& s : document.job->stations) {
-        of += fmt::format("{} {} {} {};", s.name, s.true_pose.translation.x(), s.true_pose.translation.y(), s.true_pose.translation.z());
+        of += fmt::format("{} {} {} {};", s.name, s.true_pose.translation.x(), s.true_pose.translation.y(),
+                          s.true_pose.translation.z());
         count += 1;
       }
     if (name == "survey.stations") return numberFact(count);
@@ -291,7 +300,8 @@ std::optional<Fact> Proofs::fact(const std::string& name, const Exercise& exerci
   if (name == "targets.heights") return numberFact(heightSpread(targets));
   if (name == "targets.common") return numberFact(commonTargets(device));
   if (name == "targets.points")
-    return over(device, 1e9, [](double r, const FittedTarget& t) { return std::min(r, static_cast<double>(t.points)); });
+    return over(device, 1e9,
+                [](double r, const FittedTarget& t) { return std::min(r, static_cast<double>(t.points)); });
   if (name == "targets.residual")
     return over(device, 0, [](double r, const FittedTarget& t) { return std::max(r, t.residual_m * 1000); });
   if (name == "targets.error")

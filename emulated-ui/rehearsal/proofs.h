@@ -14,8 +14,8 @@
 namespace standpoint {
 
 struct ProofRow {
-  const char* name;                // "data.noise"
-  const char* unit;                // "mm"
+  const char* name;  // "data.noise"
+  const char* unit;  // "mm"
   FactDomain domain;
   const char* about;
 };
@@ -30,14 +30,14 @@ struct ProofRow {
 //   office.*   of the copies
 class Proofs {
  public:
-  std::optional<Fact> fact(const std::string& name, const Exercise& exercise, const Device& device, const Document& document,
-                           const std::filesystem::path& folder);
+  std::optional<Fact> fact(const std::string& name, const Exercise& exercise, const Device& device,
+                           const Document& document, const std::filesystem::path& folder);
 
  private:
   std::map<std::string, double> data_;
-  std::string data_of_;            // file
+  std::string data_of_;  // file
   std::map<std::string, double> plan_;
-  std::string plan_of_;            // stations and settings
+  std::string plan_of_;  // stations and settings
   std::map<std::string, double> survey_;
   std::string survey_of_;
   std::vector<std::uint8_t> survey_reach_;

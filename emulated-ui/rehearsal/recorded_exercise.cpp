@@ -36,11 +36,21 @@ json recordedExercise(const Device& device, const std::vector<RehearsalAction>& 
         isStandard(device, action.name) || !settings.insert(action.name).second)
       continue;
     const auto condition = fmt::format("setting.{} == '{}'", action.name, device.setting(action.name));
-    steps.push_back({{"id", action.name}, {"text", spoken(device, device.word(action.name) + ": " + device.setting(action.name))}, {"widget", action.name}, {"done", condition}, {"points", 1}});
+    steps.push_back({{"id", action.name},
+                     {"text", spoken(device, device.word(action.name) + ": " + device.setting(action.name))},
+                     {"widget", action.name},
+                     {"done", condition},
+                     {"points", 1}});
   }
   const auto setups = device.number("setups");
-  if (setups > 0) steps.push_back({{"id", "scan"}, {"text", spoken(device, fmt::format("Scan {} times", setups))}, {"done", fmt::format("setups >= {}", setups)}, {"points", 2}});
-  if (steps.empty()) steps.push_back({{"id", "on"}, {"text", spoken(device, "Switch the instrument on")}, {"done", "power == on"}, {"points", 1}});
+  if (setups > 0)
+    steps.push_back({{"id", "scan"},
+                     {"text", spoken(device, fmt::format("Scan {} times", setups))},
+                     {"done", fmt::format("setups >= {}", setups)},
+                     {"points", 2}});
+  if (steps.empty())
+    steps.push_back(
+        {{"id", "on"}, {"text", spoken(device, "Switch the instrument on")}, {"done", "power == on"}, {"points", 1}});
   return {{"id", "NEW"},
           {"title", spoken(device, "A recorded exercise")},
           {"goal", spoken(device, "Say here what is to be reached.")},

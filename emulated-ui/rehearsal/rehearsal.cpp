@@ -43,8 +43,12 @@ ErrorKind preparing(const Error& error) { return error.kind == ErrorKind::usage 
 
 // Scans with the truth of each point are several times as large: only where something is asked of it.
 bool asksThePoints(const Exercise& e) {
-  return std::any_of(e.rules.begin(), e.rules.end(), [](const ExerciseRule& r) { return r.holds.text().find("data.") != std::string::npos || r.proof.starts_with("data."); }) ||
-         std::any_of(e.steps.begin(), e.steps.end(), [](const ExerciseStep& s) { return s.done.text().find("data.") != std::string::npos; });
+  return std::any_of(e.rules.begin(), e.rules.end(),
+                     [](const ExerciseRule& r) {
+                       return r.holds.text().find("data.") != std::string::npos || r.proof.starts_with("data.");
+                     }) ||
+         std::any_of(e.steps.begin(), e.steps.end(),
+                     [](const ExerciseStep& s) { return s.done.text().find("data.") != std::string::npos; });
 }
 
 }  // namespace
@@ -54,8 +58,9 @@ fs::path samplesFolder() {
   return STANDPOINT_SAMPLES_FOLDER;
 }
 
-Result<std::unique_ptr<Rehearsal>> Rehearsal::start(Exercise exercise, const std::string& device, const fs::path& folder,
-                                                    std::function<void()> wake, Progress& progress) {
+Result<std::unique_ptr<Rehearsal>> Rehearsal::start(Exercise exercise, const std::string& device,
+                                                    const fs::path& folder, std::function<void()> wake,
+                                                    Progress& progress) {
   std::unique_ptr<Rehearsal> rehearsal(new Rehearsal(std::move(exercise), folder));
   if (auto ok = rehearsal->prepare(device, std::move(wake), progress); !ok) return failure(ok.error());
   return rehearsal;
@@ -66,7 +71,8 @@ Result<void> Rehearsal::prepare(const std::string& wanted, std::function<void()>
   if (const auto faults = checkExercise(e); !faults.empty()) return failure(faults.front());
   const std::string id = wanted.empty() ? e.devices.front() : wanted;
   if (!isFor(e, id))
-    return failure(ErrorKind::usage, fmt::format("the exercise is for {}, not '{}'", fmt::join(e.devices, ", "), id), e.id);
+    return failure(ErrorKind::usage, fmt::format("the exercise is for {}, not '{}'", fmt::join(e.devices, ", "), id),
+                   e.id);
   const auto* device = findDevice(id == "*" ? emulatedDevices().front().id : id);
   if (device == nullptr) return failure(ErrorKind::usage, fmt::format("there is no device '{}'", id), e.id);
   auto type = loadDevice(*device, e.instrument);
@@ -145,16 +151,21 @@ Result<void> Rehearsal::apply(const RehearsalAction& action, Progress& progress)
     case Kind::finish: return finish(progress);
     case Kind::verb: return runFieldVerb(action, progress);
     case Kind::answer: {
-      const auto question = std::find_if(exercise_.questions.begin(), exercise_.questions.end(), [&](const ExerciseQuestion& q) { return q.id == action.name; });
-      if (question == exercise_.questions.end()) return failure(ErrorKind::usage, fmt::format("there is no question '{}'", action.name), exercise_.id);
+      const auto question = std::find_if(exercise_.questions.begin(), exercise_.questions.end(),
+                                         [&](const ExerciseQuestion& q) { return q.id == action.name; });
+      if (question == exercise_.questions.end())
+        return failure(ErrorKind::usage, fmt::format("there is no question '{}'", action.name), exercise_.id);
       if (std::find(question->choices.begin(), question->choices.end(), action.value) == question->choices.end())
-        return failure(ErrorKind::usage, fmt::format("'{}' is not one of {}", action.value, fmt::join(question->choices, ", ")), action.name);
+        return failure(ErrorKind::usage,
+                       fmt::format("'{}' is not one of {}", action.value, fmt::join(question->choices, ", ")),
+                       action.name);
       answers_[action.name] = action.value;
       return {};
     }
     case Kind::walk:
       walk_.clear();
-      for (const auto& place : action.options) walk_.push_back({place[0].get<double>(), place[1].get<double>(), place[2].get<double>()});
+      for (const auto& place : action.options)
+        walk_.push_back({place[0].get<double>(), place[1].get<double>(), place[2].get<double>()});
       counts_["field.walk"] += 1;
       return {};
     case Kind::hint: {
@@ -191,7 +202,7 @@ void Rehearsal::pass(double seconds) {
 
 Result<void> Rehearsal::passVirtually(double seconds, Progress& progress) {
   while (seconds > 0) {
-    pass(0);   // what was ordered meanwhile begins
+    pass(0);  // what was ordered meanwhile begins
     while (host_->task() != nullptr) {
       if (auto going = progress.check(); !going) {
         host_->task()->progress().cancel();
@@ -209,7 +220,8 @@ Result<void> Rehearsal::passVirtually(double seconds, Progress& progress) {
 
 Result<void> Rehearsal::finish(Progress& progress) {
   pass(0);
-  for (double waited = 0; host_->busy() && waited < kLongestFinish_s && device().state().dialog.empty(); waited += kStep_s)
+  for (double waited = 0; host_->busy() && waited < kLongestFinish_s && device().state().dialog.empty();
+       waited += kStep_s)
     if (auto ok = passVirtually(kStep_s, progress); !ok) return ok;
   return {};
 }
@@ -292,8 +304,10 @@ void Rehearsal::watch() {
       const auto& rule = exercise_.rules[i];
       if (rule.when != "each" || rule.event != event.what) continue;
       rules_[i].asked = true;
-      if (!rule.holds.holds(look)) breakRule(i);
-      else if (rules_[i].broken_at_s < 0) rules_[i].found = factsOf(rule.holds);   // as it was when it was asked last
+      if (!rule.holds.holds(look))
+        breakRule(i);
+      else if (rules_[i].broken_at_s < 0)
+        rules_[i].found = factsOf(rule.holds);  // as it was when it was asked last
     }
   }
   for (std::size_t i = 0; i < rules_.size(); ++i) {

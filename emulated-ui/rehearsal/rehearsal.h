@@ -11,9 +11,9 @@
 
 #include "core/progress.h"
 #include "emulated-ui/host.h"
+#include "emulated-ui/rehearsal/exercise.h"
 #include "emulated-ui/rehearsal/field_proofs.h"
 #include "emulated-ui/rehearsal/proofs.h"
-#include "emulated-ui/rehearsal/exercise.h"
 
 namespace standpoint {
 
@@ -23,8 +23,9 @@ class Rehearsal {
   // `folder` receives the scans and copies; `device` empty: the exercise's first. An exercise that checkExercise
   // refuses, that cannot be prepared, or of which a step is done before the student comes, is refused with file and
   // JSON pointer.
-  static Result<std::unique_ptr<Rehearsal>> start(Exercise exercise, const std::string& device, const std::filesystem::path& folder,
-                                                  std::function<void()> wake, Progress& progress);
+  static Result<std::unique_ptr<Rehearsal>> start(Exercise exercise, const std::string& device,
+                                                  const std::filesystem::path& folder, std::function<void()> wake,
+                                                  Progress& progress);
 
   const Exercise& exercise() const { return exercise_; }
   Device& device() { return host_->device(); }
@@ -35,16 +36,19 @@ class Rehearsal {
 
   // What the student does; it is kept for the replay. What cannot be done now is an error of kind usage.
   Result<void> act(const RehearsalAction& action, Progress& progress);
-  // A verb of the survey that ran elsewhere, on the job of document(): `job` is what became of it. It is kept for the replay.
+  // A verb of the survey that ran elsewhere, on the job of document(): `job` is what became of it. It is kept for the
+  // replay.
   void did(const RehearsalAction& verb, std::shared_ptr<const Job> job);
   // The clock of the device goes on by `seconds`: in a window, once per frame. Simulations run beside it.
   void pass(double seconds);
-  // The same in virtual time: each simulation is waited for before the clock goes on, so that the same actions give the same.
+  // The same in virtual time: each simulation is waited for before the clock goes on, so that the same actions give the
+  // same.
   Result<void> passVirtually(double seconds, Progress& progress);
   // Until the device and what runs behind it rest.
   Result<void> finish(Progress& progress);
 
-  // Of the device, of the exercise ("time", "count.scan_stored", "answer.usable", "hints") and of the data ("data.noise").
+  // Of the device, of the exercise ("time", "count.scan_stored", "answer.usable", "hints") and of the data
+  // ("data.noise").
   std::optional<Fact> fact(const std::string& name) const;
 
   struct StepState {
@@ -53,10 +57,10 @@ class Rehearsal {
     bool hinted = false;
   };
   struct RuleState {
-    bool held = false;             // as far as it could be told
-    bool asked = false;            // false: its event never came
-    double broken_at_s = -1;       // for the first time
-    std::string found;             // what the facts of its condition were then
+    bool held = false;        // as far as it could be told
+    bool asked = false;       // false: its event never came
+    double broken_at_s = -1;  // for the first time
+    std::string found;        // what the facts of its condition were then
   };
   const std::vector<StepState>& steps() const { return steps_; }
   // The step that is to be done now; null after the last.
@@ -74,7 +78,8 @@ class Rehearsal {
   double seconds() const { return device().state().clock_s - started_s_; }
 
  private:
-  Rehearsal(Exercise exercise, std::filesystem::path folder) : exercise_(std::move(exercise)), folder_(std::move(folder)) {}
+  Rehearsal(Exercise exercise, std::filesystem::path folder)
+      : exercise_(std::move(exercise)), folder_(std::move(folder)) {}
   Result<void> prepare(const std::string& device, std::function<void()> wake, Progress& progress);
   Result<void> apply(const RehearsalAction& action, Progress& progress);
   Result<void> runFieldVerb(const RehearsalAction& action, Progress& progress);
@@ -98,8 +103,8 @@ class Rehearsal {
   std::map<std::string, std::string> answers_;
   WalkedWay walk_;
   std::map<std::string, double> counts_;
-  std::map<std::string, Eigen::Vector3d> target_places_;   // during the newest scan that had them
-  bool watching_ = false;                                  // not before the student comes
+  std::map<std::string, Eigen::Vector3d> target_places_;  // during the newest scan that had them
+  bool watching_ = false;                                 // not before the student comes
   std::size_t log_seen_ = 0;
   double started_s_ = 0;
   int hints_ = 0;

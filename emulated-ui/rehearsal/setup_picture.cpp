@@ -43,11 +43,14 @@ std::string setupPicture(const StoredSetup& setup) {
     preview = *read;
   }
   const auto columns = preview->columns, rows = preview->rows;
-  std::vector<std::uint8_t> turned(preview->grey.size());   // a picture's first row is the uppermost
+  std::vector<std::uint8_t> turned(preview->grey.size());  // a picture's first row is the uppermost
   for (std::uint32_t row = 0; row < rows; ++row)
-    std::copy_n(preview->grey.begin() + std::size_t{rows - 1 - row} * columns, columns, turned.begin() + std::size_t{row} * columns);
+    std::copy_n(preview->grey.begin() + std::size_t{rows - 1 - row} * columns, columns,
+                turned.begin() + std::size_t{row} * columns);
   std::vector<std::uint8_t> png;
-  if (stbi_write_png_to_func(append, &png, static_cast<int>(columns), static_cast<int>(rows), 1, turned.data(), static_cast<int>(columns)) == 0) return {};
+  if (stbi_write_png_to_func(append, &png, static_cast<int>(columns), static_cast<int>(rows), 1, turned.data(),
+                             static_cast<int>(columns)) == 0)
+    return {};
   return base64(png);
 }
 

@@ -7,7 +7,8 @@
 
 namespace standpoint {
 
-// The setup's preview as a PNG in base64; reads the scan where the device has not shown it. Empty when it cannot be read.
+// The setup's preview as a PNG in base64; reads the scan where the device has not shown it. Empty when it cannot be
+// read.
 std::string setupPicture(const StoredSetup& setup);
 
 }  // namespace standpoint

@@ -15,9 +15,9 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kSteepEnough_deg = 60;   // instrument facts 4.2: incidence below 60°
-constexpr double kEvery_m = 0.8;          // between the places from which something might be seen
-constexpr std::size_t kSamples = 30000;   // of the whole model: a room still has some hundreds
+constexpr double kSteepEnough_deg = 60;  // instrument facts 4.2: incidence below 60°
+constexpr double kEvery_m = 0.8;         // between the places from which something might be seen
+constexpr std::size_t kSamples = 30000;  // of the whole model: a room still has some hundreds
 
 bool inside(const std::vector<double>& box, const Eigen::Vector3d& p) {
   if (box.size() != 6) return true;
@@ -27,7 +27,8 @@ bool inside(const std::vector<double>& box, const Eigen::Vector3d& p) {
 }
 
 // Places all over the area where a tripod can stand, at the instrument's usual height above its floor.
-std::vector<Station> everywhere(const std::vector<double>& area, const RayScene& scene, const Instrument& instrument, const Document& document) {
+std::vector<Station> everywhere(const std::vector<double>& area, const RayScene& scene, const Instrument& instrument,
+                                const Document& document) {
   std::vector<Station> stations;
   const auto stand = readTripodStand(tripodStandFile());
   if (area.size() != 6 || !stand) return stations;
@@ -35,7 +36,8 @@ std::vector<Station> everywhere(const std::vector<double>& area, const RayScene&
   for (double x = area[0] + kEvery_m / 2; x < area[3]; x += kEvery_m)
     for (double y = area[1] + kEvery_m / 2; y < area[4]; y += kEvery_m) {
       Station station;
-      station.true_pose.translation = Eigen::Vector3d(x, y, area[2] + instrument.tripod_height_m) - document.georeference->shift_m;
+      station.true_pose.translation =
+          Eigen::Vector3d(x, y, area[2] + instrument.tripod_height_m) - document.georeference->shift_m;
       if (!placement.whyNot(station.true_pose.translation)) stations.push_back(std::move(station));
     }
   return stations;
@@ -52,7 +54,8 @@ std::vector<std::uint8_t> seenFromAny(const SurveyPlan& plan) {
 
 std::map<std::string, double> readSurvey(const Exercise& exercise, const Device& device, const Document& document,
                                          std::vector<std::uint8_t>& in_reach) {
-  std::map<std::string, double> figures = {{"survey.walls", 0}, {"survey.coverage", 0}, {"survey.reached", 0}, {"survey.overlap", 0}};
+  std::map<std::string, double> figures = {
+      {"survey.walls", 0}, {"survey.coverage", 0}, {"survey.reached", 0}, {"survey.overlap", 0}};
   if (!document.job || document.job->stations.empty()) return figures;
   Progress quiet;
   const auto assignment = scanAssignment(document, quiet);
@@ -84,7 +87,8 @@ std::map<std::string, double> readSurvey(const Exercise& exercise, const Device&
   const auto seen = seenFromAny(*plan), seen_steeply = seenFromAny(*steep);
   double walls = 0, walls_seen = 0, all = 0, all_seen = 0, reachable = 0;
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    if (!samples[k].exposed || !inside(exercise.area, samples[k].place.position + document.georeference->shift_m)) continue;
+    if (!samples[k].exposed || !inside(exercise.area, samples[k].place.position + document.georeference->shift_m))
+      continue;
     all += 1;
     all_seen += seen[k] != 0 ? 1 : 0;
     reachable += in_reach[k] != 0 || seen[k] != 0 ? 1 : 0;

@@ -119,12 +119,21 @@ const std::vector<FactRow> kFacts = {
 };
 
 const DeviceRoles kRoles = {
-    .off = "unavailable", .ready = "waiting", .rest = "waiting", .idle = "waiting", .working = kWorking,
-    .measuring = kWorking, .camera = "photographing", .holding = kHolding, .kept = "storing",
+    .off = "unavailable",
+    .ready = "waiting",
+    .rest = "waiting",
+    .idle = "waiting",
+    .working = kWorking,
+    .measuring = kWorking,
+    .camera = "photographing",
+    .holding = kHolding,
+    .kept = "storing",
     .scans = "positions",
-    .start = "scan", .start_anyway = "scan_anyway",
+    .start = "scan",
+    .start_anyway = "scan_anyway",
     .first_questions = {{"waiting", "scan", "position.taken == yes", "", "", "position_question", nullptr, "S32"}},
-    .tilted = "level == out", .begin = beginScan,
+    .tilted = "level == out",
+    .begin = beginScan,
     .card_needed = "value.storage != ssd",
     .marks = {{"S31", "power_key scan/no_project scan"}, {"S35", "transferred"}},
 };

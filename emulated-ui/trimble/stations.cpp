@@ -20,7 +20,8 @@ const std::string kAnnotation = "annotation.";  // + file and number: a value of
 std::optional<Eigen::Vector3d> pointerSpot(const ScanPreview& picture, const std::string& at) {
   double u = 0, v = 0;
   if (std::sscanf(at.c_str(), "%lf,%lf", &u, &v) != 2 || !(u >= 0 && u < 1 && v >= 0 && v < 1)) return std::nullopt;
-  const auto column = static_cast<std::size_t>(u * picture.columns), row = static_cast<std::size_t>((1 - v) * picture.rows);
+  const auto column = static_cast<std::size_t>(u * picture.columns),
+             row = static_cast<std::size_t>((1 - v) * picture.rows);
   const std::size_t cell = std::min<std::size_t>(row, picture.rows - 1) * picture.columns + column;
   if (!std::isfinite(picture.x_m[cell])) return std::nullopt;
   return Eigen::Vector3d(picture.x_m[cell], picture.y_m[cell], picture.z_m[cell]);
@@ -46,14 +47,15 @@ std::vector<WidgetOption> stationRows(const Device& device) {
     order.resize(std::min(order.size(), kNearest));
   }
   for (const auto i : order)
-    rows.push_back({std::to_string(i),
-                    fmt::format("{}  {}  {}{}", setups[i].name, setups[i].station,
-                                device.word("registration=" + (i == 0 ? "reference" : registrationOf(device, setups[i]))),
-                                setups[i].moved        ? "  !"
-                                : setups[i].unlevelled ? "  ∠"
-                                                       : ""),
-                    true,
-                    {}});
+    rows.push_back(
+        {std::to_string(i),
+         fmt::format("{}  {}  {}{}", setups[i].name, setups[i].station,
+                     device.word("registration=" + (i == 0 ? "reference" : registrationOf(device, setups[i]))),
+                     setups[i].moved        ? "  !"
+                     : setups[i].unlevelled ? "  ∠"
+                                            : ""),
+         true,
+         {}});
   return rows;
 }
 
@@ -82,12 +84,14 @@ Result<void> switchPointer(Device& device, const std::string&) {
   return {};
 }
 
-// With the pointer on a tap turns it to that spot of the station view, if the scanner still stands where that was scanned.
+// With the pointer on a tap turns it to that spot of the station view, if the scanner still stands where that was
+// scanned.
 Result<void> measureOrPoint(Device& device, const std::string& at) {
   if (device.value("pointer") != "on") return sharedAction(device, "measure", at);
   const auto* setup = device.shownSetup();
   if (setup == nullptr || !setup->preview) return failure(ErrorKind::usage, device.word("no_preview"));
-  if (setup->station != device.state().around.station) return failure(ErrorKind::usage, device.word("pointer_elsewhere"));
+  if (setup->station != device.state().around.station)
+    return failure(ErrorKind::usage, device.word("pointer_elsewhere"));
   if (!pointerSpot(*setup->preview, at)) return failure(ErrorKind::usage, device.word("no_point"));
   device.change().entries["pointer"] = at;
   device.note("pointed", at);
@@ -96,7 +100,9 @@ Result<void> measureOrPoint(Device& device, const std::string& at) {
 
 std::optional<Eigen::Vector3d> pointerSpot(const Device& device) {
   const auto* setup = device.shownSetup();
-  if (device.value("pointer") != "on" || setup == nullptr || !setup->preview || setup->station != device.state().around.station) return std::nullopt;
+  if (device.value("pointer") != "on" || setup == nullptr || !setup->preview ||
+      setup->station != device.state().around.station)
+    return std::nullopt;
   return pointerSpot(*setup->preview, device.entry("pointer"));
 }
 

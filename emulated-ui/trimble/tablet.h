@@ -40,7 +40,8 @@ Result<void> addAnnotation(Device& device, const std::string&);
 std::vector<WidgetOption> annotationRows(const Device& device);
 Result<void> switchPointer(Device& device, const std::string&);
 Result<void> measureOrPoint(Device& device, const std::string& at);
-std::optional<Eigen::Vector3d> pointerSpot(const Device& device);   // what the laser pointer rests on, in the scanner's frame
+std::optional<Eigen::Vector3d> pointerSpot(
+    const Device& device);                                  // what the laser pointer rests on, in the scanner's frame
 double unmeasured(const Device& device);                    // share of the picture on view
 std::vector<WidgetOption> errorRows(const Device& device);  // level and description [S15]
 

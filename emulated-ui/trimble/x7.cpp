@@ -75,7 +75,8 @@ std::string pairOnView(const Device& device) {
 std::string pointerAngles(const Device& device) {
   const auto spot = pointerSpot(device);
   if (!spot) return "";
-  const double azimuth = -std::atan2(spot->y(), spot->x()) / kRadPerDeg, zenith = std::acos(spot->z() / spot->norm()) / kRadPerDeg;
+  const double azimuth = -std::atan2(spot->y(), spot->x()) / kRadPerDeg,
+               zenith = std::acos(spot->z() / spot->norm()) / kRadPerDeg;
   return fmt::format("H {:.1f}°  V {:.1f}°", azimuth < 0 ? azimuth + 360 : azimuth, zenith);
 }
 
@@ -136,12 +137,17 @@ const std::vector<FactRow> kFacts = {
 };
 
 const DeviceRoles kRoles = {
-    .rest = kRest, .working = kWorking, .measuring = kWorking, .camera = "imaging", .holding = kHolding,
+    .rest = kRest,
+    .working = kWorking,
+    .measuring = kWorking,
+    .camera = "imaging",
+    .holding = kHolding,
     .kept = "downloading",
-    .home = "map_view", .scans = "map_view",
+    .home = "map_view",
+    .scans = "map_view",
     .first_questions = {{"idle", "start", "setting.field_of_view == area and area.has_parent == no", "", "",
                          "area_needs_parent", nullptr, "S12"}},
-    .first = "calibrating",   // the scan begins later
+    .first = "calibrating",  // the scan begins later
     .marks = {{"G1", "power_key"},
               {"S16", "start start/card_absent start/card_full start/battery_critical start/temperature_question"},
               {"S35", "transferred"}},

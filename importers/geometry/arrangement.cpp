@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kMaxSegments = 20000;
 constexpr std::size_t kMaxWindings = 20'000'000;
 constexpr int kMaxRounds = 12;
-constexpr std::size_t kMaxMeetings = 5'000'000;   // of pieces in each other's boxes: edges that all lie on one another
+constexpr std::size_t kMaxMeetings = 5'000'000;  // of pieces in each other's boxes: edges that all lie on one another
 
 // Finds or adds the point within the snapping distance. Looked up only, so that the hash order does not show.
 class Points {
@@ -48,7 +48,8 @@ class Points {
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
   std::int64_t index(double v) const { return static_cast<std::int64_t>(std::floor(v / cell_)); }
   static std::uint64_t key(std::int64_t x, std::int64_t y) {
-    return static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15ull ^ static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4Full;
+    return static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15ull ^
+           static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4Full;
   }
   double snap_, cell_;
   std::vector<Eigen::Vector2d>& points_;
@@ -79,9 +80,8 @@ class Splitter {
       box[i] = {std::min(a.x(), b.x()) - snap_, std::max(a.x(), b.x()) + snap_, std::min(a.y(), b.y()) - snap_,
                 std::max(a.y(), b.y()) + snap_};
     }
-    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
-      return box[i][0] != box[j][0] ? box[i][0] < box[j][0] : i < j;
-    });
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t i, std::uint32_t j) { return box[i][0] != box[j][0] ? box[i][0] < box[j][0] : i < j; });
     for (std::size_t i = 0; i < order.size() && !exhausted(); ++i) {
       const std::uint32_t s = order[i];
       for (std::size_t j = i + 1; j < order.size() && box[order[j]][0] <= box[s][1]; ++j) {
@@ -153,7 +153,8 @@ class Splitter {
   std::vector<std::vector<std::uint32_t>> cuts_;
 };
 
-// Pieces between the same two points become one edge; what each layer gains in crossing it from right to left is summed.
+// Pieces between the same two points become one edge; what each layer gains in crossing it from right to left is
+// summed.
 std::vector<int> mergePieces(Arrangement& result, std::vector<Piece> pieces, std::span<const Segment> segments) {
   std::vector<int> gains;
   std::sort(pieces.begin(), pieces.end(), [](const Piece& p, const Piece& q) {
@@ -162,10 +163,12 @@ std::vector<int> mergePieces(Arrangement& result, std::vector<Piece> pieces, std
   });
   std::vector<int> gain(result.layers);
   for (std::size_t begin = 0, end = 0; begin < pieces.size(); begin = end) {
-    const std::uint32_t low = std::min(pieces[begin].a, pieces[begin].b), high = std::max(pieces[begin].a, pieces[begin].b);
+    const std::uint32_t low = std::min(pieces[begin].a, pieces[begin].b),
+                        high = std::max(pieces[begin].a, pieces[begin].b);
     std::fill(gain.begin(), gain.end(), 0);
     for (; end < pieces.size() && std::min(pieces[end].a, pieces[end].b) == low &&
-           std::max(pieces[end].a, pieces[end].b) == high; ++end) {
+           std::max(pieces[end].a, pieces[end].b) == high;
+         ++end) {
       const Segment& segment = segments[pieces[end].source];
       const int by = pieces[end].a == low ? segment.weight : -segment.weight;
       for (std::uint32_t l = segment.first_layer; l < segment.last_layer; ++l) gain[l] += by;
@@ -215,7 +218,8 @@ double angleOf(const Arrangement& arrangement, std::uint32_t from, std::uint32_t
 
 // The first free arrow out of a point, clockwise from where we came: it bounds the same piece of the inside.
 Arrow* leave(const Arrangement& arrangement, std::vector<Arrow>& arrows, std::uint32_t from, std::uint32_t came_from) {
-  auto it = std::lower_bound(arrows.begin(), arrows.end(), from, [](const Arrow& a, std::uint32_t p) { return a.from < p; });
+  auto it =
+      std::lower_bound(arrows.begin(), arrows.end(), from, [](const Arrow& a, std::uint32_t p) { return a.from < p; });
   Arrow* best = nullptr;
   double best_turn = 0;
   const bool alone = it != arrows.end() && it->from == from && (it + 1 == arrows.end() || (it + 1)->from != from);
@@ -231,7 +235,8 @@ Arrow* leave(const Arrangement& arrangement, std::vector<Arrow>& arrows, std::ui
 }
 
 // A walk that meets a point again is cut there into loops of their own.
-void cutAtRepeats(const std::vector<const Arrow*>& walk, const Arrangement& arrangement, std::vector<BoundaryLoop>& loops) {
+void cutAtRepeats(const std::vector<const Arrow*>& walk, const Arrangement& arrangement,
+                  std::vector<BoundaryLoop>& loops) {
   std::vector<const Arrow*> open;
   std::unordered_map<std::uint32_t, std::size_t> position;  // looked up only
   for (const Arrow* arrow : walk) {
@@ -293,9 +298,8 @@ std::optional<std::vector<BoundaryLoop>> boundary(const Arrangement& arrangement
     const auto [a, b, tag] = arrangement.edges[e];
     arrows.push_back(left ? Arrow{a, b, e} : Arrow{b, a, e});
   }
-  std::sort(arrows.begin(), arrows.end(), [](const Arrow& p, const Arrow& q) {
-    return std::tie(p.from, p.to) < std::tie(q.from, q.to);
-  });
+  std::sort(arrows.begin(), arrows.end(),
+            [](const Arrow& p, const Arrow& q) { return std::tie(p.from, p.to) < std::tie(q.from, q.to); });
   std::vector<BoundaryLoop> loops;
   for (Arrow& start : arrows) {
     if (start.used) continue;

@@ -16,10 +16,10 @@
 namespace standpoint::geometry {
 
 struct Segment {
-  std::uint32_t a, b;          // indices into the points
+  std::uint32_t a, b;                     // indices into the points
   std::uint32_t first_layer, last_layer;  // counts in the layers [first, last)
-  int weight = 1;              // -1: as if it ran the other way
-  std::uint32_t tag = 0;       // of an edge that several segments share, the first one's tag is kept
+  int weight = 1;                         // -1: as if it ran the other way
+  std::uint32_t tag = 0;                  // of an edge that several segments share, the first one's tag is kept
 };
 
 struct Arrangement {
@@ -27,10 +27,10 @@ struct Arrangement {
     std::uint32_t a, b, tag;
   };
   std::size_t layers = 0;
-  std::vector<Eigen::Vector2d> points;         // the input's first, then crossings
-  std::vector<std::uint32_t> point_of_input;   // input point → the point that stands for it
+  std::vector<Eigen::Vector2d> points;        // the input's first, then crossings
+  std::vector<std::uint32_t> point_of_input;  // input point → the point that stands for it
   std::vector<Edge> edges;
-  std::vector<int> left, right;                // windings[edge * layers + layer]
+  std::vector<int> left, right;  // windings[edge * layers + layer]
 
   std::span<const int> leftOf(std::size_t edge) const { return {left.data() + edge * layers, layers}; }
   std::span<const int> rightOf(std::size_t edge) const { return {right.data() + edge * layers, layers}; }

@@ -24,7 +24,8 @@ struct Limits {
   bool reachedBeyond(const PolyMesh& mesh) const {
     const Bounds3 b(mesh.points);
     constexpr double kSlack_m = 10 * kSnap_m;
-    return !mesh.faces.empty() && !((b.low.array() >= within.low.array() - kSlack_m).all() && (b.high.array() <= within.high.array() + kSlack_m).all());
+    return !mesh.faces.empty() && !((b.low.array() >= within.low.array() - kSlack_m).all() &&
+                                    (b.high.array() <= within.high.array() + kSlack_m).all());
   }
 };
 
@@ -32,10 +33,12 @@ Result<PolyMesh> checked(Result<PolyMesh> result, const Limits& range, const cha
   if (!result) return result;
   if (!isFinite(*result)) return failure(ErrorKind::unusable, std::string(way) + ": a point is not a number");
   const double v = volume(*result);
-  if (range.reachedBeyond(*result)) return failure(ErrorKind::unusable, std::string(way) + ": the result reaches beyond the body");
+  if (range.reachedBeyond(*result))
+    return failure(ErrorKind::unusable, std::string(way) + ": the result reaches beyond the body");
   if (range.holds(v)) return result;
-  return failure(ErrorKind::unusable, std::string(way) + ": the result's volume " + std::to_string(v) + " m3 is not between " +
-                                          std::to_string(range.low) + " and " + std::to_string(range.high));
+  return failure(ErrorKind::unusable, std::string(way) + ": the result's volume " + std::to_string(v) +
+                                          " m3 is not between " + std::to_string(range.low) + " and " +
+                                          std::to_string(range.high));
 }
 
 std::optional<Error> unusable(const PolyMesh& mesh) {
@@ -70,8 +73,9 @@ PolyMesh subtractPrisms(PolyMesh host, std::vector<PolyMesh>& tools, std::vector
     (common->fits[i] ? flat : rest).push_back(tools[i]);
   }
   const double before = volume(host);
-  Result<PolyMesh> result = checked(combinePrisms(host, flat, common->direction, Operation::difference),
-                                    {std::max(0.0, before - tool_volume), before, Bounds3(host.points)}, "in the plane");
+  Result<PolyMesh> result =
+      checked(combinePrisms(host, flat, common->direction, Operation::difference),
+              {std::max(0.0, before - tool_volume), before, Bounds3(host.points)}, "in the plane");
   if (!result) {
     errors.push_back(result.error());
     return host;
@@ -82,7 +86,8 @@ PolyMesh subtractPrisms(PolyMesh host, std::vector<PolyMesh>& tools, std::vector
 
 Result<PolyMesh> carveAway(const PolyMesh& host, const PolyMesh& tool) {
   const double before = volume(host);
-  return checked(combineWithCarve(host, tool, Operation::difference), {std::max(0.0, before - volume(tool)), before, Bounds3(host.points)}, "carve");
+  return checked(combineWithCarve(host, tool, Operation::difference),
+                 {std::max(0.0, before - volume(tool)), before, Bounds3(host.points)}, "carve");
 }
 
 // Groups of tools that keep apart from each other, each tool in the first group where it does.
@@ -92,16 +97,20 @@ std::vector<std::vector<std::size_t>> apart(const std::vector<PolyMesh>& tools) 
   std::vector<std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < tools.size(); ++i) {
     const auto free = std::find_if(groups.begin(), groups.end(), [&](const auto& group) {
-      return std::none_of(group.begin(), group.end(), [&](std::size_t k) { return bounds[i].overlaps(bounds[k], 10 * kSnap_m); });
+      return std::none_of(group.begin(), group.end(),
+                          [&](std::size_t k) { return bounds[i].overlaps(bounds[k], 10 * kSnap_m); });
     });
-    if (free == groups.end()) groups.push_back({i});
-    else free->push_back(i);
+    if (free == groups.end())
+      groups.push_back({i});
+    else
+      free->push_back(i);
   }
   return groups;
 }
 
-// A call costs what the host costs, so tools that keep apart go together: a slab with 65 openings took 11.4 s one by one.
-// A group that does not work goes one by one while that works; what fails stays in `tools`, and all that comes after it.
+// A call costs what the host costs, so tools that keep apart go together: a slab with 65 openings took 11.4 s one by
+// one. A group that does not work goes one by one while that works; what fails stays in `tools`, and all that comes
+// after it.
 PolyMesh subtractWithCarve(PolyMesh host, std::vector<PolyMesh>& tools, std::vector<Error>& errors) {
   std::vector<bool> done(tools.size(), false);
   bool works = true;
@@ -132,7 +141,7 @@ PolyMesh subtractWithCarve(PolyMesh host, std::vector<PolyMesh>& tools, std::vec
 Result<PolyMesh> combineTwo(const PolyMesh& a, const PolyMesh& b, Operation operation, const Limits& range) {
   const std::span<const PolyMesh> second(&b, 1);
   std::vector<Error> errors;
-  std::optional<PolyMesh> torn;   // of the right volume, but open: stands when no other way does better
+  std::optional<PolyMesh> torn;  // of the right volume, but open: stands when no other way does better
   const bool solids = isClosed(a) && isClosed(b);
   const auto keep = [&](Result<PolyMesh> result, const char* way) {
     result = checked(std::move(result), range, way);
@@ -184,7 +193,8 @@ Result<PolyMesh> intersect(const PolyMesh& a, const PolyMesh& b) {
   }
   if (a.faces.empty() || b.faces.empty() || !Bounds3(a.points).overlaps(Bounds3(b.points), kSnap_m)) return PolyMesh{};
   const PolyMesh first = outward(a), second = outward(b);
-  return combineTwo(first, second, Operation::intersection, {0.0, std::min(volume(first), volume(second)), Bounds3(first.points)});
+  return combineTwo(first, second, Operation::intersection,
+                    {0.0, std::min(volume(first), volume(second)), Bounds3(first.points)});
 }
 
 Result<PolyMesh> unite(const PolyMesh& a, const PolyMesh& b) {

@@ -105,10 +105,12 @@ class TagHook : public carve::csg::CSG::Hook {
   std::map<const MeshSet::face_t*, std::uint32_t> tag_of_;  // looked up only
 };
 
-bool before(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3); }
+bool before(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+}
 
-// Carve hashes pointers, so that its order changes from run to run: each outline starts at its least point, and the faces
-// are sorted.
+// Carve hashes pointers, so that its order changes from run to run: each outline starts at its least point, and the
+// faces are sorted.
 PolyMesh fromCarve(const MeshSet& set, const TagHook& hook) {
   struct Outline {
     std::vector<Eigen::Vector3d> points;
@@ -119,7 +121,8 @@ PolyMesh fromCarve(const MeshSet& set, const TagHook& hook) {
     for (const auto* face : part->faces) {
       Outline& own = outlines.emplace_back(Outline{{}, hook.tagOf(face)});
       const MeshSet::edge_t* edge = face->edge;
-      for (std::size_t i = 0; i < face->nEdges(); ++i, edge = edge->next) own.points.emplace_back(edge->vert->v.x, edge->vert->v.y, edge->vert->v.z);
+      for (std::size_t i = 0; i < face->nEdges(); ++i, edge = edge->next)
+        own.points.emplace_back(edge->vert->v.x, edge->vert->v.y, edge->vert->v.z);
       std::rotate(own.points.begin(), std::min_element(own.points.begin(), own.points.end(), before), own.points.end());
     }
   }

@@ -3,8 +3,8 @@
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
-#include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Surface_mesh.h>
 
@@ -36,7 +36,8 @@ std::optional<Surface> toSurface(const PolyMesh& mesh) {
     const std::size_t a = to[t[0]], b = to[t[1]], c = to[t[2]];
     if (a != b && b != c && c != a) polygons.push_back({a, b, c});
   }
-  if (!pmp::is_polygon_soup_a_polygon_mesh(polygons) && !pmp::orient_polygon_soup(points, polygons)) return std::nullopt;
+  if (!pmp::is_polygon_soup_a_polygon_mesh(polygons) && !pmp::orient_polygon_soup(points, polygons))
+    return std::nullopt;
   Surface surface;
   pmp::polygon_soup_to_polygon_mesh(points, polygons, surface);
   if (!CGAL::is_closed(surface) || !pmp::does_bound_a_volume(surface)) return std::nullopt;
@@ -84,12 +85,14 @@ Result<PolyMesh> combineWithCgal(const PolyMesh& a, std::span<const PolyMesh> b,
         continue;
       }
       Surface joined;
-      if (!combine(*tools, *next, Operation::unite, joined)) return failure(ErrorKind::unusable, "CGAL: the tools do not join");
+      if (!combine(*tools, *next, Operation::unite, joined))
+        return failure(ErrorKind::unusable, "CGAL: the tools do not join");
       tools = std::move(joined);
     }
     if (!tools) return a;
     Surface result;
-    if (!combine(*first, *tools, operation, result)) return failure(ErrorKind::unusable, "CGAL: the result is not manifold");
+    if (!combine(*first, *tools, operation, result))
+      return failure(ErrorKind::unusable, "CGAL: the result is not manifold");
     return fromSurface(result, a.faces.empty() ? 0 : a.faces[0].tag);
   } catch (const std::exception& e) {
     return failure(ErrorKind::unusable, std::string("CGAL: ") + e.what());

@@ -12,7 +12,8 @@ namespace standpoint::geometry {
 
 enum class Operation { difference, intersection, unite };
 
-// The direction along which the first mesh and most of the others are prismatic: every face stands on it or lies along it.
+// The direction along which the first mesh and most of the others are prismatic: every face stands on it or lies along
+// it.
 struct CommonDirection {
   Eigen::Vector3d direction;
   std::vector<bool> fits;  // parallel to the others

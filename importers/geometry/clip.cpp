@@ -16,7 +16,8 @@ using Loop = std::vector<std::uint32_t>;
 // Points within kSnap_m of the plane count as lying on it (0), so that no slivers arise; they are not moved.
 class Cutter {
  public:
-  Cutter(PolyMesh& mesh, const Eigen::Vector3d& normal, double offset_m) : mesh_(mesh), normal_(normal), offset_(offset_m) {
+  Cutter(PolyMesh& mesh, const Eigen::Vector3d& normal, double offset_m)
+      : mesh_(mesh), normal_(normal), offset_(offset_m) {
     for (const Eigen::Vector3d& p : mesh.points) {
       const double height = normal.dot(p) - offset_m;
       side_.push_back(std::abs(height) <= kSnap_m ? 0 : height > 0 ? 1 : -1);
@@ -67,7 +68,8 @@ void chainsOf(const Loop& loop, const std::vector<double>& along, const Cutter& 
   const std::size_t n = loop.size();
   const auto kept = [&](std::size_t i) {  // edge i → i+1; one on the plane stays when the inside is below it
     const std::uint32_t a = loop[i % n], b = loop[(i + 1) % n];
-    return cutter.side(a) < 0 || cutter.side(b) < 0 || (cutter.side(a) == 0 && cutter.side(b) == 0 && along[b] > along[a]);
+    return cutter.side(a) < 0 || cutter.side(b) < 0 ||
+           (cutter.side(a) == 0 && cutter.side(b) == 0 && along[b] > along[a]);
   };
   const auto breaks = [&](std::size_t i) {  // point i: a chain may begin or end here
     if (cutter.side(loop[i % n]) != 0) return false;
@@ -96,7 +98,8 @@ void chainsOf(const Loop& loop, const std::vector<double>& along, const Cutter& 
   }
 }
 
-// Joins the chains along the cutting line: the inside lies below it between the end of one chain and the next beginning.
+// Joins the chains along the cutting line: the inside lies below it between the end of one chain and the next
+// beginning.
 bool link(std::vector<Chain>& chains, const std::vector<double>& along) {
   struct Event {
     double at;
@@ -162,7 +165,8 @@ void addFaces(const PolyMesh& mesh, const std::vector<Loop>& loops, const Eigen:
 }
 
 // False when the face's outline contradicts itself (it crosses itself).
-bool clipFace(PolyMesh& mesh, Cutter& cutter, const Face& face, const Eigen::Vector3d& plane_normal, std::vector<Face>& kept) {
+bool clipFace(PolyMesh& mesh, Cutter& cutter, const Face& face, const Eigen::Vector3d& plane_normal,
+              std::vector<Face>& kept) {
   const Eigen::Vector3d area_vector = areaVector(mesh.points, face.outer);
   if (area_vector.norm() == 0) return true;
   const Eigen::Vector3d normal = area_vector.normalized();
@@ -195,7 +199,8 @@ bool clipFace(PolyMesh& mesh, Cutter& cutter, const Face& face, const Eigen::Vec
 }
 
 // What a face with a contradictory outline leaves is found from its triangles; triangles always cut well.
-bool clipTriangles(PolyMesh& mesh, Cutter& cutter, const Face& face, const Eigen::Vector3d& normal, std::vector<Face>& kept) {
+bool clipTriangles(PolyMesh& mesh, Cutter& cutter, const Face& face, const Eigen::Vector3d& normal,
+                   std::vector<Face>& kept) {
   std::vector<Triangle> triangles;
   if (!triangulate(mesh.points, face, triangles)) return false;
   for (const Triangle& t : triangles) {
@@ -269,7 +274,8 @@ void dropUnusedPoints(PolyMesh& mesh) {
 }  // namespace
 
 Result<PolyMesh> clip(const PolyMesh& mesh, const Eigen::Vector3d& normal_unit, double offset_m) {
-  if (!isFinite(mesh) || !normal_unit.allFinite() || !std::isfinite(offset_m) || std::abs(normal_unit.norm() - 1) > 1e-6) {
+  if (!isFinite(mesh) || !normal_unit.allFinite() || !std::isfinite(offset_m) ||
+      std::abs(normal_unit.norm() - 1) > 1e-6) {
     return failure(ErrorKind::unusable, "clip: a coordinate or the plane is not usable");
   }
   PolyMesh result;

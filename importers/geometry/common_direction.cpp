@@ -30,7 +30,8 @@ double areaWithoutHoles(const PolyMesh& mesh, const Face& face, double outer_are
 }
 
 // Every corner of a face that lies across the direction is at one height; the others run along it. The volume under the
-// caps must be the volume of the body: a surface that lacks a wall or a cap is no prism, and its sections would be wrong.
+// caps must be the volume of the body: a surface that lacks a wall or a cap is no prism, and its sections would be
+// wrong.
 bool isPrismatic(const PolyMesh& mesh, const Eigen::Vector3d& direction) {
   double under_caps = 0, whole_area = 0;
   Eigen::Vector3d unbalanced = Eigen::Vector3d::Zero();
@@ -81,9 +82,8 @@ std::optional<CommonDirection> commonDirection(const PolyMesh& first, std::span<
   std::sort(facts.begin(), facts.end(), [](const FaceFacts& a, const FaceFacts& b) { return a.area > b.area; });
   std::vector<Eigen::Vector3d> candidates;
   for (const FaceFacts& fact : facts) {
-    const bool known = std::any_of(candidates.begin(), candidates.end(), [&](const Eigen::Vector3d& c) {
-      return c.cross(fact.normal).norm() < 1e-6;
-    });
+    const bool known = std::any_of(candidates.begin(), candidates.end(),
+                                   [&](const Eigen::Vector3d& c) { return c.cross(fact.normal).norm() < 1e-6; });
     if (!known && candidates.size() < kMaxCandidates) candidates.push_back(fact.normal);
   }
   std::optional<CommonDirection> best;

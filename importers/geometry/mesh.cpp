@@ -181,8 +181,8 @@ struct Component {
   Eigen::AlignedBox3d box;
 };
 
-Component componentFrom(std::uint32_t seed, const PolyMesh& mesh, const std::vector<std::vector<Link>>& links, const std::vector<bool>& has_border,
-                        std::vector<bool>& seen) {
+Component componentFrom(std::uint32_t seed, const PolyMesh& mesh, const std::vector<std::vector<Link>>& links,
+                        const std::vector<bool>& has_border, std::vector<bool>& seen) {
   Component c;
   c.faces.push_back(seed);
   seen[seed] = true;
@@ -211,7 +211,8 @@ Component componentFrom(std::uint32_t seed, const PolyMesh& mesh, const std::vec
 bool isCavity(const Component& c, const std::vector<Component>& all) {
   const Component* around = nullptr;
   for (const Component& other : all) {
-    const bool larger = &other != &c && other.closed && std::abs(other.volume) > std::abs(c.volume) && other.box.contains(c.box);
+    const bool larger =
+        &other != &c && other.closed && std::abs(other.volume) > std::abs(c.volume) && other.box.contains(c.box);
     if (larger && (!around || std::abs(other.volume) < std::abs(around->volume))) around = &other;
   }
   return around && (around->volume < 0) != (c.volume < 0);

@@ -67,12 +67,12 @@ struct Bounds3 {
   }
 };
 
-bool isFinite(const PolyMesh& mesh);        // every point finite, every index in range
-void flip(PolyMesh& mesh);                  // turns every face over
+bool isFinite(const PolyMesh& mesh);  // every point finite, every index in range
+void flip(PolyMesh& mesh);            // turns every face over
 // Adds the loop as a face; a loop that is not planar within 1e-9 m becomes triangles (fan).
 void addFace(PolyMesh& mesh, std::vector<std::uint32_t> loop);
-// Groups loops (counter-clockwise outers, clockwise holes) into regions: each hole goes to the smallest outer around it.
-// Returns for each outer the hole numbers; holes without an outer are left out.
+// Groups loops (counter-clockwise outers, clockwise holes) into regions: each hole goes to the smallest outer around
+// it. Returns for each outer the hole numbers; holes without an outer are left out.
 struct Nesting {
   std::vector<std::size_t> outers;
   std::vector<std::vector<std::size_t>> holes;  // parallel to outers

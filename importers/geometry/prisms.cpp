@@ -60,9 +60,8 @@ std::vector<Level> levelsOf(const std::vector<CapFace>& caps, bool within_first)
     heights.emplace_back(cap.height, cap.operand);
     if (cap.operand == 0 || !within_first) bottom = std::min(bottom, cap.height), top = std::max(top, cap.height);
   }
-  std::sort(heights.begin(), heights.end(), [](const auto& a, const auto& b) {
-    return std::tie(a.second, a.first) < std::tie(b.second, b.first);
-  });
+  std::sort(heights.begin(), heights.end(),
+            [](const auto& a, const auto& b) { return std::tie(a.second, a.first) < std::tie(b.second, b.first); });
   std::vector<Level> levels;
   for (const auto& [height, operand] : heights) {
     if (height < bottom - kSnap_m || height > top + kSnap_m) continue;
@@ -139,9 +138,7 @@ class Stack {
     findCorners();
   }
 
-  bool build(const Frame& frame, PolyMesh& mesh) {
-    return addCaps(frame, mesh) && addWalls(frame, mesh);
-  }
+  bool build(const Frame& frame, PolyMesh& mesh) { return addCaps(frame, mesh) && addWalls(frame, mesh); }
 
  private:
   bool inside(std::span<const int> winding, std::size_t slab) const {
@@ -192,7 +189,8 @@ class Stack {
     for (std::uint32_t p = 0; p < at.size(); ++p) {
       if (at[p].size() != 2) continue;
       const auto &e = arrangement_.edges[at[p][0]], &f = arrangement_.edges[at[p][1]];
-      const Eigen::Vector2d a = arrangement_.points[e.a == p ? e.b : e.a], b = arrangement_.points[f.a == p ? f.b : f.a];
+      const Eigen::Vector2d a = arrangement_.points[e.a == p ? e.b : e.a],
+                            b = arrangement_.points[f.a == p ? f.b : f.a];
       const double off = std::abs(cross(a, arrangement_.points[p], b));
       const bool between = (arrangement_.points[p] - a).dot(b - arrangement_.points[p]) > 0;
       is_corner_[p] = e.tag != f.tag || !between || off > 1e-9 * (b - a).norm();
@@ -215,7 +213,8 @@ class Stack {
           if (above ? level >= slabs_.size() : level == 0) return false;
           return inside(w, slabs_[above ? level : level - 1]);
         };
-        const auto loops = boundary(arrangement_, [&](std::span<const int> w) { return filled(w, !up) && !filled(w, up); });
+        const auto loops =
+            boundary(arrangement_, [&](std::span<const int> w) { return filled(w, !up) && !filled(w, up); });
         if (!loops) return false;
         addCap(frame, mesh, *loops, level, up);
       }

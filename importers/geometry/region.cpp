@@ -30,9 +30,12 @@ void clean(Loop2& loop) {
   for (bool changed = true; changed && kept.size() - first >= 3;) {
     const std::size_t n = kept.size();
     changed = true;
-    if ((kept[n - 1] - kept[first]).norm() <= kSamePoint_m || isSpike(kept[n - 2], kept[n - 1], kept[first])) kept.pop_back();
-    else if (isSpike(kept[n - 1], kept[first], kept[first + 1])) ++first;
-    else changed = false;
+    if ((kept[n - 1] - kept[first]).norm() <= kSamePoint_m || isSpike(kept[n - 2], kept[n - 1], kept[first]))
+      kept.pop_back();
+    else if (isSpike(kept[n - 1], kept[first], kept[first + 1]))
+      ++first;
+    else
+      changed = false;
   }
   loop.assign(kept.begin() + static_cast<std::ptrdiff_t>(first), kept.end());
   if (loop.size() < 3 || signedArea(loop) == 0) loop.clear();

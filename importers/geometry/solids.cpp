@@ -41,8 +41,10 @@ void cap(Sections& s, std::uint32_t section, bool reversed) {
     std::vector<std::uint32_t> loop(s.loop_sizes[l]);
     for (std::uint32_t& i : loop) i = next++;
     if (reversed) std::reverse(loop.begin(), loop.end());
-    if (l == 0) face.outer = std::move(loop);
-    else face.holes.push_back(std::move(loop));
+    if (l == 0)
+      face.outer = std::move(loop);
+    else
+      face.holes.push_back(std::move(loop));
   }
   s.mesh.faces.push_back(std::move(face));
 }
@@ -62,8 +64,10 @@ void join(Sections& s, std::uint32_t from, std::uint32_t to) {
 PolyMesh joinSections(Sections s, std::uint32_t count, bool closed) {
   if (!closed) cap(s, 0, true);
   for (std::uint32_t i = 0; i + 1 < count; ++i) join(s, i, i + 1);
-  if (closed) join(s, count - 1, 0);
-  else cap(s, count - 1, false);
+  if (closed)
+    join(s, count - 1, 0);
+  else
+    cap(s, count - 1, false);
   if (volume(s.mesh) < 0) flip(s.mesh);
   return std::move(s.mesh);
 }
@@ -113,7 +117,8 @@ PolyMesh extrudeTapered(const Region2& from, const Region2& to, const Eigen::Vec
 
 Result<PolyMesh> loft(std::span<const Region2> profiles, std::span<const Eigen::Isometry3d> frames, bool closed) {
   if (profiles.size() != frames.size() || profiles.size() < (closed ? 3u : 2u)) {
-    return failure(ErrorKind::unusable, "a loft needs a frame for each of its profiles, and at least two (closed: three)");
+    return failure(ErrorKind::unusable,
+                   "a loft needs a frame for each of its profiles, and at least two (closed: three)");
   }
   Sections s;
   for (std::size_t k = 0; k < profiles.size(); ++k) {
@@ -148,7 +153,8 @@ PolyMesh revolve(const Region2& profile, const Eigen::Vector3d& axis_point, cons
       const Eigen::Vector3d arm = Eigen::Vector3d(p.x(), p.y(), 0) - axis_point;
       const double distance = axis_unit.cross(arm).norm();
       on_axis.push_back(distance < kSnap_m);
-      section.push_back(on_axis.back() ? Eigen::Vector3d(axis_point + axis_unit * axis_unit.dot(arm)) : arm + axis_point);
+      section.push_back(on_axis.back() ? Eigen::Vector3d(axis_point + axis_unit * axis_unit.dot(arm))
+                                       : arm + axis_point);
       radius = std::max(radius, distance);
     }
   }
@@ -156,7 +162,8 @@ PolyMesh revolve(const Region2& profile, const Eigen::Vector3d& axis_point, cons
   const int segments = segmentCount(radius, angle_rad, tessellation);
   const int sections = closed ? segments : segments + 1;
   for (int k = 0; k < sections; ++k) {
-    const Eigen::AngleAxisd turn((closed ? std::copysign(kFullCircle_rad, angle_rad) : angle_rad) * k / segments, axis_unit);
+    const Eigen::AngleAxisd turn((closed ? std::copysign(kFullCircle_rad, angle_rad) : angle_rad) * k / segments,
+                                 axis_unit);
     for (const Eigen::Vector3d& p : section) s.mesh.points.push_back(axis_point + turn * (p - axis_point));
   }
   PolyMesh mesh = joinSections(s, static_cast<std::uint32_t>(sections), closed);
@@ -169,8 +176,10 @@ PolyMesh revolve(const Region2& profile, const Eigen::Vector3d& axis_point, cons
   for (Face& face : std::exchange(mesh.faces, {})) {
     weld(face.outer);
     for (auto& hole : face.holes) weld(hole);
-    if (face.holes.empty()) addFace(mesh, std::move(face.outer));
-    else mesh.faces.push_back(std::move(face));
+    if (face.holes.empty())
+      addFace(mesh, std::move(face.outer));
+    else
+      mesh.faces.push_back(std::move(face));
   }
   return mesh;
 }
@@ -217,7 +226,8 @@ PolyMesh sphere(double radius_m, const Tessellation& tessellation) {
   const auto at = [n](std::uint32_t stack, std::uint32_t i) { return 1 + (stack - 1) * n + i % n; };
   for (std::uint32_t i = 0; i < n; ++i) {
     addFace(mesh, {0, at(1, i + 1), at(1, i)});
-    for (std::uint32_t k = 1; k + 1 < stacks; ++k) addFace(mesh, {at(k, i), at(k, i + 1), at(k + 1, i + 1), at(k + 1, i)});
+    for (std::uint32_t k = 1; k + 1 < stacks; ++k)
+      addFace(mesh, {at(k, i), at(k, i + 1), at(k + 1, i + 1), at(k + 1, i)});
     addFace(mesh, {at(stacks - 1, i), at(stacks - 1, i + 1), top});
   }
   return mesh;
@@ -226,7 +236,8 @@ PolyMesh sphere(double radius_m, const Tessellation& tessellation) {
 PolyMesh pyramid(double x_m, double y_m, double height_m) {
   PolyMesh mesh;
   mesh.points = {{0, 0, 0}, {x_m, 0, 0}, {x_m, y_m, 0}, {0, y_m, 0}, {x_m / 2, y_m / 2, height_m}};
-  for (std::vector<std::uint32_t> loop : {std::vector<std::uint32_t>{3, 2, 1, 0}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}) {
+  for (std::vector<std::uint32_t> loop :
+       {std::vector<std::uint32_t>{3, 2, 1, 0}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}) {
     addFace(mesh, std::move(loop));
   }
   if (volume(mesh) < 0) flip(mesh);

@@ -26,9 +26,11 @@ Eigen::Vector3d mitreNormal(const Eigen::Vector3d& in, const Eigen::Vector3d& ou
   return sum.norm() > 0.2 ? sum.normalized() : in;
 }
 
-Ring slide(const Ring& ring, const Eigen::Vector3d& direction, const Eigen::Vector3d& on_plane, const Eigen::Vector3d& normal) {
+Ring slide(const Ring& ring, const Eigen::Vector3d& direction, const Eigen::Vector3d& on_plane,
+           const Eigen::Vector3d& normal) {
   Ring moved;
-  for (const Eigen::Vector3d& p : ring) moved.push_back(p + direction * ((on_plane - p).dot(normal) / direction.dot(normal)));
+  for (const Eigen::Vector3d& p : ring)
+    moved.push_back(p + direction * ((on_plane - p).dot(normal) / direction.dot(normal)));
   return moved;
 }
 
@@ -42,14 +44,17 @@ Ring circleAround(const Eigen::Vector3d& centre, const Eigen::Vector3d& directio
   return ring;
 }
 
-std::vector<Ring> ringsAlong(const std::vector<Eigen::Vector3d>& path, bool closed, double radius_m, int segments, const EndNormals& ends) {
+std::vector<Ring> ringsAlong(const std::vector<Eigen::Vector3d>& path, bool closed, double radius_m, int segments,
+                             const EndNormals& ends) {
   const std::size_t n = path.size();
   const auto direction = [&](std::size_t i) { return Eigen::Vector3d((path[(i + 1) % n] - path[i % n]).normalized()); };
   std::vector<Ring> rings;
   Eigen::Vector3d current = direction(0);
   rings.push_back(circleAround(path[0], current, radius_m, segments));
-  if (closed) rings[0] = slide(rings[0], current, path[0], mitreNormal(direction(n - 1), current));
-  else if (ends.start_unit.dot(current) > 0.5) rings[0] = slide(rings[0], current, path[0], ends.start_unit);
+  if (closed)
+    rings[0] = slide(rings[0], current, path[0], mitreNormal(direction(n - 1), current));
+  else if (ends.start_unit.dot(current) > 0.5)
+    rings[0] = slide(rings[0], current, path[0], ends.start_unit);
   const std::size_t last = closed ? n : n - 1;
   for (std::size_t i = 1; i <= last; ++i) {
     const bool at_end = !closed && i == last;
@@ -81,7 +86,9 @@ void tube(PolyMesh& mesh, std::vector<Ring> rings, bool closed, bool inner, Face
   for (std::uint32_t k = 0; k + (closed ? 0 : 1) < count; ++k) {
     const bool closing = k + 1 == count;
     const auto here = [&](std::uint32_t i) { return base + k * n + i % n; };
-    const auto there = [&](std::uint32_t i) { return base + (closing ? 0 : (k + 1) * n) + (i + (closing ? shift : 0)) % n; };
+    const auto there = [&](std::uint32_t i) {
+      return base + (closing ? 0 : (k + 1) * n) + (i + (closing ? shift : 0)) % n;
+    };
     for (std::uint32_t i = 0; i < n; ++i) {
       std::vector<std::uint32_t> quad{here(i), here(i + 1), there(i + 1), there(i)};
       if (inner) std::reverse(quad.begin(), quad.end());
@@ -93,8 +100,10 @@ void tube(PolyMesh& mesh, std::vector<Ring> rings, bool closed, bool inner, Face
     std::vector<std::uint32_t> loop(n);
     for (std::uint32_t i = 0; i < n; ++i) loop[i] = base + (end == 0 ? 0 : (count - 1) * n) + i;
     if ((end == 0) != inner) std::reverse(loop.begin(), loop.end());
-    if (inner) caps[end].holes.push_back(std::move(loop));
-    else caps[end].outer = std::move(loop);
+    if (inner)
+      caps[end].holes.push_back(std::move(loop));
+    else
+      caps[end].outer = std::move(loop);
   }
 }
 

@@ -94,7 +94,8 @@ Loop withoutRepeats(std::span<const Eigen::Vector3d> points, const Loop& loop) {
 
 }  // namespace
 
-bool triangulate(std::span<const Eigen::Vector3d> points, const Face& face, std::vector<Triangle>& triangles, std::span<const std::uint32_t> inner) {
+bool triangulate(std::span<const Eigen::Vector3d> points, const Face& face, std::vector<Triangle>& triangles,
+                 std::span<const std::uint32_t> inner) {
   for (std::uint32_t i : face.outer) {
     if (i >= points.size() || !points[i].allFinite()) return false;
   }

@@ -17,19 +17,21 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
-using FaceBase = CGAL::Triangulation_face_base_with_info_2<int, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+using FaceBase =
+    CGAL::Triangulation_face_base_with_info_2<int, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
 using Tds = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 // A crossing throws instead of making a point that no index names.
 using Delaunay =
-    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Tds, CGAL::No_constraint_intersection_requiring_constructions_tag>;
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Tds,
+                                               CGAL::No_constraint_intersection_requiring_constructions_tag>;
 
 constexpr std::size_t kMaxQuestions = 2'000'000'000;  // groups times points: some seconds
 
 using EdgeList = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 struct Flat {
-  std::vector<Eigen::Vector2d> points;    // in the order of the loops
-  std::vector<std::uint32_t> index;       // into the caller's points
+  std::vector<Eigen::Vector2d> points;  // in the order of the loops
+  std::vector<std::uint32_t> index;     // into the caller's points
   std::vector<Loop2> loops;
   EdgeList edges;
   std::vector<std::pair<Eigen::Vector2d, std::uint32_t>> inner;
@@ -92,8 +94,8 @@ bool emitInside(Delaunay& delaunay, const Flat& flat, std::vector<Triangle>& tri
     if (seed->info() != 0) continue;
     if (++questions * flat.points.size() > kMaxQuestions) return false;
     const Faces group = reach(seed);
-    const auto largest = *std::max_element(group.begin(), group.end(),
-                                           [](auto f, auto g) { return doubledArea(f) < doubledArea(g); });
+    const auto largest =
+        *std::max_element(group.begin(), group.end(), [](auto f, auto g) { return doubledArea(f) < doubledArea(g); });
     const auto middle = CGAL::centroid(delaunay.triangle(largest));
     if (!isInside(flat, {middle.x(), middle.y()})) continue;
     for (const auto& f : group) {
@@ -140,7 +142,8 @@ bool delaunayOf(const Flat& flat, const EdgeList& edges, std::vector<Triangle>& 
 }  // namespace
 
 bool triangulateHard(std::span<const Eigen::Vector3d> points, const std::vector<std::vector<std::uint32_t>>& loops,
-                     std::span<const std::uint32_t> inner, const Projection& projection, std::vector<Triangle>& triangles) {
+                     std::span<const std::uint32_t> inner, const Projection& projection,
+                     std::vector<Triangle>& triangles) {
   Flat flat = flatten(points, loops, projection);
   for (const auto i : inner) flat.inner.emplace_back(projection(points[i]), i);
   if (delaunayOf(flat, flat.edges, triangles)) return true;

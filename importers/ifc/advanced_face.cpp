@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Faces on curved surfaces: the bounds are brought into the surface's parameters, triangulated there, and the triangles
-// split along edges that leave the surface. An edge is split by a rule that only looks at its ends, so neighbours agree;
-// edges of the bounds are never split, because the next face shares them.
+// split along edges that leave the surface. An edge is split by a rule that only looks at its ends, so neighbours
+// agree; edges of the bounds are never split, because the next face shares them.
 #include <algorithm>
 #include <map>
 #include <numbers>
@@ -28,20 +28,24 @@ Edge edge(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a
 struct UvLoop {
   std::vector<Uv> uv;
   std::vector<Eigen::Vector3d> points;
-  Uv drift = Uv::Zero();     // how far it is from closing: a whole period where it runs around
+  Uv drift = Uv::Zero();  // how far it is from closing: a whole period where it runs around
 };
 
 // The parameter that has no value at a pole, where a whole line of the parameters is one point; −1: this is none.
 int undefinedAt(const ParametricSurface& surface, const Uv& uv) {
   for (const int k : {0, 1})
-    if (surface.period()[k] > 0 && (surface.at(uv + Uv::Unit(k) * surface.period()[k] / 4) - surface.at(uv)).norm() < 1e-7) return k;
+    if (surface.period()[k] > 0 &&
+        (surface.at(uv + Uv::Unit(k) * surface.period()[k] / 4) - surface.at(uv)).norm() < 1e-7)
+      return k;
   return -1;
 }
 
 UvLoop toParameters(std::vector<Eigen::Vector3d> points, const ParametricSurface& surface) {
   UvLoop loop;
   Uv near = surface.low().x() < surface.high().x() ? Uv((surface.low() + surface.high()) / 2) : Uv(Uv::Zero());
-  const auto regular = std::find_if(points.begin(), points.end(), [&](const auto& p) { return undefinedAt(surface, surface.parameters(p, near)) < 0; });
+  const auto regular = std::find_if(points.begin(), points.end(), [&](const auto& p) {
+    return undefinedAt(surface, surface.parameters(p, near)) < 0;
+  });
   if (regular != points.end()) std::rotate(points.begin(), regular, points.end());
   const auto append = [&](const Uv& uv, const Eigen::Vector3d& p) { loop.uv.push_back(uv), loop.points.push_back(p); };
   // A pole is passed along its line, from where the bound arrives to where it leaves.
@@ -75,7 +79,9 @@ UvLoop toParameters(std::vector<Eigen::Vector3d> points, const ParametricSurface
     while (back + 1 < loop.uv.size() && loop.points[back + 1] == loop.points[left_at]) ++back;
     const Uv turn = loop.uv[back] - arrived;
     for (std::size_t i = left_at; i < loop.uv.size(); ++i)
-      loop.uv[i] = i > back ? Uv(loop.uv[i] - loop.drift) : Uv(arrived + (turn - loop.drift) * static_cast<double>(i + 1 - left_at) / static_cast<double>(back + 1 - left_at));
+      loop.uv[i] = i > back ? Uv(loop.uv[i] - loop.drift)
+                            : Uv(arrived + (turn - loop.drift) * static_cast<double>(i + 1 - left_at) /
+                                               static_cast<double>(back + 1 - left_at));
     loop.drift.setZero();
   }
   return loop;
@@ -142,7 +148,7 @@ bool joinRings(std::vector<UvLoop>& loops, double period) {
 // A lattice in the parameters on which chords keep to the surface.
 struct Lattice {
   Uv low = Uv::Zero(), step = Uv::Zero();
-  Eigen::Vector2i count = Eigen::Vector2i::Ones();   // of steps
+  Eigen::Vector2i count = Eigen::Vector2i::Ones();  // of steps
 };
 
 // A chord over a step h is |S''| h² / 8 off; half of the error is left to the diagonals.
@@ -161,7 +167,8 @@ Lattice latticeOver(const std::vector<UvLoop>& loops, const ParametricSurface& s
       const Uv off = Uv::Unit(k) * d;
       bend = std::max(bend, (surface.at(at + off) - 2 * surface.at(at) + surface.at(at - off)).norm() / (d * d));
     }
-    lattice.count[k] = static_cast<int>(std::clamp(std::ceil(box.sizes()[k] * std::sqrt(bend / (4 * chord_error_m))), 1.0, double{kMostSteps}));
+    lattice.count[k] = static_cast<int>(
+        std::clamp(std::ceil(box.sizes()[k] * std::sqrt(bend / (4 * chord_error_m))), 1.0, double{kMostSteps}));
     lattice.step[k] = box.sizes()[k] / lattice.count[k];
   }
   return lattice;
@@ -172,9 +179,10 @@ double squaredDistance(const Uv& p, const Uv& a, const Uv& b) {
   return (a + (b - a) * t - p).squaredNorm();
 }
 
-// Lattice points within the loops, a third of a step off them. Where a surface bends both ways, corners on the bounds alone
-// leave long triangles, which no halving of their edges brings onto it.
-std::vector<std::uint32_t> innerPoints(const std::vector<UvLoop>& loops, const Lattice& lattice, const ParametricSurface& surface, Patch& patch) {
+// Lattice points within the loops, a third of a step off them. Where a surface bends both ways, corners on the bounds
+// alone leave long triangles, which no halving of their edges brings onto it.
+std::vector<std::uint32_t> innerPoints(const std::vector<UvLoop>& loops, const Lattice& lattice,
+                                       const ParametricSurface& surface, Patch& patch) {
   const auto inSteps = [&](const Uv& p) { return Uv((p - lattice.low).cwiseQuotient(lattice.step)); };
   std::vector<geometry::Loop2> scaled;
   for (const auto& loop : loops)
@@ -186,7 +194,7 @@ std::vector<std::uint32_t> innerPoints(const std::vector<UvLoop>& loops, const L
       for (std::size_t i = 0; i < loop.size(); ++i)
         if (squaredDistance(p, loop[i], loop[(i + 1) % loop.size()]) < 1.0 / 9) return false;
     }
-    return crossings == 1;   // within the outline and in no hole
+    return crossings == 1;  // within the outline and in no hole
   };
   std::vector<std::uint32_t> inner;
   for (int i = 1; i < lattice.count.x(); ++i)
@@ -199,9 +207,10 @@ std::vector<std::uint32_t> innerPoints(const std::vector<UvLoop>& loops, const L
   return inner;
 }
 
-// Triangulates in the parameters: in steps of the lattice where the surface bends both ways, else stretched to about the
-// lengths they have in space.
-bool triangulateLoops(const std::vector<UvLoop>& loops, const ParametricSurface& surface, double chord_error_m, Patch& patch) {
+// Triangulates in the parameters: in steps of the lattice where the surface bends both ways, else stretched to about
+// the lengths they have in space.
+bool triangulateLoops(const std::vector<UvLoop>& loops, const ParametricSurface& surface, double chord_error_m,
+                      Patch& patch) {
   geometry::Face face;
   for (const UvLoop& loop : loops) {
     std::vector<std::uint32_t> indices;
@@ -210,7 +219,8 @@ bool triangulateLoops(const std::vector<UvLoop>& loops, const ParametricSurface&
       patch.uv.push_back(loop.uv[i]);
       patch.points.push_back(loop.points[i]);
     }
-    for (std::size_t i = 0; i < indices.size(); ++i) patch.is_bound[edge(indices[i], indices[(i + 1) % indices.size()])] = true;
+    for (std::size_t i = 0; i < indices.size(); ++i)
+      patch.is_bound[edge(indices[i], indices[(i + 1) % indices.size()])] = true;
     (face.outer.empty() ? face.outer : face.holes.emplace_back()) = std::move(indices);
   }
   const Lattice lattice = latticeOver(loops, surface, chord_error_m);
@@ -221,7 +231,8 @@ bool triangulateLoops(const std::vector<UvLoop>& loops, const ParametricSurface&
     scale = lattice.step.cwiseInverse();
   } else {
     const Uv middle = loops[0].uv[0], h(1e-3, 1e-3);
-    const double su = (surface.at(middle + Uv(h.x(), 0)) - surface.at(middle)).norm() / h.x(), sv = (surface.at(middle + Uv(0, h.y())) - surface.at(middle)).norm() / h.y();
+    const double su = (surface.at(middle + Uv(h.x(), 0)) - surface.at(middle)).norm() / h.x(),
+                 sv = (surface.at(middle + Uv(0, h.y())) - surface.at(middle)).norm() / h.y();
     scale = {su > 1e-9 ? su : 1, sv > 1e-9 ? sv : 1};
   }
   std::vector<Eigen::Vector3d> flat;
@@ -243,7 +254,8 @@ bool split(Patch& patch, const ParametricSurface& surface, double tolerance) {
   for (const Triangle& t : patch.triangles)
     for (int k = 0; k < 3; ++k) {
       const Edge e = edge(t[k], t[(k + 1) % 3]);
-      if (patch.is_bound.contains(e) || middle.contains(e) || !leaves(patch, surface, e.first, e.second, tolerance)) continue;
+      if (patch.is_bound.contains(e) || middle.contains(e) || !leaves(patch, surface, e.first, e.second, tolerance))
+        continue;
       middle[e] = static_cast<std::uint32_t>(patch.uv.size());
       patch.uv.push_back((patch.uv[e.first] + patch.uv[e.second]) / 2);
       patch.points.push_back(surface.at(patch.uv.back()));
@@ -256,10 +268,12 @@ bool split(Patch& patch, const ParametricSurface& surface, double tolerance) {
     std::size_t start = 0;
     for (int k = 0; k < 3; ++k) {
       ring.push_back(t[k]);
-      if (const auto it = middle.find(edge(t[k], t[(k + 1) % 3])); it != middle.end()) start = ring.size(), ring.push_back(it->second);
+      if (const auto it = middle.find(edge(t[k], t[(k + 1) % 3])); it != middle.end())
+        start = ring.size(), ring.push_back(it->second);
     }
     for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
-      const Triangle part{ring[start % ring.size()], ring[(start + i) % ring.size()], ring[(start + i + 1) % ring.size()]};
+      const Triangle part{ring[start % ring.size()], ring[(start + i) % ring.size()],
+                          ring[(start + i + 1) % ring.size()]};
       next.push_back(part);
     }
   }
@@ -269,25 +283,34 @@ bool split(Patch& patch, const ParametricSurface& surface, double tolerance) {
 
 }  // namespace
 
-Result<void> appendOnSurface(geometry::PolyMesh& mesh, const ParametricSurface& on, const Outlines& outlines, bool turned, const Entity& face, Scope& scope) {
+Result<void> appendOnSurface(geometry::PolyMesh& mesh, const ParametricSurface& on, const Outlines& outlines,
+                             bool turned, const Entity& face, Scope& scope) {
   std::vector<UvLoop> loops;
   for (const auto& points : outlines)
     if (points.size() >= 3) loops.push_back(toParameters(points, on));
-  if (loops.empty()) return {};   // a face without area is no loss
+  if (loops.empty()) return {};  // a face without area is no loss
   if (!liesOn(loops, on)) return fail(face, "the bounds of the face do not lie on its surface");
-  if (!joinRings(loops, on.period().maxCoeff())) return fail(face, "a face whose bound runs around its surface is not supported here");
-  std::stable_sort(loops.begin(), loops.end(), [](const UvLoop& a, const UvLoop& b) { return std::abs(area2(a.uv)) > std::abs(area2(b.uv)); });
+  if (!joinRings(loops, on.period().maxCoeff()))
+    return fail(face, "a face whose bound runs around its surface is not supported here");
+  std::stable_sort(loops.begin(), loops.end(),
+                   [](const UvLoop& a, const UvLoop& b) { return std::abs(area2(a.uv)) > std::abs(area2(b.uv)); });
   Patch patch;
-  if (!triangulateLoops(loops, on, scope.tessellation.chord_error_m, patch)) return fail(face, "the face could not be triangulated");
+  if (!triangulateLoops(loops, on, scope.tessellation.chord_error_m, patch))
+    return fail(face, "the face could not be triangulated");
   constexpr std::size_t kMostTriangles = 20000;
   bool fine = false;
-  for (int round = 0; !fine && round < 10 && patch.triangles.size() < kMostTriangles; ++round) fine = !split(patch, on, scope.tessellation.chord_error_m);
-  if (!fine) scope.report.note(face.place(), "the face has " + std::to_string(patch.triangles.size()) + " triangles and is still coarser than the chord error");
+  for (int round = 0; !fine && round < 10 && patch.triangles.size() < kMostTriangles; ++round)
+    fine = !split(patch, on, scope.tessellation.chord_error_m);
+  if (!fine)
+    scope.report.note(face.place(), "the face has " + std::to_string(patch.triangles.size()) +
+                                        " triangles and is still coarser than the chord error");
   if (!scope.spend(patch.points.size())) return fail(face, "too many points");
   const auto base = static_cast<std::uint32_t>(mesh.points.size());
   mesh.points.insert(mesh.points.end(), patch.points.begin(), patch.points.end());
   for (const Triangle& t : patch.triangles) {
-    if (patch.points[t[0]] == patch.points[t[1]] || patch.points[t[1]] == patch.points[t[2]] || patch.points[t[2]] == patch.points[t[0]]) continue;   // at a pole
+    if (patch.points[t[0]] == patch.points[t[1]] || patch.points[t[1]] == patch.points[t[2]] ||
+        patch.points[t[2]] == patch.points[t[0]])
+      continue;  // at a pole
     geometry::Face f;
     f.outer = {base + t[0], base + t[1], base + t[2]};
     if (turned) std::swap(f.outer[1], f.outer[2]);

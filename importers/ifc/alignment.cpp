@@ -76,16 +76,19 @@ Result<Eigen::Isometry3d> placeAlong(const Entity& position, const Path& directr
   const Offsets o = offsetsAt(position, scope);
   const Station s = stationAt(directrix, o.along);
   const Eigen::Vector3d forward = s.tangent;
-  // A stated Axis is the exact one, and exporters count the cant into it; only where there is none the curve's own counts.
+  // A stated Axis is the exact one, and exporters count the cant into it; only where there is none the curve's own
+  // counts.
   const bool has_axis = position.is("IFCAXIS2PLACEMENTLINEAR") && position.ref(1);
-  const Eigen::Vector3d left = (has_axis ? Eigen::Vector3d(Eigen::Vector3d::UnitZ()) : s.up).cross(forward).normalized();
+  const Eigen::Vector3d left =
+      (has_axis ? Eigen::Vector3d(Eigen::Vector3d::UnitZ()) : s.up).cross(forward).normalized();
   const Eigen::Vector3d up = forward.cross(left);
   const Eigen::Vector3d origin = s.point + left * o.lateral + up * o.vertical + forward * o.longitudinal;
   Eigen::Isometry3d f = Eigen::Isometry3d::Identity();
   f.linear() << forward, left, up;
   if (position.is("IFCAXIS2PLACEMENTLINEAR")) {
     // Axis and RefDirection are stated in the curve's own frame at that place.
-    const Eigen::Vector3d z = direction(position.ref(1), Eigen::Vector3d::UnitZ()), x = direction(position.ref(2), Eigen::Vector3d::UnitX());
+    const Eigen::Vector3d z = direction(position.ref(1), Eigen::Vector3d::UnitZ()),
+                          x = direction(position.ref(2), Eigen::Vector3d::UnitX());
     f.linear() = f.linear() * frame(Eigen::Vector3d::Zero(), z, x).linear();
   }
   f.translation() = origin;

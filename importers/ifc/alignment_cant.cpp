@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// IfcSegmentedReferenceCurve: cant over an alignment. Between the placements of two segments the track is lifted and rolls
-// as the curvature of the segment's parent curve goes from its start to its end (IFC 4.3, 8.9.3.63).
+// IfcSegmentedReferenceCurve: cant over an alignment. Between the placements of two segments the track is lifted and
+// rolls as the curvature of the segment's parent curve goes from its start to its end (IFC 4.3, 8.9.3.63).
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -19,7 +19,8 @@ struct Cant {
 };
 
 Cant cantOf(const Entity& placement, const Scope& scope) {
-  const Eigen::Vector3d at = cartesianPoint(placement.ref(0), scope), axis = direction(placement.ref(1), Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d at = cartesianPoint(placement.ref(0), scope),
+                        axis = direction(placement.ref(1), Eigen::Vector3d::UnitZ());
   return {at.x(), at.y(), placement.is("IFCAXIS2PLACEMENT3D") ? std::atan2(axis.y(), axis.z()) : 0};
 }
 
@@ -27,8 +28,8 @@ Cant between(const Cant& a, const Cant& b, double share, double along_m) {
   return {along_m, a.lift_m + (b.lift_m - a.lift_m) * share, a.roll_rad + (b.roll_rad - a.roll_rad) * share};
 }
 
-// Into how many pieces a change is cut: 16 leave a cosine off by 0.5 % of it, and what is as wide as a track (3 m) keeps the
-// usual chord error of 1 mm where its flat pieces twist by a milliradian.
+// Into how many pieces a change is cut: 16 leave a cosine off by 0.5 % of it, and what is as wide as a track (3 m)
+// keeps the usual chord error of 1 mm where its flat pieces twist by a milliradian.
 int piecesFor(const Cant& from, const Cant& to) {
   const double lift_m = std::abs(to.lift_m - from.lift_m), roll_rad = std::abs(to.roll_rad - from.roll_rad);
   if (lift_m <= 1e-6 && roll_rad <= 1e-6) return 1;
@@ -99,7 +100,8 @@ Result<Path> segmentedReferenceCurve(const Entity& entity, Scope& scope) {
     if (i + 1 == p.size()) break;
     const double run = (p[i + 1] - p[i]).head<2>().norm();
     for (; corner < cant.size() && cant[corner].along_m < at + run; ++corner)
-      if (cant[corner].along_m > at) canted.add(p[i] + (p[i + 1] - p[i]) * ((cant[corner].along_m - at) / run), forward, cant[corner].along_m);
+      if (cant[corner].along_m > at)
+        canted.add(p[i] + (p[i + 1] - p[i]) * ((cant[corner].along_m - at) / run), forward, cant[corner].along_m);
     at += run;
   }
   if (canted.path.points.size() < 2) return fail(entity, "the curve has no length");

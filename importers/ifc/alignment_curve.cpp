@@ -12,7 +12,8 @@
 namespace standpoint::ifc {
 namespace {
 
-// A parent curve in its own plane, by a parameter in metres (arc length; for polynomials their x), with its heading there.
+// A parent curve in its own plane, by a parameter in metres (arc length; for polynomials their x), with its heading
+// there.
 struct Parent {
   std::function<Eigen::Vector2d(double)> at;
   std::function<double(double)> heading;
@@ -21,7 +22,8 @@ struct Parent {
 Parent lineParent(const Entity& line_entity) {
   const Eigen::Vector3d d = direction(line_entity.ref(1).ref(0), Eigen::Vector3d::UnitX());
   const Eigen::Vector2d along = d.head<2>().normalized();
-  return {[along](double s) { return Eigen::Vector2d(along * s); }, [along](double) { return std::atan2(along.y(), along.x()); }};
+  return {[along](double s) { return Eigen::Vector2d(along * s); },
+          [along](double) { return std::atan2(along.y(), along.x()); }};
 }
 
 Parent circleParent(double radius) {
@@ -34,7 +36,8 @@ Parent circleParent(double radius) {
 Parent headedParent(const std::function<double(double)>& heading, double start) {
   const auto at = [heading, start](double s) {
     constexpr std::array kNodes{-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831, 0.9061798459386640};
-    constexpr std::array kWeights{0.2369268850561891, 0.4786286704993665, 0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
+    constexpr std::array kWeights{0.2369268850561891, 0.4786286704993665, 0.5688888888888889, 0.4786286704993665,
+                                  0.2369268850561891};
     const int pieces = static_cast<int>(std::clamp(std::abs(heading(s) - heading(start)) * 4, 8.0, 500.0));
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     const double half = (s - start) / pieces / 2;
@@ -56,7 +59,8 @@ struct SpiralTerm {
 
 double headingOf(const std::vector<SpiralTerm>& terms, double s) {
   double sum = 0;
-  for (const SpiralTerm& t : terms) sum += (t.a_m < 0 ? -1 : 1) * std::pow(s / std::abs(t.a_m), t.order + 1) / (t.order + 1);
+  for (const SpiralTerm& t : terms)
+    sum += (t.a_m < 0 ? -1 : 1) * std::pow(s / std::abs(t.a_m), t.order + 1) / (t.order + 1);
   return sum;
 }
 
@@ -66,7 +70,10 @@ std::vector<SpiralTerm> terms(const Entity& entity, const Scope& scope) {
     if (const double a = scope.metres(entity[index].number(0)); std::abs(a) > 1e-9) found.push_back({order, a});
   };
   if (entity.is("IFCCLOTHOID")) add(1, 1);
-  const int highest = entity.is("IFCSECONDORDERPOLYNOMIALSPIRAL") ? 2 : entity.is("IFCTHIRDORDERPOLYNOMIALSPIRAL") ? 3 : entity.is("IFCSEVENTHORDERPOLYNOMIALSPIRAL") ? 7 : -1;
+  const int highest = entity.is("IFCSECONDORDERPOLYNOMIALSPIRAL")    ? 2
+                      : entity.is("IFCTHIRDORDERPOLYNOMIALSPIRAL")   ? 3
+                      : entity.is("IFCSEVENTHORDERPOLYNOMIALSPIRAL") ? 7
+                                                                     : -1;
   for (int order = highest; order >= 0; --order) add(static_cast<std::size_t>(highest - order + 1), order);
   if (entity.is("IFCSINESPIRAL")) add(2, 1), add(3, 0);
   if (entity.is("IFCCOSINESPIRAL")) add(2, 0);
@@ -78,9 +85,14 @@ std::function<double(double)> spiralHeading(const Entity& entity, double length_
   const std::vector<SpiralTerm> polynomial_part = terms(entity, scope);
   const double wave = scope.metres(entity[1].number(0)), l = std::abs(length_m);
   if (entity.is("IFCCOSINESPIRAL") && std::abs(wave) > 1e-9)
-    return [=](double s) { return headingOf(polynomial_part, s) + l / (std::numbers::pi * wave) * std::sin(std::numbers::pi * s / l); };
+    return [=](double s) {
+      return headingOf(polynomial_part, s) + l / (std::numbers::pi * wave) * std::sin(std::numbers::pi * s / l);
+    };
   if (entity.is("IFCSINESPIRAL") && std::abs(wave) > 1e-9)
-    return [=](double s) { return headingOf(polynomial_part, s) + l / (2 * std::numbers::pi * wave) * (1 - std::cos(2 * std::numbers::pi * s / l)); };
+    return [=](double s) {
+      return headingOf(polynomial_part, s) +
+             l / (2 * std::numbers::pi * wave) * (1 - std::cos(2 * std::numbers::pi * s / l));
+    };
   if (polynomial_part.empty()) return {};
   return [=](double s) { return headingOf(polynomial_part, s); };
 }
@@ -130,9 +142,10 @@ double segmentMeasure(const Value& value, const Entity& parent, const Scope& sco
 // The segment is the piece of its parent moved so that it begins at its placement (IfcCurveSegment).
 Result<Path> segmentPath(const Entity& segment, Scope& scope) {
   const Entity parent_entity = segment.ref(4);
-  const double start = segmentMeasure(segment[2], parent_entity, scope), length_m = segmentMeasure(segment[3], parent_entity, scope);
+  const double start = segmentMeasure(segment[2], parent_entity, scope),
+               length_m = segmentMeasure(segment[3], parent_entity, scope);
   Path path;
-  if (std::abs(length_m) < 1e-9) return path;   // the last segment of an alignment only marks its end
+  if (std::abs(length_m) < 1e-9) return path;  // the last segment of an alignment only marks its end
   const auto parent = parentOf(parent_entity, start, length_m, scope);
   if (!parent) return failure(parent.error());
   const double sign = length_m < 0 ? -1 : 1;
@@ -163,7 +176,8 @@ Result<Path> segmentsPath(const Entity& entity, Scope& scope) {
 
 std::function<double(double)> curvatureShare(const Entity& segment, const Scope& scope) {
   const Entity parent_entity = segment.ref(4);
-  const double start = segmentMeasure(segment[2], parent_entity, scope), length_m = segmentMeasure(segment[3], parent_entity, scope);
+  const double start = segmentMeasure(segment[2], parent_entity, scope),
+               length_m = segmentMeasure(segment[3], parent_entity, scope);
   const auto parent = parentOf(parent_entity, start, length_m, scope);
   const double step = 1e-4 * length_m;
   if (!parent || std::abs(step) < 1e-12) return [](double t) { return t; };

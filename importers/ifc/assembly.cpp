@@ -18,12 +18,13 @@ struct Assembly::Layering {
   ReferenceLine line;
 };
 
-void Assembly::add(std::uint32_t product, const Entity& entity, const std::vector<PlacedBody>& bodies, const Eigen::Vector3d& shift_m) {
+void Assembly::add(std::uint32_t product, const Entity& entity, const std::vector<PlacedBody>& bodies,
+                   const Eigen::Vector3d& shift_m) {
   if (bodies.empty()) return;
   const ProductMaterials materials = materialsOf(entity, relations_, model_);
   Layering layering;
   if (materials.usage) {
-    Report told_before;   // placements were reported with the geometry
+    Report told_before;  // placements were reported with the geometry
     layering.active = true;
     layering.product_from_file = Eigen::Affine3d(placements_.world(entity.ref(5), told_before).inverse());
     if (materials.usage->axis == 1) layering.line = referenceLine(entity, model_);
@@ -49,7 +50,7 @@ std::uint32_t Assembly::mesh(const PlacedBody& placed, const ProductMaterials& m
 std::uint32_t Assembly::plainMesh(const PlacedBody& placed, const ProductMaterials& materials) {
   const Body& body = *placed.body;
   std::map<std::uint32_t, std::uint32_t> surface_of_tag;
-  std::uint32_t last = 0, of_last = UINT32_MAX;   // tags come in runs
+  std::uint32_t last = 0, of_last = UINT32_MAX;  // tags come in runs
   Mesh m;
   m.surface_of_triangle.reserve(body.tags.size());
   for (const std::uint32_t tag : body.tags) {
@@ -70,10 +71,12 @@ std::uint32_t Assembly::plainMesh(const PlacedBody& placed, const ProductMateria
   return keep(std::move(key), std::move(m));
 }
 
-std::uint32_t Assembly::layeredMesh(const PlacedBody& placed, const ProductMaterials& materials, const Layering& layering, std::vector<double> key) {
+std::uint32_t Assembly::layeredMesh(const PlacedBody& placed, const ProductMaterials& materials,
+                                    const Layering& layering, std::vector<double> key) {
   const auto before = layered_.find({placed.body.get(), placed.style, key});
   if (before != layered_.end()) return before->second;
-  auto layered = layeredBody(*placed.body, layering.product_from_file * placed.file_from_items, materials, layering.line);
+  auto layered =
+      layeredBody(*placed.body, layering.product_from_file * placed.file_from_items, materials, layering.line);
   std::uint32_t index = 0;
   const bool pictured = isPictured(placed);
   if (!layered || pictured) {
@@ -112,11 +115,13 @@ bool Assembly::isPictured(const PlacedBody& placed) const {
   });
 }
 
-// Where the corners of a face with a list of coordinates lie on its picture; nothing when the list does not fit the face.
+// Where the corners of a face with a list of coordinates lie on its picture; nothing when the list does not fit the
+// face.
 std::optional<Assembly::Corners> Assembly::listedCorners(const Body& body, std::size_t k) {
   const auto source = model_.textures.source(body.tags[k]);
   auto it = textured_.find(source.item);
-  if (it == textured_.end()) it = textured_.emplace(source.item, TexturedItem(source, pool_.textureOf(body.tags[k]), model_)).first;
+  if (it == textured_.end())
+    it = textured_.emplace(source.item, TexturedItem(source, pool_.textureOf(body.tags[k]), model_)).first;
   const TexturedFace face = it->second.face(source.face);
   Corners on;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -128,11 +133,14 @@ std::optional<Assembly::Corners> Assembly::listedCorners(const Body& body, std::
 }
 
 Assembly::Corners Assembly::generatedCorners(const Body& body, std::size_t k, const Entity& texture) const {
-  const auto at = [&](std::size_t c) { return Eigen::Vector3d(body.positions[body.triangles[k][c]].cast<double>() + body.origin); };
+  const auto at = [&](std::size_t c) {
+    return Eigen::Vector3d(body.positions[body.triangles[k][c]].cast<double>() + body.origin);
+  };
   const Eigen::Vector3d normal = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
   Corners on;
   for (std::size_t c = 0; c < 3; ++c)
-    on[c] = onPicture(pool_.generators().at(texture.id(), at(c) / model_.units.length_m, normal), texture).cast<float>();
+    on[c] =
+        onPicture(pool_.generators().at(texture.id(), at(c) / model_.units.length_m, normal), texture).cast<float>();
   return on;
 }
 
@@ -146,15 +154,18 @@ void Assembly::placePictures(Mesh& mesh, const PlacedBody& placed_body) {
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     Corners on{Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero()};
     if (TextureMaps::isTextured(body.tags[k])) {
-      if (const auto listed = listedCorners(body, k)) on = *listed;
+      if (const auto listed = listedCorners(body, k))
+        on = *listed;
       else if (const Id item = model_.textures.source(body.tags[k]).item; lost.insert(item).second)
-        report_.lose("#" + std::to_string(item), "some faces do not fit the coordinates of their texture; the picture is not placed there");
+        report_.lose("#" + std::to_string(item),
+                     "some faces do not fit the coordinates of their texture; the picture is not placed there");
     } else if (const Entity texture = pool_.generatedTexture(body.tags[k], placed_body.style)) {
       on = generatedCorners(body, k, texture);
     }
     for (std::size_t c = 0; c < 3; ++c) {
       std::uint32_t& corner = mesh.triangles[k][c];
-      const auto [it, is_new] = placed.try_emplace({corner, on[c].x(), on[c].y()}, static_cast<std::uint32_t>(mesh.positions.size()));
+      const auto [it, is_new] =
+          placed.try_emplace({corner, on[c].x(), on[c].y()}, static_cast<std::uint32_t>(mesh.positions.size()));
       if (is_new) {
         mesh.positions.push_back(body.positions[corner]);
         mesh.texture_coordinates.push_back(on[c]);

@@ -11,7 +11,7 @@ namespace standpoint::ifc {
 struct SetAttribute {
   int index;
   const char* name;
-  const char* measure = "";      // "" where the number has no unit
+  const char* measure = "";  // "" where the number has no unit
 };
 struct AttributeSet {
   const char* entity;

@@ -28,15 +28,15 @@ struct Plan {
 // One representation's items: evaluated once, used by everybody who maps it.
 struct Shared {
   Id representation = 0;
-  bool cut = false;                        // somebody needs its items for Booleans
-  bool whole = false;                      // somebody needs it as it is
+  bool cut = false;    // somebody needs its items for Booleans
+  bool whole = false;  // somebody needs it as it is
   Items items;
   std::shared_ptr<const Body> body;
 };
 
 bool isSubtraction(const Entity& e) {
-  return e.is("IFCOPENINGELEMENT") || e.is("IFCOPENINGSTANDARDCASE") || e.is("IFCVOIDINGFEATURE") || e.is("IFCEARTHWORKSCUT") ||
-         e.typeName().ends_with("EDGEFEATURE");
+  return e.is("IFCOPENINGELEMENT") || e.is("IFCOPENINGSTANDARDCASE") || e.is("IFCVOIDINGFEATURE") ||
+         e.is("IFCEARTHWORKSCUT") || e.typeName().ends_with("EDGEFEATURE");
 }
 
 // Its own openings, and those of the wholes it is a part of: a voided wall may be made of parts that carry the body.
@@ -76,10 +76,13 @@ class Builder {
     auto parts = shape ? partsOfShape(shape, scope) : Result<std::vector<Part>>(std::vector<Part>());
     if (!shape && relations_.partsOf(e).empty() && e.ref(5)) {
       parts = partsOfType(model_.file.entity(relations_.typeOf(e)), scope);
-      if (parts && !parts->empty()) result_.report.warn(e.place(), "has no representation of its own; its type's is used");
+      if (parts && !parts->empty())
+        result_.report.warn(e.place(), "has no representation of its own; its type's is used");
     }
-    if (parts) p.parts = std::move(*parts);
-    else result_.report.lose(e.place(), "has no geometry: " + describe(parts.error()));
+    if (parts)
+      p.parts = std::move(*parts);
+    else
+      result_.report.lose(e.place(), "has no geometry: " + describe(parts.error()));
     result_.report.append(scope.report);
     if (!isSubtraction(e) && !p.parts.empty()) p.openings = openingsOf(e, relations_, model_.file);
     return p;
@@ -94,7 +97,8 @@ class Builder {
   // An opening has a body of its own, which no beam meets, and is evaluated in the host's frame for whom it cuts.
   void chooseShared() {
     for (std::size_t i = 0; i < plans_.size(); ++i) {
-      for (const Part& part : plans_[i].parts) (plans_[i].openings.empty() ? shared(part.representation).whole : shared(part.representation).cut) = true;
+      for (const Part& part : plans_[i].parts)
+        (plans_[i].openings.empty() ? shared(part.representation).whole : shared(part.representation).cut) = true;
       for (const Id id : plans_[i].openings) {
         const auto [tool, is_new] = tools_.try_emplace(id);
         if (is_new)
@@ -120,7 +124,8 @@ class Builder {
     return progress_.check();
   }
 
-  std::shared_ptr<const Body> triangulated(const std::vector<geometry::PolyMesh>& meshes, Report& report, Id place) const;
+  std::shared_ptr<const Body> triangulated(const std::vector<geometry::PolyMesh>& meshes, Report& report,
+                                           Id place) const;
 
   std::vector<geometry::PolyMesh> toolsFor(const Plan& host) {
     std::vector<geometry::PolyMesh> tools;
@@ -175,7 +180,8 @@ class Builder {
     result_.of_product.resize(products_.size());
     for (std::size_t i = 0; i < plans_.size(); ++i) {
       auto& bodies = result_.of_product[i];
-      if (!plans_[i].openings.empty()) bodies = std::move(cut_[i]);
+      if (!plans_[i].openings.empty())
+        bodies = std::move(cut_[i]);
       else
         for (const Part& part : plans_[i].parts)
           if (const auto& body = shared_[index_.at(part.representation)].body)
@@ -191,26 +197,31 @@ class Builder {
       std::size_t Repairs::*count;
       const char* what;
     };
-    constexpr std::array kKinds{Kind{&Repairs::inverted, "shells inside out, turned"},
-                                Kind{&Repairs::disagreeing, "shells with faces that ran against each other, turned to agree"},
-                                Kind{&Repairs::degenerate, "faces without area, dropped"},
-                                Kind{&Repairs::duplicate, "faces that were there twice, one of each dropped"},
-                                Kind{&Repairs::open, "shells said to be closed that are not, left open"},
-                                Kind{&Repairs::branching, "edges of more than two faces, left so"}};
+    constexpr std::array kKinds{
+        Kind{&Repairs::inverted, "shells inside out, turned"},
+        Kind{&Repairs::disagreeing, "shells with faces that ran against each other, turned to agree"},
+        Kind{&Repairs::degenerate, "faces without area, dropped"},
+        Kind{&Repairs::duplicate, "faces that were there twice, one of each dropped"},
+        Kind{&Repairs::open, "shells said to be closed that are not, left open"},
+        Kind{&Repairs::branching, "edges of more than two faces, left so"}};
     constexpr std::size_t kListed = 20;
     for (const Kind& kind : kKinds) {
-      std::vector<std::pair<std::size_t, std::size_t>> found;   // product, how many
+      std::vector<std::pair<std::size_t, std::size_t>> found;  // product, how many
       std::size_t sum = 0;
       for (std::size_t i = 0; i < plans_.size(); ++i) {
         std::size_t count = 0;
         for (const Part& part : plans_[i].parts)
-          if (const auto it = index_.find(part.representation); it != index_.end()) count += shared_[it->second].items.repairs.*kind.count;
+          if (const auto it = index_.find(part.representation); it != index_.end())
+            count += shared_[it->second].items.repairs.*kind.count;
         if (count > 0) found.emplace_back(i, count), sum += count;
       }
       for (std::size_t k = 0; k < std::min(found.size(), kListed); ++k)
-        result_.report.note(products_[found[k].first].place(), std::string(kind.what) + ": " + std::to_string(found[k].second));
+        result_.report.note(products_[found[k].first].place(),
+                            std::string(kind.what) + ": " + std::to_string(found[k].second));
       if (found.size() > kListed)
-        result_.report.note(products_[found[kListed].first].place(), "and " + std::to_string(found.size() - kListed) + " more products with " + kind.what + " (in all " + std::to_string(sum) + ")");
+        result_.report.note(products_[found[kListed].first].place(), "and " + std::to_string(found.size() - kListed) +
+                                                                         " more products with " + kind.what +
+                                                                         " (in all " + std::to_string(sum) + ")");
     }
   }
 
@@ -220,8 +231,10 @@ class Builder {
     const EntityName* name = entityName(e.typeName());
     const std::string what = schemaSpelling(e.typeName()) + " " + e[0].text();
     if (name && (name->kind == EntityKind::intangible || name->kind == EntityKind::space)) return;
-    if (plans_[i].parts.empty()) result_.report.warn(e.place(), what + " has a representation but none with a body");
-    else result_.report.lose(e.place(), what + " gave no geometry");
+    if (plans_[i].parts.empty())
+      result_.report.warn(e.place(), what + " has a representation but none with a body");
+    else
+      result_.report.lose(e.place(), what + " gave no geometry");
   }
 
   const std::vector<Entity>& products_;
@@ -230,9 +243,9 @@ class Builder {
   Progress& progress_;
   Placements placements_;
   std::vector<Plan> plans_;
-  std::map<Id, std::size_t> index_;        // representation → place in shared_
+  std::map<Id, std::size_t> index_;  // representation → place in shared_
   std::vector<Shared> shared_;
-  std::map<Id, Plan> tools_;               // openings
+  std::map<Id, Plan> tools_;  // openings
   std::vector<std::vector<PlacedBody>> cut_;
   Bodies result_;
 };
@@ -253,11 +266,12 @@ struct Problems {
 
 // An outline that crosses itself has no inside; a fan over it keeps something there for a beam to meet.
 void fan(const geometry::Face& face, std::vector<Triangle>& triangles) {
-  for (std::size_t i = 1; i + 1 < face.outer.size(); ++i) triangles.push_back({face.outer[0], face.outer[i], face.outer[i + 1]});
+  for (std::size_t i = 1; i + 1 < face.outer.size(); ++i)
+    triangles.push_back({face.outer[0], face.outer[i], face.outer[i + 1]});
 }
 
 void appendMesh(Body& body, const geometry::PolyMesh& mesh, Problems& problems) {
-  std::vector<std::uint32_t> place(mesh.points.size(), UINT32_MAX);   // only points that a triangle has are kept
+  std::vector<std::uint32_t> place(mesh.points.size(), UINT32_MAX);  // only points that a triangle has are kept
   const auto position = [&](std::uint32_t i) {
     if (place[i] == UINT32_MAX) {
       place[i] = static_cast<std::uint32_t>(body.positions.size());
@@ -268,11 +282,18 @@ void appendMesh(Body& body, const geometry::PolyMesh& mesh, Problems& problems) 
   std::vector<Triangle> triangles;
   for (const geometry::Face& face : mesh.faces) {
     triangles.clear();
-    const auto usable = [&](const std::vector<std::uint32_t>& loop) { return std::all_of(loop.begin(), loop.end(), [&](std::uint32_t i) { return isFinite(mesh.points[i]); }); };
+    const auto usable = [&](const std::vector<std::uint32_t>& loop) {
+      return std::all_of(loop.begin(), loop.end(), [&](std::uint32_t i) { return isFinite(mesh.points[i]); });
+    };
     const bool finite = usable(face.outer) && std::all_of(face.holes.begin(), face.holes.end(), usable);
-    if (!finite) { ++problems.infinite; continue; }
-    if (face.outer.size() == 3 && face.holes.empty()) triangles.push_back({face.outer[0], face.outer[1], face.outer[2]});
-    else if (!geometry::triangulate(mesh.points, face, triangles)) ++problems.fanned, triangles.clear(), fan(face, triangles);
+    if (!finite) {
+      ++problems.infinite;
+      continue;
+    }
+    if (face.outer.size() == 3 && face.holes.empty())
+      triangles.push_back({face.outer[0], face.outer[1], face.outer[2]});
+    else if (!geometry::triangulate(mesh.points, face, triangles))
+      ++problems.fanned, triangles.clear(), fan(face, triangles);
     for (const Triangle& t : triangles) {
       body.triangles.push_back({position(t[0]), position(t[1]), position(t[2])});
       body.tags.push_back(face.tag);
@@ -280,7 +301,8 @@ void appendMesh(Body& body, const geometry::PolyMesh& mesh, Problems& problems) 
   }
 }
 
-std::shared_ptr<const Body> Builder::triangulated(const std::vector<geometry::PolyMesh>& meshes, Report& report, Id place) const {
+std::shared_ptr<const Body> Builder::triangulated(const std::vector<geometry::PolyMesh>& meshes, Report& report,
+                                                  Id place) const {
   auto body = std::make_shared<Body>();
   for (const auto& mesh : meshes)
     for (const auto& face : mesh.faces)
@@ -290,14 +312,17 @@ std::shared_ptr<const Body> Builder::triangulated(const std::vector<geometry::Po
   Problems problems;
   for (const auto& mesh : meshes) appendMesh(*body, mesh, problems);
   const std::string where = "#" + std::to_string(place);
-  if (problems.fanned > 0) report.warn(where, std::to_string(problems.fanned) + " faces cross themselves and are drawn as fans");
-  if (problems.infinite > 0) report.lose(where, std::to_string(problems.infinite) + " faces have coordinates that are no finite numbers");
+  if (problems.fanned > 0)
+    report.warn(where, std::to_string(problems.fanned) + " faces cross themselves and are drawn as fans");
+  if (problems.infinite > 0)
+    report.lose(where, std::to_string(problems.infinite) + " faces have coordinates that are no finite numbers");
   return body->triangles.empty() ? nullptr : body;
 }
 
 }  // namespace
 
-Result<Bodies> buildBodies(const std::vector<Entity>& products, const Relations& relations, const Model& model, Progress& progress) {
+Result<Bodies> buildBodies(const std::vector<Entity>& products, const Relations& relations, const Model& model,
+                           Progress& progress) {
   return Builder(products, relations, model, progress).run();
 }
 

@@ -30,7 +30,8 @@ Result<geometry::PolyMesh> curveBoundedPlane(const Entity& entity, Scope& scope)
   geometry::Face face;
   appendLoop(mesh, *outer, face.outer);
   for (const Entity& boundary : entity.refs(2))
-    if (const auto inner = curve(boundary, scope); inner && inner->points.size() >= 3) appendLoop(mesh, *inner, face.holes.emplace_back());
+    if (const auto inner = curve(boundary, scope); inner && inner->points.size() >= 3)
+      appendLoop(mesh, *inner, face.holes.emplace_back());
   mesh.faces.push_back(std::move(face));
   geometry::transform(mesh, Eigen::Affine3d(axisPlacement(plane.ref(0), scope)));
   return mesh;
@@ -62,7 +63,8 @@ void orderBounds(double& a, double& b, bool forward, double period) {
 }
 
 // Into how many equal pieces a range of one parameter has to be cut for chords to keep the tolerance.
-int piecesAlong(const ParametricSurface& on, const Eigen::Vector2d& low, const Eigen::Vector2d& high, int axis, double tolerance_m) {
+int piecesAlong(const ParametricSurface& on, const Eigen::Vector2d& low, const Eigen::Vector2d& high, int axis,
+                double tolerance_m) {
   constexpr int kMost = 256, kLines = 4;
   const auto at = [&](double t, int line) {
     Eigen::Vector2d share = Eigen::Vector2d::Constant(static_cast<double>(line) / kLines);
@@ -75,7 +77,8 @@ int piecesAlong(const ParametricSurface& on, const Eigen::Vector2d& low, const E
       for (int line = 0; line <= kLines; ++line) {
         const double a = static_cast<double>(i) / n, b = static_cast<double>(i + 1) / n;
         const Eigen::Vector3d from = at(a, line), to = at(b, line);
-        for (const double t : {0.25, 0.5, 0.75}) off = std::max(off, (from + (to - from) * t - at(a + (b - a) * t, line)).norm());
+        for (const double t : {0.25, 0.5, 0.75})
+          off = std::max(off, (from + (to - from) * t - at(a + (b - a) * t, line)).norm());
       }
     if (off <= tolerance_m) return n;
   }
@@ -88,22 +91,30 @@ Result<geometry::PolyMesh> rectangularTrimmedSurface(const Entity& entity, Scope
   const auto on = surface(entity.ref(0), scope);
   if (!on) return failure(on.error());
   const auto bound = [&](std::size_t u, std::size_t v) {
-    return (*on)->fromFile({entity[u].number(0), entity[v].number(0)}, scope.model.units.length_m, scope.model.units.angle_rad);
+    return (*on)->fromFile({entity[u].number(0), entity[v].number(0)}, scope.model.units.length_m,
+                           scope.model.units.angle_rad);
   };
   auto low = bound(1, 2), high = bound(3, 4);
-  if (!low || !high) return fail(entity, "trims in the parameters of " + std::string(entity.ref(0).typeName()) + " are not supported");
-  for (const int k : {0, 1}) orderBounds((*low)[k], (*high)[k], entity[k == 0 ? 5 : 6].symbol() != "F", (*on)->period()[k]);
-  const int nu = piecesAlong(**on, *low, *high, 0, scope.tessellation.chord_error_m), nv = piecesAlong(**on, *low, *high, 1, scope.tessellation.chord_error_m);
-  if (!scope.spend(static_cast<std::size_t>(nu + 1) * static_cast<std::size_t>(nv + 1))) return fail(entity, "too many points");
+  if (!low || !high)
+    return fail(entity, "trims in the parameters of " + std::string(entity.ref(0).typeName()) + " are not supported");
+  for (const int k : {0, 1})
+    orderBounds((*low)[k], (*high)[k], entity[k == 0 ? 5 : 6].symbol() != "F", (*on)->period()[k]);
+  const int nu = piecesAlong(**on, *low, *high, 0, scope.tessellation.chord_error_m),
+            nv = piecesAlong(**on, *low, *high, 1, scope.tessellation.chord_error_m);
+  if (!scope.spend(static_cast<std::size_t>(nu + 1) * static_cast<std::size_t>(nv + 1)))
+    return fail(entity, "too many points");
   geometry::PolyMesh mesh;
   for (int j = 0; j <= nv; ++j)
     for (int i = 0; i <= nu; ++i)
-      mesh.points.push_back((*on)->at(*low + (*high - *low).cwiseProduct(Eigen::Vector2d(static_cast<double>(i) / nu, static_cast<double>(j) / nv))));
+      mesh.points.push_back((*on)->at(
+          *low +
+          (*high - *low).cwiseProduct(Eigen::Vector2d(static_cast<double>(i) / nu, static_cast<double>(j) / nv))));
   const auto triangle = [&](int a, int b, int c) {
     geometry::Face face;
     for (const int i : {a, b, c}) face.outer.push_back(static_cast<std::uint32_t>(i));
     const auto& p = mesh.points;
-    if ((p[face.outer[1]] - p[face.outer[0]]).cross(p[face.outer[2]] - p[face.outer[0]]).norm() > 1e-12) mesh.faces.push_back(std::move(face));   // at a pole
+    if ((p[face.outer[1]] - p[face.outer[0]]).cross(p[face.outer[2]] - p[face.outer[0]]).norm() > 1e-12)
+      mesh.faces.push_back(std::move(face));  // at a pole
   };
   for (int j = 0; j < nv; ++j)
     for (int i = 0; i < nu; ++i) {
@@ -140,8 +151,10 @@ Result<geometry::PolyMesh> geometricSet(const Entity& entity, Scope& scope) {
     const Mapping* mapping = scope.model.mapping_of_type[element.type()];
     if (!mapping || !mapping->item) continue;
     const auto part = item(element, scope);
-    if (part) geometry::append(mesh, *part);
-    else scope.report.lose(element.place(), "has no geometry: " + part.error().message);
+    if (part)
+      geometry::append(mesh, *part);
+    else
+      scope.report.lose(element.place(), "has no geometry: " + part.error().message);
   }
   if (mesh.faces.empty()) return fail(entity, "the set holds no surface");
   return mesh;

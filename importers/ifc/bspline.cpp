@@ -108,7 +108,10 @@ Result<Path> bSplineCurve(const Entity& entity, Scope& scope) {
   Path path;
   const auto breaks = knots.breaks();
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-    const auto at = [&](double t) { const Eigen::Vector4d h = evaluate(knots, control, t); return Eigen::Vector3d(h.head<3>() / h.w()); };
+    const auto at = [&](double t) {
+      const Eigen::Vector4d h = evaluate(knots, control, t);
+      return Eigen::Vector3d(h.head<3>() / h.w());
+    };
     for (const auto& p : sample(at, breaks[i], breaks[i + 1], degree > 1 ? 2 : 1, scope).points) appendPoint(path, p);
   }
   if (path.points.size() < 2) return fail(entity, "the curve has no length");

@@ -11,11 +11,11 @@ namespace standpoint::ifc {
 
 struct KnotVector {
   int degree = 1;
-  std::vector<double> knots;                       // with multiplicities written out
+  std::vector<double> knots;  // with multiplicities written out
   double from() const { return knots[static_cast<std::size_t>(degree)]; }
   double to() const { return knots[knots.size() - 1 - static_cast<std::size_t>(degree)]; }
   std::size_t spanOf(double t) const;
-  std::vector<double> breaks() const;              // different knots within [from, to]
+  std::vector<double> breaks() const;  // different knots within [from, to]
 };
 // From the file's multiplicities and knots; uniform and clamped when those are missing or do not fit. Empty when the
 // degree does not fit the number of control points.
@@ -27,7 +27,7 @@ Eigen::Vector4d evaluate(const KnotVector& knots, const std::vector<Eigen::Vecto
 
 struct SplineSurface {
   KnotVector u, v;
-  std::vector<std::vector<Eigen::Vector4d>> control;   // [u][v]
+  std::vector<std::vector<Eigen::Vector4d>> control;  // [u][v]
   Eigen::Vector3d at(double s, double t) const;
 };
 

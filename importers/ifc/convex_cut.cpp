@@ -55,12 +55,14 @@ std::optional<std::vector<CutPlane>> planesOfConvex(geometry::PolyMesh tool) {
 }
 
 // What of one face is outside of the tool, piece by piece. A single face is an open surface, which clip leaves open.
-Result<void> appendOutside(geometry::PolyMesh& kept, const geometry::PolyMesh& host, const geometry::Face& face, const std::vector<CutPlane>& planes) {
+Result<void> appendOutside(geometry::PolyMesh& kept, const geometry::PolyMesh& host, const geometry::Face& face,
+                           const std::vector<CutPlane>& planes) {
   geometry::PolyMesh rest;
   geometry::Face own;
   own.tag = face.tag;
   const auto copy = [&](const std::vector<std::uint32_t>& from, std::vector<std::uint32_t>& to) {
-    for (const std::uint32_t i : from) to.push_back(static_cast<std::uint32_t>(rest.points.size())), rest.points.push_back(host.points[i]);
+    for (const std::uint32_t i : from)
+      to.push_back(static_cast<std::uint32_t>(rest.points.size())), rest.points.push_back(host.points[i]);
   };
   copy(face.outer, own.outer);
   for (const auto& hole : face.holes) copy(hole, own.holes.emplace_back());
@@ -82,14 +84,16 @@ bool crossesBelow(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eige
 }
 
 // By the number of crossings, seen along the strongest axis of the normal.
-bool holds(const geometry::PolyMesh& mesh, const geometry::Face& face, const CutPlane& plane, const Eigen::Vector3d& point) {
+bool holds(const geometry::PolyMesh& mesh, const geometry::Face& face, const CutPlane& plane,
+           const Eigen::Vector3d& point) {
   int axis = 0;
   plane.normal.cwiseAbs().maxCoeff(&axis);
   const auto flat = [axis](const Eigen::Vector3d& p) { return Eigen::Vector2d(p[(axis + 1) % 3], p[(axis + 2) % 3]); };
   bool in = false;
   const auto count = [&](const std::vector<std::uint32_t>& loop) {
     for (std::size_t i = 0; i < loop.size(); ++i)
-      if (crossesBelow(flat(mesh.points[loop[i]]), flat(mesh.points[loop[(i + 1) % loop.size()]]), flat(point))) in = !in;
+      if (crossesBelow(flat(mesh.points[loop[i]]), flat(mesh.points[loop[(i + 1) % loop.size()]]), flat(point)))
+        in = !in;
   };
   count(face.outer);
   for (const auto& hole : face.holes) count(hole);
@@ -97,7 +101,8 @@ bool holds(const geometry::PolyMesh& mesh, const geometry::Face& face, const Cut
 }
 
 // Whether a face of the part that goes away is a piece of the host's own surface, flush with the tool's.
-bool isOfHost(const geometry::PolyMesh& core, const geometry::Face& face, const geometry::PolyMesh& host, const CutPlane& plane) {
+bool isOfHost(const geometry::PolyMesh& core, const geometry::Face& face, const geometry::PolyMesh& host,
+              const CutPlane& plane) {
   std::vector<Triangle> triangles;
   if (!geometry::triangulate(core.points, face, triangles) || triangles.empty()) return true;
   const Triangle& t = triangles[0];
@@ -110,10 +115,12 @@ bool isOfHost(const geometry::PolyMesh& core, const geometry::Face& face, const 
   });
 }
 
-const CutPlane* planeUnder(const geometry::PolyMesh& core, const geometry::Face& face, const std::vector<CutPlane>& planes) {
+const CutPlane* planeUnder(const geometry::PolyMesh& core, const geometry::Face& face,
+                           const std::vector<CutPlane>& planes) {
   const auto own = planeOf(core, face);
   for (const CutPlane& plane : planes) {
-    const bool on = std::all_of(face.outer.begin(), face.outer.end(), [&](std::uint32_t i) { return std::abs(plane.above(core.points[i])) <= 2 * kFlat_m; });
+    const bool on = std::all_of(face.outer.begin(), face.outer.end(),
+                                [&](std::uint32_t i) { return std::abs(plane.above(core.points[i])) <= 2 * kFlat_m; });
     if (on && own && own->normal.dot(plane.normal) > 0.9) return &plane;
   }
   return nullptr;
@@ -127,7 +134,7 @@ Result<geometry::PolyMesh> subtractConvex(geometry::PolyMesh host, const std::ve
     auto next = geometry::clip(core, plane.normal, plane.offset);
     if (!next) return next;
     core = std::move(*next);
-    if (core.faces.empty()) return host;   // they only touch
+    if (core.faces.empty()) return host;  // they only touch
   }
   geometry::PolyMesh kept;
   for (const auto& face : host.faces)
@@ -166,14 +173,17 @@ Result<geometry::PolyMesh> byPlanes(const geometry::PolyMesh& host, const geomet
 }
 
 // Does what it can the simple ways; the tools that are left are put into `general`.
-geometry::PolyMesh subtractSimple(const geometry::PolyMesh& host, std::span<const geometry::PolyMesh> tools, std::vector<geometry::PolyMesh>& general) {
+geometry::PolyMesh subtractSimple(const geometry::PolyMesh& host, std::span<const geometry::PolyMesh> tools,
+                                  std::vector<geometry::PolyMesh>& general) {
   if (allFit(host, tools))
     if (auto flat = geometry::subtract(host, tools); flat && !tore(host, *flat)) return std::move(*flat);
   geometry::PolyMesh left = host;
   for (const auto& tool : tools) {
     auto cut = byPlanes(left, tool);
-    if (cut && !tore(left, *cut)) left = std::move(*cut);
-    else general.push_back(tool);
+    if (cut && !tore(left, *cut))
+      left = std::move(*cut);
+    else
+      general.push_back(tool);
   }
   return left;
 }
@@ -190,7 +200,8 @@ bool holdAll(std::span<const geometry::PolyMesh> tools, const geometry::PolyMesh
 
 }  // namespace
 
-Result<geometry::PolyMesh> subtractSimpleTools(const geometry::PolyMesh& host, std::span<const geometry::PolyMesh> tools) {
+Result<geometry::PolyMesh> subtractSimpleTools(const geometry::PolyMesh& host,
+                                               std::span<const geometry::PolyMesh> tools) {
   std::vector<geometry::PolyMesh> general;
   geometry::PolyMesh left = subtractSimple(host, tools, general);
   if (!general.empty()) return failure(ErrorKind::unusable, "a tool is not simple");
@@ -205,12 +216,14 @@ Result<geometry::PolyMesh> byKernel(const geometry::PolyMesh& host, std::span<co
   if (!cut) return cut;
   mendSeams(*cut);
   if (tore(host, *cut)) return failure(ErrorKind::unusable, "the Boolean tore the body open");
-  if (cut->faces.empty() && !holdAll(tools, host)) return failure(ErrorKind::unusable, "the Boolean left nothing of a body that reaches beyond its tools");
+  if (cut->faces.empty() && !holdAll(tools, host))
+    return failure(ErrorKind::unusable, "the Boolean left nothing of a body that reaches beyond its tools");
   return cut;
 }
 
-// A tool that will not go as it is, or leaves flaps, goes a little larger: faces and edges that only just touched, on which
-// every kernel stumbles, part. If even that fails what there was stands, with flaps, or torn but of the right volume.
+// A tool that will not go as it is, or leaves flaps, goes a little larger: faces and edges that only just touched, on
+// which every kernel stumbles, part. If even that fails what there was stands, with flaps, or torn but of the right
+// volume.
 Result<geometry::PolyMesh> subtractStubborn(const geometry::PolyMesh& host, const geometry::PolyMesh& tool) {
   auto first = byKernel(host, std::span(&tool, 1));
   if (first && !hasFlaps(*first)) return first;
@@ -237,7 +250,7 @@ Result<geometry::PolyMesh> subtractGeneral(const geometry::PolyMesh& host, std::
 Result<geometry::PolyMesh> subtractTools(const geometry::PolyMesh& host, std::span<const geometry::PolyMesh> tools) {
   std::vector<geometry::PolyMesh> general;
   geometry::PolyMesh left = subtractSimple(host, tools, general);
-  if (hasFlaps(left) && !hasFlaps(host)) {   // a side that rounding put a hair inside of the host's
+  if (hasFlaps(left) && !hasFlaps(host)) {  // a side that rounding put a hair inside of the host's
     std::vector<geometry::PolyMesh> larger, general_of_larger;
     for (const auto& tool : tools) larger.push_back(grown(tool, 2e-5));
     geometry::PolyMesh without = subtractSimple(host, larger, general_of_larger);

@@ -12,7 +12,9 @@ Result<geometry::PolyMesh> placed(const Entity& entity, geometry::PolyMesh mesh,
 
 double m(const Entity& entity, std::size_t index, const Scope& scope) { return scope.metres(entity[index].number(0)); }
 
-tl::unexpected<Error> notPositive(const Entity& entity) { return fail(entity, "a dimension of the primitive is missing or not positive"); }
+tl::unexpected<Error> notPositive(const Entity& entity) {
+  return fail(entity, "a dimension of the primitive is missing or not positive");
+}
 
 }  // namespace
 

@@ -89,8 +89,9 @@ Path sample(const std::function<Eigen::Vector3d(double)>& at, double from, doubl
       const double mid = (piece.from + piece.to) / 2;
       const Eigen::Vector3d m = at(mid);
       // Two more looks beside the middle: an S-shaped piece crosses its chord there.
-      const double off = std::max({deviation(piece.a, piece.b, m), deviation(piece.a, piece.b, at((piece.from + mid) / 2)),
-                                   deviation(piece.a, piece.b, at((piece.to + mid) / 2))});
+      const double off =
+          std::max({deviation(piece.a, piece.b, m), deviation(piece.a, piece.b, at((piece.from + mid) / 2)),
+                    deviation(piece.a, piece.b, at((piece.to + mid) / 2))});
       if (piece.depth < 12 && off > scope.tessellation.chord_error_m) {
         open.push_back({mid, piece.to, m, piece.b, piece.depth + 1});
         open.push_back({piece.from, mid, piece.a, m, piece.depth + 1});
@@ -116,7 +117,8 @@ Result<Path> polyline(const Entity& entity, Scope& scope) {
 Result<Path> line(const Entity& entity, Scope& scope) {
   const Eigen::Vector3d from = cartesianPoint(entity.ref(0), scope);
   const Entity vector = entity.ref(1);
-  const Eigen::Vector3d to = from + direction(vector.ref(0), Eigen::Vector3d::UnitX()) * scope.metres(vector[1].number(1));
+  const Eigen::Vector3d to =
+      from + direction(vector.ref(0), Eigen::Vector3d::UnitX()) * scope.metres(vector[1].number(1));
   return Path{{from, to}, false};
 }
 
@@ -137,19 +139,22 @@ Result<Path> indexedPolyCurve(const Entity& entity, Scope& scope) {
   const auto points = pointList(entity.ref(0), scope);
   if (!scope.spend(points.size())) return fail(entity, "too many points");
   Path path;
-  if (!entity[1].present()) for (const auto& p : points) appendPoint(path, p);
+  if (!entity[1].present())
+    for (const auto& p : points) appendPoint(path, p);
   const Value segments = entity[1];
   for (const Value segment : segments) {
     std::vector<Eigen::Vector3d> corners;
     const Value indices = segment.inner();
     for (const Value index : indices) {
       const auto i = index.integer();
-      if (i < 1 || i > static_cast<std::int64_t>(points.size())) return fail(entity, "a segment refers to point " + std::to_string(i) + " which the list does not have");
+      if (i < 1 || i > static_cast<std::int64_t>(points.size()))
+        return fail(entity, "a segment refers to point " + std::to_string(i) + " which the list does not have");
       corners.push_back(points[static_cast<std::size_t>(i - 1)]);
     }
     const bool first = path.points.empty();
     Path part{std::move(corners)};
-    if (segment.typeName() == "IFCARCINDEX" && part.points.size() == 3) part = arcThrough(part.points[0], part.points[1], part.points[2], scope);
+    if (segment.typeName() == "IFCARCINDEX" && part.points.size() == 3)
+      part = arcThrough(part.points[0], part.points[1], part.points[2], scope);
     if (first) path.start_tangent = part.start_tangent;
     path.end_tangent = part.end_tangent;
     for (const auto& p : part.points) appendPoint(path, p);

@@ -4,7 +4,7 @@
 namespace standpoint::ifc {
 namespace {
 
-constexpr double kJoin_m = 1e-5;   // exporters round the ends of neighbouring segments differently
+constexpr double kJoin_m = 1e-5;  // exporters round the ends of neighbouring segments differently
 
 bool meets(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm() <= kJoin_m; }
 

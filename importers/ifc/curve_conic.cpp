@@ -21,8 +21,10 @@ Trim trim(const Entity& entity, std::size_t index, const Scope& scope) {
   Trim t;
   const Value choices = entity[index];
   for (const Value v : choices) {
-    if (const Entity p = entity.follow(v)) t.point = cartesianPoint(p, scope);
-    else if (const auto x = v.number()) t.parameter = x;
+    if (const Entity p = entity.follow(v))
+      t.point = cartesianPoint(p, scope);
+    else if (const auto x = v.number())
+      t.parameter = x;
   }
   return t;
 }
@@ -87,8 +89,10 @@ Result<Path> trimmedOther(const Entity& entity, const Entity& basis, Scope& scop
     return part;
   }
   const double whole_length = length(*whole);
-  double start = from.point ? measure(*whole, *from.point) : 0, end = to.point ? measure(*whole, *to.point) : whole_length;
-  if (from.parameter && !from.point) scope.report.warn(entity.place(), "trimmed by parameters on a curve where only points are understood: kept whole");
+  double start = from.point ? measure(*whole, *from.point) : 0,
+         end = to.point ? measure(*whole, *to.point) : whole_length;
+  if (from.parameter && !from.point)
+    scope.report.warn(entity.place(), "trimmed by parameters on a curve where only points are understood: kept whole");
   const bool backward = entity[3].symbol() == "F";
   if (backward) std::swap(start, end);
   if (end <= start) end = whole_length;
@@ -125,7 +129,7 @@ Path arc(const Conic& c, double from, double sweep, const Scope& scope) {
 Path arcThrough(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Scope& scope) {
   const Eigen::Vector3d u = b - a, v = c - a, n = u.cross(v);
   const double twice = 2 * n.squaredNorm();
-  if (twice < 1e-24 || n.norm() < 1e-9 * u.norm() * v.norm()) return Path{{a, b, c}, false};   // straight
+  if (twice < 1e-24 || n.norm() < 1e-9 * u.norm() * v.norm()) return Path{{a, b, c}, false};  // straight
   const Eigen::Vector3d centre = a + (v.squaredNorm() * n.cross(u) - u.squaredNorm() * n.cross(v)) / twice;
   Conic circle{frame(centre, n.normalized(), a - centre), (a - centre).norm(), (a - centre).norm()};
   double sweep = circle.angleOf(c);

@@ -43,7 +43,8 @@ Result<Path> offsetByDistances(const Entity& entity, const Path& basis, Scope& s
     const double t = b.along > a.along ? (at - a.along) / (b.along - a.along) : 0;
     const Station s = stationAt(basis, at);
     const Eigen::Vector3d left = Eigen::Vector3d::UnitZ().cross(s.tangent).normalized();
-    appendPoint(moved, s.point + left * (a.lateral + (b.lateral - a.lateral) * t) + Eigen::Vector3d::UnitZ() * (a.vertical + (b.vertical - a.vertical) * t));
+    appendPoint(moved, s.point + left * (a.lateral + (b.lateral - a.lateral) * t) +
+                           Eigen::Vector3d::UnitZ() * (a.vertical + (b.vertical - a.vertical) * t));
   }
   return moved;
 }
@@ -55,7 +56,8 @@ Result<Path> offsetCurve(const Entity& entity, Scope& scope) {
   if (!basis) return basis;
   if (basis->points.size() < 2) return fail(entity, "its basis curve has no length");
   if (entity.is("IFCOFFSETCURVEBYDISTANCES")) return offsetByDistances(entity, *basis, scope);
-  const Eigen::Vector3d up = entity.is("IFCOFFSETCURVE3D") ? direction(entity.ref(3), Eigen::Vector3d::UnitZ()) : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d up = entity.is("IFCOFFSETCURVE3D") ? direction(entity.ref(3), Eigen::Vector3d::UnitZ())
+                                                           : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
   return movedLeft(*basis, up, scope.metres(entity[1].number(0)));
 }
 

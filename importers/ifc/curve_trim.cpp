@@ -38,14 +38,15 @@ std::optional<double> span(const Entity& parent, const Path& path, const Scope& 
     if (const double radius = scope.metres(basis[1].number(0)); radius > 0) {
       // The chords are shorter than their arcs, by the same share each.
       const double chord = path.points.size() > 1 ? (path.points[1] - path.points[0]).norm() : 0;
-      const double turn = 2 * std::asin(std::min(chord / (2 * radius), 1.0)) * static_cast<double>(path.points.size() - 1);
+      const double turn =
+          2 * std::asin(std::min(chord / (2 * radius), 1.0)) * static_cast<double>(path.points.size() - 1);
       return turn / scope.model.units.angle_rad;
     }
   return {};
 }
 
-// A composite curve's parameter is the sum of what its segments take. A cut within a segment goes by its length, which is
-// the same on lines and circles.
+// A composite curve's parameter is the sum of what its segments take. A cut within a segment goes by its length, which
+// is the same on lines and circles.
 Result<Path> compositePortion(const Entity& composite, const Path& whole, double t0, double t1, Scope& scope) {
   Path part;
   double before = 0;
@@ -53,9 +54,11 @@ Result<Path> compositePortion(const Entity& composite, const Path& whole, double
     const Entity parent = segment.ref(2);
     auto path = curve(parent, scope);
     if (!path) return path;
-    const auto stated = segment.is("IFCREPARAMETRISEDCOMPOSITECURVESEGMENT") ? segment[3].number() : span(parent, *path, scope);
+    const auto stated =
+        segment.is("IFCREPARAMETRISEDCOMPOSITECURVESEGMENT") ? segment[3].number() : span(parent, *path, scope);
     if (!stated || !(*stated > 0)) {
-      scope.report.warn(composite.place(), "is kept whole: its parameters on " + std::string(parent.typeName()) + " are not known");
+      scope.report.warn(composite.place(),
+                        "is kept whole: its parameters on " + std::string(parent.typeName()) + " are not known");
       return whole;
     }
     if (path->closed) path->points.push_back(path->points.front()), path->closed = false;
@@ -77,22 +80,26 @@ Result<Path> trimmedDirectrix(const Entity& directrix, const Value& start, const
   const double t0 = start.number(0);
   if (directrix.is("IFCCIRCLE") || directrix.is("IFCELLIPSE")) {
     const double from = t0 * scope.model.units.angle_rad, sweep = end.number(0) * scope.model.units.angle_rad - from;
-    if (const auto c = conic(directrix, scope); c && sweep > 1e-9 && sweep < 2 * std::numbers::pi - 1e-9) return arc(*c, from, sweep, scope);
+    if (const auto c = conic(directrix, scope); c && sweep > 1e-9 && sweep < 2 * std::numbers::pi - 1e-9)
+      return arc(*c, from, sweep, scope);
   }
   auto path = curve(directrix, scope);
   if (!path || path->closed || (!start.present() && !end.present())) return path;
   const double whole = length(*path);
   const bool alignment = directrix.is("IFCGRADIENTCURVE") || directrix.is("IFCSEGMENTEDREFERENCECURVE");
   if (alignment || start.typeName().ends_with("LENGTHMEASURE") || end.typeName().ends_with("LENGTHMEASURE")) {
-    const auto along = [&](double file_length) { return alignment ? lengthTo(*path, scope.metres(file_length)) : scope.metres(file_length); };
+    const auto along = [&](double file_length) {
+      return alignment ? lengthTo(*path, scope.metres(file_length)) : scope.metres(file_length);
+    };
     Path part = portion(*path, along(t0), end.present() ? along(end.number(0)) : whole);
     return part.points.size() >= 2 ? part : *path;
   }
-  if (directrix.is("IFCLINE")) {   // one parameter is one vector long
+  if (directrix.is("IFCLINE")) {  // one parameter is one vector long
     const Eigen::Vector3d from = path->points.front(), along = path->points.back() - from;
     return Path{{from + along * t0, from + along * end.number(1)}, false};
   }
-  const bool composite = directrix.is("IFCCOMPOSITECURVE") && !directrix.refs(0).empty() && !directrix.refs(0).front().is("IFCCURVESEGMENT");
+  const bool composite = directrix.is("IFCCOMPOSITECURVE") && !directrix.refs(0).empty() &&
+                         !directrix.refs(0).front().is("IFCCURVESEGMENT");
   // Of other curves the trims repeat what the curve says.
   if (!composite && !directrix.is("IFCPOLYLINE") && !directrix.is("IFCINDEXEDPOLYCURVE")) return path;
   const double t1 = end.number(composite ? 1e300 : static_cast<double>(path->points.size() - 1));

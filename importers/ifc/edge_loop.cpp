@@ -41,7 +41,8 @@ Result<Path> edgePath(const Entity& edge, Scope& scope) {
   const Eigen::Vector3d start = vertex(edge.ref(0), scope), end = vertex(edge.ref(1), scope);
   if (!edge.is("IFCEDGECURVE")) return Path{{start, end}, false};
   Entity basis = edge.ref(2);
-  if (basis.is("IFCSURFACECURVE") || basis.is("IFCSEAMCURVE") || basis.is("IFCINTERSECTIONCURVE")) basis = spatialCurve(basis);
+  if (basis.is("IFCSURFACECURVE") || basis.is("IFCSEAMCURVE") || basis.is("IFCINTERSECTIONCURVE"))
+    basis = spatialCurve(basis);
   const bool same_sense = edge[3].symbol() != "F";
   const Eigen::Vector3d &from = same_sense ? start : end, &to = same_sense ? end : start;
   Path path;
@@ -58,7 +59,7 @@ Result<Path> edgePath(const Entity& edge, Scope& scope) {
     path.points.back() = to;
   } else {
     auto whole = curve(basis, scope);
-    if (!whole && (from - to).norm() < 1e-6) return Path{{from}, false};   // an edge without length, at a pole
+    if (!whole && (from - to).norm() < 1e-6) return Path{{from}, false};  // an edge without length, at a pole
     if (!whole) return whole;
     if ((from - to).norm() < 1e-6) {
       if (whole->closed) whole->points.push_back(whole->points.front());
@@ -79,7 +80,7 @@ Result<std::vector<Eigen::Vector3d>> loopPoints(const Entity& loop, Scope& scope
     for (const Entity& p : loop.refs(0)) points.push_back(cartesianPoint(p, scope));
     return points;
   }
-  if (loop.is("IFCVERTEXLOOP")) return points;   // an apex or a pole: bounds nothing
+  if (loop.is("IFCVERTEXLOOP")) return points;  // an apex or a pole: bounds nothing
   if (!loop.is("IFCEDGELOOP")) return fail(loop, "a loop of this kind is not supported");
   Path path;
   for (const Entity& oriented : loop.refs(0)) {

@@ -31,9 +31,11 @@ const EntityName* entityName(std::string_view upper) {
 std::string schemaSpelling(std::string_view upper) {
   if (const EntityName* known = entityName(upper)) return known->name;
   std::string name(upper);
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (!name.empty()) name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
-  if (name.starts_with("Ifc") && name.size() > 3) name[3] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[3])));
+  if (name.starts_with("Ifc") && name.size() > 3)
+    name[3] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[3])));
   return name;
 }
 

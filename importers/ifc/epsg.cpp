@@ -41,7 +41,9 @@ EpsgAnswer epsgCrs(const std::string& digits) {
   answer.crs = EpsgCrs{proj_get_type(at) == PJ_TYPE_PROJECTED_CRS, 1};
   const Database::Object axes(proj_crs_get_coordinate_system(database.context, at), proj_destroy);
   double unit = 1;
-  if (axes && proj_cs_get_axis_info(database.context, axes.get(), 0, nullptr, nullptr, nullptr, &unit, nullptr, nullptr, nullptr)) answer.crs->unit = unit;
+  if (axes && proj_cs_get_axis_info(database.context, axes.get(), 0, nullptr, nullptr, nullptr, &unit, nullptr, nullptr,
+                                    nullptr))
+    answer.crs->unit = unit;
   return answer;
 }
 
@@ -52,7 +54,8 @@ bool isEpsgReference(const std::string& digits, bool vertical) {
     const auto found = database.find(digits, category);
     if (!found) continue;
     const PJ_TYPE type = proj_get_type(found.get());
-    const bool is_vertical = type == PJ_TYPE_VERTICAL_REFERENCE_FRAME || type == PJ_TYPE_DYNAMIC_VERTICAL_REFERENCE_FRAME || type == PJ_TYPE_VERTICAL_CRS;
+    const bool is_vertical = type == PJ_TYPE_VERTICAL_REFERENCE_FRAME ||
+                             type == PJ_TYPE_DYNAMIC_VERTICAL_REFERENCE_FRAME || type == PJ_TYPE_VERTICAL_CRS;
     if (is_vertical == vertical || type == PJ_TYPE_COMPOUND_CRS) return true;
   }
   return false;
@@ -60,7 +63,8 @@ bool isEpsgReference(const std::string& digits, bool vertical) {
 
 std::string epsgDigits(const std::string& name) {
   std::string upper = name;
-  std::transform(upper.begin(), upper.end(), upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::transform(upper.begin(), upper.end(), upper.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   const std::size_t digits = upper.find_last_not_of("0123456789") + 1;
   const bool bare = digits == 0, named = upper.starts_with("EPSG") || upper.starts_with("URN:OGC:DEF:CRS:EPSG");
   return digits < upper.size() && (bare || named) ? upper.substr(digits) : std::string();

@@ -9,11 +9,11 @@ namespace standpoint::ifc {
 // What the EPSG dataset (through PROJ's database) says of a code. Where the database is not installed nothing is said.
 struct EpsgCrs {
   bool projected = false;
-  double unit = 1;               // metres (radians) per unit of its first axis
+  double unit = 1;  // metres (radians) per unit of its first axis
 };
 struct EpsgAnswer {
-  bool asked = false;            // false: there is no database
-  std::optional<EpsgCrs> crs;    // nothing: there is no CRS of that code
+  bool asked = false;          // false: there is no database
+  std::optional<EpsgCrs> crs;  // nothing: there is no CRS of that code
 };
 EpsgAnswer epsgCrs(const std::string& digits);
 // Whether it is a vertical (else geodetic) datum or CRS; also true when there is no database.

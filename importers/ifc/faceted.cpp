@@ -27,7 +27,7 @@ class PointPool {
  private:
   geometry::PolyMesh& mesh_;
   const Scope& scope_;
-  std::unordered_map<Id, std::uint32_t> index_of_;   // for look-up only
+  std::unordered_map<Id, std::uint32_t> index_of_;  // for look-up only
 };
 
 void dropRepeated(std::vector<std::uint32_t>& loop) {
@@ -71,13 +71,13 @@ Result<void> appendFace(geometry::PolyMesh& mesh, const Entity& face, PointPool&
     if (bound.is("IFCFACEOUTERBOUND") && !named) outer = loops.size(), named = true;
     loops.push_back(std::move(*loop));
   }
-  if (loops.empty()) return {};   // a face without area is no loss
+  if (loops.empty()) return {};  // a face without area is no loss
   if (!named)
     for (std::size_t i = 1; i < loops.size(); ++i)
       if (loopArea(mesh, loops[i]) > loopArea(mesh, loops[outer])) outer = i;
   std::swap(loops[0], loops[outer]);
   geometry::Face f;
-  f.tag = scope.model.style_of_item[scope.model.file.indexOf(face)];   // a face may be styled by itself
+  f.tag = scope.model.style_of_item[scope.model.file.indexOf(face)];  // a face may be styled by itself
   f.outer = std::move(loops[0]);
   f.holes.assign(std::make_move_iterator(loops.begin() + 1), std::make_move_iterator(loops.end()));
   if (face.is("IFCADVANCEDFACE") || face.is("IFCFACESURFACE"))
@@ -93,7 +93,9 @@ bool isCurved(const Entity& face) {
   if (!face.is("IFCADVANCEDFACE") && !face.is("IFCFACESURFACE")) return false;
   Entity surface_entity = face.ref(1);
   // A trimmed or bounded surface is as curved as its basis; the face has bounds of its own.
-  for (int depth = 0; depth < 4 && (surface_entity.is("IFCRECTANGULARTRIMMEDSURFACE") || surface_entity.typeName().starts_with("IFCCURVEBOUNDED")); ++depth)
+  for (int depth = 0; depth < 4 && (surface_entity.is("IFCRECTANGULARTRIMMEDSURFACE") ||
+                                    surface_entity.typeName().starts_with("IFCCURVEBOUNDED"));
+       ++depth)
     surface_entity = surface_entity.ref(0);
   return surface_entity && !surface_entity.is("IFCPLANE");
 }

@@ -28,7 +28,8 @@ std::string crsName(const std::string& name) {
 }
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -48,7 +49,9 @@ void readSite(Georeference& geo, const Model& model, Report& report) {
     const auto latitude = compoundAngle(site[9]), longitude = compoundAngle(site[10]);
     if (!latitude || !longitude) continue;
     if (std::abs(*latitude) > 90 || std::abs(*longitude) > 360) {
-      report.warn(site.place(), fmt::format("the site's latitude {} and longitude {} are nowhere on Earth; they are not used", *latitude, *longitude));
+      report.warn(site.place(),
+                  fmt::format("the site's latitude {} and longitude {} are nowhere on Earth; they are not used",
+                              *latitude, *longitude));
       continue;
     }
     geo.site = GeographicPosition{*latitude, *longitude, site[11].number(0) * model.units.length_m};
@@ -68,7 +71,7 @@ void readTrueNorth(Georeference& geo, const Model& model) {
 
 // The code at the end of a WKT is the whole CRS's: ID["EPSG",25832]] or AUTHORITY["EPSG","25832"]].
 std::string crsOfWkt(const std::string& wkt) {
-  const std::size_t at = std::max(wkt.rfind("ID[\"EPSG\"") + 1, wkt.rfind("AUTHORITY[\"EPSG\"") + 1);   // not found: 0
+  const std::size_t at = std::max(wkt.rfind("ID[\"EPSG\"") + 1, wkt.rfind("AUTHORITY[\"EPSG\"") + 1);  // not found: 0
   if (at == 0) return wkt;
   const std::size_t first = wkt.find_first_of("0123456789", at), end = wkt.find_first_not_of("0123456789", first);
   return first == std::string::npos ? wkt : "EPSG:" + wkt.substr(first, end - first);
@@ -78,7 +81,8 @@ void checkDatum(const Entity& crs, std::size_t index, const char* what, Report& 
   const std::string name = crs[index].text();
   if (!lower(name).starts_with("epsg")) return;
   const std::string digits = epsgDigits(name);
-  if (digits.empty() || !isEpsgReference(digits, index == 3)) report.warn(crs.place(), fmt::format("the {} '{}' is none in the EPSG dataset", what, name));
+  if (digits.empty() || !isEpsgReference(digits, index == 3))
+    report.warn(crs.place(), fmt::format("the {} '{}' is none in the EPSG dataset", what, name));
 }
 
 // A CRS that has no usable name gives coordinates that nobody can place: its fault is named.
@@ -90,13 +94,20 @@ void readCrs(Georeference& geo, const Entity& crs, const Model& model, Report& r
     if (text.ref(1) == crs) wkt = text[0].text();
   if (geo.crs.empty()) geo.crs = !digits.empty() || wkt.empty() ? crsName(name) : crsOfWkt(wkt);
   const char* remedy = "; name it with --crs EPSG:n";
-  if (name.empty() && wkt.empty()) report.warn(crs.place(), std::string("the coordinate reference system has no name, an EPSG code is needed") + remedy);
-  else if (digits.empty() && lower(name).starts_with("epsg")) report.warn(crs.place(), "'" + name + "' is no EPSG code" + remedy);
-  else if (digits.empty() && wkt.empty()) report.warn(crs.place(), "'" + name + "' is no EPSG code; which coordinate reference system is meant is unknown" + remedy);
+  if (name.empty() && wkt.empty())
+    report.warn(crs.place(),
+                std::string("the coordinate reference system has no name, an EPSG code is needed") + remedy);
+  else if (digits.empty() && lower(name).starts_with("epsg"))
+    report.warn(crs.place(), "'" + name + "' is no EPSG code" + remedy);
+  else if (digits.empty() && wkt.empty())
+    report.warn(crs.place(),
+                "'" + name + "' is no EPSG code; which coordinate reference system is meant is unknown" + remedy);
   if (!digits.empty()) {
     const EpsgAnswer known = epsgCrs(digits);
-    if (known.asked && !known.crs) report.warn(crs.place(), "EPSG:" + digits + " is no coordinate reference system of the EPSG dataset" + remedy);
-    else if (known.crs && projected && !known.crs->projected) report.warn(crs.place(), "EPSG:" + digits + " is not a projected coordinate reference system" + remedy);
+    if (known.asked && !known.crs)
+      report.warn(crs.place(), "EPSG:" + digits + " is no coordinate reference system of the EPSG dataset" + remedy);
+    else if (known.crs && projected && !known.crs->projected)
+      report.warn(crs.place(), "EPSG:" + digits + " is not a projected coordinate reference system" + remedy);
   }
   checkDatum(crs, 2, "geodetic datum", report);
   if (projected) checkDatum(crs, 3, "vertical datum", report);
@@ -117,11 +128,15 @@ void checkContexts(const std::vector<Entity>& operations, const Model& model, Re
     return a.typeName() == b.typeName();
   };
   for (const Entity& e : operations)
-    if (!same(e, operations[0])) report.warn(e.place(), "places its context on the map otherwise than " + operations[0].place() + " does; that one is used");
+    if (!same(e, operations[0]))
+      report.warn(e.place(),
+                  "places its context on the map otherwise than " + operations[0].place() + " does; that one is used");
   for (const Entity& context : model.file.all("IFCGEOMETRICREPRESENTATIONCONTEXT")) {
     if (context[1].text() != "Model") continue;
-    if (std::none_of(operations.begin(), operations.end(), [&](const Entity& e) { return e.ref(0) == context || e.ref(0).is("IFCPROJECT"); }))
-      report.warn(context.place(), "the context is not placed on the map, while " + operations[0].ref(0).place() + " is; its shapes are placed like those");
+    if (std::none_of(operations.begin(), operations.end(),
+                     [&](const Entity& e) { return e.ref(0) == context || e.ref(0).is("IFCPROJECT"); }))
+      report.warn(context.place(), "the context is not placed on the map, while " + operations[0].ref(0).place() +
+                                       " is; its shapes are placed like those");
   }
 }
 
@@ -129,18 +144,23 @@ void checkRigid(const Entity& e, Report& report) {
   const std::string first(e[2].typeName()), second(e[3].typeName());
   const auto fine = [](const std::string& t) { return t == "IFCLENGTHMEASURE" || t == "IFCPLANEANGLEMEASURE"; };
   if (first == second && fine(first)) return;
-  report.warn(e.place(), fmt::format("the first coordinate is an {} and the second an {}; both have to be IFCLENGTHMEASURE or both IFCPLANEANGLEMEASURE", first, second));
+  report.warn(e.place(), fmt::format("the first coordinate is an {} and the second an {}; both have to be "
+                                     "IFCLENGTHMEASURE or both IFCPLANEANGLEMEASURE",
+                                     first, second));
 }
 
-// Of a geographic CRS: longitude first, as buildingSMART's own example writes it, unless only the other way is on Earth.
+// Of a geographic CRS: longitude first, as buildingSMART's own example writes it, unless only the other way is on
+// Earth.
 void readGeographicRigid(Georeference& geo, const Entity& e, const Model& model, Report& report) {
   const double stated = e.ref(1).is("IFCGEOGRAPHICCRS") ? siFactor(e.ref(1).ref(4)) : 0;
   const double degrees = (stated > 0 ? stated : model.units.angle_rad) / kRadPerDeg;
   double longitude = e[2].number(0) * degrees, latitude = e[3].number(0) * degrees;
   if (std::abs(latitude) > 90) std::swap(latitude, longitude);
-  if (std::abs(latitude) > 90 || std::abs(longitude) > 360) return report.warn(e.place(), "the coordinates are nowhere on Earth; they are not used");
+  if (std::abs(latitude) > 90 || std::abs(longitude) > 360)
+    return report.warn(e.place(), "the coordinates are nowhere on Earth; they are not used");
   geo.site = GeographicPosition{latitude, longitude, e[4].number(0) * model.units.length_m};
-  report.note(e.place(), fmt::format("the origin is taken at latitude {:.6f}° and longitude {:.6f}°", latitude, longitude));
+  report.note(e.place(),
+              fmt::format("the origin is taken at latitude {:.6f}° and longitude {:.6f}°", latitude, longitude));
 }
 
 void readOperations(Georeference& geo, const Model& model, Report& report) {
@@ -149,10 +169,14 @@ void readOperations(Georeference& geo, const Model& model, Report& report) {
   checkContexts(all, model, report);
   for (const Entity& e : all)
     if (e.is("IFCRIGIDOPERATION")) checkRigid(e, report);
-  if (const auto stated = statedConversion(all[0])) geo.map_from_file = conversionInMetres(*stated, model, report);
-  else readGeographicRigid(geo, all[0], model, report);
-  if (const Entity crs = all[0].ref(1)) readCrs(geo, crs, model, report);
-  else report.warn(all[0].place(), "the map conversion names no coordinate reference system; name it with --crs EPSG:n");
+  if (const auto stated = statedConversion(all[0]))
+    geo.map_from_file = conversionInMetres(*stated, model, report);
+  else
+    readGeographicRigid(geo, all[0], model, report);
+  if (const Entity crs = all[0].ref(1))
+    readCrs(geo, crs, model, report);
+  else
+    report.warn(all[0].place(), "the map conversion names no coordinate reference system; name it with --crs EPSG:n");
 }
 
 // Some exporters write the place into the world coordinate system of the context.
@@ -166,9 +190,13 @@ void readWorldCoordinates(Georeference& geo, const Model& model, Report& report)
     if (at.norm() < 1e-6 && world.linear().isIdentity(1e-9)) continue;
     const bool upright = world.linear().col(2).isApprox(Eigen::Vector3d::UnitZ(), 1e-6);
     if (geo.map_from_file || !upright || at.head<2>().norm() < kFar_m)
-      return report.note(context.place(), fmt::format("the world coordinate system lies at {:.3f} {:.3f} {:.3f} m and is not applied", at.x(), at.y(), at.z()));
+      return report.note(context.place(),
+                         fmt::format("the world coordinate system lies at {:.3f} {:.3f} {:.3f} m and is not applied",
+                                     at.x(), at.y(), at.z()));
     geo.map_from_file = MapConversion{at.x(), at.y(), at.z(), world.linear()(0, 0), world.linear()(1, 0), 1};
-    return report.warn(context.place(), "the world coordinate system is taken for the model's place on the map; name the map with --crs EPSG:n");
+    return report.warn(
+        context.place(),
+        "the world coordinate system is taken for the model's place on the map; name the map with --crs EPSG:n");
   }
 }
 
@@ -182,10 +210,22 @@ std::optional<double> firstNumber(const std::string& text) {
 // "METRE", "MILLIMETRE", "US SURVEY FOOT" …; 0: unknown.
 double unitByName(const std::string& name) {
   std::string word = lower(name);
-  word.erase(std::remove_if(word.begin(), word.end(), [](char c) { return c == ' ' || c == '_' || c == '-'; }), word.end());
-  constexpr std::pair<const char*, double> kNames[] = {{"metre", 1}, {"meter", 1}, {"m", 1}, {"millimetre", 0.001}, {"millimeter", 0.001}, {"mm", 0.001},
-                                                       {"centimetre", 0.01}, {"cm", 0.01}, {"foot", 0.3048}, {"feet", 0.3048}, {"ft", 0.3048},
-                                                       {"ussurveyfoot", 1200.0 / 3937.0}, {"usft", 1200.0 / 3937.0}, {"ftus", 1200.0 / 3937.0}};
+  word.erase(std::remove_if(word.begin(), word.end(), [](char c) { return c == ' ' || c == '_' || c == '-'; }),
+             word.end());
+  constexpr std::pair<const char*, double> kNames[] = {{"metre", 1},
+                                                       {"meter", 1},
+                                                       {"m", 1},
+                                                       {"millimetre", 0.001},
+                                                       {"millimeter", 0.001},
+                                                       {"mm", 0.001},
+                                                       {"centimetre", 0.01},
+                                                       {"cm", 0.01},
+                                                       {"foot", 0.3048},
+                                                       {"feet", 0.3048},
+                                                       {"ft", 0.3048},
+                                                       {"ussurveyfoot", 1200.0 / 3937.0},
+                                                       {"usft", 1200.0 / 3937.0},
+                                                       {"ftus", 1200.0 / 3937.0}};
   for (const auto& [known, metres] : kNames)
     if (word == known) return metres;
   return 0;
@@ -206,17 +246,23 @@ struct ConventionSets {
     const auto x = firstNumber(p.value);
     if (!x) return;
     found = true;
-    if (name == "eastings") conversion.eastings = *x;
-    else if (name == "northings") conversion.northings = *x;
-    else if (name == "orthogonalheight") conversion.height = *x;
-    else if (name == "xaxisabscissa") conversion.abscissa = *x;
-    else if (name == "xaxisordinate") conversion.ordinate = *x;
-    else if (name == "scale") conversion.scale = *x;
+    if (name == "eastings")
+      conversion.eastings = *x;
+    else if (name == "northings")
+      conversion.northings = *x;
+    else if (name == "orthogonalheight")
+      conversion.height = *x;
+    else if (name == "xaxisabscissa")
+      conversion.abscissa = *x;
+    else if (name == "xaxisordinate")
+      conversion.ordinate = *x;
+    else if (name == "scale")
+      conversion.scale = *x;
   }
 };
 
-// IFC2X3 has no entity for it; buildingSMART's convention is two property sets on the site (or project or building), whose
-// numbers are metres where they state no other map unit.
+// IFC2X3 has no entity for it; buildingSMART's convention is two property sets on the site (or project or building),
+// whose numbers are metres where they state no other map unit.
 void readPropertySets(Georeference& geo, const Model& model, const Relations& relations, Report& report) {
   ConventionSets sets;
   for (const char* kind : {"IFCSITE", "IFCPROJECT", "IFCBUILDING"})
@@ -235,7 +281,9 @@ void readPropertySets(Georeference& geo, const Model& model, const Relations& re
   if (geo.crs.empty()) geo.crs = crsName(sets.crs);
   if (!sets.found) return;
   geo.map_from_file = conversionInMetres(sets.conversion, model, report);
-  if (geo.crs.empty()) report.warn(sets.conversion.place, "the map conversion names no coordinate reference system; name it with --crs EPSG:n");
+  if (geo.crs.empty())
+    report.warn(sets.conversion.place,
+                "the map conversion names no coordinate reference system; name it with --crs EPSG:n");
 }
 
 }  // namespace

@@ -7,8 +7,9 @@
 
 namespace standpoint::ifc {
 
-// Everything but the shift: IfcMapConversion(Scaled), IfcRigidOperation, the property sets of IFC2X3's convention, or a world
-// coordinate system far away; the CRS; the site's latitude and longitude; true north. What is wrong or guessed is told.
+// Everything but the shift: IfcMapConversion(Scaled), IfcRigidOperation, the property sets of IFC2X3's convention, or a
+// world coordinate system far away; the CRS; the site's latitude and longitude; true north. What is wrong or guessed is
+// told.
 Georeference readGeoreference(const Model& model, const Relations& relations, Report& report);
 
 }  // namespace standpoint::ifc

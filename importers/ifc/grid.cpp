@@ -11,7 +11,8 @@ namespace standpoint::ifc {
 namespace {
 
 // Where the lines through two segments meet; `outside` is how far beyond the segments that is, in their own lengths.
-std::optional<Eigen::Vector2d> meet(const Eigen::Vector2d& a0, const Eigen::Vector2d& a1, const Eigen::Vector2d& b0, const Eigen::Vector2d& b1, double& outside) {
+std::optional<Eigen::Vector2d> meet(const Eigen::Vector2d& a0, const Eigen::Vector2d& a1, const Eigen::Vector2d& b0,
+                                    const Eigen::Vector2d& b1, double& outside) {
   const Eigen::Vector2d a = a1 - a0, b = b1 - b0, d = b0 - a0;
   const double cross = a.x() * b.y() - a.y() * b.x();
   if (std::abs(cross) < 1e-12 * a.norm() * b.norm() || cross == 0) return {};
@@ -26,7 +27,8 @@ geometry::Loop2 moved(const Path& path, double offset) {
   if (offset == 0 || line.size() < 2) return line;
   geometry::Loop2 result;
   for (std::size_t i = 0; i < line.size(); ++i) {
-    const Eigen::Vector2d d = i + 1 < line.size() ? Eigen::Vector2d(line[i + 1] - line[i]) : Eigen::Vector2d(line[i] - line[i - 1]);
+    const Eigen::Vector2d d =
+        i + 1 < line.size() ? Eigen::Vector2d(line[i + 1] - line[i]) : Eigen::Vector2d(line[i] - line[i - 1]);
     result.push_back(line[i] + Eigen::Vector2d(-d.y(), d.x()).normalized() * offset);
   }
   return result;
@@ -70,8 +72,9 @@ Result<Eigen::Isometry3d> gridPlacement(const Entity& placement, Scope& scope) {
   if (!location) return fail(placement, "the grid placement has no location");
   const auto here = crossing(location, scope);
   if (!here) return failure(here.error());
-  Eigen::Vector3d x = Eigen::Vector3d::UnitX();   // the grid's own x where no direction is asked for
-  if (reference.is("IFCDIRECTION")) x = direction(reference, x);
+  Eigen::Vector3d x = Eigen::Vector3d::UnitX();  // the grid's own x where no direction is asked for
+  if (reference.is("IFCDIRECTION"))
+    x = direction(reference, x);
   else if (reference.is("IFCVIRTUALGRIDINTERSECTION")) {
     const auto there = crossing(reference, scope);
     if (!there) return failure(there.error());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <array>
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include <tbb/parallel_for.h>
@@ -24,7 +24,9 @@ Bounds placedBounds(const Bodies& bodies, const Eigen::Affine3d& up) {
     for (const PlacedBody& b : of_product)
       for (int corner = 0; corner < 8; ++corner) {
         const Eigen::Vector3d &lo = b.body->bounds.min, &hi = b.body->bounds.max;
-        all.extend(up * b.file_from_items * Eigen::Vector3d(corner & 1 ? hi.x() : lo.x(), corner & 2 ? hi.y() : lo.y(), corner & 4 ? hi.z() : lo.z()));
+        all.extend(
+            up * b.file_from_items *
+            Eigen::Vector3d(corner & 1 ? hi.x() : lo.x(), corner & 2 ? hi.y() : lo.y(), corner & 4 ? hi.z() : lo.z()));
       }
   return all;
 }
@@ -37,21 +39,26 @@ Eigen::Affine3d standing(const ImportOptions& options) {
 }
 
 // In blocks, so that sets which a small file shares among many products are noticed before they fill the memory.
-std::vector<Product> describeAll(const std::vector<Entity>& entities, const Relations& relations, const Model& model, Report& report) {
+std::vector<Product> describeAll(const std::vector<Entity>& entities, const Relations& relations, const Model& model,
+                                 Report& report) {
   constexpr std::size_t kBlock = 256;
   std::vector<Product> products(entities.size());
   std::size_t properties = 0, bare = 0;
   for (std::size_t begin = 0; begin < entities.size(); begin += kBlock) {
     const std::size_t end = std::min(begin + kBlock, entities.size());
     const bool full = properties > kMostPropertiesInAll;
-    tbb::parallel_for(begin, end, [&](std::size_t i) { products[i] = describeProduct(entities[i], !full, relations, model); });
+    tbb::parallel_for(begin, end,
+                      [&](std::size_t i) { products[i] = describeProduct(entities[i], !full, relations, model); });
     for (std::size_t i = begin; i < end; ++i) {
       properties += products[i].properties.size();
-      if (products[i].properties.size() >= kMostProperties) report.lose(entities[i].place(), "has more than 10 000 properties; the others are left out");
+      if (products[i].properties.size() >= kMostProperties)
+        report.lose(entities[i].place(), "has more than 10 000 properties; the others are left out");
     }
     if (full) bare += end - begin;
   }
-  if (bare > 0) report.lose("model", "more than 5 000 000 properties in all; those of " + std::to_string(bare) + " products are left out");
+  if (bare > 0)
+    report.lose("model",
+                "more than 5 000 000 properties in all; those of " + std::to_string(bare) + " products are left out");
   return products;
 }
 
@@ -62,8 +69,15 @@ Result<ImportedModel> readIfc(const std::filesystem::path& path, const ImportOpt
   if (!file) return failure(file.error());
   if (auto go = progress.check(); !go) return failure(go.error());
   const TextureMaps textures(*file);
-  const Model model{*file, readUnits(*file, options.metres_per_unit, result.report), {options.chord_error_m, options.max_segment_angle_rad}, mappingOfTypes(*file),
-                    textures, ShapeAspects(*file), stylesOfItems(*file, textures), colourMaps(*file), newCurveCache()};
+  const Model model{*file,
+                    readUnits(*file, options.metres_per_unit, result.report),
+                    {options.chord_error_m, options.max_segment_angle_rad},
+                    mappingOfTypes(*file),
+                    textures,
+                    ShapeAspects(*file),
+                    stylesOfItems(*file, textures),
+                    colourMaps(*file),
+                    newCurveCache()};
   const Relations relations(*file);
   const std::vector<Entity> entities = productEntities(*file);
   auto bodies = buildBodies(entities, relations, model, progress);
@@ -77,10 +91,12 @@ Result<ImportedModel> readIfc(const std::filesystem::path& path, const ImportOpt
   result.metres_per_unit = model.units.length_m;
   result.georeference.shift_m = chooseShift(options, placedBounds(*bodies, standing(options)));
   Assembly assembly(model, relations, environment, standing(options), path.parent_path(), result.report);
-  for (std::size_t i = 0; i < entities.size(); ++i) assembly.add(static_cast<std::uint32_t>(i), entities[i], bodies->of_product[i], result.georeference.shift_m);
+  for (std::size_t i = 0; i < entities.size(); ++i)
+    assembly.add(static_cast<std::uint32_t>(i), entities[i], bodies->of_product[i], result.georeference.shift_m);
   result.report.append(bodies->report);
   if (auto go = progress.check(); !go) return failure(go.error());
-  if (const std::string wrong = validate(environment); !wrong.empty()) return failure(ErrorKind::internal, wrong, path.filename().string());
+  if (const std::string wrong = validate(environment); !wrong.empty())
+    return failure(ErrorKind::internal, wrong, path.filename().string());
   return result;
 }
 
@@ -90,6 +106,7 @@ constexpr std::array<const char*, 2> kExtensions{".ifc", ".ifczip"};
 }  // namespace ifc
 
 extern const Importer kIfcImporter;
-constinit const Importer kIfcImporter{"ifc", "Industry Foundation Classes, STEP physical file (ISO 16739)", ifc::kExtensions, ifc::readIfc, UpAxis::z};
+constinit const Importer kIfcImporter{"ifc", "Industry Foundation Classes, STEP physical file (ISO 16739)",
+                                      ifc::kExtensions, ifc::readIfc, UpAxis::z};
 
 }  // namespace standpoint

@@ -33,7 +33,12 @@ std::size_t firstOwn(const Entity& texture, std::size_t own_count) {
   return texture.arguments().size() >= 5 + own_count ? 5 : 4;
 }
 
-int hexDigit(char c) { return c >= '0' && c <= '9' ? c - '0' : c >= 'A' && c <= 'F' ? c - 'A' + 10 : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1; }
+int hexDigit(char c) {
+  return c >= '0' && c <= '9'   ? c - '0'
+         : c >= 'A' && c <= 'F' ? c - 'A' + 10
+         : c >= 'a' && c <= 'f' ? c - 'a' + 10
+                                : -1;
+}
 
 // "0FF00…" in double quotes: the first digit says how many bits of the next are unused; whole bytes need none.
 std::vector<std::byte> binary(const Value& value) {
@@ -43,15 +48,18 @@ std::vector<std::byte> binary(const Value& value) {
   int high = -1;
   for (const char c : text.substr(2)) {
     const int digit = hexDigit(c);
-    if (digit < 0) continue;   // the closing quote; a long literal may be broken over lines
-    if (high < 0) high = digit;
-    else bytes.push_back(static_cast<std::byte>(high << 4 | digit)), high = -1;
+    if (digit < 0) continue;  // the closing quote; a long literal may be broken over lines
+    if (high < 0)
+      high = digit;
+    else
+      bytes.push_back(static_cast<std::byte>(high << 4 | digit)), high = -1;
   }
   return bytes;
 }
 
 // Of 8-bit grey, grey with alpha, RGB or RGBA points (1 to 4 components), rows from below as IFC counts them.
-std::vector<std::byte> pngFromPixels(const std::vector<std::byte>& pixels, std::uint32_t width, std::uint32_t height, std::size_t components) {
+std::vector<std::byte> pngFromPixels(const std::vector<std::byte>& pixels, std::uint32_t width, std::uint32_t height,
+                                     std::size_t components) {
   constexpr std::array<png_uint_32, 4> kFormats{PNG_FORMAT_GRAY, PNG_FORMAT_GA, PNG_FORMAT_RGB, PNG_FORMAT_RGBA};
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
@@ -72,14 +80,17 @@ Result<Image> pixels(const Entity& texture) {
     return fail(texture, "the pixel texture has no usable size");
   const Value list = texture[at + 3];
   // Counted before anything is allocated for it: a claim of 16384 × 16384 may have no points at all.
-  if (list.size() != static_cast<std::size_t>(width * height)) return fail(texture, "the pixel texture has another number of points than its size says");
+  if (list.size() != static_cast<std::size_t>(width * height))
+    return fail(texture, "the pixel texture has another number of points than its size says");
   std::vector<std::byte> raw;
   for (const Value v : list) {
     const auto point = binary(v);
-    if (point.size() != static_cast<std::size_t>(components)) return fail(texture, "a point of the pixel texture has another number of colours than it says");
+    if (point.size() != static_cast<std::size_t>(components))
+      return fail(texture, "a point of the pixel texture has another number of colours than it says");
     raw.insert(raw.end(), point.begin(), point.end());
   }
-  auto png = pngFromPixels(raw, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), static_cast<std::size_t>(components));
+  auto png = pngFromPixels(raw, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
+                           static_cast<std::size_t>(components));
   if (png.empty()) return fail(texture, "the pixel texture could not be written as PNG");
   return Image{"IfcPixelTexture " + texture.place(), "image/png", std::move(png)};
 }
@@ -103,7 +114,8 @@ Result<Image> Images::beside(const Entity& texture) const {
   const auto root = std::filesystem::weakly_canonical(folder_.empty() ? "." : folder_, code);
   const auto file = std::filesystem::weakly_canonical(root / relative, code);
   const auto inside = file.lexically_relative(root);
-  if (name.empty() || name.find("://") != std::string::npos || relative.is_absolute() || inside.empty() || *inside.begin() == "..")
+  if (name.empty() || name.find("://") != std::string::npos || relative.is_absolute() || inside.empty() ||
+      *inside.begin() == "..")
     return fail(texture, shown + " does not lie beside the model and is not read");
   const auto size = std::filesystem::file_size(file, code);
   if (code) return fail(texture, shown + " is not there; put it beside the model");
@@ -111,7 +123,8 @@ Result<Image> Images::beside(const Entity& texture) const {
   std::ifstream in(file, std::ios::binary);
   Image image{name, {}, {}};
   image.bytes.resize(static_cast<std::size_t>(size));
-  if (!in.read(reinterpret_cast<char*>(image.bytes.data()), static_cast<std::streamsize>(size))) return fail(texture, shown + " cannot be read");
+  if (!in.read(reinterpret_cast<char*>(image.bytes.data()), static_cast<std::streamsize>(size)))
+    return fail(texture, shown + " cannot be read");
   image.media_type = mediaType(image.bytes);
   if (image.media_type.empty()) return fail(texture, shown + " is neither PNG, JPEG, GIF, BMP nor WebP");
   return image;
@@ -134,7 +147,8 @@ std::int32_t Images::image(const Entity& texture) {
   }
   for (const std::size_t repeat : {0U, 1U})
     if (texture[repeat].symbol() == "F") {
-      report_.note(texture.place(), "the texture '" + found->name + "' is not to be repeated; it is, where the coordinates leave it");
+      report_.note(texture.place(),
+                   "the texture '" + found->name + "' is not to be repeated; it is, where the coordinates leave it");
       break;
     }
   it->second = static_cast<std::int32_t>(environment_.images.size());

@@ -17,7 +17,7 @@ class Images {
   Images(const Model& model, std::filesystem::path folder, Environment& environment, Report& report)
       : model_(model), folder_(std::move(folder)), environment_(environment), report_(report) {}
 
-  std::int32_t image(const Entity& texture);   // index into Environment::images; -1: there is none
+  std::int32_t image(const Entity& texture);  // index into Environment::images; -1: there is none
 
  private:
   Result<Image> read(const Entity& texture) const;

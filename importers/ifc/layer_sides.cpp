@@ -11,8 +11,8 @@
 namespace standpoint::ifc {
 namespace {
 
-constexpr double kNear_m = 1e-4;         // a point this close to a boundary lies on it
-constexpr double kAcross = 0.9;          // cosine: a face that looks along the axis within 25°
+constexpr double kNear_m = 1e-4;  // a point this close to a boundary lies on it
+constexpr double kAcross = 0.9;   // cosine: a face that looks along the axis within 25°
 
 // Distance along the layers' axis, and the direction in which it grows.
 class Across {
@@ -25,7 +25,7 @@ class Across {
     for (const Eigen::Vector2d& p : line) curved_ = curved_ || std::abs((p - line.front()).dot(left)) > 1e-3;
     if (curved_ || !left.allFinite()) return;
     axis_ = {left.x(), left.y(), 0};
-    if (axis_.y() < 0) axis_ = -axis_;   // a line drawn backwards: the placement's y says which side is meant
+    if (axis_.y() < 0) axis_ = -axis_;  // a line drawn backwards: the placement's y says which side is meant
     start_ = axis_.x() * line.front().x() + axis_.y() * line.front().y();
   }
 
@@ -69,13 +69,15 @@ class Stack {
       to_.push_back(std::max(at, next));
       at = next;
     }
-    const double first = *std::min_element(from_.begin(), from_.end()), last = *std::max_element(to_.begin(), to_.end());
+    const double first = *std::min_element(from_.begin(), from_.end()),
+                 last = *std::max_element(to_.begin(), to_.end());
     fits_ = std::abs((last - first) - (high - low)) <= 1e-3 + 0.01 * (last - first) && last > first;
     const double stretch = fits_ ? (high - low) / (last - first) : 1;
     for (auto* ends : {&from_, &to_})
       for (double& d : *ends) d = low + (d - first) * stretch;
     for (std::size_t i = 1; i < materials.layers.size(); ++i)
-      if (materials.layers[i].thickness_m > materials.layers[thickest_].thickness_m || !materials.material_of_layer[thickest_])
+      if (materials.layers[i].thickness_m > materials.layers[thickest_].thickness_m ||
+          !materials.material_of_layer[thickest_])
         if (materials.material_of_layer[i]) thickest_ = i;
   }
 
@@ -87,14 +89,16 @@ class Stack {
     const bool last = above == (materials_.usage->sense > 0);
     const std::size_t n = from_.size();
     for (std::size_t k = 0; k < n; ++k)
-      if (const std::size_t i = last ? n - 1 - k : k; materials_.material_of_layer[i]) return static_cast<std::uint32_t>(i);
+      if (const std::size_t i = last ? n - 1 - k : k; materials_.material_of_layer[i])
+        return static_cast<std::uint32_t>(i);
     return thickest();
   }
 
   // The layer at d; a layer of air shows nothing, then the thickest stands for it.
   std::uint32_t at(double d) const {
     for (std::size_t i = 0; i < from_.size(); ++i)
-      if (d >= from_[i] && d <= to_[i] && to_[i] > from_[i]) return materials_.material_of_layer[i] ? static_cast<std::uint32_t>(i) : thickest();
+      if (d >= from_[i] && d <= to_[i] && to_[i] > from_[i])
+        return materials_.material_of_layer[i] ? static_cast<std::uint32_t>(i) : thickest();
     return outermost(!from_.empty() && d > to_[thickest_]);
   }
 
@@ -139,12 +143,16 @@ class Cutter {
   }
 
  private:
-  int side(std::uint32_t i, double d) const { return distances_[i] > d + kNear_m ? 1 : distances_[i] < d - kNear_m ? -1 : 0; }
+  int side(std::uint32_t i, double d) const {
+    return distances_[i] > d + kNear_m ? 1 : distances_[i] < d - kNear_m ? -1 : 0;
+  }
 
   // The order of the ends is that of their coordinates: points may stand twice in the list.
   std::uint32_t on(std::uint32_t a, std::uint32_t b, double d) {
     const auto& p = body_.positions;
-    const auto less = [&](std::uint32_t i, std::uint32_t j) { return std::tie(p[i].x(), p[i].y(), p[i].z()) < std::tie(p[j].x(), p[j].y(), p[j].z()); };
+    const auto less = [&](std::uint32_t i, std::uint32_t j) {
+      return std::tie(p[i].x(), p[i].y(), p[i].z()) < std::tie(p[j].x(), p[j].y(), p[j].z());
+    };
     if (less(b, a)) std::swap(a, b);
     const auto [it, is_new] = made_.try_emplace({a, b}, static_cast<std::uint32_t>(p.size()));
     if (!is_new) return it->second;
@@ -206,12 +214,14 @@ ReferenceLine referenceLine(const Entity& product, const Model& model) {
   return {};
 }
 
-std::optional<LayeredBody> layeredBody(const Body& body, const Eigen::Affine3d& product_from_items, const ProductMaterials& materials,
-                                       const ReferenceLine& line) {
+std::optional<LayeredBody> layeredBody(const Body& body, const Eigen::Affine3d& product_from_items,
+                                       const ProductMaterials& materials, const ReferenceLine& line) {
   if (!materials.usage || !severalMaterials(materials)) return {};
   LayeredBody result{body.positions, body.triangles, body.tags, {}};
   const Across across(*materials.usage, line);
-  const auto inProduct = [&](std::uint32_t i) { return Eigen::Vector3d(product_from_items * (result.positions[i].cast<double>() + body.origin)); };
+  const auto inProduct = [&](std::uint32_t i) {
+    return Eigen::Vector3d(product_from_items * (result.positions[i].cast<double>() + body.origin));
+  };
   std::vector<double> distances;
   for (std::uint32_t i = 0; i < result.positions.size(); ++i) distances.push_back(across.distance(inProduct(i)));
   if (distances.empty()) return {};
@@ -230,7 +240,7 @@ std::optional<LayeredBody> layeredBody(const Body& body, const Eigen::Affine3d& 
     cut = sliced.triangles.size() <= most;
     if (cut) result = std::move(sliced), distances = std::move(of_sliced);
   }
-  const double slack_m = across.curved() ? 1e-2 : 2e-3;   // of a side that is drawn with chords
+  const double slack_m = across.curved() ? 1e-2 : 2e-3;  // of a side that is drawn with chords
   const double hand = product_from_items.linear().determinant() < 0 ? -1 : 1;
   for (const Triangle& t : result.triangles) {
     const Eigen::Vector3d a = inProduct(t[0]), b = inProduct(t[1]), c = inProduct(t[2]);
@@ -248,9 +258,11 @@ std::optional<LayeredBody> layeredBody(const Body& body, const Eigen::Affine3d& 
   return result;
 }
 
-std::vector<double> layeringKey(const Eigen::Affine3d& product_from_items, const ProductMaterials& materials, const ReferenceLine& line) {
+std::vector<double> layeringKey(const Eigen::Affine3d& product_from_items, const ProductMaterials& materials,
+                                const ReferenceLine& line) {
   if (!materials.usage || !severalMaterials(materials)) return {};
-  std::vector<double> key{static_cast<double>(materials.usage->axis), materials.usage->sense, materials.usage->offset_m};
+  std::vector<double> key{static_cast<double>(materials.usage->axis), materials.usage->sense,
+                          materials.usage->offset_m};
   for (std::size_t i = 0; i < materials.layers.size(); ++i) {
     key.push_back(materials.layers[i].thickness_m);
     key.push_back(static_cast<double>(materials.material_of_layer[i]));

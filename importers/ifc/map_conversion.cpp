@@ -25,7 +25,7 @@ double knownUnit(double metres) {
 
 struct MapUnit {
   double metres = 1;
-  bool scale_is_unit = false;    // the scale says nothing but the ratio of the units, the wrong way round
+  bool scale_is_unit = false;  // the scale says nothing but the ratio of the units, the wrong way round
 };
 
 MapUnit mapUnit(const StatedConversion& stated, double project_m, Report& report) {
@@ -34,7 +34,9 @@ MapUnit mapUnit(const StatedConversion& stated, double project_m, Report& report
   if (scale > 0 && scale != 1) {
     if (const double u = knownUnit(project_m / scale); u > 0) return {u};
     if (const double u = knownUnit(project_m * scale); u > 0) {
-      report.warn(stated.place, fmt::format("the scale {} leads from the map's unit to the project's, not back as the schema has it; the map's unit is taken as {} m", scale, u));
+      report.warn(stated.place, fmt::format("the scale {} leads from the map's unit to the project's, not back as the "
+                                            "schema has it; the map's unit is taken as {} m",
+                                            scale, u));
       return {u, true};
     }
   }
@@ -42,8 +44,11 @@ MapUnit mapUnit(const StatedConversion& stated, double project_m, Report& report
   if (known.crs && known.crs->projected && !near(known.crs->unit, project_m, 1e-9)) {
     // By the schema the project's unit counts; 5 400 000 m north written in a project of millimetres would be 5.4 km.
     constexpr double kFarFromEquator_m = 20000;
-    if (std::abs(stated.northings) * project_m < kFarFromEquator_m && std::abs(stated.northings) * known.crs->unit >= kFarFromEquator_m) {
-      report.warn(stated.place, fmt::format("the map's unit is not stated; eastings and northings are taken in that of EPSG:{}, {} m", stated.crs_digits, known.crs->unit));
+    if (std::abs(stated.northings) * project_m < kFarFromEquator_m &&
+        std::abs(stated.northings) * known.crs->unit >= kFarFromEquator_m) {
+      report.warn(stated.place,
+                  fmt::format("the map's unit is not stated; eastings and northings are taken in that of EPSG:{}, {} m",
+                              stated.crs_digits, known.crs->unit));
       return {known.crs->unit};
     }
     report.note(stated.place, "the map's unit is not stated; eastings and northings are taken in the project's");
@@ -79,21 +84,30 @@ MapConversion conversionInMetres(const StatedConversion& stated, const Model& mo
   c.orthogonal_height_m = stated.height * unit.metres;
   if (stated.abscissa || stated.ordinate) {
     const double x = stated.abscissa.value_or(0), y = stated.ordinate.value_or(0), length = std::hypot(x, y);
-    if (length > 1e-12) c.x_axis_abscissa = x / length, c.x_axis_ordinate = y / length;
-    else report.warn(stated.place, "the map conversion's x axis has no direction; no rotation is assumed");
+    if (length > 1e-12)
+      c.x_axis_abscissa = x / length, c.x_axis_ordinate = y / length;
+    else
+      report.warn(stated.place, "the map conversion's x axis has no direction; no rotation is assumed");
   }
-  // Scale leads from project units to map units; our model is in metres. Left out, or 1 between different units, it cannot
-  // mean what it says.
+  // Scale leads from project units to map units; our model is in metres. Left out, or 1 between different units, it
+  // cannot mean what it says.
   const double ratio = unit.metres / project_m, scale = stated.scale.value_or(1);
-  if (stated.scale && scale == 1 && ratio != 1) report.note(stated.place, "a scale of 1 between different units is taken as: no scale");
+  if (stated.scale && scale == 1 && ratio != 1)
+    report.note(stated.place, "a scale of 1 between different units is taken as: no scale");
   if (!(scale > 0)) report.warn(stated.place, fmt::format("a scale of {} is none; 1 is taken", scale));
   c.scale = unit.scale_is_unit || !(scale > 0) || scale == 1 ? 1 : scale * ratio;
-  if (near(c.scale, 1, 1e-9)) c.scale = 1;   // a ratio of units that was written with a few digits less
-  if (std::abs(c.scale - 1) > 0.01) report.warn(stated.place, fmt::format("a scale of {} from the model to the map is no projection's; check the units (--unit)", c.scale));
-  if ((stated.factors.array() > 0).all() && stated.factors.allFinite()) c.factors = stated.factors;
-  else report.warn(stated.place, "a factor of the map conversion is not positive; the factors are not used");
+  if (near(c.scale, 1, 1e-9)) c.scale = 1;  // a ratio of units that was written with a few digits less
+  if (std::abs(c.scale - 1) > 0.01)
+    report.warn(
+        stated.place,
+        fmt::format("a scale of {} from the model to the map is no projection's; check the units (--unit)", c.scale));
+  if ((stated.factors.array() > 0).all() && stated.factors.allFinite())
+    c.factors = stated.factors;
+  else
+    report.warn(stated.place, "a factor of the map conversion is not positive; the factors are not used");
   if (c.factors.maxCoeff() > 1.01 * c.factors.minCoeff() && c.factors.x() != c.factors.y())
-    report.warn(stated.place, fmt::format("the factors {} {} {} bend the model on the map", c.factors.x(), c.factors.y(), c.factors.z()));
+    report.warn(stated.place, fmt::format("the factors {} {} {} bend the model on the map", c.factors.x(),
+                                          c.factors.y(), c.factors.z()));
   return c;
 }
 

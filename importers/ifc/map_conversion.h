@@ -15,8 +15,8 @@ struct StatedConversion {
   double eastings = 0, northings = 0, height = 0;
   std::optional<double> abscissa, ordinate, scale;
   Eigen::Vector3d factors = Eigen::Vector3d::Ones();
-  double map_unit_m = 0;          // 0: not stated
-  std::string crs_digits;         // EPSG code of its CRS, or empty
+  double map_unit_m = 0;   // 0: not stated
+  std::string crs_digits;  // EPSG code of its CRS, or empty
 
   bool operator==(const StatedConversion& other) const = default;
 };

@@ -23,9 +23,13 @@ namespace {
 
 constexpr Mapping solid(const char* name, Result<geometry::PolyMesh> (*f)(const Entity&, Scope&)) { return {name, f}; }
 constexpr Mapping curved(const char* name, Result<Path> (*f)(const Entity&, Scope&)) { return {name, nullptr, f}; }
-constexpr Mapping area(const char* name, Result<Regions> (*f)(const Entity&, Scope&)) { return {name, nullptr, nullptr, f}; }
+constexpr Mapping area(const char* name, Result<Regions> (*f)(const Entity&, Scope&)) {
+  return {name, nullptr, nullptr, f};
+}
 
-constexpr Mapping bent(const char* name, Result<SurfacePtr> (*f)(const Entity&, Scope&)) { return {name, nullptr, nullptr, nullptr, f}; }
+constexpr Mapping bent(const char* name, Result<SurfacePtr> (*f)(const Entity&, Scope&)) {
+  return {name, nullptr, nullptr, nullptr, f};
+}
 
 constexpr std::array kMappings{
     solid("IFCEXTRUDEDAREASOLID", extrudedAreaSolid),
@@ -148,7 +152,8 @@ Result<T> guarded(Result<T> (*function)(const Entity&, Scope&), const Entity& en
 std::vector<const Mapping*> mappingOfTypes(const StepFile& file) {
   std::vector<const Mapping*> mappings;
   for (const std::string& name : file.typeNames()) {
-    const auto it = std::find_if(kMappings.begin(), kMappings.end(), [&](const Mapping& m) { return name == m.entity; });
+    const auto it =
+        std::find_if(kMappings.begin(), kMappings.end(), [&](const Mapping& m) { return name == m.entity; });
     mappings.push_back(it == kMappings.end() ? nullptr : &*it);
   }
   return mappings;
@@ -163,13 +168,14 @@ std::shared_ptr<CurveCache> newCurveCache() { return std::make_shared<CurveCache
 
 Result<Path> curve(const Entity& e, Scope& s) {
   const Mapping* m = mappingOf(e, s);
-  if (!m || (m->curve != gradientCurve && m->curve != segmentedReferenceCurve)) return guarded(m ? m->curve : nullptr, e, s, "curve");
+  if (!m || (m->curve != gradientCurve && m->curve != segmentedReferenceCurve))
+    return guarded(m ? m->curve : nullptr, e, s, "curve");
   CurveCache& cache = *s.model.curves;
   {
     const std::lock_guard lock(cache.mutex);
     if (const auto known = cache.paths.find(e.id()); known != cache.paths.end()) return known->second;
   }
-  auto path = guarded(m->curve, e, s, "curve");   // by two threads at once, perhaps: both find the same
+  auto path = guarded(m->curve, e, s, "curve");  // by two threads at once, perhaps: both find the same
   const std::lock_guard lock(cache.mutex);
   return cache.paths.emplace(e.id(), std::move(path)).first->second;
 }

@@ -12,17 +12,18 @@
 
 namespace standpoint::ifc {
 
-struct Path {                      // a curve as points in metres; of 2D curves z is 0
+struct Path {  // a curve as points in metres; of 2D curves z is 0
   std::vector<Eigen::Vector3d> points;
-  bool closed = false;             // then the first point is not repeated
-  // Where it is known that the curve itself leaves and arrives in other directions than its first and last chord; unit, or zero.
+  bool closed = false;  // then the first point is not repeated
+  // Where it is known that the curve itself leaves and arrives in other directions than its first and last chord; unit,
+  // or zero.
   Eigen::Vector3d start_tangent = Eigen::Vector3d::Zero(), end_tangent = Eigen::Vector3d::Zero();
-  std::vector<Eigen::Vector3d> ups;   // of an alignment with cant, one per point: where "up" leans to; else none
+  std::vector<Eigen::Vector3d> ups;  // of an alignment with cant, one per point: where "up" leans to; else none
 };
 using Regions = std::vector<geometry::Region2>;
 
 struct Mapping {
-  const char* entity;              // upper case
+  const char* entity;  // upper case
   Result<geometry::PolyMesh> (*item)(const Entity&, Scope&) = nullptr;
   Result<Path> (*curve)(const Entity&, Scope&) = nullptr;
   Result<Regions> (*profile)(const Entity&, Scope&) = nullptr;

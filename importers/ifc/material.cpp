@@ -23,32 +23,46 @@ void addLayers(ProductMaterials& found, const Entity& layer_set, const Model& mo
     const Entity material = layer.ref(0);
     addMaterial(found, material);
     found.material_of_layer.push_back(material.id());
-    found.layers.push_back({material ? material[0].text() : layer[3].text(), layer[1].number(0) * model.units.length_m});
+    found.layers.push_back(
+        {material ? material[0].text() : layer[3].text(), layer[1].number(0) * model.units.length_m});
   }
 }
 
 // Lists, constituents and profiles: sets whose members name a material.
 void addMembers(ProductMaterials& found, const Entity& set, std::size_t list, std::size_t material) {
-  for (const Entity& member : set.refs(list)) addMaterial(found, member.is("IFCMATERIAL") ? member : member.ref(material));
+  for (const Entity& member : set.refs(list))
+    addMaterial(found, member.is("IFCMATERIAL") ? member : member.ref(material));
 }
 
 LayerUsage usageOf(const Entity& e, const Model& model) {
   const std::string_view axis = e[1].symbol();
-  return {axis == "AXIS1" ? 0 : axis == "AXIS3" ? 2 : 1, e[2].symbol() == "NEGATIVE" ? -1.0 : 1.0, e[3].number(0) * model.units.length_m};
+  return {axis == "AXIS1"   ? 0
+          : axis == "AXIS3" ? 2
+                            : 1,
+          e[2].symbol() == "NEGATIVE" ? -1.0 : 1.0, e[3].number(0) * model.units.length_m};
 }
 
 void add(ProductMaterials& found, Entity m, const Model& model) {
   found.definition = m.id();
   if (m.is("IFCMATERIALLAYERSETUSAGE")) found.usage = usageOf(m, model);
-  if (m.is("IFCMATERIALLAYERSETUSAGE") || m.is("IFCMATERIALPROFILESETUSAGE") || m.is("IFCMATERIALPROFILESETUSAGETAPERING")) m = m.ref(0);
+  if (m.is("IFCMATERIALLAYERSETUSAGE") || m.is("IFCMATERIALPROFILESETUSAGE") ||
+      m.is("IFCMATERIALPROFILESETUSAGETAPERING"))
+    m = m.ref(0);
   if (m.is("IFCMATERIALCONSTITUENTSET"))
-    for (const Entity& constituent : m.refs(2)) found.constituents.emplace_back(constituent[0].text(), constituent.ref(2).id());
-  if (m.is("IFCMATERIAL")) addMaterial(found, m);
-  else if (m.is("IFCMATERIALLIST")) addMembers(found, m, 0, 0);
-  else if (m.is("IFCMATERIALLAYERSET")) addLayers(found, m, model);
-  else if (m.is("IFCMATERIALCONSTITUENTSET") || m.is("IFCMATERIALPROFILESET")) addMembers(found, m, 2, 2);
-  else if (m.is("IFCMATERIALCONSTITUENT") || m.is("IFCMATERIALPROFILE")) addMaterial(found, m.ref(2));
-  else if (m.is("IFCMATERIALLAYER")) addMaterial(found, m.ref(0));
+    for (const Entity& constituent : m.refs(2))
+      found.constituents.emplace_back(constituent[0].text(), constituent.ref(2).id());
+  if (m.is("IFCMATERIAL"))
+    addMaterial(found, m);
+  else if (m.is("IFCMATERIALLIST"))
+    addMembers(found, m, 0, 0);
+  else if (m.is("IFCMATERIALLAYERSET"))
+    addLayers(found, m, model);
+  else if (m.is("IFCMATERIALCONSTITUENTSET") || m.is("IFCMATERIALPROFILESET"))
+    addMembers(found, m, 2, 2);
+  else if (m.is("IFCMATERIALCONSTITUENT") || m.is("IFCMATERIALPROFILE"))
+    addMaterial(found, m.ref(2));
+  else if (m.is("IFCMATERIALLAYER"))
+    addMaterial(found, m.ref(0));
 }
 
 }  // namespace
@@ -57,7 +71,8 @@ ProductMaterials materialsOf(const Entity& product, const Relations& relations, 
   ProductMaterials found;
   const StepFile& file = model.file;
   add(found, file.entity(relations.materialOf(product)), model);
-  if (found.names.empty() && found.layers.empty()) add(found, file.entity(relations.materialOf(file.entity(relations.typeOf(product)))), model);
+  if (found.names.empty() && found.layers.empty())
+    add(found, file.entity(relations.materialOf(file.entity(relations.typeOf(product)))), model);
   return found;
 }
 
@@ -75,7 +90,8 @@ void tellMembers(std::vector<Property>& out, const Entity& set, const char* kind
     std::string value = member.ref(2)[0].text();
     if (!constituents && member.ref(3)) value += (value.empty() ? "" : ", ") + member.ref(3)[1].text();
     for (const std::size_t more : {constituents ? 4U : 5U, 3U})
-      if (const Value v = member[more]; v.present() && !v.isReference()) value += (value.empty() ? "" : ", ") + valueText(v, {}, model);
+      if (const Value v = member[more]; v.present() && !v.isReference())
+        value += (value.empty() ? "" : ", ") + valueText(v, {}, model);
     const std::string name = member[0].text();
     tell(out, name.empty() ? kind : name, value);
   }
@@ -99,7 +115,8 @@ void tellDefinition(std::vector<Property>& out, const Entity& m, const Model& mo
 
 }  // namespace
 
-void appendMaterialProperties(std::vector<Property>& out, const ProductMaterials& materials, const Relations& relations, const Model& model) {
+void appendMaterialProperties(std::vector<Property>& out, const ProductMaterials& materials, const Relations& relations,
+                              const Model& model) {
   tellDefinition(out, model.file.entity(materials.definition), model);
   for (std::size_t i = 0; i < materials.ids.size(); ++i)
     for (const Id set : relations.propertiesOfMaterial(model.file.entity(materials.ids[i])))
@@ -111,7 +128,8 @@ std::map<Id, Id> stylesOfMaterials(const StepFile& file) {
   for (const Entity& definition : file.all("IFCMATERIALDEFINITIONREPRESENTATION"))
     for (const Entity& representation : definition.refs(2))
       for (const Entity& item : representation.refs(3))
-        if (const Id style = item.is("IFCSTYLEDITEM") ? surfaceStyleOf(item) : 0) styles.emplace(definition[3].reference(), style);
+        if (const Id style = item.is("IFCSTYLEDITEM") ? surfaceStyleOf(item) : 0)
+          styles.emplace(definition[3].reference(), style);
   return styles;
 }
 

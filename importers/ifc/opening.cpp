@@ -14,7 +14,7 @@ Bounds boundsOf(const geometry::PolyMesh& mesh) {
 }
 
 bool overlap(const Bounds& a, const Bounds& b) {
-  constexpr double kTouch_m = 1e-6;   // what only touches takes nothing away
+  constexpr double kTouch_m = 1e-6;  // what only touches takes nothing away
   return ((a.min.array() + kTouch_m) < b.max.array()).all() && ((b.min.array() + kTouch_m) < a.max.array()).all();
 }
 
@@ -24,7 +24,8 @@ void move(geometry::PolyMesh& mesh, const Eigen::Vector3d& by) {
 
 }  // namespace
 
-void cutAway(geometry::PolyMesh& body, const std::vector<geometry::PolyMesh>& tools, const Entity& element, Report& report) {
+void cutAway(geometry::PolyMesh& body, const std::vector<geometry::PolyMesh>& tools, const Entity& element,
+             Report& report) {
   const Bounds host = boundsOf(body);
   std::vector<geometry::PolyMesh> touching;
   for (const auto& tool : tools)
@@ -32,16 +33,20 @@ void cutAway(geometry::PolyMesh& body, const std::vector<geometry::PolyMesh>& to
   if (touching.empty()) return;
   // Files with map coordinates in their points: near the origin the kernel's snapping keeps its meaning.
   const Eigen::Vector3d far = (host.min + host.max) / 2;
-  const Eigen::Vector3d shift = far.cwiseAbs().maxCoeff() > 1000 ? Eigen::Vector3d(far.array().round()) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  const Eigen::Vector3d shift = far.cwiseAbs().maxCoeff() > 1000 ? Eigen::Vector3d(far.array().round())
+                                                                 : Eigen::Vector3d(Eigen::Vector3d::Zero());
   move(body, -shift);
   const std::uint32_t tag = body.faces.empty() ? 0 : body.faces.front().tag;
   for (auto& tool : touching) {
     move(tool, -shift);
-    geometry::setTag(tool, tag);   // reveals look like the body
+    geometry::setTag(tool, tag);  // reveals look like the body
   }
   auto cut = subtractTools(body, touching);
-  if (cut) body = std::move(*cut);
-  else report.lose(element.place(), std::to_string(touching.size()) + " openings were not cut, the body stays as it was: " + describe(cut.error()));
+  if (cut)
+    body = std::move(*cut);
+  else
+    report.lose(element.place(), std::to_string(touching.size()) +
+                                     " openings were not cut, the body stays as it was: " + describe(cut.error()));
   move(body, shift);
 }
 

@@ -28,7 +28,8 @@ Entity parentPlacement(const Entity& placement) {
 }  // namespace
 
 Eigen::Vector3d cartesianPoint(const Entity& point, const Scope& scope) {
-  return point ? Eigen::Vector3d(triple(point[0]) * scope.model.units.length_m) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  return point ? Eigen::Vector3d(triple(point[0]) * scope.model.units.length_m)
+               : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
 Eigen::Vector3d direction(const Entity& entity, const Eigen::Vector3d& otherwise) {
@@ -40,7 +41,8 @@ Eigen::Vector3d direction(const Entity& entity, const Eigen::Vector3d& otherwise
 
 Eigen::Isometry3d frame(const Eigen::Vector3d& origin, const Eigen::Vector3d& z, const Eigen::Vector3d& x) {
   Eigen::Vector3d flat = x - x.dot(z) * z;
-  if (flat.norm() < 1e-9) flat = std::abs(z.x()) < 0.9 ? Eigen::Vector3d(Eigen::Vector3d::UnitX() - z.x() * z) : z.unitOrthogonal();
+  if (flat.norm() < 1e-9)
+    flat = std::abs(z.x()) < 0.9 ? Eigen::Vector3d(Eigen::Vector3d::UnitX() - z.x() * z) : z.unitOrthogonal();
   flat.normalize();
   Eigen::Isometry3d f = Eigen::Isometry3d::Identity();
   f.linear().col(0) = flat;
@@ -55,7 +57,8 @@ Eigen::Isometry3d axisPlacement(const Entity& placement, const Scope& scope) {
   const Eigen::Vector3d origin = cartesianPoint(placement.ref(0), scope);
   if (placement.is("IFCAXIS2PLACEMENT2D"))
     return frame(origin, Eigen::Vector3d::UnitZ(), direction(placement.ref(1), Eigen::Vector3d::UnitX()));
-  return frame(origin, direction(placement.ref(1), Eigen::Vector3d::UnitZ()), direction(placement.ref(2), Eigen::Vector3d::UnitX()));
+  return frame(origin, direction(placement.ref(1), Eigen::Vector3d::UnitZ()),
+               direction(placement.ref(2), Eigen::Vector3d::UnitX()));
 }
 
 Axis axis1Placement(const Entity& placement, const Scope& scope) {
@@ -86,9 +89,11 @@ Eigen::Isometry3d Placements::own(const Entity& placement, Report& report) const
   Scope scope(model_);
   if (placement.is("IFCLOCALPLACEMENT")) return axisPlacement(placement.ref(1), scope);
   if (!placement.is("IFCLINEARPLACEMENT") && !placement.is("IFCGRIDPLACEMENT"))
-    return report.lose(placement.place(), std::string(placement.typeName()) + " is not supported: its products stand at the origin of their parent"),
+    return report.lose(placement.place(), std::string(placement.typeName()) +
+                                              " is not supported: its products stand at the origin of their parent"),
            Eigen::Isometry3d::Identity();
-  const auto found = placement.is("IFCGRIDPLACEMENT") ? gridPlacement(placement, scope) : linearPlacement(placement, scope);
+  const auto found =
+      placement.is("IFCGRIDPLACEMENT") ? gridPlacement(placement, scope) : linearPlacement(placement, scope);
   if (found) return *found;
   report.lose(found.error().source, found.error().message + "; what stands there is put at the origin of its parent");
   return Eigen::Isometry3d::Identity();

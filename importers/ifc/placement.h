@@ -9,8 +9,8 @@
 
 namespace standpoint::ifc {
 
-Eigen::Vector3d cartesianPoint(const Entity& point, const Scope& scope);      // metres; missing coordinates are 0
-Eigen::Vector3d direction(const Entity& direction, const Eigen::Vector3d& otherwise);   // unit
+Eigen::Vector3d cartesianPoint(const Entity& point, const Scope& scope);  // metres; missing coordinates are 0
+Eigen::Vector3d direction(const Entity& direction, const Eigen::Vector3d& otherwise);  // unit
 // Of IfcAxis2Placement2D and 3D; the null entity is the identity.
 Eigen::Isometry3d axisPlacement(const Entity& placement, const Scope& scope);
 struct Axis {

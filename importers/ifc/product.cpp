@@ -14,13 +14,16 @@ namespace {
 // A class that no schema we know has is a product when it is placed and shaped like one.
 bool looksLikeProduct(const Entity& e) {
   const auto a = e.first<7>();
-  return a[0].isText() && (e.follow(a[5]).typeName().ends_with("PLACEMENT") || e.follow(a[6]).is("IFCPRODUCTDEFINITIONSHAPE"));
+  return a[0].isText() &&
+         (e.follow(a[5]).typeName().ends_with("PLACEMENT") || e.follow(a[6]).is("IFCPRODUCTDEFINITIONSHAPE"));
 }
 
 bool isProduct(const Entity& e, const EntityName* name) {
   if (!name) return looksLikeProduct(e);
   switch (name->kind) {
-    case EntityKind::product: case EntityKind::intangible: case EntityKind::space: return true;
+    case EntityKind::product:
+    case EntityKind::intangible:
+    case EntityKind::space: return true;
     case EntityKind::spatial: return static_cast<bool>(e.ref(6));
     default: return false;
   }
@@ -31,7 +34,10 @@ std::string statedType(const Entity& e) {
   if (!name || name->predefined_type < 0) return {};
   const std::string type(e[static_cast<std::size_t>(name->predefined_type)].symbol());
   // In IFC2X3 the place of a proxy's or storey's type holds its composition.
-  return type == "ELEMENT" || type == "COMPLEX" || type == "PARTIAL" || type == "INTERNAL" || type == "EXTERNAL" || type == "T" || type == "F" ? std::string() : type;
+  return type == "ELEMENT" || type == "COMPLEX" || type == "PARTIAL" || type == "INTERNAL" || type == "EXTERNAL" ||
+                 type == "T" || type == "F"
+             ? std::string()
+             : type;
 }
 
 // The occurrence's, else its type's; the user's own word (ObjectType, ElementType) where it is USERDEFINED.
@@ -48,7 +54,7 @@ std::string predefinedType(const Entity& e, const Entity& type) {
 std::vector<std::string> groupsOf(const Entity& e, const Relations& relations, const StepFile& file) {
   std::vector<std::string> names;
   std::vector<Id> open = relations.groupsOf(e), seen;
-  for (std::size_t i = 0; i < open.size() && i < 256; ++i) {   // groups may hold each other
+  for (std::size_t i = 0; i < open.size() && i < 256; ++i) {  // groups may hold each other
     if (std::find(seen.begin(), seen.end(), open[i]) != seen.end()) continue;
     seen.push_back(open[i]);
     const Entity group = file.entity(open[i]);
@@ -58,12 +64,14 @@ std::vector<std::string> groupsOf(const Entity& e, const Relations& relations, c
     for (const Id above : relations.groupsOf(group)) open.push_back(above);
   }
   for (const Id id : relations.referencingOf(e))
-    if (const Entity place = file.entity(id)) names.push_back(schemaSpelling(place.typeName()) + " " + place[2].text() + " (referenced)");
+    if (const Entity place = file.entity(id))
+      names.push_back(schemaSpelling(place.typeName()) + " " + place[2].text() + " (referenced)");
   return names;
 }
 
 bool isSpatial(const EntityName* name) {
-  return name && (name->kind == EntityKind::spatial || name->kind == EntityKind::space || name->kind == EntityKind::project);
+  return name &&
+         (name->kind == EntityKind::spatial || name->kind == EntityKind::space || name->kind == EntityKind::project);
 }
 
 }  // namespace
@@ -115,7 +123,7 @@ double elevation(const Entity& storey, Placements& placements, const Model& mode
   const Entity placement = storey.ref(5);
   const double stated = storey[9].number(0) * model.units.length_m;
   if (!placement) return stated;
-  Report ignored;   // the products' pass reports placements
+  Report ignored;  // the products' pass reports placements
   const double z = placements.world(placement, ignored).translation().z();
   const double parent = placements.world(placement.ref(0), ignored).translation().z();
   return std::abs(z - parent) > 1e-9 ? z : parent + stated;
@@ -138,8 +146,10 @@ std::vector<SpatialNode> spatialTree(const Model& model, const Relations& relati
     if (!isSpatial(entityName(e.typeName()))) continue;
     all.push_back(e.id());
     const Entity parent = file.entity(relations.wholeOf(e));
-    if (parent && isSpatial(entityName(parent.typeName())) && !(parent == e)) children[parent.id()].push_back(e.id());
-    else roots.push_back(e.id());
+    if (parent && isSpatial(entityName(parent.typeName())) && !(parent == e))
+      children[parent.id()].push_back(e.id());
+    else
+      roots.push_back(e.id());
   }
   std::vector<SpatialNode> nodes;
   std::map<Id, std::int32_t> index;
@@ -155,10 +165,13 @@ std::vector<SpatialNode> spatialTree(const Model& model, const Relations& relati
       const auto self = static_cast<std::int32_t>(nodes.size());
       const auto a = e.first<3>();
       nodes.push_back({e.place(), schemaSpelling(e.typeName()), a[2].text(), a[0].text(), parent, 0, {}});
-      if (properties < kMostPropertiesInAll) nodes.back().properties = propertiesOf(e, relations, model);
-      else if (properties != SIZE_MAX) report.lose(e.place(), "more than 5 000 000 properties of places in all; those from here on are left out");
+      if (properties < kMostPropertiesInAll)
+        nodes.back().properties = propertiesOf(e, relations, model);
+      else if (properties != SIZE_MAX)
+        report.lose(e.place(), "more than 5 000 000 properties of places in all; those from here on are left out");
       properties = properties < kMostPropertiesInAll ? properties + nodes.back().properties.size() : SIZE_MAX;
-      if (const std::string type = placeType(e); !type.empty()) nodes.back().properties.insert(nodes.back().properties.begin(), {"Attributes", "PredefinedType", type});
+      if (const std::string type = placeType(e); !type.empty())
+        nodes.back().properties.insert(nodes.back().properties.begin(), {"Attributes", "PredefinedType", type});
       if (e.is("IFCBUILDINGSTOREY")) nodes.back().elevation_m = elevation(e, placements, model);
       const auto& list = children[id];
       for (auto child = list.rbegin(); child != list.rend(); ++child) open.emplace_back(*child, self);
@@ -173,11 +186,12 @@ std::vector<SpatialNode> spatialTree(const Model& model, const Relations& relati
   return nodes;
 }
 
-void linkProducts(std::vector<Product>& products, const std::vector<Entity>& entities, const std::vector<SpatialNode>& spatial,
-                  const Relations& relations, const StepFile& file) {
+void linkProducts(std::vector<Product>& products, const std::vector<Entity>& entities,
+                  const std::vector<SpatialNode>& spatial, const Relations& relations, const StepFile& file) {
   std::map<Id, std::int32_t> product_of, node_of;
   for (std::size_t i = 0; i < entities.size(); ++i) product_of.emplace(entities[i].id(), static_cast<std::int32_t>(i));
-  for (std::size_t i = 0; i < spatial.size(); ++i) node_of.emplace(static_cast<Id>(std::stoul(spatial[i].id.substr(1))), static_cast<std::int32_t>(i));
+  for (std::size_t i = 0; i < spatial.size(); ++i)
+    node_of.emplace(static_cast<Id>(std::stoul(spatial[i].id.substr(1))), static_cast<std::int32_t>(i));
   const auto find = [](const std::map<Id, std::int32_t>& map, Id id) {
     const auto it = map.find(id);
     return it == map.end() ? -1 : it->second;
@@ -195,7 +209,8 @@ void linkProducts(std::vector<Product>& products, const std::vector<Entity>& ent
       at = file.entity(relations.wholeOf(at) ? relations.wholeOf(at) : host);
     }
     for (std::int32_t n = p.container; n >= 0 && p.storey.empty(); n = spatial[static_cast<std::size_t>(n)].parent)
-      if (spatial[static_cast<std::size_t>(n)].ifc_class == "IfcBuildingStorey") p.storey = spatial[static_cast<std::size_t>(n)].name;
+      if (spatial[static_cast<std::size_t>(n)].ifc_class == "IfcBuildingStorey")
+        p.storey = spatial[static_cast<std::size_t>(n)].name;
   }
 }
 

@@ -17,7 +17,7 @@ Product describeProduct(const Entity& entity, bool with_properties, const Relati
 // The tree of project, sites, buildings, storeys and spaces, parents first.
 std::vector<SpatialNode> spatialTree(const Model& model, const Relations& relations, Report& report);
 // Container, storey and whole of each product.
-void linkProducts(std::vector<Product>& products, const std::vector<Entity>& entities, const std::vector<SpatialNode>& spatial,
-                  const Relations& relations, const StepFile& file);
+void linkProducts(std::vector<Product>& products, const std::vector<Entity>& entities,
+                  const std::vector<SpatialNode>& spatial, const Relations& relations, const StepFile& file);
 
 }  // namespace standpoint::ifc

@@ -31,7 +31,9 @@ Regions partsOfCrossing(const geometry::Loop2& outline) {
         const Eigen::Vector2d a = loop[i], u = loop[i + 1] - a, b = loop[j], v = loop[(j + 1) % n] - b;
         const double det = cross(u, v), s = cross(b - a, v) / det, t = cross(b - a, u) / det;
         if (!(s > 1e-9 && s < 1 - 1e-9 && t > 1e-9 && t < 1 - 1e-9)) continue;
-        geometry::Loop2 inner(loop.begin() + static_cast<std::ptrdiff_t>(i) + 1, loop.begin() + static_cast<std::ptrdiff_t>(j) + 1), rest(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+        geometry::Loop2 inner(loop.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                              loop.begin() + static_cast<std::ptrdiff_t>(j) + 1),
+            rest(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(i) + 1);
         inner.push_back(a + u * s);
         rest.push_back(a + u * s);
         rest.insert(rest.end(), loop.begin() + static_cast<std::ptrdiff_t>(j) + 1, loop.end());
@@ -77,14 +79,17 @@ Result<Regions> arbitraryClosedProfile(const Entity& entity, Scope& scope) {
   if (entity.is("IFCARBITRARYPROFILEDEFWITHVOIDS"))
     for (const Entity& inner : entity.refs(3)) {
       auto hole = outline(inner, scope);
-      if (hole) region.holes.push_back(std::move(*hole));
-      else scope.report.warn(hole.error().source, "a hole of the profile was left out: " + hole.error().message);
+      if (hole)
+        region.holes.push_back(std::move(*hole));
+      else
+        scope.report.warn(hole.error().source, "a hole of the profile was left out: " + hole.error().message);
     }
   geometry::normalise(region);
   if (region.outer.size() >= 3) return Regions{std::move(region)};
   Regions parts = outer->size() <= 1000 ? partsOfCrossing(*outer) : Regions();
   if (parts.empty()) return fail(entity, "the outline of the profile encloses nothing");
-  scope.report.warn(entity.place(), "the outline of the profile crosses itself; each of its " + std::to_string(parts.size()) + " parts is filled");
+  scope.report.warn(entity.place(), "the outline of the profile crosses itself; each of its " +
+                                        std::to_string(parts.size()) + " parts is filled");
   return parts;
 }
 
@@ -114,7 +119,7 @@ Result<Regions> derivedProfile(const Entity& entity, Scope& scope) {
   auto regions = profile(entity.ref(2), scope);
   if (!regions) return regions;
   Eigen::Affine3d t = transformationOperator(entity.ref(3), scope);
-  if (entity.is("IFCMIRROREDPROFILEDEF")) t.linear().col(0) *= -1;   // its operator is derived: x → −x
+  if (entity.is("IFCMIRROREDPROFILEDEF")) t.linear().col(0) *= -1;  // its operator is derived: x → −x
   for (auto& region : *regions) {
     const auto move = [&](geometry::Loop2& loop) {
       for (auto& p : loop) p = (t * Eigen::Vector3d(p.x(), p.y(), 0)).head<2>();
@@ -127,7 +132,8 @@ Result<Regions> derivedProfile(const Entity& entity, Scope& scope) {
 }
 
 Result<Path> profileCurve(const Entity& entity, Scope& scope) {
-  if (entity.is("IFCARBITRARYOPENPROFILEDEF") || entity.is("IFCARBITRARYCLOSEDPROFILEDEF")) return curve(entity.ref(2), scope);
+  if (entity.is("IFCARBITRARYOPENPROFILEDEF") || entity.is("IFCARBITRARYCLOSEDPROFILEDEF"))
+    return curve(entity.ref(2), scope);
   if (entity.is("IFCOPENCROSSPROFILEDEF")) return openCrossProfile(entity, scope);
   const auto regions = profile(entity, scope);
   if (!regions) return failure(regions.error());

@@ -13,11 +13,12 @@ namespace {
 
 struct Corner {
   double x, y;
-  double radius = 0;     // of the fillet or the rounded edge here
+  double radius = 0;  // of the fillet or the rounded edge here
 };
 
 // A corner with a radius becomes an arc that touches both of its sides; too large a radius is cut to what fits.
-void appendCorner(geometry::Loop2& loop, const Eigen::Vector2d& before, const Corner& corner, const Eigen::Vector2d& after, const Scope& scope) {
+void appendCorner(geometry::Loop2& loop, const Eigen::Vector2d& before, const Corner& corner,
+                  const Eigen::Vector2d& after, const Scope& scope) {
   const Eigen::Vector2d c(corner.x, corner.y);
   const Eigen::Vector2d u = (before - c).normalized(), v = (after - c).normalized();
   const double half = std::acos(std::clamp(u.dot(v), -1.0, 1.0)) / 2;
@@ -31,7 +32,8 @@ void appendCorner(geometry::Loop2& loop, const Eigen::Vector2d& before, const Co
   const int n = geometry::segmentCount(radius, std::abs(sweep), scope.tessellation);
   for (int i = 0; i <= n; ++i) {
     const double a = sweep * i / n;
-    const Eigen::Vector2d p(from.x() * std::cos(a) - from.y() * std::sin(a), from.x() * std::sin(a) + from.y() * std::cos(a));
+    const Eigen::Vector2d p(from.x() * std::cos(a) - from.y() * std::sin(a),
+                            from.x() * std::sin(a) + from.y() * std::cos(a));
     loop.push_back(centre + p);
   }
 }
@@ -50,7 +52,8 @@ void place(geometry::Loop2& loop, const Entity& entity, const Scope& scope) {
   for (auto& p : loop) p = (t * Eigen::Vector3d(p.x(), p.y(), 0)).head<2>();
 }
 
-Result<Regions> placed(const Entity& entity, geometry::Loop2 outer, std::vector<geometry::Loop2> holes, const Scope& scope) {
+Result<Regions> placed(const Entity& entity, geometry::Loop2 outer, std::vector<geometry::Loop2> holes,
+                       const Scope& scope) {
   geometry::Region2 region{std::move(outer), std::move(holes)};
   place(region.outer, entity, scope);
   for (auto& hole : region.holes) place(hole, entity, scope);
@@ -74,7 +77,9 @@ std::vector<Corner> rectangle(double x, double y, double radius) {
 // A measure of the profile in metres; 0 where the file has none.
 double m(const Entity& entity, std::size_t index, const Scope& scope) { return scope.metres(entity[index].number(0)); }
 
-tl::unexpected<Error> notPositive(const Entity& entity) { return fail(entity, "a dimension of the profile is missing or not positive"); }
+tl::unexpected<Error> notPositive(const Entity& entity) {
+  return fail(entity, "a dimension of the profile is missing or not positive");
+}
 
 }  // namespace
 
@@ -137,7 +142,9 @@ std::vector<Corner> iOutline(double depth, double web, const Flange& low, const 
   const double y = depth / 2, w = web / 2;
   // The thickness is stated in the middle between web and edge; a sloped flange is thinner outside, thicker inside.
   const auto inside = [&](const Flange& f) { return f.thickness + std::tan(f.slope) * (f.half_width - w) / 2; };
-  const auto outside = [&](const Flange& f) { return std::max(f.thickness - std::tan(f.slope) * (f.half_width - w) / 2, 0.0); };
+  const auto outside = [&](const Flange& f) {
+    return std::max(f.thickness - std::tan(f.slope) * (f.half_width - w) / 2, 0.0);
+  };
   return {{-low.half_width, -y},
           {low.half_width, -y},
           {low.half_width, -y + outside(low), low.edge},
@@ -152,7 +159,9 @@ std::vector<Corner> iOutline(double depth, double web, const Flange& low, const 
           {-low.half_width, -y + outside(low), low.edge}};
 }
 
-double slope(const Entity& e, std::size_t index, const Scope& s) { return e[index].number(0) * s.model.units.angle_rad; }
+double slope(const Entity& e, std::size_t index, const Scope& s) {
+  return e[index].number(0) * s.model.units.angle_rad;
+}
 
 }  // namespace
 
@@ -165,7 +174,7 @@ Result<Regions> iShapeProfile(const Entity& e, Scope& s) {
 
 Result<Regions> asymmetricIShapeProfile(const Entity& e, Scope& s) {
   const double depth = m(e, 4, s), web = m(e, 5, s);
-  const bool old = s.model.file.schema().starts_with("IFC2X");   // there positions 11 … are the centre of gravity
+  const bool old = s.model.file.schema().starts_with("IFC2X");  // there positions 11 … are the centre of gravity
   const Flange low{m(e, 3, s) / 2, m(e, 6, s), m(e, 7, s), old ? 0 : m(e, 11, s), old ? 0 : slope(e, 12, s)};
   Flange high{m(e, 8, s) / 2, m(e, 9, s), m(e, 10, s), old ? 0 : m(e, 13, s), old ? 0 : slope(e, 14, s)};
   if (!(high.thickness > 0)) high.thickness = low.thickness;
@@ -179,8 +188,14 @@ Result<Regions> lShapeProfile(const Entity& e, Scope& s) {
   if (!(x > 0 && y > 0 && t > 0)) return notPositive(e);
   const double rise = std::tan(slope(e, 8, s));
   const double dx = rise * (2 * x - t) / 2, dy = rise * (2 * y - t) / 2;
-  return placed(e, {{-x, -y}, {x, -y}, {x, -y + std::max(t - dx, 0.0), edge}, {-x + t + dy, -y + t + dx, fillet},
-                    {-x + std::max(t - dy, 0.0), y, edge}, {-x, y}}, s);
+  return placed(e,
+                {{-x, -y},
+                 {x, -y},
+                 {x, -y + std::max(t - dx, 0.0), edge},
+                 {-x + t + dy, -y + t + dx, fillet},
+                 {-x + std::max(t - dy, 0.0), y, edge},
+                 {-x, y}},
+                s);
 }
 
 Result<Regions> tShapeProfile(const Entity& e, Scope& s) {
@@ -188,16 +203,33 @@ Result<Regions> tShapeProfile(const Entity& e, Scope& s) {
   const double fillet = m(e, 7, s), flange_edge = m(e, 8, s), web_edge = m(e, 9, s);
   if (!(x > 0 && y > 0 && web > 0 && flange > 0)) return notPositive(e);
   const double dw = std::tan(slope(e, 10, s)) * (2 * y - flange) / 2, df = std::tan(slope(e, 11, s)) * (x - web) / 2;
-  return placed(e, {{-x, y}, {-x, y - flange + df, flange_edge}, {-web - dw, y - flange - df, fillet}, {-web + dw, -y, web_edge},
-                    {web - dw, -y, web_edge}, {web + dw, y - flange - df, fillet}, {x, y - flange + df, flange_edge}, {x, y}}, s);
+  return placed(e,
+                {{-x, y},
+                 {-x, y - flange + df, flange_edge},
+                 {-web - dw, y - flange - df, fillet},
+                 {-web + dw, -y, web_edge},
+                 {web - dw, -y, web_edge},
+                 {web + dw, y - flange - df, fillet},
+                 {x, y - flange + df, flange_edge},
+                 {x, y}},
+                s);
 }
 
 Result<Regions> uShapeProfile(const Entity& e, Scope& s) {
-  const double y = m(e, 3, s) / 2, x = m(e, 4, s) / 2, web = m(e, 5, s), flange = m(e, 6, s), fillet = m(e, 7, s), edge = m(e, 8, s);
+  const double y = m(e, 3, s) / 2, x = m(e, 4, s) / 2, web = m(e, 5, s), flange = m(e, 6, s), fillet = m(e, 7, s),
+               edge = m(e, 8, s);
   if (!(x > 0 && y > 0 && web > 0 && flange > 0)) return notPositive(e);
   const double d = std::tan(slope(e, 9, s)) * (2 * x - web) / 2;
-  return placed(e, {{-x, -y}, {x, -y}, {x, -y + flange - d, edge}, {-x + web, -y + flange + d, fillet},
-                    {-x + web, y - flange - d, fillet}, {x, y - flange + d, edge}, {x, y}, {-x, y}}, s);
+  return placed(e,
+                {{-x, -y},
+                 {x, -y},
+                 {x, -y + flange - d, edge},
+                 {-x + web, -y + flange + d, fillet},
+                 {-x + web, y - flange - d, fillet},
+                 {x, y - flange + d, edge},
+                 {x, y},
+                 {-x, y}},
+                s);
 }
 
 Result<Regions> cShapeProfile(const Entity& e, Scope& s) {
@@ -205,20 +237,41 @@ Result<Regions> cShapeProfile(const Entity& e, Scope& s) {
   if (!(x > 0 && y > 0 && t > 0)) return notPositive(e);
   const double out = in > 0 ? in + t : 0;
   const double lip = std::clamp(girth, t, y);
-  return placed(e, {{-x, -y, out}, {x, -y, out}, {x, -y + lip}, {x - t, -y + lip}, {x - t, -y + t, in}, {-x + t, -y + t, in},
-                    {-x + t, y - t, in}, {x - t, y - t, in}, {x - t, y - lip}, {x, y - lip}, {x, y, out}, {-x, y, out}}, s);
+  return placed(e,
+                {{-x, -y, out},
+                 {x, -y, out},
+                 {x, -y + lip},
+                 {x - t, -y + lip},
+                 {x - t, -y + t, in},
+                 {-x + t, -y + t, in},
+                 {-x + t, y - t, in},
+                 {x - t, y - t, in},
+                 {x - t, y - lip},
+                 {x, y - lip},
+                 {x, y, out},
+                 {-x, y, out}},
+                s);
 }
 
 Result<Regions> zShapeProfile(const Entity& e, Scope& s) {
-  const double y = m(e, 3, s) / 2, width = m(e, 4, s), web = m(e, 5, s) / 2, flange = m(e, 6, s), fillet = m(e, 7, s), edge = m(e, 8, s);
+  const double y = m(e, 3, s) / 2, width = m(e, 4, s), web = m(e, 5, s) / 2, flange = m(e, 6, s), fillet = m(e, 7, s),
+               edge = m(e, 8, s);
   if (!(width > 0 && y > 0 && web > 0 && flange > 0)) return notPositive(e);
-  const double out = width - web;   // each flange is `width` long, measured from the web's far face
-  return placed(e, {{-web, -y}, {out, -y}, {out, -y + flange, edge}, {web, -y + flange, fillet}, {web, y},
-                    {-out, y}, {-out, y - flange, edge}, {-web, y - flange, fillet}}, s);
+  const double out = width - web;  // each flange is `width` long, measured from the web's far face
+  return placed(e,
+                {{-web, -y},
+                 {out, -y},
+                 {out, -y + flange, edge},
+                 {web, -y + flange, fillet},
+                 {web, y},
+                 {-out, y},
+                 {-out, y - flange, edge},
+                 {-web, y - flange, fillet}},
+                s);
 }
 
-// Crane rails (IFC2X3), DIN 536: from the foot's middle up to the head, its right half; the left mirrors it. The foot is
-// thinner outwards (f1 at the web, f2, f3 at its edge), the head deeper at the web (h2) than at its side (h3).
+// Crane rails (IFC2X3), DIN 536: from the foot's middle up to the head, its right half; the left mirrors it. The foot
+// is thinner outwards (f1 at the web, f2, f3 at its edge), the head deeper at the web (h2) than at its side (h3).
 namespace {
 
 Result<Regions> craneRail(const Entity& e, const std::vector<Corner>& right, const Scope& s) {
@@ -230,16 +283,27 @@ Result<Regions> craneRail(const Entity& e, const std::vector<Corner>& right, con
 }  // namespace
 
 Result<Regions> craneRailAProfile(const Entity& e, Scope& s) {
-  const double y = m(e, 3, s) / 2, foot = m(e, 4, s) / 2, head = m(e, 6, s) / 2, h2 = m(e, 7, s), h3 = m(e, 8, s), web = m(e, 9, s) / 2;
+  const double y = m(e, 3, s) / 2, foot = m(e, 4, s) / 2, head = m(e, 6, s) / 2, h2 = m(e, 7, s), h3 = m(e, 8, s),
+               web = m(e, 9, s) / 2;
   const double knee = m(e, 10, s) / 2, f1 = m(e, 11, s), f2 = m(e, 12, s), f3 = m(e, 13, s);
   if (!(y > 0 && foot > 0 && head > 0 && web > 0 && h2 > 0 && h3 > 0 && f1 > 0)) return notPositive(e);
-  return craneRail(e, {{foot, -y}, {foot, -y + f3}, {knee, -y + f2}, {web, -y + f1}, {web, y - h2}, {head, y - h3}, {head, y, m(e, 5, s)}}, s);
+  return craneRail(e,
+                   {{foot, -y},
+                    {foot, -y + f3},
+                    {knee, -y + f2},
+                    {web, -y + f1},
+                    {web, y - h2},
+                    {head, y - h3},
+                    {head, y, m(e, 5, s)}},
+                   s);
 }
 
 Result<Regions> craneRailFProfile(const Entity& e, Scope& s) {
-  const double y = m(e, 3, s) / 2, head = m(e, 4, s) / 2, h2 = m(e, 6, s), h3 = m(e, 7, s), web = m(e, 8, s) / 2, f1 = m(e, 9, s), f2 = m(e, 10, s);
+  const double y = m(e, 3, s) / 2, head = m(e, 4, s) / 2, h2 = m(e, 6, s), h3 = m(e, 7, s), web = m(e, 8, s) / 2,
+               f1 = m(e, 9, s), f2 = m(e, 10, s);
   if (!(y > 0 && head > 0 && web > 0 && h2 > 0 && h3 > 0 && f1 > 0)) return notPositive(e);
-  return craneRail(e, {{head, -y}, {head, -y + f2}, {web, -y + f1}, {web, y - h2}, {head, y - h3}, {head, y, m(e, 5, s)}}, s);
+  return craneRail(
+      e, {{head, -y}, {head, -y + f2}, {web, -y + f1}, {web, y - h2}, {head, y - h3}, {head, y, m(e, 5, s)}}, s);
 }
 
 }  // namespace standpoint::ifc

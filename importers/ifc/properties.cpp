@@ -28,18 +28,21 @@ void appendProperty(Properties& out, const std::string& set, const Entity& p, co
     if (p) out.push_back({set, p[0].text(), propertyText(p, model)});
     return;
   }
-  if (depth >= 8) return;   // properties that hold each other
+  if (depth >= 8) return;  // properties that hold each other
   for (const Entity& part : p.refs(complex ? 3 : 2)) {
     if (out.size() >= kMostProperties) return;
     appendProperty(out, set + "/" + p[0].text(), part, model, depth + 1);
   }
 }
 
-void appendAttributeSet(Properties& out, const Entity& e, const AttributeSet& set, const Model& model, const std::string& prefix) {
-  const std::string own = e[0].isText() ? e[2].text() : std::string();   // of a material's set attribute 0 is the material
+void appendAttributeSet(Properties& out, const Entity& e, const AttributeSet& set, const Model& model,
+                        const std::string& prefix) {
+  const std::string own =
+      e[0].isText() ? e[2].text() : std::string();  // of a material's set attribute 0 is the material
   const std::string name = prefix + (own.empty() ? schemaSpelling(e.typeName()) : own);
   for (const SetAttribute& a : set.attributes)
-    if (std::string text = valueText(e[static_cast<std::size_t>(a.index)], {}, model, a.measure); !text.empty()) out.push_back({name, a.name, std::move(text)});
+    if (std::string text = valueText(e[static_cast<std::size_t>(a.index)], {}, model, a.measure); !text.empty())
+      out.push_back({name, a.name, std::move(text)});
 }
 
 void appendAttributes(Properties& out, const Entity& e, const Model& model) {
@@ -78,7 +81,7 @@ void appendClassification(Properties& out, const Entity& reference) {
     if (!title.empty() && title != text) text += (text.empty() ? "" : " ") + title;
     if (text.empty()) text = reference[0].text();
     for (int steps = 0; system.is("IFCCLASSIFICATIONREFERENCE") && steps < 32; ++steps) system = system.ref(3);
-  } else if (reference.is("IFCCLASSIFICATIONNOTATION")) {   // IFC2X3: the code in pieces
+  } else if (reference.is("IFCCLASSIFICATIONNOTATION")) {  // IFC2X3: the code in pieces
     for (const Entity& facet : reference.refs(0)) text += facet[0].text();
     system = {};
   }
@@ -88,7 +91,8 @@ void appendClassification(Properties& out, const Entity& reference) {
 
 void appendAssociations(Properties& out, const Entity& object, const Relations& relations, const Model& model) {
   for (const Id id : relations.classificationsOf(object)) appendClassification(out, model.file.entity(id));
-  for (const Id id : relations.documentsOf(object)) add(out, "Document", "Reference", referenceText(model.file.entity(id)));
+  for (const Id id : relations.documentsOf(object))
+    add(out, "Document", "Reference", referenceText(model.file.entity(id)));
 }
 
 // Of the object's representations, of their items, and of what is mapped there.
@@ -107,11 +111,13 @@ class LayerNames {
 
  private:
   void add(const Entity& e) {
-    if (const Id layer = relations_.presentationLayerOf(e); layer && std::find(ids_.begin(), ids_.end(), layer) == ids_.end()) ids_.push_back(layer);
+    if (const Id layer = relations_.presentationLayerOf(e);
+        layer && std::find(ids_.begin(), ids_.end(), layer) == ids_.end())
+      ids_.push_back(layer);
   }
   const Relations& relations_;
   std::vector<Id> ids_;
-  int left_ = 1000;   // items that a thousand products share are not walked a thousand times to the end
+  int left_ = 1000;  // items that a thousand products share are not walked a thousand times to the end
 };
 
 void appendPresentationLayers(Properties& out, const Entity& object, const Relations& relations, const Model& model) {
@@ -132,15 +138,17 @@ Properties propertiesOfType(const Entity& type, const Relations& relations, cons
 }  // namespace
 
 void appendProperties(Properties& properties, const Entity& set, const Model& model, const std::string& prefix) {
-  if (const AttributeSet* attributes = attributeSet(set.typeName())) return appendAttributeSet(properties, set, *attributes, model, prefix);
+  if (const AttributeSet* attributes = attributeSet(set.typeName()))
+    return appendAttributeSet(properties, set, *attributes, model, prefix);
   const std::string_view kind = set.typeName();
-  const bool of_material = kind == "IFCMATERIALPROPERTIES";      // (Name, Description, Properties, Material)
+  const bool of_material = kind == "IFCMATERIALPROPERTIES";       // (Name, Description, Properties, Material)
   const bool extended = kind == "IFCEXTENDEDMATERIALPROPERTIES";  // IFC2X3: (Material, Properties, Description, Name)
   const bool quantities = kind == "IFCELEMENTQUANTITY";
   if (!of_material && !extended && !quantities && kind != "IFCPROPERTYSET") return;
   std::string name = set[of_material ? 0 : extended ? 3 : 2].text();
   name = prefix + (name.empty() ? schemaSpelling(kind) : name);
-  for (const Entity& p : set.refs(of_material ? 2 : extended ? 1 : quantities ? 5 : 4)) appendProperty(properties, name, p, model, 0);
+  for (const Entity& p : set.refs(of_material ? 2 : extended ? 1 : quantities ? 5 : 4))
+    appendProperty(properties, name, p, model, 0);
 }
 
 Properties propertiesOf(const Entity& object, const Relations& relations, const Model& model) {
@@ -155,7 +163,7 @@ Properties propertiesOf(const Entity& object, const Relations& relations, const 
       if (!own.contains({p.set, p.name})) properties.push_back(std::move(p));
   }
   if (properties.size() > kMostProperties) properties.resize(kMostProperties);
-  appendPresentationLayers(properties, object, relations, model);   // selectors ask for them: they are not cut
+  appendPresentationLayers(properties, object, relations, model);  // selectors ask for them: they are not cut
   return properties;
 }
 

@@ -20,6 +20,7 @@ constexpr std::size_t kMostPropertiesInAll = 5'000'000;
 std::vector<Property> propertiesOf(const Entity& object, const Relations& relations, const Model& model);
 // Those of one set: IfcPropertySet, IfcElementQuantity, IfcMaterialProperties, or a set whose properties are attributes
 // (IfcDoorLiningProperties, IfcOpticalMaterialProperties). `prefix` is written before the set's name.
-void appendProperties(std::vector<Property>& properties, const Entity& set, const Model& model, const std::string& prefix = {});
+void appendProperties(std::vector<Property>& properties, const Entity& set, const Model& model,
+                      const std::string& prefix = {});
 
 }  // namespace standpoint::ifc

@@ -12,8 +12,10 @@ namespace {
 
 // IfcPositiveLengthMeasure is counted in LENGTHUNIT: the schema names measures and units alike but for a few.
 std::string unitTypeOf(std::string_view measure) {
-  constexpr std::array<std::pair<std::string_view, const char*>, 4> kOdd{{{"IFCQUANTITYWEIGHT", "MASSUNIT"}, {"IFCMONETARYMEASURE", "MONETARYUNIT"},
-                                                                          {"IFCQUANTITYCOUNT", ""}, {"IFCQUANTITYNUMBER", ""}}};
+  constexpr std::array<std::pair<std::string_view, const char*>, 4> kOdd{{{"IFCQUANTITYWEIGHT", "MASSUNIT"},
+                                                                          {"IFCMONETARYMEASURE", "MONETARYUNIT"},
+                                                                          {"IFCQUANTITYCOUNT", ""},
+                                                                          {"IFCQUANTITYNUMBER", ""}}};
   for (const auto& [name, unit] : kOdd)
     if (measure == name) return unit;
   if (measure.starts_with("IFCQUANTITY")) return std::string(measure.substr(11)) + "UNIT";
@@ -35,7 +37,8 @@ std::string symbolText(std::string_view symbol) {
 }
 
 std::string boundedText(const Entity& p, const Model& model) {
-  const std::string low = valueText(p[3], p.ref(4), model), high = valueText(p[2], p.ref(4), model), set_point = valueText(p[5], p.ref(4), model);
+  const std::string low = valueText(p[3], p.ref(4), model), high = valueText(p[2], p.ref(4), model),
+                    set_point = valueText(p[5], p.ref(4), model);
   const std::string range = low.empty() && high.empty() ? std::string() : low + " … " + high;
   return set_point.empty() ? range : range.empty() ? set_point : set_point + " (" + range + ")";
 }
@@ -59,7 +62,7 @@ std::string valueText(const Value& value, const Entity& own_unit, const Model& m
   const Value inner = value.inner();
   if (inner.isText()) return inner.text();
   if (const auto symbol = inner.symbol(); !symbol.empty()) return symbolText(symbol);
-  if (inner.isList()) return joinedText(inner, own_unit, model);   // IfcCompoundPlaneAngleMeasure
+  if (inner.isList()) return joinedText(inner, own_unit, model);  // IfcCompoundPlaneAngleMeasure
   if (!inner.number()) return {};
   std::string text(inner.raw());
   while (!text.empty() && (text.back() == ' ' || text.back() == '\n' || text.back() == '\r')) text.pop_back();
@@ -74,7 +77,7 @@ std::string valueText(const Value& value, const Entity& own_unit, const Model& m
 std::string joinedText(const Value& list, const Entity& own_unit, const Model& model) {
   std::string text;
   for (const Value v : list) {
-    const std::string one = v.inner().isList() ? std::string() : valueText(v, own_unit, model);   // lists do not nest
+    const std::string one = v.inner().isList() ? std::string() : valueText(v, own_unit, model);  // lists do not nest
     text += (text.empty() ? "" : ", ") + one;
   }
   return text;

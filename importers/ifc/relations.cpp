@@ -24,16 +24,25 @@ std::vector<Id> Relations::of(const Fan& fan, const Entity& e) const {
   std::vector<Id> found;
   if (!e || fan.empty()) return found;
   const auto index = static_cast<std::uint32_t>(file_.indexOf(e));
-  for (auto it = std::lower_bound(fan.begin(), fan.end(), std::pair(index, Id{0})); it != fan.end() && it->first == index; ++it)
-    if (std::find(found.end() - std::min<std::ptrdiff_t>(std::ssize(found), 64), found.end(), it->second) == found.end()) found.push_back(it->second);
+  for (auto it = std::lower_bound(fan.begin(), fan.end(), std::pair(index, Id{0}));
+       it != fan.end() && it->first == index; ++it)
+    if (std::find(found.end() - std::min<std::ptrdiff_t>(std::ssize(found), 64), found.end(), it->second) ==
+        found.end())
+      found.push_back(it->second);
   return found;
 }
 
 // IFC4 has one entity for it whose material comes last; in IFC2X3 each kind is an entity and its material comes first.
 void Relations::readMaterialProperties() {
-  constexpr const char* kKinds[] = {"IFCMATERIALPROPERTIES", "IFCEXTENDEDMATERIALPROPERTIES", "IFCGENERALMATERIALPROPERTIES",
-                                    "IFCTHERMALMATERIALPROPERTIES", "IFCMECHANICALMATERIALPROPERTIES", "IFCMECHANICALSTEELMATERIALPROPERTIES",
-                                    "IFCMECHANICALCONCRETEMATERIALPROPERTIES", "IFCOPTICALMATERIALPROPERTIES", "IFCHYGROSCOPICMATERIALPROPERTIES"};
+  constexpr const char* kKinds[] = {"IFCMATERIALPROPERTIES",
+                                    "IFCEXTENDEDMATERIALPROPERTIES",
+                                    "IFCGENERALMATERIALPROPERTIES",
+                                    "IFCTHERMALMATERIALPROPERTIES",
+                                    "IFCMECHANICALMATERIALPROPERTIES",
+                                    "IFCMECHANICALSTEELMATERIALPROPERTIES",
+                                    "IFCMECHANICALCONCRETEMATERIALPROPERTIES",
+                                    "IFCOPTICALMATERIALPROPERTIES",
+                                    "IFCHYGROSCOPICMATERIALPROPERTIES"};
   for (const char* kind : kKinds)
     for (const Entity& e : file_.all(kind))
       if (const Entity material = e.ref(kind == kKinds[0] ? 3 : 0))
@@ -68,7 +77,7 @@ Relations::Relations(const StepFile& file) : file_(file) {
   const std::size_t n = file.records().size();
   for (auto* v : {&whole_, &container_, &type_, &material_, &host_}) v->resize(n, 0);
   slot_.resize(n, 0);
-  for (auto* lists : {&openings_, &parts_, &property_sets_}) lists->emplace_back();   // slot 0 is the empty list
+  for (auto* lists : {&openings_, &parts_, &property_sets_}) lists->emplace_back();  // slot 0 is the empty list
   oneToMany("IFCRELAGGREGATES", 4, 5, whole_);
   oneToMany("IFCRELDECOMPOSES", 4, 5, whole_);
   oneToMany("IFCRELNESTS", 4, 5, whole_);
@@ -82,7 +91,8 @@ Relations::Relations(const StepFile& file) : file_(file) {
     openings_[slotFor(element)].push_back(opening.id());
   }
   for (const Entity& rel : file.all("IFCRELFILLSELEMENT"))
-    if (const Entity opening = rel.ref(4), filling = rel.ref(5); opening && filling) host_[file.indexOf(filling)] = opening.id();
+    if (const Entity opening = rel.ref(4), filling = rel.ref(5); opening && filling)
+      host_[file.indexOf(filling)] = opening.id();
   for (const Entity& rel : file.all("IFCRELAGGREGATES"))
     if (const Entity whole = rel.ref(4))
       for (const Entity& part : rel.refs(5)) parts_[slotFor(whole)].push_back(part.id());
@@ -90,7 +100,7 @@ Relations::Relations(const StepFile& file) : file_(file) {
     for (const Entity& rel : file.all(relation))
       for (const Entity& object : rel.refs(4)) {
         auto& sets = property_sets_[slotFor(object)];
-        const Value several = rel[5].inner();   // IfcPropertySetDefinitionSet, or one reference
+        const Value several = rel[5].inner();  // IfcPropertySetDefinitionSet, or one reference
         if (const Id set = rel[5].reference()) sets.push_back(set);
         for (const Value v : several)
           if (const Id set = v.reference()) sets.push_back(set);

@@ -13,15 +13,19 @@
 namespace standpoint::ifc {
 namespace {
 
-constexpr std::size_t kMostParts = 1'000'000;   // of one product: mapped items multiply
+constexpr std::size_t kMostParts = 1'000'000;  // of one product: mapped items multiply
 
 bool hasBody(const Entity& representation, const Model& model, int depth) {
   for (const Entity& e : representation.refs(3)) {
     if (e.is("IFCMAPPEDITEM")) {
       if (depth < 16 && hasBody(e.ref(0).ref(1), model, depth + 1)) return true;
-    } else if (e.is("IFCGEOMETRICSET")) {   // only its surfaces are a body
+    } else if (e.is("IFCGEOMETRICSET")) {  // only its surfaces are a body
       const auto elements = e.refs(0);
-      if (std::any_of(elements.begin(), elements.end(), [&](const Entity& part) { const Mapping* m = model.mapping_of_type[part.type()]; return m && m->item; })) return true;
+      if (std::any_of(elements.begin(), elements.end(), [&](const Entity& part) {
+            const Mapping* m = model.mapping_of_type[part.type()];
+            return m && m->item;
+          }))
+        return true;
     } else if (const Mapping* m = model.mapping_of_type[e.type()]; m && m->item) {
       return true;
     }
@@ -29,8 +33,8 @@ bool hasBody(const Entity& representation, const Model& model, int depth) {
   return false;
 }
 
-// Smaller is better. What only stands for the body (the room it needs, its box) is never taken for it; a solid that some
-// exporter files under "Axis" is taken when there is nothing else.
+// Smaller is better. What only stands for the body (the room it needs, its box) is never taken for it; a solid that
+// some exporter files under "Axis" is taken when there is nothing else.
 int rank(const Entity& representation) {
   const std::string id = representation[1].text();
   constexpr std::array kNever{"Box", "Annotation", "Reference", "Clearance", "CoG", "Lighting", "SurveyPoints"};
@@ -57,11 +61,19 @@ struct Walk {
     if (depth > 24) return fail(r, "mapped items nest too deeply, or in a circle");
     bool direct = false;
     for (const Entity& e : r.refs(3)) {
-      if (!e.is("IFCMAPPEDITEM")) { direct = true; continue; }
-      const std::uint32_t part = scope.model.aspects.tagOf(e), own = part ? part : scope.model.style_of_item[scope.model.file.indexOf(e)];
+      if (!e.is("IFCMAPPEDITEM")) {
+        direct = true;
+        continue;
+      }
+      const std::uint32_t part = scope.model.aspects.tagOf(e),
+                          own = part ? part : scope.model.style_of_item[scope.model.file.indexOf(e)];
       const Entity map = e.ref(0);
-      if (!map.ref(1)) { scope.report.lose(e.place(), "the mapped item has no representation"); continue; }
-      const Eigen::Affine3d next = placed * transformationOperator(e.ref(1), scope) * Eigen::Affine3d(axisPlacement(map.ref(0), scope));
+      if (!map.ref(1)) {
+        scope.report.lose(e.place(), "the mapped item has no representation");
+        continue;
+      }
+      const Eigen::Affine3d next =
+          placed * transformationOperator(e.ref(1), scope) * Eigen::Affine3d(axisPlacement(map.ref(0), scope));
       if (auto done = representation(map.ref(1), next, own ? own : style, depth + 1); !done) return done;
     }
     if (direct) parts.push_back({r.id(), placed, style});
@@ -76,8 +88,12 @@ void appendItem(Items& items, const Entity& e, Scope& scope) {
   auto mesh = item(e, scope);
   if (!mesh) {
     // Curves and points beside a body are drawing, not body.
-    if (flat) items.report.note(e.place(), std::string(e.typeName()) + " is no solid or surface that is known here; it was left out");
-    else items.report.lose(mesh.error().source.empty() ? e.place() : mesh.error().source, e.place() + " has no geometry: " + mesh.error().message);
+    if (flat)
+      items.report.note(e.place(),
+                        std::string(e.typeName()) + " is no solid or surface that is known here; it was left out");
+    else
+      items.report.lose(mesh.error().source.empty() ? e.place() : mesh.error().source,
+                        e.place() + " has no geometry: " + mesh.error().message);
     return;
   }
   const std::uint32_t part = scope.model.aspects.tagOf(e), style = part ? part : styleOf(e, scope.model);
@@ -92,7 +108,8 @@ Result<std::vector<Part>> partsOfShape(const Entity& shape, Scope& scope) {
   Walk walk{scope, {}};
   const Entity body = bestOf(shape.refs(2), scope.model);
   if (!body) return walk.parts;
-  if (auto done = walk.representation(body, Eigen::Affine3d::Identity(), kNoStyle, 0); !done) return failure(done.error());
+  if (auto done = walk.representation(body, Eigen::Affine3d::Identity(), kNoStyle, 0); !done)
+    return failure(done.error());
   return walk.parts;
 }
 
@@ -118,7 +135,7 @@ Items itemsOf(const Entity& representation, const Model& model) {
     if (e.is("IFCMAPPEDITEM")) continue;
     try {
       appendItem(items, e, scope);
-    } catch (const std::exception& problem) {   // a library's, or no memory: this item is lost, not the file
+    } catch (const std::exception& problem) {  // a library's, or no memory: this item is lost, not the file
       items.report.lose(e.place(), std::string("has no geometry: ") + problem.what());
       scope.depth = 0;
     }

@@ -13,7 +13,7 @@ namespace standpoint::ifc {
 struct Part {
   Id representation = 0;
   Eigen::Affine3d product_from_items = Eigen::Affine3d::Identity();
-  std::uint32_t style = 0;       // of the mapped item, for items without one of their own
+  std::uint32_t style = 0;  // of the mapped item, for items without one of their own
 };
 
 // What a product is made of: its body, or what 3D representation comes nearest to one. Empty when it has none.

@@ -9,7 +9,7 @@
 namespace standpoint::ifc {
 namespace {
 
-constexpr double kNear_m = 2e-6;   // twice what the kernel's clip takes for one plane
+constexpr double kNear_m = 2e-6;  // twice what the kernel's clip takes for one plane
 using Loop = std::vector<std::uint32_t>;
 
 // Points by their x, for looking around without a tree.
@@ -17,11 +17,14 @@ class Sweep {
  public:
   explicit Sweep(const std::vector<Eigen::Vector3d>& points) : points_(points), by_x_(points.size()) {
     std::iota(by_x_.begin(), by_x_.end(), 0U);
-    std::sort(by_x_.begin(), by_x_.end(), [&](std::uint32_t a, std::uint32_t b) { return points[a].x() != points[b].x() ? points[a].x() < points[b].x() : a < b; });
+    std::sort(by_x_.begin(), by_x_.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return points[a].x() != points[b].x() ? points[a].x() < points[b].x() : a < b;
+    });
   }
   template <class Visit>
   void between(double low, double high, const Visit& visit) const {
-    auto it = std::lower_bound(by_x_.begin(), by_x_.end(), low, [&](std::uint32_t p, double x) { return points_[p].x() < x; });
+    auto it = std::lower_bound(by_x_.begin(), by_x_.end(), low,
+                               [&](std::uint32_t p, double x) { return points_[p].x() < x; });
     for (; it != by_x_.end() && points_[*it].x() <= high; ++it) visit(*it);
   }
 
@@ -49,24 +52,29 @@ Loop cleaned(const Loop& loop) {
   Loop result;
   for (const std::uint32_t p : loop) {
     if (!result.empty() && result.back() == p) continue;
-    if (result.size() > 1 && result[result.size() - 2] == p) result.pop_back();
-    else result.push_back(p);
+    if (result.size() > 1 && result[result.size() - 2] == p)
+      result.pop_back();
+    else
+      result.push_back(p);
   }
   while (result.size() > 1 && result.front() == result.back()) result.pop_back();
   while (result.size() > 2 && result[1] == result.back()) result.erase(result.begin()), result.pop_back();
   return result.size() < 3 ? Loop() : result;
 }
 
-void appendBetween(Loop& loop, const std::vector<Eigen::Vector3d>& points, const std::vector<char>& used, const Sweep& sweep, std::uint32_t from, std::uint32_t to) {
+void appendBetween(Loop& loop, const std::vector<Eigen::Vector3d>& points, const std::vector<char>& used,
+                   const Sweep& sweep, std::uint32_t from, std::uint32_t to) {
   const Eigen::Vector3d a = points[from], d = points[to] - a;
   const double length = d.norm();
   if (length < 2 * kNear_m) return;
   std::vector<std::pair<double, std::uint32_t>> on;
-  sweep.between(std::min(a.x(), points[to].x()) - kNear_m, std::max(a.x(), points[to].x()) + kNear_m, [&](std::uint32_t p) {
-    const Eigen::Vector3d q = points[p] - a;
-    const double along = q.dot(d) / length;
-    if (used[p] && along > kNear_m && along < length - kNear_m && (q - d * (along / length)).norm() < kNear_m) on.emplace_back(along, p);
-  });
+  sweep.between(
+      std::min(a.x(), points[to].x()) - kNear_m, std::max(a.x(), points[to].x()) + kNear_m, [&](std::uint32_t p) {
+        const Eigen::Vector3d q = points[p] - a;
+        const double along = q.dot(d) / length;
+        if (used[p] && along > kNear_m && along < length - kNear_m && (q - d * (along / length)).norm() < kNear_m)
+          on.emplace_back(along, p);
+      });
   std::sort(on.begin(), on.end());
   for (const auto& [along, p] : on) loop.push_back(p);
 }

@@ -6,8 +6,9 @@
 namespace standpoint::ifc {
 
 // What cuts by several planes leave behind, mended: points closer than a few micrometres become one; fins without
-// thickness, which stay between tools that share an edge, and pairs of faces that cover each other go away; and where one
-// piece has a corner on another's edge, the edge gets that corner, too, or a closed body would leak by a rounding error.
+// thickness, which stay between tools that share an edge, and pairs of faces that cover each other go away; and where
+// one piece has a corner on another's edge, the edge gets that corner, too, or a closed body would leak by a rounding
+// error.
 void mendSeams(geometry::PolyMesh& mesh);
 
 // Moves points that are within micrometres of a plane onto it: a face that nearly lies in the plane of a cut, as bodies

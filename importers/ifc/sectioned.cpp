@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cross sections that stand along a curve: IfcSectionedSolidHorizontal and IfcSectionedSurface. Between two stated sections
-// the body follows every bend of its directrix.
-#include "importers/ifc/sections.h"
-
+// Cross sections that stand along a curve: IfcSectionedSolidHorizontal and IfcSectionedSurface. Between two stated
+// sections the body follows every bend of its directrix.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -12,6 +10,7 @@
 #include "importers/ifc/curve.h"
 #include "importers/ifc/placement.h"
 #include "importers/ifc/profile.h"
+#include "importers/ifc/sections.h"
 #include "importers/ifc/solid.h"
 
 namespace standpoint::ifc {
@@ -25,7 +24,9 @@ bool alike(const geometry::Region2& a, const geometry::Region2& b) {
 
 geometry::Region2 blend(const geometry::Region2& a, const geometry::Region2& b, double t) {
   geometry::Region2 mid = a;
-  const auto mix = [t](geometry::Loop2& to, const geometry::Loop2& other) { for (std::size_t i = 0; i < to.size(); ++i) to[i] += (other[i] - to[i]) * t; };
+  const auto mix = [t](geometry::Loop2& to, const geometry::Loop2& other) {
+    for (std::size_t i = 0; i < to.size(); ++i) to[i] += (other[i] - to[i]) * t;
+  };
   mix(mid.outer, b.outer);
   for (std::size_t h = 0; h < mid.holes.size(); ++h) mix(mid.holes[h], b.holes[h]);
   return mid;
@@ -35,7 +36,7 @@ namespace {
 
 struct Position {
   Offsets at;
-  std::optional<double> roll_rad;   // where an Axis is stated: of "up" to the left
+  std::optional<double> roll_rad;  // where an Axis is stated: of "up" to the left
 };
 
 Position positionOf(const Entity& position, const Scope& scope) {
@@ -54,7 +55,8 @@ Position between(const Position& a, const Position& b, double t) {
   return p;
 }
 
-// The plane of a section stands upright across the directrix: x to the left, y up; it rolls as stated, else with the cant.
+// The plane of a section stands upright across the directrix: x to the left, y up; it rolls as stated, else with the
+// cant.
 Eigen::Isometry3d sectionFrame(const Path& directrix, const Position& p) {
   const Station s = stationAt(directrix, p.at.along);
   const Eigen::Vector3d forward = Eigen::Vector3d(s.tangent.x(), s.tangent.y(), 0).normalized();
@@ -70,7 +72,8 @@ Eigen::Isometry3d sectionFrame(const Path& directrix, const Position& p) {
 // The shares of the way at which the directrix bends between two positions, after the first of them.
 std::vector<double> sharesAfter(const Path& directrix, const Position& a, const Position& b) {
   std::vector<double> shares;
-  for (const double d : distancesBetween(directrix, a.at.along, b.at.along)) shares.push_back((d - a.at.along) / (b.at.along - a.at.along));
+  for (const double d : distancesBetween(directrix, a.at.along, b.at.along))
+    shares.push_back((d - a.at.along) / (b.at.along - a.at.along));
   shares.push_back(1);
   return shares;
 }
@@ -86,7 +89,8 @@ Result<Sections> sectionsOf(const Entity& entity, std::size_t profiles, std::siz
   if (!directrix) return failure(directrix.error());
   Sections found{std::move(*directrix), entity.refs(profiles), {}};
   for (const Entity& p : entity.refs(positions)) found.positions.push_back(positionOf(p, scope));
-  if (found.positions.size() != found.profiles.size() || found.positions.size() < 2) return fail(entity, "cross sections and their positions do not match");
+  if (found.positions.size() != found.profiles.size() || found.positions.size() < 2)
+    return fail(entity, "cross sections and their positions do not match");
   if (found.directrix.points.size() < 2) return fail(entity, "its directrix has no length");
   return found;
 }
@@ -139,7 +143,8 @@ std::vector<double> sharesOf(const Chain& c, std::size_t from, std::size_t to) {
 Eigen::Vector2d pointAt(const Chain& c, std::size_t from, const std::vector<double>& shares, double share) {
   for (std::size_t i = 1; i < shares.size(); ++i)
     if (share <= shares[i] && shares[i] > shares[i - 1])
-      return c.points[from + i - 1] + (c.points[from + i] - c.points[from + i - 1]) * ((share - shares[i - 1]) / (shares[i] - shares[i - 1]));
+      return c.points[from + i - 1] +
+             (c.points[from + i] - c.points[from + i - 1]) * ((share - shares[i - 1]) / (shares[i] - shares[i - 1]));
   return c.points[from + shares.size() - 1];
 }
 
@@ -167,7 +172,7 @@ std::pair<geometry::Loop2, geometry::Loop2> paired(const Chain& a, const Chain& 
 void joinRows(geometry::PolyMesh& mesh, std::size_t first, std::size_t count) {
   const auto triangle = [&](std::size_t a, std::size_t b, std::size_t c) {
     const Eigen::Vector3d u = mesh.points[b] - mesh.points[a], v = mesh.points[c] - mesh.points[a];
-    if (u.cross(v).norm() < 1e-12) return;   // where rows meet in a point
+    if (u.cross(v).norm() < 1e-12) return;  // where rows meet in a point
     geometry::Face face;
     for (const std::size_t i : {a, b, c}) face.outer.push_back(static_cast<std::uint32_t>(i));
     mesh.faces.push_back(std::move(face));
@@ -217,7 +222,8 @@ Result<geometry::PolyMesh> sectionedSolidHorizontal(const Entity& entity, Scope&
   const auto s = sectionsOf(entity, 1, 2, scope);
   if (!s) return failure(s.error());
   if (s->profiles[0].is("IFCOPENCROSSPROFILEDEF")) {
-    scope.report.warn(entity.place(), "its cross sections are open, so that it encloses nothing: it is taken as a surface");
+    scope.report.warn(entity.place(),
+                      "its cross sections are open, so that it encloses nothing: it is taken as a surface");
     return surfaceAlong(entity, *s, scope);
   }
   std::vector<geometry::Region2> regions;

@@ -4,7 +4,7 @@
 namespace standpoint::ifc {
 
 ShapeAspects::ShapeAspects(const StepFile& file) {
-  if (file.all("IFCMATERIALCONSTITUENT").empty()) return;   // then nothing depends on the names
+  if (file.all("IFCMATERIALCONSTITUENT").empty()) return;  // then nothing depends on the names
   for (const Entity& aspect : file.all("IFCSHAPEASPECT"))
     for (const Entity& representation : aspect.refs(0))
       for (const Entity& item : representation.refs(3)) {

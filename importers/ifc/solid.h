@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Representation items with a volume or a surface. Each returns its faces in metres, in the frame of the representation.
+// Representation items with a volume or a surface. Each returns its faces in metres, in the frame of the
+// representation.
 
 #include "importers/ifc/mapping.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "importers/ifc/step_bytes.h"
 
-#include <zlib.h>
-
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <memory>
 #include <string_view>
+
+#include <zlib.h>
 
 namespace standpoint::ifc {
 namespace {
@@ -19,7 +19,8 @@ Result<std::string> slurp(const std::filesystem::path& file) {
   const auto size = std::filesystem::file_size(file, code);
   if (code) return failure(ErrorKind::file_system, "cannot be read: " + code.message(), file.string());
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"), &std::fclose);
-  if (!in) return failure(ErrorKind::file_system, std::string("cannot be opened: ") + std::strerror(errno), file.string());
+  if (!in)
+    return failure(ErrorKind::file_system, std::string("cannot be opened: ") + std::strerror(errno), file.string());
   std::string bytes(size, '\0');
   bytes.resize(std::fread(bytes.data(), 1, bytes.size(), in.get()));
   return bytes;
@@ -66,9 +67,11 @@ Result<std::string> unzip(std::string_view zip, const std::string& name) {
   for (std::uint32_t left = little(zip, tail + 10, 2); left > 0 && at + 46 <= zip.size(); --left) {
     const std::uint32_t name_size = little(zip, at + 28, 2);
     const std::string_view member = zip.substr(at + 46, name_size);
-    const std::uint32_t method = little(zip, at + 10, 2), size = little(zip, at + 20, 4), local = little(zip, at + 42, 4);
+    const std::uint32_t method = little(zip, at + 10, 2), size = little(zip, at + 20, 4),
+                        local = little(zip, at + 42, 4);
     if (member.ends_with(".ifc") || member.ends_with(".IFC")) {
-      const std::size_t data = std::size_t{local} + 30 + little(zip, std::size_t{local} + 26, 2) + little(zip, std::size_t{local} + 28, 2);
+      const std::size_t data =
+          std::size_t{local} + 30 + little(zip, std::size_t{local} + 26, 2) + little(zip, std::size_t{local} + 28, 2);
       if (data > zip.size() || size > zip.size() - data) break;
       if (method == 0) return std::string(zip.substr(data, size));
       if (method == 8) return inflateAll(zip.substr(data, size), -15, name);

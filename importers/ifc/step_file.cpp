@@ -8,7 +8,6 @@
 #include <unordered_map>
 
 #include "fast_float/fast_float.h"
-
 #include "importers/ifc/step_bytes.h"
 
 namespace standpoint::ifc {
@@ -16,7 +15,9 @@ namespace {
 
 bool isSpace(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == '\f' || c == '\v' || c == '\0'; }
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
-bool isNameChar(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || isDigit(c) || c == '_' || c == '-'; }
+bool isNameChar(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || isDigit(c) || c == '_' || c == '-';
+}
 
 const char* skipComment(const char* p, const char* end) {  // at "/*"
   for (p += 2; p < end; ++p) {
@@ -31,9 +32,12 @@ bool atComment(const char* p, const char* end) { return *p == '/' && p + 1 < end
 
 const char* skipSpace(const char* p, const char* end) {
   while (p < end) {
-    if (isSpace(*p)) ++p;
-    else if (atComment(p, end)) p = skipComment(p, end);
-    else break;
+    if (isSpace(*p))
+      ++p;
+    else if (atComment(p, end))
+      p = skipComment(p, end);
+    else
+      break;
   }
   return p;
 }
@@ -59,15 +63,22 @@ const char* skipValue(const char* p, const char* end) {
   std::size_t depth = 0;
   while (p < end) {
     switch (*p) {
-      case '(': ++depth; ++p; break;
+      case '(':
+        ++depth;
+        ++p;
+        break;
       case ')':
         if (depth == 0) return p;
-        --depth; ++p; break;
+        --depth;
+        ++p;
+        break;
       case ',':
         if (depth == 0) return p;
-        ++p; break;
+        ++p;
+        break;
       case ';': return p;
-      case '\'': case '"': p = skipQuoted(p, end); break;
+      case '\'':
+      case '"': p = skipQuoted(p, end); break;
       case '/': p = atComment(p, end) ? skipComment(p, end) : p + 1; break;
       default: ++p;
     }
@@ -124,7 +135,8 @@ std::string_view Value::symbol() const {
   const Value v = inner();
   if (!v.at_ || *v.at_ != '.') return {};
   const std::string_view name = nameAt(v.at_ + 1, v.end_);
-  return v.at_ + 1 + name.size() < v.end_ && v.at_[1 + name.size()] == '.' && !isDigit(v.at_[1]) ? name : std::string_view{};
+  return v.at_ + 1 + name.size() < v.end_ && v.at_[1 + name.size()] == '.' && !isDigit(v.at_[1]) ? name
+                                                                                                 : std::string_view{};
 }
 
 std::string_view Value::typeName() const {
@@ -174,7 +186,9 @@ std::size_t Value::size() const {
   return n;
 }
 
-std::string_view Entity::typeName() const { return record_ ? std::string_view(file_->typeNames()[record_->type]) : std::string_view(); }
+std::string_view Entity::typeName() const {
+  return record_ ? std::string_view(file_->typeNames()[record_->type]) : std::string_view();
+}
 
 Value Entity::arguments() const {
   if (!record_) return {};
@@ -204,7 +218,8 @@ Entity StepFile::entity(Id id) const {
     if (id >= position_of_id_.size() || position_of_id_[id] == 0) return {};
     return {this, &records_[position_of_id_[id] - 1]};
   }
-  const auto it = std::lower_bound(records_.begin(), records_.end(), id, [](const Record& r, Id i) { return r.id < i; });
+  const auto it =
+      std::lower_bound(records_.begin(), records_.end(), id, [](const Record& r, Id i) { return r.id < i; });
   return it != records_.end() && it->id == id ? Entity(this, &*it) : Entity();
 }
 
@@ -212,7 +227,8 @@ std::vector<Entity> StepFile::all(std::string_view upper_case_name) const {
   std::vector<Entity> found;
   const auto it = std::find(type_names_.begin(), type_names_.end(), upper_case_name);
   if (it == type_names_.end()) return found;
-  for (const std::uint32_t p : positions_of_type_[static_cast<std::size_t>(it - type_names_.begin())]) found.push_back(at(p));
+  for (const std::uint32_t p : positions_of_type_[static_cast<std::size_t>(it - type_names_.begin())])
+    found.push_back(at(p));
   return found;
 }
 
@@ -238,21 +254,25 @@ class Scanner {
       const auto done = *p_ == '#' ? record() : statement();
       if (!done) return done;
     }
-    if (!data_) return failure(ErrorKind::unusable, "no DATA section: this is not a STEP physical file", name_ + " line 1");
+    if (!data_)
+      return failure(ErrorKind::unusable, "no DATA section: this is not a STEP physical file", name_ + " line 1");
     if (!ended_) report_.lose(line(end_), "the file ends inside its DATA section: what followed is missing");
     sortRecords();
     return {};
   }
 
  private:
-  std::string line(const char* p) const { return "line " + std::to_string(file_.lineOf(static_cast<std::size_t>(p - file_.text_.data()))); }
+  std::string line(const char* p) const {
+    return "line " + std::to_string(file_.lineOf(static_cast<std::size_t>(p - file_.text_.data())));
+  }
 
   // To the semicolon that ends what begins at p; nullptr when the file ends first.
   const char* statementEnd(const char* p) const {
     while (p < end_) {
       switch (*p) {
         case ';': return p;
-        case '\'': case '"': p = skipQuoted(p, end_); break;
+        case '\'':
+        case '"': p = skipQuoted(p, end_); break;
         case '/': p = atComment(p, end_) ? skipComment(p, end_) : p + 1; break;
         default: ++p;
       }
@@ -263,7 +283,8 @@ class Scanner {
   // What was complete before the cut is kept: half a building, said aloud, serves better than none.
   Result<void> cut(const char* begin, const std::string& what) {
     if (!file_.records_.empty()) {
-      report_.lose(line(begin), "the file ends inside " + what + ": it was cut short or a string is not closed; what followed is missing");
+      report_.lose(line(begin), "the file ends inside " + what +
+                                    ": it was cut short or a string is not closed; what followed is missing");
       p_ = end_;
       ended_ = true;
       return {};
@@ -306,7 +327,8 @@ class Scanner {
     const char* stop = statementEnd(p);
     if (!stop) return cut(begin, "record #" + std::to_string(id));
     p_ = stop + 1;
-    if (error != std::errc() || id == 0 || p >= stop || *p != '=') return tolerate(begin, "a record without a usable number was skipped"), Result<void>{};
+    if (error != std::errc() || id == 0 || p >= stop || *p != '=')
+      return tolerate(begin, "a record without a usable number was skipped"), Result<void>{};
     p = skipSpace(p + 1, end_);
     const std::string_view name = nameAt(p, end_);
     p = skipSpace(p + name.size(), end_);
@@ -321,7 +343,8 @@ class Scanner {
     const auto known = types_.find(name);
     if (known != types_.end()) return known->second;
     std::string upper(name);
-    std::transform(upper.begin(), upper.end(), upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    std::transform(upper.begin(), upper.end(), upper.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     auto& names = file_.type_names_;
     auto it = std::find(names.begin(), names.end(), upper);
     if (it == names.end()) it = names.insert(names.end(), upper);
@@ -343,15 +366,18 @@ class Scanner {
     const auto same_id = [](const Record& a, const Record& b) { return a.id == b.id; };
     const auto twice = std::adjacent_find(records.begin(), records.end(), same_id);
     if (twice != records.end()) {
-      report_.warn("#" + std::to_string(twice->id), "numbers are used more than once; the first record of each number counts");
+      report_.warn("#" + std::to_string(twice->id),
+                   "numbers are used more than once; the first record of each number counts");
       records.erase(std::unique(twice, records.end(), same_id), records.end());
     }
     file_.positions_of_type_.resize(file_.type_names_.size());
-    for (std::size_t i = 0; i < records.size(); ++i) file_.positions_of_type_[records[i].type].push_back(static_cast<std::uint32_t>(i));
+    for (std::size_t i = 0; i < records.size(); ++i)
+      file_.positions_of_type_[records[i].type].push_back(static_cast<std::uint32_t>(i));
     const std::size_t highest = records.empty() ? 0 : records.back().id;
     if (highest > 8 * records.size() + 1000) return;  // sparse numbers: search instead
     file_.position_of_id_.resize(highest + 1);
-    for (std::size_t i = 0; i < records.size(); ++i) file_.position_of_id_[records[i].id] = static_cast<std::uint32_t>(i + 1);
+    for (std::size_t i = 0; i < records.size(); ++i)
+      file_.position_of_id_[records[i].id] = static_cast<std::uint32_t>(i + 1);
   }
 
   StepFile& file_;

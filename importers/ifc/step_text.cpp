@@ -67,7 +67,10 @@ std::size_t appendWide(std::string& out, std::string_view s, std::size_t at, std
 // Length of the UTF-8 sequence that begins here, 0 when it is none.
 std::size_t utf8Length(std::string_view s, std::size_t at) {
   const auto lead = static_cast<unsigned char>(s[at]);
-  const std::size_t length = lead >= 0xF0 && lead < 0xF5 ? 4 : lead >= 0xE0 && lead < 0xF0 ? 3 : lead >= 0xC2 && lead < 0xE0 ? 2 : 0;
+  const std::size_t length = lead >= 0xF0 && lead < 0xF5   ? 4
+                             : lead >= 0xE0 && lead < 0xF0 ? 3
+                             : lead >= 0xC2 && lead < 0xE0 ? 2
+                                                           : 0;
   if (length == 0 || at + length > s.size()) return 0;
   for (std::size_t i = 1; i < length; ++i)
     if ((static_cast<unsigned char>(s[at + i]) & 0xC0) != 0x80) return 0;
@@ -79,7 +82,8 @@ std::size_t appendEscape(std::string& out, std::string_view s, std::size_t at) {
   const std::string_view rest = s.substr(at);
   if (rest.starts_with("\\\\")) return out += '\\', at + 2;
   if (rest.starts_with("\\S\\") && rest.size() > 3)
-    return appendUtf8(out, (static_cast<unsigned char>(rest[3]) & 0x7FU) + 0x80U), at + (rest.substr(3, 2) == "''" ? 5 : 4);
+    return appendUtf8(out, (static_cast<unsigned char>(rest[3]) & 0x7FU) + 0x80U),
+           at + (rest.substr(3, 2) == "''" ? 5 : 4);
   if (rest.starts_with("\\X2\\")) return appendWide(out, s, at + 4, 4);
   if (rest.starts_with("\\X4\\")) return appendWide(out, s, at + 4, 8);
   if (rest.starts_with("\\X\\"))

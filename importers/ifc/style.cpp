@@ -7,7 +7,9 @@
 namespace standpoint::ifc {
 namespace {
 
-std::uint32_t byteOf(double share) { return static_cast<std::uint32_t>(std::lround(std::clamp(share, 0.0, 1.0) * 255)); }
+std::uint32_t byteOf(double share) {
+  return static_cast<std::uint32_t>(std::lround(std::clamp(share, 0.0, 1.0) * 255));
+}
 
 // 24 bits of colour and 5 of opacity above kFirstColour: two map entries of one colour are one surface.
 std::uint32_t packColour(double r, double g, double b, double opacity) {
@@ -23,7 +25,7 @@ Colour unpackColour(std::uint32_t tag) {
 Id firstSurfaceStyle(const Entity& from, std::size_t list_index, int depth) {
   for (const Entity& e : from.refs(list_index)) {
     if (e.is("IFCSURFACESTYLE")) return e.id();
-    if (e.is("IFCPRESENTATIONSTYLEASSIGNMENT") && depth < 4)   // IFC2X3, and IFC4 files of exporters that kept it
+    if (e.is("IFCPRESENTATIONSTYLEASSIGNMENT") && depth < 4)  // IFC2X3, and IFC4 files of exporters that kept it
       if (const Id found = firstSurfaceStyle(e, 0, depth + 1)) return found;
   }
   return 0;
@@ -54,9 +56,12 @@ std::uint32_t styleOf(Entity e, const Model& model) {
   for (int depth = 0; e && depth < 1000; ++depth) {
     if (const Id style = model.style_of_item[model.file.indexOf(e)]) return style;
     const std::string_view name = e.typeName();
-    if (name == "IFCBOOLEANRESULT" || name == "IFCBOOLEANCLIPPINGRESULT") e = e.ref(1);
-    else if (name == "IFCCSGSOLID") e = e.ref(0);
-    else break;
+    if (name == "IFCBOOLEANRESULT" || name == "IFCBOOLEANCLIPPINGRESULT")
+      e = e.ref(1);
+    else if (name == "IFCCSGSOLID")
+      e = e.ref(0);
+    else
+      break;
   }
   return kNoStyle;
 }
@@ -68,14 +73,17 @@ std::optional<Style> styleOfTag(const StepFile& file, std::uint32_t tag) {
   Style style{e[0].text(), {}, {}, 0};
   for (const Entity& shading : e.refs(2)) {
     if (shading.is("IFCSURFACESTYLEREFRACTION"))
-      if (const auto n = shading[0].number(); n && *n >= 1 && *n < 10) style.index_of_refraction = static_cast<float>(*n);
+      if (const auto n = shading[0].number(); n && *n >= 1 && *n < 10)
+        style.index_of_refraction = static_cast<float>(*n);
     if (shading.is("IFCSURFACESTYLEWITHTEXTURES"))
       for (const Entity& texture : shading.refs(0))
         if (style.texture == 0) style.texture = texture.id();
     if (!shading.is("IFCSURFACESTYLERENDERING") && !shading.is("IFCSURFACESTYLESHADING")) continue;
     const Entity rgb = shading.ref(0);
-    style.colour = {static_cast<float>(std::clamp(rgb[1].number(0.7), 0.0, 1.0)), static_cast<float>(std::clamp(rgb[2].number(0.7), 0.0, 1.0)),
-                    static_cast<float>(std::clamp(rgb[3].number(0.7), 0.0, 1.0)), static_cast<float>(1 - std::clamp(shading[1].number(0), 0.0, 1.0))};
+    style.colour = {static_cast<float>(std::clamp(rgb[1].number(0.7), 0.0, 1.0)),
+                    static_cast<float>(std::clamp(rgb[2].number(0.7), 0.0, 1.0)),
+                    static_cast<float>(std::clamp(rgb[3].number(0.7), 0.0, 1.0)),
+                    static_cast<float>(1 - std::clamp(shading[1].number(0), 0.0, 1.0))};
   }
   return style;
 }
@@ -108,7 +116,8 @@ FaceColours::FaceColours(const Entity& face_set, const Model& model) {
   const Value indices = map[3];
   for (const Value v : indices) {
     const auto i = v.integer();
-    tags_.push_back(i >= 1 && i <= static_cast<std::int64_t>(colours.size()) ? colours[static_cast<std::size_t>(i - 1)] : kNoStyle);
+    tags_.push_back(i >= 1 && i <= static_cast<std::int64_t>(colours.size()) ? colours[static_cast<std::size_t>(i - 1)]
+                                                                             : kNoStyle);
   }
 }
 

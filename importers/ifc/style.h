@@ -14,7 +14,7 @@ struct Style {
   std::string name;
   Colour colour;
   std::optional<float> index_of_refraction;
-  Id texture = 0;                      // the first IfcSurfaceTexture of its IfcSurfaceStyleWithTextures
+  Id texture = 0;  // the first IfcSurfaceTexture of its IfcSurfaceStyleWithTextures
 };
 
 // A face's tag is the id of the style it has; faces with texture coordinates have tags of TextureMaps, faces of an

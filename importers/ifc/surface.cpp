@@ -22,8 +22,12 @@ class Plane : public ParametricSurface {
  public:
   explicit Plane(const Eigen::Isometry3d& f) : frame_(f), inverse_(f.inverse()) {}
   Eigen::Vector3d at(const Eigen::Vector2d& uv) const override { return frame_ * Eigen::Vector3d(uv.x(), uv.y(), 0); }
-  Eigen::Vector2d parameters(const Eigen::Vector3d& p, const Eigen::Vector2d&) const override { return (inverse_ * p).head<2>(); }
-  std::optional<Eigen::Vector2d> fromFile(const Eigen::Vector2d& uv, double length_m, double) const override { return uv * length_m; }
+  Eigen::Vector2d parameters(const Eigen::Vector3d& p, const Eigen::Vector2d&) const override {
+    return (inverse_ * p).head<2>();
+  }
+  std::optional<Eigen::Vector2d> fromFile(const Eigen::Vector2d& uv, double length_m, double) const override {
+    return uv * length_m;
+  }
 
  private:
   Eigen::Isometry3d frame_, inverse_;
@@ -33,7 +37,8 @@ class Plane : public ParametricSurface {
 class Round : public ParametricSurface {
  public:
   enum class Kind { cylinder, sphere, torus };
-  Round(Kind kind, const Eigen::Isometry3d& f, double major, double minor) : kind_(kind), frame_(f), inverse_(f.inverse()), major_(major), minor_(minor) {}
+  Round(Kind kind, const Eigen::Isometry3d& f, double major, double minor)
+      : kind_(kind), frame_(f), inverse_(f.inverse()), major_(major), minor_(minor) {}
 
   Eigen::Vector3d at(const Eigen::Vector2d& uv) const override {
     const double tube = kind_ == Kind::cylinder ? 0 : minor_;
@@ -82,7 +87,8 @@ class Searched : public ParametricSurface {
       const Eigen::Vector2d h = (high() - low()) * 1e-5;
       const Eigen::Vector3d here = at(uv);
       const double su = uv.x() + h.x() > high().x() ? -1 : 1, sv = uv.y() + h.y() > high().y() ? -1 : 1;
-      const Eigen::Vector3d du = (at({uv.x() + su * h.x(), uv.y()}) - here) / (su * h.x()), dv = (at({uv.x(), uv.y() + sv * h.y()}) - here) / (sv * h.y());
+      const Eigen::Vector3d du = (at({uv.x() + su * h.x(), uv.y()}) - here) / (su * h.x()),
+                            dv = (at({uv.x(), uv.y() + sv * h.y()}) - here) / (sv * h.y());
       const double a = du.dot(du), b = du.dot(dv), c = dv.dot(dv), det = a * c - b * b;
       if (!(std::abs(det) > 1e-30)) return uv;
       const Eigen::Vector3d r = p - here;
@@ -99,10 +105,14 @@ class Spline : public Searched {
  public:
   explicit Spline(SplineSurface s) : spline_(std::move(s)) {
     const Eigen::Vector2d middle = (low() + high()) / 2;
-    if ((spline_.at(low().x(), middle.y()) - spline_.at(high().x(), middle.y())).norm() < 1e-6) period_.x() = high().x() - low().x();
-    if ((spline_.at(middle.x(), low().y()) - spline_.at(middle.x(), high().y())).norm() < 1e-6) period_.y() = high().y() - low().y();
+    if ((spline_.at(low().x(), middle.y()) - spline_.at(high().x(), middle.y())).norm() < 1e-6)
+      period_.x() = high().x() - low().x();
+    if ((spline_.at(middle.x(), low().y()) - spline_.at(middle.x(), high().y())).norm() < 1e-6)
+      period_.y() = high().y() - low().y();
   }
-  Eigen::Vector3d at(const Eigen::Vector2d& uv) const override { return spline_.at(wrapped(uv.x(), 0), wrapped(uv.y(), 1)); }
+  Eigen::Vector3d at(const Eigen::Vector2d& uv) const override {
+    return spline_.at(wrapped(uv.x(), 0), wrapped(uv.y(), 1));
+  }
   Eigen::Vector2d parameters(const Eigen::Vector3d& p, const Eigen::Vector2d& near) const override {
     Eigen::Vector2d uv = Searched::parameters(p, {wrapped(near.x(), 0), wrapped(near.y(), 1)});
     for (int k = 0; k < 2; ++k)
@@ -129,13 +139,15 @@ class Profile {
   explicit Profile(Path path) : points_(std::move(path.points)) {
     if (path.closed) points_.push_back(points_.front());
     lengths_.push_back(0);
-    for (std::size_t i = 1; i < points_.size(); ++i) lengths_.push_back(lengths_.back() + (points_[i] - points_[i - 1]).norm());
+    for (std::size_t i = 1; i < points_.size(); ++i)
+      lengths_.push_back(lengths_.back() + (points_[i] - points_[i - 1]).norm());
   }
   double length() const { return lengths_.back(); }
   const std::vector<Eigen::Vector3d>& points() const { return points_; }
   Eigen::Vector3d at(double u) const {
     const auto it = std::upper_bound(lengths_.begin(), lengths_.end(), u);
-    const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(it - lengths_.begin(), 1, static_cast<std::ptrdiff_t>(lengths_.size()) - 1));
+    const auto i = static_cast<std::size_t>(
+        std::clamp<std::ptrdiff_t>(it - lengths_.begin(), 1, static_cast<std::ptrdiff_t>(lengths_.size()) - 1));
     return points_[i - 1] + (u - lengths_[i - 1]) / (lengths_[i] - lengths_[i - 1]) * (points_[i] - points_[i - 1]);
   }
   // The ends may be overrun in a straight line: faces reach a little beyond the curve they were made from.
@@ -145,7 +157,8 @@ class Profile {
       const Eigen::Vector3d a = flatten * (p - points_[i - 1]), d = flatten * (points_[i] - points_[i - 1]);
       double t = d.squaredNorm() > 0 ? a.dot(d) / d.squaredNorm() : 0;
       t = std::clamp(t, i == 1 ? -1e9 : 0.0, i + 1 == points_.size() ? 1e9 : 1.0);
-      if (const double r = (a - t * d).squaredNorm(); r < off) off = r, best = lengths_[i - 1] + t * (lengths_[i] - lengths_[i - 1]);
+      if (const double r = (a - t * d).squaredNorm(); r < off)
+        off = r, best = lengths_[i - 1] + t * (lengths_[i] - lengths_[i - 1]);
     }
     return best;
   }
@@ -159,7 +172,9 @@ class Extruded : public ParametricSurface {
  public:
   Extruded(Path path, const Eigen::Isometry3d& frame, const Eigen::Vector3d& along)
       : profile_(std::move(path)), frame_(frame), inverse_(frame.inverse()), along_(along) {}
-  Eigen::Vector3d at(const Eigen::Vector2d& uv) const override { return frame_ * (profile_.at(uv.x()) + along_ * uv.y()); }
+  Eigen::Vector3d at(const Eigen::Vector2d& uv) const override {
+    return frame_ * (profile_.at(uv.x()) + along_ * uv.y());
+  }
   Eigen::Vector2d parameters(const Eigen::Vector3d& p, const Eigen::Vector2d&) const override {
     const Eigen::Vector3d q = inverse_ * p;
     const double u = profile_.nearest(q, Eigen::Matrix3d::Identity() - along_ * along_.transpose());
@@ -184,7 +199,8 @@ class Revolved : public ParametricSurface {
   Eigen::Vector2d parameters(const Eigen::Vector3d& p, const Eigen::Vector2d& near) const override {
     const Eigen::Vector3d q = inverse_ * p, r = radial(q);
     double v = near.y();
-    if (r.norm() > 1e-9) v = nearTurn(std::atan2(reference_.cross(r).dot(axis_.direction), reference_.dot(r)), near.y());
+    if (r.norm() > 1e-9)
+      v = nearTurn(std::atan2(reference_.cross(r).dot(axis_.direction), reference_.dot(r)), near.y());
     return {profile_.nearest(turned(q, -v), Eigen::Matrix3d::Identity()), v};
   }
   Eigen::Vector2d period() const override { return {0, kTurn}; }
@@ -194,7 +210,9 @@ class Revolved : public ParametricSurface {
     const Eigen::Vector3d d = p - axis_.point;
     return d - d.dot(axis_.direction) * axis_.direction;
   }
-  Eigen::Vector3d turned(const Eigen::Vector3d& p, double angle) const { return axis_.point + Eigen::AngleAxisd(angle, axis_.direction) * (p - axis_.point); }
+  Eigen::Vector3d turned(const Eigen::Vector3d& p, double angle) const {
+    return axis_.point + Eigen::AngleAxisd(angle, axis_.direction) * (p - axis_.point);
+  }
   Profile profile_;
   Eigen::Isometry3d frame_, inverse_;
   Axis axis_;
@@ -207,7 +225,9 @@ SurfacePtr round(Round::Kind kind, const Entity& e, double major, double minor, 
 
 }  // namespace
 
-Result<SurfacePtr> planeSurface(const Entity& e, Scope& s) { return std::make_shared<Plane>(axisPlacement(e.ref(0), s)); }
+Result<SurfacePtr> planeSurface(const Entity& e, Scope& s) {
+  return std::make_shared<Plane>(axisPlacement(e.ref(0), s));
+}
 
 Result<SurfacePtr> basisSurface(const Entity& e, Scope& s) { return surface(e.ref(0), s); }
 
@@ -245,15 +265,19 @@ Result<SurfacePtr> bSplineSurface(const Entity& e, Scope& s) {
       line.push_back(Eigen::Vector4d(p.x(), p.y(), p.z(), 1) * (weight > 0 ? weight : 1));
     }
     if (rational && weight_row != weights.end()) ++weight_row;
-    if (!spline.control.empty() && line.size() != spline.control[0].size()) return fail(e, "the rows of control points differ in length");
+    if (!spline.control.empty() && line.size() != spline.control[0].size())
+      return fail(e, "the rows of control points differ in length");
     if (!s.spend(line.size())) return fail(e, "too many points");
     spline.control.push_back(std::move(line));
   }
-  const auto degree = [&](std::size_t i) { return static_cast<int>(std::clamp<std::int64_t>(e[i].integer(1), 0, 100)); };
+  const auto degree = [&](std::size_t i) {
+    return static_cast<int>(std::clamp<std::int64_t>(e[i].integer(1), 0, 100));
+  };
   if (spline.control.empty()) return fail(e, "there are no control points");
   spline.u = knotVector(degree(0), spline.control.size(), e[7], e[9]);
   spline.v = knotVector(degree(1), spline.control[0].size(), e[8], e[10]);
-  if (spline.u.knots.empty() || spline.v.knots.empty()) return fail(e, "the degree does not fit the number of control points");
+  if (spline.u.knots.empty() || spline.v.knots.empty())
+    return fail(e, "the degree does not fit the number of control points");
   return std::make_shared<Spline>(std::move(spline));
 }
 
@@ -270,7 +294,8 @@ Result<Path> sweptCurve(const Entity& e, Scope& s) {
 Result<SurfacePtr> surfaceOfLinearExtrusion(const Entity& e, Scope& s) {
   auto path = sweptCurve(e, s);
   if (!path) return failure(path.error());
-  return std::make_shared<Extruded>(std::move(*path), axisPlacement(e.ref(1), s), direction(e.ref(2), Eigen::Vector3d::UnitZ()));
+  return std::make_shared<Extruded>(std::move(*path), axisPlacement(e.ref(1), s),
+                                    direction(e.ref(2), Eigen::Vector3d::UnitZ()));
 }
 
 Result<SurfacePtr> surfaceOfRevolution(const Entity& e, Scope& s) {
@@ -278,7 +303,8 @@ Result<SurfacePtr> surfaceOfRevolution(const Entity& e, Scope& s) {
   if (!path) return failure(path.error());
   const Eigen::Isometry3d position = axisPlacement(e.ref(1), s);
   Axis axis = axis1Placement(e.ref(2), s);
-  // The axis lies in the plane of the profile. Revit states it in the frame of the shape, not of the surface's position.
+  // The axis lies in the plane of the profile. Revit states it in the frame of the shape, not of the surface's
+  // position.
   const auto in_plane = [](const Axis& a) { return std::abs(a.point.z()) < 1e-4 && std::abs(a.direction.z()) < 1e-4; };
   const Axis of_shape{position.inverse() * axis.point, position.linear().transpose() * axis.direction};
   if (!in_plane(axis) && in_plane(of_shape)) axis = of_shape;

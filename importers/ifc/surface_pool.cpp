@@ -23,7 +23,8 @@ Entity SurfacePool::textureOf(std::uint32_t tag) const {
 std::uint32_t SurfacePool::styleTag(std::uint32_t tag, std::uint32_t otherwise) const {
   if (ShapeAspects::isAspect(tag)) tag = styleOf(model_.file.entity(model_.aspects.item(tag)), model_);
   if (tag != kNoStyle) return tag;
-  return ShapeAspects::isAspect(otherwise) ? styleOf(model_.file.entity(model_.aspects.item(otherwise)), model_) : otherwise;
+  return ShapeAspects::isAspect(otherwise) ? styleOf(model_.file.entity(model_.aspects.item(otherwise)), model_)
+                                           : otherwise;
 }
 
 Entity SurfacePool::generatedTexture(std::uint32_t tag, std::uint32_t otherwise) const {
@@ -38,9 +39,11 @@ SurfacePool::Look SurfacePool::lookOf(std::uint32_t tag, bool has_coordinates) {
   if (!TextureMaps::isTextured(tag)) {
     look.style = styleOfTag(model_.file, tag);
     look.style_id = look.style && tag < TextureMaps::kFirstTag ? tag : 0;
-    if (has_coordinates && look.style && generators_.has(look.style->texture)) placePicture(look, model_.file.entity(look.style->texture));
+    if (has_coordinates && look.style && generators_.has(look.style->texture))
+      placePicture(look, model_.file.entity(look.style->texture));
     else if (look.style && look.style->texture && told_.insert(look.style->texture).second)
-      report_.note("#" + std::to_string(look.style->texture), "the texture has no coordinates on some of the faces that have it; they are plain");
+      report_.note("#" + std::to_string(look.style->texture),
+                   "the texture has no coordinates on some of the faces that have it; they are plain");
     return look;
   }
   const Entity item = model_.file.entity(model_.textures.source(tag).item);
@@ -63,7 +66,8 @@ SurfacePool::Look SurfacePool::lookOfMaterial(Id material) {
 }
 
 std::uint32_t SurfacePool::keep(Surface s) {
-  const auto key = std::make_tuple(s.name, s.colour.r, s.colour.g, s.colour.b, s.colour.a, s.image, s.index_of_refraction.value_or(0));
+  const auto key = std::make_tuple(s.name, s.colour.r, s.colour.g, s.colour.b, s.colour.a, s.image,
+                                   s.index_of_refraction.value_or(0));
   const auto [it, is_new] = known_.try_emplace(key, static_cast<std::uint32_t>(environment_.surfaces.size()));
   if (is_new) environment_.surfaces.push_back(std::move(s));
   return it->second;
@@ -86,18 +90,23 @@ std::uint32_t SurfacePool::surface(std::uint32_t tag, std::uint32_t otherwise, c
   if (const std::uint32_t part = ShapeAspects::isAspect(tag) ? tag : ShapeAspects::isAspect(otherwise) ? otherwise : 0)
     for (const auto& [name, material] : materials.constituents)
       for (std::size_t i = 0; i < materials.ids.size() && !sure; ++i)
-        if (name == model_.aspects.name(part) && materials.names[i] == model_.file.entity(material)[0].text()) which = i, sure = true;
+        if (name == model_.aspects.name(part) && materials.names[i] == model_.file.entity(material)[0].text())
+          which = i, sure = true;
   Look look = lookOf(styleTag(tag, otherwise));
   for (std::size_t i = 0; look.style && !sure && i < materials.names.size(); ++i) {
     const auto of_material = style_of_material_.find(materials.ids[i]);
-    if (materials.names[i] == look.style->name || (of_material != style_of_material_.end() && of_material->second == look.style_id && look.style_id)) which = i, sure = true;
+    if (materials.names[i] == look.style->name ||
+        (of_material != style_of_material_.end() && of_material->second == look.style_id && look.style_id))
+      which = i, sure = true;
   }
   if (!look.style && !materials.ids.empty()) look = lookOfMaterial(materials.ids[which]);
   Surface s;
   apply(s, look.style, look.image);
   if (look.style) s.name = look.style->name;
-  if (!materials.names.empty() && (sure || s.name.empty())) s.name = materials.names[which], s.source = "#" + std::to_string(materials.ids[which]);
-  else if (look.style_id) s.source = "#" + std::to_string(look.style_id);
+  if (!materials.names.empty() && (sure || s.name.empty()))
+    s.name = materials.names[which], s.source = "#" + std::to_string(materials.ids[which]);
+  else if (look.style_id)
+    s.source = "#" + std::to_string(look.style_id);
   return keep(std::move(s));
 }
 

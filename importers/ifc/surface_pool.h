@@ -16,12 +16,16 @@ namespace standpoint::ifc {
 class SurfacePool {
  public:
   SurfacePool(const Model& model, Environment& environment, std::filesystem::path folder, Report& report)
-      : model_(model), environment_(environment), report_(report), images_(model, std::move(folder), environment, report),
-        style_of_material_(stylesOfMaterials(model.file)), generators_(model.file, report) {}
+      : model_(model),
+        environment_(environment),
+        report_(report),
+        images_(model, std::move(folder), environment, report),
+        style_of_material_(stylesOfMaterials(model.file)),
+        generators_(model.file, report) {}
 
   // Of faces with this tag (else with that of the part that they are in), of a product of these materials. Of several
-  // materials that are no layers the constituent of the named part's name is meant, else the style tells: the one of its
-  // name, or the one that has this style itself.
+  // materials that are no layers the constituent of the named part's name is meant, else the style tells: the one of
+  // its name, or the one that has this style itself.
   std::uint32_t surface(std::uint32_t tag, std::uint32_t otherwise, const ProductMaterials& materials);
   // Of faces that show this layer: its material's name, and its material's look where the faces have none of their own.
   std::uint32_t surfaceOfLayer(std::uint32_t tag, Id material);

@@ -7,7 +7,7 @@
 namespace standpoint::ifc {
 
 Result<SurfacePtr> planeSurface(const Entity&, Scope&);
-Result<SurfacePtr> basisSurface(const Entity&, Scope&);   // of a trimmed or bounded one: a face brings its own bounds
+Result<SurfacePtr> basisSurface(const Entity&, Scope&);  // of a trimmed or bounded one: a face brings its own bounds
 Result<SurfacePtr> cylindricalSurface(const Entity&, Scope&);
 Result<SurfacePtr> sphericalSurface(const Entity&, Scope&);
 Result<SurfacePtr> toroidalSurface(const Entity&, Scope&);

@@ -19,12 +19,18 @@ Path filleted(const Path& path, double radius, const Scope& scope) {
   Path round;
   const auto& p = path.points;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (i == 0 || i + 1 == p.size()) { appendPoint(round, p[i]); continue; }
+    if (i == 0 || i + 1 == p.size()) {
+      appendPoint(round, p[i]);
+      continue;
+    }
     const Eigen::Vector3d u = (p[i - 1] - p[i]).normalized(), v = (p[i + 1] - p[i]).normalized();
     const double half = std::acos(std::clamp(u.dot(v), -1.0, 1.0)) / 2;
     const double room = std::min((p[i - 1] - p[i]).norm(), (p[i + 1] - p[i]).norm());
     const double reach = radius / std::tan(half);
-    if (half > std::numbers::pi / 2 - 1e-4 || half < 1e-3 || reach > room) { appendPoint(round, p[i]); continue; }
+    if (half > std::numbers::pi / 2 - 1e-4 || half < 1e-3 || reach > room) {
+      appendPoint(round, p[i]);
+      continue;
+    }
     const Eigen::Vector3d centre = p[i] + (u + v).normalized() * (radius / std::sin(half));
     const Eigen::Vector3d a = p[i] + u * reach, b = p[i] + v * reach;
     const Eigen::Vector3d middle = centre + (p[i] - centre).normalized() * radius;
@@ -35,7 +41,9 @@ Path filleted(const Path& path, double radius, const Scope& scope) {
 
 geometry::Region2 stretched(const geometry::Region2& region, const Eigen::Vector2d& along, double factor) {
   geometry::Region2 s = region;
-  const auto move = [&](geometry::Loop2& loop) { for (auto& q : loop) q += along * (q.dot(along) * (factor - 1)); };
+  const auto move = [&](geometry::Loop2& loop) {
+    for (auto& q : loop) q += along * (q.dot(along) * (factor - 1));
+  };
   move(s.outer);
   for (auto& hole : s.holes) move(hole);
   return s;
@@ -60,7 +68,9 @@ Result<geometry::PolyMesh> along(const geometry::Region2& region, const Path& pa
     const Eigen::Isometry3d f = frame(p[i], tangent, reference(i, tangent));
     const double factor = first || last ? 1 : std::min(1 / std::max(tangent.dot(t0), 0.1), 10.0);
     const Eigen::Vector3d bend = f.linear().transpose() * (t1 - t0);
-    profiles.push_back(factor > 1 + 1e-9 && bend.head<2>().norm() > 1e-9 ? stretched(region, bend.head<2>().normalized(), factor) : region);
+    profiles.push_back(factor > 1 + 1e-9 && bend.head<2>().norm() > 1e-9
+                           ? stretched(region, bend.head<2>().normalized(), factor)
+                           : region);
     frames.push_back(f);
   }
   return geometry::loft(profiles, frames, path.closed);
@@ -80,9 +90,11 @@ Result<geometry::PolyMesh> sweptDiskSolid(const Entity& entity, Scope& scope) {
   if (!(inner > 0 && inner < radius)) inner = 0;
   auto path = trimmedDirectrix(entity.ref(0), entity[3], entity[4], scope);
   if (!path) return failure(path.error());
-  if (entity.is("IFCSWEPTDISKSOLIDPOLYGONAL") && entity[5].number(0) > 0) *path = filleted(*path, scope.metres(entity[5].number(0)), scope);
+  if (entity.is("IFCSWEPTDISKSOLIDPOLYGONAL") && entity[5].number(0) > 0)
+    *path = filleted(*path, scope.metres(entity[5].number(0)), scope);
   if (!scope.spend(path->points.size() * 16)) return fail(entity, "too many points");
-  return geometry::sweepDisk(path->points, path->closed, radius, inner, scope.tessellation, {path->start_tangent, path->end_tangent});
+  return geometry::sweepDisk(path->points, path->closed, radius, inner, scope.tessellation,
+                             {path->start_tangent, path->end_tangent});
 }
 
 namespace {
@@ -107,13 +119,20 @@ Result<geometry::PolyMesh> curveSweptAreaSolid(const Entity& entity, Scope& scop
   if (!path) return failure(path.error());
   const Entity reference = entity.ref(5);
   Eigen::Vector3d x = Eigen::Vector3d::UnitX();
-  if (reference.is("IFCDIRECTION")) x = direction(reference, x);
-  else if (reference.is("IFCPLANE")) x = axisPlacement(reference.ref(0), scope).linear().col(2);
-  else if (reference.is("IFCSURFACEOFLINEAREXTRUSION")) x = axisPlacement(reference.ref(1), scope).linear() * direction(reference.ref(2), Eigen::Vector3d::UnitZ());
-  else return fail(entity, "a reference surface of this kind (" + std::string(reference.typeName()) + ") is not supported");
+  if (reference.is("IFCDIRECTION"))
+    x = direction(reference, x);
+  else if (reference.is("IFCPLANE"))
+    x = axisPlacement(reference.ref(0), scope).linear().col(2);
+  else if (reference.is("IFCSURFACEOFLINEAREXTRUSION"))
+    x = axisPlacement(reference.ref(1), scope).linear() * direction(reference.ref(2), Eigen::Vector3d::UnitZ());
+  else
+    return fail(entity,
+                "a reference surface of this kind (" + std::string(reference.typeName()) + ") is not supported");
   const bool across = reference.is("IFCSURFACEOFLINEAREXTRUSION") && liesOn(*path, reference, scope);
   if (reference.is("IFCSURFACEOFLINEAREXTRUSION") && !across) {
-    scope.report.note(entity.place(), "its directrix does not lie on its reference surface, as in old exports of Revit; the profile's x is taken against the surface's direction");
+    scope.report.note(entity.place(),
+                      "its directrix does not lie on its reference surface, as in old exports of Revit; the profile's "
+                      "x is taken against the surface's direction");
     x = -x;
   }
   // A derived reference follows the cant of its directrix, a fixed one does not.
@@ -121,9 +140,11 @@ Result<geometry::PolyMesh> curveSweptAreaSolid(const Entity& entity, Scope& scop
   geometry::PolyMesh mesh;
   for (const auto& region : *regions) {
     if (!scope.spend(path->points.size() * region.outer.size())) return fail(entity, "too many points");
-    auto part = across
-                    ? along(region, *path, [&](std::size_t, const Eigen::Vector3d& t) { return Eigen::Vector3d(t.cross(x)); })
-                    : along(region, *path, [&](std::size_t i, const Eigen::Vector3d&) { return rolls ? rolled(x, path->ups[i]) : x; });
+    auto part =
+        across
+            ? along(region, *path, [&](std::size_t, const Eigen::Vector3d& t) { return Eigen::Vector3d(t.cross(x)); })
+            : along(region, *path,
+                    [&](std::size_t i, const Eigen::Vector3d&) { return rolls ? rolled(x, path->ups[i]) : x; });
     if (!part) return part;
     geometry::append(mesh, *part);
   }
@@ -134,7 +155,8 @@ Result<geometry::PolyMesh> curveSweptAreaSolid(const Entity& entity, Scope& scop
 
 namespace {
 
-Result<geometry::PolyMesh> sections(const Entity& entity, const std::vector<Entity>& profiles, const std::vector<Eigen::Isometry3d>& frames, Scope& scope) {
+Result<geometry::PolyMesh> sections(const Entity& entity, const std::vector<Entity>& profiles,
+                                    const std::vector<Eigen::Isometry3d>& frames, Scope& scope) {
   std::vector<geometry::Region2> regions;
   for (const Entity& p : profiles) {
     auto r = profile(p, scope);
@@ -142,7 +164,8 @@ Result<geometry::PolyMesh> sections(const Entity& entity, const std::vector<Enti
     if (!scope.spend(r->front().outer.size())) return fail(entity, "too many points");
     regions.push_back(std::move(r->front()));
   }
-  if (regions.size() != frames.size() || regions.size() < 2) return fail(entity, "cross sections and their positions do not match");
+  if (regions.size() != frames.size() || regions.size() < 2)
+    return fail(entity, "cross sections and their positions do not match");
   auto mesh = geometry::loft(regions, frames, false);
   if (mesh) geometry::orientOutward(*mesh);
   return mesh;
@@ -163,19 +186,23 @@ Result<geometry::PolyMesh> revolvedAreaSolidTapered(const Entity& entity, Scope&
   if (!to) return failure(to.error());
   const geometry::Region2 &start = from->front(), &end = to->front();
   if (!alike(start, end)) return fail(entity, "the profiles at both ends have different numbers of points");
-  const double angle = std::clamp(entity[3].number(0) * scope.model.units.angle_rad, -2 * std::numbers::pi, 2 * std::numbers::pi);
+  const double angle =
+      std::clamp(entity[3].number(0) * scope.model.units.angle_rad, -2 * std::numbers::pi, 2 * std::numbers::pi);
   if (std::abs(angle) < 1e-9) return fail(entity, "the angle of the revolution is zero or missing");
   const Axis axis = axis1Placement(entity.ref(2), scope);
   double radius = 0;
-  for (const auto& p : start.outer) radius = std::max(radius, (Eigen::Vector3d(p.x(), p.y(), 0) - axis.point).cross(axis.direction).norm());
-  const int steps = geometry::segmentCount(radius, std::min(std::abs(angle), 2 * std::numbers::pi - 1e-6), scope.tessellation);
+  for (const auto& p : start.outer)
+    radius = std::max(radius, (Eigen::Vector3d(p.x(), p.y(), 0) - axis.point).cross(axis.direction).norm());
+  const int steps =
+      geometry::segmentCount(radius, std::min(std::abs(angle), 2 * std::numbers::pi - 1e-6), scope.tessellation);
   if (!scope.spend(start.outer.size() * static_cast<std::size_t>(steps))) return fail(entity, "too many points");
   std::vector<geometry::Region2> regions;
   std::vector<Eigen::Isometry3d> frames;
   for (int i = 0; i <= steps; ++i) {
     const double t = static_cast<double>(i) / steps;
     regions.push_back(blend(start, end, t));
-    frames.push_back(Eigen::Translation3d(axis.point) * Eigen::AngleAxisd(angle * t, axis.direction) * Eigen::Translation3d(-axis.point));
+    frames.push_back(Eigen::Translation3d(axis.point) * Eigen::AngleAxisd(angle * t, axis.direction) *
+                     Eigen::Translation3d(-axis.point));
   }
   auto mesh = geometry::loft(regions, frames, false);
   if (!mesh) return mesh;

@@ -20,7 +20,8 @@ class Indices {
     out.clear();
     for (const Value v : list) {
       auto i = v.integer();
-      if (!through_.empty()) i = i >= 1 && i <= static_cast<std::int64_t>(through_.size()) ? through_[static_cast<std::size_t>(i - 1)] : 0;
+      if (!through_.empty())
+        i = i >= 1 && i <= static_cast<std::int64_t>(through_.size()) ? through_[static_cast<std::size_t>(i - 1)] : 0;
       if (i < 1 || i > static_cast<std::int64_t>(count_)) return false;
       if (out.empty() || out.back() != i - 1) out.push_back(static_cast<std::uint32_t>(i - 1));
     }
@@ -34,7 +35,8 @@ class Indices {
 };
 
 Result<geometry::PolyMesh> finished(const Entity& entity, geometry::PolyMesh mesh, std::size_t bad, Scope& scope) {
-  if (bad > 0) scope.report.lose(entity.place(), std::to_string(bad) + " faces refer to points that the list does not have");
+  if (bad > 0)
+    scope.report.lose(entity.place(), std::to_string(bad) + " faces refer to points that the list does not have");
   if (mesh.faces.empty()) return fail(entity, "the face set has no usable face");
   orient(mesh, entity[entity.is("IFCPOLYGONALFACESET") ? 1 : 2].symbol() == "T", scope);
   return mesh;
@@ -53,8 +55,10 @@ Result<geometry::PolyMesh> triangulatedFaceSet(const Entity& entity, Scope& scop
   for (const Value row : rows) {
     geometry::Face face;
     face.tag = colours.tag(number++);
-    if (!indices.read(row, face.outer)) ++bad;
-    else if (face.outer.size() == 3) mesh.faces.push_back(std::move(face));
+    if (!indices.read(row, face.outer))
+      ++bad;
+    else if (face.outer.size() == 3)
+      mesh.faces.push_back(std::move(face));
   }
   return finished(entity, std::move(mesh), bad, scope);
 }
@@ -71,7 +75,10 @@ Result<geometry::PolyMesh> polygonalFaceSet(const Entity& entity, Scope& scope) 
     geometry::Face face;
     face.tag = colours.tag(number++);
     const Entity polygon = entity.follow(v);
-    if (!polygon || !indices.read(polygon[0], face.outer)) { ++bad; continue; }
+    if (!polygon || !indices.read(polygon[0], face.outer)) {
+      ++bad;
+      continue;
+    }
     if (polygon.is("IFCINDEXEDPOLYGONALFACEWITHVOIDS")) {
       const Value inner = polygon[1];
       for (const Value loop : inner) {

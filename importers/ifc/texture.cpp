@@ -22,14 +22,17 @@ Eigen::Vector2d pair(const Value& list) {
 std::vector<std::uint32_t> indices(const Value& list, std::size_t count) {
   std::vector<std::uint32_t> found;
   for (const Value v : list)
-    if (const auto i = v.integer(); i >= 1 && i <= static_cast<std::int64_t>(count)) found.push_back(static_cast<std::uint32_t>(i - 1));
-    else return {};
+    if (const auto i = v.integer(); i >= 1 && i <= static_cast<std::int64_t>(count))
+      found.push_back(static_cast<std::uint32_t>(i - 1));
+    else
+      return {};
   return found;
 }
 
 }  // namespace
 
-// The texture's transformation in 2D; IFC counts upwards from the lower left corner, glTF downwards from the upper left.
+// The texture's transformation in 2D; IFC counts upwards from the lower left corner, glTF downwards from the upper
+// left.
 Eigen::Vector2d onPicture(const Eigen::Vector2d& st, const Entity& texture) {
   Eigen::Vector2d p = st;
   if (const Entity t = texture.ref(3)) {
@@ -61,7 +64,8 @@ std::uint32_t TextureMaps::firstTag(Id item) const {
 }
 
 TextureMaps::Source TextureMaps::source(std::uint32_t tag) const {
-  auto it = std::upper_bound(ranges_.begin(), ranges_.end(), tag, [](std::uint32_t t, const Range& r) { return t < r.first; });
+  auto it = std::upper_bound(ranges_.begin(), ranges_.end(), tag,
+                             [](std::uint32_t t, const Range& r) { return t < r.first; });
   if (it == ranges_.begin()) return {};
   --it;
   return tag - it->first < it->count ? Source{it->item, it->map, tag - it->first} : Source{};
@@ -89,8 +93,10 @@ std::optional<Eigen::Vector2d> TexturedFace::at(const Eigen::Vector3d& p) const 
 
 TexturedItem::TexturedItem(const TextureMaps::Source& source, const Entity& texture, const Model& model) {
   const Entity item = model.file.entity(source.item), map = model.file.entity(source.map);
-  if (map.is("IFCTEXTUREMAP")) readFace(item, map, model);
-  else readFaceSet(item, map, model);
+  if (map.is("IFCTEXTUREMAP"))
+    readFace(item, map, model);
+  else
+    readFaceSet(item, map, model);
   for (auto& c : coordinates_) c = onPicture(c, texture);
 }
 
@@ -100,7 +106,7 @@ void TexturedItem::readFaceSet(const Entity& face_set, const Entity& map, const 
   const Value list = map.ref(2)[0];
   for (const Value v : list) coordinates_.push_back(pair(v));
   const bool polygonal = face_set.is("IFCPOLYGONALFACESET");
-  std::vector<std::uint32_t> through;   // PnIndex
+  std::vector<std::uint32_t> through;  // PnIndex
   for (const Value v : face_set[polygonal ? 3 : 4]) through.push_back(static_cast<std::uint32_t>(v.integer()));
   const auto corners = [&](const Value& of_face) {
     Indices at = indices(of_face, through.empty() ? points_.size() : through.size());
@@ -112,11 +118,12 @@ void TexturedItem::readFaceSet(const Entity& face_set, const Entity& map, const 
   if (!polygonal) {
     for (const Value row : face_set[3]) corners_.push_back(corners(row));
     for (const Value row : map[3]) on_.push_back(indices(row, coordinates_.size()));
-    if (on_.empty()) on_ = corners_;   // textured point by point
+    if (on_.empty()) on_ = corners_;  // textured point by point
     return;
   }
-  std::map<Id, Indices> on_of_polygon;   // the map is a set: each entry says whose it is
-  for (const Entity& entry : map.refs(3)) on_of_polygon.emplace(entry[1].reference(), indices(entry[0], coordinates_.size()));
+  std::map<Id, Indices> on_of_polygon;  // the map is a set: each entry says whose it is
+  for (const Entity& entry : map.refs(3))
+    on_of_polygon.emplace(entry[1].reference(), indices(entry[0], coordinates_.size()));
   for (const Entity& polygon : face_set.refs(2)) {
     corners_.push_back(corners(polygon[0]));
     on_.push_back(on_of_polygon[polygon.id()]);

@@ -15,8 +15,9 @@ namespace standpoint::ifc {
 
 struct Model;
 
-// Which faces have texture coordinates (IfcIndexedTriangleTextureMap, IfcIndexedPolygonalTextureMap, IfcTextureMap). Such
-// a face has a tag of its own, which triangulation and Booleans carry along; the coordinates are looked up afterwards.
+// Which faces have texture coordinates (IfcIndexedTriangleTextureMap, IfcIndexedPolygonalTextureMap, IfcTextureMap).
+// Such a face has a tag of its own, which triangulation and Booleans carry along; the coordinates are looked up
+// afterwards.
 class TextureMaps {
  public:
   explicit TextureMaps(const StepFile& file);
@@ -28,9 +29,9 @@ class TextureMaps {
   std::uint32_t firstTag(Id face_set_or_face) const;
 
   struct Source {
-    Id item = 0;            // the face set or face
-    Id map = 0;             // IfcTextureCoordinate
-    std::size_t face = 0;   // number in the face set
+    Id item = 0;           // the face set or face
+    Id map = 0;            // IfcTextureCoordinate
+    std::size_t face = 0;  // number in the face set
   };
   Source source(std::uint32_t tag) const;
 
@@ -40,11 +41,12 @@ class TextureMaps {
     std::size_t count = 0;
     Id item = 0, map = 0;
   };
-  std::vector<Range> ranges_;          // by rising `first`
+  std::vector<Range> ranges_;  // by rising `first`
   std::map<Id, std::size_t> of_item_;
 };
 
-// Where on the picture a texture coordinate lies: (0, 0) is its upper left corner; the texture's own transformation is applied.
+// Where on the picture a texture coordinate lies: (0, 0) is its upper left corner; the texture's own transformation is
+// applied.
 Eigen::Vector2d onPicture(const Eigen::Vector2d& st, const Entity& texture);
 
 // Corners of a textured face in metres, in the frame of its items, and what of the picture lies on each; (0, 0) is the
@@ -61,7 +63,7 @@ struct TexturedFace {
 class TexturedItem {
  public:
   TexturedItem(const TextureMaps::Source& source, const Entity& texture, const Model& model);
-  TexturedFace face(std::size_t number) const;   // no corners where the map and the face do not fit each other
+  TexturedFace face(std::size_t number) const;  // no corners where the map and the face do not fit each other
 
  private:
   using Indices = std::vector<std::uint32_t>;
@@ -70,7 +72,7 @@ class TexturedItem {
 
   std::vector<Eigen::Vector3d> points_;
   std::vector<Eigen::Vector2d> coordinates_;
-  std::vector<Indices> corners_, on_;   // per face
+  std::vector<Indices> corners_, on_;  // per face
 };
 
 }  // namespace standpoint::ifc

@@ -16,7 +16,7 @@ namespace standpoint::ifc {
 // normal's x and y about the picture's middle, in the frame of the item.
 class TextureGenerators {
  public:
-  TextureGenerators(const StepFile& file, Report& report);   // names the rules that are not followed
+  TextureGenerators(const StepFile& file, Report& report);  // names the rules that are not followed
 
   bool has(Id texture) const { return rules_.contains(texture); }
   // Before the texture's own transformation; `point` in the file's units, `normal` unit. Of a texture that has a rule.

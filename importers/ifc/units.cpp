@@ -15,22 +15,35 @@ struct Prefix {
   const char* symbol;
   double factor;
 };
-constexpr std::array<Prefix, 16> kPrefixes{{{"EXA", "E", 1e18}, {"PETA", "P", 1e15}, {"TERA", "T", 1e12}, {"GIGA", "G", 1e9},
-                                            {"MEGA", "M", 1e6}, {"KILO", "k", 1e3}, {"HECTO", "h", 1e2}, {"DECA", "da", 1e1},
-                                            {"DECI", "d", 1e-1}, {"CENTI", "c", 1e-2}, {"MILLI", "m", 1e-3}, {"MICRO", "µ", 1e-6},
-                                            {"NANO", "n", 1e-9}, {"PICO", "p", 1e-12}, {"FEMTO", "f", 1e-15}, {"ATTO", "a", 1e-18}}};
+constexpr std::array<Prefix, 16> kPrefixes{{{"EXA", "E", 1e18},
+                                            {"PETA", "P", 1e15},
+                                            {"TERA", "T", 1e12},
+                                            {"GIGA", "G", 1e9},
+                                            {"MEGA", "M", 1e6},
+                                            {"KILO", "k", 1e3},
+                                            {"HECTO", "h", 1e2},
+                                            {"DECA", "da", 1e1},
+                                            {"DECI", "d", 1e-1},
+                                            {"CENTI", "c", 1e-2},
+                                            {"MILLI", "m", 1e-3},
+                                            {"MICRO", "µ", 1e-6},
+                                            {"NANO", "n", 1e-9},
+                                            {"PICO", "p", 1e-12},
+                                            {"FEMTO", "f", 1e-15},
+                                            {"ATTO", "a", 1e-18}}};
 
 struct SiUnit {
   const char* name;
   const char* symbol;
-  int power;            // of the prefix: a square millimetre is (milli)² m²
+  int power;  // of the prefix: a square millimetre is (milli)² m²
 };
-constexpr std::array<SiUnit, 22> kSiUnits{{{"METRE", "m", 1}, {"SQUARE_METRE", "m²", 2}, {"CUBIC_METRE", "m³", 3},
-                                           {"RADIAN", "rad", 1}, {"STERADIAN", "sr", 1}, {"GRAM", "g", 1}, {"SECOND", "s", 1},
-                                           {"KELVIN", "K", 1}, {"DEGREE_CELSIUS", "°C", 1}, {"WATT", "W", 1}, {"JOULE", "J", 1},
-                                           {"NEWTON", "N", 1}, {"PASCAL", "Pa", 1}, {"AMPERE", "A", 1}, {"VOLT", "V", 1},
-                                           {"OHM", "Ω", 1}, {"HERTZ", "Hz", 1}, {"LUMEN", "lm", 1}, {"LUX", "lx", 1},
-                                           {"CANDELA", "cd", 1}, {"MOLE", "mol", 1}, {"FARAD", "F", 1}}};
+constexpr std::array<SiUnit, 22> kSiUnits{
+    {{"METRE", "m", 1},           {"SQUARE_METRE", "m²", 2}, {"CUBIC_METRE", "m³", 3}, {"RADIAN", "rad", 1},
+     {"STERADIAN", "sr", 1},      {"GRAM", "g", 1},          {"SECOND", "s", 1},       {"KELVIN", "K", 1},
+     {"DEGREE_CELSIUS", "°C", 1}, {"WATT", "W", 1},          {"JOULE", "J", 1},        {"NEWTON", "N", 1},
+     {"PASCAL", "Pa", 1},         {"AMPERE", "A", 1},        {"VOLT", "V", 1},         {"OHM", "Ω", 1},
+     {"HERTZ", "Hz", 1},          {"LUMEN", "lm", 1},        {"LUX", "lx", 1},         {"CANDELA", "cd", 1},
+     {"MOLE", "mol", 1},          {"FARAD", "F", 1}}};
 
 template <class Row, std::size_t N>
 const Row* find(const std::array<Row, N>& rows, std::string_view name) {
@@ -43,15 +56,18 @@ const Row* find(const std::array<Row, N>& rows, std::string_view name) {
 double siFactor(const Entity& unit) {
   double factor = 1;
   Entity e = unit;
-  for (int nested = 0; e && nested < 16; ++nested) {   // a unit may be stated by way of others; a circle ends here
+  for (int nested = 0; e && nested < 16; ++nested) {  // a unit may be stated by way of others; a circle ends here
     if (e.is("IFCSIUNIT")) {
       const Prefix* prefix = find(kPrefixes, e[2].symbol());
       const SiUnit* si = find(kSiUnits, e[3].symbol());
       return factor * std::pow(prefix ? prefix->factor : 1.0, si ? si->power : 1);
     }
-    if (e.is("IFCCONVERSIONBASEDUNIT") || e.is("IFCCONVERSIONBASEDUNITWITHOFFSET")) e = e.ref(3);
-    else if (e.is("IFCMEASUREWITHUNIT")) factor *= e[0].number(1), e = e.ref(1);
-    else return 0;
+    if (e.is("IFCCONVERSIONBASEDUNIT") || e.is("IFCCONVERSIONBASEDUNITWITHOFFSET"))
+      e = e.ref(3);
+    else if (e.is("IFCMEASUREWITHUNIT"))
+      factor *= e[0].number(1), e = e.ref(1);
+    else
+      return 0;
   }
   return 0;
 }
@@ -105,7 +121,9 @@ std::string unitSymbol(const Entity& unit) {
     const SiUnit* si = find(kSiUnits, unit[3].symbol());
     return si ? std::string(prefix ? prefix->symbol : "") + si->symbol : std::string();
   }
-  if (unit.is("IFCCONVERSIONBASEDUNIT") || unit.is("IFCCONVERSIONBASEDUNITWITHOFFSET") || unit.is("IFCCONTEXTDEPENDENTUNIT")) return unit[2].text();
+  if (unit.is("IFCCONVERSIONBASEDUNIT") || unit.is("IFCCONVERSIONBASEDUNITWITHOFFSET") ||
+      unit.is("IFCCONTEXTDEPENDENTUNIT"))
+    return unit[2].text();
   if (unit.is("IFCMONETARYUNIT")) return unit[0].isText() ? unit[0].text() : std::string(unit[0].symbol());
   return {};
 }
@@ -129,13 +147,17 @@ Units readUnits(const StepFile& file, double given_m, Report& report) {
   }
   if (!angle && arcsCountDegrees(file)) {
     units.angle_rad = std::numbers::pi / 180;
-    report.warn(assignment ? assignment.place() : "header", "the file states no unit of angles, and its arcs go beyond a whole turn of radians: degrees are assumed");
+    report.warn(
+        assignment ? assignment.place() : "header",
+        "the file states no unit of angles, and its arcs go beyond a whole turn of radians: degrees are assumed");
   }
   if (given_m > 0) {
-    if (length && units.length_m != given_m) report.note(assignment.place(), "the length unit that the file states is overruled by the one that was given");
+    if (length && units.length_m != given_m)
+      report.note(assignment.place(), "the length unit that the file states is overruled by the one that was given");
     units.length_m = given_m;
   } else if (!length) {
-    report.warn(assignment ? assignment.place() : "header", "the file states no usable length unit; metres are assumed; if it is another, import it with --unit");
+    report.warn(assignment ? assignment.place() : "header",
+                "the file states no usable length unit; metres are assumed; if it is another, import it with --unit");
   }
   return units;
 }

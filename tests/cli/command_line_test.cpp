@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/command_line.h"
+
 #include <sstream>
 
 #include <gtest/gtest.h>
 
-#include "cli/command_line.h"
 #include "project/project_files.h"
 #include "tests/project/support.h"
 

@@ -54,11 +54,12 @@ TEST(Arrows, EveryIncludeBetweenFoldersIsInThePicture) {
   const std::regex own(R"re(^\s*#\s*include\s*"([^"/]+)/)re");
   int seen = 0;
   for (const auto& [folder, may_see] : allowed())
-    eachInclude(fs::path(SOURCE_DIR) / folder, own, [&, &folder = folder, &may_see = may_see](const fs::path& file, const std::string& to) {
-      if (!allowed().contains(to)) return;
-      ++seen;
-      EXPECT_TRUE(to == folder || may_see.contains(to)) << file << " includes " << to;
-    });
+    eachInclude(fs::path(SOURCE_DIR) / folder, own,
+                [&, &folder = folder, &may_see = may_see](const fs::path& file, const std::string& to) {
+                  if (!allowed().contains(to)) return;
+                  ++seen;
+                  EXPECT_TRUE(to == folder || may_see.contains(to)) << file << " includes " << to;
+                });
   EXPECT_GT(seen, 20);
 }
 
@@ -69,9 +70,10 @@ TEST(Arrows, GraphicsLibrariesAreSeenOnlyWhereTheDesignSaysSo) {
     eachInclude(fs::path(SOURCE_DIR) / folder, vtk, [&](const fs::path& file, const std::string& header) {
       EXPECT_NE(file.string().find("/editor/viewport/"), std::string::npos) << file << " includes " << header;
     });
-    eachInclude(fs::path(SOURCE_DIR) / folder, imgui, [&, &folder = folder](const fs::path& file, const std::string& header) {
-      EXPECT_TRUE(folder == "editor" || folder == "emulated-ui") << file << " includes " << header;
-    });
+    eachInclude(fs::path(SOURCE_DIR) / folder, imgui,
+                [&, &folder = folder](const fs::path& file, const std::string& header) {
+                  EXPECT_TRUE(folder == "editor" || folder == "emulated-ui") << file << " includes " << header;
+                });
   }
 }
 

@@ -21,7 +21,8 @@ void addQuad(Mesh& mesh, const std::array<Vector3d, 4>& corners) {
   mesh.surface_of_triangle.insert(mesh.surface_of_triangle.end(), 2, 0);
 }
 
-// Three steps of 0.3 by 1 m, 0.17 m high, going up along +x: triangles 4k and 4k+1 are the riser, 4k+2 and 4k+3 the tread of step k.
+// Three steps of 0.3 by 1 m, 0.17 m high, going up along +x: triangles 4k and 4k+1 are the riser, 4k+2 and 4k+3 the
+// tread of step k.
 struct Stair {
   Environment environment;
   MaterialAssignment assignment;
@@ -44,7 +45,8 @@ struct Stair {
     assignment.faces = {{0, 0, direction, 1, "", point}};
     const AssignedTriangles triangles(environment, assignment);
     std::string text;
-    for (std::uint32_t t = 0; t < environment.meshes[0]->triangles.size(); ++t) text += std::to_string(triangles.materialOf(0, t));
+    for (std::uint32_t t = 0; t < environment.meshes[0]->triangles.size(); ++t)
+      text += std::to_string(triangles.materialOf(0, t));
     return text;
   }
 };
@@ -59,16 +61,16 @@ TEST(FacePatches, OfParallelStepsAreTheOneThatHoldsThePoint) {
 
 TEST(FacePatches, AreNotFoundWhereNoFaceOfThatDirectionIsNear) {
   Stair stair;
-  EXPECT_EQ(stair.painted(Vector3d::UnitZ(), Vector3d(0.15, 0.5, kStep_m - 0.08)), "001100000000");   // 8 cm below it
+  EXPECT_EQ(stair.painted(Vector3d::UnitZ(), Vector3d(0.15, 0.5, kStep_m - 0.08)), "001100000000");  // 8 cm below it
   EXPECT_EQ(stair.painted(Vector3d::UnitZ(), Vector3d(0.15, 0.5, kStep_m - 0.11)), "000000000000");
   EXPECT_EQ(stair.painted(Vector3d::UnitY(), Vector3d(0.15, 1, 0.1)), "000000000000");
-  EXPECT_EQ(stair.painted(Vector3d::UnitZ(), Vector3d(0.15, 1.09, kStep_m)), "001100000000");   // beside it
+  EXPECT_EQ(stair.painted(Vector3d::UnitZ(), Vector3d(0.15, 1.09, kStep_m)), "001100000000");  // beside it
 }
 
 TEST(FacePatches, EndAtAGapBetweenCoplanarPanels) {
   Stair panels;
   auto mesh = std::make_shared<Mesh>();
-  for (const double y : {0.0, 1.001, 2.001})   // 1 mm apart; the third meets the second
+  for (const double y : {0.0, 1.001, 2.001})  // 1 mm apart; the third meets the second
     addQuad(*mesh, {Vector3d{0, y, 0}, {1, y, 0}, {1, y + 1, 0}, {0, y + 1, 0}});
   panels.environment.meshes[0] = mesh;
   EXPECT_EQ(panels.painted(Vector3d::UnitZ(), Vector3d(0.5, 0.999, 0)), "110000");
@@ -80,11 +82,13 @@ TEST(FacePatches, RunOverACurveAsFarAsTheDirectionIsTheSame) {
   Stair round;
   auto mesh = std::make_shared<Mesh>();
   for (int k = 0; k < 36; ++k) {
-    const auto at = [](int side, double z) { return Vector3d(std::cos(side * M_PI / 18), std::sin(side * M_PI / 18), z); };
+    const auto at = [](int side, double z) {
+      return Vector3d(std::cos(side * M_PI / 18), std::sin(side * M_PI / 18), z);
+    };
     addQuad(*mesh, {at(k, 0), at(k + 1, 0), at(k + 1, 1), at(k, 1)});
   }
   round.environment.meshes[0] = mesh;
-  const Vector3d between(std::cos(M_PI / 18), std::sin(M_PI / 18), 0);   // the edge of sides 0 and 1, 5° from either
+  const Vector3d between(std::cos(M_PI / 18), std::sin(M_PI / 18), 0);  // the edge of sides 0 and 1, 5° from either
   EXPECT_EQ(round.painted(between, Vector3d(between.x(), between.y(), 0.5)), "1111" + std::string(68, '0'));
 }
 
@@ -92,7 +96,8 @@ TEST(FacePatches, AreThoseOfOneInstanceInItsMirroredPlace) {
   Stair stair;
   Eigen::Affine3d second = Eigen::Translation3d(0, 5, 0) * Eigen::Affine3d(Eigen::Scaling(1.0, -1.0, 1.0));
   stair.environment.instances.push_back({0, 0, second});
-  EXPECT_EQ(stair.painted(Vector3d::UnitZ(), Vector3d(0.45, 4.5, 2 * kStep_m)), "000000000000");   // of the first instance
+  EXPECT_EQ(stair.painted(Vector3d::UnitZ(), Vector3d(0.45, 4.5, 2 * kStep_m)),
+            "000000000000");  // of the first instance
   const AssignedTriangles triangles(stair.environment, stair.assignment);
   EXPECT_EQ(triangles.patch(0), (std::vector<PlacedTriangle>{{1, 6}, {1, 7}}));
 }

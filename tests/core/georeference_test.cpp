@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/georeference.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
-
-#include "core/georeference.h"
 
 namespace standpoint {
 namespace {
@@ -23,7 +23,7 @@ TEST(MapConversion, IsUndoneByItsInverse) {
 }
 
 TEST(MapConversion, StretchesTheFilesAxesBeforeItTurnsThem) {
-  MapConversion c{1000, 2000, 30, 0, 1, 2};   // a quarter turn: the file's x is the map's north
+  MapConversion c{1000, 2000, 30, 0, 1, 2};  // a quarter turn: the file's x is the map's north
   c.factors = {1, 2, 3};
   const Eigen::Vector3d map = mapFromFile(c, {10, 100, 5});
   EXPECT_NEAR(map.x(), 1000 - 2 * 2 * 100, 1e-9);

@@ -11,7 +11,8 @@ namespace {
 Mesh cube(float size) {
   Mesh m;
   for (int i = 0; i < 8; ++i)
-    m.positions.emplace_back(size * static_cast<float>(i & 1), size * static_cast<float>(i >> 1 & 1), size * static_cast<float>(i >> 2));
+    m.positions.emplace_back(size * static_cast<float>(i & 1), size * static_cast<float>(i >> 1 & 1),
+                             size * static_cast<float>(i >> 2));
   m.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                  {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   m.surface_of_triangle.assign(12, 0);
@@ -84,7 +85,7 @@ TEST(Environment, RefusesInstancesOutOfOrder) {
 
 TEST(Bounds, AreThoseOfEveryUsedCornerHoweverTheMeshStands) {
   Mesh mesh;
-  mesh.positions = {{1, 2, 3}, {-4, 5, 0.5F}, {2, -1, 7}, {100, 100, 100}};   // nothing uses the last
+  mesh.positions = {{1, 2, 3}, {-4, 5, 0.5F}, {2, -1, 7}, {100, 100, 100}};  // nothing uses the last
   mesh.triangles = {{0, 1, 2}};
   mesh.surface_of_triangle = {0};
   Eigen::Matrix3d y_up, mirrored;

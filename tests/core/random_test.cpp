@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/random.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
-
-#include "core/random.h"
 
 namespace standpoint {
 namespace {

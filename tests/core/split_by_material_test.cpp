@@ -37,19 +37,20 @@ TEST(SplitByMaterial, SharesTheMeshOfProductsThatAreMadeOfTheSame) {
 
 TEST(SplitByMaterial, PartsAMeshWhoseProductsAreMadeOfOtherThings) {
   Model model;
-  model.assignment.surfaces[2].material = 1;   // the frame of the second product
+  model.assignment.surfaces[2].material = 1;  // the frame of the second product
   const std::array all = {&model.environment};
   EXPECT_EQ(splitByMaterial(all, model.assignment, LooksOfSplit::kept), (std::vector<std::int32_t>{0, 1, 1}));
   ASSERT_EQ(model.environment.meshes.size(), 2U);
   EXPECT_EQ(model.environment.surfaces[2].name, "frame");
   EXPECT_EQ(model.environment.meshes[1]->surface_of_triangle, (std::vector<std::uint32_t>{1, 2}));
-  EXPECT_EQ(model.environment.meshes[1]->triangles[0], (Triangle{1, 3, 2}));   // the pane's came first in the list of surfaces
+  EXPECT_EQ(model.environment.meshes[1]->triangles[0],
+            (Triangle{1, 3, 2}));  // the pane's came first in the list of surfaces
   EXPECT_EQ(validate(model.environment), "");
 }
 
 TEST(SplitByMaterial, WithoutLooksHasOneSurfaceForEachMaterialAndKeepsTheLooksOfTheRest) {
   Model model;
-  model.assignment.surfaces = {{0, 0, 1, ""}, {0, 1, 1, ""}, {1, 0, 1, ""}};   // the second pane has none
+  model.assignment.surfaces = {{0, 0, 1, ""}, {0, 1, 1, ""}, {1, 0, 1, ""}};  // the second pane has none
   const std::array all = {&model.environment};
   EXPECT_EQ(splitByMaterial(all, model.assignment, LooksOfSplit::left_out), (std::vector<std::int32_t>{1, -1}));
   EXPECT_EQ(model.environment.surfaces[1].name, "pane");

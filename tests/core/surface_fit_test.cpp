@@ -30,9 +30,14 @@ struct Planes {
   }
 };
 
-const Planes kRoom{{{Vector3d::UnitX(), 0}, {Vector3d::UnitX(), 6}, {Vector3d::UnitY(), 0}, {Vector3d::UnitY(), 4},
-                    {Vector3d::UnitZ(), 0}, {Vector3d::UnitZ(), 3}}};
-const Planes kCorridor{{{Vector3d::UnitY(), 0}, {Vector3d::UnitY(), 2}, {Vector3d::UnitZ(), 0}, {Vector3d::UnitZ(), 3}}};
+const Planes kRoom{{{Vector3d::UnitX(), 0},
+                    {Vector3d::UnitX(), 6},
+                    {Vector3d::UnitY(), 0},
+                    {Vector3d::UnitY(), 4},
+                    {Vector3d::UnitZ(), 0},
+                    {Vector3d::UnitZ(), 3}}};
+const Planes kCorridor{
+    {{Vector3d::UnitY(), 0}, {Vector3d::UnitY(), 2}, {Vector3d::UnitZ(), 0}, {Vector3d::UnitZ(), 3}}};
 
 // Points on the planes' parts within [0, 6] x [0, 4] x [0, 3], off by noise along the normal.
 std::vector<Vector3d> pointsOn(const Planes& surface, double sigma_m, int each = 400) {
@@ -104,7 +109,7 @@ TEST(SurfaceFit, StatesItsNoiseAndHowWellItIsPlaced) {
 TEST(SurfaceFit, IsNotDrawnAsideByWhatTheModelLacks) {
   auto points = seenFrom(kTruth, pointsOn(kRoom, 0.001));
   const std::size_t good = points.size();
-  for (std::uint32_t i = 0; i < good / 3; ++i) {   // furniture: a quarter of all, on one side
+  for (std::uint32_t i = 0; i < good / 3; ++i) {  // furniture: a quarter of all, on one side
     const auto words = philox({9, 0}, i, 0, 0);
     points.push_back({4.5 + uniform(words[0]), 0.4 + uniform(words[1]), uniform(words[2])});
   }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/survey.h"
+
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "core/physical_material.h"
-#include "core/survey.h"
 
 namespace standpoint {
 namespace {
@@ -22,7 +23,9 @@ TEST(Trajectory, IsInterpolatedBetweenItsSamples) {
   b.rotation = Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ());
   const Pose middle = at({{0, 4}, {a, b}}, 2);
   EXPECT_DOUBLE_EQ(middle.translation.x(), 5);
-  EXPECT_NEAR(middle.rotation.angularDistance(Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 4, Eigen::Vector3d::UnitZ()))), 0, 1e-12);
+  EXPECT_NEAR(middle.rotation.angularDistance(
+                  Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 4, Eigen::Vector3d::UnitZ()))),
+              0, 1e-12);
 }
 
 TEST(Reflectance, IsLinearBetweenTabulatedWavelengthsAndConstantOutside) {

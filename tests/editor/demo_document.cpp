@@ -12,12 +12,15 @@ using V = Eigen::Vector3d;
 class House {
  public:
   House() {
-    environment_.surfaces = {{"Brick", {0.66F, 0.36F, 0.27F, 1}, "#10"}, {"Concrete", {0.70F, 0.70F, 0.68F, 1}, "#11"},
-                             {"Glass", {0.62F, 0.80F, 0.88F, 0.4F}, "#12"}, {"Timber", {0.62F, 0.45F, 0.28F, 1}, "#13"},
-                             {"Roof tile", {0.48F, 0.25F, 0.21F, 1}, "#14"}, {"Plaster", {0.90F, 0.88F, 0.83F, 1}, "#15"},
-                             {"Lawn", {0.38F, 0.50F, 0.30F, 1}, "#16"}};
-    environment_.spatial = {{"#1", "IfcProject", "Demo house", "", -1, 0}, {"#2", "IfcSite", "Plot", "", 0, 0},
-                            {"#3", "IfcBuilding", "House", "", 1, 0}, {"#4", "IfcBuildingStorey", "Ground floor", "", 2, 50},
+    environment_.surfaces = {
+        {"Brick", {0.66F, 0.36F, 0.27F, 1}, "#10"},     {"Concrete", {0.70F, 0.70F, 0.68F, 1}, "#11"},
+        {"Glass", {0.62F, 0.80F, 0.88F, 0.4F}, "#12"},  {"Timber", {0.62F, 0.45F, 0.28F, 1}, "#13"},
+        {"Roof tile", {0.48F, 0.25F, 0.21F, 1}, "#14"}, {"Plaster", {0.90F, 0.88F, 0.83F, 1}, "#15"},
+        {"Lawn", {0.38F, 0.50F, 0.30F, 1}, "#16"}};
+    environment_.spatial = {{"#1", "IfcProject", "Demo house", "", -1, 0},
+                            {"#2", "IfcSite", "Plot", "", 0, 0},
+                            {"#3", "IfcBuilding", "House", "", 1, 0},
+                            {"#4", "IfcBuildingStorey", "Ground floor", "", 2, 50},
                             {"#5", "IfcBuildingStorey", "Upper floor", "", 2, 53}};
     product("IfcSite", "Ground", 1, 6, {{V(-6, -6, -0.5), V(16, 14, -0.3)}});
     storey(3, 0);
@@ -36,7 +39,8 @@ class House {
     V low, high;
   };
 
-  Product& product(const std::string& ifc_class, const std::string& name, std::int32_t container, std::uint32_t surface, const std::vector<Box>& boxes) {
+  Product& product(const std::string& ifc_class, const std::string& name, std::int32_t container, std::uint32_t surface,
+                   const std::vector<Box>& boxes) {
     Mesh mesh;
     for (const auto& b : boxes) addBox(mesh, b, surface);
     const auto index = static_cast<std::uint32_t>(environment_.products.size());
@@ -58,8 +62,10 @@ class House {
   static void addBox(Mesh& mesh, const Box& b, std::uint32_t surface) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (int i = 0; i < 8; ++i)
-      mesh.positions.emplace_back((i & 1 ? b.high : b.low).x(), (i & 2 ? b.high : b.low).y(), (i & 4 ? b.high : b.low).z());
-    static constexpr std::uint32_t kFaces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+      mesh.positions.emplace_back((i & 1 ? b.high : b.low).x(), (i & 2 ? b.high : b.low).y(),
+                                  (i & 4 ? b.high : b.low).z());
+    static constexpr std::uint32_t kFaces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                                   {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
     for (const auto& f : kFaces) {
       mesh.triangles.push_back({first + f[0], first + f[1], first + f[2]});
       mesh.triangles.push_back({first + f[0], first + f[2], first + f[3]});
@@ -69,8 +75,10 @@ class House {
 
   // A wall along X with one opening: below, above, left and right of it.
   static std::vector<Box> wallX(double y, double z, double from, double to, double sill, double head) {
-    return {{V(0, y, z), V(from, y + 0.3, z + 2.8)}, {V(to, y, z), V(10, y + 0.3, z + 2.8)},
-            {V(from, y, z), V(to, y + 0.3, z + sill)}, {V(from, y, z + head), V(to, y + 0.3, z + 2.8)}};
+    return {{V(0, y, z), V(from, y + 0.3, z + 2.8)},
+            {V(to, y, z), V(10, y + 0.3, z + 2.8)},
+            {V(from, y, z), V(to, y + 0.3, z + sill)},
+            {V(from, y, z + head), V(to, y + 0.3, z + 2.8)}};
   }
 
   static std::vector<Box> steps() {
@@ -81,22 +89,27 @@ class House {
 
   void layered(Product& wall) {
     wall.layers = {{"Brick", 0.115}, {"Mineral wool", 0.14}, {"Plaster", 0.015}};
-    wall.properties = {{"Pset_WallCommon", "IsExternal", "true"}, {"Pset_WallCommon", "FireRating", "F 90"},
-                       {"Pset_WallCommon", "ThermalTransmittance", "0.21 W/(m²K)"}, {"Qto_WallBaseQuantities", "Height", "2.8 m"},
+    wall.properties = {{"Pset_WallCommon", "IsExternal", "true"},
+                       {"Pset_WallCommon", "FireRating", "F 90"},
+                       {"Pset_WallCommon", "ThermalTransmittance", "0.21 W/(m²K)"},
+                       {"Qto_WallBaseQuantities", "Height", "2.8 m"},
                        {"Qto_WallBaseQuantities", "NetVolume", "6.72 m³"}};
   }
 
   void storey(std::int32_t node, double z) {
     const std::string at = z == 0 ? " EG" : " OG";
     product("IfcSlab", "Slab" + at, node, 1, {{V(0, 0, z - 0.3), V(10, 8, z)}});
-    layered(product("IfcWallStandardCase", "Wall south" + at, node, 0, z == 0 ? wallX(0, z, 2, 3, 0, 2.1) : wallX(0, z, 3, 7, 0.9, 2.2)));
+    layered(product("IfcWallStandardCase", "Wall south" + at, node, 0,
+                    z == 0 ? wallX(0, z, 2, 3, 0, 2.1) : wallX(0, z, 3, 7, 0.9, 2.2)));
     layered(product("IfcWallStandardCase", "Wall north" + at, node, 0, wallX(7.7, z, 3, 7, 0.9, 2.2)));
     layered(product("IfcWallStandardCase", "Wall west" + at, node, 0, {{V(0, 0.3, z), V(0.3, 7.7, z + 2.8)}}));
     layered(product("IfcWallStandardCase", "Wall east" + at, node, 0, {{V(9.7, 0.3, z), V(10, 7.7, z + 2.8)}}));
-    product("IfcWall", "Partition" + at, node, 5, {{V(5, 0.3, z), V(5.12, 5.5, z + 2.7)}, {V(5, 6.5, z), V(5.12, 7.7, z + 2.7)}});
+    product("IfcWall", "Partition" + at, node, 5,
+            {{V(5, 0.3, z), V(5.12, 5.5, z + 2.7)}, {V(5, 6.5, z), V(5.12, 7.7, z + 2.7)}});
     product("IfcWindow", "Window north" + at, node, 2, {{V(3, 7.84, z + 0.9), V(7, 7.86, z + 2.2)}});
     product("IfcWindow", "Window south" + at, node, 2, {{V(6, -0.02, z + 0.9), V(8, -0.01, z + 2.2)}});
-    product("IfcFurniture", "Table" + at, node, 3, {{V(2, 3, z + 0.72), V(3.6, 4, z + 0.75)}, {V(2.7, 3.4, z), V(2.9, 3.6, z + 0.72)}});
+    product("IfcFurniture", "Table" + at, node, 3,
+            {{V(2, 3, z + 0.72), V(3.6, 4, z + 0.75)}, {V(2.7, 3.4, z), V(2.9, 3.6, z + 0.72)}});
     product("IfcColumn", "Column" + at, node, 1, {{V(7.4, 3.4, z), V(7.7, 3.7, z + 2.7)}});
     product("IfcBuildingElementProxy", "", node, 5, {{V(8.2, 0.6, z), V(9.4, 1.2, z + 1.9)}});
   }

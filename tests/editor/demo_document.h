@@ -6,7 +6,8 @@
 namespace standpoint {
 
 // A house of two storeys made of boxes, 10 m by 8 m, with windows, a door, properties, layers and one station: small,
-// but with one of everything that the panels show. Ids are "#100" and up; the file's frame is shifted by (500000, 5800000, 50).
+// but with one of everything that the panels show. Ids are "#100" and up; the file's frame is shifted by (500000,
+// 5800000, 50).
 Document demoHouse();
 
 constexpr std::uint32_t kDemoProducts = 27;

@@ -9,7 +9,11 @@ namespace standpoint {
 // The program's verbs and one that makes the demo house, so that a session comes to a document as it always does.
 inline std::vector<Verb> verbsWithDemo() {
   std::vector<Verb> table(verbs().begin(), verbs().end());
-  table.push_back({"demo", "Make the demo house", VerbScope::creates, {}, [](const Document&, const nlohmann::json&, Progress&) -> Result<Outcome> {
+  table.push_back({"demo",
+                   "Make the demo house",
+                   VerbScope::creates,
+                   {},
+                   [](const Document&, const nlohmann::json&, Progress&) -> Result<Outcome> {
                      Outcome outcome;
                      outcome.document = demoHouse();
                      outcome.report = *outcome.document.import_report;

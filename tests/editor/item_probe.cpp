@@ -14,7 +14,9 @@ ItemProbe& itemProbe() {
 const GuiItem* ItemProbe::find(const std::string& part) const {
   for (const auto& item : items) {
     const auto& label = item.label;
-    if (label == part || (label.size() > part.size() && label.compare(label.size() - part.size(), part.size(), part) == 0)) return &item;
+    if (label == part ||
+        (label.size() > part.size() && label.compare(label.size() - part.size(), part.size(), part) == 0))
+      return &item;
   }
   return nullptr;
 }
@@ -31,7 +33,8 @@ bool __wrap__ZN5ImGui7ItemAddERK6ImRectjPS1_i(const ImRect& box, ImGuiID id, con
   if (id == 0) return visible;
   auto& probe = itemProbe();
   const auto label = probe.labels.find(id);
-  probe.items.push_back({id, nav != nullptr ? *nav : box, label == probe.labels.end() ? "" : label->second, GImGui->CurrentWindow->Name, !visible,
+  probe.items.push_back({id, nav != nullptr ? *nav : box, label == probe.labels.end() ? "" : label->second,
+                         GImGui->CurrentWindow->Name, !visible,
                          (GImGui->LastItemData.InFlags & ImGuiItemFlags_Disabled) != 0});
   return visible;
 }
@@ -67,8 +70,10 @@ GuiDriver::GuiDriver(Editor& editor, ImVec2 size) : editor_(editor) {
   static std::string clipboard;
   io.SetClipboardTextFn = [](void*, const char* text) { clipboard = text; };
   io.GetClipboardTextFn = [](void*) { return clipboard.c_str(); };
-  io.KeyMap[ImGuiKey_Enter] = 257, io.KeyMap[ImGuiKey_Escape] = 256, io.KeyMap[ImGuiKey_Tab] = 258, io.KeyMap[ImGuiKey_Backspace] = 259;
-  io.KeyMap[ImGuiKey_RightArrow] = 262, io.KeyMap[ImGuiKey_LeftArrow] = 263, io.KeyMap[ImGuiKey_DownArrow] = 264, io.KeyMap[ImGuiKey_UpArrow] = 265;
+  io.KeyMap[ImGuiKey_Enter] = 257, io.KeyMap[ImGuiKey_Escape] = 256, io.KeyMap[ImGuiKey_Tab] = 258,
+  io.KeyMap[ImGuiKey_Backspace] = 259;
+  io.KeyMap[ImGuiKey_RightArrow] = 262, io.KeyMap[ImGuiKey_LeftArrow] = 263, io.KeyMap[ImGuiKey_DownArrow] = 264,
+  io.KeyMap[ImGuiKey_UpArrow] = 265;
   io.KeyMap[ImGuiKey_A] = 'A', io.KeyMap[ImGuiKey_C] = 'C';
   unsigned char* pixels = nullptr;
   int w = 0, h = 0;
@@ -99,7 +104,7 @@ void GuiDriver::settle() {
 
 void GuiDriver::moveTo(ImVec2 place) {
   ImGui::GetIO().MousePos = place;
-  frames(2);   // the hovered window is known one frame late
+  frames(2);  // the hovered window is known one frame late
 }
 
 void GuiDriver::press(int button) {

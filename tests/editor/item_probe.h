@@ -18,16 +18,16 @@ namespace standpoint {
 struct GuiItem {
   ImGuiID id = 0;
   ImRect rect;
-  std::string label;     // as the code wrote it, with "###"
+  std::string label;  // as the code wrote it, with "###"
   std::string window;
   bool clipped = false;
   bool disabled = false;
 };
 
 struct ItemProbe {
-  std::vector<GuiItem> items;                      // of the frame drawn last
+  std::vector<GuiItem> items;  // of the frame drawn last
   std::unordered_map<ImGuiID, std::string> labels;
-  const GuiItem* find(const std::string& part) const;   // the first whose label ends with it, or is it
+  const GuiItem* find(const std::string& part) const;  // the first whose label ends with it, or is it
 };
 ItemProbe& itemProbe();
 
@@ -41,11 +41,11 @@ class GuiDriver {
 
   void frame();
   void frames(int count);
-  void settle();                              // tasks done, their results drawn
+  void settle();  // tasks done, their results drawn
   void moveTo(ImVec2 place);
-  void press(int button = 0);                 // and release
-  bool click(const std::string& label);       // false when there is no such item
-  void activate(ImGuiID id);                  // as the keyboard would
+  void press(int button = 0);            // and release
+  bool click(const std::string& label);  // false when there is no such item
+  void activate(ImGuiID id);             // as the keyboard would
   void key(int glfw_key, bool ctrl = false, bool shift = false);
   void type(const std::string& text);
   const GuiItem* find(const std::string& label) { return itemProbe().find(label); }

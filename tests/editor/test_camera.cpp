@@ -102,7 +102,8 @@ TEST(Camera, FramesABoxSoThatEveryCornerIsInThePicture) {
       frame(camera, box, kSize.x() / kSize.y());
       double widest = 0;
       for (int i = 0; i < 8; ++i) {
-        const Eigen::Vector3d corner(i & 1 ? box.max.x() : box.min.x(), i & 2 ? box.max.y() : box.min.y(), i & 4 ? box.max.z() : box.min.z());
+        const Eigen::Vector3d corner(i & 1 ? box.max.x() : box.min.x(), i & 2 ? box.max.y() : box.min.y(),
+                                     i & 4 ? box.max.z() : box.min.z());
         const auto pixel = project(camera, corner, kSize);
         ASSERT_TRUE(pixel);
         EXPECT_GE(pixel->x(), 0);

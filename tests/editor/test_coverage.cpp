@@ -75,16 +75,19 @@ TEST(Coverage, SaysHowDenselyAndHowSteeplyTheBestScanMeetsIt) {
   EXPECT_NEAR(there.incidence_rad, std::atan2(5, 10), 1e-9) << "S2 stands 5 m aside, S1 7 m";
   // Level beams: r² dAz dEl / cos.
   const double range = std::hypot(5, 10);
-  const double column = (settings.azimuth_to_rad - settings.azimuth_from_rad) / settings.columns, row = (settings.elevation_to_rad - settings.elevation_from_rad) / settings.rows;
+  const double column = (settings.azimuth_to_rad - settings.azimuth_from_rad) / settings.columns,
+               row = (settings.elevation_to_rad - settings.elevation_from_rad) / settings.rows;
   EXPECT_NEAR(there.spacing_m, range * std::sqrt(column * row / (10 / range)), 1e-9);
-  EXPECT_EQ(coverageAt(scans, onWall(7), {.most_incidence_rad = 30 * std::numbers::pi / 180}).stations, 1) << "as the plan's wishes say";
+  EXPECT_EQ(coverageAt(scans, onWall(7), {.most_incidence_rad = 30 * std::numbers::pi / 180}).stations, 1)
+      << "as the plan's wishes say";
 }
 
 TEST(Coverage, OfScansThatWereMadeTakesTheirOwnSettings) {
   Stage stage;
   KeptCoverage kept;
   const std::vector<Instrument> known = {stage.instrument};
-  const double planned = coverageAt(kept.planned(stage.document, stage.scene, stage.instrument, {}), onWall(3), {}).spacing_m;
+  const double planned =
+      coverageAt(kept.planned(stage.document, stage.scene, stage.instrument, {}), onWall(3), {}).spacing_m;
   const auto& made = kept.made(stage.document, stage.scene, known);
   ASSERT_EQ(made.size(), 1U) << "S1 has not scanned";
   EXPECT_EQ(made[0].station, "S2");

@@ -31,7 +31,8 @@ struct Stage {
     environment = e;
     Progress progress;
     scene = *RayScene::build(environment, progress);
-    instrument = *readInstrument(std::filesystem::path(dataFolder()) / "scanners" / "instruments" / "leica-rtc360.json");
+    instrument =
+        *readInstrument(std::filesystem::path(dataFolder()) / "scanners" / "instruments" / "leica-rtc360.json");
     KeptExpectation kept;
     request.expectation = kept.of(scene, nullptr, instrument);
     request.scene = scene;
@@ -49,11 +50,11 @@ TEST(ExpectedView, PaintsEveryPixelOfASurfaceWithWhatComesBackFromIt) {
   view.wait();
   const auto picture = view.picture(stage.request.view.camera);
   ASSERT_TRUE(picture);
-  EXPECT_EQ(picture->width, 120);   // the finest of three
+  EXPECT_EQ(picture->width, 120);  // the finest of three
   EXPECT_EQ(woken.load(), 3);
   const auto expected = stage.request.expectation->from(stage.request.station, {{0, 10, 0}, {0, -1, 0}, 0, 0});
   ASSERT_EQ(expected.fate, ReturnFate::returned);
-  EXPECT_EQ(picture->rgba[45 * 120 + 60], expectedColour(ExpectedQuantity::intensity, expected));   // head-on: fully lit
+  EXPECT_EQ(picture->rgba[45 * 120 + 60], expectedColour(ExpectedQuantity::intensity, expected));  // head-on: fully lit
 }
 
 TEST(ExpectedView, ShowsAMovedStationThroughTheSameCamera) {
@@ -62,7 +63,7 @@ TEST(ExpectedView, ShowsAMovedStationThroughTheSameCamera) {
   stage.request.quantity = ExpectedQuantity::fate;
   view.want(stage.request);
   view.wait();
-  stage.request.station = {0, 20, 0};   // behind the wall
+  stage.request.station = {0, 20, 0};  // behind the wall
   view.want(stage.request);
   view.wait();
   const auto picture = view.picture(stage.request.view.camera);
@@ -80,7 +81,7 @@ TEST(ExpectedView, HasNoPictureForAnotherCameraOrAfterItWasDropped) {
   EXPECT_FALSE(view.picture(other));
   view.drop();
   EXPECT_FALSE(view.picture(stage.request.view.camera));
-  view.want(stage.request);   // and it can be asked again
+  view.want(stage.request);  // and it can be asked again
   view.wait();
   EXPECT_TRUE(view.picture(stage.request.view.camera));
 }

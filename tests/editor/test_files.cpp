@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fstream>
-
 #include <unistd.h>
 
 #include <gtest/gtest.h>
@@ -81,7 +80,8 @@ TEST(Scale, NeverOutgrowsTheWindow) {
 }
 
 TEST_F(Folder, StartsWithDefaultsWhenTheSettingsAreBroken) {
-  for (const char* text : {"", "{", "[1,2]", "{\"areas\": [{\"left\": \"wide\"}], \"user_scale\": 1e99, \"recent\": [7]}"}) {
+  for (const char* text :
+       {"", "{", "[1,2]", "{\"areas\": [{\"left\": \"wide\"}], \"user_scale\": 1e99, \"recent\": [7]}"}) {
     write("editor.json", text);
     const auto settings = readSettings(root / "editor.json");
     EXPECT_EQ(settings.areas, Settings().areas) << text;
@@ -91,7 +91,7 @@ TEST_F(Folder, StartsWithDefaultsWhenTheSettingsAreBroken) {
 }
 
 TEST_F(Folder, OffersOnlyTheCopiesOfProcessesThatAreGone) {
-  constexpr long kGone = 4194305;   // above the largest process id that Linux gives
+  constexpr long kGone = 4194305;  // above the largest process id that Linux gives
   const auto gone = recoveryFolder(root, kGone), alive = recoveryFolder(root, getpid());
   ASSERT_TRUE(writeRecoveryOwner(gone, "school", "/projects/school"));
   ASSERT_TRUE(writeRecoveryOwner(alive, "house", ""));

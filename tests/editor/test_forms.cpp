@@ -12,7 +12,7 @@ using nlohmann::json;
 TEST(OptionForm, OfEveryVerbGivesOptionsThatTheVerbAccepts) {
   for (const auto& verb : verbs()) {
     OptionForm form(verb);
-    for (auto& field : form.fields())   // what must be given is given
+    for (auto& field : form.fields())  // what must be given is given
       if (field.parameter->required && field.text.empty()) field.text = "x";
     EXPECT_EQ(form.problem(), "") << verb.name;
     const auto checked = checkOptions(verb, form.options());
@@ -47,7 +47,7 @@ TEST(OptionForm, NamesWhatIsMissing) {
 }
 
 TEST(OptionForm, TakesWhatAJobFileSaysAndGivesItBack) {
-  const json options = {{"add", "S7"}, {"on", {1.5, 2.5, 0.0}}, {"height", 1.8}, {"yaw-deg", 90.0},
+  const json options = {{"add", "S7"},       {"on", {1.5, 2.5, 0.0}},   {"height", 1.8}, {"yaw-deg", 90.0},
                         {"stand", "tripod"}, {"tilt-towards-deg", 0.0}, {"seed", 1}};
   OptionForm form(*findVerb(verbs(), "station"));
   form.fill(options);

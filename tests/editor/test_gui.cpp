@@ -59,7 +59,7 @@ TEST_F(Gui, SelectsInTheOutlinerAndShowsItInTheInspector) {
   const auto wall = productNamed("Wall east OG");
   const GuiItem* row = nullptr;
   for (const auto& item : itemProbe().items)
-    if (item.label == "###row") row = &item;   // the last one is the product
+    if (item.label == "###row") row = &item;  // the last one is the product
   ASSERT_NE(row, nullptr);
   gui.moveTo(row->rect.GetCenter());
   gui.press();
@@ -142,7 +142,8 @@ TEST_F(Gui, AssignsAMaterialThroughTheVerb) {
 TEST_F(Gui, EditsTheRowsOfAMetalAndUndoTakesItOutAgain) {
   open();
   const auto& library = readCatalogue(editor.panels.catalogue).materials;
-  const auto metal = std::find_if(library.begin(), library.end(), [](const PhysicalMaterial& m) { return m.complex_index.size() > 2; });
+  const auto metal = std::find_if(library.begin(), library.end(),
+                                  [](const PhysicalMaterial& m) { return m.complex_index.size() > 2; });
   if (metal == library.end()) GTEST_SKIP() << editor.panels.catalogue.problem;
   ASSERT_TRUE(editor.session.start("materials", nlohmann::json::object()));
   gui.settle();
@@ -158,7 +159,8 @@ TEST_F(Gui, EditsTheRowsOfAMetalAndUndoTakesItOutAgain) {
     const auto rows = edit->complex_index.size();
     const auto* item = gui.find(button);
     ASSERT_NE(item, nullptr) << button;
-    if (auto* fields = ImGui::FindWindowByName(item->window.c_str())) ImGui::SetScrollY(fields, fields->ScrollMax.y);   // the rows are below the fold
+    if (auto* fields = ImGui::FindWindowByName(item->window.c_str()))
+      ImGui::SetScrollY(fields, fields->ScrollMax.y);  // the rows are below the fold
     gui.frames(2);
     ASSERT_TRUE(gui.click(button));
     gui.frames(2);
@@ -267,7 +269,8 @@ TEST_F(Gui, ExcludesTheSelectionFromTheSceneAndTakesItBack) {
   gui.settle();
   ASSERT_TRUE(editor.session.errors().empty()) << describe(editor.session.errors().front().error);
   EXPECT_TRUE(editor.environment()->products[roof].excluded);
-  EXPECT_EQ(editor.selection.products(), std::vector<std::uint32_t>{roof}) << "it stays chosen, so that it can be taken back";
+  EXPECT_EQ(editor.selection.products(), std::vector<std::uint32_t>{roof})
+      << "it stays chosen, so that it can be taken back";
   EXPECT_EQ(editor.triangles(), triangles - 12);
   if (editor.picker.ready()) {
     gui.moveTo(screenOf({5, 4, 6.3}));
@@ -302,7 +305,7 @@ TEST_F(Gui, ShowsTheOriginalBesideTheLighterModelWithTheirDistances) {
       if (e.products[i.product].inScene()) expected += standpoint::area(*e.meshes[i.mesh]);
   EXPECT_NEAR(area, expected, 1e-3 * expected);
   EXPECT_GT(far, 0);
-  editor.session.undo();   // the lighter model is gone, and with it what compares
+  editor.session.undo();  // the lighter model is gone, and with it what compares
   gui.frames(3);
   EXPECT_EQ(editor.view.side, ModelSide::lighter);
   EXPECT_EQ(editor.view.colour, ColourMode::model);
@@ -321,7 +324,8 @@ TEST_F(Gui, FollowsTheBudgetsSliderAtOnceAndForgetsItWhenOptimised) {
     for (int i = 0; i < 400; ++i) {
       gui.frame();
       const auto state = editor.budget_preview.state();
-      if (state.shown && !state.preparing && state.triangles <= budget && state.triangles + 4 >= budget) return sceneTriangleCount(*editor.viewState().environment);
+      if (state.shown && !state.preparing && state.triangles <= budget && state.triangles + 4 >= budget)
+        return sceneTriangleCount(*editor.viewState().environment);
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     return 0;
@@ -457,7 +461,8 @@ TEST_F(Gui, OpensTheFormOfEveryVerb) {
     gui.frames(3);
     EXPECT_NE(gui.find("###run"), nullptr) << verb.name;
     for (const auto& parameter : verb.parameters) {
-      const bool drawn = std::any_of(itemProbe().items.begin(), itemProbe().items.end(), [](const GuiItem& i) { return i.label.find("###value") != std::string::npos; });
+      const bool drawn = std::any_of(itemProbe().items.begin(), itemProbe().items.end(),
+                                     [](const GuiItem& i) { return i.label.find("###value") != std::string::npos; });
       EXPECT_TRUE(drawn) << verb.name << " " << parameter.name;
     }
     closeEverything(editor, gui);

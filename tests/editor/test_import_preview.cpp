@@ -26,7 +26,8 @@ Result<Outcome> importDemo(const Document&, const json& options, Progress& progr
     if (auto going = progress.check(); !going) return failure(going.error());
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  if (options.at("files").at(0) == "broken.ifc") return failure(ErrorKind::unusable, "is not a building", "broken.ifc line 3");
+  if (options.at("files").at(0) == "broken.ifc")
+    return failure(ErrorKind::unusable, "is not a building", "broken.ifc line 3");
   if (options.value("crs", "") == "EPSG:none") return failure(ErrorKind::usage, "no such system");
   Outcome outcome;
   outcome.document = demoHouse();
@@ -136,7 +137,7 @@ TEST_F(Preview, GivenUpLeavesTheDocumentAndTheCameraAsTheyWere) {
   const auto camera = editor.view.camera;
   open();
   EXPECT_NE(editor.viewState().environment, before.environment());
-  gui.key(256);   // Esc
+  gui.key(256);  // Esc
   gui.frames(2);
   EXPECT_FALSE(editor.preview.isOpen());
   EXPECT_TRUE(editor.session.document() == before);

@@ -48,7 +48,7 @@ TEST(InputQueue, CoalescesMovesButKeepsTheOneBeforeAClick) {
 
 TEST(InputQueue, LetsDifferentKeysPassTogether) {
   InputQueue queue;
-  queue.push(keyEvent(341, true));   // left control
+  queue.push(keyEvent(341, true));  // left control
   queue.push(keyEvent('Z', true));
   EXPECT_EQ(queue.takeFrame().size(), 2U);
 }

@@ -10,7 +10,9 @@
 namespace standpoint {
 namespace {
 
-std::vector<Instrument> instruments() { return *readInstruments(std::filesystem::path(dataFolder()) / "scanners" / "instruments"); }
+std::vector<Instrument> instruments() {
+  return *readInstruments(std::filesystem::path(dataFolder()) / "scanners" / "instruments");
+}
 
 PhysicalMaterial lambert(double reflectance) {
   PhysicalMaterial m;
@@ -26,7 +28,8 @@ TEST(MaterialCard, HasARowForEachOfItsInstruments) {
   EXPECT_TRUE(reportedOf(lambert(0.5), {}, 0).empty());
 }
 
-// RTC360's sheet: 0.4 mm at 10 m and 0.5 mm at 20 m on 89 %; at 30 m on 10 % a point still comes back, at 60 m none does.
+// RTC360's sheet: 0.4 mm at 10 m and 0.5 mm at 20 m on 89 %; at 30 m on 10 % a point still comes back, at 60 m none
+// does.
 TEST(MaterialCard, ReportsLessIntensityAndMoreNoiseFartherAwayUntilNothingComesBack) {
   const auto rows = reportedOf(lambert(0.1), instruments(), 0);
   const auto& rtc = rows[0];

@@ -62,7 +62,7 @@ TEST(MaterialEdit, OfAMetalHasRowsOfNAndK) {
   addIndexRow(edit, 0);
   edit.complex_index[0] = {1000, 0.257, 6.82};
   EXPECT_EQ(flawOf(edit), "");
-  edit.index_of_refraction = 1.5;   // of before it was called a metal: it does not come along
+  edit.index_of_refraction = 1.5;  // of before it was called a metal: it does not come along
   edit.pane = true;
   const auto own = readBack(edit);
   ASSERT_TRUE(own) << describe(own.error());
@@ -89,7 +89,7 @@ TEST(MaterialEdit, OfAMetalSaysWhichRowIsWrong) {
   const auto flaw = [&](std::vector<ComplexIndex> rows) {
     edit.complex_index = std::move(rows);
     const auto said = flawOf(edit);
-    EXPECT_EQ(said.empty(), readBack(edit).has_value()) << said;   // no more and no less than the reader
+    EXPECT_EQ(said.empty(), readBack(edit).has_value()) << said;  // no more and no less than the reader
     return said;
   };
   EXPECT_EQ(flaw({{532, 1, 1}, {905, 1, 1}}), "");

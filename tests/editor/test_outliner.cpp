@@ -55,7 +55,8 @@ TEST_F(DemoHouse, RevealsAProductByOpeningWhatLiesAboveIt) {
 
 TEST_F(DemoHouse, FiltersByWordsInAnyOrderAndKeepsTheAncestors) {
   const auto shown = labels(tree, tree.rows(environment, "OG window"));
-  EXPECT_EQ(shown, (std::vector<std::string>{"Demo house", "Plot", "House", "Upper floor", "Window", "Window north OG", "Window south OG"}));
+  EXPECT_EQ(shown, (std::vector<std::string>{"Demo house", "Plot", "House", "Upper floor", "Window", "Window north OG",
+                                             "Window south OG"}));
   EXPECT_TRUE(tree.rows(environment, "no such thing").empty());
 }
 
@@ -85,7 +86,7 @@ TEST(Outliner, OfAModelWithoutStructureIsOneListOfProducts) {
   environment.products.resize(3);
   for (int i = 0; i < 3; ++i) environment.products[static_cast<std::size_t>(i)].id = "/nodes/" + std::to_string(i);
   const Outliner tree(environment);
-  EXPECT_EQ(tree.rows(environment, "").size(), 4U);   // the group and its three
+  EXPECT_EQ(tree.rows(environment, "").size(), 4U);  // the group and its three
 }
 
 TEST(Outliner, ReadsClassNamesAloud) {

@@ -49,7 +49,8 @@ std::size_t differing(const Picture& a, const Picture& b) {
 TEST(Pictures, OfTheDemoHouseShowItAndDifferFromEachOther) {
   int width = 1280, height = 800;
   float scale = 1;
-  if (const char* wanted = std::getenv("STANDPOINT_PICTURE_SIZE")) std::sscanf(wanted, "%dx%d@%f", &width, &height, &scale);
+  if (const char* wanted = std::getenv("STANDPOINT_PICTURE_SIZE"))
+    std::sscanf(wanted, "%dx%d@%f", &width, &height, &scale);
   auto offscreen = Offscreen::create(width, height, scale);
   if (!offscreen) GTEST_SKIP() << describe(offscreen.error());
   Editor editor(verbsWithDemo(), [] {});
@@ -68,7 +69,8 @@ TEST(Pictures, OfTheDemoHouseShowItAndDifferFromEachOther) {
     EXPECT_GT(coloursIn(pictures.back(), 0, 0.1, 0.2, 0.9), 15U) << file << ": the left area is empty";
   }
   for (std::size_t i = 1; i < pictures.size(); ++i)
-    EXPECT_GT(differing(pictures[0], pictures[i]), pictures[0].rgb.size() / 300) << (*written)[i] << " shows the same as the first";
+    EXPECT_GT(differing(pictures[0], pictures[i]), pictures[0].rgb.size() / 300)
+        << (*written)[i] << " shows the same as the first";
 }
 
 TEST(Pictures, OfAnEmptyEditorInviteToImport) {

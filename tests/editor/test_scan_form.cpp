@@ -13,9 +13,15 @@ namespace standpoint {
 namespace {
 
 ScanChoice everythingAsked() {
-  return {.instrument = "leica-rtc360", .settings = {{"resolution", "12mm"}}, .seed = 9,
-          .effects = Effects().without(Effect::striping), .weather = {5, 2.5, 0.5, 150, 900},
-          .truth = true, .compensator = false, .panorama = true, .panorama_columns = 1024};
+  return {.instrument = "leica-rtc360",
+          .settings = {{"resolution", "12mm"}},
+          .seed = 9,
+          .effects = Effects().without(Effect::striping),
+          .weather = {5, 2.5, 0.5, 150, 900},
+          .truth = true,
+          .compensator = false,
+          .panorama = true,
+          .panorama_columns = 1024};
 }
 
 TEST(ScanForm, AsksTheVerbForWhatItShows) {
@@ -30,7 +36,7 @@ TEST(ScanForm, AsksTheVerbForWhatItShows) {
     EXPECT_TRUE(request) << describe(request.error());
     return choiceOf(*request);
   };
-  wanted.settings = ask(wanted).settings;   // with the defaults filled in
+  wanted.settings = ask(wanted).settings;  // with the defaults filled in
   EXPECT_EQ(ask(wanted), wanted);
   wanted.effects = Effects::none();
   EXPECT_EQ(ask(wanted), wanted);
@@ -44,7 +50,8 @@ TEST(ScanForm, SaysInAWordWhatIsFolded) {
   EXPECT_EQ(effectsSummary(Effects()), "all effects");
   EXPECT_EQ(effectsSummary(Effects::none()), "ideal");
   EXPECT_EQ(effectsSummary(Effects().without(Effect::striping)), "without striping");
-  EXPECT_EQ(effectsSummary(Effects().without(Effect::striping).without(Effect::panes).without(Effect::bias)), fmt::format("{} of {} effects", effectNames().size() - 3, effectNames().size()));
+  EXPECT_EQ(effectsSummary(Effects().without(Effect::striping).without(Effect::panes).without(Effect::bias)),
+            fmt::format("{} of {} effects", effectNames().size() - 3, effectNames().size()));
   EXPECT_EQ(weatherSummary({}), "clear air");
   EXPECT_EQ(weatherSummary({5, 10, 0, 0, 0}), "rain 10 mm/h, visibility 5 km");
 }
@@ -53,7 +60,8 @@ TEST(ScanOutlook, IsThatOfThePlanAndKnowsWhatTheFileHolds) {
   const auto document = demoHouse();
   Progress progress;
   const auto instrument = *readInstrument(dataFolder() / "scanners" / "instruments" / "leica-rtc360.json");
-  OutlookRequest request{*RayScene::build(document.environment(), progress), nullptr, document.job, {0, 1}, {.instrument = instrument.id}};
+  OutlookRequest request{
+      *RayScene::build(document.environment(), progress), nullptr, document.job, {0, 1}, {.instrument = instrument.id}};
   chooseInstrument(request.asked, instrument);
   ScanOutlookView view({});
   view.want(request, instrument);
@@ -66,7 +74,8 @@ TEST(ScanOutlook, IsThatOfThePlanAndKnowsWhatTheFileHolds) {
   EXPECT_LE(plain->points, 2.0 * settings.columns * settings.rows);
   request.asked.truth = true;
   view.want(request, instrument);
-  EXPECT_FALSE(view.outlook() && view.outlook()->bytes == plain->bytes) << "what is shown is never that of another wish";
+  EXPECT_FALSE(view.outlook() && view.outlook()->bytes == plain->bytes)
+      << "what is shown is never that of another wish";
   view.wait();
   // Time of 8 bytes, return and count of 1 each, six floats and the flags.
   EXPECT_NEAR((view.outlook()->bytes - plain->bytes) / plain->points, 35.0 * 1024 / 1020, 0.01);
@@ -183,7 +192,8 @@ TEST(CloudSampler, KeepsAnEvenPartOfAnyNumberOfPoints) {
   ASSERT_GT(cloud.colours.size(), 50U);
   ASSERT_LE(cloud.colours.size(), 100U);
   const float step = cloud.positions[3] - cloud.positions[0];
-  for (std::size_t i = 0; i < cloud.colours.size(); ++i) EXPECT_EQ(cloud.positions[3 * i], static_cast<float>(i) * step - 10) << "shifted, none left out";
+  for (std::size_t i = 0; i < cloud.colours.size(); ++i)
+    EXPECT_EQ(cloud.positions[3 * i], static_cast<float>(i) * step - 10) << "shifted, none left out";
   EXPECT_GT(static_cast<float>(cloud.colours.size()) * step, 999);
 }
 

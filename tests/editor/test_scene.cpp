@@ -13,7 +13,8 @@ namespace {
 // A cube whose faces do not share vertices, as glTF has them.
 Mesh looseCube() {
   Mesh mesh;
-  static constexpr int kCorner[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  static constexpr int kCorner[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                        {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
   for (const auto& face : kCorner) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (const int c : face) mesh.positions.emplace_back(c & 1, c >> 1 & 1, c >> 2 & 1);
@@ -24,7 +25,9 @@ Mesh looseCube() {
   return mesh;
 }
 
-TEST(FeatureEdges, OfACubeAreItsTwelveEdgesWithoutTheDiagonals) { EXPECT_EQ(featureEdges(looseCube(), 0.5).size(), 12U); }
+TEST(FeatureEdges, OfACubeAreItsTwelveEdgesWithoutTheDiagonals) {
+  EXPECT_EQ(featureEdges(looseCube(), 0.5).size(), 12U);
+}
 
 TEST(FeatureEdges, OfASheetAreItsRim) {
   Mesh sheet;
@@ -56,7 +59,8 @@ TEST(MergedScene, HasEveryTangibleTriangleOnceAndGlassApart) {
   EXPECT_EQ(merged.transparent.colours.size(), glass);
   EXPECT_EQ(merged.opaque.corners.size(), 3 * merged.opaque.colours.size());
   const auto points = static_cast<std::int64_t>(merged.opaque.positions.size() / 3);
-  EXPECT_TRUE(std::all_of(merged.opaque.corners.begin(), merged.opaque.corners.end(), [&](std::int64_t c) { return c >= 0 && c < points; }));
+  EXPECT_TRUE(std::all_of(merged.opaque.corners.begin(), merged.opaque.corners.end(),
+                          [&](std::int64_t c) { return c >= 0 && c < points; }));
 }
 
 TEST(MergedScene, PutsWhatShowsAnImageApartAndLetsVertexColoursRunFromCornerToCorner) {
@@ -82,7 +86,7 @@ TEST(MergedScene, PutsWhatShowsAnImageApartAndLetsVertexColoursRunFromCornerToCo
   EXPECT_TRUE(merged.opaque.corners.empty());
   ASSERT_EQ(merged.painted.size(), 1U);
   const auto& painted = merged.painted.at({0, true});
-  EXPECT_EQ(painted.coordinates, (std::vector<float>{0, 1, 1, 1, 0, 0.25F}));   // upside down
+  EXPECT_EQ(painted.coordinates, (std::vector<float>{0, 1, 1, 1, 0, 0.25F}));  // upside down
   EXPECT_EQ(painted.triangles.colours.size(), 3U);
   state.colour = ColourMode::reflectance;
   EXPECT_EQ(mergeVisible(state).opaque.colours.size(), 2U);
@@ -105,7 +109,7 @@ TEST(MergedScene, ShowsDeviationsFromGreyToDarkRedAtTheFullScale) {
   state.deviation = std::make_shared<const DeviationField>(std::move(field));
   const auto merged = mergeVisible(state);
   EXPECT_TRUE(merged.opaque.corners.empty());
-  EXPECT_TRUE(merged.transparent.corners.empty());   // glass, too, shows how far it moved
+  EXPECT_TRUE(merged.transparent.corners.empty());  // glass, too, shows how far it moved
   ASSERT_EQ(merged.graded.colours.size(), merged.graded.positions.size() / 3);
   EXPECT_EQ(merged.graded.colours.front(), (Rgba{118, 8, 40, 255}));
   EXPECT_EQ(merged.graded.colours.back(), (Rgba{178, 186, 196, 255}));
@@ -160,15 +164,16 @@ TEST(MergedScene, ShowsAFaceAtAPointAndNotItsCoplanarNeighbour) {
   state.environment = std::make_shared<const Environment>(e);
   state.materials = std::make_shared<const MaterialChoice>(choice);
   state.colour = ColourMode::reflectance;
-  const Rgba dark = {51, 51, 51, 255}, bright = {204, 204, 204, 255};   // 0.2 and 0.8 of 255
+  const Rgba dark = {51, 51, 51, 255}, bright = {204, 204, 204, 255};  // 0.2 and 0.8 of 255
   EXPECT_EQ(mergeVisible(state).opaque.colours, (std::vector<Rgba>{dark, dark, bright, bright}));
 }
 
 TEST(MergedColours, AreThoseOfTheMergedSceneAndTellWhetherATriangleMoved) {
-  const auto document = demoHouse();   // with glass, which is transparent by the model's colours
+  const auto document = demoHouse();  // with glass, which is transparent by the model's colours
   auto state = demoState(document);
   std::vector<MergedColours> of_mode;
-  for (const auto mode : {ColourMode::model, ColourMode::material, ColourMode::reflectance, ColourMode::confidence, ColourMode::expected_noise}) {
+  for (const auto mode : {ColourMode::model, ColourMode::material, ColourMode::reflectance, ColourMode::confidence,
+                          ColourMode::expected_noise}) {
     state.colour = mode;
     const auto merged = mergeVisible(state);
     const auto colours = mergeColours(state);
@@ -177,7 +182,7 @@ TEST(MergedColours, AreThoseOfTheMergedSceneAndTellWhetherATriangleMoved) {
     EXPECT_EQ(colours->transparent, merged.transparent.colours);
     of_mode.push_back(*colours);
   }
-  EXPECT_NE(of_mode[0].runs, of_mode[1].runs);   // without materials, nothing is transparent
+  EXPECT_NE(of_mode[0].runs, of_mode[1].runs);  // without materials, nothing is transparent
   EXPECT_EQ(of_mode[1].runs, of_mode[3].runs);
   EXPECT_NE(of_mode[1].opaque, of_mode[4].opaque);
 }

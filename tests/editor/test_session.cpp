@@ -18,23 +18,31 @@ std::atomic<bool> released{false};
 // Three verbs that a test can steer: one that changes, one that waits until it is let go, one that fails.
 std::vector<Verb> steeredVerbs() {
   auto table = verbsWithDemo();
-  table.push_back({"rename", "Rename", VerbScope::changes, {{.name = "to", .kind = ParameterKind::text, .help = "", .required = true}},
+  table.push_back({"rename",
+                   "Rename",
+                   VerbScope::changes,
+                   {{.name = "to", .kind = ParameterKind::text, .help = "", .required = true}},
                    [](const Document& d, const json& options, Progress&) -> Result<Outcome> {
                      Outcome outcome{d};
                      outcome.document.name = options.at("to").get<std::string>();
                      outcome.description = "Renamed to " + outcome.document.name;
                      return outcome;
                    }});
-  table.push_back({"wait", "Wait", VerbScope::changes, {}, [](const Document& d, const json&, Progress& progress) -> Result<Outcome> {
+  table.push_back({"wait",
+                   "Wait",
+                   VerbScope::changes,
+                   {},
+                   [](const Document& d, const json&, Progress& progress) -> Result<Outcome> {
                      while (!released) {
                        if (auto checked = progress.check(); !checked) return failure(checked.error());
                        std::this_thread::sleep_for(std::chrono::milliseconds(1));
                      }
                      return Outcome{d};
                    }});
-  table.push_back({"break", "Break", VerbScope::changes, {}, [](const Document&, const json&, Progress&) -> Result<Outcome> {
-                     return failure(ErrorKind::unusable, "it is broken", "house.ifc #12");
-                   }});
+  table.push_back(
+      {"break", "Break", VerbScope::changes, {}, [](const Document&, const json&, Progress&) -> Result<Outcome> {
+         return failure(ErrorKind::unusable, "it is broken", "house.ifc #12");
+       }});
   return table;
 }
 
@@ -100,7 +108,8 @@ TEST_F(DemoSession, ShowsAnErrorWithItsPlace) {
 }
 
 TEST_F(DemoSession, LogsWhatWasLost) {
-  const auto losses = std::count_if(session.log().begin(), session.log().end(), [](const LogEntry& e) { return e.level == LogLevel::loss; });
+  const auto losses = std::count_if(session.log().begin(), session.log().end(),
+                                    [](const LogEntry& e) { return e.level == LogLevel::loss; });
   EXPECT_EQ(losses, 1);
 }
 

@@ -50,7 +50,10 @@ TEST_F(Targets, AreChosenByAClick) {
 TEST_F(Targets, AreMeasuredOnceTheirScanIsThere) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "standpoint-target-list";
   std::filesystem::create_directories(folder);
-  ASSERT_TRUE(editor.session.start("scan", {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/16", "quality=4x"}}, {"stations", "S1"}, {"output", (folder / "S1.e57").string()}}));
+  ASSERT_TRUE(editor.session.start("scan", {{"instrument", "faro-focus-s350"},
+                                            {"set", {"resolution=1/16", "quality=4x"}},
+                                            {"stations", "S1"},
+                                            {"output", (folder / "S1.e57").string()}}));
   gui.settle();
   ASSERT_TRUE(editor.session.errors().empty()) << describe(editor.session.errors().front().error);
   // The demo's S2 claims a scan whose file is nowhere.

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/model/verification_view.h"
-
 #include <gtest/gtest.h>
 
+#include "editor/model/verification_view.h"
 #include "tests/editor/demo_document.h"
 
 namespace standpoint {
@@ -11,8 +10,13 @@ namespace {
 using nlohmann::json;
 
 json row(const json& material, bool judged, bool agrees, double median, const json& products) {
-  return {{"material", material}, {"points", 1000}, {"judged", judged}, {"agrees", agrees}, {"products", products},
-          {"off_db", {{"p5", median - 1}, {"q1", median - 0.5}, {"median", median}, {"q3", median + 0.5}, {"p95", median + 1}}}};
+  return {{"material", material},
+          {"points", 1000},
+          {"judged", judged},
+          {"agrees", agrees},
+          {"products", products},
+          {"off_db",
+           {{"p5", median - 1}, {"q1", median - 0.5}, {"median", median}, {"q3", median + 0.5}, {"p95", median + 1}}}};
 }
 
 Document verified(const json& answer) {
@@ -25,11 +29,17 @@ Document verified(const json& answer) {
 
 TEST(VerificationView, PutsWhatDisagreesFirstAndWhatCannotBeJudgedLast) {
   const std::string id = demoHouse().environment()->products[2].id;
-  const auto view = verificationView(verified(
-      {{"underlay", "scan"}, {"instrument", "leica-rtc360"}, {"compared", 3000}, {"no_verdict", nullptr}, {"placement", {{"moved_m", 0.001}}},
-       {"scale", {{"reads", "linear in dB: 0.014 per dB"}}},
-       {"materials", {row("glass", false, false, 30, json::array()), row("plaster", true, true, 0, json::array()), row("brick", true, false, -6.2, {id, "gone"})}},
-       {"proposals", json::array()}}));
+  const auto view = verificationView(
+      verified({{"underlay", "scan"},
+                {"instrument", "leica-rtc360"},
+                {"compared", 3000},
+                {"no_verdict", nullptr},
+                {"placement", {{"moved_m", 0.001}}},
+                {"scale", {{"reads", "linear in dB: 0.014 per dB"}}},
+                {"materials",
+                 {row("glass", false, false, 30, json::array()), row("plaster", true, true, 0, json::array()),
+                  row("brick", true, false, -6.2, {id, "gone"})}},
+                {"proposals", json::array()}}));
   ASSERT_TRUE(view.there);
   EXPECT_FALSE(view.current) << "its basis is none of this document's";
   ASSERT_EQ(view.materials.size(), 3U);

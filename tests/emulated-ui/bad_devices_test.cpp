@@ -19,7 +19,8 @@ using testing::HasSubstr;
 const json& shipped(const std::string& device) {
   static std::map<std::string, json> files;
   auto& file = files[device];
-  if (file.is_null()) file = readJsonFile(dataFolder() / "emulated-ui" / findDevice(device)->program().definition).value();
+  if (file.is_null())
+    file = readJsonFile(dataFolder() / "emulated-ui" / findDevice(device)->program().definition).value();
   return file;
 }
 
@@ -112,11 +113,13 @@ TEST_F(BadDevice, WhatTheCodeAsksForMayBeMissing) {
 }
 
 TEST_F(BadDevice, WordsThatHoldThemselvesComeToAnEnd) {
-  std::ofstream(folder_.path() / "x.json") << R"({"words": {"on": {"en": "{wlan}"}, "yes": {"en": "yes {wlan}"}, "wlan=yes": {"en": "it {wlan}"}}})";
+  std::ofstream(folder_.path() / "x.json")
+      << R"({"words": {"on": {"en": "{wlan}"}, "yes": {"en": "yes {wlan}"}, "wlan=yes": {"en": "it {wlan}"}}})";
   const auto words = Words::read(folder_.path());
   ASSERT_TRUE(words) << describe(words.error());
   const auto whole = *loadDevice(*findDevice("leica-rtc360"));
-  const auto type = makeDeviceType(whole->definition, whole->program, whole->instrument, std::make_shared<const Words>(*words));
+  const auto type =
+      makeDeviceType(whole->definition, whole->program, whole->instrument, std::make_shared<const Words>(*words));
   ASSERT_TRUE(type);
   EXPECT_EQ(Device(*type).word("on"), "it {wlan}");
 }

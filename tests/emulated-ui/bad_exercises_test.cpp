@@ -16,14 +16,18 @@ using testing::HasSubstr;
 
 json sound() {
   return json::parse(R"({
-    "id": "X1", "title": {"en": "Scan", "de": "Scannen"}, "goal": {"en": "Scan.", "de": "Scannen."}, "devices": ["faro-focus"], "model": "house",
+    "id": "X1", "title": {"en": "Scan", "de": "Scannen"}, "goal": {"en": "Scan.", "de": "Scannen."},
+      "devices": ["faro-focus"], "model": "house",
     "area": [0, 0, 0, 6, 4, 2.5], "places": {"door": [4.7, 4.45]},
     "setup": [{"verb": "station", "options": {"add": "S1", "on": [4.3, 1.6, 0]}}],
     "start": [{"press": "power"}, {"wait": 130}],
     "troubles": ["dust"], "events": [{"when": "progress > 0.5", "trouble": "moved"}],
-    "steps": [{"id": "scan", "text": {"en": "Scan.", "de": "Scannen."}, "widget": "start_scan", "done": "setups >= 1", "points": 2}],
-    "rules": [{"id": "clean", "text": {"en": "Clean.", "de": "Sauber."}, "when": "each scan_started", "holds": "dust == no", "points": 1, "proof": "data.noise"}],
-    "questions": [{"id": "ok", "text": {"en": "Ok?", "de": "Gut?"}, "choices": [{"value": "yes", "text": {"en": "Yes", "de": "Ja"}}]}],
+    "steps": [{"id": "scan", "text": {"en": "Scan.", "de": "Scannen."}, "widget": "start_scan",
+      "done": "setups >= 1", "points": 2}],
+    "rules": [{"id": "clean", "text": {"en": "Clean.", "de": "Sauber."}, "when": "each scan_started",
+      "holds": "dust == no", "points": 1, "proof": "data.noise"}],
+    "questions": [{"id": "ok", "text": {"en": "Ok?", "de": "Gut?"}, "choices": [{"value": "yes",
+      "text": {"en": "Yes", "de": "Ja"}}]}],
     "solution": [{"hand": "wipe_optics"}, {"answer": "ok", "value": "yes"}]})");
 }
 
@@ -219,7 +223,8 @@ TEST_F(BadExercise, WithoutStepsAndRulesNothingCanBeMarked) {
 TEST_F(BadExercise, NestedDeeplyItIsRefusedWithoutARecursionOfItsOwn) {
   EXPECT_NE(saysOf(std::string(200000, '[')), "");
   EXPECT_NE(saysOf(std::string(5000, '[') + std::string(5000, ']')), "");
-  EXPECT_THAT(saysOf("/steps/0/done", std::string(200, '(') + "setups >= 1" + std::string(200, ')')), HasSubstr("nested too deeply"));
+  EXPECT_THAT(saysOf("/steps/0/done", std::string(200, '(') + "setups >= 1" + std::string(200, ')')),
+              HasSubstr("nested too deeply"));
   std::string nots = "setups >= 1";
   for (int i = 0; i < 400; ++i) nots = "not " + nots;
   EXPECT_THAT(saysOf("/steps/0/done", nots), HasSubstr("nested too deeply"));

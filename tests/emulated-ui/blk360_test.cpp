@@ -35,8 +35,9 @@ TEST(Blk360, StartsWithItsKeyWithoutTheAppAndSwitchesOffWhenItIsHeld) {
 
 TEST(Blk360, TheKeyScansAloneAfterTheSelfTimerWithTheStoredConfiguration) {
   TestDevice d = started(kG1);
-  ASSERT_TRUE(d.press({"connect_now", "settings", "resolution=low", "images=off", "back", "button", "timer=20", "store_button", "settings",
-                       "resolution=high", "images=hdr", "back", "back", "options", "disconnect"}));
+  ASSERT_TRUE(
+      d.press({"connect_now", "settings", "resolution=low", "images=off", "back", "button", "timer=20", "store_button",
+               "settings", "resolution=high", "images=hdr", "back", "back", "options", "disconnect"}));
   ASSERT_TRUE(d.press({"key"}));
   EXPECT_EQ(d.phase(), "self_timer");
   EXPECT_EQ(d.fact("operation"), "Standalone");

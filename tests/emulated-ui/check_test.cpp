@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "emulated-ui/device/check.h"
+
 #include <gtest/gtest.h>
 
-#include "emulated-ui/device/check.h"
 #include "emulated-ui/menus.h"
 
 namespace standpoint {
@@ -28,7 +29,8 @@ TEST(Devices, HaveWordsForAllHandsAndTroubles) {
       EXPECT_TRUE(words.has("", std::string("hand.") + hand.id, language)) << hand.id << " in " << language;
       EXPECT_TRUE(words.has("", std::string("hands.") + hand.group, language)) << hand.group << " in " << language;
     }
-    for (const auto& trouble : troubleRows()) EXPECT_TRUE(words.has("", std::string("trouble.") + trouble.id, language)) << trouble.id << " in " << language;
+    for (const auto& trouble : troubleRows())
+      EXPECT_TRUE(words.has("", std::string("trouble.") + trouble.id, language)) << trouble.id << " in " << language;
   }
 }
 

@@ -29,7 +29,7 @@ TEST(Clock, StandsStillAndNoBatteryDrainsWhileOnlyTheSimulationIsWaitedFor) {
     const auto order = d->takeOrder();
     ASSERT_TRUE(order) << story.device;
     const double begun_s = d->state().clock_s, begun = d->state().around.battery;
-    for (int i = 0; i < 2000; ++i) d->tick(1);   // long over
+    for (int i = 0; i < 2000; ++i) d->tick(1);  // long over
     const double over_s = d->state().clock_s, over = d->state().around.battery;
     EXPECT_LT(over_s - begun_s, d->fact("expected.seconds")->number.value() + 60) << story.device;
     for (int i = 0; i < 2000; ++i) d->tick(1);
@@ -50,7 +50,7 @@ TEST(Clock, GoesOnWhileItWaitsForPeople) {
   d->tick(600);
   EXPECT_NEAR(full - d->state().around.battery, 600 / d->type().definition.body.battery_s, 1e-9);
   EXPECT_NEAR(d->state().clock_s, 800, 1e-9);
-  TestDevice b("leica-blk360");   // ready for as long as its standby lets it
+  TestDevice b("leica-blk360");  // ready for as long as its standby lets it
   ASSERT_TRUE(b.press({"key"}));
   b->tick(40);
   b->tick(5000);

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "emulated-ui/device/condition.h"
+
 #include <map>
 
 #include <gtest/gtest.h>
 
-#include "emulated-ui/device/condition.h"
-
 namespace standpoint {
 namespace {
 
-const std::map<std::string, Fact> kFacts = {{"battery", numberFact(0.5)}, {"card", wordFact("present")}, {"card.free", numberFact(100)},
-                                            {"need", numberFact(40)},     {"name", wordFact("Flat 2")},  {"link", wordFact("yes")},
+const std::map<std::string, Fact> kFacts = {{"battery", numberFact(0.5)},           {"card", wordFact("present")},
+                                            {"card.free", numberFact(100)},         {"need", numberFact(40)},
+                                            {"name", wordFact("Flat 2")},           {"link", wordFact("yes")},
                                             {"setting.resolution", wordFact("1/4")}};
 
 bool holds(const std::string& text) {
@@ -50,10 +51,10 @@ TEST(Condition, DoesNotHoldForAFactThatIsNotThere) {
 }
 
 TEST(Condition, RefusesWhatItCannotReadWithTheColumn) {
-  const std::pair<const char*, const char*> kWrong[] = {{"battery >", "column 10"},  {"== 3", "column 1"},       {"a == b c", "column 8"},
-                                                        {"(a == b", "column 8"},     {"a == 'b", "column 6"},    {"a in b", "column 6"},
-                                                        {"a in {b", "column 8"},     {"a ? b", "column 3"},      {"a == b and", "column 11"},
-                                                        {"a in {@b, @c}", "column"}};
+  const std::pair<const char*, const char*> kWrong[] = {
+      {"battery >", "column 10"},  {"== 3", "column 1"},       {"a == b c", "column 8"}, {"(a == b", "column 8"},
+      {"a == 'b", "column 6"},     {"a in b", "column 6"},     {"a in {b", "column 8"},  {"a ? b", "column 3"},
+      {"a == b and", "column 11"}, {"a in {@b, @c}", "column"}};
   for (const auto& [text, place] : kWrong) {
     const auto condition = Condition::parse(text);
     ASSERT_FALSE(condition) << text;

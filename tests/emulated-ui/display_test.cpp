@@ -66,8 +66,9 @@ TEST_F(Display, GoesDarkAtRestSavesTheBatteryAndIsWokenByTheFirstTap) {
 
 TEST_F(Display, StaysLitWhileTheInstrumentWorksAndWhenItHasSomethingToSay) {
   ASSERT_TRUE(d->hand("stand_at", "S1"));
-  ASSERT_TRUE(d.press({"manage", "general", "sleep=5min", "back", "scan_projects", "new_project", "name=A", "create", "parameters", "resolution_quality", "resolution=1/1",
-                       "quality=4x", "back", "back", "start_scan"}));
+  ASSERT_TRUE(
+      d.press({"manage", "general", "sleep=5min", "back", "scan_projects", "new_project", "name=A", "create",
+               "parameters", "resolution_quality", "resolution=1/1", "quality=4x", "back", "back", "start_scan"}));
   d.scanned();
   d->tick(3000);
   EXPECT_EQ(d.screen(), "scanning");

@@ -168,7 +168,7 @@ TEST_F(Typing, TheFieldStaysAboveTheKeyboard) {
 }
 
 TEST(Keyboard, HasItsKeysBesideOneAnotherAndLargeEnough) {
-  constexpr float kWide = 250, kGap = 2.5F;   // a display of 25 units with 10 pixels each
+  constexpr float kWide = 250, kGap = 2.5F;  // a display of 25 units with 10 pixels each
   for (const auto page : {KeyPage::letters, KeyPage::capitals, KeyPage::signs, KeyPage::figures}) {
     const float height = static_cast<float>(keyRows(page)) * 28.5F + kGap;
     const auto caps = keyCaps(page, kWide, height, kGap);

@@ -39,7 +39,7 @@ struct Outcome {
   nlohmann::json marks;
   std::map<std::string, double> facts;
   std::vector<std::string> refused;
-  nlohmann::json marks_before;   // when all was prepared and nothing done yet
+  nlohmann::json marks_before;  // when all was prepared and nothing done yet
 };
 Outcome rehearse(const Exercise& exercise, const Actions& actions, const std::vector<std::string>& facts = {}) {
   TemporaryFolder folder;
@@ -50,7 +50,8 @@ Outcome rehearse(const Exercise& exercise, const Actions& actions, const std::ve
   Outcome outcome;
   outcome.marks_before = marksOf(**rehearsal, "", "en");
   for (const auto& action : actions)
-    if (auto done = (*rehearsal)->act(action, quiet); !done) outcome.refused.push_back(toJson(action).dump() + ": " + describe(done.error()));
+    if (auto done = (*rehearsal)->act(action, quiet); !done)
+      outcome.refused.push_back(toJson(action).dump() + ": " + describe(done.error()));
   outcome.marks = marksOf(**rehearsal, "", "en");
   for (const auto& name : facts)
     if (const auto fact = (*rehearsal)->fact(name); fact && fact->number) outcome.facts[name] = *fact->number;
@@ -174,11 +175,14 @@ std::vector<std::string> ids() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShippedExercise, testing::ValuesIn(ids()), [](const testing::TestParamInfo<std::string>& known) {
-  std::string name = known.param;
-  std::replace_if(name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, ShippedExercise, testing::ValuesIn(ids()),
+                         [](const testing::TestParamInfo<std::string>& known) {
+                           std::string name = known.param;
+                           std::replace_if(
+                               name.begin(), name.end(),
+                               [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+                           return name;
+                         });
 
 // A solution with a beginner's mistake in it.
 class Mistaken {
@@ -186,7 +190,8 @@ class Mistaken {
   explicit Mistaken(const std::string& id) : exercise_(exercise(id)), actions_(exercise_.solution) {}
   Mistaken& without(const std::string& name, const std::string& value = {}) {
     const auto before = actions_.size();
-    std::erase_if(actions_, [&](const RehearsalAction& a) { return a.name == name && (value.empty() || a.value == value); });
+    std::erase_if(actions_,
+                  [&](const RehearsalAction& a) { return a.name == name && (value.empty() || a.value == value); });
     EXPECT_LT(actions_.size(), before) << name;
     return *this;
   }
@@ -203,7 +208,8 @@ class Mistaken {
     return *this;
   }
   Mistaken& after(const std::string& name, const RehearsalAction& more) {
-    const auto at = std::find_if(actions_.begin(), actions_.end(), [&](const RehearsalAction& a) { return a.name == name; });
+    const auto at =
+        std::find_if(actions_.begin(), actions_.end(), [&](const RehearsalAction& a) { return a.name == name; });
     EXPECT_NE(at, actions_.end()) << name;
     if (at != actions_.end()) actions_.insert(at + 1, more);
     return *this;
@@ -245,7 +251,8 @@ TEST(Mistake, DustOnTheOpticsShowsInTheNoise) {
 }
 
 TEST(Mistake, AScanInTheOldJobLosesTheExercise) {
-  const auto outcome = Mistaken("E02").without("create").without("first").without("name").without("new_job").without("job").outcome({});
+  const auto outcome =
+      Mistaken("E02").without("create").without("first").without("name").without("new_job").without("job").outcome({});
   EXPECT_FALSE(held(outcome, "right_job"));
   EXPECT_FALSE(outcome.marks.at("passed").get<bool>());
 }
@@ -272,15 +279,19 @@ TEST(Mistake, AnUnlevelledScanLeans) {
 }
 
 TEST(Mistake, AWalkDownThePathIsNotRoundTheHouse) {
-  const auto way = nlohmann::json::parse("[[7.5, -6, 0], [7.5, -2, 12], [7.5, 1, 22], [7.5, -2, 32], [7.5, -30, 72], [7.5, -6, 108]]");
+  const auto way = nlohmann::json::parse(
+      "[[7.5, -6, 0], [7.5, -2, 12], [7.5, 1, 22], [7.5, -2, 32], [7.5, -30, 72], [7.5, -6, 108]]");
   const auto outcome = rehearse(exercise("E19"), {{Kind::walk, "", "", 0, way}}, {});
-  for (const auto& step : outcome.marks.at("steps")) EXPECT_EQ(step.at("done").get<bool>(), step.at("id") != "length") << step;
+  for (const auto& step : outcome.marks.at("steps"))
+    EXPECT_EQ(step.at("done").get<bool>(), step.at("id") != "length") << step;
 }
 
 TEST(Mistake, AStationFarFromTheDoorJoinsNoRooms) {
-  const auto outcome = Mistaken("E07").edit([](RehearsalAction& a) {
-    if (a.kind == Kind::verb) a.options["on"] = {1.6, 2.4, 0.0};
-  }).outcome({"plan.overlap", "place.door"});
+  const auto outcome = Mistaken("E07")
+                           .edit([](RehearsalAction& a) {
+                             if (a.kind == Kind::verb) a.options["on"] = {1.6, 2.4, 0.0};
+                           })
+                           .outcome({"plan.overlap", "place.door"});
   EXPECT_FALSE(held(outcome, "door"));
   EXPECT_FALSE(held(outcome, "overlap"));
   EXPECT_LT(outcome.facts.at("plan.overlap"), 0.3);
@@ -288,9 +299,12 @@ TEST(Mistake, AStationFarFromTheDoorJoinsNoRooms) {
 
 TEST(Mistake, SpheresInOneLineHaveNoWidth) {
   int n = 0;
-  const auto outcome = Mistaken("E08").edit([&](RehearsalAction& a) {
-    if (a.kind == Kind::verb) a.options["on"] = {2.0 + 0.8 * n, 3.2, 0.0}, a.options["height"] = 1.4, ++n;
-  }).outcome({"targets.width", "targets.heights"});
+  const auto outcome = Mistaken("E08")
+                           .edit([&](RehearsalAction& a) {
+                             if (a.kind == Kind::verb)
+                               a.options["on"] = {2.0 + 0.8 * n, 3.2, 0.0}, a.options["height"] = 1.4, ++n;
+                           })
+                           .outcome({"targets.width", "targets.heights"});
   EXPECT_FALSE(held(outcome, "line"));
   EXPECT_FALSE(held(outcome, "heights"));
   EXPECT_LT(outcome.facts.at("targets.width"), 0.01);
@@ -376,18 +390,21 @@ TEST(Walk, IsAnActionThatReplays) {
   const auto action = walk(way);
   EXPECT_EQ(action.kind, Kind::walk);
   EXPECT_EQ(toJson(action), (nlohmann::json{{"walk", way}}));
-  for (const char* wrong : {"[[0, 0, 0]]", "[[0, 0, 0], [1, 1]]", "[[0, 0, 5], [1, 1, 5]]", "[[0, 0, 0], [1, \"1\", 5]]", "7", "[]"})
+  for (const char* wrong :
+       {"[[0, 0, 0]]", "[[0, 0, 0], [1, 1]]", "[[0, 0, 5], [1, 1, 5]]", "[[0, 0, 0], [1, \"1\", 5]]", "7", "[]"})
     EXPECT_FALSE(actionFrom({{"walk", nlohmann::json::parse(wrong)}}, "test", "")) << wrong;
 }
 
 TEST(Walk, TellsLengthClosureAndSpeedAndTheLastOneCounts) {
-  const std::vector<std::string> kFacts = {"walk.length", "walk.closure", "walk.speed", "walk.door_speed", "walk.drift", "count.field.walk"};
+  const std::vector<std::string> kFacts = {"walk.length",     "walk.closure", "walk.speed",
+                                           "walk.door_speed", "walk.drift",   "count.field.walk"};
   const auto open = rehearse(exercise("E19"), {walk({{0, 0, 0}, {30, 40, 100}})}, kFacts);
   EXPECT_NEAR(open.facts.at("walk.length"), 50, 1e-9);
   EXPECT_NEAR(open.facts.at("walk.closure"), 50, 1e-9);
   EXPECT_NEAR(open.facts.at("walk.speed"), 0.5, 1e-9);
   EXPECT_FALSE(held(open, "closed"));
-  const auto both = rehearse(exercise("E19"), {walk({{0, 0, 0}, {30, 40, 100}}), walk({{0, 0, 0}, {30, 40, 25}, {0, 0, 50}})}, kFacts);
+  const auto both = rehearse(exercise("E19"),
+                             {walk({{0, 0, 0}, {30, 40, 100}}), walk({{0, 0, 0}, {30, 40, 25}, {0, 0, 50}})}, kFacts);
   EXPECT_EQ(both.facts.at("count.field.walk"), 2);
   EXPECT_NEAR(both.facts.at("walk.length"), 100, 1e-9) << "of the walk that was planned last";
   EXPECT_NEAR(both.facts.at("walk.closure"), 0, 1e-9);

@@ -38,8 +38,9 @@ TEST_F(Focus, ShowsTheRowOfTheRealDisplay) {
 // Lowest quality by the mirror's limit: 1x for 1/1 to 1/4, 2x for 1/5 and 1/8, 3x for 1/10 and 1/16, 4x below.
 TEST_F(Focus, GreysOutWhatTheMirrorCannotTurn) {
   start();
-  const std::pair<const char*, const char*> kLowest[] = {{"1/1", "1x"},  {"1/2", "1x"},  {"1/4", "1x"},  {"1/5", "2x"}, {"1/8", "2x"},
-                                                         {"1/10", "3x"}, {"1/16", "3x"}, {"1/20", "4x"}, {"1/32", "4x"}};
+  const std::pair<const char*, const char*> kLowest[] = {{"1/1", "1x"},  {"1/2", "1x"},  {"1/4", "1x"},
+                                                         {"1/5", "2x"},  {"1/8", "2x"},  {"1/10", "3x"},
+                                                         {"1/16", "3x"}, {"1/20", "4x"}, {"1/32", "4x"}};
   ASSERT_TRUE(d.press({"parameters", "resolution_quality"}));
   for (const auto& [resolution, lowest] : kLowest) {
     auto wanted = withSettingOf(resolution, lowest);
@@ -49,7 +50,8 @@ TEST_F(Focus, GreysOutWhatTheMirrorCannotTurn) {
     EXPECT_FALSE(d->setSettings(withSettingOf(resolution, below))) << resolution << ' ' << below;
     const auto screen = d->screen();
     for (const auto& option : findWidget(screen, "quality")->options)
-      EXPECT_EQ(option.enabled, option.value >= lowest) << resolution << ' ' << option.value << ": a quality does not change the resolution";
+      EXPECT_EQ(option.enabled, option.value >= lowest)
+          << resolution << ' ' << option.value << ": a quality does not change the resolution";
   }
 }
 
@@ -87,8 +89,8 @@ TEST_F(Focus, BracketsItsPicturesWithHdr) {
 
 TEST_F(Focus, WritesCustomerAndFacilityIntoTheRecord) {
   start();
-  ASSERT_TRUE(d.press({"manage", "scan_projects", "new_project", "name=House", "customer=Ada",
-                       "facility=Mill", "create"}));
+  ASSERT_TRUE(
+      d.press({"manage", "scan_projects", "new_project", "name=House", "customer=Ada", "facility=Mill", "create"}));
   EXPECT_EQ(d->project()->note, "Ada, Mill");
 }
 
@@ -228,7 +230,8 @@ TEST_F(Focus, UsesMarksAndKeepsProfiles) {
   EXPECT_EQ(d.shows("profile"), "Outdoor ...20 m *");
   ASSERT_TRUE(d.press({"profile", "profile_name=Preview", "save_profile"}));
   EXPECT_EQ(d.dialog(), "refused");
-  ASSERT_TRUE(d.press({"ok", "profile_name=Mine", "save_profile", "profile_list=Preview", "profile", "profile_list=Mine"}));
+  ASSERT_TRUE(
+      d.press({"ok", "profile_name=Mine", "save_profile", "profile_list=Preview", "profile", "profile_list=Mine"}));
   EXPECT_EQ(d.fact("setting.resolution"), "1/8");
   ASSERT_TRUE(d.press({"profile", "delete_profile"}));
   EXPECT_TRUE(d.refuses("profile_list", "Mine"));

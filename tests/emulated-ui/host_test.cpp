@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "emulated-ui/host.h"
+
 #include <chrono>
 #include <fstream>
 #include <thread>
 
-#include "emulated-ui/host.h"
 #include "pointclouds/formats.h"
 #include "tests/emulated-ui/support.h"
 #include "tests/project/support.h"
@@ -33,7 +34,8 @@ class Host : public testing::Test {
   void press(const std::vector<std::string>& widgets) {
     for (const auto& text : widgets) {
       const auto equals = text.find('=');
-      const auto done = device().act(text.substr(0, equals), equals == std::string::npos ? "" : text.substr(equals + 1));
+      const auto done =
+          device().act(text.substr(0, equals), equals == std::string::npos ? "" : text.substr(equals + 1));
       EXPECT_TRUE(done) << text << ": " << describe(done.error());
     }
   }
@@ -69,7 +71,12 @@ TEST_F(Host, AScanThroughTheDeviceGivesTheSameBytesAsTheVerb) {
   nlohmann::json notes = nlohmann::json::array();
   for (const auto& [key, text] : device().newestSetup()->notes) notes.push_back(key + "=" + text);
   EXPECT_EQ(notes.size(), 3U) << "compass, altimeter, GPS";
-  ASSERT_TRUE(run("scan", document_, {{"instrument", "leica-rtc360"}, {"set", {"resolution=12mm", "images=off"}}, {"seed", 1}, {"note", notes}, {"output", direct.string()}}));
+  ASSERT_TRUE(run("scan", document_,
+                  {{"instrument", "leica-rtc360"},
+                   {"set", {"resolution=12mm", "images=off"}},
+                   {"seed", 1},
+                   {"note", notes},
+                   {"output", direct.string()}}));
   EXPECT_TRUE(bytes(scan.file) == bytes(direct));
 }
 
@@ -90,7 +97,8 @@ TEST_F(Host, ShowsMeasuresAndHandsOverTheScanAtOnce) {
   press({"home", "tools", "transfer", "by_cable"});
   runOrder();
   EXPECT_EQ(device().state().dialog, "transferred");
-  EXPECT_TRUE(bytes(folder_.path() / "office" / "House - Setup 001.e57") == bytes(device().state().projects[0].setups[0].file));
+  EXPECT_TRUE(bytes(folder_.path() / "office" / "House - Setup 001.e57") ==
+              bytes(device().state().projects[0].setups[0].file));
 }
 
 TEST_F(Host, ACopyInAnotherFormatHoldsTheSamePoints) {
@@ -111,7 +119,7 @@ TEST_F(Host, ACopyInAnotherFormatHoldsTheSamePoints) {
 TEST_F(Host, ASlowComputerDoesNotEmptyTheBattery) {
   press({"scan"});
   const double takes_s = device().fact("expected.seconds")->number.value();
-  ASSERT_TRUE(runUntilIdle(1));   // 20 s of the device's time in each step of 5 ms
+  ASSERT_TRUE(runUntilIdle(1));  // 20 s of the device's time in each step of 5 ms
   const double used_s = (1 - device().fact("battery")->number.value()) * device().type().definition.body.battery_s;
   EXPECT_LT(used_s, 60 + takes_s + 100);
 }
@@ -140,7 +148,8 @@ TEST_F(Host, AStoppedScanLeavesNoFileAndNoSetup) {
   (void)host_.update(document_, folder_.path() / "scans", 0.01);
   press({"stop", "yes"});
   EXPECT_FALSE(runUntilIdle(0.01));
-  for (const auto& entry : fs::recursive_directory_iterator(folder_.path())) EXPECT_FALSE(entry.is_regular_file()) << entry.path();
+  for (const auto& entry : fs::recursive_directory_iterator(folder_.path()))
+    EXPECT_FALSE(entry.is_regular_file()) << entry.path();
 }
 
 TEST_F(Host, WithoutAProjectFolderTheDeviceSaysWhatToDo) {
@@ -160,11 +169,14 @@ TEST_F(Host, TheDevicesMemoryIsFilledFromTheProject) {
   EXPECT_EQ(setups[0].station, "S1");
 }
 
-// A P40 in the lower room with four targets on its walls and in the room: measured one after the other, solved, accepted.
+// A P40 in the lower room with four targets on its walls and in the room: measured one after the other, solved,
+// accepted.
 class SurveyHost : public testing::Test {
  protected:
   SurveyHost() {
-    document_ = run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500002.5, 5600002, 1.6}}, {"yaw-deg", 30.0}})->document;
+    document_ =
+        run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500002.5, 5600002, 1.6}}, {"yaw-deg", 30.0}})
+            ->document;
     Job job = *document_.job;
     job.targets = {{"T1", TargetKind::sphere, {1, 0.8, 1.2}, Eigen::Vector3d::UnitX(), 0.145},
                    {"T2", TargetKind::sphere, {5.2, 1, 2}, Eigen::Vector3d::UnitX(), 0.145},
@@ -180,7 +192,8 @@ class SurveyHost : public testing::Test {
   void press(const std::vector<std::string>& widgets) {
     for (const auto& text : widgets) {
       const auto equals = text.find('=');
-      const auto done = device().act(text.substr(0, equals), equals == std::string::npos ? "" : text.substr(equals + 1));
+      const auto done =
+          device().act(text.substr(0, equals), equals == std::string::npos ? "" : text.substr(equals + 1));
       EXPECT_TRUE(done) << text << ": " << describe(done.error());
     }
   }
@@ -227,7 +240,8 @@ TEST_F(SurveyHost, TheWrongTypeOfTargetIsNotFound) {
 }
 
 TEST_F(SurveyHost, WhatTheDeviceFiltersIsNotInTheFile) {
-  press({"scan_page", "resolution_page", "resolution=50mm", "back", "image_page", "images=off", "back", "scan", "continue"});
+  press({"scan_page", "resolution_page", "resolution=50mm", "back", "image_page", "images=off", "back", "scan",
+         "continue"});
   const auto whole = runUntilIdle();
   ASSERT_TRUE(whole);
   document_ = whole->document;
@@ -238,7 +252,8 @@ TEST_F(SurveyHost, WhatTheDeviceFiltersIsNotInTheFile) {
   ASSERT_EQ(scans.size(), 2U);
   EXPECT_GT(scans[1].points, 0U);
   EXPECT_LT(scans[1].points, scans[0].points) << "the far walls are 2 to 3.5 m away";
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path() / "scans" / "House"), fs::directory_iterator()), 2) << "no raw file is left";
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path() / "scans" / "House"), fs::directory_iterator()), 2)
+      << "no raw file is left";
 }
 
 TEST_F(SurveyHost, ImageOnlyIsAPictureWithoutPoints) {

@@ -2,13 +2,13 @@
 #include "emulated-ui/rehearsal/marks.h"
 
 #include <fstream>
-#include <gmock/gmock.h>
 #include <iterator>
 #include <map>
 #include <regex>
 #include <vector>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/project/support.h"

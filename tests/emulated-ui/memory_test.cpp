@@ -34,7 +34,8 @@ TEST(Memory, AnX7KeepsItsRegistrationsAnnotationsAndNotesThoughTheProjectWasMove
   d->tick(60);
   ASSERT_TRUE(d.press({"connect"}));
   d->tick(10);
-  ASSERT_TRUE(d.press({"create_new", "name=House", "note=first floor", "first=7", "create", "scan_panel", "images=off"}));
+  ASSERT_TRUE(
+      d.press({"create_new", "name=House", "note=first floor", "first=7", "create", "scan_panel", "images=off"}));
   for (const char* station : {"S1", "S2"}) {
     ASSERT_TRUE(d->hand("stand_at", station));
     ASSERT_TRUE(d.press({"start_scan"}));
@@ -103,7 +104,7 @@ TEST(Memory, APSeriesKeepsItsStationWithTargetsAndCoordinates) {
   EXPECT_EQ(again->project()->carried.size(), 4U) << "the traverse goes on from them";
   EXPECT_EQ(again.fact("project"), "House") << "though nothing was scanned in it";
 
-  TestDevice elsewhere("leica-p-series");   // its station is gone from the project
+  TestDevice elsewhere("leica-p-series");  // its station is gone from the project
   ASSERT_TRUE(recallMemory(*elsewhere, memory, "scans"));
   EXPECT_EQ(elsewhere.fact("station"), "");
   EXPECT_EQ(elsewhere.fact("orientation.solved"), "no");
@@ -157,7 +158,8 @@ TEST(Memory, AFileThatIsNoMemoryIsRefusedAndChangesNothing) {
 TEST(Memory, AHostReadsItOnceAndWritesItAfterEachPress) {
   const TemporaryFolder folder;
   const auto scans = folder.path() / "scans";
-  const Document document = run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500002.5, 5600002, 1.6}}})->document;
+  const Document document =
+      run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500002.5, 5600002, 1.6}}})->document;
   const auto type = *loadDevice(*findDevice("faro-focus"));
   const auto file = memoryFile(scans, *type);
   DeviceHost first(type, document, nullptr);
@@ -166,7 +168,8 @@ TEST(Memory, AHostReadsItOnceAndWritesItAfterEachPress) {
   EXPECT_FALSE(std::filesystem::exists(file)) << "nobody has touched it";
   ASSERT_TRUE(first.device().act("power"));
   (void)first.update(document, scans, 150 / first.time_factor);
-  for (const auto& [widget, value] : {std::pair{"manage", ""}, {"operators", ""}, {"operator", "Ada"}}) ASSERT_TRUE(first.device().act(widget, value));
+  for (const auto& [widget, value] : {std::pair{"manage", ""}, {"operators", ""}, {"operator", "Ada"}})
+    ASSERT_TRUE(first.device().act(widget, value));
   (void)first.update(document, scans, 0.01);
   EXPECT_TRUE(std::filesystem::exists(file));
   DeviceHost second(type, document, nullptr);

@@ -8,8 +8,8 @@
 namespace standpoint {
 namespace {
 
-// A seeded monkey that knows nothing: it presses what is on the screen, uses its hands, has bad luck, and the simulation
-// behind the device sometimes fails. In virtual time.
+// A seeded monkey that knows nothing: it presses what is on the screen, uses its hands, has bad luck, and the
+// simulation behind the device sometimes fails. In virtual time.
 class Monkey {
  public:
   Monkey(TestDevice& device, std::uint32_t seed) : d_(device), random_(seed) {}
@@ -32,19 +32,25 @@ class Monkey {
   }
 
   void turn() {
-    if (d_->busy() && next(3) == 0) {   // it has patience now and then
+    if (d_->busy() && next(3) == 0) {  // it has patience now and then
       work();
       d_->tick(60);
     }
     switch (next(20)) {
-      case 0: (void)d_->hand(handRows()[next(handRows().size())].id, next(2) == 0 ? "S" + std::to_string(next(3)) : "0.1,0.2"); break;
+      case 0:
+        (void)d_->hand(handRows()[next(handRows().size())].id,
+                       next(2) == 0 ? "S" + std::to_string(next(3)) : "0.1,0.2");
+        break;
       case 1:
         if (next(10) == 0) (void)d_->trouble(troubleRows()[next(troubleRows().size())].id);
         break;
       case 2: d_->tick(static_cast<double>(next(20)) + 0.5); break;
       case 3: work(); break;
       case 4: help(); break;
-      default: press(); d_->tick(0.2); break;
+      default:
+        press();
+        d_->tick(0.2);
+        break;
     }
     if (d_->takeStored()) ++stored;
     (void)d_->takeCancel();
@@ -58,12 +64,16 @@ class Monkey {
     ASSERT_FALSE(all.empty());
     // The big keys on the display draw it: else it would rarely start a scan on a device of many buttons.
     const bool drawn = !screen.has_dialog && next(12) == 0;
-    const auto key = std::find_if(screen.widgets.begin(), screen.widgets.end(), [&](const Widget& w) { return drawn && w.kind == WidgetKind::key; });
+    const auto key = std::find_if(screen.widgets.begin(), screen.widgets.end(),
+                                  [&](const Widget& w) { return drawn && w.kind == WidgetKind::key; });
     const auto& w = key == screen.widgets.end() ? *all[next(all.size())] : *key;
     std::string value = "n" + std::to_string(next(5));
-    if (!w.options.empty()) value = w.options[next(w.options.size())].value;
-    else if (w.kind == WidgetKind::number) value = std::to_string(next(400));
-    else if (w.kind == WidgetKind::preview) value = "0.5,0.5";
+    if (!w.options.empty())
+      value = w.options[next(w.options.size())].value;
+    else if (w.kind == WidgetKind::number)
+      value = std::to_string(next(400));
+    else if (w.kind == WidgetKind::preview)
+      value = "0.5,0.5";
     if (w.kind == WidgetKind::area) value = "10,200,-20,30";
     (void)d_->act(w.id, value);
   }
@@ -71,7 +81,9 @@ class Monkey {
   // A careful hand mends what is wrong now and then, else nothing would ever be scanned.
   void help() {
     if (next(3) != 0) return;
-    for (const char* hand : {"plug_in", "change_battery", "change_card", "unlock_card", "level", "wipe_optics", "go_near", "clear_view"}) (void)d_->hand(hand);
+    for (const char* hand :
+         {"plug_in", "change_battery", "change_card", "unlock_card", "level", "wipe_optics", "go_near", "clear_view"})
+      (void)d_->hand(hand);
     (void)d_->hand("stand_at", "S1");
   }
 
@@ -85,15 +97,20 @@ class Monkey {
     auto order = d_->takeOrder();
     if (!order) return;
     if (next(15) == 0) return d_->orderFailed("disk full");
-    if (const auto* scan = std::get_if<ScanOrder>(&*order)) d_.finish(*scan);
-    else if (std::holds_alternative<LinkOrder>(*order)) d_->linkDone({next(2) == 0, 0.002, 0.5, 0, 0});
-    else if (std::holds_alternative<TargetOrder>(*order)) d_->targetsDone({});
-    else if (const auto* sight = std::get_if<SightOrder>(&*order)) d_->sightDone(sighted(sight->target));
-    else if (const auto* transfer = std::get_if<TransferOrder>(&*order)) d_->transferDone(transfer->files);
+    if (const auto* scan = std::get_if<ScanOrder>(&*order))
+      d_.finish(*scan);
+    else if (std::holds_alternative<LinkOrder>(*order))
+      d_->linkDone({next(2) == 0, 0.002, 0.5, 0, 0});
+    else if (std::holds_alternative<TargetOrder>(*order))
+      d_->targetsDone({});
+    else if (const auto* sight = std::get_if<SightOrder>(&*order))
+      d_->sightDone(sighted(sight->target));
+    else if (const auto* transfer = std::get_if<TransferOrder>(&*order))
+      d_->transferDone(transfer->files);
   }
 
-  // Whatever was done: a known phase and screen, something to press, no label without a word, and no stored scan is gone
-  // that was not deleted or formatted.
+  // Whatever was done: a known phase and screen, something to press, no label without a word, and no stored scan is
+  // gone that was not deleted or formatted.
   void look() {
     const auto screen = d_->screen();
     const auto& definition = d_->type().definition;
@@ -148,7 +165,7 @@ std::vector<std::shared_ptr<const DeviceType>> withEachScanner(const EmulatedDev
 class Monkeys : public testing::TestWithParam<const EmulatedDevice*> {};
 
 TEST_P(Monkeys, MashTheKeysForHoursWithEachScannerWithoutHarm) {
-  constexpr std::size_t kHours = 16, kFewest = 2;   // of virtual time: in all, and with each scanner
+  constexpr std::size_t kHours = 16, kFewest = 2;  // of virtual time: in all, and with each scanner
   std::set<std::string> screens, phases;
   const auto types = withEachScanner(*GetParam());
   ASSERT_FALSE(types.empty());

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "emulated-ui/device/orientation.h"
+
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "emulated-ui/device/orientation.h"
 
 namespace standpoint {
 namespace {
@@ -15,13 +16,18 @@ class Orientation : public testing::Test {
   Orientation() {
     truth.rotation = Eigen::AngleAxisd(40 * kRadPerDeg, Vector3d::UnitZ());
     truth.translation = {100, 200, 51.7};
-    for (const auto& [name, place] : {std::pair<const char*, Vector3d>{"T1", {110, 200, 52}}, {"T2", {95, 215, 50}}, {"T3", {90, 190, 55}}, {"T4", {120, 220, 51}}}) {
+    for (const auto& [name, place] : {std::pair<const char*, Vector3d>{"T1", {110, 200, 52}},
+                                      {"T2", {95, 215, 50}},
+                                      {"T3", {90, 190, 55}},
+                                      {"T4", {120, 220, 51}}}) {
       known.push_back({name, place});
       sighted.push_back({name, truth.rotation.conjugate() * (place - truth.translation), 0, 0.001, 80, true});
     }
   }
   Result<StationOrientation> solved(const std::string& method, std::size_t targets, bool compensator = true) {
-    OrientationTask task{method, "S1", {sighted.begin(), sighted.begin() + static_cast<long>(targets)}, known, axis, azimuth, compensator};
+    OrientationTask task{method,     "S1", {sighted.begin(), sighted.begin() + static_cast<long>(targets)},
+                         known,      axis, azimuth,
+                         compensator};
     return solveOrientation(task);
   }
   void expectTruth(const Result<StationOrientation>& got) {
@@ -52,10 +58,10 @@ TEST_F(Orientation, AutoResectionNeedsNoNames) {
 
 TEST_F(Orientation, OverAMarkTheDirectionComesFromTheTypedAzimuthOrTheBacksight) {
   axis = truth.translation;
-  azimuth = 90;   // T1 lies due east
+  azimuth = 90;  // T1 lies due east
   expectTruth(solved("azimuth", 1));
   expectTruth(solved("backsight", 1));
-  azimuth = 90 - 40;   // of the scanner's zero
+  azimuth = 90 - 40;  // of the scanner's zero
   expectTruth(solved("quick", 0));
   azimuth = 91;
   const auto wrong = solved("azimuth", 4);

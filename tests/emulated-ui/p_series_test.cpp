@@ -58,7 +58,8 @@ class PSeries : public testing::Test {
   void scanWithoutSetup() { ASSERT_TRUE(d.press({"scan_page", "scan", "continue"})); }
 
   static inline const Vector3d kStation{100, 200, 51.7};
-  static inline const std::pair<const char*, Vector3d> kPlaces[] = {{"T1", {10, 0, 0.3}}, {"T2", {-5, 15, -1}}, {"T3", {-10, -10, 3}}, {"T4", {20, 20, -0.5}}};
+  static inline const std::pair<const char*, Vector3d> kPlaces[] = {
+      {"T1", {10, 0, 0.3}}, {"T2", {-5, 15, -1}}, {"T3", {-10, -10, 3}}, {"T4", {20, 20, -0.5}}};
   TestDevice d;
 };
 
@@ -257,13 +258,15 @@ TEST_F(PSeries, EachSettingActsOnTimePointsOrTheOrder) {
   ASSERT_TRUE(d.press({"sensitivity=high"}));
   EXPECT_EQ(d.shows("expected_time"), "3:30");
   EXPECT_NEAR(d->expected().noise_factor, 0.7071, 1e-4);
-  ASSERT_TRUE(d.press({"sensitivity=normal", "resolution=1.6mm", "back", "fov_page", "fov_choice=custom", "horizontal_from=0", "horizontal_to=90"}));
+  ASSERT_TRUE(d.press({"sensitivity=normal", "resolution=1.6mm", "back", "fov_page", "fov_choice=custom",
+                       "horizontal_from=0", "horizontal_to=90"}));
   EXPECT_NEAR(d->expected().columns, 9818, 1);
   ASSERT_TRUE(d.press({"fov_choice=full"}));
   EXPECT_EQ(d->expected().columns, 39270U);
   ASSERT_TRUE(d.press({"fov_choice=rectangle", "rectangle=10,50,-10,20"}));
   EXPECT_NEAR(d->expected().columns, 4363, 1);
-  ASSERT_TRUE(d.press({"fov_choice=full", "back", "image_page", "images=on", "image_resolution=960", "hdr=on", "exposure=manual+2", "white_balance=warm"}));
+  ASSERT_TRUE(d.press({"fov_choice=full", "back", "image_page", "images=on", "image_resolution=960", "hdr=on",
+                       "exposure=manual+2", "white_balance=warm"}));
   EXPECT_EQ(d->expected().imaging_seconds, 440 * 0.75 * 2);
   EXPECT_EQ(d->expected().camera.columns, 4096U);
   EXPECT_TRUE(d->expected().camera.hdr);
@@ -372,7 +375,9 @@ TEST_F(PSeries, PausesInTheImagesToo) {
 TEST_F(PSeries, RefusesToScanAndSaysWhy) {
   ready();
   ASSERT_TRUE(d.press({"scan_page"}));
-  for (const auto& [trouble, dialog] : {std::pair{"card_full", "card_full"}, {"card_locked", "card_locked"}, {"battery_critical", "battery_critical"}}) {
+  for (const auto& [trouble, dialog] : {std::pair{"card_full", "card_full"},
+                                        {"card_locked", "card_locked"},
+                                        {"battery_critical", "battery_critical"}}) {
     TestDevice one = d;
     ASSERT_TRUE(one->trouble(trouble));
     if (!one.dialog().empty()) {

@@ -26,7 +26,8 @@ TEST(Preview, IsColouredAsTheUserChose) {
   EXPECT_EQ(pixelOf(coloured, 0, "luminance"), (Pixel{100, 100, 100}));
   EXPECT_EQ(pixelOf(coloured, 0, "true_colour"), (Pixel{10, 20, 30}));
   EXPECT_EQ(pixelOf(coloured, 0, "panorama"), (Pixel{10, 20, 30}));
-  for (const char* red : {"luminance", "true_colour"}) EXPECT_GT(pixelOf(coloured, 1, red)[0], 100) << red << ": what was not measured";
+  for (const char* red : {"luminance", "true_colour"})
+    EXPECT_GT(pixelOf(coloured, 1, red)[0], 100) << red << ": what was not measured";
   EXPECT_EQ(pixelOf(coloured, 1, "panorama"), (Pixel{0, 0, 0}));
 }
 

@@ -12,7 +12,7 @@ using Look = std::function<testing::AssertionResult(Device&)>;
 // A row of the tables of transitions in the instrument facts, section 2: in a phase comes an event, and a phase, a
 // dialogue and an effect follow. Under `unless` its guard does not hold, and it leads elsewhere.
 struct ReferenceRow {
-  const char* id;                   // section, and the row of its table
+  const char* id;  // section, and the row of its table
   const char* device;
   const char* instrument;
   const char* from;
@@ -52,7 +52,9 @@ void cardLocked(Surroundings& a) { a.card_locked = true; }
 void empty(Surroundings& a) { a.battery = 0.01; }
 void wayLost(Surroundings& a) { a.tracking = false; }
 template <int Degrees>
-void leaning(Surroundings& a) { a.tilt_x_deg = Degrees; }
+void leaning(Surroundings& a) {
+  a.tilt_x_deg = Degrees;
+}
 void noProject(Device& d) { d.change().project = -1; }
 
 StoredSetup third(const Device& d) {
@@ -348,8 +350,10 @@ Device deviceOf(const ReferenceRow& row, const std::string& screen) {
 void come(const ReferenceRow& row, Device& d) {
   const std::string event = row.event;
   const auto slash = event.find('/');
-  if (slash != std::string::npos) EXPECT_TRUE(d.act(event.substr(slash + 1)));
-  else EXPECT_TRUE(d.fire(event)) << "it means nothing";
+  if (slash != std::string::npos)
+    EXPECT_TRUE(d.act(event.substr(slash + 1)));
+  else
+    EXPECT_TRUE(d.fire(event)) << "it means nothing";
 }
 
 std::string screenOf(const ReferenceRow& row) {

@@ -2,8 +2,8 @@
 #include "emulated-ui/rehearsal/rehearsal.h"
 
 #include <fstream>
-#include <gmock/gmock.h>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "emulated-ui/rehearsal/marks.h"
@@ -20,14 +20,19 @@ using testing::Not;
 // A Focus that is on, at S1, with an open project and the coarsest settings.
 json lesson() {
   return json::parse(R"({
-    "id": "X1", "title": {"en": "Scan", "de": "Scannen"}, "goal": {"en": "Scan.", "de": "Scannen."}, "devices": ["faro-focus"], "model": "house",
+    "id": "X1", "title": {"en": "Scan", "de": "Scannen"}, "goal": {"en": "Scan.", "de": "Scannen."},
+      "devices": ["faro-focus"], "model": "house",
     "setup": [{"verb": "station", "options": {"add": "S1", "on": [4.3, 1.6, 0]}}],
-    "start": [{"press": "power"}, {"wait": 130}, {"hand": "stand_at", "value": "S1"}, {"press": "manage"}, {"press": "scan_projects"}, {"press": "new_project"},
-              {"press": "name", "value": "House"}, {"press": "create"}, {"press": "parameters"}, {"press": "resolution_quality"},
-              {"press": "resolution", "value": "1/32"}, {"press": "back"}, {"press": "scan_area"}, {"press": "area", "value": "150,170,-5,5"}, {"press": "back"}, {"press": "back"}],
+    "start": [{"press": "power"}, {"wait": 130}, {"hand": "stand_at", "value": "S1"}, {"press": "manage"},
+      {"press": "scan_projects"}, {"press": "new_project"},
+              {"press": "name", "value": "House"}, {"press": "create"}, {"press": "parameters"},
+                {"press": "resolution_quality"},
+              {"press": "resolution", "value": "1/32"}, {"press": "back"}, {"press": "scan_area"}, {"press": "area",
+                "value": "150,170,-5,5"}, {"press": "back"}, {"press": "back"}],
     "steps": [{"id": "scan", "text": {"en": "Scan.", "de": "Scannen."}, "done": "setups >= 1"},
               {"id": "look", "text": {"en": "Look.", "de": "Ansehen."}, "done": "setups.looked_at >= 1"}],
-    "rules": [{"id": "level", "text": {"en": "Level.", "de": "Lotrecht."}, "when": "each scan_started", "holds": "tilt <= 2", "points": 1,
+    "rules": [{"id": "level", "text": {"en": "Level.", "de": "Lotrecht."}, "when": "each scan_started",
+      "holds": "tilt <= 2", "points": 1,
                "because": {"en": "The cloud leans.", "de": "Die Wolke ist schief."}, "proof": "expected.spacing"}]})");
 }
 
@@ -158,13 +163,15 @@ TEST_F(RehearsalTest, TheCloudLeansByWhatNothingHasCompensated) {
   for (const auto& [inclinometer, lean_deg] : {std::pair{"off", 1.41418}, std::pair{"on", 0.0}}) {
     const auto rehearsal = start(lesson());
     ASSERT_NE(rehearsal, nullptr);
-    for (const json& action : {json{{"hand", "tilt"}, {"value", "1,1"}}, json{{"press", "parameters"}}, json{{"press", "sensors"}},
-                               json{{"press", "inclinometer"}, {"value", inclinometer}}, json{{"press", "back"}},
-                               json{{"press", "back"}}, json{{"press", "start_scan"}}, json{{"finish", true}}})
+    for (const json& action :
+         {json{{"hand", "tilt"}, {"value", "1,1"}}, json{{"press", "parameters"}}, json{{"press", "sensors"}},
+          json{{"press", "inclinometer"}, {"value", inclinometer}}, json{{"press", "back"}}, json{{"press", "back"}},
+          json{{"press", "start_scan"}}, json{{"finish", true}}})
       ASSERT_TRUE(act(*rehearsal, action)) << action;
     const auto tilt = rehearsal->fact("data.tilt");
     ASSERT_TRUE(tilt) << inclinometer;
-    EXPECT_NEAR(tilt->number.value(), lean_deg, 0.01) << inclinometer << ": acos(cos 1 cos 1), or the sensor's 19 arc seconds";
+    EXPECT_NEAR(tilt->number.value(), lean_deg, 0.01)
+        << inclinometer << ": acos(cos 1 cos 1), or the sensor's 19 arc seconds";
   }
 }
 
@@ -175,8 +182,10 @@ TEST_F(RehearsalTest, ATargetBehindAWallCannotBeSighted) {
   text["setup"] = json::parse(R"([{"verb": "station", "options": {"add": "P1", "on": [3.5, 2.5, 0]}},
     {"verb": "target", "options": {"add": "B1", "on-surface": [0.5, 3.6, 1.5], "type": "bw-152"}},
     {"verb": "target", "options": {"add": "B2", "on-surface": [6.3, 2.5, 1.2], "type": "bw-152"}}])");
-  text["start"] = json::parse(R"([{"hand": "stand_at", "value": "P1"}, {"press": "power"}, {"finish": true}, {"press": "manage"},
-    {"press": "new_project"}, {"press": "name", "value": "House"}, {"press": "create"}, {"press": "scan_menu"}, {"hand": "level"}])");
+  text["start"] =
+      json::parse(R"([{"hand": "stand_at", "value": "P1"}, {"press": "power"}, {"finish": true}, {"press": "manage"},
+    {"press": "new_project"}, {"press": "name", "value": "House"}, {"press": "create"}, {"press": "scan_menu"},
+      {"hand": "level"}])");
   const auto rehearsal = start(text);
   ASSERT_NE(rehearsal, nullptr);
   SightOrder order;
@@ -193,8 +202,9 @@ TEST_F(RehearsalTest, ATargetBehindAWallCannotBeSighted) {
 TEST_F(RehearsalTest, WhatWasNeverMeasuredIsNotThere) {
   const auto rehearsal = start(lesson());
   ASSERT_NE(rehearsal, nullptr);
-  for (const char* name : {"data.tilt", "targets.residual", "targets.error", "targets.points", "targets.distances", "links.error",
-                           "links.overlap", "links.wrong", "links.closure", "repeats.spread", "sights.residual", "sights.distances"})
+  for (const char* name :
+       {"data.tilt", "targets.residual", "targets.error", "targets.points", "targets.distances", "links.error",
+        "links.overlap", "links.wrong", "links.closure", "repeats.spread", "sights.residual", "sights.distances"})
     EXPECT_FALSE(rehearsal->fact(name)) << name;
 }
 

@@ -144,7 +144,9 @@ TEST_F(Rtc360, RefusesToScanAndSaysWhy) {
   EXPECT_EQ(d.dialog(), "no_station");
   ASSERT_TRUE(d.press({"ok"}));
   ASSERT_TRUE(d->hand("stand_at", "S1"));
-  const std::pair<const char*, const char*> kTroubles[] = {{"card_missing", "card_absent"}, {"card_locked", "card_locked"}, {"card_full", "card_full"},
+  const std::pair<const char*, const char*> kTroubles[] = {{"card_missing", "card_absent"},
+                                                           {"card_locked", "card_locked"},
+                                                           {"card_full", "card_full"},
                                                            {"battery_critical", "battery_critical"}};
   for (const auto& [trouble, dialog] : kTroubles) {
     ASSERT_TRUE(d->trouble(trouble));

@@ -29,15 +29,16 @@ Station at(const Eigen::Vector3d& place, double yaw_deg) {
 
 TEST(Sensors, ReadTheTruthWithTheErrorThatTheyState) {
   const Document document = twoStoreyDocument();
-  const Eigen::Vector3d place(2, 2, 30);   // above everything
+  const Eigen::Vector3d place(2, 2, 30);  // above everything
   const auto station = at(place, 30);
   double square = 0, height_square = 0;
   const int n = 400;
   for (int number = 1; number <= n; ++number) {
     const auto readings = sensorReadings(document, station, kAll, {"compass", "altimeter", "gps"}, 1, number);
-    const double azimuth = std::strtod(reading(readings, "compass").c_str(), nullptr) - 60;   // clockwise from Y
+    const double azimuth = std::strtod(reading(readings, "compass").c_str(), nullptr) - 60;  // clockwise from Y
     square += azimuth * azimuth;
-    const double height = std::strtod(reading(readings, "altimeter").c_str(), nullptr) - place.z() - document.georeference->shift_m.z();
+    const double height =
+        std::strtod(reading(readings, "altimeter").c_str(), nullptr) - place.z() - document.georeference->shift_m.z();
     height_square += height * height;
   }
   EXPECT_NEAR(std::sqrt(square / n), 5, 0.6);
@@ -45,7 +46,8 @@ TEST(Sensors, ReadTheTruthWithTheErrorThatTheyState) {
   const auto readings = sensorReadings(document, station, kAll, {"compass", "altimeter", "gps"}, 1, 1);
   EXPECT_TRUE(reading(readings, "compass").ends_with("± 5°")) << reading(readings, "compass");
   EXPECT_TRUE(reading(readings, "gps").ends_with("m ± 10 m")) << reading(readings, "gps");
-  EXPECT_EQ(readings, sensorReadings(document, station, kAll, {"gps", "altimeter", "compass"}, 1, 1)) << "the same scan, the same readings";
+  EXPECT_EQ(readings, sensorReadings(document, station, kAll, {"gps", "altimeter", "compass"}, 1, 1))
+      << "the same scan, the same readings";
 }
 
 TEST(Sensors, ThatAreOffLeaveNothing) {
@@ -70,7 +72,8 @@ TEST(Sensors, OfTheFocusAreSwitchedOneByOneAndThoseOfTheRtc360AreAlwaysOn) {
   ASSERT_TRUE(d.press({"power"}));
   d->tick(150);
   ASSERT_TRUE(d->hand("stand_at", "S1"));
-  ASSERT_TRUE(d.press({"manage", "operators", "operator=Ada", "back", "scan_projects", "new_project", "name=House", "customer=Town", "create"}));
+  ASSERT_TRUE(d.press({"manage", "operators", "operator=Ada", "back", "scan_projects", "new_project", "name=House",
+                       "customer=Town", "create"}));
   ASSERT_TRUE(d.press({"parameters", "sensors", "compass=off", "back", "back", "start_scan"}));
   const auto order = d.scanned();
   EXPECT_EQ(order.sensors, (std::vector<std::string>{"altimeter", "gps"}));

@@ -14,36 +14,41 @@
 namespace standpoint {
 namespace {
 
-const char* const kExcuse = "no effect here";   // in the English help
+const char* const kExcuse = "no effect here";  // in the English help
 
 // --- settings of the scanner: what a scan with them does ---
 
 std::string scanOf(const Instrument& instrument, const ScanSettings& s) {
   const auto& c = s.camera;
-  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} | {} {} {} {} {} {} {} {} {}", s.columns, s.rows, s.azimuth_from_rad, s.azimuth_to_rad,
-                     s.elevation_from_rad, s.elevation_to_rad, s.max_range_m, s.reference_reflectivity, s.noise_factor, s.passes, s.laser, s.imaging, s.unambiguous_m,
-                     s.drops.deviation_m, s.drops.weak_factor, s.drops.overload, s.nearest_m, s.farthest_m, s.scan_seconds, s.imaging_seconds, c.columns, c.shots, c.hdr,
-                     c.metered, c.stops, c.warmth, c.flash, static_cast<int>(meteringOf(instrument, s.values)),
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} | {} {} {} {} {} {} {} {} {}",
+                     s.columns, s.rows, s.azimuth_from_rad, s.azimuth_to_rad, s.elevation_from_rad, s.elevation_to_rad,
+                     s.max_range_m, s.reference_reflectivity, s.noise_factor, s.passes, s.laser, s.imaging,
+                     s.unambiguous_m, s.drops.deviation_m, s.drops.weak_factor, s.drops.overload, s.nearest_m,
+                     s.farthest_m, s.scan_seconds, s.imaging_seconds, c.columns, c.shots, c.hdr, c.metered, c.stops,
+                     c.warmth, c.flash, static_cast<int>(meteringOf(instrument, s.values)),
                      chosenEffect(instrument, s.values, "most_returns").value_or(0));
 }
 
-// On grounds that differ in one setting: a flash acts on pictures only. To allow what is refused else is an effect, too: a
-// field of view lets its edges be set.
+// On grounds that differ in one setting: a flash acts on pictures only. To allow what is refused else is an effect,
+// too: a field of view lets its edges be set.
 bool changesTheScan(const Instrument& instrument, const InstrumentSetting& setting) {
   std::vector<SettingValues> grounds = {resolveSettings(instrument, {})->values};
   for (const auto& other : instrument.settings)
     for (const auto& choice : other.choices)
-      if (const auto adapted = adaptedSettings(instrument, grounds.front(), other.key, choice.value)) grounds.push_back(*adapted);
+      if (const auto adapted = adaptedSettings(instrument, grounds.front(), other.key, choice.value))
+        grounds.push_back(*adapted);
   for (const auto& other : instrument.settings) {
     if (!other.choices.empty()) continue;
     for (const auto& choice : setting.choices)
-      if (const auto adapted = adaptedSettings(instrument, withSetting(grounds.front(), setting.key, choice.value), other.key, "30"))
+      if (const auto adapted =
+              adaptedSettings(instrument, withSetting(grounds.front(), setting.key, choice.value), other.key, "30"))
         grounds.push_back(*adapted);
   }
   std::vector<std::string> values;
   for (const auto& choice : setting.choices) values.push_back(choice.value);
   if (setting.choices.empty())
-    for (const double share : {0.0, 0.3, 0.7, 1.0}) values.push_back(fmt::format("{:g}", setting.minimum + share * (setting.maximum - setting.minimum)));
+    for (const double share : {0.0, 0.3, 0.7, 1.0})
+      values.push_back(fmt::format("{:g}", setting.minimum + share * (setting.maximum - setting.minimum)));
   for (const auto& ground : grounds) {
     std::set<std::string> scans;
     for (const auto& value : values) {
@@ -59,11 +64,15 @@ bool changesTheScan(const Instrument& instrument, const InstrumentSetting& setti
 
 std::string orderText(const Order& order) {
   if (const auto* scan = std::get_if<ScanOrder>(&order))
-    return fmt::format("scan {} {} {} {} {} {} {} {} {}", scan->name, scan->folder, scan->compensator, scan->panorama, scan->noise_factor, scan->filters, scan->sensors,
-                       scan->notes, scan->operator_in_view) + settingsText(scan->settings);
-  if (const auto* link = std::get_if<LinkOrder>(&order)) return fmt::format("link {} {} {} {}", link->from_file, link->shift_x_m, link->shift_y_m, link->turn_deg);
-  if (const auto* transfer = std::get_if<TransferOrder>(&order)) return fmt::format("transfer {} {} {}", transfer->by, transfer->extension, transfer->files);
-  if (const auto* sight = std::get_if<SightOrder>(&order)) return fmt::format("sight {} {} {}", sight->target, sight->kind, sight->compensator);
+    return fmt::format("scan {} {} {} {} {} {} {} {} {}", scan->name, scan->folder, scan->compensator, scan->panorama,
+                       scan->noise_factor, scan->filters, scan->sensors, scan->notes, scan->operator_in_view) +
+           settingsText(scan->settings);
+  if (const auto* link = std::get_if<LinkOrder>(&order))
+    return fmt::format("link {} {} {} {}", link->from_file, link->shift_x_m, link->shift_y_m, link->turn_deg);
+  if (const auto* transfer = std::get_if<TransferOrder>(&order))
+    return fmt::format("transfer {} {} {}", transfer->by, transfer->extension, transfer->files);
+  if (const auto* sight = std::get_if<SightOrder>(&order))
+    return fmt::format("sight {} {} {}", sight->target, sight->kind, sight->compensator);
   return "order";
 }
 
@@ -75,8 +84,9 @@ std::string seen(Device device, const std::string& value) {
     for (const auto& w : screen.widgets)
       if (w.value == value || w.shows.find("value." + value) != std::string::npos) own.insert(w.id);
   const auto screen = device.screen();
-  std::string text = fmt::format("{} {} {} {} {} {:.6f} {:.3f}", device.state().phase, screen.id, screen.title, screen.light, screen.has_dialog, device.state().around.battery,
-                                 device.state().clock_s);
+  std::string text =
+      fmt::format("{} {} {} {} {} {:.6f} {:.3f}", device.state().phase, screen.id, screen.title, screen.light,
+                  screen.has_dialog, device.state().around.battery, device.state().clock_s);
   if (screen.has_dialog) text += "|" + screen.dialog.id + screen.dialog.text;
   for (const auto& w : screen.widgets) {
     if (own.contains(w.id)) continue;
@@ -98,7 +108,7 @@ std::vector<Deed> events() {
           [](Device& d) { (void)d.trouble("wlan_lost"); },
           [](Device& d) { (void)d.trouble("tilted"); },
           [](Device& d) { (void)d.trouble("tracking_lost"); },
-          [](Device& d) {   // the simulation is done
+          [](Device& d) {  // the simulation is done
             StoredSetup setup;
             setup.name = "Setup 9", setup.file = "Setup 9.e57", setup.bytes = 1e8;
             d.scanDone(setup);
@@ -152,7 +162,8 @@ std::vector<Variant> situationsOf(const DeviceType& type) {
 std::vector<std::string> alternatives(const ValueRow& value) {
   if (value.kind == WidgetKind::choice || value.kind == WidgetKind::toggle) return value.choices;
   if (value.kind == WidgetKind::text) return {"", "Ada"};
-  return {fmt::format("{:g}", value.minimum), fmt::format("{:g}", (value.minimum + value.maximum) / 2), fmt::format("{:g}", value.maximum), value.standard};
+  return {fmt::format("{:g}", value.minimum), fmt::format("{:g}", (value.minimum + value.maximum) / 2),
+          fmt::format("{:g}", value.maximum), value.standard};
 }
 
 // The devices that have each of the values, else alike, go through the same: do they end differently?
@@ -168,7 +179,8 @@ bool endDifferently(const std::vector<Device>& twins, const std::string& value, 
 }
 
 // At rest any screen may be shown, else that of the phase.
-bool changesTheDevice(const std::shared_ptr<const DeviceType>& type, const ValueRow& value, const std::vector<Variant>& situations) {
+bool changesTheDevice(const std::shared_ptr<const DeviceType>& type, const ValueRow& value,
+                      const std::vector<Variant>& situations) {
   const auto values = alternatives(value);
   const auto in = [&](const Variant& situation, const PhaseRow& phase, const std::string& screen) {
     std::vector<Device> twins;
@@ -177,7 +189,7 @@ bool changesTheDevice(const std::shared_ptr<const DeviceType>& type, const Value
       situation(d.change());
       (void)d.setSettings(d.state().settings);
       d.change().values[value.id] = v;
-      if (value.id == "language") d.change().language = v;   // as choosing it does
+      if (value.id == "language") d.change().language = v;  // as choosing it does
       twins.push_back(std::move(d));
     }
     return twins;
@@ -199,18 +211,22 @@ bool changesTheDevice(const std::shared_ptr<const DeviceType>& type, const Value
     });
   };
   // What is quick comes first.
-  return pressed(situations.front()) || std::any_of(situations.begin(), situations.end(), befallen) || std::any_of(situations.begin() + 1, situations.end(), pressed);
+  return pressed(situations.front()) || std::any_of(situations.begin(), situations.end(), befallen) ||
+         std::any_of(situations.begin() + 1, situations.end(), pressed);
 }
 
 // What only the office, the host or a picture shows; the tests that hold it.
 const std::map<std::string, std::string> kShownElsewhere = {
     {"trimble-x7/colouring", "Preview.IsColouredAsTheUserChose"},
-    {"trimble-x7/view_filter", "X7.ShowsAllTheLatestOrTheNearestStations"},   // more than five stations
-    {"leica-p-series/air_temperature", "PSeries.TheTypedAirScalesTheRangesToTargets"},   // some ppm: less than a screen shows
+    {"trimble-x7/view_filter", "X7.ShowsAllTheLatestOrTheNearestStations"},  // more than five stations
+    {"leica-p-series/air_temperature",
+     "PSeries.TheTypedAirScalesTheRangesToTargets"},  // some ppm: less than a screen shows
     {"leica-p-series/air_pressure", "PSeries.TheTypedAirScalesTheRangesToTargets"},
 };
 
-std::string helpOf(const DeviceType& type, const WidgetRow& w) { return type.words->text(type.definition.id, w.words + "?", "en"); }
+std::string helpOf(const DeviceType& type, const WidgetRow& w) {
+  return type.words->text(type.definition.id, w.words + "?", "en");
+}
 
 class EverySetting : public testing::TestWithParam<const EmulatedDevice*> {};
 
@@ -223,7 +239,8 @@ TEST_P(EverySetting, OfTheScannerChangesTheScanOrItsHelpSaysThatItDoesNot) {
     for (const auto& screen : type->definition.screens)
       for (const auto& w : screen.widgets) {
         const auto& settings = type->instrument.settings;
-        const auto setting = std::find_if(settings.begin(), settings.end(), [&](const InstrumentSetting& s) { return s.key == w.setting; });
+        const auto setting = std::find_if(settings.begin(), settings.end(),
+                                          [&](const InstrumentSetting& s) { return s.key == w.setting; });
         if (setting == settings.end() || setting->choices.size() == 1) continue;
         const bool excused = helpOf(*type, w).find(kExcuse) != std::string::npos;
         EXPECT_NE(changesTheScan(type->instrument, *setting), excused) << id << " " << screen.id << "/" << w.id;
@@ -242,12 +259,16 @@ TEST_P(EverySetting, OfTheDeviceChangesWhatItDoesOrItsHelpSaysThatItDoesNot) {
       const bool excused = helpOf(*type, w).find(kExcuse) != std::string::npos;
       if (!asked.insert(w.value).second) continue;
       auto situations = situationsOf(*type);
-      if (excused) situations.resize(1);   // that there is none anywhere would take minutes
-      EXPECT_NE(changesTheDevice(type, *findValue(type->definition, w.value), situations), excused) << screen.id << "/" << w.id;
+      if (excused) situations.resize(1);  // that there is none anywhere would take minutes
+      EXPECT_NE(changesTheDevice(type, *findValue(type->definition, w.value), situations), excused)
+          << screen.id << "/" << w.id;
     }
   for (const auto& value : type->definition.values) {
-    const bool read_by_code = value.id == "connection" || value.id == "address" || value.id == "self_timer";   // shown, and set by the device itself
-    EXPECT_TRUE(asked.contains(value.id) || kShownElsewhere.contains(type->definition.id + "/" + value.id) || read_by_code) << "no widget sets " << value.id;
+    const bool read_by_code = value.id == "connection" || value.id == "address" ||
+                              value.id == "self_timer";  // shown, and set by the device itself
+    EXPECT_TRUE(asked.contains(value.id) || kShownElsewhere.contains(type->definition.id + "/" + value.id) ||
+                read_by_code)
+        << "no widget sets " << value.id;
   }
 }
 

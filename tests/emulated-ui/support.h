@@ -51,8 +51,8 @@ class TestDevice {
       const auto equals = text.find('=');
       const auto done = device_.act(text.substr(0, equals), equals == std::string::npos ? "" : text.substr(equals + 1));
       if (!done)
-        return testing::AssertionFailure() << text << " on screen '" << device_.screen().id << "', dialogue '" << device_.screen().dialog.id
-                                           << "': " << describe(done.error());
+        return testing::AssertionFailure() << text << " on screen '" << device_.screen().id << "', dialogue '"
+                                           << device_.screen().dialog.id << "': " << describe(done.error());
     }
     return testing::AssertionSuccess();
   }

@@ -27,7 +27,8 @@ TEST(Troubles, WhoTurnsTheFootScrewsUnderAScanMovesTheInstrument) {
       for (const auto& [hand, value] : {std::pair{"level", ""}, std::pair{"tilt", "0.01,0"}, std::pair{"push", ""}}) {
         Device d = working(*type, phase, phase.screen);
         ASSERT_TRUE(d.hand(hand, value));
-        EXPECT_TRUE(d.state().dialog == "moved" || d.state().phase != phase.id) << row.id << ", " << phase.id << ", " << hand;
+        EXPECT_TRUE(d.state().dialog == "moved" || d.state().phase != phase.id)
+            << row.id << ", " << phase.id << ", " << hand;
       }
     }
   }

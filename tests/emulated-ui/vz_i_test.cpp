@@ -305,7 +305,8 @@ TEST_F(VzI, NeedsFourControlPointsWithANameAndThreeCoordinates) {
   scan();
   ASSERT_TRUE(d.press({"reflectors", "measure_targets"}));
   ASSERT_TRUE(d->takeOrder());
-  d->targetsDone({fittedSphere("P1", 100, 5), fittedSphere("P2", 100, 6), fittedSphere("P4", 100, 7), fittedSphere("Other", 100, 5)});
+  d->targetsDone({fittedSphere("P1", 100, 5), fittedSphere("P2", 100, 6), fittedSphere("P4", 100, 7),
+                  fittedSphere("Other", 100, 5)});
   ASSERT_TRUE(d.press({"home", "control_points", "georeference"}));
   EXPECT_EQ(d.shows("georeferenced"), "Yes");
 }

@@ -12,7 +12,8 @@ namespace standpoint {
 namespace {
 
 // Where the widget can be met: in the phases that show its screen, or in any other.
-bool isPressedSomewhere(const std::shared_ptr<const DeviceType>& type, const std::string& screen, const std::string& id, bool on_body) {
+bool isPressedSomewhere(const std::shared_ptr<const DeviceType>& type, const std::string& screen, const std::string& id,
+                        bool on_body) {
   for (const auto& phase : type->definition.phases) {
     if (!phase.on && !on_body) continue;
     for (const auto& variant : variantsOf(*type)) {
@@ -57,17 +58,23 @@ TEST_P(Widgets, PressedOnEveryScreen) {
   for (const auto& id : (*first)->definition.instruments)
     if (id != "*" && id != (*first)->instrument.id) types.push_back(*loadDevice(*GetParam(), id));
   const auto pressed = [&](const std::string& screen, const std::string& id, bool on_body) {
-    return std::any_of(types.begin(), types.end(), [&](const auto& type) { return isPressedSomewhere(type, screen, id, on_body); });
+    return std::any_of(types.begin(), types.end(),
+                       [&](const auto& type) { return isPressedSomewhere(type, screen, id, on_body); });
   };
-  const std::set<WidgetKind> kShown = {WidgetKind::status, WidgetKind::readout, WidgetKind::note, WidgetKind::progress, WidgetKind::lamp, WidgetKind::level, WidgetKind::plan};
+  const std::set<WidgetKind> kShown = {WidgetKind::status, WidgetKind::readout, WidgetKind::note, WidgetKind::progress,
+                                       WidgetKind::lamp,   WidgetKind::level,   WidgetKind::plan};
   for (const auto& key : (*first)->definition.keys)
-    if (!kShown.contains(key.kind)) EXPECT_TRUE(pressed((*first)->definition.screens.front().id, key.id, true)) << "key " << key.id;
+    if (!kShown.contains(key.kind))
+      EXPECT_TRUE(pressed((*first)->definition.screens.front().id, key.id, true)) << "key " << key.id;
   for (const auto& screen : (*first)->definition.screens)
     for (const auto& w : screen.widgets) {
-      const bool one_choice = w.kind == WidgetKind::choice && !w.setting.empty() && choicesOf(**first, w.setting) == 1;   // nothing else can be chosen
+      const bool one_choice = w.kind == WidgetKind::choice && !w.setting.empty() &&
+                              choicesOf(**first, w.setting) == 1;  // nothing else can be chosen
       if (one_choice || kTheirOwn.contains(std::string(GetParam()->id) + "/" + screen.id + "/" + w.id)) continue;
       const bool only_a_list = w.kind == WidgetKind::list && w.does.empty() && w.go.empty();
-      if (!kShown.contains(w.kind) && !only_a_list) EXPECT_TRUE(pressed(screen.id, w.id, false)) << screen.id << "/" << w.id << " does nothing wherever it is pressed";
+      if (!kShown.contains(w.kind) && !only_a_list)
+        EXPECT_TRUE(pressed(screen.id, w.id, false))
+            << screen.id << "/" << w.id << " does nothing wherever it is pressed";
     }
 }
 

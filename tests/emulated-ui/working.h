@@ -32,7 +32,8 @@ inline Device working(const std::shared_ptr<const DeviceType>& type, const Phase
   auto& s = d.change();
   s.phase = phase.id;
   s.screen = screen;
-  s.came_from = {type->definition.screens.front().id == screen ? type->definition.screens.back().id : type->definition.screens.front().id};
+  s.came_from = {type->definition.screens.front().id == screen ? type->definition.screens.back().id
+                                                               : type->definition.screens.front().id};
   s.around.station = "S1";
   DeviceProject project;
   project.name = "House";
@@ -68,7 +69,8 @@ inline std::vector<std::string> valuesOf(const Widget& w) {
     }
     case WidgetKind::toggle: return {"on", "off"};
     case WidgetKind::text: return {"Something"};
-    case WidgetKind::number: return {std::to_string(std::lround(w.minimum)), std::to_string(std::lround((w.minimum + w.maximum) / 2))};
+    case WidgetKind::number:
+      return {std::to_string(std::lround(w.minimum)), std::to_string(std::lround((w.minimum + w.maximum) / 2))};
     case WidgetKind::area: return {"10,200,-20,30"};
     case WidgetKind::preview: return {"0.3,0.4"};
     default: return {""};
@@ -78,7 +80,8 @@ inline std::vector<std::string> valuesOf(const Widget& w) {
 // Everything that a press may change, but for the log.
 inline std::string trace(Device device) {
   const auto& s = device.state();
-  std::string text = s.phase + "|" + s.screen + "|" + s.dialog + "|" + s.dialog_detail + "|" + s.language + "|" + std::to_string(s.project) + "|" + std::to_string(s.shown);
+  std::string text = s.phase + "|" + s.screen + "|" + s.dialog + "|" + s.dialog_detail + "|" + s.language + "|" +
+                     std::to_string(s.project) + "|" + std::to_string(s.shown);
   for (const auto& [key, value] : s.settings) text += "|" + key + "=" + value;
   for (const auto& [key, value] : s.values) text += "|" + key + "=" + value;
   for (const auto& [key, value] : s.entries) text += "|" + key + "=" + value;
@@ -87,7 +90,8 @@ inline std::string trace(Device device) {
     for (const auto& setup : p.setups) text += setup.name + (setup.looked_at ? "+" : "-") + (setup.link ? "l" : "");
   }
   for (const auto& t : s.sighted) text += "|" + t.id + (t.used ? "+" : "-");
-  text += "|" + std::to_string(s.control.targets.size()) + (s.orientation ? s.orientation->method + s.orientation->station + (s.orientation->accepted ? "+" : "-") : "");
+  text += "|" + std::to_string(s.control.targets.size()) +
+          (s.orientation ? s.orientation->method + s.orientation->station + (s.orientation->accepted ? "+" : "-") : "");
   if (device.takeOrder()) text += "|order";
   if (device.takeView()) text += "|view";
   if (device.takeCancel()) text += "|cancel";
@@ -96,7 +100,8 @@ inline std::string trace(Device device) {
 
 // Known control points, one of which was sighted.
 inline void knowPlaces(DeviceState& s) {
-  for (int n = 0; n < 4; ++n) s.control.targets.push_back({"T" + std::to_string(n + 1), {n % 2 * 5.0, n / 2 * 5.0, 1.0 + n}});
+  for (int n = 0; n < 4; ++n)
+    s.control.targets.push_back({"T" + std::to_string(n + 1), {n % 2 * 5.0, n / 2 * 5.0, 1.0 + n}});
   s.control.stations.push_back({"S1", {1, 1, 0}});
   s.control.stations.push_back({"S9", {2, 2, 0}});
   s.sighted.push_back({"T1", {3, 0, 1}, 1.5, 0.001, 90, true});

@@ -82,7 +82,8 @@ TEST_F(X7, DescribesAProjectWithTimeAndUser) {
 
 TEST_F(X7, ListsProjectsThatHaveAPicture) {
   start();
-  ASSERT_TRUE(d.press({"create_new", "name=A", "project_photo=take", "create", "menu", "create_new", "name=B", "project_photo=none", "create", "menu", "all_projects"}));
+  ASSERT_TRUE(d.press({"create_new", "name=A", "project_photo=take", "create", "menu", "create_new", "name=B",
+                       "project_photo=none", "create", "menu", "all_projects"}));
   const auto screen = d->screen();
   const auto* list = findWidget(screen, "project_list");
   ASSERT_NE(list, nullptr);

@@ -150,7 +150,7 @@ TEST_F(X7, ASymmetricalRoomTurnsTheStartOfEveryLinkByHalfATurn) {
   ASSERT_TRUE(automatic && std::holds_alternative<LinkOrder>(*automatic));
   EXPECT_EQ(std::get<LinkOrder>(*automatic).turn_deg, 180);
   linked(0.0015, 0.85);
-  ASSERT_TRUE(d.press({"registration", "turn=-170", "refine"}));   // laid back by hand, ten degrees short
+  ASSERT_TRUE(d.press({"registration", "turn=-170", "refine"}));  // laid back by hand, ten degrees short
   const auto refined = d->takeOrder();
   ASSERT_TRUE(refined && std::holds_alternative<LinkOrder>(*refined));
   EXPECT_EQ(std::get<LinkOrder>(*refined).turn_deg, 10);

@@ -7,8 +7,8 @@
 #include "project/verb.h"
 #include "tests/fuzz/fuzz_file.h"
 
-// A shipped device whose definition and words somebody has edited carelessly: rows are gone, doubled or take the place of
-// others, names and texts are mixed up. It is refused with its place, or bears whatever is pressed.
+// A shipped device whose definition and words somebody has edited carelessly: rows are gone, doubled or take the place
+// of others, names and texts are mixed up. It is refused with its place, or bears whatever is pressed.
 namespace standpoint::fuzz {
 namespace {
 
@@ -48,9 +48,11 @@ struct Spot {
 };
 Spot spotIn(json& root, FuzzedDataProvider& data) {
   Spot spot{nullptr, &root};
-  while (spot.node->is_structured() && !spot.node->empty() && (spot.parent == nullptr || data.ConsumeIntegralInRange(0, 3) != 0)) {
+  while (spot.node->is_structured() && !spot.node->empty() &&
+         (spot.parent == nullptr || data.ConsumeIntegralInRange(0, 3) != 0)) {
     spot.parent = spot.node;
-    spot.node = &*std::next(spot.node->begin(), data.ConsumeIntegralInRange<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(spot.node->size()) - 1));
+    spot.node = &*std::next(spot.node->begin(), data.ConsumeIntegralInRange<std::ptrdiff_t>(
+                                                    0, static_cast<std::ptrdiff_t>(spot.node->size()) - 1));
   }
   return spot;
 }
@@ -60,7 +62,8 @@ void edit(json& root, FuzzedDataProvider& data) {
   if (at.parent == nullptr) return;
   switch (data.ConsumeIntegralInRange(0, 5)) {
     case 0: {
-      const auto found = std::find_if(at.parent->begin(), at.parent->end(), [&](const json& j) { return &j == at.node; });
+      const auto found =
+          std::find_if(at.parent->begin(), at.parent->end(), [&](const json& j) { return &j == at.node; });
       at.parent->erase(found);
       break;
     }
@@ -79,7 +82,8 @@ void edit(json& root, FuzzedDataProvider& data) {
 std::string textOf(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
 
 std::filesystem::path wordsFolder(const json& shared, const json& own) {
-  const auto folder = std::filesystem::temp_directory_path() / ("standpoint-fuzz-" + std::to_string(getpid()) + "-words");
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("standpoint-fuzz-" + std::to_string(getpid()) + "-words");
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "common.json", std::ios::binary) << textOf(shared);
   std::ofstream(folder / "own.json", std::ios::binary) << textOf(own);
@@ -111,7 +115,10 @@ void play(Device& device, FuzzedDataProvider& data) {
   for (int turn = 0; turn < 40 && data.remaining_bytes() > 0; ++turn) {
     switch (data.ConsumeIntegralInRange(0, 7)) {
       case 0: device.tick(data.ConsumeIntegralInRange(1, 4000)); break;
-      case 1: (void)device.trouble(data.PickValueInArray({"battery_low", "card_missing", "moved", "too_hot", "tilted", "wlan_lost"})); break;
+      case 1:
+        (void)device.trouble(
+            data.PickValueInArray({"battery_low", "card_missing", "moved", "too_hot", "tilted", "wlan_lost"}));
+        break;
       case 2: (void)device.hand("stand_at", "S1"); break;
       case 3:
         if (const auto order = device.takeOrder(); order && std::holds_alternative<ScanOrder>(*order)) {
@@ -130,7 +137,8 @@ void play(Device& device, FuzzedDataProvider& data) {
 void run(FuzzedDataProvider& data) {
   Shipped edited = shipped()[data.ConsumeIntegralInRange<std::size_t>(0, shipped().size() - 1)];
   for (int edits = data.ConsumeIntegralInRange(0, 6); edits > 0; --edits) {
-    json& which = *std::array{&edited.definition, &edited.definition, &edited.shared_words, &edited.own_words}[data.ConsumeIntegralInRange<std::size_t>(0, 3)];
+    json& which = *std::array{&edited.definition, &edited.definition, &edited.shared_words,
+                              &edited.own_words}[data.ConsumeIntegralInRange<std::size_t>(0, 3)];
     edit(which, data);
   }
   const auto text = textOf(edited.definition);
@@ -138,7 +146,8 @@ void run(FuzzedDataProvider& data) {
   if (!definition) return refused(definition.error());
   auto words = Words::read(wordsFolder(edited.shared_words, edited.own_words));
   if (!words) return refused(words.error());
-  auto type = makeDeviceType(*std::move(definition), *edited.program, edited.instrument, std::make_shared<const Words>(*std::move(words)));
+  auto type = makeDeviceType(*std::move(definition), *edited.program, edited.instrument,
+                             std::make_shared<const Words>(*std::move(words)));
   if (!type) return refused(type.error());
   const auto faults = checkDevice(**type);
   for (const auto& fault : faults) refused(fault);

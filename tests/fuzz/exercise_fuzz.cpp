@@ -2,8 +2,8 @@
 #include "emulated-ui/rehearsal/exercise.h"
 #include "tests/fuzz/fuzz_file.h"
 
-// An exercise is read, or refused with its place; so is a condition alone, and one that is read says the same when it is
-// read again.
+// An exercise is read, or refused with its place; so is a condition alone, and one that is read says the same when it
+// is read again.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace standpoint;
   const auto exercise = readExercise(fuzz::fileOf(data, size, ".json"));

@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
-
 #include <unistd.h>
 
 #include "importers/importers.h"
@@ -26,7 +25,9 @@ inline std::filesystem::path fileOf(const std::uint8_t* data, std::size_t size, 
 inline int import(const Importer& importer, const std::uint8_t* data, std::size_t size) {
   Progress progress;
   const auto model = importer.read(fileOf(data, size, importer.extensions.front()), {}, progress);
-  const std::string wrong = model ? validate(model->environment) : model.error().source.empty() ? "an error names no place" : "";
+  const std::string wrong = model                          ? validate(model->environment)
+                            : model.error().source.empty() ? "an error names no place"
+                                                           : "";
   if (wrong.empty()) return 0;
   std::fprintf(stderr, "%s\n", wrong.c_str());
   std::abort();

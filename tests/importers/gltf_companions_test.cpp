@@ -50,7 +50,8 @@ class GltfCompanion : public ::testing::Test {
   GltfCollision boxes(CollisionNaming naming) {
     shapes_.surfaces.resize(1);
     shapes_.meshes = {fan(1), fan(1), fan(1)};
-    for (std::uint32_t i = 0; i < 3; ++i) shapes_.instances.push_back({i, i == 0 ? 0U : i, Eigen::Affine3d::Identity()});
+    for (std::uint32_t i = 0; i < 3; ++i)
+      shapes_.instances.push_back({i, i == 0 ? 0U : i, Eigen::Affine3d::Identity()});
     return {&shapes_, {true, true, false}, naming};
   }
   static std::vector<std::string> names(const json& gltf) {
@@ -71,19 +72,21 @@ TEST_F(GltfCompanion, ALevelIsNamedByItsProductAndStandsOutsideOfTheScene) {
   Environment light = model_, bare = model_;
   light.meshes[0] = fan(1);
   bare.meshes[0] = light.meshes[0];
-  bare.instances.erase(bare.instances.begin() + 2);   // the second wall is gone
-  const json gltf = exported({{{"LOD1", &light, {0.25, 0, 0}, {0.1, 0, 0}}, {"LOD2", &bare, {0.25, 0, 3}, {0.1, 0, 2}}}, {}});
+  bare.instances.erase(bare.instances.begin() + 2);  // the second wall is gone
+  const json gltf =
+      exported({{{"LOD1", &light, {0.25, 0, 0}, {0.1, 0, 0}}, {"LOD2", &bare, {0.25, 0, 3}, {0.1, 0, 2}}}, {}});
   const auto& nodes = gltf.at("nodes");
   const auto all = names(gltf);
   const auto roof = static_cast<std::size_t>(std::find(all.begin(), all.end(), "Roof") - all.begin());
   const auto ids = nodes[roof].at("extensions").at("MSFT_lod").at("ids");
-  ASSERT_EQ(ids.size(), 1U);   // the second level has the same roof
+  ASSERT_EQ(ids.size(), 1U);  // the second level has the same roof
   EXPECT_EQ(nodes[ids[0].get<std::size_t>()].at("name"), "Roof LOD1");
   EXPECT_EQ(nodes[ids[0].get<std::size_t>()].at("extras").at("standpoint").at("max_deviation_m"), 0.25);
   const auto& in_scene = nodes[0].at("children");
   EXPECT_EQ(in_scene.size(), 3U);
   EXPECT_EQ(std::count(in_scene.begin(), in_scene.end(), ids[0]), 0);
-  // A deviation of 0.25 m on a roof of 11.66 m (10 by 6) is a thousandth of the screen where the roof is 4.7 % of its height.
+  // A deviation of 0.25 m on a roof of 11.66 m (10 by 6) is a thousandth of the screen where the roof is 4.7 % of its
+  // height.
   const auto coverage = nodes[roof].at("extras").at("MSFT_screencoverage");
   ASSERT_EQ(coverage.size(), 2U);
   EXPECT_NEAR(coverage[0].get<double>(), std::pow(std::hypot(10, 6) / 250, 2), 1e-9);
@@ -92,7 +95,9 @@ TEST_F(GltfCompanion, ALevelIsNamedByItsProductAndStandsOutsideOfTheScene) {
   const auto& gone = nodes[in_scene[2].get<std::size_t>()].at("extensions").at("MSFT_lod").at("ids")[0];
   EXPECT_FALSE(nodes[gone.get<std::size_t>()].contains("mesh"));
   EXPECT_EQ(gltf.at("asset").at("extras").at("standpoint").at("levels")[0].at("triangles"), 1 + 2 + 2);
-  EXPECT_EQ(gltf.at("asset").at("extras").at("standpoint").at("levels")[0].at("classes").at("IfcRoof").at("max_deviation_m"), 0.25);
+  EXPECT_EQ(
+      gltf.at("asset").at("extras").at("standpoint").at("levels")[0].at("classes").at("IfcRoof").at("max_deviation_m"),
+      0.25);
 }
 
 TEST_F(GltfCompanion, WhatIsReadBackIsTheFinestLevelWithoutShapesAndNothingIsLost) {
@@ -113,7 +118,7 @@ TEST_F(GltfCompanion, UnrealFindsShapesByTheNameOfTheMesh) {
   EXPECT_TRUE(has(gltf, "UCX_Roof_0_01"));
   EXPECT_TRUE(has(gltf, "UCX_Wall_1_01"));
   EXPECT_TRUE(has(gltf, "Roof_0"));
-  EXPECT_FALSE(has(gltf, "UCX_Wall_2_01"));   // the second wall is the same mesh, which has its shape already
+  EXPECT_FALSE(has(gltf, "UCX_Wall_2_01"));  // the second wall is the same mesh, which has its shape already
   EXPECT_EQ(gltf.at("meshes")[0].at("name"), "Roof_0");
 }
 
@@ -148,7 +153,8 @@ TEST_F(GltfCompanion, CollisionShapesOfOtherProgramsAreLeftOutAndSaid) {
   exported({});
   const auto back = read();
   EXPECT_EQ(triangleCount(back.environment), 6U);
-  EXPECT_TRUE(std::any_of(back.report.issues.begin(), back.report.issues.end(), [](const Issue& i) { return i.message.starts_with("2 collision shapes"); }));
+  EXPECT_TRUE(std::any_of(back.report.issues.begin(), back.report.issues.end(),
+                          [](const Issue& i) { return i.message.starts_with("2 collision shapes"); }));
 }
 
 }  // namespace

@@ -15,11 +15,16 @@ using Json = nlohmann::json;
 
 // A triangle with an index buffer, a material and a child node, small enough to break in every place.
 std::string sound() {
-  const std::string binary = bytesOf(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}) + bytesOf(std::vector<std::uint16_t>{0, 1, 2, 0});
-  return glb(R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"children":[1]},{"mesh":0,"name":"a"}],)"
-             R"("materials":[{"name":"m"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],)"
-             R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3},{"bufferView":1,"componentType":5123,)"
-             R"("type":"SCALAR","count":3}],"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],)"
+  const std::string binary =
+      bytesOf(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}) + bytesOf(std::vector<std::uint16_t>{0, 1, 2, 0});
+  return glb(R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"children":[1]},)"
+             R"({"mesh":0,"name":"a"}],)"
+             R"("materials":[{"name":"m"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,)"
+             R"("material":0}]}],)"
+             R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3},{"bufferView":1,)"
+             R"("componentType":5123,)"
+             R"("type":"SCALAR","count":3}],"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,)"
+             R"("byteOffset":36,"byteLength":6}],)"
              R"("buffers":[{"byteLength":44}]})",
              binary);
 }
@@ -44,7 +49,8 @@ TEST(GltfRefuses, WhatPointsToNothingAndNamesThePlace) {
 }
 
 TEST(GltfRefuses, SizesThatDoNotFit) {
-  EXPECT_THAT(withChange("/accessors/0/count", 4), HasSubstr("/accessors/0: needs 48 bytes of /bufferViews/0, which has 36"));
+  EXPECT_THAT(withChange("/accessors/0/count", 4),
+              HasSubstr("/accessors/0: needs 48 bytes of /bufferViews/0, which has 36"));
   EXPECT_THAT(withChange("/accessors/0/count", 4294967295), HasSubstr("/accessors/0"));
   EXPECT_THAT(withChange("/accessors/0/byteOffset", 1e300), HasSubstr("/accessors/0/byteOffset"));
   EXPECT_THAT(withChange("/bufferViews/0/byteLength", 400), HasSubstr("/bufferViews/0: reaches to byte 400"));
@@ -145,20 +151,20 @@ void survivesMutations(const std::filesystem::path& original, int rounds) {
   const auto bytes = readBytes(original);
   const auto file = scratch() / ("mutated" + original.extension().string());
   for (const auto& entry : std::filesystem::directory_iterator(original.parent_path()))
-    if (entry.path().extension() == ".bin") std::filesystem::copy(entry.path(), file.parent_path() / entry.path().filename());
+    if (entry.path().extension() == ".bin")
+      std::filesystem::copy(entry.path(), file.parent_path() / entry.path().filename());
   for (int round = 0; round < rounds; ++round) {
     auto mutated = bytes;
     const auto draw = philox({7, 0}, static_cast<std::uint32_t>(round), 0, 0);
     const std::size_t reach = round % 2 == 0 ? std::min<std::size_t>(mutated.size(), 3000) : mutated.size();
-    for (int k = 0; k < 3; ++k) mutated[draw[static_cast<std::size_t>(k)] % reach] = static_cast<char>(draw[3] >> (8 * k));
+    for (int k = 0; k < 3; ++k)
+      mutated[draw[static_cast<std::size_t>(k)] % reach] = static_cast<char>(draw[3] >> (8 * k));
     const auto model = import(write(file, mutated));
     EXPECT_EQ(model ? validate(model->environment) : "", "");
   }
 }
 
-TEST(GltfSurvives, RandomBytesInEveryKindOfFile) {
-  survivesMutations(write(scratch() / "sound.glb", sound()), 500);
-}
+TEST(GltfSurvives, RandomBytesInEveryKindOfFile) { survivesMutations(write(scratch() / "sound.glb", sound()), 500); }
 
 TEST(GltfSurvives, RandomBytesInDracoFiles) {
   const auto file = corpus() / "gltf/assimp/draco/2CylinderEngine.gltf";

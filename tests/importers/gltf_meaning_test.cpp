@@ -58,10 +58,13 @@ TEST(GltfTextures, ComeEncodedAndTransformedAsInTheExampleOfTheSpecification) {
   file.accessor(std::vector<std::uint8_t>{0, 0, 0, 0, 255, 0, 0, 0, 0, 255, 0, 0}, 5121, "VEC2", 3,
                 ",\"normalized\":true");
   file.view(kPng);
-  auto model = file.import(
-      R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_1":1},"material":0}]}],"images":[{"bufferView":2,)"
-      R"("mimeType":"image/png","name":"bricks"}],"textures":[{"source":0}],"materials":[{"pbrMetallicRoughness":{"baseColorTexture":)"
-      R"({"index":0,"extensions":{"KHR_texture_transform":{"texCoord":1,"offset":[0,1],"rotation":1.57079632679,"scale":[0.5,0.5]}}}}}])");
+  auto model =
+      file.import(R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_1":1},)"
+                  R"("material":0}]}],"images":[{"bufferView":2,)"
+                  R"("mimeType":"image/png","name":"bricks"}],"textures":[{"source":0}],)"
+                  R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":)"
+                  R"({"index":0,"extensions":{"KHR_texture_transform":{"texCoord":1,"offset":[0,1],)"
+                  R"("rotation":1.57079632679,"scale":[0.5,0.5]}}}}}])");
   ASSERT_TRUE(model) << describe(model.error());
   const auto& e = model->environment;
   ASSERT_EQ(e.images.size(), 1U);
@@ -82,11 +85,13 @@ TEST(GltfTextures, InOtherFormatsAreNamedAndTheFallbackIsTaken) {
   file.accessor(kTriangle, 5126, "VEC3", 3);
   file.view(kPng);
   file.view(std::vector<std::uint8_t>{'R', 'I', 'F', 'F', 0, 0, 0, 0, 'W', 'E', 'B', 'P'});
-  const auto model = file.import(
-      R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"images":[{"bufferView":1},{"bufferView":2}],"textures":)"
-      R"([{"source":0,"extensions":{"KHR_texture_basisu":{"source":1}}},{"extensions":{"KHR_texture_basisu":{"source":1}}},{"source":1}],)"
-      R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}},{"pbrMetallicRoughness":{"baseColorTexture":{"index":1}}},)"
-      R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":2}}}])");
+  const auto model = file.import(R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+                                 R"("images":[{"bufferView":1},{"bufferView":2}],"textures":)"
+                                 R"([{"source":0,"extensions":{"KHR_texture_basisu":{"source":1}}},)"
+                                 R"({"extensions":{"KHR_texture_basisu":{"source":1}}},{"source":1}],)"
+                                 R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}},)"
+                                 R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":1}}},)"
+                                 R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":2}}}])");
   ASSERT_TRUE(model) << describe(model.error());
   EXPECT_EQ(model->environment.surfaces.at(0).image, 0);
   EXPECT_EQ(model->environment.surfaces.at(1).image, -1);
@@ -144,7 +149,7 @@ TEST(GltfColours, OfAllComponentTypesBecomeEightBitsOfSrgb) {
   EXPECT_THAT(coloured(std::vector<std::uint8_t>{55, 255, 0, 127, 0, 0, 0, 0, 0, 0, 0, 0}, 5121, "VEC4",
                        ",\"normalized\":true"),
               ElementsAre(128, 255, 0, 127));
-  material = "{}";   // opaque: alpha is ignored (glTF 2.0 §3.9.4)
+  material = "{}";  // opaque: alpha is ignored (glTF 2.0 §3.9.4)
   EXPECT_THAT(coloured(std::vector<float>{half, 1, 0, 0.5F, 0, 0, 0, 0, 0, 0, 0, 0}, 5126, "VEC4", ""),
               ElementsAre(128, 255, 0, 255));
 }
@@ -153,11 +158,16 @@ TEST(GltfMaterials, KeepTheOpticsAndNameTheRest) {
   Gltf2 file;
   file.accessor(kTriangle, 5126, "VEC3", 3);
   const auto model = file.import(
-      R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],"extensions":{"KHR_materials_variants":)"
-      R"({"variants":[{"name":"summer"},{"name":"winter"}]}},"materials":[{"normalTexture":{"index":0},"extensions":{"KHR_materials_transmission":)"
-      R"({"transmissionFactor":0.9},"KHR_materials_ior":{"ior":1.52},"KHR_materials_volume":{"thicknessFactor":0.006},"KHR_materials_clearcoat":)"
-      R"({"clearcoatFactor":0.3},"KHR_materials_specular":{},"KHR_materials_sheen":{}}},{"extensions":{"KHR_materials_unlit":{},)"
-      R"("KHR_materials_sheen":{}}},{"extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[0,1,0,1],"glossinessFactor":0.75}}}])");
+      R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],)"
+      R"("extensions":{"KHR_materials_variants":)"
+      R"({"variants":[{"name":"summer"},{"name":"winter"}]}},)"
+      R"("materials":[{"normalTexture":{"index":0},"extensions":{"KHR_materials_transmission":)"
+      R"({"transmissionFactor":0.9},"KHR_materials_ior":{"ior":1.52},)"
+      R"("KHR_materials_volume":{"thicknessFactor":0.006},"KHR_materials_clearcoat":)"
+      R"({"clearcoatFactor":0.3},"KHR_materials_specular":{},"KHR_materials_sheen":{}}},)"
+      R"({"extensions":{"KHR_materials_unlit":{},)"
+      R"("KHR_materials_sheen":{}}},)"
+      R"({"extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[0,1,0,1],"glossinessFactor":0.75}}}])");
   ASSERT_TRUE(model) << describe(model.error());
   const auto& s = model->environment.surfaces.at(0);
   EXPECT_EQ(s.transmission, 0.9F);
@@ -251,14 +261,18 @@ TEST(GltfMetadata, AFeatureOfAMeshIsAProductWithTheRowOfItsTable) {
   const int ends = file.view(std::vector<std::uint32_t>{0, 4, 9});
   const int heights = file.view(std::vector<float>{2.5F, 3, 1, 4});
   const int kinds = file.view(std::vector<std::uint16_t>{1, 0});
-  const auto model = file.import(
-      R"("nodes":[{"mesh":0,"name":"house"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"_FEATURE_ID_0":1},"extensions":)"
-      R"({"EXT_mesh_features":{"featureIds":[{"featureCount":2,"attribute":0,"propertyTable":0}]}}}]}],"extensions":{"EXT_structural_metadata":)"
-      R"({"schema":{"enums":{"kind":{"values":[{"name":"LOAD","value":0},{"name":"FREE","value":1}]}},"classes":{"part":{"properties":{"name":)"
-      R"({"type":"STRING"},"size":{"type":"VEC2","componentType":"FLOAT32"},"kind":{"type":"ENUM","enumType":"kind"}}}}},"propertyTables":)"
-      R"([{"class":"part","count":2,"properties":{"name":{"values":)" +
-      std::to_string(names) + R"(,"stringOffsets":)" + std::to_string(ends) + R"(},"size":{"values":)" +
-      std::to_string(heights) + R"(},"kind":{"values":)" + std::to_string(kinds) + R"(}}}]}})");
+  const auto model =
+      file.import(R"("nodes":[{"mesh":0,"name":"house"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,)"
+                  R"("_FEATURE_ID_0":1},"extensions":)"
+                  R"({"EXT_mesh_features":{"featureIds":[{"featureCount":2,"attribute":0,)"
+                  R"("propertyTable":0}]}}}]}],"extensions":{"EXT_structural_metadata":)"
+                  R"({"schema":{"enums":{"kind":{"values":[{"name":"LOAD","value":0},{"name":"FREE","value":1}]}},)"
+                  R"("classes":{"part":{"properties":{"name":)"
+                  R"({"type":"STRING"},"size":{"type":"VEC2","componentType":"FLOAT32"},"kind":{"type":"ENUM",)"
+                  R"("enumType":"kind"}}}}},"propertyTables":)"
+                  R"([{"class":"part","count":2,"properties":{"name":{"values":)" +
+                  std::to_string(names) + R"(,"stringOffsets":)" + std::to_string(ends) + R"(},"size":{"values":)" +
+                  std::to_string(heights) + R"(},"kind":{"values":)" + std::to_string(kinds) + R"(}}}]}})");
   ASSERT_TRUE(model) << describe(model.error());
   const auto& products = model->environment.products;
   ASSERT_EQ(products.size(), 2U);
@@ -276,7 +290,8 @@ TEST(GltfMetadata, XmpPacketsAndExtrasAreProperties) {
   Gltf2 file;
   file.accessor(kTriangle, 5126, "VEC3", 3);
   const auto model = file.import(
-      R"("nodes":[{"mesh":0,"extras":{"fire":"F90"},"extensions":{"KHR_xmp_json_ld":{"packet":0}}}],"meshes":[{"primitives":)"
+      R"("nodes":[{"mesh":0,"extras":{"fire":"F90"},"extensions":{"KHR_xmp_json_ld":{"packet":0}}}],)"
+      R"("meshes":[{"primitives":)"
       R"([{"attributes":{"POSITION":0}}]}],"extensions":{"KHR_xmp_json_ld":{"packets":[{"@context":{},"dc:title":)"
       R"({"@list":["Door","Tür"]}}]}})");
   ASSERT_TRUE(model) << describe(model.error());

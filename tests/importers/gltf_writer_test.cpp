@@ -25,7 +25,8 @@ Mesh randomMesh(std::uint32_t seed, std::size_t vertices, std::size_t triangles,
   return mesh;
 }
 
-Instance instance(std::uint32_t mesh, std::uint32_t product, const Eigen::Matrix3d& linear, const Eigen::Vector3d& translation) {
+Instance instance(std::uint32_t mesh, std::uint32_t product, const Eigen::Matrix3d& linear,
+                  const Eigen::Vector3d& translation) {
   Instance result{mesh, product, Eigen::Affine3d::Identity()};
   result.world_from_mesh.linear() = linear;
   result.world_from_mesh.translation() = translation;
@@ -164,7 +165,7 @@ TEST(GltfWriter, ImporterSeesTheSamePlacesAndRestoresTheGeoreference) {
   EXPECT_EQ(model->georeference.true_north_rad, g.true_north_rad);
   EXPECT_EQ(triangleCount(model->environment), triangleCount(e));
   const auto a = bounds(e), b = bounds(model->environment);
-  EXPECT_LT((a.min - b.min).norm() + (a.max - b.max).norm(), 1e-6);   // of a box of 1000 km
+  EXPECT_LT((a.min - b.min).norm() + (a.max - b.max).norm(), 1e-6);  // of a box of 1000 km
   EXPECT_EQ(model->environment.products.at(0).name, "wall");
   const auto moved = import(file, {.shift = ShiftMode::none});
   ASSERT_TRUE(moved);

@@ -32,7 +32,8 @@ class HeliosScene : public ::testing::Test {
   Report written() {
     Report report;
     Progress progress;
-    const auto done = writeHeliosScene(environment_, {&brick_, &pane_, nullptr}, {}, folder_ / "my scene.xml", report, progress);
+    const auto done =
+        writeHeliosScene(environment_, {&brick_, &pane_, nullptr}, {}, folder_ / "my scene.xml", report, progress);
     EXPECT_TRUE(done) << describe(done.error());
     return report;
   }
@@ -59,9 +60,9 @@ class HeliosScene : public ::testing::Test {
 
 TEST_F(HeliosScene, HasASpectrumOfEachMaterialThatReadsBackAsItsReflectance) {
   written();
-  EXPECT_NEAR(reflectanceByHelios("brick", 0.798), 30, 1e-3);   // half way
-  EXPECT_NEAR(reflectanceByHelios("brick", 0.4), 10, 1e-3);     // below what was measured
-  EXPECT_NEAR(reflectanceByHelios("brick", 1.55), 50, 1e-3);    // and above
+  EXPECT_NEAR(reflectanceByHelios("brick", 0.798), 30, 1e-3);  // half way
+  EXPECT_NEAR(reflectanceByHelios("brick", 0.4), 10, 1e-3);    // below what was measured
+  EXPECT_NEAR(reflectanceByHelios("brick", 1.55), 50, 1e-3);   // and above
 }
 
 TEST_F(HeliosScene, NamesItsFilesAndMaterialsWithoutSpaces) {
@@ -84,7 +85,8 @@ TEST_F(HeliosScene, TellsWhatHeliosHasNoWordsFor) {
 TEST_F(HeliosScene, ThatCannotBeWrittenIsAnErrorWithItsFile) {
   Report report;
   Progress progress;
-  const auto done = writeHeliosScene(environment_, {&brick_, &pane_, nullptr}, {}, "/nonexistent/scene.xml", report, progress);
+  const auto done =
+      writeHeliosScene(environment_, {&brick_, &pane_, nullptr}, {}, "/nonexistent/scene.xml", report, progress);
   ASSERT_FALSE(done);
   EXPECT_NE(describe(done.error()).find("/nonexistent/"), std::string::npos);
 }

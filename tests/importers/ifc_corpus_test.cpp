@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whole buildings of others against web-ifc's reading of them: bounds of every product that a beam can meet.
-#include <zlib.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -9,6 +7,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <zlib.h>
 
 #include "tests/importers/ifc_fixture.h"
 
@@ -29,7 +28,8 @@ std::string gunzip(const std::filesystem::path& path) {
   return text;
 }
 
-// What the manifest calls `first`, except the railway: there web-ifc draws an arc of 362 m with 12 chords and is 0.4 m off.
+// What the manifest calls `first`, except the railway: there web-ifc draws an arc of 362 m with 12 chords and is 0.4 m
+// off.
 std::vector<std::string> wholeBuildings() {
   std::vector<std::string> names;
   std::ifstream manifest(corpus() / "manifest.tsv");
@@ -46,18 +46,21 @@ std::vector<std::string> wholeBuildings() {
 bool isAskedFor(const nlohmann::json& product) {
   const std::string entity = product["class"];
   if (product["triangles"] == 0 || product["bounds"].is_null()) return false;
-  for (const char* unseen : {"IfcOpening", "IfcSpace", "IfcVirtual", "IfcStructural", "IfcReferent", "IfcAnnotation", "IfcGrid", "IfcAlignment", "IfcProjectionElement"})
+  for (const char* unseen : {"IfcOpening", "IfcSpace", "IfcVirtual", "IfcStructural", "IfcReferent", "IfcAnnotation",
+                             "IfcGrid", "IfcAlignment", "IfcProjectionElement"})
     if (entity.starts_with(unseen)) return false;
   return true;
 }
 
 Bounds boundsFrom(const nlohmann::json& b) {
   Bounds bounds;
-  for (int i = 0; i < 2; ++i) bounds.extend(Eigen::Vector3d(b[i][0].get<double>(), b[i][1].get<double>(), b[i][2].get<double>()));
+  for (int i = 0; i < 2; ++i)
+    bounds.extend(Eigen::Vector3d(b[i][0].get<double>(), b[i][1].get<double>(), b[i][2].get<double>()));
   return bounds;
 }
 
-// 2 mm and 0.1 % of the size; a body with more triangles may be 1.8 % wider, because web-ifc's circles have 12 inscribed chords.
+// 2 mm and 0.1 % of the size; a body with more triangles may be 1.8 % wider, because web-ifc's circles have 12
+// inscribed chords.
 bool agree(const Bounds& ours, const Bounds& theirs, bool finer) {
   const double size = (theirs.max - theirs.min).maxCoeff();
   const double wider = std::max((theirs.min - ours.min).maxCoeff(), (ours.max - theirs.max).maxCoeff());
@@ -77,7 +80,8 @@ TEST(IfcCorpus, WholeBuildingsHaveTheBoundsThatWebIfcSees) {
     std::map<std::string, std::size_t> index;
     std::vector<std::size_t> triangles(bounds.size(), 0);
     for (std::size_t i = 0; i < bounds.size(); ++i) index[model->environment.products[i].id] = i;
-    for (const Instance& i : model->environment.instances) triangles[i.product] += model->environment.meshes[i.mesh]->triangles.size();
+    for (const Instance& i : model->environment.instances)
+      triangles[i.product] += model->environment.meshes[i.mesh]->triangles.size();
     std::size_t asked_here = 0, agreed_here = 0;
     const auto oracle = nlohmann::json::parse(gunzip(corpus() / "oracle" / (name + ".json.gz")));
     for (const auto& product : oracle["products"]) {
@@ -88,7 +92,10 @@ TEST(IfcCorpus, WholeBuildingsHaveTheBoundsThatWebIfcSees) {
       Bounds ours = bounds[it->second];
       ours.min += model->georeference.shift_m;
       ours.max += model->georeference.shift_m;
-      agreed_here += agree(ours, boundsFrom(product["bounds"]), triangles[it->second] > product["triangles"].get<std::size_t>()) ? 1 : 0;
+      agreed_here +=
+          agree(ours, boundsFrom(product["bounds"]), triangles[it->second] > product["triangles"].get<std::size_t>())
+              ? 1
+              : 0;
     }
     EXPECT_GE(static_cast<double>(agreed_here), 0.98 * static_cast<double>(asked_here)) << name;
     asked += asked_here;

@@ -14,7 +14,8 @@ PolyMesh boxWithSheet() {
   PolyMesh mesh = geometry::box({1, 1, 1});
   const auto base = static_cast<std::uint32_t>(mesh.points.size());
   for (const double z : {0.0, 1e-6})
-    for (const auto& [x, y] : {std::pair{1.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {1.0, 1.0}}) mesh.points.emplace_back(x, y, z);
+    for (const auto& [x, y] : {std::pair{1.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {1.0, 1.0}})
+      mesh.points.emplace_back(x, y, z);
   geometry::Face down, up;
   down.outer = {base + 3, base + 2, base + 1, base};
   up.outer = {base + 4, base + 5, base + 6, base + 7};
@@ -26,7 +27,7 @@ PolyMesh boxWithSheet() {
 TEST(IfcFlaps, ASheetWithoutThicknessIsSeen) {
   EXPECT_TRUE(hasFlaps(boxWithSheet()));
   EXPECT_FALSE(hasFlaps(geometry::box({1, 1, 1})));
-  EXPECT_FALSE(hasFlaps(geometry::box({1, 1, 0.0005})));   // a metal sheet is thin, but a body
+  EXPECT_FALSE(hasFlaps(geometry::box({1, 1, 0.0005})));  // a metal sheet is thin, but a body
 }
 
 TEST(IfcFlaps, TwoBodiesThatOnlyTouchInALineHaveNone) {

@@ -9,7 +9,9 @@ namespace standpoint::ifc {
 namespace {
 
 StepFile parsed(const std::string& data, Report& report) {
-  auto file = StepFile::parse("ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('IFC4'));\nENDSEC;\nDATA;\n" + data + "ENDSEC;\nEND-ISO-10303-21;\n", "test.ifc", report);
+  auto file = StepFile::parse(
+      "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('IFC4'));\nENDSEC;\nDATA;\n" + data + "ENDSEC;\nEND-ISO-10303-21;\n",
+      "test.ifc", report);
   EXPECT_TRUE(file.has_value()) << describe(file.error());
   return file ? std::move(*file) : StepFile();
 }
@@ -58,9 +60,9 @@ TEST(StepFile, DecodesEscapesToUtf8) {
   EXPECT_EQ(decodeText("\\X4\\0001F600\\X0\\"), "\xF0\x9F\x98\x80");
   EXPECT_EQ(decodeText("\\S\\d"), "\xC3\xA4");
   EXPECT_EQ(decodeText("a\\\\b''c"), "a\\b'c");
-  EXPECT_EQ(decodeText("\xE4"), "\xC3\xA4");           // Latin-1
-  EXPECT_EQ(decodeText("\xC3\xA4"), "\xC3\xA4");       // UTF-8 already
-  EXPECT_EQ(decodeText("\\X2\\00"), "00");             // broken escapes do not swallow the text
+  EXPECT_EQ(decodeText("\xE4"), "\xC3\xA4");      // Latin-1
+  EXPECT_EQ(decodeText("\xC3\xA4"), "\xC3\xA4");  // UTF-8 already
+  EXPECT_EQ(decodeText("\\X2\\00"), "00");        // broken escapes do not swallow the text
 }
 
 TEST(StepFile, SaysWhereACutFileEnds) {

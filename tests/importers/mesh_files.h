@@ -18,7 +18,8 @@ namespace standpoint::test {
 // A folder of the running test alone, empty at first.
 inline std::filesystem::path scratch() {
   const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-  const auto folder = std::filesystem::path(BINARY_DIR) / "scratch" / (std::string(info->test_suite_name()) + "." + info->name());
+  const auto folder =
+      std::filesystem::path(BINARY_DIR) / "scratch" / (std::string(info->test_suite_name()) + "." + info->name());
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;
@@ -60,8 +61,8 @@ inline std::string glb(std::string json, std::string binary) {
   json.resize((json.size() + 3) / 4 * 4, ' ');
   binary.resize((binary.size() + 3) / 4 * 4, '\0');
   const auto word = [](std::size_t v) { return std::string{char(v), char(v >> 8), char(v >> 16), char(v >> 24)}; };
-  return "glTF" + word(2) + word(28 + json.size() + binary.size()) + word(json.size()) + "JSON" + json + word(binary.size()) +
-         std::string("BIN\0", 4) + binary;
+  return "glTF" + word(2) + word(28 + json.size() + binary.size()) + word(json.size()) + "JSON" + json +
+         word(binary.size()) + std::string("BIN\0", 4) + binary;
 }
 
 }  // namespace standpoint::test

@@ -74,7 +74,7 @@ TEST(Obj, CornersOfOnePlaceAreOneVertexUnlessTheirTextureDiffers) {
   const auto whole = obj(v + "f 1/1 2/2 3/3\nf 1/1 3/3 4/1\n", {.up = UpAxis::z});
   ASSERT_TRUE(whole);
   const auto& mesh = *whole->environment.meshes.at(0);
-  EXPECT_EQ(mesh.positions.size(), 4U);   // the unused one is not there
+  EXPECT_EQ(mesh.positions.size(), 4U);  // the unused one is not there
   EXPECT_EQ(mesh.texture_coordinates.at(1), Eigen::Vector2f(1, 0.75F));
   const auto seam = obj(v + "f 1/1 2/2 3/3\nf 1/2 3/3 4/1\n");
   EXPECT_EQ(seam->environment.meshes.at(0)->positions.size(), 5U);
@@ -106,7 +106,7 @@ TEST(Obj, ColoursOfVerticesAreReadInBothPlacesAndBothScales) {
 TEST(Obj, WhatStandsThereTwiceOrHasCollapsedIsLeftOutAndSaid) {
   const auto model = obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 1 2 3\nf 2 3 1\nf 1 3 2\nf 1 2 2\nf 1 2 4\n");
   ASSERT_TRUE(model);
-  EXPECT_EQ(model->environment.meshes.at(0)->triangles.size(), 2U);   // one from each side
+  EXPECT_EQ(model->environment.meshes.at(0)->triangles.size(), 2U);  // one from each side
   EXPECT_EQ(model->environment.meshes.at(0)->positions.size(), 3U);
   ASSERT_EQ(model->report.issues.size(), 2U);
   EXPECT_EQ(model->report.issues[0].source, "line 8");
@@ -207,7 +207,7 @@ TEST(Polygon, TriangulationOfAnyStarShapedPolygonKeepsItsArea) {
       shoelace += 0.5 * (p.x() * q.z() - p.z() * q.x());
     }
     const auto cut = triangulatePolygon(corners);
-    ASSERT_EQ(cut.triangles.size(), n - 2);   // what a polygon of n corners has
+    ASSERT_EQ(cut.triangles.size(), n - 2);  // what a polygon of n corners has
     EXPECT_TRUE(cut.clean);
     double sum = 0;
     for (const auto& t : cut.triangles)

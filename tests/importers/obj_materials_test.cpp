@@ -31,8 +31,9 @@ Surface mtl(const std::string& text) {
 TEST(ObjMaterials, ComeFromTheMtlAndAMissingOneIsAWarning) {
   const auto folder = scratch();
   write(folder / "two words.mtl", "newmtl Red brick\nKd 0.5 0.25 0.125\nd 0.5\nPr 0.75\n");
-  const auto model = import(write(folder / "a.obj", "mtllib two words.mtl\nmtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
-                                                    "usemtl Red brick\nf 1 2 3\nusemtl other\nf 1 3 2\n"));
+  const auto model = import(write(folder / "a.obj",
+                                  "mtllib two words.mtl\nmtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                                  "usemtl Red brick\nf 1 2 3\nusemtl other\nf 1 3 2\n"));
   ASSERT_TRUE(model) << describe(model.error());
   const auto& s = model->environment.surfaces;
   ASSERT_EQ(s.size(), 2U);
@@ -75,7 +76,7 @@ TEST(ObjMaterials, PhysicalValuesAreKept) {
   EXPECT_EQ(s.metallic, 1.0F);
   EXPECT_EQ(s.clearcoat, 0.5F);
   EXPECT_EQ(s.specular, 0.4F);
-  EXPECT_FALSE(mtl("Ni 1").index_of_refraction);   // what exporters write for nothing
+  EXPECT_FALSE(mtl("Ni 1").index_of_refraction);  // what exporters write for nothing
   EXPECT_TRUE(mtl("illum 0").unlit);
 }
 

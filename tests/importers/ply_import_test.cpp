@@ -24,7 +24,7 @@ const std::string kSquare = "0 0 0\n1 0 0\n1 2 0\n0 2 0\n";
 
 template <class T>
 void put(std::string& to, T value, bool big) {
-  std::string bytes(reinterpret_cast<const char*>(&value), sizeof value);   // of a little-endian machine
+  std::string bytes(reinterpret_cast<const char*>(&value), sizeof value);  // of a little-endian machine
   if (big) std::reverse(bytes.begin(), bytes.end());
   to += bytes;
 }
@@ -85,7 +85,7 @@ TEST(Ply, TextureCoordinatesOfVerticesAndOfCornersAreRead) {
                                          kSquare + "3 0 1 2 6 0 0 1 0 1 1 0\n3 0 2 3 6 0 0 1 1 0.5 1 0\n"));
   ASSERT_TRUE(corners) << describe(corners.error());
   const auto& e = corners->environment;
-  EXPECT_THAT(e.meshes.at(0)->positions, SizeIs(4));   // the corners of both faces meet again
+  EXPECT_THAT(e.meshes.at(0)->positions, SizeIs(4));  // the corners of both faces meet again
   EXPECT_EQ(e.meshes.at(0)->texture_coordinates.at(2), Eigen::Vector2f(1, 0));
   ASSERT_THAT(e.images, SizeIs(1));
   EXPECT_EQ(e.surfaces.at(e.meshes.at(0)->surface_of_triangle.at(0)).image, 0);

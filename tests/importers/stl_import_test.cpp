@@ -18,14 +18,14 @@ struct Facet {
 
 template <class T>
 void put(std::string& to, T value) {
-  to.append(reinterpret_cast<const char*>(&value), sizeof value);   // of a little-endian machine
+  to.append(reinterpret_cast<const char*>(&value), sizeof value);  // of a little-endian machine
 }
 
 std::string binary(std::string header, const std::vector<Facet>& facets) {
   header.resize(80, ' ');
   put(header, static_cast<std::uint32_t>(facets.size()));
   for (const auto& f : facets) {
-    for (int i = 0; i < 3; ++i) put(header, NAN);   // a normal that nobody needs
+    for (int i = 0; i < 3; ++i) put(header, NAN);  // a normal that nobody needs
     for (const float c : f.corners) put(header, c);
     put(header, f.word);
   }
@@ -84,13 +84,13 @@ TEST(Stl, SolidsOfATextBecomeProducts) {
 
 TEST(Stl, ColoursAreReadAsVisCamAndAsMagicsWriteThem) {
   auto facets = kTetrahedron;
-  for (auto& f : facets) f.word = 0x8000U | 31U << 10U;   // VisCAM: red
+  for (auto& f : facets) f.word = 0x8000U | 31U << 10U;  // VisCAM: red
   facets[3].word = 0;
   const auto viscam = stl(binary("VisCAM", facets));
   ASSERT_TRUE(viscam);
   EXPECT_THAT(viscam->environment.products.at(0).materials, ElementsAre("", "#ff0000"));
-  for (auto& f : facets) f.word = 31U << 10U;             // Magics: blue
-  facets[3].word = 0x8000U;                               // the default of the header
+  for (auto& f : facets) f.word = 31U << 10U;  // Magics: blue
+  facets[3].word = 0x8000U;                    // the default of the header
   const auto magics = stl(binary(std::string("COLOR=\x10\x20\x30\xFF", 10), facets));
   ASSERT_TRUE(magics);
   EXPECT_THAT(magics->environment.products.at(0).materials, ElementsAre("#0000ff", "#102030"));

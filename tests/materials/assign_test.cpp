@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <chrono>
+
 #include <gmock/gmock.h>
 
 #include "tests/materials/fixtures.h"
@@ -177,8 +178,8 @@ TEST(Overrides, ThatMeanNothingAreNamed) {
   const auto result =
       b.assignBy(shippedRules(), {{"class:IfcRoof", "bark"}, {"material:*zink*", "bark"}, {"colour:red", "bark"}});
   EXPECT_THAT(result.report.findings, UnorderedElementsAre(finding("warning", "class:IfcRoof", "means no surface"),
-                                                  finding("warning", "material:*zink*", "means no surface"),
-                                                  finding("warning", "colour:red", "means no surface")));
+                                                           finding("warning", "material:*zink*", "means no surface"),
+                                                           finding("warning", "colour:red", "means no surface")));
 }
 
 TEST(Overrides, WithAnUnknownMaterialAreRefused) {

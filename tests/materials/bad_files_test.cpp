@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <gmock/gmock.h>
 #include <random>
+
+#include <gmock/gmock.h>
 
 #include "tests/materials/bad_entries.h"
 #include "tests/materials/fixtures.h"
@@ -23,10 +24,8 @@ TEST_P(BadEntries, AreRefusedWithTheirPlace) {
   EXPECT_THAT(library.error().message, HasSubstr(bad.message));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Library, BadEntries,
-    testing::ValuesIn(badEntries()),
-    [](const auto& each) { return std::string(each.param.name); });
+INSTANTIATE_TEST_SUITE_P(Library, BadEntries, testing::ValuesIn(badEntries()),
+                         [](const auto& each) { return std::string(each.param.name); });
 
 TEST(BadLibraries, WithoutAFolderOrFilesSaySo) {
   const TemporaryFolder folder;
@@ -39,7 +38,9 @@ TEST(BadLibraries, WithoutAFolderOrFilesSaySo) {
 TEST(BadLibraries, OfSourcesThatAreWrongAreRefusedWithTheirPlace) {
   const TemporaryFolder folder;
   for (const auto& [text, source, message] :
-       {std::tuple{R"({"sources": [{"id": "a", "text": "A", "licence": "own"}, {"id": "a", "text": "B", "licence": "own"}]})", "s.json /sources/1/id", "already there"},
+       {std::tuple{
+            R"({"sources": [{"id": "a", "text": "A", "licence": "own"}, {"id": "a", "text": "B", "licence": "own"}]})",
+            "s.json /sources/1/id", "already there"},
         {R"({"sources": [{"id": "a", "text": "A"}]})", "s.json /sources/0/licence", "missing"},
         {R"({"sources": {}})", "s.json /sources", "list"},
         {R"({"material": []})", "s.json /material", "not a known key"}}) {
@@ -58,13 +59,15 @@ TEST(BadLibraries, EmptyOrBinaryAreNamed) {
   folder.write("e.json", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16));
   EXPECT_THAT(readMaterialLibrary(folder.path()).error().message, HasSubstr("not JSON"));
   folder.write("e.json", "{}");
-  EXPECT_THAT(readOwnMaterials(folder.path() / "e.json", SOURCE_DIR "/materials/library").error().message, HasSubstr("no material"));
+  EXPECT_THAT(readOwnMaterials(folder.path() / "e.json", SOURCE_DIR "/materials/library").error().message,
+              HasSubstr("no material"));
 }
 
 TEST(OwnMaterials, MayReferToShippedSourcesAndStandInForShippedMaterials) {
   const TemporaryFolder folder;
   const auto file = folder.write("own.json", R"({"materials": [
-    {"id": "bark", "label": "My bark", "reflectance": [[905, 0.4]], "source": {"reflectance": "measured: [usgs] my bark"}},
+    {"id": "bark", "label": "My bark", "reflectance": [[905, 0.4]],
+      "source": {"reflectance": "measured: [usgs] my bark"}},
     {"id": "brick_new_wet", "label": "Wet", "wet_of": "brick_red_bare", "source": {"wet_of": "unsourced"}}]})");
   const auto own = orThrow(readOwnMaterials(file, SOURCE_DIR "/materials/library"));
   ASSERT_EQ(own.size(), 2U);
@@ -121,13 +124,15 @@ TEST(BadRules, AreRefusedWithTheirPlace) {
         BadRule{R"({"colour": "red|mauve", "assign": "bark"})", "r.json /rules/1/colour", "'mauve' is no colour"},
         BadRule{R"({"material": "x", "assign": "bark", "hidden": 1})", "r.json /rules/1/hidden", "true or false"},
         BadRule{R"({"ifc_class": "x", "assign": "bark", "hidden": true})", "r.json /rules/1/hidden", "needs a pattern"},
-        BadRule{R"({"material": "{stone}", "assign": "bark"})", "r.json /rules/1/material", "{stone}, which is not there"},
+        BadRule{R"({"material": "{stone}", "assign": "bark"})", "r.json /rules/1/material",
+                "{stone}, which is not there"},
         BadRule{R"({"material": "{stone", "assign": "bark"})", "r.json /rules/1/material", "brace"},
         BadRule{R"({"material": "a&&b", "assign": "bark"})", "r.json /rules/1/material", "empty pattern"},
         BadRule{R"({"material": "!", "assign": "bark"})", "r.json /rules/1/material", "empty pattern"},
         BadRule{R"({"metallic": [0.5, 0.2], "assign": "bark"})", "r.json /rules/1/metallic/1", "0.2"},
         BadRule{R"({"metallic": 1, "assign": "bark"})", "r.json /rules/1/metallic", "[from, to]"},
-        BadRule{R"({"material": "x", "assign": "bark", "confidence": 2})", "r.json /rules/1/confidence", "between 0.0 and 1.0"},
+        BadRule{R"({"material": "x", "assign": "bark", "confidence": 2})", "r.json /rules/1/confidence",
+                "between 0.0 and 1.0"},
         BadRule{R"({"class": "IfcWall", "assign": "bark"})", "r.json /rules/1/class", "not a known key"}}) {
     const auto rules = readAssignmentRules(folder.write("r.json", good + text + "]}"), shippedLibrary());
     ASSERT_FALSE(rules.has_value()) << text;
@@ -141,15 +146,18 @@ TEST(BadRules, AreRefusedWithTheirPlace) {
 TEST(BadRules, InTheRestOfTheFileAreRefusedWithTheirPlace) {
   const TemporaryFolder folder;
   for (const auto& [text, source, message] :
-       {BadRule{"", "r.json line 1", "not JSON"}, BadRule{"\x01\x02\xff", "r.json line 1", "not JSON"}, BadRule{"[]", "r.json", "object"},
-        BadRule{"{}", "r.json /rules", "missing"}, BadRule{R"({"rules": 1})", "r.json /rules", "list"},
+       {BadRule{"", "r.json line 1", "not JSON"}, BadRule{"\x01\x02\xff", "r.json line 1", "not JSON"},
+        BadRule{"[]", "r.json", "object"}, BadRule{"{}", "r.json /rules", "missing"},
+        BadRule{R"({"rules": 1})", "r.json /rules", "list"},
         BadRule{R"({"rules": [], "then": "others"})", "r.json /then", "default"},
         BadRule{R"({"rules": [], "words": []})", "r.json /words", "object"},
         BadRule{R"({"rules": [], "words": {"a": []}})", "r.json /words/a", "list of texts"},
         BadRule{R"({"rules": [], "words": {"a": ["x|y"]}})", "r.json /words/a/0", "one word"},
         BadRule{R"({"rules": [], "implausible": [{"assigned": "bark"}]})", "r.json /implausible/0/why", "missing"},
-        BadRule{R"({"rules": [], "words": {"glass": ["tumbler"]}, "then": "default"})", "r.json /words/glass", "another name"}}) {
-    const auto rules = readAssignmentRules(folder.write("r.json", text), shippedLibrary(), SOURCE_DIR "/materials/rules/default.json");
+        BadRule{R"({"rules": [], "words": {"glass": ["tumbler"]}, "then": "default"})", "r.json /words/glass",
+                "another name"}}) {
+    const auto rules =
+        readAssignmentRules(folder.write("r.json", text), shippedLibrary(), SOURCE_DIR "/materials/rules/default.json");
     ASSERT_FALSE(rules.has_value()) << text;
     EXPECT_EQ(rules.error().source, source);
     EXPECT_THAT(rules.error().message, HasSubstr(message));
@@ -163,13 +171,15 @@ TEST(BadRules, ByTheMillionOrNestedDeeplyEndInAnErrorNotInAWait) {
   EXPECT_THAT(readAssignmentRules(folder.write("r.json", many), shippedLibrary()).error().message, HasSubstr("1 MB"));
   std::string some = R"({"rules": [{"name":"a","assign":"bark"})";
   for (int i = 0; i < 20'000; ++i) some += R"(,{"name":"a","assign":"bark"})";
-  EXPECT_THAT(readAssignmentRules(folder.write("r.json", some + "]}"), shippedLibrary()).error().message, HasSubstr("more than 10000 rules"));
+  EXPECT_THAT(readAssignmentRules(folder.write("r.json", some + "]}"), shippedLibrary()).error().message,
+              HasSubstr("more than 10000 rules"));
   EXPECT_FALSE(readAssignmentRules(folder.write("r.json", std::string(900'000, '[')), shippedLibrary()).has_value());
 }
 
 TEST(OwnRules, ComeBeforeTheDefaultOnesAndMayUseTheirWords) {
   const TemporaryFolder folder;
-  const auto file = folder.write("mine.json", R"({"rules": [{"material": "{brick}", "assign": "marble_white_weathered"}], "then": "default"})");
+  const auto file = folder.write(
+      "mine.json", R"({"rules": [{"material": "{brick}", "assign": "marble_white_weathered"}], "then": "default"})");
   const auto rules = orThrow(readAssignmentRules(file, shippedLibrary(), SOURCE_DIR "/materials/rules/default.json"));
   EXPECT_EQ(rules.own, 1U);
   Builder b;
@@ -182,7 +192,8 @@ TEST(OwnRules, ComeBeforeTheDefaultOnesAndMayUseTheirWords) {
 
 TEST(OwnRules, ThatDecideNothingAreAFinding) {
   const TemporaryFolder folder;
-  const auto file = folder.write("idle.json", R"({"rules": [{"material": "unobtainium", "assign": "bark"}], "then": "default"})");
+  const auto file =
+      folder.write("idle.json", R"({"rules": [{"material": "unobtainium", "assign": "bark"}], "then": "default"})");
   const auto rules = orThrow(readAssignmentRules(file, shippedLibrary(), SOURCE_DIR "/materials/rules/default.json"));
   Builder b;
   b.product("IfcWall", "", {b.surface("Beton")});

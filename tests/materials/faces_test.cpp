@@ -10,7 +10,8 @@ namespace {
 using testing::ElementsAre;
 
 // Of one triangle of the surface that looks to `normal`.
-std::string idOf(const MaterialResult& result, std::uint32_t product, std::uint32_t surface, const Eigen::Vector3d& normal) {
+std::string idOf(const MaterialResult& result, std::uint32_t product, std::uint32_t surface,
+                 const Eigen::Vector3d& normal) {
   auto mesh = std::make_shared<Mesh>();
   const Eigen::Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
   mesh->positions = {{0, 0, 0}, u.cast<float>(), v.cast<float>()};
@@ -28,7 +29,12 @@ std::shared_ptr<const Mesh> box(float x, float y, float z, std::uint32_t surface
   auto mesh = std::make_shared<Mesh>();
   for (int corner = 0; corner < 8; ++corner)
     mesh->positions.emplace_back((corner & 1) != 0 ? x : 0, (corner & 2) != 0 ? y : 0, (corner & 4) != 0 ? z : 0);
-  for (const auto& [a, b, c, d] : {std::array{0U, 2U, 3U, 1U}, {4U, 5U, 7U, 6U}, {0U, 1U, 5U, 4U}, {2U, 6U, 7U, 3U}, {0U, 4U, 6U, 2U}, {1U, 3U, 7U, 5U}}) {
+  for (const auto& [a, b, c, d] : {std::array{0U, 2U, 3U, 1U},
+                                   {4U, 5U, 7U, 6U},
+                                   {0U, 1U, 5U, 4U},
+                                   {2U, 6U, 7U, 3U},
+                                   {0U, 4U, 6U, 2U},
+                                   {1U, 3U, 7U, 5U}}) {
     mesh->triangles.push_back({a, b, c});
     mesh->triangles.push_back({a, c, d});
   }
@@ -48,8 +54,8 @@ TEST(Faces, ThatLookOneWayGetAnotherMaterialThanTheRest) {
   OneBox b;
   const auto result = b.assignBy(shippedRules(), {{"#100@0,0,2", "carpet"}});
   EXPECT_EQ(idOf(result, 0, b.concrete, {0, 0, 1}), "carpet");
-  EXPECT_EQ(idOf(result, 0, b.concrete, Eigen::Vector3d(0.1, 0, 1).normalized()), "carpet");   // 5.7°
-  EXPECT_EQ(idOf(result, 0, b.concrete, Eigen::Vector3d(0.2, 0, 1).normalized()), "concrete_construction");   // 11.3°
+  EXPECT_EQ(idOf(result, 0, b.concrete, Eigen::Vector3d(0.1, 0, 1).normalized()), "carpet");                 // 5.7°
+  EXPECT_EQ(idOf(result, 0, b.concrete, Eigen::Vector3d(0.2, 0, 1).normalized()), "concrete_construction");  // 11.3°
   EXPECT_EQ(idOf(result, 0, b.concrete, {0, 0, -1}), "concrete_construction");
   EXPECT_EQ(idOf(result, 0, b.concrete, {1, 0, 0}), "concrete_construction");
   ASSERT_EQ(result.report.uses.size(), 2U);
@@ -63,7 +69,7 @@ TEST(Faces, FollowTheOrderOfWhatTheUserSaid) {
   OneBox b;
   auto result = b.assignBy(shippedRules(), {{"#100@0,0,1", "carpet"}, {"class:IfcSlab@0,0,1", "linoleum"}});
   EXPECT_EQ(idOf(result, 0, b.concrete, {0, 0, 1}), "linoleum");
-  result = b.assignBy(shippedRules(), {{"#100@0,0,1", "carpet"}, {"#100", "bark"}});   // the whole, later
+  result = b.assignBy(shippedRules(), {{"#100@0,0,1", "carpet"}, {"#100", "bark"}});  // the whole, later
   EXPECT_EQ(idOf(result, 0, b.concrete, {0, 0, 1}), "bark");
   EXPECT_TRUE(result.assignment.faces.empty());
   result = b.assignBy(shippedRules(), {{"#100", "bark"}, {"#100&material:Beton@0,0,1", "carpet"}});
@@ -96,11 +102,11 @@ TEST(Faces, AtAPointAreToldFromThoseThatLookTheSameWay) {
     return 0.0;
   };
   EXPECT_NEAR(area("#100@0,0,1"), 6 + 1, 1e-5);
-  EXPECT_NEAR(area("#100@0,0,1@500000.75,5600000.75,101.25"), 1, 1e-5);   // the table's top
-  EXPECT_NEAR(area("#100@0,0,1@500000.75,5600000.75,100.5"), 6, 1e-5);    // the floor under it
+  EXPECT_NEAR(area("#100@0,0,1@500000.75,5600000.75,101.25"), 1, 1e-5);  // the table's top
+  EXPECT_NEAR(area("#100@0,0,1@500000.75,5600000.75,100.5"), 6, 1e-5);   // the floor under it
   EXPECT_NEAR(area("class:IfcSlab&material:Beton@0,0,2@500000.75,5600000.75,100.5"), 6, 1e-5);
-  EXPECT_EQ(area("#100@0,0,1@500000.75,5600000.75,100.9"), 0);            // in the air
-  EXPECT_EQ(area("#100@0,0,1@0.75,0.75,0.5"), 0);                         // of another frame
+  EXPECT_EQ(area("#100@0,0,1@500000.75,5600000.75,100.9"), 0);  // in the air
+  EXPECT_EQ(area("#100@0,0,1@0.75,0.75,0.5"), 0);               // of another frame
 }
 
 TEST(Faces, OfAnotherSurfaceBesideThePointAreNotMeant) {
@@ -112,7 +118,7 @@ TEST(Faces, OfAnotherSurfaceBesideThePointAreNotMeant) {
   mesh->triangles = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
   mesh->surface_of_triangle = {left, left, right, right};
   b.environment.meshes[0] = mesh;
-  const auto result = b.assignBy(shippedRules(), {{"#100@0,0,1@0.98,0.5,0", "carpet"}});   // 2 cm from the other
+  const auto result = b.assignBy(shippedRules(), {{"#100@0,0,1@0.98,0.5,0", "carpet"}});  // 2 cm from the other
   ASSERT_EQ(result.assignment.faces.size(), 1U);
   EXPECT_EQ(result.assignment.faces[0].surface, left);
 }
@@ -122,9 +128,10 @@ TEST(Faces, OfAMirroredOrTurnedPlacementAreThoseThatLookThatWayInTheScene) {
   b.environment.instances[0].world_from_mesh = Eigen::Affine3d(Eigen::Scaling(1.0, 1.0, -1.0));
   auto result = b.assignBy(shippedRules(), {{"#100@0,0,1", "carpet"}});
   EXPECT_NEAR(result.report.uses[1].area_m2, 6, 1e-5);
-  b.environment.instances[0].world_from_mesh = Eigen::Affine3d(Eigen::AngleAxisd(1.5707963267948966, Eigen::Vector3d::UnitX()));
+  b.environment.instances[0].world_from_mesh =
+      Eigen::Affine3d(Eigen::AngleAxisd(1.5707963267948966, Eigen::Vector3d::UnitX()));
   result = b.assignBy(shippedRules(), {{"#100@0,0,1", "carpet"}});
-  EXPECT_NEAR(result.report.uses[1].area_m2, 1, 1e-5);   // 2 by 0.5
+  EXPECT_NEAR(result.report.uses[1].area_m2, 1, 1e-5);  // 2 by 0.5
 }
 
 TEST(WiderSelectors, JoinConditionsAndAskForColours) {
@@ -146,10 +153,10 @@ TEST(WiderSelectors, JoinConditionsAndAskForColours) {
   EXPECT_NE(materialId(result, 1, red), "bark");
   EXPECT_EQ(selectedProduct("#12&material:x@0,0,1"), "#12");
   EXPECT_EQ(selectedProduct("class:IfcWall"), "");
-  EXPECT_EQ(selectedProduct("o a&b@home"), "o a&b@home");   // an OBJ's name may hold anything
+  EXPECT_EQ(selectedProduct("o a&b@home"), "o a&b@home");  // an OBJ's name may hold anything
   EXPECT_EQ(selectedProduct("#12@0,0,1@500000.25,-3,1e1"), "#12");
   EXPECT_EQ(selectedProduct("o a@1,2,3,4"), "o a@1,2,3,4");
-  EXPECT_EQ(selectedProduct("o a@0,0,0"), "o a@0,0,0");   // no direction
+  EXPECT_EQ(selectedProduct("o a@0,0,0"), "o a@0,0,0");  // no direction
   EXPECT_EQ(selectedProduct("o a@0,0,0@1,2,3"), "o a@0,0,0@1,2,3");
 }
 
@@ -170,11 +177,11 @@ TEST(Glass, DrawnAsABlockOrInAnotherThicknessIsAFinding) {
     for (const auto& f : b.assign().report.findings) found.push_back(f.kind);
     return found;
   };
-  EXPECT_THAT(kinds(0.024F), ElementsAre());   // two panes of 4 mm, 16 mm apart
+  EXPECT_THAT(kinds(0.024F), ElementsAre());  // two panes of 4 mm, 16 mm apart
   EXPECT_THAT(kinds(0.006F), ElementsAre("pane-thickness"));
   EXPECT_THAT(kinds(0.3F), ElementsAre("thick-glass"));
   Builder b;
-  b.product("IfcWindow", "", {b.surface("Glass")});   // a square without a back
+  b.product("IfcWindow", "", {b.surface("Glass")});  // a square without a back
   EXPECT_EQ(b.assign().report.findings.at(0).kind, "flat-glass");
 }
 

@@ -104,7 +104,8 @@ struct Builder {
     return assignBy(RuleSet(std::move(rules)), overrides);
   }
   MaterialResult assign() const { return assignBy(shippedRules()); }
-  MaterialResult assignBy(const RuleSet& rules, const std::vector<MaterialOverride>& overrides = {}, const AssignOptions& options = {}) const {
+  MaterialResult assignBy(const RuleSet& rules, const std::vector<MaterialOverride>& overrides = {},
+                          const AssignOptions& options = {}) const {
     Progress progress;
     EXPECT_EQ(validate(environment), "");
     return assignMaterials(environment, shippedLibrary(), rules, overrides, options, progress).value();

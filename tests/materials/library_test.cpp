@@ -111,7 +111,8 @@ TEST(Library, NamesASourceWithItsLicenceOrSaysUnsourcedForEveryFigure) {
     EXPECT_EQ(sourceOf(material, "panes").empty(), material.panes == 1);
     EXPECT_EQ(sourceOf(material, "variation").empty(), material.variation == 0);
     for (const auto& citation : material.sources) {
-      EXPECT_TRUE(!citation.licence.empty() || citation.text.starts_with("unsourced")) << citation.figure << ": " << citation.text;
+      EXPECT_TRUE(!citation.licence.empty() || citation.text.starts_with("unsourced"))
+          << citation.figure << ": " << citation.text;
       EXPECT_EQ(citation.text.find('['), std::string::npos) << citation.text;
     }
   }
@@ -123,7 +124,7 @@ TEST(Library, NamesTheGapsThatItHas) {
     EXPECT_TRUE(isGap(*findMaterial(id)));
     EXPECT_EQ(gapsOf(*findMaterial(id)).size(), 1U);
   }
-  EXPECT_EQ(gapsOf(*findMaterial("concrete_construction")).size(), 1U);   // of its texture
+  EXPECT_EQ(gapsOf(*findMaterial("concrete_construction")).size(), 1U);  // of its texture
   EXPECT_EQ(gapsOf(*findMaterial("tile_glazed_white")).size(), 1U);
   EXPECT_NE(gapsOf(*findMaterial("glass_double_clear_4mm")).front().find("low-E"), std::string::npos);
 }
@@ -141,7 +142,8 @@ TEST(Library, KnowsHowMuchMaterialsVaryWithinTheirClass) {
 TEST(WetStates, FollowTheModelFromTheirDryMaterial) {
   const TemporaryFolder folder;
   folder.write("a.json", R"({"materials": [
-    {"id": "dry", "label": "Dry", "reflectance": [[532, 0.15], [905, 0.3], [1550, 0.5]], "source": {"reflectance": "unsourced"}},
+    {"id": "dry", "label": "Dry", "reflectance": [[532, 0.15], [905, 0.3], [1550, 0.5]],
+      "source": {"reflectance": "unsourced"}},
     {"id": "moist", "label": "Wet", "wet_of": "dry", "source": {"wet_of": "unsourced"}}]})");
   const auto library = readMaterialLibrary(folder.path());
   ASSERT_TRUE(library.has_value()) << describe(library.error());
@@ -205,7 +207,8 @@ TEST(Library, MakesAMirrorOfSilverBehindGlassPassedTwice) {
   const auto table = readTable(file);
   const auto& glass = findMaterial("glass_float_clear_4mm")->transmittance;
   for (const auto& [wavelength, silver] : table.at("silver_mirror"))
-    EXPECT_NEAR(specularAtNormal(*findMaterial("mirror_household"), wavelength), silver.reflectance * std::pow(atWavelength(glass, wavelength), 2), 1e-3);
+    EXPECT_NEAR(specularAtNormal(*findMaterial("mirror_household"), wavelength),
+                silver.reflectance * std::pow(atWavelength(glass, wavelength), 2), 1e-3);
 }
 
 // V7 of physics.md §7: the formula that the panes below are held against.
@@ -237,11 +240,12 @@ TEST(Panes, OfClearFloatTransmitWhatTheirOpticalConstantsSay) {
 
 TEST(Panes, StandApartInABuildUp) {
   const auto* one = findMaterial("glass_float_clear_4mm");
-  for (const auto& [id, panes, thickness_m] : {std::tuple{"glass_double_clear_4mm", 2, 0.024}, {"glass_triple_clear_4mm", 3, 0.036}}) {
+  for (const auto& [id, panes, thickness_m] :
+       {std::tuple{"glass_double_clear_4mm", 2, 0.024}, {"glass_triple_clear_4mm", 3, 0.036}}) {
     const auto* unit = findMaterial(id);
     ASSERT_NE(unit, nullptr) << id;
     EXPECT_EQ(unit->panes, panes);
-    EXPECT_EQ(unit->transmittance, one->transmittance);   // of one pane: what passes all is the radiometry's
+    EXPECT_EQ(unit->transmittance, one->transmittance);  // of one pane: what passes all is the radiometry's
     EXPECT_NEAR(buildUpThickness(*unit), thickness_m, 1e-9);
   }
   EXPECT_NEAR(buildUpThickness(*one), 0.004, 1e-12);

@@ -49,11 +49,15 @@ TEST_P(TrueNames, AreUnderstoodInEightLanguages) {
   EXPECT_EQ(languages.size(), 8U);
   EXPECT_GE(rows.size(), 100U);
   RecordProperty("right", std::to_string(right));
-  EXPECT_GE(static_cast<double>(right), 0.95 * static_cast<double>(rows.size())) << right << " of " << rows.size() << wrong;
+  EXPECT_GE(static_cast<double>(right), 0.95 * static_cast<double>(rows.size()))
+      << right << " of " << rows.size() << wrong;
 }
 
-INSTANTIATE_TEST_SUITE_P(Lists, TrueNames, testing::Values("names_truth.tsv", "names_truth_second.tsv", "names_truth_third.tsv"),
-                         [](const auto& each) { return std::string(each.param).substr(0, std::string(each.param).find('.')); });
+INSTANTIATE_TEST_SUITE_P(Lists, TrueNames,
+                         testing::Values("names_truth.tsv", "names_truth_second.tsv", "names_truth_third.tsv"),
+                         [](const auto& each) {
+                           return std::string(each.param).substr(0, std::string(each.param).find('.'));
+                         });
 
 }  // namespace
 }  // namespace standpoint

@@ -29,7 +29,8 @@ bool accepts(const json& document) {
 }
 
 TEST(Schema, AcceptsEveryShippedFile) {
-  for (const auto& entry : std::filesystem::directory_iterator(SOURCE_DIR "/materials/library")) EXPECT_TRUE(accepts(readJson(entry.path()))) << entry.path();
+  for (const auto& entry : std::filesystem::directory_iterator(SOURCE_DIR "/materials/library"))
+    EXPECT_TRUE(accepts(readJson(entry.path()))) << entry.path();
 }
 
 // The reader refuses all of them (BadEntries): the schema does too, but for what no schema can see.

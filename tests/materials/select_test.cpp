@@ -52,10 +52,12 @@ TEST_F(Selectors, MeanNamesAndStoreysByGlob) {
 }
 
 TEST_F(Selectors, MeanTheLayersOfADrawing) {
-  b.environment.products[0].properties = {{"Pset_WallCommon", "Name", "A-GLAZ"}, {"Presentation layer", "Name", "A-WALL-FULL"}};
-  b.environment.products[2].properties = {{"Presentation layer", "Name", "A-WALL-FULL"}, {"Presentation layer", "Name", "A-GLAZ"}};
+  b.environment.products[0].properties = {{"Pset_WallCommon", "Name", "A-GLAZ"},
+                                          {"Presentation layer", "Name", "A-WALL-FULL"}};
+  b.environment.products[2].properties = {{"Presentation layer", "Name", "A-WALL-FULL"},
+                                          {"Presentation layer", "Name", "A-GLAZ"}};
   EXPECT_THAT((*this)("layer:a-wall*"), ElementsAre(0U, 2U));
-  EXPECT_THAT((*this)("layer:A-GLAZ"), ElementsAre(2U));   // a property that is no layer does not count
+  EXPECT_THAT((*this)("layer:A-GLAZ"), ElementsAre(2U));  // a property that is no layer does not count
   EXPECT_THAT((*this)("layer:*wall*&class:IfcWindow"), ElementsAre(2U));
   EXPECT_THAT((*this)("layer:"), IsEmpty());
   EXPECT_THAT((*this)("layer:0"), IsEmpty());

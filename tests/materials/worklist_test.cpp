@@ -82,13 +82,14 @@ TEST(Worklist, ShrinksToZeroByItsOwnRemedies) {
   auto findings = b.assign().report.findings;
   EXPECT_GE(findings.size(), 3U);
   for (int round = 0; round < 10; ++round) {
-    const auto next = std::find_if(findings.begin(), findings.end(), [](const MaterialFinding& f) { return !f.remedies.empty(); });
+    const auto next =
+        std::find_if(findings.begin(), findings.end(), [](const MaterialFinding& f) { return !f.remedies.empty(); });
     if (next == findings.end()) break;
     const auto remedy = next->remedies[0];
     said.push_back({remedy.selector, remedy.material.empty() ? "concrete_construction" : remedy.material});
     findings = b.assignBy(shippedRules(), said).report.findings;
   }
-  for (const auto& f : findings) EXPECT_EQ(f.kind, "flat-glass") << f.message;   // that one can only be accepted
+  for (const auto& f : findings) EXPECT_EQ(f.kind, "flat-glass") << f.message;  // that one can only be accepted
 }
 
 TEST(Worklist, KeepsWhatIsAcceptedUntilItsCauseChanges) {
@@ -101,13 +102,13 @@ TEST(Worklist, KeepsWhatIsAcceptedUntilItsCauseChanges) {
   options.accepted = {{finding.id, finding.cause, "it is a stage set"}};
   auto result = b.assignBy(shippedRules(), {}, options);
   EXPECT_EQ(result.report.findings.at(0).because, "it is a stage set");
-  b.environment.products[0].id = "#4711";   // another export of the same model
+  b.environment.products[0].id = "#4711";  // another export of the same model
   EXPECT_EQ(b.assignBy(shippedRules(), {}, options).report.findings.at(0).because, "it is a stage set");
   b.product("IfcWall", "B", {style}).global_id = "0bbbbbbbbbbbbbbbbbbbbb";
   result = b.assignBy(shippedRules(), {}, options);
   ASSERT_EQ(result.report.findings.size(), 1U);
   EXPECT_EQ(result.report.findings[0].id, finding.id);
-  EXPECT_EQ(result.report.findings[0].because, "");   // one more wall: look again
+  EXPECT_EQ(result.report.findings[0].because, "");  // one more wall: look again
 }
 
 TEST(Worklist, HasTheSameIdsInEveryRun) {
@@ -124,7 +125,7 @@ TEST(CoverageRows, TellClassesAndStoreysApart) {
   Builder b;
   const auto known = b.surface("Beton"), other = b.surface("Unobtainium");
   b.product("IfcWall", "", {known}).storey = "EG";
-  b.product("IfcWall", "", {other}).storey = "OG";           // by its class: weak
+  b.product("IfcWall", "", {other}).storey = "OG";  // by its class: weak
   b.product("IfcBuildingElementProxy", "", {other}).storey = "OG";
   const auto report = b.assign().report;
   ASSERT_EQ(report.by_class.size(), 2U);
@@ -142,8 +143,10 @@ TEST(Confidence, StandsInEveryDefaultRuleAndFallsFromNamesToColours) {
   double by_name = 0, by_class = 0, by_colour = 0;
   for (const auto& rule : shippedRules().rules) {
     EXPECT_GT(rule.confidence, 0) << rule.place;
-    EXPECT_LT(rule.confidence, 1) << rule.place;   // 1 would be the reader's default: the figure is missing
-    auto& most = !rule.material.empty() ? by_name : !rule.ifc_class.empty() && rule.colour != "transparent" ? by_class : by_colour;
+    EXPECT_LT(rule.confidence, 1) << rule.place;  // 1 would be the reader's default: the figure is missing
+    auto& most = !rule.material.empty()                                    ? by_name
+                 : !rule.ifc_class.empty() && rule.colour != "transparent" ? by_class
+                                                                           : by_colour;
     if (rule.colour != "transparent") most = std::max(most, rule.confidence);
   }
   EXPECT_GE(by_name, 0.9);
@@ -153,7 +156,8 @@ TEST(Confidence, StandsInEveryDefaultRuleAndFallsFromNamesToColours) {
 
 TEST(Metals, OfARendererAreToldByGlossAndColour) {
   Builder b;
-  const auto polished = b.surface("Material.003", {0.8F, 0.8F, 0.8F, 1}), copper = b.surface("Material.004", {0.8F, 0.4F, 0.2F, 1});
+  const auto polished = b.surface("Material.003", {0.8F, 0.8F, 0.8F, 1}),
+             copper = b.surface("Material.004", {0.8F, 0.4F, 0.2F, 1});
   for (const auto s : {polished, copper}) b.environment.surfaces[s].metallic = 1.0F;
   b.environment.surfaces[polished].roughness = 0.05F;
   b.product("", "thing", {polished, copper});
@@ -167,7 +171,7 @@ TEST(Names, OfTypesAndProductsAreTheLastThingToGoBy) {
   Builder b;
   b.product("IfcWall", "", {b.surface("")}).type_name = "Basic wall: brick 240";
   b.product("IfcBuildingElementProxy", "Baum", {0});
-  b.product("IfcDoor", "", {0}).type_name = "Full glass door";   // its frame is not of glass
+  b.product("IfcDoor", "", {0}).type_name = "Full glass door";  // its frame is not of glass
   const auto result = b.assign();
   EXPECT_EQ(materialId(result, 0, 0), "brick_red_bare");
   EXPECT_EQ(materialId(result, 1, 0), "leaf_tree_broad_and_needle");

@@ -62,7 +62,7 @@ TEST(Allowance, DropsByRuleAndSaysWhy) {
   options.products[2].reason = "fasteners";
   const auto result = optimized(environment, options);
   EXPECT_EQ(result.products[2].triangles_after, 0U);
-  EXPECT_NEAR(result.products[2].max_deviation_m, 0.01 * std::sqrt(3.0), 1e-6);   // the corner from the middle
+  EXPECT_NEAR(result.products[2].max_deviation_m, 0.01 * std::sqrt(3.0), 1e-6);  // the corner from the middle
   EXPECT_EQ(result.environment.instances.size(), 2U);
   EXPECT_EQ(result.all.triangles_before, triangleCount(environment));
   ASSERT_FALSE(result.report.issues.empty());

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "optimizer/avatar.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "optimizer/avatar.h"
 #include "tests/optimizer/models.h"
 
 namespace standpoint {
@@ -21,8 +22,10 @@ CollisionShape box(const Vector3d& low, const Vector3d& size) {
 
 // A room of 4 x 5 m with a doorway of 0.9 x 2.1 m in its wall at x = 4, and floor behind it.
 std::vector<CollisionShape> room() {
-  return {box({-1, -1, -0.2}, {10, 7, 0.2}), box({-0.2, -0.2, 0}, {0.2, 5.4, 2.8}), box({0, -0.2, 0}, {4.2, 0.2, 2.8}), box({0, 5, 0}, {4.2, 0.2, 2.8}),
-          box({4, 0, 0}, {0.2, 2.05, 2.8}), box({4, 2.95, 0}, {0.2, 2.05, 2.8}), box({4, 2.05, 2.1}, {0.2, 0.9, 0.7})};
+  return {box({-1, -1, -0.2}, {10, 7, 0.2}),   box({-0.2, -0.2, 0}, {0.2, 5.4, 2.8}),
+          box({0, -0.2, 0}, {4.2, 0.2, 2.8}),  box({0, 5, 0}, {4.2, 0.2, 2.8}),
+          box({4, 0, 0}, {0.2, 2.05, 2.8}),    box({4, 2.95, 0}, {0.2, 2.05, 2.8}),
+          box({4, 2.05, 2.1}, {0.2, 0.9, 0.7})};
 }
 
 TEST(Avatar, StopsAtAWallAndSlidesAlongIt) {
@@ -61,7 +64,8 @@ TEST(Avatar, NeverLeavesAClosedRoom) {
     const double angle = 6.283185307 * uniform(r[0]);
     avatar.walk(Vector2d(std::cos(angle), std::sin(angle)) * 2 * uniform(r[1]));
     const Vector3d& feet = avatar.feet();
-    ASSERT_TRUE(feet.x() > 0.2999 && feet.x() < 4.0701 - 0.3 + 1e-4 && feet.y() > 0.2999 && feet.y() < 4.7001) << feet.transpose();
+    ASSERT_TRUE(feet.x() > 0.2999 && feet.x() < 4.0701 - 0.3 + 1e-4 && feet.y() > 0.2999 && feet.y() < 4.7001)
+        << feet.transpose();
     ASSERT_NEAR(feet.z(), 0, 1e-6);
   }
 }
@@ -87,11 +91,13 @@ TEST(Avatar, ClimbsAStairUpAndDownWithItsFeetOnTheTreads) {
 TEST(Avatar, StaysOffWhatIsTooHighTooDeepOrTooSteep) {
   Mesh ramp;  // 46 degrees, and one of 44
   for (const double rise : {std::tan(46 * 0.017453292519943295), std::tan(44 * 0.017453292519943295)})
-    for (const auto& p : {Vector3d(0, 0, 0), Vector3d(2, 0, 2 * rise), Vector3d(2, 2, 2 * rise), Vector3d(0, 2, 0)}) ramp.positions.push_back(p.cast<float>());
+    for (const auto& p : {Vector3d(0, 0, 0), Vector3d(2, 0, 2 * rise), Vector3d(2, 2, 2 * rise), Vector3d(0, 2, 0)})
+      ramp.positions.push_back(p.cast<float>());
   for (std::size_t i = 4; i < 8; ++i) ramp.positions[i].y() += 2;
   ramp.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
   ramp.surface_of_triangle.assign(4, 0);
-  std::vector<CollisionShape> shapes{box({-4, 0, -0.2}, {4, 4, 0.2}), box({-3, 0, 0}, {1, 1, 0.26}), box({-3, 3, 0}, {1, 1, 0.24})};
+  std::vector<CollisionShape> shapes{box({-4, 0, -0.2}, {4, 4, 0.2}), box({-3, 0, 0}, {1, 1, 0.26}),
+                                     box({-3, 3, 0}, {1, 1, 0.24})};
   shapes.push_back({CollisionShapeKind::mesh, 1, ramp});
   const Obstacles obstacles(shapes);
   const auto after = [&](const Vector3d& from, const Vector2d& way) {

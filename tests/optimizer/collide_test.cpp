@@ -30,13 +30,15 @@ CollideResult collided(const Environment& environment, const CollideOptions& opt
 }
 
 std::string describe(const Door& door) {
-  return std::to_string(door.product) + (door.floor ? "f" : "-") + (door.passable ? "p" : "-") + std::to_string(door.clear_width_m);
+  return std::to_string(door.product) + (door.floor ? "f" : "-") + (door.passable ? "p" : "-") +
+         std::to_string(door.clear_width_m);
 }
 
 Affine3d at(double x, double y, double z) { return Affine3d(Translation3d(x, y, z)); }
 
-// A wall under a roof line in the xz plane, with rectangular holes, pushed along y: cells between all x and z of corners
-// and holes, each with the faces that no other solid cell covers, so that no triangulator is needed and it is closed.
+// A wall under a roof line in the xz plane, with rectangular holes, pushed along y: cells between all x and z of
+// corners and holes, each with the faces that no other solid cell covers, so that no triangulator is needed and it is
+// closed.
 Mesh extruded(const std::vector<Vector2d>& roof, const std::vector<std::array<double, 4>>& holes, double depth) {
   std::vector<double> xs, zs{0};
   for (const auto& p : roof) xs.push_back(p.x());
@@ -58,7 +60,8 @@ Mesh extruded(const std::vector<Vector2d>& roof, const std::vector<std::array<do
   const auto solid = [&](int i, int j) {
     if (i < 0 || i >= columns || j < 0 || j >= rows) return false;
     const double x = 0.5 * (xs[i] + xs[i + 1]), z = 0.5 * (height(j, x) + height(j + 1, x));
-    return std::none_of(holes.begin(), holes.end(), [&](const auto& h) { return h[0] < x && x < h[2] && h[1] < z && z < h[3]; });
+    return std::none_of(holes.begin(), holes.end(),
+                        [&](const auto& h) { return h[0] < x && x < h[2] && h[1] < z && z < h[3]; });
   };
   Mesh mesh;
   const auto quad = [&](const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
@@ -71,7 +74,8 @@ Mesh extruded(const std::vector<Vector2d>& roof, const std::vector<std::array<do
     for (int j = 0; j < rows; ++j) {
       if (!solid(i, j)) continue;
       const double x0 = xs[i], x1 = xs[i + 1];
-      const Vector3d a(x0, 0, height(j, x0)), b(x1, 0, height(j, x1)), c(x1, 0, height(j + 1, x1)), d(x0, 0, height(j + 1, x0)), y(0, depth, 0);
+      const Vector3d a(x0, 0, height(j, x0)), b(x1, 0, height(j, x1)), c(x1, 0, height(j + 1, x1)),
+          d(x0, 0, height(j + 1, x0)), y(0, depth, 0);
       quad(a, b, c, d);
       quad(d + y, c + y, b + y, a + y);
       if (!solid(i, j + 1)) quad(d, c, c + y, d + y);
@@ -86,7 +90,8 @@ Mesh extruded(const std::vector<Vector2d>& roof, const std::vector<std::array<do
 double coveredVolume(const std::vector<CollisionShape>& shapes, const Vector3d& low, const Vector3d& high, int n) {
   const auto isIn = [](const CollisionShape& shape, const Vector3d& p) {
     return std::all_of(shape.mesh.triangles.begin(), shape.mesh.triangles.end(), [&](const Triangle& t) {
-      const Vector3d a = shape.mesh.positions[t[0]].cast<double>(), b = shape.mesh.positions[t[1]].cast<double>(), c = shape.mesh.positions[t[2]].cast<double>();
+      const Vector3d a = shape.mesh.positions[t[0]].cast<double>(), b = shape.mesh.positions[t[1]].cast<double>(),
+                     c = shape.mesh.positions[t[2]].cast<double>();
       const Vector3d normal = (b - a).cross(c - a);
       return normal.norm() < 1e-4 * (b - a).norm() || normal.dot(p - a) <= 0;  // a sliver's normal is rounding
     });
@@ -146,7 +151,8 @@ TEST(Wall, WithAGableAndWindowsBecomesFewConvexPieces) {
     EXPECT_NE(shape.kind, CollisionShapeKind::mesh);
     EXPECT_GT(volume(shape.mesh), 0);
   }
-  EXPECT_NEAR(coveredVolume(result.shapes, {0, 0, 0}, {8, 0.3, 6}, 400), 0.3 * (8 * 3 + 8 * 3 / 2.0 - 1.2 - 1.2 * 1.2), 3e-2);
+  EXPECT_NEAR(coveredVolume(result.shapes, {0, 0, 0}, {8, 0.3, 6}, 400), 0.3 * (8 * 3 + 8 * 3 / 2.0 - 1.2 - 1.2 * 1.2),
+              3e-2);
   EXPECT_LT(result.products[0].max_deviation_m, 2e-3);
 }
 
@@ -158,8 +164,8 @@ TEST(Wall, WithManyWindowsIsCoveredByPillarsAndStrips) {
   EXPECT_EQ(collided(e).shapes.size(), 6 + 2);  // pillars, and what runs below and above the windows
 }
 
-// A gable with a round window of 60 sides, its ends square or mitred. A circle of 0.6 m that is left by 9 mm at most to either
-// side needs 13 sides, each of which is a piece's own.
+// A gable with a round window of 60 sides, its ends square or mitred. A circle of 0.6 m that is left by 9 mm at most to
+// either side needs 13 sides, each of which is a piece's own.
 TEST(Wall, WithARoundWindowUnderAGableHasAPieceForEachSideThatTheWindowNeeds) {
   const int sides = 60;
   for (const double mitre : {0.0, 0.3}) {
@@ -168,17 +174,22 @@ TEST(Wall, WithARoundWindowUnderAGableHasAPieceForEachSideThatTheWindowNeeds) {
       wall.positions.push_back(Vector3d(x, y, z).cast<float>());
       return static_cast<std::uint32_t>(wall.positions.size() - 1);
     };
-    const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) { wall.triangles.insert(wall.triangles.end(), {{a, b, c}, {a, c, d}}); };
+    const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+      wall.triangles.insert(wall.triangles.end(), {{a, b, c}, {a, c, d}});
+    };
     // A ring between the window and as many points of the outline, in front (y = 0) and behind.
     const Vector2d middle(4, 3), corners[] = {{8, 3}, {4, 6}, {0, 3}, {0, 0}, {8, 0}};
     std::vector<std::array<std::uint32_t, 4>> ring;
     for (int i = 0; i < sides; ++i) {
       const double angle = 6.283185307179586 * i / sides, side = 5.0 * i / sides;
       const auto corner = static_cast<std::size_t>(side);
-      const Vector2d rim = corners[corner] + (corners[(corner + 1) % 5] - corners[corner]) * (side - static_cast<double>(corner));
-      const double x = 4 + (rim.x() - 4) * (4 - mitre) / 4, z = rim.y() > 2.999 ? 3 + 0.75 * std::min(x, 8 - x) : rim.y();
+      const Vector2d rim =
+          corners[corner] + (corners[(corner + 1) % 5] - corners[corner]) * (side - static_cast<double>(corner));
+      const double x = 4 + (rim.x() - 4) * (4 - mitre) / 4,
+                   z = rim.y() > 2.999 ? 3 + 0.75 * std::min(x, 8 - x) : rim.y();
       const Vector2d hole = middle + 0.6 * Vector2d(std::cos(angle), std::sin(angle));
-      ring.push_back({add(hole.x(), 0, hole.y()), add(rim.x(), 0, rim.y()), add(x, 0.3, z), add(hole.x(), 0.3, hole.y())});
+      ring.push_back(
+          {add(hole.x(), 0, hole.y()), add(rim.x(), 0, rim.y()), add(x, 0.3, z), add(hole.x(), 0.3, hole.y())});
     }
     for (int i = 0; i < sides; ++i) {
       const auto &a = ring[static_cast<std::size_t>(i)], &b = ring[static_cast<std::size_t>((i + 1) % sides)];
@@ -231,7 +242,8 @@ TEST(Wall, WithMitredEndsAndADoorwayStaysOpenWithinAMillimetre) {
 TEST(Slab, WithAStairwellIsOpenThere) {
   Mesh slab = extruded({{0, 5}, {8, 5}}, {{2, 1, 4.5, 3.6}}, 0.2);  // lies in the xz plane
   Environment e;
-  models::add(e, slab, "IfcSlab", Affine3d(AngleAxisd(0.3, Vector3d::UnitZ()) * AngleAxisd(-1.5707963267948966, Vector3d::UnitX())));
+  models::add(e, slab, "IfcSlab",
+              Affine3d(AngleAxisd(0.3, Vector3d::UnitZ()) * AngleAxisd(-1.5707963267948966, Vector3d::UnitX())));
   const auto result = collided(e);
   EXPECT_LE(result.shapes.size(), 4);
   const Obstacles obstacles(result.shapes);
@@ -264,7 +276,8 @@ TEST(RoundThings, AreConvexPiecesWithinACentimetre) {
 TEST(Pane, IsAPlateOfAMillimetreOnItsOwnOrOnAFrame) {
   Environment e;
   Mesh pane;
-  for (const auto& p : {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 0, 2), Vector3d(0, 0, 2)}) pane.positions.push_back(p.cast<float>());
+  for (const auto& p : {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 0, 2), Vector3d(0, 0, 2)})
+    pane.positions.push_back(p.cast<float>());
   pane.triangles = {{0, 1, 2}, {0, 2, 3}};
   pane.surface_of_triangle = {0, 0};
   models::add(e, pane, "IfcPlate");
@@ -304,7 +317,8 @@ TEST(Door, InAWallWithoutADoorwayIsBlocked) {
   ASSERT_EQ(result.doors.size(), 1);
   EXPECT_FALSE(result.doors[0].passable);
   EXPECT_TRUE(result.doors[0].floor);
-  EXPECT_THAT(result.report.issues, testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("blocked by IfcWall #7"))));
+  EXPECT_THAT(result.report.issues,
+              testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("blocked by IfcWall #7"))));
 }
 
 TEST(Door, IsTooNarrowForAWideAgent) {
@@ -321,20 +335,21 @@ TEST(Door, WithoutAFloorBehindItIsReported) {
   EXPECT_THAT(result.report.issues, testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("no floor"))));
 }
 
-// Three rooms of 4 x 4 m in a row, with spaces: a doorway of 0.9 m from the first into the second, one of 0.5 m from the
-// first onto a terrace, one of 0.9 m from the second into the air, and none into the third.
+// Three rooms of 4 x 4 m in a row, with spaces: a doorway of 0.9 m from the first into the second, one of 0.5 m from
+// the first onto a terrace, one of 0.9 m from the second into the air, and none into the third.
 Environment threeRooms() {
   Environment e;
   models::add(e, models::box({12.6, 4.4, 0.2}, 1), "IfcSlab", at(-0.2, -0.2, -0.2));
   models::add(e, models::box({4, 3, 0.2}, 1), "IfcSlab", at(0, -3.2, -0.2));
-  models::add(e, extruded({{0, 2.8}, {12.6, 2.8}}, {{1.95, 0, 2.45, 2.1}, {6.05, 0, 6.95, 2.1}}, 0.2), "IfcWall", at(-0.2, -0.2, 0));
+  models::add(e, extruded({{0, 2.8}, {12.6, 2.8}}, {{1.95, 0, 2.45, 2.1}, {6.05, 0, 6.95, 2.1}}, 0.2), "IfcWall",
+              at(-0.2, -0.2, 0));
   models::add(e, models::box({12.6, 0.2, 2.8}, 1), "IfcWall", at(-0.2, 4, 0));
   for (const double x : {-0.2, 8.1, 12.2}) models::add(e, models::box({0.2, 4, 2.8}, 1), "IfcWall", at(x, 0, 0));
   const Affine3d across = at(4.1, 0, 0) * AngleAxisd(1.5707963267948966, Vector3d::UnitZ());
   models::add(e, extruded({{0, 2.8}, {4, 2.8}}, {{1.55, 0, 2.45, 2.1}}, 0.1), "IfcWall", across);
-  models::add(e, models::box({0.06, 0.9, 2.1}, 1), "IfcDoor", at(4.02, 1.55, 0));     // #9: into the second room
-  models::add(e, models::box({0.5, 0.06, 2.1}, 1), "IfcDoor", at(1.75, -0.13, 0));    // #10: narrow
-  models::add(e, models::box({0.9, 0.06, 2.1}, 1), "IfcDoor", at(5.85, -0.13, 0));    // #11: above nothing
+  models::add(e, models::box({0.06, 0.9, 2.1}, 1), "IfcDoor", at(4.02, 1.55, 0));   // #9: into the second room
+  models::add(e, models::box({0.5, 0.06, 2.1}, 1), "IfcDoor", at(1.75, -0.13, 0));  // #10: narrow
+  models::add(e, models::box({0.9, 0.06, 2.1}, 1), "IfcDoor", at(5.85, -0.13, 0));  // #11: above nothing
   for (const double x : {0.0, 4.1, 8.3}) {
     models::add(e, models::box({3.9, 4, 2.8}, 1), "IfcSpace", at(x, 0, 0));
     e.products.back().tangible = false;
@@ -351,7 +366,8 @@ TEST(Rooms, ThatAreWalledInAreReported) {
   EXPECT_NEAR(result.rooms[2].walkable_m2, (12.2 - 8.3 - 0.6) * 3.4, 1);
   EXPECT_NEAR((result.rooms[2].position - Vector3d(10.25, 2, 0)).norm(), 0, 1e-5);
   const auto issue = [&](const char* source, const char* text) {
-    return testing::Contains(testing::AllOf(testing::Field(&Issue::source, source), testing::Field(&Issue::message, testing::HasSubstr(text))));
+    return testing::Contains(testing::AllOf(testing::Field(&Issue::source, source),
+                                            testing::Field(&Issue::message, testing::HasSubstr(text))));
   };
   EXPECT_THAT(result.report.issues, issue("#14", "cannot be reached"));
   EXPECT_THAT(result.report.issues, issue("#10", "0.50 m are clear"));
@@ -371,7 +387,8 @@ Environment narrowDoorway(double width, double step, double turn) {
     models::add(e, models::box({2.9, 4, 2.8}, 1), "IfcSpace", at(x, 0, 0));
     e.products.back().tangible = false;
   }
-  for (auto& instance : e.instances) instance.world_from_mesh = AngleAxisd(turn, Vector3d::UnitZ()) * instance.world_from_mesh;
+  for (auto& instance : e.instances)
+    instance.world_from_mesh = AngleAxisd(turn, Vector3d::UnitZ()) * instance.world_from_mesh;
   return e;
 }
 
@@ -380,7 +397,8 @@ TEST(Door, HardlyWiderThanTheAgentLeadsFromRoomToRoom) {
     for (const double turn : {0.0, 0.02, 0.3, 0.785, 1.2, 2.0}) {
       const auto result = collided(narrowDoorway(width, 0.1, turn));
       ASSERT_EQ(result.doors.size(), 1);
-      EXPECT_TRUE(result.doors[0].passable && result.doors[0].floor && result.doors[0].led_through) << width << " " << turn;
+      EXPECT_TRUE(result.doors[0].passable && result.doors[0].floor && result.doors[0].led_through)
+          << width << " " << turn;
       EXPECT_TRUE(result.rooms[0].reached && result.rooms[1].reached) << width << " " << turn;
       EXPECT_EQ(validate(result.walkable, 1), "");
       EXPECT_NEAR(area(result.walkable), result.walkable_area_m2, 1e-3 * result.walkable_area_m2);
@@ -393,12 +411,13 @@ TEST(Door, AboveAStepThatNobodyClimbsIsNotLedThrough) {
     EXPECT_TRUE(result.doors[0].passable && result.doors[0].floor);
     EXPECT_FALSE(result.doors[0].led_through);
     EXPECT_FALSE(result.rooms[0].reached && result.rooms[1].reached);
-    EXPECT_THAT(result.report.issues, testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("does not lead through"))));
+    EXPECT_THAT(result.report.issues,
+                testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("does not lead through"))));
   }
 }
 
-// A ground floor with an entrance, and above it a gallery and three rooms behind passable doors, to which nothing leads up:
-// they are most of the rooms, and the gallery lies in the ground floor's space, which is as high as the house.
+// A ground floor with an entrance, and above it a gallery and three rooms behind passable doors, to which nothing leads
+// up: they are most of the rooms, and the gallery lies in the ground floor's space, which is as high as the house.
 TEST(Rooms, AboveTheGroundAreNotReachedWithoutAStair) {
   Environment e;
   models::add(e, models::box({12.4, 6.4, 0.2}, 1), "IfcSlab", at(-0.2, -0.2, -0.2));
@@ -406,7 +425,8 @@ TEST(Rooms, AboveTheGroundAreNotReachedWithoutAStair) {
   models::add(e, models::box({12.4, 0.2, 6}, 1), "IfcWall", at(-0.2, 6, 0));
   for (const double x : {-0.2, 12.0}) models::add(e, models::box({0.2, 6, 6}, 1), "IfcWall", at(x, 0, 0));
   models::add(e, models::box({12, 4, 0.2}, 1), "IfcSlab", at(0, 2, 2.8));  // whose first metre is the gallery
-  models::add(e, extruded({{0, 3}, {12, 3}}, {{1.5, 0, 2.4, 2.1}, {5.5, 0, 6.4, 2.1}, {9.5, 0, 10.4, 2.1}}, 0.1), "IfcWall", at(0, 3, 3));
+  models::add(e, extruded({{0, 3}, {12, 3}}, {{1.5, 0, 2.4, 2.1}, {5.5, 0, 6.4, 2.1}, {9.5, 0, 10.4, 2.1}}, 0.1),
+              "IfcWall", at(0, 3, 3));
   for (const double x : {4.0, 8.0}) models::add(e, models::box({0.1, 2.9, 3}, 1), "IfcWall", at(x, 3.1, 3));
   models::add(e, models::box({0.9, 0.06, 2.1}, 1), "IfcDoor", at(5.8, -0.13, 0));
   for (const double x : {1.5, 5.5, 9.5}) models::add(e, models::box({0.9, 0.06, 2.1}, 1), "IfcDoor", at(x, 3.02, 3));
@@ -421,7 +441,8 @@ TEST(Rooms, AboveTheGroundAreNotReachedWithoutAStair) {
     EXPECT_EQ(result.rooms[i].reached, i == 0) << i;
     EXPECT_GT(result.rooms[i].walkable_m2, 5) << i;
   }
-  for (int i = 0; i < 15; ++i) models::add(e, models::box({0.28, 1, 0.2 * (i + 1)}, 1), "IfcStair", at(1 + 0.28 * i, 1, 0));
+  for (int i = 0; i < 15; ++i)
+    models::add(e, models::box({0.28, 1, 0.2 * (i + 1)}, 1), "IfcStair", at(1 + 0.28 * i, 1, 0));
   models::add(e, models::box({1.5, 1, 3}, 1), "IfcStair", at(1 + 0.28 * 15, 1, 0));
   result = collided(e);
   for (const auto& room : result.rooms) EXPECT_TRUE(room.reached) << room.product;
@@ -445,7 +466,9 @@ TEST(Door, StandsClosedWhereItIsSet) {
   options.doors = DoorState::closed;
   auto result = collided(threeRooms(), options);
   for (const auto& door : result.doors) EXPECT_TRUE(door.closed && !door.passable) << door.product;
-  EXPECT_EQ(std::count_if(result.shapes.begin(), result.shapes.end(), [](const auto& s) { return s.product >= 8 && s.product <= 10; }), 3);
+  EXPECT_EQ(std::count_if(result.shapes.begin(), result.shapes.end(),
+                          [](const auto& s) { return s.product >= 8 && s.product <= 10; }),
+            3);
   options.doors = DoorState::as_set;
   options.closed.assign(threeRooms().products.size(), false);
   options.closed[8] = true;
@@ -465,7 +488,8 @@ TEST(Door, WithoutALeafIsClosedByAPlate) {
   options.doors = DoorState::closed;
   const auto result = collided(e, options);
   EXPECT_FALSE(result.doors[0].passable);
-  EXPECT_THAT(result.report.issues, testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("a plate stands across"))));
+  EXPECT_THAT(result.report.issues,
+              testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("a plate stands across"))));
 }
 
 TEST(Stair, OfSeventeenByTwentyEightCentimetresIsWalkable) {
@@ -473,7 +497,8 @@ TEST(Stair, OfSeventeenByTwentyEightCentimetresIsWalkable) {
   const int steps = 16;
   models::add(e, models::box({3, 1.2, 0.2}, 1), "IfcSlab", at(-3, 0, -0.2));
   Mesh stair;
-  for (int i = 0; i < steps; ++i) models::append(stair, models::box({0.28, 1.2, 0.17 * (i + 1)}, 1), at(0.28 * i, 0, 0));
+  for (int i = 0; i < steps; ++i)
+    models::append(stair, models::box({0.28, 1.2, 0.17 * (i + 1)}, 1), at(0.28 * i, 0, 0));
   models::add(e, stair, "IfcStairFlight");
   models::add(e, models::box({3, 1.2, 0.2}, 1), "IfcSlab", at(0.28 * steps, 0, 0.17 * steps - 0.2));
   const auto result = collided(e);
@@ -483,7 +508,10 @@ TEST(Stair, OfSeventeenByTwentyEightCentimetresIsWalkable) {
   for (int i = 1; i + 1 < steps; ++i) {  // something to stand on over each tread; the last is level with the landing
     bool found = false;
     for (const auto& t : result.walkable.triangles) {
-      const Vector3d c = (result.walkable.positions[t[0]] + result.walkable.positions[t[1]] + result.walkable.positions[t[2]]).cast<double>() / 3;
+      const Vector3d c =
+          (result.walkable.positions[t[0]] + result.walkable.positions[t[1]] + result.walkable.positions[t[2]])
+              .cast<double>() /
+          3;
       found |= c.x() > 0.28 * i && c.x() < 0.28 * (i + 1) && std::abs(c.z() - 0.17 * (i + 1)) < 0.06;
     }
     EXPECT_TRUE(found) << "tread " << i;
@@ -492,7 +520,8 @@ TEST(Stair, OfSeventeenByTwentyEightCentimetresIsWalkable) {
 
 TEST(Stair, OfFortyCentimetreStepsIsNot) {
   Environment e;
-  for (int i = 0; i < 6; ++i) models::add(e, models::box({0.28, 1.2, 0.4 * (i + 1)}, 1), "IfcStairFlight", at(0.28 * i, 0, 0));
+  for (int i = 0; i < 6; ++i)
+    models::add(e, models::box({0.28, 1.2, 0.4 * (i + 1)}, 1), "IfcStairFlight", at(0.28 * i, 0, 0));
   EXPECT_EQ(collided(e).walkable_area_m2, 0);
 }
 
@@ -520,8 +549,10 @@ TEST(Collision, GivesTheSameForAnyNumberOfThreads) {
     const auto result = collided(e);
     std::string now;
     for (const auto& shape : result.shapes)
-      now.append(reinterpret_cast<const char*>(shape.mesh.positions.data()), shape.mesh.positions.size() * sizeof(Eigen::Vector3f));
-    now.append(reinterpret_cast<const char*>(result.walkable.positions.data()), result.walkable.positions.size() * sizeof(Eigen::Vector3f));
+      now.append(reinterpret_cast<const char*>(shape.mesh.positions.data()),
+                 shape.mesh.positions.size() * sizeof(Eigen::Vector3f));
+    now.append(reinterpret_cast<const char*>(result.walkable.positions.data()),
+               result.walkable.positions.size() * sizeof(Eigen::Vector3f));
     for (const auto& door : result.doors) now += describe(door);
     for (const auto& room : result.rooms) now += std::to_string(room.walkable_m2) + (room.reached ? "r" : "-");
     if (first.empty()) first = now;
@@ -534,7 +565,8 @@ TEST(Collision, OfAHundredThousandLooseTrianglesIsThese) {
   for (std::uint32_t i = 0; i < 100'000; ++i) {
     const auto r = philox({9, 0}, i, 0, 0);
     const Vector3d middle(20 * uniform(r[0]), 20 * uniform(r[1]), 3 * uniform(r[2]));
-    for (const auto& d : {Vector3d(0, 0, 0), Vector3d(0.1, 0, 0), Vector3d(0, 0.1, 0.1)}) loose.positions.push_back((middle + d).cast<float>());
+    for (const auto& d : {Vector3d(0, 0, 0), Vector3d(0.1, 0, 0), Vector3d(0, 0.1, 0.1)})
+      loose.positions.push_back((middle + d).cast<float>());
     loose.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   loose.surface_of_triangle.assign(loose.triangles.size(), 0);
@@ -589,9 +621,12 @@ TEST(Collision, OfARichShapeEndsSoon) {
   for (int i = 0; i <= turns * segments; ++i) {
     const double angle = 6.283185307 * i / segments, z = 0.05 * i / segments;
     for (const auto& [radius, height] : {std::pair(0.5, 0.0), {0.8, 0.0}, {0.8, 0.02}, {0.5, 0.02}})
-      spiral.positions.push_back(Vector3d(radius * std::cos(angle), radius * std::sin(angle), z + height).cast<float>());
+      spiral.positions.push_back(
+          Vector3d(radius * std::cos(angle), radius * std::sin(angle), z + height).cast<float>());
   }
-  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) { spiral.triangles.insert(spiral.triangles.end(), {{a, b, c}, {a, c, d}}); };
+  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    spiral.triangles.insert(spiral.triangles.end(), {{a, b, c}, {a, c, d}});
+  };
   quad(3, 2, 1, 0);
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(turns * segments); ++i)
     for (std::uint32_t k = 0; k < 4; ++k) quad(4 * i + k, 4 * i + (k + 1) % 4, 4 * i + 4 + (k + 1) % 4, 4 * i + 4 + k);
@@ -616,9 +651,9 @@ TEST(Collision, SurvivesEmptyFlatAndMirroredInput) {
   models::add(e, wallWithDoorway(3), "IfcWall", mirror);
   const auto result = collided(e);
   EXPECT_EQ(result.doors.size(), 1);
-  EXPECT_THAT(result.report.issues, testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("no geometry"))));
-  for (const auto& shape : result.shapes)
-    EXPECT_TRUE(shape.product != 3 || volume(shape.mesh) > 0);
+  EXPECT_THAT(result.report.issues,
+              testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("no geometry"))));
+  for (const auto& shape : result.shapes) EXPECT_TRUE(shape.product != 3 || volume(shape.mesh) > 0);
 }
 
 TEST(Collision, CanBeCancelledAndRefusesNonsense) {

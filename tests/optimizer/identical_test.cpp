@@ -56,7 +56,8 @@ std::vector<Repetition> repetitions(const std::vector<Mesh>& meshes) {
 const Affine3d kElsewhere = Translation3d(31, -7, 4) * AngleAxisd(1.1, Vector3d(1, 2, 3).normalized());
 
 TEST(Repetitions, AreFoundInAnyPlaceAndOrder) {
-  for (const auto& mesh : {odd(), models::sphere(0.5, 12, 20), models::box({2, 1, 3}, 1), models::cylinder(0.2, 1, 32, 1)}) {
+  for (const auto& mesh :
+       {odd(), models::sphere(0.5, 12, 20), models::box({2, 1, 3}, 1), models::cylinder(0.2, 1, 32, 1)}) {
     const auto found = repetitions({mesh, moved(mesh, kElsewhere), moved(shuffled(mesh, 5), kElsewhere)});
     EXPECT_EQ(found[1].first, 0);
     EXPECT_EQ(found[2].first, 0);
@@ -64,7 +65,8 @@ TEST(Repetitions, AreFoundInAnyPlaceAndOrder) {
       EXPECT_LT(found[k].residual_m, 1e-4);
       EXPECT_NEAR(found[k].motion.linear().determinant(), 1, 1e-9);
     }
-    EXPECT_LT((found[1].motion.linear() - kElsewhere.linear()).norm() * (mesh.triangles == odd().triangles ? 1 : 0), 1e-3);
+    EXPECT_LT((found[1].motion.linear() - kElsewhere.linear()).norm() * (mesh.triangles == odd().triangles ? 1 : 0),
+              1e-3);
   }
 }
 
@@ -87,7 +89,9 @@ TEST(Repetitions, AreNotMirroredStretchedBentOrOfAnotherSurface) {
 
 TEST(Repetitions, OfThousandsOfBoxesOfAllSizesAreFoundSoon) {
   std::vector<Mesh> meshes;
-  for (int i = 0; i < 4000; ++i) meshes.push_back(moved(models::box({0.1 + 0.001 * (i % 1000), 0.2, 0.3}, 1), Affine3d(Translation3d(0.01 * i, 0, 0))));
+  for (int i = 0; i < 4000; ++i)
+    meshes.push_back(
+        moved(models::box({0.1 + 0.001 * (i % 1000), 0.2, 0.3}, 1), Affine3d(Translation3d(0.01 * i, 0, 0))));
   const auto found = repetitions(meshes);
   for (std::uint32_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i].first, i % 1000);
 }

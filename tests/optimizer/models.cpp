@@ -43,21 +43,24 @@ double distance(const Vector3d& p, const Vector3d& a, const Vector3d& b, const V
   const double edges = std::min({to_edge(a, b), to_edge(b, c), to_edge(c, a)});
   const Vector3d n = (b - a).cross(c - a);
   if (n.squaredNorm() < 1e-24) return edges;
-  const bool inside = n.dot((b - a).cross(p - a)) >= 0 && n.dot((c - b).cross(p - b)) >= 0 && n.dot((a - c).cross(p - c)) >= 0;
+  const bool inside =
+      n.dot((b - a).cross(p - a)) >= 0 && n.dot((c - b).cross(p - b)) >= 0 && n.dot((a - c).cross(p - c)) >= 0;
   return inside ? std::abs(n.dot(p - a)) / n.norm() : edges;
 }
 
 double toMesh(const Vector3d& p, const Mesh& mesh) {
   double best = 1e300;
   for (const auto& t : mesh.triangles)
-    best = std::min(best, distance(p, mesh.positions[t[0]].cast<double>(), mesh.positions[t[1]].cast<double>(), mesh.positions[t[2]].cast<double>()));
+    best = std::min(best, distance(p, mesh.positions[t[0]].cast<double>(), mesh.positions[t[1]].cast<double>(),
+                                   mesh.positions[t[2]].cast<double>()));
   return best;
 }
 
 std::vector<Vector3d> pointsByArea(const Mesh& mesh, int count) {
   std::vector<double> areas;
   for (const auto& t : mesh.triangles)
-    areas.push_back((mesh.positions[t[1]] - mesh.positions[t[0]]).cross(mesh.positions[t[2]] - mesh.positions[t[0]]).norm());
+    areas.push_back(
+        (mesh.positions[t[1]] - mesh.positions[t[0]]).cross(mesh.positions[t[2]] - mesh.positions[t[0]]).norm());
   std::mt19937 random(7);
   std::discrete_distribution<std::size_t> which(areas.begin(), areas.end());
   std::uniform_real_distribution<double> share(0, 1);
@@ -90,7 +93,9 @@ Mesh sphere(double radius, int rings, int segments) {
   for (int i = 1; i < rings; ++i)
     for (int j = 0; j < segments; ++j) {
       const double polar = kTurn / 2 * i / rings, turn = kTurn * j / segments;
-      mesh.positions.emplace_back((radius * Vector3d(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar))).cast<float>());
+      mesh.positions.emplace_back(
+          (radius * Vector3d(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar)))
+              .cast<float>());
     }
   mesh.positions.emplace_back(0, 0, -radius);
   const auto index = [&](int i, int j) { return static_cast<std::uint32_t>(1 + (i - 1) * segments + j % segments); };
@@ -127,13 +132,16 @@ Mesh box(const Vector3d& size, int n, bool surface_per_face) {
   for (int axis = 0; axis < 3; ++axis)
     for (int side = 0; side < 2; ++side) {
       const int u = (axis + 1 + side) % 3, v = (axis + 2 - side) % 3;  // swapped on one side, so that all face outward
-      append(mesh, grid(n, n, [&](double s, double t) {
-               Vector3d p = Vector3d::Zero();
-               p[axis] = side == 0 ? size[axis] : 0;
-               p[u] = s * size[u];
-               p[v] = t * size[v];
-               return p;
-             }, surface_per_face ? static_cast<std::uint32_t>(2 * axis + side) : 0));
+      append(mesh, grid(
+                       n, n,
+                       [&](double s, double t) {
+                         Vector3d p = Vector3d::Zero();
+                         p[axis] = side == 0 ? size[axis] : 0;
+                         p[u] = s * size[u];
+                         p[v] = t * size[v];
+                         return p;
+                       },
+                       surface_per_face ? static_cast<std::uint32_t>(2 * axis + side) : 0));
     }
   return mesh;
 }
@@ -146,7 +154,8 @@ Mesh cylinder(double radius, double height, int segments, int rows) {
     Mesh cap;
     cap.positions.emplace_back(Vector3d(0, 0, z).cast<float>());
     for (int j = 0; j <= segments; ++j)
-      cap.positions.emplace_back(Vector3d(radius * std::cos(kTurn * j / segments), radius * std::sin(kTurn * j / segments), z).cast<float>());
+      cap.positions.emplace_back(
+          Vector3d(radius * std::cos(kTurn * j / segments), radius * std::sin(kTurn * j / segments), z).cast<float>());
     for (std::uint32_t j = 1; j <= static_cast<std::uint32_t>(segments); ++j)
       z > 0 ? triangle(cap, 0, j, j + 1) : triangle(cap, 0, j + 1, j);
     append(mesh, cap);
@@ -177,7 +186,8 @@ void add(Environment& environment, Mesh mesh, const std::string& ifc_class, cons
   Product product;
   product.id = "#" + std::to_string(environment.products.size() + 1);
   product.ifc_class = ifc_class;
-  environment.instances.push_back({static_cast<std::uint32_t>(environment.meshes.size()), static_cast<std::uint32_t>(environment.products.size()), place});
+  environment.instances.push_back({static_cast<std::uint32_t>(environment.meshes.size()),
+                                   static_cast<std::uint32_t>(environment.products.size()), place});
   environment.products.push_back(product);
   environment.meshes.push_back(std::make_shared<const Mesh>(std::move(mesh)));
 }

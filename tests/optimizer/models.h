@@ -20,7 +20,8 @@ Mesh plateWithHole(double width, double height, double hole, double cell);
 void append(Mesh& mesh, const Mesh& other, const Eigen::Affine3d& place = Eigen::Affine3d::Identity());
 
 // Adds a product with one instance of a mesh of its own.
-void add(Environment& environment, Mesh mesh, const std::string& ifc_class = "", const Eigen::Affine3d& place = Eigen::Affine3d::Identity());
+void add(Environment& environment, Mesh mesh, const std::string& ifc_class = "",
+         const Eigen::Affine3d& place = Eigen::Affine3d::Identity());
 
 // Largest distance of any of a's sampled points (vertices, centres and points by area) from b, by exhaustion.
 double farthest(const Mesh& a, const Mesh& b, int samples);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "optimizer/obstacles.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "optimizer/obstacles.h"
 #include "tests/optimizer/models.h"
 
 namespace standpoint {
@@ -19,7 +20,9 @@ CollisionShape shape(const Mesh& mesh, const Vector3d& place, CollisionShapeKind
 }
 
 // A cube of a metre with its lower corner at (2, 0, 0), solid or as its triangles.
-Obstacles cube(CollisionShapeKind kind) { return Obstacles(std::vector{shape(models::box({1, 1, 1}, 1), {2, 0, 0}, kind, 5)}); }
+Obstacles cube(CollisionShapeKind kind) {
+  return Obstacles(std::vector{shape(models::box({1, 1, 1}, 1), {2, 0, 0}, kind, 5)});
+}
 
 TEST(Sweep, StopsWhereTheBodyTouches) {
   for (const auto kind : {CollisionShapeKind::box, CollisionShapeKind::convex, CollisionShapeKind::mesh}) {
@@ -57,10 +60,12 @@ TEST(Sweep, NeverPassesAThinTriangle) {
     const auto r = philox({1, 0}, i, 0, 0), q = philox({1, 0}, i, 1, 0);
     CollisionShape sliver{CollisionShapeKind::mesh, 0, {}};
     const double height = std::pow(10, -4 + 4 * uniform(r[0]));
-    for (const auto& p : {Vector3d(0, 0, 0), Vector3d(20 * uniform(r[1]), 0, 0), Vector3d(10 * uniform(r[2]), 0, height)})
+    for (const auto& p :
+         {Vector3d(0, 0, 0), Vector3d(20 * uniform(r[1]), 0, 0), Vector3d(10 * uniform(r[2]), 0, height)})
       sliver.mesh.positions.push_back(p.cast<float>());
     sliver.mesh.triangles = {{0, 1, 2}};
-    const Vector3d inside = (sliver.mesh.positions[0] + sliver.mesh.positions[1] + sliver.mesh.positions[2]).cast<double>() / 3;
+    const Vector3d inside =
+        (sliver.mesh.positions[0] + sliver.mesh.positions[1] + sliver.mesh.positions[2]).cast<double>() / 3;
     const Vector3d way(uniform(q[0]) - 0.5, 0.3 + uniform(q[1]), uniform(q[2]) - 0.5);
     const Vector3d feet = inside - Vector3d(0, 0, 0.05);
     EXPECT_TRUE(Obstacles(std::vector{sliver}).sweep({0.05, 0.1}, feet - way, feet + way)) << i;

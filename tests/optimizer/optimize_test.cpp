@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "optimizer/optimizer.h"
-
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -11,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "optimizer/optimizer.h"
 #include "tests/optimizer/models.h"
 
 namespace standpoint {
@@ -52,7 +51,8 @@ Mesh soup(int parts, unsigned seed) {
   std::uniform_real_distribution<double> place(0, 20), size(0.05, 0.5);
   Mesh mesh;
   for (int i = 0; i < parts; ++i)
-    models::append(mesh, models::box({size(random), size(random), size(random)}, 1), Affine3d(Translation3d(place(random), place(random), place(random))));
+    models::append(mesh, models::box({size(random), size(random), size(random)}, 1),
+                   Affine3d(Translation3d(place(random), place(random), place(random))));
   return mesh;
 }
 
@@ -79,7 +79,8 @@ Environment mixture() {
   models::add(environment, models::cylinder(0.05, 3, 24, 10));
   for (int i = 0; i < 20; ++i) {
     environment.products.push_back({.id = "#9" + std::to_string(i)});
-    environment.instances.push_back({4, static_cast<std::uint32_t>(environment.products.size() - 1), Affine3d(Translation3d(i, 9, 0))});
+    environment.instances.push_back(
+        {4, static_cast<std::uint32_t>(environment.products.size() - 1), Affine3d(Translation3d(i, 9, 0))});
   }
   return environment;
 }
@@ -116,7 +117,8 @@ TEST(PlanarRegions, OfACylinderLeaveTheRoundnessAlone) {
 
 TEST(PlanarRegions, StayWhatTheyAreFarFromTheOriginAndTurned) {
   Mesh before;
-  models::append(before, models::box({5, 4, 3}, 10), Translation3d(60, -40, 12) * Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
+  models::append(before, models::box({5, 4, 3}, 10),
+                 Translation3d(60, -40, 12) * Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
   const auto after = *optimized(only(before), 0).environment.meshes[0];
   EXPECT_LE(after.triangles.size(), 40);
   EXPECT_NEAR(volume(after) / volume(before), 1, 1e-5);
@@ -127,11 +129,13 @@ TEST(Surfaces, KeepTheirAreasWhenNothingIsLost) {
   const auto before = models::box({3, 4, 5}, 9, true);
   const auto after = *optimized(only(before), 0).environment.meshes[0];
   EXPECT_EQ(after.triangles.size(), 12);
-  for (const auto& [surface, square_metres] : areaOfSurfaces(before)) EXPECT_NEAR(areaOfSurfaces(after)[surface] / square_metres, 1, 1e-6);
+  for (const auto& [surface, square_metres] : areaOfSurfaces(before))
+    EXPECT_NEAR(areaOfSurfaces(after)[surface] / square_metres, 1, 1e-6);
 }
 
 TEST(Budget, IsMetWithinOnePercentOnSpheresToriAndSoups) {
-  for (const auto& environment : {only(models::sphere(1, 60, 90)), only(models::torus(2, 0.6, 90, 50)), only(soup(500, 1))})
+  for (const auto& environment :
+       {only(models::sphere(1, 60, 90)), only(models::torus(2, 0.6, 90, 50)), only(soup(500, 1))})
     for (const double share : {0.5, 0.1, 0.02}) {
       const auto budget = static_cast<std::uint64_t>(share * static_cast<double>(triangleCount(environment)));
       const auto result = optimized(environment, budget, 100);
@@ -143,7 +147,7 @@ TEST(Budget, IsMetWithinOnePercentOnSpheresToriAndSoups) {
 
 TEST(Budget, IsSharedWhereItCostsLeast) {
   Environment environment;
-  models::add(environment, models::box({2, 2, 2}, 20));                                                  // flat: costs nothing
+  models::add(environment, models::box({2, 2, 2}, 20));  // flat: costs nothing
   models::add(environment, models::sphere(1, 30, 40), "", Affine3d(Translation3d(5, 0, 0)));
   const auto result = optimized(environment, 12 + 2320, 0.5);
   EXPECT_EQ(result.products[0].triangles_after, 12);
@@ -152,7 +156,9 @@ TEST(Budget, IsSharedWhereItCostsLeast) {
 
 TEST(Budget, OfThousandsOfTinyProductsDropsSomeAndSaysWhich) {
   Environment environment;
-  for (int i = 0; i < 3000; ++i) models::add(environment, models::box({0.01 + 1e-5 * i, 0.02, 0.02}, 1), "IfcFastener", Affine3d(Translation3d(i % 50, i / 50, 0)));
+  for (int i = 0; i < 3000; ++i)
+    models::add(environment, models::box({0.01 + 1e-5 * i, 0.02, 0.02}, 1), "IfcFastener",
+                Affine3d(Translation3d(i % 50, i / 50, 0)));
   const auto result = optimized(environment, 3000, 10);
   EXPECT_TRUE(result.budget_reached);
   EXPECT_LE(result.all.triangles_after, 3000);
@@ -175,7 +181,8 @@ TEST(Budget, IsNotSavedByClosingADoorway) {
   models::append(wall, models::box({2, 0.2, 2.8}, 1), Affine3d(Translation3d(2.9, 0, 0)));
   models::append(wall, models::box({0.9, 0.2, 0.7}, 1), Affine3d(Translation3d(2, 0, 2.1)));
   models::add(environment, wall, "IfcWall");
-  for (int i = 0; i < 40; ++i) models::add(environment, models::sphere(0.1, 12, 16), "IfcFurniture", Affine3d(Translation3d(0.5 * i, 5, 0)));
+  for (int i = 0; i < 40; ++i)
+    models::add(environment, models::sphere(0.1, 12, 16), "IfcFurniture", Affine3d(Translation3d(0.5 * i, 5, 0)));
   const auto result = optimized(environment, 350, 10);
   EXPECT_TRUE(result.budget_reached);
   ASSERT_GT(result.products[0].triangles_after, 0);
@@ -219,7 +226,8 @@ TEST(Deviation, CountsTheScaleOfTheInstance) {
   auto environment = only(models::sphere(1, 30, 40));
   environment.instances[0].world_from_mesh.linear() *= 10;
   EXPECT_LE(optimized(environment, 100, 0.05).all.max_deviation_m, 0.05);
-  EXPECT_GT(optimized(environment, 100, 0.05).all.triangles_after, optimized(only(models::sphere(1, 30, 40)), 100, 0.05).all.triangles_after);
+  EXPECT_GT(optimized(environment, 100, 0.05).all.triangles_after,
+            optimized(only(models::sphere(1, 30, 40)), 100, 0.05).all.triangles_after);
 }
 
 TEST(Simplification, OfAClosedSurfaceStaysClosedAndInItsBounds) {
@@ -276,12 +284,12 @@ TEST(Simplification, SurvivesDegenerateInput) {
     bad.triangles.push_back({a, b, c});
     bad.surface_of_triangle.push_back(0);
   };
-  add(0, 0, 1);                                 // no area, two corners alike
-  add(0, 1, 2);                                 // three points on a line
-  bad.triangles.push_back(bad.triangles[5]);    // twice
+  add(0, 0, 1);                               // no area, two corners alike
+  add(0, 1, 2);                               // three points on a line
+  bad.triangles.push_back(bad.triangles[5]);  // twice
   bad.surface_of_triangle.push_back(0);
-  add(0, 1, 40);                                // a third triangle on an edge
-  add(40, 1, 0);                                // and its back
+  add(0, 1, 40);  // a third triangle on an edge
+  add(40, 1, 0);  // and its back
   Environment environment;
   models::add(environment, bad);
   models::add(environment, Mesh{});
@@ -337,8 +345,10 @@ Mesh looseTriangles(int count) {
   Mesh mesh;
   for (int i = 0; i < count; ++i) {
     const Eigen::Vector3f p(place(random), place(random), place(random));
-    for (int k = 0; k < 3; ++k) mesh.positions.emplace_back(p + Eigen::Vector3f(size(random), size(random), size(random)));
-    mesh.triangles.push_back({static_cast<std::uint32_t>(3 * i), static_cast<std::uint32_t>(3 * i + 1), static_cast<std::uint32_t>(3 * i + 2)});
+    for (int k = 0; k < 3; ++k)
+      mesh.positions.emplace_back(p + Eigen::Vector3f(size(random), size(random), size(random)));
+    mesh.triangles.push_back({static_cast<std::uint32_t>(3 * i), static_cast<std::uint32_t>(3 * i + 1),
+                              static_cast<std::uint32_t>(3 * i + 2)});
     mesh.surface_of_triangle.push_back(0);
   }
   return mesh;
@@ -394,7 +404,8 @@ TEST(BadInput, WithNothingInItIsNothing) {
 
 // Silhouettes, bounds and sides: nothing sticks out, nothing is turned over, nothing becomes a needle that was none.
 TEST(Quality, OfSmoothAndSharpShapesHasNoFoldsNoNeedlesAndStaysInTheBox) {
-  for (const auto& before : {models::sphere(1, 80, 120), models::torus(2, 0.5, 120, 60), models::cylinder(1, 3, 96, 40)}) {
+  for (const auto& before :
+       {models::sphere(1, 80, 120), models::torus(2, 0.5, 120, 60), models::cylinder(1, 3, 96, 40)}) {
     const auto result = optimized(only(before), before.triangles.size() / 10, 100);
     const auto& after = *result.environment.meshes[0];
     EXPECT_TRUE(isClosed(after));
@@ -407,7 +418,8 @@ TEST(Quality, OfSmoothAndSharpShapesHasNoFoldsNoNeedlesAndStaysInTheBox) {
     for (const auto& t : after.triangles) {
       Vector3d corner[3];
       for (int k = 0; k < 3; ++k) corner[k] = after.positions[t[k]].cast<double>();
-      const Vector3d normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]), middle = (corner[0] + corner[1] + corner[2]) / 3;
+      const Vector3d normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]),
+                     middle = (corner[0] + corner[1] + corner[2]) / 3;
       // Outward is away from the axis of the torus' tube, and from the centre of the others.
       Vector3d core = Vector3d::Zero();
       if (before.triangles.size() == 14400) core = 2 * Vector3d(middle.x(), middle.y(), 0).normalized();
@@ -426,8 +438,10 @@ TEST(Repetitions, AreSharedAndTheirProductsStayWhereTheyAre) {
   Environment environment;
   for (int i = 0; i < 12; ++i) {
     Mesh chair;  // written out in its own place each time
-    models::append(chair, models::torus(0.5, 0.1, 40, 20), Translation3d(2 * i, 0.3 * i, 0) * Eigen::AngleAxisd(0.5 * i, Vector3d(1, i, 2).normalized()));
-    models::append(chair, models::box({0.3, 0.2, 0.9}, 3), Translation3d(2 * i, 0.3 * i, 0) * Eigen::AngleAxisd(0.5 * i, Vector3d(1, i, 2).normalized()));
+    models::append(chair, models::torus(0.5, 0.1, 40, 20),
+                   Translation3d(2 * i, 0.3 * i, 0) * Eigen::AngleAxisd(0.5 * i, Vector3d(1, i, 2).normalized()));
+    models::append(chair, models::box({0.3, 0.2, 0.9}, 3),
+                   Translation3d(2 * i, 0.3 * i, 0) * Eigen::AngleAxisd(0.5 * i, Vector3d(1, i, 2).normalized()));
     models::add(environment, chair);
   }
   const auto same = optimized(environment, 0);
@@ -435,7 +449,8 @@ TEST(Repetitions, AreSharedAndTheirProductsStayWhereTheyAre) {
   EXPECT_LT(same.all.max_deviation_m, 1e-4);
   const auto result = optimized(environment, 1200, 1);
   const auto was = productBounds(environment), is = productBounds(result.environment);
-  for (std::size_t i = 0; i < was.size(); ++i) EXPECT_LT((was[i].min - is[i].min).norm() + (was[i].max - is[i].max).norm(), 0.05);
+  for (std::size_t i = 0; i < was.size(); ++i)
+    EXPECT_LT((was[i].min - is[i].min).norm() + (was[i].max - is[i].max).norm(), 0.05);
 }
 
 TEST(Optimize, LeavesSpacesAsTheyAreAndOutsideTheBudget) {

@@ -36,7 +36,7 @@ TEST(OptimizePreview, HasAsManyTrianglesAsTheOptimizedModelAtEveryBudget) {
   const auto e = shelf();
   const auto preview = prepared(e, within(0.05));
   EXPECT_EQ(preview->most(), triangleCount(*e));
-  for (const std::uint64_t budget : {600U, 300U, 150U, 400U, 90U}) {   // up and down, as a slider goes
+  for (const std::uint64_t budget : {600U, 300U, 150U, 400U, 90U}) {  // up and down, as a slider goes
     auto options = within(0.05);
     options.budget = budget;
     Progress progress;

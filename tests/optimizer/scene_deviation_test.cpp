@@ -17,7 +17,8 @@ std::shared_ptr<const Mesh> squares(double lift_m) {
   for (std::uint32_t i = 0; i < 9; ++i) {
     const auto z = static_cast<float>(i == 0 ? lift_m : 0);
     const auto x = static_cast<float>(2 * i);
-    for (const auto& [u, v] : {std::pair{0.0F, 0.0F}, {1.0F, 0.0F}, {1.0F, 1.0F}, {0.0F, 1.0F}}) mesh->positions.emplace_back(x + u, v, z);
+    for (const auto& [u, v] : {std::pair{0.0F, 0.0F}, {1.0F, 0.0F}, {1.0F, 1.0F}, {0.0F, 1.0F}})
+      mesh->positions.emplace_back(x + u, v, z);
     mesh->triangles.push_back({4 * i, 4 * i + 1, 4 * i + 2});
     mesh->triangles.push_back({4 * i, 4 * i + 2, 4 * i + 3});
   }
@@ -30,7 +31,8 @@ Environment many(const std::shared_ptr<const Mesh>& mesh) {
   e.surfaces.resize(1);
   e.meshes = {mesh};
   e.products.resize(kInstances);
-  for (std::uint32_t i = 0; i < kInstances; ++i) e.instances.push_back({0, i, Eigen::Affine3d(Eigen::Translation3d(0, 3.0 * i, 0))});
+  for (std::uint32_t i = 0; i < kInstances; ++i)
+    e.instances.push_back({0, i, Eigen::Affine3d(Eigen::Translation3d(0, 3.0 * i, 0))});
   return e;
 }
 

@@ -42,7 +42,8 @@ TEST(VertexDeviation, IsInMetresOfTheWorldAndCountsTheProductsOwnSurfacesOnly) {
   for (auto& p : shifted.positions) p.x() += 0.5F;
   after.meshes[0] = std::make_shared<const Mesh>(shifted);
   const auto moved = deviations(after, before);
-  for (std::size_t i = 0; i < shifted.positions.size(); ++i)  // the box from 5 to 7 m moved by 1 m: its far side stands off by 1 m
+  for (std::size_t i = 0; i < shifted.positions.size();
+       ++i)  // the box from 5 to 7 m moved by 1 m: its far side stands off by 1 m
     EXPECT_NEAR(moved[0]->distance_m[i], shifted.positions[i].x() > 1 ? 1 : 0, 1e-5);
   EXPECT_NEAR(std::accumulate(moved[0]->area_m2.begin(), moved[0]->area_m2.end(), 0.0), 24, 1e-4);
   for (const float d : moved[1]->distance_m) EXPECT_EQ(d, 0);  // the same object at the same place
@@ -65,7 +66,8 @@ TEST(VertexDeviation, OfCopiesIsHeldOnce) {
   Environment before;
   models::add(before, models::sphere(1, 20, 30));
   before.products.push_back({.id = "#2"});
-  before.instances.push_back({0, 1, Affine3d(Translation3d(7, 1, 0) * Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ()))});
+  before.instances.push_back(
+      {0, 1, Affine3d(Translation3d(7, 1, 0) * Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ()))});
   Environment after = before;
   after.meshes[0] = std::make_shared<const Mesh>(models::sphere(0.9, 20, 30));
   const auto both = deviations(before, after);

@@ -69,7 +69,8 @@ TEST(Visibility, OfFacesIsNoneWhereTwoBlocksTouch) {
       const auto& mesh = *e.meshes[block];
       const auto& t = mesh.triangles[i];
       const float x = block == 0 ? 0.3F : 0.0F;
-      const bool touches = mesh.positions[t[0]].x() == x && mesh.positions[t[1]].x() == x && mesh.positions[t[2]].x() == x;
+      const bool touches =
+          mesh.positions[t[0]].x() == x && mesh.positions[t[1]].x() == x && mesh.positions[t[2]].x() == x;
       EXPECT_EQ(hidden[block][i], touches);
     }
   }

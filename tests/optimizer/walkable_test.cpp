@@ -52,7 +52,8 @@ TEST(Slope, OfJustFortyFiveDegreesIsWalkedWhereverItPoints) {
   for (int i = 0; i < 12; ++i) {
     for (const double degrees : {45.0, 46.0}) {
       Environment e;
-      const Affine3d turn(Eigen::AngleAxisd(0.1 + 0.5 * i, Vector3d::UnitZ()) * Eigen::AngleAxisd(degrees * EIGEN_PI / 180, Vector3d::UnitX()));
+      const Affine3d turn(Eigen::AngleAxisd(0.1 + 0.5 * i, Vector3d::UnitZ()) *
+                          Eigen::AngleAxisd(degrees * EIGEN_PI / 180, Vector3d::UnitX()));
       models::add(e, models::box({5, 5, 0.3}, 1), "", turn);
       EXPECT_EQ(walkableOf(e).area_m2 > 1, degrees < 45.5) << i << " " << degrees;
     }

@@ -206,7 +206,7 @@ TEST(Pcd, ReturnsTheScanWithAllChannelsAsAGridAndAsAList) {
   KeptScans grid, list;
   ASSERT_OK(readAll(folder / "grid.pcd", grid));
   ASSERT_OK(readAll(folder / "list.pcd", list));
-  expectSamePoints(grid.scans.at(0).points, allPoints(header));   // to the last bit
+  expectSamePoints(grid.scans.at(0).points, allPoints(header));  // to the last bit
   expectSamePoints(list.scans.at(0).points, allPoints(header));
 }
 
@@ -243,7 +243,7 @@ TEST(Pcd, OfOthersIsReadAsTextAndBinary) {
   const auto& scan = kept.scans.at(0);
   ASSERT_EQ(scan.points.size(), 2u);
   EXPECT_EQ(scan.header.file_from_scanner.translation, Eigen::Vector3d(1, 2, 3));
-  EXPECT_EQ(scan.points.red[0], 0x80);    // 4.2108e+06 are the bits 4A808000
+  EXPECT_EQ(scan.points.red[0], 0x80);  // 4.2108e+06 are the bits 4A808000
   EXPECT_EQ(scan.points.green[0], 0x80);
   EXPECT_EQ(scan.points.blue[1], 255);
 }
@@ -286,7 +286,7 @@ TEST(Las, OfPointFormat8HasRoomForNearInfraredAndSaysThatItIsEmpty) {
     const std::string bytes = testing::bytesOf(folder / "a.las");
     EXPECT_EQ(bytes[104], 8);
     const auto at = [&](std::size_t i) { return static_cast<std::uint8_t>(bytes[i]); };
-    const std::size_t length = 38 + 4 * 4 + (colour ? 3 * 4 + 3 * 4 + 1 : 0);   // labels, row, column; true values
+    const std::size_t length = 38 + 4 * 4 + (colour ? 3 * 4 + 3 * 4 + 1 : 0);  // labels, row, column; true values
     EXPECT_EQ(at(105), length);
     const std::size_t record = at(96) | at(97) << 8U;
     const PointBlock points = allPoints(header);
@@ -309,7 +309,7 @@ TEST(Las, OfAnotherTableOfLabelsPutsItBehindTheFirst) {
   const auto& scan = kept.scans[1];
   EXPECT_EQ(scan.header.products.at(scan.points.product.at(0)).id, "#77");
   const PointBlock points = allPoints(headers[2]);
-  EXPECT_EQ(kept.scans[2].points.product, points.product);   // the table of the first
+  EXPECT_EQ(kept.scans[2].points.product, points.product);  // the table of the first
   EXPECT_EQ(kept.scans[2].header.products.at(points.product[5]).name, headers[2].products.at(points.product[5]).name);
 }
 

@@ -22,7 +22,9 @@ struct MadeScan {
   double step_rad = 0.001;
   double lowest_rad = -0.05;
   std::function<double(std::uint32_t column, std::uint32_t row, const Eigen::Vector3d& beam)> range_m;
-  std::function<std::uint8_t(std::uint32_t column, std::uint32_t row)> flags = [](auto, auto) { return std::uint8_t{0}; };
+  std::function<std::uint8_t(std::uint32_t column, std::uint32_t row)> flags = [](auto, auto) {
+    return std::uint8_t{0};
+  };
   bool grid = true;
 };
 
@@ -41,8 +43,10 @@ void writeMade(const std::filesystem::path& file, const std::vector<MadeScan>& s
     PointBlock b;
     for (std::uint32_t column = 0; column < scan.columns; ++column)
       for (std::uint32_t row = 0; row < scan.rows; ++row) {
-        const double azimuth = -scan.step_rad * (column - scan.columns / 2.0), elevation = scan.lowest_rad + scan.step_rad * row;
-        const Eigen::Vector3d beam(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+        const double azimuth = -scan.step_rad * (column - scan.columns / 2.0),
+                     elevation = scan.lowest_rad + scan.step_rad * row;
+        const Eigen::Vector3d beam(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                                   std::sin(elevation));
         const double range = scan.range_m(column, row, beam);
         if (range <= 0) continue;
         const Eigen::Vector3f p = (range * beam).cast<float>();
@@ -50,7 +54,8 @@ void writeMade(const std::filesystem::path& file, const std::vector<MadeScan>& s
         b.intensity.push_back(static_cast<float>(row) / static_cast<float>(scan.rows));
         b.row.push_back(row), b.column.push_back(column), b.product.push_back(0), b.material.push_back(0);
         b.truth.x_m.push_back(p.x()), b.truth.y_m.push_back(p.y()), b.truth.z_m.push_back(p.z());
-        b.truth.range_m.push_back(static_cast<float>(range)), b.truth.incidence_rad.push_back(0.01F * static_cast<float>(column));
+        b.truth.range_m.push_back(static_cast<float>(range)),
+            b.truth.incidence_rad.push_back(0.01F * static_cast<float>(column));
         b.truth.received_db.push_back(-20), b.truth.flags.push_back(scan.flags(column, row));
       }
     ASSERT_OK((*writer)->begin(header));
@@ -60,7 +65,8 @@ void writeMade(const std::filesystem::path& file, const std::vector<MadeScan>& s
   ASSERT_OK((*writer)->close());
 }
 
-Result<Cleaning> clean(const std::filesystem::path& in, const std::filesystem::path& out, const std::vector<std::string>& words) {
+Result<Cleaning> clean(const std::filesystem::path& in, const std::filesystem::path& out,
+                       const std::vector<std::string>& words) {
   std::vector<ChosenFilter> filters;
   for (const auto& text : words) {
     auto chosen = filterFrom(text);
@@ -77,7 +83,8 @@ std::vector<Eigen::Vector3d> places(const std::filesystem::path& file) {
   std::vector<Eigen::Vector3d> all;
   for (const auto& scan : kept.scans)
     for (std::size_t i = 0; i < scan.points.size(); ++i)
-      all.push_back(scan.header.file_from_scanner * Eigen::Vector3d(scan.points.x_m[i], scan.points.y_m[i], scan.points.z_m[i]));
+      all.push_back(scan.header.file_from_scanner *
+                    Eigen::Vector3d(scan.points.x_m[i], scan.points.y_m[i], scan.points.z_m[i]));
   return all;
 }
 
@@ -89,7 +96,9 @@ MadeScan edge(bool two_columns) {
     if (isMixed(column)) return column == 50 ? 5.3 + 0.001 * row : 5.75;
     return (column < 50 ? 5 : 6) / beam.x();
   };
-  scan.flags = [isMixed](std::uint32_t column, std::uint32_t) { return isMixed(column) ? point_flag::kMixed : std::uint8_t{0}; };
+  scan.flags = [isMixed](std::uint32_t column, std::uint32_t) {
+    return isMixed(column) ? point_flag::kMixed : std::uint8_t{0};
+  };
   return scan;
 }
 
@@ -119,14 +128,14 @@ TEST(Cleaning, FindsTheMixedPointsAtAnEdgeAndNothingElse) {
 
 TEST(Cleaning, LeavesAFloorThatIsSeenVeryFlatly) {
   const TemporaryFolder folder;
-  MadeScan floor;   // 1.7 m below, from 15 to 68 m: up to 88.6° of incidence
+  MadeScan floor;  // 1.7 m below, from 15 to 68 m: up to 88.6° of incidence
   floor.lowest_rad = -0.113;
   floor.rows = 89;
   floor.range_m = [](auto, auto, const Eigen::Vector3d& beam) { return -1.7 / beam.z(); };
   writeMade(folder / "in.e57", {floor});
   const auto done = clean(folder / "in.e57", folder / "out.e57", {"mixed"});
   ASSERT_OK(done);
-  EXPECT_LE(done->filters[0].points.taken, 4u);   // on diagonals across the scan's corners
+  EXPECT_LE(done->filters[0].points.taken, 4u);  // on diagonals across the scan's corners
   EXPECT_EQ(done->filters[0].points.in, 8900u);
 }
 
@@ -143,7 +152,7 @@ TEST(Cleaning, FindsMixedPointsWithoutAGridByWhatLiesAroundThem) {
   writeMade(folder / "in.e57", {scan});
   const auto done = clean(folder / "in.e57", folder / "out.e57", {"mixed"});
   ASSERT_OK(done);
-  EXPECT_GT(done->filters[0].flags[0].taken, 70u);   // of 89
+  EXPECT_GT(done->filters[0].flags[0].taken, 70u);  // of 89
   EXPECT_LT(done->filters[0].good.taken, 20u);
   const auto refused = clean(folder / "in.e57", folder / "out.e57", {"mixed:by=grid"});
   ASSERT_FALSE(refused);
@@ -173,13 +182,15 @@ TEST(Cleaning, FindsPointsThatStandAlone) {
   MadeScan scan = wall("S1", 0.5);
   const auto alone = [](std::uint32_t column, std::uint32_t row) { return column % 30 == 10 && row % 30 == 10; };
   scan.flags = [alone](auto column, auto row) { return alone(column, row) ? point_flag::kWeather : std::uint8_t{0}; };
-  scan.range_m = [alone](auto column, auto row, const Eigen::Vector3d& beam) { return alone(column, row) ? 2.0 : 4.5 / beam.x(); };
+  scan.range_m = [alone](auto column, auto row, const Eigen::Vector3d& beam) {
+    return alone(column, row) ? 2.0 : 4.5 / beam.x();
+  };
   writeMade(folder / "in.e57", {scan});
   const auto done = clean(folder / "in.e57", folder / "out.e57", {"outliers"});
   ASSERT_OK(done);
   EXPECT_EQ(done->filters[0].flags[3].in, 9u);
   EXPECT_EQ(done->filters[0].flags[3].taken, 9u);
-  EXPECT_LE(done->filters[0].good.taken, 4u);   // the corners of the scan have their neighbours on one side
+  EXPECT_LE(done->filters[0].good.taken, 4u);  // the corners of the scan have their neighbours on one side
 }
 
 TEST(Cleaning, KeepsTheNearestToTheCentreOfEachCell) {
@@ -219,7 +230,8 @@ TEST(Cleaning, ThinsByChanceAndByCount) {
 TEST(Cleaning, CropsToEitherSide) {
   const TemporaryFolder folder;
   writeMade(folder / "in.e57", {wall("S1", 0.5), wall("S2", 1.5)});
-  for (const std::string crop : {"box:from=0/0/0.1,to=9/9/9", "sphere:station=S2,radius=3.502", "sphere:at=5/0/0,radius=0.1"}) {
+  for (const std::string crop :
+       {"box:from=0/0/0.1,to=9/9/9", "sphere:station=S2,radius=3.502", "sphere:at=5/0/0,radius=0.1"}) {
     const auto in = clean(folder / "in.e57", folder / "a.e57", {crop});
     const auto out = clean(folder / "in.e57", folder / "b.e57", {crop + ",keep=outside"});
     ASSERT_OK(in);
@@ -235,17 +247,19 @@ TEST(Cleaning, CropsToEitherSide) {
 TEST(Cleaning, GatesByRangeIntensityAndIncidence) {
   const TemporaryFolder folder;
   writeMade(folder / "in.e57", {edge(false)});
-  const auto done = clean(folder / "in.e57", folder / "out.e57", {"range:to=5.2", "intensity:from=0.5", "incidence:to=10"});
+  const auto done =
+      clean(folder / "in.e57", folder / "out.e57", {"range:to=5.2", "intensity:from=0.5", "incidence:to=10"});
   ASSERT_OK(done);
-  EXPECT_EQ(done->filters[0].points.in - done->filters[0].points.taken, 5000u);   // the near wall
-  EXPECT_EQ(done->filters[1].points.in - done->filters[1].points.taken, 2500u);   // its upper half
-  EXPECT_EQ(done->points_out, 18u * 50);                                          // columns 0 to 17: 0.01 rad each
+  EXPECT_EQ(done->filters[0].points.in - done->filters[0].points.taken, 5000u);  // the near wall
+  EXPECT_EQ(done->filters[1].points.in - done->filters[1].points.taken, 2500u);  // its upper half
+  EXPECT_EQ(done->points_out, 18u * 50);                                         // columns 0 to 17: 0.01 rad each
 }
 
 TEST(Cleaning, CarriesEveryChannelOfEveryScan) {
   const TemporaryFolder folder;
-  const std::vector<ScanHeader> headers = {testing::madeUpHeader({.name = "S1", .all_channels = true}),
-                                           testing::madeUpHeader({.colour = false, .name = "S2", .all_channels = true})};
+  const std::vector<ScanHeader> headers = {
+      testing::madeUpHeader({.name = "S1", .all_channels = true}),
+      testing::madeUpHeader({.colour = false, .name = "S2", .all_channels = true})};
   testing::writeFile(folder / "in.e57", headers);
   const auto done = clean(folder / "in.e57", folder / "out.e57", {"range:from=0,to=8"});
   ASSERT_OK(done);
@@ -284,14 +298,24 @@ TEST(Cleaning, SaysWhatCannotBe) {
   const TemporaryFolder folder;
   writeMade(folder / "in.e57", {wall("S1", 0.5)});
   testing::putBytes(folder / "plain.xyz", "1 2 3\n2 3 4\n3 4 5\n");
-  const std::vector<std::pair<std::string, std::string>> words = {
-      {"polish", "there is no filter 'polish'"}, {"range", "needs 'from' or 'to'"}, {"range:from=3,to=2", "larger than 'to'"},
-      {"range:from=-1", "must be from 0"}, {"range:from=nan", "must be a number"}, {"range:from=1,from=2", "given twice"},
-      {"range:far=3", "keys are from, to"}, {"range:", "keys are from, to"}, {"voxel", "'cell' is missing"},
-      {"voxel:cell=0", "must be from 1e-04"}, {"every:n=1.5", "whole number"}, {"share:keep=2", "must be from 0 to 1"},
-      {"box:from=1/2,to=3/4/5", "three numbers"}, {"box:from=3/0/0,to=1/1/1", "the box is empty"},
-      {"sphere:radius=1", "a 'station' or 'at'"}, {"sphere:radius=1,station=S9", "it has S1"}, {"mixed:by=eye", "grid or distance"},
-      {"duplicates:distance=", "must be a number"}};
+  const std::vector<std::pair<std::string, std::string>> words = {{"polish", "there is no filter 'polish'"},
+                                                                  {"range", "needs 'from' or 'to'"},
+                                                                  {"range:from=3,to=2", "larger than 'to'"},
+                                                                  {"range:from=-1", "must be from 0"},
+                                                                  {"range:from=nan", "must be a number"},
+                                                                  {"range:from=1,from=2", "given twice"},
+                                                                  {"range:far=3", "keys are from, to"},
+                                                                  {"range:", "keys are from, to"},
+                                                                  {"voxel", "'cell' is missing"},
+                                                                  {"voxel:cell=0", "must be from 1e-04"},
+                                                                  {"every:n=1.5", "whole number"},
+                                                                  {"share:keep=2", "must be from 0 to 1"},
+                                                                  {"box:from=1/2,to=3/4/5", "three numbers"},
+                                                                  {"box:from=3/0/0,to=1/1/1", "the box is empty"},
+                                                                  {"sphere:radius=1", "a 'station' or 'at'"},
+                                                                  {"sphere:radius=1,station=S9", "it has S1"},
+                                                                  {"mixed:by=eye", "grid or distance"},
+                                                                  {"duplicates:distance=", "must be a number"}};
   for (const auto& [word, why] : words) {
     const auto refused = clean(folder / "in.e57", folder / "out.e57", {word});
     ASSERT_FALSE(refused) << word;
@@ -307,7 +331,8 @@ TEST(Cleaning, OfAnEmptyCloudIsAnEmptyCloud) {
   MadeScan nothing = wall("S1", 0.5);
   nothing.range_m = [](auto, auto, const auto&) { return 0.0; };
   writeMade(folder / "in.e57", {nothing});
-  const auto done = clean(folder / "in.e57", folder / "out.e57", {"mixed", "outliers", "duplicates", "voxel:cell=1", "every:n=2"});
+  const auto done =
+      clean(folder / "in.e57", folder / "out.e57", {"mixed", "outliers", "duplicates", "voxel:cell=1", "every:n=2"});
   ASSERT_OK(done);
   EXPECT_EQ(done->points_out, 0u);
 }

@@ -30,7 +30,8 @@ TEST(Crc32c, IsTheSameByInstructionAndByTable) {
 TEST(Crc32c, OfRunsIsThatOfEachOfThem) {
   constexpr std::size_t kStride = 24, kMost = 8;
   std::vector<std::uint8_t> bytes;
-  for (std::uint32_t n = 0; n < kMost * kStride; ++n) bytes.push_back(static_cast<std::uint8_t>(philox({1, 3}, n, 0, 0)[0]));
+  for (std::uint32_t n = 0; n < kMost * kStride; ++n)
+    bytes.push_back(static_cast<std::uint8_t>(philox({1, 3}, n, 0, 0)[0]));
   for (std::size_t size = 0; size <= kStride; ++size)
     for (std::size_t count = 0; count <= kMost; ++count) {
       std::vector<std::uint32_t> sums(count);

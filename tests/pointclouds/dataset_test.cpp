@@ -14,10 +14,10 @@ namespace {
 
 using testing::allPoints;
 using testing::bytesOf;
+using ::testing::HasSubstr;
 using testing::madeUpHeader;
 using testing::TemporaryFolder;
 using testing::writeFile;
-using ::testing::HasSubstr;
 
 std::filesystem::path classesOf(const std::string& set) { return SOURCE_DIR "/pointclouds/classes/" + set + ".json"; }
 
@@ -72,7 +72,7 @@ TEST(Datasets, S3disHasAFileForEachInstanceAndTheRoomIsTheirSum) {
   double x = 0, y = 0, z = 0;
   int r = 0, g = 0, b = 0;
   first >> x >> y >> z >> r >> g >> b;
-  const Eigen::Vector3d shift(5000000, -5000000, 0);   // whole metres of the first station's place
+  const Eigen::Vector3d shift(5000000, -5000000, 0);  // whole metres of the first station's place
   const Eigen::Vector3d p =
       headers()[0].file_from_scanner * Eigen::Vector3d(points.x_m[0], points.y_m[0], points.z_m[0]) - shift;
   EXPECT_LE((p - Eigen::Vector3d(x, y, z)).cwiseAbs().maxCoeff(), 0.6e-5);
@@ -94,7 +94,7 @@ TEST(Datasets, SemanticKittiHasClassAndInstanceInOneNumber) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     std::uint32_t label = 0;
     std::memcpy(&label, labels.data() + 4 * i, 4);
-    const std::uint32_t wanted = points.product[i] < 2 || points.z_m[i] > 0 ? 50 : 49;   // building, other-ground
+    const std::uint32_t wanted = points.product[i] < 2 || points.z_m[i] > 0 ? 50 : 49;  // building, other-ground
     ASSERT_EQ(label & 0xFFFF, wanted) << i;
     ASSERT_EQ(label >> 16, points.product[i] + 1);
     float z = 0;

@@ -155,7 +155,7 @@ TEST(HostileE57, WithAPictureOutsideOfItselfKeepsItsPoints) {
   smallFile(folder / "s.e57");
   edit(folder / "s.e57", "length=\"600\"", "length=\"999\"");
   KeptScans kept;
-  const auto longer = readAll(folder / "s.e57", kept);   // reaches into the next section: nobody can tell
+  const auto longer = readAll(folder / "s.e57", kept);  // reaches into the next section: nobody can tell
   ASSERT_OK(longer);
   for (const auto& [from, to] :
        {std::pair("pngImage type=\"Blob\" fileOffset=\"", "pngImage type=\"Blob\" fileOffset=\"9"),

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <fstream>
-#include <gmock/gmock.h>
 #include <iterator>
 #include <string>
 #include <vector>
+
+#include <gmock/gmock.h>
 
 #include "core/points.h"
 #include "pointclouds/formats.h"
@@ -21,7 +22,7 @@ class KeptScans final : public PointSink {
     bool ended = false;
   };
   std::vector<Scan> scans;
-  std::vector<std::vector<StationPicture>> pictures;   // of the scans that have any
+  std::vector<std::vector<StationPicture>> pictures;  // of the scans that have any
 
   Result<void> begin(const ScanHeader& header) override { return scans.push_back({header, {}, false}), Result<void>{}; }
   Result<void> write(const PointBlock& b) override {

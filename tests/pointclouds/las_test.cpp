@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "pointclouds/las.h"
+
 #include <cmath>
 #include <cstring>
 #include <limits>
 
-#include "pointclouds/las.h"
 #include "tests/pointclouds/kept_scans.h"
 #include "tests/pointclouds/made_up_scan.h"
 
 namespace standpoint {
 namespace {
 
+using ::testing::HasSubstr;
 using testing::KeptScans;
 using testing::TemporaryFolder;
-using ::testing::HasSubstr;
 
 template <class T>
 void put(std::string& bytes, std::size_t at, T value) {
@@ -28,7 +29,7 @@ struct Made {
   int minor = 4, format = 7;
   std::uint32_t points = 3;
   std::uint16_t extra_bytes = 0;
-  std::string record;        // a variable-length record before the points
+  std::string record;  // a variable-length record before the points
   std::uint16_t colour = 0x1100;
 };
 
@@ -87,7 +88,9 @@ TEST(Las, OfEveryPointFormatGivesItsCoordinates) {
     EXPECT_NEAR(last.z(), 100.007, 1e-6);
     EXPECT_EQ(points.intensity[2], 200);
     EXPECT_EQ(header.has_colour, kColour[format] > 0);
-    if (header.has_colour) { EXPECT_EQ(points.red[1], 0x11); }
+    if (header.has_colour) {
+      EXPECT_EQ(points.red[1], 0x11);
+    }
     EXPECT_THAT(testing::said(*report), HasSubstr("5 extra bytes"));
   }
 }
@@ -125,7 +128,7 @@ TEST(Las, OfAdjustedTimesBeginsAtTheSecondOfItsFirstPoint) {
   put<std::uint16_t>(bytes, 6, 1);
   for (std::size_t i = 0; i < 3; ++i) {
     put<double>(bytes, 375 + 36 * i + 22, 450000000.75 + 2.5 * static_cast<double>(i));
-    bytes[375 + 36 * i + 14] = static_cast<char>(i == 2 ? 0x00 : 0x31);   // 1 of 3; of the last the bits make no sense
+    bytes[375 + 36 * i + 14] = static_cast<char>(i == 2 ? 0x00 : 0x31);  // 1 of 3; of the last the bits make no sense
   }
   testing::putBytes(folder / "a.las", bytes);
   KeptScans kept;

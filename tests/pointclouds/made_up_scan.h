@@ -35,7 +35,7 @@ struct ScanKind {
   std::uint32_t rows = 100, columns = 50;
   bool colour = true, labels = true;
   std::string name = "S1";
-  bool all_channels = false;   // times, returns, truth
+  bool all_channels = false;  // times, returns, truth
 };
 
 inline ScanHeader madeUpHeader(const ScanKind& kind) {

@@ -221,9 +221,11 @@ TEST(OutsideReaders, Open3dFindsThePlacesOfOurPlyPcdAndText) {
     stream >> count >> mean.x() >> mean.y() >> mean.z();
     EXPECT_EQ(count, points.size());
     const bool pcd = std::string(name) == "a.pcd";
-    const bool single = name == std::string("a.pts") || name == std::string("a.xyz");   // Open3D keeps these as floats
+    const bool single = name == std::string("a.pts") || name == std::string("a.xyz");  // Open3D keeps these as floats
     EXPECT_LE((mean - (pcd ? local : far)).cwiseAbs().maxCoeff(), single ? 0.3 : 2e-5);
-    if (pcd) { EXPECT_THAT(said, ::testing::HasSubstr("intensity")); }
+    if (pcd) {
+      EXPECT_THAT(said, ::testing::HasSubstr("intensity"));
+    }
   }
 }
 

@@ -9,9 +9,9 @@
 namespace standpoint {
 namespace {
 
+using ::testing::HasSubstr;
 using testing::KeptScans;
 using testing::TemporaryFolder;
-using ::testing::HasSubstr;
 
 template <class T>
 std::string binary(T value, bool big_endian) {

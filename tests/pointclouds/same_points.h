@@ -89,7 +89,7 @@ inline void expectSameHeader(const ScanHeader& a, const ScanHeader& b) {
 }
 
 inline void writeFile(const std::filesystem::path& file, const std::vector<ScanHeader>& headers,
-               std::uint32_t columns_per_block = 3) {
+                      std::uint32_t columns_per_block = 3) {
   auto writer = cloudFormatFor(file)->writer(file);
   ASSERT_OK(writer);
   for (const ScanHeader& header : headers) ASSERT_OK(writeScan(**writer, header, columns_per_block));

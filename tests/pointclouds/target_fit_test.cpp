@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "pointclouds/target_fit.h"
+
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -8,7 +10,6 @@
 
 #include "core/random.h"
 #include "core/units.h"
-#include "pointclouds/target_fit.h"
 
 namespace standpoint {
 namespace {
@@ -29,12 +30,18 @@ std::optional<double> sphereRange(const Vector3d& beam, const Vector3d& centre, 
 
 class Bench {
  public:
-  struct Ball { Vector3d centre; double radius; };
-  struct Board { Vector3d centre, normal, right; double side; };
+  struct Ball {
+    Vector3d centre;
+    double radius;
+  };
+  struct Board {
+    Vector3d centre, normal, right;
+    double side;
+  };
   std::vector<Ball> balls;
   std::vector<Board> boards;
   std::optional<double> wall_x;
-  double pipe_radius = 0;          // upright, round balls[0]'s place: (x, y) of it
+  double pipe_radius = 0;  // upright, round balls[0]'s place: (x, y) of it
   Vector3d pipe = Vector3d::Zero();
   double sigma_m = 0, intensity_sigma = 0;
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pointclouds/text_points.h"
+
 #include "tests/pointclouds/kept_scans.h"
 #include "tests/pointclouds/made_up_scan.h"
 
 namespace standpoint {
 namespace {
 
+using ::testing::HasSubstr;
 using testing::KeptScans;
 using testing::TemporaryFolder;
-using ::testing::HasSubstr;
 
 TEST(TextPoints, HaveTheColumnsThatTheirNumberSays) {
   const TemporaryFolder folder;
@@ -26,9 +27,13 @@ TEST(TextPoints, HaveTheColumnsThatTheirNumberSays) {
     ASSERT_EQ(points.size(), 2u);
     EXPECT_EQ(points.z_m[1], 3);
     EXPECT_EQ(header.intensity_max > header.intensity_min, c.intensity);
-    if (c.intensity) { EXPECT_EQ(points.intensity[1], -77); }
+    if (c.intensity) {
+      EXPECT_EQ(points.intensity[1], -77);
+    }
     EXPECT_EQ(header.has_colour, c.colour);
-    if (c.colour) { EXPECT_EQ(points.blue[1], 30); }
+    if (c.colour) {
+      EXPECT_EQ(points.blue[1], 30);
+    }
   }
 }
 

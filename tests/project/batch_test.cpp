@@ -29,7 +29,11 @@ Document threeStations() {
 }
 
 json options(const fs::path& output) {
-  return {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/32", "quality=4x"}}, {"seed", 5}, {"truth", true}, {"output", output.string()}};
+  return {{"instrument", "faro-focus-s350"},
+          {"set", {"resolution=1/32", "quality=4x"}},
+          {"seed", 5},
+          {"truth", true},
+          {"output", output.string()}};
 }
 
 json withPanorama(const fs::path& output) {
@@ -40,7 +44,8 @@ json withPanorama(const fs::path& output) {
   return o;
 }
 
-Result<Outcome> scanUntil(const Document& d, const json& options, const std::string& station, const std::function<void(Progress&)>& act) {
+Result<Outcome> scanUntil(const Document& d, const json& options, const std::string& station,
+                          const std::function<void(Progress&)>& act) {
   Progress progress;
   progress.onChange([&] {
     if (progress.stageName().find(station) != std::string::npos) act(progress);
@@ -73,9 +78,12 @@ void resumes(const char* name, json (*options)(const fs::path&) = options) {
   EXPECT_FALSE(resumed->answer["stations"][2].contains("resumed"));
   EXPECT_EQ(resumed->document.job->stations[0].scans.size(), 1U);
   std::vector<fs::path> files;
-  if (fs::is_directory(whole)) for (const char* s : {"S1.e57", "S2.e57", "S3.e57"}) files.emplace_back(s);
-  else files.emplace_back();
-  for (const auto& file : files) EXPECT_TRUE(bytes(file.empty() ? whole : whole / file) == bytes(file.empty() ? broken : broken / file)) << file;
+  if (fs::is_directory(whole))
+    for (const char* s : {"S1.e57", "S2.e57", "S3.e57"}) files.emplace_back(s);
+  else
+    files.emplace_back();
+  for (const auto& file : files)
+    EXPECT_TRUE(bytes(file.empty() ? whole : whole / file) == bytes(file.empty() ? broken : broken / file)) << file;
   EXPECT_FALSE(fs::exists(folder.path() / "broken" / (std::string(name) + ".parts"))) << "nothing is left behind";
 }
 
@@ -112,8 +120,13 @@ TEST(Batch, WritesIntegersThatConvertWouldWrite) {
     EXPECT_EQ(direct->bounds_file_m.max, converted->bounds_file_m.max);
     EXPECT_EQ(fs::file_size(folder.path() / "direct.e57"), fs::file_size(folder.path() / "converted.e57"));
   }
-  EXPECT_LT(fs::file_size(folder.path() / "converted.e57"), 1.01 * static_cast<double>(fs::file_size(folder.path() / "float.e57")));
-  const auto refused = run("scan", d, [&] { auto o = options(folder.path() / "x.las"); o["as"] = "scaled"; return o; }());
+  EXPECT_LT(fs::file_size(folder.path() / "converted.e57"),
+            1.01 * static_cast<double>(fs::file_size(folder.path() / "float.e57")));
+  const auto refused = run("scan", d, [&] {
+    auto o = options(folder.path() / "x.las");
+    o["as"] = "scaled";
+    return o;
+  }());
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().message, HasSubstr("no variant 'scaled'"));
 }
@@ -151,11 +164,13 @@ TEST(Batch, SurvivesBeingKilled) {
   const fs::path folder = fs::temp_directory_path() / "standpoint-batch-killed";
   const fs::path file = folder / "all.e57";
   const Document d = threeStations();
-  EXPECT_EXIT({
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-    (void)scanUntil(d, options(file), "S3", [](Progress&) { (void)std::raise(SIGKILL); });
-  }, testing::KilledBySignal(SIGKILL), "");
+  EXPECT_EXIT(
+      {
+        fs::remove_all(folder);
+        fs::create_directories(folder);
+        (void)scanUntil(d, options(file), "S3", [](Progress&) { (void)std::raise(SIGKILL); });
+      },
+      testing::KilledBySignal(SIGKILL), "");
   EXPECT_FALSE(fs::exists(file)) << "a part is never mistaken for the whole";
   auto again = options(file);
   again["resume"] = true;
@@ -215,7 +230,8 @@ TEST(EmptyScan, SaysWhyNothingCameBack) {
     EXPECT_EQ(done->answer["stations"][0]["points"].get<int>(), 0);
     return said(done->report);
   };
-  EXPECT_THAT(scanAt({500003, 5600002, 200}, json::object()), HasSubstr("no beam meets the model")) << "above the scene, which lies in its blind cone";
+  EXPECT_THAT(scanAt({500003, 5600002, 200}, json::object()), HasSubstr("no beam meets the model"))
+      << "above the scene, which lies in its blind cone";
   EXPECT_THAT(scanAt({501500, 5600002, 1.6}, json::object()), AllOf(HasSubstr("1494 m away"), HasSubstr("350 m")));
   EXPECT_TRUE(cloudFormatFor("s.e57")->info(folder.path() / "s.e57")) << "an honest empty file";
 }
@@ -230,7 +246,9 @@ TEST(EmptyScan, OfASurfaceThatIsTooNearAllRoundSaysFromWhereOnTheInstrumentMeasu
   d.georeference = std::make_shared<const Georeference>();
   const auto station = run("station", d, {{"add", "S"}, {"at", {0, 0, 0}}, {"stand", "free"}});
   ASSERT_TRUE(station) << describe(station.error());
-  const auto done = run("scan", station->document, {{"instrument", "leica-rtc360"}, {"set", {"resolution=12mm"}}, {"output", (folder.path() / "s.e57").string()}});
+  const auto done = run(
+      "scan", station->document,
+      {{"instrument", "leica-rtc360"}, {"set", {"resolution=12mm"}}, {"output", (folder.path() / "s.e57").string()}});
   ASSERT_TRUE(done) << describe(done.error());
   EXPECT_EQ(done->answer["stations"][0]["points"].get<int>(), 0);
   EXPECT_THAT(said(done->report), HasSubstr("nearer than 0.50 m"));

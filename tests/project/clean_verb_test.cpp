@@ -19,8 +19,8 @@ std::string textOf(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// Ten points on a wall (x = 1 … 10 m): the first four are mixed, the second and the third by more than 1 cm, the last is a
-// drop of rain.
+// Ten points on a wall (x = 1 … 10 m): the first four are mixed, the second and the third by more than 1 cm, the last
+// is a drop of rain.
 class CleanVerb : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -36,7 +36,8 @@ class CleanVerb : public ::testing::Test {
       const float x = static_cast<float>(i) + 1, off = i == 1 || i == 2 ? 0.05F : 0.001F;
       b.x_m.push_back(x), b.y_m.push_back(0), b.z_m.push_back(0), b.intensity.push_back(0.5F);
       b.row.push_back(i), b.column.push_back(0), b.product.push_back(i == 9 ? 1 : 0), b.material.push_back(0);
-      b.truth.x_m.push_back(x + off), b.truth.y_m.push_back(0), b.truth.z_m.push_back(0), b.truth.range_m.push_back(x + off);
+      b.truth.x_m.push_back(x + off), b.truth.y_m.push_back(0), b.truth.z_m.push_back(0),
+          b.truth.range_m.push_back(x + off);
       b.truth.incidence_rad.push_back(0), b.truth.received_db.push_back(-20);
       b.truth.flags.push_back(i < 4 ? point_flag::kMixed : i == 9 ? point_flag::kWeather : std::uint8_t{0});
     }
@@ -52,7 +53,8 @@ class CleanVerb : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-// From 3 m to 8 m stay: of four mixed points two go (1 and 2 m), of them one by over 1 cm; of five good ones one (9 m); the drop.
+// From 3 m to 8 m stay: of four mixed points two go (1 and 2 m), of them one by over 1 cm; of five good ones one (9 m);
+// the drop.
 const json kGate = {"range:from=2.5,to=8.5"};
 
 TEST_F(CleanVerb, AnswersWhatEachFilterTookOfTheTruth) {
@@ -72,7 +74,8 @@ TEST_F(CleanVerb, AnswersWhatEachFilterTookOfTheTruth) {
   EXPECT_EQ(row.at("mixed_by_over_1cm"), (json{{"in", 2}, {"removed", 1}, {"share", 0.5}}));
   EXPECT_EQ(row.at("good"), (json{{"in", 5}, {"removed", 1}, {"share", 0.2}}));
   EXPECT_EQ(row.at("classes"), (json{{"IfcWall", {{"in", 5}, {"removed", 1}, {"share", 0.2}}}}));
-  EXPECT_THAT(done->text, AllOf(HasSubstr("10 points in, 4 removed (40.00 %), 6 out\n"), HasSubstr("2 of 4 found (50.00 %), 50.00 % of what was removed\n"),
+  EXPECT_THAT(done->text, AllOf(HasSubstr("10 points in, 4 removed (40.00 %), 6 out\n"),
+                                HasSubstr("2 of 4 found (50.00 %), 50.00 % of what was removed\n"),
                                 HasSubstr("1 of 5 lost (20.00 %)\n"), HasSubstr("1 of 5 (20.00 %)\n")));
   EXPECT_EQ(cloudFormatFor(in())->info(folder_.path() / "out.e57")->scans[0].points, 6U);
 }
@@ -92,7 +95,9 @@ TEST_F(CleanVerb, WritesTheSameFiguresAsJsonAndAsCsv) {
   while (std::getline(lines, line)) all.push_back(line);
   ASSERT_GE(all.size(), 5U);
   EXPECT_EQ(all[0], "filter,counted,in,removed");
-  const auto ends = [&](const char* end) { return std::count_if(all.begin(), all.end(), [&](const std::string& l) { return l.ends_with(end); }); };
+  const auto ends = [&](const char* end) {
+    return std::count_if(all.begin(), all.end(), [&](const std::string& l) { return l.ends_with(end); });
+  };
   EXPECT_TRUE(all[1].starts_with("\"range")) << all[1] << ": a filter's comma stands in quotes";
   EXPECT_EQ(ends(",\"all\",10,4"), 1);
   EXPECT_EQ(ends(",\"mixed\",4,2"), 1);
@@ -107,7 +112,8 @@ TEST_F(CleanVerb, NamesAFolderThatIsNotThereBeforeItBegins) {
   for (const char* option : {"output", "report"}) {
     const auto refused = clean({{"filters", kGate}, {option, (nowhere / "x.csv").string()}});
     ASSERT_FALSE(refused);
-    EXPECT_THAT(describe(refused.error()), AllOf(HasSubstr(nowhere.string() + " is not there"), HasSubstr(std::string("--") + option)));
+    EXPECT_THAT(describe(refused.error()),
+                AllOf(HasSubstr(nowhere.string() + " is not there"), HasSubstr(std::string("--") + option)));
     EXPECT_FALSE(fs::exists(folder_.path() / "out.e57"));
   }
   const auto exported = run("export", twoStoreyDocument(), {{"output", (nowhere / "x.glb").string()}});

@@ -21,7 +21,8 @@ TEST(ExportPhysical, CarriesTheMaterialsInAGltfAsAnExtension) {
   const auto gltf = json::parse(std::ifstream(file));
   EXPECT_EQ(gltf.at("extensionsUsed"), json::array({"STANDPOINT_physical_material"}));
   std::vector<std::string> ids;
-  for (const auto& material : gltf.at("materials")) ids.push_back(material.at("extensions").at("STANDPOINT_physical_material").at("id"));
+  for (const auto& material : gltf.at("materials"))
+    ids.push_back(material.at("extensions").at("STANDPOINT_physical_material").at("id"));
   // One look, "Concrete", of two materials: the slabs, and what the rules say of the rest.
   EXPECT_EQ(ids.size(), 2U);
   EXPECT_NE(std::find(ids.begin(), ids.end(), "granite_grey"), ids.end());
@@ -61,7 +62,8 @@ TEST(ExportPhysical, NamesTheMaterialsOfAnObjWhereThatIsAskedFor) {
 TEST(ExportPhysical, WithoutMaterialsIsRefusedWithTheVerbThatAssignsThem) {
   const TemporaryFolder folder;
   for (const char* name : {"scene.xml", "house.obj"}) {
-    const auto outcome = run("export", twoStoreyDocument(), {{"output", (folder.path() / name).string()}, {"physical", true}});
+    const auto outcome =
+        run("export", twoStoreyDocument(), {{"output", (folder.path() / name).string()}, {"physical", true}});
     ASSERT_FALSE(outcome);
   }
   const auto outcome = run("export", twoStoreyDocument(), {{"output", (folder.path() / "scene.xml").string()}});

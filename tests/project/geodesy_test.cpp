@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/geodesy.h"
+
 #include <gtest/gtest.h>
 
-#include "project/geodesy.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -71,12 +72,14 @@ TEST(GeoreferenceVerb, WithoutOptionsChangesNothing) {
 }
 
 TEST(Crs, SaysHowLongItsUnitIs) {
-  EXPECT_NEAR(findCrs("PROJCS[\"a\",GEOGCS[\"b\",DATUM[\"c\",SPHEROID[\"d\",6378137,298.257222101],TOWGS84[0,0,0,0,0,0,0]],"
-                      "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],PROJECTION[\"Transverse_Mercator\"],"
-                      "PARAMETER[\"latitude_of_origin\",31],PARAMETER[\"central_meridian\",-106],PARAMETER[\"scale_factor\",1],"
-                      "PARAMETER[\"false_easting\",0],PARAMETER[\"false_northing\",0],UNIT[\"US survey foot\",0.304800609601219]]")
-                  ->metres_per_unit,
-              1200.0 / 3937, 1e-9);
+  EXPECT_NEAR(
+      findCrs(
+          "PROJCS[\"a\",GEOGCS[\"b\",DATUM[\"c\",SPHEROID[\"d\",6378137,298.257222101],TOWGS84[0,0,0,0,0,0,0]],"
+          "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],PROJECTION[\"Transverse_Mercator\"],"
+          "PARAMETER[\"latitude_of_origin\",31],PARAMETER[\"central_meridian\",-106],PARAMETER[\"scale_factor\",1],"
+          "PARAMETER[\"false_easting\",0],PARAMETER[\"false_northing\",0],UNIT[\"US survey foot\",0.304800609601219]]")
+          ->metres_per_unit,
+      1200.0 / 3937, 1e-9);
   EXPECT_EQ(findCrs("EPSG:25832")->metres_per_unit, 1);
   EXPECT_NEAR(findCrs("EPSG:2903")->metres_per_unit, 1200.0 / 3937, 1e-12);  // New Mexico Central, US survey feet
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/history.h"
+
 #include <gtest/gtest.h>
 
-#include "project/history.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

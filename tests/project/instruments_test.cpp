@@ -57,7 +57,7 @@ TEST_F(OwnInstruments, AreCopiedEditedAndReadBesideTheShippedOnes) {
   EXPECT_EQ(copied["instruments"].back()["own"], true);
   auto text = contentOf(file);
   const auto shipped = contentOf(shippedInstrumentsFolder() / "leica-rtc360.json");
-  EXPECT_EQ(text.size(), shipped.size() - 3);   // nothing but the id is another
+  EXPECT_EQ(text.size(), shipped.size() - 3);  // nothing but the id is another
   const std::string before = "\"min_m\": { \"value\": 0.5";
   text.replace(text.find(before), before.size(), "\"min_m\": { \"value\": 0.7");
   std::ofstream(file) << text;

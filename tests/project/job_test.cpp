@@ -22,8 +22,11 @@ TEST(Job, ReplaysItsStepsOnTheProject) {
   Progress progress;
   const auto project = (folder.path() / "p").string();
   ASSERT_TRUE(saveProject(twoStoreyDocument(), project, progress));
-  const auto outcome = runJobText(folder.path(), json::array({{{"verb", "station"}, {"project", project}, {"add", "A"}, {"at", {500001, 5600001, 1.5}}},
-                                                              {{"verb", "station"}, {"project", project}, {"add", "B"}, {"at", {500003, 5600001, 1.5}}}}).dump());
+  const auto outcome = runJobText(
+      folder.path(),
+      json::array({{{"verb", "station"}, {"project", project}, {"add", "A"}, {"at", {500001, 5600001, 1.5}}},
+                   {{"verb", "station"}, {"project", project}, {"add", "B"}, {"at", {500003, 5600001, 1.5}}}})
+          .dump());
   ASSERT_TRUE(outcome) << describe(outcome.error());
   EXPECT_EQ(outcome->answer["steps"].size(), 2U);
   EXPECT_EQ(loadProject(project, progress)->job->stations.size(), 2U);
@@ -38,7 +41,8 @@ TEST(Job, StopsAtTheFirstStepThatFailsAndNamesIt) {
 
 TEST(Job, ThatIsNotAListOfVerbsIsRefused) {
   const TemporaryFolder folder;
-  for (const char* text : {"", "{", "{}", "[1]", "[{}]", R"([{"verb": 3}])", R"([{"verb": "fly"}])", R"([{"verb": "run", "job": "x"}])"})
+  for (const char* text :
+       {"", "{", "{}", "[1]", "[{}]", R"([{"verb": 3}])", R"([{"verb": "fly"}])", R"([{"verb": "run", "job": "x"}])"})
     EXPECT_FALSE(runJobText(folder.path(), text)) << text;
 }
 

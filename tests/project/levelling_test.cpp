@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/levelling.h"
+
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
@@ -9,7 +11,6 @@
 #include "core/units.h"
 #include "pointclouds/formats.h"
 #include "project/instruments.h"
-#include "project/levelling.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -58,8 +59,10 @@ TEST(Levelling, TheCompensatorsErrorHasTheSigmaOfItsSheetInEachAxis) {
 TEST(Levelling, IsExactWhereTheStationStandsLevelOrTheErrorIsLeftOut) {
   const auto instrument = *instrumentById("leica-rtc360");
   Report report;
-  EXPECT_EQ(believedPose(leaning(0, 0), instrument, {}, report)->rotation.coeffs(), leaning(0, 0).true_pose.rotation.coeffs());
-  EXPECT_EQ(believedPose(leaning(2, 30), instrument, {.exact = true}, report)->rotation.coeffs(), leaning(2, 30).true_pose.rotation.coeffs());
+  EXPECT_EQ(believedPose(leaning(0, 0), instrument, {}, report)->rotation.coeffs(),
+            leaning(0, 0).true_pose.rotation.coeffs());
+  EXPECT_EQ(believedPose(leaning(2, 30), instrument, {.exact = true}, report)->rotation.coeffs(),
+            leaning(2, 30).true_pose.rotation.coeffs());
 }
 
 TEST(Levelling, IsRefusedBeyondTheCompensatorsRangeAndTiltedWithoutIt) {
@@ -67,7 +70,8 @@ TEST(Levelling, IsRefusedBeyondTheCompensatorsRangeAndTiltedWithoutIt) {
   Report report;
   const auto refused = believedPose(leaning(0.1, 0), p40, {}, report);
   ASSERT_FALSE(refused) << "6 arc minutes; the liquid runs out at 5";
-  EXPECT_THAT(refused.error().message, AllOf(HasSubstr("6 arc minutes"), HasSubstr("5 arc minutes"), HasSubstr("--compensator off")));
+  EXPECT_THAT(refused.error().message,
+              AllOf(HasSubstr("6 arc minutes"), HasSubstr("5 arc minutes"), HasSubstr("--compensator off")));
   EXPECT_TRUE(believedPose(leaning(0.08, 0), p40, {}, report));
   const auto off = believedPose(leaning(0.1, 0), p40, {.compensator = false}, report);
   ASSERT_TRUE(off);
@@ -96,14 +100,16 @@ class FloorSink : public PointSink {
   FloorSeen seen;
   Result<void> begin(const ScanHeader& header) override {
     seen.file_from_scanner = header.file_from_scanner;
-    floor_ = static_cast<std::uint32_t>(std::find_if(header.products.begin(), header.products.end(), [](const auto& p) { return p.id == "slab0"; }) - header.products.begin());
+    floor_ = static_cast<std::uint32_t>(
+        std::find_if(header.products.begin(), header.products.end(), [](const auto& p) { return p.id == "slab0"; }) -
+        header.products.begin());
     return {};
   }
   Result<void> write(const PointBlock& b) override {
     for (std::size_t i = 0; i < b.size(); ++i) {
       if (b.product[i] != floor_) continue;
       const Eigen::Vector3d p = seen.file_from_scanner.rotation * Eigen::Vector3d(b.x_m[i], b.y_m[i], b.z_m[i]);
-      if (std::abs(p.z() + 1.6) > 0.2) continue;   // the slab's top, not its edges
+      if (std::abs(p.z() + 1.6) > 0.2) continue;  // the slab's top, not its edges
       sum_ += p;
       products_ += p * p.transpose();
       n_ += 1;
@@ -128,11 +134,14 @@ class FloorSink : public PointSink {
 
 FloorSeen floorOf(const json& scan_options) {
   const TemporaryFolder folder;
-  const auto d = run("station", twoStoreyDocument(), {{"add", "S"}, {"at", {500002.5, 5600002, 1.6}}, {"yaw-deg", 25}, {"tilt-deg", 1.5}, {"tilt-towards-deg", 60}});
+  const auto d = run(
+      "station", twoStoreyDocument(),
+      {{"add", "S"}, {"at", {500002.5, 5600002, 1.6}}, {"yaw-deg", 25}, {"tilt-deg", 1.5}, {"tilt-towards-deg", 60}});
   EXPECT_TRUE(d) << describe(d.error());
   EXPECT_NEAR(d->answer["placed"]["tilt_deg"].get<double>(), 1.5, 1e-9);
   const auto file = folder.path() / "s.e57";
-  json options = {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/32", "quality=4x"}}, {"output", file.string()}};
+  json options = {
+      {"instrument", "faro-focus-s350"}, {"set", {"resolution=1/32", "quality=4x"}}, {"output", file.string()}};
   options.update(scan_options);
   const auto scanned = run("scan", d->document, options);
   EXPECT_TRUE(scanned) << describe(scanned.error());
@@ -147,7 +156,8 @@ TEST(Levelling, AScanOfALeaningStationHasALevelFloorUpToTheCompensatorsError) {
   EXPECT_LT(std::hypot(with.normal.x(), with.normal.y()), 2e-6) << "points in float, nothing else";
   const auto off = floorOf({{"ideal", true}, {"compensator", "off"}});
   EXPECT_NEAR(std::atan2(std::hypot(off.normal.x(), off.normal.y()), off.normal.z()) / kRadPerDeg, 1.5, 1e-4);
-  EXPECT_NEAR(std::atan2(off.normal.y(), off.normal.x()) / kRadPerDeg, 60 - 180, 0.01) << "the floor leans the other way";
+  EXPECT_NEAR(std::atan2(off.normal.y(), off.normal.x()) / kRadPerDeg, 60 - 180, 0.01)
+      << "the floor leans the other way";
 }
 
 TEST(Levelling, TheFilesPoseIsWhatTheDeviceBelievesAndTheFloorLeansByTheDifference) {
@@ -156,7 +166,8 @@ TEST(Levelling, TheFilesPoseIsWhatTheDeviceBelievesAndTheFloorLeansByTheDifferen
   const double error = between(exact.file_from_scanner.rotation, real.file_from_scanner.rotation);
   EXPECT_GT(error, 1 * kRadPerArcsec);
   EXPECT_LT(error, 80 * kRadPerArcsec);
-  EXPECT_NEAR(std::hypot(real.normal.x(), real.normal.y()), error, 3e-6) << "analytic: the plane is turned by just that";
+  EXPECT_NEAR(std::hypot(real.normal.x(), real.normal.y()), error, 3e-6)
+      << "analytic: the plane is turned by just that";
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-void add(Environment& environment, const std::string& ifc_class, const Eigen::Vector3d& at, const Eigen::Vector3d& size) {
+void add(Environment& environment, const std::string& ifc_class, const Eigen::Vector3d& at,
+         const Eigen::Vector3d& size) {
   auto mesh = std::make_shared<Mesh>();
   mesh->positions = {{0, 0, 0}, size.cast<float>(), {static_cast<float>(size.x()), 0, 0}};
   mesh->triangles = {{0, 1, 2}};
@@ -69,7 +70,8 @@ TEST(LodRules, TellSurroundingsByTheAuthorsSelectors) {
 
 TEST(LodRules, DropOfTheSurroundingsWhatNeverSeesTheSky) {
   Environment environment = street();
-  auto mesh = std::make_shared<Mesh>();  // a tent without a floor's edge to look under: a closed pyramid, and a triangle in it
+  auto mesh =
+      std::make_shared<Mesh>();  // a tent without a floor's edge to look under: a closed pyramid, and a triangle in it
   mesh->positions = {{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}, {4.5F, 4.5F, 9}};
   mesh->triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {0, 2, 1}, {0, 3, 2}};
   mesh->surface_of_triangle.assign(6, 0);
@@ -108,11 +110,13 @@ class LodFile : public ::testing::Test {
 };
 
 TEST_F(LodFile, IsRefusedWithThePlaceOfItsFault) {
-  EXPECT_EQ(errorOf("\"smaller_than_m\": 0.10", "\"smaler_than_m\": 0.10").source, "lod_rules_test.json /0/rules/2/smaler_than_m");
+  EXPECT_EQ(errorOf("\"smaller_than_m\": 0.10", "\"smaler_than_m\": 0.10").source,
+            "lod_rules_test.json /0/rules/2/smaler_than_m");
   EXPECT_EQ(errorOf("\"budget\": 30000", "\"budget\": -1").source, "lod_rules_test.json /0/budget");
   EXPECT_EQ(errorOf("\"weight\": 4", "\"weight\": 0").source, "lod_rules_test.json /0/rules/4/weight");
   EXPECT_EQ(errorOf("\"part\": \"main\"", "\"part\": \"house\"").source, "lod_rules_test.json /0/part");
-  EXPECT_THAT(errorOf("\"smaller_than_m\": 0.10, \"drop\": true", "\"drop\": true, \"keep\": true").message, HasSubstr("both"));
+  EXPECT_THAT(errorOf("\"smaller_than_m\": 0.10, \"drop\": true", "\"drop\": true, \"keep\": true").message,
+              HasSubstr("both"));
   EXPECT_EQ(errorOf("[\"class:IfcRailing\"]", "[]").source, "lod_rules_test.json /0/rules/4/products");
 }
 

@@ -14,11 +14,16 @@ using nlohmann::json;
 using ::testing::ElementsAre;
 
 json proposal(const json& material, const char* instead, const json& words, const json& alike = json::array()) {
-  return {{"material", material}, {"behaves_like", instead}, {"alike", alike}, {"evidence", "900 points are -4.0 dB off"}, {"assign", words}};
+  return {{"material", material},
+          {"behaves_like", instead},
+          {"alike", alike},
+          {"evidence", "900 points are -4.0 dB off"},
+          {"assign", words}};
 }
 
 Document withProposals(Document d, const json& proposals) {
-  d.verification = std::make_shared<const Verification>(verificationOf(d, {{"underlay", "scan"}, {"proposals", proposals}}));
+  d.verification =
+      std::make_shared<const Verification>(verificationOf(d, {{"underlay", "scan"}, {"proposals", proposals}}));
   return d;
 }
 
@@ -27,7 +32,8 @@ Document assigned(const Document& d, const json& words) { return run("materials"
 // Two proposals, one of them for two walls.
 Document measuredHouse() {
   const Document d = assigned(twoStoreyDocument(), {"south0=rubber_black", "north0=rubber_black", "table=bark"});
-  return withProposals(d, {proposal("rubber_black", "plaster_gypsum", {"south0=plaster_gypsum", "north0=plaster_gypsum"}, {"paper_white_cotton_bond"}),
+  return withProposals(d, {proposal("rubber_black", "plaster_gypsum",
+                                    {"south0=plaster_gypsum", "north0=plaster_gypsum"}, {"paper_white_cotton_bond"}),
                            proposal("bark", "wood_hardwood", {"table=wood_hardwood"})});
 }
 
@@ -43,10 +49,15 @@ TEST(MaterialFindings, GiveOneRemedyToAllSurfacesThatWereMeasuredOtherwise) {
   ASSERT_EQ(findings.size(), 2U);
   EXPECT_EQ(findings[0].products.size(), 2U);
   EXPECT_GT(findings[0].area_m2, findings[1].area_m2);
-  EXPECT_THAT(findings[0].message, ::testing::MatchesRegex("'rubber_black' was measured otherwise on IfcWall .* and 1 more: it behaves like 'plaster_gypsum' .*"));
-  EXPECT_EQ(findings[0].why, "By the cloud 'scan': 900 points are -4.0 dB off. As well as it do: paper_white_cotton_bond.");
+  EXPECT_THAT(
+      findings[0].message,
+      ::testing::MatchesRegex(
+          "'rubber_black' was measured otherwise on IfcWall .* and 1 more: it behaves like 'plaster_gypsum' .*"));
+  EXPECT_EQ(findings[0].why,
+            "By the cloud 'scan': 900 points are -4.0 dB off. As well as it do: paper_white_cotton_bond.");
   ASSERT_EQ(findings[0].remedies.size(), 2U);
-  EXPECT_THAT(assignWords(findings[0].remedies[0], "plaster_gypsum"), ElementsAre("south0=plaster_gypsum", "north0=plaster_gypsum"));
+  EXPECT_THAT(assignWords(findings[0].remedies[0], "plaster_gypsum"),
+              ElementsAre("south0=plaster_gypsum", "north0=plaster_gypsum"));
   EXPECT_EQ(findings[0].remedies[1].material, "paper_white_cotton_bond");
 }
 
@@ -80,8 +91,9 @@ TEST(MaterialFindings, OfOneThatWasAcceptedKeepTheReasonUntilItsSurfacesChange) 
 TEST(MaterialFindings, OfAVerificationThatSomebodyBrokeAreTheOthers) {
   Document d = measuredHouse();
   const auto others = materialFindings(d).size() - 2;
-  for (const json& broken : {json({{"underlay", "scan"}}), json({{"underlay", "scan"}, {"proposals", {7}}}),
-                             json({{"underlay", "scan"}, {"proposals", {proposal("bark", "x", {"", "=", "a", "table=@"})}}})}) {
+  for (const json& broken :
+       {json({{"underlay", "scan"}}), json({{"underlay", "scan"}, {"proposals", {7}}}),
+        json({{"underlay", "scan"}, {"proposals", {proposal("bark", "x", {"", "=", "a", "table=@"})}}})}) {
     d.verification = std::make_shared<const Verification>(Verification{0, d.verification->rest, broken});
     EXPECT_EQ(materialFindings(d).size(), others) << broken;
   }

@@ -32,7 +32,8 @@ std::string write(const TemporaryFolder& folder, const std::string& name, const 
 std::string materialOfProduct(const Document& d, const std::string& id) {
   const auto& assignment = d.materials->result.assignment;
   for (const auto& s : assignment.surfaces)
-    if (d.imported->products[s.product].id == id) return s.material < 0 ? "" : assignment.materials[static_cast<std::size_t>(s.material)].id;
+    if (d.imported->products[s.product].id == id)
+      return s.material < 0 ? "" : assignment.materials[static_cast<std::size_t>(s.material)].id;
   return "no such product";
 }
 
@@ -45,27 +46,32 @@ double areaOf(const Document& d, const std::string& material, std::uint32_t prod
     const auto& instance = d.environment()->instances[i];
     const Mesh& mesh = *d.environment()->meshes[instance.mesh];
     for (std::uint32_t t = 0; t < mesh.triangles.size() && instance.product == product; ++t)
-      if (const auto m = triangles.materialOf(i, t); m >= 0 && assignment.materials[static_cast<std::size_t>(m)].id == material)
+      if (const auto m = triangles.materialOf(i, t);
+          m >= 0 && assignment.materials[static_cast<std::size_t>(m)].id == material)
         area += placedArea(mesh, mesh.triangles[t], instance.world_from_mesh);
   }
   return area;
 }
 
 const char* const kOwn = R"({"sources": [{"id": "lab", "text": "Own laboratory", "licence": "own"}], "materials": [
-  {"id": "concrete_construction", "label": "Our concrete", "reflectance": [[532, 0.5], [1550, 0.6]], "source": {"reflectance": "measured: [lab] no 7"}},
-  {"id": "our_panel", "label": "Our panel", "reflectance": [[905, 0.2]], "source": {"reflectance": "unsourced: a guess"}}]})";
+  {"id": "concrete_construction", "label": "Our concrete", "reflectance": [[532, 0.5], [1550, 0.6]],
+    "source": {"reflectance": "measured: [lab] no 7"}},
+  {"id": "our_panel", "label": "Our panel", "reflectance": [[905, 0.2]],
+    "source": {"reflectance": "unsourced: a guess"}}]})";
 
 TEST(MaterialsVerb, KeepsOwnMaterialsInTheProjectAndTellsWhereAChangedOneIsUsed) {
   const TemporaryFolder folder;
   json answer;
   const auto before = done(twoStoreyDocument(), json::object());
   const double dry_concrete = before.materials->result.report.uses.at(0).area_m2;
-  auto d = done(before, {{"library", {write(folder, "own.json", kOwn)}}, {"assign", {"#none=our_panel", "table=our_panel"}}}, &answer);
+  auto d =
+      done(before, {{"library", {write(folder, "own.json", kOwn)}}, {"assign", {"#none=our_panel", "table=our_panel"}}},
+           &answer);
   EXPECT_EQ(answer.at("libraries")[0].at("added"), json({"our_panel"}));
   EXPECT_EQ(answer.at("libraries")[0].at("changed"), json({"concrete_construction"}));
   const auto& used = answer.at("libraries")[0].at("used")[0];
   EXPECT_EQ(used.at("material"), "concrete_construction");
-  EXPECT_LT(used.at("area_m2").get<double>(), dry_concrete);   // the table is of something else now
+  EXPECT_LT(used.at("area_m2").get<double>(), dry_concrete);  // the table is of something else now
   EXPECT_EQ(used.at("products").size(), 11U);
   fs::remove(folder.path() / "own.json");
   Progress progress;
@@ -79,13 +85,14 @@ TEST(MaterialsVerb, KeepsOwnMaterialsInTheProjectAndTellsWhereAChangedOneIsUsed)
   d = done(d, {{"forget", {"concrete_construction"}}});
   EXPECT_EQ(d.materials->result.assignment.materials.at(0).label, "Concrete, cast, slightly soiled");
   const auto wrong = run("materials", d, {{"forget", {"our_panel"}}});
-  ASSERT_FALSE(wrong);                                          // it is assigned
+  ASSERT_FALSE(wrong);  // it is assigned
   EXPECT_EQ(wrong.error().source, "#none");
 }
 
 TEST(MaterialsVerb, KeepsOwnRulesWhenTheirFileIsGone) {
   const TemporaryFolder folder;
-  const auto file = write(folder, "mine.json", R"({"rules": [{"ifc_class": "IfcFurniture", "assign": "carpet"}], "then": "default"})");
+  const auto file = write(folder, "mine.json",
+                          R"({"rules": [{"ifc_class": "IfcFurniture", "assign": "carpet"}], "then": "default"})");
   auto d = done(twoStoreyDocument(), {{"rules", file}});
   EXPECT_EQ(materialOfProduct(d, "table"), "carpet");
   fs::remove(file);
@@ -109,21 +116,21 @@ TEST(MaterialsVerb, TakesBackWhatWasAssigned) {
 TEST(MaterialsVerb, AcceptsAFindingBecauseOfSomethingUntilItsCauseChanges) {
   json answer;
   auto d = done(twoStoreyDocument(), {{"assign", {"slab0=mirror_household"}}}, &answer);
-  ASSERT_EQ(answer.at("findings").size(), 2U) << answer.at("findings");   // implausible, and one name two ways
+  ASSERT_EQ(answer.at("findings").size(), 2U) << answer.at("findings");  // implausible, and one name two ways
   const std::string id = answer.at("findings")[0].at("id");
   EXPECT_THAT(id, HasSubstr("implausible-"));
-  EXPECT_FALSE(run("materials", d, {{"accept", {id}}}));                  // because of what?
+  EXPECT_FALSE(run("materials", d, {{"accept", {id}}}));  // because of what?
   EXPECT_FALSE(run("materials", d, {{"accept", {"implausible-00000000"}}, {"because", "x"}}));
   d = done(d, {{"accept", {id}}, {"because", "an art gallery"}}, &answer);
   EXPECT_EQ(answer.at("open"), 1);
-  EXPECT_EQ(answer.at("findings")[1].at("accepted"), "an art gallery");   // what is open stands first
+  EXPECT_EQ(answer.at("findings")[1].at("accepted"), "an art gallery");  // what is open stands first
   const TemporaryFolder folder;
   Progress progress;
   ASSERT_TRUE(saveProject(d, folder.path() / "p", progress));
   d = done(*loadProject(folder.path() / "p", progress), json::object(), &answer);
   EXPECT_EQ(answer.at("open"), 1);
   done(d, {{"assign", {"slab1=mirror_household"}}}, &answer);
-  EXPECT_EQ(answer.at("open"), 2);                                        // a second such floor
+  EXPECT_EQ(answer.at("open"), 2);  // a second such floor
   done(d, {{"reopen", {id}}}, &answer);
   EXPECT_EQ(answer.at("open"), 2);
 }
@@ -140,21 +147,26 @@ TEST(MaterialsVerb, OffersRemediesThatTheVerbTakesAsTheyAre) {
 TEST(MaterialsVerb, TellsReasonsCoverageAndTheInstrumentsWavelength) {
   json answer;
   const TemporaryFolder folder;
-  auto d = done(twoStoreyDocument(), {{"instrument", "leica-rtc360"}, {"library", {write(folder, "own.json", kOwn)}}, {"assign", {"table=our_panel"}}}, &answer);
-  EXPECT_THAT(answer.at("reasons")[0].at("reason").get<std::string>(), testing::MatchesRegex("material 'Concrete' \\(concrete\\), rule [0-9]+ of default.json"));
+  auto d = done(
+      twoStoreyDocument(),
+      {{"instrument", "leica-rtc360"}, {"library", {write(folder, "own.json", kOwn)}}, {"assign", {"table=our_panel"}}},
+      &answer);
+  EXPECT_THAT(answer.at("reasons")[0].at("reason").get<std::string>(),
+              testing::MatchesRegex("material 'Concrete' \\(concrete\\), rule [0-9]+ of default.json"));
   EXPECT_EQ(answer.at("reasons")[0].at("surfaces").size(), 11U);
   EXPECT_EQ(answer.at("reasons")[1].at("confidence"), 1);
   EXPECT_EQ(answer.at("by_class")[0].at("class"), "IfcWall");
   EXPECT_EQ(answer.at("by_class")[0].at("coverage"), 1);
   bool found = false;
   for (const auto& f : answer.at("findings")) found = found || f.at("kind") == "no-data";
-  EXPECT_TRUE(found);   // our panel has a figure at 905 nm only
+  EXPECT_TRUE(found);  // our panel has a figure at 905 nm only
   EXPECT_FALSE(run("materials", d, {{"instrument", "leica-rtc999"}}));
 }
 
 TEST(MaterialsVerb, WritesAReportToPrintAndATable) {
   const TemporaryFolder folder;
-  auto d = done(twoStoreyDocument(), {{"assign", {"table=retroreflective_foil"}}, {"report", (folder.path() / "r.html").string()}});
+  auto d = done(twoStoreyDocument(),
+                {{"assign", {"table=retroreflective_foil"}}, {"report", (folder.path() / "r.html").string()}});
   done(d, {{"report", (folder.path() / "r.csv").string()}});
   const auto text = [&](const char* name) {
     std::ifstream in(folder.path() / name);
@@ -162,26 +174,26 @@ TEST(MaterialsVerb, WritesAReportToPrintAndATable) {
   };
   EXPECT_THAT(text("r.html"), HasSubstr("Concrete, cast, slightly soiled"));
   EXPECT_THAT(text("r.html"), HasSubstr("ECOSTRESS"));
-  EXPECT_THAT(text("r.html"), HasSubstr("Retroreflective foil"));   // as a finding
+  EXPECT_THAT(text("r.html"), HasSubstr("Retroreflective foil"));  // as a finding
   EXPECT_THAT(text("r.csv"), HasSubstr("\nconcrete_construction,\"Concrete, cast, slightly soiled\","));
   EXPECT_FALSE(run("materials", d, {{"report", (folder.path() / "r.pdf").string()}}));
 }
 
 TEST(MaterialsVerb, TellsPeopleWhatIsThereAndHowToGoOn) {
-  const auto d = twoStoreyDocument();   // slabs of 28 m² each side and rim: 3 · 52 m², walls, a table of 5 m²
+  const auto d = twoStoreyDocument();  // slabs of 28 m² each side and rim: 3 · 52 m², walls, a table of 5 m²
   const auto outcome = run("materials", d, {{"assign", {"table=retroreflective_foil", "slab0=mirror_household"}}});
   ASSERT_TRUE(outcome) << describe(outcome.error());
   const auto& text = outcome->text;
   EXPECT_THAT(text, HasSubstr("\n  mirror_household"));
-  EXPECT_THAT(text, HasSubstr("52.0 m²"));   // 2 · 6 · 4 + 2 · 0.2 · (6 + 4)
+  EXPECT_THAT(text, HasSubstr("52.0 m²"));  // 2 · 6 · 4 + 2 · 0.2 · (6 + 4)
   EXPECT_THAT(text, HasSubstr("\n  (none)"));
-  EXPECT_THAT(text, HasSubstr("5.0 m²"));    // 2 · 1 · 1 + 4 · 0.75
+  EXPECT_THAT(text, HasSubstr("5.0 m²"));  // 2 · 1 · 1 + 4 · 0.75
   EXPECT_THAT(text, HasSubstr("  5.0 m² of 5.0 m² of IfcFurniture\n"));
   EXPECT_THAT(text, HasSubstr("    1 implausible"));
   EXPECT_THAT(text, HasSubstr("--because"));
   const auto& first = d.imported->products.back();
   EXPECT_EQ(first.name, "table");
-  for (const auto& f : outcome->answer.at("findings"))   // each kind's first can be named
+  for (const auto& f : outcome->answer.at("findings"))  // each kind's first can be named
     if (f.at("kind") == "gap") EXPECT_THAT(text, HasSubstr(f.at("id").get<std::string>()));
 }
 
@@ -196,11 +208,24 @@ TEST(MaterialsVerb, QuotesSelectorsForTheShell) {
 }
 
 TEST(MaterialsVerb, OpensProjectsOfBeforeFindingsAndSourcesHadParts) {
-  const json old = {{"rules_file", ""}, {"overrides", json::array()},
-                    {"materials", {{{"id", "a"}, {"label", "A"}, {"reflectance", {{532, 0.3}}}, {"roughness_rad", 0}, {"gloss_slope", 0}, {"index_of_refraction", 0},
-                                    {"thickness_m", 0}, {"transmittance", json::array()}, {"source", {"reflectance: measured: me"}}}}},
+  const json old = {{"rules_file", ""},
+                    {"overrides", json::array()},
+                    {"materials",
+                     {{{"id", "a"},
+                       {"label", "A"},
+                       {"reflectance", {{532, 0.3}}},
+                       {"roughness_rad", 0},
+                       {"gloss_slope", 0},
+                       {"index_of_refraction", 0},
+                       {"thickness_m", 0},
+                       {"transmittance", json::array()},
+                       {"source", {"reflectance: measured: me"}}}}},
                     {"surfaces", {{0, 0, 0, "rule /3"}}},
-                    {"report", {{"coverage", 1}, {"area_m2", 2}, {"uses", {{{"material", "a"}, {"area_m2", 2}, {"products", {0}}}}}, {"findings", {{"note", "#1", "look"}}}}}};
+                    {"report",
+                     {{"coverage", 1},
+                      {"area_m2", 2},
+                      {"uses", {{{"material", "a"}, {"area_m2", 2}, {"products", {0}}}}},
+                      {"findings", {{"note", "#1", "look"}}}}}};
   const auto choice = materialsFrom(old);
   EXPECT_EQ(choice.result.assignment.surfaces.at(0).reason, "rule /3");
   EXPECT_EQ(choice.result.assignment.materials.at(0).sources.at(0).text, "measured: me");
@@ -239,7 +264,7 @@ Document withTableInTheSlab() {
 TEST(MaterialsVerb, KeepsAFaceAtAPointThroughTheDiskAndTheOptimizer) {
   const TemporaryFolder folder;
   Progress progress;
-  auto d = done(withTableInTheSlab(), {{"assign", {"slab0@0,0,1@500002.5,5600002.5,0.75=carpet"}}});   // the table's top
+  auto d = done(withTableInTheSlab(), {{"assign", {"slab0@0,0,1@500002.5,5600002.5,0.75=carpet"}}});  // the table's top
   EXPECT_NEAR(areaOf(d, "carpet", 0), 1, 1e-4);
   ASSERT_TRUE(saveProject(d, folder.path() / "p", progress));
   d = *loadProject(folder.path() / "p", progress);
@@ -247,7 +272,7 @@ TEST(MaterialsVerb, KeepsAFaceAtAPointThroughTheDiskAndTheOptimizer) {
   const auto lighter = run("optimize", d, {{"max-deviation", 0.05}});
   ASSERT_TRUE(lighter) << describe(lighter.error());
   EXPECT_NE(lighter->document.environment(), d.imported);
-  EXPECT_NEAR(areaOf(lighter->document, "carpet", 0), 1, 1e-4);   // by what was assigned before
+  EXPECT_NEAR(areaOf(lighter->document, "carpet", 0), 1, 1e-4);  // by what was assigned before
   EXPECT_NEAR(areaOf(done(lighter->document, json::object()), "carpet", 0), 1, 1e-4);
 }
 
@@ -260,7 +285,8 @@ TEST(MaterialsVerb, WritesAFaceAtAPointIntoWhatItExports) {
   ASSERT_TRUE(back) << describe(back.error());
   back->document = done(back->document, json::object());
   const auto& uses = back->document.materials->result.report.uses;
-  const auto carpet = std::find_if(uses.begin(), uses.end(), [](const MaterialUse& u) { return u.material == "carpet"; });
+  const auto carpet =
+      std::find_if(uses.begin(), uses.end(), [](const MaterialUse& u) { return u.material == "carpet"; });
   ASSERT_NE(carpet, uses.end());
   EXPECT_NEAR(carpet->area_m2, 1, 1e-4);
 }

@@ -36,12 +36,16 @@ struct Points final : PointSink {
 // A sector about -X in the lower room, whose west wall is 2.5 m away, with the floor under it.
 class AWalkerInTheScan : public testing::Test {
  protected:
-  AWalkerInTheScan() : document_(run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500002.5, 5600002, 1.6}}})->document) {}
+  AWalkerInTheScan()
+      : document_(run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500002.5, 5600002, 1.6}}})->document) {}
 
-  Points scanned(const json& more, const json& settings = {"resolution=1/20", "quality=4x", "horizontal_from=150", "horizontal_to=210", "vertical_from=-40", "vertical_to=10"},
+  Points scanned(const json& more,
+                 const json& settings = {"resolution=1/20", "quality=4x", "horizontal_from=150", "horizontal_to=210",
+                                         "vertical_from=-40", "vertical_to=10"},
                  const std::string& instrument = "faro-focus-s350") {
     const auto file = folder_.path() / "scan.e57";
-    json options = {{"instrument", instrument}, {"set", settings}, {"seed", 3}, {"truth", true}, {"output", file.string()}};
+    json options = {
+        {"instrument", instrument}, {"set", settings}, {"seed", 3}, {"truth", true}, {"output", file.string()}};
     if (!more.is_null()) options.update(more);
     const auto outcome = run("scan", document_, options);
     EXPECT_TRUE(outcome) << describe(outcome.error());
@@ -76,18 +80,24 @@ TEST_F(AWalkerInTheScan, StandsTwoMetresAwayWhereTheLaserLooksAtThatShareOfTheTu
   EXPECT_NEAR(widest, 0.25, 0.02);
   EXPECT_NEAR(highest, 1.75 - 1.6, 0.03);
   EXPECT_LT(lowest, -1.2);
-  EXPECT_EQ(std::count_if(empty.all.truth.flags.begin(), empty.all.truth.flags.end(), [](std::uint8_t f) { return (f & point_flag::kMoving) != 0; }), 0);
+  EXPECT_EQ(std::count_if(empty.all.truth.flags.begin(), empty.all.truth.flags.end(),
+                          [](std::uint8_t f) { return (f & point_flag::kMoving) != 0; }),
+            0);
 }
 
 TEST_F(AWalkerInTheScan, IsNotSeenWhereAWallIsNearer) {
-  document_ = run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500001.0, 5600002, 1.6}}})->document;   // the wall is 1 m away
+  document_ = run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500001.0, 5600002, 1.6}}})
+                  ->document;  // the wall is 1 m away
   const auto walked = scanned({{"mishap", {"walk=0.5"}}});
-  EXPECT_EQ(std::count_if(walked.all.truth.flags.begin(), walked.all.truth.flags.end(), [](std::uint8_t f) { return (f & point_flag::kMoving) != 0; }), 0);
+  EXPECT_EQ(std::count_if(walked.all.truth.flags.begin(), walked.all.truth.flags.end(),
+                          [](std::uint8_t f) { return (f & point_flag::kMoving) != 0; }),
+            0);
 }
 
 TEST_F(AWalkerInTheScan, IsTakenOutByASecondPassOfTheLaser) {
   const auto twice = scanned({{"mishap", {"walk=0.5"}}},
-                             {"resolution=12mm", "double_scan=on", "images=off", "field_of_view=target_area", "horizontal_from=176", "horizontal_to=184", "vertical_from=-20", "vertical_to=0"},
+                             {"resolution=12mm", "double_scan=on", "images=off", "field_of_view=target_area",
+                              "horizontal_from=176", "horizontal_to=184", "vertical_from=-20", "vertical_to=0"},
                              "leica-rtc360");
   ASSERT_GT(twice.all.size(), 1000U);
   for (std::size_t i = 0; i < twice.all.size(); ++i) EXPECT_EQ(twice.all.truth.flags[i] & point_flag::kMoving, 0);
@@ -128,7 +138,9 @@ TEST(Mishap, IsReadAndWhatItIsNotIsRefused) {
   EXPECT_EQ(read->until_share, 0.5);
   EXPECT_EQ(read->pushed_at_share, 0);
   EXPECT_EQ(read->noise_factor, 2);
-  for (const char* wrong : {"walk=1.1", "walk=-0.1", "walk=", "walk", "walk=x", "walk=0.5s", "run=0.5", "noise=0.5", "push=nan"}) EXPECT_FALSE(mishapFrom({wrong})) << wrong;
+  for (const char* wrong :
+       {"walk=1.1", "walk=-0.1", "walk=", "walk", "walk=x", "walk=0.5s", "run=0.5", "noise=0.5", "push=nan"})
+    EXPECT_FALSE(mishapFrom({wrong})) << wrong;
 }
 
 }  // namespace

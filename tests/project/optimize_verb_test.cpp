@@ -20,7 +20,9 @@ Document furnished() {
   for (int i = 0; i <= kRings; ++i)
     for (int k = 0; k < kSegments; ++k) {
       const double a = M_PI * i / kRings, b = 2 * M_PI * k / kSegments;
-      ball->positions.emplace_back(static_cast<float>(0.4 * std::sin(a) * std::cos(b)), static_cast<float>(0.4 * std::sin(a) * std::sin(b)), static_cast<float>(0.4 * std::cos(a)));
+      ball->positions.emplace_back(static_cast<float>(0.4 * std::sin(a) * std::cos(b)),
+                                   static_cast<float>(0.4 * std::sin(a) * std::sin(b)),
+                                   static_cast<float>(0.4 * std::cos(a)));
     }
   for (std::uint32_t i = 0; i < kRings; ++i)
     for (std::uint32_t k = 0; k < kSegments; ++k) {
@@ -30,9 +32,11 @@ Document furnished() {
     }
   ball->surface_of_triangle.assign(ball->triangles.size(), 0);
   auto other = std::make_shared<Mesh>(*ball);
-  for (auto& p : other->positions) p.z() *= 1.001F;   // not to be found as the same
-  for (const auto& [id, mesh, at] : {std::tuple{"seen", ball, Eigen::Vector3d(1.5, 2, 1)}, std::tuple{"unseen", other, Eigen::Vector3d(3, 2, 50)}}) {
-    e->instances.push_back({static_cast<std::uint32_t>(e->meshes.size()), static_cast<std::uint32_t>(e->products.size()), Eigen::Affine3d(Eigen::Translation3d(at))});
+  for (auto& p : other->positions) p.z() *= 1.001F;  // not to be found as the same
+  for (const auto& [id, mesh, at] :
+       {std::tuple{"seen", ball, Eigen::Vector3d(1.5, 2, 1)}, std::tuple{"unseen", other, Eigen::Vector3d(3, 2, 50)}}) {
+    e->instances.push_back({static_cast<std::uint32_t>(e->meshes.size()),
+                            static_cast<std::uint32_t>(e->products.size()), Eigen::Affine3d(Eigen::Translation3d(at))});
     e->products.emplace_back().id = id;
     e->meshes.push_back(mesh);
   }
@@ -59,7 +63,7 @@ TEST(OptimizeVerb, GivesMoreToWhatWalkersSee) {
   ASSERT_TRUE(saveProject(seen->document, folder.path() / "p", progress));
   const auto loaded = loadProject(folder.path() / "p", progress);
   EXPECT_TRUE(loaded->lightening->request.by_view);
-  EXPECT_GT(seen->answer.at("mean_turn_deg").get<double>(), 0.1);   // a ball of fewer corners has other normals
+  EXPECT_GT(seen->answer.at("mean_turn_deg").get<double>(), 0.1);  // a ball of fewer corners has other normals
   EXPECT_EQ(loaded->lightening->all.mean_turn_rad, seen->document.lightening->all.mean_turn_rad);
 }
 

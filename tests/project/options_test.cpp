@@ -29,7 +29,8 @@ TEST(VerbTable, AcceptsItsOwnDefaults) {
       if (p.standard.is_null()) continue;
       nlohmann::json options = {{p.name, p.standard}};
       for (const auto& q : v.parameters)
-        if (q.required) options[q.name] = q.kind == ParameterKind::list ? nlohmann::json::array({"x"}) : nlohmann::json("x");
+        if (q.required)
+          options[q.name] = q.kind == ParameterKind::list ? nlohmann::json::array({"x"}) : nlohmann::json("x");
       EXPECT_TRUE(checkOptions(v, options)) << v.name << " " << p.name;
     }
 }

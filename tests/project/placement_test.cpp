@@ -49,16 +49,21 @@ std::string refusal(const Document& d, json options) {
 
 TEST(Placement, KeepsTwentyCentimetresFromASurface) {
   const auto d = ground([](Environment& e) { addBox(e, "wall", "IfcWall", {1, -3, 0}, {1.3, 3, 3}); });
-  EXPECT_THAT(refusal(d, {{"at", {0.81, 0, 1.6}}}), AllOf(HasSubstr("190 mm from IfcWall wall"), HasSubstr("move it 10 mm away")));
+  EXPECT_THAT(refusal(d, {{"at", {0.81, 0, 1.6}}}),
+              AllOf(HasSubstr("190 mm from IfcWall wall"), HasSubstr("move it 10 mm away")));
   EXPECT_TRUE(run("station", d, {{"add", "S"}, {"at", {0.79, 0, 1.6}}}));
-  const auto pole = ground([](Environment& e) { addBox(e, "pole", "IfcMember", {0.1, 0.1, 1.5}, {0.102, 0.102, 1.55}); });
-  EXPECT_THAT(refusal(pole, {{"at", {0, 0, 1.525}}}), HasSubstr("IfcMember pole")) << "a thread between all beams of a test";
+  const auto pole = ground([](Environment& e) {
+    addBox(e, "pole", "IfcMember", {0.1, 0.1, 1.5}, {0.102, 0.102, 1.55});
+  });
+  EXPECT_THAT(refusal(pole, {{"at", {0, 0, 1.525}}}), HasSubstr("IfcMember pole"))
+      << "a thread between all beams of a test";
 }
 
 TEST(Placement, RefusesASlopeThatATripodSlidesFromAndSaysHowSteepItIs) {
   const auto ramp = [](double deg) { return ground([&](Environment& e) { addSlope(e, deg); }); };
   EXPECT_TRUE(run("station", ramp(28), {{"add", "S"}, {"on", {0, 0}}}));
-  EXPECT_THAT(refusal(ramp(38), {{"on", {0, 0}}}), AllOf(HasSubstr("slope of 38 degrees"), HasSubstr("ramp"), HasSubstr("30 degrees")));
+  EXPECT_THAT(refusal(ramp(38), {{"on", {0, 0}}}),
+              AllOf(HasSubstr("slope of 38 degrees"), HasSubstr("ramp"), HasSubstr("30 degrees")));
   EXPECT_THAT(refusal(ramp(38), {{"at", {0, 0, 1.6}}}), HasSubstr("slope of 38 degrees"));
   EXPECT_THAT(refusal(ramp(70), {{"at", {0, 0, 1.6}}}), HasSubstr("wall of 70 degrees"));
 }
@@ -70,7 +75,8 @@ TEST(Placement, RefusesTheTopOfAWallWhereThreeFeetHaveNoRoom) {
 
 TEST(Placement, RefusesToFloatAndToStandTooLow) {
   const auto d = ground();
-  EXPECT_THAT(refusal(d, {{"at", {0, 0, 5.0}}}), AllOf(HasSubstr("float"), HasSubstr("5.00 m below"), HasSubstr("lower it by 2.80 m")));
+  EXPECT_THAT(refusal(d, {{"at", {0, 0, 5.0}}}),
+              AllOf(HasSubstr("float"), HasSubstr("5.00 m below"), HasSubstr("lower it by 2.80 m")));
   EXPECT_THAT(refusal(d, {{"at", {0, 0, 0.5}}}), HasSubstr("0.80 m high at least"));
   EXPECT_THAT(refusal(d, {{"at", {30, 0, 5.0}}}), HasSubstr("float")) << "beside the model";
   EXPECT_THAT(refusal(d, {{"at", {0, 0, -5.0}}}), HasSubstr("float")) << "below the model";
@@ -90,13 +96,16 @@ TEST(Placement, RefusesTheInsideOfABodyAndNotThatOfARoomDrawnFromInside) {
     return ground([=](Environment& e) {
       addBox(e, "block", ifc_class, {-3, -3, 0.01}, {3, 3, 4});
       auto mesh = std::make_shared<Mesh>(*e.meshes.back());
-      if (inwards) for (auto& t : mesh->triangles) std::swap(t[1], t[2]);
+      if (inwards)
+        for (auto& t : mesh->triangles) std::swap(t[1], t[2]);
       e.meshes.back() = mesh;
     });
   };
-  EXPECT_THAT(refusal(block("IfcBuildingElementProxy", false), {{"at", {0, 0, 1.6}}}), HasSubstr("inside IfcBuildingElementProxy block"));
+  EXPECT_THAT(refusal(block("IfcBuildingElementProxy", false), {{"at", {0, 0, 1.6}}}),
+              HasSubstr("inside IfcBuildingElementProxy block"));
   EXPECT_THAT(refusal(block("IfcBuildingElementProxy", true), {{"at", {0, 0, 1.6}}}), HasSubstr("closed body"));
-  EXPECT_THAT(refusal(block("", false), {{"at", {0, 0, 3.5}}}), HasSubstr("closed body")) << "nothing to stand on in there";
+  EXPECT_THAT(refusal(block("", false), {{"at", {0, 0, 3.5}}}), HasSubstr("closed body"))
+      << "nothing to stand on in there";
   const auto skin = run("station", block("", false), {{"add", "S"}, {"at", {0, 0, 1.6}}});
   ASSERT_TRUE(skin) << describe(skin.error());
   EXPECT_THAT(said(skin->report), HasSubstr("taken for a room drawn as one skin"));
@@ -105,7 +114,8 @@ TEST(Placement, RefusesTheInsideOfABodyAndNotThatOfARoomDrawnFromInside) {
 
 TEST(Placement, AsksForHeadroom) {
   const auto d = ground([](Environment& e) { addBox(e, "beam", "IfcBeam", {-1, -1, 1.85}, {1, 1, 2}); });
-  EXPECT_THAT(refusal(d, {{"at", {0, 0, 1.6}}}), AllOf(HasSubstr("IfcBeam beam is 0.25 m above"), HasSubstr("0.30 m of headroom")));
+  EXPECT_THAT(refusal(d, {{"at", {0, 0, 1.6}}}),
+              AllOf(HasSubstr("IfcBeam beam is 0.25 m above"), HasSubstr("0.30 m of headroom")));
 }
 
 TEST(Placement, TakesTheHeightOfTheInstrumentThatWillStandThere) {

@@ -18,7 +18,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 constexpr double kPi = std::numbers::pi;
-const double kBlind = kPi * std::pow(1.5 / std::tan(kPi / 3), 2);   // of the floor, below a FARO 1.5 m above it
+const double kBlind = kPi * std::pow(1.5 / std::tan(kPi / 3), 2);  // of the floor, below a FARO 1.5 m above it
 
 // A room of 10 x 8 x 3 m, drawn as one skin that looks inwards, around (0, 0, 1.5); and what a test puts into it.
 Document room(const std::function<void(Environment&)>& add = {}) {
@@ -37,7 +37,7 @@ Document room(const std::function<void(Environment&)>& add = {}) {
 }
 constexpr double kRoom_m2 = 2 * (80 + 30 + 24);
 
-void addPlate(Environment& e) {   // 1 m², 2 m in front of (0, 0, 1.5)
+void addPlate(Environment& e) {  // 1 m², 2 m in front of (0, 0, 1.5)
   auto m = std::make_shared<Mesh>();
   m->positions = {{2, -0.5F, 1}, {2, 0.5F, 1}, {2, 0.5F, 2}, {2, -0.5F, 2}};
   m->triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -45,7 +45,8 @@ void addPlate(Environment& e) {   // 1 m², 2 m in front of (0, 0, 1.5)
   Product p;
   p.id = "plate";
   p.ifc_class = "IfcPlate";
-  e.instances.push_back({static_cast<std::uint32_t>(e.meshes.size()), static_cast<std::uint32_t>(e.products.size()), Eigen::Affine3d::Identity()});
+  e.instances.push_back({static_cast<std::uint32_t>(e.meshes.size()), static_cast<std::uint32_t>(e.products.size()),
+                         Eigen::Affine3d::Identity()});
   e.products.push_back(p);
   e.meshes.push_back(m);
 }
@@ -89,21 +90,25 @@ TEST(Plan, OverlapIsTheCommonSurfaceAsAShareOfTheSmallerView) {
   ASSERT_EQ(p["pairs"].size(), 1U);
   EXPECT_NEAR(p["pairs"][0]["common_m2"].get<double>(), kRoom_m2 - 2 * kBlind, 0.3);
   EXPECT_NEAR(p["pairs"][0]["overlap"].get<double>(), (kRoom_m2 - 2 * kBlind) / (kRoom_m2 - kBlind), 2e-3);
-  const auto apart = plan(with(twoStoreyDocument(), {{"S", {500002.5, 5600002, 1.6}}, {"T", {500003, 5600001.5, 4.6}}}));
+  const auto apart =
+      plan(with(twoStoreyDocument(), {{"S", {500002.5, 5600002, 1.6}}, {"T", {500003, 5600001.5, 4.6}}}));
   EXPECT_LT(apart["pairs"][0]["overlap"].get<double>(), 1e-3) << "a storey between them";
 }
 
 TEST(Plan, CountsASurfaceAsSeenOnlyAsNearAsFlatAndAsDenseAsWanted) {
   const auto d = with(room(), {{"S", {0, 0, 1.5}}});
-  const double r2 = 3.5 * 3.5 - 1.5 * 1.5;   // a circle on floor and ceiling; no wall is as near
+  const double r2 = 3.5 * 3.5 - 1.5 * 1.5;  // a circle on floor and ceiling; no wall is as near
   EXPECT_NEAR(plan(d, {{"max-range", 3.5}})["seen_m2"].get<double>(), 2 * kPi * r2 - kBlind, 0.3);
-  // 45 degrees: discs of 1.5 m on floor and ceiling without the blind one, on the walls circles of their distance, cut off
-  // by floor and ceiling 1.5 m from their middles.
-  const auto band = [](double radius) { return 2 * (1.5 * std::sqrt(radius * radius - 2.25) + radius * radius * std::asin(1.5 / radius)); };
-  EXPECT_NEAR(plan(d, {{"max-incidence-deg", 45}})["seen_m2"].get<double>(), 2 * kPi * 2.25 - kBlind + 2 * band(4) + 2 * 24, 0.6)
+  // 45 degrees: discs of 1.5 m on floor and ceiling without the blind one, on the walls circles of their distance, cut
+  // off by floor and ceiling 1.5 m from their middles.
+  const auto band = [](double radius) {
+    return 2 * (1.5 * std::sqrt(radius * radius - 2.25) + radius * radius * std::asin(1.5 / radius));
+  };
+  EXPECT_NEAR(plan(d, {{"max-incidence-deg", 45}})["seen_m2"].get<double>(),
+              2 * kPi * 2.25 - kBlind + 2 * band(4) + 2 * 24, 0.6)
       << "the walls at 5 m are seen whole: their corners are 4 m and 1.5 m off the middle";
-  // A point stands for r² dAz dEl cos(el) / cos(incidence). Where that is at most what it is straight ahead at 1.5 m, floor
-  // and ceiling have cos(el) <= sin(el)^3: from 55.69 degrees on, discs of 1.0235 m.
+  // A point stands for r² dAz dEl cos(el) / cos(incidence). Where that is at most what it is straight ahead at 1.5 m,
+  // floor and ceiling have cos(el) <= sin(el)^3: from 55.69 degrees on, discs of 1.0235 m.
   const auto instrument = *instrumentById("faro-focus-s350");
   const auto settings = *resolveSettings(instrument, {{"resolution", "1/16"}, {"quality", "4x"}});
   const double wanted = spacingOf(settings, 1.5, 0, 0);
@@ -117,13 +122,14 @@ class AreaSink : public PointSink {
   double area = 0;
   std::uint64_t points = 0;
   Result<void> begin(const ScanHeader& h) override {
-    step_ = 2 * kPi / h.columns * (150 * kPi / 180 / h.rows);   // of a FARO's whole field
+    step_ = 2 * kPi / h.columns * (150 * kPi / 180 / h.rows);  // of a FARO's whole field
     return {};
   }
   Result<void> write(const PointBlock& b) override {
     for (std::size_t i = 0; i < b.size(); ++i) {
       const double r = b.truth.range_m[i];
-      area += r * std::hypot(b.x_m[i], b.y_m[i]) * step_ / std::max(0.02, std::cos(static_cast<double>(b.truth.incidence_rad[i])));
+      area += r * std::hypot(b.x_m[i], b.y_m[i]) * step_ /
+              std::max(0.02, std::cos(static_cast<double>(b.truth.incidence_rad[i])));
     }
     points += b.size();
     return {};
@@ -138,10 +144,13 @@ class AreaSink : public PointSink {
 TEST(Plan, ForecastsWhatTheScanThenMeasures) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "s.e57";
-  for (const auto& d : {with(room(addPlate), {{"S", {0.3, 0.2, 1.5}}}), with(twoStoreyDocument(), {{"S", {500002.5, 5600002, 1.6}}})}) {
+  for (const auto& d :
+       {with(room(addPlate), {{"S", {0.3, 0.2, 1.5}}}), with(twoStoreyDocument(), {{"S", {500002.5, 5600002, 1.6}}})}) {
     const json set = {"resolution=1/16", "quality=4x"};
     const auto p = plan(d, {{"set", set}});
-    const auto scanned = run("scan", d, {{"instrument", "faro-focus-s350"}, {"set", set}, {"ideal", true}, {"truth", true}, {"output", file.string()}});
+    const auto scanned = run(
+        "scan", d,
+        {{"instrument", "faro-focus-s350"}, {"set", set}, {"ideal", true}, {"truth", true}, {"output", file.string()}});
     ASSERT_TRUE(scanned) << describe(scanned.error());
     AreaSink sink;
     Progress progress;
@@ -157,17 +166,25 @@ TEST(Plan, ForecastsTheSizeOfTheFile) {
   const auto file = folder.path() / "s.e57";
   const auto d = with(twoStoreyDocument(), {{"S", {500002.5, 5600002, 1.6}}});
   const auto p = plan(d);
-  ASSERT_TRUE(run("scan", d, {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/16", "quality=4x"}}, {"output", file.string()}}));
+  ASSERT_TRUE(
+      run("scan", d,
+          {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/16", "quality=4x"}}, {"output", file.string()}}));
   EXPECT_NEAR(p["bytes"].get<double>() / static_cast<double>(std::filesystem::file_size(file)), 1, 0.03);
   // With all that is known of each point, as the editor asks for it.
   Progress progress;
   const auto instrument = *instrumentById("faro-focus-s350");
   const auto settings = *resolveSettings(instrument, {{"resolution", "1/16"}, {"quality", "4x"}});
   const auto assignment = std::make_shared<const MaterialAssignment>();
-  const auto known = planSurvey(*d.job, *RayScene::build(d.environment(), progress), assignment,
-                                {.instrument = instrument, .settings = settings, .stations = {0}, .channels = {true, true, true}, .wanted = {}}, progress);
+  const auto known = planSurvey(
+      *d.job, *RayScene::build(d.environment(), progress), assignment,
+      {.instrument = instrument, .settings = settings, .stations = {0}, .channels = {true, true, true}, .wanted = {}},
+      progress);
   ASSERT_TRUE(known) << describe(known.error());
-  ASSERT_TRUE(run("scan", d, {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/16", "quality=4x"}}, {"truth", true}, {"output", file.string()}}));
+  ASSERT_TRUE(run("scan", d,
+                  {{"instrument", "faro-focus-s350"},
+                   {"set", {"resolution=1/16", "quality=4x"}},
+                   {"truth", true},
+                   {"output", file.string()}}));
   EXPECT_NEAR(known->bytes[0] / static_cast<double>(std::filesystem::file_size(file)), 1, 0.03);
 }
 
@@ -188,7 +205,8 @@ TEST(Plan, GivesTheSameAnswerAgainAndLeavesHiddenSurfacesOut) {
   const auto d = with(twoStoreyDocument(), {{"S", {500002.5, 5600002, 1.6}}});
   EXPECT_EQ(plan(d), plan(d));
   const auto p = plan(d);
-  EXPECT_NEAR(p["area_m2"].get<double>() - p["exposed_m2"].get<double>(), 2, 0.4) << "where the table stands on the slab, from both";
+  EXPECT_NEAR(p["area_m2"].get<double>() - p["exposed_m2"].get<double>(), 2, 0.4)
+      << "where the table stands on the slab, from both";
 }
 
 }  // namespace

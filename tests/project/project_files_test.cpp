@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/project_files.h"
+
 #include <csignal>
 #include <fstream>
-
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include "project/project_files.h"
+#include <gtest/gtest.h>
+
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -49,10 +50,16 @@ Document fullDocument() {
   g.site = GeographicPosition{48.1, 11.5, 510};
   g.true_north_rad = 0.25;
   d.georeference = std::make_shared<const Georeference>(g);
-  d.scanning = std::make_shared<const ScanChoice>(ScanChoice{
-      .instrument = "leica-rtc360", .settings = {{"resolution", "3mm"}}, .seed = 7,
-      .effects = Effects().without(Effect::striping).without(Effect::panes), .weather = {5, 2, 0, 120, 0},
-      .truth = true, .compensator = false, .panorama = true, .panorama_columns = 2048});
+  d.scanning = std::make_shared<const ScanChoice>(
+      ScanChoice{.instrument = "leica-rtc360",
+                 .settings = {{"resolution", "3mm"}},
+                 .seed = 7,
+                 .effects = Effects().without(Effect::striping).without(Effect::panes),
+                 .weather = {5, 2, 0, 120, 0},
+                 .truth = true,
+                 .compensator = false,
+                 .panorama = true,
+                 .panorama_columns = 2048});
   return run("station", d, {{"add", "S1"}, {"at", {500002.1, 5600002, 1.6}}, {"yaw-deg", 33.3}})->document;
 }
 

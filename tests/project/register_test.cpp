@@ -13,10 +13,13 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-// The test model without its table, scanned without noise from one place in the lower room (frame of the file: 500 000, 5 600 000).
+// The test model without its table, scanned without noise from one place in the lower room (frame of the file: 500 000,
+// 5 600 000).
 Document scannedRoom(const fs::path& file, bool ideal = true) {
   Document d = run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500002, 5600001.5, 1.6}}})->document;
-  const auto done = run("scan", d, {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/16"}}, {"ideal", ideal}, {"output", file.string()}});
+  const auto done = run(
+      "scan", d,
+      {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/16"}}, {"ideal", ideal}, {"output", file.string()}});
   EXPECT_TRUE(done) << describe(done.error());
   return done->document;
 }
@@ -37,7 +40,9 @@ class Registered : public ::testing::Test {
     const Eigen::Vector3d pivot(500003, 5600002, 0);
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(yaw_deg * M_PI / 180, Eigen::Vector3d::UnitZ()));
     const Eigen::Vector3d at = pivot + shift - turn * pivot;
-    return run("underlay", d, {{"add", file_.string()}, {"name", "cloud"}, {"at", {at.x(), at.y(), at.z()}}, {"yaw-deg", yaw_deg}})->document;
+    return run("underlay", d,
+               {{"add", file_.string()}, {"name", "cloud"}, {"at", {at.x(), at.y(), at.z()}}, {"yaw-deg", yaw_deg}})
+        ->document;
   }
   TemporaryFolder folder_;
   fs::path file_ = folder_.path() / "scan.e57";
@@ -58,7 +63,7 @@ TEST_F(Registered, WithNoiseComesBackWithinTheInstrumentsAccuracy) {
   const Document d = laid(scannedRoom(file_, false), {-0.1, 0.12, 0}, -1);
   const auto done = run("underlay", d, {{"register", "cloud"}, {"icp", true}});
   ASSERT_TRUE(done) << describe(done.error());
-  EXPECT_LT(worstCorner(*done->document.underlays[0]), 0.003);   // its range accuracy is 1 mm, its angles' 19"
+  EXPECT_LT(worstCorner(*done->document.underlays[0]), 0.003);  // its range accuracy is 1 mm, its angles' 19"
 }
 
 TEST_F(Registered, ByPairsAndThenToTheSurfaceFromFarAway) {
@@ -78,9 +83,13 @@ TEST_F(Registered, ByPairsAndThenToTheSurfaceFromFarAway) {
 
 TEST_F(Registered, TellsAScaleAndGuessesItsUnit) {
   std::ofstream(file_.replace_extension("xyz")) << "0 0 0\n1000 0 0\n";
-  const Document d = run("underlay", twoStoreyDocument(), {{"add", file_.string()}, {"name", "mm"}, {"at", {500000, 5600000, 0}}})->document;
-  const auto done = run("underlay", d, {{"register", "mm"},
-                                       {"pairs", {"0,0,0=500000,5600000,0", "6000,0,0=500006,5600000,0", "0,4000,0=500000,5600004,0"}}});
+  const Document d =
+      run("underlay", twoStoreyDocument(), {{"add", file_.string()}, {"name", "mm"}, {"at", {500000, 5600000, 0}}})
+          ->document;
+  const auto done =
+      run("underlay", d,
+          {{"register", "mm"},
+           {"pairs", {"0,0,0=500000,5600000,0", "6000,0,0=500006,5600000,0", "0,4000,0=500000,5600004,0"}}});
   ASSERT_TRUE(done) << describe(done.error());
   EXPECT_THAT(said(done->report), HasSubstr("not applied: the cloud seems to be in millimetres"));
 }
@@ -95,7 +104,8 @@ TEST_F(Registered, SaysWhatIsWrongWithItsOptions) {
   EXPECT_THAT(message({{"register", "cloud"}}), HasSubstr("--pairs"));
   EXPECT_THAT(message({{"icp", true}}), HasSubstr("--register"));
   EXPECT_THAT(message({{"register", "cloud"}, {"pairs", {"0,0,0=1,1"}}}), HasSubstr("'0,0,0=1,1' is not"));
-  EXPECT_THAT(message({{"register", "cloud"}, {"pairs", {"0,0,0=0,0,0", "1,1,1=1,1,1", "2,2,2=2,2,2"}}}), HasSubstr("on one line"));
+  EXPECT_THAT(message({{"register", "cloud"}, {"pairs", {"0,0,0=0,0,0", "1,1,1=1,1,1", "2,2,2=2,2,2"}}}),
+              HasSubstr("on one line"));
   EXPECT_THAT(message({{"register", "cloud"}, {"icp", true}}), HasSubstr("only 2 different places"));
   EXPECT_THAT(message({{"register", "clod"}, {"icp", true}}), HasSubstr("there is cloud"));
 }

@@ -120,14 +120,21 @@ TEST_F(Registration, WritesCopiesOfTheScansWithTheirSolvedPoses) {
     EXPECT_NE(registered.headers[i].guid, as_scanned.headers[i].guid);
     EXPECT_THAT(registered.headers[i].description, HasSubstr("pose by registration"));
   }
-  const double moved = (registered.headers[1].file_from_scanner.translation - as_scanned.headers[1].file_from_scanner.translation).norm();
-  EXPECT_NEAR(moved, shiftError(done->document.job->stations[1]), 1e-9) << "level stations are scanned with the true pose";
+  const double moved =
+      (registered.headers[1].file_from_scanner.translation - as_scanned.headers[1].file_from_scanner.translation)
+          .norm();
+  EXPECT_NEAR(moved, shiftError(done->document.job->stations[1]), 1e-9)
+      << "level stations are scanned with the true pose";
   EXPECT_GT(moved, 1e-5);
   // One file in, another format out.
   ASSERT_TRUE(run("register", *noisy_, {{"files", {path("noisy.e57")}}, {"output", path("one.ptx")}}));
-  EXPECT_LT((readBack(path("one.ptx")).headers[1].file_from_scanner.translation - registered.headers[1].file_from_scanner.translation).norm(), 1e-5);
+  EXPECT_LT((readBack(path("one.ptx")).headers[1].file_from_scanner.translation -
+             registered.headers[1].file_from_scanner.translation)
+                .norm(),
+            1e-5);
   EXPECT_THAT(refused(*noisy_, {{"files", {path("noisy.e57")}}, {"output", path("")}}), HasSubstr("over itself"));
-  EXPECT_THAT(refused(*noisy_, {{"files", {path("noisy.e57")}}, {"output", path("nowhere/x.e57")}}), AllOf(HasSubstr("nowhere"), HasSubstr("make it first")));
+  EXPECT_THAT(refused(*noisy_, {{"files", {path("noisy.e57")}}, {"output", path("nowhere/x.e57")}}),
+              AllOf(HasSubstr("nowhere"), HasSubstr("make it first")));
   EXPECT_EQ(readBack(path("noisy.e57")).headers[1].guid, as_scanned.headers[1].guid) << "the input is as it was";
 }
 
@@ -146,14 +153,18 @@ TEST_F(Registration, CloudToCloudOfAnIdealScanComesBackFromWhereItWasLaidByEye) 
 }
 
 TEST_F(Registration, CloudToCloudStartsFromWhereTheUserHasLaidTheScan) {
-  const auto near = run("register", *scanned_, {{"files", {path("ideal.e57")}}, {"cloud", true}, {"laid", "0.1,-0.1,2"}});
+  const auto near =
+      run("register", *scanned_, {{"files", {path("ideal.e57")}}, {"cloud", true}, {"laid", "0.1,-0.1,2"}});
   ASSERT_TRUE(near) << describe(near.error());
   EXPECT_LT(shiftError(near->document.job->stations[1]), 5e-4);
   // The wrong way round a fit cannot find back, whatever it says of itself: only the true error tells.
-  const auto turned = run("register", *scanned_, {{"files", {path("ideal.e57")}}, {"cloud", true}, {"laid", "0,0,180"}});
+  const auto turned =
+      run("register", *scanned_, {{"files", {path("ideal.e57")}}, {"cloud", true}, {"laid", "0,0,180"}});
   EXPECT_TRUE(!turned || turned->answer.at("stations").back().at("true_turn_error_deg").get<double>() > 90);
   for (const char* wrong : {"1,2", "1,2,3,4", "a,b,c", "1,2,inf"})
-    EXPECT_THAT(refused(*scanned_, {{"files", {path("ideal.e57")}}, {"cloud", true}, {"laid", wrong}}), HasSubstr("x,y,turn")) << wrong;
+    EXPECT_THAT(refused(*scanned_, {{"files", {path("ideal.e57")}}, {"cloud", true}, {"laid", wrong}}),
+                HasSubstr("x,y,turn"))
+        << wrong;
 }
 
 TEST_F(Registration, ByControlPointsHoldsNoStationAndKeepsThePoints) {

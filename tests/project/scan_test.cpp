@@ -37,7 +37,8 @@ TEST(Scan, OfTwoStationsGivesOneE57WithBoth) {
   const auto info = cloudFormatFor(file)->info(file);
   ASSERT_TRUE(info) << describe(info.error());
   ASSERT_EQ(info->scans.size(), 2U);
-  for (int i = 0; i < 2; ++i) EXPECT_EQ(info->scans[i].points, outcome->answer["stations"][i]["points"].get<std::uint64_t>());
+  for (int i = 0; i < 2; ++i)
+    EXPECT_EQ(info->scans[i].points, outcome->answer["stations"][i]["points"].get<std::uint64_t>());
   EXPECT_EQ(info->scans[0].header.file_from_scanner.translation, Eigen::Vector3d(500002.5, 5600002, 1.6))
       << "the global shift comes back to the last bit";
   EXPECT_EQ(outcome->document.job->stations[1].scans.size(), 1U);
@@ -85,7 +86,9 @@ TEST(Scan, SaysWhatIsWrongWithItsOptions) {
   EXPECT_NE(with("stations", "S1,S7").find("S7"), std::string::npos);
   EXPECT_NE(with("output", (folder.path() / "x.xyz9").string()).find(".e57"), std::string::npos);
   EXPECT_NE(with("shard", "3/2").find("i/n"), std::string::npos);
-  EXPECT_NE(with("output", "/nonexistent/folder/x.e57").find("the folder /nonexistent/folder is not there: make it first"), std::string::npos);
+  EXPECT_NE(
+      with("output", "/nonexistent/folder/x.e57").find("the folder /nonexistent/folder is not there: make it first"),
+      std::string::npos);
   EXPECT_NE(with("panorama-size", 1024).find("add --panorama"), std::string::npos);
   EXPECT_FALSE(run("scan", twoStoreyDocument(), scanOptions(folder.path() / "x.e57"))) << "no station";
   EXPECT_TRUE(fs::is_empty(folder.path())) << "a refused scan leaves no file";

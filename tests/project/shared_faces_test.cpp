@@ -10,7 +10,9 @@ const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
 
 // The table's lower face lies in the upper one of the slab.
 Document tableOf(const char* material) {
-  return run("materials", twoStoreyDocument(), {{"assign", {"class:IfcSlab=concrete_construction", std::string("table=") + material}}})->document;
+  return run("materials", twoStoreyDocument(),
+             {{"assign", {"class:IfcSlab=concrete_construction", std::string("table=") + material}}})
+      ->document;
 }
 
 bool sharedAt(const Document& d, const Eigen::Vector3d& place, const Eigen::Vector3d& normal) {

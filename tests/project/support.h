@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <unistd.h>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "project/verb.h"
 
@@ -90,7 +90,8 @@ inline std::string said(const Report& report) {
 inline Result<Outcome> run(const char* verb, const Document& d, const nlohmann::json& options) {
   Progress progress;
   const Verb* found = findVerb(verbs(), verb);
-  return found == nullptr ? Result<Outcome>(failure(ErrorKind::usage, "no such verb")) : runVerb(*found, d, options, progress);
+  return found == nullptr ? Result<Outcome>(failure(ErrorKind::usage, "no such verb"))
+                          : runVerb(*found, d, options, progress);
 }
 
 }  // namespace standpoint

@@ -9,7 +9,9 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-Document withStation() { return run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500002, 5600001.5, 1.6}}})->document; }
+Document withStation() {
+  return run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500002, 5600001.5, 1.6}}})->document;
+}
 
 std::string refusal(const Document& d, const json& options) {
   const auto done = run("target", d, options);
@@ -17,7 +19,8 @@ std::string refusal(const Document& d, const json& options) {
 }
 
 TEST(Target, OnATripodStandsItsHeightAboveTheFloorAndAPlateLooksAtTheNearestStation) {
-  const auto done = run("target", withStation(), {{"add", "T1"}, {"on", {500004, 5600001.5}}, {"height", 1.6}, {"type", "bw-152"}});
+  const auto done =
+      run("target", withStation(), {{"add", "T1"}, {"on", {500004, 5600001.5}}, {"height", 1.6}, {"type", "bw-152"}});
   ASSERT_TRUE(done) << describe(done.error());
   const Target& t = done->document.job->targets.at(0);
   EXPECT_LT((t.centre - Eigen::Vector3d(4, 1.5, 1.6)).norm(), 1e-5);
@@ -30,7 +33,8 @@ TEST(Target, OnATripodStandsItsHeightAboveTheFloorAndAPlateLooksAtTheNearestStat
 
 TEST(Target, StuckToAWallTakesItsNormalAndASphereStandsOffByItsRadiusAndItsBase) {
   const Document d = withStation();
-  const auto plate = run("target", d, {{"add", "C1"}, {"on-surface", {500000.1, 5600001, 1.2}}, {"kind", "checkerboard"}});
+  const auto plate =
+      run("target", d, {{"add", "C1"}, {"on-surface", {500000.1, 5600001, 1.2}}, {"kind", "checkerboard"}});
   ASSERT_TRUE(plate) << describe(plate.error());
   EXPECT_LT((plate->document.job->targets[0].normal - Eigen::Vector3d::UnitX()).norm(), 1e-6);
   EXPECT_THAT(plate->answer.at("placed").at("stands_on").get<std::string>(), HasSubstr("west0"));
@@ -41,14 +45,16 @@ TEST(Target, StuckToAWallTakesItsNormalAndASphereStandsOffByItsRadiusAndItsBase)
 
 TEST(Target, RightOnAWallIsOnTheSideWhereAStationStands) {
   for (const double x : {0.0, 6.0}) {
-    const auto done = run("target", withStation(), {{"add", "T"}, {"on-surface", {500000 + x, 5600001, 1.2}}, {"type", "sphere-200"}});
+    const auto done = run("target", withStation(),
+                          {{"add", "T"}, {"on-surface", {500000 + x, 5600001, 1.2}}, {"type", "sphere-200"}});
     ASSERT_TRUE(done) << describe(done.error());
     EXPECT_NEAR(done->document.job->targets[0].centre.x(), x < 3 ? 0.1 : 5.9, 1e-6);
   }
 }
 
 TEST(Target, OnTheCeilingLooksDown) {
-  const auto done = run("target", withStation(), {{"add", "T"}, {"on-surface", {500002, 5600002, 2.7}}, {"kind", "checkerboard"}});
+  const auto done =
+      run("target", withStation(), {{"add", "T"}, {"on-surface", {500002, 5600002, 2.7}}, {"kind", "checkerboard"}});
   ASSERT_TRUE(done) << describe(done.error());
   EXPECT_LT((done->document.job->targets[0].normal + Eigen::Vector3d::UnitZ()).norm(), 1e-6);
 }
@@ -79,14 +85,17 @@ TEST(Target, SaysWhatStationsCannotMeasureIt) {
   ASSERT_TRUE(hidden) << describe(hidden.error());
   EXPECT_THAT(said(hidden->report), HasSubstr("hidden from every station"));
   // On the south wall, 4 m along and 1.5 m across: seen at 69°.
-  const auto flat = run("target", d, {{"add", "T"}, {"on-surface", {500005.8, 5600000.01, 1.6}}, {"kind", "checkerboard"}});
+  const auto flat =
+      run("target", d, {{"add", "T"}, {"on-surface", {500005.8, 5600000.01, 1.6}}, {"kind", "checkerboard"}});
   ASSERT_TRUE(flat) << describe(flat.error());
   EXPECT_THAT(said(flat->report), HasSubstr("a plate is measured up to 60°"));
 }
 
-// instruments.md §4.3: a sphere of 145 mm gets 60 points of a FARO at 1/16 up to 108.1 m / 16, and here it is 3.9 m away.
+// instruments.md §4.3: a sphere of 145 mm gets 60 points of a FARO at 1/16 up to 108.1 m / 16, and here it is 3.9 m
+// away.
 TEST(Target, IsMeasuredAsFarAsTheGridLaysSixtyPointsOnIt) {
-  const json options = {{"add", "T"}, {"on", {500005.9, 5600001.5}}, {"instrument", "faro-focus-s350"}, {"set", {"resolution=1/16"}}};
+  const json options = {
+      {"add", "T"}, {"on", {500005.9, 5600001.5}}, {"instrument", "faro-focus-s350"}, {"set", {"resolution=1/16"}}};
   const auto near = run("target", withStation(), options);
   ASSERT_TRUE(near) << describe(near.error());
   const json& row = near->answer.at("seen_from").at(0);

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "project/task.h"
+
 #include <atomic>
 #include <chrono>
 #include <thread>
 
 #include <gtest/gtest.h>
 
-#include "project/task.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
 namespace {
 
-const Verb kEndless{"endless", "Runs until it is cancelled", VerbScope::files, {},
+const Verb kEndless{"endless",
+                    "Runs until it is cancelled",
+                    VerbScope::files,
+                    {},
                     [](const Document& d, const nlohmann::json&, Progress& progress) -> Result<Outcome> {
                       for (double share = 0; progress.check(); share += 0.001) progress.advance(share);
                       if (auto ok = progress.check(); !ok) return failure(ok.error());

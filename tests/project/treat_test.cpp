@@ -82,7 +82,8 @@ TEST(Treat, WhatIsKeptStaysWhereTheBudgetTakesEverythingElse) {
 
 TEST(Treat, OwnLimitsHoldWhereTheOthersMayMoveFurther) {
   const auto whole = twoStoreyDocument();
-  const auto limited = treated(whole, {{"products", {"class:IfcFurniture"}}, {"as", "simplified"}, {"max-deviation", 0.001}});
+  const auto limited =
+      treated(whole, {{"products", {"class:IfcFurniture"}}, {"as", "simplified"}, {"max-deviation", 0.001}});
   const auto light = run("optimize", limited.document, {{"budget", 1}, {"max-deviation", 100}});
   EXPECT_LE(light->document.lightening->products[tableOf(whole)].max_deviation_m, 0.001);
   EXPECT_FALSE(light->answer.at("budget_reached").get<bool>());

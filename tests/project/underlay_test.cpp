@@ -18,10 +18,10 @@ using ::testing::HasSubstr;
 fs::path cloudFile(const fs::path& file, const Eigen::Vector3d& at) {
   std::ofstream out(file);
   out.precision(17);
-  out << at.x() << ' ' << at.y() << ' ' << at.z() << '\n' << at.x() + 1 << ' ' << at.y() + 1 << ' ' << at.z() + 1 << '\n';
+  out << at.x() << ' ' << at.y() << ' ' << at.z() << '\n'
+      << at.x() + 1 << ' ' << at.y() + 1 << ' ' << at.z() + 1 << '\n';
   return file;
 }
-
 
 // A model whose X axis points to the map's north, 50 m above the map's zero.
 Document turnedDocument() {
@@ -144,8 +144,9 @@ TEST(Underlay, WithoutPointsOrFileIsRefused) {
   const TemporaryFolder folder;
   EXPECT_EQ(run("underlay", twoStoreyDocument(), {{"add", (folder.path() / "no.e57").string()}}).error().kind,
             ErrorKind::file_system);
-  std::ofstream(folder.path() / "empty.ply") << "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
-                                                "property float z\nend_header\n";
+  std::ofstream(folder.path() / "empty.ply")
+      << "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
+         "property float z\nend_header\n";
   EXPECT_THAT(run("underlay", twoStoreyDocument(), {{"add", (folder.path() / "empty.ply").string()}}).error().message,
               HasSubstr("no points"));
 }

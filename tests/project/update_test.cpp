@@ -24,19 +24,27 @@ struct Wall {
 // An IFC of walls of `length` × 0.3 × 3 m; `first` shifts all numbers, as another export of the same model does.
 std::string model(const std::vector<Wall>& walls, int first = 100) {
   std::string text =
-      "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\nFILE_SCHEMA(('IFC4'));\nENDSEC;\nDATA;\n"
-      "#1=IFCCARTESIANPOINT((0.,0.,0.));\n#2=IFCAXIS2PLACEMENT3D(#1,$,$);\n#4=IFCDIRECTION((0.,0.,1.));\n#6=IFCCARTESIANPOINT((0.,0.));\n#7=IFCAXIS2PLACEMENT2D(#6,$);\n"
-      "#10=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);\n#11=IFCUNITASSIGNMENT((#10));\n#12=IFCGEOMETRICREPRESENTATIONCONTEXT($,'Model',3,1.E-5,#2,$);\n"
+      "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\nFILE_SCHEMA(('IFC4'"
+      "));\nENDSEC;\nDATA;\n"
+      "#1=IFCCARTESIANPOINT((0.,0.,0.));\n#2=IFCAXIS2PLACEMENT3D(#1,$,$);\n#4=IFCDIRECTION((0.,0.,1.));\n#6="
+      "IFCCARTESIANPOINT((0.,0.));\n#7=IFCAXIS2PLACEMENT2D(#6,$);\n"
+      "#10=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);\n#11=IFCUNITASSIGNMENT((#10));\n#12=IFCGEOMETRICREPRESENTATIONCONTEXT($"
+      ",'Model',3,1.E-5,#2,$);\n"
       "#20=IFCPROJECT('p',$,'House',$,$,$,$,(#12),#11);\n";
   int n = first;
   for (const Wall& w : walls) {
     const auto id = [&](int k) { return "#" + std::to_string(n + k); };
-    text += id(0) + "=IFCWALL('" + w.global_id + "',$,'" + w.name + "',$,$," + id(6) + "," + id(1) + ",$,$);\n" + id(1) + "=IFCPRODUCTDEFINITIONSHAPE($,$,(" + id(2) + "));\n" + id(2) +
-            "=IFCSHAPEREPRESENTATION(#12,'Body','SweptSolid',(" + id(4) + "));\n" + id(3) + "=IFCRECTANGLEPROFILEDEF(.AREA.,$,#7," + std::to_string(w.length) + ",0.3);\n" + id(4) +
-            "=IFCEXTRUDEDAREASOLID(" + id(3) + ",$,#4,3.);\n" + id(6) + "=IFCLOCALPLACEMENT($," + id(7) + ");\n" + id(7) + "=IFCAXIS2PLACEMENT3D(" + id(8) + ",$,$);\n" + id(8) +
-            "=IFCCARTESIANPOINT((0.," + std::to_string(w.y) + ",0.));\n" + id(9) + "=IFCPROPERTYSINGLEVALUE('FireRating',$,IFCLABEL('" + w.fire + "'),$);\n" + id(10) +
-            "=IFCPROPERTYSET('s',$,'Pset_WallCommon',$,(" + id(9) + "));\n" + id(11) + "=IFCRELDEFINESBYPROPERTIES('r',$,$,$,(" + id(0) + ")," + id(10) + ");\n" + id(12) + "=IFCMATERIAL('" +
-            w.material + "',$,$);\n" + id(13) + "=IFCRELASSOCIATESMATERIAL('m',$,$,$,(" + id(0) + ")," + id(12) + ");\n";
+    text += id(0) + "=IFCWALL('" + w.global_id + "',$,'" + w.name + "',$,$," + id(6) + "," + id(1) + ",$,$);\n" +
+            id(1) + "=IFCPRODUCTDEFINITIONSHAPE($,$,(" + id(2) + "));\n" + id(2) +
+            "=IFCSHAPEREPRESENTATION(#12,'Body','SweptSolid',(" + id(4) + "));\n" + id(3) +
+            "=IFCRECTANGLEPROFILEDEF(.AREA.,$,#7," + std::to_string(w.length) + ",0.3);\n" + id(4) +
+            "=IFCEXTRUDEDAREASOLID(" + id(3) + ",$,#4,3.);\n" + id(6) + "=IFCLOCALPLACEMENT($," + id(7) + ");\n" +
+            id(7) + "=IFCAXIS2PLACEMENT3D(" + id(8) + ",$,$);\n" + id(8) + "=IFCCARTESIANPOINT((0.," +
+            std::to_string(w.y) + ",0.));\n" + id(9) + "=IFCPROPERTYSINGLEVALUE('FireRating',$,IFCLABEL('" + w.fire +
+            "'),$);\n" + id(10) + "=IFCPROPERTYSET('s',$,'Pset_WallCommon',$,(" + id(9) + "));\n" + id(11) +
+            "=IFCRELDEFINESBYPROPERTIES('r',$,$,$,(" + id(0) + ")," + id(10) + ");\n" + id(12) + "=IFCMATERIAL('" +
+            w.material + "',$,$);\n" + id(13) + "=IFCRELASSOCIATESMATERIAL('m',$,$,$,(" + id(0) + ")," + id(12) +
+            ");\n";
     n += 20;
   }
   return text + "ENDSEC;\nEND-ISO-10303-21;\n";
@@ -59,7 +67,9 @@ class Update : public ::testing::Test {
     if (!more.is_null()) options.update(more);
     return done("import", options);
   }
-  json update(const std::vector<Wall>& walls, int first = 1000) { return import(walls, first, {{"update", true}}).at("changes"); }
+  json update(const std::vector<Wall>& walls, int first = 1000) {
+    return import(walls, first, {{"update", true}}).at("changes");
+  }
   std::string project() const { return (folder_.path() / "p").string(); }
   Document document() const {
     Progress progress;
@@ -69,7 +79,8 @@ class Update : public ::testing::Test {
     const Document d = document();
     const auto& assignment = d.materials->result.assignment;
     for (const auto& s : assignment.surfaces)
-      if (d.imported->products[s.product].global_id == global_id) return s.material < 0 ? "" : assignment.materials[static_cast<std::size_t>(s.material)].id;
+      if (d.imported->products[s.product].global_id == global_id)
+        return s.material < 0 ? "" : assignment.materials[static_cast<std::size_t>(s.material)].id;
     return "no such product";
   }
   TemporaryFolder folder_;
@@ -78,13 +89,26 @@ class Update : public ::testing::Test {
 TEST_F(Update, TheSameModelUnderOtherNumbersHasNotChanged) {
   import(kBefore);
   const json changes = update(kBefore);
-  EXPECT_EQ(changes.at("counts"), json({{"added", 0}, {"removed", 0}, {"changed", 0}, {"unchanged", 4}, {"geometry", 0}, {"material", 0}, {"properties", 0}}));
+  EXPECT_EQ(changes.at("counts"), json({{"added", 0},
+                                        {"removed", 0},
+                                        {"changed", 0},
+                                        {"unchanged", 4},
+                                        {"geometry", 0},
+                                        {"material", 0},
+                                        {"properties", 0}}));
 }
 
 TEST_F(Update, TellsWhatChangedByGlobalId) {
   import(kBefore);
-  const json changes = update({{"a", "A", 4.001}, {"b", "B", 4, 2, "F90"}, {"c", "C", 4, 4, "F30", "Concrete"}, {"e", "E", 4, 8}});
-  EXPECT_EQ(changes.at("counts"), json({{"added", 1}, {"removed", 1}, {"changed", 3}, {"unchanged", 0}, {"geometry", 1}, {"material", 1}, {"properties", 1}}));
+  const json changes =
+      update({{"a", "A", 4.001}, {"b", "B", 4, 2, "F90"}, {"c", "C", 4, 4, "F30", "Concrete"}, {"e", "E", 4, 8}});
+  EXPECT_EQ(changes.at("counts"), json({{"added", 1},
+                                        {"removed", 1},
+                                        {"changed", 3},
+                                        {"unchanged", 0},
+                                        {"geometry", 1},
+                                        {"material", 1},
+                                        {"properties", 1}}));
   EXPECT_EQ(changes.at("added")[0].at("global_id"), "e");
   EXPECT_EQ(changes.at("removed")[0].at("global_id"), "d");
   const auto& changed = changes.at("changed");
@@ -96,8 +120,9 @@ TEST_F(Update, TellsWhatChangedByGlobalId) {
 
 TEST_F(Update, MaterialsFollowTheirProductsToOtherNumbers) {
   import(kBefore);
-  done("materials", {{"project", project()}, {"assign", {"#120=wood_hardwood", "c=carpet"}}});   // by number, and by GlobalId
-  update({kBefore[2], kBefore[1], kBefore[0]}, 100);                                              // now #100 is c, #120 is b, #140 is a
+  done("materials",
+       {{"project", project()}, {"assign", {"#120=wood_hardwood", "c=carpet"}}});  // by number, and by GlobalId
+  update({kBefore[2], kBefore[1], kBefore[0]}, 100);  // now #100 is c, #120 is b, #140 is a
   EXPECT_EQ(materialOf("b"), "wood_hardwood");
   EXPECT_EQ(materialOf("c"), "carpet");
   EXPECT_NE(materialOf("a"), "wood_hardwood");
@@ -107,8 +132,9 @@ TEST_F(Update, MaterialsFollowTheirProductsToOtherNumbers) {
 
 TEST_F(Update, MaterialsOfSingleFacesFollowTheirProducts) {
   import(kBefore);
-  done("materials", {{"project", project()}, {"assign", {"#120@0,0,1=carpet", "#100&material:Brick=bark"}}});   // of b, and of a
-  update({kBefore[2], kBefore[1], kBefore[0]}, 100);   // now #120 is b again, and #140 is a
+  done("materials",
+       {{"project", project()}, {"assign", {"#120@0,0,1=carpet", "#100&material:Brick=bark"}}});  // of b, and of a
+  update({kBefore[2], kBefore[1], kBefore[0]}, 100);  // now #120 is b again, and #140 is a
   const Document d = document();
   EXPECT_EQ(d.materials->overrides.at(1).selector, "#140&material:Brick");
   EXPECT_EQ(materialOf("a"), "bark");
@@ -117,9 +143,9 @@ TEST_F(Update, MaterialsOfSingleFacesFollowTheirProducts) {
 }
 
 TEST_F(Update, AFaceAtAPointStaysWhereTheModelStillHasIt) {
-  import(kBefore, 100, {{"shift", "100,200,0"}});
-  done("materials", {{"project", project()}, {"assign", {"#120@0,1,0@0.5,2.15,1=carpet"}}});   // the north side of b
-  update({kBefore[2], {"b", "B", 4, 2.05}, kBefore[0]});                                       // 5 cm further north
+  import(kBefore, 100, {{ "shift", "100,200,0" }});
+  done("materials", {{"project", project()}, {"assign", {"#120@0,1,0@0.5,2.15,1=carpet"}}});  // the north side of b
+  update({kBefore[2], {"b", "B", 4, 2.05}, kBefore[0]});                                      // 5 cm further north
   const auto material = document().materials;
   EXPECT_EQ(material->overrides.at(0).selector, "#1020@0,1,0@0.5,2.15,1");
   const auto carpet = [](const MaterialChoice& choice) {
@@ -128,16 +154,18 @@ TEST_F(Update, AFaceAtAPointStaysWhereTheModelStillHasIt) {
     return 0.0;
   };
   EXPECT_NEAR(carpet(*material), 12, 1e-4);
-  update({kBefore[2], {"b", "B", 4, 2.3}, kBefore[0]}, 3000);   // too far: it is kept, and a finding tells
+  update({kBefore[2], {"b", "B", 4, 2.3}, kBefore[0]}, 3000);  // too far: it is kept, and a finding tells
   const auto lost = document().materials;
   EXPECT_EQ(lost->overrides.size(), 1U);
   EXPECT_EQ(carpet(*lost), 0);
-  EXPECT_EQ(std::count_if(lost->result.report.findings.begin(), lost->result.report.findings.end(), [](const MaterialFinding& f) { return f.kind == "selector"; }), 1);
+  EXPECT_EQ(std::count_if(lost->result.report.findings.begin(), lost->result.report.findings.end(),
+                          [](const MaterialFinding& f) { return f.kind == "selector"; }),
+            1);
 }
 
 TEST_F(Update, WhatHasNoProductAnyMoreIsKeptAndListedAndComesBack) {
   import(kBefore);
-  done("materials", {{"project", project()}, {"assign", {"#160=carpet"}}});   // d
+  done("materials", {{"project", project()}, {"assign", {"#160=carpet"}}});  // d
   const json changes = update({kBefore[0], kBefore[1]});
   ASSERT_EQ(changes.at("kept").size(), 1U);
   EXPECT_EQ(changes.at("kept")[0].at("product").at("global_id"), "d");
@@ -147,7 +175,7 @@ TEST_F(Update, WhatHasNoProductAnyMoreIsKeptAndListedAndComesBack) {
 }
 
 TEST_F(Update, StationsAndTargetsStayWhereTheyWere) {
-  import(kBefore, 100, {{"shift", "100,200,0"}});
+  import(kBefore, 100, {{ "shift", "100,200,0" }});
   done("station", {{"project", project()}, {"add", "S1"}, {"at", {1, 1, 1.6}}});
   done("target", {{"project", project()}, {"add", "T1"}, {"at", {2, 1, 1}}});
   const Document before = document();
@@ -175,7 +203,8 @@ TEST_F(Update, WithoutAProjectOrWithReplaceItIsRefused) {
   const json files = {(folder_.path() / "house.ifc").string()};
   EXPECT_FALSE(runOnDisk(verb, {{"files", files}, {"output", project()}, {"update", true}}, progress));
   import(kBefore);
-  EXPECT_FALSE(runOnDisk(verb, {{"files", files}, {"output", project()}, {"update", true}, {"replace", true}}, progress));
+  EXPECT_FALSE(
+      runOnDisk(verb, {{"files", files}, {"output", project()}, {"update", true}, {"replace", true}}, progress));
 }
 
 TEST_F(Update, ProductsWithoutGlobalIdsAreKnownByTheirNames) {
@@ -183,7 +212,9 @@ TEST_F(Update, ProductsWithoutGlobalIdsAreKnownByTheirNames) {
     std::ofstream(folder_.path() / "m.obj") << text;
     return json{(folder_.path() / "m.obj").string()};
   };
-  const std::string a = "o A\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n", b = "o B\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf -3 -2 -1\n", c = "o C\nv 9 0 0\nv 9 1 0\nv 9 0 1\nf -3 -2 -1\n";
+  const std::string a = "o A\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n",
+                    b = "o B\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf -3 -2 -1\n",
+                    c = "o C\nv 9 0 0\nv 9 1 0\nv 9 0 1\nf -3 -2 -1\n";
   done("import", {{"files", obj(a + b)}, {"output", project()}});
   const json changes = done("import", {{"files", obj(c + b)}, {"output", project()}, {"update", true}}).at("changes");
   EXPECT_EQ(changes.at("counts").at("unchanged"), 1);
@@ -200,8 +231,9 @@ TEST_F(Update, WhatWasExcludedStaysSoByItsGlobalId) {
   for (const auto& p : document().imported->products)
     if (p.excluded) excluded.push_back(p.global_id);
   EXPECT_EQ(excluded, std::vector<std::string>{"b"});
-  update(kBefore, 9000);   // what was gone comes back as it was treated
-  for (const auto& p : document().imported->products) EXPECT_EQ(p.excluded, p.global_id == "b" || p.global_id == "c") << p.global_id;
+  update(kBefore, 9000);  // what was gone comes back as it was treated
+  for (const auto& p : document().imported->products)
+    EXPECT_EQ(p.excluded, p.global_id == "b" || p.global_id == "c") << p.global_id;
 }
 
 TEST_F(Update, LightensByTheSameRulesAgain) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "project/verification.h"
-
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -8,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "project/project_files.h"
+#include "project/verification.h"
 #include "tests/project/support.h"
 
 namespace standpoint {
@@ -17,9 +16,14 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-// The lower room with unlike walls: brick in the west, wood in the east, plaster north and south, concrete above and below.
-const json kWalls = {"class:IfcSlab=concrete_construction", "south0=plaster_gypsum", "north0=plaster_gypsum",
-                     "west0=brick_paving_red", "east0=wood_hardwood", "table=paint_black_matt"};
+// The lower room with unlike walls: brick in the west, wood in the east, plaster north and south, concrete above and
+// below.
+const json kWalls = {"class:IfcSlab=concrete_construction",
+                     "south0=plaster_gypsum",
+                     "north0=plaster_gypsum",
+                     "west0=brick_paving_red",
+                     "east0=wood_hardwood",
+                     "table=paint_black_matt"};
 
 class Verify : public ::testing::Test {
  protected:
@@ -28,7 +32,10 @@ class Verify : public ::testing::Test {
     folder_ = std::make_unique<TemporaryFolder>();
     Document d = run("materials", twoStoreyDocument(), {{"assign", kWalls}})->document;
     d = run("station", d, {{"add", "S1"}, {"at", {500002, 5600001.5, 1.6}}})->document;
-    const auto done = run("scan", d, {{"instrument", "faro-focus-s350"}, {"set", {"resolution=1/32", "quality=4x"}}, {"output", path("full.ptx").string()}});
+    const auto done = run("scan", d,
+                          {{"instrument", "faro-focus-s350"},
+                           {"set", {"resolution=1/32", "quality=4x"}},
+                           {"output", path("full.ptx").string()}});
     ASSERT_TRUE(done) << describe(done.error());
     scanned_ = done->document;
     keepEvery(8);
@@ -61,8 +68,10 @@ class Verify : public ::testing::Test {
       }
       double x = 0, y = 0, z = 0, intensity = 0;
       std::istringstream(line) >> x >> y >> z >> intensity;
-      if (x != 0 || y != 0 || z != 0) out << change(x, y, z, intensity) << '\n';
-      else if (with_header) out << line << '\n';
+      if (x != 0 || y != 0 || z != 0)
+        out << change(x, y, z, intensity) << '\n';
+      else if (with_header)
+        out << line << '\n';
     }
     return path(name);
   }
@@ -80,7 +89,9 @@ class Verify : public ::testing::Test {
     EXPECT_TRUE(done) << describe(done.error());
     return done->document;
   }
-  static Document swapped(const Document& d, const char* assign) { return run("materials", d, {{"assign", {assign}}})->document; }
+  static Document swapped(const Document& d, const char* assign) {
+    return run("materials", d, {{"assign", {assign}}})->document;
+  }
   static Result<Outcome> verified(const Document& d, json more = json::object()) {
     more["instrument"] = "faro-focus-s350";
     return run("verify", d, more);
@@ -158,7 +169,8 @@ TEST_F(Verify, IsKeptInTheProjectUntilSomethingElseIsTrue) {
   EXPECT_EQ(back->verification->answer, done->document.verification->answer);
   EXPECT_TRUE(isCurrent(*back->verification, *back));
   EXPECT_FALSE(isCurrent(*back->verification, swapped(*back, "east0=rubber_black")));
-  EXPECT_FALSE(isCurrent(*back->verification, run("underlay", *back, {{"move", "cloud"}, {"at", {1, 0, 0}}})->document));
+  EXPECT_FALSE(
+      isCurrent(*back->verification, run("underlay", *back, {{"move", "cloud"}, {"at", {1, 0, 0}}})->document));
 }
 
 // Of the findings that `materials` answers.
@@ -191,8 +203,10 @@ TEST_F(Verify, PutsItsProposalsAmongTheFindingsWithARemedyOfOneClick) {
   const auto mended = run("materials", done->document, f.at("remedies")[0].at("options"));
   ASSERT_TRUE(mended) << describe(mended.error());
   EXPECT_TRUE(measuredOtherwise(mended->document).empty()) << "it was followed";
-  EXPECT_TRUE(measuredOtherwise(swapped(done->document, "south0=bark")).empty()) << "another wall is of something else than when it was measured";
-  EXPECT_TRUE(measuredOtherwise(run("underlay", done->document, {{"move", "cloud"}, {"at", {1, 0, 0}}})->document).empty());
+  EXPECT_TRUE(measuredOtherwise(swapped(done->document, "south0=bark")).empty())
+      << "another wall is of something else than when it was measured";
+  EXPECT_TRUE(
+      measuredOtherwise(run("underlay", done->document, {{"move", "cloud"}, {"at", {1, 0, 0}}})->document).empty());
 }
 
 TEST_F(Verify, LetsAFindingStandBecauseOfSomething) {
@@ -208,7 +222,8 @@ TEST_F(Verify, LetsAFindingStandBecauseOfSomething) {
   EXPECT_EQ(measuredOtherwise(*back).at(0).at("accepted"), "a curtain hung there");
   const auto again = verified(*back);
   ASSERT_TRUE(again);
-  EXPECT_EQ(measuredOtherwise(again->document).at(0).at("accepted"), "a curtain hung there") << "measured again, the same came out";
+  EXPECT_EQ(measuredOtherwise(again->document).at(0).at("accepted"), "a curtain hung there")
+      << "measured again, the same came out";
   EXPECT_FALSE(measuredOtherwise(again->document, {{"reopen", {id}}}).at(0).contains("accepted"));
 }
 
@@ -228,7 +243,8 @@ TEST_F(Verify, OfAListOfPointsAsksForTheStation) {
 
 TEST_F(Verify, SaysWhatIsMissing) {
   EXPECT_THAT(refusal(scanned_), HasSubstr("no cloud lies under the model"));
-  const auto constant = rewritten("constant.ptx", true, [](double x, double y, double z, double) { return text(x, y, z, 0.5); });
+  const auto constant =
+      rewritten("constant.ptx", true, [](double x, double y, double z, double) { return text(x, y, z, 0.5); });
   EXPECT_THAT(refusal(laid(constant)), HasSubstr("every point has the same intensity"));
   const auto bare = rewritten("bare.xyz", false, [](double x, double y, double z, double) {
     return std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z);
@@ -247,7 +263,7 @@ TEST_F(Verify, SaysWhatIsMissing) {
 TEST_F(Verify, OfAHeapAtOnePlaceProposesNothing) {
   const auto heap = rewritten("heap.ptx", true, [](double, double, double, double i) { return text(0, -1.5, 0, i); });
   const auto done = verified(laid(heap));
-  if (!done) return;   // refused: as good
+  if (!done) return;  // refused: as good
   EXPECT_TRUE(done->answer.at("proposals").empty());
   EXPECT_FALSE(done->answer.at("no_verdict").is_null());
 }
@@ -258,14 +274,16 @@ TEST_F(Verify, OfAHandfulOfPointsSaysThatTheyAreTooFewAndNotThatTheyLieWrong) {
     return n++ < 40 ? text(x, y, z, intensity) : std::string("0 0 0 0.5");
   });
   const auto said = refusal(laid(few));
-  EXPECT_THAT(said, AllOf(HasSubstr("it has 40 points"), HasSubstr("fewer than 100"), HasSubstr("underlay PROJECT --add FILE")));
+  EXPECT_THAT(said, AllOf(HasSubstr("it has 40 points"), HasSubstr("fewer than 100"),
+                          HasSubstr("underlay PROJECT --add FILE")));
   EXPECT_THAT(said, Not(HasSubstr("--register")));
 }
 
 TEST_F(Verify, StopsWhenItIsCancelled) {
   Progress progress;
   progress.cancel();
-  const auto done = runVerb(*findVerb(verbs(), "verify"), laid(path("scan.ptx")), {{"instrument", "faro-focus-s350"}}, progress);
+  const auto done =
+      runVerb(*findVerb(verbs(), "verify"), laid(path("scan.ptx")), {{"instrument", "faro-focus-s350"}}, progress);
   ASSERT_FALSE(done);
   EXPECT_EQ(done.error().kind, ErrorKind::cancelled);
 }

@@ -97,7 +97,8 @@ class Sample : public ::testing::TestWithParam<const char*> {
       Mesh part = *environment().meshes[instance.mesh];
       std::size_t kept = 0;
       for (std::size_t i = 0; i < part.triangles.size(); ++i)
-        if (environment().surfaces[part.surface_of_triangle[i]].name == surface) part.triangles[kept++] = part.triangles[i];
+        if (environment().surfaces[part.surface_of_triangle[i]].name == surface)
+          part.triangles[kept++] = part.triangles[i];
       part.triangles.resize(kept);
       sum += area(part);
     }
@@ -116,7 +117,8 @@ TEST_P(Sample, HasTheProductsOfItsPlan) {
 }
 
 TEST_P(Sample, LosesNothingOnImport) {
-  for (const auto& issue : model_.report.issues) EXPECT_NE(issue.severity, Severity::loss) << issue.source << " " << issue.message;
+  for (const auto& issue : model_.report.issues)
+    EXPECT_NE(issue.severity, Severity::loss) << issue.source << " " << issue.message;
 }
 
 TEST_P(Sample, HasTheBoundsOfItsPlan) {
@@ -177,7 +179,8 @@ TEST_P(Sample, StationsStandInFreeSpace) {
       for (const auto& t : mesh.triangles) {
         Eigen::Vector3d c[3];
         for (int k = 0; k < 3; ++k)
-          c[k] = instance.world_from_mesh * mesh.positions[t[static_cast<std::size_t>(k)]].cast<double>() + model_.georeference.shift_m - centre;
+          c[k] = instance.world_from_mesh * mesh.positions[t[static_cast<std::size_t>(k)]].cast<double>() +
+                 model_.georeference.shift_m - centre;
         Eigen::Vector3d low = c[0].cwiseMin(c[1]).cwiseMin(c[2]), high = c[0].cwiseMax(c[1]).cwiseMax(c[2]);
         const Eigen::Vector3d n = (c[1] - c[0]).cross(c[2] - c[0]);
         const auto side = [&](int i, int j) { return c[i].x() * c[j].y() - c[i].y() * c[j].x(); };
@@ -196,7 +199,8 @@ TEST_P(Sample, StationsStandInFreeSpace) {
   EXPECT_GE(stations, 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Sample, ::testing::Values("house", "street", "ornament"), [](const auto& sample) { return std::string(sample.param); });
+INSTANTIATE_TEST_SUITE_P(All, Sample, ::testing::Values("house", "street", "ornament"),
+                         [](const auto& sample) { return std::string(sample.param); });
 
 }  // namespace
 }  // namespace standpoint::test

@@ -54,7 +54,7 @@ TEST(Atmosphere, AddsUpWhatIsInTheAir) {
   const double sum = extinction_per_m(clearTo(10), 905) + extinction_per_m(rainDrops(20)) +
                      extinction_per_m(snowFlakes(3)) + std::log(20) / 500 + std::log(20) / 800;
   EXPECT_NEAR(extinction_per_m(all, 905), sum, 1e-12 * sum);
-  EXPECT_NEAR(extinctionOfRange(50), 0.06, 1e-4);   // §2.6
+  EXPECT_NEAR(extinctionOfRange(50), 0.06, 1e-4);  // §2.6
 }
 
 TEST(Weather, IsReadFromItsWords) {

@@ -95,7 +95,7 @@ TEST(NoiseAlongAColumn, BelongsToItsColumnAndScan) {
   EXPECT_EQ(alongOf(noise, 3), alongOf(again, 3));
   EXPECT_NE(alongOf(noise, 3), alongOf(noise, 4));
   EXPECT_NE(alongOf(noise, 3), alongOf(other, 3));
-  for (const double hurst : {0.5, 0.75})   // few rows, many rows
+  for (const double hurst : {0.5, 0.75})  // few rows, many rows
     for (const std::uint32_t rows : {1U, 15U, 17U, 70000U})
       for (const float a : alongOf(ColumnNoise(withHurst(hurst), 1, dome(rows), {1, 1}), 0)) ASSERT_LT(std::abs(a), 12);
 }
@@ -114,7 +114,7 @@ TEST(NoiseOfColumns, IsAutoregressive) {
     cross += c(j) * static_cast<double>(noise.column(j).extra) / kColumns;
     flicker += std::pow(static_cast<double>(noise.column(j).azimuth_rad), 2) / kColumns;
   }
-  EXPECT_NEAR(variance, 1, 0.03);   // 190 000 values make 10 000 independent ones
+  EXPECT_NEAR(variance, 1, 0.03);  // 190 000 values make 10 000 independent ones
   EXPECT_NEAR(next / variance, 0.9, 0.01);
   EXPECT_NEAR(fifth / variance, std::pow(0.9, 5), 0.03);
   EXPECT_NEAR(cross, 0, 0.05);
@@ -122,7 +122,7 @@ TEST(NoiseOfColumns, IsAutoregressive) {
 }
 
 TEST(NoiseOfColumns, HasOneWobbleForATurnOfTheMirror) {
-  const auto instrument = testing::instrument("trimble-x7");   // k = 2
+  const auto instrument = testing::instrument("trimble-x7");  // k = 2
   const auto elevation_rad = dome(64);
   constexpr std::uint32_t kColumns = 2000;
   const ColumnNoise noise(instrument, kColumns, elevation_rad, {1, 1});
@@ -163,8 +163,8 @@ Grid gridOf(const Instrument& instrument, double sigma_m, std::uint32_t columns,
       pulseNoise({3, 9}, j, i, NoiseChannel::pulse, own);
       noise.wobble(j, i, wobble);
       for (std::uint32_t k = 0; k < 16; ++k) {
-        const float unit = noise.white() * own.range[k] + noise.along() * along[i + k] +
-                           noise.common() * noise.column(j).common;
+        const float unit =
+            noise.white() * own.range[k] + noise.along() * along[i + k] + noise.common() * noise.column(j).common;
         const double error = sigma_m * static_cast<double>(unit) +
                              instrument.correlated.column_extra_m * static_cast<double>(noise.column(j).extra) +
                              instrument.correlated.wobble_m * static_cast<double>(wobble[k]);
@@ -199,7 +199,8 @@ TEST(Blk360, V20_HasThePlaneNoiseOfTheMeasuredFacade) {
   EXPECT_GT(std::sqrt(grid.variance), 0.0020);
   EXPECT_LT(std::sqrt(grid.variance), 0.0023);
   EXPECT_NEAR(std::sqrt(grid.variance), 0.00229, 0.00003);
-  EXPECT_NEAR(grid.mean, 0, 5 * 0.00106 * std::sqrt(3.0 / 4000));   // AR(1) with 0.5 has a third as many independent values
+  EXPECT_NEAR(grid.mean, 0,
+              5 * 0.00106 * std::sqrt(3.0 / 4000));  // AR(1) with 0.5 has a third as many independent values
   auto calm = instrument;
   calm.correlated.column_extra_m = calm.correlated.wobble_m = 0;
   EXPECT_NEAR(std::sqrt(gridOf(calm, 0.00203, 4000, 1024).variance), 0.00203, 0.00002);

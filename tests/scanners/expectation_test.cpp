@@ -20,13 +20,15 @@ struct Wall {
   SceneBuilder scene;
   SurfacePlace place;
   Wall(double distance, double half_width) {
-    const auto product = scene.quad({distance, -half_width, -half_width}, {0, 2 * half_width, 0}, {0, 0, 2 * half_width});
+    const auto product =
+        scene.quad({distance, -half_width, -half_width}, {0, 2 * half_width, 0}, {0, 0, 2 * half_width});
     place = {{distance, 0, 0}, -Eigen::Vector3d::UnitX(), product, 0};
   }
 };
 
 Expectation expectation(const SceneBuilder& scene, MaterialAssignment assignment, const Instrument& instrument) {
-  return {scene.build(), std::make_shared<const MaterialAssignment>(std::move(assignment)), ReturnLaw(instrument, window(instrument, -1, 1, -1, 1, 10, 10))};
+  return {scene.build(), std::make_shared<const MaterialAssignment>(std::move(assignment)),
+          ReturnLaw(instrument, window(instrument, -1, 1, -1, 1, 10, 10))};
 }
 
 TEST(Expectation, IsTheMeanOfWhatAScanYields) {
@@ -36,7 +38,8 @@ TEST(Expectation, IsTheMeanOfWhatAScanYields) {
     const Wall wall(distance, 0.2 * distance);
     const auto assignment = allOf(*wall.scene.environment(), 0.4);
     const auto expected = expectation(wall.scene, assignment, instrument).from(kStation, wall.place);
-    const auto result = scanned(*wall.scene.build(), assignment, instrument, window(instrument, -0.5, 0.5, -0.5, 0.5, 100, 100), {});
+    const auto result =
+        scanned(*wall.scene.build(), assignment, instrument, window(instrument, -0.5, 0.5, -0.5, 0.5, 100, 100), {});
     ASSERT_EQ(result.points.size(), 10000U) << instrument.id;
     double sum = 0, square = 0;
     for (std::size_t i = 0; i < result.points.size(); ++i) {
@@ -58,7 +61,8 @@ TEST(Expectation, FadesWhereAScanFades) {
     const Wall wall(relative * limit, 5);
     const auto assignment = allOf(*wall.scene.environment(), 0.2);
     const auto expected = expectation(wall.scene, assignment, instrument).from(kStation, wall.place);
-    const auto result = scanned(*wall.scene.build(), assignment, instrument, window(instrument, -1, 1, -1, 1, 100, 100), {});
+    const auto result =
+        scanned(*wall.scene.build(), assignment, instrument, window(instrument, -1, 1, -1, 1, 100, 100), {});
     EXPECT_NEAR(expected.probability, static_cast<double>(result.points.size()) / 10000, 0.02) << relative;
     EXPECT_EQ(expected.fate, expected.probability < 0.5 ? ReturnFate::too_weak : ReturnFate::returned) << relative;
   }
@@ -75,15 +79,17 @@ TEST(Expectation, KnowsWhatStandsInTheWayAndWhatIsTurnedAway) {
   EXPECT_EQ(beside.fate, ReturnFate::returned);
   EXPECT_NEAR(beside.range_m, std::hypot(8, 2), 1e-9);
   EXPECT_NEAR(beside.incidence_rad, std::atan2(2, 8), 1e-9);
-  wall.place.normal = Eigen::Vector3d::UnitX();   // its other side
+  wall.place.normal = Eigen::Vector3d::UnitX();  // its other side
   EXPECT_EQ(law.from(kStation, wall.place).fate, ReturnFate::hidden);
 }
 
 TEST(Expectation, KeepsToTheRangesOfTheInstrument) {
   const auto instrument = testing::instrument("leica-rtc360");
-  for (const auto& [distance, fate] : {std::pair{0.9 * instrument.min_range_m, ReturnFate::too_near}, {1.1 * instrument.max_range_m, ReturnFate::too_far}}) {
+  for (const auto& [distance, fate] : {std::pair{0.9 * instrument.min_range_m, ReturnFate::too_near},
+                                       {1.1 * instrument.max_range_m, ReturnFate::too_far}}) {
     const Wall wall(distance, 1);
-    const auto expected = expectation(wall.scene, allOf(*wall.scene.environment(), 0.9), instrument).from(kStation, wall.place);
+    const auto expected =
+        expectation(wall.scene, allOf(*wall.scene.environment(), 0.9), instrument).from(kStation, wall.place);
     EXPECT_EQ(expected.fate, fate);
     EXPECT_EQ(expected.probability, 0);
   }
@@ -109,7 +115,7 @@ TEST(Expectation, LooksThroughPanesAndTakesTheirTollTwice) {
   EXPECT_NEAR(behind.power, 0.6 / 64 * 0.81 * 0.81, 1e-5);
   SurfacePlace on_pane{{5, 1, 0}, -Eigen::Vector3d::UnitX(), pane, 0};
   EXPECT_EQ(law.from(kStation, on_pane).fate, ReturnFate::seen_through);
-  on_pane.position.y() = 0;   // head-on it glints
+  on_pane.position.y() = 0;  // head-on it glints
   EXPECT_EQ(law.from(kStation, on_pane).fate, ReturnFate::returned);
 }
 

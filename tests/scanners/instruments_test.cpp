@@ -30,9 +30,11 @@ Error refused(const std::string& id, const SettingValues& values) {
 
 TEST(Rtc360, HasTheGridsAndTimesOfItsMenu) {
   for (const auto& [resolution, columns, rows, seconds] :
-       {std::tuple{"12mm", 5084U, 2083U, 26.0}, std::tuple{"6mm", 10167U, 4166U, 51.0}, std::tuple{"3mm", 20334U, 8333U, 102.0}})
+       {std::tuple{"12mm", 5084U, 2083U, 26.0}, std::tuple{"6mm", 10167U, 4166U, 51.0},
+        std::tuple{"3mm", 20334U, 8333U, 102.0}})
     for (const bool twice : {false, true}) {
-      const auto settings = resolved("leica-rtc360", {{"resolution", resolution}, {"double_scan", twice ? "on" : "off"}});
+      const auto settings =
+          resolved("leica-rtc360", {{"resolution", resolution}, {"double_scan", twice ? "on" : "off"}});
       EXPECT_EQ(settings.columns, columns);
       EXPECT_EQ(settings.rows, rows);
       EXPECT_DOUBLE_EQ(settings.scan_seconds, twice ? 2 * seconds : seconds);
@@ -42,10 +44,14 @@ TEST(Rtc360, HasTheGridsAndTimesOfItsMenu) {
 }
 
 TEST(Rtc360, ScansATargetAreaOnlyWhenThatFieldOfViewIsChosen) {
-  const auto area = resolved("leica-rtc360", {{"field_of_view", "target_area"}, {"horizontal_from", "350"}, {"horizontal_to", "10"},
-                                              {"vertical_from", "-15"}, {"vertical_to", "15"}, {"resolution", "6mm"}});
-  EXPECT_EQ(area.columns, 565U);   // 10167 · 20/360
-  EXPECT_EQ(area.rows, 833U);      // 4166 · 30/150
+  const auto area = resolved("leica-rtc360", {{"field_of_view", "target_area"},
+                                              {"horizontal_from", "350"},
+                                              {"horizontal_to", "10"},
+                                              {"vertical_from", "-15"},
+                                              {"vertical_to", "15"},
+                                              {"resolution", "6mm"}});
+  EXPECT_EQ(area.columns, 565U);  // 10167 · 20/360
+  EXPECT_EQ(area.rows, 833U);     // 4166 · 30/150
   EXPECT_NEAR(area.scan_seconds, 51.0 / 18, 1e-9);
   EXPECT_THAT(refused("leica-rtc360", {{"horizontal_to", "90"}}).message, HasSubstr("field of view"));
 }
@@ -57,10 +63,14 @@ TEST(FocusS350, ReproducesTheTableOfItsDisplayWithinASecond) {
     std::uint32_t columns, rows;
     int seconds[4];
   };
-  const Row table[] = {{"1/1", 40960, 17067, {923, 1788, 3519, 6981}}, {"1/2", 20480, 8533, {274, 490, 923, 1788}},
-                       {"1/4", 10240, 4267, {112, 166, 274, 490}},     {"1/5", 8192, 3413, {0, 127, 196, 335}},
-                       {"1/8", 5120, 2133, {0, 85, 112, 166}},         {"1/10", 4096, 1707, {0, 0, 92, 127}},
-                       {"1/16", 2560, 1067, {0, 0, 71, 85}},           {"1/20", 2048, 853, {0, 0, 0, 75}},
+  const Row table[] = {{"1/1", 40960, 17067, {923, 1788, 3519, 6981}},
+                       {"1/2", 20480, 8533, {274, 490, 923, 1788}},
+                       {"1/4", 10240, 4267, {112, 166, 274, 490}},
+                       {"1/5", 8192, 3413, {0, 127, 196, 335}},
+                       {"1/8", 5120, 2133, {0, 85, 112, 166}},
+                       {"1/10", 4096, 1707, {0, 0, 92, 127}},
+                       {"1/16", 2560, 1067, {0, 0, 71, 85}},
+                       {"1/20", 2048, 853, {0, 0, 0, 75}},
                        {"1/32", 1280, 533, {0, 0, 0, 64}}};
   for (const auto& row : table)
     for (int q = 0; q < 4; ++q) {
@@ -130,10 +140,11 @@ TEST(OtherInstruments, HaveTheGridsAndTimesOfTheirSheets) {
     const char *id, *key, *value;
     double million, seconds;
   };
-  const Row table[] = {{"leica-blk360-g1", "resolution", "low", 4.1, 14},    {"leica-blk360-g1", "resolution", "high", 65.8, 219},
-                       {"leica-p40", "resolution", "6.3mm", 40.1, 109},      {"leica-p40", "resolution", "0.8mm", 2485, 3247},
-                       {"trimble-tx8", "level", "level1", 30.6, 120},        {"trimble-tx8", "level", "level3", 481.5, 600},
-                       {"riegl-vz-400i", "pattern", "panorama_50", 14.4, 120}, {"riegl-vz-400i", "pattern", "panorama_30", 40, 300}};
+  const Row table[] = {
+      {"leica-blk360-g1", "resolution", "low", 4.1, 14},      {"leica-blk360-g1", "resolution", "high", 65.8, 219},
+      {"leica-p40", "resolution", "6.3mm", 40.1, 109},        {"leica-p40", "resolution", "0.8mm", 2485, 3247},
+      {"trimble-tx8", "level", "level1", 30.6, 120},          {"trimble-tx8", "level", "level3", 481.5, 600},
+      {"riegl-vz-400i", "pattern", "panorama_50", 14.4, 120}, {"riegl-vz-400i", "pattern", "panorama_30", 40, 300}};
   for (const auto& row : table) {
     const auto settings = resolved(row.id, {{row.key, row.value}});
     EXPECT_NEAR(1e-6 * settings.columns * settings.rows, row.million, 0.01 * row.million) << row.id << " " << row.value;
@@ -142,17 +153,24 @@ TEST(OtherInstruments, HaveTheGridsAndTimesOfTheirSheets) {
 }
 
 TEST(Vz400i, TakesAPatternOfSixNumbers) {
-  const auto custom = resolved("riegl-vz-400i", {{"pattern", "custom"}, {"line_step", "0.05"}, {"frame_step", "0.02"}, {"horizontal_from", "90"},
-                                                 {"horizontal_to", "180"}, {"vertical_from", "-20"}, {"vertical_to", "30"}});
-  EXPECT_EQ(custom.columns, 4500U);   // 90 / 0.02
-  EXPECT_EQ(custom.rows, 1000U);      // 50 / 0.05
-  EXPECT_DOUBLE_EQ(custom.scan_seconds, 75);   // 18000 · 2000 / 120000, a quarter of the turn
+  const auto custom = resolved("riegl-vz-400i", {{"pattern", "custom"},
+                                                 {"line_step", "0.05"},
+                                                 {"frame_step", "0.02"},
+                                                 {"horizontal_from", "90"},
+                                                 {"horizontal_to", "180"},
+                                                 {"vertical_from", "-20"},
+                                                 {"vertical_to", "30"}});
+  EXPECT_EQ(custom.columns, 4500U);           // 90 / 0.02
+  EXPECT_EQ(custom.rows, 1000U);              // 50 / 0.05
+  EXPECT_DOUBLE_EQ(custom.scan_seconds, 75);  // 18000 · 2000 / 120000, a quarter of the turn
   EXPECT_THAT(refused("riegl-vz-400i", {{"line_step", "0.1"}}).message, HasSubstr("choose that pattern"));
 }
 
 TEST(Vz400i, TakesItsTimeWhenTheLaserIsSlow) {
-  EXPECT_DOUBLE_EQ(resolved("riegl-vz-400i", {{"pattern", "panorama_50"}, {"programme", "300khz"}}).scan_seconds, 120);   // 14.4 M / 125000 is less
-  EXPECT_NEAR(resolved("riegl-vz-400i", {{"pattern", "panorama_50"}, {"programme", "100khz"}}).scan_seconds, 14.4e6 / 42000, 1e-9);
+  EXPECT_DOUBLE_EQ(resolved("riegl-vz-400i", {{"pattern", "panorama_50"}, {"programme", "300khz"}}).scan_seconds,
+                   120);  // 14.4 M / 125000 is less
+  EXPECT_NEAR(resolved("riegl-vz-400i", {{"pattern", "panorama_50"}, {"programme", "100khz"}}).scan_seconds,
+              14.4e6 / 42000, 1e-9);
 }
 
 TEST(Vz400i, PhotographsDuringTheScanOrLongerWithMoreOverlap) {
@@ -163,8 +181,12 @@ TEST(Vz400i, PhotographsDuringTheScanOrLongerWithMoreOverlap) {
 }
 
 TEST(TrimbleX7, ScansAnAreaAndPhotographsTwiceAsLongInHdr) {
-  const auto area = resolved("trimble-x7", {{"field_of_view", "area"}, {"horizontal_from", "350"}, {"horizontal_to", "10"}, {"images", "quality"}, {"hdr", "on"}});
-  EXPECT_EQ(area.columns, 317U);   // 5712 · 20 / 360
+  const auto area = resolved("trimble-x7", {{"field_of_view", "area"},
+                                            {"horizontal_from", "350"},
+                                            {"horizontal_to", "10"},
+                                            {"images", "quality"},
+                                            {"hdr", "on"}});
+  EXPECT_EQ(area.columns, 317U);  // 5712 · 20 / 360
   EXPECT_NEAR(area.scan_seconds, 120.0 / 18, 1e-9);
   EXPECT_DOUBLE_EQ(area.imaging_seconds, 240);
   EXPECT_THAT(refused("trimble-x7", {{"horizontal_to", "90"}}).message, HasSubstr("field of view"));
@@ -184,7 +206,8 @@ TEST(Pictures, HaveTheCameraAndTheTimeThatTheSettingsChoose) {
   EXPECT_EQ(plain.camera.columns, 8192U);
   EXPECT_TRUE(plain.camera.metered);
   EXPECT_DOUBLE_EQ(plain.imaging_seconds, 440);
-  const auto chosen = resolved("leica-p40", {{"image_resolution", "640"}, {"hdr", "on"}, {"exposure", "manual-2"}, {"white_balance", "cold"}});
+  const auto chosen = resolved(
+      "leica-p40", {{"image_resolution", "640"}, {"hdr", "on"}, {"exposure", "manual-2"}, {"white_balance", "cold"}});
   EXPECT_EQ(chosen.camera.columns, 2730U);
   EXPECT_TRUE(chosen.camera.hdr);
   EXPECT_FALSE(chosen.camera.metered);
@@ -259,7 +282,7 @@ TEST(MovingInstruments, HaveTheFiguresOfTheirSheets) {
   const auto moving = [](const char* id) { return testing::instrument(id).moving.value(); };
   const auto vlp = moving("velodyne-vlp-16");
   EXPECT_EQ(vlp.channel_elevations_rad.size(), 16U);
-  EXPECT_NEAR(vlp.channel_elevations_rad[1], 1 * kRadPerDeg, 1e-12);   // the second that fires
+  EXPECT_NEAR(vlp.channel_elevations_rad[1], 1 * kRadPerDeg, 1e-12);  // the second that fires
   EXPECT_EQ(vlp.points_per_s, 300000);
   EXPECT_EQ(vlp.least_rotation_hz, 5);
   EXPECT_EQ(vlp.most_rotation_hz, 20);
@@ -313,8 +336,8 @@ class ChangedInstrument : public ::testing::Test {
     const auto place = text.find(from);
     EXPECT_NE(place, std::string::npos) << from;
     text.replace(place, from.size(), to);
-    const auto folder = std::filesystem::path(::testing::TempDir()) /
-                        ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    const auto folder =
+        std::filesystem::path(::testing::TempDir()) / ::testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::create_directories(folder);
     std::ofstream(folder / (id + ".json")) << text;
     const auto read = readInstruments(folder);
@@ -325,19 +348,24 @@ class ChangedInstrument : public ::testing::Test {
 
 TEST_F(ChangedInstrument, WithAnUnknownKeyIsRefusedWithItsPlace) {
   EXPECT_EQ(errorOf("\"min_m\"", "\"colour\": 1, \"min_m\"").source, "leica-rtc360.json /range/colour");
-  EXPECT_EQ(errorOf("\"scan_seconds\": 26", "\"scan_second\": 26").source, "leica-rtc360.json /settings/0/choices/0/scan_second");
+  EXPECT_EQ(errorOf("\"scan_seconds\": 26", "\"scan_second\": 26").source,
+            "leica-rtc360.json /settings/0/choices/0/scan_second");
 }
 
 TEST_F(ChangedInstrument, WithAMissingFigureOrSourceIsRefusedWithItsPlace) {
   EXPECT_EQ(errorOf("\"divergence_mrad\": 0.5,", "").source, "leica-rtc360.json /beam/divergence_mrad");
-  EXPECT_EQ(errorOf("{ \"value\": 0.5, \"source\": \"S59\" }", "{ \"value\": 0.5 }").source, "leica-rtc360.json /range/min_m");
+  EXPECT_EQ(errorOf("{ \"value\": 0.5, \"source\": \"S59\" }", "{ \"value\": 0.5 }").source,
+            "leica-rtc360.json /range/min_m");
   EXPECT_EQ(errorOf("{ \"value\": 0.5, \"source\": \"S59\" }", "0.5").source, "leica-rtc360.json /range/min_m");
-  EXPECT_THAT(errorOf("{ \"value\": 0.5, \"source\": \"S59\" }", "{ \"value\": 0.5, \"source\": \"S99\" }").message, HasSubstr("S99"));
+  EXPECT_THAT(errorOf("{ \"value\": 0.5, \"source\": \"S59\" }", "{ \"value\": 0.5, \"source\": \"S99\" }").message,
+              HasSubstr("S99"));
 }
 
 TEST_F(ChangedInstrument, WithAValueOutOfRangeIsRefusedWithItsPlace) {
-  EXPECT_EQ(errorOf("\"wavelength_nm\": 1550", "\"wavelength_nm\": 15500").source, "leica-rtc360.json /beam/wavelength_nm");
-  EXPECT_EQ(errorOf("\"wavelength_nm\": 1550", "\"wavelength_nm\": \"1550\"").source, "leica-rtc360.json /beam/wavelength_nm");
+  EXPECT_EQ(errorOf("\"wavelength_nm\": 1550", "\"wavelength_nm\": 15500").source,
+            "leica-rtc360.json /beam/wavelength_nm");
+  EXPECT_EQ(errorOf("\"wavelength_nm\": 1550", "\"wavelength_nm\": \"1550\"").source,
+            "leica-rtc360.json /beam/wavelength_nm");
   EXPECT_EQ(errorOf("\"columns\": 5084", "\"columns\": 5e9").source, "leica-rtc360.json /settings/0/choices/0/columns");
   EXPECT_EQ(errorOf("\"standard\": \"6mm\"", "\"standard\": \"7mm\"").source, "leica-rtc360.json /settings/0/standard");
   EXPECT_EQ(errorOf("\"id\": \"leica-rtc360\"", "\"id\": \"leica\"").source, "leica-rtc360.json /id");
@@ -345,23 +373,28 @@ TEST_F(ChangedInstrument, WithAValueOutOfRangeIsRefusedWithItsPlace) {
 
 TEST_F(ChangedInstrument, WhoseCompensatorCannotBeIsRefusedWithItsPlace) {
   EXPECT_EQ(errorOf("\"value\": \"imu\"", "\"value\": \"spirit\"").source, "leica-rtc360.json /compensator/kind/value");
-  EXPECT_EQ(errorOf("\"range_deg\": { \"value\": 5", "\"range_deg\": { \"value\": 95").source, "leica-rtc360.json /compensator/range_deg/value");
-  EXPECT_EQ(errorOf("\"accuracy_arcsec\": { \"value\": 180", "\"accuracy\": { \"value\": 180").source, "leica-rtc360.json /compensator/accuracy_arcsec");
+  EXPECT_EQ(errorOf("\"range_deg\": { \"value\": 5", "\"range_deg\": { \"value\": 95").source,
+            "leica-rtc360.json /compensator/range_deg/value");
+  EXPECT_EQ(errorOf("\"accuracy_arcsec\": { \"value\": 180", "\"accuracy\": { \"value\": 180").source,
+            "leica-rtc360.json /compensator/accuracy_arcsec");
 }
 
 TEST_F(ChangedInstrument, WhosePartsAreMoreThanTheWholeIsRefusedWithItsPlace) {
-  EXPECT_EQ(errorOf("\"along_share\": 0.3", "\"along_share\": 0.95").source, "leica-rtc360.json /correlated_noise/along_share");
+  EXPECT_EQ(errorOf("\"along_share\": 0.3", "\"along_share\": 0.95").source,
+            "leica-rtc360.json /correlated_noise/along_share");
   EXPECT_EQ(errorOf("\"azimuth_flicker_arcsec\": { \"value\": 3", "\"azimuth_flicker_arcsec\": { \"value\": 18").source,
             "leica-rtc360.json /correlated_noise/azimuth_flicker_arcsec");
-  EXPECT_EQ(errorOf("\"elevation_wobble_arcsec\": { \"value\": 3", "\"elevation_wobble_arcsec\": { \"value\": 26").source,
-            "leica-rtc360.json /correlated_noise/elevation_wobble_arcsec");
+  EXPECT_EQ(
+      errorOf("\"elevation_wobble_arcsec\": { \"value\": 3", "\"elevation_wobble_arcsec\": { \"value\": 26").source,
+      "leica-rtc360.json /correlated_noise/elevation_wobble_arcsec");
 }
 
 TEST_F(ChangedInstrument, WithNoiseThatCannotBeIsRefusedWithItsPlace) {
   EXPECT_EQ(errorOf("\"hurst\": 0.75", "\"hurst\": 1").source, "leica-rtc360.json /correlated_noise/hurst");
   EXPECT_EQ(errorOf("\"column_correlation\": 0.5", "\"column_correlation\": 1").source,
             "leica-rtc360.json /correlated_noise/column_correlation");
-  EXPECT_EQ(errorOf("\"column_share\": 0.1", "\"column_share\": -0.1").source, "leica-rtc360.json /correlated_noise/column_share");
+  EXPECT_EQ(errorOf("\"column_share\": 0.1", "\"column_share\": -0.1").source,
+            "leica-rtc360.json /correlated_noise/column_share");
   EXPECT_EQ(errorOf("\"pedestal\": 0.0003", "\"pedestal\": 0.5").source, "leica-rtc360.json /saturation/pedestal");
   EXPECT_THAT(errorOf("\"wobble_order\": 2", "\"wobble_order\": 2.5").message, HasSubstr("whole number"));
   EXPECT_EQ(errorOf("\"most_returns\": { \"value\": 1", "\"most_returns\": { \"value\": 0").source,
@@ -369,8 +402,9 @@ TEST_F(ChangedInstrument, WithNoiseThatCannotBeIsRefusedWithItsPlace) {
 }
 
 TEST_F(ChangedInstrument, WithTheFigureOfTheOtherTechnologyIsRefusedWithItsPlace) {
-  EXPECT_EQ(errorOf("\"technology\": { \"value\": \"time_of_flight\"", "\"technology\": { \"value\": \"phase_shift\"").source,
-            "leica-rtc360.json /waveform/fine_wavelength_m");
+  EXPECT_EQ(
+      errorOf("\"technology\": { \"value\": \"time_of_flight\"", "\"technology\": { \"value\": \"phase_shift\"").source,
+      "leica-rtc360.json /waveform/fine_wavelength_m");
   EXPECT_EQ(errorOf("\"most_returns\":", "\"fine_wavelength_m\": 1.2, \"most_returns\":").source,
             "leica-rtc360.json /waveform/fine_wavelength_m");
 }
@@ -389,11 +423,15 @@ TEST_F(ChangedInstrument, ThatMovesIsRefusedWithItsPlaceWhenItCannotBe) {
 }
 
 TEST_F(ChangedInstrument, WithAValueFarOutOrNestedDeeplyIsRefusedAndNoMore) {
-  EXPECT_EQ(errorOf("\"wobble_order\": 2", "\"wobble_order\": 1e300").source, "leica-rtc360.json /correlated_noise/wobble_order");
-  EXPECT_EQ(errorOf("\"near_range_power\": 2", "\"near_range_power\": -1e300").source, "leica-rtc360.json /signal/near_range_power");
-  EXPECT_EQ(errorOf("\"wobble_order\": 2", "\"wobble_order\": " + std::string(500000, '[') + std::string(500000, ']')).source,
+  EXPECT_EQ(errorOf("\"wobble_order\": 2", "\"wobble_order\": 1e300").source,
             "leica-rtc360.json /correlated_noise/wobble_order");
-  EXPECT_EQ(errorOf("\"wobble_order\": 2", "\"wobble_order\": " + std::string(500000, '[')).source, "leica-rtc360.json");
+  EXPECT_EQ(errorOf("\"near_range_power\": 2", "\"near_range_power\": -1e300").source,
+            "leica-rtc360.json /signal/near_range_power");
+  EXPECT_EQ(
+      errorOf("\"wobble_order\": 2", "\"wobble_order\": " + std::string(500000, '[') + std::string(500000, ']')).source,
+      "leica-rtc360.json /correlated_noise/wobble_order");
+  EXPECT_EQ(errorOf("\"wobble_order\": 2", "\"wobble_order\": " + std::string(500000, '[')).source,
+            "leica-rtc360.json");
 }
 
 TEST_F(ChangedInstrument, CutAnywhereIsAnError) {

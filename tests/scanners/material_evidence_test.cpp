@@ -14,7 +14,7 @@ namespace standpoint {
 namespace {
 
 using ::testing::HasSubstr;
-using Vendor = std::function<double(double)>;   // of 10 lg of the power
+using Vendor = std::function<double(double)>;  // of 10 lg of the power
 
 // Walls of Lambert materials, each at three distances, seen from its foot point up to 60°: power = ρ cos θ / R².
 struct MadeUp {
@@ -22,7 +22,8 @@ struct MadeUp {
   std::vector<SurfaceGroup> groups;
   std::vector<MeasuredReturn> returns;
 
-  MadeUp(const std::vector<double>& reflectances, const Vendor& vendor, double noise_db = 0, std::uint32_t each = 1500) {
+  MadeUp(const std::vector<double>& reflectances, const Vendor& vendor, double noise_db = 0,
+         std::uint32_t each = 1500) {
     for (const double r : reflectances) {
       library.push_back(testing::lambert(r));
       library.back().id = std::to_string(r);
@@ -36,7 +37,8 @@ struct MadeUp {
           const double range = distance / std::cos(angle);
           const double db = 10 * std::log10(reflectances[m] * std::cos(angle) / (range * range)) +
                             noise_db * normals(philox({2, group}, i, 0, 0))[0];
-          returns.push_back({static_cast<float>(vendor(db)), static_cast<float>(range), static_cast<float>(std::cos(angle)), group});
+          returns.push_back(
+              {static_cast<float>(vendor(db)), static_cast<float>(range), static_cast<float>(std::cos(angle)), group});
         }
       }
   }
@@ -78,7 +80,7 @@ TEST(MaterialEvidence, NamesTheSwappedMaterialAndTheRightOne) {
   for (const auto& vendor : {Vendor(logarithmic), Vendor(linearRaw), Vendor(gamma), Vendor(sigmoid)})
     for (const std::int32_t said : {0, 1, 3, 4}) {
       MadeUp scan(kFive, vendor, 0.5);
-      scan.call(2, said);   // 0.3 in truth
+      scan.call(2, said);  // 0.3 in truth
       const auto result = scan.compared();
       ASSERT_EQ(result.proposals.size(), 1U) << said;
       const auto& p = result.proposals[0];
@@ -93,7 +95,7 @@ TEST(MaterialEvidence, NamesTheSwappedMaterialAndTheRightOne) {
 
 TEST(MaterialEvidence, ReadsTheVendorsScale) {
   const auto scale = MadeUp(kFive, logarithmic).compared().scale;
-  EXPECT_THAT(scale.describe(), HasSubstr("linear in dB: 0.014"));   // 1/70
+  EXPECT_THAT(scale.describe(), HasSubstr("linear in dB: 0.014"));  // 1/70
   EXPECT_NEAR(scale.dbAt(0.7) - scale.dbAt(0.5), 0.2 * 70, 0.1);
   EXPECT_EQ(MadeUp(kFive, gamma).compared().scale.describe(), "power law: measured ~ power^0.45");
 }
@@ -113,7 +115,7 @@ TEST(IntensityScale, GoesOnAsItsNeighboursDoWhereFewCellsHoldIt) {
 
 TEST(MaterialEvidence, KnowsAScaleThatDoesNotFallWithTheRange) {
   MadeUp scan(kFive, logarithmic);
-  for (auto& r : scan.returns)   // as the vendor's software does it: back to 1 m
+  for (auto& r : scan.returns)  // as the vendor's software does it: back to 1 m
     r.intensity += static_cast<float>(20 * std::log10(static_cast<double>(r.range_m)) / 70);
   scan.call(3, 1);
   const auto result = scan.compared();
@@ -124,7 +126,7 @@ TEST(MaterialEvidence, KnowsAScaleThatDoesNotFallWithTheRange) {
 
 TEST(MaterialEvidence, TellsOneOddProductFromItsMaterial) {
   MadeUp scan(kFive, logarithmic, 0.5);
-  scan.groups[4].material = 4;   // one wall of 0.15 is called 0.8
+  scan.groups[4].material = 4;  // one wall of 0.15 is called 0.8
   const auto result = scan.compared();
   ASSERT_EQ(result.proposals.size(), 1U);
   EXPECT_EQ(result.proposals[0].groups, std::vector<std::uint32_t>{4});

@@ -34,7 +34,8 @@ class Met : public ::testing::Test {
     assignment->materials.push_back(pane());
     for (auto& s : assignment->surfaces)
       if (s.product == pane_) s.material = 1;
-    expectation_ = std::make_unique<Expectation>(scene_.build(), assignment, ReturnLaw(instrument, window(instrument, -1, 1, -1, 1, 10, 10)));
+    expectation_ = std::make_unique<Expectation>(scene_.build(), assignment,
+                                                 ReturnLaw(instrument, window(instrument, -1, 1, -1, 1, 10, 10)));
   }
   MetSurface at(const Vector3d& point) const { return meetSurface(*expectation_, Vector3d::Zero(), point, {}); }
 

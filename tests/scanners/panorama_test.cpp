@@ -49,7 +49,7 @@ TEST(Panorama, ShowsWhatStandsToTheLeftOfItsMiddle) {
   const auto dark = [&](int column) { return p.pixels[row + static_cast<std::size_t>(column)][1] < 90; };
   for (int column = 0; column < 360; ++column) {
     const double azimuth_deg = 180 - (column + 0.5);
-    if (std::abs(std::abs(azimuth_deg - 90) - 14.036) < 0.5) continue;   // a pixel of both
+    if (std::abs(std::abs(azimuth_deg - 90) - 14.036) < 0.5) continue;  // a pixel of both
     EXPECT_EQ(dark(column), std::abs(azimuth_deg - 90) < 14.036) << azimuth_deg;
   }
   EXPECT_LT(p.at({0, 3, 0})[1], 90);
@@ -70,23 +70,25 @@ TEST(Panorama, TellsHowFarItIs) {
 TEST(Panorama, TurnsWithTheScanner) {
   const auto scene = boardInRoom();
   Pose turned;
-  turned.rotation = Eigen::AngleAxisd(kPi / 2, Eigen::Vector3d::UnitZ());   // its X axis looks along +Y
+  turned.rotation = Eigen::AngleAxisd(kPi / 2, Eigen::Vector3d::UnitZ());  // its X axis looks along +Y
   const Panorama p = taken(*scene, withCamera(360, 0, true, 1), 1, turned);
   EXPECT_LT(p.pixels[90 * 360 + 180][1], 90);
 }
 
 TEST(Panorama, IsTheSameForAnyNumberOfThreads) {
   const auto scene = boardInRoom();
-  EXPECT_EQ(taken(*scene, withCamera(256, 0.04, false, 5), 1).pixels, taken(*scene, withCamera(256, 0.04, false, 5), 2).pixels);
+  EXPECT_EQ(taken(*scene, withCamera(256, 0.04, false, 5), 1).pixels,
+            taken(*scene, withCamera(256, 0.04, false, 5), 2).pixels);
 }
 
-// From 20 cm above the laser the upper edge of the board hides another part of the wall: the line from the camera over the
-// edge (2 m off, 0.5 m up) meets the wall 5 m off at 0.2 + 0.3 · 2.5 = 0.95 m, that from the laser at 1.25 m; under the board
-// it is 0.2 - 0.7 · 2.5 = -1.55 m and -1.25 m.
+// From 20 cm above the laser the upper edge of the board hides another part of the wall: the line from the camera over
+// the edge (2 m off, 0.5 m up) meets the wall 5 m off at 0.2 + 0.3 · 2.5 = 0.95 m, that from the laser at 1.25 m; under
+// the board it is 0.2 - 0.7 · 2.5 = -1.55 m and -1.25 m.
 TEST(Panorama, ColoursPointsWithTheParallaxOfItsCamera) {
   const auto scene = boardInRoom();
-  const Panorama at_laser = taken(*scene, withCamera(360, 0, true, 1)), above = taken(*scene, withCamera(360, 0.2, true, 1));
-  const Eigen::Vector3d over(0, 5, 1.1), under(0, 5, -1.4);   // hidden from the laser; seen by it
+  const Panorama at_laser = taken(*scene, withCamera(360, 0, true, 1)),
+                 above = taken(*scene, withCamera(360, 0.2, true, 1));
+  const Eigen::Vector3d over(0, 5, 1.1), under(0, 5, -1.4);  // hidden from the laser; seen by it
   EXPECT_LT(at_laser.at(over)[1], 90);
   EXPECT_GT(above.at(over)[1], 90);
   EXPECT_GT(at_laser.at(under)[1], 90);
@@ -97,13 +99,15 @@ TEST(Panorama, HasAnExposureForEachShotUnlessBracketsMakeOne) {
   SceneBuilder builder;
   const auto bright = builder.surface(0.95F), dark = builder.surface(0.3F);
   builder.box({-5, -5, -5}, {5, 5, 5}, true, bright);
-  builder.quad({-4.9, -4, -4}, {0, 0, 8}, {0, 8, 0}, dark);   // behind, around azimuth 180°
+  builder.quad({-4.9, -4, -4}, {0, 0, 8}, {0, 8, 0}, dark);  // behind, around azimuth 180°
   const auto scene = builder.build();
   const Panorama one = taken(*scene, withCamera(360, 0, true, 4)), each = taken(*scene, withCamera(360, 0, false, 4));
   // The dark wall fills the outer shots, and with its own exposure it is brighter than with the one for all.
   EXPECT_GT(each.pixels[90 * 360 + 5][1], one.pixels[90 * 360 + 5][1]);
   // Straight up is the same ceiling on both sides of a seam.
-  const auto step = [](const Panorama& p) { return std::abs(p.pixels[60 * 360 + 60][1] - p.pixels[60 * 360 + 120][1]); };
+  const auto step = [](const Panorama& p) {
+    return std::abs(p.pixels[60 * 360 + 60][1] - p.pixels[60 * 360 + 120][1]);
+  };
   EXPECT_GT(step(each), step(one) + 3);
 }
 
@@ -124,7 +128,8 @@ TEST(Panorama, ExposesForThePartOfTheViewThatIsMetered) {
   EXPECT_LT(wall(PictureMetering::even) + 3, wall(PictureMetering::zenith));
 }
 
-// A white wall and a black board in its plane, oblique and with other corners, so that each ray rounds them differently.
+// A white wall and a black board in its plane, oblique and with other corners, so that each ray rounds them
+// differently.
 TEST(Panorama, ShowsOneOfTwoFacesThatLieInOnePlane) {
   const Eigen::Vector3d ahead = Eigen::Vector3d(0.83, 0.31, 0.17).normalized();
   const Eigen::Vector3d u = ahead.unitOrthogonal(), v = ahead.cross(u);
@@ -133,8 +138,10 @@ TEST(Panorama, ShowsOneOfTwoFacesThatLieInOnePlane) {
     const auto white = builder.surface(0.9F), black = builder.surface(0.02F);
     const auto wall = [&] { builder.quad(3 * ahead - 9 * u - 9 * v, 18 * u, 18 * v, white); };
     const auto board = [&] { builder.quad(3 * ahead - 0.71 * u - 0.93 * v, 1.37 * u, 1.71 * v, black); };
-    if (wall_first) wall(), board();
-    else board(), wall();
+    if (wall_first)
+      wall(), board();
+    else
+      board(), wall();
     const auto scene = builder.build();
     const Panorama p = taken(*scene, withCamera(720, 0, true, 1));
     std::size_t seen = 0;
@@ -142,7 +149,7 @@ TEST(Panorama, ShowsOneOfTwoFacesThatLieInOnePlane) {
       for (double y = -0.85; y < 0.7; y += 0.05, ++seen)
         EXPECT_EQ(p.at(3 * ahead + x * u + y * v)[1] < 90, !wall_first) << x << " " << y;
     EXPECT_GT(seen, 500U);
-    EXPECT_GT(p.at(3 * ahead + 1.0 * u)[1], 90);   // beside the board
+    EXPECT_GT(p.at(3 * ahead + 1.0 * u)[1], 90);  // beside the board
   }
 }
 
@@ -158,7 +165,7 @@ TEST(Panorama, ShowsTheOpaqueOneOfTwoFacesThatLieInOnePlane) {
   const auto scene = builder.build();
   const Panorama p = taken(*scene, withCamera(360, 0, true, 1));
   EXPECT_LT(p.at({2, 0.3, 0.4})[1], 90);
-  EXPECT_GT(p.at({2, 1.5, 0.4})[1], 90);   // the wall behind the pane
+  EXPECT_GT(p.at({2, 1.5, 0.4})[1], 90);  // the wall behind the pane
 }
 
 TEST(Panorama, RoundsToTheNearestByteOfSrgb) {

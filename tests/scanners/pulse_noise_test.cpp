@@ -15,7 +15,7 @@ TEST(PulseNoise, IsMadeOfTheBlocksOfRandom123) {
     pulseNoise(key, 4711, row, NoiseChannel::pulse, noise);
     for (int k = 0; k < kNoiseLanes; ++k) {
       const auto expected = normals(philox(key, 4711, row + static_cast<std::uint32_t>(k), 0));
-      EXPECT_NEAR(noise.range[k], expected[0], 1e-4);       // 24 of the 32 bits
+      EXPECT_NEAR(noise.range[k], expected[0], 1e-4);  // 24 of the 32 bits
       EXPECT_NEAR(noise.detection[k], expected[1], 1e-4);
       EXPECT_NEAR(noise.lateral[k], expected[2], 1e-4);
       EXPECT_NEAR(noise.elevation[k], expected[3], 1e-4);

@@ -26,7 +26,7 @@ SignalLanes received(const Instrument& instrument, float equivalent, float range
   return lanes;
 }
 
-TEST(ReceivedPower, FollowsTheLambertRangeLaw) {   // physics.md V2
+TEST(ReceivedPower, FollowsTheLambertRangeLaw) {  // physics.md V2
   Instrument instrument = testing::instrument("leica-rtc360");
   instrument.near_range_m = 0;
   const Optics grey = opticsOf(testing::lambert(0.5), 1550);
@@ -36,17 +36,21 @@ TEST(ReceivedPower, FollowsTheLambertRangeLaw) {   // physics.md V2
   EXPECT_NEAR(received(instrument, lambertEquivalent(grey, cosine(60)), 10).x[15] / near, 0.5, 1e-6);
 }
 
-TEST(OrenNayar, HasThePublishedValuesAtTwentyDegrees) {   // V6
+TEST(OrenNayar, HasThePublishedValuesAtTwentyDegrees) {  // V6
   PhysicalMaterial rough = testing::lambert(1);
   rough.roughness_rad = 20 * kRadPerDeg;
   const Optics optics = opticsOf(rough, 1550);
-  for (const auto& [angle, value] : {std::pair{0, 0.865}, {30, 0.814}, {45, 0.741}, {60, 0.627}, {75, 0.465}, {80, 0.401}})
+  for (const auto& [angle, value] :
+       {std::pair{0, 0.865}, {30, 0.814}, {45, 0.741}, {60, 0.627}, {75, 0.465}, {80, 0.401}})
     EXPECT_NEAR(lambertEquivalent(optics, cosine(angle)), value, 1e-3) << angle;
 }
 
 // physics.md §2.4, F0 = 0.04; of its values at 20° the formula beside them gives 0.94, as if they lacked the cosine.
 TEST(Gloss, GlintsAsTheBeckmannLobeSays) {
-  for (const auto& [slope, head_on, at_five, at_twenty] : {std::tuple{0.05, 4.0, 0.19, 0.0}, {0.1, 1.0, 0.48, 0.0}, {0.2, 0.25, 0.21, 0.0122}, {0.3, 0.11, 0.10, 0.0348}}) {
+  for (const auto& [slope, head_on, at_five, at_twenty] : {std::tuple{0.05, 4.0, 0.19, 0.0},
+                                                           {0.1, 1.0, 0.48, 0.0},
+                                                           {0.2, 0.25, 0.21, 0.0122},
+                                                           {0.3, 0.11, 0.10, 0.0348}}) {
     PhysicalMaterial coat = testing::lambert(0);
     coat.index_of_refraction = 1.5;
     coat.gloss_slope = slope;
@@ -57,14 +61,14 @@ TEST(Gloss, GlintsAsTheBeckmannLobeSays) {
   }
 }
 
-TEST(Pane, WithoutLossFollowsFresnel) {   // V7
+TEST(Pane, WithoutLossFollowsFresnel) {  // V7
   EXPECT_NEAR(slab(1.52, 1, 1).reflected, 0.0817, 1e-3);
   EXPECT_NEAR(slab(1.52, 1, 1).transmitted, 0.9183, 1e-3);
   for (const auto& [angle, squared] : {std::pair{0, 0.843}, {60, 0.711}, {80, 0.208}})
     EXPECT_NEAR(std::pow(slab(1.52, 1, cosine(angle)).transmitted, 2), squared, 1e-3) << angle;
 }
 
-TEST(Pane, OfClearFloatTransmitsAsRubinMeasured) {   // V8: n 1.5152, k 3.77e-6, 4 mm at 905 nm
+TEST(Pane, OfClearFloatTransmitsAsRubinMeasured) {  // V8: n 1.5152, k 3.77e-6, 4 mm at 905 nm
   const double inner = std::exp(-4 * std::numbers::pi * 3.77e-6 * 4e-3 / 905e-9);
   const SlabPower power = slab(1.5152, inner, 1);
   EXPECT_NEAR(power.transmitted, 0.745, 2e-3);
@@ -78,11 +82,12 @@ TEST(Pane, BehindAnotherLetsThroughWhatTheBuildUpDoes) {
   for (const auto& [angle, squared] : {std::pair{0, 0.285}, {60, 0.166}, {80, 0.016}})
     EXPECT_NEAR(std::pow(stack(slab(1.5129, inner, cosine(angle)), 2).transmitted, 2), squared, 2e-3) << angle;
   const SlabPower one = slab(1.52, 1, cosine(40)), three = stack(one, 3);
-  EXPECT_NEAR(three.reflected + three.transmitted, 1, 1e-12);   // nothing is lost in lossless panes
-  EXPECT_NEAR(three.transmitted, one.transmitted / (one.transmitted + 3 * one.reflected), 1e-12);   // Stokes 1862: n equal plates
+  EXPECT_NEAR(three.reflected + three.transmitted, 1, 1e-12);  // nothing is lost in lossless panes
+  EXPECT_NEAR(three.transmitted, one.transmitted / (one.transmitted + 3 * one.reflected),
+              1e-12);  // Stokes 1862: n equal plates
 }
 
-TEST(Metal, GlintsAtEachWavelengthAsItsIndexSays) {   // copper, Johnson and Christy: 0.602 at 532 nm, 0.966 at 905 nm
+TEST(Metal, GlintsAtEachWavelengthAsItsIndexSays) {  // copper, Johnson and Christy: 0.602 at 532 nm, 0.966 at 905 nm
   PhysicalMaterial copper = testing::lambert(0);
   copper.complex_index = {{532, 1.1159, 2.6}, {905, 0.3028, 5.86}};
   copper.gloss_slope = 0.5;
@@ -98,7 +103,7 @@ TEST(Pane, NeitherGainsNorLosesPowerWithoutAbsorption) {
 }
 
 TEST(UnassignedSurface, ReflectsTheLuminanceOfItsColour) {
-  EXPECT_NEAR(opticsOf(Colour{0.5F, 0.5F, 0.5F, 1}).diffuse, 0.214, 1e-3);   // IEC 61966-2-1
+  EXPECT_NEAR(opticsOf(Colour{0.5F, 0.5F, 0.5F, 1}).diffuse, 0.214, 1e-3);  // IEC 61966-2-1
   EXPECT_FLOAT_EQ(opticsOf(Colour{0, 0, 0, 1}).diffuse, 0.05F);
   EXPECT_GT(opticsOf(Colour{0, 1, 0, 1}).diffuse, opticsOf(Colour{1, 0, 0, 1}).diffuse);
 }
@@ -106,9 +111,13 @@ TEST(UnassignedSurface, ReflectsTheLuminanceOfItsColour) {
 TEST(RangeNoise, MeetsEveryFigureOfEverySheet) {
   for (const auto& instrument : testing::instruments())
     for (const auto& figure : instrument.range_noise) {
-      const SignalLanes lanes = received(instrument, static_cast<float>(figure.reflectivity), static_cast<float>(figure.range_m));
-      EXPECT_NEAR(lanes.sigma_m[7] / figure.sigma_m, 1, 0.01) << instrument.id << " " << figure.range_m << " m " << figure.reflectivity;
-      EXPECT_NEAR(RangeNoiseLaw(instrument).sigma(static_cast<double>(lanes.x[7]), figure.reflectivity) / figure.sigma_m, 1, 0.01);
+      const SignalLanes lanes =
+          received(instrument, static_cast<float>(figure.reflectivity), static_cast<float>(figure.range_m));
+      EXPECT_NEAR(lanes.sigma_m[7] / figure.sigma_m, 1, 0.01)
+          << instrument.id << " " << figure.range_m << " m " << figure.reflectivity;
+      EXPECT_NEAR(
+          RangeNoiseLaw(instrument).sigma(static_cast<double>(lanes.x[7]), figure.reflectivity) / figure.sigma_m, 1,
+          0.01);
     }
 }
 
@@ -117,7 +126,7 @@ TEST(RangeNoise, NeverFallsWithRangeNorRisesWithReflectivity) {
   for (const auto& instrument : testing::instruments()) {
     const double power = instrument.near_range_power;
     double peak = power > 2 ? instrument.near_range_m * std::pow(power / 2 - 1, 1 / power) : 0;
-    if (instrument.near_range_curve.below_m > 0) peak = 10.05;   // of the VZ-400i's measured amplitude, physics.md §2.2
+    if (instrument.near_range_curve.below_m > 0) peak = 10.05;  // of the VZ-400i's measured amplitude, physics.md §2.2
     for (float range = std::max(2.0F, static_cast<float>(peak)); range < 60; range *= 1.2F)
       for (float reflectivity = 0.02F; reflectivity < 0.9F; reflectivity *= 1.3F) {
         const float sigma = received(instrument, reflectivity, range).sigma_m[0];
@@ -129,7 +138,8 @@ TEST(RangeNoise, NeverFallsWithRangeNorRisesWithReflectivity) {
 
 TEST(PortableMath, AgreesWithTheLibrary) {
   for (float x = 1e-30F; x < 1e30F; x *= 1.37F)
-    EXPECT_NEAR(portable::log2(x), std::log2(static_cast<double>(x)), 3e-7 * std::max(1.0, std::abs(std::log2(static_cast<double>(x)))));
+    EXPECT_NEAR(portable::log2(x), std::log2(static_cast<double>(x)),
+                3e-7 * std::max(1.0, std::abs(std::log2(static_cast<double>(x)))));
   for (int k = 0; k <= 10000; ++k) {
     const float u = static_cast<float>(k) / 10000;
     float sine, cos;

@@ -36,19 +36,21 @@ TEST(RayScene, LeavesOutWhatIsNotTangible) {
 
 TEST(RayScene, PlacesSharedMeshesWhereTheyStand) {
   SceneBuilder scene;
-  const auto first = scene.sphere({0, 0, 0}, 0.5, 40);   // 6,400 triangles: too large to be copied
+  const auto first = scene.sphere({0, 0, 0}, 0.5, 40);  // 6,400 triangles: too large to be copied
   Eigen::Affine3d moved = Eigen::Affine3d::Identity();
   moved.translate(Eigen::Vector3d(8, 0, 0)).rotate(Eigen::AngleAxisd(1, Eigen::Vector3d::UnitZ()));
   const auto second = scene.again(first, moved);
   moved.translation() = Eigen::Vector3d(0, 6, 0);
   const auto mirrored = scene.again(first, moved * Eigen::Scaling(-1.0, 1.0, 2.0));
   const auto rays = scene.build();
-  const auto along = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to) { return rays->intersect(from, (to - from).normalized(), 100); };
+  const auto along = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+    return rays->intersect(from, (to - from).normalized(), 100);
+  };
   EXPECT_EQ(along({4, 0, 0}, {0, 0, 0})->product, first);
   EXPECT_EQ(along({4, 0, 0}, {8, 0, 0})->product, second);
   const auto hit = along({0, 6, 9}, {0, 6, 0});
   EXPECT_EQ(hit->product, mirrored);
-  EXPECT_NEAR(hit->range_m, 8, 1e-3);                    // stretched to a height of 1 m; 40 rings
+  EXPECT_NEAR(hit->range_m, 8, 1e-3);  // stretched to a height of 1 m; 40 rings
   EXPECT_GT(hit->normal.z(), 0.9);
 }
 
@@ -66,10 +68,12 @@ TEST(RayScene, LosesNoRayInTheSeamsOfARoom) {
   SceneBuilder scene;
   scene.box({-4, -3, 0}, {5, 6, 3}, true);
   const auto rays = scene.build();
-  for (int k = 0; k < 20000; ++k) {   // towards the edges, where two faces meet
+  for (int k = 0; k < 20000; ++k) {  // towards the edges, where two faces meet
     const double share = k / 20000.0;
-    for (const Eigen::Vector3d& edge : {Eigen::Vector3d(5, -3 + 9 * share, 3), Eigen::Vector3d(-4 + 9 * share, 6, 0), Eigen::Vector3d(5, 6, 3 * share)})
-      ASSERT_TRUE(rays->intersect({0.3, 0.2, 1.7}, (edge - Eigen::Vector3d(0.3, 0.2, 1.7)).normalized(), 100)) << edge.transpose();
+    for (const Eigen::Vector3d& edge : {Eigen::Vector3d(5, -3 + 9 * share, 3), Eigen::Vector3d(-4 + 9 * share, 6, 0),
+                                        Eigen::Vector3d(5, 6, 3 * share)})
+      ASSERT_TRUE(rays->intersect({0.3, 0.2, 1.7}, (edge - Eigen::Vector3d(0.3, 0.2, 1.7)).normalized(), 100))
+          << edge.transpose();
   }
 }
 

@@ -25,8 +25,10 @@ double planeResidual(const PointBlock& points) {
   for (std::size_t i = 0; i < points.size(); ++i) mean += point(points, i);
   mean /= static_cast<double>(points.size());
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < points.size(); ++i) moments += (point(points, i) - mean) * (point(points, i) - mean).transpose();
-  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments).eigenvalues()[0] / static_cast<double>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    moments += (point(points, i) - mean) * (point(points, i) - mean).transpose();
+  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments).eigenvalues()[0] /
+                   static_cast<double>(points.size()));
 }
 
 // Nothing but the law of what returns.
@@ -49,7 +51,8 @@ TEST(PlaneNoise, IsTheFigureOfEverySheet) {
     const auto instrument = withoutBias(sheet);
     for (const auto& figure : instrument.range_noise) {
       const auto scene = wallAt(figure.range_m);
-      const auto result = scanned(*scene.build(), allOf(*scene.environment(), figure.reflectivity), instrument, straightAhead(instrument), {});
+      const auto result = scanned(*scene.build(), allOf(*scene.environment(), figure.reflectivity), instrument,
+                                  straightAhead(instrument), {});
       // One in 40 000 may fade, where a sheet states its noise near the end of the range.
       ASSERT_GE(result.points.size(), 39990U) << instrument.id << " " << figure.range_m;
       const double expected = std::hypot(figure.sigma_m, instrument.correlated.column_extra_m);
@@ -66,7 +69,8 @@ TEST(PlaneNoise, V20_OfTheBlk360IsTheSimulatedFigureWithoutStripingAndTheMeasure
   const auto rays = scene.build();
   const auto assignment = allOf(*scene.environment(), 0.78);
   const auto settings = straightAhead(instrument, 400);
-  const double plain = planeResidual(scanned(*rays, assignment, instrument, settings, {1, Effects().without(Effect::striping)}).points);
+  const double plain =
+      planeResidual(scanned(*rays, assignment, instrument, settings, {1, Effects().without(Effect::striping)}).points);
   const double striped = planeResidual(scanned(*rays, assignment, instrument, settings, {}).points);
   EXPECT_NEAR(plain, 2.03e-3, 0.02 * 2.03e-3);
   EXPECT_NEAR(striped, 2.29e-3, 0.03 * 2.29e-3);
@@ -85,7 +89,8 @@ TEST(PlaneNoise, FallsByTheRootOfTwoInADoubleScan) {
 TEST(PlaneNoise, IsNoneInAnIdealScan) {
   const auto scene = wallAt(20);
   const auto instrument = testing::instrument("trimble-x7");
-  const auto result = scanned(*scene.build(), allOf(*scene.environment(), 0.5), instrument, straightAhead(instrument), {1, Effects::none()});
+  const auto result = scanned(*scene.build(), allOf(*scene.environment(), 0.5), instrument, straightAhead(instrument),
+                              {1, Effects::none()});
   EXPECT_LT(planeResidual(result.points), 1e-6);
 }
 
@@ -125,7 +130,8 @@ TEST(MaximumRange, FollowsTheRootOfTheReflectivity) {
       for (const double share : {0.99, 1.01}) {
         const auto scene = wallAt(share * limit);
         const auto settings = window(instrument, -0.05, 0.05, -0.05, 0.05, 20, 20);
-        const auto result = scanned(*scene.build(), allOf(*scene.environment(), reflectivity), instrument, settings, {1, kLaw});
+        const auto result =
+            scanned(*scene.build(), allOf(*scene.environment(), reflectivity), instrument, settings, {1, kLaw});
         EXPECT_EQ(result.points.size(), share < 1 ? 400U : 0U) << instrument.id << " " << reflectivity;
       }
     }
@@ -139,11 +145,15 @@ TEST(MaximumRange, FadesRatherThanStops) {
   const auto share = [&](double range) {
     const auto scene = wallAt(range);
     return scanned(*scene.build(), allOf(*scene.environment(), 0.2), instrument, straightAhead(instrument, 100),
-                   {1, Effects().without(Effect::atmosphere)}).points.size() / 10000.0;
+                   {1, Effects().without(Effect::atmosphere)})
+               .points.size() /
+           10000.0;
   };
   // P_d = ½ erfc((x_min - x) / √2 σ), σ = 0.1 x_min.
   for (const double relative : {0.95, 1.0, 1.05})
-    EXPECT_NEAR(share(relative * limit), 0.5 * std::erfc((1 - 1 / (relative * relative)) / (std::sqrt(2.0) * 0.1)), 0.02) << relative;
+    EXPECT_NEAR(share(relative * limit), 0.5 * std::erfc((1 - 1 / (relative * relative)) / (std::sqrt(2.0) * 0.1)),
+                0.02)
+        << relative;
 }
 
 // V4: on level ground cos θ = h/R, so R³ = h R0² ρ/ρ0: 9.86 m where the reflectivity alone would promise 24.5 m.
@@ -163,7 +173,9 @@ TEST(MinimumRange, IsKept) {
     for (const double share : {0.95, 1.05}) {
       const auto scene = wallAt(share * instrument.min_range_m);
       const auto settings = window(instrument, -0.5, 0.5, -0.5, 0.5, 10, 10);
-      EXPECT_EQ(scanned(*scene.build(), allOf(*scene.environment(), 0.5), instrument, settings, {1, Effects::none()}).points.size(), share > 1 ? 100U : 0U);
+      EXPECT_EQ(scanned(*scene.build(), allOf(*scene.environment(), 0.5), instrument, settings, {1, Effects::none()})
+                    .points.size(),
+                share > 1 ? 100U : 0U);
     }
 }
 
@@ -174,10 +186,13 @@ TEST(Intensity, IsTheLogarithmOfThePower) {
     const auto at = [&](double range, double reflectivity) {
       const auto scene = wallAt(range);
       const auto settings = window(instrument, 0, 0.01, 0, 0.01, 1, 1);
-      const auto result = scanned(*scene.build(), allOf(*scene.environment(), reflectivity), instrument, settings, {1, Effects::none()});
-      return instrument.intensity_low_db + static_cast<double>(result.points.intensity.at(0)) * (instrument.intensity_high_db - instrument.intensity_low_db);
+      const auto result = scanned(*scene.build(), allOf(*scene.environment(), reflectivity), instrument, settings,
+                                  {1, Effects::none()});
+      return instrument.intensity_low_db + static_cast<double>(result.points.intensity.at(0)) *
+                                               (instrument.intensity_high_db - instrument.intensity_low_db);
     };
-    const double step = (instrument.intensity_high_db - instrument.intensity_low_db) / (instrument.intensity_levels - 1);
+    const double step =
+        (instrument.intensity_high_db - instrument.intensity_low_db) / (instrument.intensity_levels - 1);
     EXPECT_NEAR(at(10, 0.5), 10 * std::log10(0.005), step) << instrument.id;
     EXPECT_NEAR(at(10, 0.5) - at(20, 0.5), 6.0206, step) << instrument.id;
     EXPECT_NEAR(at(10, 0.5) - at(10, 0.25), 3.0103, step) << instrument.id;
@@ -211,11 +226,13 @@ TEST(StepEdge, WithoutAFootprintIsSharpAndKeepsBothSides) {
     SceneBuilder scene;
     const auto front = scene.quad({10, 0, -2}, {0, 2, 0}, {0, 0, 4});
     const auto back = scene.quad({10.5, -2, -2}, {0, 4, 0}, {0, 0, 4});
-    const auto result = scanned(*scene.build(), allOf(*scene.environment(), 0.8), instrument, window(instrument, -2, 2, -2, 2, 200, 200),
-                                {1, Effects().without(Effect::footprint)});
+    const auto result = scanned(*scene.build(), allOf(*scene.environment(), 0.8), instrument,
+                                window(instrument, -2, 2, -2, 2, 200, 200), {1, Effects().without(Effect::footprint)});
     for (std::size_t i = 0; i < result.points.size(); ++i) {
       // Clockwise: the first columns look to +Y, where the step stands forward.
-      const auto expected = result.points.column[i] < 100 ? front : result.points.column[i] > 100 ? back : result.points.product[i];
+      const auto expected = result.points.column[i] < 100   ? front
+                            : result.points.column[i] > 100 ? back
+                                                            : result.points.product[i];
       ASSERT_EQ(result.points.product[i], expected) << instrument.id;
       ASSERT_NEAR(result.points.x_m[i], expected == front ? 10 : 10.5, 0.02);
     }
@@ -229,18 +246,19 @@ TEST(StepEdge, MixesBothSidesOverTheBeamsWidth) {
   for (const auto& sheet : instruments()) {
     Instrument instrument = sheet;
     instrument.near_range_m = 0;
-    const double step = 0.05;                            // less than any pulse and any fine tone
+    const double step = 0.05;  // less than any pulse and any fine tone
     SceneBuilder scene;
     scene.quad({10, 0, -2}, {0, 2, 0}, {0, 0, 4});
     scene.quad({10 + step, -2, -2}, {0, 4, 0}, {0, 0, 4});
     const double radius = beamRadius(instrument, 10);
     const double window_deg = 3 * radius / 10 / kRadPerDeg;
-    const auto result = scanned(*scene.build(), allOf(*scene.environment(), 0.8), instrument,
-                                window(instrument, -window_deg, window_deg, -0.05, 0.05, 61, 3), {1, kLaw.with(Effect::footprint)});
+    const auto result =
+        scanned(*scene.build(), allOf(*scene.environment(), 0.8), instrument,
+                window(instrument, -window_deg, window_deg, -0.05, 0.05, 61, 3), {1, kLaw.with(Effect::footprint)});
     ASSERT_EQ(result.points.size(), 183U) << instrument.id;
     for (std::size_t i = 0; i < result.points.size(); ++i) {
       const Eigen::Vector3d p = point(result.points, i);
-      const double aside = p.y() * 10 / p.x();           // of the axis, at the edge
+      const double aside = p.y() * 10 / p.x();  // of the axis, at the edge
       const double front = 0.5 * std::erfc(-std::numbers::sqrt2 * aside / radius);
       const double mixed = p.x() - 10;
       // Nineteen rays: a share is good to the heaviest row of them. The nearer side is brighter by 1 %.
@@ -256,7 +274,8 @@ TEST(StepEdge, FlagsWhatIsMixedAndKeepsTheTruth) {
   const auto back = scene.quad({10.1, -2, -2}, {0, 4, 0}, {0, 0, 4});
   ScanOptions options{1, kLaw.with(Effect::footprint)};
   options.channels = {.time = true, .returns = true, .truth = true};
-  const auto result = scanned(*scene.build(), allOf(*scene.environment(), 0.8), instrument, window(instrument, -0.2, 0.2, -0.02, 0.02, 81, 3), options);
+  const auto result = scanned(*scene.build(), allOf(*scene.environment(), 0.8), instrument,
+                              window(instrument, -0.2, 0.2, -0.02, 0.02, 81, 3), options);
   const PointTruth& truth = result.points.truth;
   ASSERT_EQ(truth.flags.size(), result.points.size());
   int mixed = 0;
@@ -264,14 +283,17 @@ TEST(StepEdge, FlagsWhatIsMixedAndKeepsTheTruth) {
     const double x = truth.x_m[i];
     ASSERT_NEAR(x, result.points.product[i] == front ? 10 : 10.1, 1e-5);
     ASSERT_TRUE(result.points.product[i] == front || result.points.product[i] == back);
-    if ((truth.flags[i] & point_flag::kMixed) != 0) ++mixed;
-    else ASSERT_NEAR(result.points.x_m[i], x, 1e-4);
+    if ((truth.flags[i] & point_flag::kMixed) != 0)
+      ++mixed;
+    else
+      ASSERT_NEAR(result.points.x_m[i], x, 1e-4);
   }
   EXPECT_GT(mixed, 3);
   EXPECT_LT(mixed, 60);
 }
 
-// A wire at 10 m, thinner than the beam, before a wall at 20 m: of two returns one is on each, and a single one is the stronger.
+// A wire at 10 m, thinner than the beam, before a wall at 20 m: of two returns one is on each, and a single one is the
+// stronger.
 TEST(SeveralReturns, AreOfThePulseInOrderOfRange) {
   Instrument instrument = testing::instrument("riegl-vz-400i");
   SceneBuilder scene;
@@ -297,13 +319,14 @@ TEST(SeveralReturns, AreOfThePulseInOrderOfRange) {
   EXPECT_EQ(single.points.size(), 41U);
 }
 
-// A mirror at 45° before the scanner, and a wall to its right: the image stands behind the mirror at the length of the way.
+// A mirror at 45° before the scanner, and a wall to its right: the image stands behind the mirror at the length of the
+// way.
 TEST(Mirror, ShowsWhatItSeesBehindIt) {
   Instrument instrument = testing::instrument("leica-rtc360");
   instrument.near_range_m = 0;
   SceneBuilder scene;
-  const auto mirror = scene.quad({4, 1, -1}, {2, -2, 0}, {0, 0, 2});       // through (5, 0), facing back and to the right
-  const auto wall = scene.quad({3, -6, -3}, {4, 0, 0}, {0, 0, 6});           // y = -6
+  const auto mirror = scene.quad({4, 1, -1}, {2, -2, 0}, {0, 0, 2});  // through (5, 0), facing back and to the right
+  const auto wall = scene.quad({3, -6, -3}, {4, 0, 0}, {0, 0, 6});    // y = -6
   MaterialAssignment assignment = allOf(*scene.environment(), 0.8);
   PhysicalMaterial silver;
   silver.id = "silver";
@@ -315,7 +338,8 @@ TEST(Mirror, ShowsWhatItSeesBehindIt) {
     if (surface.product == mirror) surface.material = static_cast<std::int32_t>(assignment.materials.size()) - 1;
   ScanOptions options{1, kLaw.with(Effect::mirrors)};
   options.channels.truth = true;
-  const auto result = scanned(*scene.build(), assignment, instrument, window(instrument, -1, 1, -1, 1, 20, 20), options);
+  const auto result =
+      scanned(*scene.build(), assignment, instrument, window(instrument, -1, 1, -1, 1, 20, 20), options);
   ASSERT_EQ(result.points.size(), 400U);
   const double f0 = specularAtNormal(silver, 1550);
   for (std::size_t i = 0; i < result.points.size(); ++i) {
@@ -325,7 +349,8 @@ TEST(Mirror, ShowsWhatItSeesBehindIt) {
     ASSERT_NEAR(result.points.truth.y_m[i], -6, 2e-3);
     ASSERT_EQ(result.points.truth.flags[i], point_flag::kMirrored);
     const double incidence = result.points.truth.incidence_rad[i];
-    const double expected = 10 * std::log10(0.8 * std::cos(incidence) / point(result.points, i).squaredNorm()) + 20 * std::log10(f0);
+    const double expected =
+        10 * std::log10(0.8 * std::cos(incidence) / point(result.points, i).squaredNorm()) + 20 * std::log10(f0);
     ASSERT_NEAR(result.points.truth.received_db[i], expected, 0.1);
   }
 }
@@ -338,7 +363,7 @@ TEST(Accuracy, OverManyScansIsThatOfTheSheet) {
     const auto rays = scene.build();
     const auto assignment = allOf(*scene.environment(), 0.8);
     auto settings = window(instrument, 0, 0.001, -0.0005, 0.0005, 1, 1);
-    settings.noise_factor = 1e-6;                        // accuracy is apart from noise
+    settings.noise_factor = 1e-6;  // accuracy is apart from noise
     double sum = 0;
     constexpr int kScans = 4000;
     for (int k = 0; k < kScans; ++k) {
@@ -376,7 +401,8 @@ Window glazed(bool solid, double lean) {
     window.pane = window.scene.box({0, -2, -2}, {0.004, 2, 2}, false);
     auto& mesh = const_cast<Mesh&>(*window.scene.environment()->meshes[0]);
     for (auto& p : mesh.positions)
-      p = (Eigen::Vector3d(5, 0, 0) + p.x() * through + p.y() * across + p.z() * Eigen::Vector3d::UnitZ()).cast<float>();
+      p = (Eigen::Vector3d(5, 0, 0) + p.x() * through + p.y() * across + p.z() * Eigen::Vector3d::UnitZ())
+              .cast<float>();
   } else {
     window.pane = window.scene.quad(Eigen::Vector3d(5, 0, -2) - 2 * across, 4 * across, {0, 0, 4});
   }
@@ -387,7 +413,8 @@ Window glazed(bool solid, double lean) {
 }
 
 double decibels(const Instrument& instrument, float intensity) {
-  return instrument.intensity_low_db + static_cast<double>(intensity) * (instrument.intensity_high_db - instrument.intensity_low_db);
+  return instrument.intensity_low_db +
+         static_cast<double>(intensity) * (instrument.intensity_high_db - instrument.intensity_low_db);
 }
 
 TEST(Glass, LetsTheBeamThroughTwiceAndDelaysIt) {
@@ -395,13 +422,16 @@ TEST(Glass, LetsTheBeamThroughTwiceAndDelaysIt) {
   instrument.near_range_m = 0;
   for (const bool solid : {true, false}) {
     const auto window = glazed(solid, 30 * kRadPerDeg);
-    const auto result = scanned(*window.scene.build(), window.assignment, instrument, testing::window(instrument, -0.5, 0.5, -0.5, 0.5, 20, 20), {1, kGlass});
+    const auto result = scanned(*window.scene.build(), window.assignment, instrument,
+                                testing::window(instrument, -0.5, 0.5, -0.5, 0.5, 20, 20), {1, kGlass});
     ASSERT_EQ(result.points.size(), 400U);
     const double transmitted = slab(1.507, innerTransmittance(1.507, 0.81), std::cos(30 * kRadPerDeg)).transmitted;
     for (std::size_t i = 0; i < result.points.size(); ++i) {
       ASSERT_EQ(result.points.product[i], window.wall);
       ASSERT_NEAR(point(result.points, i).x(), 8 + 0.507 * 0.004, 2e-5);
-      ASSERT_NEAR(decibels(instrument, result.points.intensity[i]), 10 * std::log10(0.6 / 64 * transmitted * transmitted), 0.03) << solid;
+      ASSERT_NEAR(decibels(instrument, result.points.intensity[i]),
+                  10 * std::log10(0.6 / 64 * transmitted * transmitted), 0.03)
+          << solid;
     }
   }
 }
@@ -409,7 +439,8 @@ TEST(Glass, LetsTheBeamThroughTwiceAndDelaysIt) {
 TEST(Glass, SeenHeadOnGlintsInsteadOfLettingThrough) {
   const Instrument instrument = testing::instrument("leica-rtc360");
   const auto window = glazed(true, 0);
-  const auto result = scanned(*window.scene.build(), window.assignment, instrument, testing::window(instrument, -4, 4, -0.05, 0.05, 160, 1), {1, kGlass});
+  const auto result = scanned(*window.scene.build(), window.assignment, instrument,
+                              testing::window(instrument, -4, 4, -0.05, 0.05, 160, 1), {1, kGlass});
   for (std::size_t i = 0; i < result.points.size(); ++i) {
     const double off_normal = std::abs(-4 + result.points.column[i] * 0.05);
     if (off_normal < 0.8) {
@@ -427,7 +458,8 @@ TEST(Glass, OfTwoPanesInOneSolidDelaysAndDimsAsBoth) {
   auto window = glazed(true, 30 * kRadPerDeg);
   window.assignment.materials[1].panes = 2;
   window.assignment.materials[1].gap_m = 0.016;
-  const auto result = scanned(*window.scene.build(), window.assignment, instrument, testing::window(instrument, -0.5, 0.5, -0.5, 0.5, 20, 20), {1, kGlass});
+  const auto result = scanned(*window.scene.build(), window.assignment, instrument,
+                              testing::window(instrument, -0.5, 0.5, -0.5, 0.5, 20, 20), {1, kGlass});
   ASSERT_EQ(result.points.size(), 400U);
   const auto one = slab(1.507, innerTransmittance(1.507, 0.81), std::cos(30 * kRadPerDeg));
   const double both = one.transmitted * one.transmitted / (1 - one.reflected * one.reflected);
@@ -446,10 +478,11 @@ TEST(Faces, OfOneSurfaceSendBackWhatTheirOwnMaterialDoes) {
   assignment.surfaces = {{wall, 0, 0, "test", 1}};
   const auto label = [&](const Eigen::Vector3d& direction) {
     assignment.faces = {{wall, 0, direction, 1, "test", {}}};
-    const auto result = scanned(*scene.build(), assignment, instrument, testing::window(instrument, -0.5, 0.5, -0.5, 0.5, 4, 4), {1, kGlass});
+    const auto result = scanned(*scene.build(), assignment, instrument,
+                                testing::window(instrument, -0.5, 0.5, -0.5, 0.5, 4, 4), {1, kGlass});
     return result.points.material.at(0);
   };
-  EXPECT_EQ(label(-Eigen::Vector3d::UnitX()), 1U);   // the side that the scanner sees
+  EXPECT_EQ(label(-Eigen::Vector3d::UnitX()), 1U);  // the side that the scanner sees
   EXPECT_EQ(label(Eigen::Vector3d::UnitX()), 0U);
 }
 
@@ -457,8 +490,9 @@ TEST(Faces, OfOneSurfaceSendBackWhatTheirOwnMaterialDoes) {
 TEST(Faces, AtAPointAreLabelledAndTheirCoplanarNeighbourIsNot) {
   const Instrument instrument = testing::instrument("leica-rtc360");
   auto mesh = std::make_shared<Mesh>();
-  mesh->positions = {{5, 0.5, -1}, {5, 2.5, -1}, {5, 2.5, 1}, {5, 0.5, 1}, {5, -2.5, -1}, {5, -0.5, -1}, {5, -0.5, 1}, {5, -2.5, 1}};
-  mesh->triangles = {{0, 2, 1}, {0, 3, 2}, {4, 6, 5}, {4, 7, 6}};   // look to -x
+  mesh->positions = {{5, 0.5, -1},  {5, 2.5, -1},  {5, 2.5, 1},  {5, 0.5, 1},
+                     {5, -2.5, -1}, {5, -0.5, -1}, {5, -0.5, 1}, {5, -2.5, 1}};
+  mesh->triangles = {{0, 2, 1}, {0, 3, 2}, {4, 6, 5}, {4, 7, 6}};  // look to -x
   mesh->surface_of_triangle.assign(4, 0);
   auto environment = std::make_shared<Environment>();
   environment->meshes = {mesh};
@@ -472,7 +506,8 @@ TEST(Faces, AtAPointAreLabelledAndTheirCoplanarNeighbourIsNot) {
   Progress progress;
   const auto scene = RayScene::build(environment, progress);
   ASSERT_TRUE(scene);
-  const auto result = scanned(**scene, assignment, instrument, testing::window(instrument, -20, 20, -5, 5, 60, 20), {1, kGlass});
+  const auto result =
+      scanned(**scene, assignment, instrument, testing::window(instrument, -20, 20, -5, 5, 60, 20), {1, kGlass});
   std::array<std::size_t, 2> counted{};
   for (std::size_t i = 0; i < result.points.size(); ++i) {
     const auto expected = point(result.points, i).y() > 0 ? 1U : 0U;

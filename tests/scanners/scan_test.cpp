@@ -26,7 +26,8 @@ SceneBuilder room() {
 }
 
 ScanSettings dome(const Instrument& instrument, std::uint32_t columns, std::uint32_t rows) {
-  return window(instrument, 0, 360, instrument.min_elevation_rad / kRadPerDeg, instrument.max_elevation_rad / kRadPerDeg, columns, rows);
+  return window(instrument, 0, 360, instrument.min_elevation_rad / kRadPerDeg,
+                instrument.max_elevation_rad / kRadPerDeg, columns, rows);
 }
 
 bool same(const PointBlock& a, const PointBlock& b) {
@@ -38,7 +39,8 @@ bool same(const PointBlock& a, const PointBlock& b) {
 double distanceInside(const Eigen::Vector3d& direction) {
   double nearest = 1e9;
   for (int axis = 0; axis < 3; ++axis)
-    if (direction[axis] != 0) nearest = std::min(nearest, (direction[axis] > 0 ? kHigh[axis] : kLow[axis]) / direction[axis]);
+    if (direction[axis] != 0)
+      nearest = std::min(nearest, (direction[axis] > 0 ? kHigh[axis] : kLow[axis]) / direction[axis]);
   return nearest;
 }
 
@@ -57,11 +59,12 @@ TEST(IdealScan, OfABoxRoomHasItsDistances) {
       const double span = instrument.max_elevation_rad - instrument.min_elevation_rad;
       const double elevation = instrument.min_elevation_rad + (result.points.row[i] + 0.5) * span / 150;
       // Clockwise from +X, rows rising with elevation.
-      const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth), -std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+      const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth), -std::cos(elevation) * std::sin(azimuth),
+                                      std::sin(elevation));
       const Eigen::Vector3d point(result.points.x_m[i], result.points.y_m[i], result.points.z_m[i]);
       worst = std::max(worst, (point - distanceInside(direction) * direction).norm());
     }
-    EXPECT_LT(worst, 1e-6) << instrument.id;   // the points are floats
+    EXPECT_LT(worst, 1e-6) << instrument.id;  // the points are floats
   }
 }
 
@@ -70,9 +73,11 @@ TEST(Scan, LeavesTheConeBelowBlind) {
   scene.quad({-50, -50, -1.7}, {100, 0, 0}, {0, 100, 0});
   const auto rays = scene.build();
   for (const auto& instrument : instruments()) {
-    const auto result = scanned(*rays, allOf(*scene.environment(), 0.8), instrument, dome(instrument, 200, 1500), {1, Effects::none()});
+    const auto result =
+        scanned(*rays, allOf(*scene.environment(), 0.8), instrument, dome(instrument, 200, 1500), {1, Effects::none()});
     double nearest = 1e9;
-    for (std::size_t i = 0; i < result.points.size(); ++i) nearest = std::min(nearest, std::hypot(double(result.points.x_m[i]), double(result.points.y_m[i])));
+    for (std::size_t i = 0; i < result.points.size(); ++i)
+      nearest = std::min(nearest, std::hypot(double(result.points.x_m[i]), double(result.points.y_m[i])));
     EXPECT_NEAR(nearest, 1.7 / std::tan(-instrument.min_elevation_rad), 0.003) << instrument.id;
   }
 }
@@ -86,7 +91,8 @@ TEST(Scan, IsTheSameOnOneTwoAndSevenThreads) {
     const auto assignment = allOf(*scene.environment(), 0.5);
     const auto one = scanned(*rays, assignment, instrument, settings, {7, {}, 1, 3});
     EXPECT_GT(one.points.size(), 300000U);
-    for (const int threads : {2, 7}) EXPECT_TRUE(same(one.points, scanned(*rays, assignment, instrument, settings, {7, {}, threads, 3}).points));
+    for (const int threads : {2, 7})
+      EXPECT_TRUE(same(one.points, scanned(*rays, assignment, instrument, settings, {7, {}, threads, 3}).points));
     EXPECT_FALSE(same(one.points, scanned(*rays, assignment, instrument, settings, {8, {}, 2, 3}).points));
     EXPECT_FALSE(same(one.points, scanned(*rays, assignment, instrument, settings, {7, {}, 2, 4}).points));
   }
@@ -103,7 +109,8 @@ TEST(Scan, ColumnByColumnIsTheSameAsTheWhole) {
   options.weather.rain_mm_h = 20;
   options.channels = {.time = true, .returns = true, .truth = true};
   const auto whole = scanned(*rays, assignment, instrument, settings, options);
-  EXPECT_TRUE(std::any_of(whole.points.truth.flags.begin(), whole.points.truth.flags.end(), [](int f) { return (f & point_flag::kMixed) != 0; }));
+  EXPECT_TRUE(std::any_of(whole.points.truth.flags.begin(), whole.points.truth.flags.end(),
+                          [](int f) { return (f & point_flag::kMixed) != 0; }));
   for (const std::uint32_t width : {1U, 7U}) {
     PointsKept sink;
     Progress progress;
@@ -123,7 +130,8 @@ TEST(Scan, OfARebuiltSceneIsTheSame) {
   const auto instrument = testing::instrument("trimble-x7");
   const auto assignment = allOf(*scene.environment(), 0.5);
   const auto first = scanned(*scene.build(), assignment, instrument, dome(instrument, 300, 200), {});
-  EXPECT_TRUE(same(first.points, scanned(*scene.build(), assignment, instrument, dome(instrument, 300, 200), {}).points));
+  EXPECT_TRUE(
+      same(first.points, scanned(*scene.build(), assignment, instrument, dome(instrument, 300, 200), {}).points));
 }
 
 // A pulse owns its random numbers: what happens to its neighbours does not change it.
@@ -136,7 +144,8 @@ TEST(Scan, OfOnePulseDoesNotDependOnTheOthers) {
   const auto with = scanned(*full.build(), allOf(*full.environment(), 0.5), instrument, settings, {});
   const auto without = scanned(*empty.build(), allOf(*empty.environment(), 0.5), instrument, settings, {});
   std::map<std::pair<std::uint32_t, std::uint32_t>, float> x;
-  for (std::size_t i = 0; i < without.points.size(); ++i) x[{without.points.column[i], without.points.row[i]}] = without.points.x_m[i];
+  for (std::size_t i = 0; i < without.points.size(); ++i)
+    x[{without.points.column[i], without.points.row[i]}] = without.points.x_m[i];
   std::size_t walls = 0;
   for (std::size_t i = 0; i < with.points.size(); ++i)
     if (with.points.product[i] == 0) {
@@ -158,7 +167,7 @@ TEST(Scan, LabelsProductMaterialAndColour) {
   for (std::size_t i = 0; i < result.points.size(); ++i) {
     const bool post = result.points.product[i] == 1;
     posts += post ? 1 : 0;
-    ASSERT_EQ(result.points.material[i], post ? 1U : 0U);      // 1 = the number of materials: not assigned
+    ASSERT_EQ(result.points.material[i], post ? 1U : 0U);  // 1 = the number of materials: not assigned
     ASSERT_EQ(result.points.red[i], post ? 77 : 204);
   }
   EXPECT_GT(posts, 100U);
@@ -171,7 +180,8 @@ TEST(Scan, OfATiltedScannerIsInItsOwnFrame) {
   scene.box(kLow, kHigh, true);
   const auto instrument = testing::instrument("faro-focus-s350");
   const Pose pose{Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, 3).normalized())), {0.5, 1, 0.2}};
-  const auto result = scanned(*scene.build(), allOf(*scene.environment(), 0.5), instrument, dome(instrument, 90, 70), {1, Effects::none()}, pose);
+  const auto result = scanned(*scene.build(), allOf(*scene.environment(), 0.5), instrument, dome(instrument, 90, 70),
+                              {1, Effects::none()}, pose);
   ASSERT_EQ(result.points.size(), 90U * 70U);
   for (std::size_t i = 0; i < result.points.size(); ++i) {
     const Eigen::Vector3d p = pose * Eigen::Vector3d(result.points.x_m[i], result.points.y_m[i], result.points.z_m[i]);
@@ -190,10 +200,12 @@ TEST(Scan, OfAMovingScannerIsSetRightByItsTrajectory) {
   const Trajectory path{{0, settings.scan_seconds}, {Pose{}, end}};
   PointsKept sink;
   Progress progress;
-  ASSERT_TRUE(scan(*scene.build(), allOf(*scene.environment(), 0.5), instrument, settings, path, {1, Effects::none()}, sink, progress));
+  ASSERT_TRUE(scan(*scene.build(), allOf(*scene.environment(), 0.5), instrument, settings, path, {1, Effects::none()},
+                   sink, progress));
   ASSERT_EQ(sink.all.size(), 300U * 150U);
   double differs = 0;
-  const auto still = scanned(*scene.build(), allOf(*scene.environment(), 0.5), instrument, settings, {1, Effects::none()});
+  const auto still =
+      scanned(*scene.build(), allOf(*scene.environment(), 0.5), instrument, settings, {1, Effects::none()});
   for (std::size_t i = 0; i < sink.all.size(); ++i) {
     const Eigen::Vector3d p(sink.all.x_m[i], sink.all.y_m[i], sink.all.z_m[i]);
     ASSERT_LT(std::min((p - kLow).cwiseAbs().minCoeff(), (kHigh - p).cwiseAbs().minCoeff()), 2e-6);
@@ -211,14 +223,17 @@ TEST(Scan, HandsOnBoundedBlocksInOrderOfColumns) {
   ASSERT_TRUE(scan(*scene.build(), {}, instrument, settings, {{0}, {Pose{}}}, {}, sink, progress));
   EXPECT_LE(sink.largest_block, 1U << 17U);
   for (std::size_t i = 1; i < sink.all.size(); ++i)
-    ASSERT_TRUE(std::pair(sink.all.column[i - 1], sink.all.row[i - 1]) < std::pair(sink.all.column[i], sink.all.row[i]));
+    ASSERT_TRUE(std::pair(sink.all.column[i - 1], sink.all.row[i - 1]) <
+                std::pair(sink.all.column[i], sink.all.row[i]));
   EXPECT_DOUBLE_EQ(progress.fraction(), 1);
 }
 
 class FullDisk final : public PointSink {
  public:
   Result<void> begin(const ScanHeader&) override { return {}; }
-  Result<void> write(const PointBlock&) override { return ++blocks < 3 ? Result<void>{} : failure(ErrorKind::file_system, "disk full", "x.e57"); }
+  Result<void> write(const PointBlock&) override {
+    return ++blocks < 3 ? Result<void>{} : failure(ErrorKind::file_system, "disk full", "x.e57");
+  }
   Result<void> end() override { return {}; }
   Result<void> close() override { return {}; }
   int blocks = 0;
@@ -229,7 +244,8 @@ TEST(Scan, StopsAtTheFirstErrorOfItsSink) {
   const auto instrument = testing::instrument("leica-rtc360");
   FullDisk sink;
   Progress progress;
-  const auto count = scan(*scene.build(), {}, instrument, dome(instrument, 4000, 400), {{0}, {Pose{}}}, {}, sink, progress);
+  const auto count =
+      scan(*scene.build(), {}, instrument, dome(instrument, 4000, 400), {{0}, {Pose{}}}, {}, sink, progress);
   ASSERT_FALSE(count);
   EXPECT_EQ(count.error().kind, ErrorKind::file_system);
   EXPECT_EQ(sink.blocks, 3);
@@ -243,7 +259,7 @@ TEST(Scan, StopsSoonWhenCancelled) {
   FullDisk sink;
   sink.blocks = -1000000;
   Progress progress;
-  std::clock_t asked = 0;   // processor time: the answer must not depend on what else the machine does
+  std::clock_t asked = 0;  // processor time: the answer must not depend on what else the machine does
   std::thread user([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     asked = std::clock();
@@ -263,10 +279,12 @@ TEST(Scan, RefusesATrajectoryThatIsNone) {
   const auto instrument = testing::instrument("leica-rtc360");
   Pose nowhere;
   nowhere.translation.x() = std::nan("");
-  for (const Trajectory& path : {Trajectory{}, Trajectory{{0, 1}, {Pose{}}}, Trajectory{{1, 0}, {Pose{}, Pose{}}}, Trajectory{{0}, {nowhere}}}) {
+  for (const Trajectory& path :
+       {Trajectory{}, Trajectory{{0, 1}, {Pose{}}}, Trajectory{{1, 0}, {Pose{}, Pose{}}}, Trajectory{{0}, {nowhere}}}) {
     PointsKept sink;
     Progress progress;
-    EXPECT_EQ(scan(*rays, {}, instrument, dome(instrument, 10, 10), path, {}, sink, progress).error().kind, ErrorKind::usage);
+    EXPECT_EQ(scan(*rays, {}, instrument, dome(instrument, 10, 10), path, {}, sink, progress).error().kind,
+              ErrorKind::usage);
   }
 }
 

@@ -68,7 +68,7 @@ Seen simulated(const Instrument& instrument, double mm_h, double far_m, double l
     for (int k = number(generator); k > 0; --k) {
       const double r = instrument.min_range_m + unit(generator) * (far_m - instrument.min_range_m);
       const double diameter = 1e-3 * (0.05 + larger(generator));
-      if (unit(generator) * widest * widest > std::pow(beam(instrument, r), 2)) continue;   // beside the beam
+      if (unit(generator) * widest * widest > std::pow(beam(instrument, r), 2)) continue;  // beside the beam
       const double x = power(instrument, alpha, r, diameter);
       if (x > best.x) best = {ScattererKind::drop, r, x};
     }
@@ -98,7 +98,7 @@ TEST(Drops, AreAsManyAsTheirDistributionSays) {
   const double lambda = 4.1 * std::pow(50, -0.21);
   double number = 0;
   for (double r = instrument.min_range_m + 5e-4; r < kFar_m; r += 1e-3) {
-    const double share = kLeast / power(instrument, alpha, r, 1);   // of a drop as wide as the beam
+    const double share = kLeast / power(instrument, alpha, r, 1);  // of a drop as wide as the beam
     if (share > 1) continue;
     const double diameter_mm = std::max(1e3 * beam(instrument, r) * std::sqrt(share), 0.05);
     const double cross_section = std::numbers::pi / 4 * std::pow(beam(instrument, r), 2);
@@ -166,7 +166,7 @@ TEST(Fog, AnswersWithTheBackscatterWithinThePulse) {
   EXPECT_EQ(soft->kind, ScattererKind::fog);
   EXPECT_NEAR(soft->range_m, 30, 0.01);
   const double half_pulse_m = 299792458.0 * instrument.waveform.pulse_width_s / 2;
-  const double at = 30 - half_pulse_m;   // in the middle of the pulse
+  const double at = 30 - half_pulse_m;  // in the middle of the pulse
   const double x = std::numbers::pi * 0.046 / 100 * half_pulse_m * std::exp(-2 * std::log(20) / 100 * at) / (at * at);
   EXPECT_NEAR(soft->x / x, 1, 0.01);
 }
@@ -183,7 +183,7 @@ TEST(Fog, IsSeenNearerThanAWallInItAndNotAtAllWhenThin) {
   EXPECT_EQ(soft->x, dust.strongest(0, 0, 20, least)->x);
   EXPECT_FALSE(thin.strongest(0, 0, 20, least));
   const double wall = 0.5 / 400 / (1 + std::pow(1.5 / 20, 2)) * std::exp(-2 * 20 * std::log(20) / 30);
-  EXPECT_LT(wall, soft->x);   // a wall at 20 m is lost in a fog of 30 m
+  EXPECT_LT(wall, soft->x);  // a wall at 20 m is lost in a fog of 30 m
 }
 
 }  // namespace

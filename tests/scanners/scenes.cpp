@@ -39,7 +39,8 @@ std::uint32_t SceneBuilder::again(std::uint32_t product, const Eigen::Affine3d& 
 
 namespace {
 
-void addQuad(Mesh& mesh, const Eigen::Vector3d& o, const Eigen::Vector3d& u, const Eigen::Vector3d& v, std::uint32_t surface) {
+void addQuad(Mesh& mesh, const Eigen::Vector3d& o, const Eigen::Vector3d& u, const Eigen::Vector3d& v,
+             std::uint32_t surface) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   for (const Eigen::Vector3d& p : {o, Eigen::Vector3d(o + u), Eigen::Vector3d(o + u + v), Eigen::Vector3d(o + v)})
     mesh.positions.push_back(p.cast<float>());
@@ -50,13 +51,15 @@ void addQuad(Mesh& mesh, const Eigen::Vector3d& o, const Eigen::Vector3d& u, con
 
 }  // namespace
 
-std::uint32_t SceneBuilder::quad(const Eigen::Vector3d& o, const Eigen::Vector3d& u, const Eigen::Vector3d& v, std::uint32_t surface) {
+std::uint32_t SceneBuilder::quad(const Eigen::Vector3d& o, const Eigen::Vector3d& u, const Eigen::Vector3d& v,
+                                 std::uint32_t surface) {
   Mesh mesh;
   addQuad(mesh, o, u, v, surface);
   return add(std::move(mesh));
 }
 
-std::uint32_t SceneBuilder::box(const Eigen::Vector3d& low, const Eigen::Vector3d& high, bool room, std::uint32_t surface) {
+std::uint32_t SceneBuilder::box(const Eigen::Vector3d& low, const Eigen::Vector3d& high, bool room,
+                                std::uint32_t surface) {
   Mesh mesh;
   for (int axis = 0; axis < 3; ++axis)
     for (const bool upper : {false, true}) {
@@ -65,8 +68,10 @@ std::uint32_t SceneBuilder::box(const Eigen::Vector3d& low, const Eigen::Vector3
       u[(axis + 1) % 3] = size[(axis + 1) % 3];
       v[(axis + 2) % 3] = size[(axis + 2) % 3];
       if (upper) o[axis] = high[axis];
-      if (upper != room) addQuad(mesh, o, u, v, surface);
-      else addQuad(mesh, o, v, u, surface);
+      if (upper != room)
+        addQuad(mesh, o, u, v, surface);
+      else
+        addQuad(mesh, o, v, u, surface);
     }
   return add(std::move(mesh));
 }
@@ -76,7 +81,8 @@ std::uint32_t SceneBuilder::sphere(const Eigen::Vector3d& centre, double radius,
   const int sectors = 2 * rings;
   const auto at = [&](int ring, int sector) {
     const double polar = std::numbers::pi * ring / rings, turn = 2 * std::numbers::pi * sector / sectors;
-    return Eigen::Vector3d(centre + radius * Eigen::Vector3d(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar)));
+    return Eigen::Vector3d(centre + radius * Eigen::Vector3d(std::sin(polar) * std::cos(turn),
+                                                             std::sin(polar) * std::sin(turn), std::cos(polar)));
   };
   for (int ring = 0; ring < rings; ++ring)
     for (int sector = 0; sector < sectors; ++sector) {
@@ -104,8 +110,10 @@ Result<void> PointsKept::write(const PointBlock& block) {
   append(all.intensity, block.intensity), append(all.row, block.row), append(all.column, block.column);
   append(all.red, block.red), append(all.green, block.green), append(all.blue, block.blue);
   append(all.product, block.product), append(all.material, block.material);
-  append(all.time_s, block.time_s), append(all.return_number, block.return_number), append(all.return_count, block.return_count);
-  append(all.truth.x_m, block.truth.x_m), append(all.truth.y_m, block.truth.y_m), append(all.truth.z_m, block.truth.z_m);
+  append(all.time_s, block.time_s), append(all.return_number, block.return_number),
+      append(all.return_count, block.return_count);
+  append(all.truth.x_m, block.truth.x_m), append(all.truth.y_m, block.truth.y_m),
+      append(all.truth.z_m, block.truth.z_m);
   append(all.truth.range_m, block.truth.range_m), append(all.truth.incidence_rad, block.truth.incidence_rad);
   append(all.truth.received_db, block.truth.received_db), append(all.truth.flags, block.truth.flags);
   return {};
@@ -129,8 +137,8 @@ Instrument instrument(const std::string& id) {
   throw std::runtime_error("no instrument " + id);
 }
 
-ScanSettings window(const Instrument& instrument, double azimuth_from_deg, double azimuth_to_deg, double elevation_from_deg,
-                    double elevation_to_deg, std::uint32_t columns, std::uint32_t rows) {
+ScanSettings window(const Instrument& instrument, double azimuth_from_deg, double azimuth_to_deg,
+                    double elevation_from_deg, double elevation_to_deg, std::uint32_t columns, std::uint32_t rows) {
   ScanSettings settings = *resolveSettings(instrument, {});
   settings.azimuth_from_rad = azimuth_from_deg * kRadPerDeg;
   settings.azimuth_to_rad = azimuth_to_deg * kRadPerDeg;
@@ -167,7 +175,9 @@ MaterialAssignment allOf(const Environment& environment, PhysicalMaterial materi
   return assignment;
 }
 
-MaterialAssignment allOf(const Environment& environment, double reflectance) { return allOf(environment, lambert(reflectance)); }
+MaterialAssignment allOf(const Environment& environment, double reflectance) {
+  return allOf(environment, lambert(reflectance));
+}
 
 Instrument withoutBias(Instrument instrument) {
   instrument.range_bias_m = instrument.range_bias_ppm = 0;

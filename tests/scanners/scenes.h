@@ -17,7 +17,8 @@ class SceneBuilder {
   SceneBuilder();
   std::uint32_t surface(float grey);
   // A parallelogram o, o+u, o+u+v, o+v as one product; its normal is u × v.
-  std::uint32_t quad(const Eigen::Vector3d& o, const Eigen::Vector3d& u, const Eigen::Vector3d& v, std::uint32_t surface = 0);
+  std::uint32_t quad(const Eigen::Vector3d& o, const Eigen::Vector3d& u, const Eigen::Vector3d& v,
+                     std::uint32_t surface = 0);
   // The six faces of a box, normals outwards or (room) inwards.
   std::uint32_t box(const Eigen::Vector3d& low, const Eigen::Vector3d& high, bool room, std::uint32_t surface = 0);
   std::uint32_t sphere(const Eigen::Vector3d& centre, double radius, int rings, std::uint32_t surface = 0);
@@ -49,12 +50,12 @@ struct Scanned {
 };
 
 std::vector<Instrument> everyInstrument();
-std::vector<Instrument> instruments();   // those for a tripod
+std::vector<Instrument> instruments();  // those for a tripod
 Instrument instrument(const std::string& id);
 
 // A small grid over a window of the dome with the instrument's own noise at its best quality.
-ScanSettings window(const Instrument& instrument, double azimuth_from_deg, double azimuth_to_deg, double elevation_from_deg,
-                    double elevation_to_deg, std::uint32_t columns, std::uint32_t rows);
+ScanSettings window(const Instrument& instrument, double azimuth_from_deg, double azimuth_to_deg,
+                    double elevation_from_deg, double elevation_to_deg, std::uint32_t columns, std::uint32_t rows);
 
 Scanned scanned(const RayScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
                 const ScanSettings& settings, const ScanOptions& options, const Pose& pose = {});

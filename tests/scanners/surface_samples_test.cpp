@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "scanners/surface_samples.h"
+
 #include <fstream>
 #include <map>
 
@@ -6,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "scanners/stand.h"
-#include "scanners/surface_samples.h"
 #include "tests/scanners/scenes.h"
 
 namespace standpoint {
@@ -24,7 +25,7 @@ SurfaceSamples samplesOf(const SceneBuilder& scene, std::size_t count, std::uint
 
 TEST(SurfaceSamples, StandForEqualAreasOnEveryFace) {
   SceneBuilder scene;
-  scene.box({0, 0, 0}, {1, 2, 4}, false);   // faces of 2, 4 and 8 m², two of each
+  scene.box({0, 0, 0}, {1, 2, 4}, false);  // faces of 2, 4 and 8 m², two of each
   const auto s = samplesOf(scene, 28000);
   EXPECT_NEAR(s.area_m2, 28, 1e-9);
   ASSERT_EQ(s.samples.size(), 28000U);
@@ -46,13 +47,15 @@ TEST(SurfaceSamples, StandForEqualAreasOnEveryFace) {
 TEST(SurfaceSamples, LeaveOutWhereBodiesTouchAndCountASharedFaceOnce) {
   SceneBuilder scene;
   scene.box({0, 0, 0}, {1, 1, 1}, false);
-  scene.box({0, 0, 1}, {1, 1, 2}, false);              // stands on the first: 2 of 12 m² touch
+  scene.box({0, 0, 1}, {1, 1, 2}, false);  // stands on the first: 2 of 12 m² touch
   const auto stacked = samplesOf(scene, 12000);
-  const auto exposed = [](const SurfaceSamples& s) { return std::count_if(s.samples.begin(), s.samples.end(), [](const auto& x) { return x.exposed; }); };
+  const auto exposed = [](const SurfaceSamples& s) {
+    return std::count_if(s.samples.begin(), s.samples.end(), [](const auto& x) { return x.exposed; });
+  };
   EXPECT_NEAR(static_cast<double>(exposed(stacked)) / 12000, 10.0 / 12, 0.004);
   SceneBuilder flush;
   flush.box({0, 0, 0}, {1, 1, 1}, false);
-  flush.box({0.25, 0.25, 0.5}, {0.75, 0.75, 1}, false);   // inside of the first, up to its top: 0.25 m² are of both
+  flush.box({0.25, 0.25, 0.5}, {0.75, 0.75, 1}, false);  // inside of the first, up to its top: 0.25 m² are of both
   const auto s = samplesOf(flush, 15000);
   EXPECT_NEAR(s.area_m2, 7.5, 1e-6);
   EXPECT_NEAR(static_cast<double>(exposed(s)) * s.each_m2(), 6, 0.06);

@@ -25,7 +25,7 @@ std::vector<double> factorsOf(const Places& p) {
 
 // Far from one another, so that their factors are independent; then each with a neighbour at `lag_m`.
 struct Pairs {
-  double mean = 0, deviation = 0, correlation = 0;   // of the factor, of the factor, of its logarithm
+  double mean = 0, deviation = 0, correlation = 0;  // of the factor, of the factor, of its logarithm
 };
 
 Pairs pairsAt(double lag_m, float coefficient, float scale_m) {
@@ -63,7 +63,7 @@ TEST(Texture, KeepsTheMeanAndHasTheVariationThatIsAsked) {
   for (const double cv : {0.1, 0.3, 0.5}) {
     const auto pairs = pairsAt(0, static_cast<float>(cv), 0.5F);
     EXPECT_NEAR(pairs.mean, 1, 0.012 * cv / 0.3);
-    EXPECT_NEAR(pairs.deviation / std::sqrt(std::expm1(cv * cv)), 1, 0.02) << cv;   // of a log-normal number
+    EXPECT_NEAR(pairs.deviation / std::sqrt(std::expm1(cv * cv)), 1, 0.02) << cv;  // of a log-normal number
   }
 }
 
@@ -112,7 +112,7 @@ TEST(Texture, HasTheSameBitsWithAndWithoutWiderRegisters) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity(), kNone = std::numeric_limits<float>::quiet_NaN();
   const float strange[] = {1e30F, -1e30F, kInfinity, kNone, 0.0F, -0.0F};
   for (int block = 0; block < 200; ++block) {
-    const bool together = block % 2 == 1;   // in one cell, mostly
+    const bool together = block % 2 == 1;  // in one cell, mostly
     for (int k = 0; k < kTextureLanes; ++k) {
       p.x[k] = block < 6 ? strange[block] : place(generator), p.y[k] = place(generator), p.z[k] = place(generator);
       p.coefficient[k] = 0.3F, p.scale[k] = together ? 0.5F : 0.2F + 0.1F * static_cast<float>(k);

@@ -41,10 +41,13 @@ TEST(PulsedReceiver, TellsSurfacesApartFromTheResolutionOfItsPulseOn) {
 TEST(PulsedReceiver, TellsUnlikeEchoesApartWhereTheirSumHasTwoMaxima) {
   for (const double ratio : {1.0, 3.0, 10.0, 100.0})
     for (const double distance : {0.9, 1.1, 1.3, 1.5, 1.7, 1.9, 2.1, 2.3}) {
-      const auto sum = [&](double t) { return std::exp(-t * t / 2) + ratio * std::exp(-(t - 2 * distance) * (t - 2 * distance) / 2); };
+      const auto sum = [&](double t) {
+        return std::exp(-t * t / 2) + ratio * std::exp(-(t - 2 * distance) * (t - 2 * distance) / 2);
+      };
       int maxima = 0;
       constexpr double kStep = 1e-3;
-      for (double t = -1; t < 2 * distance + 1; t += kStep) maxima += sum(t) > sum(t - kStep) && sum(t) >= sum(t + kStep) ? 1 : 0;
+      for (double t = -1; t < 2 * distance + 1; t += kStep)
+        maxima += sum(t) > sum(t - kStep) && sum(t) >= sum(t + kStep) ? 1 : 0;
       EXPECT_EQ(standApart(distance, ratio), maxima == 2) << ratio << " " << distance;
       EXPECT_EQ(standApart(distance, ratio), standApart(distance, 1 / ratio));
     }
@@ -56,7 +59,7 @@ TEST(PulsedReceiver, MergesAWeakEchoOnTheFlankOfAStrongOne) {
   const auto merged = echoes(waveform, {{5, 0.9F}, {5.35, 0.1F}});
   ASSERT_EQ(merged.size(), 1U);
   EXPECT_NEAR(merged[0].range_m, 5.035, 1e-6);
-  EXPECT_NEAR(merged[0].deviation_m, 0.35 * std::sqrt(0.9 * 0.1), 1e-6);   // of two places with these weights
+  EXPECT_NEAR(merged[0].deviation_m, 0.35 * std::sqrt(0.9 * 0.1), 1e-6);  // of two places with these weights
 }
 
 TEST(PulsedReceiver, ReportsTheStrongestOfTooManyInOrderOfRange) {
@@ -80,8 +83,10 @@ TEST(PhaseReceiver, V10_AddsThePhasorsOfItsFineTone) {
   for (const double share : {0.2, 0.4, 0.6, 0.9})
     for (const double step : {0.05, 0.2, 0.4}) {
       const double delta = 2 * std::numbers::pi * step / 1.2;
-      const double expected = 1.2 / (2 * std::numbers::pi) * std::atan2((1 - share) * std::sin(delta), share + (1 - share) * std::cos(delta));
-      const auto found = echoes({.fine_wavelength_m = 1.2}, {{7.0, static_cast<float>(share)}, {7.0 + step, static_cast<float>(1 - share)}});
+      const double expected = 1.2 / (2 * std::numbers::pi) *
+                              std::atan2((1 - share) * std::sin(delta), share + (1 - share) * std::cos(delta));
+      const auto found = echoes({.fine_wavelength_m = 1.2},
+                                {{7.0, static_cast<float>(share)}, {7.0 + step, static_cast<float>(1 - share)}});
       EXPECT_NEAR(found[0].range_m - 7, expected, 1e-5) << share << " " << step;
     }
 }
@@ -94,7 +99,7 @@ TEST(Receiver, OfNoLightHasNoEcho) {
 TEST(PortableTurn, IsTheArcTangent) {
   for (int k = -1800; k <= 1800; ++k) {
     const double angle = k * std::numbers::pi / 1800;
-    if (std::abs(k) == 1800) continue;   // half a turn has two signs
+    if (std::abs(k) == 1800) continue;  // half a turn has two signs
     EXPECT_NEAR(portable::turnOf(3 * std::sin(angle), 3 * std::cos(angle)), angle / (2 * std::numbers::pi), 1e-12) << k;
   }
   EXPECT_NEAR(portable::turnOf(0.0, -2), 0.5, 1e-14);

@@ -90,20 +90,21 @@ TEST(Subtraction, OfTouchingOverlappingAndRepeatedOpenings) {
 
 TEST(Subtraction, ThroughEdgesCornersAndTheWholeBody) {
   const auto cut = [](const PolyMesh& tool) { return subtract(box(kWall), std::vector<PolyMesh>{tool}); };
-  expectSolid(cut(boxAt({2, -0.1, -0.1}, {1, 0.5, 2.1})), kWallVolume - 0.6);       // a door: through the lower edge
-  expectSolid(cut(boxAt({2, 0, 0}, {1, 0.3, 2})), kWallVolume - 0.6);               // the same, flush
-  expectSolid(cut(boxAt({-1, -1, 2}, {2, 2, 2})), kWallVolume - 0.3);               // a corner
-  expectSolid(cut(boxAt({5, -1, -1}, {1, 2, 5})), kWallVolume - 0.9);               // in two
-  expectSolid(cut(boxAt({-1, -1, -1}, {30, 5, 5})), 0);                             // nothing left
+  expectSolid(cut(boxAt({2, -0.1, -0.1}, {1, 0.5, 2.1})), kWallVolume - 0.6);  // a door: through the lower edge
+  expectSolid(cut(boxAt({2, 0, 0}, {1, 0.3, 2})), kWallVolume - 0.6);          // the same, flush
+  expectSolid(cut(boxAt({-1, -1, 2}, {2, 2, 2})), kWallVolume - 0.3);          // a corner
+  expectSolid(cut(boxAt({5, -1, -1}, {1, 2, 5})), kWallVolume - 0.9);          // in two
+  expectSolid(cut(boxAt({-1, -1, -1}, {30, 5, 5})), 0);                        // nothing left
   expectSolid(cut(boxAt({0, 0, 0}, kWall)), 0);
-  expectSolid(cut(boxAt({0, 0.3, 0}, kWall)), kWallVolume);                         // touches only
-  expectSolid(cut(boxAt({50, 0, 0}, kWall)), kWallVolume);                          // misses
+  expectSolid(cut(boxAt({0, 0.3, 0}, kWall)), kWallVolume);  // touches only
+  expectSolid(cut(boxAt({50, 0, 0}, kWall)), kWallVolume);   // misses
 }
 
 TEST(Subtraction, OfARoundOpening) {
   const int n = segmentCount(0.4, 2 * std::numbers::pi, {});
   PolyMesh tool = cylinder(0.4, 2, {});
-  transform(tool, Eigen::Affine3d(Eigen::Translation3d(5, 1, 1.5) * Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitX())));
+  transform(tool, Eigen::Affine3d(Eigen::Translation3d(5, 1, 1.5) *
+                                  Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitX())));
   expectSolid(subtract(box(kWall), std::vector<PolyMesh>{tool}),
               kWallVolume - 0.3 * 0.5 * n * 0.16 * std::sin(2 * std::numbers::pi / n));
 }
@@ -128,7 +129,8 @@ TEST(Subtraction, FromAMitredWallWorksAlongItsHeight) {
 
 TEST(Subtraction, WithoutACommonDirectionIsDoneByCarve) {
   PolyMesh slanting = box({0.5, 2, 0.5});
-  transform(slanting, Eigen::Affine3d(Eigen::Translation3d(5, -0.85, 1) * Eigen::AngleAxisd(0.3, Vector3d(1, 0, 1).normalized())));
+  transform(slanting, Eigen::Affine3d(Eigen::Translation3d(5, -0.85, 1) *
+                                      Eigen::AngleAxisd(0.3, Vector3d(1, 0, 1).normalized())));
   const PolyMesh wall = box(kWall);
   const auto result = subtract(wall, std::vector<PolyMesh>{slanting, boxAt({8, -0.1, 1}, {1, 0.5, 1})});
   const auto common = intersect(wall, slanting);
@@ -222,7 +224,8 @@ TEST(Booleans, ReportBodiesThatAreNotSolids) {
 
 TEST(Subtraction, ByCarveCarriesTags) {
   PolyMesh wall = box(kWall), tool = boxAt({0, 0, 0}, {0.5, 2, 0.5});
-  transform(tool, Eigen::Affine3d(Eigen::Translation3d(5, -0.85, 1) * Eigen::AngleAxisd(0.3, Vector3d(1, 0, 1).normalized())));
+  transform(tool, Eigen::Affine3d(Eigen::Translation3d(5, -0.85, 1) *
+                                  Eigen::AngleAxisd(0.3, Vector3d(1, 0, 1).normalized())));
   for (std::uint32_t f = 0; f < wall.faces.size(); ++f) wall.faces[f].tag = 10 + f;
   setTag(tool, 2);
   const auto result = combineWithCarve(wall, tool, Operation::difference);
@@ -254,7 +257,8 @@ TEST(Booleans, OfBentAndSelfCrossingBodiesEndInAnAnswer) {
     PolyMesh a = box({1, 1, 1}), b = boxAt({0.2, 0.3, -0.5}, {0.5, 0.5, 1.2});
     for (PolyMesh* mesh : {&a, &b}) {
       const double by = i % 4 == 0 ? 2.0 : i % 4 == 1 ? 1e-3 : i % 4 == 2 ? 1e-6 : 1e-9;
-      for (int k = 0; k < 2; ++k) mesh->points[random() % 8] += by * Vector3d(uniform(random), uniform(random), uniform(random));
+      for (int k = 0; k < 2; ++k)
+        mesh->points[random() % 8] += by * Vector3d(uniform(random), uniform(random), uniform(random));
     }
     for (const auto& result : {subtract(a, std::span(&b, 1)), intersect(a, b), unite(a, b)}) {
       if (!result) continue;
@@ -283,7 +287,8 @@ TEST(Regions, OfTouchingAndOverlappingRectangles) {
   const auto split = difference(a, std::vector<Region2>{rectangle(1, -1, 2, 4)});
   ASSERT_TRUE(split.has_value());
   EXPECT_EQ(split->size(), 2u);
-  const auto joined = unite(std::vector<Region2>{rectangle(0, 0, 1, 1), rectangle(1, 0, 2, 1), rectangle(0.5, 0, 1.5, 1)});
+  const auto joined =
+      unite(std::vector<Region2>{rectangle(0, 0, 1, 1), rectangle(1, 0, 2, 1), rectangle(0.5, 0, 1.5, 1)});
   ASSERT_TRUE(joined.has_value());
   ASSERT_EQ(joined->size(), 1u);
   EXPECT_EQ(joined->front().outer.size(), 4u);
@@ -296,7 +301,9 @@ TEST(Regions, OfRandomTrianglesAddUp) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> uniform(-1, 1);
   const auto triangle = [&] {
-    Region2 r{{{uniform(random), uniform(random)}, {uniform(random), uniform(random)}, {uniform(random), uniform(random)}}, {}};
+    Region2 r{
+        {{uniform(random), uniform(random)}, {uniform(random), uniform(random)}, {uniform(random), uniform(random)}},
+        {}};
     normalise(r);
     return r;
   };

@@ -11,9 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-PolyMesh lShape() {
-  return extrude({{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}, {}}, Vector3d::UnitZ(), 2);
-}
+PolyMesh lShape() { return extrude({{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}, {}}, Vector3d::UnitZ(), 2); }
 PolyMesh comb() {  // teeth of equal height, so that a plane may lie on all tips and on all roots
   return extrude({{{0, 0}, {5, 0}, {5, 2}, {4, 2}, {4, 1}, {3, 1}, {3, 2}, {2, 2}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, {}},
                  Vector3d::UnitZ(), 1);
@@ -57,8 +55,8 @@ TEST(Clip, OfABoxInEveryDegeneratePosition) {
 TEST(Clip, OfConcaveSolidsThroughTheirCornersAndFaces) {
   expectClip(lShape(), Vector3d::UnitX(), 1, 6);
   expectClip(lShape(), Vector3d::UnitY(), 1, 6);
-  expectClip(lShape(), {1, 1, 0}, 2 / std::sqrt(2.0), 4);       // through the inner corner: touches it from inside
-  expectClip(lShape(), {-1, 1, 0}, 0, 5);                       // through inner and outer corner
+  expectClip(lShape(), {1, 1, 0}, 2 / std::sqrt(2.0), 4);  // through the inner corner: touches it from inside
+  expectClip(lShape(), {-1, 1, 0}, 0, 5);                  // through inner and outer corner
   expectClip(comb(), Vector3d::UnitY(), 1, 5);
   expectClip(comb(), Vector3d::UnitY(), 2, 8);
   expectClip(comb(), Vector3d::UnitY(), 1.5, 6.5);
@@ -102,7 +100,8 @@ TEST(Clip, BothSidesTogetherAreTheWhole) {
     for (int i = 0; i < 200; ++i) {
       Vector3d n(uniform(random), uniform(random), uniform(random));
       n.normalize();
-      const double d = n.dot(mesh.points[static_cast<std::size_t>(i) % mesh.points.size()]) + (i % 3 ? uniform(random) : 0);
+      const double d =
+          n.dot(mesh.points[static_cast<std::size_t>(i) % mesh.points.size()]) + (i % 3 ? uniform(random) : 0);
       const auto below = clip(mesh, n, d), above = clip(mesh, -n, -d);
       ASSERT_TRUE(below.has_value() && above.has_value());
       EXPECT_NEAR(volume(*below) + volume(*above), volume(mesh), 1e-5) << i;

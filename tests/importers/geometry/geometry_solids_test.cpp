@@ -95,7 +95,8 @@ TEST(Taper, OfASquareIsAFrustum) {
   const PolyMesh mesh = extrudeTapered(rectangle(-2, -2, 2, 2), rectangle(-1, -1, 1, 1), Vector3d::UnitZ(), 3);
   expectGoodSolid(mesh, 3.0 / 3 * (16 + 4 + 8));
   EXPECT_EQ(mesh.faces.size(), 6u);
-  EXPECT_TRUE(extrudeTapered(rectangle(0, 0, 1, 1), {{{0, 0}, {1, 0}, {0, 1}}, {}}, Vector3d::UnitZ(), 1).faces.empty());
+  EXPECT_TRUE(
+      extrudeTapered(rectangle(0, 0, 1, 1), {{{0, 0}, {1, 0}, {0, 1}}, {}}, Vector3d::UnitZ(), 1).faces.empty());
 }
 
 TEST(Transform, ThatMirrorsKeepsTheSolidOutward) {
@@ -116,9 +117,7 @@ TEST(Cone, IsAThirdOfItsCylinder) {
   expectGoodSolid(cone(0.5, 3, {}), polygonArea(0.5, segmentCount(0.5, 2 * kPi, {})));
 }
 
-TEST(Pyramid, IsAThirdOfItsBox) {
-  expectGoodSolid(pyramid(2, 3, 4), 8);
-}
+TEST(Pyramid, IsAThirdOfItsBox) { expectGoodSolid(pyramid(2, 3, 4), 8); }
 
 TEST(Sphere, ComesCloseToTheTrueVolumeFromInside) {
   const PolyMesh mesh = sphere(1, kFine);

@@ -17,7 +17,8 @@ using Eigen::Vector3d;
 struct Sheet {
   std::vector<Vector3d> points;
   Face face;
-  Eigen::Affine3d place = Eigen::Affine3d(Eigen::Translation3d(5, -3, 2) * Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
+  Eigen::Affine3d place =
+      Eigen::Affine3d(Eigen::Translation3d(5, -3, 2) * Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
 
   std::vector<std::uint32_t> add(const std::vector<Eigen::Vector2d>& loop) {
     std::vector<std::uint32_t> indices;
@@ -141,7 +142,8 @@ TEST(Triangulation, OfRandomStarsWithHolesKeepsTheArea) {
     // Spokes at most 60° apart: an outer edge stays further out than half its shorter end, the hole further in.
     const int n = 6 + static_cast<int>(random() % 120);
     sheet.face.outer = sheet.add(star(random, n, 1.0, 3.0, outer));
-    if (round % 2) sheet.face.holes.push_back(sheet.add(star(random, 3 + static_cast<int>(random() % 20), 0.1, 0.45, inner)));
+    if (round % 2)
+      sheet.face.holes.push_back(sheet.add(star(random, 3 + static_cast<int>(random() % 20), 0.1, 0.45, inner)));
     expectArea(sheet, outer - inner);
   }
 }
