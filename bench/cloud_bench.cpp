@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "pointclouds/e57.h"
+#include "pointclouds/e57/e57.h"
 
 namespace standpoint {
 namespace {

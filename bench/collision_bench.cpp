@@ -22,13 +22,13 @@
 #include "bench/room_flood.h"
 #include "core/random.h"
 #include "importers/importers.h"
-#include "optimizer/avatar.h"
-#include "optimizer/deviation.h"
-#include "optimizer/doors.h"
-#include "optimizer/obstacles.h"
-#include "optimizer/triangle_distance.h"
-#include "optimizer/triangle_tree.h"
-#include "optimizer/walkable.h"
+#include "optimizer/surface/deviation.h"
+#include "optimizer/surface/triangle_distance.h"
+#include "optimizer/surface/triangle_tree.h"
+#include "optimizer/walk/avatar.h"
+#include "optimizer/walk/doors.h"
+#include "optimizer/walk/obstacles.h"
+#include "optimizer/walk/walkable.h"
 
 namespace standpoint {
 namespace {

@@ -9,8 +9,8 @@
 #include <Eigen/Geometry>
 
 #include "core/mesh.h"
-#include "optimizer/triangle_distance.h"
-#include "optimizer/triangle_tree.h"
+#include "optimizer/surface/triangle_distance.h"
+#include "optimizer/surface/triangle_tree.h"
 
 namespace standpoint {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "optimizer/walkable.h"
+#include "optimizer/walk/walkable.h"
 
 namespace standpoint {
 

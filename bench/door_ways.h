@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bench/collision_soup.h"
-#include "optimizer/doors.h"
+#include "optimizer/walk/doors.h"
 
 namespace standpoint {
 

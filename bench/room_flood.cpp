@@ -9,8 +9,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include "optimizer/doors.h"
-#include "optimizer/walkable.h"
+#include "optimizer/walk/doors.h"
+#include "optimizer/walk/walkable.h"
 
 namespace standpoint {
 

@@ -5,8 +5,8 @@
 
 #include "bench/collision_soup.h"
 #include "core/environment.h"
-#include "optimizer/obstacles.h"
 #include "optimizer/optimizer.h"
+#include "optimizer/walk/obstacles.h"
 
 namespace standpoint {
 

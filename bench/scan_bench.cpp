@@ -12,7 +12,7 @@
 
 #include "pointclouds/formats.h"
 #include "project/verb.h"
-#include "scanners/ray_engine.h"
+#include "scanners/engine/ray_engine.h"
 
 namespace standpoint {
 namespace {

@@ -95,15 +95,15 @@ Unknowns unknownsOf(const TargetNetwork& network, const Chain& chain) {
   return u;
 }
 
-struct Equations {
+struct NetworkEquations {
   Eigen::MatrixXd normal;
   Eigen::VectorXd right;
   double squares = 0;  // weighted
   int observations = 0;
 };
 
-Equations equationsOf(const TargetNetwork& network, const Chain& now, const Unknowns& u) {
-  Equations e{Eigen::MatrixXd::Zero(u.count, u.count), Eigen::VectorXd::Zero(u.count), 0, 0};
+NetworkEquations equationsOf(const TargetNetwork& network, const Chain& now, const Unknowns& u) {
+  NetworkEquations e{Eigen::MatrixXd::Zero(u.count, u.count), Eigen::VectorXd::Zero(u.count), 0, 0};
   for (const auto& s : network.sightings) {
     const double weight = 1 / (s.sigma_m * s.sigma_m);
     const Vector3d arm = now.pose[s.station]->rotation * s.place_m;
@@ -166,7 +166,7 @@ Result<NetworkFit> fitNetwork(const TargetNetwork& network, NetworkProblem* prob
   if (!chain) return failure(chain.error());
   const Unknowns unknowns = unknownsOf(network, *chain);
   NetworkFit fit;
-  Equations e = equationsOf(network, *chain, unknowns);
+  NetworkEquations e = equationsOf(network, *chain, unknowns);
   Eigen::LDLT<Eigen::MatrixXd> factor(e.normal);
   while (fit.iterations++ < kMostIterations) {
     const Eigen::VectorXd step = factor.solve(e.right);

@@ -13,8 +13,8 @@
 #include "emulated-ui/sensors.h"
 #include "emulated-ui/sighting.h"
 #include "materials/json_file.h"
-#include "pointclouds/cleaning.h"
-#include "pointclouds/file_access.h"
+#include "pointclouds/files/file_access.h"
+#include "pointclouds/filters/cleaning.h"
 #include "pointclouds/formats.h"
 #include "project/levelling.h"
 

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "emulated-ui/device/replaced.h"
-#include "pointclouds/file_access.h"
+#include "pointclouds/files/file_access.h"
 
 namespace standpoint {
 

@@ -6,7 +6,7 @@
 
 #include "emulated-ui/device/definition.h"
 #include "project/document.h"
-#include "scanners/instrument.h"
+#include "scanners/instruments/instrument.h"
 
 namespace standpoint {
 

@@ -9,11 +9,11 @@
 #include <string>
 #include <string_view>
 
-#include "importers/gltf.h"
-#include "importers/obj.h"
+#include "importers/gltf/gltf.h"
+#include "importers/obj/obj.h"
 #include "importers/plausibility.h"
-#include "importers/ply.h"
-#include "importers/stl.h"
+#include "importers/ply/ply.h"
+#include "importers/stl/stl.h"
 
 namespace standpoint {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "importers/importers.h"
+#include "importers/files/importer.h"
 
 namespace standpoint {
 

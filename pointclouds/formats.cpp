@@ -7,12 +7,12 @@
 #include <string_view>
 #include <utility>
 
-#include "pointclouds/e57.h"
-#include "pointclouds/las.h"
-#include "pointclouds/pcd.h"
-#include "pointclouds/ply.h"
-#include "pointclouds/ptx.h"
-#include "pointclouds/text_points.h"
+#include "pointclouds/e57/e57.h"
+#include "pointclouds/las/las.h"
+#include "pointclouds/pcd/pcd.h"
+#include "pointclouds/ply/ply.h"
+#include "pointclouds/ptx/ptx.h"
+#include "pointclouds/text/text_points.h"
 
 namespace standpoint {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "pointclouds/cleaning.h"
+#include "pointclouds/filters/cleaning.h"
 #include "project/file_verbs.h"
 #include "project/output_place.h"
 

@@ -7,8 +7,8 @@
 #include <Eigen/Dense>
 #include <tbb/parallel_for.h>
 
-#include "pointclouds/cloud_sample.h"
-#include "pointclouds/coverage.h"
+#include "pointclouds/statistics/cloud_sample.h"
+#include "pointclouds/statistics/coverage.h"
 #include "project/model_surface.h"
 
 namespace standpoint {

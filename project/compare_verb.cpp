@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pointclouds/statistics.h"
+#include "pointclouds/statistics/statistics.h"
 #include "project/answers.h"
 #include "project/file_verbs.h"
 
@@ -9,21 +9,21 @@ namespace {
 
 using nlohmann::json;
 
-json toJson(const Distribution& d) {
+json statisticsJson(const Distribution& d) {
   return {{"samples", d.samples}, {"mean", d.mean},     {"sigma", d.sigma},
           {"p5", d.p5},           {"median", d.median}, {"p95", d.p95}};
 }
 
-json toJson(const CloudStatistics& s) {
+json statisticsJson(const CloudStatistics& s) {
   json materials = json::array();
   for (const auto& m : s.materials)
     materials.push_back({{"material", m.material}, {"points", m.points}, {"mean", m.mean}, {"sigma", m.sigma}});
   return {{"scans", s.scans},
           {"points", s.points},
-          {"bounds", {standpoint::toJson(s.low), standpoint::toJson(s.high)}},
-          {"plane_noise_m", toJson(s.plane_noise_m)},
-          {"roughness_m", toJson(s.roughness_m)},
-          {"intensity", toJson(s.intensity)},
+          {"bounds", {toJson(s.low), toJson(s.high)}},
+          {"plane_noise_m", statisticsJson(s.plane_noise_m)},
+          {"roughness_m", statisticsJson(s.roughness_m)},
+          {"intensity", statisticsJson(s.intensity)},
           {"materials", std::move(materials)},
           {"occupied_cells", s.occupied_cells}};
 }
@@ -35,8 +35,8 @@ Result<Outcome> runCompare(const Document& document, const json& options, Progre
   auto comparison = compareClouds(options.at("a").get<std::string>(), options.at("b").get<std::string>(), {}, progress);
   if (!comparison) return failure(comparison.error());
   Outcome outcome{document, json::object(), comparison->report, {}};
-  outcome.answer = {{"a", toJson(comparison->a)},
-                    {"b", toJson(comparison->b)},
+  outcome.answer = {{"a", statisticsJson(comparison->a)},
+                    {"b", statisticsJson(comparison->b)},
                     {"a_covered_by_b", comparison->a_covered_by_b},
                     {"b_covered_by_a", comparison->b_covered_by_a}};
   outcome.description = "Compared two clouds";

@@ -16,8 +16,8 @@
 #include "core/survey.h"
 #include "materials/materials.h"
 #include "optimizer/optimizer.h"
-#include "scanners/atmosphere.h"
-#include "scanners/effects.h"
+#include "scanners/radiometry/atmosphere.h"
+#include "scanners/radiometry/effects.h"
 
 namespace standpoint {
 

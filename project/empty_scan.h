@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scanners/ray_engine.h"
+#include "scanners/engine/ray_engine.h"
 
 namespace standpoint {
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "importers/importers.h"
-#include "pointclouds/datasets.h"
+#include "pointclouds/datasets/datasets.h"
 #include "pointclouds/formats.h"
 #include "project/answers.h"
 #include "project/output_place.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "scanners/instrument.h"
+#include "scanners/instruments/instrument.h"
 
 namespace standpoint {
 

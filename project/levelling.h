@@ -6,7 +6,7 @@
 #include "core/report.h"
 #include "core/result.h"
 #include "core/survey.h"
-#include "scanners/instrument.h"
+#include "scanners/instruments/instrument.h"
 
 namespace standpoint {
 

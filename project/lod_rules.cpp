@@ -6,7 +6,7 @@
 
 #include "materials/json_file.h"
 #include "materials/materials.h"
-#include "optimizer/visibility.h"
+#include "optimizer/simplify/visibility.h"
 
 namespace standpoint {
 

@@ -11,7 +11,7 @@
 #include "project/materials_report.h"
 #include "project/materials_text.h"
 #include "project/model_verbs.h"
-#include "scanners/instrument.h"
+#include "scanners/instruments/instrument.h"
 
 namespace standpoint {
 

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "pointclouds/cloud_sample.h"
+#include "pointclouds/statistics/cloud_sample.h"
 #include "project/document.h"
-#include "scanners/material_evidence.h"
-#include "scanners/met_surface.h"
+#include "scanners/evidence/material_evidence.h"
+#include "scanners/forecast/met_surface.h"
 
 namespace standpoint {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "scanners/ray_engine.h"
+#include "scanners/engine/ray_engine.h"
 
 namespace standpoint {
 

@@ -8,7 +8,7 @@
 
 #include "core/environment.h"
 #include "core/surface_fit.h"
-#include "optimizer/triangle_tree.h"
+#include "optimizer/surface/triangle_tree.h"
 
 namespace standpoint {
 

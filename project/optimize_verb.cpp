@@ -9,7 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "core/units.h"
-#include "optimizer/visibility.h"
+#include "optimizer/simplify/visibility.h"
 #include "project/answers.h"
 #include "project/treatments.h"
 
@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-json toJson(const ProductLoss& loss, const std::string& lod) {
+json lossJson(const ProductLoss& loss, const std::string& lod) {
   return {{"triangles_before", loss.triangles_before},        {"triangles_after", loss.triangles_after},
           {"max_deviation_m", loss.max_deviation_m},          {"mean_deviation_m", loss.mean_deviation_m},
           {"mean_turn_deg", loss.mean_turn_rad / kRadPerDeg}, {"lod", lod}};
@@ -110,14 +110,14 @@ Result<Outcome> optimizeDocument(const Document& document, const LighteningReque
   const auto lod = [&](std::size_t product) {
     return options.products.empty() ? alikeName(options) : options.products[product].lod;
   };
-  outcome.answer = toJson(result->all, levelsOf(options));
+  outcome.answer = lossJson(result->all, levelsOf(options));
   outcome.answer["budget_reached"] = result->budget_reached;
   if (!result->budget_reached) outcome.answer["smallest_budget"] = result->smallest_budget;
   json rows = json::array();
   for (std::size_t i = 0; i < result->products.size(); ++i) {
     if (result->products[i].triangles_before == 0) continue;
     json row = identity(document.imported->products[i]);
-    row.update(toJson(result->products[i], lod(i)));
+    row.update(lossJson(result->products[i], lod(i)));
     if (!options.products.empty()) row["rule"] = options.products[i].reason;
     rows.push_back(std::move(row));
   }

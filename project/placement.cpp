@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "optimizer/triangle_tree.h"
+#include "optimizer/surface/triangle_tree.h"
 #include "project/body_winding.h"
 
 namespace standpoint {

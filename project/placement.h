@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "scanners/ray_engine.h"
-#include "scanners/stand.h"
+#include "scanners/engine/ray_engine.h"
+#include "scanners/instruments/stand.h"
 
 namespace standpoint {
 

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "pointclouds/crc32c.h"
+#include "pointclouds/e57/crc32c.h"
 #include "project/scan_parts.h"
 
 namespace standpoint {

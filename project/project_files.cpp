@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "importers/importers.h"
+#include "importers/gltf/gltf_writer.h"
 #include "project/project_json.h"
 #include "project/underlays.h"
 #include "project/verification.h"

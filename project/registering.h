@@ -6,7 +6,7 @@
 
 #include "core/rigid_fit.h"
 #include "core/surface_fit.h"
-#include "pointclouds/cloud_sample.h"
+#include "pointclouds/statistics/cloud_sample.h"
 #include "project/document.h"
 #include "project/verb.h"
 

@@ -8,8 +8,8 @@
 
 #include "core/points.h"
 #include "core/progress.h"
-#include "pointclouds/file_access.h"
-#include "scanners/ray_engine.h"
+#include "pointclouds/files/file_access.h"
+#include "scanners/engine/ray_engine.h"
 
 namespace standpoint {
 

@@ -9,7 +9,7 @@
 #include "project/instruments.h"
 #include "project/model_verbs.h"
 #include "project/output_place.h"
-#include "scanners/chosen_effect.h"
+#include "scanners/instruments/chosen_effect.h"
 
 namespace standpoint {
 

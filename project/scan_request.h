@@ -11,7 +11,7 @@
 #include "project/document.h"
 #include "project/levelling.h"
 #include "project/mishap.h"
-#include "scanners/ray_engine.h"
+#include "scanners/engine/ray_engine.h"
 
 namespace standpoint {
 

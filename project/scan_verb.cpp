@@ -14,7 +14,7 @@
 #include "project/scan_preparation.h"
 #include "project/scan_request.h"
 #include "project/survey_verbs.h"
-#include "scanners/panorama.h"
+#include "scanners/camera/panorama.h"
 
 namespace standpoint {
 

@@ -7,7 +7,7 @@
 
 #include "core/environment.h"
 #include "core/physical_material.h"
-#include "optimizer/triangle_tree.h"
+#include "optimizer/surface/triangle_tree.h"
 
 namespace standpoint {
 

@@ -21,9 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kRoomAbove_m = 0.3;    // of the tilting axis, for a height to count as a floor
-constexpr double kFloorSearch_m = 0.5;  // how far a stated floor height may be off
-
+constexpr double kRoomAbove_m = 0.3;  // of the tilting axis, for a height to count as a floor
 // What a station stands on and how it stands, as the options say it.
 struct Setup {
   TripodStand stand;

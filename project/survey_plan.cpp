@@ -7,7 +7,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "pointclouds/e57_packet_writer.h"
+#include "pointclouds/e57/e57_packet_writer.h"
 #include "project/placement.h"
 #include "project/station_places.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "project/document.h"
-#include "scanners/scan_forecast.h"
+#include "scanners/forecast/scan_forecast.h"
 
 namespace standpoint {
 

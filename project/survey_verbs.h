@@ -4,13 +4,15 @@
 #include <optional>
 
 #include "project/verb.h"
-#include "scanners/instrument.h"
-#include "scanners/ray_engine.h"
+#include "scanners/engine/ray_engine.h"
+#include "scanners/instruments/instrument.h"
 
 namespace standpoint {
 
 constexpr double kUsualHeight_m = 1.6;    // of the instrument's centre, where no instrument says its own
 constexpr double kUsualTrunnion_m = 0.2;  // above the tripod's plate, likewise
+
+constexpr double kFloorSearch_m = 0.5;  // how far a stated floor height may be off
 
 // Where a tripod of that height can stand at (x, y): upward faces below which the beam from above ends, with room for
 // the instrument. Heights of the floor in the local frame, ascending.

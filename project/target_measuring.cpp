@@ -9,8 +9,8 @@
 #include <tbb/parallel_for.h>
 
 #include "core/random.h"
-#include "pointclouds/coverage.h"
 #include "pointclouds/formats.h"
+#include "pointclouds/statistics/coverage.h"
 
 namespace standpoint {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/points.h"
-#include "pointclouds/target_fit.h"
+#include "pointclouds/targets/target_fit.h"
 #include "project/document.h"
 
 namespace standpoint {

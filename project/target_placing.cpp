@@ -21,7 +21,6 @@ namespace {
 using Eigen::Vector3d;
 using nlohmann::json;
 
-constexpr double kFloorSearch_m = 0.5;    // how far a stated floor height may be off, as for stations
 constexpr double kSurfaceSearch_m = 0.5;  // of --on-surface
 constexpr double kPlate_m = 0.002;        // a plate in front of its wall
 constexpr double kTallestPole_m = 2.5;

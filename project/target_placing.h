@@ -4,8 +4,8 @@
 #include <string>
 
 #include "project/verb.h"
-#include "scanners/ray_engine.h"
-#include "scanners/target_kinds.h"
+#include "scanners/engine/ray_engine.h"
+#include "scanners/instruments/target_kinds.h"
 
 namespace standpoint {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "project/verb.h"
-#include "scanners/ray_engine.h"
-#include "scanners/target_kinds.h"
+#include "scanners/engine/ray_engine.h"
+#include "scanners/instruments/target_kinds.h"
 
 namespace standpoint {
 

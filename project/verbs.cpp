@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdlib>
 
-#include "pointclouds/point_filter.h"
+#include "pointclouds/filters/point_filter.h"
 #include "project/file_verbs.h"
 #include "project/import_verb.h"
 #include "project/model_verbs.h"
@@ -12,7 +12,7 @@
 #include "project/underlays.h"
 #include "project/verb.h"
 #include "project/verification.h"
-#include "scanners/effects.h"
+#include "scanners/radiometry/effects.h"
 
 namespace standpoint {
 

@@ -16,14 +16,14 @@ namespace {
 
 using nlohmann::json;
 
-json toJson(const Spread& s) {
+json spreadJson(const Spread& s) {
   return {{"points", s.points}, {"p5", s.low}, {"q1", s.lower}, {"median", s.median}, {"q3", s.upper}, {"p95", s.high}};
 }
 
-json toJson(const std::vector<SpreadBin>& bins, const char* unit) {
+json spreadJson(const std::vector<SpreadBin>& bins, const char* unit) {
   json rows = json::array();
   for (const auto& b : bins) {
-    json row = toJson(b.off_db);
+    json row = spreadJson(b.off_db);
     row[std::string("from_") + unit] = b.from;
     row[std::string("to_") + unit] = b.to;
     rows.push_back(std::move(row));
@@ -80,9 +80,9 @@ json materialRow(const VerifyFound& found, const MaterialEvidence& m) {
           {"area_m2", areaOf(found, m.material)},
           {"judged", m.supported},
           {"agrees", m.agrees},
-          {"off_db", toJson(m.off_db)},
-          {"by_range", toJson(m.by_range, "m")},
-          {"by_incidence", toJson(m.by_incidence, "deg")},
+          {"off_db", spreadJson(m.off_db)},
+          {"by_range", spreadJson(m.by_range, "m")},
+          {"by_incidence", spreadJson(m.by_incidence, "deg")},
           {"products", productIds(found, groups)},
           {"outlying", std::move(outlying)}};
 }
@@ -182,7 +182,7 @@ json verifyAnswer(const VerifyFound& found) {
           {"compared", found.comparison.used},
           {"grazing", found.comparison.grazing},
           {"saturated", found.comparison.saturated},
-          {"placement", found.placement ? standpoint::toJson(*found.placement) : json(nullptr)},
+          {"placement", found.placement ? toJson(*found.placement) : json(nullptr)},
           {"scale", scaleRow(found.comparison)},
           {"no_verdict", found.comparison.no_verdict.empty() ? json(nullptr) : json(found.comparison.no_verdict)},
           {"materials", std::move(materials)},

@@ -24,18 +24,18 @@ const Neighbour kNeighbours[] = {
     {"House 6", {26, -38, 0}, {-1, 0}, 5.4, {16, -46, 26, -38}, {18, -37, 19, -24}},
 };
 
-constexpr double kWest = -30, kEast = 40;
+constexpr double kStreetWest = -30, kStreetEast = 40;
 
 // Six metres of carriageway, kerbs 12 cm high, pavements level with the gardens.
 void street(Grounds& grounds) {
-  grounds.block("IFCSLAB", ".USERDEFINED.", "Carriageway", {kWest, -22, kEast, -16}, -0.6, -0.27, paint::kAsphalt,
-                "PAVING");
+  grounds.block("IFCSLAB", ".USERDEFINED.", "Carriageway", {kStreetWest, -22, kStreetEast, -16}, -0.6, -0.27,
+                paint::kAsphalt, "PAVING");
   for (const auto& [side, y] : {std::pair{"north", -16.0}, {"south", -22.15}})
-    grounds.block("IFCBUILDINGELEMENTPROXY", ".USERDEFINED.", std::string("Kerb ") + side, {kWest, y, kEast, y + 0.15},
-                  -0.6, kGround_m, paint::kStone, "KERB");
-  grounds.block("IFCSLAB", ".USERDEFINED.", "Pavement north", {kWest, -15.85, kEast, -14}, -0.45, kGround_m,
+    grounds.block("IFCBUILDINGELEMENTPROXY", ".USERDEFINED.", std::string("Kerb ") + side,
+                  {kStreetWest, y, kStreetEast, y + 0.15}, -0.6, kGround_m, paint::kStone, "KERB");
+  grounds.block("IFCSLAB", ".USERDEFINED.", "Pavement north", {kStreetWest, -15.85, kStreetEast, -14}, -0.45, kGround_m,
                 paint::kConcrete, "PAVING");
-  grounds.block("IFCSLAB", ".USERDEFINED.", "Pavement south", {kWest, -24, kEast, -22.15}, -0.45, kGround_m,
+  grounds.block("IFCSLAB", ".USERDEFINED.", "Pavement south", {kStreetWest, -24, kStreetEast, -22.15}, -0.45, kGround_m,
                 paint::kConcrete, "PAVING");
 }
 
@@ -69,8 +69,8 @@ std::string streetIfc() {
                           ifc.guid(), ifc.owner(), placement));
   ifc.aggregate(project, {site});
   std::vector<int> buildings = {furnishedHouse(ifc, placement, {0, 0, 0}, {1, 0})};
-  std::vector<Rectangle> flat = {{kWest, -24, kEast, -14}, {0, -14, 10, 8}},
-                         holes = {{kWest, -24, kEast, -14}, {0, 0, 10, 8}};
+  std::vector<Rectangle> flat = {{kStreetWest, -24, kStreetEast, -14}, {0, -14, 10, 8}},
+                         holes = {{kStreetWest, -24, kStreetEast, -14}, {0, 0, 10, 8}};
   for (const auto& n : kNeighbours) {
     buildings.push_back(plainHouse(ifc, placement, n.name, n.origin, n.x, n.eaves));
     flat.push_back(n.plan);
@@ -79,7 +79,7 @@ std::string streetIfc() {
   }
   ifc.aggregate(site, buildings);
   Grounds grounds(ifc, site, placement);
-  grounds.terrain({kWest, -52, kEast, 20}, flat, holes);
+  grounds.terrain({kStreetWest, -52, kStreetEast, 20}, flat, holes);
   grounds.path("Path of the house", {7, -14, 8, -1});
   for (const auto& n : kNeighbours) grounds.path(std::string("Path of ") + n.name, n.path);
   street(grounds);

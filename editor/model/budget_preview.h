@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-#include "optimizer/preview.h"
+#include "optimizer/simplify/preview.h"
 #include "project/document.h"
 
 namespace standpoint {

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "optimizer/vertex_deviation.h"
+#include "optimizer/surface/vertex_deviation.h"
 #include "project/document.h"
 
 namespace standpoint {

@@ -13,7 +13,7 @@
 
 #include "editor/model/coverage_view.h"
 #include "editor/model/view_state.h"
-#include "scanners/expectation.h"
+#include "scanners/forecast/expectation.h"
 
 namespace standpoint {
 

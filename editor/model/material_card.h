@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/physical_material.h"
-#include "scanners/expectation.h"
+#include "scanners/forecast/expectation.h"
 
 namespace standpoint {
 

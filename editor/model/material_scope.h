@@ -6,7 +6,7 @@
 
 #include "core/environment.h"
 #include "core/physical_material.h"
-#include "scanners/ray_engine.h"
+#include "scanners/engine/ray_engine.h"
 
 namespace standpoint {
 

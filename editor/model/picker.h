@@ -10,7 +10,7 @@
 #include "core/progress.h"
 #include "editor/model/camera.h"
 #include "editor/model/view_state.h"
-#include "scanners/ray_engine.h"
+#include "scanners/engine/ray_engine.h"
 
 namespace standpoint {
 

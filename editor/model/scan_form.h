@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "project/document.h"
-#include "scanners/instrument.h"
+#include "scanners/instruments/instrument.h"
 
 namespace standpoint {
 

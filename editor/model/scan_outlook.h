@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "project/document.h"
-#include "scanners/instrument.h"
-#include "scanners/ray_engine.h"
+#include "scanners/engine/ray_engine.h"
+#include "scanners/instruments/instrument.h"
 
 namespace standpoint {
 

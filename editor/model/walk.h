@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "editor/model/camera.h"
-#include "optimizer/avatar.h"
+#include "optimizer/walk/avatar.h"
 
 namespace standpoint {
 

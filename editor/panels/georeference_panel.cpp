@@ -17,13 +17,11 @@ namespace standpoint {
 
 namespace {
 
-std::string triple(const Eigen::Vector3d& v) { return fmt::format("{:.3f}  {:.3f}  {:.3f}", v.x(), v.y(), v.z()); }
-
 double rotationDeg(const MapConversion& m) { return std::atan2(m.x_axis_ordinate, m.x_axis_abscissa) / kRadPerDeg; }
 
 void drawStated(const Georeference& g) {
   if (!ui::beginProperties("stated", 0.42F)) return;
-  ui::property("Global shift", triple(g.shift_m) + " m");
+  ui::property("Global shift", coordinates(g.shift_m) + " m");
   ui::property("CRS", g.crs.empty() ? "unknown" : g.crs);
   if (g.map_from_file) {
     ui::property("Origin on the map", fmt::format("{:.3f}  {:.3f}  {:.3f}", g.map_from_file->eastings_m,

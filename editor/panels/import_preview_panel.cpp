@@ -111,16 +111,6 @@ void drawClasses(Editor& editor, float height) {
   ImGui::EndTable();
 }
 
-void filterButton(Editor& editor, const char* icon, const char* name, std::size_t count, ImU32 shade, bool& shown) {
-  ImGui::PushStyleColor(ImGuiCol_Button, shown ? ImVec4(1, 1, 1, 0.07F) : ImVec4(0, 0, 0, 0));
-  ImGui::PushStyleColor(ImGuiCol_Text,
-                        shown && count > 0 ? colour(shade) : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  if (ImGui::Button(fmt::format("{}  {}###preview-{}", icon, groupedDigits(count), name).c_str())) shown = !shown;
-  ImGui::PopStyleColor(2);
-  ui::tooltip(fmt::format("{} {}", shown ? "Hide" : "Show", name));
-  ImGui::SameLine(0, editor.px(4));
-}
-
 void drawIssue(Editor& editor, const Issue& issue, int i) {
   const auto product = productOf(*editor.shown(), issue.source);
   ImGui::PushID(i);
@@ -149,9 +139,9 @@ void drawIssues(Editor& editor) {
   const auto& facts = editor.preview.facts();
   auto& filter = editor.preview.filter;
   heading(editor, "Issues");
-  filterButton(editor, ICON_BAN, "losses", facts.losses, tone::kBad, filter.losses);
-  filterButton(editor, ICON_WARNING, "warnings", facts.warnings, tone::kWarning, filter.warnings);
-  filterButton(editor, ICON_INFO, "notes", facts.notes, tone::kDim, filter.notes);
+  ui::filterButton(editor, "preview", ICON_BAN, "losses", facts.losses, tone::kBad, filter.losses);
+  ui::filterButton(editor, "preview", ICON_WARNING, "warnings", facts.warnings, tone::kWarning, filter.warnings);
+  ui::filterButton(editor, "preview", ICON_INFO, "notes", facts.notes, tone::kDim, filter.notes);
   ImGui::NewLine();
   const auto& issues = editor.preview.outcome()->report.issues;
   if (issues.empty()) {
@@ -206,7 +196,7 @@ std::string whyNotAccept(const Editor& editor, const char* verb) {
   return editor.session.whyNot(verb);
 }
 
-void drawButtons(Editor& editor) {
+void drawPreviewButtons(Editor& editor) {
   const float gap = ImGui::GetStyle().ItemSpacing.x, room = ImGui::GetContentRegionAvail().x;
   const bool can_add = editor.session.document().imported != nullptr;
   const float each = can_add ? (room - 2 * gap) / 4 : (room - gap) / 2;
@@ -260,7 +250,7 @@ void drawImportPreview(Editor& editor) {
   }
   ImGui::EndChild();
   ui::gap(editor, 2);
-  drawButtons(editor);
+  drawPreviewButtons(editor);
 }
 
 }  // namespace standpoint

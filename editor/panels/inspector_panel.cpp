@@ -18,8 +18,6 @@ namespace standpoint {
 
 namespace {
 
-std::string triple(const Eigen::Vector3d& v) { return fmt::format("{:.3f}  {:.3f}  {:.3f}", v.x(), v.y(), v.z()); }
-
 const std::string& nodeLabel(const SpatialNode& node) { return node.name.empty() ? node.ifc_class : node.name; }
 
 // "House › Block A › Ground"
@@ -76,9 +74,9 @@ void drawGeometry(Editor& editor, std::uint32_t index) {
   if (!ui::beginProperties("geometry", 0.25F)) return;
   ui::property("Triangles", groupedDigits(trianglesOf(environment, index)));
   if (!bounds_of.empty()) {
-    ui::property("Size", triple(bounds_of.max - bounds_of.min) + " m");
-    ui::property("From", triple(bounds_of.min + editor.shift_m()));
-    ui::property("To", triple(bounds_of.max + editor.shift_m()));
+    ui::property("Size", coordinates(bounds_of.max - bounds_of.min) + " m");
+    ui::property("From", coordinates(bounds_of.min + editor.shift_m()));
+    ui::property("To", coordinates(bounds_of.max + editor.shift_m()));
   }
   if (const auto& light = editor.session.document().lightening; light && index < light->products.size()) {
     const auto& loss = light->products[index];
@@ -275,7 +273,7 @@ void drawMany(Editor& editor) {
     for (const auto& [name, count] : classes) ui::property(name.c_str(), std::to_string(count));
     ui::property("Triangles", groupedDigits(triangles));
     const auto all = editor.selectionBounds();
-    if (!all.empty()) ui::property("Size", triple(all.max - all.min) + " m");
+    if (!all.empty()) ui::property("Size", coordinates(all.max - all.min) + " m");
     ui::endProperties();
   }
   ui::heading(editor, "Physical material");

@@ -30,16 +30,6 @@ Look lookOf(LogLevel level) {
   return {ICON_INFO, tone::kDim};
 }
 
-void filterButton(Editor& editor, const char* icon, const char* name, std::size_t count, ImU32 tone, bool& shown) {
-  ImGui::PushStyleColor(ImGuiCol_Button, shown ? ImVec4(1, 1, 1, 0.07F) : ImVec4(0, 0, 0, 0));
-  ImGui::PushStyleColor(ImGuiCol_Text,
-                        shown && count > 0 ? colour(tone) : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  if (ImGui::Button(fmt::format("{}  {}###log-{}", icon, groupedDigits(count), name).c_str())) shown = !shown;
-  ImGui::PopStyleColor(2);
-  ui::tooltip(fmt::format("{} {}", shown ? "Hide" : "Show", name));
-  ImGui::SameLine(0, editor.px(4));
-}
-
 void drawHead(Editor& editor) {
   auto& filter = editor.panels.log.filter;
   std::size_t notes = 0, warnings = 0, losses = 0;
@@ -48,9 +38,9 @@ void drawHead(Editor& editor) {
     warnings += e.level == LogLevel::warning ? 1 : 0;
     losses += e.level == LogLevel::loss || e.level == LogLevel::error ? 1 : 0;
   }
-  filterButton(editor, ICON_BAN, "losses and errors", losses, tone::kBad, filter.losses);
-  filterButton(editor, ICON_WARNING, "warnings", warnings, tone::kWarning, filter.warnings);
-  filterButton(editor, ICON_INFO, "notes", notes, tone::kDim, filter.notes);
+  ui::filterButton(editor, "log", ICON_BAN, "losses and errors", losses, tone::kBad, filter.losses);
+  ui::filterButton(editor, "log", ICON_WARNING, "warnings", warnings, tone::kWarning, filter.warnings);
+  ui::filterButton(editor, "log", ICON_INFO, "notes", notes, tone::kDim, filter.notes);
   const float clear = ImGui::GetFrameHeight() + editor.px(8);
   const float room = ImGui::GetContentRegionMax().x - ImGui::GetCursorPosX() - clear;
   const float search = std::clamp(room, editor.px(60), editor.px(230));

@@ -35,7 +35,7 @@ void drawCoverage(Editor& editor, const MaterialReport& report) {
                           report.area_m2 * (1 - report.coverage), weak));
 }
 
-void drawButtons(Editor& editor) {
+void drawMaterialButtons(Editor& editor) {
   const auto why = editor.session.whyNot("materials");
   const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
   if (ui::primaryButton(ICON_MAGIC "  Assign by rules###assign-rules", why, {width, 0}))
@@ -171,12 +171,12 @@ void drawMaterialsPanel(Editor& editor) {
     ui::emptyState(editor, ICON_PAINT, "No physical materials yet",
                    "A scan needs to know how each surface reflects. Rules read it from the classes, names and "
                    "materials of the model; what they miss can be assigned by hand.");
-    drawButtons(editor);
+    drawMaterialButtons(editor);
     return;
   }
   drawCoverage(editor, choice->result.report);
   ui::gap(editor, 2);
-  drawButtons(editor);
+  drawMaterialButtons(editor);
   ui::gap(editor, 2);
   drawListSwitch(editor);
   const float bulk = ImGui::GetFrameHeightWithSpacing() * (editor.panels.materials.bulk.empty() ? 1 : 2) + editor.px(2);

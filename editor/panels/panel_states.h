@@ -18,8 +18,8 @@
 #include "editor/model/verification_view.h"
 #include "project/document.h"
 #include "project/geodesy.h"
-#include "scanners/instrument.h"
-#include "scanners/ray_engine.h"
+#include "scanners/engine/ray_engine.h"
+#include "scanners/instruments/instrument.h"
 
 namespace standpoint {
 

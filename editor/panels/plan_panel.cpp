@@ -19,11 +19,6 @@ using nlohmann::json;
 constexpr double kLowOverlap = 0.3;
 
 std::string percent(double share) { return fmt::format("{:.0f} %", share * 100); }
-std::string minutes(double seconds) {
-  const auto whole = std::llround(seconds);
-  return fmt::format("{}:{:02} min", whole / 60, whole % 60);
-}
-
 void start(Editor& editor) {
   const auto& scan = editor.panels.scan;
   const auto& state = editor.panels.plan;
@@ -99,7 +94,7 @@ void drawStations(Editor& editor, const json& answer) {
     row(s.at("station"), fmt::format("{:.0f} m²", s.at("seen_m2").get<double>()), s.at("points"), s.at("bytes"));
   row("all", percent(answer.at("coverage")), answer.at("points"), answer.at("bytes"));
   ImGui::EndTable();
-  ui::dimText("On site: " + minutes(answer.at("instrument_seconds")));
+  ui::dimText("On site: " + durationText(answer.at("instrument_seconds")));
 }
 
 void drawPairs(Editor& editor, const json& pairs) {

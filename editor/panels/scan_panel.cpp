@@ -147,11 +147,6 @@ std::vector<std::size_t> stationsWanted(const Editor& editor) {
   return wanted;
 }
 
-std::string minutes(double seconds) {
-  const auto whole = std::llround(seconds);
-  return fmt::format("{}:{:02} min", whole / 60, whole % 60);
-}
-
 std::string bytesText(double bytes) {
   return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.2f} GB", bytes / 1e9);
 }
@@ -169,9 +164,10 @@ void drawForecast(Editor& editor, const Instrument& instrument, const ScanSettin
   }
   if (!ui::beginProperties("forecast", 0.46F)) return;
   const double seconds = settings.scan_seconds + settings.imaging_seconds;
-  ui::property("Time of the device", wanted.size() > 1 ? fmt::format("{} × {}  =  {}", wanted.size(), minutes(seconds),
-                                                                     minutes(count * seconds))
-                                                       : minutes(seconds));
+  ui::property("Time of the device",
+               wanted.size() > 1
+                   ? fmt::format("{} × {}  =  {}", wanted.size(), durationText(seconds), durationText(count * seconds))
+                   : durationText(seconds));
   const char* waiting = wanted.empty() ? "no station yet" : "…";
   ui::property("Points", outlook ? fmt::format("about {:.1f} million", outlook->points / 1e6) : waiting);
   ui::tooltip("By some thousand rays, in clear air");

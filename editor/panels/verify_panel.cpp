@@ -48,7 +48,7 @@ void chooseInstrument(Editor& editor) {
   ImGui::EndCombo();
 }
 
-void drawButtons(Editor& editor) {
+void drawVerifyButtons(Editor& editor) {
   const auto& state = editor.panels.verify;
   const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
   const auto why =
@@ -217,7 +217,7 @@ void drawVerifyPanel(Editor& editor) {
   readCatalogue(editor.panels.catalogue);
   chooseUnderlay(editor);
   chooseInstrument(editor);
-  drawButtons(editor);
+  drawVerifyButtons(editor);
   drawFit(editor);
   ui::gap(editor, 4);
   auto& state = editor.panels.verify;

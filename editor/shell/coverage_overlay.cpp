@@ -15,8 +15,6 @@ namespace standpoint {
 
 namespace {
 
-ImU32 packed(const std::array<std::uint8_t, 4>& c) { return IM_COL32(c[0], c[1], c[2], c[3]); }
-
 // Empty with the reason why there is no map.
 const std::vector<SeenFrom>* scansOf(Editor& editor, std::string& why) {
   const auto& document = editor.session.document();

@@ -20,8 +20,6 @@ namespace {
 constexpr float kGrip_pt = 11;  // how near the pointer must be to take the probe
 constexpr double kFloor = 0.7;  // upward part of a normal that can be stood on
 
-ImU32 packed(const std::array<std::uint8_t, 4>& c) { return IM_COL32(c[0], c[1], c[2], c[3]); }
-
 // At the chosen station, else the first, else above the floor in the middle of what is looked at.
 void placeProbe(Editor& editor) {
   auto& probe = editor.view.probe;

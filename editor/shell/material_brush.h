@@ -4,7 +4,7 @@
 #include <imgui.h>
 
 #include "core/physical_material.h"
-#include "scanners/ray_engine.h"
+#include "scanners/engine/ray_engine.h"
 
 namespace standpoint {
 

@@ -16,6 +16,17 @@ namespace standpoint {
 
 namespace ui {
 
+void filterButton(const Editor& editor, const char* list, const char* icon, const char* name, std::size_t count,
+                  ImU32 shade, bool& shown) {
+  ImGui::PushStyleColor(ImGuiCol_Button, shown ? ImVec4(1, 1, 1, 0.07F) : ImVec4(0, 0, 0, 0));
+  ImGui::PushStyleColor(ImGuiCol_Text,
+                        shown && count > 0 ? colour(shade) : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  if (ImGui::Button(fmt::format("{}  {}###{}-{}", icon, groupedDigits(count), list, name).c_str())) shown = !shown;
+  ImGui::PopStyleColor(2);
+  ui::tooltip(fmt::format("{} {}", shown ? "Hide" : "Show", name));
+  ImGui::SameLine(0, editor.px(4));
+}
+
 void tooltip(const std::string& text) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1.0F);  // also inside a disabled block
@@ -220,5 +231,14 @@ std::string groupedDigits(std::uint64_t number) {
 }
 
 std::string metres(double value, int decimals) { return fmt::format("{:.{}f} m", value, decimals); }
+
+std::string coordinates(const Eigen::Vector3d& v) { return fmt::format("{:.3f}  {:.3f}  {:.3f}", v.x(), v.y(), v.z()); }
+
+std::string durationText(double seconds) {
+  const auto whole = std::llround(seconds);
+  return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+}
+
+ImU32 packed(const std::array<std::uint8_t, 4>& c) { return IM_COL32(c[0], c[1], c[2], c[3]); }
 
 }  // namespace standpoint

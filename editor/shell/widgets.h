@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 
 #include <imgui.h>
@@ -22,6 +24,9 @@ bool primaryButton(const char* label, const std::string& why = {}, ImVec2 size =
 bool wideButton(const char* id, const std::string& text, const std::string& why = {}, const char* tooltip = nullptr);
 // An icon without a frame, for rows and bars.
 bool iconButton(const char* label, const char* tooltip, const std::string& why = {}, bool lit = false);
+// Shows or hides rows of one kind, and says how many there are. `list` tells apart those of several lists.
+void filterButton(const Editor& editor, const char* list, const char* icon, const char* name, std::size_t count,
+                  ImU32 shade, bool& shown);
 void tooltip(const std::string& text);  // of the last item, also when it is disabled
 
 void heading(const Editor& editor, const char* text);
@@ -51,5 +56,8 @@ void fitted(const std::string& text, float width);
 
 std::string groupedDigits(std::uint64_t number);     // 12 345 678
 std::string metres(double value, int decimals = 3);  // "1.250 m"
+std::string coordinates(const Eigen::Vector3d& v);   // "1.250  2.000  0.000"
+std::string durationText(double seconds);            // "1:07 min"
+ImU32 packed(const std::array<std::uint8_t, 4>& c);  // RGBA
 
 }  // namespace standpoint

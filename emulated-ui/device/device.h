@@ -12,7 +12,7 @@
 #include "emulated-ui/device/program.h"
 #include "emulated-ui/device/state.h"
 #include "emulated-ui/device/words.h"
-#include "scanners/instrument.h"
+#include "scanners/instruments/instrument.h"
 
 namespace standpoint {
 

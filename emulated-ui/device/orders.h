@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/survey.h"
-#include "scanners/instrument.h"
+#include "scanners/instruments/instrument.h"
 
 namespace standpoint {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scanners/instrument.h"
+#include "scanners/instruments/instrument.h"
 
 namespace standpoint {
 

@@ -20,13 +20,6 @@ std::vector<std::string> eventNames(bool also_counted) {
   return names;
 }
 
-template <class Rows>
-std::vector<std::string> idsOf(const Rows& rows) {
-  std::vector<std::string> ids;
-  for (const auto& row : rows) ids.emplace_back(row.id);
-  return ids;
-}
-
 // "screen/widget"; a key of the body can be pressed on any screen, so it stands with each.
 std::vector<std::string> presses(const Device& device) {
   const auto& d = device.type().definition;

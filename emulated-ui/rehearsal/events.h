@@ -9,6 +9,14 @@
 
 namespace standpoint {
 
+// The ids of the rows of a list, in its order.
+template <class Rows>
+std::vector<std::string> idsOf(const Rows& rows) {
+  std::vector<std::string> ids;
+  for (const auto& row : rows) ids.emplace_back(row.id);
+  return ids;
+}
+
 // What the detail of an event is, of which "count.EVENT.DETAIL" asks.
 enum class EventDetail { none, text, screen, phase, dialog, answer, press, hand, trouble, field_verb };
 

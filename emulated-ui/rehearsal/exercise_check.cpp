@@ -20,13 +20,6 @@ using Kind = RehearsalAction::Kind;
 
 constexpr std::size_t kMostFacts = 8;  // of the hundreds that there are, in a message
 
-template <class Rows>
-std::vector<std::string> idsOf(const Rows& rows) {
-  std::vector<std::string> ids;
-  for (const auto& row : rows) ids.emplace_back(row.id);
-  return ids;
-}
-
 bool among(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }

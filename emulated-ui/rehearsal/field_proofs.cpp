@@ -11,7 +11,7 @@
 #include "core/units.h"
 #include "emulated-ui/device/numbers.h"
 #include "emulated-ui/rehearsal/all_setups.h"
-#include "scanners/expectation.h"
+#include "scanners/forecast/expectation.h"
 
 namespace standpoint {
 

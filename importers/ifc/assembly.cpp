@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "importers/ifc/style.h"
+#include "importers/ifc/model/style.h"
 
 namespace standpoint::ifc {
 

@@ -9,7 +9,8 @@
 
 #include "importers/ifc/body.h"
 #include "importers/ifc/layer_sides.h"
-#include "importers/ifc/placement.h"
+#include "importers/ifc/shapes/placement.h"
+#include "importers/ifc/shapes/texture.h"
 #include "importers/ifc/surface_pool.h"
 
 namespace standpoint::ifc {

@@ -10,10 +10,10 @@
 
 #include <tbb/parallel_for.h>
 
-#include "importers/ifc/entities.h"
+#include "importers/ifc/model/entities.h"
 #include "importers/ifc/opening.h"
-#include "importers/ifc/placement.h"
 #include "importers/ifc/representation.h"
+#include "importers/ifc/shapes/placement.h"
 
 namespace standpoint::ifc {
 namespace {

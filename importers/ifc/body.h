@@ -9,8 +9,8 @@
 
 #include "core/environment.h"
 #include "core/progress.h"
-#include "importers/ifc/model.h"
-#include "importers/ifc/relations.h"
+#include "importers/ifc/model/model.h"
+#include "importers/ifc/model/relations.h"
 
 namespace standpoint::ifc {
 

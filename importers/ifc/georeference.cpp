@@ -12,11 +12,11 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "importers/ifc/epsg.h"
-#include "importers/ifc/map_conversion.h"
-#include "importers/ifc/placement.h"
+#include "importers/ifc/model/epsg.h"
+#include "importers/ifc/model/map_conversion.h"
+#include "importers/ifc/model/units.h"
 #include "importers/ifc/properties.h"
-#include "importers/ifc/units.h"
+#include "importers/ifc/shapes/placement.h"
 
 namespace standpoint::ifc {
 namespace {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/georeference.h"
-#include "importers/ifc/model.h"
-#include "importers/ifc/relations.h"
+#include "importers/ifc/model/model.h"
+#include "importers/ifc/model/relations.h"
 
 namespace standpoint::ifc {
 

@@ -5,14 +5,14 @@
 
 #include <tbb/parallel_for.h>
 
+#include "importers/files/importer.h"
 #include "importers/ifc/assembly.h"
 #include "importers/ifc/body.h"
 #include "importers/ifc/georeference.h"
-#include "importers/ifc/mapping.h"
+#include "importers/ifc/model/style.h"
 #include "importers/ifc/product.h"
 #include "importers/ifc/properties.h"
-#include "importers/ifc/style.h"
-#include "importers/importers.h"
+#include "importers/ifc/shapes/mapping.h"
 
 namespace standpoint {
 namespace ifc {

@@ -6,7 +6,7 @@
 #include <map>
 #include <tuple>
 
-#include "importers/ifc/mapping.h"
+#include "importers/ifc/shapes/mapping.h"
 
 namespace standpoint::ifc {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
+#include "importers/ifc/model/style.h"
 #include "importers/ifc/properties.h"
 #include "importers/ifc/property_value.h"
-#include "importers/ifc/style.h"
 
 namespace standpoint::ifc {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/environment.h"
-#include "importers/ifc/model.h"
-#include "importers/ifc/relations.h"
+#include "importers/ifc/model/model.h"
+#include "importers/ifc/model/relations.h"
 
 namespace standpoint::ifc {
 

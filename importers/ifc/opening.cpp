@@ -2,7 +2,7 @@
 #include "importers/ifc/opening.h"
 
 #include "core/environment.h"
-#include "importers/ifc/convex_cut.h"
+#include "importers/ifc/shapes/convex_cut.h"
 
 namespace standpoint::ifc {
 namespace {

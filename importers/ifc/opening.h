@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "importers/ifc/model.h"
+#include "importers/ifc/model/model.h"
 
 namespace standpoint::ifc {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <map>
 
-#include "importers/ifc/entities.h"
-#include "importers/ifc/placement.h"
+#include "importers/ifc/model/entities.h"
 #include "importers/ifc/properties.h"
+#include "importers/ifc/shapes/placement.h"
 
 namespace standpoint::ifc {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "core/environment.h"
 #include "importers/ifc/material.h"
-#include "importers/ifc/model.h"
-#include "importers/ifc/relations.h"
+#include "importers/ifc/model/model.h"
+#include "importers/ifc/model/relations.h"
 
 namespace standpoint::ifc {
 

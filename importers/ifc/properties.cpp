@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/presentation_layers.h"
-#include "importers/ifc/attribute_sets.h"
-#include "importers/ifc/entities.h"
+#include "importers/ifc/model/attribute_sets.h"
+#include "importers/ifc/model/entities.h"
 #include "importers/ifc/property_value.h"
 
 namespace standpoint::ifc {

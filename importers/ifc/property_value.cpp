@@ -4,8 +4,8 @@
 #include <array>
 #include <utility>
 
-#include "importers/ifc/entities.h"
-#include "importers/ifc/units.h"
+#include "importers/ifc/model/entities.h"
+#include "importers/ifc/model/units.h"
 
 namespace standpoint::ifc {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "importers/ifc/model.h"
+#include "importers/ifc/model/model.h"
 
 namespace standpoint::ifc {
 

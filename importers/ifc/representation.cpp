@@ -6,9 +6,9 @@
 #include <exception>
 #include <string>
 
-#include "importers/ifc/mapping.h"
-#include "importers/ifc/placement.h"
-#include "importers/ifc/style.h"
+#include "importers/ifc/model/style.h"
+#include "importers/ifc/shapes/mapping.h"
+#include "importers/ifc/shapes/placement.h"
 
 namespace standpoint::ifc {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "importers/ifc/model.h"
+#include "importers/ifc/model/model.h"
 
 namespace standpoint::ifc {
 

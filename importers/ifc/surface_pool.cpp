@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "importers/ifc/style.h"
+#include "importers/ifc/model/style.h"
 
 namespace standpoint::ifc {
 

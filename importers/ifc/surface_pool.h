@@ -6,9 +6,9 @@
 #include <string>
 #include <tuple>
 
-#include "importers/ifc/image.h"
 #include "importers/ifc/material.h"
-#include "importers/ifc/texture_generator.h"
+#include "importers/ifc/model/image.h"
+#include "importers/ifc/model/texture_generator.h"
 
 namespace standpoint::ifc {
 

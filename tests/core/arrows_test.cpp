@@ -77,4 +77,26 @@ TEST(Arrows, GraphicsLibrariesAreSeenOnlyWhereTheDesignSaysSo) {
   }
 }
 
+// At every depth: rooms that include each other, directly or in a circle, are one room with a wall drawn through it.
+TEST(Arrows, NoFoldersIncludeEachOtherNotEvenInACircle) {
+  const std::regex own(R"re(^\s*#\s*include\s*"([^"]+)/[^"/]+")re");
+  std::map<std::string, Folders> arrows;
+  for (const auto& [folder, unused] : allowed())
+    eachInclude(fs::path(SOURCE_DIR) / folder, own, [&](const fs::path& file, const std::string& to) {
+      const std::string from = fs::relative(file.parent_path(), SOURCE_DIR).generic_string();
+      if (to != from) arrows[from].insert(to);
+    });
+  EXPECT_GT(arrows.size(), 20U);
+  for (bool shrunk = true; shrunk;) {  // what leads nowhere cannot be in a circle
+    shrunk = false;
+    for (auto it = arrows.begin(); it != arrows.end();) {
+      std::erase_if(it->second, [&](const std::string& to) { return !arrows.contains(to); });
+      shrunk |= it->second.empty();
+      it = it->second.empty() ? arrows.erase(it) : std::next(it);
+    }
+  }
+  for (const auto& [from, to] : arrows)
+    for (const auto& folder : to) ADD_FAILURE() << from << " includes " << folder << ", which leads back to it";
+}
+
 }  // namespace

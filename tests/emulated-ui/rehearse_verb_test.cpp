@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "emulated-ui/rehearsal/rehearse_verb.h"
+
 #include <fstream>
 #include <iterator>
 
@@ -6,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "emulated-ui/menus.h"
-#include "emulated-ui/verbs.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

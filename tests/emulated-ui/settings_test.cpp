@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "scanners/chosen_effect.h"
-#include "scanners/panorama.h"
+#include "scanners/camera/panorama.h"
+#include "scanners/instruments/chosen_effect.h"
 #include "tests/emulated-ui/working.h"
 
 // Every setting has its effect, or its help says that it has none. Whoever adds one that nothing reads fails here.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <vector>
 
-#include "pointclouds/crc32c.h"
-#include "pointclouds/e57.h"
+#include "pointclouds/e57/crc32c.h"
+#include "pointclouds/e57/e57.h"
 #include "tests/fuzz/fuzz_cloud.h"
 
 // The checksums of the pages are mended first: else nothing that the fuzzer changes gets behind them.

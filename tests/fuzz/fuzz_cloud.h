@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "pointclouds/block_check.h"
+#include "pointclouds/files/block_check.h"
 #include "pointclouds/formats.h"
 #include "tests/fuzz/fuzz_file.h"
 

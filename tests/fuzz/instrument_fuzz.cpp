@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scanners/instrument.h"
+#include "scanners/instruments/instrument.h"
 #include "tests/fuzz/fuzz_file.h"
 
 // An instrument is read, or refused with its place; one for a tripod that is read can scan as it is.

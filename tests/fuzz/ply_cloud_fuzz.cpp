@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pointclouds/ply.h"
+#include "pointclouds/ply/ply.h"
 #include "tests/fuzz/fuzz_cloud.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

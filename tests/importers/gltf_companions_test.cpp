@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "importers/gltf/gltf_writer.h"
 #include "tests/importers/mesh_files.h"
 
 namespace standpoint::test {

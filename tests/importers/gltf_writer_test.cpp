@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "importers/gltf/gltf_writer.h"
+
 #include <bit>
 #include <numbers>
 

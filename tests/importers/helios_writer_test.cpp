@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "importers/helios/helios_writer.h"
+
 #include <cmath>
 #include <fstream>
 

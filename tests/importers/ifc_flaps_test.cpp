@@ -2,7 +2,7 @@
 // What a Boolean may leave where a tool's face fell on the host's.
 #include <gtest/gtest.h>
 
-#include "importers/ifc/flaps.h"
+#include "importers/ifc/shapes/flaps.h"
 
 namespace standpoint::ifc {
 namespace {

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "importers/gltf/gltf_writer.h"
+#include "importers/obj/obj_writer.h"
 #include "tests/importers/ifc_fixture.h"
 
 namespace standpoint::test {

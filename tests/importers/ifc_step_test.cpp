@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include "importers/ifc/step_file.h"
+#include "importers/ifc/model/step_file.h"
 #include "tests/importers/ifc_fixture.h"
 
 namespace standpoint::ifc {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/random.h"
-#include "importers/obj_file.h"
-#include "importers/obj_polygon.h"
+#include "importers/obj/obj_file.h"
+#include "importers/obj/obj_writer.h"
+#include "importers/soup/obj_polygon.h"
 #include "tests/importers/mesh_files.h"
 
 namespace standpoint::test {

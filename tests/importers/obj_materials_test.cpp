@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sys/stat.h>
 
-#include "importers/mtl.h"
+#include "importers/obj/mtl.h"
 #include "tests/importers/mesh_files.h"
 
 namespace standpoint::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "optimizer/avatar.h"
+#include "optimizer/walk/avatar.h"
 
 #include <cmath>
 

@@ -7,8 +7,8 @@
 #include <tbb/global_control.h>
 
 #include "core/random.h"
-#include "optimizer/obstacles.h"
 #include "optimizer/optimizer.h"
+#include "optimizer/walk/obstacles.h"
 #include "tests/optimizer/models.h"
 
 namespace standpoint {

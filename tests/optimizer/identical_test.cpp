@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "optimizer/identical.h"
+#include "optimizer/surface/identical.h"
 
 #include <algorithm>
 #include <numeric>

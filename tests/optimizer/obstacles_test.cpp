@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "optimizer/obstacles.h"
+#include "optimizer/walk/obstacles.h"
 
 #include <cmath>
 

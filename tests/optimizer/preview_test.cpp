@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "optimizer/preview.h"
+#include "optimizer/simplify/preview.h"
 
 #include <gtest/gtest.h>
 

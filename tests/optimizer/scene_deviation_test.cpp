@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "optimizer/scene_deviation.h"
+#include "optimizer/surface/scene_deviation.h"
 
 #include <limits>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "optimizer/vertex_deviation.h"
+#include "optimizer/surface/vertex_deviation.h"
 
 #include <cmath>
 #include <numeric>

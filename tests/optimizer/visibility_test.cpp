@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "optimizer/visibility.h"
+#include "optimizer/simplify/visibility.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "optimizer/walkable.h"
+#include "optimizer/walk/walkable.h"
 
 #include <set>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pointclouds/block_check.h"
+#include "pointclouds/files/block_check.h"
 
 #include <limits>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 
-#include "pointclouds/e57.h"
+#include "pointclouds/e57/e57.h"
 #include "tests/pointclouds/kept_scans.h"
 #include "tests/pointclouds/made_up_picture.h"
 #include "tests/pointclouds/made_up_scan.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pointclouds/cleaning.h"
+#include "pointclouds/filters/cleaning.h"
 
 #include <algorithm>
 #include <cmath>

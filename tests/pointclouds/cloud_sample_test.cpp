@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pointclouds/cloud_sample.h"
+#include "pointclouds/statistics/cloud_sample.h"
 
 #include <filesystem>
 #include <fstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pointclouds/crc32c.h"
+#include "pointclouds/e57/crc32c.h"
 
 #include <cstring>
 #include <vector>

@@ -4,7 +4,7 @@
 #include <map>
 #include <sstream>
 
-#include "pointclouds/datasets.h"
+#include "pointclouds/datasets/datasets.h"
 #include "tests/pointclouds/kept_scans.h"
 #include "tests/pointclouds/made_up_scan.h"
 #include "tests/pointclouds/same_points.h"

@@ -2,9 +2,9 @@
 #include <cstring>
 #include <functional>
 
-#include "pointclouds/crc32c.h"
-#include "pointclouds/e57.h"
-#include "pointclouds/ptx.h"
+#include "pointclouds/e57/crc32c.h"
+#include "pointclouds/e57/e57.h"
+#include "pointclouds/ptx/ptx.h"
 #include "tests/pointclouds/kept_scans.h"
 #include "tests/pointclouds/made_up_picture.h"
 #include "tests/pointclouds/made_up_scan.h"

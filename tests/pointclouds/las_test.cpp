@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pointclouds/las.h"
+#include "pointclouds/las/las.h"
 
 #include <cmath>
 #include <cstring>

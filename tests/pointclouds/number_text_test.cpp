@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "pointclouds/number_line.h"
+#include "pointclouds/files/number_line.h"
 
 namespace standpoint {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "pointclouds/ply.h"
+#include "pointclouds/ply/ply.h"
 #include "tests/pointclouds/kept_scans.h"
 #include "tests/pointclouds/made_up_scan.h"
 

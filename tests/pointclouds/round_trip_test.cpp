@@ -3,8 +3,8 @@
 #include <cmath>
 #include <functional>
 
-#include "pointclouds/e57.h"
-#include "pointclouds/ptx.h"
+#include "pointclouds/e57/e57.h"
+#include "pointclouds/ptx/ptx.h"
 #include "tests/pointclouds/kept_scans.h"
 #include "tests/pointclouds/made_up_scan.h"
 #include "tests/pointclouds/same_points.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pointclouds/statistics.h"
+#include "pointclouds/statistics/statistics.h"
 
 #include <cmath>
 
-#include "pointclouds/coverage.h"
-#include "pointclouds/e57.h"
+#include "pointclouds/e57/e57.h"
+#include "pointclouds/statistics/coverage.h"
 #include "tests/pointclouds/kept_scans.h"
 #include "tests/pointclouds/made_up_scan.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pointclouds/target_fit.h"
+#include "pointclouds/targets/target_fit.h"
 
 #include <cmath>
 #include <numbers>

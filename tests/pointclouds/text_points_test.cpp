@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pointclouds/text_points.h"
+#include "pointclouds/text/text_points.h"
 
 #include "tests/pointclouds/kept_scans.h"
 #include "tests/pointclouds/made_up_scan.h"

@@ -8,7 +8,7 @@
 #include "pointclouds/formats.h"
 #include "project/instruments.h"
 #include "project/survey_plan.h"
-#include "scanners/scan_forecast.h"
+#include "scanners/forecast/scan_forecast.h"
 #include "tests/project/support.h"
 
 namespace standpoint {

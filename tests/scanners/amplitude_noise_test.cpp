@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "scanners/radiometry.h"
+#include "scanners/radiometry/radiometry.h"
 #include "tests/scanners/scenes.h"
 
 namespace standpoint {

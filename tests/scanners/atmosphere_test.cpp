@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scanners/atmosphere.h"
+#include "scanners/radiometry/atmosphere.h"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scanners/portable_math.h"
+#include "scanners/math/portable_math.h"
 
 namespace standpoint {
 namespace {

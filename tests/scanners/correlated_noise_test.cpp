@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scanners/correlated_noise.h"
+#include "scanners/noise/correlated_noise.h"
 
 #include <cmath>
 #include <numbers>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scanners/pulse_noise.h"
+#include "scanners/noise/pulse_noise.h"
 #include "tests/scanners/scenes.h"
 
 namespace standpoint {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scanners/expectation.h"
+#include "scanners/forecast/expectation.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scanners/material_evidence.h"
+#include "scanners/evidence/material_evidence.h"
 
 #include <cmath>
 #include <functional>
@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "core/random.h"
-#include "scanners/intensity_scale.h"
+#include "scanners/radiometry/intensity_scale.h"
 #include "tests/scanners/scenes.h"
 
 namespace standpoint {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scanners/met_surface.h"
+#include "scanners/forecast/met_surface.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scanners/panorama.h"
+#include "scanners/camera/panorama.h"
 
 #include <cmath>
 #include <cstdio>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <jpeglib.h>
 
-#include "scanners/surface_colours.h"
+#include "scanners/camera/surface_colours.h"
 #include "tests/scanners/scenes.h"
 
 namespace standpoint {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scanners/pulse_noise.h"
+#include "scanners/noise/pulse_noise.h"
 
 #include <cmath>
 

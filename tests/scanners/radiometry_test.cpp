@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scanners/radiometry.h"
+#include "scanners/radiometry/radiometry.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "scanners/portable_math.h"
-#include "scanners/signal_lanes.h"
+#include "scanners/math/portable_math.h"
+#include "scanners/radiometry/signal_lanes.h"
 #include "tests/scanners/scenes.h"
 
 namespace standpoint {

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "scanners/footprint.h"
-#include "scanners/radiometry.h"
+#include "scanners/engine/footprint.h"
+#include "scanners/radiometry/radiometry.h"
 #include "tests/scanners/scenes.h"
 
 namespace standpoint {

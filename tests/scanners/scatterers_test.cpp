@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scanners/scatterers.h"
+#include "scanners/radiometry/scatterers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scanners/radiometry.h"
+#include "scanners/radiometry/radiometry.h"
 #include "tests/scanners/scenes.h"
 
 namespace standpoint {

@@ -7,7 +7,7 @@
 
 #include "core/environment.h"
 #include "core/points.h"
-#include "scanners/ray_engine.h"
+#include "scanners/engine/ray_engine.h"
 
 namespace standpoint::testing {
 

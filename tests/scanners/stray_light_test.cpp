@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "scanners/daylight.h"
-#include "scanners/footprint.h"
-#include "scanners/radiometry.h"
-#include "scanners/reflector_halo.h"
+#include "scanners/engine/daylight.h"
+#include "scanners/engine/footprint.h"
+#include "scanners/engine/reflector_halo.h"
+#include "scanners/radiometry/radiometry.h"
 #include "tests/scanners/scenes.h"
 
 namespace standpoint {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scanners/surface_samples.h"
+#include "scanners/forecast/surface_samples.h"
 
 #include <fstream>
 #include <map>
@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scanners/stand.h"
+#include "scanners/instruments/stand.h"
 #include "tests/scanners/scenes.h"
 
 namespace standpoint {

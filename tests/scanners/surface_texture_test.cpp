@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scanners/surface_texture.h"
+#include "scanners/noise/surface_texture.h"
 
 #include <cmath>
 #include <limits>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scanners/value_noise.h"
+#include "scanners/math/value_noise.h"
 
 namespace standpoint {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scanners/systematic_errors.h"
+#include "scanners/noise/systematic_errors.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scanners/target_kinds.h"
+#include "scanners/instruments/target_kinds.h"
 
 #include <fstream>
 

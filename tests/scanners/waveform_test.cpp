@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scanners/waveform.h"
+#include "scanners/radiometry/waveform.h"
 
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "scanners/portable_math.h"
+#include "scanners/math/portable_math.h"
 
 namespace standpoint {
 namespace {

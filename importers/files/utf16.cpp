@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "importers/files/utf16.h"
+
+#include <string_view>
+
+namespace standpoint {
+
+namespace {
+
+constexpr std::uint64_t kMaxBytes = 1U << 30U;
+
+void append(std::string& text, std::uint32_t c) {
+  if (c < 0x80) {
+    text += static_cast<char>(c);
+    return;
+  }
+  const unsigned more = c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;  // bytes after the first
+  const unsigned lead = more == 1 ? 0xC0 : more == 2 ? 0xE0 : 0xF0;
+  text += static_cast<char>(lead | c >> 6U * more);
+  for (unsigned i = more; i-- > 0;) text += static_cast<char>(0x80U | (c >> 6U * i & 0x3FU));
+}
+
+}  // namespace
+
+bool isUtf16(const FileBytes& bytes) {
+  char mark[2];
+  if (bytes.size() < 2 || !bytes.read(0, mark, 2)) return false;
+  const std::string_view text(mark, 2);
+  return text == "\xFE\xFF" || text == "\xFF\xFE";
+}
+
+Result<std::string> utf8FromUtf16(const FileBytes& bytes) {
+  const auto all = bytes.all(kMaxBytes);
+  if (!all) return failure(all.error());
+  const bool little = all->front() == '\xFF';
+  const auto unit = [&](std::size_t i) {
+    const auto a = static_cast<unsigned char>((*all)[i]), b = static_cast<unsigned char>((*all)[i + 1]);
+    return static_cast<std::uint32_t>(little ? a | b << 8U : b | a << 8U);
+  };
+  std::string text;
+  for (std::size_t i = 2; i + 1 < all->size(); i += 2) {
+    const std::uint32_t c = unit(i);
+    const bool high = c >= 0xD800 && c < 0xDC00, low = c >= 0xDC00 && c < 0xE000;
+    if (!high && !low) {
+      append(text, c);
+    } else if (high && i + 3 < all->size() && unit(i + 2) >= 0xDC00 && unit(i + 2) < 0xE000) {
+      append(text, 0x10000 + ((c - 0xD800) << 10U) + (unit(i + 2) - 0xDC00));
+      i += 2;
+    } else {
+      text += '?';
+    }
+  }
+  return text;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "importers/files/importer.h"
+#include "importers/gltf/gltf_mesh.h"
+#include "importers/gltf/gltf_scene.h"
+#include "importers/gltf/gltf_writer.h"
+
+namespace standpoint {
+
+namespace {
+
+void readMeshes(GltfFile& file, const nlohmann::json& meshes, const GltfMaterials& materials, Environment& environment,
+                Progress& progress) {
+  const std::string place = "/asset/extras/standpoint/meshes";
+  if (!meshes.is_array()) return file.fail(place, "is missing: this GLB is not one of ours, import it instead");
+  Report ignored;  // names points and nothing else: we wrote the file
+  const auto no_material = static_cast<std::uint32_t>(environment.surfaces.size());
+  for (const auto& index : meshes) {
+    if (file.failed() || progress.cancelled()) return;
+    Mesh mesh;
+    if (index.is_number_unsigned()) {
+      mesh = readGltfMesh(file, index.get<std::size_t>(), materials, no_material, {}, ignored).mesh;
+      if (!file.failed() && mesh.triangles.empty()) mesh = readGltfPoints(file, index.get<std::size_t>());
+    } else if (!index.is_null()) {
+      file.fail(place, "holds something that is not an index");
+    }
+    environment.meshes.push_back(std::make_shared<const Mesh>(std::move(mesh)));
+    progress.advance(static_cast<double>(environment.meshes.size()) / static_cast<double>(meshes.size()));
+  }
+}
+
+// The children of the root node are the instances, in order; their matrices are ours, before the turn to Y up.
+void readInstances(GltfFile& file, Environment& environment) {
+  const auto& children = memberOf(file.element("nodes", 0, ""), "children");
+  for (std::size_t i = 0; !file.failed() && children.is_array() && i < children.size(); ++i) {
+    if (!children[i].is_number_unsigned())
+      return file.fail("/nodes/0/children", "holds something that is not an index");
+    const std::string place = "/nodes/" + std::to_string(children[i].get<std::size_t>());
+    const auto& node = file.element("nodes", children[i].get<std::size_t>(), "/nodes/0/children");
+    const auto& ours = memberOf(memberOf(node, "extras"), "standpoint");
+    const auto mesh = file.index(ours, "mesh", place + "/extras/standpoint");
+    const auto product = file.index(ours, "product", place + "/extras/standpoint");
+    if (!mesh || !product) return file.fail(place + "/extras/standpoint", "has no mesh or no product");
+    Instance instance;
+    instance.mesh = static_cast<std::uint32_t>(*mesh);
+    instance.product = static_cast<std::uint32_t>(*product);
+    auto matrix = file.numbers(ours, "matrix", 16, place + "/extras/standpoint");
+    if (matrix.empty()) matrix = file.numbers(node, "matrix", 16, place);
+    if (!matrix.empty()) instance.world_from_mesh.matrix() = Eigen::Map<const Eigen::Matrix4d>(matrix.data());
+    environment.instances.push_back(instance);
+  }
+}
+
+}  // namespace
+
+Result<Environment> readEnvironmentGlb(const std::filesystem::path& path, Progress& progress) {
+  progress.stage("Reading geometry");
+  GltfFile file(path);
+  file.load();
+  Environment environment;
+  if (!file.failed()) {
+    Report ignored;  // we wrote the file
+    const auto& ours = memberOf(memberOf(memberOf(file.json(), "asset"), "extras"), "standpoint");
+    auto materials = readGltfMaterials(file, ignored);
+    for (auto& use : materials.texture_of_material) use.vertex_alpha = true;  // in our own files nothing is left out
+    materials.without_material.vertex_alpha = true;
+    environment.surfaces = std::move(materials.surfaces);
+    environment.images = std::move(materials.images);
+    readMeshes(file, memberOf(ours, "meshes"), materials, environment, progress);
+    const auto products = file.natural(ours, "products", 0, "/asset/extras/standpoint");
+    if (!file.failed() && file.spend(products * sizeof(Product) / 64, "/asset/extras/standpoint/products"))
+      environment.products.resize(products);
+    if (!file.failed()) readInstances(file, environment);
+  }
+  if (auto ok = progress.check(); !ok) return failure(ok.error());
+  if (!file.failed())
+    if (auto wrong = validate(environment); !wrong.empty()) file.fail("", wrong);
+  if (file.failed()) return failure(file.error());
+  return environment;
+}
+
+}  // namespace standpoint

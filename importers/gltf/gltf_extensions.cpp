@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "importers/gltf/gltf_extensions.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "importers/gltf/gltf_physical_material.h"
+
+namespace standpoint {
+
+namespace {
+
+using Json = nlohmann::json;
+
+// Read, or named where they are met: a file may require them.
+constexpr std::array<std::string_view, 23> kUnderstood = {"KHR_mesh_quantization",
+                                                          kGltfPhysicalMaterial,
+                                                          "KHR_draco_mesh_compression",
+                                                          "EXT_meshopt_compression",
+                                                          "KHR_meshopt_compression",
+                                                          "EXT_mesh_gpu_instancing",
+                                                          "KHR_texture_transform",
+                                                          "KHR_texture_basisu",
+                                                          "EXT_texture_webp",
+                                                          "EXT_texture_avif",
+                                                          "MSFT_texture_dds",
+                                                          "CESIUM_RTC",
+                                                          "EXT_mesh_features",
+                                                          "EXT_instance_features",
+                                                          "EXT_structural_metadata",
+                                                          "KHR_xmp",
+                                                          "KHR_xmp_json_ld",
+                                                          "KHR_lights_punctual",
+                                                          "KHR_animation_pointer",
+                                                          "EXT_lights_image_based",
+                                                          "MSFT_lod",
+                                                          "KHR_physics_rigid_bodies",
+                                                          "KHR_implicit_shapes"};
+
+bool understood(std::string_view name) {
+  return name.starts_with("KHR_materials_") ||
+         std::find(kUnderstood.begin(), kUnderstood.end(), name) != kUnderstood.end();
+}
+
+std::string nameAt(const Json& list, std::size_t i) {
+  return list[i].is_string() ? list[i].get<std::string>() : list[i].dump();
+}
+
+void variants(GltfFile& file, Report& report) {
+  const auto& list = memberOf(memberOf(memberOf(file.json(), "extensions"), "KHR_materials_variants"), "variants");
+  if (!list.is_array() || list.empty()) return;
+  std::string names;
+  for (std::size_t i = 0; i < std::min<std::size_t>(list.size(), 8); ++i) {
+    if (i > 0) names += ", ";
+    names += file.text(list[i], "name");
+  }
+  report.note("/extensions/KHR_materials_variants", std::to_string(list.size()) + " variants of the materials (" +
+                                                        names + (list.size() > 8 ? ", …" : "") +
+                                                        ") are not read; those of the default are used");
+}
+
+// Marks what stands outside of the scene on purpose, with all below it: simpler levels of nodes, meshes of colliders.
+// Returns how many nodes have levels.
+std::size_t seeCompanions(GltfFile& file, std::vector<bool>& seen) {
+  std::vector<std::size_t> open;
+  const auto push = [&](const Json& index) {
+    if (index.is_number_unsigned() && index.get<std::size_t>() < seen.size()) open.push_back(index.get<std::size_t>());
+  };
+  const auto pushAll = [&](const Json& list) {
+    if (list.is_array())
+      for (const auto& index : list) push(index);
+  };
+  std::size_t with_levels = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const auto& extensions = memberOf(file.element("nodes", i, ""), "extensions");
+    const auto& ids = memberOf(memberOf(extensions, "MSFT_lod"), "ids");
+    with_levels += ids.is_array() && !ids.empty() ? 1 : 0;
+    pushAll(ids);
+    push(
+        memberOf(memberOf(memberOf(memberOf(extensions, "KHR_physics_rigid_bodies"), "collider"), "geometry"), "node"));
+  }
+  while (!open.empty()) {
+    const auto node = open.back();
+    open.pop_back();
+    if (seen[node]) continue;
+    seen[node] = true;
+    pushAll(memberOf(file.element("nodes", node, ""), "children"));
+  }
+  return with_levels;
+}
+
+}  // namespace
+
+void checkGltfExtensions(GltfFile& file, Report& report) {
+  const auto& required = memberOf(file.json(), "extensionsRequired");
+  for (std::size_t i = 0; required.is_array() && i < required.size(); ++i)
+    if (const auto name = nameAt(required, i); !required[i].is_string() || !understood(name))
+      file.fail("/extensionsRequired/" + std::to_string(i),
+                "'" + name + "' is required and not understood; export the model without it");
+  const auto& used = memberOf(file.json(), "extensionsUsed");
+  for (std::size_t i = 0; used.is_array() && i < used.size(); ++i)
+    if (const auto name = nameAt(used, i); !understood(name))
+      report.note("/extensionsUsed/" + std::to_string(i), "'" + name + "' is not understood; what it adds is left out");
+  variants(file, report);
+}
+
+void listGltfRest(GltfFile& file, const std::vector<bool>& in_scene, Report& report) {
+  auto seen = in_scene;
+  if (const auto levels = seeCompanions(file, seen); levels > 0)
+    report.note("/nodes",
+                std::to_string(levels) + " nodes have simpler levels of detail (MSFT_lod); the finest is read");
+  std::size_t elsewhere = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    elsewhere += !seen[i] && memberOf(file.element("nodes", i, ""), "mesh").is_number() ? 1 : 0;
+  if (elsewhere > 0)
+    report.lose("/scenes",
+                std::to_string(elsewhere) + " nodes with a mesh are not in the scene that the file shows by default");
+  for (const char* array : {"animations", "cameras"})
+    if (const auto n = file.count(array); n > 0)
+      report.note(std::string("/") + array, std::to_string(n) + " not read: a building at rest is scanned");
+  const auto& lights = memberOf(memberOf(memberOf(file.json(), "extensions"), "KHR_lights_punctual"), "lights");
+  if (lights.is_array() && !lights.empty())
+    report.note("/extensions/KHR_lights_punctual",
+                std::to_string(lights.size()) + " lights not read: a scanner brings its own");
+}
+
+}  // namespace standpoint

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/environment.h"
+#include "importers/gltf/gltf_file.h"
+
+namespace standpoint {
+
+// What an object of the file (a node, a mesh) says of itself in `extras` and in XMP packets, as properties.
+void addGltfProperties(GltfFile& file, const nlohmann::json& object, std::vector<Property>& properties);
+
+// A product as `extras` of a node that we export, in words that other programs show, and back.
+nlohmann::json toExtras(const Product& product);
+void restoreProduct(GltfFile& file, const nlohmann::json& extras, Product& product);
+
+}  // namespace standpoint

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "importers/gltf/gltf_scene.h"
+
+#include <algorithm>
+
+namespace standpoint {
+
+namespace {
+
+Eigen::Affine3d compose(const std::vector<double>& t, const std::vector<double>& r, const std::vector<double>& s) {
+  Eigen::Affine3d result = Eigen::Affine3d::Identity();
+  if (!r.empty()) {
+    const Eigen::Quaterniond q(r[3], r[0], r[1], r[2]);
+    if (q.norm() > 0) result.linear() = q.normalized().toRotationMatrix();
+  }
+  if (!s.empty()) result.linear() = result.linear() * Eigen::Vector3d(s[0], s[1], s[2]).asDiagonal();
+  if (!t.empty()) result.translation() = Eigen::Vector3d(t[0], t[1], t[2]);
+  return result;
+}
+
+Eigen::Affine3d placement(GltfFile& file, const nlohmann::json& json, const std::string& place) {
+  const auto matrix = file.numbers(json, "matrix", 16, place);
+  if (!matrix.empty()) {
+    Eigen::Affine3d result = Eigen::Affine3d::Identity();
+    for (int c = 0; c < 4; ++c)
+      for (int r = 0; r < 3; ++r) result.matrix()(r, c) = matrix[static_cast<std::size_t>(4 * c + r)];
+    return result;
+  }
+  return compose(file.numbers(json, "translation", 3, place), file.numbers(json, "rotation", 4, place),
+                 file.numbers(json, "scale", 3, place));
+}
+
+// Indices of an array of indices such as /scenes/0/nodes, last first, ready for a stack.
+std::vector<std::size_t> reversed(GltfFile& file, const nlohmann::json& object, const char* key,
+                                  const std::string& place) {
+  std::vector<std::size_t> result;
+  const auto& list = memberOf(object, key);
+  if (!list.is_null() && !list.is_array()) file.fail(place + "/" + key, "is not an array");
+  if (!list.is_array()) return result;
+  for (auto it = list.rbegin(); it != list.rend(); ++it) {
+    if (!it->is_number_unsigned()) {
+      file.fail(place + "/" + key, "holds something that is not an index");
+      return {};
+    }
+    result.push_back(it->get<std::size_t>());
+  }
+  return result;
+}
+
+std::vector<std::size_t> rootNodes(GltfFile& file) {
+  std::vector<bool> is_child(file.count("nodes"), false);
+  for (std::size_t i = 0; i < is_child.size(); ++i) {
+    const std::string place = "/nodes/" + std::to_string(i);
+    for (const auto child : reversed(file, file.element("nodes", i, place), "children", place))
+      if (child < is_child.size()) is_child[child] = true;
+  }
+  std::vector<std::size_t> roots;
+  for (std::size_t i = is_child.size(); i-- > 0;)
+    if (!is_child[i]) roots.push_back(i);
+  return roots;
+}
+
+using Visit = std::function<void(const GltfNode&)>;
+
+// From the given roots, last first.
+std::vector<bool> walk(GltfFile& file, const std::vector<std::size_t>& roots, const std::string& from,
+                       const Visit& visit) {
+  struct Entry {
+    std::size_t index;
+    GltfNode parent;
+    std::string asked_by;
+  };
+  std::vector<Entry> stack;
+  const auto push = [&](const std::vector<std::size_t>& last_first, const GltfNode& parent,
+                        const std::string& asked_by) {
+    for (const auto index : last_first) stack.push_back({index, parent, asked_by});
+  };
+  push(roots, {}, from);
+  std::vector<bool> seen(file.count("nodes"), false);
+  while (!stack.empty() && !file.failed()) {
+    const Entry entry = std::move(stack.back());
+    stack.pop_back();
+    GltfNode node = entry.parent;
+    node.index = entry.index;
+    node.place = "/nodes/" + std::to_string(entry.index);
+    node.json = &file.element("nodes", entry.index, entry.asked_by);
+    if (file.failed()) break;
+    if (seen[entry.index]) {
+      file.fail(node.place, "is reached twice: node hierarchies are trees");
+      break;
+    }
+    seen[entry.index] = true;
+    node.world_from_node = entry.parent.world_from_node * placement(file, *node.json, node.place);
+    if (!node.world_from_node.matrix().allFinite()) file.fail(node.place, "its placement is not finite");
+    const auto& ours = memberOf(memberOf(*node.json, "extras"), "standpoint");
+    if (const auto product = file.index(ours, "product", node.place + "/extras/standpoint");
+        product && product != node.product) {
+      node.product = product;
+      node.product_json = node.json;
+    }
+    if (file.failed()) break;
+    visit(node);
+    push(reversed(file, *node.json, "children", node.place), node, node.place);
+  }
+  return seen;
+}
+
+}  // namespace
+
+std::vector<bool> walkScene(GltfFile& file, const Visit& visit) {
+  const auto& scenes = memberOf(file.json(), "scenes");
+  if (!scenes.is_null() && !scenes.is_array()) file.fail("/scenes", "is not an array");
+  if (file.failed()) return {};
+  if (file.count("scenes") == 0) return walk(file, rootNodes(file), "", visit);
+  const auto scene = file.index(file.json(), "scene", "").value_or(0);
+  const std::string place = "/scenes/" + std::to_string(scene);
+  return walk(file, reversed(file, file.element("scenes", scene, "/scene"), "nodes", place), place, visit);
+}
+
+std::vector<Eigen::Affine3d> jointsOf(GltfFile& file, std::size_t skin, const std::string& asked_by) {
+  const std::string place = "/skins/" + std::to_string(skin);
+  const auto& json = file.element("skins", skin, asked_by);
+  auto joints = reversed(file, json, "joints", place);
+  std::reverse(joints.begin(), joints.end());
+  std::vector<float> inverse_bind;
+  if (const auto accessor = file.index(json, "inverseBindMatrices", place)) {
+    inverse_bind = file.floats(*accessor, 16, place + "/inverseBindMatrices");
+    if (inverse_bind.size() < 16 * joints.size())
+      file.fail(place + "/inverseBindMatrices", "has fewer matrices than the skin has joints");
+  }
+  std::vector<Eigen::Affine3d> world(file.count("nodes"), Eigen::Affine3d::Identity());
+  walk(file, rootNodes(file), "", [&](const GltfNode& node) { world[node.index] = node.world_from_node; });
+  std::vector<Eigen::Affine3d> result;
+  for (std::size_t i = 0; i < joints.size() && !file.failed(); ++i) {
+    if (joints[i] >= world.size())
+      file.fail(place + "/joints/" + std::to_string(i), "refers to a node that does not exist");
+    if (file.failed()) break;
+    Eigen::Affine3d bind = Eigen::Affine3d::Identity();
+    if (!inverse_bind.empty())
+      bind.matrix().topRows<3>() =
+          Eigen::Map<const Eigen::Matrix4f>(inverse_bind.data() + 16 * i).cast<double>().topRows<3>();
+    result.push_back(world[joints[i]] * bind);
+  }
+  return file.failed() ? std::vector<Eigen::Affine3d>{} : result;
+}
+
+std::vector<Eigen::Affine3d> instancesOf(GltfFile& file, const GltfNode& node) {
+  const auto& extension = memberOf(memberOf(*node.json, "extensions"), "EXT_mesh_gpu_instancing");
+  if (!extension.is_object()) return {Eigen::Affine3d::Identity()};
+  const std::string place = node.place + "/extensions/EXT_mesh_gpu_instancing/attributes";
+  const auto column = [&](const char* name, std::size_t components) {
+    const auto accessor = file.index(memberOf(extension, "attributes"), name, place);
+    return accessor ? file.floats(*accessor, components, place + "/" + name) : std::vector<float>{};
+  };
+  const auto t = column("TRANSLATION", 3), r = column("ROTATION", 4), s = column("SCALE", 3);
+  const std::size_t count = std::max({t.size() / 3, r.size() / 4, s.size() / 3});
+  const auto fits = [&](const std::vector<float>& values, std::size_t n) {
+    return values.empty() || values.size() == n * count;
+  };
+  if (!fits(t, 3) || !fits(r, 4) || !fits(s, 3)) file.fail(place, "its accessors differ in count");
+  if (file.failed() || !file.spend(count * sizeof(Eigen::Affine3d), place)) return {};
+  std::vector<Eigen::Affine3d> result;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto row = [i](const std::vector<float>& values, std::size_t n) {
+      return values.empty() ? std::vector<double>{}
+                            : std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(i * n),
+                                                  values.begin() + static_cast<std::ptrdiff_t>((i + 1) * n));
+    };
+    result.push_back(compose(row(t, 3), row(r, 4), row(s, 3)));
+  }
+  return result;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "core/report.h"
+#include "importers/ifc/model/step_file.h"
+
+namespace standpoint::ifc {
+
+struct Units {
+  double length_m = 1;
+  double angle_rad = 1;
+  std::map<std::string, std::string> symbol_of_type;  // "LENGTHUNIT" → "mm"
+};
+
+// `given_m` > 0 is the user's word on what the numbers are; it stands above the file's.
+Units readUnits(const StepFile& file, double given_m, Report& report);
+
+// Metres (radians, …) per unit of an IfcSIUnit, IfcConversionBasedUnit or IfcMeasureWithUnit; 0 when it is none of
+// them.
+double siFactor(const Entity& unit);
+std::string unitSymbol(const Entity& unit);
+
+}  // namespace standpoint::ifc

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "importers/ifc/shapes/mapping.h"
+#include "importers/ifc/shapes/profile.h"
+
+namespace standpoint::ifc {
+
+Result<SurfacePtr> planeSurface(const Entity&, Scope&);
+Result<SurfacePtr> basisSurface(const Entity&, Scope&);  // of a trimmed or bounded one: a face brings its own bounds
+Result<SurfacePtr> cylindricalSurface(const Entity&, Scope&);
+Result<SurfacePtr> sphericalSurface(const Entity&, Scope&);
+Result<SurfacePtr> toroidalSurface(const Entity&, Scope&);
+Result<SurfacePtr> bSplineSurface(const Entity&, Scope&);
+Result<SurfacePtr> surfaceOfLinearExtrusion(const Entity&, Scope&);
+Result<SurfacePtr> surfaceOfRevolution(const Entity&, Scope&);
+
+}  // namespace standpoint::ifc

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Wavefront OBJ: read in pieces by several threads (obj_chunk), joined (obj_file), grouped into products (obj_groups),
+// given materials (obj_materials), made into meshes (face_soup).
+#include "importers/obj/obj.h"
+
+#include <array>
+#include <limits>
+#include <new>
+
+#include "importers/files/utf16.h"
+#include "importers/obj/obj_file.h"
+#include "importers/obj/obj_groups.h"
+#include "importers/obj/obj_materials.h"
+#include "importers/soup/face_soup.h"
+
+namespace standpoint {
+
+namespace {
+
+struct Lost {
+  std::string_view key;
+  const char* what;
+};
+constexpr std::array kLost = {
+    Lost{"p", "point statement(s) are not a surface"},
+    Lost{"l", "line statement(s) are not a surface"},
+    Lost{"curv", "free-form curve statement(s) (curv) are not read"},
+    Lost{"curv2", "free-form trimming curve statement(s) (curv2) are not read"},
+    Lost{"scrv", "free-form special curve statement(s) (scrv) are not read"},
+    Lost{"surf", "free-form surface statement(s) (surf) are not read; export the model as polygons"},
+    Lost{"trim", "free-form trimming statement(s) (trim) are not read"},
+    Lost{"hole", "free-form hole statement(s) (hole) are not read"},
+    Lost{"bzp", "Bézier patch statement(s) (bzp) are not read"},
+    Lost{"bsp", "B-spline patch statement(s) (bsp) are not read"},
+    Lost{"cdc", "Cardinal curve statement(s) (cdc) are not read"},
+    Lost{"cdp", "Cardinal patch statement(s) (cdp) are not read"},
+    Lost{"res", "statement(s) of a free-form resolution (res) are not read"},
+    Lost{"call", "other file(s) that the model calls are not read"},
+    Lost{"csh", "command(s) that the model wants to run are not run"},
+    Lost{kShortFaces, "face(s) have fewer than three corners"},
+    Lost{kWrongTexture, "texture coordinate(s) are not numbers or not there"},
+};
+constexpr std::array kOdd = {
+    Lost{kBadVertices, "vertices cannot be read as three numbers; no face uses them"},
+    Lost{kWeights, "vertices have a weight (w) other than 1, which only free-form geometry uses"},
+    Lost{kOddColours, "vertices have five numbers, or more than seven: what follows x y z is not used"},
+    Lost{kUnknown, "statement(s) of kinds that OBJ does not have are not read"},
+};
+
+void sayWhatIsLost(const ObjFile& file, Report& report) {
+  const auto say = [&](const Lost& lost, auto&& into) {
+    const auto found = file.tallies.find(lost.key);
+    if (found != file.tallies.end())
+      into("line " + std::to_string(found->second.first_line), std::to_string(found->second.count) + " " + lost.what);
+  };
+  for (const Lost& lost : kLost)
+    say(lost, [&](std::string where, std::string what) { report.lose(std::move(where), std::move(what)); });
+  for (const Lost& odd : kOdd)
+    say(odd, [&](std::string where, std::string what) { report.warn(std::move(where), std::move(what)); });
+  if (file.colours_were_bytes) report.warn("", "vertex colours go above 1 and are taken as 0 to 255");
+}
+
+Result<FileBytes> openText(const std::filesystem::path& path) {
+  auto bytes = FileBytes::open(path);
+  if (!bytes || !isUtf16(*bytes)) return bytes;
+  auto text = utf8FromUtf16(*bytes);
+  if (!text) return failure(text.error());
+  return FileBytes::of(std::move(*text), path);
+}
+
+Result<ImportedModel> read(const std::filesystem::path& path, const ImportOptions& options, Progress& progress) {
+  const std::string name = path.filename().string();
+  const auto bytes = openText(path);
+  if (!bytes) return failure(bytes.error());
+  auto file = readObjFile(*bytes, name, progress);
+  if (!file) return failure(file.error());
+  if (file->known_statements == 0 && file->tallies.contains(kUnknown))
+    return failure(ErrorKind::unusable, "holds no statement of an OBJ",
+                   name + " line " + std::to_string(file->tallies.find(kUnknown)->second.first_line));
+  Report report;
+  auto groups = groupObjFaces(*file, path.stem().string());
+  FaceSoup soup;
+  soup.positions = std::move(file->positions);
+  soup.colours = std::move(file->colours);
+  soup.texture_coordinates = std::move(file->texture_coordinates);
+  soup.corners = std::move(file->corners);
+  soup.texture_corners = std::move(file->texture_corners);
+  soup.face_begins = std::move(file->face_begins);
+  soup.runs = std::move(groups.runs);
+  soup.products = std::move(groups.products);
+  soup.surfaces = std::move(groups.surfaces);
+  soup.place = [&](std::size_t face) { return "line " + std::to_string(file->lineOf(face)); };
+  applyMaterials(path, groups, soup, report);
+  sayWhatIsLost(*file, report);
+  return modelFrom(std::move(soup), kObjImporter.up, options, std::move(report), progress);
+}
+
+Result<ImportedModel> readObj(const std::filesystem::path& path, const ImportOptions& options, Progress& progress) {
+  progress.stage("Reading OBJ");
+  try {
+    return read(path, options, progress);
+  } catch (const std::bad_alloc&) {
+    return failure(ErrorKind::unusable, "there is not enough memory for it", path.filename().string());
+  }
+}
+
+constexpr const char* kExtensions[] = {".obj"};
+
+}  // namespace
+
+const Importer kObjImporter = {"obj", "Wavefront OBJ with MTL", kExtensions, &readObj, UpAxis::y};
+
+}  // namespace standpoint

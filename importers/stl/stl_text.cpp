@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "importers/stl/stl_text.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "importers/files/text_cursor.h"
+#include "importers/files/text_pieces.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr std::size_t kPiece = 4U << 20U;
+constexpr double kLargestInText = 1e13;
+constexpr std::uint32_t kFree = 0xFFFFFFFFU;
+
+std::uint64_t hashOf(const Eigen::Vector3d& p) {
+  std::uint64_t h = 0;
+  for (int i = 0; i < 3; ++i) {
+    h = (h ^ std::bit_cast<std::uint64_t>(p[i])) * 0x9E3779B97F4A7C15U;
+    h ^= h >> 32U;
+  }
+  return h;
+}
+
+class TextReader {
+ public:
+  TextReader(const std::string& name, StlSoup& out) : name_(name), out_(out) {}
+
+  Result<void> piece(std::string_view text, std::size_t& line) {
+    TextCursor cursor(text, line);
+    while (!cursor.done()) {
+      cursor.skipSpaces();
+      if (cursor.atLineEnd())
+        cursor.finishStatement();
+      else if (auto ok = statement(cursor); !ok)
+        return ok;
+    }
+    line = cursor.line();
+    return {};
+  }
+
+  Result<void> finish(std::size_t line) const {
+    if (!seen_solid_)
+      return failure(ErrorKind::unusable, "is neither a text that begins with 'solid' nor a binary STL", name_);
+    if (in_facet_) return fault(line, "ends within a facet: it was cut off");
+    return {};
+  }
+
+  bool in_solid() const { return in_solid_; }
+
+ private:
+  tl::unexpected<Error> fault(std::size_t line, std::string message) const {
+    return failure(ErrorKind::unusable, std::move(message), name_ + " line " + std::to_string(line));
+  }
+
+  static std::string lower(std::string_view word) {
+    std::string text(word.substr(0, 20));
+    for (auto& c : text)
+      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return text;
+  }
+
+  Result<void> statement(TextCursor& cursor) {
+    const std::size_t line = cursor.line();
+    const std::string word = lower(cursor.word());
+    if (word == "vertex") return vertex(cursor, line);
+    if (word == "facet") {
+      if (in_facet_) return fault(line, "a facet begins within a facet");
+      if (!in_solid_) return fault(line, "a facet stands outside a solid");
+      in_facet_ = true;
+      facet_line_ = line;
+    } else if (word == "endfacet") {
+      if (!in_facet_ || out_.cornersOfFacet() < 3) return fault(line, "a facet ends without three vertices");
+      out_.endFacet(facet_line_);
+      in_facet_ = false;
+    } else if (word == "solid") {
+      if (in_facet_) return fault(line, "a solid begins within a facet");
+      in_solid_ = seen_solid_ = true;
+      const std::string solid = cursor.rest();
+      out_.begin(solid.empty() ? name_.substr(0, name_.rfind('.')) : solid);
+      return {};
+    } else if (word == "endsolid") {
+      if (in_facet_) return fault(line, "a solid ends within a facet");
+      in_solid_ = false;
+    } else if (word != "outer" && word != "endloop" && word != "color") {
+      return fault(line, inQuotes(word) + " is no word of an STL");
+    }
+    cursor.skipComment();
+    return {};
+  }
+
+  Result<void> vertex(TextCursor& cursor, std::size_t line) {
+    if (!in_facet_) return fault(line, "a vertex stands outside a facet");
+    Eigen::Vector3d p;
+    for (int i = 0; i < 3; ++i) {
+      cursor.skipSpaces();
+      if (!cursor.number(p[i])) return fault(line, "a vertex needs three numbers");
+      if (!(std::abs(p[i]) <= kLargestInText)) return fault(line, "a coordinate is not a finite number below 1e13");
+    }
+    out_.corner(p);
+    cursor.skipComment();
+    return {};
+  }
+
+  const std::string& name_;
+  StlSoup& out_;
+  bool in_solid_ = false, in_facet_ = false, seen_solid_ = false;
+  std::size_t facet_line_ = 0;
+};
+
+}  // namespace
+
+void StlSoup::begin(const std::string& name, std::uint64_t facets) {
+  soup_.corners.reserve(3 * facets);
+  soup_.face_begins.reserve(facets + 1);
+  Product p;
+  p.name = name;
+  p.id = "solid " + std::to_string(soup_.products.size() + 1);
+  soup_.products.push_back(std::move(p));
+}
+
+void StlSoup::corner(const Eigen::Vector3d& p) {
+  soup_.corners.push_back(weld(p + Eigen::Vector3d::Zero()));
+}  // -0 → 0
+
+void StlSoup::endFacet(std::size_t line) {
+  const auto face = static_cast<std::uint32_t>(soup_.face_begins.size() - 1),
+             product = static_cast<std::uint32_t>(soup_.products.size() - 1);
+  soup_.face_begins.push_back(soup_.corners.size());
+  if (soup_.runs.empty() || soup_.runs.back().product != product) soup_.runs.push_back({face, face, product, 0});
+  soup_.runs.back().end = face + 1;
+  if (line > 0) lines_.push_back(line);
+  if (facet_colour_ == kNoFaceColour && colours_.empty()) return;
+  colours_.resize(face, kNoFaceColour);
+  colours_.push_back(facet_colour_);
+  facet_colour_ = kNoFaceColour;
+}
+
+std::uint32_t StlSoup::weld(const Eigen::Vector3d& p) {
+  if (2 * (soup_.positions.size() + 1) > table_.size()) grow();
+  std::size_t slot = hashOf(p) & (table_.size() - 1);
+  for (; table_[slot] != kFree; slot = (slot + 1) & (table_.size() - 1))
+    if (soup_.positions[table_[slot]] == p) return table_[slot];
+  table_[slot] = static_cast<std::uint32_t>(soup_.positions.size());
+  soup_.positions.push_back(p);
+  return table_[slot];
+}
+
+void StlSoup::grow() {
+  table_.assign(std::max<std::size_t>(1024, 2 * table_.size()), kFree);
+  for (std::size_t i = 0; i < soup_.positions.size(); ++i) {
+    std::size_t slot = hashOf(soup_.positions[i]) & (table_.size() - 1);
+    while (table_[slot] != kFree) slot = (slot + 1) & (table_.size() - 1);
+    table_[slot] = static_cast<std::uint32_t>(i);
+  }
+}
+
+FaceSoup StlSoup::soup() && {
+  Surface plain;
+  plain.source = "STL";
+  soup_.surfaces.push_back(std::move(plain));
+  table_ = {};
+  if (!colours_.empty()) {
+    colours_.resize(soup_.face_begins.size() - 1, kNoFaceColour);
+    paintFaces(soup_, colours_);
+  }
+  return std::move(soup_);
+}
+
+Result<void> readStlText(const FileBytes& bytes, const std::string& name, StlSoup& out, Report& report,
+                         Progress& progress) {
+  TextReader reader(name, out);
+  std::size_t line = 1;
+  for (std::uint64_t from = 0; from < bytes.size(); from += kPiece) {
+    const auto text = textPiece(bytes, from, kPiece);
+    if (!text) return failure(text.error());
+    if (auto ok = reader.piece(*text, line); !ok) return ok;
+    progress.advance(0.6 * static_cast<double>(from) / static_cast<double>(bytes.size()));
+    if (auto ok = progress.check(); !ok) return ok;
+  }
+  if (auto ok = reader.finish(line); !ok) return ok;
+  if (reader.in_solid())
+    report.warn("line " + std::to_string(line), "ends without 'endsolid': something may be missing");
+  return {};
+}
+
+}  // namespace standpoint

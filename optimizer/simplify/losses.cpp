@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "optimizer/simplify/losses.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace standpoint {
+
+namespace {
+
+void addLoss(ProductLoss& sum, double& area_sum, const Work& work, const Instance& instance, double residual_m) {
+  const double stretch = meanStretch(instance.world_from_mesh);
+  const double area_m2 = work.deviation.area_m2 * stretch * stretch;
+  sum.triangles_after += work.lighter.triangles.size();
+  sum.max_deviation_m =
+      std::max(sum.max_deviation_m, work.deviation.max_m * largestStretch(instance.world_from_mesh) + residual_m);
+  sum.mean_deviation_m += area_m2 * work.deviation.mean_m * stretch;  // divided by the area at the end, as the angle
+  sum.mean_turn_rad += area_m2 * work.deviation.turn_rad;
+  area_sum += area_m2;
+}
+
+ProductLoss lossOfDropped(const Environment& environment, const std::vector<const Instance*>& instances) {
+  ProductLoss loss;
+  Bounds box;
+  for (const auto* instance : instances)
+    box.extend(bounds(*environment.meshes[instance->mesh], instance->world_from_mesh));
+  const Eigen::Vector3d centre = 0.5 * (box.min + box.max);
+  double area_sum = 0;
+  for (const auto* instance : instances) {
+    const Mesh& mesh = *environment.meshes[instance->mesh];
+    const auto corner = [&](std::uint32_t i) {
+      return Eigen::Vector3d(instance->world_from_mesh * mesh.positions[i].cast<double>());
+    };
+    for (const auto& t : mesh.triangles) {
+      const Eigen::Vector3d a = corner(t[0]), b = corner(t[1]), c = corner(t[2]);
+      const double area_m2 = 0.5 * (b - a).cross(c - a).norm();
+      area_sum += area_m2;
+      loss.mean_deviation_m += area_m2 * ((a + b + c) / 3 - centre).norm();
+      for (const auto& p : {a, b, c}) loss.max_deviation_m = std::max(loss.max_deviation_m, (p - centre).norm());
+    }
+  }
+  if (area_sum > 0) loss.mean_deviation_m /= area_sum;
+  return loss;
+}
+
+}  // namespace
+
+void sumLosses(const Environment& before, const std::vector<Work>& works, const std::vector<double>& residual_m,
+               OptimizeResult& result) {
+  result.products.assign(before.products.size(), {});
+  std::vector<double> areas(before.products.size(), 0);
+  double area_of_all = 0;
+  for (std::size_t i = 0; i < before.instances.size(); ++i) {
+    const auto& instance = before.instances[i];
+    addLoss(result.products[instance.product], areas[instance.product], works[instance.mesh], instance, residual_m[i]);
+    addLoss(result.all, area_of_all, works[instance.mesh], instance, residual_m[i]);
+  }
+  for (std::size_t i = 0; i < areas.size(); ++i)
+    if (areas[i] > 0) result.products[i].mean_deviation_m /= areas[i], result.products[i].mean_turn_rad /= areas[i];
+  if (area_of_all > 0) result.all.mean_deviation_m /= area_of_all, result.all.mean_turn_rad /= area_of_all;
+}
+
+void addDropped(const Environment& environment, const OptimizeOptions& options, OptimizeResult& result) {
+  std::vector<std::vector<const Instance*>> dropped(environment.products.size());
+  for (const auto& instance : environment.instances)
+    if (allowanceOf(options, instance.product).drop) dropped[instance.product].push_back(&instance);
+  for (std::size_t i = 0; i < dropped.size(); ++i) {
+    if (dropped[i].empty()) continue;
+    result.products[i] = lossOfDropped(environment, dropped[i]);
+    const auto& product = environment.products[i];
+    result.report.lose(product.id, fmt::format("{} {} is dropped by the rule \"{}\" of {}",
+                                               product.ifc_class.empty() ? "product" : product.ifc_class, product.name,
+                                               options.products[i].reason, options.products[i].lod));
+  }
+}
+
+void reportDropped(const Environment& before, const std::vector<Work>& works, Report& report) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> parts(before.products.size());  // dropped, all
+  std::vector<Bounds> gone(before.products.size());
+  for (const auto& instance : before.instances) {
+    ++parts[instance.product].second;
+    if (!works[instance.mesh].dropped()) continue;
+    ++parts[instance.product].first;
+    gone[instance.product].extend(bounds(*before.meshes[instance.mesh], instance.world_from_mesh));
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].first == 0) continue;
+    const auto& product = before.products[i];
+    const Eigen::Vector3d centre = 0.5 * (gone[i].min + gone[i].max);
+    report.lose(
+        product.id,
+        fmt::format("{} of {} parts of {} {} dropped to reach the budget: {:.3f} m across, at {:.2f} {:.2f} {:.2f}",
+                    parts[i].first, parts[i].second, product.ifc_class.empty() ? "product" : product.ifc_class,
+                    product.name, gone[i].diagonal(), centre.x(), centre.y(), centre.z()));
+  }
+}
+
+void reportLossless(const Environment& before, const std::vector<Work>& works, Report& report) {
+  std::vector<std::uint32_t> copies(before.meshes.size(), 0);
+  for (const auto& instance : before.instances) ++copies[instance.mesh];
+  std::uint64_t meshes = 0, repeated = 0, repeated_triangles = 0, positions = 0, degenerate = 0, again = 0, flat = 0;
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    if (copies[i] == 0) continue;
+    ++meshes;
+    if (works[i].copies == 0) ++repeated, repeated_triangles += before.meshes[i]->triangles.size();
+    positions += works[i].welded.positions;
+    degenerate += works[i].welded.degenerate;
+    again += works[i].welded.repeated;
+    for (const auto& step : works[i].steps) flat += step.flat ? step.triangles : 0;
+  }
+  if (repeated > 0)
+    report.note("lossless", fmt::format("{} of {} meshes repeat the shape of another and share it: {} triangles",
+                                        repeated, meshes, repeated_triangles));
+  if (positions > 0) report.note("lossless", fmt::format("{} positions were welded to equal ones", positions));
+  if (degenerate + again > 0)
+    report.note("lossless",
+                fmt::format("{} triangles without area and {} repeated ones were left out", degenerate, again));
+  if (flat > 0) report.note("lossless", fmt::format("{} triangles went by merging plane regions", flat));
+}
+
+void checkBudgets(const std::vector<Work>& works, const OptimizeOptions& options, OptimizeResult& result) {
+  for (std::uint32_t share = 0; share <= options.further_budgets.size(); ++share) {
+    std::uint64_t left = 0;
+    for (const auto& work : works)
+      if (work.share == share) left += work.lighter.triangles.size() * work.copies;
+    const auto budget = budgetOf(options, share);
+    if (budget == 0 || left <= budget) continue;
+    result.budget_reached = false;
+    result.smallest_budget += left;
+    const auto named =
+        std::find_if(options.products.begin(), options.products.end(), [&](const auto& a) { return a.share == share; });
+    const std::string whose = named == options.products.end() ? "" : named->lod + ": ";
+    const std::string cap = options.products.empty()
+                                ? fmt::format("deviations of at most {} m", options.max_deviation_m)
+                                : "the deviations allowed";
+    result.report.warn(
+        "budget", fmt::format("{}{} triangles cannot be reached with {}; the least is {}", whose, budget, cap, left));
+  }
+}
+
+}  // namespace standpoint

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "core/unused_meshes.h"
+#include "optimizer/optimizer.h"
+#include "optimizer/simplify/losses.h"
+#include "optimizer/simplify/paint.h"
+#include "optimizer/simplify/simplify.h"
+#include "optimizer/simplify/visibility.h"
+#include "optimizer/surface/scene_deviation.h"
+
+namespace standpoint {
+
+namespace {
+
+void addIntangible(const Environment& environment, Environment& lighter) {
+  for (const auto& instance : environment.instances)
+    if (!environment.products[instance.product].inScene()) lighter.instances.push_back(instance);
+  std::stable_sort(lighter.instances.begin(), lighter.instances.end(),
+                   [](const Instance& a, const Instance& b) { return a.product < b.product; });
+}
+
+// Without the triangles that nobody can see. A product whose every triangle is hidden stays as it is: what it is made
+// of is not for rays to say.
+void takeHidden(Environment& environment, const OptimizeOptions& options, Report& report, const Progress& progress) {
+  const auto hidden = hiddenTriangles(environment, progress);
+  std::vector<bool> kept(environment.meshes.size(), false);
+  std::vector<std::uint64_t> copies(environment.meshes.size(), 0);
+  for (const auto& instance : environment.instances) {
+    kept[instance.mesh] = kept[instance.mesh] || allowanceOf(options, instance.product).keep;
+    ++copies[instance.mesh];
+  }
+  std::uint64_t gone = 0;
+  for (std::size_t m = 0; m < hidden.size(); ++m) {
+    const auto count = static_cast<std::uint64_t>(std::count(hidden[m].begin(), hidden[m].end(), true));
+    if (count == 0 || kept[m] || count == hidden[m].size()) continue;
+    Mesh mesh = *environment.meshes[m];
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < hidden[m].size(); ++i) {
+      if (hidden[m][i]) continue;
+      mesh.triangles[left] = mesh.triangles[i];
+      mesh.surface_of_triangle[left++] = mesh.surface_of_triangle[i];
+    }
+    mesh.triangles.resize(left);
+    mesh.surface_of_triangle.resize(left);
+    environment.meshes[m] = std::make_shared<const Mesh>(std::move(mesh));
+    gone += copies[m] * count;
+  }
+  if (gone > 0)
+    report.note(
+        "hidden faces",
+        fmt::format("{} triangles that cannot be seen from anywhere were left out; deviations count from what is left",
+                    gone));
+}
+
+// `shared` with its meshes as light as they became. What is not placed any more is not held any more.
+Environment assemble(const Environment& shared, const std::vector<Work>& works) {
+  Environment result = shared;
+  tbb::parallel_for(std::size_t{0}, works.size(), [&](std::size_t i) {  // each its own mesh
+    const Work& work = works[i];
+    const Mesh& before = *shared.meshes[i];
+    if (work.copies == 0 || work.lighter.triangles.size() == before.triangles.size()) return;
+    result.meshes[i] = std::make_shared<const Mesh>(isPainted(before) ? paintedMesh(before, work.shape, work.steps)
+                                                                      : meshOf(work.lighter));
+  });
+  std::erase_if(result.instances, [&](const Instance& instance) { return works[instance.mesh].dropped(); });
+  return result;
+}
+
+void countTriangles(const Environment& tangible, OptimizeResult& result) {
+  for (const auto& instance : tangible.instances)
+    result.products[instance.product].triangles_before += tangible.meshes[instance.mesh]->triangles.size();
+  for (const auto& product : result.products) result.all.triangles_before += product.triangles_before;
+}
+
+// `shared`, and what a rule took away before: the original, but for the motions of what repeats.
+Environment withDropped(const Environment& shared, const Environment& tangible, const OptimizeOptions& options) {
+  Environment result = shared;
+  for (const auto& instance : tangible.instances)
+    if (allowanceOf(options, instance.product).drop) result.instances.push_back(instance);
+  std::stable_sort(result.instances.begin(), result.instances.end(),
+                   [](const Instance& a, const Instance& b) { return a.product < b.product; });
+  return result;
+}
+
+// What bounds each instance's distance from the whole: that from what became of itself, if something did.
+std::vector<double> mostOf(const Environment& environment, const std::vector<Work>& works,
+                           const OptimizeOptions& options) {
+  std::vector<double> most_m;
+  for (const auto& instance : environment.instances) {
+    const Work& work = works[instance.mesh];
+    const bool gone = work.dropped() || allowanceOf(options, instance.product).drop;
+    most_m.push_back(gone ? std::numeric_limits<double>::infinity()
+                          : work.deviation.max_m * largestStretch(instance.world_from_mesh));
+  }
+  return most_m;
+}
+
+}  // namespace
+
+Environment withoutDropped(const Environment& environment, const OptimizeOptions& options) {
+  Environment rest = environment;
+  std::erase_if(rest.instances, [&](const Instance& instance) { return allowanceOf(options, instance.product).drop; });
+  return rest;
+}
+
+Result<void> checkOptions(const Environment& environment, const OptimizeOptions& options) {
+  const auto wrong = [](double deviation_m) { return !std::isfinite(deviation_m) || deviation_m < 0; };
+  if (wrong(options.max_deviation_m))
+    return failure(ErrorKind::usage, "the largest deviation must be zero or more metres", "max_deviation_m");
+  if (auto invalid = validate(environment); !invalid.empty())
+    return failure(ErrorKind::unusable, invalid, "environment");
+  if (!options.products.empty() && options.products.size() != environment.products.size())
+    return failure(ErrorKind::internal, "not one allowance for each product", "products");
+  for (const auto& a : options.products)
+    if (wrong(a.max_deviation_m) || !(a.weight > 0) || !std::isfinite(a.weight) ||
+        a.share > options.further_budgets.size())
+      return failure(ErrorKind::usage, "an allowance is out of range", a.lod + " " + a.reason);
+  return {};
+}
+
+Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOptions& options, Progress& progress) {
+  if (auto checked = checkOptions(environment, options); !checked) return failure(checked.error());
+  progress.stage("Find repetitions", 0, 0.1);
+  const Environment tangible = sceneOf(environment);
+  const Environment rest = withoutDropped(tangible, options);
+  OptimizeResult result;
+  Environment shared = rest;
+  if (options.hidden_faces) takeHidden(shared, options, result.report, progress);
+  std::vector<double> residual_m;
+  auto works = prepareWorks(shared, options, residual_m);
+  if (auto done = simplify(works, options, progress); !done) return failure(done.error());
+  result.environment = assemble(shared, works);
+  sumLosses(shared, works, residual_m, result);
+  addDropped(tangible, options, result);
+  countTriangles(tangible, result);
+  reportLossless(rest, works, result.report);
+  reportDropped(shared, works, result.report);
+  progress.stage("Measure the whole", 0.9, 1);
+  // Of an empty one the products' own figures, to their centres, are all there is; of one mesh they are those of the
+  // whole.
+  if (result.all.triangles_after > 0 && tangible.instances.size() > 1) {
+    KnownOfScene known;
+    for (const auto& work : works) known.meshes.push_back({&work.shape, work.tree.get()});
+    const auto original = withDropped(shared, tangible, options);
+    known.most_before_m = mostOf(original, works, options);
+    known.most_after_m = mostOf(result.environment, works, options);
+    const auto whole = sceneDeviation(original, result.environment, kDeviationSamples, known, progress);
+    result.all.max_deviation_m = whole.max_m + *std::max_element(residual_m.begin(), residual_m.end());
+    result.all.mean_deviation_m = whole.mean_m;
+  }
+  if (auto going = progress.check(); !going) return failure(going.error());
+  checkBudgets(works, options, result);
+  addIntangible(environment, result.environment);
+  dropUnusedMeshes(result.environment);
+  return result;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "optimizer/simplify/work.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include <Eigen/SVD>
+#include <tbb/parallel_for.h>
+
+#include "optimizer/surface/identical.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr double kFewestSamples = 2000, kMostSamples = kDeviationSamples;  // of one mesh
+
+void allow(Work& work, const ProductAllowance& allowance, double stretch) {
+  if (stretch > 0) work.cap_m = std::min(work.cap_m, allowance.max_deviation_m / stretch);
+  work.weight = std::max(work.weight, allowance.weight);
+  work.share = work.copies == 0 ? allowance.share : std::min(work.share, allowance.share);
+  work.keep = work.keep || allowance.keep;
+}
+
+// A share that asks for nothing, or for no less than it has, is only rid of what costs nothing.
+void decideLossless(std::vector<Work>& works, const OptimizeOptions& options) {
+  std::vector<std::uint64_t> triangles(1 + options.further_budgets.size(), 0);
+  for (const auto& work : works) triangles[work.share] += work.shape.triangles.size() * work.copies;
+  for (auto& work : works) {
+    const auto budget = budgetOf(options, work.share);
+    work.lossless = budget == 0 || budget >= triangles[work.share];
+  }
+}
+
+// What the products of a mesh allow, as a number: only meshes with the same are shared, so that a chair that stays as
+// it is does not keep all others of its kind from becoming simpler.
+std::vector<std::uint32_t> kindsOf(const Environment& environment, const OptimizeOptions& options) {
+  using Allowed = std::tuple<std::uint32_t, double, double, bool>;
+  std::vector<std::vector<Allowed>> asked(environment.meshes.size());
+  for (const auto& instance : environment.instances) {
+    const auto a = allowanceOf(options, instance.product);
+    auto& all = asked[instance.mesh];
+    all.emplace_back(a.share, a.max_deviation_m, a.weight, a.keep);
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+  }
+  std::map<std::vector<Allowed>, std::uint32_t> known;
+  std::vector<std::uint32_t> kinds;
+  for (const auto& all : asked)
+    kinds.push_back(known.try_emplace(all, static_cast<std::uint32_t>(known.size())).first->second);
+  return kinds;
+}
+
+void shareRepetitions(Environment& environment, const OptimizeOptions& options, std::vector<Work>& works,
+                      std::vector<double>& residual_m) {
+  std::vector<Shape> shapes(works.size());
+  for (std::size_t i = 0; i < works.size(); ++i) shapes[i] = std::move(works[i].shape);
+  const auto repetitions = findRepetitions(shapes, kindsOf(environment, options));
+  residual_m.assign(environment.instances.size(), 0);
+  for (std::size_t i = 0; i < residual_m.size(); ++i) {
+    Instance& instance = environment.instances[i];
+    const auto& repetition = repetitions[instance.mesh];
+    if (repetition.first == instance.mesh) continue;
+    residual_m[i] = repetition.residual_m * largestStretch(instance.world_from_mesh);
+    instance.world_from_mesh = instance.world_from_mesh * Eigen::Translation3d(shapes[instance.mesh].centre) *
+                               Eigen::Affine3d(repetition.motion) *
+                               Eigen::Translation3d(-shapes[repetition.first].centre);
+    instance.mesh = repetition.first;
+  }
+  for (std::size_t i = 0; i < works.size(); ++i)
+    if (repetitions[i].first == i) works[i].shape = std::move(shapes[i]);
+}
+
+}  // namespace
+
+double largestStretch(const Eigen::Affine3d& transform) {
+  return Eigen::JacobiSVD<Eigen::Matrix3d>(transform.linear()).singularValues()(0);
+}
+
+ProductAllowance allowanceOf(const OptimizeOptions& options, std::uint32_t product) {
+  if (!options.products.empty()) return options.products[product];
+  ProductAllowance same;
+  same.max_deviation_m = options.max_deviation_m;
+  return same;
+}
+
+std::uint64_t budgetOf(const OptimizeOptions& options, std::uint32_t share) {
+  return share == 0 ? options.budget : options.further_budgets[share - 1];
+}
+
+std::vector<Work> prepareWorks(Environment& environment, const OptimizeOptions& options,
+                               std::vector<double>& residual_m) {
+  std::vector<Work> works(environment.meshes.size());
+  std::vector<bool> placed(works.size(), false);
+  for (const auto& instance : environment.instances) placed[instance.mesh] = true;
+  tbb::parallel_for(std::size_t{0}, works.size(), [&](std::size_t i) {
+    if (placed[i]) works[i].shape = weld(*environment.meshes[i], &works[i].welded);
+  });
+  shareRepetitions(environment, options, works, residual_m);
+  for (const auto& instance : environment.instances) {
+    Work& work = works[instance.mesh];
+    allow(work, allowanceOf(options, instance.product), largestStretch(instance.world_from_mesh));
+    const Eigen::Vector3d up = instance.world_from_mesh.linear().transpose() * Eigen::Vector3d::UnitZ();
+    if (work.copies++ == 0 && up.norm() > 0) work.up = up.normalized();
+    work.scale = std::max(work.scale, largestStretch(instance.world_from_mesh));
+    const double stretch = meanStretch(instance.world_from_mesh);
+    work.placed_area_m2 += stretch * stretch;
+  }
+  double all = 0;
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    if (works[i].copies > 0) works[i].placed_area_m2 *= area(*environment.meshes[i]);
+    all += works[i].placed_area_m2;
+  }
+  for (auto& work : works)
+    work.samples = static_cast<std::uint32_t>(
+        std::clamp(kDeviationSamples * work.placed_area_m2 / std::max(all, 1e-300), kFewestSamples, kMostSamples));
+  decideLossless(works, options);
+  return works;
+}
+
+}  // namespace standpoint

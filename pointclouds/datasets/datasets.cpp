@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pointclouds/datasets/datasets.h"
+
+#include "pointclouds/datasets/labelled_folder.h"
+
+namespace standpoint {
+
+std::span<const Dataset> datasets() {
+  static constexpr Dataset kSets[] = {
+      {"s3dis", "S3DIS: text, a room for each station", dataset::s3dis},
+      {"semantic3d", "Semantic3D: text and labels", dataset::semantic3d},
+      {"semantickitti", "SemanticKITTI: a frame for each station", dataset::semanticKitti},
+      {"custom3d", "Open3D-ML Custom3D: arrays of numpy", dataset::custom3d}};
+  return kSets;
+}
+
+Result<Report> convertToDataset(const std::filesystem::path& in, const std::filesystem::path& folder,
+                                const Dataset& set, ClassMap map, Progress& progress) {
+  const CloudFormat* const format = cloudFormatFor(in);
+  if (!format || !format->read) return failure(ErrorKind::usage, "is no point cloud that can be read", in.string());
+  const auto writer = set.writer(folder, std::move(map));
+  if (auto started = static_cast<LabelledFolder&>(*writer).start(); !started) return failure(started.error());
+  auto report = format->read(in, *writer, progress);
+  if (!report) return failure(report.error());
+  if (auto closed = writer->close(); !closed) return failure(closed.error());
+  report->append(writer->report());
+  return report;
+}
+
+}  // namespace standpoint

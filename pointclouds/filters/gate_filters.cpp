@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Filters that judge a point by itself.
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "core/environment.h"
+#include "pointclouds/filters/filters.h"
+#include "pointclouds/statistics/cloud_sample.h"
+#include "pointclouds/statistics/coverage.h"
+
+namespace standpoint {
+namespace {
+
+// Takes each point that `Judge::stays` does not want.
+template <class Judge>
+class Gate final : public PointFilter {
+ public:
+  explicit Gate(Judge judge) : judge_(std::move(judge)) {}
+  Result<void> know(const std::vector<FilterScan>& scans) override {
+    if constexpr (requires { judge_.know(scans); }) return judge_.know(scans);
+    return {};
+  }
+  Result<void> beginScan(const ScanHeader& header) override {
+    if constexpr (requires { judge_.begin(header); }) return judge_.begin(header);
+    return {};
+  }
+  Result<void> see(const PointBlock& block, std::uint64_t first, Remaining& remaining) override {
+    for (std::size_t i = 0; i < block.size(); ++i)
+      if (remaining.has(first + i) && !judge_.stays(block, i, first + i)) remaining.take(first + i);
+    return {};
+  }
+
+ private:
+  Judge judge_;
+};
+
+template <class Judge>
+MadeFilter gate(Judge judge) {
+  return std::make_unique<Gate<Judge>>(std::move(judge));
+}
+
+struct Interval {
+  double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
+  bool has(double value) const { return value >= from && value <= to; }
+};
+
+Result<Interval> intervalFrom(const FilterValues& values) {
+  Interval interval;
+  if (values.has("from")) interval.from = values.number("from");
+  if (values.has("to")) interval.to = values.number("to");
+  if (!values.has("from") && !values.has("to")) return failure(ErrorKind::usage, "a gate needs 'from' or 'to'");
+  if (interval.from > interval.to) return failure(ErrorKind::usage, "'from' is larger than 'to': nothing would stay");
+  return interval;
+}
+
+struct RangeJudge {
+  Interval interval;
+  Result<void> begin(const ScanHeader& header) {
+    if (stationOf(header)) return {};
+    return failure(ErrorKind::unusable, "it does not say where its scanner stood, so its points have no range",
+                   header.name);
+  }
+  bool stays(const PointBlock& b, std::size_t i, std::uint64_t) const {
+    return interval.has(Eigen::Vector3d(b.x_m[i], b.y_m[i], b.z_m[i]).norm());
+  }
+};
+
+struct IntensityJudge {
+  Interval interval;
+  Result<void> begin(const ScanHeader& header) {
+    if (header.intensity_max > header.intensity_min) return {};
+    return failure(ErrorKind::unusable, "its points have no intensity", header.name);
+  }
+  bool stays(const PointBlock& b, std::size_t i, std::uint64_t) const { return interval.has(b.intensity[i]); }
+};
+
+struct IncidenceJudge {
+  Interval interval;  // rad
+  Result<void> begin(const ScanHeader& header) {
+    if (header.has_truth) return {};
+    return failure(ErrorKind::unusable,
+                   "it has no truth, so the incidence of its points is not known: scan with --truth", header.name);
+  }
+  bool stays(const PointBlock& b, std::size_t i, std::uint64_t) const { return interval.has(b.truth.incidence_rad[i]); }
+};
+
+struct ShareJudge {
+  double share;
+  std::uint64_t seed;
+  bool stays(const PointBlock&, std::size_t, std::uint64_t point) const {
+    return static_cast<double>(mixed(mixed(seed) ^ point) >> 11) * 0x1p-53 < share;
+  }
+};
+
+struct EveryJudge {
+  std::uint64_t n, seen = 0;
+  bool stays(const PointBlock&, std::size_t, std::uint64_t) { return seen++ % n == 0; }
+};
+
+struct BoxJudge {
+  Bounds box;
+  bool inside;
+  Pose pose{};
+  Result<void> begin(const ScanHeader& header) { return pose = header.file_from_scanner, Result<void>{}; }
+  bool stays(const PointBlock& b, std::size_t i, std::uint64_t) const {
+    const Eigen::Vector3d p = pose * Eigen::Vector3d(b.x_m[i], b.y_m[i], b.z_m[i]);
+    return ((p.array() >= box.min.array()).all() && (p.array() <= box.max.array()).all()) == inside;
+  }
+};
+
+struct SphereJudge {
+  double radius;
+  bool inside;
+  std::string station;                    // looked for …
+  std::optional<Eigen::Vector3d> centre;  // … unless the place is given
+  Pose pose{};
+  Result<void> know(const std::vector<FilterScan>& scans) {
+    if (centre) return {};
+    std::string names;
+    for (const FilterScan& scan : scans) {
+      if (scan.name == station && scan.station) return centre = scan.station, Result<void>{};
+      if (scan.station) names += (names.empty() ? "" : ", ") + scan.name;
+    }
+    return failure(ErrorKind::usage,
+                   "the file has no station '" + station + "'; it has " + (names.empty() ? "none" : names));
+  }
+  Result<void> begin(const ScanHeader& header) { return pose = header.file_from_scanner, Result<void>{}; }
+  bool stays(const PointBlock& b, std::size_t i, std::uint64_t) const {
+    return ((pose * Eigen::Vector3d(b.x_m[i], b.y_m[i], b.z_m[i]) - *centre).norm() <= radius) == inside;
+  }
+};
+
+}  // namespace
+
+MadeFilter makeRangeGate(const FilterValues& values) {
+  const auto interval = intervalFrom(values);
+  if (!interval) return failure(interval.error());
+  return gate(RangeJudge{*interval});
+}
+
+MadeFilter makeIntensityGate(const FilterValues& values) {
+  const auto interval = intervalFrom(values);
+  if (!interval) return failure(interval.error());
+  return gate(IntensityJudge{*interval});
+}
+
+MadeFilter makeIncidenceGate(const FilterValues& values) {
+  auto interval = intervalFrom(values);
+  if (!interval) return failure(interval.error());
+  return gate(IncidenceJudge{{interval->from * std::numbers::pi / 180, interval->to * std::numbers::pi / 180}});
+}
+
+MadeFilter makeShareFilter(const FilterValues& values) {
+  return gate(ShareJudge{values.number("keep"), static_cast<std::uint64_t>(values.number("seed"))});
+}
+
+MadeFilter makeEveryFilter(const FilterValues& values) {
+  return gate(EveryJudge{static_cast<std::uint64_t>(values.number("n"))});
+}
+
+MadeFilter makeBoxFilter(const FilterValues& values) {
+  const Bounds box{values.triple("from"), values.triple("to")};
+  if ((box.min.array() > box.max.array()).any())
+    return failure(ErrorKind::usage, "'from' lies beyond 'to': the box is empty");
+  return gate(BoxJudge{box, values.word("keep") == "inside"});
+}
+
+MadeFilter makeSphereFilter(const FilterValues& values) {
+  if (values.has("at") == values.has("station"))
+    return failure(ErrorKind::usage, "a sphere is about a 'station' or 'at' a place");
+  SphereJudge judge{values.number("radius"), values.word("keep") == "inside", {}, {}};
+  if (values.has("at"))
+    judge.centre = values.triple("at");
+  else
+    judge.station = values.word("station");
+  return gate(std::move(judge));
+}
+
+}  // namespace standpoint

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pointclouds/statistics/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "pointclouds/formats.h"
+#include "pointclouds/statistics/coverage.h"
+#include "pointclouds/statistics/neighbourhoods.h"
+
+namespace standpoint {
+namespace {
+
+// Running mean and variance (Welford 1962).
+struct Moments {
+  std::uint64_t n = 0;
+  double mean = 0, squares = 0;
+  void add(double v) {
+    ++n;
+    const double before = v - mean;
+    mean += before / static_cast<double>(n);
+    squares += before * (v - mean);
+  }
+  double sigma() const { return n < 2 ? 0 : std::sqrt(squares / static_cast<double>(n - 1)); }
+};
+
+Distribution distributionOf(std::vector<double> values) {
+  Distribution d;
+  if (values.empty()) return d;
+  std::sort(values.begin(), values.end());
+  Moments moments;
+  for (const double v : values) moments.add(v);
+  const auto at = [&](double share) {
+    return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
+  };
+  return {moments.n, moments.mean, moments.sigma(), at(0.05), at(0.5), at(0.95)};
+}
+
+// First pass: all that one look at each point gives, and the choice of the samples.
+class SurveySink final : public PointSink {
+ public:
+  explicit SurveySink(const StatisticsOptions& options) : options_(options) {}
+  Result<void> begin(const ScanHeader& header) override;
+  Result<void> write(const PointBlock& block) override;
+  Result<void> end() override { return {}; }
+  Result<void> close() override { return {}; }
+
+  CloudStatistics statistics() const;
+  std::vector<Neighbourhood> samples() const;  // in the order of the file
+  Coverage coverage;
+
+ private:
+  void consider(const PointBlock& block, std::size_t i, const Eigen::Vector3d& point);
+  StatisticsOptions options_;
+  CloudStatistics result_;
+  ScanHeader header_;
+  Moments intensity_;
+  std::map<std::string, Moments> materials_;
+  std::vector<Moments*> material_of_;  // by the scan's label
+  // A heap with the largest hash on top: those with the smallest hashes stay.
+  std::vector<std::pair<std::uint64_t, Neighbourhood>> chosen_;
+};
+
+Result<void> SurveySink::begin(const ScanHeader& header) {
+  ++result_.scans;
+  header_ = header;
+  material_of_.clear();
+  for (const auto& name : header.materials) material_of_.push_back(&materials_[name]);
+  return {};
+}
+
+void SurveySink::consider(const PointBlock& block, std::size_t i, const Eigen::Vector3d& point) {
+  const std::uint64_t hash = mixed(result_.points);
+  const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
+  if (chosen_.size() == options_.samples) {
+    if (chosen_.empty() || hash >= chosen_.front().first) return;
+    std::pop_heap(chosen_.begin(), chosen_.end(), less);
+    chosen_.pop_back();
+  }
+  Neighbourhood at;
+  at.index = result_.points;
+  at.scan = static_cast<std::uint32_t>(result_.scans - 1);
+  at.centre = point;
+  at.beam = (point - header_.file_from_scanner.translation).normalized();
+  at.intensity = block.intensity[i];
+  chosen_.emplace_back(hash, std::move(at));
+  std::push_heap(chosen_.begin(), chosen_.end(), less);
+}
+
+Result<void> SurveySink::write(const PointBlock& block) {
+  for (std::size_t i = 0; i < block.size(); ++i) {
+    const Eigen::Vector3d point = header_.file_from_scanner * Eigen::Vector3d(block.x_m[i], block.y_m[i], block.z_m[i]);
+    result_.low = result_.points == 0 ? point : result_.low.cwiseMin(point);
+    result_.high = result_.points == 0 ? point : result_.high.cwiseMax(point);
+    coverage.add(hashOf(cellAt(point, options_.cell_m)));
+    intensity_.add(block.intensity[i]);
+    if (header_.has_labels) material_of_[block.material[i]]->add(block.intensity[i]);
+    consider(block, i, point);
+    ++result_.points;
+  }
+  return {};
+}
+
+CloudStatistics SurveySink::statistics() const {
+  CloudStatistics result = result_;
+  for (const auto& [name, moments] : materials_)
+    if (moments.n > 0) result.materials.push_back({name, moments.n, moments.mean, moments.sigma()});
+  std::vector<double> intensities;
+  for (const auto& [hash, sample] : chosen_) intensities.push_back(sample.intensity);
+  result.intensity = distributionOf(std::move(intensities));
+  result.intensity.samples = intensity_.n;
+  result.intensity.mean = intensity_.mean;
+  result.intensity.sigma = intensity_.sigma();
+  return result;
+}
+
+std::vector<Neighbourhood> SurveySink::samples() const {
+  std::vector<Neighbourhood> all;
+  for (const auto& [hash, sample] : chosen_) all.push_back(sample);
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.index < b.index; });
+  return all;
+}
+
+struct Measured {
+  CloudStatistics statistics;
+  Coverage coverage;
+};
+
+Result<Measured> measure(const std::filesystem::path& file, const StatisticsOptions& options, Report& report,
+                         Progress& progress) {
+  const CloudFormat* const format = cloudFormatFor(file);
+  if (!format || !format->read)
+    return failure(ErrorKind::usage, "no readable point-cloud format has this extension", file.string());
+  if (!(options.radius_m > 0) || !(options.cell_m > 0))
+    return failure(ErrorKind::usage, "radius and cell must be positive", file.string());
+  SurveySink survey(options);
+  const auto read = format->read(file, survey, progress);
+  if (!read) return failure(read.error());
+  report.append(*read);
+  survey.coverage.settle();
+  std::vector<Neighbourhood> samples = survey.samples();
+  NeighbourSink neighbours(samples, options.radius_m);
+  if (const auto again = format->read(file, neighbours, progress); !again) return failure(again.error());
+  std::vector<double> noise, rough;
+  for (const Neighbourhood& sample : samples) {
+    if (const auto v = planeNoise(sample)) noise.push_back(*v);
+    if (const auto v = roughness(sample)) rough.push_back(*v);
+  }
+  Measured result{survey.statistics(), std::move(survey.coverage)};
+  result.statistics.plane_noise_m = distributionOf(std::move(noise));
+  result.statistics.roughness_m = distributionOf(std::move(rough));
+  result.statistics.occupied_cells = result.coverage.cells();
+  return result;
+}
+
+}  // namespace
+
+Result<CloudStatistics> measureCloud(const std::filesystem::path& file, const StatisticsOptions& options,
+                                     Report& report, Progress& progress) {
+  auto measured = measure(file, options, report, progress);
+  if (!measured) return failure(measured.error());
+  return std::move(measured->statistics);
+}
+
+Result<CloudComparison> compareClouds(const std::filesystem::path& a, const std::filesystem::path& b,
+                                      const StatisticsOptions& options, Progress& progress) {
+  CloudComparison comparison;
+  auto first = measure(a, options, comparison.report, progress);
+  if (!first) return failure(first.error());
+  auto second = measure(b, options, comparison.report, progress);
+  if (!second) return failure(second.error());
+  comparison.a = std::move(first->statistics);
+  comparison.b = std::move(second->statistics);
+  comparison.a_covered_by_b = first->coverage.sharedWith(second->coverage);
+  comparison.b_covered_by_a = second->coverage.sharedWith(first->coverage);
+  return comparison;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scanners/engine/beam_paths.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/points.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr int kMostMirrors = 2;
+// A rough mirror shows what is near; what is nearer still cannot be told from the mirror itself.
+constexpr double kShortestImage_m = 0.05;
+
+}  // namespace
+
+void BeamPaths::follow(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit, const NearestHit& first,
+                       float share, std::vector<PathEnd>& ends) {
+  follow({.origin = origin, .direction = direction_unit, .gain = share}, first, ends);
+}
+
+void BeamPaths::follow(const Ray& ray, NearestHit hit, std::vector<PathEnd>& ends) {
+  PanePassage passage;
+  const double farthest = plan_.farthest_m - ray.travelled_m;
+  for (int face = 0; face < kMostPanes && hit.facet != kNoFacet; ++face) {
+    const MetFacet& seen = facets_.of(hit.facet);
+    const double range = rangeOnPlane(seen.facet, ray.origin, ray.direction, hit.range_m);
+    if (range > farthest) return;
+    if (seen.plain) return addEnd(ray, passage, seen, range, ends);
+    const MetFacet met = seen;  // a copy: a mirror's image asks for others
+    const bool front = met.facet.normal.dot(ray.direction) < 0;
+    const bool passes = plan_.passes(*met.optics);
+    if (passes && passage.isOtherFace(met.facet, front, range)) {
+      passage.leave();
+    } else {
+      addEnd(ray, passage, met, range, ends);
+      const double cosine = std::min(1.0, std::abs(met.facet.normal.dot(ray.direction)));
+      if (plan_.mirrors(*met.optics))
+        reflect(ray, met, range, cosine, ray.gain * passage.gain(), ray.excess_m + passage.excess_m(), ends);
+      if (!passes) return;
+      passage.enter(*met.optics, cosine, met.facet, front, range);
+    }
+    hit = plan_.scene.nearest(ray.origin, ray.direction, hit.range_m + kBehindFace_m, farthest);
+  }
+}
+
+void BeamPaths::addEnd(const Ray& ray, const PanePassage& passage, const MetFacet& met, double range_m,
+                       std::vector<PathEnd>& ends) const {
+  if (ray.travelled_m + range_m < plan_.instrument.min_range_m) return;
+  PathEnd& end = ends.emplace_back();
+  end.path_m = ray.travelled_m + range_m;
+  end.excess_m = ray.excess_m + passage.excess_m();
+  end.gain = static_cast<float>(ray.gain * passage.gain());
+  end.cosine = static_cast<float>(std::min(1.0, std::abs(met.facet.normal.dot(ray.direction))));
+  end.flags = static_cast<std::uint8_t>(ray.flags | (passage.gain() < 1 ? point_flag::kThroughPane : 0));
+  end.place = (ray.origin + range_m * ray.direction).cast<float>();
+  end.optics = met.optics;
+  if (plan_.daylight)
+    end.normal = (met.facet.normal * (met.facet.normal.dot(ray.direction) < 0 ? 1 : -1)).cast<float>();
+  end.product = met.facet.product, end.surface = met.facet.surface, end.material = met.material;
+}
+
+void BeamPaths::reflect(const Ray& ray, const MetFacet& met, double range_m, double cosine, double gain,
+                        double excess_m, std::vector<PathEnd>& ends) {
+  if (ray.mirrors >= kMostMirrors) return;
+  const double reflected = mirrorReflectance(*met.optics, cosine);
+  Ray image{.origin = ray.origin + range_m * ray.direction,
+            .direction = ray.direction - 2 * met.facet.normal.dot(ray.direction) * met.facet.normal,
+            .travelled_m = ray.travelled_m + range_m,
+            .excess_m = excess_m,
+            .gain = gain * reflected * reflected,
+            .flags = static_cast<std::uint8_t>(ray.flags | point_flag::kMirrored),
+            .mirrors = ray.mirrors + 1};
+  // The brightest return that a surface gives apart from a glint is 1: a white one, seen head-on.
+  if (image.gain < plan_.threshold * image.travelled_m * image.travelled_m) return;
+  double left = plan_.farthest_m - image.travelled_m;
+  const double beam = beamRadius(plan_.instrument, image.travelled_m);
+  if (!met.optics->smooth && plan_.threshold > 0) {
+    // By roughMirrorShare: at this way beyond the mirror nothing is bright enough any more.
+    const double least = plan_.threshold * image.travelled_m * image.travelled_m * 8 / image.gain;
+    left = std::min(left, beam / (met.optics->lobe_slope * std::sqrt(least)));
+    if (left < kShortestImage_m) return;
+  }
+  if (left <= kBehindFace_m) return;
+  const NearestHit hit = plan_.scene.nearest(image.origin, image.direction, kBehindFace_m, left);
+  if (hit.facet == kNoFacet) return;
+  if (!met.optics->smooth)
+    image.gain *= roughMirrorShare(met.optics->lobe_slope, beam, image.travelled_m,
+                                   std::max(1e-3, static_cast<double>(hit.range_m)));
+  follow(image, hit, ends);
+}
+
+}  // namespace standpoint

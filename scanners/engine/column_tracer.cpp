@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scanners/engine/column_tracer.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+
+#include "scanners/math/portable_math.h"
+
+namespace standpoint {
+
+namespace {
+
+// Noise of the second and further returns of a pulse: a channel each.
+constexpr std::uint32_t kFurtherReturns = 16;
+constexpr std::uint32_t kInterferenceChannel = 8;
+constexpr std::uint32_t kRowsPerStretch = 8 * kPacket;
+constexpr std::uint64_t kOverwritten = kNoFacet - 1;  // instead of the number of a facet
+
+void setLane(SignalLanes& lanes, std::size_t k, const PathEnd& end) {
+  lanes.range_m[k] = static_cast<float>(end.path_m);
+  lanes.cosine[k] = end.cosine;
+  lanes.gain[k] = end.gain;
+  lanes.known_x[k] = end.known_x;
+  lanes.diffuse[k] = end.optics->diffuse, lanes.oren_a[k] = end.optics->oren_a, lanes.oren_b[k] = end.optics->oren_b;
+  lanes.glint[k] = end.optics->glint, lanes.steepness[k] = end.optics->steepness;
+  if (retroEquivalent(*end.optics, end.cosine) == 0) return;
+  // A retroreflector's gain is no figure of the lanes: as the Lambert surface that sends as much back.
+  lanes.diffuse[k] = lambertEquivalent(*end.optics, end.cosine) / end.cosine;
+  lanes.oren_a[k] = 1, lanes.oren_b[k] = 0, lanes.glint[k] = 0;
+}
+
+std::array<std::uint32_t, 4> interferenceDraw(const ScanOptions& options, std::uint32_t column, std::uint32_t row) {
+  return philox({options.seed, options.station_key}, column, row, kInterferenceChannel);
+}
+
+}  // namespace
+
+ColumnTracer::ColumnTracer(const ScanPlan& plan)
+    : plan_(plan),
+      facets_(plan),
+      paths_(plan, facets_),
+      columns_(plan, facets_),
+      edges_(plan, columns_, facets_),
+      wide_(plan, facets_),
+      points_(plan),
+      writer_(plan) {
+  std::fill_n(held_, kPacket, kOverwritten);
+  std::fill_n(signal_.variation, kSignalLanes, 1.0F);
+  std::fill_n(signal_.range_m, kSignalLanes, 1.0F);
+}
+
+void ColumnTracer::trace(std::uint32_t from, std::uint32_t to, PointBlock& block) {
+  writer_.begin(block);
+  for (std::uint32_t c = from; c < to; ++c) {
+    columns_.moveTo(c);
+    current_ = &columns_.current();
+    traceColumn();
+  }
+  writer_.end();
+}
+
+void ColumnTracer::traceColumn() {
+  points_.begin(current_->column(), current_->ahead(), current_->lateral());
+  writer_.beginColumn(current_->column());
+  for (std::uint32_t first = 0; first < plan_.settings.rows; first += kPacket) traceRows(first);
+}
+
+void ColumnTracer::traceRows(std::uint32_t first_row) {
+  columns_.current(first_row);
+  returns_.begin(plan_, first_row);
+  const Surfaces met = setSurfaces(first_row);
+  const std::uint32_t edges = plan_.reach() > 0 ? traceEdges(first_row) : 0;
+  std::uint32_t present = 0;
+  if (met.plain != 0) {
+    const AxisLanes& axes = current_->axes(first_row);
+    const bool folds = plan_.unambiguous_m > 0;
+    present = meetPlanes(planes_, axes, current_->ranges_m(first_row), plan_.nearest_reported_m,
+                         folds ? plan_.farthest_m : plan_.farthest_reported_m, returns_);
+    if (folds) present = reported(present);
+    if (plan_.daylight) setNormals(axes, present & met.plain);
+  }
+  const std::uint32_t rows = std::min<std::uint32_t>(kPacket, plan_.settings.rows - first_row);
+  const std::uint32_t stray = straying(first_row, rows);
+  const std::uint32_t special = met.other | edges | stray;
+  present &= met.plain & ~special;
+  specials_.clear(), ends_.clear(), further_.clear();
+  for (std::uint32_t left = special; left != 0; left &= left - 1) {
+    const Special pulse{std::countr_zero(left), ends_.size()};
+    specials_.push_back(pulse);
+    const bool edge = (edges & left & -left) != 0;
+    const std::uint32_t row = first_row + static_cast<std::uint32_t>(pulse.lane);
+    gatherEnds(row, edge ? &wide_[next_wide_++] : nullptr);
+    if ((stray & left & -left) != 0) gatherStray(row, pulse.from);
+  }
+  findPowers();
+  for (std::size_t i = 0; i < specials_.size(); ++i) {
+    const std::size_t to = i + 1 < specials_.size() ? specials_[i + 1].from : ends_.size();
+    if (addEchoes(specials_[i].lane, specials_[i].from, to)) present |= 1U << static_cast<unsigned>(specials_[i].lane);
+  }
+  if (present == 0) return;
+  points_.drawRows(first_row, returns_);
+  if (plan_.daylight) light(returns_, kReturnLanes);
+  const std::uint32_t detected = points_.receive(returns_, kReturnLanes) & present;
+  if (further_.empty())
+    writer_.write(returns_, detected);
+  else
+    writeSeveral(detected);
+}
+
+// Neighbouring rows mostly meet the same facet, and so do the next sixteen.
+ColumnTracer::Surfaces ColumnTracer::setSurfaces(std::uint32_t first_row) {
+  const std::uint64_t* facets = current_->facets(first_row);
+  std::uint64_t other = 0;
+  for (int k = 0; k < kPacket; ++k) other |= facets[k] ^ held_[k];
+  if (other == 0) return held_surfaces_;
+  Surfaces surfaces;
+  for (int from = 0, to = 1; from < kPacket; from = to++) {
+    while (to < kPacket && facets[to] == facets[from]) ++to;
+    if (facets[from] == kNoFacet) continue;
+    const MetFacet& met = facets_.of(facets[from]);
+    planes_.set(from, to, met.facet);
+    returns_.setSurface(plan_, from, to, met);
+    (met.plain ? surfaces.plain : surfaces.other) |=
+        (1U << static_cast<unsigned>(to)) - (1U << static_cast<unsigned>(from));
+  }
+  std::copy_n(facets, kPacket, held_);
+  return held_surfaces_ = surfaces;
+}
+
+// Of the sixteen rows from `first_row` on those whose beams meet several surfaces. They are the next ones in `wide_`.
+std::uint32_t ColumnTracer::traceEdges(std::uint32_t first_row) {
+  if (first_row % kRowsPerStretch == 0) traceStretch(first_row);
+  std::uint32_t edges = 0;
+  for (std::size_t i = next_wide_; i < wide_.size() && wide_[i].row < first_row + kPacket; ++i)
+    edges |= 1U << (wide_[i].row - first_row);
+  return edges;
+}
+
+// Many rows at once, for their beams' rays fill packets better.
+void ColumnTracer::traceStretch(std::uint32_t first_row) {
+  wide_.clear();
+  next_wide_ = 0;
+  const std::uint32_t end = std::min(first_row + kRowsPerStretch, plan_.settings.rows);
+  for (std::uint32_t packet = first_row; packet < end; packet += kPacket)
+    for (std::uint32_t left = edges_.find(packet); left != 0; left &= left - 1) {
+      const std::uint32_t row = packet + static_cast<std::uint32_t>(std::countr_zero(left));
+      wide_.add(row, current_->hit(row), current_->beam(row));
+    }
+  wide_.trace();
+}
+
+// Where the light of one pulse ends; `wide` is its beam where that meets several surfaces.
+void ColumnTracer::gatherEnds(std::uint32_t row, const WideBeam* wide) {
+  const NearestHit hit = current_->hit(row);
+  const RayLine axis = current_->axis(row);
+  if (hit.facet != kNoFacet) paths_.follow(axis.origin, axis.direction, hit, wide != nullptr ? kAxisWeight : 1, ends_);
+  const auto& sub_rays = subRays();
+  for (std::size_t k = 0; wide != nullptr && k < kSubRays; ++k)
+    if (wide->hits[k].facet != kNoFacet)
+      paths_.follow(wide->lines[k].origin, wide->lines[k].direction, wide->hits[k], sub_rays[k].weight, ends_);
+}
+
+// Rows of which something may come back that is not on the beam's own way.
+std::uint32_t ColumnTracer::straying(std::uint32_t first_row, std::uint32_t rows) const {
+  if (plan_.scatterers) return (1U << rows) - 1;
+  std::uint32_t lanes = 0;
+  if (!plan_.halo && plan_.interference <= 0) return lanes;
+  for (std::uint32_t k = 0; k < rows; ++k) {
+    const bool wings = plan_.halo && plan_.halo->reaches(current_->column(), first_row + k);
+    if (wings || (plan_.interference > 0 && struck(first_row + k))) lanes |= 1U << k;
+  }
+  return lanes;
+}
+
+// Does another instrument's light come in while this pulse is listened for?
+bool ColumnTracer::struck(std::uint32_t row) const {
+  return uniform(interferenceDraw(plan_.options, current_->column(), row)[0]) < plan_.interference;
+}
+
+// `from`: where the ends of its pulse begin.
+void ColumnTracer::gatherStray(std::uint32_t row, std::size_t from) {
+  const RayLine axis = current_->axis(row);
+  if (plan_.halo && plan_.halo->reaches(current_->column(), row)) gatherWings(current_->beam(row));
+  if (plan_.scatterers) {  // the air's return, from before the nearest surface
+    double nearest = plan_.settings.max_range_m;
+    for (std::size_t i = from; i < ends_.size(); ++i) nearest = std::min(nearest, ends_[i].path_m);
+    if (const auto found = plan_.scatterers->strongest(current_->column(), row, nearest, plan_.drop_threshold))
+      addSurfaceless(axis, found->range_m, found->x, point_flag::kWeather);
+  }
+  if (plan_.interference <= 0 || !struck(row)) return;
+  // At any time of the listening window, as strong as it may be: the power of a source at an unknown distance is above
+  // the threshold by a factor f with the chance 1/f.
+  const auto draw = interferenceDraw(plan_.options, current_->column(), row);
+  const double nearest = plan_.instrument.min_range_m;
+  addSurfaceless(axis, nearest + uniform(draw[1]) * (plan_.settings.max_range_m - nearest),
+                 detectionThreshold(plan_.settings, 0) / std::max(1e-3, uniform(draw[2])), point_flag::kNoise);
+}
+
+// What the beam's wings find of retroreflectors.
+void ColumnTracer::gatherWings(const Beam& beam) {
+  const std::size_t before = ends_.size();
+  const auto share = static_cast<float>(plan_.instrument.saturation.pedestal);
+  for (const SubRay& ray : wingRays()) {
+    const RayLine line = lineOf(beam, ray, plan_.instrument);
+    const NearestHit hit = plan_.scene.nearest(line.origin, line.direction, 0, plan_.farthest_m);
+    if (hit.facet != kNoFacet && facets_.of(hit.facet).optics->retro_gain > 0)
+      paths_.follow(line.origin, line.direction, hit, share * ray.weight, ends_);
+  }
+  for (std::size_t i = before; i < ends_.size(); ++i) ends_[i].flags |= point_flag::kMirrored;
+}
+
+void ColumnTracer::addSurfaceless(const RayLine& axis, double range_m, double x, std::uint8_t flag) {
+  static const Optics kNothing;
+  PathEnd& end = ends_.emplace_back();
+  end.path_m = range_m;
+  end.flags = flag;
+  end.place = (axis.origin + range_m * axis.direction).cast<float>();
+  end.optics = &kNothing;
+  end.product = plan_.nothingLabel(), end.surface = kNoSurface, end.material = plan_.unassignedLabel();
+  end.known_x = static_cast<float>(x);
+}
+
+// Of a phase-shift instrument: what is folded into its range stays, and is flagged.
+std::uint32_t ColumnTracer::reported(std::uint32_t lanes) {
+  std::uint32_t kept = lanes;
+  for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+    const int lane = std::countr_zero(left);
+    if (!plan_.reports(returns_.range_m[lane]))
+      kept &= ~(left & -left);
+    else if (returns_.range_m[lane] >= plan_.unambiguous_m)
+      returns_.flag(lane, point_flag::kMirrored);
+  }
+  return kept;
+}
+
+void ColumnTracer::setNormals(const AxisLanes& axes, std::uint32_t lanes) {
+  for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+    const int k = std::countr_zero(left);
+    const Eigen::Vector3d normal(planes_.normal_x[k], planes_.normal_y[k], planes_.normal_z[k]);
+    const Eigen::Vector3d way(axes.direction_x[k], axes.direction_y[k], axes.direction_z[k]);
+    const Eigen::Vector3f towards = (normal.dot(way) < 0 ? normal : Eigen::Vector3d(-normal)).cast<float>();
+    returns_.normal_x[k] = towards.x(), returns_.normal_y[k] = towards.y(), returns_.normal_z[k] = towards.z();
+  }
+}
+
+// Daylight on what the returns come from, and in the beam's direction; shadows by rays towards the sun.
+void ColumnTracer::light(ReturnLanes& r, int count) {
+  RayPacket rays{};
+  std::uint64_t shade[kPacket];
+  float ranges[kPacket];
+  const Daylight& day = *plan_.daylight;
+  constexpr float kOff_m = 0.002F;
+  for (int k = 0; k < count; ++k)
+    rays.set(k,
+             {static_cast<double>(r.place_x[k] + kOff_m * r.normal_x[k]),
+              static_cast<double>(r.place_y[k] + kOff_m * r.normal_y[k]),
+              static_cast<double>(r.place_z[k] + kOff_m * r.normal_z[k])},
+             day.towards());
+  plan_.scene.intersect(rays, count, std::numeric_limits<float>::infinity(), shade, ranges);
+  const Eigen::Quaterniond rotation = at(plan_.trajectory, 0).rotation;
+  for (int k = 0; k < count; ++k) {
+    Eigen::Vector3d direction = r.cosine[k] * current_->ahead();
+    direction.z() = r.sine[k];
+    r.signal.background[k] = day.ofDirection(rotation * direction);
+    if (shade[k] != kNoFacet && !plan_.passes(*facets_.of(shade[k]).optics)) continue;
+    r.signal.background[k] += day.ofSurface(r.signal.diffuse[k], {r.normal_x[k], r.normal_y[k], r.normal_z[k]});
+  }
+}
+
+// What comes back of each end, sixteen at a time.
+void ColumnTracer::findPowers() {
+  const std::size_t batches = (ends_.size() + kSignalLanes - 1) / kSignalLanes;
+  powers_.resize(batches * kSignalLanes);
+  for (std::size_t batch = 0; batch < batches; ++batch) {
+    const std::size_t from = batch * kSignalLanes, to = std::min(from + kSignalLanes, ends_.size());
+    for (std::size_t i = from; i < to; ++i) setLane(signal_, i - from, ends_[i]);
+    receivePower(signal_, plan_.receiver, powers_.data() + from);
+  }
+}
+
+// The first echo of the ends takes the pulse's lane.
+bool ColumnTracer::addEchoes(int lane, std::size_t from, std::size_t to) {
+  contributions_.clear();
+  for (std::size_t i = from; i < to; ++i)
+    contributions_.push_back({ends_[i].path_m + ends_[i].excess_m, powers_[i], static_cast<int>(i)});
+  receiveEchoes(plan_.instrument.waveform, contributions_, echoes_);
+  std::uint32_t returns = 0;
+  for (const Echo& echo : echoes_) {
+    if (!plan_.reports(echo.range_m)) continue;
+    const PathEnd& end = ends_[static_cast<std::size_t>(echo.strongest)];
+    if (returns == 0) {
+      returns_.setEcho(plan_, lane, end, echo);
+      held_[lane] = kOverwritten;
+    } else {
+      further_.push_back({lane, returns, end, echo});
+    }
+    ++returns;
+  }
+  return returns > 0;
+}
+
+// Points in order of their returns, of which some pulses have several.
+void ColumnTracer::writeSeveral(std::uint32_t detected) {
+  const auto batches = (further_.size() + kReturnLanes - 1) / kReturnLanes;
+  if (further_lanes_.size() < batches) further_lanes_.resize(batches);
+  for (std::size_t i = 0; i < further_.size(); ++i) {
+    ReturnLanes& lanes = further_lanes_[i / kReturnLanes];
+    const int lane = static_cast<int>(i % kReturnLanes);
+    points_.drawFurther(returns_, further_[i].pulse, static_cast<NoiseChannel>(kFurtherReturns + further_[i].number),
+                        lanes, lane);
+    lanes.setEcho(plan_, lane, further_[i].end, further_[i].echo);
+  }
+  further_detected_.clear();
+  for (std::size_t batch = 0; batch < batches; ++batch) {
+    const auto count = std::min<std::size_t>(kReturnLanes, further_.size() - batch * kReturnLanes);
+    if (plan_.daylight) light(further_lanes_[batch], static_cast<int>(count));
+    further_detected_.push_back(points_.receive(further_lanes_[batch], static_cast<int>(count)));
+  }
+  places_.clear();
+  std::size_t next = 0;
+  for (int pulse = 0; pulse < kReturnLanes; ++pulse) {
+    const std::size_t from = places_.size();
+    if ((detected >> static_cast<unsigned>(pulse) & 1U) != 0) places_.push_back({&returns_, pulse});
+    for (; next < further_.size() && further_[next].pulse == pulse; ++next)
+      if ((further_detected_[next / kReturnLanes] >> next % kReturnLanes & 1U) != 0)
+        places_.push_back({&further_lanes_[next / kReturnLanes], static_cast<int>(next % kReturnLanes)});
+    for (std::size_t i = from; i < places_.size(); ++i) {
+      places_[i].return_number = static_cast<std::uint8_t>(i - from + 1);
+      places_[i].return_count = static_cast<std::uint8_t>(places_.size() - from);
+    }
+  }
+  writer_.write(places_);
+}
+
+}  // namespace standpoint

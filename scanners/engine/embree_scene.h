@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+#include <embree3/rtcore.h>
+
+#include "core/environment.h"
+#include "scanners/engine/ray_engine.h"
+
+namespace standpoint {
+
+constexpr std::uint64_t kNoFacet = ~std::uint64_t{0};
+
+// A triangle where it stands: the plane n·p = offset in double, so that a range does not suffer from the float BVH.
+// The number of a facet is placement << 32 | triangle; a placement is an instance that beams can meet.
+struct Facet {
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // unit, of either side; zero for a degenerate triangle
+  double offset = 0;
+  std::uint32_t product = 0, surface = 0, instance = 0, triangle = 0;
+};
+
+struct NearestHit {
+  std::uint64_t facet = kNoFacet;
+  float range_m = 0;
+};
+
+constexpr int kPacket = 16;
+
+// Sixteen rays side by side, as Embree wants them.
+struct alignas(64) RayPacket {
+  float origin_x[kPacket], origin_y[kPacket], origin_z[kPacket];
+  float direction_x[kPacket], direction_y[kPacket], direction_z[kPacket];
+
+  void set(int lane, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
+    origin_x[lane] = static_cast<float>(origin.x());
+    origin_y[lane] = static_cast<float>(origin.y());
+    origin_z[lane] = static_cast<float>(origin.z());
+    direction_x[lane] = static_cast<float>(direction.x());
+    direction_y[lane] = static_cast<float>(direction.y());
+    direction_z[lane] = static_cast<float>(direction.z());
+  }
+};
+
+class EmbreeScene final : public RayScene {
+ public:
+  EmbreeScene() = default;
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+  ~EmbreeScene() override;
+
+  Result<void> commit(std::shared_ptr<const Environment> environment, Progress& progress);
+  std::optional<RayHit> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
+                                  double max_range_m) const override;
+  const Environment& environment() const override { return *environment_; }
+
+  // The first `count` rays of the packet; they should point to about the same side (coherent).
+  void intersect(const RayPacket& rays, int count, float max_range_m, std::uint64_t* facets, float* ranges_m) const;
+  void intersect(const RayPacket& rays, int count, float max_range_m, NearestHit* hits) const;
+  // One ray from `min_range_m` on.
+  NearestHit nearest(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit, double min_range_m,
+                     double max_range_m) const;
+  Facet facet(std::uint64_t number) const;
+  std::size_t placementCount() const { return placements_.size(); }
+  const Instance& placed(std::size_t placement) const { return environment_->instances[placements_[placement]]; }
+
+ private:
+  void attachPlaced(std::uint32_t placement);
+  void attachInstanced(std::uint32_t placement);
+  RTCScene meshScene(std::uint32_t mesh);
+  RTCGeometry triangles(const Mesh& mesh, const Eigen::Affine3d& world_from_mesh);
+
+  std::shared_ptr<const Environment> environment_;
+  std::vector<std::uint32_t> placements_;  // indices into Environment::instances
+  std::vector<RTCScene> mesh_scenes_;      // by mesh; null unless instanced
+  RTCDevice device_ = nullptr;
+  RTCScene scene_ = nullptr;
+};
+
+// The range at which the ray meets the facet's plane, or `fallback_m` when the plane is seen edge-on or degenerate.
+inline double rangeOnPlane(const Facet& facet, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                           double fallback_m) {
+  const double range = (facet.offset - facet.normal.dot(origin)) / facet.normal.dot(direction);
+  // Edge-on, the plane says nothing; Embree's own range is good to about 1e-6 of the distances involved.
+  return std::abs(range - fallback_m) <= 1e-3 + 1e-4 * fallback_m ? range : fallback_m;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "scanners/engine/footprint.h"
+#include "scanners/engine/scan_plan.h"
+
+namespace standpoint {
+
+constexpr std::uint32_t kNoPlane = 0;
+
+// A facet with what the scan needs to know of its material.
+struct MetFacet {
+  std::uint64_t number = kNoFacet;
+  Facet facet;
+  const Optics* optics = nullptr;
+  std::uint32_t material = 0;      // label
+  bool plain = true;               // light that meets it goes nowhere but back
+  std::uint32_t plane = kNoPlane;  // the same for facets of one plane, as a floor's are; of others it differs
+
+  // Is what a ray beside it meets the same surface to a beam? A facet in the same plane is, or one that bends away
+  // gently.
+  bool holds(const RayLine& line, const NearestHit& hit, double tolerance_m) const {
+    if (hit.facet == kNoFacet) return false;
+    if (hit.facet == number) return true;
+    const double range = (facet.offset - facet.normal.dot(line.origin)) / facet.normal.dot(line.direction);
+    return std::abs(range - static_cast<double>(hit.range_m)) < tolerance_m;
+  }
+};
+
+// Facets looked up lately. For one thread; what it answers does not depend on what was asked before.
+class FacetCache {
+ public:
+  explicit FacetCache(const ScanPlan& plan);
+  // Good until the next call.
+  const MetFacet& of(std::uint64_t number) {
+    MetFacet& entry = entries_[(number * 0x9E3779B97F4A7C15ULL) >> (64U - kBits)];
+    if (entry.number != number) lookUp(number, entry);
+    return entry;
+  }
+
+ private:
+  static constexpr unsigned kBits = 12;
+  void lookUp(std::uint64_t number, MetFacet& entry) const;
+  std::int32_t materialAt(const Facet& facet) const;
+
+  const ScanPlan& plan_;
+  std::vector<MetFacet> entries_;
+};
+
+}  // namespace standpoint

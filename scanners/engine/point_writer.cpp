@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scanners/engine/point_writer.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "scanners/math/portable_math.h"
+
+namespace standpoint {
+
+namespace {
+
+constexpr std::uint32_t kAllLanes = (1U << kReturnLanes) - 1;
+
+}  // namespace
+
+void PointWriter::begin(PointBlock& block) {
+  block_ = &block;
+  size_ = 0;
+  room_ = block.size();
+}
+
+void PointWriter::beginColumn(std::uint32_t column) {
+  column_ = column;
+  makeRoom(plan_.settings.rows);
+}
+
+void PointWriter::end() { resize(size_); }
+
+void PointWriter::makeRoom(std::size_t points) {
+  if (size_ + points > room_) resize(std::max(size_ + points, size_ + plan_.settings.rows));
+}
+
+void PointWriter::resize(std::size_t size) {
+  room_ = size;
+  PointBlock& block = *block_;
+  for (auto* column : {&block.x_m, &block.y_m, &block.z_m, &block.intensity}) column->resize(size);
+  for (auto* column : {&block.row, &block.column, &block.product, &block.material}) column->resize(size);
+  if (plan_.settings.imaging)
+    for (auto* column : {&block.red, &block.green, &block.blue}) column->resize(size);
+  const ScanChannels& channels = plan_.options.channels;
+  if (channels.time) block.time_s.resize(size);
+  if (channels.returns)
+    for (auto* column : {&block.return_number, &block.return_count}) column->resize(size);
+  if (!channels.truth) return;
+  PointTruth& truth = block.truth;
+  for (auto* column : {&truth.x_m, &truth.y_m, &truth.z_m, &truth.range_m, &truth.incidence_rad, &truth.received_db})
+    column->resize(size);
+  truth.flags.resize(size);
+}
+
+void PointWriter::write(const ReturnLanes& lanes, std::uint32_t detected) {
+  const ScanChannels& channels = plan_.options.channels;
+  if (detected == kAllLanes && !channels.time && !channels.returns && !channels.truth) return writeAll(lanes);
+  places_.clear();
+  for (std::uint32_t left = detected; left != 0; left &= left - 1) places_.push_back({&lanes, std::countr_zero(left)});
+  write(places_);
+}
+
+void PointWriter::writeAll(const ReturnLanes& lanes) {
+  makeRoom(kReturnLanes);
+  PointBlock& block = *block_;
+  const auto copy = [this](const auto* from, auto& column) { std::copy_n(from, kReturnLanes, column.data() + size_); };
+  copy(lanes.x_m, block.x_m), copy(lanes.y_m, block.y_m), copy(lanes.z_m, block.z_m);
+  copy(lanes.signal.intensity, block.intensity);
+  copy(lanes.row, block.row);
+  std::fill_n(block.column.data() + size_, kReturnLanes, column_);
+  copy(lanes.product, block.product), copy(lanes.material, block.material);
+  if (plan_.settings.imaging) copy(lanes.red, block.red), copy(lanes.green, block.green), copy(lanes.blue, block.blue);
+  size_ += kReturnLanes;
+}
+
+void PointWriter::write(const std::vector<Place>& places) {
+  makeRoom(places.size());
+  PointBlock& block = *block_;
+  const ScanChannels& channels = plan_.options.channels;
+  for (const Place& place : places) {
+    const ReturnLanes& lanes = *place.lanes;
+    const int k = place.lane;
+    const std::size_t i = size_++;
+    block.x_m[i] = lanes.x_m[k], block.y_m[i] = lanes.y_m[k], block.z_m[i] = lanes.z_m[k];
+    block.intensity[i] = lanes.signal.intensity[k];
+    block.row[i] = lanes.row[k];
+    block.column[i] = column_;
+    block.product[i] = lanes.product[k], block.material[i] = lanes.material[k];
+    if (plan_.settings.imaging)
+      block.red[i] = lanes.red[k], block.green[i] = lanes.green[k], block.blue[i] = lanes.blue[k];
+    if (channels.time) block.time_s[i] = plan_.clock.time_s(column_, plan_.elevation_rad(lanes.row[k]));
+    if (channels.returns) block.return_number[i] = place.return_number, block.return_count[i] = place.return_count;
+    if (channels.truth) writeTruth(lanes, k, i, block.truth);
+  }
+}
+
+void PointWriter::writeTruth(const ReturnLanes& lanes, int lane, std::size_t i, PointTruth& truth) const {
+  const Eigen::Vector3f met(lanes.place_x[lane], lanes.place_y[lane], lanes.place_z[lane]);
+  const Eigen::Vector3d place = start_.rotation.conjugate() * (met.cast<double>() - start_.translation);
+  truth.x_m[i] = static_cast<float>(place.x());
+  truth.y_m[i] = static_cast<float>(place.y());
+  truth.z_m[i] = static_cast<float>(place.z());
+  truth.range_m[i] = lanes.signal.range_m[lane];
+  const double cosine = std::min(1.0, static_cast<double>(lanes.signal.cosine[lane]));
+  truth.incidence_rad[i] =
+      static_cast<float>(2 * std::numbers::pi * portable::turnOf(std::sqrt(1 - cosine * cosine), cosine));
+  truth.received_db[i] = 3.0102999566398120F * portable::log2(lanes.signal.x[lane]);
+  const bool saturated = lanes.signal.x[lane] > plan_.saturation;
+  truth.flags[i] = static_cast<std::uint8_t>(lanes.flags[lane] | (saturated ? point_flag::kSaturated : 0));
+}
+
+}  // namespace standpoint

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "scanners/engine/return_lanes.h"
+
+namespace standpoint {
+
+// Puts the points of columns into a block, in place of what it holds. Its columns of values keep their length until the
+// end: a block that is used again has entries for most of its points already.
+class PointWriter {
+ public:
+  explicit PointWriter(const ScanPlan& plan) : plan_(plan), start_(at(plan.trajectory, 0)) {}
+  void begin(PointBlock& block);
+  void beginColumn(std::uint32_t column);
+  // One point in each lane, those of a pulse in order of its returns.
+  struct Place {
+    const ReturnLanes* lanes;
+    int lane;
+    std::uint8_t return_number = 1, return_count = 1;
+  };
+  void write(const std::vector<Place>& places);
+  // Returns that are the only ones of their pulses.
+  void write(const ReturnLanes& lanes, std::uint32_t detected);
+  void end();
+
+ private:
+  void resize(std::size_t size);
+  void makeRoom(std::size_t points);
+  void writeAll(const ReturnLanes& lanes);
+  void writeTruth(const ReturnLanes& lanes, int lane, std::size_t i, PointTruth& truth) const;
+
+  const ScanPlan& plan_;
+  Pose start_;  // of the scanner at time 0
+  std::uint32_t column_ = 0;
+  PointBlock* block_ = nullptr;
+  std::size_t size_ = 0, room_ = 0;  // points written, and that the block has entries for
+  std::vector<Place> places_;
+};
+
+}  // namespace standpoint

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "core/environment.h"
+#include "core/physical_material.h"
+#include "core/points.h"
+#include "core/progress.h"
+#include "core/result.h"
+#include "scanners/instruments/instrument.h"
+#include "scanners/radiometry/atmosphere.h"
+#include "scanners/radiometry/effects.h"
+#include "scanners/radiometry/sun.h"
+
+namespace standpoint {
+
+struct RayHit {
+  double range_m = 0;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // local frame
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   // geometric, unit, towards the ray's origin
+  std::uint32_t product = 0, surface = 0, instance = 0, triangle = 0;
+};
+
+// An Environment as rays see it (Embree 3, ROBUST, instanced meshes). Immutable after build; intersect is thread-safe.
+// The editor picks with it, too. Products that are not in the scene are left out.
+class RayScene {
+ public:
+  static Result<std::shared_ptr<const RayScene>> build(std::shared_ptr<const Environment> environment,
+                                                       Progress& progress);
+  virtual ~RayScene() = default;
+  virtual std::optional<RayHit> intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
+                                          double max_range_m) const = 0;
+  virtual const Environment& environment() const = 0;
+};
+
+// Which optional channels the points have (core/points.h).
+struct ScanChannels {
+  bool time = false;
+  bool returns = false;
+  bool truth = false;
+};
+
+struct ScanOptions {
+  std::uint64_t seed = 1;
+  Effects effects;
+  int threads = 0;                // 0 = all
+  std::uint32_t station_key = 0;  // random numbers belong to the station: a stable hash of its name
+  ScanChannels channels;
+  Weather weather;
+  std::optional<Sun> sun;   // none: night, or a room without windows
+  double interference = 0;  // chance that a pulse finds another instrument's light and takes it for its own
+  std::uint32_t first_column = 0, end_column = ~0U;  // of the grid: a part of a scan has the points that the whole has
+};
+
+struct ScanCount {
+  std::uint64_t pulses = 0, returns = 0, points = 0;
+};
+
+// Scans from `local_from_scanner` (a function of time; one sample for a tripod) and streams the points to `sink`, which
+// has been begun with `header`. Blocks arrive in column order whatever the number of threads; the same arguments give
+// the same bytes. Points carry labels always (material = materials.size() where none is assigned) and colour when the
+// settings take images; of one pulse that meets several surfaces the label is that of the strongest. Of a scanner that
+// moves, points are in the frame it had at time 0. Received power: physics.md §2.1 (x = ρ_eq(θ)/R² · η_opt · air),
+// detection §2.7, noise §3, beam and edges §4.1–4.4, panes and mirrors §4.6–4.7, saturation §4.9.
+Result<ScanCount> scan(const RayScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
+                       const ScanSettings& settings, const Trajectory& local_from_scanner, const ScanOptions& options,
+                       PointSink& sink, Progress& progress);
+
+}  // namespace standpoint

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <tbb/task_arena.h>
+
+#include "scanners/engine/embree_scene.h"
+
+namespace standpoint {
+
+namespace {
+
+// A mesh that stands in one place, or is smaller than the record of an instance, is put into the scene itself: that
+// spares each ray the change of frame.
+constexpr std::size_t kSmallMesh = 64;
+
+bool onProgress(void* progress, double share) {
+  auto& handle = *static_cast<Progress*>(progress);
+  handle.advance(share);
+  return !handle.cancelled();
+}
+
+Result<void> checkDevice(RTCDevice device) {
+  const RTCError code = rtcGetDeviceError(device);
+  if (code == RTC_ERROR_NONE) return {};
+  if (code == RTC_ERROR_CANCELLED) return failure(ErrorKind::cancelled, "cancelled");
+  if (code == RTC_ERROR_OUT_OF_MEMORY)
+    return failure(ErrorKind::unusable, "the environment does not fit into memory", "ray scene");
+  return failure(ErrorKind::internal, "Embree error " + std::to_string(code) + " while building", "ray scene");
+}
+
+}  // namespace
+
+EmbreeScene::~EmbreeScene() {
+  for (RTCScene scene : mesh_scenes_)
+    if (scene != nullptr) rtcReleaseScene(scene);
+  if (scene_ != nullptr) rtcReleaseScene(scene_);
+  if (device_ != nullptr) rtcReleaseDevice(device_);
+}
+
+Result<void> EmbreeScene::commit(std::shared_ptr<const Environment> environment, Progress& progress) {
+  environment_ = std::move(environment);
+  if (auto wrong = validate(*environment_); !wrong.empty()) return failure(ErrorKind::unusable, wrong, "environment");
+  device_ = rtcNewDevice(nullptr);
+  if (device_ == nullptr) return failure(ErrorKind::internal, "Embree has no device on this machine", "ray scene");
+  scene_ = rtcNewScene(device_);
+  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+  mesh_scenes_.assign(environment_->meshes.size(), nullptr);
+
+  std::vector<std::uint32_t> uses(environment_->meshes.size(), 0);
+  for (std::uint32_t i = 0; i < environment_->instances.size(); ++i) {
+    const Instance& instance = environment_->instances[i];
+    if (!environment_->products[instance.product].inScene() || environment_->meshes[instance.mesh]->triangles.empty())
+      continue;
+    placements_.push_back(i);
+    ++uses[instance.mesh];
+  }
+  // One thread builds: with more, the order of triangles in a leaf, and so which of two coincident faces is met, would
+  // depend on timing. A million triangles take about half a second.
+  tbb::task_arena one_thread(1);
+  one_thread.execute([&] {
+    for (std::uint32_t k = 0; k < placements_.size() && !progress.cancelled(); ++k) {
+      const auto mesh = environment_->instances[placements_[k]].mesh;
+      if (uses[mesh] == 1 || environment_->meshes[mesh]->triangles.size() <= kSmallMesh)
+        attachPlaced(k);
+      else
+        attachInstanced(k);
+    }
+    rtcSetSceneProgressMonitorFunction(scene_, onProgress, &progress);
+    rtcCommitScene(scene_);
+    rtcSetSceneProgressMonitorFunction(scene_, nullptr, nullptr);
+  });
+  if (auto go_on = progress.check(); !go_on) return go_on;
+  return checkDevice(device_);
+}
+
+RTCGeometry EmbreeScene::triangles(const Mesh& mesh, const Eigen::Affine3d& world_from_mesh) {
+  RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                               3 * sizeof(float), mesh.positions.size()));
+  auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), mesh.triangles.size()));
+  if (vertices != nullptr && indices != nullptr) {
+    for (const auto& position : mesh.positions) {
+      const Eigen::Vector3f placed = (world_from_mesh * position.cast<double>()).cast<float>();
+      vertices = std::copy(placed.data(), placed.data() + 3, vertices);
+    }
+    for (const auto& triangle : mesh.triangles) indices = std::copy(triangle.begin(), triangle.end(), indices);
+  }
+  rtcCommitGeometry(geometry);
+  return geometry;
+}
+
+void EmbreeScene::attachPlaced(std::uint32_t placement) {
+  const Instance& instance = environment_->instances[placements_[placement]];
+  RTCGeometry geometry = triangles(*environment_->meshes[instance.mesh], instance.world_from_mesh);
+  rtcAttachGeometryByID(scene_, geometry, placement);
+  rtcReleaseGeometry(geometry);
+}
+
+RTCScene EmbreeScene::meshScene(std::uint32_t mesh) {
+  if (mesh_scenes_[mesh] != nullptr) return mesh_scenes_[mesh];
+  RTCScene scene = rtcNewScene(device_);
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  RTCGeometry geometry = triangles(*environment_->meshes[mesh], Eigen::Affine3d::Identity());
+  rtcAttachGeometryByID(scene, geometry, 0);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene);
+  return mesh_scenes_[mesh] = scene;
+}
+
+void EmbreeScene::attachInstanced(std::uint32_t placement) {
+  const Instance& instance = environment_->instances[placements_[placement]];
+  RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(geometry, meshScene(instance.mesh));
+  const Eigen::Matrix<float, 3, 4> transform = instance.world_from_mesh.matrix().topRows<3>().cast<float>();
+  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene_, geometry, placement);
+  rtcReleaseGeometry(geometry);
+}
+
+namespace {
+
+std::uint64_t facetNumber(std::uint32_t instance_id, std::uint32_t geometry_id, std::uint32_t primitive_id) {
+  if (geometry_id == RTC_INVALID_GEOMETRY_ID) return kNoFacet;
+  const std::uint64_t placement = instance_id == RTC_INVALID_GEOMETRY_ID ? geometry_id : instance_id;
+  return placement << 32U | primitive_id;
+}
+
+// What all packets of rays have in common; tracing leaves it as it is.
+RTCRayHit16 fromOrigins() {
+  RTCRayHit16 query{};
+  std::fill_n(query.ray.mask, kPacket, ~0U);
+  return query;
+}
+
+}  // namespace
+
+void EmbreeScene::intersect(const RayPacket& rays, int count, float max_range_m, std::uint64_t* facets,
+                            float* ranges_m) const {
+  alignas(64) int valid[kPacket];
+  static thread_local RTCRayHit16 query = fromOrigins();
+  std::copy_n(rays.origin_x, 3 * kPacket, query.ray.org_x);  // x, y, z lie side by side in both
+  std::copy_n(rays.direction_x, 3 * kPacket, query.ray.dir_x);
+  for (int k = 0; k < kPacket; ++k) {
+    valid[k] = k < count ? -1 : 0;
+    query.ray.tfar[k] = max_range_m;
+    query.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect16(valid, scene_, &context, &query);
+  for (int k = 0; k < count; ++k)
+    facets[k] = facetNumber(query.hit.instID[0][k], query.hit.geomID[k], query.hit.primID[k]);
+  std::copy_n(query.ray.tfar, count, ranges_m);
+}
+
+void EmbreeScene::intersect(const RayPacket& rays, int count, float max_range_m, NearestHit* hits) const {
+  std::uint64_t facets[kPacket];
+  float ranges_m[kPacket];
+  intersect(rays, count, max_range_m, facets, ranges_m);
+  for (int k = 0; k < count; ++k) hits[k] = {facets[k], ranges_m[k]};
+}
+
+NearestHit EmbreeScene::nearest(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
+                                double min_range_m, double max_range_m) const {
+  RTCRayHit query{};
+  query.ray.org_x = static_cast<float>(origin.x());
+  query.ray.org_y = static_cast<float>(origin.y());
+  query.ray.org_z = static_cast<float>(origin.z());
+  query.ray.dir_x = static_cast<float>(direction_unit.x());
+  query.ray.dir_y = static_cast<float>(direction_unit.y());
+  query.ray.dir_z = static_cast<float>(direction_unit.z());
+  query.ray.tnear = static_cast<float>(min_range_m);
+  query.ray.tfar = static_cast<float>(max_range_m);
+  query.ray.mask = ~0U;
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene_, &context, &query);
+  return {facetNumber(query.hit.instID[0], query.hit.geomID, query.hit.primID), query.ray.tfar};
+}
+
+Facet EmbreeScene::facet(std::uint64_t number) const {
+  Facet facet;
+  facet.instance = placements_[number >> 32U];
+  facet.triangle = static_cast<std::uint32_t>(number);
+  const Instance& instance = environment_->instances[facet.instance];
+  const Mesh& mesh = *environment_->meshes[instance.mesh];
+  const Triangle& triangle = mesh.triangles[facet.triangle];
+  const auto corner = [&](int k) -> Eigen::Vector3d {
+    return instance.world_from_mesh * mesh.positions[triangle[k]].cast<double>();
+  };
+  const Eigen::Vector3d a = corner(0);
+  const Eigen::Vector3d normal = (corner(1) - a).cross(corner(2) - a);
+  const double length = normal.norm();
+  facet.normal = length > 0 ? Eigen::Vector3d(normal / length) : Eigen::Vector3d::Zero();
+  facet.offset = facet.normal.dot(a);
+  facet.product = instance.product;
+  facet.surface = mesh.surface_of_triangle[facet.triangle];
+  return facet;
+}
+
+std::optional<RayHit> EmbreeScene::intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit,
+                                             double max_range_m) const {
+  const NearestHit hit = nearest(origin, direction_unit, 0, max_range_m);
+  if (hit.facet == kNoFacet) return std::nullopt;
+  const Facet met = facet(hit.facet);
+  RayHit result;
+  result.range_m = rangeOnPlane(met, origin, direction_unit, hit.range_m);
+  result.position = origin + result.range_m * direction_unit;
+  result.normal = met.normal.dot(direction_unit) > 0 ? Eigen::Vector3d(-met.normal) : met.normal;
+  result.product = met.product;
+  result.surface = met.surface;
+  result.instance = met.instance;
+  result.triangle = met.triangle;
+  return result;
+}
+
+Result<std::shared_ptr<const RayScene>> RayScene::build(std::shared_ptr<const Environment> environment,
+                                                        Progress& progress) {
+  if (!environment) return failure(ErrorKind::internal, "there is no environment", "ray scene");
+  auto scene = std::make_shared<EmbreeScene>();
+  if (auto done = scene->commit(std::move(environment), progress); !done) return failure(done.error());
+  return scene;
+}
+
+}  // namespace standpoint

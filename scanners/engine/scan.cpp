@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <optional>
+
+#include <tbb/concurrent_queue.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include "scanners/engine/column_tracer.h"
+#include "scanners/engine/ray_engine.h"
+#include "scanners/engine/scan_plan.h"
+
+namespace standpoint {
+
+namespace {
+
+// Each block traces columns on either side of it, too, to know its neighbours: as many as a beam can reach.
+constexpr std::uint32_t kColumnsPerReach = 16;
+constexpr std::uint32_t kPulsesPerBlock = 1U << 17U;
+constexpr std::uint32_t kFirstColumns = 4;  // of the first block: whoever watches shall see points soon
+
+Result<void> checkArguments(const ScanSettings& settings, const Trajectory& trajectory) {
+  if (settings.columns == 0 || settings.rows == 0)
+    return failure(ErrorKind::usage, "the grid has no columns or no rows", "settings");
+  if (trajectory.pose.empty() || trajectory.pose.size() != trajectory.time_s.size())
+    return failure(ErrorKind::usage, "a trajectory needs a pose for each of its times", "trajectory");
+  for (const auto& pose : trajectory.pose)
+    if (!pose.translation.allFinite() || !pose.rotation.coeffs().allFinite())
+      return failure(ErrorKind::usage, "a pose of the trajectory is not finite", "trajectory");
+  if (!std::is_sorted(trajectory.time_s.begin(), trajectory.time_s.end()))
+    return failure(ErrorKind::usage, "the times of a trajectory must rise", "trajectory");
+  return {};
+}
+
+// Blocks of columns are traced side by side and written in order. Their number is bounded,
+// so a slow sink holds up the tracing and memory stays flat.
+class Pipeline {
+ public:
+  Pipeline(const ScanPlan& plan, PointSink& sink, Progress& progress)
+      : plan_(plan),
+        sink_(sink),
+        progress_(progress),
+        columns_per_block_(std::max({1U, kPulsesPerBlock / plan.settings.rows, kColumnsPerReach * plan.reach()})),
+        tracers_([&plan] { return ColumnTracer(plan); }),
+        next_column_(std::min(plan.options.first_column, plan.endColumn())) {}
+
+  Result<ScanCount> run(int threads) {
+    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+    arena.execute([&] {
+      // A block for each thread, one that is written and one that waits for its turn: a block of the finest grid has 90
+      // MB.
+      const auto tokens = static_cast<std::size_t>(arena.max_concurrency() + 2);
+      tbb::parallel_pipeline(
+          tokens, tbb::make_filter<void, Work>(tbb::filter_mode::serial_in_order,
+                                               [&](tbb::flow_control& flow) { return next(flow); }) &
+                      tbb::make_filter<Work, Work>(tbb::filter_mode::parallel, [&](Work work) { return trace(work); }) &
+                      tbb::make_filter<Work, void>(tbb::filter_mode::serial_in_order, [&](Work work) { write(work); }));
+    });
+    if (error_) return failure(*error_);
+    if (auto go_on = progress_.check(); !go_on) return failure(go_on.error());
+    return count_;
+  }
+
+ private:
+  struct Work {
+    std::uint32_t from = 0, to = 0;  // columns
+    std::shared_ptr<PointBlock> block;
+  };
+
+  Work next(tbb::flow_control& flow) {
+    if (stop_.load(std::memory_order_relaxed) || progress_.cancelled() || next_column_ >= plan_.endColumn()) {
+      flow.stop();
+      return {};
+    }
+    Work work;
+    work.from = next_column_;
+    const bool first = work.from == plan_.options.first_column;
+    work.to = next_column_ = std::min(plan_.endColumn(), next_column_ + (first ? kFirstColumns : columns_per_block_));
+    if (!spare_.try_pop(work.block)) work.block = std::make_shared<PointBlock>();
+    return work;
+  }
+
+  Work trace(Work work) {
+    if (!progress_.cancelled()) tracers_.local().trace(work.from, work.to, *work.block);
+    return work;
+  }
+
+  void write(const Work& work) {
+    if (stop_.load(std::memory_order_relaxed) || progress_.cancelled()) return;
+    if (work.block->size() > 0)
+      if (auto written = sink_.write(*work.block); !written) {
+        error_ = written.error();
+        stop_.store(true, std::memory_order_relaxed);
+        return;
+      }
+    count_.pulses += std::uint64_t{work.to - work.from} * plan_.settings.rows;
+    count_.returns += work.block->size();
+    count_.points += work.block->size();
+    progress_.advance(static_cast<double>(work.to) / plan_.settings.columns);
+    spare_.push(work.block);
+  }
+
+  const ScanPlan& plan_;
+  PointSink& sink_;
+  Progress& progress_;
+  const std::uint32_t columns_per_block_;
+  tbb::enumerable_thread_specific<ColumnTracer> tracers_;
+  tbb::concurrent_queue<std::shared_ptr<PointBlock>> spare_;
+  std::uint32_t next_column_;
+  std::atomic<bool> stop_{false};
+  std::optional<Error> error_;
+  ScanCount count_;
+};
+
+}  // namespace
+
+Result<ScanCount> scan(const RayScene& scene, const MaterialAssignment& assignment, const Instrument& instrument,
+                       const ScanSettings& settings, const Trajectory& local_from_scanner, const ScanOptions& options,
+                       PointSink& sink, Progress& progress) {
+  const auto* embree = dynamic_cast<const EmbreeScene*>(&scene);
+  if (embree == nullptr)
+    return failure(ErrorKind::internal, "this ray scene was not made by RayScene::build", "ray scene");
+  if (auto valid = checkArguments(settings, local_from_scanner); !valid) return failure(valid.error());
+  for (const auto& surface : assignment.surfaces)
+    if (surface.material >= static_cast<std::int32_t>(assignment.materials.size()))
+      return failure(ErrorKind::internal, "an assigned material is out of range", "material assignment");
+  for (const auto& faces : assignment.faces)
+    if (faces.material >= static_cast<std::int32_t>(assignment.materials.size()))
+      return failure(ErrorKind::internal, "an assigned material is out of range", "material assignment");
+  try {
+    const ScanPlan plan(*embree, assignment, instrument, settings, local_from_scanner, options);
+    return Pipeline(plan, sink, progress).run(options.threads);
+  } catch (const std::exception& exception) {  // TBB and memory
+    return failure(ErrorKind::internal, exception.what(), "scan");
+  }
+}
+
+}  // namespace standpoint

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scanners/engine/scan_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "scanners/engine/column_hits.h"
+#include "scanners/engine/footprint.h"
+#include "scanners/noise/pulse_noise.h"
+
+namespace standpoint {
+
+namespace {
+
+std::uint8_t byte(float share) { return static_cast<std::uint8_t>(std::clamp(share, 0.0F, 1.0F) * 255 + 0.5F); }
+
+}  // namespace
+
+PulseClock::PulseClock(const Instrument& instrument, const ScanSettings& settings)
+    : half_((settings.columns + 1) / 2),
+      turn_s_((settings.scan_seconds / settings.passes - instrument.overhead_s) / half_) {}
+
+double PulseClock::time_s(std::uint32_t column, double elevation_rad) const {
+  constexpr double kQuarter = std::numbers::pi / 2;
+  const double mirror = behind(column) ? 3 * kQuarter - elevation_rad : kQuarter + elevation_rad;
+  const std::uint32_t turn = behind(column) ? column - half_ : column;
+  return (turn + mirror / (2 * std::numbers::pi)) * turn_s_;
+}
+
+double ScanPlan::azimuth_rad(std::uint32_t column) const {
+  return settings.azimuth_from_rad + column * (settings.azimuth_to_rad - settings.azimuth_from_rad) / settings.columns;
+}
+
+// In the middle of its row, so that no two columns share the zenith.
+double ScanPlan::elevation_rad(std::uint32_t row) const {
+  return settings.elevation_from_rad +
+         (row + 0.5) * (settings.elevation_to_rad - settings.elevation_from_rad) / settings.rows;
+}
+
+// At the shortest range a beam is wide beside the steps between pulses.
+std::uint32_t ScanPlan::mostReach() const {
+  const double nearest = std::max(0.3, instrument.min_range_m);
+  const double radius = kOuterShare * beamRadius(instrument, nearest) / nearest;
+  return static_cast<std::uint32_t>(
+      std::clamp(std::ceil(radius / std::min(rowStep_rad(), columnStep_rad())), 1.0, static_cast<double>(kMostReach)));
+}
+
+ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignment_, const Instrument& instrument_,
+                   const ScanSettings& settings_, const Trajectory& trajectory_, const ScanOptions& options_)
+    : scene(scene_),
+      assignment(assignment_),
+      triangles(scene_.environment(), assignment_),
+      instrument(instrument_),
+      settings(settings_),
+      trajectory(trajectory_),
+      options(options_),
+      clock(instrument_, settings_),
+      noise_law(instrument_) {
+  const Effects effects = options.effects;
+  const double average = 1 / std::sqrt(static_cast<double>(settings.passes));
+  noise_scale = settings.noise_factor * average;
+  if (effects.has(Effect::angle_noise)) jitter_rad = instrument.angle_jitter_rad * average;
+  Weather weather = options.weather;
+  if (!effects.has(Effect::weather)) weather = {.visibility_km = weather.visibility_km};
+  if (!effects.has(Effect::atmosphere)) weather = kNoAir;
+  const Weather clear = effects.has(Effect::atmosphere) ? Weather{} : kNoAir;
+  if (effects.has(Effect::detection))
+    threshold = detectionThreshold(settings, extinction_per_m(clear, instrument.wavelength_nm));
+  if (effects.has(Effect::chance)) softness = threshold * instrument.detection_softness;
+  saturation = effects.has(Effect::saturation)
+                   ? std::pow(10.0F, static_cast<float>(instrument.saturation.level_db) / 10)
+                   : std::numeric_limits<float>::infinity();
+  if (effects.has(Effect::bias)) errors = SystematicErrors::drawn(instrument, {options.seed, options.station_key});
+  farthest_m = farthest_reported_m = settings.max_range_m;
+  if (effects.has(Effect::ambiguity) && settings.unambiguous_m > 0) {
+    unambiguous_m = settings.unambiguous_m;
+    farthest_m = unambiguous_m + settings.max_range_m;
+  }
+  nearest_reported_m = std::max(instrument.min_range_m, settings.nearest_m);
+  if (settings.farthest_m > 0) farthest_reported_m = std::min(farthest_reported_m, settings.farthest_m);
+  if (effects.has(Effect::filters)) flags = instrument.filters, drops = settings.drops;
+  if (effects.has(Effect::interference)) interference = options.interference;
+  if (effects.has(Effect::sun) && options.sun)
+    daylight.emplace(scene, instrument, *options.sun, at(trajectory, 0).translation);
+  receiver = receiverOf(instrument, noise_law, effects, extinction_per_m(weather, instrument.wavelength_nm));
+  if (effects.has(Effect::amplitude_noise))
+    receiver.fluctuation =
+        fluctuationOf(instrument, detectionThreshold(settings, 0) * instrument.detection_softness, settings.passes);
+  if (effects.has(Effect::footprint)) reach_ = mostReach();
+  drop_threshold = detectionThreshold(settings, 0);
+  std::vector<double> elevations;
+  for (std::uint32_t row = 0; row < settings.rows; ++row) elevations.push_back(elevation_rad(row));
+  const RandomKey key{options.seed, options.station_key};
+  if (effects.has(Effect::striping)) column_noise.emplace(instrument, settings.columns, elevations, key);
+  if (effects.has(Effect::range_noise)) white_share = column_noise ? static_cast<double>(column_noise->white()) : 1;
+  if (weather.rain_mm_h > 0 || weather.snow_mm_h > 0 || weather.fog_mor_m > 0 || weather.dust_mor_m > 0)
+    scatterers.emplace(instrument, weather, drop_threshold, settings.max_range_m, key);
+  for (std::uint32_t row = 0; row < settings.rows + kPacket; ++row) {
+    sine.push_back(std::sin(elevation_rad(row)));
+    cosine.push_back(std::cos(elevation_rad(row)));
+  }
+  if (effects.has(Effect::halo)) {
+    halo.emplace(*this);
+    if (halo->empty()) halo.reset();
+  }
+  for (const auto& material : assignment.materials) {
+    optics.push_back(opticsOf(material, instrument.wavelength_nm));
+    varies |= effects.has(Effect::variation) && optics.back().variation > 0;
+  }
+  for (const auto& surface : scene.environment().surfaces) {
+    optics.push_back(opticsOf(surface.colour));
+    colours.push_back({byte(surface.colour.r), byte(surface.colour.g), byte(surface.colour.b)});
+  }
+}
+
+}  // namespace standpoint

@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "core/units.h"
+#include "scanners/instruments/figure_reader.h"
+#include "scanners/instruments/instrument.h"
+
+namespace standpoint {
+
+namespace {
+
+using Json = nlohmann::json;
+
+class InstrumentReader : FigureReader {
+ public:
+  InstrumentReader(std::string file, const Json& document) : FigureReader(std::move(file)), document_(document) {}
+
+  Result<Instrument> read() {
+    Group root = open(document_, "");
+    instrument_.id = text(root, "id");
+    instrument_.maker = text(root, "maker");
+    instrument_.model = text(root, "model");
+    readSources(root);
+    instrument_.technology = word(root, "technology", {"time_of_flight", "phase_shift"});
+    readOptics(root);
+    if (root.object->contains("moving"))
+      readMoving(root);
+    else
+      readTripod(root);
+    readAngles(root);
+    readSignal(root);
+    readNoise(root);
+    readWaveform(root);
+    readCorrelated(root);
+    readSaturation(root);
+    if (root.object->contains("filters")) readFilters(root);
+    readSettings(root);
+    close(root);
+    if (!error()) checkWhole();
+    if (error()) return failure(*error());
+    instrument_.evidence = evidence();
+    return std::move(instrument_);
+  }
+
+ private:
+  void readOptics(Group& root) {
+    Group beam = child(root, "beam");
+    instrument_.wavelength_nm = figure(beam, "wavelength_nm", {200, 3000});
+    instrument_.divergence_rad = figure(beam, "divergence_mrad", {0.001, 100, 1e-3});
+    instrument_.exit_diameter_m = figure(beam, "exit_diameter_mm", {0.1, 1000, 1e-3});
+    close(beam);
+    Group range = child(root, "range");
+    instrument_.min_range_m = figure(range, "min_m", {0, 100});
+    instrument_.max_range_m = figure(range, "max_m", {1, 10000});
+    instrument_.reference_reflectivity = figure(range, "reference_reflectivity", {0.001, 1});
+    instrument_.range_bias_m = figure(range, "bias_mm", {0, 1000, 1e-3});
+    instrument_.range_bias_ppm = figure(range, "bias_ppm", {0, 10000});
+    if (instrument_.technology == "phase_shift" && range.object->contains("unambiguous_m"))
+      instrument_.unambiguous_m = figure(range, "unambiguous_m", {0, 100000});
+    close(range);
+  }
+
+  void readAngles(Group& root) {
+    Group angles = child(root, "angles");
+    if (!instrument_.moving) {
+      instrument_.min_elevation_rad = figure(angles, "min_elevation_deg", {-90, 90, kRadPerDeg});
+      instrument_.max_elevation_rad = figure(angles, "max_elevation_deg", {-90, 90, kRadPerDeg});
+    }
+    instrument_.angle_sigma_rad = figure(angles, "accuracy_arcsec", {0, 3600, kRadPerArcsec});
+    instrument_.angle_jitter_rad = figure(angles, "jitter_arcsec", {0, 3600, kRadPerArcsec});
+    close(angles);
+  }
+
+  void readTripod(Group& root) {
+    Group mirror = child(root, "mirror");
+    instrument_.mirror_max_hz = figure(mirror, "max_hz", {0, 10000});
+    instrument_.column_factor = figure(mirror, "column_factor", {1, 2});
+    instrument_.overhead_s = figure(mirror, "overhead_s", {0, 3600});
+    close(mirror);
+    Group stand = child(root, "stand");
+    instrument_.trunnion_height_m = figure(stand, "trunnion_height_m", {0, 2});
+    instrument_.tripod_height_m = figure(stand, "tripod_height_m", {0.1, 10});
+    close(stand);
+    if (root.object->contains("compensator")) readCompensator(root);
+    Group imaging = child(root, "imaging");
+    instrument_.imaging_seconds = figure(imaging, "seconds", {0, 3600});
+    instrument_.camera.columns = static_cast<std::uint32_t>(count(imaging, "columns", {16, 32768})) / 2 * 2;
+    instrument_.camera.shots = count(imaging, "shots", {1, 360});
+    instrument_.camera.hdr = count(imaging, "hdr", {0, 1}) == 1;
+    instrument_.camera.offset_up_m = figure(imaging, "offset_up_mm", {-500, 500, 1e-3});
+    close(imaging);
+  }
+
+  void readCompensator(Group& root) {
+    Group group = child(root, "compensator");
+    Compensator compensator;
+    compensator.kind = word(group, "kind", {"liquid", "inclinometer", "imu", "self_levelling"});
+    compensator.range_rad = figure(group, "range_deg", {0, 90, kRadPerDeg});
+    compensator.accuracy_rad = figure(group, "accuracy_arcsec", {0, 36000, kRadPerArcsec});
+    if (group.object->contains("reduced_range_deg")) {
+      compensator.reduced_range_rad = figure(group, "reduced_range_deg", {0, 90, kRadPerDeg});
+      compensator.reduced_accuracy_rad = figure(group, "reduced_accuracy_arcsec", {0, 36000, kRadPerArcsec});
+    }
+    close(group);
+    instrument_.compensator = std::move(compensator);
+  }
+
+  void readMoving(Group& root) {
+    Group group = child(root, "moving");
+    MovingHead head;
+    head.mount = word(group, "mount", {"hand", "body", "vehicle", "aircraft", "any"});
+    head.heads = count(group, "heads", {1, 16});
+    head.channel_elevations_rad = figures(group, "channel_elevations_deg", {-90, 90, kRadPerDeg}, 1024);
+    head.points_per_s = figure(group, "points_per_s", {1, 1e9});
+    head.least_rotation_hz = figure(group, "least_rotation_hz", {0.01, 10000});
+    head.most_rotation_hz = figure(group, "most_rotation_hz", {0.01, 10000});
+    head.second_rotation_hz = figure(group, "second_rotation_hz", {0, 10000});
+    head.turn_rad = figure(group, "turn_deg", {1, 360, kRadPerDeg});
+    head.cloud_accuracy_m = figure(group, "cloud_accuracy_mm", {0, 10000, 1e-3});
+    close(group);
+    if (head.least_rotation_hz > head.most_rotation_hz)
+      fail("/moving/most_rotation_hz", "must not be below least_rotation_hz");
+    const auto& elevations = head.channel_elevations_rad;
+    if (!elevations.empty()) {
+      instrument_.min_elevation_rad = *std::min_element(elevations.begin(), elevations.end());
+      instrument_.max_elevation_rad = *std::max_element(elevations.begin(), elevations.end());
+    }
+    instrument_.moving = std::move(head);
+  }
+
+  void readSignal(Group& root) {
+    Group signal = child(root, "signal");
+    instrument_.near_range_m = figure(signal, "near_range_m", {0, 100});
+    instrument_.near_range_power = static_cast<int>(figure(signal, "near_range_power", {1, 6}));
+    instrument_.detection_softness = figure(signal, "detection_softness", {0, 1});
+    instrument_.intensity_low_db = figure(signal, "intensity_low_db", {-200, 100});
+    instrument_.intensity_high_db = figure(signal, "intensity_high_db", {-200, 100});
+    instrument_.intensity_levels = static_cast<int>(figure(signal, "intensity_levels", {2, 65536}));
+    instrument_.amplitude.aperture_m = figure(signal, "receiver_aperture_mm", {0.1, 1000, 1e-3});
+    instrument_.amplitude.jitter = figure(signal, "amplitude_jitter", {0, 0.5});
+    instrument_.sun_noise = figure(signal, "sun_noise", {0, 1000});
+    if (signal.object->contains("near_range_curve")) readNearRangeCurve(signal);
+    close(signal);
+  }
+
+  void readNearRangeCurve(Group& signal) {
+    Group group = child(signal, "near_range_curve");
+    auto& curve = instrument_.near_range_curve;
+    curve.below_m = figure(group, "below_m", {0.1, 1000});
+    curve.amplitude_db = figures(group, "amplitude_db", {-1000, 1000}, 4);
+    curve.far_db = figure(group, "far_db", {-1000, 1000});
+    close(group);
+  }
+
+  void readFilters(Group& root) {
+    Group group = child(root, "filters");
+    auto& filters = instrument_.filters;
+    filters.deviation_m = figure(group, "deviation_mm", {0, 10000, 1e-3});
+    filters.weak_factor = figure(group, "weak_factor", {0, 1000});
+    filters.overload = count(group, "overload", {0, 1}) == 1;
+    close(group);
+  }
+
+  void readNoise(Group& root) {
+    const Json& entries = list(root, "range_noise", 100);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      Group entry = open(entries[i], "/range_noise/" + std::to_string(i));
+      RangeNoise noise;
+      noise.range_m = figure(entry, "range_m", {0.1, 10000});
+      noise.reflectivity = figure(entry, "reflectivity", {0.001, 1});
+      noise.sigma_m = figure(entry, "sigma_mm", {0.001, 1000, 1e-3});
+      close(entry);
+      for (const auto& other : instrument_.range_noise)
+        if (other.range_m == noise.range_m && other.reflectivity == noise.reflectivity)
+          fail(entry.pointer, "repeats an entry of the same range and reflectivity");
+      instrument_.range_noise.push_back(noise);
+    }
+  }
+
+  // The other technology's figure is an unknown key.
+  void readWaveform(Group& root) {
+    Group group = child(root, "waveform");
+    auto& waveform = instrument_.waveform;
+    if (instrument_.technology == "phase_shift")
+      waveform.fine_wavelength_m = figure(group, "fine_wavelength_m", {0.01, 1000});
+    else
+      waveform.pulse_width_s = figure(group, "pulse_width_ns", {0.01, 1000, 1e-9});
+    waveform.most_returns = count(group, "most_returns", {1, 255});
+    close(group);
+  }
+
+  void readCorrelated(Group& root) {
+    Group group = child(root, "correlated_noise");
+    auto& noise = instrument_.correlated;
+    noise.column_share = figure(group, "column_share", {0, 1});
+    noise.along_share = figure(group, "along_share", {0, 1});
+    noise.column_correlation = figure(group, "column_correlation", {0, 0.999});
+    noise.hurst = figure(group, "hurst", {0.5, 0.95});
+    noise.column_extra_m = figure(group, "column_extra_mm", {0, 1000, 1e-3});
+    noise.wobble_m = figure(group, "wobble_mm", {0, 1000, 1e-3});
+    noise.wobble_order = count(group, "wobble_order", {1, 64});
+    noise.elevation_wobble_rad = figure(group, "elevation_wobble_arcsec", {0, 3600, kRadPerArcsec});
+    noise.azimuth_flicker_rad = figure(group, "azimuth_flicker_arcsec", {0, 3600, kRadPerArcsec});
+    noise.clock_jitter_s = figure(group, "clock_jitter_ns", {0, 1e6, 1e-9});
+    close(group);
+  }
+
+  void readSaturation(Group& root) {
+    Group group = child(root, "saturation");
+    instrument_.saturation.level_db = figure(group, "level_db", {-100, 100});
+    instrument_.saturation.walk_m_per_decade = figure(group, "walk_mm_per_decade", {-1000, 1000, 1e-3});
+    instrument_.saturation.pedestal = figure(group, "pedestal", {0, 0.1});
+    close(group);
+  }
+
+  void readSettings(Group& root) {
+    const Json& entries = list(root, "settings", 100);
+    for (std::size_t i = 0; i < entries.size() && !error(); ++i)
+      readSetting(open(entries[i], "/settings/" + std::to_string(i)));
+  }
+
+  void readSetting(Group group) {
+    InstrumentSetting setting;
+    setting.key = text(group, "key");
+    setting.label = text(group, "label");
+    setting.unit = text(group, "unit");
+    setting.standard = text(group, "standard");
+    cite(group.pointer, group.source, group.note);
+    for (const auto& other : instrument_.settings)
+      if (other.key == setting.key) fail(group.pointer + "/key", "\"" + setting.key + "\" is there twice");
+    if (group.object->contains("choices"))
+      readChoices(group, setting);
+    else
+      readNumber(group, setting);
+    close(group);
+    instrument_.settings.push_back(std::move(setting));
+  }
+
+  void readNumber(Group& group, InstrumentSetting& setting) {
+    static const std::set<std::string> kKnown = {"horizontal_from", "horizontal_to", "vertical_from", "vertical_to",
+                                                 "nearest_m",       "farthest_m",    "line_step",     "frame_step"};
+    if (!kKnown.contains(setting.key))
+      return fail(
+          group.pointer + "/key",
+          "only the edges of an area and of the range and the steps of a pattern are numbers; a setting needs choices");
+    const Domain domain = setting.key.ends_with("_m") ? Domain{0, 10000} : Domain{-360, 360};
+    setting.minimum = figure(group, "minimum", domain);
+    setting.maximum = figure(group, "maximum", domain);
+    const Json standard = Json::parse(setting.standard, nullptr, false);
+    if (!error()) checked(group.pointer + "/standard", standard, {setting.minimum, setting.maximum});
+  }
+
+  void readChoices(Group& group, InstrumentSetting& setting) {
+    const Json& entries = list(group, "choices", 100);
+    const std::string pointer = group.pointer + "/choices";
+    bool has_standard = false;
+    for (std::size_t i = 0; i < entries.size() && !error(); ++i) {
+      Group entry = open(entries[i], pointer + "/" + std::to_string(i));
+      if (entry.source.empty()) entry.source = group.source;
+      if (entry.note.empty()) entry.note = group.note;
+      setting.choices.push_back(readChoice(entry));
+      has_standard = has_standard || setting.choices.back().value == setting.standard;
+      for (std::size_t k = 0; k < i; ++k)
+        if (setting.choices[k].value == setting.choices[i].value) fail(entry.pointer + "/value", "is there twice");
+    }
+    if (!has_standard) fail(group.pointer + "/standard", "is none of the choices");
+  }
+
+  SettingChoice readChoice(Group& entry) {
+    static const std::map<std::string, Domain> kEffects = {{"columns", {2, 1e6}},
+                                                           {"rows", {1, 1e6}},
+                                                           {"scan_seconds", {0.01, 1e5}},
+                                                           {"rate_hz", {1, 1e9}},
+                                                           {"noise_factor", {0.01, 100}},
+                                                           {"passes", {1, 16}},
+                                                           {"imaging", {0, 1}},
+                                                           {"imaging_seconds", {0, 1e4}},
+                                                           {"stepped", {0, 1}},
+                                                           {"points_per_s", {1, 1e9}},
+                                                           {"imaging_factor", {0, 100}},
+                                                           {"area", {0, 1}},
+                                                           {"max_range_m", {1, 10000}},
+                                                           {"reference_reflectivity", {0.001, 1}},
+                                                           {"rotation_hz", {0.01, 10000}},
+                                                           {"most_returns", {1, 255}},
+                                                           {"unambiguous_m", {0, 100000}},
+                                                           {"drop_mixed_mm", {0, 10000}},
+                                                           {"drop_weak", {0, 1000}},
+                                                           {"drop_overload", {0, 1}},
+                                                           {"laser", {0, 1}},
+                                                           {"seconds_factor", {0.01, 100}},
+                                                           {"compression", {1, 16}},
+                                                           {"mode", {1, 9}},
+                                                           {"of_mode", {1, 9}},
+                                                           {"picture_columns", {16, 32768}},
+                                                           {"picture_hdr", {0, 1}},
+                                                           {"picture_metered", {0, 1}},
+                                                           {"picture_stops", {-8, 8}},
+                                                           {"picture_warmth", {-1, 1}},
+                                                           {"picture_flash", {0, 1}},
+                                                           {"picture_metering", {0, 2}}};
+    SettingChoice choice;
+    choice.value = text(entry, "value");
+    choice.label = text(entry, "label");
+    for (const auto& item : entry.object->items()) {
+      const auto effect = kEffects.find(item.key());
+      if (effect != kEffects.end()) choice.effects[item.key()] = figure(entry, item.key(), effect->second);
+    }
+    close(entry);
+    return choice;
+  }
+
+  void checkWhole() {
+    if (!instrument_.moving && instrument_.min_elevation_rad >= instrument_.max_elevation_rad)
+      fail("/angles/max_elevation_deg", "must be above min_elevation_deg");
+    if (instrument_.min_range_m >= instrument_.max_range_m) fail("/range/max_m", "must be above min_m");
+    if (instrument_.intensity_low_db >= instrument_.intensity_high_db)
+      fail("/signal/intensity_high_db", "must be above intensity_low_db");
+    if (instrument_.angle_jitter_rad > instrument_.angle_sigma_rad)
+      fail("/angles/jitter_arcsec", "must not be above accuracy_arcsec, of which it is a part");
+    checkShares();
+    checkRotations();
+    if (!error() && !instrument_.moving)
+      if (const auto standard = resolveSettings(instrument_, {}); !standard)
+        fail("/settings", "the standard values are not a valid scan: " + standard.error().message);
+  }
+
+  void checkRotations() {
+    for (const auto& setting : instrument_.settings)
+      for (const auto& choice : setting.choices)
+        if (const auto rotation = choice.effects.find("rotation_hz"); rotation != choice.effects.end())
+          if (!instrument_.moving || rotation->second < instrument_.moving->least_rotation_hz ||
+              rotation->second > instrument_.moving->most_rotation_hz)
+            fail("/settings",
+                 "\"" + choice.value + "\" of " + setting.key + " turns the head as /moving does not allow");
+  }
+
+  // Parts cannot be more than the whole.
+  void checkShares() {
+    const auto& noise = instrument_.correlated;
+    if (noise.column_share + noise.along_share > 1)
+      fail("/correlated_noise/along_share",
+           "must not be above 1 together with column_share: they are shares of one variance");
+    const double rest = instrument_.angle_sigma_rad * instrument_.angle_sigma_rad -
+                        instrument_.angle_jitter_rad * instrument_.angle_jitter_rad;
+    if (noise.azimuth_flicker_rad * noise.azimuth_flicker_rad > rest)
+      fail("/correlated_noise/azimuth_flicker_arcsec", "must not be above accuracy_arcsec together with jitter_arcsec");
+    if (noise.elevation_wobble_rad * noise.elevation_wobble_rad / 2 >
+        rest)  // the variance of a sine is half its amplitude squared
+      fail("/correlated_noise/elevation_wobble_arcsec",
+           "must not be above accuracy_arcsec together with jitter_arcsec");
+  }
+
+  const Json& document_;
+  Instrument instrument_;
+};
+
+}  // namespace
+
+Result<Instrument> readInstrument(const std::filesystem::path& file) {
+  const std::string name = file.filename().string();
+  std::error_code code;
+  const auto size = std::filesystem::file_size(file, code);
+  std::ifstream stream(file, std::ios::binary);
+  if (code || !stream) return failure(ErrorKind::file_system, "cannot be read", file.string());
+  if (size > kLargestFile)
+    return failure(ErrorKind::unusable, "is larger than an instrument file can be (1 MiB)", name);
+  const std::string content{std::istreambuf_iterator<char>(stream), {}};
+  try {
+    const Json document = Json::parse(content);
+    auto instrument = InstrumentReader(name, document).read();
+    if (instrument && instrument->id != file.stem().string())
+      return failure(ErrorKind::unusable, "must be the file's name, \"" + file.stem().string() + "\"", name + " /id");
+    return instrument;
+  } catch (const Json::exception& exception) {
+    return failure(ErrorKind::unusable, exception.what(), name);
+  }
+}
+
+Result<std::vector<Instrument>> readInstruments(const std::filesystem::path& folder) {
+  std::error_code code;
+  std::vector<std::filesystem::path> files;
+  for (std::filesystem::directory_iterator entry(folder, code), last; !code && entry != last; entry.increment(code))
+    if (entry->path().extension() == ".json" && entry->path().filename() != "schema.json")
+      files.push_back(entry->path());
+  if (code) return failure(ErrorKind::file_system, "cannot be listed: " + code.message(), folder.string());
+  std::sort(files.begin(), files.end());
+  std::vector<Instrument> instruments;
+  for (const auto& file : files) {
+    auto instrument = readInstrument(file);
+    if (!instrument) return failure(instrument.error());
+    instruments.push_back(std::move(*instrument));
+  }
+  return instruments;
+}
+
+}  // namespace standpoint

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scanners/instruments/target_kinds.h"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+
+#include "core/units.h"
+#include "scanners/instruments/figure_reader.h"
+
+namespace standpoint {
+
+namespace {
+
+TargetArticle readArticle(FigureReader& in, const FigureReader::Json& value, const std::string& pointer) {
+  auto group = in.open(value, pointer);
+  TargetArticle article;
+  article.id = in.text(group, "id");
+  article.label = in.text(group, "label");
+  const std::string shape = in.text(group, "shape");
+  if (shape != "sphere" && shape != "checkerboard")
+    in.fail(pointer + "/shape", "must be \"sphere\" or \"checkerboard\"");
+  article.shape = shape == "sphere" ? TargetKind::sphere : TargetKind::checkerboard;
+  article.size_m = in.figure(group, "size_mm", {10, 2000, 1e-3});
+  in.close(group);
+  return article;
+}
+
+TargetKinds readKinds(FigureReader& in, const FigureReader::Json& json) {
+  TargetKinds kinds;
+  auto root = in.open(json, "");
+  in.readSources(root);
+  auto rules = in.child(root, "rules");
+  kinds.rules.least_points = in.count(rules, "least_points", {10, 10000});
+  kinds.rules.most_distance_m = in.figure(rules, "most_distance_m", {1, 1000});
+  kinds.rules.most_incidence_rad = in.figure(rules, "most_incidence_deg", {10, 85, kRadPerDeg});
+  in.close(rules);
+  const auto& list = in.list(root, "kinds", 1000);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    kinds.articles.push_back(readArticle(in, list[i], "/kinds/" + std::to_string(i)));
+    for (std::size_t k = 0; k < i; ++k)
+      if (kinds.articles[k].id == kinds.articles[i].id)
+        in.fail("/kinds/" + std::to_string(i) + "/id", "\"" + kinds.articles[i].id + "\" is there twice");
+  }
+  in.close(root);
+  kinds.evidence = in.evidence();
+  return kinds;
+}
+
+double solidAngle(const ScanSettings& s) {
+  return (s.elevation_to_rad - s.elevation_from_rad) / s.rows * std::abs(s.azimuth_to_rad - s.azimuth_from_rad) /
+         s.columns;
+}
+
+double crossSection(const Target& target) {
+  return target.size_m * target.size_m * (target.kind == TargetKind::sphere ? std::numbers::pi / 4 : 1);
+}
+
+}  // namespace
+
+Result<TargetKinds> readTargetKinds(const std::filesystem::path& file) {
+  std::error_code code;
+  const auto size = std::filesystem::file_size(file, code);
+  if (code) return failure(ErrorKind::file_system, "cannot be read: " + code.message(), file.string());
+  if (size > kLargestFile) return failure(ErrorKind::unusable, "is too large for a list of targets", file.string());
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (json.is_discarded()) return failure(ErrorKind::unusable, "is not JSON", file.string());
+  FigureReader in(file.filename().string());
+  TargetKinds kinds = readKinds(in, json);
+  if (in.error()) return failure(*in.error());
+  return kinds;
+}
+
+double pointsOn(const Target& target, double distance_m, double incidence_rad, const ScanSettings& settings) {
+  const double facing = target.kind == TargetKind::sphere ? 1 : std::max(0.0, std::cos(incidence_rad));
+  return crossSection(target) * facing / (distance_m * distance_m) / solidAngle(settings);
+}
+
+double distanceFor(const Target& target, double points, const ScanSettings& settings) {
+  return std::sqrt(crossSection(target) / points / solidAngle(settings));
+}
+
+}  // namespace standpoint

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scanners/radiometry/radiometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "scanners/math/portable_math.h"
+
+namespace standpoint {
+
+namespace {
+
+// The beam's own divergence and the receiver's opening blur a sharper lobe than this.
+constexpr double kSharpestSlope = 0.005;
+// Float glass, physics.md §1.4: at most 0.01.
+constexpr double kPaneSlope = 0.01;
+// A rougher surface spreads a mirror image over more than the beam is wide.
+constexpr double kSmoothestSlope = 0.0105;
+// Beyond, a mirror image is a hundredth of the mirror's own diffuse return before it is a hand's width away.
+constexpr double kRoughestMirror = 0.0505;
+
+// A class varies from building to building; on one surface by half of that (physics.md §2.9, an engineering figure).
+constexpr double kOnOneSurface = 0.5;
+// Of weathering, 0.3 to 1 m there: for materials of which nobody measured it, which are all so far.
+constexpr double kUsualScale_m = 0.5;
+
+double linear(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }
+
+}  // namespace
+
+Optics opticsOf(const PhysicalMaterial& material, double wavelength_nm) {
+  Optics optics;
+  optics.diffuse = static_cast<float>(std::clamp(atWavelength(material.reflectance, wavelength_nm), 0.0, 1.0));
+  const double variance = material.roughness_rad * material.roughness_rad;
+  optics.oren_a = static_cast<float>(1 - 0.5 * variance / (variance + 0.33));
+  optics.oren_b = static_cast<float>(0.45 * variance / (variance + 0.09));
+  optics.transparent = material.thickness_m > 0 && !material.transmittance.empty() && material.index_of_refraction > 1;
+  const double slope = material.gloss_slope > 0 ? material.gloss_slope : optics.transparent ? kPaneSlope : 0;
+  if (const double specular = specularAtNormal(material, wavelength_nm); slope > 0 && specular > 0) {
+    optics.smooth = slope <= kSmoothestSlope;
+    optics.glossy = !optics.smooth && slope <= kRoughestMirror;
+    optics.mirror_f0 = static_cast<float>(specular);
+    optics.lobe_slope = static_cast<float>(std::max(slope, kSharpestSlope));
+    optics.steepness = 1 / (optics.lobe_slope * optics.lobe_slope);
+    optics.glint = static_cast<float>(specular) / (4 * optics.lobe_slope * optics.lobe_slope);
+  }
+  if (optics.transparent) {
+    optics.index = material.index_of_refraction;
+    optics.thickness_m = material.thickness_m;
+    optics.panes = material.panes;
+    optics.inner_transmittance = innerTransmittance(optics.index, atWavelength(material.transmittance, wavelength_nm));
+  }
+  optics.retro_gain = static_cast<float>(material.retro_gain);
+  optics.variation = static_cast<float>(kOnOneSurface * material.variation);
+  optics.texture_scale_m = static_cast<float>(material.texture_scale_m > 0 ? material.texture_scale_m : kUsualScale_m);
+  return optics;
+}
+
+Optics opticsOf(const Colour& colour) {
+  Optics optics;
+  const double luminance = 0.2126 * linear(colour.r) + 0.7152 * linear(colour.g) + 0.0722 * linear(colour.b);
+  optics.diffuse = static_cast<float>(std::clamp(luminance, 0.05, 0.95));
+  return optics;
+}
+
+double mirrorReflectance(const Optics& optics, double cosine) {
+  if (optics.transparent) return stack(slab(optics.index, optics.inner_transmittance, cosine), optics.panes).reflected;
+  const double f0 = optics.mirror_f0, away = 1 - cosine;
+  return f0 + (1 - f0) * away * away * away * away * away;
+}
+
+double roughMirrorShare(double lobe_slope, double beam_radius_m, double to_mirror_m, double from_mirror_m) {
+  const double way = (to_mirror_m + from_mirror_m) * beam_radius_m / (to_mirror_m * from_mirror_m * lobe_slope);
+  return std::min(1.0, way * way / 8);
+}
+
+float glossEquivalent(const Optics& optics, float cosine) {
+  const float square = cosine * cosine;
+  const float exponent = (1 - square) / square * optics.steepness;  // tan²θ / m²
+  if (!(exponent < 40)) return 0;
+  return optics.glint * portable::exp2(-1.4426950408889634F * exponent) / (square * square * cosine);
+}
+
+std::array<float, 4> nearRangePolynomial(const NearRangeCurve& curve) {
+  constexpr double kLog2PerDb = 0.33219280948873623;
+  std::array<float, 4> log2{};
+  for (std::size_t k = 0; k < curve.amplitude_db.size(); ++k)
+    log2[k] = static_cast<float>(kLog2PerDb * (curve.amplitude_db[k] - (k == 0 ? curve.far_db : 0)));
+  return log2;
+}
+
+float nearRangeFactor(const NearRangeCurve& curve, float range_m) {
+  if (range_m >= static_cast<float>(curve.below_m)) return 1;
+  const auto c = nearRangePolynomial(curve);
+  const float power = c[0] + range_m * (c[1] + range_m * (c[2] + range_m * c[3])) + 2 * portable::log2(range_m);
+  return std::min(1.0F, portable::exp2(std::max(power, -100.0F)));
+}
+
+double detectionThreshold(const ScanSettings& settings, double clear_air_extinction_per_m) {
+  return settings.reference_reflectivity / (settings.max_range_m * settings.max_range_m) *
+         portable::exp(-2 * clear_air_extinction_per_m * settings.max_range_m);
+}
+
+SlabPower slab(double index, double inner_transmittance_at_normal, double cosine) {
+  const double cosine_inside = std::sqrt(1 - (1 - cosine * cosine) / (index * index));
+  const double t =
+      (inner_transmittance_at_normal > 0 ? portable::pow(inner_transmittance_at_normal, 1 / cosine_inside) : 0);
+  SlabPower sum{0, 0};
+  const double across = (cosine - index * cosine_inside) / (cosine + index * cosine_inside);
+  const double along = (index * cosine - cosine_inside) / (index * cosine + cosine_inside);
+  for (const double amplitude : {across, along}) {
+    const double r = amplitude * amplitude;
+    const double transmitted = (1 - r) * (1 - r) * t / (1 - r * r * t * t);
+    sum.transmitted += transmitted / 2;
+    sum.reflected += (r + r * transmitted * t) / 2;
+  }
+  return sum;
+}
+
+SlabPower stack(SlabPower one, int panes) {
+  SlabPower all = one;
+  for (int pane = 1; pane < panes; ++pane) {
+    const double between = 1 - all.reflected * one.reflected;  // what runs to and fro between them
+    all = {all.reflected + all.transmitted * all.transmitted * one.reflected / between,
+           all.transmitted * one.transmitted / between};
+  }
+  return all;
+}
+
+double innerTransmittance(double index, double transmittance) {
+  const double root = (index - 1) / (index + 1);
+  const double r = root * root;
+  // transmittance · (1 - r² t²) = (1 - r)² t, a quadratic in t whose positive root is at most 1 for a possible pane.
+  const double a = transmittance * r * r;
+  const double b = (1 - r) * (1 - r);
+  return std::clamp(2 * transmittance / (b + std::sqrt(b * b + 4 * a * transmittance)), 0.0, 1.0);
+}
+
+RangeNoiseLaw::RangeNoiseLaw(const Instrument& instrument) {
+  std::map<double, std::vector<RangeNoise>> by_reflectivity;
+  for (const auto& figure : instrument.range_noise) by_reflectivity[figure.reflectivity].push_back(figure);
+  for (const auto& [reflectivity, figures] : by_reflectivity) {
+    // Least squares of σ² over q = 1/x², neither part negative.
+    double n = 0, sum_q = 0, sum_v = 0, sum_qq = 0, sum_qv = 0;
+    for (const auto& figure : figures) {
+      const double x = reflectivity / (figure.range_m * figure.range_m) *
+                       static_cast<double>(nearRangeFactor(instrument, static_cast<float>(figure.range_m)));
+      const double q = 1 / (x * x);
+      const double v = figure.sigma_m * figure.sigma_m;
+      n += 1, sum_q += q, sum_v += v, sum_qq += q * q, sum_qv += q * v;
+    }
+    double slope = n > 1 ? (n * sum_qv - sum_q * sum_v) / (n * sum_qq - sum_q * sum_q) : sum_v / (2 * sum_q);
+    slope = std::max(0.0, slope);
+    double floor = (sum_v - slope * sum_q) / n;
+    if (floor < 0) floor = 0, slope = sum_qv / sum_qq;
+    curves_.push_back(
+        {portable::log2(static_cast<float>(reflectivity)), static_cast<float>(floor), static_cast<float>(slope)});
+  }
+}
+
+double RangeNoiseLaw::sigma(double x, double lambert_equivalent) const {
+  const auto of = [&](const Curve& curve) { return std::sqrt(curve.floor_m2 + curve.slope_m2 / (x * x)); };
+  double sigma = of(curves_.front());
+  const double place = std::log2(lambert_equivalent);
+  for (std::size_t i = 1; i < curves_.size(); ++i) {
+    const double from = curves_[i - 1].log2_reflectivity;
+    const double share = std::clamp((place - from) / (curves_[i].log2_reflectivity - from), 0.0, 1.0);
+    sigma += share * (of(curves_[i]) - sigma);
+  }
+  return sigma;
+}
+
+}  // namespace standpoint
