@@ -46,8 +46,9 @@ std::string placeholder(const Parameter& p) {
 
 std::string helpOf(const Parameter& p) {
   std::string help = p.help;
-  if (!p.standard.is_null())
-    help += fmt::format(" (default {})", p.standard.is_string() ? p.standard.get<std::string>() : p.standard.dump());
+  if (!p.default_value.is_null())
+    help += fmt::format(" (default {})",
+                        p.default_value.is_string() ? p.default_value.get<std::string>() : p.default_value.dump());
   return help;
 }
 

@@ -193,22 +193,22 @@ Result<SurfaceFit> fitToSurface(std::span<const Vector3d> points, const Pose& st
   double reach = options.reach_m;
   Equations equations;
   Solution solution;
-  while (fit.iterations < options.most_iterations && !fit.settled) {
+  while (fit.iterations < options.max_iterations && !fit.settled) {
     if (auto go_on = progress.check(); !go_on) return failure(go_on.error());
-    progress.advance(static_cast<double>(fit.iterations) / options.most_iterations);
+    progress.advance(static_cast<double>(fit.iterations) / options.max_iterations);
     place(round, points, fit.to_from);
     if (touch(round, search, reach) < kFewest)
       return failure(
           ErrorKind::unusable,
           "fewer than 100 of the points lie near a surface: place the cloud first, by pairs, or search further");
-    const bool closed_in = reach <= options.least_reach_m;
+    const bool closed_in = reach <= options.min_reach_m;
     weigh(round, closed_in ? 0 : reach);
     equations = assemble(round);
     solution = solve(equations);
     const Pose next = moved(fit.to_from, round.frame, solution.step);
     const double step_m = solution.step.norm();
     fit.settled = closed_in && step_m < kSettled_m;
-    if (!closed_in && step_m < kAtRest * reach) reach = std::max(options.least_reach_m, kClosing * reach);
+    if (!closed_in && step_m < kAtRest * reach) reach = std::max(options.min_reach_m, kClosing * reach);
     fit.to_from = next;
     ++fit.iterations;
   }

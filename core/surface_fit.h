@@ -28,8 +28,8 @@ using SurfaceSearch =
 
 struct SurfaceFitOptions {
   double reach_m = 0.5;  // of the search at first; it closes in as the points come to lie on the surface
-  double least_reach_m = 0.03;
-  int most_iterations = 60;
+  double min_reach_m = 0.03;
+  int max_iterations = 60;
   double block_m = 0.5;  // points of one block are not independent: see sigma
 };
 

@@ -35,7 +35,7 @@ void Editor::showCloud(const std::filesystem::path& file) {
 
 bool Editor::startScan(nlohmann::json options, std::string title) {
   auto live = std::make_shared<LiveCloud>(shift_m(), wake);
-  const ScanCompany company{scan_readiness.at_hand(), live};
+  const ScanSurroundings company{scan_readiness.at_hand(), live};
   const auto work = [company](const Document& document, const nlohmann::json& filled, Progress& progress) {
     return runScan(document, filled, company, progress);
   };
@@ -81,7 +81,7 @@ void Editor::update() {
     budget_preview.want(session.document(), *asked);
   else
     budget_preview.drop();
-  if (!session.document().lightening) {
+  if (!session.document().simplified) {
     view.side = ModelSide::lighter;
     if (view.colour == ColourMode::deviation) view.colour = ColourMode::model;
   }

@@ -95,7 +95,7 @@ struct Editor {
   Selection preview_selection;  // products of what the preview shows
   UnderlayView underlays;
   BudgetPreview budget_preview;
-  std::optional<LighteningRequest> previewed;  // what a panel asks for
+  std::optional<SimplificationRequest> previewed;  // what a panel asks for
   DeviationView deviation;
   KeptCoverage coverage;
   ExpectedView expected;

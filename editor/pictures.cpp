@@ -111,7 +111,7 @@ void palette(Editor& editor) {
 void deviation(Editor& editor) {
   editor.workspace = Workspace::model;
   editor.wanted_tab[1] = "optimise";
-  if (!editor.session.document().lightening) {
+  if (!editor.session.document().simplified) {
     editor.session.start(
         "optimize",
         {{"budget", std::max<std::uint64_t>(1, sceneTriangleCount(*editor.session.document().imported) / 4)}});

@@ -171,13 +171,13 @@ void DeviceHost::startScan(const ScanOrder& order, const Document& document, con
   json options = scanOptions(order.instrument, order.settings, order.station, seed, file_);
   if (order.panorama) options["panorama"] = true;
   if (!order.compensator) options["compensator"] = "off";
-  json mishap = json::array();
-  if (order.until_share < 1) mishap.push_back(fmt::format("until={}", order.until_share));
-  if (order.noise_factor > 1) mishap.push_back(fmt::format("noise={}", order.noise_factor));
-  if (order.bumped_at_share) mishap.push_back(fmt::format("push={}", *order.bumped_at_share));
-  if (order.walker_at_share) mishap.push_back(fmt::format("walk={}", *order.walker_at_share));
-  if (order.operator_in_view) mishap.push_back("stand=0.5");
-  if (!mishap.empty()) options["mishap"] = mishap;
+  json field_fault = json::array();
+  if (order.until_share < 1) field_fault.push_back(fmt::format("until={}", order.until_share));
+  if (order.noise_factor > 1) field_fault.push_back(fmt::format("noise={}", order.noise_factor));
+  if (order.bumped_at_share) field_fault.push_back(fmt::format("push={}", *order.bumped_at_share));
+  if (order.walker_at_share) field_fault.push_back(fmt::format("walk={}", *order.walker_at_share));
+  if (order.operator_in_view) field_fault.push_back("stand=0.5");
+  if (!field_fault.empty()) options["field-fault"] = field_fault;
   if (truth) options["truth"] = true;
   notes_ = order.notes;
   if (const auto* station = stationOf(document, order.station)) {
@@ -247,7 +247,7 @@ void DeviceHost::start(const Order& order, const Document& document, const fs::p
   if (const auto* link = std::get_if<LinkOrder>(&order)) {
     json options = {{"files", {link->to_file, link->from_file}}, {"cloud", true}, {"seed", seed}};
     if (link->shift_x_m != 0 || link->shift_y_m != 0 || link->turn_deg != 0)
-      options["laid"] = fmt::format("{},{},{}", link->shift_x_m, link->shift_y_m, link->turn_deg);
+      options["start-offset"] = fmt::format("{},{},{}", link->shift_x_m, link->shift_y_m, link->turn_deg);
     task_ = std::make_unique<Task>("Link", *findVerb(verbs(), "register"), document, options, wake_);
   } else if (const auto* targets = std::get_if<TargetOrder>(&order)) {
     startWork("Targets", document,

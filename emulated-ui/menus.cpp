@@ -46,8 +46,9 @@ Result<std::shared_ptr<const DeviceType>> loadDevice(const EmulatedDevice& devic
   auto words = Words::read(folder / "words");
   if (!words) return failure(words.error());
   const auto& drives = definition->instruments;
-  const auto standard = std::find_if(drives.begin(), drives.end(), [](const std::string& id) { return id != "*"; });
-  auto found = instrumentById(instrument.empty() && standard != drives.end() ? *standard : instrument);
+  const auto default_value =
+      std::find_if(drives.begin(), drives.end(), [](const std::string& id) { return id != "*"; });
+  auto found = instrumentById(instrument.empty() && default_value != drives.end() ? *default_value : instrument);
   if (!found) return failure(found.error());
   auto type = makeDeviceType(*std::move(definition), device.program(), *std::move(found),
                              std::make_shared<const Words>(*std::move(words)));

@@ -46,12 +46,12 @@ tl::unexpected<Error> JsonPlace::unusable(std::string message) const {
   return failure(ErrorKind::unusable, std::move(message), pointer.empty() ? file : file + ' ' + pointer);
 }
 
-Result<std::string> readWholeFile(const std::filesystem::path& file, std::uintmax_t most_bytes) {
+Result<std::string> readWholeFile(const std::filesystem::path& file, std::uintmax_t max_bytes) {
   std::error_code code;
   const auto size = std::filesystem::file_size(file, code);
   if (code) return failure(ErrorKind::file_system, "cannot be read: " + code.message(), file.string());
-  if (size > most_bytes)
-    return failure(ErrorKind::unusable, "is larger than " + std::to_string(most_bytes >> 20U) + " MB", file.string());
+  if (size > max_bytes)
+    return failure(ErrorKind::unusable, "is larger than " + std::to_string(max_bytes >> 20U) + " MB", file.string());
   std::ifstream stream(file, std::ios::binary);
   std::string text(size, '\0');
   if (!stream.read(text.data(), static_cast<std::streamsize>(size)))

@@ -23,7 +23,7 @@ struct JsonPlace {
   tl::unexpected<Error> unusable(std::string message) const;
 };
 
-Result<std::string> readWholeFile(const std::filesystem::path& file, std::uintmax_t most_bytes);
+Result<std::string> readWholeFile(const std::filesystem::path& file, std::uintmax_t max_bytes);
 
 // The whole file. One that is too large or nests too deeply, syntax errors and a key given twice are errors with their
 // place.

@@ -22,21 +22,21 @@
 namespace standpoint {
 
 // How a lighter model was asked for, so that it can be asked for again when the model has changed.
-struct LighteningRequest {
+struct SimplificationRequest {
   std::optional<std::uint64_t> budget;    // of the main part; nothing: the rules' own, without rules lossless
   double max_deviation_m = 0.015;         // where no rules say how far
   std::string lod_rules;                  // file, or "default"; empty: all products alike
   std::vector<std::string> surroundings;  // selectors
   bool by_view = false;                   // errors weigh by what is seen from the walkable surface
-  bool operator==(const LighteningRequest&) const = default;
+  bool operator==(const SimplificationRequest&) const = default;
 };
 
 // What the optimizer did to reach the lighter environment.
-struct Lightening {
+struct SimplifiedModel {
   std::shared_ptr<const Environment> environment;
   std::vector<ProductLoss> products;
   ProductLoss all;
-  LighteningRequest request;
+  SimplificationRequest request;
   std::vector<std::string> levels;  // of detail, one for each product; empty: all alike
 };
 
@@ -101,7 +101,7 @@ struct Document {
   std::shared_ptr<const Georeference> georeference;
   std::shared_ptr<const Report> import_report;
   std::shared_ptr<const std::vector<Treatment>> treatments;
-  std::shared_ptr<const Lightening> lightening;
+  std::shared_ptr<const SimplifiedModel> simplified;
   std::shared_ptr<const CollideResult> collision;
   std::shared_ptr<const MaterialChoice> materials;
   std::shared_ptr<const Job> job;
@@ -111,7 +111,7 @@ struct Document {
 
   // What is shown, walked in and scanned: the lighter environment where there is one.
   const std::shared_ptr<const Environment>& environment() const {
-    return lightening ? lightening->environment : imported;
+    return simplified ? simplified->environment : imported;
   }
   bool operator==(const Document&) const = default;
 };

@@ -66,7 +66,7 @@ Result<Levels> makeLevels(const Document& document, const std::vector<std::uint6
                           Progress& progress) {
   Levels result;
   for (const auto budget : budgets) {
-    LighteningRequest request;
+    SimplificationRequest request;
     request.budget = budget;
     request.max_deviation_m = kNoLimit;
     const auto plan = planLightening(document, request, progress);

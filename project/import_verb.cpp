@@ -311,10 +311,10 @@ Result<Outcome> addImported(const Document& document, Outcome imported, Progress
   d.imported = std::move(environment);
   d.import_report = std::make_shared<const Report>(std::move(all));
   d.sources.insert(d.sources.end(), imported.document.sources.begin(), imported.document.sources.end());
-  if (d.lightening || d.collision)
+  if (d.simplified || d.collision)
     outcome.report.note(source,
                         "the lighter model and the collision shapes were of the model as it was: make them again");
-  d.lightening.reset();
+  d.simplified.reset();
   d.collision.reset();
   if (d.materials) {
     auto assigned = assignDocumentMaterials(d, {}, progress);

@@ -48,9 +48,9 @@ Tilt tiltOf(const Eigen::Quaterniond& rotation) {
   return {std::atan2(aside, axis.z()), aside > 0 ? std::atan2(axis.y(), axis.x()) : 0};
 }
 
-Tilt drawnTilt(double most_rad, std::uint64_t seed, const std::string& station) {
+Tilt drawnTilt(double max_rad, std::uint64_t seed, const std::string& station) {
   const auto block = philox(keyOf(seed, station), kOfTheStand, kOfTheStand, kSettingUp);
-  return {most_rad * std::sqrt(uniform(block[0])), 2 * std::numbers::pi * uniform(block[1])};
+  return {max_rad * std::sqrt(uniform(block[0])), 2 * std::numbers::pi * uniform(block[1])};
 }
 
 Result<Pose> believedPose(const Station& station, const Instrument& instrument, const Levelling& levelling,

@@ -21,7 +21,7 @@ double yawOf(const Eigen::Quaterniond& rotation);
 Tilt tiltOf(const Eigen::Quaterniond& rotation);
 
 // A levelling error: any tilt up to `most_rad` alike, by seed and the station's name.
-Tilt drawnTilt(double most_rad, std::uint64_t seed, const std::string& station);
+Tilt drawnTilt(double max_rad, std::uint64_t seed, const std::string& station);
 
 // What the device knows of its tilt.
 struct Levelling {

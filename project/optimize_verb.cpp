@@ -37,7 +37,7 @@ std::string levelsOf(const OptimizeOptions& options) {
 }
 
 // What the rules said, with the numbers they hold and how many products each decided.
-void reportRules(const LighteningPlan& plan, Report& report) {
+void reportRules(const SimplificationPlan& plan, Report& report) {
   const auto& products = plan.options.products;
   for (std::uint32_t share = 0; share < plan.levels.size(); ++share) {
     const LodLevel& level = plan.levels[share];
@@ -72,9 +72,9 @@ void reportTreatments(const Document& document, Report& report) {
 
 }  // namespace
 
-Result<LighteningPlan> planLightening(const Document& document, const LighteningRequest& request,
-                                      const Progress& progress) {
-  LighteningPlan plan;
+Result<SimplificationPlan> planLightening(const Document& document, const SimplificationRequest& request,
+                                          const Progress& progress) {
+  SimplificationPlan plan;
   if (request.by_view && !document.collision)
     return failure(ErrorKind::usage, "what walkers see is told from the walkable surface: `collide` makes it",
                    "--by-view");
@@ -96,7 +96,7 @@ Result<LighteningPlan> planLightening(const Document& document, const Lightening
   return plan;
 }
 
-Result<Outcome> optimizeDocument(const Document& document, const LighteningRequest& request, Progress& progress) {
+Result<Outcome> optimizeDocument(const Document& document, const SimplificationRequest& request, Progress& progress) {
   progress.stage("Optimise");
   auto plan = planLightening(document, request, progress);
   if (!plan) return failure(plan.error());
@@ -124,20 +124,20 @@ Result<Outcome> optimizeDocument(const Document& document, const LighteningReque
   outcome.answer["products"] = std::move(rows);
   outcome.description = fmt::format("Optimised {} to {} triangles, at most {:.1f} mm off", result->all.triangles_before,
                                     result->all.triangles_after, result->all.max_deviation_m * 1000);
-  Lightening lightening{std::make_shared<const Environment>(std::move(result->environment)),
-                        std::move(result->products),
-                        result->all,
-                        request,
-                        {}};
-  for (const auto& allowance : options.products) lightening.levels.push_back(allowance.lod);
-  outcome.document.lightening = std::make_shared<const Lightening>(std::move(lightening));
+  SimplifiedModel simplified{std::make_shared<const Environment>(std::move(result->environment)),
+                             std::move(result->products),
+                             result->all,
+                             request,
+                             {}};
+  for (const auto& allowance : options.products) simplified.levels.push_back(allowance.lod);
+  outcome.document.simplified = std::make_shared<const SimplifiedModel>(std::move(simplified));
   return outcome;
 }
 
 Result<Outcome> runOptimize(const Document& document, const json& options, Progress& progress) {
   if (options.contains("surroundings") && !options.contains("lod"))
     return failure(ErrorKind::usage, "tells surroundings apart for level rules: give --lod as well", "surroundings");
-  LighteningRequest request;
+  SimplificationRequest request;
   if (options.contains("budget")) request.budget = options.at("budget").get<std::uint64_t>();
   request.max_deviation_m = options.at("max-deviation").get<double>();
   request.by_view = options.value("by-view", false);

@@ -7,14 +7,14 @@
 namespace standpoint {
 
 // What a request means for the model as it is now: rules looked up, products selected, the author's treatments on top.
-struct LighteningPlan {
+struct SimplificationPlan {
   OptimizeOptions options;
   std::vector<LodLevel> levels;  // of the rules; empty without
 };
-Result<LighteningPlan> planLightening(const Document& document, const LighteningRequest& request,
-                                      const Progress& progress);
+Result<SimplificationPlan> planLightening(const Document& document, const SimplificationRequest& request,
+                                          const Progress& progress);
 
-Result<Outcome> optimizeDocument(const Document& document, const LighteningRequest& request, Progress& progress);
+Result<Outcome> optimizeDocument(const Document& document, const SimplificationRequest& request, Progress& progress);
 Result<Outcome> runOptimize(const Document& document, const nlohmann::json& options, Progress& progress);
 
 }  // namespace standpoint

@@ -89,7 +89,7 @@ Result<json> checkOptions(const Verb& verb, const json& options) {
   for (const auto& p : verb.parameters) {
     if (complete.contains(p.name)) continue;
     if (p.required) return failure(ErrorKind::usage, fmt::format("'{}' is missing: {}", p.name, p.help), verb.name);
-    if (!p.standard.is_null()) complete[p.name] = p.standard;
+    if (!p.default_value.is_null()) complete[p.name] = p.default_value;
   }
   return complete;
 }

@@ -127,11 +127,11 @@ Result<PlanRequest> requestFrom(const Document& document, const json& options) {
     if (!stations) return failure(stations.error());
     request.stations = *std::move(stations);
   }
-  if (options.contains("spacing")) request.wanted.most_spacing_m = options["spacing"].get<double>();
+  if (options.contains("spacing")) request.wanted.max_spacing_m = options["spacing"].get<double>();
   if (options.contains("max-incidence-deg"))
-    request.wanted.most_incidence_rad = options["max-incidence-deg"].get<double>() * kRadPerDeg;
-  if (options.contains("max-range")) request.wanted.most_range_m = options["max-range"].get<double>();
-  request.channels.returns = request.instrument.waveform.most_returns > 1;
+    request.wanted.max_incidence_rad = options["max-incidence-deg"].get<double>() * kRadPerDeg;
+  if (options.contains("max-range")) request.wanted.max_range_m = options["max-range"].get<double>();
+  request.channels.returns = request.instrument.waveform.max_returns > 1;
   request.samples = options.at("samples").get<std::size_t>();
   request.seed = options.at("seed").get<std::uint64_t>();
   return request;
@@ -146,8 +146,8 @@ Result<json> proposalFor(const Document& document, const RayScene& scene, const 
   std::vector<std::uint8_t> seen(plan.samples.samples.size(), 0);
   for (const auto& f : plan.forecasts)
     for (std::size_t k = 0; k < seen.size(); ++k) seen[k] |= f.seen[k];
-  const SightLimits limits{std::min(request.wanted.most_range_m, request.settings.max_range_m),
-                           std::max(SightLimits{}.least_cosine, std::cos(request.wanted.most_incidence_rad)),
+  const SightLimits limits{std::min(request.wanted.max_range_m, request.settings.max_range_m),
+                           std::max(SightLimits{}.min_cosine, std::cos(request.wanted.max_incidence_rad)),
                            request.settings.elevation_from_rad, request.settings.elevation_to_rad};
   progress.stage("Look for another station", 0.7, 1);
   const auto next =

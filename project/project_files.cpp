@@ -125,7 +125,7 @@ Result<Document> fromJson(const json& project, const fs::path& folder, Progress&
     const auto& part = project.at("lightening");
     auto light = loadEnvironment(geometry / part.at("geometry").get<std::string>(), named, progress);
     if (!light) return failure(light.error());
-    d.lightening = lighteningFrom(part, std::make_shared<const Environment>(*std::move(light)));
+    d.simplified = simplificationFrom(part, std::make_shared<const Environment>(*std::move(light)));
   }
   if (project.contains("collision")) {
     const auto& part = project.at("collision");
@@ -178,9 +178,9 @@ Result<void> saveProject(const Document& document, const fs::path& folder, Progr
   if (auto ok = store(project, "imported", storeEnvironment(*document.imported, g, geometry, "imported", progress));
       !ok)
     return ok;
-  if (document.lightening)
+  if (document.simplified)
     if (auto ok = store(project["lightening"], "geometry",
-                        storeEnvironment(*document.lightening->environment, g, geometry, "light", progress));
+                        storeEnvironment(*document.simplified->environment, g, geometry, "light", progress));
         !ok)
       return ok;
   if (document.collision)

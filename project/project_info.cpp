@@ -37,7 +37,7 @@ json projectInfo(const Document& document) {
     const Eigen::Vector3d shift = document.georeference ? document.georeference->shift_m : Eigen::Vector3d::Zero();
     answer["bounds"] = toJson(bounds(*document.environment()), shift);
   }
-  answer["max_deviation_m"] = document.lightening ? json(document.lightening->all.max_deviation_m) : json(nullptr);
+  answer["max_deviation_m"] = document.simplified ? json(document.simplified->all.max_deviation_m) : json(nullptr);
   answer["collision_shapes"] = document.collision ? json(document.collision->shapes.size()) : json(nullptr);
   answer["walkable_m2"] = document.collision ? json(document.collision->walkable_area_m2) : json(nullptr);
   answer["material_coverage"] = document.materials ? json(document.materials->result.report.coverage) : json(nullptr);

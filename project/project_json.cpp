@@ -128,7 +128,7 @@ ProductLoss lossFrom(const json& j) {
   return {j.at(0), j.at(1), j.at(2), j.at(3), j.size() > 4 ? j.at(4).get<double>() : 0};
 }
 
-json lighteningToJson(const Lightening& l) {
+json simplificationToJson(const SimplifiedModel& l) {
   json losses = json::array();
   for (const auto& loss : l.products) losses.push_back(lossToJson(loss));
   json part = {{"max_deviation_m", l.request.max_deviation_m},
@@ -185,7 +185,7 @@ json documentToJson(const Document& d) {
                   {"georeference", georeferenceToJson(*d.georeference)},
                   {"job", jobToJson(*d.job)}};
   if (d.import_report) project["import_report"] = toJson(*d.import_report);
-  if (d.lightening) project["lightening"] = lighteningToJson(*d.lightening);
+  if (d.simplified) project["lightening"] = simplificationToJson(*d.simplified);
   if (d.treatments) project["treatments"] = treatmentsToJson(*d.treatments);
   if (d.collision) project["collision"] = collisionToJson(*d.collision);
   if (d.materials) project["materials"] = materialsToJson(*d.materials);
@@ -271,8 +271,9 @@ Environment recordsFrom(const json& records) {
   return e;
 }
 
-std::shared_ptr<const Lightening> lighteningFrom(const json& part, std::shared_ptr<const Environment> environment) {
-  Lightening l;
+std::shared_ptr<const SimplifiedModel> simplificationFrom(const json& part,
+                                                          std::shared_ptr<const Environment> environment) {
+  SimplifiedModel l;
   l.environment = std::move(environment);
   if (part.contains("budget")) l.request.budget = part.at("budget").get<std::uint64_t>();
   l.request.max_deviation_m = part.at("max_deviation_m");
@@ -282,7 +283,7 @@ std::shared_ptr<const Lightening> lighteningFrom(const json& part, std::shared_p
   l.levels = part.value("levels", std::vector<std::string>{});  // not in the projects of the first version
   l.all = lossFrom(part.at("all"));
   for (const auto& loss : part.at("products")) l.products.push_back(lossFrom(loss));
-  return std::make_shared<const Lightening>(std::move(l));
+  return std::make_shared<const SimplifiedModel>(std::move(l));
 }
 
 Environment collisionEnvironment(const CollideResult& collision) {
@@ -322,7 +323,7 @@ std::shared_ptr<const CollideResult> collisionFrom(const json& part, const Envir
 std::string inconsistency(const Document& d) {
   const auto products = d.imported->products.size();
   const auto surfaces = d.imported->surfaces.size();
-  if (d.lightening && d.lightening->products.size() != products) return "/lightening has another number of products";
+  if (d.simplified && d.simplified->products.size() != products) return "/lightening has another number of products";
   if (d.collision) {
     if (d.collision->products.size() != products) return "/collision has another number of products";
     for (const auto& s : d.collision->shapes)

@@ -22,8 +22,8 @@ Document documentFrom(const nlohmann::json& project);
 nlohmann::json recordsToJson(const Environment& environment);  // products and spatial structure
 Environment recordsFrom(const nlohmann::json& records);
 
-std::shared_ptr<const Lightening> lighteningFrom(const nlohmann::json& part,
-                                                 std::shared_ptr<const Environment> environment);
+std::shared_ptr<const SimplifiedModel> simplificationFrom(const nlohmann::json& part,
+                                                          std::shared_ptr<const Environment> environment);
 
 // Collision shapes as instances (then the walkable surface, as the last mesh), so that the glTF writer serves them too.
 Environment collisionEnvironment(const CollideResult& collision);

@@ -33,15 +33,15 @@ Pose laidByEye(const Station& station, std::uint64_t seed) {
 
 // Where the user has laid it by hand instead: moved and turned about itself in plan.
 Result<Pose> laidByHand(Pose pose, const json& options) {
-  if (!options.contains("laid")) return pose;
-  const auto text = options["laid"].get<std::string>();
+  if (!options.contains("start-offset")) return pose;
+  const auto text = options["start-offset"].get<std::string>();
   double x_m = 0, y_m = 0, turn_deg = 0;
   int read = 0;
   const bool whole = std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &x_m, &y_m, &turn_deg, &read) == 3 &&
                      static_cast<std::size_t>(read) == text.size();
   if (!whole || !std::isfinite(x_m + y_m + turn_deg))
     return failure(ErrorKind::usage, fmt::format("'{}' is not three numbers: x,y,turn in m and degrees", text),
-                   "--laid");
+                   "--start-offset");
   pose.translation += Vector3d(x_m, y_m, 0);
   pose.rotation = Eigen::AngleAxisd(turn_deg * kRadPerDeg, Vector3d::UnitZ()) * pose.rotation;
   return pose;

@@ -92,7 +92,7 @@ std::string guidOf(std::uint64_t world_fingerprint, const Station& station, cons
   if (request.panorama) a = mix(a, "panorama");
   if (!request.as.empty()) a = mix(a, request.as);  // a run that goes on takes no station that was written otherwise
   if (request.panorama_columns > 0) a = mix(a, std::uint64_t{request.panorama_columns});
-  if (const auto& m = request.mishap; m.any())
+  if (const auto& m = request.field_fault; m.any())
     a = mix(a, fmt::format("mishap {} {} {} {} {}", m.until_share, m.noise_factor, m.pushed_at_share.value_or(-1),
                            m.walked_at_share.value_or(-1), m.stood_at_share.value_or(-1)));
   for (const auto& note : request.notes) a = mix(a, note);

@@ -29,13 +29,13 @@ Result<std::shared_ptr<const ScanPreparation>> prepareScan(const Document& docum
                                                            Progress& progress);
 
 // Whom a scan is made for: what was prepared for it, and who watches its points beside the file. Both may be null.
-struct ScanCompany {
+struct ScanSurroundings {
   std::shared_ptr<const ScanPreparation> preparation;
   std::shared_ptr<PointSink> watcher;
 };
 
 // The verb `scan`; its options are checked already.
-Result<Outcome> runScan(const Document& document, const nlohmann::json& options, const ScanCompany& company,
+Result<Outcome> runScan(const Document& document, const nlohmann::json& options, const ScanSurroundings& company,
                         Progress& progress);
 
 }  // namespace standpoint

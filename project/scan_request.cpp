@@ -135,7 +135,7 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const json& option
   request.settings = *std::move(settings);
   request.instrument.camera = request.settings.camera;
   if (const auto most = chosenEffect(request.instrument, request.settings.values, "most_returns"))
-    request.instrument.waveform.most_returns = static_cast<int>(*most);
+    request.instrument.waveform.max_returns = static_cast<int>(*most);
   request.options.seed = options.at("seed").get<std::uint64_t>();
   if (auto effects = effectsFrom(options); effects)
     request.options.effects = *effects;
@@ -152,10 +152,10 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const json& option
     request.options.sun = *sun;
   }
   request.options.interference = options.value("interference", 0.0);
-  if (options.contains("mishap")) {
-    auto mishap = mishapFrom(options["mishap"].get<std::vector<std::string>>());
-    if (!mishap) return failure(mishap.error());
-    request.mishap = *mishap;
+  if (options.contains("field-fault")) {
+    auto field_fault = fieldFaultFrom(options["field-fault"].get<std::vector<std::string>>());
+    if (!field_fault) return failure(field_fault.error());
+    request.field_fault = *field_fault;
   }
   if (options.contains("note")) request.notes = options["note"].get<std::vector<std::string>>();
   request.levelling = {.compensator = options.at("compensator") == "on",
@@ -177,7 +177,7 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const json& option
   }
   const bool truth = options.value("truth", false);
   request.options.channels = {
-      .time = truth, .returns = truth || request.instrument.waveform.most_returns > 1, .truth = truth};
+      .time = truth, .returns = truth || request.instrument.waveform.max_returns > 1, .truth = truth};
   request.options.threads = options.at("threads").get<int>();
   auto stations = stationsFrom(*document.job, options.at("stations").get<std::string>());
   if (!stations) return failure(stations.error());

@@ -9,8 +9,8 @@
 
 #include "pointclouds/formats.h"
 #include "project/document.h"
+#include "project/field_fault.h"
 #include "project/levelling.h"
-#include "project/mishap.h"
 #include "scanners/engine/ray_engine.h"
 
 namespace standpoint {
@@ -29,7 +29,7 @@ struct ScanRequest {
   Levelling levelling;
   bool panorama = false;               // each station takes its pictures, and the points are coloured from them
   std::uint32_t panorama_columns = 0;  // that were asked for; 0: the instrument's own
-  Mishap mishap;
+  FieldFault field_fault;
   std::vector<std::string> notes;  // "key=text" for the files' record
   bool resume = false;             // stations that an earlier run finished are not scanned again
 };

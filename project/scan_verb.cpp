@@ -150,8 +150,8 @@ Result<ScanCount> scanStation(const RayScene& scene, const ScanWorld& world, con
   }
   ScanOptions options = request.options;
   options.station_key = static_cast<std::uint32_t>(stableHash(station.name.c_str()));
-  auto count = scanWithMishap(scene, world.assignment, request.instrument, request.settings, station.true_pose, options,
-                              request.mishap, sink, progress);
+  auto count = scanWithFieldFault(scene, world.assignment, request.instrument, request.settings, station.true_pose,
+                                  options, request.field_fault, sink, progress);
   if (!count) return count;
   if (auto ok = sink.end(); !ok) return failure(ok.error());
   return count;
@@ -160,7 +160,8 @@ Result<ScanCount> scanStation(const RayScene& scene, const ScanWorld& world, con
 // Many stations, one after the other: into one file or a file each, with what is finished kept for a run to come.
 class ScanRun {
  public:
-  ScanRun(const Document& document, const ScanRequest& request, const ScanCompany& company, std::vector<Pose> believed)
+  ScanRun(const Document& document, const ScanRequest& request, const ScanSurroundings& company,
+          std::vector<Pose> believed)
       : document_(document),
         request_(request),
         world_(company.preparation->world),
@@ -323,10 +324,11 @@ class ScanRun {
 }  // namespace
 
 Result<Outcome> runScan(const Document& document, const json& options, Progress& progress) {
-  return runScan(document, options, ScanCompany(), progress);
+  return runScan(document, options, ScanSurroundings(), progress);
 }
 
-Result<Outcome> runScan(const Document& document, const json& options, const ScanCompany& company, Progress& progress) {
+Result<Outcome> runScan(const Document& document, const json& options, const ScanSurroundings& company,
+                        Progress& progress) {
   auto request = scanRequestFrom(document, options);
   if (!request) return failure(request.error());
   Outcome outcome{document, json::object(), {}, {}};
@@ -337,7 +339,7 @@ Result<Outcome> runScan(const Document& document, const json& options, const Sca
     believed.push_back(*pose);
   }
   noteDefaultRules(document, outcome.report);
-  ScanCompany at_hand = company;
+  ScanSurroundings at_hand = company;
   if (!at_hand.preparation || !at_hand.preparation->fits(document)) {
     auto made = prepareScan(document, nullptr, progress);
     if (!made) return failure(made.error());

@@ -63,13 +63,13 @@ std::string whyNot(const TargetSight& s, const Target& t, const TargetRules& rul
   if (s.seen_share < 1e-9) return "hidden by " + s.hidden_by;
   if (s.seen_share < kEnoughSeen)
     return fmt::format("only {:.0f} % of it is seen past {}", s.seen_share * 100, s.hidden_by);
-  if (t.kind == TargetKind::checkerboard && s.incidence_rad > rules.most_incidence_rad)
+  if (t.kind == TargetKind::checkerboard && s.incidence_rad > rules.max_incidence_rad)
     return fmt::format("seen at {:.0f}°, and a plate is measured up to {:.0f}°", s.incidence_rad / kRadPerDeg,
-                       rules.most_incidence_rad / kRadPerDeg);
-  if (s.distance_m > s.most_distance_m)
-    return fmt::format("{:.1f} m away, and it is measured up to {:.1f} m", s.distance_m, s.most_distance_m);
-  if (s.points && *s.points < rules.least_points)
-    return fmt::format("about {:.0f} points on it, and {} are wanted", *s.points, rules.least_points);
+                       rules.max_incidence_rad / kRadPerDeg);
+  if (s.distance_m > s.max_distance_m)
+    return fmt::format("{:.1f} m away, and it is measured up to {:.1f} m", s.distance_m, s.max_distance_m);
+  if (s.points && *s.points < rules.min_points)
+    return fmt::format("about {:.0f} points on it, and {} are wanted", *s.points, rules.min_points);
   return {};
 }
 
@@ -85,11 +85,11 @@ TargetSight sightFrom(const Station& station, const RayScene& scene, const Targe
   if (target.kind == TargetKind::checkerboard)
     s.incidence_rad = std::acos(std::clamp(target.normal.dot(way) / s.distance_m, -1.0, 1.0));
   look(scene, target, from, s);
-  s.most_distance_m = rules.most_distance_m;
+  s.max_distance_m = rules.max_distance_m;
   if (settings) {
     s.points = pointsOn(target, s.distance_m, s.incidence_rad, *settings);
-    s.most_distance_m =
-        std::min({s.most_distance_m, settings->max_range_m, distanceFor(target, rules.least_points, *settings)});
+    s.max_distance_m =
+        std::min({s.max_distance_m, settings->max_range_m, distanceFor(target, rules.min_points, *settings)});
   }
   s.why_not = whyNot(s, target, rules);
   return s;
@@ -114,7 +114,7 @@ json toJson(const std::vector<TargetSight>& sights) {
                     {"incidence_deg", s.incidence_rad / kRadPerDeg},
                     {"seen_share", s.seen_share},
                     {"points", s.points ? json(std::round(*s.points)) : json(nullptr)},
-                    {"most_distance_m", s.most_distance_m},
+                    {"most_distance_m", s.max_distance_m},
                     {"why_not", s.why_not.empty() ? json(nullptr) : json(s.why_not)}});
   return rows;
 }

@@ -18,7 +18,7 @@ struct TargetSight {
   double seen_share = 0;         // of its face
   std::string hidden_by;         // where not all is seen
   std::optional<double> points;  // that the instrument lays on it, hidden or not; nothing where none is known
-  double most_distance_m = 0;    // at which this instrument's grid, or the rule, still does
+  double max_distance_m = 0;     // at which this instrument's grid, or the rule, still does
   std::string why_not;           // empty: it can be measured from there
 };
 

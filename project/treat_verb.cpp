@@ -45,10 +45,10 @@ void tidy(const Environment& environment, std::vector<Treatment>& treatments) {
 
 // What was made from the scene as it was before: the lighter one only changes its marks, the rest is made anew or goes.
 Result<void> follow(Document& document, Report& report, Progress& progress) {
-  if (document.lightening) {
-    auto lightening = *document.lightening;
-    lightening.environment = withExclusions(lightening.environment, *document.treatments);
-    document.lightening = std::make_shared<const Lightening>(std::move(lightening));
+  if (document.simplified) {
+    auto simplified = *document.simplified;
+    simplified.environment = withExclusions(simplified.environment, *document.treatments);
+    document.simplified = std::make_shared<const SimplifiedModel>(std::move(simplified));
   }
   if (document.collision) {
     document.collision = nullptr;
@@ -104,7 +104,7 @@ Result<Outcome> runTreat(const Document& document, const json& options, Progress
   after.imported = withExclusions(document.imported, *after.treatments);
   if (after.imported != document.imported)
     if (auto done = follow(after, outcome.report, progress); !done) return failure(done.error());
-  if (document.lightening && kind != TreatmentKind::excluded)
+  if (document.simplified && kind != TreatmentKind::excluded)
     outcome.report.note("optimize", "the lighter model follows when it is optimised again");
   outcome.answer = answerOf(*after.imported, *after.treatments);
   const char* done = kind == TreatmentKind::excluded     ? "Excluded"

@@ -123,14 +123,14 @@ struct Update {
     return {};
   }
 
-  Result<void> lightening(Progress& progress) {
-    if (!before.lightening) return {};
-    auto request = before.lightening->request;
+  Result<void> simplified(Progress& progress) {
+    if (!before.simplified) return {};
+    auto request = before.simplified->request;
     if (std::exchange(request.by_view, false))
       outcome.report.note("optimize", "what walkers see of the changed model is not known yet: it does not weigh");
     auto light = optimizeDocument(outcome.document, request, progress);
     if (!light) return failure(light.error());
-    outcome.document.lightening = light->document.lightening;
+    outcome.document.simplified = light->document.simplified;
     outcome.report.append(light->report);
     return {};
   }
@@ -224,7 +224,7 @@ Result<Outcome> updateModels(const Document& document, std::vector<fs::path> fil
   update.georeference(crs);
   update.survey();
   update.treatments();
-  if (auto done = update.lightening(progress); !done) return failure(done.error());
+  if (auto done = update.simplified(progress); !done) return failure(done.error());
   if (auto done = update.materials(progress); !done) return failure(done.error());
   outcome->answer["changes"]["kept"] = std::move(update.kept);
   outcome->description = fmt::format("Updated {}: {}", files.front().filename().string(), summary);

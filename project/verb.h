@@ -33,8 +33,8 @@ struct Parameter {
   const char* name;  // "max-deviation"; on the command line --max-deviation, in a job "max-deviation"
   ParameterKind kind;
   const char* help;
-  const char* unit = "";         // "m", "deg"
-  nlohmann::json standard = {};  // default; null = none
+  const char* unit = "";              // "m", "deg"
+  nlohmann::json default_value = {};  // default; null = none
   double minimum = -1e300, maximum = 1e300;
   std::vector<const char*> choices = {};
   bool positional = false;

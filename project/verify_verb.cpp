@@ -77,10 +77,10 @@ Result<CloudSample> usableSample(const Underlay& underlay, const json& options, 
   if (sample->intensity.empty())
     return failure(ErrorKind::unusable,
                    "the cloud has no intensity: export it with intensity from the scanner's software", underlay.name);
-  if (!(sample->most_intensity > sample->least_intensity))
+  if (!(sample->max_intensity > sample->min_intensity))
     return failure(ErrorKind::unusable,
                    fmt::format("every point has the same intensity, {}: it was lost on the way; export the cloud again",
-                               sample->least_intensity),
+                               sample->min_intensity),
                    underlay.name);
   std::size_t without = 0;
   for (auto& scan : sample->scans) {

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Sourced by ./run and ./test: installs what packages.txt names and is missing, then configures and builds.
+# Sourced by ./run, ./test and .ci/run: installs what is missing, then configures and builds.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-install_missing() {
+install_missing() {  # install_missing [LIST...]: what the lists name, packages.txt where none is given
   local wanted missing=()
-  mapfile -t wanted < <(sed 's/#.*//' packages.txt | tr -s '[:space:]' '\n' | sed '/^$/d')
+  mapfile -t wanted < <(cat "${@:-packages.txt}" | sed 's/#.*//' | tr -s '[:space:]' '\n' | sed '/^$/d')
   local package
   for package in "${wanted[@]}"; do
     [[ $(dpkg-query -W -f='${Status}' "$package" 2>/dev/null) == "install ok installed" ]] || missing+=("$package")

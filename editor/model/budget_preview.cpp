@@ -15,7 +15,7 @@ BudgetPreview::~BudgetPreview() {
   if (worker_.joinable()) worker_.join();
 }
 
-void BudgetPreview::want(const Document& document, const LighteningRequest& request) {
+void BudgetPreview::want(const Document& document, const SimplificationRequest& request) {
   const Wish wish{document.imported, document.treatments, request.by_view ? document.collision : nullptr, request};
   const std::lock_guard lock(mutex_);
   if (wish_ == wish) return;

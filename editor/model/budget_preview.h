@@ -20,7 +20,7 @@ class BudgetPreview {
   explicit BudgetPreview(std::function<void()> wake) : wake_(std::move(wake)) {}
   ~BudgetPreview();
   // Of the imported model with the document's treatments. Other limits, or another model, are prepared first.
-  void want(const Document& document, const LighteningRequest& request);
+  void want(const Document& document, const SimplificationRequest& request);
   void drop();  // shows nothing and forgets what was prepared
 
   struct State {
@@ -36,7 +36,7 @@ class BudgetPreview {
     std::shared_ptr<const Environment> imported;
     std::shared_ptr<const std::vector<Treatment>> treatments;
     std::shared_ptr<const CollideResult> collision;
-    LighteningRequest request;
+    SimplificationRequest request;
     // But for the budget.
     bool sameModel(const Wish& o) const {
       Wish other = o;

@@ -80,7 +80,7 @@ void DeviationView::wait() {
 }
 
 void DeviationView::follow(const Document& document, const std::function<void()>& wake) {
-  const auto lighter = document.lightening ? document.lightening->environment : nullptr;
+  const auto lighter = document.simplified ? document.simplified->environment : nullptr;
   if (document.imported == original_ && lighter == lighter_) return;
   stop();
   result_.reset();
@@ -89,8 +89,8 @@ void DeviationView::follow(const Document& document, const std::function<void()>
   if (!original_ || !lighter_) return;
   progress_ = std::make_unique<Progress>();
   done_.store(false);
-  const double limit_m = document.lightening->request.lod_rules.empty() ? document.lightening->request.max_deviation_m
-                                                                        : document.lightening->all.max_deviation_m;
+  const double limit_m = document.simplified->request.lod_rules.empty() ? document.simplified->request.max_deviation_m
+                                                                        : document.simplified->all.max_deviation_m;
   worker_ = std::thread([this, limit_m, wake] {
     result_ = compare(original_, lighter_, limit_m, *progress_);
     done_.store(true);
@@ -99,8 +99,8 @@ void DeviationView::follow(const Document& document, const std::function<void()>
 }
 
 std::shared_ptr<const Comparison> DeviationView::of(const Document& document) const {
-  if (!done_.load() || !document.lightening || document.imported != original_ ||
-      document.lightening->environment != lighter_)
+  if (!done_.load() || !document.simplified || document.imported != original_ ||
+      document.simplified->environment != lighter_)
     return nullptr;
   return result_;
 }

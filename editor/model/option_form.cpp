@@ -87,9 +87,9 @@ OptionForm::OptionForm(const Verb& verb) {
   for (const auto& parameter : verb.parameters) {
     OptionField field;
     field.parameter = &parameter;
-    field.given = parameter.required || !parameter.standard.is_null();
-    if (!parameter.standard.is_null())
-      fillField(field, parameter.standard);
+    field.given = parameter.required || !parameter.default_value.is_null();
+    if (!parameter.default_value.is_null())
+      fillField(field, parameter.default_value);
     else if (parameter.kind == ParameterKind::choice && !parameter.choices.empty())
       field.text = parameter.choices.front();
     else if (parameter.minimum > 0)

@@ -50,7 +50,7 @@ nlohmann::json scanOptions(const ScanChoice& asked) {
 void chooseInstrument(ScanChoice& asked, const Instrument& instrument) {
   asked.instrument = instrument.id;
   asked.settings.clear();
-  for (const auto& setting : instrument.settings) asked.settings.emplace_back(setting.key, setting.standard);
+  for (const auto& setting : instrument.settings) asked.settings.emplace_back(setting.key, setting.default_value);
 }
 
 std::string effectsSummary(Effects effects) {

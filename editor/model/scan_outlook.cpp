@@ -20,7 +20,7 @@ std::optional<ScanOutlook> workedOut(const OutlookRequest& wanted, const Instrum
                       .wanted = {},
                       .samples = kSamples};
   const bool truth = wanted.asked.truth;
-  request.channels = {.time = truth, .returns = truth || instrument.waveform.most_returns > 1, .truth = truth};
+  request.channels = {.time = truth, .returns = truth || instrument.waveform.max_returns > 1, .truth = truth};
   const auto assignment = wanted.materials ? std::shared_ptr<const MaterialAssignment>(
                                                  wanted.materials, &wanted.materials->result.assignment)
                                            : std::make_shared<const MaterialAssignment>();

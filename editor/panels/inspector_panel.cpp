@@ -78,7 +78,7 @@ void drawGeometry(Editor& editor, std::uint32_t index) {
     ui::property("From", coordinates(bounds_of.min + editor.shift_m()));
     ui::property("To", coordinates(bounds_of.max + editor.shift_m()));
   }
-  if (const auto& light = editor.session.document().lightening; light && index < light->products.size()) {
+  if (const auto& light = editor.session.document().simplified; light && index < light->products.size()) {
     const auto& loss = light->products[index];
     ui::property("Before", fmt::format("{} triangles", groupedDigits(loss.triangles_before)));
     ui::property("Deviation", fmt::format("at most {:.1f} mm, mean {:.2f} mm", loss.max_deviation_m * 1000,

@@ -16,7 +16,7 @@ namespace standpoint {
 
 namespace {
 
-void drawResult(Editor& editor, const Lightening& light) {
+void drawResult(Editor& editor, const SimplifiedModel& light) {
   ui::heading(editor, "Result");
   const auto& all = light.all;
   const double share = all.triangles_before > 0
@@ -84,7 +84,7 @@ void drawHistogram(Editor& editor) {
 }
 
 // What lost most, so that one can look at it.
-void drawWorst(Editor& editor, const Lightening& light) {
+void drawWorst(Editor& editor, const SimplifiedModel& light) {
   std::vector<std::uint32_t> order;
   for (std::uint32_t p = 0; p < light.products.size(); ++p)
     if (light.products[p].max_deviation_m > 0) order.push_back(p);
@@ -126,7 +126,7 @@ void drawWorst(Editor& editor, const Lightening& light) {
 void drawPreview(Editor& editor, std::uint64_t budget) {
   const auto& state = editor.panels.optimise;
   if (!state.only_lossless) {
-    LighteningRequest request;
+    SimplificationRequest request;
     request.budget = std::max<std::uint64_t>(1, budget);
     request.max_deviation_m = state.max_deviation_mm / 1000;
     request.by_view = state.by_view && editor.session.document().collision;
@@ -190,10 +190,10 @@ void drawOptimisePanel(Editor& editor) {
                           {"by-view", state.by_view && document.collision != nullptr}},
                          "Optimise the model");
   }
-  if (!document.lightening) return;
-  drawResult(editor, *document.lightening);
+  if (!document.simplified) return;
+  drawResult(editor, *document.simplified);
   drawHistogram(editor);
-  drawWorst(editor, *document.lightening);
+  drawWorst(editor, *document.simplified);
 }
 
 }  // namespace standpoint

@@ -27,7 +27,7 @@ std::string whyNoCollision(const Editor& e) {
 }
 
 std::string whyNotOptimised(const Editor& e) {
-  return e.session.document().lightening ? "" : "Optimise the model first (panel Optimise)";
+  return e.session.document().simplified ? "" : "Optimise the model first (panel Optimise)";
 }
 
 void newProject(Editor& e) {

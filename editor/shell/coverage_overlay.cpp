@@ -35,9 +35,9 @@ const std::vector<SeenFrom>* scansOf(Editor& editor, std::string& why) {
 
 SeenWhen wishesOf(const Editor& editor) {
   SeenWhen wanted;
-  if (editor.panels.plan.spacing_mm > 0) wanted.most_spacing_m = editor.panels.plan.spacing_mm / 1000;
+  if (editor.panels.plan.spacing_mm > 0) wanted.max_spacing_m = editor.panels.plan.spacing_mm / 1000;
   if (editor.panels.plan.max_incidence_deg < 90)
-    wanted.most_incidence_rad = editor.panels.plan.max_incidence_deg * kRadPerDeg;
+    wanted.max_incidence_rad = editor.panels.plan.max_incidence_deg * kRadPerDeg;
   return wanted;
 }
 

@@ -79,7 +79,7 @@ void drawOptionForm(Editor& editor, OptionForm& form) {
     ImGui::PushID(p.name);
     const std::string unit = *p.unit != 0 ? fmt::format("  [{}]", p.unit) : "";
     ui::propertyLabel((readableOption(p.name) + unit).c_str());
-    const bool optional = !p.required && p.standard.is_null() && p.kind != ParameterKind::flag;
+    const bool optional = !p.required && p.default_value.is_null() && p.kind != ParameterKind::flag;
     if (optional) {
       ImGui::Checkbox("###given", &field.given);
       ui::tooltip("Not ticked: left to the program");

@@ -59,7 +59,7 @@ void colourChip(Editor& editor) {
                           ColourMode::expected_intensity, ColourMode::expected_noise, ColourMode::expected_fate,
                           ColourMode::coverage, ColourMode::coverage_spacing, ColourMode::coverage_incidence})
     if (ImGui::Selectable(colourName(mode), editor.view.colour == mode)) editor.view.colour = mode;
-  if (editor.session.document().lightening &&
+  if (editor.session.document().simplified &&
       ImGui::Selectable(colourName(ColourMode::deviation), editor.view.colour == ColourMode::deviation))
     editor.view.colour = ColourMode::deviation;
   ImGui::EndCombo();
@@ -87,7 +87,7 @@ const char* sideName(ModelSide side) {
 }
 
 void sideChip(Editor& editor) {
-  if (!editor.session.document().lightening || isExpected(editor.view.colour)) return;
+  if (!editor.session.document().simplified || isExpected(editor.view.colour)) return;
   beside(editor, 112);
   ImGui::SetNextItemWidth(editor.px(112));
   if (!ImGui::BeginCombo("###side", fmt::format("{}  {}", ICON_COMPRESS, sideName(editor.view.side)).c_str(),

@@ -230,9 +230,9 @@ void drawBothModels(Editor& editor, ImVec2 origin, ImVec2 half) {
   ImGui::GetWindowDrawList()->AddLine(right, {right.x, right.y + half.y}, IM_COL32(12, 14, 17, 255), editor.px(2));
   const auto& document = editor.session.document();
   drawCaption(editor, origin, half,
-              fmt::format("Original  {} triangles", groupedDigits(document.lightening->all.triangles_before)));
+              fmt::format("Original  {} triangles", groupedDigits(document.simplified->all.triangles_before)));
   drawCaption(editor, right, half,
-              fmt::format("Lighter  {} triangles", groupedDigits(document.lightening->all.triangles_after)));
+              fmt::format("Lighter  {} triangles", groupedDigits(document.simplified->all.triangles_after)));
 }
 
 }  // namespace
@@ -242,7 +242,7 @@ void drawViewport(Editor& editor) {
   const ImVec2 whole = ImGui::GetContentRegionAvail();
   if (whole.x < 16 || whole.y < 8) return;
   const bool both =
-      editor.view.side == ModelSide::both && editor.session.document().lightening && !editor.preview.isOpen();
+      editor.view.side == ModelSide::both && editor.session.document().simplified && !editor.preview.isOpen();
   const ImVec2 size = both ? ImVec2(whole.x / 2, whole.y) : whole;
   auto& view = editor.view;
   view.size = {size.x, size.y};

@@ -93,7 +93,7 @@ ValueRow valueRow(JsonFields& f) {
   v.id = f.text("id");
   v.kind = kindOf(f);
   v.choices = f.texts("choices");
-  v.standard = f.textOr("standard", "");
+  v.default_value = f.textOr("standard", "");
   v.unit = f.textOr("unit", "");
   v.source = f.text("source");
   v.kept = f.flagOr("kept", true);
@@ -101,12 +101,12 @@ ValueRow valueRow(JsonFields& f) {
   if (v.kind == WidgetKind::number) {
     v.minimum = f.number("minimum", -1e9, 1e9);
     v.maximum = f.number("maximum", v.minimum, 1e9);
-    const auto standard = numberIn(v.standard);
-    if (!standard || *standard < v.minimum || *standard > v.maximum)
+    const auto default_value = numberIn(v.default_value);
+    if (!default_value || *default_value < v.minimum || *default_value > v.maximum)
       f.wrong("standard", fmt::format("a number from {} to {} is needed, in quotes", v.minimum, v.maximum));
   } else if (v.kind != WidgetKind::text &&
-             std::find(v.choices.begin(), v.choices.end(), v.standard) == v.choices.end()) {
-    f.wrong("standard", fmt::format("'{}' is not one of the choices", v.standard));
+             std::find(v.choices.begin(), v.choices.end(), v.default_value) == v.choices.end()) {
+    f.wrong("standard", fmt::format("'{}' is not one of the choices", v.default_value));
   }
   if (v.kind != WidgetKind::choice && v.kind != WidgetKind::toggle && v.kind != WidgetKind::text &&
       v.kind != WidgetKind::number)

@@ -67,7 +67,7 @@ struct ValueRow {
   std::string id;
   WidgetKind kind = WidgetKind::toggle;  // choice, toggle, text or number
   std::vector<std::string> choices;
-  std::string standard;
+  std::string default_value;
   double minimum = 0, maximum = 0;
   std::string unit;
   std::string source;

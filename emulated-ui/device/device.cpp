@@ -51,7 +51,7 @@ Result<std::shared_ptr<const DeviceType>> makeDeviceType(DeviceDefinition defini
                    definition.id);
   if (instrument.moving)
     return failure(ErrorKind::usage, "it stands on a tripod; this instrument moves", instrument.id);
-  if (auto standard = resolveSettings(instrument, {}); !standard) return failure(standard.error());
+  if (auto default_value = resolveSettings(instrument, {}); !default_value) return failure(default_value.error());
   for (auto& screen : definition.screens) spellOutSettings(screen.widgets, instrument);
   auto type = std::make_shared<DeviceType>();
   type->definition = std::move(definition);
@@ -73,7 +73,7 @@ Device::Device(std::shared_ptr<const DeviceType> type) : type_(std::move(type)) 
   state_.phase = d.phases.front().id;
   state_.screen = d.phases.front().screen;
   state_.around.card_bytes = d.body.card_bytes;
-  for (const auto& value : d.values) state_.values[value.id] = value.standard;
+  for (const auto& value : d.values) state_.values[value.id] = value.default_value;
   expected_ = *resolveSettings(type_->instrument, {});
   state_.settings = expected_.values;
 }

@@ -78,8 +78,8 @@ std::string JsonFields::text(const char* key, const char* example) {
   return {};
 }
 
-std::string JsonFields::textOr(const char* key, const std::string& standard, const char* example) {
-  return has(key) ? text(key, example) : (known_.insert(key), standard);
+std::string JsonFields::textOr(const char* key, const std::string& default_value, const char* example) {
+  return has(key) ? text(key, example) : (known_.insert(key), default_value);
 }
 
 std::string JsonFields::wordOf(const char* key, const std::vector<std::string>& allowed) {
@@ -101,15 +101,15 @@ double JsonFields::number(const char* key, double minimum, double maximum) {
   return number;
 }
 
-double JsonFields::numberOr(const char* key, double standard, double minimum, double maximum) {
-  return has(key) ? number(key, minimum, maximum) : (known_.insert(key), standard);
+double JsonFields::numberOr(const char* key, double default_value, double minimum, double maximum) {
+  return has(key) ? number(key, minimum, maximum) : (known_.insert(key), default_value);
 }
 
-bool JsonFields::flagOr(const char* key, bool standard) {
+bool JsonFields::flagOr(const char* key, bool default_value) {
   const auto* value = find(key, false);
-  if (value == nullptr) return standard;
+  if (value == nullptr) return default_value;
   if (!value->is_boolean()) needs(key, *value, "true or false, without quotes,");
-  return value->is_boolean() ? value->get<bool>() : standard;
+  return value->is_boolean() ? value->get<bool>() : default_value;
 }
 
 Condition JsonFields::condition(const char* key) {

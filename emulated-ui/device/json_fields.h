@@ -35,11 +35,11 @@ class JsonFields {
   bool has(const char* key) const;
   // `example`: what such a text looks like, for whoever wrote something else.
   std::string text(const char* key, const char* example = "");
-  std::string textOr(const char* key, const std::string& standard, const char* example = "");
+  std::string textOr(const char* key, const std::string& default_value, const char* example = "");
   std::string wordOf(const char* key, const std::vector<std::string>& allowed);
   double number(const char* key, double minimum, double maximum);
-  double numberOr(const char* key, double standard, double minimum, double maximum);
-  bool flagOr(const char* key, bool standard);
+  double numberOr(const char* key, double default_value, double minimum, double maximum);
+  bool flagOr(const char* key, bool default_value);
   Condition condition(const char* key);             // empty when it is missing
   std::vector<std::string> texts(const char* key);  // empty when it is missing
   // Objects of a list that may be missing, in their order.

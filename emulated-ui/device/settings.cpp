@@ -45,7 +45,7 @@ Result<SettingValues> adaptedSettings(const Instrument& instrument, const Settin
   }
   auto plain = wanted;  // the edges of an area, the steps of a pattern of one's own
   for (const auto& other : instrument.settings)
-    if (other.choices.empty() && other.key != key) plain = withSetting(plain, other.key, other.standard);
+    if (other.choices.empty() && other.key != key) plain = withSetting(plain, other.key, other.default_value);
   if (resolveSettings(instrument, plain)) return plain;
   return failure(resolved.error());
 }

@@ -231,7 +231,7 @@ Result<void> optimise(Device& d, const std::string&) {
 Result<void> send(Device& d, const std::string&) {
   if (d.value("server").empty()) return failure(ErrorKind::usage, d.word("no_server"));
   for (const char* id : {"server", "port"})  // the office's listens where the file says
-    if (d.value(id) != findValue(d.type().definition, id)->standard)
+    if (d.value(id) != findValue(d.type().definition, id)->default_value)
       return failure(ErrorKind::usage, d.word("no_answer"));
   if (!d.state().around.wlan) return failure(ErrorKind::usage, d.word("wlan_lost"));
   TransferOrder order{{}, "wlan"};

@@ -37,7 +37,7 @@ json settingsOf(const Instrument& instrument) {
     std::vector<std::string> choices;
     for (const auto& choice : s.choices) choices.push_back(choice.value);
     rows[s.key] = choicesOf(choices, s.minimum, s.maximum);
-    rows[s.key]["standard"] = s.standard;
+    rows[s.key]["standard"] = s.default_value;
   }
   return rows;
 }
@@ -112,7 +112,7 @@ Result<json> namesOf(const std::string& id) {
   json values = json::object(), screens = json::object(), dialogs = json::object(), phases = json::array();
   for (const auto& v : d.values) {
     values[v.id] = v.kind == WidgetKind::text ? json{{"text", true}} : choicesOf(v.choices, v.minimum, v.maximum);
-    values[v.id]["standard"] = v.standard;
+    values[v.id]["standard"] = v.default_value;
   }
   for (const auto& screen : d.screens) {
     screens[screen.id] = json::array();

@@ -21,7 +21,7 @@ json spoken(const Device& device, const std::string& english) {
 // A step for it would be done before anybody comes.
 bool isStandard(const Device& device, const std::string& key) {
   for (const auto& s : device.type().instrument.settings)
-    if (s.key == key) return s.standard == device.setting(key);
+    if (s.key == key) return s.default_value == device.setting(key);
   return false;
 }
 

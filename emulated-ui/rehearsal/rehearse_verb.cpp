@@ -174,11 +174,11 @@ const std::vector<Verb>& table() {
          .help = "lists the devices, or with --device all names and choices that an exercise for it may use"},
         {.name = "device", .kind = K::text, .help = "id of the device, where the exercise is for several"},
         {.name = "student", .kind = K::text, .help = "name on the certificate"},
-        {.name = "language", .kind = K::text, .help = "of the texts", .standard = "en"},
+        {.name = "language", .kind = K::text, .help = "of the texts", .default_value = "en"},
         {.name = "output",
          .kind = K::path,
          .help = "folder for the scans and the result (JSON, CSV, HTML)",
-         .standard = "rehearsal"}},
+         .default_value = "rehearsal"}},
        runRehearse},
   };
   return verbs;

@@ -71,7 +71,7 @@ std::map<std::string, double> readSurvey(const Exercise& exercise, const Device&
   request.samples = kSamples;
   const auto materials = std::make_shared<const MaterialAssignment>(world.assignment);
   const auto plan = planSurvey(*document.job, *scene, materials, request, quiet);
-  request.wanted.most_incidence_rad = kSteepEnough_deg * kRadPerDeg;
+  request.wanted.max_incidence_rad = kSteepEnough_deg * kRadPerDeg;
   const auto steep = planSurvey(*document.job, *scene, materials, request, quiet);
   if (!plan || !steep) return {};
   const auto& samples = plan->samples.samples;

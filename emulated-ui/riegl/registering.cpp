@@ -19,7 +19,7 @@ constexpr double kReflectorPoints = 5;  // [P] so many must lie on a reflector f
 // What each mode takes for a match, and how long it looks: all of it [P]; the names [S31]. AUTO tries the others.
 struct Mode {
   const char* name;
-  double most_error_m, least_overlap, seconds;
+  double max_error_m, min_overlap, seconds;
 };
 constexpr std::array kModes = {
     Mode{"AUTO", 0.02, 0.3, 30},         Mode{"OUTDOOR_URBAN", 0.03, 0.25, 20}, Mode{"OUTDOOR_NON_URBAN", 0.1, 0.2, 25},
@@ -52,7 +52,7 @@ void judgeRegistration(Device& device) {
   if (newest == nullptr || !newest->link) return;
   const auto& mode = modeOf(device);
   const bool good =
-      newest->link->joined && newest->link->error_m <= mode.most_error_m && newest->link->overlap >= mode.least_overlap;
+      newest->link->joined && newest->link->error_m <= mode.max_error_m && newest->link->overlap >= mode.min_overlap;
   device.change().entries["registration_result"] = good ? "ok" : newest->link->joined ? "scan_failed" : "fast_failed";
   newest->link->joined = good;
   device.note("registration", device.state().entries.at("registration_result"));

@@ -57,7 +57,7 @@ Result<void> wholeField(Device& device, const std::string&) {
   if (device.setting("pattern") == "custom") return {};
   auto wanted = device.state().settings;
   for (const auto& setting : device.type().instrument.settings)
-    if (setting.choices.empty()) wanted = withSetting(wanted, setting.key, setting.standard);
+    if (setting.choices.empty()) wanted = withSetting(wanted, setting.key, setting.default_value);
   if (auto ok = device.setSettings(wanted); !ok) return ok;
   return proposePattern(device, {});
 }

@@ -10,7 +10,7 @@ namespace standpoint {
 
 namespace {
 
-void addLoss(ProductLoss& sum, double& area_sum, const Work& work, const Instance& instance, double residual_m) {
+void addLoss(ProductLoss& sum, double& area_sum, const MeshJob& work, const Instance& instance, double residual_m) {
   const double stretch = meanStretch(instance.world_from_mesh);
   const double area_m2 = work.deviation.area_m2 * stretch * stretch;
   sum.triangles_after += work.lighter.triangles.size();
@@ -47,15 +47,15 @@ ProductLoss lossOfDropped(const Environment& environment, const std::vector<cons
 
 }  // namespace
 
-void sumLosses(const Environment& before, const std::vector<Work>& works, const std::vector<double>& residual_m,
+void sumLosses(const Environment& before, const std::vector<MeshJob>& jobs, const std::vector<double>& residual_m,
                OptimizeResult& result) {
   result.products.assign(before.products.size(), {});
   std::vector<double> areas(before.products.size(), 0);
   double area_of_all = 0;
   for (std::size_t i = 0; i < before.instances.size(); ++i) {
     const auto& instance = before.instances[i];
-    addLoss(result.products[instance.product], areas[instance.product], works[instance.mesh], instance, residual_m[i]);
-    addLoss(result.all, area_of_all, works[instance.mesh], instance, residual_m[i]);
+    addLoss(result.products[instance.product], areas[instance.product], jobs[instance.mesh], instance, residual_m[i]);
+    addLoss(result.all, area_of_all, jobs[instance.mesh], instance, residual_m[i]);
   }
   for (std::size_t i = 0; i < areas.size(); ++i)
     if (areas[i] > 0) result.products[i].mean_deviation_m /= areas[i], result.products[i].mean_turn_rad /= areas[i];
@@ -76,12 +76,12 @@ void addDropped(const Environment& environment, const OptimizeOptions& options, 
   }
 }
 
-void reportDropped(const Environment& before, const std::vector<Work>& works, Report& report) {
+void reportDropped(const Environment& before, const std::vector<MeshJob>& jobs, Report& report) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> parts(before.products.size());  // dropped, all
   std::vector<Bounds> gone(before.products.size());
   for (const auto& instance : before.instances) {
     ++parts[instance.product].second;
-    if (!works[instance.mesh].dropped()) continue;
+    if (!jobs[instance.mesh].dropped()) continue;
     ++parts[instance.product].first;
     gone[instance.product].extend(bounds(*before.meshes[instance.mesh], instance.world_from_mesh));
   }
@@ -97,18 +97,18 @@ void reportDropped(const Environment& before, const std::vector<Work>& works, Re
   }
 }
 
-void reportLossless(const Environment& before, const std::vector<Work>& works, Report& report) {
+void reportLossless(const Environment& before, const std::vector<MeshJob>& jobs, Report& report) {
   std::vector<std::uint32_t> copies(before.meshes.size(), 0);
   for (const auto& instance : before.instances) ++copies[instance.mesh];
   std::uint64_t meshes = 0, repeated = 0, repeated_triangles = 0, positions = 0, degenerate = 0, again = 0, flat = 0;
-  for (std::size_t i = 0; i < works.size(); ++i) {
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
     if (copies[i] == 0) continue;
     ++meshes;
-    if (works[i].copies == 0) ++repeated, repeated_triangles += before.meshes[i]->triangles.size();
-    positions += works[i].welded.positions;
-    degenerate += works[i].welded.degenerate;
-    again += works[i].welded.repeated;
-    for (const auto& step : works[i].steps) flat += step.flat ? step.triangles : 0;
+    if (jobs[i].copies == 0) ++repeated, repeated_triangles += before.meshes[i]->triangles.size();
+    positions += jobs[i].welded.positions;
+    degenerate += jobs[i].welded.degenerate;
+    again += jobs[i].welded.repeated;
+    for (const auto& step : jobs[i].steps) flat += step.flat ? step.triangles : 0;
   }
   if (repeated > 0)
     report.note("lossless", fmt::format("{} of {} meshes repeat the shape of another and share it: {} triangles",
@@ -120,10 +120,10 @@ void reportLossless(const Environment& before, const std::vector<Work>& works, R
   if (flat > 0) report.note("lossless", fmt::format("{} triangles went by merging plane regions", flat));
 }
 
-void checkBudgets(const std::vector<Work>& works, const OptimizeOptions& options, OptimizeResult& result) {
+void checkBudgets(const std::vector<MeshJob>& jobs, const OptimizeOptions& options, OptimizeResult& result) {
   for (std::uint32_t share = 0; share <= options.further_budgets.size(); ++share) {
     std::uint64_t left = 0;
-    for (const auto& work : works)
+    for (const auto& work : jobs)
       if (work.share == share) left += work.lighter.triangles.size() * work.copies;
     const auto budget = budgetOf(options, share);
     if (budget == 0 || left <= budget) continue;

@@ -3,13 +3,13 @@
 
 #include <vector>
 
-#include "optimizer/simplify/work.h"
+#include "optimizer/simplify/mesh_job.h"
 
 namespace standpoint {
 
 // What each product lost, and what all lost together, from what each mesh lost. `before` is what `works` were prepared
 // from.
-void sumLosses(const Environment& before, const std::vector<Work>& works, const std::vector<double>& residual_m,
+void sumLosses(const Environment& before, const std::vector<MeshJob>& jobs, const std::vector<double>& residual_m,
                OptimizeResult& result);
 
 // What went before anything was simplified, by its rule: counts with its distance from its own centre, as there is
@@ -17,10 +17,10 @@ void sumLosses(const Environment& before, const std::vector<Work>& works, const 
 void addDropped(const Environment& environment, const OptimizeOptions& options, OptimizeResult& result);
 
 // What went to reach the budget, and what was done without loss.
-void reportDropped(const Environment& before, const std::vector<Work>& works, Report& report);
-void reportLossless(const Environment& before, const std::vector<Work>& works, Report& report);
+void reportDropped(const Environment& before, const std::vector<MeshJob>& jobs, Report& report);
+void reportLossless(const Environment& before, const std::vector<MeshJob>& jobs, Report& report);
 
 // A warning for each share whose caps do not allow its budget; the least that they allow is what is left of it.
-void checkBudgets(const std::vector<Work>& works, const OptimizeOptions& options, OptimizeResult& result);
+void checkBudgets(const std::vector<MeshJob>& jobs, const OptimizeOptions& options, OptimizeResult& result);
 
 }  // namespace standpoint

@@ -9,8 +9,8 @@
 
 #include "core/unused_meshes.h"
 #include "optimizer/optimizer.h"
+#include "optimizer/simplify/attribute_transfer.h"
 #include "optimizer/simplify/losses.h"
-#include "optimizer/simplify/paint.h"
 #include "optimizer/simplify/simplify.h"
 #include "optimizer/simplify/visibility.h"
 #include "optimizer/surface/scene_deviation.h"
@@ -60,16 +60,16 @@ void takeHidden(Environment& environment, const OptimizeOptions& options, Report
 }
 
 // `shared` with its meshes as light as they became. What is not placed any more is not held any more.
-Environment assemble(const Environment& shared, const std::vector<Work>& works) {
+Environment assemble(const Environment& shared, const std::vector<MeshJob>& jobs) {
   Environment result = shared;
-  tbb::parallel_for(std::size_t{0}, works.size(), [&](std::size_t i) {  // each its own mesh
-    const Work& work = works[i];
+  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {  // each its own mesh
+    const MeshJob& work = jobs[i];
     const Mesh& before = *shared.meshes[i];
     if (work.copies == 0 || work.lighter.triangles.size() == before.triangles.size()) return;
-    result.meshes[i] = std::make_shared<const Mesh>(isPainted(before) ? paintedMesh(before, work.shape, work.steps)
-                                                                      : meshOf(work.lighter));
+    result.meshes[i] = std::make_shared<const Mesh>(
+        isPainted(before) ? transferAttributes(before, work.shape, work.steps) : meshOf(work.lighter));
   });
-  std::erase_if(result.instances, [&](const Instance& instance) { return works[instance.mesh].dropped(); });
+  std::erase_if(result.instances, [&](const Instance& instance) { return jobs[instance.mesh].dropped(); });
   return result;
 }
 
@@ -90,16 +90,16 @@ Environment withDropped(const Environment& shared, const Environment& tangible, 
 }
 
 // What bounds each instance's distance from the whole: that from what became of itself, if something did.
-std::vector<double> mostOf(const Environment& environment, const std::vector<Work>& works,
+std::vector<double> mostOf(const Environment& environment, const std::vector<MeshJob>& jobs,
                            const OptimizeOptions& options) {
-  std::vector<double> most_m;
+  std::vector<double> max_m;
   for (const auto& instance : environment.instances) {
-    const Work& work = works[instance.mesh];
+    const MeshJob& work = jobs[instance.mesh];
     const bool gone = work.dropped() || allowanceOf(options, instance.product).drop;
-    most_m.push_back(gone ? std::numeric_limits<double>::infinity()
-                          : work.deviation.max_m * largestStretch(instance.world_from_mesh));
+    max_m.push_back(gone ? std::numeric_limits<double>::infinity()
+                         : work.deviation.max_m * largestStretch(instance.world_from_mesh));
   }
-  return most_m;
+  return max_m;
 }
 
 }  // namespace
@@ -134,29 +134,29 @@ Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOp
   Environment shared = rest;
   if (options.hidden_faces) takeHidden(shared, options, result.report, progress);
   std::vector<double> residual_m;
-  auto works = prepareWorks(shared, options, residual_m);
-  if (auto done = simplify(works, options, progress); !done) return failure(done.error());
-  result.environment = assemble(shared, works);
-  sumLosses(shared, works, residual_m, result);
+  auto jobs = prepareMeshJobs(shared, options, residual_m);
+  if (auto done = simplify(jobs, options, progress); !done) return failure(done.error());
+  result.environment = assemble(shared, jobs);
+  sumLosses(shared, jobs, residual_m, result);
   addDropped(tangible, options, result);
   countTriangles(tangible, result);
-  reportLossless(rest, works, result.report);
-  reportDropped(shared, works, result.report);
+  reportLossless(rest, jobs, result.report);
+  reportDropped(shared, jobs, result.report);
   progress.stage("Measure the whole", 0.9, 1);
   // Of an empty one the products' own figures, to their centres, are all there is; of one mesh they are those of the
   // whole.
   if (result.all.triangles_after > 0 && tangible.instances.size() > 1) {
     KnownOfScene known;
-    for (const auto& work : works) known.meshes.push_back({&work.shape, work.tree.get()});
+    for (const auto& work : jobs) known.meshes.push_back({&work.shape, work.tree.get()});
     const auto original = withDropped(shared, tangible, options);
-    known.most_before_m = mostOf(original, works, options);
-    known.most_after_m = mostOf(result.environment, works, options);
+    known.max_before_m = mostOf(original, jobs, options);
+    known.max_after_m = mostOf(result.environment, jobs, options);
     const auto whole = sceneDeviation(original, result.environment, kDeviationSamples, known, progress);
     result.all.max_deviation_m = whole.max_m + *std::max_element(residual_m.begin(), residual_m.end());
     result.all.mean_deviation_m = whole.mean_m;
   }
   if (auto going = progress.check(); !going) return failure(going.error());
-  checkBudgets(works, options, result);
+  checkBudgets(jobs, options, result);
   addIntangible(environment, result.environment);
   dropUnusedMeshes(result.environment);
   return result;

@@ -5,7 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "optimizer/simplify/paint.h"
+#include "optimizer/simplify/attribute_transfer.h"
 #include "optimizer/simplify/simplify.h"
 
 namespace standpoint {
@@ -19,7 +19,7 @@ Result<std::unique_ptr<OptimizePreview>> OptimizePreview::prepare(const std::sha
   preview->shared_ = withoutDropped(sceneOf(*environment), options);
   progress.stage("Prepare the preview");
   std::vector<double> residual_m;
-  preview->works_ = prepareWorks(preview->shared_, preview->options_, residual_m);
+  preview->works_ = prepareMeshJobs(preview->shared_, preview->options_, residual_m);
   if (auto done = makeAllLevels(preview->works_, progress); !done) return failure(done.error());
   preview->meshes_.resize(preview->works_.size());
   preview->made_.assign(preview->works_.size(), 0);
@@ -37,7 +37,7 @@ std::shared_ptr<const Environment> OptimizePreview::at(std::uint64_t budget) {
   options_.budget = std::max<std::uint64_t>(budget, 1);
   shareAll(works_, options_);
   tbb::parallel_for(std::size_t{0}, works_.size(), [&](std::size_t i) {  // each its own mesh
-    const Work& work = works_[i];
+    const MeshJob& work = works_[i];
     if (work.copies == 0 || work.taken == made_[i]) return;
     const Mesh& before = *shared_.meshes[i];
     const auto steps = work.taken > 0 && work.levels.levels[work.taken - 1].stand_in < 0
@@ -48,7 +48,7 @@ std::shared_ptr<const Environment> OptimizePreview::at(std::uint64_t budget) {
       meshes_[i] = shared_.meshes[i];
     else if (isPainted(before))
       meshes_[i] = std::make_shared<const Mesh>(
-          paintedMesh(before, work.shape, {work.levels.log.begin(), work.levels.log.begin() + steps}));
+          transferAttributes(before, work.shape, {work.levels.log.begin(), work.levels.log.begin() + steps}));
     else
       meshes_[i] = std::make_shared<const Mesh>(meshOf(atLevel(work.shape, work.levels, work.taken, image)));
     made_[i] = work.taken;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "optimizer/optimizer.h"
-#include "optimizer/simplify/work.h"
+#include "optimizer/simplify/mesh_job.h"
 
 namespace standpoint {
 
@@ -30,7 +30,7 @@ class OptimizePreview {
   OptimizePreview() = default;
   Environment shared_;  // with what repeats shared
   OptimizeOptions options_;
-  std::vector<Work> works_;
+  std::vector<MeshJob> works_;
   std::vector<std::shared_ptr<const Mesh>> meshes_;  // as last made
   std::vector<std::size_t> made_;                    // the levels they were made of
   std::uint64_t most_ = 0, least_ = 0;

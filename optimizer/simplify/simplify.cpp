@@ -22,34 +22,34 @@ constexpr std::size_t
 
 // Largest first, so that the last threads do not wait for the largest.
 template <class Task>
-void forEachLargestFirst(std::vector<Work>& works, Progress& progress, Task task) {
-  std::vector<std::uint32_t> order(works.size());
+void forEachLargestFirst(std::vector<MeshJob>& jobs, Progress& progress, Task task) {
+  std::vector<std::uint32_t> order(jobs.size());
   std::iota(order.begin(), order.end(), 0U);
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return works[a].shape.triangles.size() > works[b].shape.triangles.size();
+    return jobs[a].shape.triangles.size() > jobs[b].shape.triangles.size();
   });
   double all = 1;
-  for (const auto& work : works) all += 1 + static_cast<double>(work.shape.triangles.size());
+  for (const auto& work : jobs) all += 1 + static_cast<double>(work.shape.triangles.size());
   std::atomic<std::uint64_t> done{0};
   tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t k) {  // each task writes only its own Work
     if (progress.cancelled()) return;
-    Work& work = works[order[k]];
+    MeshJob& work = jobs[order[k]];
     task(work, order[k]);
     const auto so_far = done += 1 + work.shape.triangles.size();
     progress.advance(static_cast<double>(so_far) / all);
   });
 }
 
-std::uint32_t stepsTaken(const Work& work, std::size_t taken) {
+std::uint32_t stepsTaken(const MeshJob& work, std::size_t taken) {
   return taken > 0 && work.levels.levels[taken - 1].stand_in < 0 ? work.levels.levels[taken - 1].collapses : 0;
 }
 
-void takeLevel(Work& work, std::size_t taken, std::vector<std::uint32_t>& image) {
+void takeLevel(MeshJob& work, std::size_t taken, std::vector<std::uint32_t>& image) {
   work.steps.assign(work.levels.log.begin(), work.levels.log.begin() + stepsTaken(work, taken));
   work.lighter = atLevel(work.shape, work.levels, taken, image);
 }
 
-void measure(Work& work, const DeviationMeter& meter, std::size_t taken) {
+void measure(MeshJob& work, const DeviationMeter& meter, std::size_t taken) {
   std::vector<std::uint32_t> image;
   takeLevel(work, taken, image);
   work.deviation = taken > 0 ? meter.of(work.lighter, image) : meter.ofItself();
@@ -57,7 +57,7 @@ void measure(Work& work, const DeviationMeter& meter, std::size_t taken) {
 
 // The same count by steps that look at the surface as it is. Only where that turns out nearer to the original, and
 // within the limit.
-bool refine(Work& work, const DeviationMeter& meter, const Progress& progress) {
+bool refine(MeshJob& work, const DeviationMeter& meter, const Progress& progress) {
   const auto taken = stepsTaken(work, work.taken);
   if (work.lossless || taken == 0) return false;
   const std::size_t triangles = work.levels.levels[work.taken - 1].triangles;
@@ -95,7 +95,7 @@ bool refine(Work& work, const DeviationMeter& meter, const Progress& progress) {
 
 // The simplest level whose measured deviation stays within the limit. The log was made with a bound on each step's
 // effect, so that this is rarely needed; what counts is the measurement.
-void shrinkToDeviation(Work& work, const DeviationMeter& meter) {
+void shrinkToDeviation(MeshJob& work, const DeviationMeter& meter) {
   std::size_t good = 0, bad = work.taken;
   while (bad - good > 1) {
     const std::size_t middle = good + (bad - good) / 2;
@@ -107,12 +107,12 @@ void shrinkToDeviation(Work& work, const DeviationMeter& meter) {
   work.measured = false;
 }
 
-void shareOne(std::vector<Work>& works, std::uint32_t share, std::uint64_t budget) {
+void shareOne(std::vector<MeshJob>& jobs, std::uint32_t share, std::uint64_t budget) {
   std::vector<Bidder> bidders;
   std::vector<std::uint32_t> work_of_bidder;
   bool lossless = false;
-  for (std::uint32_t i = 0; i < works.size(); ++i) {
-    const Work& work = works[i];
+  for (std::uint32_t i = 0; i < jobs.size(); ++i) {
+    const MeshJob& work = jobs[i];
     if (work.share != share) continue;
     lossless = work.lossless;
     bidders.push_back(
@@ -121,17 +121,17 @@ void shareOne(std::vector<Work>& works, std::uint32_t share, std::uint64_t budge
   }
   const auto taken = shareBudget(bidders, lossless ? 0 : budget);
   for (std::size_t k = 0; k < bidders.size(); ++k) {
-    Work& work = works[work_of_bidder[k]];
+    MeshJob& work = jobs[work_of_bidder[k]];
     if (taken[k] != work.taken) work.measured = false;
     work.taken = taken[k];
   }
 }
 
 // A shape that has most of what its share has keeps at least what the budget leaves when all others stay as they are.
-void findFloors(std::vector<Work>& works, const OptimizeOptions& options) {
+void findFloors(std::vector<MeshJob>& jobs, const OptimizeOptions& options) {
   std::vector<std::uint64_t> all(1 + options.further_budgets.size(), 0);
-  for (const auto& work : works) all[work.share] += work.shape.triangles.size() * work.copies;
-  for (auto& work : works) {
+  for (const auto& work : jobs) all[work.share] += work.shape.triangles.size() * work.copies;
+  for (auto& work : jobs) {
     if (work.copies == 0 || work.lossless) continue;
     const auto others = all[work.share] - work.shape.triangles.size() * work.copies,
                budget = budgetOf(options, work.share);
@@ -141,13 +141,13 @@ void findFloors(std::vector<Work>& works, const OptimizeOptions& options) {
 
 }  // namespace
 
-void shareAll(std::vector<Work>& works, const OptimizeOptions& options) {
+void shareAll(std::vector<MeshJob>& jobs, const OptimizeOptions& options) {
   for (std::uint32_t share = 0; share <= options.further_budgets.size(); ++share)
-    shareOne(works, share, budgetOf(options, share));
+    shareOne(jobs, share, budgetOf(options, share));
 }
 
-Result<void> makeAllLevels(std::vector<Work>& works, Progress& progress) {
-  forEachLargestFirst(works, progress, [&](Work& work, std::uint32_t mesh) {
+Result<void> makeAllLevels(std::vector<MeshJob>& jobs, Progress& progress) {
+  forEachLargestFirst(jobs, progress, [&](MeshJob& work, std::uint32_t mesh) {
     if (work.copies == 0 || work.keep || !(work.scale > 0)) return;
     CollapseOptions how;
     how.max_deviation_m = work.cap_m;
@@ -159,15 +159,15 @@ Result<void> makeAllLevels(std::vector<Work>& works, Progress& progress) {
   return progress.check();
 }
 
-Result<void> simplify(std::vector<Work>& works, const OptimizeOptions& options, Progress& progress) {
+Result<void> simplify(std::vector<MeshJob>& jobs, const OptimizeOptions& options, Progress& progress) {
   progress.stage("Simplify", 0, 0.6);
-  findFloors(works, options);
-  if (auto made = makeAllLevels(works, progress); !made) return made;
+  findFloors(jobs, options);
+  if (auto made = makeAllLevels(jobs, progress); !made) return made;
   progress.stage("Refine and measure", 0.6, 0.9);
   for (bool settled = false; !settled;) {
     if (auto going = progress.check(); !going) return going;
-    shareAll(works, options);
-    forEachLargestFirst(works, progress, [&](Work& work, std::uint32_t mesh) {
+    shareAll(jobs, options);
+    forEachLargestFirst(jobs, progress, [&](MeshJob& work, std::uint32_t mesh) {
       if (work.measured) return;
       if (!work.tree) work.tree = std::make_unique<TriangleTree>(work.shape.positions, work.shape.triangles);
       const DeviationMeter meter(work.shape, *work.tree, work.samples, mesh);
@@ -175,7 +175,7 @@ Result<void> simplify(std::vector<Work>& works, const OptimizeOptions& options, 
       work.measured = true;
       if (!work.lossless && work.taken > 0 && work.deviation.max_m > work.cap_m) shrinkToDeviation(work, meter);
     });
-    settled = std::all_of(works.begin(), works.end(), [](const Work& work) { return work.measured; });
+    settled = std::all_of(jobs.begin(), jobs.end(), [](const MeshJob& work) { return work.measured; });
   }
   return progress.check();
 }

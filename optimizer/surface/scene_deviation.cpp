@@ -138,7 +138,7 @@ double farthestOf(const PlacedSurfaces& from, const PlacedSurfaces& to, std::siz
 // Of all instances, or `known`. Those that can be furthest come first, so that most others need no look: `most_m`
 // bounds each.
 double farthest(const PlacedSurfaces& from, const PlacedSurfaces& to, const std::vector<bool>& same,
-                const std::vector<double>& most_m, double known, const Progress& progress) {
+                const std::vector<double>& max_m, double known, const Progress& progress) {
   std::size_t vertices = 0;
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < from.instances(); ++i) {
@@ -147,7 +147,7 @@ double farthest(const PlacedSurfaces& from, const PlacedSurfaces& to, const std:
     order.push_back(i);
   }
   const std::size_t stride = 1 + vertices / kMostVertices;
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return most_m[a] > most_m[b]; });
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return max_m[a] > max_m[b]; });
   std::vector<double> parts;
   for (std::size_t first = 0, count = kFirstFew; first < order.size();
        first += count, count *= 4) {  // together, so that threads change nothing
@@ -155,7 +155,7 @@ double farthest(const PlacedSurfaces& from, const PlacedSurfaces& to, const std:
     parts.assign(count, known);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
       const auto i = order[first + k];
-      if (!progress.cancelled() && most_m[i] * most_m[i] > kSceneSettled * known)
+      if (!progress.cancelled() && max_m[i] * max_m[i] > kSceneSettled * known)
         parts[k] = farthestOf(from, to, i, stride, known);
     });
     known = *std::max_element(parts.begin(), parts.end());
@@ -173,8 +173,8 @@ Deviation sceneDeviation(const Environment& before, const Environment& after, st
   const SceneOneWay there = ofEnoughPoints(a, b, same_before, samples, progress),
                     back = ofEnoughPoints(b, a, same_after, samples, progress);
   double max_squared = std::max(there.max_squared, back.max_squared);
-  max_squared = farthest(b, a, same_after, known.most_after_m, max_squared, progress);
-  max_squared = farthest(a, b, same_before, known.most_before_m, max_squared, progress);
+  max_squared = farthest(b, a, same_after, known.max_after_m, max_squared, progress);
+  max_squared = farthest(a, b, same_before, known.max_before_m, max_squared, progress);
   Deviation result;
   result.max_m = std::sqrt(max_squared);
   result.mean_m = 0.5 * (there.mean() + back.mean());

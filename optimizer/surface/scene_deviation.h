@@ -13,8 +13,8 @@ namespace standpoint {
 // What is known beforehand.
 struct KnownOfScene {
   std::vector<PlacedSurfaces::Known> meshes;  // trees over those of `before`, where there are some
-  std::vector<double> most_before_m,
-      most_after_m;  // for each instance: no point of it is further away; infinite: who knows
+  std::vector<double> max_before_m,
+      max_after_m;  // for each instance: no point of it is further away; infinite: who knows
 };
 
 // How far two environments are apart as a whole, whichever product a surface belongs to: sampled by area both ways, the

@@ -12,10 +12,10 @@
 #include "optimizer/optimizer.h"
 #include "optimizer/simplify/collapse.h"
 #include "optimizer/surface/shape.h"
+#include "optimizer/walk/door_connectivity.h"
 #include "optimizer/walk/doors.h"
 #include "optimizer/walk/rooms.h"
 #include "optimizer/walk/walkable.h"
-#include "optimizer/walk/ways.h"
 
 namespace standpoint {
 
@@ -24,7 +24,7 @@ namespace {
 constexpr double kMaxDeviation = 0.010;  // m, of a collision shape from what one sees
 constexpr double kFarthest = 1e6;        // m from the origin: beyond, floats are coarser than 6 cm
 
-struct Work {
+struct MeshJob {
   double scale = 0;  // of the largest copy that stops anybody; 0: none does
   Shape shape;
   Pieces result;
@@ -48,28 +48,28 @@ std::optional<std::uint32_t> productTooFar(const Environment& environment, const
   return std::nullopt;
 }
 
-Result<std::vector<Work>> makePieces(const Environment& environment, const std::vector<bool>& stops,
-                                     Progress& progress) {
-  std::vector<Work> works(environment.meshes.size());
+Result<std::vector<MeshJob>> makePieces(const Environment& environment, const std::vector<bool>& stops,
+                                        Progress& progress) {
+  std::vector<MeshJob> jobs(environment.meshes.size());
   for (const auto& instance : environment.instances)
     if (stops[instance.product])
-      works[instance.mesh].scale =
-          std::max(works[instance.mesh].scale,
+      jobs[instance.mesh].scale =
+          std::max(jobs[instance.mesh].scale,
                    Eigen::JacobiSVD<Eigen::Matrix3d>(instance.world_from_mesh.linear()).singularValues()(0));
   progress.stage("Make collision shapes", 0, 0.5);
   std::atomic<std::size_t> done{0};
-  tbb::parallel_for(std::size_t{0}, works.size(), [&](std::size_t i) {  // each task writes only its own Work
-    Work& work = works[i];
+  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {  // each task writes only its own Work
+    MeshJob& work = jobs[i];
     if (progress.cancelled() || !(work.scale > 0) || !std::isfinite(work.scale)) return;
     const Shape whole = weld(*environment.meshes[i]);
     const auto log = recordCollapses(whole, {0, true}, progress);
     work.shape = replay(whole, log, log.size());
     if (progress.cancelled()) return;
     work.result = collisionPieces(work.shape, kMaxDeviation / work.scale, progress);
-    progress.advance(static_cast<double>(++done) / static_cast<double>(works.size()));
+    progress.advance(static_cast<double>(++done) / static_cast<double>(jobs.size()));
   });
   if (auto going = progress.check(); !going) return failure(going.error());
-  return works;
+  return jobs;
 }
 
 bool keepsRightAngles(const Eigen::Affine3d& transform) {
@@ -90,13 +90,13 @@ CollisionShape placed(const Piece& piece, const Eigen::Vector3d& centre, const I
   return shape;
 }
 
-void placeShapes(const Environment& environment, const std::vector<bool>& stops, const std::vector<Work>& works,
+void placeShapes(const Environment& environment, const std::vector<bool>& stops, const std::vector<MeshJob>& jobs,
                  CollideResult& result) {
   result.products.resize(environment.products.size());
   std::vector<bool> fell_back(environment.products.size(), false);
   for (const auto& instance : environment.instances) {
     if (!stops[instance.product]) continue;
-    const auto& work = works[instance.mesh];
+    const auto& work = jobs[instance.mesh];
     auto& sum = result.products[instance.product];
     for (const auto& piece : work.result.pieces) result.shapes.push_back(placed(piece, work.shape.centre, instance));
     sum.max_deviation_m = std::max(sum.max_deviation_m, work.result.max_deviation_m * work.scale);
@@ -126,10 +126,10 @@ Result<CollideResult> collide(const Environment& environment, const CollideOptio
                                "`treat`, or mend its placement",
                                environment.products[*product].id, kFarthest / 1000),
                    "collide");
-  auto works = makePieces(environment, stops, progress);
-  if (!works) return failure(works.error());
+  auto jobs = makePieces(environment, stops, progress);
+  if (!jobs) return failure(jobs.error());
   CollideResult result;
-  placeShapes(environment, stops, *works, result);
+  placeShapes(environment, stops, *jobs, result);
   if (options.doors != DoorState::open) closeWhatIsOpen(environment, options, result.shapes, result.report);
   for (const auto& shape : result.shapes) {
     ++result.products[shape.product].shapes;

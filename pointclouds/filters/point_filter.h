@@ -55,7 +55,7 @@ struct FilterKey {
   const char* name;
   Kind kind;
   const char* help;
-  const char* standard = nullptr;  // null: none
+  const char* default_value = nullptr;  // null: none
   bool required = false;
   double minimum = std::numeric_limits<double>::lowest(), maximum = std::numeric_limits<double>::max();
   std::vector<const char*> words = {};

@@ -15,20 +15,20 @@ const std::vector<FilterKind>& table() {
   static const std::vector<FilterKind> kinds = {
       {"duplicates",
        "points nearer to one that stays than a distance, in all scans together; the one with the smaller range stays",
-       {{.name = "distance", .kind = K::number, .help = "m", .standard = "0.002", .minimum = 1e-5, .maximum = 10}},
+       {{.name = "distance", .kind = K::number, .help = "m", .default_value = "0.002", .minimum = 1e-5, .maximum = 10}},
        makeDuplicateFilter},
       {"outliers",
        "points whose neighbours of the same scan are farther off than those of others at their range",
        {{.name = "neighbours",
          .kind = K::integer,
          .help = "of each point",
-         .standard = "8",
+         .default_value = "8",
          .minimum = 1,
          .maximum = 256},
         {.name = "sigmas",
          .kind = K::number,
          .help = "of the distances' logarithm",
-         .standard = "3",
+         .default_value = "3",
          .minimum = 0,
          .maximum = 100}},
        makeOutlierFilter},
@@ -38,19 +38,19 @@ const std::vector<FilterKind>& table() {
        {{.name = "angle",
          .kind = K::number,
          .help = "deg between beam and surface",
-         .standard = "10",
+         .default_value = "10",
          .minimum = 0.01,
          .maximum = 60},
         {.name = "jump",
          .kind = K::number,
          .help = "m of range, at least",
-         .standard = "0.01",
+         .default_value = "0.01",
          .minimum = 0,
          .maximum = 100},
         {.name = "neighbours",
          .kind = K::integer,
          .help = "of each point of a cloud without a grid",
-         .standard = "16",
+         .default_value = "16",
          .minimum = 6,
          .maximum = 256},
         {.name = "by",
@@ -82,7 +82,7 @@ const std::vector<FilterKind>& table() {
         {.name = "seed",
          .kind = K::integer,
          .help = "of the chance",
-         .standard = "1",
+         .default_value = "1",
          .minimum = 0,
          .maximum = 9007199254740991.0}},
        makeShareFilter},
@@ -97,7 +97,7 @@ const std::vector<FilterKind>& table() {
         {.name = "keep",
          .kind = K::word,
          .help = "which side stays",
-         .standard = "inside",
+         .default_value = "inside",
          .words = {"inside", "outside"}}},
        makeBoxFilter},
       {"sphere",
@@ -108,7 +108,7 @@ const std::vector<FilterKind>& table() {
         {.name = "keep",
          .kind = K::word,
          .help = "which side stays",
-         .standard = "inside",
+         .default_value = "inside",
          .words = {"inside", "outside"}}},
        makeSphereFilter},
   };
@@ -200,8 +200,8 @@ Result<ChosenFilter> filterFrom(const std::string& text) {
     if (chosen.values.has(key.name)) continue;
     if (key.required)
       return failure(ErrorKind::usage, std::string("'") + key.name + "' is missing", "--filters " + text);
-    if (key.standard)
-      if (auto set = chosen.values.set(key, key.standard); !set) return failure(set.error());
+    if (key.default_value)
+      if (auto set = chosen.values.set(key, key.default_value); !set) return failure(set.error());
   }
   return chosen;
 }

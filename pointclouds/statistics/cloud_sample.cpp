@@ -51,7 +51,7 @@ class SampleSink final : public PointSink {
   Result<void> close() override { return {}; }
   void finish() {
     if (!any_intensity_) sample_.intensity.clear();
-    if (sample_.points > 0) sample_.least_intensity = low_, sample_.most_intensity = high_;
+    if (sample_.points > 0) sample_.min_intensity = low_, sample_.max_intensity = high_;
   }
 
  private:

@@ -32,9 +32,9 @@ struct CloudSample {
   std::vector<float> intensity;           // raw; empty where the file has none
   std::vector<std::uint32_t> scan;
   std::vector<SampledScan> scans;
-  std::uint64_t points = 0;                       // that the file holds
-  float least_intensity = 0, most_intensity = 0;  // of all points
-  Report report;                                  // of reading
+  std::uint64_t points = 0;                    // that the file holds
+  float min_intensity = 0, max_intensity = 0;  // of all points
+  Report report;                               // of reading
 };
 
 // Reads the file once; keeps between most/2 and `most` points of a larger cloud, all of a smaller one.

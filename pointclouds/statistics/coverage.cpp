@@ -34,7 +34,7 @@ void Coverage::add(std::uint64_t hash) {
   last_ = hash;
   if (!sampled(hash, halvings_)) return;
   hashes_.push_back(hash);
-  if (hashes_.size() >= 2 * most_cells_) compact();
+  if (hashes_.size() >= 2 * max_cells_) compact();
 }
 
 void Coverage::settle() { compact(); }
@@ -42,7 +42,7 @@ void Coverage::settle() { compact(); }
 void Coverage::compact() {
   std::sort(hashes_.begin(), hashes_.end());
   hashes_.erase(std::unique(hashes_.begin(), hashes_.end()), hashes_.end());
-  while (hashes_.size() > most_cells_) {
+  while (hashes_.size() > max_cells_) {
     ++halvings_;
     std::erase_if(hashes_, [&](std::uint64_t h) { return !sampled(h, halvings_); });
   }

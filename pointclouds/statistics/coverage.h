@@ -18,7 +18,7 @@ std::uint64_t hashOf(const Cell& cell);
 // many leading zeros are kept, which is a fair sample of them (adaptive sampling, Flajolet 1990).
 class Coverage {
  public:
-  explicit Coverage(std::size_t most_cells = std::size_t{1} << 22) : most_cells_(most_cells) {}
+  explicit Coverage(std::size_t max_cells = std::size_t{1} << 22) : max_cells_(max_cells) {}
   void add(std::uint64_t cell_hash);
   void settle();  // before the members below
   std::uint64_t cells() const { return static_cast<std::uint64_t>(hashes_.size()) << halvings_; }
@@ -28,7 +28,7 @@ class Coverage {
  private:
   void compact();
   bool sampled(std::uint64_t hash, unsigned halvings) const { return halvings == 0 || hash >> (64 - halvings) == 0; }
-  std::size_t most_cells_;
+  std::size_t max_cells_;
   unsigned halvings_ = 0;
   std::uint64_t last_ = 0;             // neighbours in a scan mostly share a cell
   std::vector<std::uint64_t> hashes_;  // sorted and distinct after settle()

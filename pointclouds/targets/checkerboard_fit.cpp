@@ -235,9 +235,9 @@ Result<TargetFit> fitAt(const std::vector<Vector3d>& points, const std::vector<f
   std::vector<Vector3d> near;
   for (const auto& p : points)
     if ((p - start).norm() < 0.45 * search.side_m) near.push_back(p);
-  if (near.size() < search.least_points)
+  if (near.size() < search.min_points)
     return failure(ErrorKind::unusable, "too few points on it: " + std::to_string(near.size()) + " of at least " +
-                                            std::to_string(search.least_points) + "; scan it finer or from nearer");
+                                            std::to_string(search.min_points) + "; scan it finer or from nearer");
   const Plane plane = robustPlane(near);
   const Vector3d u = plane.normal.unitOrthogonal(), v = plane.normal.cross(u);
   std::vector<Vector2d> flat;
@@ -255,7 +255,7 @@ Result<TargetFit> fitAt(const std::vector<Vector3d>& points, const std::vector<f
     squares += off * off;
   }
   const PatternFit pattern = fitPattern(flat, bright, search.side_m);
-  if (pattern.points < search.least_points) return failure(ErrorKind::unusable, "too few points on it");
+  if (pattern.points < search.min_points) return failure(ErrorKind::unusable, "too few points on it");
   if (!(pattern.squares < (1 - kExplained) * pattern.variance) || !(pattern.pattern.contrast > 0))
     return failure(ErrorKind::unusable, "the intensities show no two white and two black squares");
   TargetFit fit;
@@ -284,7 +284,7 @@ Result<TargetFit> findCheckerboard(std::span<const Vector3d> points, std::span<c
   for (std::size_t i = 0; i < points.size(); ++i)
     if ((points[i] - predicted).norm() <= search.search_m + search.side_m)
       region.push_back(points[i]), bright.push_back(intensity[i]);
-  if (region.size() < search.least_points)
+  if (region.size() < search.min_points)
     return failure(ErrorKind::unusable, "too few points near its predicted place: " + std::to_string(region.size()));
   for (const auto i : thinned(region, search.side_m / 12, kMostSeeds))
     seeds.push_back(region[i]), seed_bright.push_back(bright[i]);

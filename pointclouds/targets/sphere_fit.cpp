@@ -166,9 +166,9 @@ std::vector<Vector3d> peaks(const std::vector<Vector3d>& all, double radius_m) {
 Result<TargetFit> fitSphere(std::span<const Vector3d> points, const Vector3d& start, const SphereSearch& search) {
   const double radius = search.radius_m;
   const Solved fixed = solve(points, start, radius, false, kCaptured * radius);
-  if (fixed.fit.points < search.least_points)
+  if (fixed.fit.points < search.min_points)
     return failure(ErrorKind::unusable, "too few points on it: " + std::to_string(fixed.fit.points) + " of at least " +
-                                            std::to_string(search.least_points) + "; scan it finer or from nearer");
+                                            std::to_string(search.min_points) + "; scan it finer or from nearer");
   const Solved loose = solve(points, fixed.fit.centre, radius, true, 2 * kCaptured * radius);
   const double off = loose.fit.radius_m - radius;
   const bool is_ball = loose.settled && emptySectors(points, loose.fit) <= 2 &&
@@ -191,7 +191,7 @@ Result<TargetFit> findSphere(std::span<const Vector3d> points, const Vector3d& p
   std::vector<Vector3d> region;
   for (const auto& p : points)
     if ((p - predicted).norm() <= search.search_m + 2 * search.radius_m) region.push_back(p);
-  if (region.size() < search.least_points)
+  if (region.size() < search.min_points)
     return failure(ErrorKind::unusable, "too few points near its predicted place: " + std::to_string(region.size()));
   std::vector<Vector3d> seeds;
   for (const auto i : thinned(region, search.radius_m / 8, kMostSphereSeeds)) seeds.push_back(region[i]);

@@ -25,8 +25,8 @@ struct TargetFit {
 };
 
 struct TargetSearch {
-  double search_m = 0.5;          // how far from the predicted place the centre may be
-  std::size_t least_points = 20;  // fewer are no measurement
+  double search_m = 0.5;        // how far from the predicted place the centre may be
+  std::size_t min_points = 20;  // fewer are no measurement
 };
 
 // Sphere of a known radius: found by votes of the surface's normals within reach of the prediction, then least squares

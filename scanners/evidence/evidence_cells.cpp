@@ -57,11 +57,11 @@ std::vector<EvidenceCell> evidenceCells(const std::vector<MeasuredReturn>& retur
   for (const auto& r : returns) at_low += r.intensity == low ? 1 : 0, at_high += r.intensity == high ? 1 : 0;
   const double end = kAtTheEnd * static_cast<double>(returns.size());
   const bool cut_low = static_cast<double>(at_low) > end, cut_high = static_cast<double>(at_high) > end;
-  const double least_cosine = std::cos(options.steepest_deg * kRadPerDeg);
+  const double min_cosine = std::cos(options.steepest_deg * kRadPerDeg);
   std::vector<Keyed> keyed;
   for (std::uint32_t i = 0; i < returns.size(); ++i) {
     const auto& r = returns[i];
-    if (!(static_cast<double>(r.cosine) >= least_cosine)) {
+    if (!(static_cast<double>(r.cosine) >= min_cosine)) {
       ++counts.grazing;
     } else if ((cut_low && r.intensity == low) || (cut_high && r.intensity == high)) {
       ++counts.saturated;

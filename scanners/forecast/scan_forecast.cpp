@@ -47,13 +47,13 @@ bool isSeen(const Expectation& expectation, const Pose& pose, SurfacePlace place
   const auto& settings = expectation.law().settings();
   const Eigen::Vector3d way = place.position - pose.translation;
   const double range = way.norm();
-  if (range < 1e-6 || range > wanted.most_range_m) return false;
+  if (range < 1e-6 || range > wanted.max_range_m) return false;
   const Eigen::Vector3d in_scanner = pose.rotation.conjugate() * (way / range);
   if (!inField(settings, in_scanner)) return false;
   if (place.normal.dot(way) > 0) place.normal *= -1;  // the side that is turned to the station
   const double incidence = std::acos(std::clamp(-place.normal.dot(way) / range, 0.0, 1.0));
-  if (incidence > wanted.most_incidence_rad) return false;
-  if (spacingOf(settings, range, elevationOf(in_scanner), incidence) > wanted.most_spacing_m) return false;
+  if (incidence > wanted.max_incidence_rad) return false;
+  if (spacingOf(settings, range, elevationOf(in_scanner), incidence) > wanted.max_spacing_m) return false;
   if (expectation.opticsAt(place.instance, place.triangle).transparent &&
       !isMetFirst(expectation, pose.translation, way, range))
     return false;  // of a pane's two faces one pulse has one point, and the stronger is the one in front

@@ -11,9 +11,9 @@ namespace standpoint {
 
 // From when on a surface counts as seen.
 struct SeenWhen {
-  double most_spacing_m = 1e300;  // √ of the area for which one point stands
-  double most_incidence_rad = 1.5708;
-  double most_range_m = 1e300;
+  double max_spacing_m = 1e300;  // √ of the area for which one point stands
+  double max_incidence_rad = 1.5708;
+  double max_range_m = 1e300;
   bool operator==(const SeenWhen&) const = default;
 };
 

@@ -143,11 +143,11 @@ Result<SurfaceSamples> sampleSurfaces(const RayScene& scene, std::size_t count, 
 bool inSight(const RayScene& scene, const Eigen::Vector3d& eye, const SurfacePlace& place, const SightLimits& limits) {
   const Eigen::Vector3d way = place.position - eye;
   const double range = way.norm();
-  if (range < 1e-6 || range > limits.most_range_m) return false;
+  if (range < 1e-6 || range > limits.max_range_m) return false;
   const Eigen::Vector3d direction = way / range;
-  if (std::abs(direction.dot(place.normal)) < limits.least_cosine) return false;
+  if (std::abs(direction.dot(place.normal)) < limits.min_cosine) return false;
   const double elevation = std::asin(std::clamp(direction.z(), -1.0, 1.0));
-  if (elevation < limits.least_elevation_rad || elevation > limits.most_elevation_rad) return false;
+  if (elevation < limits.min_elevation_rad || elevation > limits.max_elevation_rad) return false;
   const double before = 1e-3 + 1e-4 * range;  // float trees put a surface a little off
   return !scene.intersect(eye, direction, range - before);
 }

@@ -28,9 +28,9 @@ Result<SurfaceSamples> sampleSurfaces(const RayScene& scene, std::size_t count, 
 
 // Could somebody at `eye` see the place, nearer than `most_range_m` and less slanting than that?
 struct SightLimits {
-  double most_range_m = 40;
-  double least_cosine = 0.17;  // 80 degrees of incidence
-  double least_elevation_rad = -1.0472, most_elevation_rad = 1.5708;
+  double max_range_m = 40;
+  double min_cosine = 0.17;  // 80 degrees of incidence
+  double min_elevation_rad = -1.0472, max_elevation_rad = 1.5708;
 };
 bool inSight(const RayScene& scene, const Eigen::Vector3d& eye, const SurfacePlace& place, const SightLimits& limits);
 

@@ -34,7 +34,7 @@ struct InstrumentSetting {
   std::string unit;
   std::vector<SettingChoice> choices;  // empty: a number from minimum to maximum
   double minimum = 0, maximum = 0;
-  std::string standard;  // default value
+  std::string default_value;  // default value
 };
 
 struct RangeNoise {
@@ -47,7 +47,7 @@ struct RangeNoise {
 struct Waveform {
   double pulse_width_s = 0;      // FWHM; time of flight
   double fine_wavelength_m = 0;  // L: half of the finest tone's modulation wavelength; phase shift
-  int most_returns = 1;          // that are reported of one pulse; the strongest where it is one
+  int max_returns = 1;           // that are reported of one pulse; the strongest where it is one
 };
 
 // How the sheet's noise is spread over columns and rows (§3.5). The shares are of the sheet's variance, so that its σ
@@ -121,7 +121,7 @@ struct MovingHead {
   int heads = 1;
   std::vector<double> channel_elevations_rad;  // of one head, in the order in which they fire
   double points_per_s = 0;                     // of all heads, one return each
-  double least_rotation_hz = 0, most_rotation_hz = 0;
+  double min_rotation_hz = 0, max_rotation_hz = 0;
   double second_rotation_hz = 0;  // of the head about another axis; 0 = none
   double turn_rad = 0;            // the part of a turn that is measured
   double cloud_accuracy_m = 0;    // of a whole cloud with the maker's trajectory, 1 σ; 0 = not stated

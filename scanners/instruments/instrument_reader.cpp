@@ -119,13 +119,13 @@ class InstrumentReader : FigureReader {
     head.heads = count(group, "heads", {1, 16});
     head.channel_elevations_rad = figures(group, "channel_elevations_deg", {-90, 90, kRadPerDeg}, 1024);
     head.points_per_s = figure(group, "points_per_s", {1, 1e9});
-    head.least_rotation_hz = figure(group, "least_rotation_hz", {0.01, 10000});
-    head.most_rotation_hz = figure(group, "most_rotation_hz", {0.01, 10000});
+    head.min_rotation_hz = figure(group, "least_rotation_hz", {0.01, 10000});
+    head.max_rotation_hz = figure(group, "most_rotation_hz", {0.01, 10000});
     head.second_rotation_hz = figure(group, "second_rotation_hz", {0, 10000});
     head.turn_rad = figure(group, "turn_deg", {1, 360, kRadPerDeg});
     head.cloud_accuracy_m = figure(group, "cloud_accuracy_mm", {0, 10000, 1e-3});
     close(group);
-    if (head.least_rotation_hz > head.most_rotation_hz)
+    if (head.min_rotation_hz > head.max_rotation_hz)
       fail("/moving/most_rotation_hz", "must not be below least_rotation_hz");
     const auto& elevations = head.channel_elevations_rad;
     if (!elevations.empty()) {
@@ -192,7 +192,7 @@ class InstrumentReader : FigureReader {
       waveform.fine_wavelength_m = figure(group, "fine_wavelength_m", {0.01, 1000});
     else
       waveform.pulse_width_s = figure(group, "pulse_width_ns", {0.01, 1000, 1e-9});
-    waveform.most_returns = count(group, "most_returns", {1, 255});
+    waveform.max_returns = count(group, "most_returns", {1, 255});
     close(group);
   }
 
@@ -231,7 +231,7 @@ class InstrumentReader : FigureReader {
     setting.key = text(group, "key");
     setting.label = text(group, "label");
     setting.unit = text(group, "unit");
-    setting.standard = text(group, "standard");
+    setting.default_value = text(group, "standard");
     cite(group.pointer, group.source, group.note);
     for (const auto& other : instrument_.settings)
       if (other.key == setting.key) fail(group.pointer + "/key", "\"" + setting.key + "\" is there twice");
@@ -253,8 +253,8 @@ class InstrumentReader : FigureReader {
     const Domain domain = setting.key.ends_with("_m") ? Domain{0, 10000} : Domain{-360, 360};
     setting.minimum = figure(group, "minimum", domain);
     setting.maximum = figure(group, "maximum", domain);
-    const Json standard = Json::parse(setting.standard, nullptr, false);
-    if (!error()) checked(group.pointer + "/standard", standard, {setting.minimum, setting.maximum});
+    const Json default_value = Json::parse(setting.default_value, nullptr, false);
+    if (!error()) checked(group.pointer + "/standard", default_value, {setting.minimum, setting.maximum});
   }
 
   void readChoices(Group& group, InstrumentSetting& setting) {
@@ -266,7 +266,7 @@ class InstrumentReader : FigureReader {
       if (entry.source.empty()) entry.source = group.source;
       if (entry.note.empty()) entry.note = group.note;
       setting.choices.push_back(readChoice(entry));
-      has_standard = has_standard || setting.choices.back().value == setting.standard;
+      has_standard = has_standard || setting.choices.back().value == setting.default_value;
       for (std::size_t k = 0; k < i; ++k)
         if (setting.choices[k].value == setting.choices[i].value) fail(entry.pointer + "/value", "is there twice");
     }
@@ -328,16 +328,16 @@ class InstrumentReader : FigureReader {
     checkShares();
     checkRotations();
     if (!error() && !instrument_.moving)
-      if (const auto standard = resolveSettings(instrument_, {}); !standard)
-        fail("/settings", "the standard values are not a valid scan: " + standard.error().message);
+      if (const auto default_value = resolveSettings(instrument_, {}); !default_value)
+        fail("/settings", "the standard values are not a valid scan: " + default_value.error().message);
   }
 
   void checkRotations() {
     for (const auto& setting : instrument_.settings)
       for (const auto& choice : setting.choices)
         if (const auto rotation = choice.effects.find("rotation_hz"); rotation != choice.effects.end())
-          if (!instrument_.moving || rotation->second < instrument_.moving->least_rotation_hz ||
-              rotation->second > instrument_.moving->most_rotation_hz)
+          if (!instrument_.moving || rotation->second < instrument_.moving->min_rotation_hz ||
+              rotation->second > instrument_.moving->max_rotation_hz)
             fail("/settings",
                  "\"" + choice.value + "\" of " + setting.key + " turns the head as /moving does not allow");
   }

@@ -42,7 +42,7 @@ std::optional<double> number(const std::string& text) {
 
 Result<SettingValues> complete(const Instrument& instrument, const SettingValues& values) {
   SettingValues result;
-  for (const auto& setting : instrument.settings) result.emplace_back(setting.key, setting.standard);
+  for (const auto& setting : instrument.settings) result.emplace_back(setting.key, setting.default_value);
   std::vector<bool> given(result.size(), false);
   for (const auto& pair : values) {
     const std::string &key = pair.first, &value = pair.second;
@@ -214,7 +214,7 @@ Result<Area> areaOf(const Instrument& instrument, const SettingValues& values, b
     const auto& [key, value] = values[i];
     if (!instrument.settings[i].choices.empty() || isGate(key) || isStep(key)) continue;
     const double angle = *number(value);
-    if (!allowed_here && angle != *number(instrument.settings[i].standard))
+    if (!allowed_here && angle != *number(instrument.settings[i].default_value))
       return failure(ErrorKind::usage, "an edge belongs to an area: choose that field of view as well", key);
     if (key == "horizontal_from") area.horizontal_from = angle;
     if (key == "horizontal_to") area.horizontal_to = angle;
@@ -234,7 +234,7 @@ Result<void> applySteps(const Instrument& instrument, const SettingValues& value
     const auto& [key, value] = values[i];
     if (!isStep(key)) continue;
     const double step = *number(value);
-    if (!effects.stepped && step != *number(instrument.settings[i].standard))
+    if (!effects.stepped && step != *number(instrument.settings[i].default_value))
       return failure(ErrorKind::usage, "a step belongs to a pattern of one's own: choose that pattern as well", key);
     if (effects.stepped)
       (key == "frame_step" ? effects.columns : effects.rows) = std::round((key == "frame_step" ? 360 : full) / step);

@@ -32,9 +32,9 @@ TargetKinds readKinds(FigureReader& in, const FigureReader::Json& json) {
   auto root = in.open(json, "");
   in.readSources(root);
   auto rules = in.child(root, "rules");
-  kinds.rules.least_points = in.count(rules, "least_points", {10, 10000});
-  kinds.rules.most_distance_m = in.figure(rules, "most_distance_m", {1, 1000});
-  kinds.rules.most_incidence_rad = in.figure(rules, "most_incidence_deg", {10, 85, kRadPerDeg});
+  kinds.rules.min_points = in.count(rules, "least_points", {10, 10000});
+  kinds.rules.max_distance_m = in.figure(rules, "most_distance_m", {1, 1000});
+  kinds.rules.max_incidence_rad = in.figure(rules, "most_incidence_deg", {10, 85, kRadPerDeg});
   in.close(rules);
   const auto& list = in.list(root, "kinds", 1000);
   for (std::size_t i = 0; i < list.size(); ++i) {

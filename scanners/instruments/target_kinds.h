@@ -20,9 +20,9 @@ struct TargetArticle {
 
 // What office people go by when they set up targets.
 struct TargetRules {
-  int least_points = 0;  // on a target, to be fitted well
-  double most_distance_m = 0;
-  double most_incidence_rad = 0;  // of what is flat
+  int min_points = 0;  // on a target, to be fitted well
+  double max_distance_m = 0;
+  double max_incidence_rad = 0;  // of what is flat
 };
 
 struct TargetKinds {

@@ -24,11 +24,11 @@ constexpr double kFogBackscatter = 0.046;   // β · MOR, per steradian
 
 }  // namespace
 
-Scatterers::Scatterers(const Instrument& instrument, const Weather& weather, double least_x, double max_range_m,
+Scatterers::Scatterers(const Instrument& instrument, const Weather& weather, double min_x, double max_range_m,
                        const RandomKey& key)
     : instrument_(instrument),
       key_(key),
-      least_x_(least_x),
+      min_x_(min_x),
       extinction_per_m_(standpoint::extinction_per_m(weather, instrument.wavelength_nm)) {
   const double nearest = std::max(instrument.min_range_m, kNearest_m);
   const double span = portable::log(std::max(max_range_m, 1.01 * nearest) / nearest);
@@ -52,7 +52,7 @@ double Scatterers::white(double range_m) const {
 
 // x = F white(r) min(D / beam, 1)²: the smallest D that reaches the least x.
 double Scatterers::leastDiameter(const Population& population, double range_m, double white_x) const {
-  const double share = least_x_ / (population.backscatter * white_x);
+  const double share = min_x_ / (population.backscatter * white_x);
   if (share > 1) return std::numeric_limits<double>::infinity();
   return std::max(beamDiameter(range_m) * std::sqrt(share), kSmallest_m);
 }
@@ -156,7 +156,7 @@ void Scatterers::tabulateFog(const Weather& weather) {
 }
 
 std::optional<Scatterer> Scatterers::strongest(std::uint32_t column, std::uint32_t row, double max_range_m,
-                                               double least_x) const {
+                                               double min_x) const {
   if (!(max_range_m > nodes_m_[0])) return std::nullopt;
   Scatterer best;
   for (const auto& population : populations_) drops(population, column, row, max_range_m, best);
@@ -164,7 +164,7 @@ std::optional<Scatterer> Scatterers::strongest(std::uint32_t column, std::uint32
     const auto& soft = fog_[nodeBefore(max_range_m)];
     if (soft.x > best.x) best = {ScattererKind::fog, soft.range_m, soft.x};
   }
-  if (best.x <= 0 || best.x < least_x) return std::nullopt;
+  if (best.x <= 0 || best.x < min_x) return std::nullopt;
   return best;
 }
 

@@ -25,11 +25,11 @@ struct Scatterer {
 // instrument's shortest range is reported. Immutable; keeps a reference to the instrument.
 class Scatterers {
  public:
-  Scatterers(const Instrument& instrument, const Weather& weather, double least_x, double max_range_m,
+  Scatterers(const Instrument& instrument, const Weather& weather, double min_x, double max_range_m,
              const RandomKey& key);
 
   // The strongest before `max_range_m` with at least `least_x` (not below that of the whole).
-  std::optional<Scatterer> strongest(std::uint32_t column, std::uint32_t row, double max_range_m, double least_x) const;
+  std::optional<Scatterer> strongest(std::uint32_t column, std::uint32_t row, double max_range_m, double min_x) const;
 
   // The expected number of drops and flakes that reach the least x before this range.
   double expected(double max_range_m) const;
@@ -61,7 +61,7 @@ class Scatterers {
 
   const Instrument& instrument_;
   RandomKey key_;
-  double least_x_, extinction_per_m_;
+  double min_x_, extinction_per_m_;
   std::vector<double> nodes_m_;  // of equal ratio, from the shortest range on
   std::vector<Population> populations_;
   std::vector<SoftReturn> fog_;

@@ -114,7 +114,7 @@ void receiveEchoes(const Waveform& waveform, std::vector<Contribution>& contribu
     from = begin;
     echoes.push_back(next);
   }
-  while (static_cast<int>(echoes.size()) > waveform.most_returns) {
+  while (static_cast<int>(echoes.size()) > waveform.max_returns) {
     const auto weakest =
         std::min_element(echoes.begin(), echoes.end(), [](const Echo& a, const Echo& b) { return a.x < b.x; });
     echoes.erase(weakest);

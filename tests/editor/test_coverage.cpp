@@ -78,7 +78,7 @@ TEST(Coverage, SaysHowDenselyAndHowSteeplyTheBestScanMeetsIt) {
   const double column = (settings.azimuth_to_rad - settings.azimuth_from_rad) / settings.columns,
                row = (settings.elevation_to_rad - settings.elevation_from_rad) / settings.rows;
   EXPECT_NEAR(there.spacing_m, range * std::sqrt(column * row / (10 / range)), 1e-9);
-  EXPECT_EQ(coverageAt(scans, onWall(7), {.most_incidence_rad = 30 * std::numbers::pi / 180}).stations, 1)
+  EXPECT_EQ(coverageAt(scans, onWall(7), {.max_incidence_rad = 30 * std::numbers::pi / 180}).stations, 1)
       << "as the plan's wishes say";
 }
 

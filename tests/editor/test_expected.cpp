@@ -12,13 +12,13 @@ namespace standpoint {
 namespace {
 
 // A wall of grey 0.5 across +Y at 10 m, 8 m wide and high; the camera looks at it head-on from the station.
-struct Stage {
+struct ExpectedStage {
   std::shared_ptr<const Environment> environment;
   std::shared_ptr<const RayScene> scene;
   Instrument instrument;
   ExpectedRequest request;
 
-  Stage() {
+  ExpectedStage() {
     auto e = std::make_shared<Environment>();
     e->surfaces.push_back({"grey", {0.5F, 0.5F, 0.5F, 1}});
     e->products.resize(1);
@@ -43,7 +43,7 @@ struct Stage {
 };
 
 TEST(ExpectedView, PaintsEveryPixelOfASurfaceWithWhatComesBackFromIt) {
-  Stage stage;
+  ExpectedStage stage;
   std::atomic<int> woken{0};
   ExpectedView view([&] { ++woken; });
   view.want(stage.request);
@@ -58,7 +58,7 @@ TEST(ExpectedView, PaintsEveryPixelOfASurfaceWithWhatComesBackFromIt) {
 }
 
 TEST(ExpectedView, ShowsAMovedStationThroughTheSameCamera) {
-  Stage stage;
+  ExpectedStage stage;
   ExpectedView view({});
   stage.request.quantity = ExpectedQuantity::fate;
   view.want(stage.request);
@@ -72,7 +72,7 @@ TEST(ExpectedView, ShowsAMovedStationThroughTheSameCamera) {
 }
 
 TEST(ExpectedView, HasNoPictureForAnotherCameraOrAfterItWasDropped) {
-  Stage stage;
+  ExpectedStage stage;
   ExpectedView view({});
   view.want(stage.request);
   view.wait();
@@ -87,7 +87,7 @@ TEST(ExpectedView, HasNoPictureForAnotherCameraOrAfterItWasDropped) {
 }
 
 TEST(ExpectedView, LeavesTheSkyTransparentAndHiddenProductsOut) {
-  Stage stage;
+  ExpectedStage stage;
   ExpectedView view({});
   stage.request.view.hidden = std::make_shared<const HiddenProducts>(1, 1);
   view.want(stage.request);

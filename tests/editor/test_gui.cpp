@@ -333,11 +333,11 @@ TEST_F(Gui, FollowsTheBudgetsSliderAtOnceAndForgetsItWhenOptimised) {
   const auto half = shownAt(0.5), quarter = shownAt(0.25);
   EXPECT_GT(half, quarter);
   EXPECT_GT(quarter, 0U);
-  EXPECT_EQ(editor.session.document().lightening, nullptr) << "a look changes nothing";
+  EXPECT_EQ(editor.session.document().simplified, nullptr) << "a look changes nothing";
   ASSERT_TRUE(gui.click("###run-optimise"));
   gui.settle();
   EXPECT_FALSE(editor.panels.optimise.live);
-  EXPECT_EQ(editor.viewState().environment, editor.session.document().lightening->environment);
+  EXPECT_EQ(editor.viewState().environment, editor.session.document().simplified->environment);
 }
 
 // Whatever is drawn in these windows ends before their right edge.

@@ -12,13 +12,13 @@
 namespace standpoint {
 namespace {
 
-struct Picture {
+struct ShownPicture {
   int width = 0, height = 0;
   std::vector<unsigned char> rgb;
 };
 
-Picture readPicture(const std::filesystem::path& file) {
-  Picture p;
+ShownPicture readPicture(const std::filesystem::path& file) {
+  ShownPicture p;
   int channels = 0;
   unsigned char* data = stbi_load(file.c_str(), &p.width, &p.height, &channels, 3);
   if (data == nullptr) return p;
@@ -28,7 +28,7 @@ Picture readPicture(const std::filesystem::path& file) {
 }
 
 // Distinct colours, to 5 bits a channel, within a part of the picture given in shares of it.
-std::size_t coloursIn(const Picture& p, double x0, double y0, double x1, double y1) {
+std::size_t coloursIn(const ShownPicture& p, double x0, double y0, double x1, double y1) {
   std::set<int> colours;
   for (int y = static_cast<int>(y0 * p.height); y < static_cast<int>(y1 * p.height); ++y)
     for (int x = static_cast<int>(x0 * p.width); x < static_cast<int>(x1 * p.width); ++x) {
@@ -38,7 +38,7 @@ std::size_t coloursIn(const Picture& p, double x0, double y0, double x1, double 
   return colours.size();
 }
 
-std::size_t differing(const Picture& a, const Picture& b) {
+std::size_t differing(const ShownPicture& a, const ShownPicture& b) {
   std::size_t count = 0;
   for (std::size_t i = 0; i + 2 < std::min(a.rgb.size(), b.rgb.size()); i += 3)
     count += a.rgb[i] != b.rgb[i] || a.rgb[i + 1] != b.rgb[i + 1] || a.rgb[i + 2] != b.rgb[i + 2] ? 1 : 0;
@@ -60,7 +60,7 @@ TEST(Pictures, OfTheDemoHouseShowItAndDifferFromEachOther) {
   const auto written = drawPictures(editor, **offscreen, std::filesystem::path(BINARY_DIR) / "pictures");
   ASSERT_TRUE(written) << describe(written.error());
   ASSERT_GE(written->size(), 5U);
-  std::vector<Picture> pictures;
+  std::vector<ShownPicture> pictures;
   for (const auto& file : *written) {
     pictures.push_back(readPicture(file));
     ASSERT_EQ(pictures.back().width, width) << file;

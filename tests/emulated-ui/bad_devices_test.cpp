@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-const json& shipped(const std::string& device) {
+const json& shippedDevice(const std::string& device) {
   static std::map<std::string, json> files;
   auto& file = files[device];
   if (file.is_null())
@@ -46,7 +46,7 @@ class BadDevice : public testing::Test {
   using Edit = std::function<void(json&)>;
 
   Result<std::shared_ptr<const DeviceType>> edited(const std::string& device, const Edit& edit) {
-    json changed = shipped(device);
+    json changed = shippedDevice(device);
     edit(changed);
     const auto file = folder_.path() / "x.json";
     std::ofstream(file, std::ios::binary) << changed.dump();

@@ -9,7 +9,7 @@
 namespace standpoint {
 namespace {
 
-std::vector<Instrument> shipped() {
+std::vector<Instrument> shippedInstruments() {
   auto all = readInstruments(dataFolder() / "scanners" / "instruments");
   EXPECT_TRUE(all) << describe(all.error());
   return all ? *std::move(all) : std::vector<Instrument>{};
@@ -40,7 +40,7 @@ class Generic : public testing::Test {
 
 TEST(GenericDevice, DrivesEveryShippedScannerOnATripodWithAllItsSettings) {
   int driven = 0;
-  for (const auto& instrument : shipped()) {
+  for (const auto& instrument : shippedInstruments()) {
     const auto type = loadDevice(*findDevice("generic"), instrument.id);
     if (instrument.moving) {
       EXPECT_FALSE(type) << instrument.id << " needs a trajectory";
@@ -69,7 +69,7 @@ TEST(GenericDevice, DrivesEveryShippedScannerOnATripodWithAllItsSettings) {
 }
 
 TEST(GenericDevice, DrivesAScannerOfTheUsersOwn) {
-  for (auto instrument : shipped()) {
+  for (auto instrument : shippedInstruments()) {
     if (instrument.id != "zf-imager-5016") continue;
     instrument.id = "my-scanner";
     instrument.maker = "Institute";

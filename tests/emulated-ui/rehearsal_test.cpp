@@ -18,7 +18,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 // A Focus that is on, at S1, with an open project and the coarsest settings.
-json lesson() {
+json shortLesson() {
   return json::parse(R"({
     "id": "X1", "title": {"en": "Scan", "de": "Scannen"}, "goal": {"en": "Scan.", "de": "Scannen."},
       "devices": ["faro-focus"], "model": "house",
@@ -63,7 +63,7 @@ class RehearsalTest : public testing::Test {
 };
 
 TEST_F(RehearsalTest, AStepThatIsDoneBeforeTheStudentComesIsRefusedByFileAndPlace) {
-  auto text = lesson();
+  auto text = shortLesson();
   text["steps"][0]["done"] = "power == on";
   EXPECT_THAT(refusal(text), HasSubstr("x.json /steps/0/done"));
   EXPECT_THAT(refusal(text), HasSubstr("'power == on' holds at the start"));
@@ -71,7 +71,7 @@ TEST_F(RehearsalTest, AStepThatIsDoneBeforeTheStudentComesIsRefusedByFileAndPlac
 
 // While it starts, the Focus is not yet at 1/32.
 TEST_F(RehearsalTest, WhatHeldOnlyOnTheWayToTheStartIsNotDone) {
-  auto text = lesson();
+  auto text = shortLesson();
   text["steps"][0]["done"] = "setting.resolution != 1/32 and count.phase.booting == 0";
   const auto rehearsal = start(text);
   ASSERT_TRUE(rehearsal);
@@ -80,7 +80,7 @@ TEST_F(RehearsalTest, WhatHeldOnlyOnTheWayToTheStartIsNotDone) {
 }
 
 TEST_F(RehearsalTest, ALaterStepThatHoldsAlreadyIsAWarningWhereTheOrderCountsAndRefusedWhereItDoesNot) {
-  auto text = lesson();
+  auto text = shortLesson();
   text["steps"][1]["done"] = "screen == home";  // the way back is a step of its own
   Report report;
   ASSERT_TRUE(checkStart(read(text), report, quiet_));
@@ -92,16 +92,16 @@ TEST_F(RehearsalTest, ALaterStepThatHoldsAlreadyIsAWarningWhereTheOrderCountsAnd
 }
 
 TEST_F(RehearsalTest, WhatTheEnvironmentOrTheDeviceRefusesAtTheStartIsToldByFileAndPlace) {
-  auto nowhere = lesson();
+  auto nowhere = shortLesson();
   nowhere["setup"][0]["options"]["on"] = {4000, 1.6, 0};
   EXPECT_THAT(refusal(nowhere), HasSubstr("x.json /setup/0/options"));
-  auto wrong_page = lesson();
+  auto wrong_page = shortLesson();
   wrong_page["start"].push_back({{"press", "create"}});
   EXPECT_THAT(refusal(wrong_page), HasSubstr("x.json /start/16"));
 }
 
 TEST_F(RehearsalTest, ARuleThatNothingAskedSaysSoAndClaimsNoConsequence) {
-  const auto rehearsal = start(lesson());
+  const auto rehearsal = start(shortLesson());
   ASSERT_TRUE(rehearsal);
   const std::pair<const char*, const char*> kSaid[] = {{"en", "Never asked: no scan was started"},
                                                        {"de", "Nie gefragt: kein Scan wurde gestartet"},
@@ -119,7 +119,7 @@ TEST_F(RehearsalTest, ARuleThatNothingAskedSaysSoAndClaimsNoConsequence) {
 }
 
 TEST_F(RehearsalTest, ARuleThatWasAskedAndDidNotHoldSaysWhatItMeans) {
-  auto text = lesson();
+  auto text = shortLesson();
   text["rules"][0]["holds"] = "tilt > 2";
   const auto rehearsal = start(text);
   ASSERT_TRUE(rehearsal);
@@ -133,7 +133,7 @@ TEST_F(RehearsalTest, ARuleThatWasAskedAndDidNotHoldSaysWhatItMeans) {
 
 TEST_F(RehearsalTest, AFailedScanTellsItsReasonInTheMarks) {
   std::ofstream(folder_.path() / "scans") << "a file where the folder should be";
-  const auto rehearsal = start(lesson());
+  const auto rehearsal = start(shortLesson());
   ASSERT_TRUE(rehearsal);
   ASSERT_TRUE(act(*rehearsal, {{"press", "start_scan"}}));
   ASSERT_TRUE(act(*rehearsal, {{"finish", true}}));
@@ -147,7 +147,7 @@ TEST_F(RehearsalTest, AFailedScanTellsItsReasonInTheMarks) {
 }
 
 TEST_F(RehearsalTest, AScanIsLookedAtWhenItsPictureIsThereNotWhenTheKeyIsPressed) {
-  const auto rehearsal = start(lesson());
+  const auto rehearsal = start(shortLesson());
   ASSERT_TRUE(rehearsal);
   ASSERT_TRUE(act(*rehearsal, {{"press", "start_scan"}}));
   ASSERT_TRUE(act(*rehearsal, {{"finish", true}}));
@@ -161,7 +161,7 @@ TEST_F(RehearsalTest, AScanIsLookedAtWhenItsPictureIsThereNotWhenTheKeyIsPressed
 
 TEST_F(RehearsalTest, TheCloudLeansByWhatNothingHasCompensated) {
   for (const auto& [inclinometer, lean_deg] : {std::pair{"off", 1.41418}, std::pair{"on", 0.0}}) {
-    const auto rehearsal = start(lesson());
+    const auto rehearsal = start(shortLesson());
     ASSERT_NE(rehearsal, nullptr);
     for (const json& action :
          {json{{"hand", "tilt"}, {"value", "1,1"}}, json{{"press", "parameters"}}, json{{"press", "sensors"}},
@@ -177,7 +177,7 @@ TEST_F(RehearsalTest, TheCloudLeansByWhatNothingHasCompensated) {
 
 // B2 is stuck to the far side of the hall's wall: the fit finds the near side, 2.5 m off.
 TEST_F(RehearsalTest, ATargetBehindAWallCannotBeSighted) {
-  auto text = lesson();
+  auto text = shortLesson();
   text["devices"] = {"leica-p-series"};
   text["setup"] = json::parse(R"([{"verb": "station", "options": {"add": "P1", "on": [3.5, 2.5, 0]}},
     {"verb": "target", "options": {"add": "B1", "on-surface": [0.5, 3.6, 1.5], "type": "bw-152"}},
@@ -200,7 +200,7 @@ TEST_F(RehearsalTest, ATargetBehindAWallCannotBeSighted) {
 }
 
 TEST_F(RehearsalTest, WhatWasNeverMeasuredIsNotThere) {
-  const auto rehearsal = start(lesson());
+  const auto rehearsal = start(shortLesson());
   ASSERT_NE(rehearsal, nullptr);
   for (const char* name :
        {"data.tilt", "targets.residual", "targets.error", "targets.points", "targets.distances", "links.error",
@@ -209,7 +209,7 @@ TEST_F(RehearsalTest, WhatWasNeverMeasuredIsNotThere) {
 }
 
 TEST_F(RehearsalTest, AHeldRuleTellsWhatWasThereWhenItWasAsked) {
-  const auto rehearsal = start(lesson());
+  const auto rehearsal = start(shortLesson());
   ASSERT_NE(rehearsal, nullptr);
   ASSERT_TRUE(act(*rehearsal, {{"hand", "tilt"}, {"value", "0.5,0"}}));
   ASSERT_TRUE(act(*rehearsal, {{"press", "start_scan"}}));
@@ -221,7 +221,7 @@ TEST_F(RehearsalTest, AHeldRuleTellsWhatWasThereWhenItWasAsked) {
 }
 
 TEST_F(RehearsalTest, NobodyStandsAtAStationThatIsNotThere) {
-  const auto rehearsal = start(lesson());
+  const auto rehearsal = start(shortLesson());
   ASSERT_TRUE(rehearsal);
   const auto moved = act(*rehearsal, {{"hand", "stand_at"}, {"value", "S2"}});
   ASSERT_FALSE(moved);
@@ -230,7 +230,7 @@ TEST_F(RehearsalTest, NobodyStandsAtAStationThatIsNotThere) {
 }
 
 TEST_F(RehearsalTest, APressWithAValueCountsWithoutItToo) {
-  const auto rehearsal = start(lesson());
+  const auto rehearsal = start(shortLesson());
   ASSERT_TRUE(rehearsal);
   for (const char* widget : {"parameters", "resolution_quality"}) ASSERT_TRUE(act(*rehearsal, {{"press", widget}}));
   ASSERT_TRUE(act(*rehearsal, {{"press", "resolution"}, {"value", "1/20"}}));
@@ -239,14 +239,14 @@ TEST_F(RehearsalTest, APressWithAValueCountsWithoutItToo) {
 
 // A setting that is what it always is would be done before anybody comes.
 TEST_F(RehearsalTest, ARecordedExerciseCanBeStarted) {
-  const auto rehearsal = start(lesson());
+  const auto rehearsal = start(shortLesson());
   ASSERT_TRUE(rehearsal);
   const auto& settings = rehearsal->device().type().instrument.settings;
-  const auto standard =
-      std::find_if(settings.begin(), settings.end(), [](const auto& s) { return s.key == "quality"; })->standard;
+  const auto default_value =
+      std::find_if(settings.begin(), settings.end(), [](const auto& s) { return s.key == "quality"; })->default_value;
   for (const char* widget : {"parameters", "resolution_quality"}) ASSERT_TRUE(act(*rehearsal, {{"press", widget}}));
   ASSERT_TRUE(act(*rehearsal, {{"press", "resolution"}, {"value", "1/8"}}));
-  ASSERT_TRUE(act(*rehearsal, {{"press", "quality"}, {"value", standard}}));
+  ASSERT_TRUE(act(*rehearsal, {{"press", "quality"}, {"value", default_value}}));
   const auto recorded = recordedExercise(rehearsal->device(), rehearsal->actions());
   ASSERT_EQ(recorded["steps"].size(), 1U);
   EXPECT_EQ(recorded["steps"][0]["id"], "resolution");

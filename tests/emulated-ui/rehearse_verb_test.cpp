@@ -16,12 +16,12 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-Result<Outcome> rehearse(const json& options) {
+Result<Outcome> rehearseVerb(const json& options) {
   Progress quiet;
   return runVerb(*findVerb(allVerbs(), "rehearse"), {}, options, quiet);
 }
 
-std::string shipped(const char* name) { return (dataFolder() / "emulated-ui" / "exercises" / name).string(); }
+std::string shippedExercise(const char* name) { return (dataFolder() / "emulated-ui" / "exercises" / name).string(); }
 
 std::string wholeText(const std::filesystem::path& file) {
   std::ifstream in(file);
@@ -42,12 +42,12 @@ std::string documentedExample() {
 TEST(RehearseCheck, TellsOfSeveralFilesEachWhatIsWrongAndIsALossWhenOneIs) {
   const TemporaryFolder folder;
   const auto wrong = (folder.path() / "wrong.json").string(), no_json = (folder.path() / "no.json").string();
-  auto text = json::parse(wholeText(shipped("e03-spacing-x7.json")));
+  auto text = json::parse(wholeText(shippedExercise("e03-spacing-x7.json")));
   text["steps"][0]["done"] = "screen == scan_pane";
   text["steps"][1]["widget"] = "mode_lists";
   std::ofstream(wrong) << text;
   std::ofstream(no_json) << "{";
-  const auto checked = rehearse({{"check", {wrong, shipped("e03-spacing-x7.json"), no_json}}});
+  const auto checked = rehearseVerb({{"check", {wrong, shippedExercise("e03-spacing-x7.json"), no_json}}});
   ASSERT_TRUE(checked) << describe(checked.error());
   EXPECT_GT(checked->report.losses(), 0U);
   const auto& files = checked->answer["files"];
@@ -65,17 +65,17 @@ TEST(RehearseCheck, TellsOfSeveralFilesEachWhatIsWrongAndIsALossWhenOneIs) {
 TEST(RehearseCheck, StartsTheExercise) {
   const TemporaryFolder folder;
   const auto file = (folder.path() / "x.json").string();
-  auto text = json::parse(wholeText(shipped("e03-spacing-x7.json")));
+  auto text = json::parse(wholeText(shippedExercise("e03-spacing-x7.json")));
   text["steps"][0]["done"] = "power == on";
   std::ofstream(file) << text;
-  const auto checked = rehearse({{"check", {file}}});
+  const auto checked = rehearseVerb({{"check", {file}}});
   ASSERT_TRUE(checked) << describe(checked.error());
   EXPECT_EQ(checked->answer["files"][0]["findings"][0]["source"], "x.json /steps/0/done");
   EXPECT_GT(checked->report.losses(), 0U);
 }
 
 TEST(RehearseCheck, OfSoundFilesOnlyIsNoLoss) {
-  const auto checked = rehearse({{"check", {shipped("e19-walk.json")}}});
+  const auto checked = rehearseVerb({{"check", {shippedExercise("e19-walk.json")}}});
   ASSERT_TRUE(checked) << describe(checked.error());
   EXPECT_TRUE(checked->answer["sound"].get<bool>()) << checked->answer;
   EXPECT_EQ(checked->report.losses(), 0U);
@@ -83,7 +83,7 @@ TEST(RehearseCheck, OfSoundFilesOnlyIsNoLoss) {
 
 TEST(RehearseCheck, GoesOnAfterAFileThatIsNotThere) {
   const auto good = (dataFolder() / "emulated-ui" / "exercises" / "t-rtc360.json").string();
-  const auto checked = rehearse({{"check", {"/nonexistent/x.json", good}}});
+  const auto checked = rehearseVerb({{"check", {"/nonexistent/x.json", good}}});
   ASSERT_TRUE(checked) << describe(checked.error());
   EXPECT_EQ(checked->report.losses(), 1U);
   EXPECT_EQ(checked->answer["files"][0]["findings"][0]["source"], "/nonexistent/x.json") << checked->answer;
@@ -96,13 +96,13 @@ TEST(Rehearse, ThatIsNotPassedIsALossWithTheReasonAndOneThatIsPassedIsNone) {
   const auto nothing = (folder.path() / "nothing.json").string();
   std::ofstream(nothing) << "[]";
   const auto out = (folder.path() / "out").string();
-  const auto failed = rehearse({{"exercise", "E03-X7"}, {"actions", nothing}, {"output", out}});
+  const auto failed = rehearseVerb({{"exercise", "E03-X7"}, {"actions", nothing}, {"output", out}});
   ASSERT_TRUE(failed) << describe(failed.error());
   EXPECT_FALSE(failed->answer["passed"].get<bool>());
   ASSERT_EQ(failed->report.losses(), 1U);
   EXPECT_THAT(failed->report.issues.back().message, HasSubstr("not passed: "));
   EXPECT_THAT(failed->report.issues.back().message, HasSubstr("'fine_enough' must hold"));
-  const auto passed = rehearse({{"exercise", "E03-X7"}, {"solution", true}, {"output", out}});
+  const auto passed = rehearseVerb({{"exercise", "E03-X7"}, {"solution", true}, {"output", out}});
   ASSERT_TRUE(passed) << describe(passed.error());
   EXPECT_TRUE(passed->answer["passed"].get<bool>());
   EXPECT_EQ(passed->report.losses(), 0U);
@@ -110,7 +110,7 @@ TEST(Rehearse, ThatIsNotPassedIsALossWithTheReasonAndOneThatIsPassedIsNone) {
 
 TEST(RehearseNames, ListsForEachDeviceWhatAnExerciseMayUse) {
   for (const auto& device : emulatedDevices()) {
-    const auto names = rehearse({{"names", true}, {"device", device.id}});
+    const auto names = rehearseVerb({{"names", true}, {"device", device.id}});
     ASSERT_TRUE(names) << describe(names.error());
     for (const char* list :
          {"settings", "screens", "dialogs", "phases", "facts", "hands", "troubles", "events", "keys"})
@@ -118,13 +118,13 @@ TEST(RehearseNames, ListsForEachDeviceWhatAnExerciseMayUse) {
     for (const auto& [instrument, settings] : names->answer["settings"].items())
       for (const auto& [key, row] : settings.items()) EXPECT_THAT(names->text, HasSubstr(key)) << instrument;
   }
-  const auto unknown = rehearse({{"names", true}, {"device", "rtc360"}});
+  const auto unknown = rehearseVerb({{"names", true}, {"device", "rtc360"}});
   ASSERT_FALSE(unknown);
   EXPECT_THAT(unknown.error().message, HasSubstr("did you mean 'leica-rtc360'?"));
 }
 
 TEST(RehearseDocs, HaveTheTableOfDevicesAsItIs) {
-  const auto names = rehearse({{"names", true}});
+  const auto names = rehearseVerb({{"names", true}});
   ASSERT_TRUE(names) << describe(names.error());
   const auto docs = wholeText(dataFolder() / "docs" / "rehearsal.md");
   for (const auto& row : names->answer["devices"]) {
@@ -139,10 +139,11 @@ TEST(RehearseDocs, HaveAnExampleThatIsSoundAndIsPassedByItsSolution) {
   const TemporaryFolder folder;
   const auto file = (folder.path() / "example.json").string();
   std::ofstream(file) << documentedExample();
-  const auto checked = rehearse({{"check", {file}}});
+  const auto checked = rehearseVerb({{"check", {file}}});
   ASSERT_TRUE(checked) << describe(checked.error());
   EXPECT_TRUE(checked->answer["files"][0]["findings"].empty()) << checked->text;
-  const auto done = rehearse({{"exercise", file}, {"solution", true}, {"output", (folder.path() / "out").string()}});
+  const auto done =
+      rehearseVerb({{"exercise", file}, {"solution", true}, {"output", (folder.path() / "out").string()}});
   ASSERT_TRUE(done) << describe(done.error());
   EXPECT_EQ(done->answer["score"], 1) << done->text;
   EXPECT_TRUE(done->report.issues.empty());

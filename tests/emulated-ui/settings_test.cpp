@@ -163,7 +163,7 @@ std::vector<std::string> alternatives(const ValueRow& value) {
   if (value.kind == WidgetKind::choice || value.kind == WidgetKind::toggle) return value.choices;
   if (value.kind == WidgetKind::text) return {"", "Ada"};
   return {fmt::format("{:g}", value.minimum), fmt::format("{:g}", (value.minimum + value.maximum) / 2),
-          fmt::format("{:g}", value.maximum), value.standard};
+          fmt::format("{:g}", value.maximum), value.default_value};
 }
 
 // The devices that have each of the values, else alike, go through the same: do they end differently?

@@ -57,7 +57,7 @@ std::shared_ptr<const Image> image(const char* name, const char* media_type, con
 }
 
 // A red pixel, as any program writes it.
-const std::string kPng(
+const std::string kTinyPng(
     "\x89PNG\r\n\x1A\n\0\0\0\rIHDR\0\0\0\x01\0\0\0\x01\x08\x02\0\0\0\x90wS\xDE\0\0\0\x0CIDATx\x9C"
     "c\xF8\xCF\xC0\0\0\x03\x01\x01\0\xC9\xFE\x92\xEF\0\0\0\0IEND\xAE"
     "B`\x82",
@@ -70,8 +70,8 @@ Environment everything() {
                 {"Gl\xC3\xA4s \"x\"", {0.123456789F, 1, 0.5F, 0.1F}, "#9", 1.0F, 0.0F}};
   e.meshes = {std::make_shared<Mesh>(randomMesh(1, 50, 80, 3)), std::make_shared<Mesh>(),
               std::make_shared<Mesh>(randomMesh(2, 7, 0, 3)), std::make_shared<Mesh>(randomMesh(3, 9, 4, 1))};
-  e.images = {image("tiles.png", "image/png", kPng), image("odd", "image/x-tga", "12345"),
-              image("none", "image/png", ""), image("liar", "image/jpeg", kPng)};
+  e.images = {image("tiles.png", "image/png", kTinyPng), image("odd", "image/x-tga", "12345"),
+              image("none", "image/png", ""), image("liar", "image/jpeg", kTinyPng)};
   e.surfaces.push_back({"Tiles", {1, 1, 1, 1}, "#7", {}, 0.1F, {}, {}, {}, 0.7F, 1.0F / 3, false, 0});
   e.surfaces.push_back({"Pane", {0.2F, 0.9F, 1, 1}, "#8", {}, {}, 0.9F, 1.52F, 0.004F, {}, {}, false, 1});
   e.surfaces.push_back({"Scan", {1, 1, 1, 1}, "#9", {}, {}, {}, {}, {}, {}, {}, true, 0});

@@ -10,8 +10,7 @@
 namespace standpoint::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-const std::string kMetre = "IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.)";
+const std::string kInMetres = "IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.)";
 
 // 100 m straight along x. Cant: the left rail rises by 0.15 m from 20 m to 60 m with a clothoid, gauge 1.5 m, its
 // middle by half of that; then it stays. #150 is the curve.
@@ -41,7 +40,7 @@ Bounds sleeperAt(const std::string& distance, const std::string& axis = "$") {
                   ",$);\n"
                   "#153=IFCLINEARPLACEMENT($,#152,$);\n" +
                   boxSolid(106, "0.02", "3.", "0.02") + product(110, "IFCTRACKELEMENT", "#108", "SweptSolid", "#153"),
-              kMetre, "IFC4X3_ADD2"));
+              kInMetres, "IFC4X3_ADD2"));
   EXPECT_EQ(model.report.losses(), 0U) << issuesOf(model);
   return boundsOf(model, "#110");
 }
@@ -69,7 +68,7 @@ TEST(IfcSection, ASolidAlongATrackLeansWithItsCant) {
                   "#154=IFCAXIS2PLACEMENTLINEAR(#153,$,$);\n#155=IFCRECTANGLEPROFILEDEF(.AREA.,$,#7,3.,0.2);\n#156="
                   "IFCSECTIONEDSOLIDHORIZONTAL(#150,(#155,#155),(#152,#154));\n" +
                   product(110, "IFCCOURSE", "#156"),
-              kMetre, "IFC4X3_ADD2"));
+              kInMetres, "IFC4X3_ADD2"));
   const Bounds b = boundsOf(model, "#110");
   EXPECT_NEAR(b.max.z(), 0.075 + 1.5 * std::sin(kRoll) + 0.1 * std::cos(kRoll), 1e-5);
   EXPECT_NEAR(b.min.z(), 0.075 - 1.5 * std::sin(kRoll) - 0.1 * std::cos(kRoll), 1e-5);
@@ -85,7 +84,7 @@ TEST(IfcSection, ACantedDirectrixTurnsASweepAlongWithIt) {
                                                      "#154=IFCDIRECTRIXDERIVEDREFERENCESWEPTAREASOLID(#153,$,#150,"
                                                      "IFCLENGTHMEASURE(60.),IFCLENGTHMEASURE(100.),#4);\n" +
                                                      product(110, "IFCRAIL", "#154"),
-                                                 kMetre, "IFC4X3_ADD2"));
+                                                 kInMetres, "IFC4X3_ADD2"));
   const Bounds b = boundsOf(model, "#110");
   // x of the profile points up, its y to the right of the way.
   const double to_side = std::abs(b.min.y()) < std::abs(b.max.y()) ? 1 : -1;
@@ -102,7 +101,7 @@ ImportedModel road(const std::string& sections,
       "153=IFCPOINTBYDISTANCEEXPRESSION(IFCLENGTHMEASURE(20.),$,$,$,#123);\n"
       "#154=IFCAXIS2PLACEMENTLINEAR(#153,$,$);\n" +
           sections + "#170=" + solid + ";\n" + product(110, "IFCCOURSE", "#170", "SectionedSurface"),
-      kMetre, "IFC4X3_ADD2"));
+      kInMetres, "IFC4X3_ADD2"));
 }
 
 TEST(IfcSection, AnOpenCrossProfileSlopesByItsWidthsAndAngles) {
@@ -131,7 +130,7 @@ TEST(IfcSection, AnExtrudedSurfaceMayStartFromAnOpenCrossProfile) {
       importText(ifcText("#100=IFCOPENCROSSPROFILEDEF(.CURVE.,$,.F.,(3.,4.),(0.,1.5707963267948966),$,$);\n#101="
                          "IFCSURFACEOFLINEAREXTRUSION(#100,#2,#4,2.);\n" +
                              product(110, "IFCPLATE", "#101", "Surface3D"),
-                         kMetre, "IFC4X3_ADD2"));
+                         kInMetres, "IFC4X3_ADD2"));
   EXPECT_NEAR(areaOf(model, "#110"), (3 + 4) * 2, 1e-5);
   expectNear(boundsOf(model, "#110").max, {3, 4, 2}, 1e-5);
 }
@@ -185,7 +184,7 @@ TEST(IfcSection, ParametersOfACompositeCurveAreTheSumOfItsSegments) {
       "#125=IFCCOMPOSITECURVE((#122,#123,#124),.F.);\n#126=IFCRECTANGLEPROFILEDEF(.AREA.,$,#7,0.2,0.1);\n"
       "#127=IFCFIXEDREFERENCESWEPTAREASOLID(#126,$,#125,4.,10.785398163397448,#4);\n";
   const ImportedModel model = importText(ifcText(records + product(110, "IFCBEAM", "#127")));
-  EXPECT_NEAR(volumeOf(model, "#110") / (0.02 * (6 + kPi / 4 * 2)), 1, 0.002);
+  EXPECT_NEAR(volumeOf(model, "#110") / (0.02 * (6 + std::numbers::pi / 4 * 2)), 1, 0.002);
   EXPECT_NEAR(boundsOf(model, "#110").min.x(), 4, 1e-6);
 }
 

@@ -10,8 +10,6 @@
 namespace standpoint::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // A quarter of a cylinder's side, radius 2, height 3, around the z axis from +x to +y; a face bounded by `edges`.
 std::string quarterCylinder(const std::string& surface, const std::string& arcs) {
   return surface +
@@ -44,7 +42,7 @@ const std::string kPcurves =
 void expectQuarterCylinder(const std::string& records) {
   const ImportedModel model = importText(ifcText(records));
   EXPECT_EQ(model.report.losses(), 0U) << issuesOf(model);
-  EXPECT_NEAR(areaOf(model, "#110"), kPi / 2 * 2 * 3, 0.01);
+  EXPECT_NEAR(areaOf(model, "#110"), std::numbers::pi / 2 * 2 * 3, 0.01);
   expectNear(boundsOf(model, "#110").max, {2, 2, 3}, 1e-5);
   expectNear(boundsOf(model, "#110").min, {0, 0, 0}, 1e-5);
 }
@@ -65,7 +63,7 @@ TEST(IfcSurface, ATrimmedCylinderIsABodyOfItsOwn) {
       importText(ifcText("#100=IFCCYLINDRICALSURFACE(#2,2.);\n#101=IFCRECTANGULARTRIMMEDSURFACE(#100,4.71238898038469,"
                          "1.,1.5707963267948966,4.,.T.,.T.);\n" +
                          product(110, "IFCPLATE", "#101", "Surface3D")));
-  EXPECT_NEAR(areaOf(model, "#110"), kPi * 2 * 3, 0.02);
+  EXPECT_NEAR(areaOf(model, "#110"), std::numbers::pi * 2 * 3, 0.02);
   expectNear(boundsOf(model, "#110").min, {0, -2, 1}, 1e-5);
   expectNear(boundsOf(model, "#110").max, {2, 2, 4}, 1e-5);
 }
@@ -80,7 +78,7 @@ TEST(IfcSurface, AnglesInDegreesTrimASphere) {
   const std::string radian = "#13=IFCSIUNIT(*,.PLANEANGLEUNIT.,$,.RADIAN.);";
   text.replace(text.find(radian), radian.size(), "#13=IFCCONVERSIONBASEDUNIT(#90,.PLANEANGLEUNIT.,'DEGREE',#92);");
   const ImportedModel model = importText(text);
-  EXPECT_NEAR(areaOf(model, "#110"), kPi * 9, 0.03);
+  EXPECT_NEAR(areaOf(model, "#110"), std::numbers::pi * 9, 0.03);
 }
 
 TEST(IfcSurface, ACurveBoundedSurfaceIsWhatItsBoundaryEncloses) {
@@ -111,7 +109,7 @@ TEST(IfcSurface, ASweepAlongACurveInTheParametersOfItsPlane) {
               "#243=IFCPOLYLINE((#240,#241,#242));\n#244=IFCPCURVE(#92,#243);\n#245=IFCSURFACECURVE($,(#244),.PCURVE_"
               "S1.);\n#101=IFCSWEPTDISKSOLID(#245,0.1,$,$,$);\n" +
               product(110, "IFCPIPESEGMENT", "#101")));
-  EXPECT_NEAR(volumeOf(model, "#110") / (kPi * 0.01 * 4), 1, 0.01);
+  EXPECT_NEAR(volumeOf(model, "#110") / (std::numbers::pi * 0.01 * 4), 1, 0.01);
   EXPECT_NEAR(boundsOf(model, "#110").max.z(), 2.1, 1e-4);  // the plane's x is the model's z
 }
 
@@ -139,7 +137,7 @@ TEST(IfcSurface, AFaceMayHaveACornerAtThePole) {
   for (const char* edges : {"#224,#225,#226", "#225,#226,#224", "#226,#224,#225"}) {
     const ImportedModel model = quarterBall("0.2", edges);
     EXPECT_EQ(model.report.losses(), 0U) << issuesOf(model);
-    EXPECT_NEAR(areaOf(model, "#110") / (kPi * 0.04), 1, 0.01);
+    EXPECT_NEAR(areaOf(model, "#110") / (std::numbers::pi * 0.04), 1, 0.01);
   }
 }
 
@@ -147,7 +145,7 @@ TEST(IfcSurface, ALargeBallKeepsToTheChordErrorAwayFromItsBounds) {
   for (const char* edges : {"#224,#225,#226", "#225,#226,#224", "#226,#224,#225"}) {
     const ImportedModel model = quarterBall("2.", edges);
     EXPECT_EQ(issuesOf(model).find("coarser"), std::string::npos);
-    EXPECT_NEAR(areaOf(model, "#110") / (kPi * 4), 1, 0.005);
+    EXPECT_NEAR(areaOf(model, "#110") / (std::numbers::pi * 4), 1, 0.005);
     double inner = 0, outer = 0;
     const auto& e = model.environment;
     for (const auto& i : e.instances)
@@ -158,7 +156,7 @@ TEST(IfcSurface, ALargeBallKeepsToTheChordErrorAwayFromItsBounds) {
         (at_bound ? outer : inner) = std::max(at_bound ? outer : inner, std::abs(middle.norm() - 2));
       }
     EXPECT_LE(inner, 0.001);
-    EXPECT_LE(outer, 2 * (1 - std::cos(kPi / 32)) + 0.001);  // circles have 32 chords
+    EXPECT_LE(outer, 2 * (1 - std::cos(std::numbers::pi / 32)) + 0.001);  // circles have 32 chords
   }
 }
 

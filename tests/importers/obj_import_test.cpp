@@ -11,7 +11,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-Result<ImportedModel> obj(const std::string& text, const ImportOptions& options = {}) {
+Result<ImportedModel> objModel(const std::string& text, const ImportOptions& options = {}) {
   return import(write(scratch() / "a.obj", text), options);
 }
 
@@ -20,7 +20,7 @@ const std::string kCube =
     "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
 
 TEST(Obj, CubeOfQuadsIsClosedAndHasTheVolumeOfACube) {
-  const auto model = obj(kCube, {.metres_per_unit = 0.5});
+  const auto model = objModel(kCube, {.metres_per_unit = 0.5});
   ASSERT_TRUE(model) << describe(model.error());
   const auto& mesh = *model->environment.meshes.at(0);
   EXPECT_EQ(mesh.triangles.size(), 12U);
@@ -30,13 +30,13 @@ TEST(Obj, CubeOfQuadsIsClosedAndHasTheVolumeOfACube) {
 
 TEST(Obj, DefaultUpAxisIsYAndZCanBeAskedFor) {
   const std::string text = "v 1 2 3\nv 0 0 0\nv 1 0 0\nf 1 2 3\n";
-  EXPECT_EQ(obj(text)->environment.meshes.at(0)->positions.at(0), Eigen::Vector3f(1, -3, 2));
-  EXPECT_EQ(obj(text, {.up = UpAxis::z})->environment.meshes.at(0)->positions.at(0), Eigen::Vector3f(1, 2, 3));
+  EXPECT_EQ(objModel(text)->environment.meshes.at(0)->positions.at(0), Eigen::Vector3f(1, -3, 2));
+  EXPECT_EQ(objModel(text, {.up = UpAxis::z})->environment.meshes.at(0)->positions.at(0), Eigen::Vector3f(1, 2, 3));
 }
 
 TEST(Obj, ObjectsAndGroupsBecomeProductsAndANameThatComesBackContinues) {
   const auto model =
-      obj("v 0 0 0\nv 1 0 0\nv 0 1 0\no house\ng wall\nf 1 2 3\ng roof\nf 1 2 3\no house\ng wall\nf -1 -2 -3\n");
+      objModel("v 0 0 0\nv 1 0 0\nv 0 1 0\no house\ng wall\nf 1 2 3\ng roof\nf 1 2 3\no house\ng wall\nf -1 -2 -3\n");
   ASSERT_TRUE(model);
   ASSERT_EQ(model->environment.products.size(), 2U);
   EXPECT_EQ(model->environment.products.at(0).id, "o house g wall");
@@ -46,21 +46,23 @@ TEST(Obj, ObjectsAndGroupsBecomeProductsAndANameThatComesBackContinues) {
 
 TEST(Obj, ConcavePolygonKeepsItsArea) {
   // An L of area 3: a fan from the first corner would give 4.
-  const auto model = obj("v 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nf 1 2 3 4 5 6\n", {.up = UpAxis::z});
+  const auto model =
+      objModel("v 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nf 1 2 3 4 5 6\n", {.up = UpAxis::z});
   ASSERT_TRUE(model);
   EXPECT_DOUBLE_EQ(area(*model->environment.meshes.at(0)), 3);
   EXPECT_TRUE(model->report.issues.empty());
 }
 
 TEST(Obj, LinesContinueAndEndInAnyWay) {
-  const auto model = obj("\xEF\xBB\xBFv 0 0 0\rv 1 0 \\\r\n0 # x\r\nv 0 1 0\nf 1//1 \\\n 2/4 3/1/1");
+  const auto model = objModel("\xEF\xBB\xBFv 0 0 0\rv 1 0 \\\r\n0 # x\r\nv 0 1 0\nf 1//1 \\\n 2/4 3/1/1");
   ASSERT_TRUE(model) << describe(model.error());
   EXPECT_EQ(triangleCount(model->environment), 1U);
 }
 
 TEST(Obj, AGroupNamedRightBeforeAnObjectHoldsItAndOneThatHadFacesEnds) {
   const std::string v = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-  const auto model = obj(v + "g layer\no first\nf 1 2 3\no second\nf 1 3 2\ng Mesh1 Group1 Model\no third\nf 1 2 3\n");
+  const auto model =
+      objModel(v + "g layer\no first\nf 1 2 3\no second\nf 1 3 2\ng Mesh1 Group1 Model\no third\nf 1 2 3\n");
   ASSERT_TRUE(model);
   const auto& p = model->environment.products;
   ASSERT_EQ(p.size(), 3U);
@@ -72,12 +74,12 @@ TEST(Obj, AGroupNamedRightBeforeAnObjectHoldsItAndOneThatHadFacesEnds) {
 
 TEST(Obj, CornersOfOnePlaceAreOneVertexUnlessTheirTextureDiffers) {
   const std::string v = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 9 9 9\nvt 0 0\nvt 1 0.25\nvt 0.5 1\n";
-  const auto whole = obj(v + "f 1/1 2/2 3/3\nf 1/1 3/3 4/1\n", {.up = UpAxis::z});
+  const auto whole = objModel(v + "f 1/1 2/2 3/3\nf 1/1 3/3 4/1\n", {.up = UpAxis::z});
   ASSERT_TRUE(whole);
   const auto& mesh = *whole->environment.meshes.at(0);
   EXPECT_EQ(mesh.positions.size(), 4U);  // the unused one is not there
   EXPECT_EQ(mesh.texture_coordinates.at(1), Eigen::Vector2f(1, 0.75F));
-  const auto seam = obj(v + "f 1/1 2/2 3/3\nf 1/2 3/3 4/1\n");
+  const auto seam = objModel(v + "f 1/1 2/2 3/3\nf 1/2 3/3 4/1\n");
   EXPECT_EQ(seam->environment.meshes.at(0)->positions.size(), 5U);
 }
 
@@ -85,15 +87,15 @@ TEST(Obj, OnePositionWithThousandsOfTextureCoordinatesIsAsManyVertices) {
   std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (int i = 0; i < 3000; ++i) text += "vt " + std::to_string(i) + " 0\nv " + std::to_string(i) + " 1 1\n";
   for (int i = 1; i <= 3000; ++i) text += "f 1/" + std::to_string(i) + " 2/1 " + std::to_string(i + 3) + "/1\n";
-  const auto model = obj(text + text.substr(text.find('f')));
+  const auto model = objModel(text + text.substr(text.find('f')));
   ASSERT_TRUE(model) << describe(model.error());
   EXPECT_EQ(model->environment.meshes.at(0)->positions.size(), 3000U + 1 + 3000);
 }
 
 TEST(Obj, ColoursOfVerticesAreReadInBothPlacesAndBothScales) {
   const std::string rest = "v 1 0 0\nv 0 1 0\nf 1 2 3\n";
-  const auto shares = obj("v 0 0 0 1 0.5 0\n" + rest), weighted = obj("v 0 0 0 1 1 0.5 0\n" + rest),
-             bytes = obj("v 0 0 0 255 128 0\n" + rest);
+  const auto shares = objModel("v 0 0 0 1 0.5 0\n" + rest), weighted = objModel("v 0 0 0 1 1 0.5 0\n" + rest),
+             bytes = objModel("v 0 0 0 255 128 0\n" + rest);
   using Rgba = std::array<std::uint8_t, 4>;
   for (const auto* model : {&shares, &weighted, &bytes}) {
     ASSERT_TRUE(*model);
@@ -105,7 +107,7 @@ TEST(Obj, ColoursOfVerticesAreReadInBothPlacesAndBothScales) {
 }
 
 TEST(Obj, WhatStandsThereTwiceOrHasCollapsedIsLeftOutAndSaid) {
-  const auto model = obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 1 2 3\nf 2 3 1\nf 1 3 2\nf 1 2 2\nf 1 2 4\n");
+  const auto model = objModel("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 1 2 3\nf 2 3 1\nf 1 3 2\nf 1 2 2\nf 1 2 4\n");
   ASSERT_TRUE(model);
   EXPECT_EQ(model->environment.meshes.at(0)->triangles.size(), 2U);  // one from each side
   EXPECT_EQ(model->environment.meshes.at(0)->positions.size(), 3U);
@@ -118,7 +120,7 @@ TEST(Obj, WhatStandsThereTwiceOrHasCollapsedIsLeftOutAndSaid) {
 TEST(Obj, AHouseInMillimetresIsPointedOut) {
   std::string text;
   for (const char c : kCube) text += c == '1' && text.find('f') == std::string::npos ? "9000" : std::string(1, c);
-  const auto model = obj(text);
+  const auto model = objModel(text);
   ASSERT_TRUE(model);
   ASSERT_FALSE(model->report.issues.empty());
   EXPECT_THAT(model->report.issues.back().message, HasSubstr("--unit mm"));
@@ -154,13 +156,13 @@ TEST(Obj, Utf16IsReadAsItsText) {
   std::string text = "\xFF\xFE";
   for (const char c : std::string("o B\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"))
     text += c == 'B' ? std::string("\xDF\x00", 2) : std::string{c, '\0'};
-  const auto model = obj(text);
+  const auto model = objModel(text);
   ASSERT_TRUE(model) << describe(model.error());
   EXPECT_EQ(model->environment.products.at(0).name, "ß");
 }
 
 TEST(Obj, LargeCoordinatesKeepTheirTenthOfAMillimetre) {
-  const auto model = obj(
+  const auto model = objModel(
       "v 4512345.1234 5300000.5 100.25\nv 4512346.1234 5300000.5 100.25\nv 4512345.1234 5300001.5 100.25\nf 1 2 3\n",
       {.up = UpAxis::z});
   ASSERT_TRUE(model);

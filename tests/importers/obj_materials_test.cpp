@@ -14,10 +14,10 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n";
-const std::string kPng = "\x89PNG\r\n\x1A\nrest";
+const std::string kOneTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n";
+const std::string kPngFile = "\x89PNG\r\n\x1A\nrest";
 
-auto says(Severity severity, const std::string& text) {
+auto saysOnce(Severity severity, const std::string& text) {
   return Contains(::testing::AllOf(Field(&Issue::severity, severity), Field(&Issue::message, HasSubstr(text))));
 }
 
@@ -53,7 +53,7 @@ TEST(ObjMaterials, SeveralLibrariesOnALineAndUseBeforeTheyAreNamed) {
   write(folder / "a.mtl", "newmtl a\nKd 1 0 0\n");
   write(folder / "b.mtl", "newmtl b\nKd 0 1 0\nnewmtl a\nKd 0 0 0\n");
   const auto model =
-      import(write(folder / "m.obj", kTriangle + "usemtl b\nf 1 2 3\nusemtl a\nf 3 2 1\nmtllib a.mtl b.mtl\n"));
+      import(write(folder / "m.obj", kOneTriangle + "usemtl b\nf 1 2 3\nusemtl a\nf 3 2 1\nmtllib a.mtl b.mtl\n"));
   ASSERT_TRUE(model);
   EXPECT_EQ(model->environment.surfaces.at(0).colour, (Colour{0, 1, 0, 1}));
   EXPECT_EQ(model->environment.surfaces.at(1).colour, (Colour{1, 0, 0, 1}));
@@ -104,25 +104,25 @@ TEST(ObjMaterials, OptionsOfATextureAreToldFromItsName) {
 TEST(ObjMaterials, ATextureStaysEncodedAndItsScaleGoesIntoTheCoordinates) {
   const auto folder = scratch();
   std::filesystem::create_directories(folder / "maps");
-  write(folder / "maps" / "Brick Wall.PNG", kPng);
+  write(folder / "maps" / "Brick Wall.PNG", kPngFile);
   write(folder / "a.mtl", "newmtl a\nmap_Kd -s 2 4 -o 0.5 0 maps\\brick wall.png\n");
-  const auto model = import(write(folder / "a.obj", "mtllib a.mtl\n" + kTriangle + "usemtl a\nf 1/1 2/2 3/3\n"));
+  const auto model = import(write(folder / "a.obj", "mtllib a.mtl\n" + kOneTriangle + "usemtl a\nf 1/1 2/2 3/3\n"));
   ASSERT_TRUE(model);
   const auto& e = model->environment;
   ASSERT_EQ(e.images.size(), 1U);
   EXPECT_EQ(e.images[0]->media_type, "image/png");
-  EXPECT_EQ(std::string(reinterpret_cast<const char*>(e.images[0]->bytes.data()), e.images[0]->bytes.size()), kPng);
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(e.images[0]->bytes.data()), e.images[0]->bytes.size()), kPngFile);
   EXPECT_EQ(e.surfaces.at(0).image, 0);
   // (u, v) from the bottom become (2 u + 0.5, 4 v), then v counts from the top.
   EXPECT_THAT(e.meshes.at(0)->texture_coordinates,
               ElementsAre(Eigen::Vector2f(0.5F, 1), Eigen::Vector2f(2.5F, 1), Eigen::Vector2f(0.5F, -3)));
-  EXPECT_THAT(model->report.issues, says(Severity::note, "is taken from Brick Wall.PNG"));
+  EXPECT_THAT(model->report.issues, saysOnce(Severity::note, "is taken from Brick Wall.PNG"));
 }
 
 TEST(ObjMaterials, NothingOutsideTheModelsFolderIsRead) {
   const auto folder = scratch();
   std::filesystem::create_directories(folder / "model");
-  write(folder / "out.png", kPng);
+  write(folder / "out.png", kPngFile);
   write(folder / "out.mtl", "newmtl a\nKd 1 0 0\n");
   std::filesystem::create_symlink(folder / "out.png", folder / "model" / "link.png");
   const std::vector<std::string> names = {"../out.png", (folder / "out.png").string(), "link.png", "C:\\out.png",
@@ -130,13 +130,13 @@ TEST(ObjMaterials, NothingOutsideTheModelsFolderIsRead) {
   for (const auto& name : names) {
     write(folder / "model" / "a.mtl", "newmtl a\nmap_Kd " + name + "\n");
     const auto model =
-        import(write(folder / "model" / "a.obj", "mtllib a.mtl\n" + kTriangle + "usemtl a\nf 1/1 2/2 3/3\n"));
+        import(write(folder / "model" / "a.obj", "mtllib a.mtl\n" + kOneTriangle + "usemtl a\nf 1/1 2/2 3/3\n"));
     ASSERT_TRUE(model);
     EXPECT_THAT(model->environment.images, IsEmpty()) << name;
-    EXPECT_THAT(model->report.issues, says(Severity::loss, "outside the model's folder")) << name;
+    EXPECT_THAT(model->report.issues, saysOnce(Severity::loss, "outside the model's folder")) << name;
   }
   const auto model =
-      import(write(folder / "model" / "a.obj", "mtllib ../out.mtl\n" + kTriangle + "usemtl a\nf 1 2 3\n"));
+      import(write(folder / "model" / "a.obj", "mtllib ../out.mtl\n" + kOneTriangle + "usemtl a\nf 1 2 3\n"));
   EXPECT_EQ(model->environment.surfaces.at(0).colour, Colour());
 }
 
@@ -144,29 +144,29 @@ TEST(ObjMaterials, APathOfAnotherMachineFindsTheFileBesideTheModel) {
   const auto folder = scratch();
   write(folder / "brick.jpg", "\xFF\xD8\xFFrest");
   write(folder / "a.mtl", "newmtl a\nmap_Kd C:\\Users\\me\\brick.jpg\n");
-  const auto model = import(write(folder / "a.obj", "mtllib a.mtl\n" + kTriangle + "usemtl a\nf 1/1 2/2 3/3\n"));
+  const auto model = import(write(folder / "a.obj", "mtllib a.mtl\n" + kOneTriangle + "usemtl a\nf 1/1 2/2 3/3\n"));
   ASSERT_TRUE(model);
   ASSERT_THAT(model->environment.images, SizeIs(1));
   EXPECT_EQ(model->environment.images[0]->media_type, "image/jpeg");
-  EXPECT_THAT(model->report.issues, says(Severity::note, "is taken from brick.jpg"));
+  EXPECT_THAT(model->report.issues, saysOnce(Severity::note, "is taken from brick.jpg"));
 }
 
 TEST(ObjMaterials, OtherImageFormatsAndCutoutsAreLossesByName) {
   const auto folder = scratch();
   write(folder / "a.tga", "not an image");
   write(folder / "a.mtl", "newmtl a\nmap_Kd a.tga\nmap_d holes.png\nmap_Bump bump.png\n");
-  const auto model = import(write(folder / "a.obj", "mtllib a.mtl\n" + kTriangle + "usemtl a\nf 1/1 2/2 3/3\n"));
+  const auto model = import(write(folder / "a.obj", "mtllib a.mtl\n" + kOneTriangle + "usemtl a\nf 1/1 2/2 3/3\n"));
   ASSERT_TRUE(model);
-  EXPECT_THAT(model->report.issues, says(Severity::loss, "'a.tga' is neither PNG nor JPEG"));
-  EXPECT_THAT(model->report.issues, says(Severity::loss, "holes.png"));
-  EXPECT_THAT(model->report.issues, says(Severity::note, "map_bump"));
+  EXPECT_THAT(model->report.issues, saysOnce(Severity::loss, "'a.tga' is neither PNG nor JPEG"));
+  EXPECT_THAT(model->report.issues, saysOnce(Severity::loss, "holes.png"));
+  EXPECT_THAT(model->report.issues, saysOnce(Severity::note, "map_bump"));
 }
 
 TEST(ObjMaterials, ALibraryThatIsAPipeADeviceOrTheModelItselfDoesNoHarm) {
   const auto folder = scratch();
   ASSERT_EQ(mkfifo((folder / "pipe.mtl").c_str(), 0600), 0);
   for (const std::string name : {"pipe.mtl", "/dev/zero", "a.obj", ".", "..", "mtllib"}) {
-    const auto model = import(write(folder / "a.obj", "mtllib " + name + "\n" + kTriangle + "f 1 2 3\n"));
+    const auto model = import(write(folder / "a.obj", "mtllib " + name + "\n" + kOneTriangle + "f 1 2 3\n"));
     ASSERT_TRUE(model) << name;
     EXPECT_FALSE(model->report.issues.empty()) << name;
   }
@@ -175,10 +175,10 @@ TEST(ObjMaterials, ALibraryThatIsAPipeADeviceOrTheModelItselfDoesNoHarm) {
 TEST(ObjMaterials, ARenamedModelFindsTheMtlThatWasRenamedWithIt) {
   const auto folder = scratch();
   write(folder / "new.mtl", "newmtl a\nKd 1 0 0\n");
-  const auto model = import(write(folder / "new.obj", "mtllib old.mtl\n" + kTriangle + "usemtl a\nf 1 2 3\n"));
+  const auto model = import(write(folder / "new.obj", "mtllib old.mtl\n" + kOneTriangle + "usemtl a\nf 1 2 3\n"));
   ASSERT_TRUE(model);
   EXPECT_EQ(model->environment.surfaces.at(0).colour, (Colour{1, 0, 0, 1}));
-  EXPECT_THAT(model->report.issues, says(Severity::warning, "new.mtl stands for it"));
+  EXPECT_THAT(model->report.issues, saysOnce(Severity::warning, "new.mtl stands for it"));
 }
 
 }  // namespace

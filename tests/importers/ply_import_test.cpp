@@ -15,7 +15,7 @@ using ::testing::SizeIs;
 using Rgba = std::array<std::uint8_t, 4>;
 
 Result<ImportedModel> ply(const std::string& bytes) { return import(write(scratch() / "a.ply", bytes)); }
-std::string refused(const std::string& bytes) { return refusal(write(scratch() / "a.ply", bytes)); }
+std::string refusedPly(const std::string& bytes) { return refusal(write(scratch() / "a.ply", bytes)); }
 
 const std::string kHead =
     "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
@@ -117,9 +117,9 @@ TEST(Ply, StripsTurnEveryOtherTriangleAndBeginAnew) {
 }
 
 TEST(Ply, ACloudIsRefusedWithWhatToDoInstead) {
-  EXPECT_THAT(refused(kHead + "end_header\n" + kSquare),
+  EXPECT_THAT(refusedPly(kHead + "end_header\n" + kSquare),
               HasSubstr("a point cloud, not a model; take it in as an underlay"));
-  EXPECT_THAT(refused(kHead + "element face 0\nproperty list uchar int vertex_indices\nend_header\n" + kSquare),
+  EXPECT_THAT(refusedPly(kHead + "element face 0\nproperty list uchar int vertex_indices\nend_header\n" + kSquare),
               HasSubstr("point cloud"));
 }
 
@@ -144,30 +144,30 @@ TEST(Ply, LargeCoordinatesKeepTheirDigits) {
 
 TEST(PlyHostile, CountsThatTheFileCannotHoldAreRefused) {
   const std::string vertices = "property float x\nproperty float y\nproperty float z\n";
-  EXPECT_THAT(refused("ply\nformat ascii 1.0\nelement vertex 1000000000\n" + vertices + kFaces),
+  EXPECT_THAT(refusedPly("ply\nformat ascii 1.0\nelement vertex 1000000000\n" + vertices + kFaces),
               HasSubstr("a.ply line 3: says 1000000000 of vertex"));
   EXPECT_THAT(
-      refused("ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\n" + vertices + kFaces),
+      refusedPly("ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\n" + vertices + kFaces),
       HasSubstr("line 3"));
-  EXPECT_THAT(refused("ply\nformat binary_little_endian 1.0\nelement vertex 0\n" + vertices +
-                      "element face 1\nproperty list uint int vertex_indices\nend_header\n" +
-                      std::string("\xFF\xFF\xFF\xFF", 4)),
+  EXPECT_THAT(refusedPly("ply\nformat binary_little_endian 1.0\nelement vertex 0\n" + vertices +
+                         "element face 1\nproperty list uint int vertex_indices\nend_header\n" +
+                         std::string("\xFF\xFF\xFF\xFF", 4)),
               HasSubstr("a.ply face 0: the file ends here"));
-  EXPECT_THAT(refused(kHead + kFaces + kSquare + "1000000000 0 1 2\n"), HasSubstr("the file ends here"));
+  EXPECT_THAT(refusedPly(kHead + kFaces + kSquare + "1000000000 0 1 2\n"), HasSubstr("the file ends here"));
 }
 
 TEST(PlyHostile, WrongIndicesAndNumbersAreRefusedWithTheirPlace) {
-  EXPECT_THAT(refused(kHead + kFaces + kSquare + "3 0 1 4\n"),
+  EXPECT_THAT(refusedPly(kHead + kFaces + kSquare + "3 0 1 4\n"),
               HasSubstr("a.ply line 14: refers to a vertex that is not there"));
-  EXPECT_THAT(refused(kHead + kFaces + kSquare + "3 0 1 -1\n"), HasSubstr("line 14"));
-  EXPECT_THAT(refused(kHead + kFaces + "0 0 nan\n1 0 0\n1 2 0\n0 2 0\n3 0 1 2\n"),
+  EXPECT_THAT(refusedPly(kHead + kFaces + kSquare + "3 0 1 -1\n"), HasSubstr("line 14"));
+  EXPECT_THAT(refusedPly(kHead + kFaces + "0 0 nan\n1 0 0\n1 2 0\n0 2 0\n3 0 1 2\n"),
               HasSubstr("line 10: a coordinate is not a finite number"));
   EXPECT_TRUE(ply(kHead + kFaces + "0 0 nan\n1 0 0\n1 2 0\n0 2 0\n3 1 2 3\n"));
-  EXPECT_THAT(refused(kHead + kFaces + "0 0 x\n1 0 0\n1 2 0\n0 2 0\n3 0 1 2\n"),
+  EXPECT_THAT(refusedPly(kHead + kFaces + "0 0 x\n1 0 0\n1 2 0\n0 2 0\n3 0 1 2\n"),
               HasSubstr("line 10: 'x' is not a number (vertex 0 of 4)"));
-  EXPECT_THAT(refused("ply\nformat ascii 1.0\nelement vertex four\n"), HasSubstr("line 3"));
-  EXPECT_THAT(refused("ply\nproperty float x\n"), HasSubstr("line 2"));
-  EXPECT_THAT(refused("ply\nformat ascii 1.0\n"), HasSubstr("no end_header"));
+  EXPECT_THAT(refusedPly("ply\nformat ascii 1.0\nelement vertex four\n"), HasSubstr("line 3"));
+  EXPECT_THAT(refusedPly("ply\nproperty float x\n"), HasSubstr("line 2"));
+  EXPECT_THAT(refusedPly("ply\nformat ascii 1.0\n"), HasSubstr("no end_header"));
 }
 
 TEST(PlyHostile, CutOffOrMutatedItIsAModelOrAnErrorWithItsPlace) {

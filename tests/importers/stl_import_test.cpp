@@ -17,17 +17,17 @@ struct Facet {
 };
 
 template <class T>
-void put(std::string& to, T value) {
+void putBytes(std::string& to, T value) {
   to.append(reinterpret_cast<const char*>(&value), sizeof value);  // of a little-endian machine
 }
 
 std::string binary(std::string header, const std::vector<Facet>& facets) {
   header.resize(80, ' ');
-  put(header, static_cast<std::uint32_t>(facets.size()));
+  putBytes(header, static_cast<std::uint32_t>(facets.size()));
   for (const auto& f : facets) {
-    for (int i = 0; i < 3; ++i) put(header, NAN);  // a normal that nobody needs
-    for (const float c : f.corners) put(header, c);
-    put(header, f.word);
+    for (int i = 0; i < 3; ++i) putBytes(header, NAN);  // a normal that nobody needs
+    for (const float c : f.corners) putBytes(header, c);
+    putBytes(header, f.word);
   }
   return header;
 }
@@ -38,7 +38,7 @@ const std::vector<Facet> kTetrahedron = {{{0, 0, 0, 0, 1, 0, 1, 0, 0}},
                                          {{-0.F, 0, 0, 0, 0, 1, 0, 1, 0}},
                                          {{1, 0, 0, 0, 1, 0, 0, 0, 1}}};
 
-std::string text(const std::string& name) {
+std::string textSolid(const std::string& name) {
   std::string out = "solid " + name + "\n";
   for (const auto& f : kTetrahedron) {
     out += "  facet normal nan nan nan\n    outer loop\n";
@@ -51,11 +51,11 @@ std::string text(const std::string& name) {
 }
 
 Result<ImportedModel> stl(const std::string& bytes) { return import(write(scratch() / "a.stl", bytes)); }
-std::string refused(const std::string& bytes) { return refusal(write(scratch() / "a.stl", bytes)); }
+std::string refusedStl(const std::string& bytes) { return refusal(write(scratch() / "a.stl", bytes)); }
 
 TEST(Stl, BinaryAndTextAreWeldedToTheSameClosedSolid) {
   for (const auto& bytes :
-       {binary("made by a test", kTetrahedron), binary("solid made by a test", kTetrahedron), text("pyramid")}) {
+       {binary("made by a test", kTetrahedron), binary("solid made by a test", kTetrahedron), textSolid("pyramid")}) {
     const auto model = stl(bytes);
     ASSERT_TRUE(model) << describe(model.error());
     const auto& mesh = *model->environment.meshes.at(0);
@@ -73,7 +73,7 @@ TEST(Stl, ABinaryFileIsKnownByItsSizeWhateverItIsCalled) {
 }
 
 TEST(Stl, SolidsOfATextBecomeProducts) {
-  const auto model = stl(text("one and a half") + text("") + text("three"));
+  const auto model = stl(textSolid("one and a half") + textSolid("") + textSolid("three"));
   ASSERT_TRUE(model) << describe(model.error());
   const auto& p = model->environment.products;
   ASSERT_THAT(p, SizeIs(3));
@@ -111,23 +111,24 @@ TEST(Stl, ManyColoursBecomeColoursOfTheVertices) {
 TEST(StlHostile, WhatIsWrongIsRefusedWithItsPlace) {
   auto nan = kTetrahedron;
   nan[1].corners[4] = NAN;
-  EXPECT_THAT(refused(binary("x", nan)), HasSubstr("a.stl triangle 2: a coordinate is not a finite number"));
-  EXPECT_THAT(refused(binary("x", kTetrahedron).substr(0, 200)), HasSubstr("says 4 triangles and has bytes for 2"));
-  EXPECT_THAT(refused(std::string(80, 'x') + "\xFF\xFF\xFF\xFF"), HasSubstr("says 4294967295 triangles"));
-  EXPECT_THAT(refused("solid a\nfacet\nouter loop\nvertex 0 0\n"), HasSubstr("line 4: a vertex needs three numbers"));
-  EXPECT_THAT(refused("solid a\nfacet\nouter loop\nvertex 0 0 inf\n"),
+  EXPECT_THAT(refusedStl(binary("x", nan)), HasSubstr("a.stl triangle 2: a coordinate is not a finite number"));
+  EXPECT_THAT(refusedStl(binary("x", kTetrahedron).substr(0, 200)), HasSubstr("says 4 triangles and has bytes for 2"));
+  EXPECT_THAT(refusedStl(std::string(80, 'x') + "\xFF\xFF\xFF\xFF"), HasSubstr("says 4294967295 triangles"));
+  EXPECT_THAT(refusedStl("solid a\nfacet\nouter loop\nvertex 0 0\n"),
+              HasSubstr("line 4: a vertex needs three numbers"));
+  EXPECT_THAT(refusedStl("solid a\nfacet\nouter loop\nvertex 0 0 inf\n"),
               HasSubstr("line 4: a coordinate is not a finite number"));
-  EXPECT_THAT(refused("solid a\nfacet\nvertex 0 0 0\nendfacet\n"),
+  EXPECT_THAT(refusedStl("solid a\nfacet\nvertex 0 0 0\nendfacet\n"),
               HasSubstr("line 4: a facet ends without three vertices"));
-  EXPECT_THAT(refused("solid a\nvertex 0 0 0\n"), HasSubstr("line 2"));
-  EXPECT_THAT(refused("solid a\nfacet\nvertex 0 0 0\n"), HasSubstr("ends within a facet"));
-  EXPECT_THAT(refused("solid a\nhello\n"), HasSubstr("line 2: 'hello' is no word of an STL"));
-  EXPECT_THAT(refused("short"), HasSubstr("a.stl line 1"));
+  EXPECT_THAT(refusedStl("solid a\nvertex 0 0 0\n"), HasSubstr("line 2"));
+  EXPECT_THAT(refusedStl("solid a\nfacet\nvertex 0 0 0\n"), HasSubstr("ends within a facet"));
+  EXPECT_THAT(refusedStl("solid a\nhello\n"), HasSubstr("line 2: 'hello' is no word of an STL"));
+  EXPECT_THAT(refusedStl("short"), HasSubstr("a.stl line 1"));
 }
 
 TEST(StlHostile, CutOffOrMutatedItIsAModelOrAnErrorWithItsPlace) {
   const auto file = scratch() / "cut.stl";
-  for (const std::string& whole : {binary("x", kTetrahedron), text("x")}) {
+  for (const std::string& whole : {binary("x", kTetrahedron), textSolid("x")}) {
     for (std::size_t length = 0; length < whole.size(); length += 3) {
       const auto model = import(write(file, whole.substr(0, length)));
       EXPECT_THAT(model ? "cut.stl" : describe(model.error()), HasSubstr("cut.stl")) << length;

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-CollisionShape box(const Vector3d& low, const Vector3d& size) {
+CollisionShape obstacleBox(const Vector3d& low, const Vector3d& size) {
   CollisionShape shape{CollisionShapeKind::box, 0, {}};
   models::append(shape.mesh, models::box(size, 1), Eigen::Affine3d(Eigen::Translation3d(low)));
   return shape;
@@ -22,10 +22,10 @@ CollisionShape box(const Vector3d& low, const Vector3d& size) {
 
 // A room of 4 x 5 m with a doorway of 0.9 x 2.1 m in its wall at x = 4, and floor behind it.
 std::vector<CollisionShape> room() {
-  return {box({-1, -1, -0.2}, {10, 7, 0.2}),   box({-0.2, -0.2, 0}, {0.2, 5.4, 2.8}),
-          box({0, -0.2, 0}, {4.2, 0.2, 2.8}),  box({0, 5, 0}, {4.2, 0.2, 2.8}),
-          box({4, 0, 0}, {0.2, 2.05, 2.8}),    box({4, 2.95, 0}, {0.2, 2.05, 2.8}),
-          box({4, 2.05, 2.1}, {0.2, 0.9, 0.7})};
+  return {obstacleBox({-1, -1, -0.2}, {10, 7, 0.2}),   obstacleBox({-0.2, -0.2, 0}, {0.2, 5.4, 2.8}),
+          obstacleBox({0, -0.2, 0}, {4.2, 0.2, 2.8}),  obstacleBox({0, 5, 0}, {4.2, 0.2, 2.8}),
+          obstacleBox({4, 0, 0}, {0.2, 2.05, 2.8}),    obstacleBox({4, 2.95, 0}, {0.2, 2.05, 2.8}),
+          obstacleBox({4, 2.05, 2.1}, {0.2, 0.9, 0.7})};
 }
 
 TEST(Avatar, StopsAtAWallAndSlidesAlongIt) {
@@ -55,7 +55,7 @@ TEST(Avatar, GoesThroughTheDoorwayThatIsWideEnough) {
 
 TEST(Avatar, NeverLeavesAClosedRoom) {
   auto shapes = room();
-  shapes.push_back(box({4.07, 2.05, 0}, {0.06, 0.9, 2.1}));  // the door is closed
+  shapes.push_back(obstacleBox({4.07, 2.05, 0}, {0.06, 0.9, 2.1}));  // the door is closed
   const Obstacles obstacles(shapes);
   Avatar avatar(obstacles);
   ASSERT_TRUE(avatar.stand({2, 2.5, 0}));
@@ -71,9 +71,9 @@ TEST(Avatar, NeverLeavesAClosedRoom) {
 }
 
 TEST(Avatar, ClimbsAStairUpAndDownWithItsFeetOnTheTreads) {
-  std::vector<CollisionShape> shapes{box({-3, 0, -0.2}, {3, 1.2, 0.2})};
-  for (int i = 0; i < 16; ++i) shapes.push_back(box({0.28 * i, 0, 0}, {0.28, 1.2, 0.17 * (i + 1)}));
-  shapes.push_back(box({0.28 * 16, 0, 0}, {3, 1.2, 0.17 * 16}));
+  std::vector<CollisionShape> shapes{obstacleBox({-3, 0, -0.2}, {3, 1.2, 0.2})};
+  for (int i = 0; i < 16; ++i) shapes.push_back(obstacleBox({0.28 * i, 0, 0}, {0.28, 1.2, 0.17 * (i + 1)}));
+  shapes.push_back(obstacleBox({0.28 * 16, 0, 0}, {3, 1.2, 0.17 * 16}));
   const Obstacles obstacles(shapes);
   Avatar avatar(obstacles);
   ASSERT_TRUE(avatar.stand({-1.003, 0.6, 0}));
@@ -96,8 +96,8 @@ TEST(Avatar, StaysOffWhatIsTooHighTooDeepOrTooSteep) {
   for (std::size_t i = 4; i < 8; ++i) ramp.positions[i].y() += 2;
   ramp.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
   ramp.surface_of_triangle.assign(4, 0);
-  std::vector<CollisionShape> shapes{box({-4, 0, -0.2}, {4, 4, 0.2}), box({-3, 0, 0}, {1, 1, 0.26}),
-                                     box({-3, 3, 0}, {1, 1, 0.24})};
+  std::vector<CollisionShape> shapes{obstacleBox({-4, 0, -0.2}, {4, 4, 0.2}), obstacleBox({-3, 0, 0}, {1, 1, 0.26}),
+                                     obstacleBox({-3, 3, 0}, {1, 1, 0.24})};
   shapes.push_back({CollisionShapeKind::mesh, 1, ramp});
   const Obstacles obstacles(shapes);
   const auto after = [&](const Vector3d& from, const Vector2d& way) {
@@ -115,7 +115,8 @@ TEST(Avatar, StaysOffWhatIsTooHighTooDeepOrTooSteep) {
 }
 
 TEST(Avatar, StepsOverACrackAndStandsNowhereElse) {
-  const Obstacles obstacles(std::vector{box({0, 0, -0.2}, {2, 2, 0.2}), box({2.03, 0, -0.2}, {2, 2, 0.2})});
+  const Obstacles obstacles(
+      std::vector{obstacleBox({0, 0, -0.2}, {2, 2, 0.2}), obstacleBox({2.03, 0, -0.2}, {2, 2, 0.2})});
   Avatar avatar(obstacles);
   ASSERT_TRUE(avatar.stand({1, 1, 0}));
   EXPECT_FALSE(avatar.stand({9, 9, 0}));
@@ -124,7 +125,7 @@ TEST(Avatar, StepsOverACrackAndStandsNowhereElse) {
   EXPECT_NEAR((avatar.feet() - Vector3d(3.04, 1, 0)).norm(), 0, 1e-6) << "over the crack in one stride";
   avatar.walk({std::nan(""), 0});
   EXPECT_NEAR((avatar.feet() - Vector3d(3.04, 1, 0)).norm(), 0, 1e-6);
-  const Obstacles gap(std::vector{box({0, 0, -0.2}, {2, 2, 0.2}), box({2.1, 0, -0.2}, {2, 2, 0.2})});
+  const Obstacles gap(std::vector{obstacleBox({0, 0, -0.2}, {2, 2, 0.2}), obstacleBox({2.1, 0, -0.2}, {2, 2, 0.2})});
   Avatar careful(gap);
   ASSERT_TRUE(careful.stand({1, 1, 0}));
   careful.walk({2, 0});

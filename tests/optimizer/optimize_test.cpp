@@ -19,7 +19,7 @@ using Eigen::Affine3d;
 using Eigen::Translation3d;
 using Eigen::Vector3d;
 
-OptimizeResult optimized(const Environment& environment, std::uint64_t budget, double max_deviation_m = 0.015) {
+OptimizeResult optimizedTo(const Environment& environment, std::uint64_t budget, double max_deviation_m = 0.015) {
   Progress progress;
   auto result = optimize(environment, {budget, max_deviation_m}, progress);
   EXPECT_TRUE(result) << describe(result.error());
@@ -87,7 +87,7 @@ Environment mixture() {
 
 TEST(PlanarRegions, OfASubdividedBoxMergeToTwelveTriangles) {
   const auto before = models::box({7.3, 0.24, 2.9}, 15);
-  const auto result = optimized(only(before), 0);
+  const auto result = optimizedTo(only(before), 0);
   const auto& after = *result.environment.meshes[0];
   EXPECT_EQ(after.triangles.size(), 12);
   EXPECT_TRUE(isClosed(after));
@@ -100,7 +100,7 @@ TEST(PlanarRegions, OfASubdividedBoxMergeToTwelveTriangles) {
 
 TEST(PlanarRegions, KeepHolesAndTheBorderBetweenSurfaces) {
   const auto before = models::plateWithHole(4, 3, 1, 0.125);
-  const auto after = *optimized(only(before), 0).environment.meshes[0];
+  const auto after = *optimizedTo(only(before), 0).environment.meshes[0];
   EXPECT_EQ(after.triangles.size(), 12);  // each half has 8 corners on its rim
   const auto was = areaOfSurfaces(before), is = areaOfSurfaces(after);
   ASSERT_EQ(was.size(), is.size());
@@ -109,7 +109,7 @@ TEST(PlanarRegions, KeepHolesAndTheBorderBetweenSurfaces) {
 
 TEST(PlanarRegions, OfACylinderLeaveTheRoundnessAlone) {
   const auto before = models::cylinder(0.5, 3, 48, 20);
-  const auto after = *optimized(only(before), 0).environment.meshes[0];
+  const auto after = *optimizedTo(only(before), 0).environment.meshes[0];
   EXPECT_EQ(after.triangles.size(), 2 * 48 + 2 * 46);
   EXPECT_NEAR(volume(after) / volume(before), 1, 1e-6);
   EXPECT_TRUE(isClosed(after));
@@ -119,7 +119,7 @@ TEST(PlanarRegions, StayWhatTheyAreFarFromTheOriginAndTurned) {
   Mesh before;
   models::append(before, models::box({5, 4, 3}, 10),
                  Translation3d(60, -40, 12) * Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
-  const auto after = *optimized(only(before), 0).environment.meshes[0];
+  const auto after = *optimizedTo(only(before), 0).environment.meshes[0];
   EXPECT_LE(after.triangles.size(), 40);
   EXPECT_NEAR(volume(after) / volume(before), 1, 1e-5);
   EXPECT_NEAR(area(after) / area(before), 1, 1e-5);
@@ -127,7 +127,7 @@ TEST(PlanarRegions, StayWhatTheyAreFarFromTheOriginAndTurned) {
 
 TEST(Surfaces, KeepTheirAreasWhenNothingIsLost) {
   const auto before = models::box({3, 4, 5}, 9, true);
-  const auto after = *optimized(only(before), 0).environment.meshes[0];
+  const auto after = *optimizedTo(only(before), 0).environment.meshes[0];
   EXPECT_EQ(after.triangles.size(), 12);
   for (const auto& [surface, square_metres] : areaOfSurfaces(before))
     EXPECT_NEAR(areaOfSurfaces(after)[surface] / square_metres, 1, 1e-6);
@@ -138,7 +138,7 @@ TEST(Budget, IsMetWithinOnePercentOnSpheresToriAndSoups) {
        {only(models::sphere(1, 60, 90)), only(models::torus(2, 0.6, 90, 50)), only(soup(500, 1))})
     for (const double share : {0.5, 0.1, 0.02}) {
       const auto budget = static_cast<std::uint64_t>(share * static_cast<double>(triangleCount(environment)));
-      const auto result = optimized(environment, budget, 100);
+      const auto result = optimizedTo(environment, budget, 100);
       EXPECT_TRUE(result.budget_reached);
       EXPECT_LE(result.all.triangles_after, budget);
       EXPECT_GE(result.all.triangles_after, 0.99 * static_cast<double>(budget) - 1);
@@ -149,7 +149,7 @@ TEST(Budget, IsSharedWhereItCostsLeast) {
   Environment environment;
   models::add(environment, models::box({2, 2, 2}, 20));  // flat: costs nothing
   models::add(environment, models::sphere(1, 30, 40), "", Affine3d(Translation3d(5, 0, 0)));
-  const auto result = optimized(environment, 12 + 2320, 0.5);
+  const auto result = optimizedTo(environment, 12 + 2320, 0.5);
   EXPECT_EQ(result.products[0].triangles_after, 12);
   EXPECT_EQ(result.products[1].triangles_after, result.products[1].triangles_before);
 }
@@ -159,7 +159,7 @@ TEST(Budget, OfThousandsOfTinyProductsDropsSomeAndSaysWhich) {
   for (int i = 0; i < 3000; ++i)
     models::add(environment, models::box({0.01 + 1e-5 * i, 0.02, 0.02}, 1), "IfcFastener",
                 Affine3d(Translation3d(i % 50, i / 50, 0)));
-  const auto result = optimized(environment, 3000, 10);
+  const auto result = optimizedTo(environment, 3000, 10);
   EXPECT_TRUE(result.budget_reached);
   EXPECT_LE(result.all.triangles_after, 3000);
   EXPECT_GE(result.all.triangles_after, 2700);
@@ -183,7 +183,7 @@ TEST(Budget, IsNotSavedByClosingADoorway) {
   models::add(environment, wall, "IfcWall");
   for (int i = 0; i < 40; ++i)
     models::add(environment, models::sphere(0.1, 12, 16), "IfcFurniture", Affine3d(Translation3d(0.5 * i, 5, 0)));
-  const auto result = optimized(environment, 350, 10);
+  const auto result = optimizedTo(environment, 350, 10);
   EXPECT_TRUE(result.budget_reached);
   ASSERT_GT(result.products[0].triangles_after, 0);
   const Vector3d middle(2.45, 0.1, 1);
@@ -200,7 +200,7 @@ TEST(Budget, IsNotSavedByClosingADoorway) {
 
 TEST(Deviation, StatedIsWhatExhaustiveSearchFinds) {
   for (const auto& before : {models::sphere(1, 20, 26), models::torus(1, 0.4, 30, 16)}) {
-    const auto result = optimized(only(before), before.triangles.size() / 6, 1);
+    const auto result = optimizedTo(only(before), before.triangles.size() / 6, 1);
     const auto& after = *result.environment.meshes[0];
     const double max_m = std::max(models::farthest(before, after, 20'000), models::farthest(after, before, 20'000));
     const double mean_m = 0.5 * (models::meanDistance(before, after, 2000) + models::meanDistance(after, before, 2000));
@@ -213,27 +213,27 @@ TEST(Deviation, StatedIsWhatExhaustiveSearchFinds) {
 
 TEST(Deviation, NeverExceedsItsLimitAndTheSmallestBudgetCanBeReached) {
   const auto environment = mixture();
-  const auto result = optimized(environment, 400, 0.02);
+  const auto result = optimizedTo(environment, 400, 0.02);
   EXPECT_FALSE(result.budget_reached);
   EXPECT_EQ(result.smallest_budget, result.all.triangles_after);
   EXPECT_THAT(result.report.issues, testing::Contains(testing::Field(&Issue::source, "budget")));
   for (const auto& product : result.products) EXPECT_LE(product.max_deviation_m, 0.02);
   EXPECT_LT(result.all.triangles_after, result.all.triangles_before / 4);
-  EXPECT_TRUE(optimized(environment, result.smallest_budget, 0.02).budget_reached);
+  EXPECT_TRUE(optimizedTo(environment, result.smallest_budget, 0.02).budget_reached);
 }
 
 TEST(Deviation, CountsTheScaleOfTheInstance) {
   auto environment = only(models::sphere(1, 30, 40));
   environment.instances[0].world_from_mesh.linear() *= 10;
-  EXPECT_LE(optimized(environment, 100, 0.05).all.max_deviation_m, 0.05);
-  EXPECT_GT(optimized(environment, 100, 0.05).all.triangles_after,
-            optimized(only(models::sphere(1, 30, 40)), 100, 0.05).all.triangles_after);
+  EXPECT_LE(optimizedTo(environment, 100, 0.05).all.max_deviation_m, 0.05);
+  EXPECT_GT(optimizedTo(environment, 100, 0.05).all.triangles_after,
+            optimizedTo(only(models::sphere(1, 30, 40)), 100, 0.05).all.triangles_after);
 }
 
 TEST(Simplification, OfAClosedSurfaceStaysClosedAndInItsBounds) {
   for (const auto& before : {models::sphere(1, 40, 60), models::torus(1, 0.3, 50, 30), models::box({4, 0.1, 3}, 8)})
     for (const std::uint64_t budget : {600, 100, 8}) {
-      const auto after = *optimized(only(before), budget, 100).environment.meshes[0];
+      const auto after = *optimizedTo(only(before), budget, 100).environment.meshes[0];
       EXPECT_TRUE(isClosed(after));
       const auto a = bounds(before, Affine3d::Identity()), b = bounds(after, Affine3d::Identity());
       EXPECT_TRUE((b.min.array() >= a.min.array() - 1e-5).all() && (b.max.array() <= a.max.array() + 1e-5).all());
@@ -245,7 +245,7 @@ TEST(Simplification, GivesTheSameBytesForAnyNumberOfThreads) {
   std::string first;
   for (const std::size_t threads : {1, 2, 7}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    const auto now = bytes(optimized(environment, 3000, 0.1));
+    const auto now = bytes(optimizedTo(environment, 3000, 0.1));
     if (first.empty()) first = now;
     EXPECT_TRUE(first == now) << threads << " threads";
   }
@@ -256,7 +256,7 @@ TEST(Simplification, OfAShapeThatIsCutIntoCellsGivesTheSameBytesForAnyNumberOfTh
   std::string first;
   for (const std::size_t threads : {1, 2, 8}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    const auto now = bytes(optimized(environment, 3000, 0.1));
+    const auto now = bytes(optimizedTo(environment, 3000, 0.1));
     if (first.empty()) first = now;
     EXPECT_TRUE(first == now) << threads << " threads";
   }
@@ -268,7 +268,7 @@ TEST(Simplification, RefinedInCellsGivesTheSameBytesForAnyNumberOfThreads) {
   std::string first;
   for (const std::size_t threads : {1, 2, 8}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    const auto result = optimized(environment, 12'000, 0.1);
+    const auto result = optimizedTo(environment, 12'000, 0.1);
     EXPECT_LE(result.all.triangles_after, 12'000U);
     EXPECT_GE(result.all.triangles_after, 11'880U);
     EXPECT_TRUE(isClosed(*result.environment.meshes[0]));
@@ -301,13 +301,13 @@ TEST(Simplification, SurvivesDegenerateInput) {
   one.positions.assign(3, {5, 5, 5});
   models::add(environment, one);
   for (const std::uint64_t budget : {0, 1000, 40, 10, 1}) {
-    const auto result = optimized(environment, budget, 100);
+    const auto result = optimizedTo(environment, budget, 100);
     EXPECT_TRUE(result.budget_reached);
     if (budget == 0 || budget > 10) {  // else it may be what costs least
       EXPECT_EQ(result.products[2].triangles_after, 1);
     }
   }
-  EXPECT_EQ(optimized(Environment{}, 100).all.triangles_after, 0);
+  EXPECT_EQ(optimizedTo(Environment{}, 100).all.triangles_after, 0);
 }
 
 TEST(Simplification, OfAFanWithAHugeHubEndsSoon) {
@@ -320,7 +320,7 @@ TEST(Simplification, OfAFanWithAHugeHubEndsSoon) {
     fan.triangles.push_back({0, 1 + i, 1 + (i + 1) % n});
     fan.surface_of_triangle.push_back(0);
   }
-  EXPECT_LE(optimized(only(fan), 300, 10).all.triangles_after, 300);
+  EXPECT_LE(optimizedTo(only(fan), 300, 10).all.triangles_after, 300);
 }
 
 TEST(Simplification, CanBeCancelled) {
@@ -357,7 +357,7 @@ Mesh looseTriangles(int count) {
 TEST(BadInput, OfLooseTrianglesGoesToItsBudget) {
   const auto environment = only(looseTriangles(150'000));  // more than one queue takes at once
   for (const std::uint64_t budget : {100'000, 3000}) {
-    const auto result = optimized(environment, budget, 100);
+    const auto result = optimizedTo(environment, budget, 100);
     EXPECT_TRUE(result.budget_reached);
     EXPECT_LE(result.all.triangles_after, budget);
     EXPECT_GE(result.all.triangles_after, 0.99 * static_cast<double>(budget) - 1);
@@ -379,7 +379,7 @@ TEST(BadInput, OfTurnedInsideOutAndRepeatedProductsIsAsGoodAsAny) {
   Environment environment;
   models::add(environment, models::sphere(1, 40, 60));
   for (int i = 0; i < 3; ++i) models::add(environment, inside_out);  // all at the same place
-  const auto result = optimized(environment, 1200, 100);
+  const auto result = optimizedTo(environment, 1200, 100);
   EXPECT_LE(result.all.triangles_after, 1200);
   EXPECT_GE(result.all.triangles_after, 1188);
   EXPECT_EQ(result.environment.meshes.size(), 2);  // the three are one
@@ -396,7 +396,7 @@ TEST(BadInput, WithNothingInItIsNothing) {
   models::add(environment, Mesh{});
   models::add(environment, models::box({0, 0, 0}, 3));  // all at one point
   for (const std::uint64_t budget : {0, 1, 1000}) {
-    const auto result = optimized(environment, budget, 1);
+    const auto result = optimizedTo(environment, budget, 1);
     EXPECT_EQ(result.all.triangles_after, 0);
     EXPECT_TRUE(result.budget_reached);
   }
@@ -406,7 +406,7 @@ TEST(BadInput, WithNothingInItIsNothing) {
 TEST(Quality, OfSmoothAndSharpShapesHasNoFoldsNoNeedlesAndStaysInTheBox) {
   for (const auto& before :
        {models::sphere(1, 80, 120), models::torus(2, 0.5, 120, 60), models::cylinder(1, 3, 96, 40)}) {
-    const auto result = optimized(only(before), before.triangles.size() / 10, 100);
+    const auto result = optimizedTo(only(before), before.triangles.size() / 10, 100);
     const auto& after = *result.environment.meshes[0];
     EXPECT_TRUE(isClosed(after));
     EXPECT_NEAR(volume(after) / volume(before), 1, 0.01);
@@ -444,10 +444,10 @@ TEST(Repetitions, AreSharedAndTheirProductsStayWhereTheyAre) {
                    Translation3d(2 * i, 0.3 * i, 0) * Eigen::AngleAxisd(0.5 * i, Vector3d(1, i, 2).normalized()));
     models::add(environment, chair);
   }
-  const auto same = optimized(environment, 0);
+  const auto same = optimizedTo(environment, 0);
   EXPECT_EQ(same.environment.meshes.size(), 1);
   EXPECT_LT(same.all.max_deviation_m, 1e-4);
-  const auto result = optimized(environment, 1200, 1);
+  const auto result = optimizedTo(environment, 1200, 1);
   const auto was = productBounds(environment), is = productBounds(result.environment);
   for (std::size_t i = 0; i < was.size(); ++i)
     EXPECT_LT((was[i].min - is[i].min).norm() + (was[i].max - is[i].max).norm(), 0.05);

@@ -14,7 +14,7 @@ using Eigen::Affine3d;
 using Eigen::Translation3d;
 using Eigen::Vector3d;
 
-Affine3d at(double x, double y, double z) { return Affine3d(Translation3d(x, y, z)); }
+Affine3d movedTo(double x, double y, double z) { return Affine3d(Translation3d(x, y, z)); }
 
 Walkable walkableOf(const Environment& environment) {
   std::vector<CollisionShape> shapes;
@@ -39,9 +39,9 @@ TEST(Step, OfJustTheHeightThatIsClimbedIsClimbedAnywhere) {
     const double level = 0.0037 * i;
     for (const double step : {0.25, 0.27}) {
       Environment e;
-      models::add(e, models::box({0.1, 0.1, 0.1}, 1), "", at(20, 20, -1));
-      models::add(e, models::box({3, 3, 0.2}, 1), "", at(0, 0, level - 0.2));
-      models::add(e, models::box({3, 3, 0.2}, 1), "", at(3, 0, level - 0.2 + step));
+      models::add(e, models::box({0.1, 0.1, 0.1}, 1), "", movedTo(20, 20, -1));
+      models::add(e, models::box({3, 3, 0.2}, 1), "", movedTo(0, 0, level - 0.2));
+      models::add(e, models::box({3, 3, 0.2}, 1), "", movedTo(3, 0, level - 0.2 + step));
       EXPECT_EQ(islands(walkableOf(e)), step < 0.26 ? 1 : 2) << level << " " << step;
     }
   }
@@ -64,9 +64,9 @@ TEST(Slope, OfJustFortyFiveDegreesIsWalkedWhereverItPoints) {
 TEST(Walkability, IsFoundAsFinelyWhereSomethingIsFarAway) {
   Environment near, far;
   for (auto* e : {&near, &far}) models::add(*e, models::box({3, 3, 0.2}, 1), "");
-  models::add(far, models::box({1, 1, 1}, 1), "", at(10'000, -10'000, 3000));
-  models::add(far, models::box({3, 0.2, 2}, 1), "", at(0, -0.4, 0.1));  // beside it, and in the way
-  models::add(near, models::box({3, 0.2, 2}, 1), "", at(0, -0.4, 0.1));
+  models::add(far, models::box({1, 1, 1}, 1), "", movedTo(10'000, -10'000, 3000));
+  models::add(far, models::box({3, 0.2, 2}, 1), "", movedTo(0, -0.4, 0.1));  // beside it, and in the way
+  models::add(near, models::box({3, 0.2, 2}, 1), "", movedTo(0, -0.4, 0.1));
   const auto a = walkableOf(near), b = walkableOf(far);
   EXPECT_EQ(a.cell_m, b.cell_m);
   EXPECT_EQ(a.area_m2, b.area_m2);

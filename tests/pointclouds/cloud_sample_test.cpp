@@ -57,7 +57,7 @@ TEST(CloudSample, KnowsTheStationOfAScanWithAGrid) {
   ASSERT_TRUE(sample->scans.at(0).station);
   EXPECT_EQ(*sample->scans[0].station, Eigen::Vector3d(10, 20, 1.5));
   EXPECT_EQ(sample->position.at(2), Eigen::Vector3d(12, 21, 2.5));
-  EXPECT_EQ(sample->most_intensity, 0.75F);
+  EXPECT_EQ(sample->max_intensity, 0.75F);
 }
 
 TEST(CloudSample, ThinsAHeapToOnePlace) {

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-std::string textOf(const fs::path& file) {
+std::string textOfReport(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -84,12 +84,12 @@ TEST_F(CleanVerb, WritesTheSameFiguresAsJsonAndAsCsv) {
   const fs::path as_json = folder_.path() / "r.json", as_csv = folder_.path() / "r.csv";
   const auto done = clean({{"filters", kGate}, {"report", as_json.string()}});
   ASSERT_TRUE(done) << describe(done.error());
-  json read = json::parse(textOf(as_json));
+  json read = json::parse(textOfReport(as_json));
   json answer = done->answer;
   answer.erase("files");
   EXPECT_EQ(read, answer);
   ASSERT_TRUE(clean({{"filters", kGate}, {"report", as_csv.string()}}));
-  std::istringstream lines(textOf(as_csv));
+  std::istringstream lines(textOfReport(as_csv));
   std::string line;
   std::vector<std::string> all;
   while (std::getline(lines, line)) all.push_back(line);

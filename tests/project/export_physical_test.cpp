@@ -8,7 +8,7 @@ namespace {
 
 using nlohmann::json;
 
-Document assigned() {
+Document assignedHouse() {
   auto outcome = run("materials", twoStoreyDocument(), {{"assign", {"class:IfcSlab=granite_grey"}}});
   EXPECT_TRUE(outcome) << describe(outcome.error());
   return outcome->document;
@@ -17,7 +17,7 @@ Document assigned() {
 TEST(ExportPhysical, CarriesTheMaterialsInAGltfAsAnExtension) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "house.gltf";
-  ASSERT_TRUE(run("export", assigned(), {{"output", file.string()}}));
+  ASSERT_TRUE(run("export", assignedHouse(), {{"output", file.string()}}));
   const auto gltf = json::parse(std::ifstream(file));
   EXPECT_EQ(gltf.at("extensionsUsed"), json::array({"STANDPOINT_physical_material"}));
   std::vector<std::string> ids;
@@ -32,7 +32,7 @@ TEST(ExportPhysical, CarriesTheMaterialsInAGltfAsAnExtension) {
 TEST(ExportPhysical, ComesBackWithAGltfThatIsImported) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "house.glb";
-  ASSERT_TRUE(run("export", assigned(), {{"output", file.string()}}));
+  ASSERT_TRUE(run("export", assignedHouse(), {{"output", file.string()}}));
   const auto imported = run("import", {}, {{"files", {file.string()}}});
   ASSERT_TRUE(imported) << describe(imported.error());
   const auto outcome = run("materials", imported->document, json::object());
@@ -53,9 +53,9 @@ TEST(ExportPhysical, NamesTheMaterialsOfAnObjWhereThatIsAskedFor) {
     std::ifstream in(folder.path() / "house.mtl");
     return std::string(std::istreambuf_iterator<char>(in), {});
   };
-  ASSERT_TRUE(run("export", assigned(), {{"output", file.string()}, {"physical", true}}));
+  ASSERT_TRUE(run("export", assignedHouse(), {{"output", file.string()}, {"physical", true}}));
   EXPECT_NE(mtl().find("newmtl granite_grey\n"), std::string::npos);
-  ASSERT_TRUE(run("export", assigned(), {{"output", file.string()}}));
+  ASSERT_TRUE(run("export", assignedHouse(), {{"output", file.string()}}));
   EXPECT_NE(mtl().find("newmtl Concrete\n"), std::string::npos);
 }
 

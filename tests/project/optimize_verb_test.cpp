@@ -52,8 +52,8 @@ TEST(OptimizeVerb, GivesMoreToWhatWalkersSee) {
   by_view["by-view"] = true;
   const auto alike = run("optimize", document, options), seen = run("optimize", document, by_view);
   ASSERT_TRUE(seen) << describe(seen.error());
-  const auto& even = alike->document.lightening->products;
-  const auto& weighed = seen->document.lightening->products;
+  const auto& even = alike->document.simplified->products;
+  const auto& weighed = seen->document.simplified->products;
   const auto n = weighed.size();
   EXPECT_NEAR(static_cast<double>(even[n - 2].triangles_after), static_cast<double>(even[n - 1].triangles_after), 30);
   EXPECT_GT(weighed[n - 2].triangles_after, 2 * weighed[n - 1].triangles_after);
@@ -62,9 +62,9 @@ TEST(OptimizeVerb, GivesMoreToWhatWalkersSee) {
   Progress progress;
   ASSERT_TRUE(saveProject(seen->document, folder.path() / "p", progress));
   const auto loaded = loadProject(folder.path() / "p", progress);
-  EXPECT_TRUE(loaded->lightening->request.by_view);
+  EXPECT_TRUE(loaded->simplified->request.by_view);
   EXPECT_GT(seen->answer.at("mean_turn_deg").get<double>(), 0.1);  // a ball of fewer corners has other normals
-  EXPECT_EQ(loaded->lightening->all.mean_turn_rad, seen->document.lightening->all.mean_turn_rad);
+  EXPECT_EQ(loaded->simplified->all.mean_turn_rad, seen->document.simplified->all.mean_turn_rad);
 }
 
 TEST(OptimizeVerb, SaysThatWhatWalkersSeeNeedsCollisionShapes) {

@@ -26,8 +26,8 @@ TEST(VerbTable, HasUniqueNamesSummariesAndHelpForEveryOption) {
 TEST(VerbTable, AcceptsItsOwnDefaults) {
   for (const auto& v : verbs())
     for (const auto& p : v.parameters) {
-      if (p.standard.is_null()) continue;
-      nlohmann::json options = {{p.name, p.standard}};
+      if (p.default_value.is_null()) continue;
+      nlohmann::json options = {{p.name, p.default_value}};
       for (const auto& q : v.parameters)
         if (q.required)
           options[q.name] = q.kind == ParameterKind::list ? nlohmann::json::array({"x"}) : nlohmann::json("x");

@@ -19,7 +19,7 @@ std::string textOf(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+void writeText(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
 
 void expectSameGeometry(const Environment& a, const Environment& b) {
   ASSERT_EQ(a.meshes.size(), b.meshes.size());
@@ -128,7 +128,7 @@ TEST(Project, FromANewerProgramIsRefusedWithARemedy) {
   auto text = textOf(folder.path() / "project.json");
   const auto at = text.find("\"version\": 1");
   ASSERT_NE(at, std::string::npos);
-  write(folder.path() / "project.json", text.replace(at, 12, "\"version\": 9"));
+  writeText(folder.path() / "project.json", text.replace(at, 12, "\"version\": 9"));
   const auto back = loadProject(folder.path(), progress);
   ASSERT_FALSE(back);
   EXPECT_EQ(back.error().kind, ErrorKind::unusable);
@@ -150,21 +150,21 @@ TEST(Project, DamagedAnywhereIsAnErrorAndNeverACrash) {
   ASSERT_TRUE(saveProject(fullDocument(), folder.path(), progress));
   const auto whole = textOf(folder.path() / "project.json");
   for (std::size_t cut = 0; cut < whole.size(); cut += whole.size() / 60 + 1) {
-    write(folder.path() / "project.json", whole.substr(0, cut));
+    writeText(folder.path() / "project.json", whole.substr(0, cut));
     EXPECT_FALSE(loadProject(folder.path(), progress)) << cut;
   }
   for (std::size_t at = 0; at < whole.size(); at += whole.size() / 200 + 1) {
     auto mutated = whole;
     mutated[at] = mutated[at] == '1' ? '9' : '1';
-    write(folder.path() / "project.json", mutated);
+    writeText(folder.path() / "project.json", mutated);
     (void)loadProject(folder.path(), progress);
   }
-  write(folder.path() / "project.json", whole);
+  writeText(folder.path() / "project.json", whole);
   for (const auto& part : fs::directory_iterator(folder.path() / "geometry")) {
     const auto content = textOf(part.path());
-    write(part.path(), content.substr(0, content.size() / 2));
+    writeText(part.path(), content.substr(0, content.size() / 2));
     EXPECT_FALSE(loadProject(folder.path(), progress)) << part.path();
-    write(part.path(), content);
+    writeText(part.path(), content);
   }
   EXPECT_TRUE(loadProject(folder.path(), progress));
 }

@@ -154,15 +154,15 @@ TEST_F(Registration, CloudToCloudOfAnIdealScanComesBackFromWhereItWasLaidByEye) 
 
 TEST_F(Registration, CloudToCloudStartsFromWhereTheUserHasLaidTheScan) {
   const auto near =
-      run("register", *scanned_, {{"files", {path("ideal.e57")}}, {"cloud", true}, {"laid", "0.1,-0.1,2"}});
+      run("register", *scanned_, {{"files", {path("ideal.e57")}}, {"cloud", true}, {"start-offset", "0.1,-0.1,2"}});
   ASSERT_TRUE(near) << describe(near.error());
   EXPECT_LT(shiftError(near->document.job->stations[1]), 5e-4);
   // The wrong way round a fit cannot find back, whatever it says of itself: only the true error tells.
   const auto turned =
-      run("register", *scanned_, {{"files", {path("ideal.e57")}}, {"cloud", true}, {"laid", "0,0,180"}});
+      run("register", *scanned_, {{"files", {path("ideal.e57")}}, {"cloud", true}, {"start-offset", "0,0,180"}});
   EXPECT_TRUE(!turned || turned->answer.at("stations").back().at("true_turn_error_deg").get<double>() > 90);
   for (const char* wrong : {"1,2", "1,2,3,4", "a,b,c", "1,2,inf"})
-    EXPECT_THAT(refused(*scanned_, {{"files", {path("ideal.e57")}}, {"cloud", true}, {"laid", wrong}}),
+    EXPECT_THAT(refused(*scanned_, {{"files", {path("ideal.e57")}}, {"cloud", true}, {"start-offset", wrong}}),
                 HasSubstr("x,y,turn"))
         << wrong;
 }

@@ -13,7 +13,7 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-std::string bytes(const fs::path& file) {
+std::string bytesOfFile(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -53,7 +53,7 @@ TEST(Scan, HasTheSameBytesFromMemoryAndFromTheSavedProjectAndOnAnyNumberOfThread
   auto options = scanOptions(folder.path() / "disk.e57");
   options["threads"] = 3;
   ASSERT_TRUE(run("scan", *loadProject(folder.path() / "p", progress), options));
-  EXPECT_TRUE(bytes(folder.path() / "memory.e57") == bytes(folder.path() / "disk.e57"));
+  EXPECT_TRUE(bytesOfFile(folder.path() / "memory.e57") == bytesOfFile(folder.path() / "disk.e57"));
 }
 
 TEST(Scan, InShardsGivesTheSameFilesAsTheWhole) {
@@ -67,7 +67,7 @@ TEST(Scan, InShardsGivesTheSameFilesAsTheWhole) {
   }
   for (const char* name : {"S1.e57", "S2.e57"}) {
     ASSERT_TRUE(fs::exists(folder.path() / "whole" / name));
-    EXPECT_TRUE(bytes(folder.path() / "whole" / name) == bytes(folder.path() / "part" / name)) << name;
+    EXPECT_TRUE(bytesOfFile(folder.path() / "whole" / name) == bytesOfFile(folder.path() / "part" / name)) << name;
   }
 }
 

@@ -13,7 +13,7 @@ Document withStation() {
   return run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500002, 5600001.5, 1.6}}})->document;
 }
 
-std::string refusal(const Document& d, const json& options) {
+std::string targetRefusal(const Document& d, const json& options) {
   const auto done = run("target", d, options);
   return done ? std::string("placed") : done.error().message;
 }
@@ -61,16 +61,20 @@ TEST(Target, OnTheCeilingLooksDown) {
 
 TEST(Target, IsRefusedWithTheReason) {
   const Document d = withStation();
-  EXPECT_THAT(refusal(d, {{"add", "T"}, {"at", {500003, 5600002, 2.9}}}), HasSubstr("inside of IfcSlab slab1"));
-  EXPECT_THAT(refusal(d, {{"add", "T"}, {"at", {500004.5, 5600003, 0.4}}}), HasSubstr("inside of IfcFurniture table"));
-  EXPECT_THAT(refusal(d, {{"add", "T"}, {"at", {500000.05, 5600002, 1}}}), HasSubstr("west0"));
-  EXPECT_THAT(refusal(d, {{"add", "T"}, {"on", {600000, 5600002}}}), HasSubstr("nothing to stand on"));
-  EXPECT_THAT(refusal(d, {{"add", "T"}, {"on", {500002, 5600002, 1.5}}}), HasSubstr("the nearest floor is at 0.000"));
-  EXPECT_THAT(refusal(d, {{"add", "T"}, {"on-surface", {500003, 5600002, 1.4}}}), HasSubstr("no surface within 0.5 m"));
-  EXPECT_THAT(refusal(d, {{"add", "T"}, {"type", "ball"}, {"at", {500003, 5600002, 1}}}), HasSubstr("sphere-145"));
-  EXPECT_THAT(refusal(d, {{"add", "T"}}), HasSubstr("--on-surface"));
+  EXPECT_THAT(targetRefusal(d, {{"add", "T"}, {"at", {500003, 5600002, 2.9}}}), HasSubstr("inside of IfcSlab slab1"));
+  EXPECT_THAT(targetRefusal(d, {{"add", "T"}, {"at", {500004.5, 5600003, 0.4}}}),
+              HasSubstr("inside of IfcFurniture table"));
+  EXPECT_THAT(targetRefusal(d, {{"add", "T"}, {"at", {500000.05, 5600002, 1}}}), HasSubstr("west0"));
+  EXPECT_THAT(targetRefusal(d, {{"add", "T"}, {"on", {600000, 5600002}}}), HasSubstr("nothing to stand on"));
+  EXPECT_THAT(targetRefusal(d, {{"add", "T"}, {"on", {500002, 5600002, 1.5}}}),
+              HasSubstr("the nearest floor is at 0.000"));
+  EXPECT_THAT(targetRefusal(d, {{"add", "T"}, {"on-surface", {500003, 5600002, 1.4}}}),
+              HasSubstr("no surface within 0.5 m"));
+  EXPECT_THAT(targetRefusal(d, {{"add", "T"}, {"type", "ball"}, {"at", {500003, 5600002, 1}}}),
+              HasSubstr("sphere-145"));
+  EXPECT_THAT(targetRefusal(d, {{"add", "T"}}), HasSubstr("--on-surface"));
   const Document once = run("target", d, {{"add", "T"}, {"at", {500003, 5600002, 1}}})->document;
-  EXPECT_THAT(refusal(once, {{"add", "T"}, {"at", {500002, 5600002, 1}}}), HasSubstr("already"));
+  EXPECT_THAT(targetRefusal(once, {{"add", "T"}, {"at", {500002, 5600002, 1}}}), HasSubstr("already"));
 }
 
 TEST(Target, ThatHangsInTheAirIsPlacedAndSaid) {

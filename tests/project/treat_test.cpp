@@ -22,7 +22,7 @@ Document without(const Document& document, const std::string& selector) {
   return treated(document, {{"products", {selector}}, {"as", "excluded"}}).document;
 }
 
-std::uint32_t tableOf(const Document& d) { return static_cast<std::uint32_t>(d.imported->products.size()) - 1; }
+std::uint32_t tableProduct(const Document& d) { return static_cast<std::uint32_t>(d.imported->products.size()) - 1; }
 
 TEST(Treat, WhatIsExcludedIsNeitherCountedNorWalkedOnNorExported) {
   const TemporaryFolder folder;
@@ -32,8 +32,8 @@ TEST(Treat, WhatIsExcludedIsNeitherCountedNorWalkedOnNorExported) {
   const auto before = run("optimize", whole, {{"budget", 1000}}), after = run("optimize", bare, {{"budget", 1000}});
   EXPECT_EQ(before->answer.at("triangles_before").get<int>() - after->answer.at("triangles_before").get<int>(), 12);
   const auto solid = run("collide", whole, json::object()), open = run("collide", bare, json::object());
-  EXPECT_EQ(solid->document.collision->products[tableOf(whole)].shapes, 1U);
-  EXPECT_EQ(open->document.collision->products[tableOf(whole)].shapes, 0U);
+  EXPECT_EQ(solid->document.collision->products[tableProduct(whole)].shapes, 1U);
+  EXPECT_EQ(open->document.collision->products[tableProduct(whole)].shapes, 0U);
   // The table is 1 m × 1 m in the corner region of a room: without it, at least that much more floor can be walked on.
   EXPECT_GT(open->document.collision->walkable_area_m2, solid->document.collision->walkable_area_m2 + 1.0);
   const auto file = (folder.path() / "bare.obj").string();
@@ -75,9 +75,9 @@ TEST(Treat, WhatIsKeptStaysWhereTheBudgetTakesEverythingElse) {
   const auto whole = twoStoreyDocument();
   const auto kept = treated(whole, {{"products", {"class:IfcFurniture"}}, {"as", "kept"}});
   const auto lost = run("optimize", whole, tiny), stays = run("optimize", kept.document, tiny);
-  EXPECT_LT(lost->document.lightening->products[tableOf(whole)].triangles_after, 12U);
-  EXPECT_EQ(stays->document.lightening->products[tableOf(whole)].triangles_after, 12U);
-  EXPECT_NEAR(stays->document.lightening->products[tableOf(whole)].max_deviation_m, 0, 1e-9);
+  EXPECT_LT(lost->document.simplified->products[tableProduct(whole)].triangles_after, 12U);
+  EXPECT_EQ(stays->document.simplified->products[tableProduct(whole)].triangles_after, 12U);
+  EXPECT_NEAR(stays->document.simplified->products[tableProduct(whole)].max_deviation_m, 0, 1e-9);
 }
 
 TEST(Treat, OwnLimitsHoldWhereTheOthersMayMoveFurther) {
@@ -85,7 +85,7 @@ TEST(Treat, OwnLimitsHoldWhereTheOthersMayMoveFurther) {
   const auto limited =
       treated(whole, {{"products", {"class:IfcFurniture"}}, {"as", "simplified"}, {"max-deviation", 0.001}});
   const auto light = run("optimize", limited.document, {{"budget", 1}, {"max-deviation", 100}});
-  EXPECT_LE(light->document.lightening->products[tableOf(whole)].max_deviation_m, 0.001);
+  EXPECT_LE(light->document.simplified->products[tableProduct(whole)].max_deviation_m, 0.001);
   EXPECT_FALSE(light->answer.at("budget_reached").get<bool>());
   EXPECT_EQ(light->answer.at("smallest_budget"), 12);
 }
@@ -99,9 +99,9 @@ TEST(Treat, SurvivesTheProjectsFolder) {
   const auto loaded = loadProject(folder.path() / "p", progress);
   ASSERT_TRUE(loaded) << describe(loaded.error());
   EXPECT_TRUE(loaded->imported->products.back().excluded);
-  EXPECT_TRUE(loaded->lightening->environment->products.back().excluded);
+  EXPECT_TRUE(loaded->simplified->environment->products.back().excluded);
   EXPECT_EQ(treated(*loaded, json::object()).answer, treated(document, json::object()).answer);
-  EXPECT_EQ(loaded->lightening->request.budget, 100U);
+  EXPECT_EQ(loaded->simplified->request.budget, 100U);
 }
 
 TEST(Treat, SaysWhatIsWrong) {

@@ -52,7 +52,7 @@ std::string model(const std::vector<Wall>& walls, int first = 100) {
 
 const std::vector<Wall> kBefore = {{"a", "A"}, {"b", "B", 4, 2}, {"c", "C", 4, 4}, {"d", "D", 4, 6}};
 
-json done(const char* verb, const json& options) {
+json updated(const char* verb, const json& options) {
   Progress progress;
   const auto outcome = runOnDisk(*findVerb(verbs(), verb), options, progress);
   EXPECT_TRUE(outcome) << describe(outcome.error());
@@ -65,7 +65,7 @@ class Update : public ::testing::Test {
     std::ofstream(folder_.path() / "house.ifc") << model(walls, first);
     json options = {{"files", {(folder_.path() / "house.ifc").string()}}, {"output", project()}};
     if (!more.is_null()) options.update(more);
-    return done("import", options);
+    return updated("import", options);
   }
   json update(const std::vector<Wall>& walls, int first = 1000) {
     return import(walls, first, {{"update", true}}).at("changes");
@@ -120,8 +120,8 @@ TEST_F(Update, TellsWhatChangedByGlobalId) {
 
 TEST_F(Update, MaterialsFollowTheirProductsToOtherNumbers) {
   import(kBefore);
-  done("materials",
-       {{"project", project()}, {"assign", {"#120=wood_hardwood", "c=carpet"}}});  // by number, and by GlobalId
+  updated("materials",
+          {{"project", project()}, {"assign", {"#120=wood_hardwood", "c=carpet"}}});  // by number, and by GlobalId
   update({kBefore[2], kBefore[1], kBefore[0]}, 100);  // now #100 is c, #120 is b, #140 is a
   EXPECT_EQ(materialOf("b"), "wood_hardwood");
   EXPECT_EQ(materialOf("c"), "carpet");
@@ -132,8 +132,8 @@ TEST_F(Update, MaterialsFollowTheirProductsToOtherNumbers) {
 
 TEST_F(Update, MaterialsOfSingleFacesFollowTheirProducts) {
   import(kBefore);
-  done("materials",
-       {{"project", project()}, {"assign", {"#120@0,0,1=carpet", "#100&material:Brick=bark"}}});  // of b, and of a
+  updated("materials",
+          {{"project", project()}, {"assign", {"#120@0,0,1=carpet", "#100&material:Brick=bark"}}});  // of b, and of a
   update({kBefore[2], kBefore[1], kBefore[0]}, 100);  // now #120 is b again, and #140 is a
   const Document d = document();
   EXPECT_EQ(d.materials->overrides.at(1).selector, "#140&material:Brick");
@@ -144,8 +144,8 @@ TEST_F(Update, MaterialsOfSingleFacesFollowTheirProducts) {
 
 TEST_F(Update, AFaceAtAPointStaysWhereTheModelStillHasIt) {
   import(kBefore, 100, {{ "shift", "100,200,0" }});
-  done("materials", {{"project", project()}, {"assign", {"#120@0,1,0@0.5,2.15,1=carpet"}}});  // the north side of b
-  update({kBefore[2], {"b", "B", 4, 2.05}, kBefore[0]});                                      // 5 cm further north
+  updated("materials", {{"project", project()}, {"assign", {"#120@0,1,0@0.5,2.15,1=carpet"}}});  // the north side of b
+  update({kBefore[2], {"b", "B", 4, 2.05}, kBefore[0]});                                         // 5 cm further north
   const auto material = document().materials;
   EXPECT_EQ(material->overrides.at(0).selector, "#1020@0,1,0@0.5,2.15,1");
   const auto carpet = [](const MaterialChoice& choice) {
@@ -165,7 +165,7 @@ TEST_F(Update, AFaceAtAPointStaysWhereTheModelStillHasIt) {
 
 TEST_F(Update, WhatHasNoProductAnyMoreIsKeptAndListedAndComesBack) {
   import(kBefore);
-  done("materials", {{"project", project()}, {"assign", {"#160=carpet"}}});  // d
+  updated("materials", {{"project", project()}, {"assign", {"#160=carpet"}}});  // d
   const json changes = update({kBefore[0], kBefore[1]});
   ASSERT_EQ(changes.at("kept").size(), 1U);
   EXPECT_EQ(changes.at("kept")[0].at("product").at("global_id"), "d");
@@ -176,8 +176,8 @@ TEST_F(Update, WhatHasNoProductAnyMoreIsKeptAndListedAndComesBack) {
 
 TEST_F(Update, StationsAndTargetsStayWhereTheyWere) {
   import(kBefore, 100, {{ "shift", "100,200,0" }});
-  done("station", {{"project", project()}, {"add", "S1"}, {"at", {1, 1, 1.6}}});
-  done("target", {{"project", project()}, {"add", "T1"}, {"at", {2, 1, 1}}});
+  updated("station", {{"project", project()}, {"add", "S1"}, {"at", {1, 1, 1.6}}});
+  updated("target", {{"project", project()}, {"add", "T1"}, {"at", {2, 1, 1}}});
   const Document before = document();
   update({kBefore[0], {"e", "E", 4, 5000}});
   const Document after = document();
@@ -190,7 +190,7 @@ TEST_F(Update, StationsAndTargetsStayWhereTheyWere) {
 
 TEST_F(Update, AMapPositionThatTheUserGaveStays) {
   import(kBefore);
-  done("georeference", {{"project", project()}, {"crs", "EPSG:25832"}, {"origin", {500000, 5400000, 10}}});
+  updated("georeference", {{"project", project()}, {"crs", "EPSG:25832"}, {"origin", {500000, 5400000, 10}}});
   update(kBefore);
   EXPECT_EQ(document().georeference->crs, "EPSG:25832");
   EXPECT_EQ(document().georeference->map_from_file->eastings_m, 500000);
@@ -215,8 +215,9 @@ TEST_F(Update, ProductsWithoutGlobalIdsAreKnownByTheirNames) {
   const std::string a = "o A\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n",
                     b = "o B\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf -3 -2 -1\n",
                     c = "o C\nv 9 0 0\nv 9 1 0\nv 9 0 1\nf -3 -2 -1\n";
-  done("import", {{"files", obj(a + b)}, {"output", project()}});
-  const json changes = done("import", {{"files", obj(c + b)}, {"output", project()}, {"update", true}}).at("changes");
+  updated("import", {{"files", obj(a + b)}, {"output", project()}});
+  const json changes =
+      updated("import", {{"files", obj(c + b)}, {"output", project()}, {"update", true}}).at("changes");
   EXPECT_EQ(changes.at("counts").at("unchanged"), 1);
   EXPECT_EQ(changes.at("added")[0].at("name"), "C");
   EXPECT_EQ(changes.at("removed")[0].at("name"), "A");
@@ -224,8 +225,8 @@ TEST_F(Update, ProductsWithoutGlobalIdsAreKnownByTheirNames) {
 
 TEST_F(Update, WhatWasExcludedStaysSoByItsGlobalId) {
   import(kBefore);
-  done("treat", {{"project", project()}, {"products", {"#120"}}, {"as", "excluded"}});
-  done("treat", {{"project", project()}, {"products", {"c"}}, {"as", "excluded"}});
+  updated("treat", {{"project", project()}, {"products", {"#120"}}, {"as", "excluded"}});
+  updated("treat", {{"project", project()}, {"products", {"c"}}, {"as", "excluded"}});
   update({{"a", "A"}, {"b", "B", 4, 2}, {"d", "D", 4, 6}}, 5000);
   std::vector<std::string> excluded;
   for (const auto& p : document().imported->products)
@@ -238,13 +239,13 @@ TEST_F(Update, WhatWasExcludedStaysSoByItsGlobalId) {
 
 TEST_F(Update, LightensByTheSameRulesAgain) {
   import(kBefore);
-  done("optimize", {{"project", project()}, {"lod", "default"}, {"surroundings", {"name:D"}}});
+  updated("optimize", {{"project", project()}, {"lod", "default"}, {"surroundings", {"name:D"}}});
   update({{"a", "A"}, {"d", "D", 4, 6}, {"e", "E", 4, 8}}, 5000);
   const Document d = document();
-  ASSERT_TRUE(d.lightening);
-  ASSERT_EQ(d.lightening->levels.size(), d.imported->products.size());
-  for (std::size_t i = 0; i < d.lightening->levels.size(); ++i)
-    EXPECT_EQ(d.lightening->levels[i], d.imported->products[i].name == "D" ? "LoD 200" : "LoD 300");
+  ASSERT_TRUE(d.simplified);
+  ASSERT_EQ(d.simplified->levels.size(), d.imported->products.size());
+  for (std::size_t i = 0; i < d.simplified->levels.size(); ++i)
+    EXPECT_EQ(d.simplified->levels[i], d.imported->products[i].name == "D" ? "LoD 200" : "LoD 300");
 }
 
 }  // namespace

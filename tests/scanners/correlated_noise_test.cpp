@@ -13,7 +13,7 @@
 namespace standpoint {
 namespace {
 
-std::vector<double> dome(std::uint32_t rows) {
+std::vector<double> smallDome(std::uint32_t rows) {
   std::vector<double> elevation_rad;
   for (std::uint32_t i = 0; i < rows; ++i) elevation_rad.push_back(-1.0 + 2.5 * (i + 0.5) / rows);
   return elevation_rad;
@@ -50,7 +50,7 @@ double varianceOfMeans(const std::vector<float>& values, std::size_t m) {
 }
 
 TEST(NoiseAlongAColumn, HasUnitVarianceAtEveryRow) {
-  const ColumnNoise noise(withHurst(0.75), 10, dome(500), {1, 1});
+  const ColumnNoise noise(withHurst(0.75), 10, smallDome(500), {1, 1});
   std::vector<double> square(noise.paddedRows());
   constexpr int kColumns = 4000;
   for (std::uint32_t j = 0; j < kColumns; ++j) {
@@ -76,7 +76,7 @@ TEST(NoiseAlongAColumn, HasItsHurstExponentByTheVarianceOfMeans) {
     auto instrument = withHurst(hurst);
     instrument.correlated.column_share = 0;
     instrument.correlated.along_share = 1;
-    const ColumnNoise noise(instrument, 10, dome(8333), {1, 1});
+    const ColumnNoise noise(instrument, 10, smallDome(8333), {1, 1});
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
     for (std::size_t m = 1; m <= 1024; m *= 4) {
       double variance = 0;
@@ -90,21 +90,22 @@ TEST(NoiseAlongAColumn, HasItsHurstExponentByTheVarianceOfMeans) {
 
 TEST(NoiseAlongAColumn, BelongsToItsColumnAndScan) {
   const auto instrument = withHurst(0.75);
-  const ColumnNoise noise(instrument, 10, dome(1000), {1, 1}), again(instrument, 20, dome(1000), {1, 1});
-  const ColumnNoise other(instrument, 10, dome(1000), {1, 2});
+  const ColumnNoise noise(instrument, 10, smallDome(1000), {1, 1}), again(instrument, 20, smallDome(1000), {1, 1});
+  const ColumnNoise other(instrument, 10, smallDome(1000), {1, 2});
   EXPECT_EQ(alongOf(noise, 3), alongOf(again, 3));
   EXPECT_NE(alongOf(noise, 3), alongOf(noise, 4));
   EXPECT_NE(alongOf(noise, 3), alongOf(other, 3));
   for (const double hurst : {0.5, 0.75})  // few rows, many rows
     for (const std::uint32_t rows : {1U, 15U, 17U, 70000U})
-      for (const float a : alongOf(ColumnNoise(withHurst(hurst), 1, dome(rows), {1, 1}), 0)) ASSERT_LT(std::abs(a), 12);
+      for (const float a : alongOf(ColumnNoise(withHurst(hurst), 1, smallDome(rows), {1, 1}), 0))
+        ASSERT_LT(std::abs(a), 12);
 }
 
 TEST(NoiseOfColumns, IsAutoregressive) {
   auto instrument = testing::instrument("leica-rtc360");
   instrument.correlated.column_correlation = 0.9;
   constexpr std::uint32_t kColumns = 200000;
-  const ColumnNoise noise(instrument, kColumns, dome(1), {1, 1});
+  const ColumnNoise noise(instrument, kColumns, smallDome(1), {1, 1});
   double variance = 0, next = 0, fifth = 0, cross = 0, flicker = 0;
   for (std::uint32_t j = 0; j + 5 < kColumns; ++j) {
     const auto c = [&](std::uint32_t at) { return static_cast<double>(noise.column(at).common); };
@@ -123,7 +124,7 @@ TEST(NoiseOfColumns, IsAutoregressive) {
 
 TEST(NoiseOfColumns, HasOneWobbleForATurnOfTheMirror) {
   const auto instrument = testing::instrument("trimble-x7");  // k = 2
-  const auto elevation_rad = dome(64);
+  const auto elevation_rad = smallDome(64);
   constexpr std::uint32_t kColumns = 2000;
   const ColumnNoise noise(instrument, kColumns, elevation_rad, {1, 1});
   double variance = 0;
@@ -151,7 +152,7 @@ struct Grid {
 };
 
 Grid gridOf(const Instrument& instrument, double sigma_m, std::uint32_t columns, std::uint32_t rows) {
-  const ColumnNoise noise(instrument, columns, dome(rows), {3, 9});
+  const ColumnNoise noise(instrument, columns, smallDome(rows), {3, 9});
   Grid grid;
   std::vector<float> along(noise.paddedRows());
   for (std::uint32_t j = 0; j < columns; ++j) {

@@ -111,9 +111,9 @@ TEST(Modes, RefuseWhatBelongsToAnother) {
               EndsWith("4min_high, 7min_high, 15min_high"));
   EXPECT_THAT(refused("trimble-x7", with("standard", "4min_high")).message, EndsWith("2min, 4min, 7min, 15min"));
   const auto high = resolved("trimble-x7", with("high_sensitivity", "4min_high"));
-  const auto standard = resolved("trimble-x7", with("standard", "2min"));
-  EXPECT_EQ(high.columns, standard.columns);
-  EXPECT_DOUBLE_EQ(high.scan_seconds / standard.scan_seconds, 2);
+  const auto default_value = resolved("trimble-x7", with("standard", "2min"));
+  EXPECT_EQ(high.columns, default_value.columns);
+  EXPECT_DOUBLE_EQ(high.scan_seconds / default_value.scan_seconds, 2);
 }
 
 TEST(FocusS350, FallsInNoiseByTheRootOfTwoWithEachQuality) {
@@ -274,7 +274,7 @@ TEST(Instruments, TellTwoSurfacesApartByPulseOrByTone) {
   for (const auto& instrument : testing::instruments()) {
     EXPECT_EQ(instrument.waveform.pulse_width_s > 0, instrument.technology == "time_of_flight") << instrument.id;
     EXPECT_EQ(instrument.waveform.fine_wavelength_m > 0, instrument.technology == "phase_shift") << instrument.id;
-    EXPECT_EQ(instrument.waveform.most_returns, instrument.id == "riegl-vz-400i" ? 15 : 1);
+    EXPECT_EQ(instrument.waveform.max_returns, instrument.id == "riegl-vz-400i" ? 15 : 1);
   }
 }
 
@@ -284,9 +284,9 @@ TEST(MovingInstruments, HaveTheFiguresOfTheirSheets) {
   EXPECT_EQ(vlp.channel_elevations_rad.size(), 16U);
   EXPECT_NEAR(vlp.channel_elevations_rad[1], 1 * kRadPerDeg, 1e-12);  // the second that fires
   EXPECT_EQ(vlp.points_per_s, 300000);
-  EXPECT_EQ(vlp.least_rotation_hz, 5);
-  EXPECT_EQ(vlp.most_rotation_hz, 20);
-  EXPECT_EQ(testing::instrument("velodyne-vlp-16").waveform.most_returns, 2);
+  EXPECT_EQ(vlp.min_rotation_hz, 5);
+  EXPECT_EQ(vlp.max_rotation_hz, 20);
+  EXPECT_EQ(testing::instrument("velodyne-vlp-16").waveform.max_returns, 2);
   EXPECT_NEAR(testing::instrument("velodyne-vlp-16").min_elevation_rad, -15 * kRadPerDeg, 1e-12);
   EXPECT_EQ(moving("ouster-os1-128").channel_elevations_rad.size(), 128U);
   EXPECT_EQ(moving("hesai-xt32").channel_elevations_rad.size(), 32U);

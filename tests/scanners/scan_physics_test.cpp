@@ -32,8 +32,8 @@ double planeResidual(const PointBlock& points) {
 }
 
 // Nothing but the law of what returns.
-constexpr Effects kLaw = Effects::none().with(Effect::detection);
-constexpr Effects kGlass = kLaw.with(Effect::panes);
+constexpr Effects kPhysicsLaw = Effects::none().with(Effect::detection);
+constexpr Effects kGlass = kPhysicsLaw.with(Effect::panes);
 
 // A wall across +X at a distance, large enough for a window of ±2°.
 SceneBuilder wallAt(double distance) {
@@ -131,7 +131,7 @@ TEST(MaximumRange, FollowsTheRootOfTheReflectivity) {
         const auto scene = wallAt(share * limit);
         const auto settings = window(instrument, -0.05, 0.05, -0.05, 0.05, 20, 20);
         const auto result =
-            scanned(*scene.build(), allOf(*scene.environment(), reflectivity), instrument, settings, {1, kLaw});
+            scanned(*scene.build(), allOf(*scene.environment(), reflectivity), instrument, settings, {1, kPhysicsLaw});
         EXPECT_EQ(result.points.size(), share < 1 ? 400U : 0U) << instrument.id << " " << reflectivity;
       }
     }
@@ -164,7 +164,8 @@ TEST(MaximumRange, OnTheGroundIsCutByIncidence) {
   SceneBuilder scene;
   scene.quad({-60, -60, -1.6}, {120, 0, 0}, {0, 120, 0});
   const auto settings = window(instrument, 0, 360, -60, 0, 60, 6000);
-  const auto result = scanned(*scene.build(), allOf(*scene.environment(), 0.15), instrument, settings, {1, kLaw});
+  const auto result =
+      scanned(*scene.build(), allOf(*scene.environment(), 0.15), instrument, settings, {1, kPhysicsLaw});
   EXPECT_NEAR(farthest(result.points), 9.86, 0.02 * 9.86);
 }
 
@@ -252,9 +253,9 @@ TEST(StepEdge, MixesBothSidesOverTheBeamsWidth) {
     scene.quad({10 + step, -2, -2}, {0, 4, 0}, {0, 0, 4});
     const double radius = beamRadius(instrument, 10);
     const double window_deg = 3 * radius / 10 / kRadPerDeg;
-    const auto result =
-        scanned(*scene.build(), allOf(*scene.environment(), 0.8), instrument,
-                window(instrument, -window_deg, window_deg, -0.05, 0.05, 61, 3), {1, kLaw.with(Effect::footprint)});
+    const auto result = scanned(*scene.build(), allOf(*scene.environment(), 0.8), instrument,
+                                window(instrument, -window_deg, window_deg, -0.05, 0.05, 61, 3),
+                                {1, kPhysicsLaw.with(Effect::footprint)});
     ASSERT_EQ(result.points.size(), 183U) << instrument.id;
     for (std::size_t i = 0; i < result.points.size(); ++i) {
       const Eigen::Vector3d p = point(result.points, i);
@@ -272,7 +273,7 @@ TEST(StepEdge, FlagsWhatIsMixedAndKeepsTheTruth) {
   SceneBuilder scene;
   const auto front = scene.quad({10, 0, -2}, {0, 2, 0}, {0, 0, 4});
   const auto back = scene.quad({10.1, -2, -2}, {0, 4, 0}, {0, 0, 4});
-  ScanOptions options{1, kLaw.with(Effect::footprint)};
+  ScanOptions options{1, kPhysicsLaw.with(Effect::footprint)};
   options.channels = {.time = true, .returns = true, .truth = true};
   const auto result = scanned(*scene.build(), allOf(*scene.environment(), 0.8), instrument,
                               window(instrument, -0.2, 0.2, -0.02, 0.02, 81, 3), options);
@@ -299,7 +300,7 @@ TEST(SeveralReturns, AreOfThePulseInOrderOfRange) {
   SceneBuilder scene;
   const auto slat = scene.quad({10, -0.002, -2}, {0, 0.004, 0}, {0, 0, 4});
   const auto wall = scene.quad({20, -2, -2}, {0, 4, 0}, {0, 0, 4});
-  ScanOptions options{1, kLaw.with(Effect::footprint)};
+  ScanOptions options{1, kPhysicsLaw.with(Effect::footprint)};
   options.channels.returns = true;
   const auto settings = window(instrument, -0.02, 0.02, -0.005, 0.005, 41, 1);
   const auto several = scanned(*scene.build(), allOf(*scene.environment(), 0.8), instrument, settings, options);
@@ -314,7 +315,7 @@ TEST(SeveralReturns, AreOfThePulseInOrderOfRange) {
       ++pairs;
     }
   EXPECT_GT(pairs, 2);
-  instrument.waveform.most_returns = 1;
+  instrument.waveform.max_returns = 1;
   const auto single = scanned(*scene.build(), allOf(*scene.environment(), 0.8), instrument, settings, options);
   EXPECT_EQ(single.points.size(), 41U);
 }
@@ -336,7 +337,7 @@ TEST(Mirror, ShowsWhatItSeesBehindIt) {
   assignment.materials.push_back(silver);
   for (auto& surface : assignment.surfaces)
     if (surface.product == mirror) surface.material = static_cast<std::int32_t>(assignment.materials.size()) - 1;
-  ScanOptions options{1, kLaw.with(Effect::mirrors)};
+  ScanOptions options{1, kPhysicsLaw.with(Effect::mirrors)};
   options.channels.truth = true;
   const auto result =
       scanned(*scene.build(), assignment, instrument, window(instrument, -1, 1, -1, 1, 20, 20), options);

@@ -44,16 +44,16 @@ Seen summary(const std::vector<Scatterer>& found) {
   return seen;
 }
 
-Seen drawn(const Instrument& instrument, const Weather& weather, double far_m, double least_x) {
+Seen drawn(const Instrument& instrument, const Weather& weather, double far_m, double min_x) {
   const Scatterers air(instrument, weather, kLeast, 100, {7, 3});
   std::vector<Scatterer> found;
   for (std::uint32_t p = 0; p < kPulses; ++p)
-    if (const auto s = air.strongest(p / 200, p % 200, far_m, least_x)) found.push_back(*s);
+    if (const auto s = air.strongest(p / 200, p % 200, far_m, min_x)) found.push_back(*s);
   return summary(found);
 }
 
 // As physics.md §2.6 says it: every drop above 0.05 mm in the beam, wherever and however small; the strongest counts.
-Seen simulated(const Instrument& instrument, double mm_h, double far_m, double least_x) {
+Seen simulated(const Instrument& instrument, double mm_h, double far_m, double min_x) {
   std::mt19937_64 generator(11);
   std::uniform_real_distribution<double> unit(0, 1);
   const double lambda = 4.1 * std::pow(mm_h, -0.21);
@@ -72,7 +72,7 @@ Seen simulated(const Instrument& instrument, double mm_h, double far_m, double l
       const double x = power(instrument, alpha, r, diameter);
       if (x > best.x) best = {ScattererKind::drop, r, x};
     }
-    if (best.x >= least_x) found.push_back(best);
+    if (best.x >= min_x) found.push_back(best);
   }
   return summary(found);
 }

@@ -18,7 +18,7 @@ namespace {
 
 using namespace testing;
 
-constexpr Effects kLaw = Effects::none().with(Effect::detection);
+constexpr Effects kStrayLaw = Effects::none().with(Effect::detection);
 
 PointBlock lit(const SceneBuilder& scene, const MaterialAssignment& assignment, const Instrument& instrument,
                const ScanSettings& settings, ScanOptions options) {
@@ -54,7 +54,7 @@ TEST(Sun, TakesRangeFromWhatItLights) {
       SceneBuilder scene;
       scene.quad({share * limit, -5, -5}, {0, 10, 0}, {0, 0, 10});
       if (shaded) scene.quad({share * limit - 40, -20, 30}, {0, 40, 0}, {30, 0, 0});
-      ScanOptions options{1, kLaw.with(Effect::sun)};
+      ScanOptions options{1, kStrayLaw.with(Effect::sun)};
       options.sun = Sun{-90 * kRadPerDeg, 45 * kRadPerDeg, 1000};  // from -X
       const auto settings = window(instrument, -0.02, 0.02, -0.02, 0.02, 8, 8);
       const auto assignment = allOf(*scene.environment(), 0.34);
@@ -91,7 +91,7 @@ TEST(Sun, InTheFieldOfViewBlindsTheReceiver) {
   instrument.sun_noise = 1;
   SceneBuilder scene;
   scene.quad({135, -40, -40}, {0, 80, 0}, {0, 0, 79.9});  // ends below the sun
-  ScanOptions options{1, kLaw.with(Effect::sun)};
+  ScanOptions options{1, kStrayLaw.with(Effect::sun)};
   options.sun = Sun{90 * kRadPerDeg, 17 * kRadPerDeg, 1000};  // towards +X
   const auto settings = window(instrument, -5, 5, 6, 16.4, 40, 200);
   const auto assignment = allOf(*scene.environment(), 0.34);
@@ -117,7 +117,7 @@ TEST(Interference, LeavesPointsAtRandomRangesInTheAir) {
   const auto instrument = testing::instrument("leica-p40");
   SceneBuilder scene;
   scene.quad({-5, -1, -1}, {0, 2, 0}, {0, 0, 2});  // elsewhere
-  ScanOptions options{1, kLaw.with(Effect::interference)};
+  ScanOptions options{1, kStrayLaw.with(Effect::interference)};
   options.interference = 0.05;
   const auto settings = window(instrument, -20, 20, -20, 20, 200, 200);
   const auto points = lit(scene, allOf(*scene.environment(), 0.5), instrument, settings, options);
@@ -129,7 +129,7 @@ TEST(Interference, LeavesPointsAtRandomRangesInTheAir) {
     mean += static_cast<double>(points.truth.range_m[i]) / static_cast<double>(points.size());
   }
   EXPECT_NEAR(mean, (0.4 + 270) / 2, 5 * 270 / std::sqrt(12.0 * 2000));
-  options.effects = kLaw;
+  options.effects = kStrayLaw;
   EXPECT_EQ(lit(scene, allOf(*scene.environment(), 0.5), instrument, settings, options).size(), 0U);
 }
 
@@ -143,7 +143,7 @@ TEST(Halo, StandsAroundAReflectorAsFarAsTheWingsOfTheBeam) {
   reflector.retro_gain = 2000;
   const auto assignment = allOf(*scene.environment(), reflector);
   const auto settings = window(instrument, -0.5, 0.5, -0.5, 0.5, 200, 200);
-  const Effects effects = kLaw.with(Effect::footprint);
+  const Effects effects = kStrayLaw.with(Effect::footprint);
   const auto plain = lit(scene, assignment, instrument, settings, {1, effects});
   const auto haloed = lit(scene, assignment, instrument, settings, {1, effects.with(Effect::halo)});
   const double radius = beamRadius(instrument, 20);
@@ -209,8 +209,8 @@ TEST(RoughMirror, ShowsWhatIsNearItBelowTheGround) {
     std::sort(depths.begin(), depths.end());
     return depths;
   };
-  EXPECT_TRUE(below(kLaw.with(Effect::mirrors)).empty());
-  const auto depths = below(kLaw.with(Effect::rough_mirrors));
+  EXPECT_TRUE(below(kStrayLaw.with(Effect::mirrors)).empty());
+  const auto depths = below(kStrayLaw.with(Effect::rough_mirrors));
   ASSERT_GT(depths.size(), 10U);
   EXPECT_GT(depths.back(), 0.02);
   EXPECT_LT(depths.back(), 0.3);

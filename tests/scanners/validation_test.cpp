@@ -15,7 +15,7 @@ namespace {
 using namespace testing;
 
 // A wall across +X, which fills the window of ±1°.
-SceneBuilder wallAt(double distance) {
+SceneBuilder validationWall(double distance) {
   SceneBuilder scene;
   scene.quad({distance, -0.2 * distance, -0.2 * distance}, {0, 0.4 * distance, 0}, {0, 0, 0.4 * distance});
   return scene;
@@ -28,7 +28,7 @@ struct Residuals {
 
 Residuals residualsAt(double distance, double reflectance, const Instrument& instrument, std::uint32_t columns,
                       Effects effects, int passes = 1) {
-  const auto scene = wallAt(distance);
+  const auto scene = validationWall(distance);
   ScanOptions options;
   options.effects = effects;
   auto settings = window(instrument, -1, 1, -1, 1, columns, 50);
@@ -111,7 +111,7 @@ TEST(PlaneNoise, V20_OfTheBlk360IsThatOfTheFacadesWithZeroMean) {
 TEST(ReceivedPower, V18_GivesTheSameReflectanceAtEveryRange) {
   auto instrument = testing::instrument("riegl-vz-400i");
   for (const double range : {20.0, 50.0, 100.0}) {
-    const auto scene = wallAt(range);
+    const auto scene = validationWall(range);
     ScanOptions options;
     options.effects = Effects::none();
     options.channels.truth = true;

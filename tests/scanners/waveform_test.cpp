@@ -31,7 +31,7 @@ TEST(PulsedReceiver, V9_MergesSurfacesNearerThanItsPulseAtTheirMeanByPower) {
 // §4.4: 0.127, 0.255, 0.509, 0.637 m for pulses of 1, 2, 4, 5 ns.
 TEST(PulsedReceiver, TellsSurfacesApartFromTheResolutionOfItsPulseOn) {
   for (const auto& [width_ns, resolution] : {std::pair{1.0, 0.127}, {2.0, 0.255}, {4.0, 0.509}, {5.0, 0.637}}) {
-    const Waveform waveform{.pulse_width_s = width_ns * 1e-9, .most_returns = 2};
+    const Waveform waveform{.pulse_width_s = width_ns * 1e-9, .max_returns = 2};
     EXPECT_EQ(echoes(waveform, {{5, 1}, {5 + resolution - 0.002, 1}}).size(), 1U) << width_ns;
     EXPECT_EQ(echoes(waveform, {{5, 1}, {5 + resolution + 0.002, 1}}).size(), 2U) << width_ns;
   }
@@ -54,7 +54,7 @@ TEST(PulsedReceiver, TellsUnlikeEchoesApartWhereTheirSumHasTwoMaxima) {
 }
 
 TEST(PulsedReceiver, MergesAWeakEchoOnTheFlankOfAStrongOne) {
-  const Waveform waveform{.pulse_width_s = 2e-9, .most_returns = 2};
+  const Waveform waveform{.pulse_width_s = 2e-9, .max_returns = 2};
   EXPECT_EQ(echoes(waveform, {{5, 0.5F}, {5.35, 0.5F}}).size(), 2U);
   const auto merged = echoes(waveform, {{5, 0.9F}, {5.35, 0.1F}});
   ASSERT_EQ(merged.size(), 1U);
@@ -64,10 +64,10 @@ TEST(PulsedReceiver, MergesAWeakEchoOnTheFlankOfAStrongOne) {
 
 TEST(PulsedReceiver, ReportsTheStrongestOfTooManyInOrderOfRange) {
   const std::vector<Contribution> light = {{9, 0.2F}, {3, 0.1F}, {6, 0.5F}};
-  const auto one = echoes({.pulse_width_s = 2e-9, .most_returns = 1}, light);
+  const auto one = echoes({.pulse_width_s = 2e-9, .max_returns = 1}, light);
   ASSERT_EQ(one.size(), 1U);
   EXPECT_DOUBLE_EQ(one[0].range_m, 6);
-  const auto two = echoes({.pulse_width_s = 2e-9, .most_returns = 2}, light);
+  const auto two = echoes({.pulse_width_s = 2e-9, .max_returns = 2}, light);
   ASSERT_EQ(two.size(), 2U);
   EXPECT_DOUBLE_EQ(two[0].range_m, 6);
   EXPECT_DOUBLE_EQ(two[1].range_m, 9);

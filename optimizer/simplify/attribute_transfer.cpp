@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "optimizer/simplify/paint.h"
+#include "optimizer/simplify/attribute_transfer.h"
 
 #include <algorithm>
 #include <array>
@@ -187,7 +187,7 @@ Mesh Painter::result(const Mesh& before, const Shape& shape) const {
 
 }  // namespace
 
-Mesh paintedMesh(const Mesh& before, const Shape& shape, const std::vector<Collapse>& steps) {
+Mesh transferAttributes(const Mesh& before, const Shape& shape, const std::vector<Collapse>& steps) {
   Painter painter(before, shape);
   for (const auto& step : steps) {
     if (step.kept == step.removed) return {};

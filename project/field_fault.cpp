@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "project/mishap.h"
+#include "project/field_fault.h"
 
 #include <algorithm>
 #include <charconv>
@@ -86,8 +86,8 @@ Trajectory standing(const Pose& pose) { return {{0}, {pose}}; }
 
 }  // namespace
 
-Result<Mishap> mishapFrom(const std::vector<std::string>& pairs) {
-  Mishap mishap;
+Result<FieldFault> fieldFaultFrom(const std::vector<std::string>& pairs) {
+  FieldFault field_fault;
   for (const auto& pair : pairs) {
     const auto equals = std::min(pair.find('='), pair.size());
     const auto key = pair.substr(0, equals);
@@ -97,23 +97,23 @@ Result<Mishap> mishapFrom(const std::vector<std::string>& pairs) {
     const bool number = error == std::errc() && end == text.data() + text.size();
     const bool share = number && value >= 0 && value <= 1;
     if (key == "until" && share)
-      mishap.until_share = value;
+      field_fault.until_share = value;
     else if (key == "push" && share)
-      mishap.pushed_at_share = value;
+      field_fault.pushed_at_share = value;
     else if (key == "walk" && share)
-      mishap.walked_at_share = value;
+      field_fault.walked_at_share = value;
     else if (key == "stand" && share)
-      mishap.stood_at_share = value;
+      field_fault.stood_at_share = value;
     else if (key == "noise" && number && value >= 1 && value <= 100)
-      mishap.noise_factor = value;
+      field_fault.noise_factor = value;
     else
       return failure(ErrorKind::usage,
                      fmt::format("'{}' is none of until=SHARE, push=SHARE, walk=SHARE, stand=SHARE (0 to 1), "
                                  "noise=FACTOR (1 to 100)",
                                  pair),
-                     "--mishap");
+                     "--field-fault");
   }
-  return mishap;
+  return field_fault;
 }
 
 Pose pushed(const Pose& pose) {
@@ -123,35 +123,36 @@ Pose pushed(const Pose& pose) {
   return moved;
 }
 
-Result<ScanCount> scanWithMishap(const RayScene& scene, const MaterialAssignment& assignment,
-                                 const Instrument& instrument, const ScanSettings& settings, const Pose& pose,
-                                 const ScanOptions& options, const Mishap& mishap, PointSink& sink,
-                                 Progress& progress) {
+Result<ScanCount> scanWithFieldFault(const RayScene& scene, const MaterialAssignment& assignment,
+                                     const Instrument& instrument, const ScanSettings& settings, const Pose& pose,
+                                     const ScanOptions& options, const FieldFault& field_fault, PointSink& sink,
+                                     Progress& progress) {
   const auto azimuth = [&](double share) {
     return std::lerp(settings.azimuth_from_rad, settings.azimuth_to_rad, share);
   };
-  if (mishap.stood_at_share) {
-    Mishap others = mishap;
+  if (field_fault.stood_at_share) {
+    FieldFault others = field_fault;
     others.stood_at_share.reset();
-    Person beside(sink, kStandsBeside_m, azimuth(*mishap.stood_at_share));
-    return scanWithMishap(scene, assignment, instrument, settings, pose, options, others, beside, progress);
+    Person beside(sink, kStandsBeside_m, azimuth(*field_fault.stood_at_share));
+    return scanWithFieldFault(scene, assignment, instrument, settings, pose, options, others, beside, progress);
   }
-  if (mishap.walked_at_share) {
-    Mishap others = mishap;
+  if (field_fault.walked_at_share) {
+    FieldFault others = field_fault;
     others.walked_at_share.reset();
     if (settings.passes > 1)
-      return scanWithMishap(scene, assignment, instrument, settings, pose, options, others, sink, progress);
-    Person walked(sink, kWalksBy_m, azimuth(*mishap.walked_at_share));
-    return scanWithMishap(scene, assignment, instrument, settings, pose, options, others, walked, progress);
+      return scanWithFieldFault(scene, assignment, instrument, settings, pose, options, others, sink, progress);
+    Person walked(sink, kWalksBy_m, azimuth(*field_fault.walked_at_share));
+    return scanWithFieldFault(scene, assignment, instrument, settings, pose, options, others, walked, progress);
   }
-  if (!mishap.any()) return scan(scene, assignment, instrument, settings, standing(pose), options, sink, progress);
+  if (!field_fault.any()) return scan(scene, assignment, instrument, settings, standing(pose), options, sink, progress);
   ScanSettings noisier = settings;
-  noisier.noise_factor *= mishap.noise_factor;
+  noisier.noise_factor *= field_fault.noise_factor;
   ScanOptions part = options;
-  part.end_column = std::min(options.end_column, columnAt(mishap.until_share, settings.columns));
-  if (!mishap.pushed_at_share)
+  part.end_column = std::min(options.end_column, columnAt(field_fault.until_share, settings.columns));
+  if (!field_fault.pushed_at_share)
     return scan(scene, assignment, instrument, noisier, standing(pose), part, sink, progress);
-  const auto push = std::clamp(columnAt(*mishap.pushed_at_share, settings.columns), part.first_column, part.end_column);
+  const auto push =
+      std::clamp(columnAt(*field_fault.pushed_at_share, settings.columns), part.first_column, part.end_column);
   ScanOptions after = part;
   part.end_column = after.first_column = push;
   ScanCount count;

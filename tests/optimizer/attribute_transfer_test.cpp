@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-Mesh optimized(Mesh mesh, std::uint64_t budget, double max_deviation_m = 100) {
+Mesh optimizedMesh(Mesh mesh, std::uint64_t budget, double max_deviation_m = 100) {
   Environment environment;
   models::add(environment, std::move(mesh));
   Progress progress;
@@ -52,7 +52,7 @@ Mesh plateOfTwoCharts(int cells) {
 }
 
 TEST(Paint, OfAFlatPlateWithASeamIsExactOnBothSidesOfIt) {
-  const auto after = optimized(plateOfTwoCharts(20), 0);
+  const auto after = optimizedMesh(plateOfTwoCharts(20), 0);
   EXPECT_EQ(after.triangles.size(), 4);
   ASSERT_EQ(after.texture_coordinates.size(), after.positions.size());
   ASSERT_EQ(after.colours.size(), after.positions.size());
@@ -97,7 +97,7 @@ Mesh globe(int rings, int segments) {
 
 TEST(Paint, OfAGlobeStaysWhereTheMapSaysAndIsNotTornAtItsSeam) {
   const auto before = globe(60, 120);
-  const auto after = optimized(before, before.triangles.size() / 12);
+  const auto after = optimizedMesh(before, before.triangles.size() / 12);
   ASSERT_EQ(after.texture_coordinates.size(), after.positions.size());
   EXPECT_LE(after.triangles.size(), before.triangles.size() / 12);
   EXPECT_GE(after.triangles.size(), 0.98 * static_cast<double>(before.triangles.size()) / 12);
@@ -127,7 +127,7 @@ TEST(Paint, OfABoxWithSixChartsAndSurfacesKeepsEachFaceItsOwn) {
       before.texture_coordinates[v] = {
           static_cast<float>(before.surface_of_triangle[i]) + 0.1F * before.positions[v].x(),
           before.positions[v].y() + before.positions[v].z()};
-  const auto after = optimized(before, 0);
+  const auto after = optimizedMesh(before, 0);
   EXPECT_EQ(after.triangles.size(), 12);
   for (std::size_t i = 0; i < after.triangles.size(); ++i)
     for (const auto v : after.triangles[i]) {

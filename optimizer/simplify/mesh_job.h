@@ -15,7 +15,7 @@
 namespace standpoint {
 
 // What one mesh, shared by its copies, goes through.
-struct Work {
+struct MeshJob {
   Shape shape, lighter;
   WeldCounts welded;
   std::unique_ptr<TriangleTree> tree;  // of shape; while it is simplified and measured
@@ -54,7 +54,7 @@ Environment withoutDropped(const Environment& environment, const OptimizeOptions
 // One for each mesh of the environment. Meshes that are the same but for a motion are found first (identical.h): the
 // environment's instances are led to the first of them. `residual_m` gets, for each instance, how far that moved any
 // vertex.
-std::vector<Work> prepareWorks(Environment& environment, const OptimizeOptions& options,
-                               std::vector<double>& residual_m);
+std::vector<MeshJob> prepareMeshJobs(Environment& environment, const OptimizeOptions& options,
+                                     std::vector<double>& residual_m);
 
 }  // namespace standpoint

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "optimizer/simplify/work.h"
+#include "optimizer/simplify/mesh_job.h"
 
 #include <algorithm>
 #include <map>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kFewestSamples = 2000, kMostSamples = kDeviationSamples;  // of one mesh
 
-void allow(Work& work, const ProductAllowance& allowance, double stretch) {
+void allow(MeshJob& work, const ProductAllowance& allowance, double stretch) {
   if (stretch > 0) work.cap_m = std::min(work.cap_m, allowance.max_deviation_m / stretch);
   work.weight = std::max(work.weight, allowance.weight);
   work.share = work.copies == 0 ? allowance.share : std::min(work.share, allowance.share);
@@ -24,10 +24,10 @@ void allow(Work& work, const ProductAllowance& allowance, double stretch) {
 }
 
 // A share that asks for nothing, or for no less than it has, is only rid of what costs nothing.
-void decideLossless(std::vector<Work>& works, const OptimizeOptions& options) {
+void decideLossless(std::vector<MeshJob>& jobs, const OptimizeOptions& options) {
   std::vector<std::uint64_t> triangles(1 + options.further_budgets.size(), 0);
-  for (const auto& work : works) triangles[work.share] += work.shape.triangles.size() * work.copies;
-  for (auto& work : works) {
+  for (const auto& work : jobs) triangles[work.share] += work.shape.triangles.size() * work.copies;
+  for (auto& work : jobs) {
     const auto budget = budgetOf(options, work.share);
     work.lossless = budget == 0 || budget >= triangles[work.share];
   }
@@ -52,10 +52,10 @@ std::vector<std::uint32_t> kindsOf(const Environment& environment, const Optimiz
   return kinds;
 }
 
-void shareRepetitions(Environment& environment, const OptimizeOptions& options, std::vector<Work>& works,
+void shareRepetitions(Environment& environment, const OptimizeOptions& options, std::vector<MeshJob>& jobs,
                       std::vector<double>& residual_m) {
-  std::vector<Shape> shapes(works.size());
-  for (std::size_t i = 0; i < works.size(); ++i) shapes[i] = std::move(works[i].shape);
+  std::vector<Shape> shapes(jobs.size());
+  for (std::size_t i = 0; i < jobs.size(); ++i) shapes[i] = std::move(jobs[i].shape);
   const auto repetitions = findRepetitions(shapes, kindsOf(environment, options));
   residual_m.assign(environment.instances.size(), 0);
   for (std::size_t i = 0; i < residual_m.size(); ++i) {
@@ -68,8 +68,8 @@ void shareRepetitions(Environment& environment, const OptimizeOptions& options, 
                                Eigen::Translation3d(-shapes[repetition.first].centre);
     instance.mesh = repetition.first;
   }
-  for (std::size_t i = 0; i < works.size(); ++i)
-    if (repetitions[i].first == i) works[i].shape = std::move(shapes[i]);
+  for (std::size_t i = 0; i < jobs.size(); ++i)
+    if (repetitions[i].first == i) jobs[i].shape = std::move(shapes[i]);
 }
 
 }  // namespace
@@ -89,17 +89,17 @@ std::uint64_t budgetOf(const OptimizeOptions& options, std::uint32_t share) {
   return share == 0 ? options.budget : options.further_budgets[share - 1];
 }
 
-std::vector<Work> prepareWorks(Environment& environment, const OptimizeOptions& options,
-                               std::vector<double>& residual_m) {
-  std::vector<Work> works(environment.meshes.size());
-  std::vector<bool> placed(works.size(), false);
+std::vector<MeshJob> prepareMeshJobs(Environment& environment, const OptimizeOptions& options,
+                                     std::vector<double>& residual_m) {
+  std::vector<MeshJob> jobs(environment.meshes.size());
+  std::vector<bool> placed(jobs.size(), false);
   for (const auto& instance : environment.instances) placed[instance.mesh] = true;
-  tbb::parallel_for(std::size_t{0}, works.size(), [&](std::size_t i) {
-    if (placed[i]) works[i].shape = weld(*environment.meshes[i], &works[i].welded);
+  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
+    if (placed[i]) jobs[i].shape = weld(*environment.meshes[i], &jobs[i].welded);
   });
-  shareRepetitions(environment, options, works, residual_m);
+  shareRepetitions(environment, options, jobs, residual_m);
   for (const auto& instance : environment.instances) {
-    Work& work = works[instance.mesh];
+    MeshJob& work = jobs[instance.mesh];
     allow(work, allowanceOf(options, instance.product), largestStretch(instance.world_from_mesh));
     const Eigen::Vector3d up = instance.world_from_mesh.linear().transpose() * Eigen::Vector3d::UnitZ();
     if (work.copies++ == 0 && up.norm() > 0) work.up = up.normalized();
@@ -108,15 +108,15 @@ std::vector<Work> prepareWorks(Environment& environment, const OptimizeOptions& 
     work.placed_area_m2 += stretch * stretch;
   }
   double all = 0;
-  for (std::size_t i = 0; i < works.size(); ++i) {
-    if (works[i].copies > 0) works[i].placed_area_m2 *= area(*environment.meshes[i]);
-    all += works[i].placed_area_m2;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    if (jobs[i].copies > 0) jobs[i].placed_area_m2 *= area(*environment.meshes[i]);
+    all += jobs[i].placed_area_m2;
   }
-  for (auto& work : works)
+  for (auto& work : jobs)
     work.samples = static_cast<std::uint32_t>(
         std::clamp(kDeviationSamples * work.placed_area_m2 / std::max(all, 1e-300), kFewestSamples, kMostSamples));
-  decideLossless(works, options);
-  return works;
+  decideLossless(jobs, options);
+  return jobs;
 }
 
 }  // namespace standpoint

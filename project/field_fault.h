@@ -11,7 +11,7 @@
 namespace standpoint {
 
 // What went wrong in the field, and shows in the points.
-struct Mishap {
+struct FieldFault {
   double until_share = 1;                 // of the columns: the scan was cut short
   double noise_factor = 1;                // of the range noise: dust on the optics, an instrument that is not warm
   std::optional<double> pushed_at_share;  // of the columns: the tripod was pushed there, and nobody told the instrument
@@ -24,8 +24,8 @@ struct Mishap {
 };
 
 // From "until=0.5", "noise=2", "push=0.4", "walk=0.5", "stand=0.5"; what is not so, or out of bounds, is an error of
-// --mishap.
-Result<Mishap> mishapFrom(const std::vector<std::string>& pairs);
+// --field-fault.
+Result<FieldFault> fieldFaultFrom(const std::vector<std::string>& pairs);
 
 // How a push moves the instrument: 4 mm aside and 0.05° about its standing axis; a choice of ours.
 Pose pushed(const Pose& pose);
@@ -35,8 +35,9 @@ Pose pushed(const Pose& pose);
 // left of it. Who stays beside the instrument is such a cylinder, 0.9 m from it, and is there in a second pass, too.
 // Scans from a tripod as `scan` does, with what went wrong. After a push the points stand in the frame that the
 // instrument believes to be the old one; what is true of them is told in the old frame.
-Result<ScanCount> scanWithMishap(const RayScene& scene, const MaterialAssignment& assignment,
-                                 const Instrument& instrument, const ScanSettings& settings, const Pose& pose,
-                                 const ScanOptions& options, const Mishap& mishap, PointSink& sink, Progress& progress);
+Result<ScanCount> scanWithFieldFault(const RayScene& scene, const MaterialAssignment& assignment,
+                                     const Instrument& instrument, const ScanSettings& settings, const Pose& pose,
+                                     const ScanOptions& options, const FieldFault& field_fault, PointSink& sink,
+                                     Progress& progress);
 
 }  // namespace standpoint

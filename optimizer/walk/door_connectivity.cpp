@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "optimizer/walk/ways.h"
+#include "optimizer/walk/door_connectivity.h"
 
 #include <algorithm>
 #include <array>
