@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
 #include <exception>
+#include <optional>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
@@ -60,14 +62,26 @@ PolyMesh fromSurface(const Surface& surface, std::uint32_t tag) {
   return mesh;
 }
 
+#if CGAL_VERSION_NR >= 1060000000
+using Output = std::optional<Surface*>;
+#else
+using Output = boost::optional<Surface*>;
+#endif
+
+// One call for all operations: CGAL's three functions would be compiled for types of their own, a minute more.
 bool combine(Surface& a, Surface& b, Operation operation, Surface& out) {
-  const auto strict = CGAL::parameters::throw_on_self_intersection(true);
-  switch (operation) {
-    case Operation::difference: return pmp::corefine_and_compute_difference(a, b, out, strict);
-    case Operation::intersection: return pmp::corefine_and_compute_intersection(a, b, out, strict);
-    case Operation::unite: return pmp::corefine_and_compute_union(a, b, out, strict);
-  }
-  return false;
+  const auto index = [&]() -> std::size_t {
+    switch (operation) {
+      case Operation::difference: return pmp::Corefinement::TM1_MINUS_TM2;
+      case Operation::intersection: return pmp::Corefinement::INTERSECTION;
+      case Operation::unite: break;
+    }
+    return pmp::Corefinement::UNION;
+  }();
+  std::array<Output, 4> outputs;
+  outputs[index] = &out;
+  return pmp::corefine_and_compute_boolean_operations(a, b, outputs,
+                                                      CGAL::parameters::throw_on_self_intersection(true))[index];
 }
 
 }  // namespace
