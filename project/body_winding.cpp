@@ -4,19 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/solid_angle.h"
+
 namespace standpoint {
 
 namespace {
 
 constexpr double kInside = 0.95;  // of the winding: a body that is closed, but for rounding and hair gaps
-
-// Solid angle of a triangle seen from the origin, signed (van Oosterom and Strackee 1983).
-double solidAngle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  const double la = a.norm();
-  const double lb = b.norm();
-  const double lc = c.norm();
-  return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-}
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/solid_angle.h"
 #include "optimizer/simplify/collapse.h"
 #include "optimizer/surface/deviation.h"
 #include "optimizer/surface/triangle_tree.h"
@@ -257,11 +258,8 @@ void addAsMesh(const Shape& part, Piece& mesh) {
 
 double windingNumber(const Shape& part, const Vector3d& p) {
   double sum = 0;
-  for (const auto& t : part.triangles) {
-    const Vector3d a = part.positions[t[0]] - p, b = part.positions[t[1]] - p, c = part.positions[t[2]] - p;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    sum += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
+  for (const auto& t : part.triangles)
+    sum += solidAngle(part.positions[t[0]] - p, part.positions[t[1]] - p, part.positions[t[2]] - p);
   return sum / (4 * std::numbers::pi);
 }
 
