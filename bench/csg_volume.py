@@ -4,7 +4,7 @@
 
 usage: csg_volume.py FILE.ifc NUMBER [POINTS]   of a representation item, or of a product's body less its openings
 
-An opinion that shares nothing with a tessellating kernel: for docs/import-differences.md. Knows what the corpus' hard cases
+An opinion that shares nothing with a tessellating kernel: for docs/explanation/import-differences.md. Knows what the corpus' hard cases
 are made of: extrusions of polygons, rectangles (also hollow) and circles, faceted breps, half-spaces.
 """
 import math

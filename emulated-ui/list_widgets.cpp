@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes docs/widgets.md to standard output: list-widgets > docs/widgets.md
+// Writes docs/reference/widgets.md to standard output: list-widgets > docs/reference/widgets.md
 #include <iostream>
 
 #include "emulated-ui/widget_list.h"

@@ -125,7 +125,7 @@ struct MaterialFinding {
   std::string source;    // "#1234", the first product
   std::string message;   // "no rule fits material 'Isolatie' of IfcCovering 'Dak'"
   std::string id;        // "unassigned-1f2e3d4c": of kind and subject, the same in every run
-  std::string kind;      // "unassigned", "weak-rule", …: docs/materials.md lists them
+  std::string kind;      // "unassigned", "weak-rule", …: docs/reference/materials.md lists them
   std::string why;       // why it matters
   std::string cause;     // a fingerprint: changes when other products, rules or materials are behind it
   std::string because;   // the user accepted it; empty = open

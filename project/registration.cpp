@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 constexpr double kSighting_m = 0.001;       // of every measured centre: what the instrument adds to the fit's own σ
 constexpr double kSameDistance_m = 0.01;    // by geometry
-constexpr double kOfficeWarning_m = 0.005;  // instruments.md §4.2: where office software turns yellow
+constexpr double kOfficeWarning_m = 0.005;  // instrument-facts.md §4.2: where office software turns yellow
 constexpr std::size_t kLargestControlFile = 1U << 20U;
 
 // What is known of one station before the network: its sightings by numbers of the measurements.

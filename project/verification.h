@@ -17,7 +17,7 @@ namespace standpoint {
 struct Verification {
   std::uint64_t basis = 0;  // of what it was found with: see isCurrent
   std::uint64_t rest = 0;   // of the same without what it proposes to change: see hasStandingProposals
-  nlohmann::json answer;    // as of the verb: docs/against-reality.md
+  nlohmann::json answer;    // as of the verb: docs/explanation/verification.md
 };
 
 // Whether cloud, placement and assignment are still those that it was found with.

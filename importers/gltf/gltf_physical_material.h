@@ -7,7 +7,8 @@
 
 namespace standpoint {
 
-// The extension that carries the physics of a surface in a glTF material; docs/formats/gltf.md has its schema.
+// The extension that carries the physics of a surface in a glTF material; docs/reference/formats/gltf.md has its
+// schema.
 constexpr const char* kGltfPhysicalMaterial = "STANDPOINT_physical_material";
 
 nlohmann::json gltfPhysicalMaterial(const PhysicalMaterial& material);

@@ -72,7 +72,7 @@ struct Saturation {
   double pedestal = 0;           // share of the beam's power in its wide wings: the halo of a reflector
 };
 
-// How the amplitude of a return strays (docs/scanning.md).
+// How the amplitude of a return strays (docs/explanation/scanning.md).
 struct AmplitudeNoise {
   double aperture_m = 0;  // diameter of the receiver's opening: over it speckle is averaged
   double jitter = 0;      // 1 σ of a strong return as a share of it: the pulse's energy, the detector's gain

@@ -95,9 +95,10 @@ INSTANTIATE_TEST_SUITE_P(Devices, Widgets, testing::ValuesIn(everyDevice()), dev
 TEST(WidgetList, DocsListThemAll) {
   const auto list = widgetList();
   ASSERT_TRUE(list) << describe(list.error());
-  std::ifstream in(dataFolder() / "docs" / "widgets.md");
+  std::ifstream in(dataFolder() / "docs" / "reference" / "widgets.md");
   const std::string page{std::istreambuf_iterator<char>(in), {}};
-  EXPECT_TRUE(page == *list) << "docs/widgets.md is out of date: build/release/bin/list-widgets > docs/widgets.md";
+  EXPECT_TRUE(page == *list)
+      << "docs/reference/widgets.md is out of date: build/release/bin/list-widgets > docs/reference/widgets.md";
 }
 
 }  // namespace

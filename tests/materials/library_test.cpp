@@ -264,7 +264,7 @@ TEST(Library, KeepsTheTrapsOfTheWavelengths) {
 
 // The page's table is written by hand or script; it must not fall behind the library.
 TEST(Library, IsTheTableOfItsPage) {
-  std::ifstream stream(SOURCE_DIR "/docs/materials.md");
+  std::ifstream stream(SOURCE_DIR "/docs/reference/materials.md");
   const std::string page{std::istreambuf_iterator<char>(stream), {}};
   for (const auto& material : shippedLibrary()) {
     if (isGap(material)) continue;

@@ -28,7 +28,8 @@ std::vector<TrueName> readTruth(const std::string& file) {
 }
 
 // The share of the names to which the shipped rules give an accepted material, by the name alone: no class, no colour.
-// Each list was written before the rules were held against it; docs/materials.md says what share fitted at first.
+// Each list was written before the rules were held against it; docs/reference/materials.md says what share fitted at
+// first.
 class TrueNames : public testing::TestWithParam<const char*> {};
 
 TEST_P(TrueNames, AreUnderstoodInEightLanguages) {

@@ -52,7 +52,7 @@ TEST(Levelling, TheCompensatorsErrorHasTheSigmaOfItsSheetInEachAxis) {
     const auto pose = believedPose(s, instrument, {.seed = static_cast<std::uint64_t>(k)}, report);
     sum += std::pow(between(pose->rotation, s.true_pose.rotation), 2);
   }
-  EXPECT_NEAR(std::sqrt(sum / kScans / 2) / kRadPerArcsec, 19, 0.5) << "19 arc seconds: instruments.md 1.2";
+  EXPECT_NEAR(std::sqrt(sum / kScans / 2) / kRadPerArcsec, 19, 0.5) << "19 arc seconds: instrument-facts.md §1.2";
   EXPECT_TRUE(report.issues.empty());
 }
 

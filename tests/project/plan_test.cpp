@@ -112,7 +112,7 @@ TEST(Plan, CountsASurfaceAsSeenOnlyAsNearAsFlatAndAsDenseAsWanted) {
   const auto instrument = *instrumentById("faro-focus-s350");
   const auto settings = *resolveSettings(instrument, {{"resolution", "1/16"}, {"quality", "4x"}});
   const double wanted = spacingOf(settings, 1.5, 0, 0);
-  EXPECT_NEAR(wanted, 1.5 * 0.024544 / 10, 1e-5) << "1/16 is four times 6.136 mm at 10 m: instruments.md 1.4";
+  EXPECT_NEAR(wanted, 1.5 * 0.024544 / 10, 1e-5) << "1/16 is four times 6.136 mm at 10 m: instrument-facts.md §1.4";
   EXPECT_NEAR(plan(d, {{"spacing", wanted}})["seen_m2"].get<double>(), 2 * kPi * 1.0235 * 1.0235 - kBlind, 0.1);
 }
 

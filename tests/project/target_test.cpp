@@ -95,8 +95,8 @@ TEST(Target, SaysWhatStationsCannotMeasureIt) {
   EXPECT_THAT(said(flat->report), HasSubstr("a plate is measured up to 60°"));
 }
 
-// instruments.md §4.3: a sphere of 145 mm gets 60 points of a FARO at 1/16 up to 108.1 m / 16, and here it is 3.9 m
-// away.
+// instrument-facts.md §4.3: a sphere of 145 mm gets 60 points of a FARO at 1/16 up to 108.1 m / 16, and here it is 3.9
+// m away.
 TEST(Target, IsMeasuredAsFarAsTheGridLaysSixtyPointsOnIt) {
   const json options = {
       {"add", "T"}, {"on", {500005.9, 5600001.5}}, {"instrument", "faro-focus-s350"}, {"set", {"resolution=1/16"}}};

@@ -56,7 +56,7 @@ TEST(Rtc360, ScansATargetAreaOnlyWhenThatFieldOfViewIsChosen) {
   EXPECT_THAT(refused("leica-rtc360", {{"horizontal_to", "90"}}).message, HasSubstr("field of view"));
 }
 
-// instruments.md §1.4: seconds by resolution and quality, 0 = greyed out, because the mirror would exceed 97 Hz.
+// instrument-facts.md §1.4: seconds by resolution and quality, 0 = greyed out, because the mirror would exceed 97 Hz.
 TEST(FocusS350, ReproducesTheTableOfItsDisplayWithinASecond) {
   struct Row {
     const char* resolution;

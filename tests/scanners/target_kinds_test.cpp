@@ -22,7 +22,7 @@ TEST(TargetKinds, AreReadWithASourceForEveryFigure) {
   for (const auto& [pointer, evidence] : kinds->evidence) EXPECT_FALSE(evidence.source.empty()) << pointer;
 }
 
-// The table of instruments.md §4.3: metres at which 60 points (100) are on the target, by a FARO's resolution. Its
+// The table of instrument-facts.md §4.3: metres at which 60 points (100) are on the target, by a FARO's resolution. Its
 // discs are square here.
 TEST(TargetKinds, AreMeasuredAsFarAsTheTableOfTheReferenceHasIt) {
   struct Row {
