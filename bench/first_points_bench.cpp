@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "editor/editor.h"
+#include "editor/model/editor.h"
 #include "editor/model/scan_form.h"
 #include "editor/viewport/offscreen.h"
 #include "project/verb.h"

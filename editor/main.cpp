@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "editor/device_pictures.h"
-#include "editor/editor.h"
 #include "editor/instrument/instrument.h"
+#include "editor/model/editor.h"
 #include "editor/pictures.h"
 #include "editor/shell/actions.h"
 #include "editor/viewport/offscreen.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/editor.h"
+#include "editor/model/editor.h"
 #include "editor/panels/panels_list.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/widgets.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 

@@ -7,13 +7,13 @@
 #include <imgui.h>
 
 #include "core/units.h"
-#include "editor/editor.h"
+#include "editor/model/editor.h"
 #include "editor/model/material_card.h"
 #include "editor/panels/panels_list.h"
-#include "editor/shell/icons.h"
 #include "editor/shell/material_brush.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 #include "materials/materials.h"
 
 namespace standpoint {

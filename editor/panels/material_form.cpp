@@ -8,10 +8,10 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "editor/editor.h"
+#include "editor/model/editor.h"
 #include "editor/panels/panels_list.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/widgets.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 

@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "editor/editor.h"
+#include "editor/model/editor.h"
 #include "editor/model/scan_form.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 

@@ -10,14 +10,14 @@
 #include <imgui_stdlib.h>
 
 #include "core/units.h"
-#include "editor/editor.h"
+#include "editor/model/editor.h"
 #include "editor/model/scan_form.h"
 #include "editor/panels/panels_list.h"
 #include "editor/panels/scan_conditions.h"
 #include "editor/shell/dialogs.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 #include "pointclouds/formats.h"
 
 namespace standpoint {

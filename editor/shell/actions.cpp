@@ -6,13 +6,13 @@
 
 #include <imgui.h>
 
-#include "editor/editor.h"
+#include "editor/model/editor.h"
 #include "editor/model/input_queue.h"
 #include "editor/model/interface_scale.h"
 #include "editor/shell/dialogs.h"
-#include "editor/shell/icons.h"
 #include "editor/shell/import_preview.h"
-#include "editor/shell/widgets.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 

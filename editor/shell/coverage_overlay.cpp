@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "editor/editor.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/model/editor.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 

@@ -5,7 +5,7 @@
 
 #include <imgui.h>
 
-#include "editor/editor.h"
+#include "editor/model/editor.h"
 #include "editor/shell/actions.h"
 #include "pointclouds/formats.h"
 

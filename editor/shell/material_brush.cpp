@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "editor/editor.h"
+#include "editor/model/editor.h"
 #include "editor/model/material_scope.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/widgets.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "item_probe.h"
 
-#include "editor/shell/shell.h"
-#include "editor/shell/theme.h"
+#include "editor/frame/shell.h"
+#include "editor/widgets/theme.h"
 
 namespace standpoint {
 

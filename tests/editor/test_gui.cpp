@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "demo_verbs.h"
-#include "editor/panels.h"
+#include "editor/panels/panels.h"
 #include "editor/shell/actions.h"
-#include "editor/shell/theme.h"
+#include "editor/widgets/theme.h"
 #include "item_probe.h"
 
 namespace standpoint {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/panels.h"
+#include "editor/panels/panels.h"
 
 #include <array>
 
 #include "editor/panels/panels_list.h"
-#include "editor/shell/icons.h"
+#include "editor/widgets/icons.h"
 
 namespace standpoint {
 

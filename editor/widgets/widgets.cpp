@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/shell/widgets.h"
+#include "editor/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
-#include "editor/editor.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/theme.h"
+#include "editor/model/editor.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
 
 namespace standpoint {
 

@@ -14,9 +14,11 @@
 #include "editor/model/budget_preview.h"
 #include "editor/model/camera.h"
 #include "editor/model/cloud.h"
+#include "editor/model/dialog_states.h"
 #include "editor/model/expected_view.h"
 #include "editor/model/import_preview.h"
 #include "editor/model/live_cloud.h"
+#include "editor/model/panel_states.h"
 #include "editor/model/picker.h"
 #include "editor/model/placement_view.h"
 #include "editor/model/scan_outlook.h"
@@ -29,8 +31,6 @@
 #include "editor/model/view_state.h"
 #include "editor/model/visibility.h"
 #include "editor/model/walk.h"
-#include "editor/panels/panel_states.h"
-#include "editor/shell/dialog_states.h"
 
 struct ImFont;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/shell/shell.h"
+#include "editor/frame/shell.h"
 
 #include <algorithm>
 #include <array>
@@ -9,14 +9,14 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include "editor/editor.h"
-#include "editor/panels.h"
+#include "editor/model/editor.h"
+#include "editor/panels/panels.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
-#include "editor/shell/icons.h"
 #include "editor/shell/import_preview.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 

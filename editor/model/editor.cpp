@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/editor.h"
+#include "editor/model/editor.h"
 
 #include <algorithm>
 #include <utility>
