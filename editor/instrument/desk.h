@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "editor/model/desktop_opener.h"
-#include "editor/model/editor.h"
+#include "editor/shell/editor.h"
 #include "emulated-ui/draw/device_view.h"
 #include "emulated-ui/host.h"
 #include "emulated-ui/menus.h"

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "editor/model/editor.h"
 #include "editor/model/interface_scale.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
+#include "editor/shell/editor.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"

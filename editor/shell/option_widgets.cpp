@@ -6,9 +6,9 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "editor/model/editor.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
+#include "editor/shell/editor.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/widgets.h"
 

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "editor/model/editor.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/coverage_overlay.h"
+#include "editor/shell/editor.h"
 #include "editor/shell/expected_overlay.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"

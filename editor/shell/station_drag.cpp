@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "editor/model/editor.h"
+#include "editor/shell/editor.h"
 #include "project/levelling.h"
 
 namespace standpoint {
@@ -72,8 +72,8 @@ bool dragStation(Editor& editor, ImVec2 origin, bool hovered) {
   if (!hovered || editor.view.dragging || editor.view.tool != Tool::select || !ImGui::IsMouseClicked(0)) return false;
   dragged = stationAt(editor, origin);
   if (dragged < 0) return false;
-  editor.panels.survey.station = dragged;
-  editor.panels.survey.target = -1;
+  editor.survey.station = dragged;
+  editor.survey.target = -1;
   return true;
 }
 

@@ -10,7 +10,7 @@
 #include <stb/stb_image_write.h>
 #include <vtk_glew.h>
 
-#include "editor/frame/shell.h"
+#include "editor/shell/shell.h"
 #include "editor/viewport/vtk_scene_view.h"
 #include "editor/widgets/theme.h"
 

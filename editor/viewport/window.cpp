@@ -13,11 +13,11 @@
 #include <imgui_internal.h>
 #include <vtk_glew.h>
 
-#include "editor/frame/shell.h"
 #include "editor/model/input_queue.h"
 #include "editor/model/interface_scale.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/import_preview.h"
+#include "editor/shell/shell.h"
 #include "editor/viewport/vtk_scene_view.h"
 #include "editor/widgets/theme.h"
 

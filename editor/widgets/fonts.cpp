@@ -8,7 +8,7 @@
 #include <imgui.h>
 #include <imgui_freetype.h>
 
-#include "editor/model/editor.h"
+#include "editor/model/style.h"
 #include "editor/widgets/theme.h"
 
 namespace standpoint {

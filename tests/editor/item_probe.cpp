@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "item_probe.h"
 
-#include "editor/frame/shell.h"
+#include "editor/shell/shell.h"
 #include "editor/widgets/theme.h"
 
 namespace standpoint {

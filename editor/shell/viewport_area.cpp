@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "editor/frame/shell.h"
-#include "editor/model/editor.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/coverage_overlay.h"
+#include "editor/shell/editor.h"
 #include "editor/shell/expected_overlay.h"
 #include "editor/shell/material_brush.h"
 #include "editor/shell/overlay.h"
+#include "editor/shell/shell.h"
 #include "editor/shell/station_drag.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"

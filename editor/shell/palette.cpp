@@ -7,10 +7,10 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "editor/model/editor.h"
 #include "editor/panels/panels.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
+#include "editor/shell/editor.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/widgets.h"
