@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
-#include "editor/editor.h"
 #include "editor/model/scan_form.h"
+#include "editor/shell/editor.h"
 #include "editor/viewport/offscreen.h"
 #include "project/verb.h"
 
@@ -49,7 +49,7 @@ struct Times {
 };
 
 Times once(Editor& editor, Offscreen& offscreen, const std::filesystem::path& file) {
-  const auto& asked = editor.panels.scan.asked;
+  const auto& asked = editor.scan_choice;
   auto options = scanOptions(asked);
   options["output"] = file.string();
   options["stations"] = editor.session.document().job->stations.front().name;
@@ -102,9 +102,9 @@ int main(int count, char** words) {
     for (int k = 0; k < kTimes; ++k) runs.push_back(once(editor, **offscreen, folder / "s.e57"));
     std::sort(runs.begin(), runs.end(), [](const Times& a, const Times& b) { return a.drawn_ms < b.drawn_ms; });
     std::printf("%s: %llu triangles, %s: first points drawn after %.0f ms (median of %d; %.0f to %.0f), %zu of them\n",
-                words[i], static_cast<unsigned long long>(editor.triangles()),
-                editor.panels.scan.asked.instrument.c_str(), runs[kTimes / 2].drawn_ms, kTimes, runs.front().drawn_ms,
-                runs.back().drawn_ms, runs[kTimes / 2].points);
+                words[i], static_cast<unsigned long long>(editor.triangles()), editor.scan_choice.instrument.c_str(),
+                runs[kTimes / 2].drawn_ms, kTimes, runs.front().drawn_ms, runs.back().drawn_ms,
+                runs[kTimes / 2].points);
   }
   std::filesystem::remove_all(folder);
   return 0;

@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 
 #include "editor/device_pictures.h"
-#include "editor/editor.h"
 #include "editor/instrument/instrument.h"
 #include "editor/pictures.h"
 #include "editor/shell/actions.h"
+#include "editor/shell/editor.h"
 #include "editor/viewport/offscreen.h"
 #include "editor/viewport/window.h"
 #include "pointclouds/formats.h"

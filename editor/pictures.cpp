@@ -75,7 +75,7 @@ void materials(Editor& editor) {
   }
   editor.view.colour = ColourMode::material;
   const auto& uses = editor.session.document().materials->result.report.uses;
-  if (!uses.empty()) editor.panels.materials.chosen = uses.front().material;
+  if (!uses.empty()) editor.material.id = uses.front().material;
 }
 
 // Held against a cloud, where one lies under the model.
@@ -92,7 +92,7 @@ void measured(Editor& editor) {
 void survey(Editor& editor) {
   editor.workspace = Workspace::survey;
   cutIntoStorey(editor);
-  if (const auto& job = editor.session.document().job; job && !job->stations.empty()) editor.panels.survey.station = 0;
+  if (const auto& job = editor.session.document().job; job && !job->stations.empty()) editor.survey.station = 0;
 }
 
 void instrument(Editor& editor) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "editor/editor.h"
+#include "editor/shell/editor.h"
 #include "editor/viewport/offscreen.h"
 
 namespace standpoint {

@@ -214,7 +214,7 @@ void startExercise(InstrumentDesk& desk, Editor& editor, const Exercise& exercis
   if (!editor.session.open(folder / "project")) return;
   editor.showCloud({});  // what was looked at before belongs to another environment
   editor.view.colour = ColourMode::model;
-  editor.panels.scan.asked = ScanChoice{.instrument = (*rehearsal)->device().type().instrument.id};
+  editor.scan_choice = ScanChoice{.instrument = (*rehearsal)->device().type().instrument.id};
   desk.opener.forget();
   desk.host.reset();
   desk.rehearsal = *std::move(rehearsal);

@@ -9,8 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "editor/editor.h"
 #include "editor/model/desktop_opener.h"
+#include "editor/shell/editor.h"
 #include "emulated-ui/draw/device_view.h"
 #include "emulated-ui/host.h"
 #include "emulated-ui/menus.h"

@@ -8,8 +8,8 @@
 #include <imgui_stdlib.h>
 
 #include "editor/instrument/desk.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/widgets.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/widgets.h"
 #include "emulated-ui/device/format.h"
 #include "emulated-ui/rehearsal/marks.h"
 

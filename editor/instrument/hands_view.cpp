@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "editor/instrument/desk.h"
-#include "editor/shell/widgets.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "editor/instrument/desk.h"
-#include "editor/shell/widgets.h"
+#include "editor/widgets/widgets.h"
 #include "emulated-ui/device/costs.h"
 
 namespace standpoint {

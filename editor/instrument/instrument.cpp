@@ -9,8 +9,8 @@
 
 #include "editor/instrument/desk.h"
 #include "editor/instrument/ticker.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/widgets.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 

@@ -6,8 +6,8 @@
 #include <imgui.h>
 
 #include "editor/instrument/desk.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/widgets.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/widgets.h"
 #include "emulated-ui/device/format.h"
 
 namespace standpoint {

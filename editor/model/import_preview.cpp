@@ -129,7 +129,7 @@ void ImportPreview::close() {
   facts_ = {};
   error_ = {};
   overrides = read_with_ = outcome_with_ = {};
-  filter = {};
+  ++closed_;
   first_size_m_.reset();
   has_first_ = false;
 }

@@ -65,12 +65,13 @@ class ImportPreview {
   Outcome take();  // only when ready; closes
 
   Stage stage() const { return stage_; }
+  std::uint64_t closed() const { return closed_; }  // how often: what belongs to one preview ends with it
   bool isOpen() const { return stage_ != Stage::closed; }
   bool reading() const { return task_ != nullptr; }  // also when an earlier result is still shown
   bool changed() const { return !(overrides == read_with_); }
   const std::vector<std::filesystem::path>& files() const { return files_; }
   std::string fileNames() const;
-  Task* task() { return task_.get(); }
+  Task* task() const { return task_.get(); }
   const Outcome* outcome() const { return outcome_ ? &*outcome_ : nullptr; }
   const ImportFacts& facts() const { return facts_; }
   // Of the last reading, with an empty message when it went well. When only other overrides failed, what was read
@@ -80,7 +81,6 @@ class ImportPreview {
   const std::optional<Eigen::Vector3d>& firstSize_m() const { return first_size_m_; }
 
   ImportOverrides overrides;  // as the user edits them
-  LogFilter filter;           // of its issues
 
  private:
   void start();
@@ -97,6 +97,7 @@ class ImportPreview {
   std::optional<Eigen::Vector3d> first_size_m_;
   Eigen::Vector3d size_at_first_m_ = Eigen::Vector3d::Zero();
   bool has_first_ = false;
+  std::uint64_t closed_ = 0;
 };
 
 }  // namespace standpoint

@@ -7,23 +7,24 @@ namespace standpoint {
 
 namespace {
 
-using Kind = InputEvent::Kind;
+using EventKind = InputEvent::Kind;
 
 // A click belongs to the place where the pointer was, so nothing moves after a button within a frame, and a key or a
 // character never overtakes the other.
 bool mustWait(const InputEvent& event, const std::vector<InputEvent>& taken) {
-  const auto has = [&](Kind kind) {
+  const auto has = [&](EventKind kind) {
     return std::any_of(taken.begin(), taken.end(), [&](const InputEvent& e) { return e.kind == kind; });
   };
   switch (event.kind) {
-    case Kind::move: return has(Kind::button) || has(Kind::scroll) || has(Kind::key) || has(Kind::character);
-    case Kind::button: return has(Kind::button) || has(Kind::scroll);
-    case Kind::scroll: return has(Kind::button);
-    case Kind::character: return has(Kind::button);
-    case Kind::key:
-      return has(Kind::button) || has(Kind::character) ||
+    case EventKind::move:
+      return has(EventKind::button) || has(EventKind::scroll) || has(EventKind::key) || has(EventKind::character);
+    case EventKind::button: return has(EventKind::button) || has(EventKind::scroll);
+    case EventKind::scroll: return has(EventKind::button);
+    case EventKind::character: return has(EventKind::button);
+    case EventKind::key:
+      return has(EventKind::button) || has(EventKind::character) ||
              std::any_of(taken.begin(), taken.end(),
-                         [&](const InputEvent& e) { return e.kind == Kind::key && e.code == event.code; });
+                         [&](const InputEvent& e) { return e.kind == EventKind::key && e.code == event.code; });
   }
   return false;
 }
@@ -31,7 +32,7 @@ bool mustWait(const InputEvent& event, const std::vector<InputEvent>& taken) {
 }  // namespace
 
 void InputQueue::push(const InputEvent& event) {
-  if (event.kind == Kind::move && !events_.empty() && events_.back().kind == Kind::move)
+  if (event.kind == EventKind::move && !events_.empty() && events_.back().kind == EventKind::move)
     events_.back() = event;
   else
     events_.push_back(event);

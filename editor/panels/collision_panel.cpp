@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <set>
+#include <string>
+
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "editor/editor.h"
-#include "editor/panels/panels_list.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/panels/actions.h"
+#include "editor/panels/panel.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 
 namespace {
+
+struct CollisionState {
+  int doors = 0;                 // 0 open, 1 closed, 2 one by one
+  std::set<std::string> closed;  // ids of the doors that stand closed, one by one
+};
 
 void numberRow(const char* label, const char* id, double& value, float low, float high) {
   ui::propertyLabel(label);
@@ -18,21 +26,21 @@ void numberRow(const char* label, const char* id, double& value, float low, floa
   if (ImGui::SliderFloat(id, &shown, low, high, "%.2f m", ImGuiSliderFlags_AlwaysClamp)) value = shown;
 }
 
-void selectable(Editor& editor, std::uint32_t product) {
-  if (ImGui::Selectable("###row", editor.selection.contains(product),
+void selectable(const Model& model, Actions& actions, std::uint32_t product) {
+  if (ImGui::Selectable("###row", model.selection.contains(product),
                         ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap)) {
-    editor.select(product, true);
-    editor.frameSelection();
+    actions.reveal(product);
+    actions.frameSelection();
   }
   ImGui::SameLine(0, 0);
-  ui::fitted(productLabel(editor.environment()->products[product]), ImGui::GetContentRegionAvail().x);
+  ui::fitted(productLabel(model.environment()->products[product]), ImGui::GetContentRegionAvail().x);
 }
 
-bool beginRows(Editor& editor, const char* id, const char* title, std::size_t rows) {
+bool beginRows(const Model& model, const char* id, const char* title, std::size_t rows) {
   const float height = ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(std::min<std::size_t>(rows, 8) + 1);
   if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg, {0, height})) return false;
   ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("State", ImGuiTableColumnFlags_WidthFixed, editor.px(128));
+  ImGui::TableSetupColumn("State", ImGuiTableColumnFlags_WidthFixed, model.px(128));
   return true;
 }
 
@@ -42,17 +50,16 @@ void beginRow(int id) {
   ImGui::TableNextColumn();
 }
 
-void drawDoors(Editor& editor, const CollideResult& result) {
-  ui::heading(editor, "Doors");
+void drawDoors(const Model& model, CollisionState& state, Actions& actions, const CollideResult& result) {
+  ui::heading(model, "Doors");
   if (result.doors.empty()) {
     ui::dimText("The model has no doors.");
     return;
   }
-  auto& state = editor.panels.collision;
-  if (!beginRows(editor, "doors", "Door", result.doors.size())) return;
+  if (!beginRows(model, "doors", "Door", result.doors.size())) return;
   for (std::size_t i = 0; i < result.doors.size(); ++i) {
     const auto& door = result.doors[i];
-    const auto& id = editor.environment()->products[door.product].id;
+    const auto& id = model.environment()->products[door.product].id;
     beginRow(static_cast<int>(i));
     if (state.doors == 2) {
       bool closed = state.closed.contains(id);
@@ -60,7 +67,7 @@ void drawDoors(Editor& editor, const CollideResult& result) {
       ui::tooltip("Stands closed when the shapes are computed again");
       ImGui::SameLine();
     }
-    selectable(editor, door.product);
+    selectable(model, actions, door.product);
     ImGui::TableNextColumn();
     const auto tone = door.closed                                           ? tone::kDim
                       : !door.floor || (door.passable && !door.led_through) ? tone::kWarning
@@ -77,14 +84,14 @@ void drawDoors(Editor& editor, const CollideResult& result) {
   ImGui::EndTable();
 }
 
-void drawRooms(Editor& editor, const CollideResult& result) {
+void drawRooms(const Model& model, Actions& actions, const CollideResult& result) {
   if (result.rooms.empty()) return;
-  ui::heading(editor, "Rooms");
-  if (!beginRows(editor, "rooms", "Room", result.rooms.size())) return;
+  ui::heading(model, "Rooms");
+  if (!beginRows(model, "rooms", "Room", result.rooms.size())) return;
   for (std::size_t i = 0; i < result.rooms.size(); ++i) {
     const auto& room = result.rooms[i];
     beginRow(static_cast<int>(i));
-    selectable(editor, room.product);
+    selectable(model, actions, room.product);
     ImGui::TableNextColumn();
     const char* text = room.reached           ? ICON_CHECK "  reached"
                        : room.walkable_m2 > 0 ? ICON_BAN "  no way in"
@@ -99,44 +106,43 @@ void drawRooms(Editor& editor, const CollideResult& result) {
 }
 
 // The options of the verb that the panel's fields stand for.
-nlohmann::json options(const CollisionPanelState& state) {
+nlohmann::json options(const Model& model, const CollisionState& state) {
   constexpr const char* kDoors[] = {"open", "closed", "as-set"};
   nlohmann::json result = {
-      {"agent-radius", state.agent_radius_m}, {"agent-height", state.agent_height_m}, {"doors", kDoors[state.doors]}};
+      {"agent-radius", model.walker.radius_m}, {"agent-height", model.walker.height_m}, {"doors", kDoors[state.doors]}};
   if (state.doors == 2) result["closed"] = state.closed;
   return result;
 }
 
-}  // namespace
-
-void drawCollisionPanel(Editor& editor) {
-  const auto& document = editor.session.document();
+void draw(const Model& model, CollisionState& state, Actions& actions) {
+  const auto& document = model.session.document();
   if (!document.imported) {
-    ui::emptyState(editor, ICON_WALK, "Nothing to walk on", "Import a model first.");
+    ui::emptyState(model, ICON_WALK, "Nothing to walk on", "Import a model first.");
     return;
   }
-  auto& state = editor.panels.collision;
   if (ui::beginProperties("agent", 0.42F)) {
-    numberRow("Walker's radius", "###radius", state.agent_radius_m, 0.05F, 1.0F);
-    numberRow("Walker's height", "###height", state.agent_height_m, 0.3F, 2.5F);
+    Body walker = model.walker;
+    numberRow("Walker's radius", "###radius", walker.radius_m, 0.05F, 1.0F);
+    numberRow("Walker's height", "###height", walker.height_m, 0.3F, 2.5F);
+    actions.set(walker);
     ui::propertyLabel("Doors");
     ImGui::Combo("###doors", &state.doors, "open\0closed\0one by one\0");
     ui::endProperties();
   }
-  if (ui::primaryButton(ICON_CUBES "  Compute collision shapes###collide", editor.session.whyNot("collide"),
+  if (ui::primaryButton(ICON_CUBES "  Compute collision shapes###collide", model.session.whyNot("collide"),
                         {-FLT_MIN, 0})) {
-    editor.session.start("collide", options(state), "Collision shapes");
-    editor.view.walkable = true;
+    actions.start("collide", options(model, state), "Collision shapes");
+    actions.showWalkable(true);
   }
   if (!document.collision) {
-    ui::gap(editor);
+    ui::gap(model);
     ui::emptyState(
-        editor, ICON_WALK, "Not computed yet",
+        model, ICON_WALK, "Not computed yet",
         "Shapes that a physics engine can use, the area that a person can reach, and which doors let one through.");
     return;
   }
   const auto& result = *document.collision;
-  ui::heading(editor, "Result");
+  ui::heading(model, "Result");
   std::size_t passable = 0;
   std::uint64_t triangles = 0;
   for (const auto& d : result.doors) passable += d.passable ? 1 : 0;
@@ -148,10 +154,17 @@ void drawCollisionPanel(Editor& editor) {
                  fmt::format("{}, {} triangles", groupedDigits(result.shapes.size()), groupedDigits(triangles)));
     ui::endProperties();
   }
-  ImGui::Checkbox("Show the walkable area", &editor.view.walkable);
-  ImGui::Checkbox("Show the shapes instead of the model", &editor.view.shapes);
-  drawDoors(editor, result);
-  drawRooms(editor, result);
+  bool walkable = model.view.walkable, shapes = model.view.shapes;
+  if (ImGui::Checkbox("Show the walkable area", &walkable)) actions.showWalkable(walkable);
+  if (ImGui::Checkbox("Show the shapes instead of the model", &shapes)) actions.showShapes(shapes);
+  drawDoors(model, state, actions, result);
+  drawRooms(model, actions, result);
+}
+
+}  // namespace
+
+void drawCollisionPanel(const Model& model, PanelStates& states, Actions& actions) {
+  draw(model, states.of<CollisionState>(), actions);
 }
 
 }  // namespace standpoint

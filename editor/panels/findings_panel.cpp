@@ -5,31 +5,35 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "editor/editor.h"
-#include "editor/panels/panels_list.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/material_brush.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/panels/actions.h"
+#include "editor/panels/panel.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 #include "project/material_findings.h"
 
 namespace standpoint {
 
 namespace {
 
-void choose(Editor& editor, const MaterialFinding& finding) {
-  auto& state = editor.panels.findings;
+struct FindingsState {
+  std::string chosen;   // MaterialFinding::id
+  std::string because;  // what stands in the field
+  std::uint64_t seen_revision = ~0ULL;
+  std::vector<MaterialFinding> all;  // of that revision
+};
+
+void choose(FindingsState& state, Actions& actions, const MaterialFinding& finding) {
   state.chosen = finding.id;
   state.because = finding.because;
-  editor.selection.set(finding.products);
+  actions.select(finding.products);
 }
 
 // Alone, as what is doubtful often stands in a room.
-void look(Editor& editor, const MaterialFinding& finding) {
-  editor.selection.set(finding.products);
-  editor.visibility.isolate(finding.products);
-  editor.visibility.cut_height_m.reset();  // some of it may stand above
-  editor.frameSelection();
+void look(Actions& actions, const MaterialFinding& finding) {
+  actions.select(finding.products);
+  actions.isolate(finding.products);
+  actions.frameSelection();
 }
 
 void drawMark(const MaterialFinding& finding) {
@@ -38,20 +42,20 @@ void drawMark(const MaterialFinding& finding) {
   ImGui::TextColored(colour(warning ? tone::kWarning : tone::kDim), "%s", warning ? ICON_WARNING : ICON_INFO);
 }
 
-void drawList(Editor& editor, const std::vector<MaterialFinding>& findings) {
-  auto& state = editor.panels.findings;
+void drawList(const Model& model, FindingsState& state, Actions& actions,
+              const std::vector<MaterialFinding>& findings) {
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(findings.size()));
   while (clipper.Step())
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
       const auto& finding = findings[static_cast<std::size_t>(i)];
       ImGui::PushID(i);
-      if (ImGui::Selectable("###finding", state.chosen == finding.id)) choose(editor, finding);
+      if (ImGui::Selectable("###finding", state.chosen == finding.id)) choose(state, actions, finding);
       ImGui::SameLine(0, 0);
       drawMark(finding);
       ImGui::SameLine();
       const auto area = fmt::format("{:.1f} m²", finding.area_m2);
-      const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(area.c_str()).x - editor.px(14);
+      const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(area.c_str()).x - model.px(14);
       ui::fitted(finding.message, room);
       ImGui::SameLine();
       ui::textRightAligned(area);
@@ -60,59 +64,56 @@ void drawList(Editor& editor, const std::vector<MaterialFinding>& findings) {
 }
 
 // A remedy whose material is the user's to choose takes the one that is chosen in the lists.
-void drawRemedy(Editor& editor, const Remedy& remedy, const std::string& why) {
+void drawRemedy(const Model& model, Actions& actions, const Remedy& remedy, const std::string& why) {
   const bool open = remedy.material.empty();
-  const auto& material = open ? editor.panels.materials.chosen : remedy.material;
-  const auto* known = knownMaterial(editor, material);
+  const auto& material = open ? model.material.id : remedy.material;
+  const auto* known = model.offeredMaterial(material);
   const std::string blocked = !why.empty() ? why : known == nullptr ? "Choose a material in the list first" : "";
   const std::string text =
       open ? fmt::format("{}: {}", remedy.text, known == nullptr ? "choose a material" : known->label) : remedy.text;
   if (ui::button(fmt::format("{}  {}###{}{}", ICON_MAGIC, text, remedy.selector, remedy.material).c_str(), blocked,
                  {-FLT_MIN, 0}))
-    editor.session.start("materials", {{"assign", assignWords(remedy, material)}}, remedy.text);
+    actions.start("materials", {{"assign", assignWords(remedy, material)}}, remedy.text);
 }
 
-void drawAcceptance(Editor& editor, const MaterialFinding& finding, const std::string& why) {
-  auto& state = editor.panels.findings;
+void drawAcceptance(const Model& model, FindingsState& state, Actions& actions, const MaterialFinding& finding,
+                    const std::string& why) {
   if (!finding.because.empty()) {
     ui::wrapped("Accepted: " + finding.because);
     if (ui::button(ICON_UNDO "  Open it again###reopen", why, {-FLT_MIN, 0}))
-      editor.session.start("materials", {{"reopen", {finding.id}}}, "Open a finding again");
+      actions.start("materials", {{"reopen", {finding.id}}}, "Open a finding again");
     return;
   }
-  const float button = editor.px(84);
+  const float button = model.px(84);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x);
   ImGui::InputTextWithHint("###because", "It may stand, because …", &state.because);
   ImGui::SameLine();
   const std::string blocked = !why.empty() ? why : state.because.empty() ? "Say why it may stand" : "";
   if (ui::button(ICON_CHECK "  Accept###accept", blocked, {button, 0}))
-    editor.session.start("materials", {{"accept", {finding.id}}, {"because", state.because}}, "Accept a finding");
+    actions.start("materials", {{"accept", {finding.id}}, {"because", state.because}}, "Accept a finding");
 }
 
-void drawFinding(Editor& editor, const MaterialFinding& finding) {
+void drawFinding(const Model& model, FindingsState& state, Actions& actions, const MaterialFinding& finding) {
   ui::wrapped(finding.message);
   ImGui::PushStyleColor(ImGuiCol_Text, tone::kDim);
   ui::wrapped(finding.why);
   ImGui::PopStyleColor();
   if (ui::iconButton(ICON_CROSSHAIRS "  Show it alone###look", "Hides the rest and brings it into view",
                      finding.products.empty() ? "It has no product" : ""))
-    look(editor, finding);
+    look(actions, finding);
   ImGui::SameLine();
-  if (ui::iconButton(ICON_EYE "  Show all###show-all", "Everything again")) editor.visibility.showAll();
-  const auto why = editor.session.whyNot("materials");
-  for (const auto& remedy : finding.remedies) drawRemedy(editor, remedy, why);
-  drawAcceptance(editor, finding, why);
+  if (ui::iconButton(ICON_EYE "  Show all###show-all", "Everything again")) actions.showAll();
+  const auto why = model.session.whyNot("materials");
+  for (const auto& remedy : finding.remedies) drawRemedy(model, actions, remedy, why);
+  drawAcceptance(model, state, actions, finding, why);
 }
 
-}  // namespace
-
-void drawFindingsPanel(Editor& editor) {
-  const auto& choice = editor.session.document().materials;
+void draw(const Model& model, FindingsState& state, Actions& actions) {
+  const auto& choice = model.session.document().materials;
   if (!choice) return ui::dimText("Findings come when materials have been assigned.");
-  auto& state = editor.panels.findings;
-  if (state.seen_revision != editor.session.revision()) {
-    state.seen_revision = editor.session.revision();
-    state.all = materialFindings(editor.session.document());
+  if (state.seen_revision != model.session.revision()) {
+    state.seen_revision = model.session.revision();
+    state.all = materialFindings(model.session.document());
   }
   const auto& findings = state.all;
   const auto open =
@@ -128,13 +129,19 @@ void drawFindingsPanel(Editor& editor) {
   ImGui::BeginChild("list", {chosen == findings.end() ? width : width * 0.52F, 0});
   ui::dimText(open == 0 ? fmt::format("All {} accepted", findings.size())
                         : fmt::format("{} open of {}", open, findings.size()));
-  drawList(editor, findings);
+  drawList(model, state, actions, findings);
   ImGui::EndChild();
   if (chosen == findings.end()) return;
   ImGui::SameLine();
   ImGui::BeginChild("finding");
-  drawFinding(editor, *chosen);
+  drawFinding(model, state, actions, *chosen);
   ImGui::EndChild();
+}
+
+}  // namespace
+
+void drawFindingsPanel(const Model& model, PanelStates& states, Actions& actions) {
+  draw(model, states.of<FindingsState>(), actions);
 }
 
 }  // namespace standpoint

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -6,16 +7,25 @@
 #include <imgui_stdlib.h>
 
 #include "core/units.h"
-#include "editor/editor.h"
-#include "editor/panels/panels_list.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/panels/actions.h"
+#include "editor/panels/panel.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 #include "project/geodesy.h"
 
 namespace standpoint {
 
 namespace {
+
+struct GeoreferenceState {
+  std::string crs;
+  std::array<double, 3> origin_m = {0, 0, 0};
+  double rotation_deg = 0;
+  const void* filled_from = nullptr;  // the georeference that the fields were filled from
+  const void* derived_from = nullptr;
+  Result<MapFactors> derived = MapFactors();
+};
 
 double rotationDeg(const MapConversion& m) { return std::atan2(m.x_axis_ordinate, m.x_axis_abscissa) / kRadPerDeg; }
 
@@ -44,7 +54,7 @@ void drawUtm(double latitude_deg, double longitude_deg) {
 }
 
 // What follows from the CRS; computed anew only for another georeference.
-void drawDerived(Editor& editor, const Georeference& g) {
+void drawDerived(const Model& model, GeoreferenceState& state, const Georeference& g) {
   if (!g.map_from_file || g.crs.empty()) {
     if (g.site && ui::beginProperties("site", 0.42F)) {
       drawUtm(g.site->latitude_deg, g.site->longitude_deg);
@@ -52,12 +62,11 @@ void drawDerived(Editor& editor, const Georeference& g) {
     }
     return;
   }
-  auto& state = editor.panels.georeference;
   if (state.derived_from != &g) {
     state.derived_from = &g;
     state.derived = geographic(g.crs, mapFromFile(*g.map_from_file, g.shift_m));
   }
-  ui::heading(editor, "On Earth");
+  ui::heading(model, "On Earth");
   if (!state.derived) {
     ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
     ImGui::SameLine();
@@ -74,7 +83,7 @@ void drawDerived(Editor& editor, const Georeference& g) {
   ui::endProperties();
 }
 
-void fill(GeoreferencePanelState& state, const Georeference& g) {
+void fill(GeoreferenceState& state, const Georeference& g) {
   if (state.filled_from == &g) return;
   state.filled_from = &g;
   state.crs = g.crs;
@@ -83,9 +92,8 @@ void fill(GeoreferencePanelState& state, const Georeference& g) {
   state.rotation_deg = rotationDeg(*g.map_from_file);
 }
 
-void drawForm(Editor& editor) {
-  auto& state = editor.panels.georeference;
-  ui::heading(editor, "Set");
+void drawForm(const Model& model, GeoreferenceState& state, Actions& actions) {
+  ui::heading(model, "Set");
   if (ui::beginProperties("form", 0.42F)) {
     ui::propertyLabel("CRS");
     ImGui::InputTextWithHint("###crs", "EPSG:25832", &state.crs);
@@ -99,26 +107,30 @@ void drawForm(Editor& editor) {
     ImGui::InputDouble("###rotation", &state.rotation_deg, 0, 0, "%.6f°");
     ui::endProperties();
   }
-  if (!ui::primaryButton(ICON_GLOBE "  Set the place###georeference", editor.session.whyNot("georeference"),
+  if (!ui::primaryButton(ICON_GLOBE "  Set the place###georeference", model.session.whyNot("georeference"),
                          {-FLT_MIN, 0}))
     return;
   nlohmann::json options = {{"origin", state.origin_m}, {"rotation-deg", state.rotation_deg}};
   if (!state.crs.empty()) options["crs"] = state.crs;
-  editor.session.start("georeference", std::move(options), "Set the place of the model");
+  actions.start("georeference", std::move(options), "Set the place of the model");
+}
+
+void draw(const Model& model, GeoreferenceState& state, Actions& actions) {
+  const auto& georeference = model.session.document().georeference;
+  if (!georeference) {
+    ui::emptyState(model, ICON_GLOBE, "No place yet", "Where a model stands on Earth is read when it is imported.");
+    return;
+  }
+  fill(state, *georeference);
+  drawStated(*georeference);
+  drawDerived(model, state, *georeference);
+  drawForm(model, state, actions);
 }
 
 }  // namespace
 
-void drawGeoreferencePanel(Editor& editor) {
-  const auto& georeference = editor.session.document().georeference;
-  if (!georeference) {
-    ui::emptyState(editor, ICON_GLOBE, "No place yet", "Where a model stands on Earth is read when it is imported.");
-    return;
-  }
-  fill(editor.panels.georeference, *georeference);
-  drawStated(*georeference);
-  drawDerived(editor, *georeference);
-  drawForm(editor);
+void drawGeoreferencePanel(const Model& model, PanelStates& states, Actions& actions) {
+  draw(model, states.of<GeoreferenceState>(), actions);
 }
 
 }  // namespace standpoint

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/panels/import_preview_panel.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -7,12 +9,10 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "editor/editor.h"
-#include "editor/shell/actions.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/import_preview.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/panels/actions.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 
@@ -37,9 +37,9 @@ bool choose(const char* id, const std::array<Choice, N>& choices, std::string& v
   return changed;
 }
 
-void heading(Editor& editor, const char* text) {
-  ui::gap(editor, 4);
-  ui::heading(editor, text);
+void heading(const Model& model, const char* text) {
+  ui::gap(model, 4);
+  ui::heading(model, text);
 }
 
 // A text that counts when it is left or Enter is pressed: each change reads the file again.
@@ -48,10 +48,10 @@ bool textField(const char* id, const char* hint, std::string& text) {
   return ImGui::IsItemDeactivatedAfterEdit();
 }
 
-void drawPlace(Editor& editor) {
-  auto& preview = editor.preview;
-  auto& chosen = preview.overrides;
-  heading(editor, "Size and place");
+void drawPlace(const Model& model, Actions& actions) {
+  const auto& preview = model.preview;
+  auto chosen = preview.overrides;
+  heading(model, "Size and place");
   if (!ui::beginProperties("preview-place", 0.28F)) return;
   const auto& facts = preview.facts();
   ui::property("Size", sizeText(facts.size_m));
@@ -60,7 +60,7 @@ void drawPlace(Editor& editor) {
   bool changed = choose("###preview-unit", kUnits, chosen.unit);
   ui::propertyLabel("Up");
   changed |= choose("###preview-up", kUps, chosen.up);
-  const auto& georeference = *editor.shownDocument().georeference;
+  const auto& georeference = *model.shownDocument().georeference;
   ui::propertyLabel("Shift");
   changed |= textField("###preview-shift", "auto, none or E,N,H", chosen.shift);
   ui::tooltip(fmt::format("Taken off all coordinates while working, put back on export. Now {:.0f}, {:.0f}, {:.0f} m",
@@ -84,19 +84,19 @@ void drawPlace(Editor& editor) {
     ui::wrapped(std::string(ICON_WARNING "  ") + preview.error().message);
     ImGui::PopStyleColor();
   }
-  if (changed) preview.readAgain();
+  actions.setOverrides(chosen, changed);
 }
 
-void drawClasses(Editor& editor, float height) {
-  const auto& facts = editor.preview.facts();
+void drawClasses(const Model& model, float height) {
+  const auto& facts = model.preview.facts();
   heading(
-      editor,
+      model,
       fmt::format("{} products, {} triangles", groupedDigits(facts.products), groupedDigits(facts.triangles)).c_str());
   const auto flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoPadOuterX;
   if (!ImGui::BeginTable("preview-classes", 3, flags, {0, height})) return;
   ImGui::TableSetupColumn("class", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("products", ImGuiTableColumnFlags_WidthFixed, editor.px(64));
-  ImGui::TableSetupColumn("triangles", ImGuiTableColumnFlags_WidthFixed, editor.px(84));
+  ImGui::TableSetupColumn("products", ImGuiTableColumnFlags_WidthFixed, model.px(64));
+  ImGui::TableSetupColumn("triangles", ImGuiTableColumnFlags_WidthFixed, model.px(84));
   for (const auto& row : facts.classes) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -111,8 +111,8 @@ void drawClasses(Editor& editor, float height) {
   ImGui::EndTable();
 }
 
-void drawIssue(Editor& editor, const Issue& issue, int i) {
-  const auto product = productOf(*editor.shown(), issue.source);
+void drawIssue(const Model& model, Actions& actions, const Issue& issue, int i) {
+  const auto product = productOf(*model.shown(), issue.source);
   ImGui::PushID(i);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
@@ -122,10 +122,10 @@ void drawIssue(Editor& editor, const Issue& issue, int i) {
   ImGui::TextColored(colour(shade), "%s", issue.severity == Severity::note ? ICON_INFO : ICON_WARNING);
   ImGui::TableNextColumn();
   const ImVec2 at = ImGui::GetCursorPos();
-  if (product && ImGui::Selectable("###issue", editor.preview_selection.contains(*product),
+  if (product && ImGui::Selectable("###issue", model.preview_selection.contains(*product),
                                    ImGuiSelectableFlags_AllowItemOverlap)) {
-    editor.preview_selection.set(*product);
-    editor.frameSelection();
+    actions.selectInPreview(*product);
+    actions.frameSelection();
   }
   ImGui::SetCursorPos(at);
   const std::string text = issue.source.empty() ? issue.message : issue.source + "  " + issue.message;
@@ -135,15 +135,15 @@ void drawIssue(Editor& editor, const Issue& issue, int i) {
   ImGui::PopID();
 }
 
-void drawIssues(Editor& editor) {
-  const auto& facts = editor.preview.facts();
-  auto& filter = editor.preview.filter;
-  heading(editor, "Issues");
-  ui::filterButton(editor, "preview", ICON_BAN, "losses", facts.losses, tone::kBad, filter.losses);
-  ui::filterButton(editor, "preview", ICON_WARNING, "warnings", facts.warnings, tone::kWarning, filter.warnings);
-  ui::filterButton(editor, "preview", ICON_INFO, "notes", facts.notes, tone::kDim, filter.notes);
+void drawIssues(const Model& model, ImportPreviewState& state, Actions& actions) {
+  const auto& facts = model.preview.facts();
+  auto& filter = state.filter;
+  heading(model, "Issues");
+  ui::filterButton(model, "preview", ICON_BAN, "losses", facts.losses, tone::kBad, filter.losses);
+  ui::filterButton(model, "preview", ICON_WARNING, "warnings", facts.warnings, tone::kWarning, filter.warnings);
+  ui::filterButton(model, "preview", ICON_INFO, "notes", facts.notes, tone::kDim, filter.notes);
   ImGui::NewLine();
-  const auto& issues = editor.preview.outcome()->report.issues;
+  const auto& issues = model.preview.outcome()->report.issues;
   if (issues.empty()) {
     ImGui::TextColored(colour(tone::kGood), "%s  Nothing was lost or guessed", ICON_CHECK);
     return;
@@ -157,59 +157,59 @@ void drawIssues(Editor& editor) {
   if (!ImGui::BeginTable("preview-issues", 2,
                          ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoPadOuterX, {0, height}))
     return;
-  ImGui::TableSetupColumn("level", ImGuiTableColumnFlags_WidthFixed, editor.px(18));
+  ImGui::TableSetupColumn("level", ImGuiTableColumnFlags_WidthFixed, model.px(18));
   ImGui::TableSetupColumn("text", ImGuiTableColumnFlags_WidthStretch);
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(shown.size()));
   while (clipper.Step())
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
       const int issue = shown[static_cast<std::size_t>(i)];
-      drawIssue(editor, issues[static_cast<std::size_t>(issue)], issue);
+      drawIssue(model, actions, issues[static_cast<std::size_t>(issue)], issue);
     }
   ImGui::EndTable();
 }
 
-void drawReading(Editor& editor) {
-  auto& progress = editor.preview.task()->progress();
+void drawReading(const Model& model) {
+  auto& progress = model.preview.task()->progress();
   const std::string stage = progress.stageName();
-  ui::gap(editor, 6);
+  ui::gap(model, 6);
   ui::dimText(stage.empty() ? "Reading" : stage);
-  ui::gap(editor, 2);
-  ui::meter(editor, progress.fraction(), tone::kAccent);
-  ui::gap(editor, 2);
-  ui::dimText(fmt::format("{:.0f} %   {:.1f} s", progress.fraction() * 100, editor.preview.task()->seconds()));
+  ui::gap(model, 2);
+  ui::meter(model, progress.fraction(), tone::kAccent);
+  ui::gap(model, 2);
+  ui::dimText(fmt::format("{:.0f} %   {:.1f} s", progress.fraction() * 100, model.preview.task()->seconds()));
 }
 
-void drawFailure(Editor& editor) {
-  const Error& error = editor.preview.error();
-  ui::gap(editor, 6);
+void drawFailure(const Model& model) {
+  const Error& error = model.preview.error();
+  ui::gap(model, 6);
   ImGui::TextColored(colour(tone::kBad), "%s  It cannot be read", ICON_WARNING);
-  ui::gap(editor, 2);
+  ui::gap(model, 2);
   ui::wrapped(error.message);
   if (!error.source.empty()) ui::dimWrapped("in " + error.source);
 }
 
-std::string whyNotAccept(const Editor& editor, const char* verb) {
-  if (editor.preview.stage() == ImportPreview::Stage::failed) return "There is nothing to take in";
-  if (editor.preview.stage() != ImportPreview::Stage::ready || editor.preview.reading())
+std::string whyNotAccept(const Model& model, const char* verb) {
+  if (model.preview.stage() == ImportPreview::Stage::failed) return "There is nothing to take in";
+  if (model.preview.stage() != ImportPreview::Stage::ready || model.preview.reading())
     return "The file is still being read";
-  return editor.session.whyNot(verb);
+  return model.session.whyNot(verb);
 }
 
-void drawPreviewButtons(Editor& editor) {
+void drawPreviewButtons(const Model& model, Actions& actions) {
   const float gap = ImGui::GetStyle().ItemSpacing.x, room = ImGui::GetContentRegionAvail().x;
-  const bool can_add = editor.session.document().imported != nullptr;
+  const bool can_add = model.session.document().imported != nullptr;
   const float each = can_add ? (room - 2 * gap) / 4 : (room - gap) / 2;
-  if (ui::primaryButton(ICON_IMPORT "  Import###preview-import", whyNotAccept(editor, "import"), {each, editor.px(28)}))
-    acceptPreview(editor);
+  if (ui::primaryButton(ICON_IMPORT "  Import###preview-import", whyNotAccept(model, "import"), {each, model.px(28)}))
+    actions.acceptPreview();
   ImGui::SameLine();
   if (can_add) {
-    if (ui::button("Add to the environment###preview-add", whyNotAccept(editor, "add"), {2 * each, editor.px(28)},
+    if (ui::button("Add to the environment###preview-add", whyNotAccept(model, "add"), {2 * each, model.px(28)},
                    "Keeps the model, stations and scans that are open"))
-      addPreview(editor);
+      actions.addPreview();
     ImGui::SameLine();
   }
-  if (ui::button("Cancel###preview-cancel", {}, {each, editor.px(28)})) closePreview(editor);
+  if (ui::button("Cancel###preview-cancel", {}, {each, model.px(28)})) actions.closePreview();
 }
 
 std::string fileLine(const ImportPreview& preview) {
@@ -225,32 +225,33 @@ std::string fileLine(const ImportPreview& preview) {
 
 }  // namespace
 
-void drawImportPreview(Editor& editor) {
-  auto& preview = editor.preview;
-  if (editor.fonts.bold != nullptr) ImGui::PushFont(editor.fonts.bold);
+void drawImportPreview(const Model& model, ImportPreviewState& state, Actions& actions) {
+  const auto& preview = model.preview;
+  if (state.closed != preview.closed()) state = {.closed = preview.closed()};
+  if (model.fonts.bold != nullptr) ImGui::PushFont(model.fonts.bold);
   ui::fitted(preview.fileNames(), ImGui::GetContentRegionAvail().x);
-  if (editor.fonts.bold != nullptr) ImGui::PopFont();
+  if (model.fonts.bold != nullptr) ImGui::PopFont();
   ui::tooltip(preview.files().front().string());
   ui::dimText(fileLine(preview));
-  const float footer = editor.px(28) + ImGui::GetStyle().ItemSpacing.y + editor.px(6);
+  const float footer = model.px(28) + ImGui::GetStyle().ItemSpacing.y + model.px(6);
   ImGui::BeginChild("preview-body", {0, ImGui::GetContentRegionAvail().y - footer});
-  if (preview.reading()) drawReading(editor);
-  if (preview.stage() == ImportPreview::Stage::failed && !preview.reading()) drawFailure(editor);
+  if (preview.reading()) drawReading(model);
+  if (preview.stage() == ImportPreview::Stage::failed && !preview.reading()) drawFailure(model);
   if (preview.outcome() != nullptr) {
     ImGui::BeginDisabled(preview.reading());
-    drawPlace(editor);
+    drawPlace(model, actions);
     ImGui::EndDisabled();
     const float row = ImGui::GetTextLineHeightWithSpacing();
-    const float free = ImGui::GetContentRegionAvail().y - 4 * row - editor.px(24);
+    const float free = ImGui::GetContentRegionAvail().y - 4 * row - model.px(24);
     const float share = preview.outcome()->report.issues.empty() ? 1 : 0.5F;  // of the room that the two lists have
     const float classes = std::clamp(row * (static_cast<float>(preview.facts().classes.size()) + 0.5F), row,
                                      std::max(row, free * share - 2 * row));
-    drawClasses(editor, classes);
-    drawIssues(editor);
+    drawClasses(model, classes);
+    drawIssues(model, state, actions);
   }
   ImGui::EndChild();
-  ui::gap(editor, 2);
-  drawPreviewButtons(editor);
+  ui::gap(model, 2);
+  drawPreviewButtons(model, actions);
 }
 
 }  // namespace standpoint

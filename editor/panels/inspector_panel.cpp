@@ -6,17 +6,21 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "editor/editor.h"
 #include "editor/model/material_scope.h"
-#include "editor/panels/panels_list.h"
-#include "editor/shell/actions.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/panels/actions.h"
+#include "editor/panels/panel.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 
 namespace {
+
+struct InspectorState {
+  std::string material_filter;
+  std::string property_filter;
+};
 
 const std::string& nodeLabel(const SpatialNode& node) { return node.name.empty() ? node.ifc_class : node.name; }
 
@@ -30,9 +34,9 @@ std::string placeOf(const Environment& environment, const Product& product) {
   return path;
 }
 
-std::string treatmentText(const Editor& editor, const Product& product) {
+std::string treatmentText(const Model& model, const Product& product) {
   const auto* treatment =
-      editor.treatmentOfProduct(static_cast<std::uint32_t>(&product - editor.environment()->products.data()));
+      model.treatmentOfProduct(static_cast<std::uint32_t>(&product - model.environment()->products.data()));
   if (treatment == nullptr) return {};
   switch (treatment->kind) {
     case TreatmentKind::excluded: return "Excluded from the scene";
@@ -45,18 +49,18 @@ std::string treatmentText(const Editor& editor, const Product& product) {
   return {};
 }
 
-void drawIdentity(const Editor& editor, const Product& product) {
+void drawIdentity(const Model& model, const Product& product) {
   if (!ui::beginProperties("identity", 0.25F)) return;
   ui::property("Class", product.ifc_class.empty() ? "Object" : product.ifc_class);
   if (!product.predefined_type.empty()) ui::property("Kind", product.predefined_type);
   if (!product.type_name.empty()) ui::property("Type", product.type_name);
   ui::property("Id", product.id);
   if (!product.global_id.empty()) ui::property("GlobalId", product.global_id);
-  if (const auto place = placeOf(*editor.environment(), product); !place.empty()) ui::property("Place", place);
+  if (const auto place = placeOf(*model.environment(), product); !place.empty()) ui::property("Place", place);
   for (const auto& group : product.groups) ui::property("Group", group);
-  if (const auto treated = treatmentText(editor, product); !treated.empty()) ui::property("Treatment", treated);
+  if (const auto treated = treatmentText(model, product); !treated.empty()) ui::property("Treatment", treated);
   if (product.whole >= 0)
-    ui::property("Part of", productLabel(editor.environment()->products[static_cast<std::size_t>(product.whole)]));
+    ui::property("Part of", productLabel(model.environment()->products[static_cast<std::size_t>(product.whole)]));
   ui::endProperties();
 }
 
@@ -67,18 +71,18 @@ std::uint64_t trianglesOf(const Environment& environment, std::uint32_t product)
   return count;
 }
 
-void drawGeometry(Editor& editor, std::uint32_t index) {
-  ui::heading(editor, "Geometry");
-  const auto& environment = *editor.environment();
-  const auto& bounds_of = editor.boundsOfProducts()[index];
+void drawGeometry(const Model& model, std::uint32_t index) {
+  ui::heading(model, "Geometry");
+  const auto& environment = *model.environment();
+  const auto& bounds_of = model.boundsOfProducts()[index];
   if (!ui::beginProperties("geometry", 0.25F)) return;
   ui::property("Triangles", groupedDigits(trianglesOf(environment, index)));
   if (!bounds_of.empty()) {
     ui::property("Size", coordinates(bounds_of.max - bounds_of.min) + " m");
-    ui::property("From", coordinates(bounds_of.min + editor.shift_m()));
-    ui::property("To", coordinates(bounds_of.max + editor.shift_m()));
+    ui::property("From", coordinates(bounds_of.min + model.shift_m()));
+    ui::property("To", coordinates(bounds_of.max + model.shift_m()));
   }
-  if (const auto& light = editor.session.document().simplified; light && index < light->products.size()) {
+  if (const auto& light = model.session.document().simplified; light && index < light->products.size()) {
     const auto& loss = light->products[index];
     ui::property("Before", fmt::format("{} triangles", groupedDigits(loss.triangles_before)));
     ui::property("Deviation", fmt::format("at most {:.1f} mm, mean {:.2f} mm", loss.max_deviation_m * 1000,
@@ -87,9 +91,9 @@ void drawGeometry(Editor& editor, std::uint32_t index) {
   ui::endProperties();
 }
 
-void drawLayers(const Editor& editor, const Product& product) {
+void drawLayers(const Model& model, const Product& product) {
   if (product.layers.empty() && product.materials.empty()) return;
-  ui::heading(editor, "Materials of the model");
+  ui::heading(model, "Materials of the model");
   if (!ui::beginProperties("layers", 0.68F)) return;
   for (const auto& layer : product.layers)
     ui::property(layer.name.empty() ? "Air" : layer.name.c_str(), fmt::format("{:.4g} mm", layer.thickness_m * 1000));
@@ -99,8 +103,8 @@ void drawLayers(const Editor& editor, const Product& product) {
 }
 
 // What its faces look like, each surface once, with its share: a wall's sides may be of two layers.
-void drawSurfaces(const Editor& editor, std::uint32_t product) {
-  const auto& environment = *editor.environment();
+void drawSurfaces(const Model& model, std::uint32_t product) {
+  const auto& environment = *model.environment();
   std::map<std::uint32_t, double> area_of;
   for (const auto& instance : environment.instances) {
     if (instance.product != product) continue;
@@ -115,10 +119,10 @@ void drawSurfaces(const Editor& editor, std::uint32_t product) {
     }
   }
   if (area_of.empty()) return;
-  ui::heading(editor, "Surfaces of the model");
+  ui::heading(model, "Surfaces of the model");
   for (const auto& [index, area] : area_of) {
     const auto& surface = environment.surfaces[index];
-    ui::swatch(editor, surface.colour);
+    ui::swatch(model, surface.colour);
     ImGui::SameLine();
     std::string text = fmt::format("{}  {:.2f} m²", surface.name.empty() ? "Nameless" : surface.name, area);
     if (surface.image >= 0) text += "  " + environment.images[static_cast<std::size_t>(surface.image)]->name;
@@ -137,40 +141,40 @@ std::vector<std::pair<std::int32_t, std::string>> materialsOf(const MaterialAssi
   return found;
 }
 
-void assign(Editor& editor, const PhysicalMaterial& material) {
+void assign(const Model& model, Actions& actions, const PhysicalMaterial& material) {
   nlohmann::json pairs = nlohmann::json::array();
-  for (const auto p : editor.selection.products())
-    pairs.push_back(selectorOf(editor.environment()->products[p]) + "=" + material.id);
-  const auto count = editor.selection.products().size();
-  editor.session.start(
+  for (const auto p : model.selection.products())
+    pairs.push_back(selectorOf(model.environment()->products[p]) + "=" + material.id);
+  const auto count = model.selection.products().size();
+  actions.start(
       "materials", {{"assign", std::move(pairs)}},
       fmt::format("Assign {} to {}", material.label, count == 1 ? "1 product" : fmt::format("{} products", count)));
 }
 
-void drawAssign(Editor& editor, const std::string& current) {
-  if (const auto why = editor.session.whyNot("materials"); !why.empty()) {
+void drawAssign(const Model& model, InspectorState& state, Actions& actions, const std::string& current) {
+  if (const auto why = model.session.whyNot("materials"); !why.empty()) {
     ui::button((current + "###assign").c_str(), why, {-FLT_MIN, 0});
     return;
   }
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (!ImGui::BeginCombo("###assign", current.c_str(), ImGuiComboFlags_HeightLargest)) return;
-  const auto& catalogue = readCatalogue(editor.panels.catalogue);
-  auto& filter = editor.panels.inspector.material_filter;
+  const auto& catalogue = model.catalogue();
+  auto& filter = state.material_filter;
   if (ImGui::IsWindowAppearing()) {
     filter.clear();
     ImGui::SetKeyboardFocusHere();
   }
   ui::searchField("material-filter", "Brick, glass, steel …", filter);
-  ImGui::BeginChild("materials", {editor.px(300), editor.px(260)});
-  for (const auto& material : offeredMaterials(editor.panels.catalogue, editor.session.document().materials)) {
+  ImGui::BeginChild("materials", {model.px(300), model.px(260)});
+  for (const auto& material : model.offeredMaterials()) {
     if (isGap(material)) continue;
     Product searched;
     searched.name = material.label + " " + material.id;
     if (!matchesFilter(searched, filter)) continue;
-    ui::swatch(editor, materialColour(&material));
+    ui::swatch(model, materialColour(&material));
     ImGui::SameLine();
     if (ImGui::Selectable((material.label + "###" + material.id).c_str())) {
-      assign(editor, material);
+      assign(model, actions, material);
       ImGui::CloseCurrentPopup();
     }
   }
@@ -192,11 +196,11 @@ void drawPhysics(const PhysicalMaterial& m) {
   ui::endProperties();
 }
 
-void drawPhysicalMaterial(Editor& editor, std::uint32_t index) {
-  ui::heading(editor, "Physical material");
-  const auto& choice = editor.session.document().materials;
+void drawPhysicalMaterial(const Model& model, InspectorState& state, Actions& actions, std::uint32_t index) {
+  ui::heading(model, "Physical material");
+  const auto& choice = model.session.document().materials;
   if (!choice) {
-    drawAssign(editor, "Nothing assigned yet");
+    drawAssign(model, state, actions, "Nothing assigned yet");
     return;
   }
   const auto& assignment = choice->result.assignment;
@@ -205,14 +209,14 @@ void drawPhysicalMaterial(Editor& editor, std::uint32_t index) {
   if (found.size() == 1 && found[0].first >= 0)
     current = assignment.materials[static_cast<std::size_t>(found[0].first)].label;
   if (found.size() > 1) current = fmt::format("{} materials", found.size());
-  drawAssign(editor, current);
+  drawAssign(model, state, actions, current);
   for (const auto& [material, reason] : found) {
     if (material < 0) {
       ImGui::TextColored(colour(tone::kUnassigned), "%s  No rule fits", ICON_WARNING);
       continue;
     }
     const auto& m = assignment.materials[static_cast<std::size_t>(material)];
-    ui::swatch(editor, materialColour(&m));
+    ui::swatch(model, materialColour(&m));
     ImGui::SameLine();
     ui::wrapped(m.label);
     if (!reason.empty()) ui::tooltip("Because of: " + reason);
@@ -220,10 +224,10 @@ void drawPhysicalMaterial(Editor& editor, std::uint32_t index) {
   }
 }
 
-void drawProperties(Editor& editor, const Product& product) {
+void drawProperties(const Model& model, InspectorState& state, const Product& product) {
   if (product.properties.empty()) return;
-  ui::heading(editor, "Properties");
-  auto& filter = editor.panels.inspector.property_filter;
+  ui::heading(model, "Properties");
+  auto& filter = state.property_filter;
   if (product.properties.size() > 12) ui::searchField("property-filter", "Property", filter);
   std::vector<std::string> order;
   std::map<std::string, std::vector<const Property*>> sets;
@@ -247,65 +251,69 @@ void drawProperties(Editor& editor, const Product& product) {
 }
 
 // Of the storey, space or part of a facility that it stands in.
-void drawPlaceProperties(Editor& editor, const Product& product) {
+void drawPlaceProperties(const Model& model, const Product& product) {
   if (product.container < 0) return;
-  const auto& node = editor.environment()->spatial[static_cast<std::size_t>(product.container)];
+  const auto& node = model.environment()->spatial[static_cast<std::size_t>(product.container)];
   if (node.properties.empty()) return;
-  ui::heading(editor, ("Properties of " + nodeLabel(node)).c_str());
+  ui::heading(model, ("Properties of " + nodeLabel(node)).c_str());
   if (!ui::beginProperties("place-properties", 0.48F)) return;
   for (const auto& p : node.properties) ui::property(p.name.c_str(), p.value);
   ui::endProperties();
 }
 
-void drawMany(Editor& editor) {
-  const auto& products = editor.selection.products();
-  ui::heading(editor, fmt::format("{} products", products.size()).c_str());
+void drawMany(const Model& model, InspectorState& state, Actions& actions) {
+  const auto& products = model.selection.products();
+  ui::heading(model, fmt::format("{} products", products.size()).c_str());
   std::map<std::string, int> classes;
   std::uint64_t triangles = 0;
-  std::vector<std::uint8_t> chosen(editor.environment()->products.size(), 0);
+  std::vector<std::uint8_t> chosen(model.environment()->products.size(), 0);
   for (const auto p : products) {
-    ++classes[readableClass(editor.environment()->products[p].ifc_class)];
+    ++classes[readableClass(model.environment()->products[p].ifc_class)];
     chosen[p] = 1;
   }
-  for (const auto& i : editor.environment()->instances)
-    if (chosen[i.product] != 0) triangles += editor.environment()->meshes[i.mesh]->triangles.size();
+  for (const auto& i : model.environment()->instances)
+    if (chosen[i.product] != 0) triangles += model.environment()->meshes[i.mesh]->triangles.size();
   if (ui::beginProperties("many", 0.6F)) {
     for (const auto& [name, count] : classes) ui::property(name.c_str(), std::to_string(count));
     ui::property("Triangles", groupedDigits(triangles));
-    const auto all = editor.selectionBounds();
+    const auto all = model.selectionBounds();
     if (!all.empty()) ui::property("Size", coordinates(all.max - all.min) + " m");
     ui::endProperties();
   }
-  ui::heading(editor, "Physical material");
-  drawAssign(editor, "Assign to all …");
+  ui::heading(model, "Physical material");
+  drawAssign(model, state, actions, "Assign to all …");
+}
+
+void draw(const Model& model, InspectorState& state, Actions& actions) {
+  const auto& environment = model.environment();
+  if (!environment || model.selection.empty() || model.selection.primary() >= environment->products.size()) {
+    ui::emptyState(
+        model, ICON_POINTER, "Nothing selected",
+        "Click something in the view or in the outliner to see what it is, what it is made of, and how it reflects.");
+    return;
+  }
+  if (model.selection.products().size() > 1) {
+    drawMany(model, state, actions);
+    return;
+  }
+  const auto index = model.selection.primary();
+  const auto& product = environment->products[index];
+  if (model.fonts.bold != nullptr) ImGui::PushFont(model.fonts.bold);
+  ui::wrapped(productLabel(product));
+  if (model.fonts.bold != nullptr) ImGui::PopFont();
+  drawIdentity(model, product);
+  drawPhysicalMaterial(model, state, actions, index);
+  drawGeometry(model, index);
+  drawLayers(model, product);
+  drawSurfaces(model, index);
+  drawProperties(model, state, product);
+  drawPlaceProperties(model, product);
 }
 
 }  // namespace
 
-void drawInspectorPanel(Editor& editor) {
-  const auto& environment = editor.environment();
-  if (!environment || editor.selection.empty() || editor.selection.primary() >= environment->products.size()) {
-    ui::emptyState(
-        editor, ICON_POINTER, "Nothing selected",
-        "Click something in the view or in the outliner to see what it is, what it is made of, and how it reflects.");
-    return;
-  }
-  if (editor.selection.products().size() > 1) {
-    drawMany(editor);
-    return;
-  }
-  const auto index = editor.selection.primary();
-  const auto& product = environment->products[index];
-  if (editor.fonts.bold != nullptr) ImGui::PushFont(editor.fonts.bold);
-  ui::wrapped(productLabel(product));
-  if (editor.fonts.bold != nullptr) ImGui::PopFont();
-  drawIdentity(editor, product);
-  drawPhysicalMaterial(editor, index);
-  drawGeometry(editor, index);
-  drawLayers(editor, product);
-  drawSurfaces(editor, index);
-  drawProperties(editor, product);
-  drawPlaceProperties(editor, product);
+void drawInspectorPanel(const Model& model, PanelStates& states, Actions& actions) {
+  draw(model, states.of<InspectorState>(), actions);
 }
 
 }  // namespace standpoint

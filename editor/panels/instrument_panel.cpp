@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/editor.h"
-#include "editor/panels/panels_list.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/widgets.h"
+#include "editor/panels/actions.h"
+#include "editor/panels/panel.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 
 // The emulated device draws itself; whoever starts the editor says which.
-void drawInstrumentPanel(Editor& editor) {
-  if (editor.draw_instrument)
-    editor.draw_instrument(editor);
-  else
+void drawInstrumentPanel(const Model& model, PanelStates&, Actions& actions) {
+  if (!actions.drawInstrument())
     ui::emptyState(
-        editor, ICON_TABLET, "No device",
+        model, ICON_TABLET, "No device",
         "This build has no emulated device. The scanners themselves work without one: see the workspace Survey.");
 }
 

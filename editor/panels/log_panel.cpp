@@ -4,15 +4,21 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "editor/editor.h"
-#include "editor/panels/panels_list.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/model/log.h"
+#include "editor/panels/actions.h"
+#include "editor/panels/panel.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 
 namespace {
+
+struct LogState {
+  LogFilter filter;
+  std::size_t seen = 0;  // entries when it was drawn last: new ones scroll into view
+};
 
 struct Look {
   const char* icon;
@@ -30,29 +36,29 @@ Look lookOf(LogLevel level) {
   return {ICON_INFO, tone::kDim};
 }
 
-void drawHead(Editor& editor) {
-  auto& filter = editor.panels.log.filter;
+void drawHead(const Model& model, LogState& state, Actions& actions) {
+  auto& filter = state.filter;
   std::size_t notes = 0, warnings = 0, losses = 0;
-  for (const auto& e : editor.session.log()) {
+  for (const auto& e : model.session.log()) {
     notes += e.level == LogLevel::note || e.level == LogLevel::done ? 1 : 0;
     warnings += e.level == LogLevel::warning ? 1 : 0;
     losses += e.level == LogLevel::loss || e.level == LogLevel::error ? 1 : 0;
   }
-  ui::filterButton(editor, "log", ICON_BAN, "losses and errors", losses, tone::kBad, filter.losses);
-  ui::filterButton(editor, "log", ICON_WARNING, "warnings", warnings, tone::kWarning, filter.warnings);
-  ui::filterButton(editor, "log", ICON_INFO, "notes", notes, tone::kDim, filter.notes);
-  const float clear = ImGui::GetFrameHeight() + editor.px(8);
+  ui::filterButton(model, "log", ICON_BAN, "losses and errors", losses, tone::kBad, filter.losses);
+  ui::filterButton(model, "log", ICON_WARNING, "warnings", warnings, tone::kWarning, filter.warnings);
+  ui::filterButton(model, "log", ICON_INFO, "notes", notes, tone::kDim, filter.notes);
+  const float clear = ImGui::GetFrameHeight() + model.px(8);
   const float room = ImGui::GetContentRegionMax().x - ImGui::GetCursorPosX() - clear;
-  const float search = std::clamp(room, editor.px(60), editor.px(230));
+  const float search = std::clamp(room, model.px(60), model.px(230));
   ImGui::SameLine(std::max(ImGui::GetCursorPosX(), ImGui::GetContentRegionMax().x - search - clear));
   ImGui::BeginChild("log-search", {search, ImGui::GetFrameHeight()});
   ui::searchField("log-filter", "Text or source", filter.text);
   ImGui::EndChild();
   ImGui::SameLine();
-  if (ui::iconButton(ICON_TRASH "###log-clear", "Empty the log")) editor.session.clearLog();
+  if (ui::iconButton(ICON_TRASH "###log-clear", "Empty the log")) actions.clearLog();
 }
 
-void drawEntry(Editor& editor, const LogEntry& entry, int i) {
+void drawEntry(const Model& model, Actions& actions, const LogEntry& entry, int i) {
   const Look look = lookOf(entry.level);
   ImGui::PushID(i);
   ImGui::TableNextRow();
@@ -62,12 +68,12 @@ void drawEntry(Editor& editor, const LogEntry& entry, int i) {
   ui::dimText(entry.time);
   ImGui::TableNextColumn();
   if (!entry.source.empty()) {
-    const auto product = editor.environment() ? productOf(*editor.environment(), entry.source) : std::nullopt;
+    const auto product = model.environment() ? productOf(*model.environment(), entry.source) : std::nullopt;
     if (product) {
       ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.50F, 0.73F, 1, 1));
       if (ImGui::Selectable(entry.source.c_str())) {
-        editor.select(*product, true);
-        editor.frameSelection();
+        actions.reveal(*product);
+        actions.frameSelection();
       }
       ImGui::PopStyleColor();
       ui::tooltip("Select it");
@@ -80,20 +86,18 @@ void drawEntry(Editor& editor, const LogEntry& entry, int i) {
   ImGui::PopID();
 }
 
-}  // namespace
-
-void drawLogPanel(Editor& editor) {
-  drawHead(editor);
-  const auto& log = editor.session.log();
+void draw(const Model& model, LogState& state, Actions& actions) {
+  drawHead(model, state, actions);
+  const auto& log = model.session.log();
   std::vector<int> shown;
   for (int i = 0; i < static_cast<int>(log.size()); ++i)
-    if (passes(log[static_cast<std::size_t>(i)], editor.panels.log.filter)) shown.push_back(i);
+    if (passes(log[static_cast<std::size_t>(i)], state.filter)) shown.push_back(i);
   if (!ImGui::BeginTable("entries", 4, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;
-  ImGui::TableSetupColumn("level", ImGuiTableColumnFlags_WidthFixed, editor.px(18));
-  ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthFixed, editor.px(62));
+  ImGui::TableSetupColumn("level", ImGuiTableColumnFlags_WidthFixed, model.px(18));
+  ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthFixed, model.px(62));
   const bool sourced = std::any_of(shown.begin(), shown.end(),  // else the room is the message's
                                    [&](int i) { return !log[static_cast<std::size_t>(i)].source.empty(); });
-  const float source = std::min(editor.px(120), 0.25F * ImGui::GetContentRegionAvail().x);
+  const float source = std::min(model.px(120), 0.25F * ImGui::GetContentRegionAvail().x);
   ImGui::TableSetupColumn("source", ImGuiTableColumnFlags_WidthFixed, sourced ? source : 1);
   ImGui::TableSetupColumn("message", ImGuiTableColumnFlags_WidthStretch);
   ImGuiListClipper clipper;
@@ -101,14 +105,20 @@ void drawLogPanel(Editor& editor) {
   while (clipper.Step())
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
       const int entry = shown[static_cast<std::size_t>(i)];
-      drawEntry(editor, log[static_cast<std::size_t>(entry)], entry);
+      drawEntry(model, actions, log[static_cast<std::size_t>(entry)], entry);
     }
-  auto& seen = editor.panels.log.seen;
+  auto& seen = state.seen;
   if (log.size() > seen)
     ImGui::SetScrollY(ImGui::GetScrollMaxY() +
                       ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(log.size() - seen));
   seen = log.size();
   ImGui::EndTable();
+}
+
+}  // namespace
+
+void drawLogPanel(const Model& model, PanelStates& states, Actions& actions) {
+  draw(model, states.of<LogState>(), actions);
 }
 
 }  // namespace standpoint

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/panels/material_card_panel.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,13 +9,12 @@
 #include <imgui.h>
 
 #include "core/units.h"
-#include "editor/editor.h"
 #include "editor/model/material_card.h"
-#include "editor/panels/panels_list.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/material_brush.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/panels/actions.h"
+#include "editor/panels/panel.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 #include "materials/materials.h"
 
 namespace standpoint {
@@ -25,13 +26,13 @@ constexpr double kFirst_nm = 400, kLast_nm = 1700;
 // A frame with what lies in it as shares of its width (from the left) and height (from below).
 class Plot {
  public:
-  Plot(const Editor& editor, float height_pt) : list_(*ImGui::GetWindowDrawList()), scale_(editor.scale) {
+  Plot(const Model& model, float height_pt) : list_(*ImGui::GetWindowDrawList()), scale_(model.scale) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const float margin = ImGui::CalcTextSize("1000 %").x + editor.px(6);
-    size_ = {ImGui::GetContentRegionAvail().x - margin - editor.px(4), editor.px(height_pt)};
-    low_ = {corner.x + margin, corner.y + editor.px(4)};
+    const float margin = ImGui::CalcTextSize("1000 %").x + model.px(6);
+    size_ = {ImGui::GetContentRegionAvail().x - margin - model.px(4), model.px(height_pt)};
+    low_ = {corner.x + margin, corner.y + model.px(4)};
     list_.AddRectFilled(low_, {low_.x + size_.x, low_.y + size_.y}, IM_COL32(22, 25, 30, 255));
-    ImGui::Dummy({margin + size_.x, size_.y + ImGui::GetTextLineHeight() + editor.px(10)});
+    ImGui::Dummy({margin + size_.x, size_.y + ImGui::GetTextLineHeight() + model.px(10)});
   }
   ImVec2 at(double x, double y) const {
     return {low_.x + static_cast<float>(x) * size_.x,
@@ -76,14 +77,14 @@ std::vector<ImVec2> curve(const Plot& plot, const std::vector<std::pair<double, 
   return points;
 }
 
-void drawSpectrum(Editor& editor, const PhysicalMaterial& m) {
-  ui::heading(editor, "Spectrum");
-  const Plot plot(editor, 120);
+void drawSpectrum(const Model& model, Actions& actions, const PhysicalMaterial& m) {
+  ui::heading(model, "Spectrum");
+  const Plot plot(model, 120);
   for (const double share : {0.0, 0.5, 1.0}) plot.level(share, fmt::format("{:.0f} %", share * 100));
   const auto x = [](double wavelength) { return (wavelength - kFirst_nm) / (kLast_nm - kFirst_nm); };
   for (const double wavelength : {532.0, 905.0, 1550.0})
     plot.column(x(wavelength), fmt::format("{:.0f}", wavelength), tone::kLine);
-  plot.column(x(editor.view.wavelength_nm), "", tone::kAccent);
+  plot.column(x(model.view.wavelength_nm), "", tone::kAccent);
   if (!m.transmittance.empty()) plot.line(curve(plot, m.transmittance), IM_COL32(98, 160, 214, 255));
   if (!m.reflectance.empty()) plot.line(curve(plot, m.reflectance), tone::kStation);
   if (plot.hovered()) {
@@ -92,17 +93,17 @@ void drawSpectrum(Editor& editor, const PhysicalMaterial& m) {
     if (!m.transmittance.empty())
       text += fmt::format("\nlets {:.1f} % through", 100 * atWavelength(m.transmittance, wavelength));
     ImGui::SetTooltip("%s", text.c_str());
-    if (ImGui::IsMouseClicked(0)) editor.view.wavelength_nm = std::round(wavelength);
+    if (ImGui::IsMouseClicked(0)) actions.showReflectanceAt(std::round(wavelength));
   }
   ui::dimWrapped(m.transmittance.empty() ? "Diffuse reflectance over nm; click to choose a wavelength"
                                          : "Diffuse reflectance, and transmittance (blue), over nm");
 }
 
 // As a scanner's own light shows them: a ball, and a plane that turns away from it.
-void drawBodies(Editor& editor, const std::array<float, 81>& response) {
+void drawBodies(const Model& model, const std::array<float, 81>& response) {
   auto& list = *ImGui::GetWindowDrawList();
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const float radius = editor.px(34);
+  const float radius = model.px(34);
   const ImVec2 centre(corner.x + radius, corner.y + radius);
   const auto grey = [&](double degrees) {
     const double share = std::clamp(
@@ -112,30 +113,30 @@ void drawBodies(Editor& editor, const std::array<float, 81>& response) {
   };
   for (int degrees = 90; degrees >= 0; degrees -= 3)
     list.AddCircleFilled(centre, radius * static_cast<float>(std::sin(degrees * kRadPerDeg)), grey(degrees), 48);
-  const float left = corner.x + 2 * radius + editor.px(14),
-              width = ImGui::GetContentRegionAvail().x - 2 * radius - editor.px(18);
+  const float left = corner.x + 2 * radius + model.px(14),
+              width = ImGui::GetContentRegionAvail().x - 2 * radius - model.px(18);
   for (int degrees = 0; degrees < 80; degrees += 2)
-    list.AddRectFilled({left + width * static_cast<float>(degrees) / 80, corner.y + editor.px(12)},
-                       {left + width * static_cast<float>(degrees + 2) / 80, corner.y + 2 * radius - editor.px(18)},
+    list.AddRectFilled({left + width * static_cast<float>(degrees) / 80, corner.y + model.px(12)},
+                       {left + width * static_cast<float>(degrees + 2) / 80, corner.y + 2 * radius - model.px(18)},
                        grey(degrees + 1));
-  const float below = corner.y + 2 * radius - editor.px(16);
+  const float below = corner.y + 2 * radius - model.px(16);
   list.AddText({left, below}, tone::kDim, "0°");
   list.AddText({left + width - ImGui::CalcTextSize("80°").x, below}, tone::kDim, "80°");
-  ImGui::Dummy({2 * radius, 2 * radius + editor.px(4)});
+  ImGui::Dummy({2 * radius, 2 * radius + model.px(4)});
 }
 
-void drawAngles(Editor& editor, const PhysicalMaterial& m) {
-  ui::heading(editor, fmt::format("Seen by a scanner at {:.0f} nm", editor.view.wavelength_nm).c_str());
-  const auto response = angularResponse(m, editor.view.wavelength_nm);
-  drawBodies(editor, response);
-  const double head_on = 100 * atWavelength(m.reflectance, editor.view.wavelength_nm);
+void drawAngles(const Model& model, const PhysicalMaterial& m) {
+  ui::heading(model, fmt::format("Seen by a scanner at {:.0f} nm", model.view.wavelength_nm).c_str());
+  const auto response = angularResponse(m, model.view.wavelength_nm);
+  drawBodies(model, response);
+  const double head_on = 100 * atWavelength(m.reflectance, model.view.wavelength_nm);
   const double most = std::max(head_on, static_cast<double>(*std::max_element(response.begin(), response.end())));
   const double top = most > 100  ? std::pow(10, std::ceil(std::log10(most)))
                      : most > 50 ? 100
                      : most > 20 ? 50
                      : most > 5  ? 20
                                  : 5;
-  const Plot plot(editor, 90);
+  const Plot plot(model, 90);
   for (const double share : {0.0, 0.5, 1.0}) plot.level(share, fmt::format("{:g} %", share * top));
   for (const int degrees : {0, 20, 40, 60, 80}) plot.column(degrees / 80.0, fmt::format("{}°", degrees), tone::kLine);
   std::vector<ImVec2> own, lambert;
@@ -157,9 +158,9 @@ std::string reading(const ExpectedReturn& expected) {
   return fmt::format("{:.2f}\n{:.1f} mm", expected.intensity, expected.sigma_m * 1000);
 }
 
-void drawReported(Editor& editor, const PhysicalMaterial& m) {
-  ui::heading(editor, "What scanners report");
-  auto& degrees = editor.panels.materials.incidence_deg;
+void drawReported(const Model& model, MaterialCardState& state, const PhysicalMaterial& m) {
+  ui::heading(model, "What scanners report");
+  auto& degrees = state.incidence_deg;
   ImGui::SetNextItemWidth(-1);
   ImGui::SliderInt("###incidence", &degrees, 0, 80, "%d° off normal");
   if (!ImGui::BeginTable("reported", 1 + static_cast<int>(kCardRanges_m.size()), ImGuiTableFlags_RowBg)) return;
@@ -167,7 +168,7 @@ void drawReported(Editor& editor, const PhysicalMaterial& m) {
   for (const double range : kCardRanges_m)
     ImGui::TableSetupColumn(fmt::format("{:.0f} m", range).c_str(), ImGuiTableColumnFlags_WidthStretch, 1);
   ImGui::TableHeadersRow();
-  for (const auto& row : reportedOf(m, readCatalogue(editor.panels.catalogue).instruments, degrees * kRadPerDeg)) {
+  for (const auto& row : reportedOf(m, model.catalogue().instruments, degrees * kRadPerDeg)) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(row.instrument.c_str());
@@ -184,15 +185,15 @@ void drawReported(Editor& editor, const PhysicalMaterial& m) {
   ui::dimWrapped("Intensity as stored, range noise 1 σ");
 }
 
-void drawGaps(const Editor& editor, const PhysicalMaterial& m) {
+void drawGaps(const Model& model, const PhysicalMaterial& m) {
   const auto gaps = gapsOf(m);
   if (gaps.empty()) return;
-  ui::heading(editor, "Not known");
+  ui::heading(model, "Not known");
   for (const auto& gap : gaps) ui::dimWrapped(gap);
 }
 
-void drawSources(Editor& editor, const PhysicalMaterial& m) {
-  ui::heading(editor, "Sources");
+void drawSources(const Model& model, const PhysicalMaterial& m) {
+  ui::heading(model, "Sources");
   for (const auto& source : m.sources) {
     const bool unsourced = source.text.starts_with("unsourced");
     ImGui::TextColored(colour(unsourced ? tone::kWarning : tone::kGood), "%s", unsourced ? ICON_WARNING : ICON_CHECK);
@@ -203,41 +204,45 @@ void drawSources(Editor& editor, const PhysicalMaterial& m) {
 }
 
 // The one that is chosen in the list, else that of what is selected.
-const PhysicalMaterial* shownMaterial(Editor& editor) {
-  const auto& choice = editor.session.document().materials;
+const PhysicalMaterial* shownMaterial(const Model& model) {
+  const auto& choice = model.session.document().materials;
   if (!choice) return nullptr;
   const auto& assignment = choice->result.assignment;
-  if (const auto* chosen = knownMaterial(editor, editor.panels.materials.chosen)) return chosen;
-  if (editor.selection.empty()) return nullptr;
+  if (const auto* chosen = model.offeredMaterial(model.material.id)) return chosen;
+  if (model.selection.empty()) return nullptr;
   for (const auto& s : assignment.surfaces)
-    if (s.product == editor.selection.primary() && s.material >= 0)
+    if (s.product == model.selection.primary() && s.material >= 0)
       return &assignment.materials[static_cast<std::size_t>(s.material)];
   return nullptr;
 }
 
-}  // namespace
-
-void drawMaterialCardPanel(Editor& editor) {
-  if (editor.panels.materials.edit) return drawMaterialForm(editor);
-  const auto* material = shownMaterial(editor);
+void draw(const Model& model, MaterialCardState& state, Actions& actions) {
+  if (state.edit) return drawMaterialForm(model, state, actions);
+  const auto* material = shownMaterial(model);
   if (material == nullptr) {
-    ui::emptyState(editor, ICON_PAINT, "No material chosen",
+    ui::emptyState(model, ICON_PAINT, "No material chosen",
                    "Choose one in the list of materials, or a surface in the view, to see its spectrum, how it fades "
                    "when it turns away, and what scanners report of it.");
     return;
   }
   ImGui::BeginChild("card");
-  if (editor.fonts.bold != nullptr) ImGui::PushFont(editor.fonts.bold);
+  if (model.fonts.bold != nullptr) ImGui::PushFont(model.fonts.bold);
   ui::wrapped(material->label);
-  if (editor.fonts.bold != nullptr) ImGui::PopFont();
+  if (model.fonts.bold != nullptr) ImGui::PopFont();
   ui::dimText(material->id);
-  if (ui::button(ICON_PENCIL "  Copy and edit###edit-material")) editor.panels.materials.edit = editOf(*material);
-  drawSpectrum(editor, *material);
-  drawAngles(editor, *material);
-  drawReported(editor, *material);
-  drawGaps(editor, *material);
-  drawSources(editor, *material);
+  if (ui::button(ICON_PENCIL "  Copy and edit###edit-material")) state.edit = editOf(*material);
+  drawSpectrum(model, actions, *material);
+  drawAngles(model, *material);
+  drawReported(model, state, *material);
+  drawGaps(model, *material);
+  drawSources(model, *material);
   ImGui::EndChild();
+}
+
+}  // namespace
+
+void drawMaterialCardPanel(const Model& model, PanelStates& states, Actions& actions) {
+  draw(model, states.of<MaterialCardState>(), actions);
 }
 
 }  // namespace standpoint

@@ -8,10 +8,10 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "editor/editor.h"
-#include "editor/panels/panels_list.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/widgets.h"
+#include "editor/panels/actions.h"
+#include "editor/panels/material_card_panel.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 
@@ -96,28 +96,26 @@ void drawFields(MaterialEdit& edit) {
 }
 
 // By a file, as every material comes: the verb's reader is the one judge of its figures.
-void keep(Editor& editor, const MaterialEdit& edit) {
+void keep(MaterialCardState& state, Actions& actions, const MaterialEdit& edit) {
   const auto file = std::filesystem::temp_directory_path() / fmt::format("standpoint-{}-{}.json", getpid(), edit.id);
   std::ofstream out(file);
   out << libraryFileOf(edit).dump(1);
   out.close();
   if (!out) {
-    editor.session.errors().push_back(
-        {"The material cannot be kept", {ErrorKind::file_system, "cannot write", file.string()}});
+    actions.report("The material cannot be kept", {ErrorKind::file_system, "cannot write", file.string()});
     return;
   }
-  if (!editor.session.start("materials", {{"library", {file.string()}}}, "Keep the material " + edit.label)) return;
-  editor.panels.materials.chosen = edit.id;
-  editor.panels.materials.chosen_unassigned = false;
-  editor.panels.materials.edit.reset();
+  if (!actions.start("materials", {{"library", {file.string()}}}, "Keep the material " + edit.label)) return;
+  actions.choose(ChosenMaterial{edit.id});
+  state.edit.reset();
 }
 
 }  // namespace
 
-void drawMaterialForm(Editor& editor) {
-  MaterialEdit& edit = *editor.panels.materials.edit;
+void drawMaterialForm(const Model& model, MaterialCardState& state, Actions& actions) {
+  MaterialEdit& edit = *state.edit;
   const auto flaw = flawOf(edit);
-  const auto why = flaw.empty() ? editor.session.whyNot("materials") : flaw;
+  const auto why = flaw.empty() ? model.session.whyNot("materials") : flaw;
   const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
   const bool kept = ui::primaryButton(ICON_CHECK "  Keep###keep-material", why, {width, 0});
   ImGui::SameLine();
@@ -126,9 +124,9 @@ void drawMaterialForm(Editor& editor) {
   drawFields(edit);
   ImGui::EndChild();
   if (kept)
-    keep(editor, edit);
+    keep(state, actions, edit);
   else if (given_up)
-    editor.panels.materials.edit.reset();
+    state.edit.reset();
 }
 
 }  // namespace standpoint

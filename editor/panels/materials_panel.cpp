@@ -5,17 +5,22 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "editor/editor.h"
-#include "editor/panels/panels_list.h"
-#include "editor/shell/dialogs.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/material_brush.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/panels/actions.h"
+#include "editor/panels/panel.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/material_drag.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 
 namespace {
+
+struct MaterialsState {
+  std::string filter;
+  bool whole_library = false;  // listed, not only what is in use
+  std::string bulk;            // selector of what gets the chosen material
+};
 
 const PhysicalMaterial* materialById(const MaterialAssignment& assignment, const std::string& id) {
   const auto found = std::find_if(assignment.materials.begin(), assignment.materials.end(),
@@ -23,46 +28,44 @@ const PhysicalMaterial* materialById(const MaterialAssignment& assignment, const
   return found == assignment.materials.end() ? nullptr : &*found;
 }
 
-void drawCoverage(Editor& editor, const MaterialReport& report) {
+void drawCoverage(const Model& model, const MaterialReport& report) {
   const auto tone = report.coverage >= 0.95 ? tone::kGood : tone::kWarning;
-  if (editor.fonts.bold != nullptr) ImGui::PushFont(editor.fonts.bold);
+  if (model.fonts.bold != nullptr) ImGui::PushFont(model.fonts.bold);
   ImGui::Text("%.1f %% of the area has a material", report.coverage * 100);
-  if (editor.fonts.bold != nullptr) ImGui::PopFont();
-  ui::meter(editor, report.coverage, tone);
+  if (model.fonts.bold != nullptr) ImGui::PopFont();
+  ui::meter(model, report.coverage, tone);
   double weak = 0;
   for (const auto& row : report.by_class) weak += row.weak_m2;
   ui::dimText(fmt::format("{:.0f} m² in all, {:.0f} m² without, {:.0f} m² guessed", report.area_m2,
                           report.area_m2 * (1 - report.coverage), weak));
 }
 
-void drawMaterialButtons(Editor& editor) {
-  const auto why = editor.session.whyNot("materials");
+void drawMaterialButtons(const Model& model, Actions& actions) {
+  const auto why = model.session.whyNot("materials");
   const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
   if (ui::primaryButton(ICON_MAGIC "  Assign by rules###assign-rules", why, {width, 0}))
-    editor.session.start("materials", nlohmann::json::object(), "Assign materials by rules");
+    actions.start("materials", nlohmann::json::object(), "Assign materials by rules");
   ImGui::SameLine();
   if (ui::button(ICON_FILE "  Rules file…###rules-file", why, {width, 0}, "Use other rules than the default ones"))
-    askForFile(editor, FileDialogState::Purpose::openFile, "Assignment rules", "Use", {".json"}, "",
-               [&editor](const std::filesystem::path& file) {
-                 editor.session.start("materials", {{"rules", file.string()}},
-                                      "Assign materials by " + file.filename().string());
-               });
+    actions.askForFile(
+        FileDialogState::Purpose::openFile, "Assignment rules", "Use", {".json"}, "",
+        [](Actions& later, const std::filesystem::path& file) {
+          later.start("materials", {{"rules", file.string()}}, "Assign materials by " + file.filename().string());
+        });
 }
 
 // What one row of either list shows, and that it can be dragged onto a surface.
-bool drawMaterial(Editor& editor, const PhysicalMaterial* material, const std::string& id) {
+bool drawMaterial(const Model& model, Actions& actions, const PhysicalMaterial* material, const std::string& id) {
   const bool unassigned = id.empty();
-  auto& state = editor.panels.materials;
-  const bool chosen = unassigned ? state.chosen_unassigned : state.chosen == id && !state.chosen_unassigned;
+  const bool chosen = unassigned ? model.material.unassigned : model.material.id == id && !model.material.unassigned;
   const bool pressed = ImGui::Selectable("###material", chosen, ImGuiSelectableFlags_SpanAllColumns);
   if (pressed) {
-    state.chosen = id;
-    state.chosen_unassigned = unassigned;
+    actions.choose(ChosenMaterial{id, unassigned});
   }
   if (material != nullptr) dragMaterial(*material);
   if (material != nullptr) ui::tooltip(material->id + "\nDrag it onto a surface");
   ImGui::SameLine(0, 0);
-  ui::swatch(editor, materialColour(material));
+  ui::swatch(model, materialColour(material));
   ImGui::SameLine();
   if (unassigned) ImGui::PushStyleColor(ImGuiCol_Text, tone::kUnassigned);
   ui::fitted(unassigned ? "Unassigned" : material != nullptr ? material->label : id, ImGui::GetContentRegionAvail().x);
@@ -70,20 +73,20 @@ bool drawMaterial(Editor& editor, const PhysicalMaterial* material, const std::s
   return pressed;
 }
 
-std::string reflectanceText(const Editor& editor, const PhysicalMaterial& material) {
+std::string reflectanceText(const Model& model, const PhysicalMaterial& material) {
   return isGap(material) ? "–"
-                         : fmt::format("{:.0f} %", atWavelength(material.reflectance, editor.view.wavelength_nm) * 100);
+                         : fmt::format("{:.0f} %", atWavelength(material.reflectance, model.view.wavelength_nm) * 100);
 }
 
-void drawUses(Editor& editor, const MaterialResult& result, float height) {
+void drawUses(const Model& model, Actions& actions, const MaterialResult& result, float height) {
   const auto flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX;
   if (!ImGui::BeginTable("uses", 4, flags, {0, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("Material", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("m²", ImGuiTableColumnFlags_WidthFixed, editor.px(52));
-  ImGui::TableSetupColumn(fmt::format("{:.0f}", editor.view.wavelength_nm).c_str(), ImGuiTableColumnFlags_WidthFixed,
-                          editor.px(40));
-  ImGui::TableSetupColumn("n", ImGuiTableColumnFlags_WidthFixed, editor.px(30));
+  ImGui::TableSetupColumn("m²", ImGuiTableColumnFlags_WidthFixed, model.px(52));
+  ImGui::TableSetupColumn(fmt::format("{:.0f}", model.view.wavelength_nm).c_str(), ImGuiTableColumnFlags_WidthFixed,
+                          model.px(40));
+  ImGui::TableSetupColumn("n", ImGuiTableColumnFlags_WidthFixed, model.px(30));
   ImGui::TableHeadersRow();
   auto uses = result.report.uses;
   std::stable_partition(uses.begin(), uses.end(), [](const MaterialUse& u) { return u.material.empty(); });
@@ -92,14 +95,14 @@ void drawUses(Editor& editor, const MaterialResult& result, float height) {
     ImGui::PushID(use.material.c_str());
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    if (drawMaterial(editor, material, use.material)) {
-      editor.selection.set(use.products);
-      if (editor.view.colour == ColourMode::model) editor.view.colour = ColourMode::material;
+    if (drawMaterial(model, actions, material, use.material)) {
+      actions.select(use.products);
+      if (model.view.colour == ColourMode::model) actions.colourBy(ColourMode::material);
     }
     ImGui::TableNextColumn();
     ui::textRightAligned(fmt::format("{:.1f}", use.area_m2));
     ImGui::TableNextColumn();
-    if (material != nullptr) ui::textRightAligned(reflectanceText(editor, *material));
+    if (material != nullptr) ui::textRightAligned(reflectanceText(model, *material));
     ImGui::TableNextColumn();
     ui::textRightAligned(std::to_string(use.products.size()));
     ImGui::PopID();
@@ -108,84 +111,86 @@ void drawUses(Editor& editor, const MaterialResult& result, float height) {
 }
 
 // All there are, the user's own among them.
-void drawLibrary(Editor& editor, float height) {
-  auto& state = editor.panels.materials;
+void drawLibrary(const Model& model, MaterialsState& state, Actions& actions, float height) {
   ui::searchField("library-filter", "Brick, glass, steel …", state.filter);
   const float left = height - ImGui::GetFrameHeightWithSpacing();
-  const auto& catalogue = readCatalogue(editor.panels.catalogue);
+  const auto& catalogue = model.catalogue();
   if (catalogue.materials.empty())
     return ui::wrapped(catalogue.problem.empty() ? "The library of materials is empty." : catalogue.problem);
   if (!ImGui::BeginTable("library", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX,
                          {0, left}))
     return;
   ImGui::TableSetupColumn("Material", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("share", ImGuiTableColumnFlags_WidthFixed, editor.px(40));
-  for (const auto& material : offeredMaterials(editor.panels.catalogue, editor.session.document().materials)) {
+  ImGui::TableSetupColumn("share", ImGuiTableColumnFlags_WidthFixed, model.px(40));
+  for (const auto& material : model.offeredMaterials()) {
     Product searched;
     searched.name = material.label + " " + material.id;
     if (!matchesFilter(searched, state.filter)) continue;
     ImGui::PushID(material.id.c_str());
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    drawMaterial(editor, &material, material.id);
+    drawMaterial(model, actions, &material, material.id);
     ImGui::TableNextColumn();
-    ui::textRightAligned(reflectanceText(editor, material));
+    ui::textRightAligned(reflectanceText(model, material));
     ImGui::PopID();
   }
   ImGui::EndTable();
 }
 
 // Many at once: what a selector means gets the chosen material.
-void drawBulk(Editor& editor) {
-  auto& state = editor.panels.materials;
+void drawBulk(const Model& model, MaterialsState& state, Actions& actions) {
   ImGui::SetNextItemWidth(-FLT_MIN);
   ImGui::InputTextWithHint("###bulk", "class:IfcWall & storey:EG & name:*außen*", &state.bulk);
   if (state.bulk.empty()) return;
-  const auto meant = select(*editor.environment(), state.bulk);
-  const auto* material = knownMaterial(editor, state.chosen);
+  const auto meant = select(*model.environment(), state.bulk);
+  const auto* material = model.offeredMaterial(model.material.id);
   const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
   const std::string none = meant.empty() ? "It means no product of this model" : "";
   if (ui::button(fmt::format("{}  Select {}###bulk-select", ICON_POINTER, meant.size()).c_str(), none, {width, 0}))
-    editor.selection.set(meant);
+    actions.select(meant);
   ImGui::SameLine();
   const auto why = !none.empty()         ? none
                    : material == nullptr ? "Choose a material in the list first"
-                                         : editor.session.whyNot("materials");
+                                         : model.session.whyNot("materials");
   if (ui::button(ICON_PAINT "  Assign the chosen###bulk-assign", why, {width, 0}))
-    editor.session.start("materials", {{"assign", {state.bulk + "=" + material->id}}},
-                         fmt::format("Assign {} to {} products", material->label, meant.size()));
+    actions.start("materials", {{"assign", {state.bulk + "=" + material->id}}},
+                  fmt::format("Assign {} to {} products", material->label, meant.size()));
 }
 
-void drawListSwitch(Editor& editor) {
-  auto& whole = editor.panels.materials.whole_library;
+void drawListSwitch(MaterialsState& state) {
+  auto& whole = state.whole_library;
   if (ui::iconButton(ICON_LIST "  In use###in-use", "The materials of this model", {}, !whole)) whole = false;
   ImGui::SameLine();
   if (ui::iconButton(ICON_PAINT "  Library###library", "All materials there are", {}, whole)) whole = true;
 }
 
-}  // namespace
-
-void drawMaterialsPanel(Editor& editor) {
-  const auto& choice = editor.session.document().materials;
-  if (!editor.environment() || !choice) {
-    ui::emptyState(editor, ICON_PAINT, "No physical materials yet",
+void draw(const Model& model, MaterialsState& state, Actions& actions) {
+  const auto& choice = model.session.document().materials;
+  if (!model.environment() || !choice) {
+    ui::emptyState(model, ICON_PAINT, "No physical materials yet",
                    "A scan needs to know how each surface reflects. Rules read it from the classes, names and "
                    "materials of the model; what they miss can be assigned by hand.");
-    drawMaterialButtons(editor);
+    drawMaterialButtons(model, actions);
     return;
   }
-  drawCoverage(editor, choice->result.report);
-  ui::gap(editor, 2);
-  drawMaterialButtons(editor);
-  ui::gap(editor, 2);
-  drawListSwitch(editor);
-  const float bulk = ImGui::GetFrameHeightWithSpacing() * (editor.panels.materials.bulk.empty() ? 1 : 2) + editor.px(2);
+  drawCoverage(model, choice->result.report);
+  ui::gap(model, 2);
+  drawMaterialButtons(model, actions);
+  ui::gap(model, 2);
+  drawListSwitch(state);
+  const float bulk = ImGui::GetFrameHeightWithSpacing() * (state.bulk.empty() ? 1 : 2) + model.px(2);
   const float height = ImGui::GetContentRegionAvail().y - bulk;
-  if (editor.panels.materials.whole_library)
-    drawLibrary(editor, height);
+  if (state.whole_library)
+    drawLibrary(model, state, actions, height);
   else
-    drawUses(editor, choice->result, height);
-  drawBulk(editor);
+    drawUses(model, actions, choice->result, height);
+  drawBulk(model, state, actions);
+}
+
+}  // namespace
+
+void drawMaterialsPanel(const Model& model, PanelStates& states, Actions& actions) {
+  draw(model, states.of<MaterialsState>(), actions);
 }
 
 }  // namespace standpoint

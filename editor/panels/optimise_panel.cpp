@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/panels/optimise_panel.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -6,23 +8,23 @@
 #include <imgui.h>
 
 #include "core/units.h"
-#include "editor/editor.h"
-#include "editor/panels/panels_list.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/panels/actions.h"
+#include "editor/panels/panel.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 
 namespace {
 
-void drawResult(Editor& editor, const SimplifiedModel& light) {
-  ui::heading(editor, "Result");
+void drawResult(const Model& model, const SimplifiedModel& light) {
+  ui::heading(model, "Result");
   const auto& all = light.all;
   const double share = all.triangles_before > 0
                            ? static_cast<double>(all.triangles_after) / static_cast<double>(all.triangles_before)
                            : 1;
-  ui::meter(editor, share, tone::kAccent);
+  ui::meter(model, share, tone::kAccent);
   if (ui::beginProperties("result", 0.5F)) {
     ui::property("Triangles before", groupedDigits(all.triangles_before));
     ui::property("Triangles now", fmt::format("{}  ({:.1f} %)", groupedDigits(all.triangles_after), share * 100));
@@ -40,21 +42,21 @@ std::string lengthText(double metres) {
 }
 
 // Of the area of both models, how much stands how far from the other one.
-void drawHistogram(Editor& editor) {
-  ui::heading(editor, "Deviation of the surfaces");
-  editor.wants_deviation = true;
-  const auto both = editor.deviation.of(editor.session.document());
+void drawHistogram(const Model& model, Actions& actions) {
+  ui::heading(model, "Deviation of the surfaces");
+  actions.wantDeviation();
+  const auto both = model.deviation.of(model.session.document());
   if (!both) {
-    ui::dimText(editor.deviation.busy() ? "Comparing with the original …" : "Not compared yet");
+    ui::dimText(model.deviation.busy() ? "Comparing with the original …" : "Not compared yet");
     return;
   }
   const auto& area = both->histogram.area_m2;
   double sum = 0, most = 0;
   for (const double a : area) sum += a, most = std::max(most, a);
   if (!(sum > 0) || !ImGui::BeginTable("histogram", 3)) return;
-  ImGui::TableSetupColumn("to", ImGuiTableColumnFlags_WidthFixed, editor.px(86));
+  ImGui::TableSetupColumn("to", ImGuiTableColumnFlags_WidthFixed, model.px(86));
   ImGui::TableSetupColumn("bar", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("share", ImGuiTableColumnFlags_WidthFixed, editor.px(58));
+  ImGui::TableSetupColumn("share", ImGuiTableColumnFlags_WidthFixed, model.px(58));
   for (std::size_t i = 0; i < area.size(); ++i) {
     const bool last = i + 1 == area.size();
     ImGui::TableNextRow();
@@ -75,16 +77,16 @@ void drawHistogram(Editor& editor) {
     ui::textRightAligned(fmt::format("{:.2f} %", area[i] / sum * 100));
   }
   ImGui::EndTable();
-  const bool shown = editor.view.colour == ColourMode::deviation && editor.view.side == ModelSide::both;
+  const bool shown = model.view.colour == ColourMode::deviation && model.view.side == ModelSide::both;
   if (ui::button(shown ? ICON_CUBE "  Back to the model's colours###map" : ICON_PAINT "  Show it on both models###map",
                  "", {-FLT_MIN, 0})) {
-    editor.view.colour = shown ? ColourMode::model : ColourMode::deviation;
-    editor.view.side = shown ? ModelSide::lighter : ModelSide::both;
+    actions.colourBy(shown ? ColourMode::model : ColourMode::deviation);
+    actions.showSide(shown ? ModelSide::lighter : ModelSide::both);
   }
 }
 
 // What lost most, so that one can look at it.
-void drawWorst(Editor& editor, const SimplifiedModel& light) {
+void drawWorst(const Model& model, Actions& actions, const SimplifiedModel& light) {
   std::vector<std::uint32_t> order;
   for (std::uint32_t p = 0; p < light.products.size(); ++p)
     if (light.products[p].max_deviation_m > 0) order.push_back(p);
@@ -94,24 +96,24 @@ void drawWorst(Editor& editor, const SimplifiedModel& light) {
                     [&](std::uint32_t a, std::uint32_t b) {
                       return light.products[a].max_deviation_m > light.products[b].max_deviation_m;
                     });
-  ui::heading(editor, "Largest deviations");
+  ui::heading(model, "Largest deviations");
   if (!ImGui::BeginTable("worst", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("Product", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("mm", ImGuiTableColumnFlags_WidthFixed, editor.px(44));
-  ImGui::TableSetupColumn("Triangles", ImGuiTableColumnFlags_WidthFixed, editor.px(96));
+  ImGui::TableSetupColumn("mm", ImGuiTableColumnFlags_WidthFixed, model.px(44));
+  ImGui::TableSetupColumn("Triangles", ImGuiTableColumnFlags_WidthFixed, model.px(96));
   ImGui::TableHeadersRow();
   for (std::size_t i = 0; i < shown; ++i) {
     const auto& loss = light.products[order[i]];
     ImGui::PushID(static_cast<int>(i));
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    if (ImGui::Selectable("###worst", editor.selection.contains(order[i]), ImGuiSelectableFlags_SpanAllColumns)) {
-      editor.select(order[i], true);
-      editor.frameSelection();
+    if (ImGui::Selectable("###worst", model.selection.contains(order[i]), ImGuiSelectableFlags_SpanAllColumns)) {
+      actions.reveal(order[i]);
+      actions.frameSelection();
     }
     ImGui::SameLine(0, 0);
-    ui::fitted(productLabel(editor.environment()->products[order[i]]), ImGui::GetContentRegionAvail().x);
+    ui::fitted(productLabel(model.environment()->products[order[i]]), ImGui::GetContentRegionAvail().x);
     ImGui::TableNextColumn();
     ui::textRightAligned(fmt::format("{:.1f}", loss.max_deviation_m * 1000));
     ImGui::TableNextColumn();
@@ -123,16 +125,15 @@ void drawWorst(Editor& editor, const SimplifiedModel& light) {
 }
 
 // Asks for the model at the sliders' budget, and says what has come of it.
-void drawPreview(Editor& editor, std::uint64_t budget) {
-  const auto& state = editor.panels.optimise;
+void drawPreview(const Model& model, const OptimiseState& state, Actions& actions, std::uint64_t budget) {
   if (!state.only_lossless) {
     SimplificationRequest request;
     request.budget = std::max<std::uint64_t>(1, budget);
     request.max_deviation_m = state.max_deviation_mm / 1000;
-    request.by_view = state.by_view && editor.session.document().collision;
-    editor.previewed = std::move(request);
+    request.by_view = state.by_view && model.session.document().collision;
+    actions.wantBudget(std::move(request));
   }
-  const auto preview = editor.budget_preview.state();
+  const auto preview = model.budget_preview.state();
   if (!preview.error.empty())
     ImGui::TextColored(colour(tone::kWarning), "%s  %s", ICON_WARNING, preview.error.c_str());
   else if (preview.preparing || !preview.shown)
@@ -144,18 +145,15 @@ void drawPreview(Editor& editor, std::uint64_t budget) {
     ui::dimText(fmt::format("The view shows {} triangles", groupedDigits(preview.triangles)));
 }
 
-}  // namespace
-
-void drawOptimisePanel(Editor& editor) {
-  const auto& document = editor.session.document();
+void draw(const Model& model, OptimiseState& state, Actions& actions) {
+  const auto& document = model.session.document();
   if (!document.imported) {
-    ui::emptyState(editor, ICON_COMPRESS, "Nothing to optimise", "Import a model first.");
+    ui::emptyState(model, ICON_COMPRESS, "Nothing to optimise", "Import a model first.");
     return;
   }
-  auto& state = editor.panels.optimise;
   const auto before = sceneTriangleCount(*document.imported);
   ui::dimText(fmt::format("The model as imported has {} triangles.", groupedDigits(before)));
-  ui::gap(editor, 2);
+  ui::gap(model, 2);
   ImGui::Checkbox("Only what costs nothing", &state.only_lossless);
   ui::tooltip("Merges planar regions: no surface moves");
   const auto budget = static_cast<std::uint64_t>(std::llround(state.budget_share * static_cast<double>(before)));
@@ -180,20 +178,26 @@ void drawOptimisePanel(Editor& editor) {
                                  : "Compute the collision shapes first (panel Collision)");
   ImGui::Checkbox("Show it at once", &state.live);
   ui::tooltip("The view follows the sliders; only Optimise measures the result and keeps it");
-  if (state.live) drawPreview(editor, budget);
+  if (state.live) drawPreview(model, state, actions, budget);
   ImGui::EndDisabled();
-  if (ui::primaryButton(ICON_COMPRESS "  Optimise###run-optimise", editor.session.whyNot("optimize"), {-FLT_MIN, 0})) {
+  if (ui::primaryButton(ICON_COMPRESS "  Optimise###run-optimise", model.session.whyNot("optimize"), {-FLT_MIN, 0})) {
     state.live = false;
-    editor.session.start("optimize",
-                         {{"budget", state.only_lossless ? 0 : std::max<std::uint64_t>(1, budget)},
-                          {"max-deviation", state.max_deviation_mm / 1000},
-                          {"by-view", state.by_view && document.collision != nullptr}},
-                         "Optimise the model");
+    actions.start("optimize",
+                  {{"budget", state.only_lossless ? 0 : std::max<std::uint64_t>(1, budget)},
+                   {"max-deviation", state.max_deviation_mm / 1000},
+                   {"by-view", state.by_view && document.collision != nullptr}},
+                  "Optimise the model");
   }
   if (!document.simplified) return;
-  drawResult(editor, *document.simplified);
-  drawHistogram(editor);
-  drawWorst(editor, *document.simplified);
+  drawResult(model, *document.simplified);
+  drawHistogram(model, actions);
+  drawWorst(model, actions, *document.simplified);
+}
+
+}  // namespace
+
+void drawOptimisePanel(const Model& model, PanelStates& states, Actions& actions) {
+  draw(model, states.of<OptimiseState>(), actions);
 }
 
 }  // namespace standpoint

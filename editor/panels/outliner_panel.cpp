@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/panels/outliner_panel.h"
+
 #include <algorithm>
 
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "editor/editor.h"
-#include "editor/panels/panels_list.h"
-#include "editor/shell/actions.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/panels/actions.h"
+#include "editor/panels/panel.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 
 namespace {
 
-const char* iconOf(const Editor& editor, const Outliner::Node& node) {
+const char* iconOf(const Model& model, const Outliner::Node& node) {
   if (node.kind == OutlinerRow::Kind::group) return ICON_FOLDER;
   if (node.kind == OutlinerRow::Kind::product) return ICON_CUBE;
-  const auto& ifc_class = editor.environment()->spatial[node.index].ifc_class;
+  const auto& ifc_class = model.environment()->spatial[node.index].ifc_class;
   if (ifc_class == "IfcSite") return ICON_SITE;
   if (ifc_class == "IfcBuilding") return ICON_BUILDING;
   if (ifc_class == "IfcBuildingStorey") return ICON_STOREY;
@@ -26,88 +27,89 @@ const char* iconOf(const Editor& editor, const Outliner::Node& node) {
   return ICON_GLOBE;
 }
 
-void choose(Editor& editor, const std::vector<OutlinerRow>& rows, int index) {
-  auto& state = editor.panels.outliner;
+void choose(const Model& model, OutlinerState& state, Actions& actions, const std::vector<OutlinerRow>& rows,
+            int index) {
   const auto node = rows[static_cast<std::size_t>(index)].node;
-  const auto below = state.tree.productsBelow(node);
+  const auto below = model.outliner.tree.productsBelow(node);
   const auto& io = ImGui::GetIO();
   if (io.KeyShift && state.anchor < rows.size()) {
     std::vector<std::uint32_t> chosen;
     const auto [low, high] = std::minmax(static_cast<int>(state.anchor), index);
     for (int i = low; i <= high; ++i) {
-      const auto more = state.tree.productsBelow(rows[static_cast<std::size_t>(i)].node);
+      const auto more = model.outliner.tree.productsBelow(rows[static_cast<std::size_t>(i)].node);
       chosen.insert(chosen.end(), more.begin(), more.end());
     }
-    editor.selection.set(std::move(chosen));
+    actions.select(std::move(chosen));
     return;
   }
   state.anchor = static_cast<std::uint32_t>(index);
   if (io.KeyCtrl && below.size() == 1)
-    editor.selection.toggle(below.front());
+    actions.toggle(below.front());
   else if (io.KeyCtrl) {
-    auto chosen = editor.selection.products();
+    auto chosen = model.selection.products();
     chosen.insert(chosen.end(), below.begin(), below.end());
-    editor.selection.set(std::move(chosen));
+    actions.select(std::move(chosen));
   } else {
-    editor.selection.set(below);
+    actions.select(below);
   }
 }
 
-void drawEye(Editor& editor, const std::vector<std::uint32_t>& below, float x) {
+void drawEye(const Model& model, Actions& actions, const std::vector<std::uint32_t>& below, float x) {
   const bool any_shown =
-      std::any_of(below.begin(), below.end(), [&](std::uint32_t p) { return !editor.visibility.hidden(p); });
+      std::any_of(below.begin(), below.end(), [&](std::uint32_t p) { return !model.visibility.hidden(p); });
   ImGui::SameLine(x);
   ImGui::PushStyleColor(ImGuiCol_Text, any_shown ? ImVec4(0.52F, 0.55F, 0.61F, 1) : colour(tone::kWarning));
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(editor.px(3), 0));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(model.px(3), 0));
   if (ui::iconButton(any_shown ? ICON_EYE "###eye" : ICON_EYE_OFF "###eye", any_shown ? "Hide" : "Show"))
-    editor.visibility.show(below, !any_shown);
+    actions.show(below, !any_shown);
   ImGui::PopStyleVar();
   ImGui::PopStyleColor();
 }
 
 // For all that is chosen; a row that is not becomes so.
-void productMenu(Editor& editor, const std::vector<OutlinerRow>& rows, int index, bool chosen) {
+void productMenu(const Model& model, OutlinerState& state, Actions& actions, const std::vector<OutlinerRow>& rows,
+                 int index, bool chosen) {
   if (!ImGui::BeginPopupContextItem("###row-menu")) return;
-  if (ImGui::IsWindowAppearing() && !chosen) choose(editor, rows, index);
-  for (const char* id : {"frame", "hide", "isolate", "show-all"}) actionMenuItem(editor, id);
+  if (ImGui::IsWindowAppearing() && !chosen) choose(model, state, actions, rows, index);
+  for (const char* id : {"frame", "hide", "isolate", "show-all"}) actions.menuItem(id);
   ImGui::Separator();
-  for (const char* id : {"exclude", "keep", "by-rules"}) actionMenuItem(editor, id);
+  for (const char* id : {"exclude", "keep", "by-rules"}) actions.menuItem(id);
   ImGui::EndPopup();
 }
 
-void drawRow(Editor& editor, const std::vector<OutlinerRow>& rows, int index) {
-  auto& state = editor.panels.outliner;
+void drawRow(const Model& model, OutlinerState& state, Actions& actions, const std::vector<OutlinerRow>& rows,
+             int index) {
   const OutlinerRow row = rows[static_cast<std::size_t>(index)];
-  const auto& node = state.tree.node(row.node);
+  const auto& node = model.outliner.tree.node(row.node);
   const bool product = row.kind == OutlinerRow::Kind::product;
-  const bool chosen = product && editor.selection.contains(node.index);
+  const bool chosen = product && model.selection.contains(node.index);
   const float left = ImGui::GetCursorPosX(), right = left + ImGui::GetContentRegionAvail().x;
-  const float indent = editor.px(13) * static_cast<float>(row.depth);
+  const float indent = model.px(13) * static_cast<float>(row.depth);
   ImGui::PushID(static_cast<int>(row.node));
   if (ImGui::Selectable("###row", chosen, ImGuiSelectableFlags_AllowItemOverlap | ImGuiSelectableFlags_AllowDoubleClick,
-                        {0, editor.px(19)})) {
-    const bool on_arrow = ImGui::GetIO().MousePos.x < ImGui::GetWindowPos().x + left + indent + editor.px(16);
+                        {0, model.px(19)})) {
+    const bool on_arrow = ImGui::GetIO().MousePos.x < ImGui::GetWindowPos().x + left + indent + model.px(16);
     if (row.expandable && (on_arrow || ImGui::IsMouseDoubleClicked(0)))
-      state.tree.expand(row.node, !row.expanded);
+      actions.expand(row.node, !row.expanded);
     else
-      choose(editor, rows, index);
-    if (product && ImGui::IsMouseDoubleClicked(0)) editor.frameSelection();
+      choose(model, state, actions, rows, index);
+    if (product && ImGui::IsMouseDoubleClicked(0)) actions.frameSelection();
   }
   const bool hovered = ImGui::IsItemHovered();
-  productMenu(editor, rows, index, chosen);
+  productMenu(model, state, actions, rows, index, chosen);
   ImGui::SetItemAllowOverlap();
   ImGui::SameLine(left + indent);
   if (row.expandable) ui::dimText(row.expanded ? ICON_ARROW_DOWN : ICON_CHEVRON_RIGHT);
-  ImGui::SameLine(left + indent + editor.px(17));
-  const bool hidden = product && editor.visibility.hidden(node.index);
-  const bool excluded = product && editor.environment()->products[node.index].excluded;
+  ImGui::SameLine(left + indent + model.px(17));
+  const bool hidden = product && model.visibility.hidden(node.index);
+  const bool excluded = product && model.environment()->products[node.index].excluded;
   ImGui::PushStyleColor(ImGuiCol_Text, product ? ImVec4(0.45F, 0.62F, 0.85F, 1) : ImVec4(0.62F, 0.66F, 0.73F, 1));
-  ImGui::TextUnformatted(excluded ? ICON_BAN : iconOf(editor, node));
+  ImGui::TextUnformatted(excluded ? ICON_BAN : iconOf(model, node));
   ImGui::PopStyleColor();
-  ImGui::SameLine(left + indent + editor.px(39));
+  ImGui::SameLine(left + indent + model.px(39));
   const std::string count = product ? std::string() : std::to_string(node.products);
-  const float count_width = count.empty() ? 0 : ImGui::CalcTextSize(count.c_str()).x + editor.px(8);
-  const float eye = editor.px(24);
+  const float count_width = count.empty() ? 0 : ImGui::CalcTextSize(count.c_str()).x + model.px(8);
+  const float eye = model.px(24);
   ImGui::BeginDisabled(hidden || excluded);
   ui::fitted(node.label, right - ImGui::GetCursorPosX() - count_width - eye);
   ImGui::EndDisabled();
@@ -115,120 +117,122 @@ void drawRow(Editor& editor, const std::vector<OutlinerRow>& rows, int index) {
     ImGui::SameLine(right - eye - count_width);
     ui::dimText(count);
   }
-  const bool some_hidden = hidden || (!product && editor.visibility.anyHidden());
+  const bool some_hidden = hidden || (!product && model.visibility.anyHidden());
   if (hovered || some_hidden) {
-    const auto below = state.tree.productsBelow(row.node);
-    const bool show_eye = hovered || std::any_of(below.begin(), below.end(),
-                                                 [&](std::uint32_t p) { return editor.visibility.hidden(p); });
-    if (show_eye) drawEye(editor, below, right - eye);
+    const auto below = model.outliner.tree.productsBelow(row.node);
+    const bool show_eye =
+        hovered || std::any_of(below.begin(), below.end(), [&](std::uint32_t p) { return model.visibility.hidden(p); });
+    if (show_eye) drawEye(model, actions, below, right - eye);
   }
   ImGui::PopID();
 }
 
-void drawUnderlayEye(Editor& editor, const Underlay& underlay, float x) {
+void drawUnderlayEye(const Model& model, Actions& actions, const Underlay& underlay, float x) {
   ImGui::SameLine(x);
   ImGui::PushStyleColor(ImGuiCol_Text, underlay.visible ? ImVec4(0.52F, 0.55F, 0.61F, 1) : colour(tone::kWarning));
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(editor.px(3), 0));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(model.px(3), 0));
   if (ui::iconButton(underlay.visible ? ICON_EYE "###eye" : ICON_EYE_OFF "###eye", underlay.visible ? "Hide" : "Show",
-                     editor.session.whyNot("underlay")))
-    editor.session.start("underlay", {{underlay.visible ? "hide" : "show", underlay.name}},
-                         (underlay.visible ? "Hide " : "Show ") + underlay.name);
+                     model.session.whyNot("underlay")))
+    actions.start("underlay", {{underlay.visible ? "hide" : "show", underlay.name}},
+                  (underlay.visible ? "Hide " : "Show ") + underlay.name);
   ImGui::PopStyleVar();
   ImGui::PopStyleColor();
 }
 
-void frameUnderlay(Editor& editor, const Underlay& underlay) {
-  const Bounds b = underlayBounds(underlay, *editor.session.document().georeference);
-  if (!b.empty()) frame(editor.view.camera, b, editor.view.size.x() / std::max(editor.view.size.y(), 1.0));
+void frameUnderlay(const Model& model, Actions& actions, const Underlay& underlay) {
+  const Bounds b = underlayBounds(underlay, *model.session.document().georeference);
+  if (!b.empty()) actions.bringIntoView(b);
 }
 
-void underlayMenu(Editor& editor, const Underlay& underlay) {
+void underlayMenu(const Model& model, Actions& actions, const Underlay& underlay) {
   if (!ImGui::BeginPopupContextItem("###underlay-menu")) return;
-  if (ImGui::MenuItem(ICON_EXPAND "  Frame it###underlay-frame")) frameUnderlay(editor, underlay);
-  const auto why = editor.session.whyNot("underlay");
+  if (ImGui::MenuItem(ICON_EXPAND "  Frame it###underlay-frame")) frameUnderlay(model, actions, underlay);
+  const auto why = model.session.whyNot("underlay");
   if (ImGui::MenuItem(ICON_MOVE "  Move it…###underlay-move", nullptr, false, why.empty())) {
-    openVerbForm(editor, "underlay");
-    editor.dialogs.verb.form.fill({{"move", underlay.name},
-                                   {"at",
-                                    {underlay.file_from_cloud.translation.x(), underlay.file_from_cloud.translation.y(),
-                                     underlay.file_from_cloud.translation.z()}}});
+    actions.openForm("underlay", {{"move", underlay.name},
+                                  {"at",
+                                   {underlay.file_from_cloud.translation.x(), underlay.file_from_cloud.translation.y(),
+                                    underlay.file_from_cloud.translation.z()}}});
   }
   if (ImGui::MenuItem(ICON_TRASH "  Remove it; its file stays###underlay-remove", nullptr, false, why.empty()))
-    editor.session.start("underlay", {{"remove", underlay.name}}, "Remove underlay " + underlay.name);
+    actions.start("underlay", {{"remove", underlay.name}}, "Remove underlay " + underlay.name);
   ImGui::EndPopup();
 }
 
 // Clouds under the model; a double click frames one.
-void drawUnderlays(Editor& editor) {
-  const auto underlays = editor.session.document().underlays;  // a copy: a click may change them
+void drawUnderlays(const Model& model, Actions& actions) {
+  const auto underlays = model.session.document().underlays;  // a copy: a click may change them
   for (std::size_t i = 0; i < underlays.size(); ++i) {
     const Underlay& u = *underlays[i];
     ImGui::PushID(static_cast<int>(i));
-    const float left = ImGui::GetCursorPosX(), right = left + ImGui::GetContentRegionAvail().x, eye = editor.px(24);
+    const float left = ImGui::GetCursorPosX(), right = left + ImGui::GetContentRegionAvail().x, eye = model.px(24);
     const bool pressed = ImGui::Selectable(
         "###underlay", false, ImGuiSelectableFlags_AllowItemOverlap | ImGuiSelectableFlags_AllowDoubleClick,
-        {0, editor.px(19)});
-    if (pressed && ImGui::IsMouseDoubleClicked(0)) frameUnderlay(editor, u);
+        {0, model.px(19)});
+    if (pressed && ImGui::IsMouseDoubleClicked(0)) frameUnderlay(model, actions, u);
     ImGui::SetItemAllowOverlap();
-    underlayMenu(editor, u);
+    underlayMenu(model, actions, u);
     ui::tooltip(fmt::format("{}\n{} points\nDouble click frames it", u.file, groupedDigits(u.points)));
-    ImGui::SameLine(left + editor.px(17));
+    ImGui::SameLine(left + model.px(17));
     ImGui::TextColored(ImVec4(0.45F, 0.62F, 0.85F, 1), "%s", ICON_UNDERLAY);
-    ImGui::SameLine(left + editor.px(39));
+    ImGui::SameLine(left + model.px(39));
     const std::string points = groupedDigits(u.points);
-    const float width = ImGui::CalcTextSize(points.c_str()).x + editor.px(8);
+    const float width = ImGui::CalcTextSize(points.c_str()).x + model.px(8);
     ImGui::BeginDisabled(!u.visible);
     ui::fitted(u.name, right - ImGui::GetCursorPosX() - width - eye);
     ImGui::EndDisabled();
     ImGui::SameLine(right - eye - width);
     ui::dimText(points);
-    drawUnderlayEye(editor, u, right - eye);
+    drawUnderlayEye(model, actions, u, right - eye);
     ImGui::PopID();
   }
   if (!underlays.empty()) ImGui::Separator();
 }
 
-void scrollTo(Editor& editor, const std::vector<OutlinerRow>& rows, float row_height) {
-  auto& state = editor.panels.outliner;
-  if (state.scroll_to < 0) return;
+void scrollTo(const Model& model, Actions& actions, const std::vector<OutlinerRow>& rows, float row_height) {
+  if (!model.outliner.scroll_to) return;
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (rows[i].kind == OutlinerRow::Kind::product &&
-        state.tree.node(rows[i].node).index == static_cast<std::uint32_t>(state.scroll_to)) {
+        model.outliner.tree.node(rows[i].node).index == *model.outliner.scroll_to) {
       const float y = static_cast<float>(i) * row_height, height = ImGui::GetWindowHeight();
       if (y < ImGui::GetScrollY() || y + row_height > ImGui::GetScrollY() + height)
         ImGui::SetScrollY(std::max(0.0F, y - height * 0.4F));
     }
-  state.scroll_to = -1;
+  actions.scrolled();
 }
 
-}  // namespace
-
-void drawOutlinerPanel(Editor& editor) {
-  const auto& environment = editor.environment();
+void draw(const Model& model, OutlinerState& state, Actions& actions) {
+  const auto& environment = model.environment();
   if (!environment) {
-    ui::emptyState(editor, ICON_LIST, "Nothing to list",
+    ui::emptyState(model, ICON_LIST, "Nothing to list",
                    "The building's structure appears here once a model is imported.");
     return;
   }
-  auto& state = editor.panels.outliner;
+  if (state.made != model.outliner.made) state = {.made = model.outliner.made};
   ui::searchField("outliner-filter", "Name, class, id, material", state.filter);
-  if (state.filter.empty()) drawUnderlays(editor);
-  const auto rows = state.tree.rows(*environment, state.filter);
+  if (state.filter.empty()) drawUnderlays(model, actions);
+  const auto rows = model.outliner.tree.rows(*environment, state.filter);
   if (rows.empty()) {
-    ui::emptyState(editor, ICON_SEARCH, "Nothing fits",
+    ui::emptyState(model, ICON_SEARCH, "Nothing fits",
                    "No product has all these words in its name, class, id, storey or materials.");
     return;
   }
   ImGui::BeginChild("rows");
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(editor.px(4), editor.px(1)));
-  const float row_height = editor.px(19) + editor.px(1);
-  scrollTo(editor, rows, row_height);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(model.px(4), model.px(1)));
+  const float row_height = model.px(19) + model.px(1);
+  scrollTo(model, actions, rows, row_height);
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(rows.size()), row_height);
   while (clipper.Step())
-    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) drawRow(editor, rows, i);
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) drawRow(model, state, actions, rows, i);
   ImGui::PopStyleVar();
   ImGui::EndChild();
+}
+
+}  // namespace
+
+void drawOutlinerPanel(const Model& model, PanelStates& states, Actions& actions) {
+  draw(model, states.of<OutlinerState>(), actions);
 }
 
 }  // namespace standpoint

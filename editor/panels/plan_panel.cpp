@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "editor/editor.h"
-#include "editor/panels/panels_list.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/panels/actions.h"
+#include "editor/panels/panel.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 
@@ -19,18 +19,17 @@ using nlohmann::json;
 constexpr double kLowOverlap = 0.3;
 
 std::string percent(double share) { return fmt::format("{:.0f} %", share * 100); }
-void start(Editor& editor) {
-  const auto& scan = editor.panels.scan;
-  const auto& state = editor.panels.plan;
-  json options = {{"instrument", scan.asked.instrument}, {"set", json::array()}};
-  for (const auto& [key, value] : scan.asked.settings) options["set"].push_back(key + "=" + value);
-  if (state.spacing_mm > 0) options["spacing"] = state.spacing_mm / 1000;
-  if (state.max_incidence_deg < 90) options["max-incidence-deg"] = state.max_incidence_deg;
-  editor.session.start("plan", std::move(options), "Plan the scans");
+void start(const Model& model, Actions& actions) {
+  const auto& [spacing_mm, max_incidence_deg] = model.seen;
+  json options = {{"instrument", model.scan_choice.instrument}, {"set", json::array()}};
+  for (const auto& [key, value] : model.scan_choice.settings) options["set"].push_back(key + "=" + value);
+  if (spacing_mm > 0) options["spacing"] = spacing_mm / 1000;
+  if (max_incidence_deg < 90) options["max-incidence-deg"] = max_incidence_deg;
+  actions.start("plan", std::move(options), "Plan the scans");
 }
 
 // The same as the view's colour chip, where it is wanted.
-void drawMapSwitch(Editor& editor) {
+void drawMapSwitch(const Model& model, Actions& actions) {
   struct Map {
     const char* label;
     ColourMode mode;
@@ -45,29 +44,30 @@ void drawMapSwitch(Editor& editor) {
   const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
   for (const auto& map : kMaps) {
     if (&map != kMaps) ImGui::SameLine();
-    const bool lit = editor.view.colour == map.mode;
+    const bool lit = model.view.colour == map.mode;
     ImGui::PushStyleColor(ImGuiCol_Button,
                           lit ? ImVec4(0.25F, 0.56F, 0.97F, 0.45F) : ImGui::GetStyleColorVec4(ImGuiCol_Button));
-    if (ui::button(map.label, {}, {width, 0}, map.help)) editor.view.colour = lit ? ColourMode::model : map.mode;
+    if (ui::button(map.label, {}, {width, 0}, map.help)) actions.colourBy(lit ? ColourMode::model : map.mode);
     ImGui::PopStyleColor();
   }
 }
 
-void drawWishes(Editor& editor) {
-  auto& state = editor.panels.plan;
+void drawWishes(const Model& model, Actions& actions) {
   if (!ui::beginProperties("wishes", 0.46F)) return;
+  SeenLimits limits = model.seen;
   ui::propertyLabel("Point spacing");
-  ImGui::InputDouble("###spacing", &state.spacing_mm, 0, 0, state.spacing_mm > 0 ? "%.1f mm" : "any");
+  ImGui::InputDouble("###spacing", &limits.spacing_mm, 0, 0, limits.spacing_mm > 0 ? "%.1f mm" : "any");
   ui::tooltip("Seen is what gets a point for each square of this side; 0 = whatever returns a point");
-  state.spacing_mm = std::max(0.0, state.spacing_mm);
+  limits.spacing_mm = std::max(0.0, limits.spacing_mm);
   ui::propertyLabel("Incidence up to");
-  ImGui::InputDouble("###incidence", &state.max_incidence_deg, 0, 0, "%.0f °");
-  state.max_incidence_deg = std::clamp(state.max_incidence_deg, 1.0, 90.0);
+  ImGui::InputDouble("###incidence", &limits.max_incidence_deg, 0, 0, "%.0f °");
+  limits.max_incidence_deg = std::clamp(limits.max_incidence_deg, 1.0, 90.0);
+  actions.set(limits);
   ui::endProperties();
 }
 
-void drawShares(Editor& editor, const json& rows, const char* key, const char* title) {
-  ui::heading(editor, title);
+void drawShares(const Model& model, const json& rows, const char* key, const char* title) {
+  ui::heading(model, title);
   if (!ui::beginProperties(title, 0.56F)) return;
   for (const auto& row : rows) {
     const auto name = row.at(key).get<std::string>();
@@ -77,8 +77,8 @@ void drawShares(Editor& editor, const json& rows, const char* key, const char* t
   ui::endProperties();
 }
 
-void drawStations(Editor& editor, const json& answer) {
-  ui::heading(editor, "Stations");
+void drawStations(const Model& model, const json& answer) {
+  ui::heading(model, "Stations");
   if (!ImGui::BeginTable("planned", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
   for (const char* title : {"Station", "Sees", "Points", "File"}) ImGui::TableSetupColumn(title);
   ImGui::TableHeadersRow();
@@ -97,9 +97,9 @@ void drawStations(Editor& editor, const json& answer) {
   ui::dimText("On site: " + durationText(answer.at("instrument_seconds")));
 }
 
-void drawPairs(Editor& editor, const json& pairs) {
+void drawPairs(const Model& model, const json& pairs) {
   if (pairs.empty()) return;
-  ui::heading(editor, "Overlap");
+  ui::heading(model, "Overlap");
   if (!ui::beginProperties("pairs", 0.56F)) return;
   for (const auto& pair : pairs) {
     const double overlap = pair.at("overlap");
@@ -109,10 +109,10 @@ void drawPairs(Editor& editor, const json& pairs) {
   ui::endProperties();
 }
 
-void drawHoles(Editor& editor, const json& holes) {
+void drawHoles(const Model& model, Actions& actions, const json& holes) {
   if (holes.empty()) return;
-  ui::heading(editor, "Not seen");
-  const auto& products = editor.environment()->products;
+  ui::heading(model, "Not seen");
+  const auto& products = model.environment()->products;
   for (std::size_t k = 0; k < holes.size(); ++k) {
     const auto id = holes[k].at("id").get<std::string>();
     ImGui::PushID(static_cast<int>(k));
@@ -120,55 +120,56 @@ void drawHoles(Editor& editor, const json& holes) {
                                       holes[k].value("class", ""), holes[k].value("name", id))
                               .c_str()))
       for (std::uint32_t p = 0; p < products.size(); ++p)
-        if (products[p].id == id) editor.select(p, true);
+        if (products[p].id == id) actions.reveal(p);
     ImGui::PopID();
   }
 }
 
-void drawProposal(Editor& editor, const json& proposed) {
+void drawProposal(const Model& model, Actions& actions, const json& proposed) {
   if (!proposed.is_object()) return;
   const auto text =
       fmt::format(ICON_STATION "  Another station: +{:.0f} m²###add-proposed", proposed.at("adds_m2").get<double>());
-  if (!ui::button(text.c_str(), editor.session.whyNot("station"), {-FLT_MIN, 0},
+  if (!ui::button(text.c_str(), model.session.whyNot("station"), {-FLT_MIN, 0},
                   "Sets one up where it adds most to what is seen"))
     return;
-  const auto& stations = editor.session.document().job->stations;
+  const auto& stations = model.session.document().job->stations;
   for (std::size_t i = stations.size() + 1;; ++i) {
     const auto name = fmt::format("S{}", i);
     if (std::any_of(stations.begin(), stations.end(), [&](const Station& s) { return s.name == name; })) continue;
-    editor.session.start("station", {{"add", name}, {"at", proposed.at("at")}}, "Add station " + name);
+    actions.start("station", {{"add", name}, {"at", proposed.at("at")}}, "Add station " + name);
     return;
   }
 }
 
 }  // namespace
 
-void drawPlanPanel(Editor& editor) {
-  if (!editor.environment() || !editor.session.document().job) {
-    ui::emptyState(editor, ICON_EYE, "Nothing to plan", "Import a model first.");
+void drawPlanPanel(const Model& model, PanelStates&, Actions& actions) {
+  if (!model.environment() || !model.session.document().job) {
+    ui::emptyState(model, ICON_EYE, "Nothing to plan", "Import a model first.");
     return;
   }
-  const auto* instrument = instrumentIn(readCatalogue(editor.panels.catalogue), editor.panels.scan.asked.instrument);
+  const auto* instrument = model.instrument(model.scan_choice.instrument);
   ui::dimText(instrument == nullptr ? "Choose an instrument under Scan"
                                     : fmt::format("{} {}, as set under Scan", instrument->maker, instrument->model));
-  drawWishes(editor);
+  drawWishes(model, actions);
   const std::string why =
-      instrument == nullptr ? "Choose an instrument under Scan first" : editor.session.whyNot("plan");
-  if (ui::primaryButton(ICON_EYE "  What will they see?###run-plan", why, {-FLT_MIN, editor.px(28)})) start(editor);
-  drawMapSwitch(editor);
-  const auto* last = editor.session.lastOf("plan");
+      instrument == nullptr ? "Choose an instrument under Scan first" : model.session.whyNot("plan");
+  if (ui::primaryButton(ICON_EYE "  What will they see?###run-plan", why, {-FLT_MIN, model.px(28)}))
+    start(model, actions);
+  drawMapSwitch(model, actions);
+  const auto* last = model.session.lastOf("plan");
   if (last == nullptr || !last->answer.contains("coverage")) return;
   const auto& answer = last->answer;
-  if (last->revision != editor.session.revision()) ui::dimWrapped("Something has changed since: ask once more.");
-  ui::meter(editor, answer.at("coverage"), tone::kGood);
+  if (last->revision != model.session.revision()) ui::dimWrapped("Something has changed since: ask once more.");
+  ui::meter(model, answer.at("coverage"), tone::kGood);
   ui::dimText(fmt::format("{} of {:.0f} m² that light reaches", percent(answer.at("coverage")),
                           answer.at("exposed_m2").get<double>()));
-  drawProposal(editor, answer.at("proposed"));
-  drawStations(editor, answer);
-  drawPairs(editor, answer.at("pairs"));
-  drawShares(editor, answer.at("storeys"), "storey", "By storey");
-  drawShares(editor, answer.at("classes"), "class", "By class");
-  drawHoles(editor, answer.at("holes"));
+  drawProposal(model, actions, answer.at("proposed"));
+  drawStations(model, answer);
+  drawPairs(model, answer.at("pairs"));
+  drawShares(model, answer.at("storeys"), "storey", "By storey");
+  drawShares(model, answer.at("classes"), "class", "By class");
+  drawHoles(model, actions, answer.at("holes"));
 }
 
 }  // namespace standpoint

@@ -8,11 +8,12 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "editor/editor.h"
 #include "editor/model/scan_form.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/panels/actions.h"
+#include "editor/panels/scan_panel.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 
@@ -23,13 +24,13 @@ bool folded(const char* title, const std::string& summary, const char* id) {
   return ImGui::CollapsingHeader(fmt::format("{}   {}###{}", title, summary, id).c_str());
 }
 
-void drawEffects(Editor& editor, ScanChoice& asked) {
+void drawEffects(const Model& model, ScanChoice& asked) {
   if (!folded("Effects", effectsSummary(asked.effects), "effects")) return;
   bool ideal = asked.effects == Effects::none();
   if (ImGui::Checkbox("Ideal: without any###ideal", &ideal)) asked.effects = ideal ? Effects::none() : Effects();
   ui::tooltip("Each pulse gives the first surface on its axis, exactly: the truth to compare with");
   if (!ImGui::BeginTable("effects", 2, ImGuiTableFlags_RowBg)) return;
-  ImGui::TableSetupColumn("effect", ImGuiTableColumnFlags_WidthFixed, editor.px(118));
+  ImGui::TableSetupColumn("effect", ImGuiTableColumnFlags_WidthFixed, model.px(118));
   ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
   for (const auto& effect : effectNames()) {
     ImGui::TableNextRow();
@@ -54,7 +55,7 @@ struct WeatherField {
   const char* help;
 };
 
-void drawWeather(Editor& editor, ScanChoice& asked) {
+void drawWeather(const Model& model, ScanChoice& asked) {
   if (!folded("Weather", weatherSummary(asked.weather), "weather")) return;
   static constexpr std::array kFields = {
       WeatherField{"Visibility", "visibility", &Weather::visibility_km, "%.4g km",
@@ -83,7 +84,7 @@ void drawWeather(Editor& editor, ScanChoice& asked) {
   }
   if (!asked.effects.has(Effect::weather) || !asked.effects.has(Effect::atmosphere))
     ui::dimText("The effects weather and atmosphere are not both on");
-  if (ui::button("Clear air###clear-air", asked.weather == Weather() ? "It is clear" : "", {editor.px(90), 0}))
+  if (ui::button("Clear air###clear-air", asked.weather == Weather() ? "It is clear" : "", {model.px(90), 0}))
     asked.weather = Weather();
 }
 
@@ -124,19 +125,18 @@ std::string extrasSummary(const ScanChoice& asked, bool resume) {
   return text.empty() ? "points alone" : text;
 }
 
-void drawExtras(Editor& editor, const Instrument& instrument, const ScanSettings& settings) {
-  auto& state = editor.panels.scan;
-  if (!folded("With it", extrasSummary(state.asked, state.resume), "extras")) return;
+void drawExtras(ScanState& state, ScanChoice& asked, const Instrument& instrument, const ScanSettings& settings) {
+  if (!folded("With it", extrasSummary(asked, state.resume), "extras")) return;
   if (!ui::beginProperties("extras", 0.36F)) return;
   ui::propertyLabel("Truth");
-  ImGui::Checkbox("###truth", &state.asked.truth);
+  ImGui::Checkbox("###truth", &asked.truth);
   ui::tooltip(
       "With each point what is known of it: time, return, true place, range, incidence, power, and how it came about. "
       "The file is about three times as large.");
-  drawPanorama(state.asked, instrument, settings);
+  drawPanorama(asked, instrument, settings);
   ui::propertyLabel("Compensator");
   ImGui::BeginDisabled(!instrument.compensator);
-  ImGui::Checkbox("###compensator", &state.asked.compensator);
+  ImGui::Checkbox("###compensator", &asked.compensator);
   ImGui::EndDisabled();
   ui::tooltip(instrument.compensator ? "Off: the points of a station that leans come tilted"
                                      : "This instrument has none: the points of a station that leans come tilted");
@@ -146,23 +146,23 @@ void drawExtras(Editor& editor, const Instrument& instrument, const ScanSettings
       "Takes the stations that a cancelled or crashed run has finished as they are. Off: all are scanned again, and "
       "what such a run left is in the way");
   ui::propertyLabel("Seed of the noise");
-  auto seed = static_cast<std::int64_t>(state.asked.seed);
+  auto seed = static_cast<std::int64_t>(asked.seed);
   ImGui::InputScalar("###seed", ImGuiDataType_S64, &seed);
   ui::tooltip("The same seed gives the same noise");
-  state.asked.seed = static_cast<std::uint64_t>(std::clamp<std::int64_t>(seed, 0, 9007199254740991));
+  asked.seed = static_cast<std::uint64_t>(std::clamp<std::int64_t>(seed, 0, 9007199254740991));
   ui::endProperties();
 }
 
 }  // namespace
 
-void drawScanConditions(Editor& editor, const Instrument& instrument, const ScanSettings& settings) {
-  drawEffects(editor, editor.panels.scan.asked);
-  drawWeather(editor, editor.panels.scan.asked);
-  drawExtras(editor, instrument, settings);
+void drawScanConditions(const Model& model, ScanState& state, ScanChoice& asked, const Instrument& instrument,
+                        const ScanSettings& settings) {
+  drawEffects(model, asked);
+  drawWeather(model, asked);
+  drawExtras(state, asked, instrument, settings);
 }
 
-std::string whyNotConditions(const Editor& editor, const ScanSettings& settings) {
-  const auto& asked = editor.panels.scan.asked;
+std::string whyNotConditions(const ScanChoice& asked, const ScanSettings& settings) {
   if (const auto checked = check(asked.weather); !checked) return "Weather: " + describe(checked.error());
   if (asked.panorama && !settings.imaging)
     return "These settings take no images: choose others, or leave the panorama out";

@@ -5,13 +5,16 @@
 
 namespace standpoint {
 
-struct Editor;
 struct Instrument;
+struct Model;
+struct ScanChoice;
 struct ScanSettings;
+struct ScanState;
 
 // The folded parts of the scan panel: effects one by one, the weather, and what comes with the points.
-void drawScanConditions(Editor& editor, const Instrument& instrument, const ScanSettings& settings);
+void drawScanConditions(const Model& model, ScanState& state, ScanChoice& asked, const Instrument& instrument,
+                        const ScanSettings& settings);
 // Why these cannot be scanned with; empty when they can.
-std::string whyNotConditions(const Editor& editor, const ScanSettings& settings);
+std::string whyNotConditions(const ScanChoice& asked, const ScanSettings& settings);
 
 }  // namespace standpoint

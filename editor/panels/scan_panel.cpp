@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/panels/scan_panel.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,14 +12,13 @@
 #include <imgui_stdlib.h>
 
 #include "core/units.h"
-#include "editor/editor.h"
 #include "editor/model/scan_form.h"
-#include "editor/panels/panels_list.h"
+#include "editor/panels/actions.h"
+#include "editor/panels/panel.h"
 #include "editor/panels/scan_conditions.h"
-#include "editor/shell/dialogs.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 #include "pointclouds/formats.h"
 
 namespace standpoint {
@@ -25,17 +26,15 @@ namespace standpoint {
 namespace {
 
 // What the document was scanned with last is what the next scan begins with, but not over what was set meanwhile.
-void followDocument(Editor& editor) {
-  auto& state = editor.panels.scan;
-  const auto& scanning = editor.session.document().scanning;
+void followDocument(const Model& model, ScanState& state, ScanChoice& asked) {
+  const auto& scanning = model.session.document().scanning;
   if (scanning == state.remembered) return;
   state.remembered = scanning;
-  if (scanning && state.started != *scanning) state.asked = *scanning;
+  if (scanning && state.started != *scanning) asked = *scanning;
 }
 
-const Instrument* chosenInstrument(Editor& editor) {
-  auto& asked = editor.panels.scan.asked;
-  const auto& all = readCatalogue(editor.panels.catalogue).instruments;
+const Instrument* chosenInstrument(const Model& model, ScanChoice& asked) {
+  const auto& all = model.catalogue().instruments;
   const auto on_tripod = [](const Instrument& i) { return !i.moving; };  // a station has no trajectory
   auto found = std::find_if(all.begin(), all.end(),
                             [&](const Instrument& i) { return on_tripod(i) && i.id == asked.instrument; });
@@ -45,12 +44,12 @@ const Instrument* chosenInstrument(Editor& editor) {
   return &*found;
 }
 
-void drawInstrumentChoice(Editor& editor, const Instrument& chosen) {
+void drawInstrumentChoice(const Model& model, ScanChoice& asked, const Instrument& chosen) {
   ui::propertyLabel("Instrument");
   if (!ImGui::BeginCombo("###instrument", fmt::format("{} {}", chosen.maker, chosen.model).c_str())) return;
-  for (const auto& i : editor.panels.catalogue.instruments)
+  for (const auto& i : model.catalogue().instruments)
     if (!i.moving && ImGui::Selectable(fmt::format("{} {}###{}", i.maker, i.model, i.id).c_str(), i.id == chosen.id))
-      chooseInstrument(editor.panels.scan.asked, i);
+      chooseInstrument(asked, i);
   ImGui::EndCombo();
 }
 
@@ -90,13 +89,13 @@ std::vector<const CloudFormat*> writableFormats() {
   return result;
 }
 
-std::filesystem::path standardFolder(const Editor& editor) {
-  if (!editor.session.folder().empty()) return editor.session.folder() / "scans";
+std::filesystem::path standardFolder(const Model& model) {
+  if (!model.session.folder().empty()) return model.session.folder() / "scans";
   return {};
 }
 
-void drawOutput(Editor& editor, const std::vector<const CloudFormat*>& formats) {
-  auto& state = editor.panels.scan;
+void drawOutput(const Model& model, ScanState& state, Actions& actions,
+                const std::vector<const CloudFormat*>& formats) {
   state.format = std::clamp(state.format, 0, std::max(0, static_cast<int>(formats.size()) - 1));
   ui::propertyLabel("Format");
   if (ImGui::BeginCombo("###format",
@@ -107,40 +106,40 @@ void drawOutput(Editor& editor, const std::vector<const CloudFormat*>& formats) 
   }
   ui::propertyLabel("Folder");
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
-  ImGui::InputTextWithHint("###folder", standardFolder(editor).empty() ? "choose one" : "scans of the project",
+  ImGui::InputTextWithHint("###folder", standardFolder(model).empty() ? "choose one" : "scans of the project",
                            &state.folder);
   ImGui::SameLine();
   if (ui::iconButton(ICON_FOLDER_OPEN "###choose-folder", "Choose…"))
-    askForFile(editor, FileDialogState::Purpose::saveFolder, "Folder for the scans", "Choose", {".none"}, "scans",
-               [&editor](const std::filesystem::path& folder) { editor.panels.scan.folder = folder.string(); });
+    actions.askForFile(FileDialogState::Purpose::saveFolder, "Folder for the scans", "Choose", {".none"}, "scans",
+                       [&state](Actions&, const std::filesystem::path& folder) { state.folder = folder.string(); });
 }
 
-std::string stationsText(const Editor& editor) {
-  const auto& job = *editor.session.document().job;
-  const auto& state = editor.panels.scan;
-  const int chosen = editor.panels.survey.station;
+std::string stationsText(const Model& model, const ScanState& state) {
+  const auto& job = *model.session.document().job;
+  const int chosen = model.survey.station;
   if (state.all_stations || chosen < 0 || chosen >= static_cast<int>(job.stations.size())) return "all";
   return job.stations[static_cast<std::size_t>(chosen)].name;
 }
 
-void drawStationChoice(Editor& editor) {
-  auto& state = editor.panels.scan;
+void drawStationChoice(const Model& model, ScanState& state, Actions& actions) {
   ui::propertyLabel("Stations");
-  if (!ImGui::BeginCombo("###stations", stationsText(editor) == "all" ? "All" : stationsText(editor).c_str())) return;
+  if (!ImGui::BeginCombo("###stations",
+                         stationsText(model, state) == "all" ? "All" : stationsText(model, state).c_str()))
+    return;
   if (ImGui::Selectable("All", state.all_stations)) state.all_stations = true;
-  const auto& stations = editor.session.document().job->stations;
+  const auto& stations = model.session.document().job->stations;
   for (int i = 0; i < static_cast<int>(stations.size()); ++i)
     if (ImGui::Selectable(fmt::format("{}###station{}", stations[static_cast<std::size_t>(i)].name, i).c_str(),
-                          !state.all_stations && editor.panels.survey.station == i)) {
+                          !state.all_stations && model.survey.station == i)) {
       state.all_stations = false;
-      editor.panels.survey.station = i;
+      actions.choose(SurveyChoice{i, model.survey.target});
     }
   ImGui::EndCombo();
 }
 
-std::vector<std::size_t> stationsWanted(const Editor& editor) {
-  const auto& stations = editor.session.document().job->stations;
-  const auto text = stationsText(editor);
+std::vector<std::size_t> stationsWanted(const Model& model, const ScanState& state) {
+  const auto& stations = model.session.document().job->stations;
+  const auto text = stationsText(model, state);
   std::vector<std::size_t> wanted;
   for (std::size_t i = 0; i < stations.size(); ++i)
     if (text == "all" || stations[i].name == text) wanted.push_back(i);
@@ -152,15 +151,16 @@ std::string bytesText(double bytes) {
 }
 
 // Grid and time at once; points and size as soon as some rays have said what there is to see.
-void drawForecast(Editor& editor, const Instrument& instrument, const ScanSettings& settings) {
-  const auto& document = editor.session.document();
-  const auto wanted = stationsWanted(editor);
+void drawForecast(const Model& model, const ScanState& state, const ScanChoice& asked, Actions& actions,
+                  const Instrument& instrument, const ScanSettings& settings) {
+  const auto& document = model.session.document();
+  const auto wanted = stationsWanted(model, state);
   const auto count = static_cast<double>(wanted.size());
-  const auto scene = editor.picker.scene();
+  const auto scene = model.picker.scene();
   std::optional<ScanOutlook> outlook;
   if (scene && !wanted.empty()) {
-    editor.scan_outlook.want({scene, document.materials, document.job, wanted, editor.panels.scan.asked}, instrument);
-    outlook = editor.scan_outlook.outlook();
+    actions.wantOutlook({scene, document.materials, document.job, wanted, asked}, instrument);
+    outlook = model.scan_outlook.outlook();
   }
   if (!ui::beginProperties("forecast", 0.46F)) return;
   const double seconds = settings.scan_seconds + settings.imaging_seconds;
@@ -182,32 +182,33 @@ void drawForecast(Editor& editor, const Instrument& instrument, const ScanSettin
 }
 
 // Why there cannot be a scan now, beyond what the verb itself asks for.
-std::string whyNotScan(const Editor& editor, const ScanSettings& settings, const std::filesystem::path& folder) {
-  if (auto why = editor.session.whyNot("scan"); !why.empty()) return why;
-  if (editor.session.document().job->stations.empty()) return "Set up a station first: press T and click on the floor";
+std::string whyNotScan(const Model& model, const ScanChoice& asked, const ScanSettings& settings,
+                       const std::filesystem::path& folder) {
+  if (auto why = model.session.whyNot("scan"); !why.empty()) return why;
+  if (model.session.document().job->stations.empty()) return "Set up a station first: press T and click on the floor";
   if (folder.empty()) return "Choose a folder, or save the project: its scans then go there";
-  return whyNotConditions(editor, settings);
+  return whyNotConditions(asked, settings);
 }
 
-void start(Editor& editor, const std::filesystem::path& folder, const CloudFormat* format) {
-  auto& state = editor.panels.scan;
-  const auto stations = stationsText(editor);
+void start(const Model& model, ScanState& state, const ScanChoice& asked, Actions& actions,
+           const std::filesystem::path& folder, const CloudFormat* format) {
+  const auto stations = stationsText(model, state);
   const std::string extension = format != nullptr ? format->extension : ".e57";
-  const auto file = folder / ((stations == "all" ? editor.session.document().name : stations) + extension);
+  const auto file = folder / ((stations == "all" ? model.session.document().name : stations) + extension);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  auto options = scanOptions(state.asked);
+  auto options = scanOptions(asked);
   options["stations"] = stations;
   options["output"] = file.string();
   if (state.resume) options["resume"] = true;
-  state.started = state.asked;
-  editor.startScan(std::move(options), stations == "all" ? "Scan all stations" : "Scan station " + stations);
+  state.started = asked;
+  actions.startScan(std::move(options), stations == "all" ? "Scan all stations" : "Scan station " + stations);
 }
 
-void drawLast(Editor& editor) {
-  const auto* last = editor.session.lastOf("scan");
+void drawLast(const Model& model) {
+  const auto* last = model.session.lastOf("scan");
   if (last == nullptr || !last->answer.contains("stations") || !last->answer["stations"].is_array()) return;
-  ui::heading(editor, "Last scan");
+  ui::heading(model, "Last scan");
   if (!ui::beginProperties("last", 0.3F)) return;
   for (const auto& row : last->answer["stations"])
     ui::property(row.value("name", row.value("station", std::string("station"))).c_str(),
@@ -216,53 +217,62 @@ void drawLast(Editor& editor) {
   ui::endProperties();
 }
 
-}  // namespace
-
-void drawScanPanel(Editor& editor) {
-  if (!editor.environment() || !editor.session.document().job) {
-    ui::emptyState(editor, ICON_PLAY, "Nothing to scan", "Import a model and set up stations first.");
-    return;
-  }
-  followDocument(editor);
-  editor.scan_readiness.follow(editor.session.document(), editor.picker.scene(), editor.wake);
-  const Instrument* instrument = chosenInstrument(editor);
+void drawForm(const Model& model, ScanState& state, ScanChoice& asked, Actions& actions) {
+  const Instrument* instrument = chosenInstrument(model, asked);
   if (instrument == nullptr) {
-    ui::emptyState(editor, ICON_WARNING, "No instruments", editor.panels.catalogue.problem.c_str());
+    ui::emptyState(model, ICON_WARNING, "No instruments", model.catalogue().problem.c_str());
     return;
   }
-  auto& state = editor.panels.scan;
   const auto formats = writableFormats();
   if (ui::beginProperties("scan", 0.36F)) {
-    drawInstrumentChoice(editor, *instrument);
-    for (const auto& setting : instrument->settings) drawSetting(state.asked, setting);
-    drawStationChoice(editor);
-    drawOutput(editor, formats);
+    drawInstrumentChoice(model, asked, *instrument);
+    for (const auto& setting : instrument->settings) drawSetting(asked, setting);
+    drawStationChoice(model, state, actions);
+    drawOutput(model, state, actions, formats);
     ui::endProperties();
   }
-  const auto settings = resolveSettings(*instrument, state.asked.settings);
+  const auto settings = resolveSettings(*instrument, asked.settings);
   if (!settings) {
-    ui::primaryButton(ICON_PLAY "  Scan###run-scan", describe(settings.error()), {-FLT_MIN, editor.px(28)});
+    ui::primaryButton(ICON_PLAY "  Scan###run-scan", describe(settings.error()), {-FLT_MIN, model.px(28)});
     ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
     ImGui::SameLine();
     ui::wrapped(describe(settings.error()));
     return;
   }
-  drawScanConditions(editor, *instrument, *settings);
-  ui::gap(editor, 4);
+  drawScanConditions(model, state, asked, *instrument, *settings);
+  ui::gap(model, 4);
   const std::filesystem::path folder =
-      state.folder.empty() ? standardFolder(editor) : std::filesystem::path(state.folder);
+      state.folder.empty() ? standardFolder(model) : std::filesystem::path(state.folder);
   const CloudFormat* format = formats.empty() ? nullptr : formats[static_cast<std::size_t>(state.format)];
-  if (ui::primaryButton(ICON_PLAY "  Scan###run-scan", whyNotScan(editor, *settings, folder),
-                        {-FLT_MIN, editor.px(28)}))
-    start(editor, folder, format);
-  if (!editor.session.document().materials) {
+  if (ui::primaryButton(ICON_PLAY "  Scan###run-scan", whyNotScan(model, asked, *settings, folder),
+                        {-FLT_MIN, model.px(28)}))
+    start(model, state, asked, actions, folder, format);
+  if (!model.session.document().materials) {
     ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
     ImGui::SameLine();
     ui::wrapped("No physical materials were assigned yet: the default rules are used.");
   }
-  ui::heading(editor, "What it will take");
-  drawForecast(editor, *instrument, *settings);
-  drawLast(editor);
+  ui::heading(model, "What it will take");
+  drawForecast(model, state, asked, actions, *instrument, *settings);
+  drawLast(model);
+}
+
+void draw(const Model& model, ScanState& state, Actions& actions) {
+  if (!model.environment() || !model.session.document().job) {
+    ui::emptyState(model, ICON_PLAY, "Nothing to scan", "Import a model and set up stations first.");
+    return;
+  }
+  ScanChoice asked = model.scan_choice;
+  followDocument(model, state, asked);
+  actions.wantReadiness();
+  drawForm(model, state, asked, actions);
+  actions.set(asked);
+}
+
+}  // namespace
+
+void drawScanPanel(const Model& model, PanelStates& states, Actions& actions) {
+  draw(model, states.of<ScanState>(), actions);
 }
 
 }  // namespace standpoint

@@ -1,54 +1,54 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
 #include "core/units.h"
-#include "editor/editor.h"
-#include "editor/panels/panels_list.h"
-#include "editor/shell/actions.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/panels/actions.h"
+#include "editor/panels/panel.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 
 namespace {
 
-void lookAt(Editor& editor, const Eigen::Vector3d& place) {
+struct SurveyState {
+  std::array<double, 3> move_to = {0, 0, 0};
+  int move_of = -1;  // station that `move_to` was filled from
+  Eigen::Vector3d move_from = Eigen::Vector3d::Zero();
+};
+
+void lookAt(Actions& actions, const Eigen::Vector3d& place) {
   Bounds around;
   around.extend(place - Eigen::Vector3d(3, 3, 2));
   around.extend(place + Eigen::Vector3d(3, 3, 2));
-  frame(editor.view.camera, around, editor.view.size.x() / std::max(editor.view.size.y(), 1.0));
+  actions.bringIntoView(around);
 }
 
-void remove(Editor& editor, const char* verb, const std::string& name) {
-  editor.session.start(verb, {{"remove", name}}, fmt::format("Remove {} {}", verb, name));
+void remove(Actions& actions, const char* verb, const std::string& name) {
+  actions.start(verb, {{"remove", name}}, fmt::format("Remove {} {}", verb, name));
 }
 
-void chooseStation(Editor& editor, int i) {
-  editor.panels.survey.station = i;
-  editor.panels.survey.target = -1;
-}
-
-void drawStationRow(Editor& editor, const Station& station, int i) {
-  auto& state = editor.panels.survey;
+void drawStationRow(const Model& model, Actions& actions, const Station& station, int i) {
   ImGui::PushID(i);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  if (ImGui::Selectable("###station", state.station == i,
+  if (ImGui::Selectable("###station", model.survey.station == i,
                         ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap |
                             ImGuiSelectableFlags_AllowDoubleClick)) {
-    chooseStation(editor, i);
-    if (ImGui::IsMouseDoubleClicked(0)) lookAt(editor, station.true_pose.translation);
+    actions.choose(SurveyChoice{.station = i});
+    if (ImGui::IsMouseDoubleClicked(0)) lookAt(actions, station.true_pose.translation);
   }
   ImGui::SameLine(0, 0);
   ImGui::TextColored(colour(tone::kStation), "%s", ICON_STATION);
   ImGui::SameLine();
   ui::fitted(station.name, ImGui::GetContentRegionAvail().x);
-  const Eigen::Vector3d p = station.true_pose.translation + editor.shift_m();
+  const Eigen::Vector3d p = station.true_pose.translation + model.shift_m();
   ImGui::TableNextColumn();
   ui::fitted(fmt::format("{:.1f}  {:.1f}  {:.1f}", p.x(), p.y(), p.z()), ImGui::GetContentRegionAvail().x);
   ImGui::TableNextColumn();
@@ -56,39 +56,37 @@ void drawStationRow(Editor& editor, const Station& station, int i) {
   ImGui::PopID();
 }
 
-void drawStations(Editor& editor, const Job& job) {
-  ui::heading(editor, fmt::format("Stations  {}", job.stations.size()).c_str());
+void drawStations(const Model& model, Actions& actions, const Job& job) {
+  ui::heading(model, fmt::format("Stations  {}", job.stations.size()).c_str());
   if (job.stations.empty()) {
     ui::dimWrapped("None yet. Press the button, then click on the floor.");
     return;
   }
   const float height = std::min(
-      editor.px(26) + ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(job.stations.size()), editor.px(260));
+      model.px(26) + ImGui::GetTextLineHeightWithSpacing() * static_cast<float>(job.stations.size()), model.px(260));
   if (!ImGui::BeginTable("stations", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg, {0, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthFixed, editor.px(70));
+  ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthFixed, model.px(70));
   ImGui::TableSetupColumn("X  Y  Z", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("Scans", ImGuiTableColumnFlags_WidthFixed, editor.px(38));
+  ImGui::TableSetupColumn("Scans", ImGuiTableColumnFlags_WidthFixed, model.px(38));
   ImGui::TableHeadersRow();
   for (int i = 0; i < static_cast<int>(job.stations.size()); ++i)
-    drawStationRow(editor, job.stations[static_cast<std::size_t>(i)], i);
+    drawStationRow(model, actions, job.stations[static_cast<std::size_t>(i)], i);
   ImGui::EndTable();
 }
 
-void fillMove(Editor& editor, const Station& station) {
-  auto& state = editor.panels.survey;
-  if (state.move_of == state.station && state.move_from == station.true_pose.translation) return;
-  state.move_of = state.station;
+void fillMove(const Model& model, SurveyState& state, const Station& station) {
+  if (state.move_of == model.survey.station && state.move_from == station.true_pose.translation) return;
+  state.move_of = model.survey.station;
   state.move_from = station.true_pose.translation;
-  const Eigen::Vector3d p = station.true_pose.translation + editor.shift_m();
+  const Eigen::Vector3d p = station.true_pose.translation + model.shift_m();
   state.move_to = {p.x(), p.y(), p.z()};
 }
 
-void drawChosenStation(Editor& editor, const Station& station) {
-  auto& state = editor.panels.survey;
-  fillMove(editor, station);
-  ui::heading(editor, station.name.c_str());
-  const auto why = editor.session.whyNot("station");
+void drawChosenStation(const Model& model, SurveyState& state, Actions& actions, const Station& station) {
+  fillMove(model, state, station);
+  ui::heading(model, station.name.c_str());
+  const auto why = model.session.whyNot("station");
   if (ui::beginProperties("move", 0.3F)) {
     static constexpr const char* kAxes[] = {"X", "Y", "Z"};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -107,17 +105,16 @@ void drawChosenStation(Editor& editor, const Station& station) {
   const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
   if (ui::button(ui::fittingLabel(ICON_MOVE, "Move", "move-station", width).c_str(), why, {width, 0},
                  "To these coordinates"))
-    editor.session.start("station",
-                         {{"move", station.name}, {"at", state.move_to}, {"height", station.instrument_height_m}},
-                         "Move station " + station.name);
+    actions.start("station", {{"move", station.name}, {"at", state.move_to}, {"height", station.instrument_height_m}},
+                  "Move station " + station.name);
   ImGui::SameLine();
   if (ui::button(ui::fittingLabel(ICON_CROSSHAIRS, "Look", "look-station", width).c_str(), {}, {width, 0},
                  "Bring it into view"))
-    lookAt(editor, station.true_pose.translation);
+    lookAt(actions, station.true_pose.translation);
   ImGui::SameLine();
   if (ui::button(ui::fittingLabel(ICON_TRASH, "Remove", "remove-station", width).c_str(), why, {width, 0},
                  "Remove this station"))
-    remove(editor, "station", station.name);
+    remove(actions, "station", station.name);
   for (const auto& scan : station.scans) {
     ImGui::TextColored(colour(tone::kGood), "%s", ICON_CHECK);
     ImGui::SameLine();
@@ -127,42 +124,38 @@ void drawChosenStation(Editor& editor, const Station& station) {
   }
 }
 
-void drawTargets(Editor& editor, const Job& job) {
-  auto& state = editor.panels.survey;
-  ui::heading(editor, fmt::format("Targets  {}", job.targets.size()).c_str());
+void drawTargets(const Model& model, Actions& actions, const Job& job) {
+  ui::heading(model, fmt::format("Targets  {}", job.targets.size()).c_str());
   for (int i = 0; i < static_cast<int>(job.targets.size()); ++i) {
     const auto& target = job.targets[static_cast<std::size_t>(i)];
     ImGui::PushID(i);
     const float button = ImGui::GetFrameHeight();
-    if (ImGui::Selectable("###target", state.target == i, ImGuiSelectableFlags_AllowItemOverlap,
+    if (ImGui::Selectable("###target", model.survey.target == i, ImGuiSelectableFlags_AllowItemOverlap,
                           {ImGui::GetContentRegionAvail().x - button, 0})) {
-      state.target = i;
-      state.station = -1;
-      lookAt(editor, target.centre);
+      actions.choose(SurveyChoice{.target = i});
+      lookAt(actions, target.centre);
     }
-    ImGui::SameLine(editor.px(10));
+    ImGui::SameLine(model.px(10));
     ImGui::TextColored(colour(tone::kGood), "%s", ICON_TARGET);
     ImGui::SameLine();
-    const Eigen::Vector3d p = target.centre + editor.shift_m();
+    const Eigen::Vector3d p = target.centre + model.shift_m();
     ui::fitted(fmt::format("{}   {}   {:.2f}  {:.2f}  {:.2f}", target.name,
                            target.kind == TargetKind::sphere ? "sphere" : "checkerboard", p.x(), p.y(), p.z()),
-               ImGui::GetContentRegionAvail().x - button - editor.px(4));
+               ImGui::GetContentRegionAvail().x - button - model.px(4));
     ImGui::SameLine(ImGui::GetContentRegionMax().x - button);
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(editor.px(4), 0));
-    if (ui::iconButton(ICON_TRASH "###remove-target", "Remove", editor.session.whyNot("target")))
-      remove(editor, "target", target.name);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(model.px(4), 0));
+    if (ui::iconButton(ICON_TRASH "###remove-target", "Remove", model.session.whyNot("target")))
+      remove(actions, "target", target.name);
     ImGui::PopStyleVar();
     ImGui::PopID();
   }
   if (job.targets.empty()) ui::dimText("None.");
 }
 
-}  // namespace
-
-void drawSurveyPanel(Editor& editor) {
-  const auto& job = editor.session.document().job;
-  if (!editor.environment() || !job) {
-    ui::emptyState(editor, ICON_STATION, "No survey yet", "Import a model, then set up stations on its floors.");
+void draw(const Model& model, SurveyState& state, Actions& actions) {
+  const auto& job = model.session.document().job;
+  if (!model.environment() || !job) {
+    ui::emptyState(model, ICON_STATION, "No survey yet", "Import a model, then set up stations on its floors.");
     return;
   }
   // Beside one another where both have room.
@@ -170,16 +163,23 @@ void drawSurveyPanel(Editor& editor) {
   const float wanted = ImGui::CalcTextSize(ICON_STATION "  Add station").x + 2 * ImGui::GetStyle().FramePadding.x;
   const bool beside = half >= wanted;
   const float width = beside ? half : ImGui::GetContentRegionAvail().x;
-  const auto why = editor.session.whyNot("station");
-  if (ui::primaryButton(ICON_STATION "  Add station###add-station", why, {width, 0})) invoke(editor, "add-station");
+  const auto why = model.session.whyNot("station");
+  if (ui::primaryButton(ICON_STATION "  Add station###add-station", why, {width, 0})) actions.run("add-station");
   if (beside) ImGui::SameLine();
   if (ui::button(ICON_TARGET "  Add target###add-target", why, {width, 0}, "Then click where it shall be"))
-    invoke(editor, "add-target");
-  drawStations(editor, *job);
-  auto& state = editor.panels.survey;
-  if (state.station >= static_cast<int>(job->stations.size())) state.station = -1;
-  if (state.station >= 0) drawChosenStation(editor, job->stations[static_cast<std::size_t>(state.station)]);
-  drawTargets(editor, *job);
+    actions.run("add-target");
+  drawStations(model, actions, *job);
+  if (model.survey.station >= static_cast<int>(job->stations.size()))
+    actions.choose(SurveyChoice{-1, model.survey.target});
+  if (model.survey.station >= 0)
+    drawChosenStation(model, state, actions, job->stations[static_cast<std::size_t>(model.survey.station)]);
+  drawTargets(model, actions, *job);
+}
+
+}  // namespace
+
+void drawSurveyPanel(const Model& model, PanelStates& states, Actions& actions) {
+  draw(model, states.of<SurveyState>(), actions);
 }
 
 }  // namespace standpoint

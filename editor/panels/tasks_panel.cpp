@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "editor/editor.h"
-#include "editor/panels/panels_list.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/panels/actions.h"
+#include "editor/panels/panel.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 
@@ -17,7 +17,7 @@ std::string duration(double seconds) {
   return fmt::format("{}:{:02} min", static_cast<int>(seconds) / 60, static_cast<int>(seconds) % 60);
 }
 
-void drawRunning(Editor& editor, Task& task, int i) {
+void drawRunning(const Model& model, Task& task, int i) {
   auto& progress = task.progress();
   ImGui::PushID(i);
   ImGui::TableNextRow();
@@ -28,10 +28,10 @@ void drawRunning(Editor& editor, Task& task, int i) {
   ImGui::TableNextColumn();
   const auto stage = progress.stageName();
   const std::string text = fmt::format("{}  {:.0f} %", stage, progress.fraction() * 100);
-  ImGui::ProgressBar(static_cast<float>(progress.fraction()), {ImGui::GetContentRegionAvail().x - editor.px(76), 0},
+  ImGui::ProgressBar(static_cast<float>(progress.fraction()), {ImGui::GetContentRegionAvail().x - model.px(76), 0},
                      text.c_str());
   ImGui::SameLine();
-  if (ui::button("Cancel", progress.cancelled() ? "It stops at the next safe place" : "", {editor.px(66), 0}))
+  if (ui::button("Cancel", progress.cancelled() ? "It stops at the next safe place" : "", {model.px(66), 0}))
     progress.cancel();
   ImGui::TableNextColumn();
   ui::dimText(duration(task.seconds()));
@@ -54,21 +54,21 @@ void drawFinished(const FinishedTask& task) {
 
 }  // namespace
 
-void drawTasksPanel(Editor& editor) {
-  if (editor.session.running().empty() && editor.session.finished().empty()) {
+void drawTasksPanel(const Model& model, PanelStates&, Actions&) {
+  if (model.session.running().empty() && model.session.finished().empty()) {
     ui::dimText(
         "Nothing was run yet. What takes longer than a moment appears here, with its progress and a button to stop "
         "it.");
     return;
   }
   if (!ImGui::BeginTable("tasks", 4, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;
-  ImGui::TableSetupColumn("state", ImGuiTableColumnFlags_WidthFixed, editor.px(18));
+  ImGui::TableSetupColumn("state", ImGuiTableColumnFlags_WidthFixed, model.px(18));
   ImGui::TableSetupColumn("title", ImGuiTableColumnFlags_WidthStretch, 0.34F);
   ImGui::TableSetupColumn("result", ImGuiTableColumnFlags_WidthStretch, 0.66F);
-  ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthFixed, editor.px(70));
+  ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthFixed, model.px(70));
   int i = 0;
-  for (const auto& task : editor.session.running()) drawRunning(editor, *task, i++);
-  for (const auto& task : editor.session.finished()) drawFinished(task);
+  for (const auto& task : model.session.running()) drawRunning(model, *task, i++);
+  for (const auto& task : model.session.finished()) drawFinished(task);
   ImGui::EndTable();
 }
 

@@ -5,26 +5,32 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "editor/editor.h"
-#include "editor/panels/panels_list.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/material_brush.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/model/verification_view.h"
+#include "editor/panels/actions.h"
+#include "editor/panels/panel.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 
 namespace {
 
-std::string labelOf(Editor& editor, const std::string& id) {
+struct VerifyState {
+  std::string underlay, instrument;  // instrument "": as the cloud says
+  std::string chosen;                // material id
+  std::uint64_t seen_revision = ~0ULL;
+  VerificationView view;  // of that revision
+};
+
+std::string labelOf(const Model& model, const std::string& id) {
   if (id.empty()) return "Unassigned";
-  const auto* material = knownMaterial(editor, id);
+  const auto* material = model.offeredMaterial(id);
   return material == nullptr ? id : material->label;
 }
 
-void chooseUnderlay(Editor& editor) {
-  auto& state = editor.panels.verify;
-  const auto& underlays = editor.session.document().underlays;
+void chooseUnderlay(const Model& model, VerifyState& state) {
+  const auto& underlays = model.session.document().underlays;
   const bool there =
       std::any_of(underlays.begin(), underlays.end(), [&](const auto& u) { return u->name == state.underlay; });
   if (!there) state.underlay = underlays.front()->name;
@@ -35,39 +41,36 @@ void chooseUnderlay(Editor& editor) {
   ImGui::EndCombo();
 }
 
-void chooseInstrument(Editor& editor) {
-  auto& state = editor.panels.verify;
+void chooseInstrument(const Model& model, VerifyState& state) {
   const char* as_said = "Instrument as the cloud says";
   ImGui::SetNextItemWidth(-1);
   if (!ImGui::BeginCombo("###instrument", state.instrument.empty() ? as_said : state.instrument.c_str())) return;
   if (ImGui::Selectable(as_said, state.instrument.empty())) state.instrument.clear();
-  for (const auto& i : readCatalogue(editor.panels.catalogue).instruments)
+  for (const auto& i : model.catalogue().instruments)
     if (ImGui::Selectable(fmt::format("{} {}  ({:.0f} nm)###{}", i.maker, i.model, i.wavelength_nm, i.id).c_str(),
                           i.id == state.instrument))
       state.instrument = i.id;
   ImGui::EndCombo();
 }
 
-void drawVerifyButtons(Editor& editor) {
-  const auto& state = editor.panels.verify;
+void drawVerifyButtons(const Model& model, VerifyState& state, Actions& actions) {
   const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
   const auto why =
-      !editor.session.document().materials ? std::string("Assign materials first") : editor.session.whyNot("verify");
+      !model.session.document().materials ? std::string("Assign materials first") : model.session.whyNot("verify");
   if (ui::primaryButton(ICON_CHECK "  Compare###verify", why, {width, 0})) {
     nlohmann::json options = {{"underlay", state.underlay}};
     if (!state.instrument.empty()) options["instrument"] = state.instrument;
-    editor.session.start("verify", options, "Hold the materials against " + state.underlay);
+    actions.start("verify", options, "Hold the materials against " + state.underlay);
   }
   ImGui::SameLine();
-  if (ui::button(ICON_MOVE "  Fit to model###fit", editor.session.whyNot("underlay"), {width, 0},
+  if (ui::button(ICON_MOVE "  Fit to model###fit", model.session.whyNot("underlay"), {width, 0},
                  "Moves the cloud onto the model's surface, from where it lies (ICP)"))
-    editor.session.start("underlay", {{"register", state.underlay}, {"icp", true}},
-                         "Fit " + state.underlay + " to the model");
+    actions.start("underlay", {{"register", state.underlay}, {"icp", true}}, "Fit " + state.underlay + " to the model");
 }
 
 // What came of the last fit, as long as it is the last that was done to the clouds.
-void drawFit(Editor& editor) {
-  const auto* last = editor.session.lastOf("underlay");
+void drawFit(const Model& model) {
+  const auto* last = model.session.lastOf("underlay");
   if (last == nullptr || !last->answer.contains("registered") || !last->answer["registered"].contains("icp")) return;
   const auto& icp = last->answer["registered"]["icp"];
   const double share = icp.at("used_share");
@@ -83,7 +86,7 @@ void drawFit(Editor& editor) {
 }
 
 // Whiskers at 5 and 95 %, the box between the quartiles, and a line where measured is as expected.
-void drawBox(const Editor& editor, const VerifiedMaterial& m, double reach_db) {
+void drawBox(const Model& model, const VerifiedMaterial& m, double reach_db) {
   auto& list = *ImGui::GetWindowDrawList();
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight(),
@@ -92,54 +95,54 @@ void drawBox(const Editor& editor, const VerifiedMaterial& m, double reach_db) {
     return corner.x + width * static_cast<float>(0.5 + 0.5 * std::clamp(db / reach_db, -1.0, 1.0));
   };
   const ImU32 tone = !m.judged ? tone::kDim : m.agrees ? tone::kGood : tone::kWarning;
-  list.AddLine({x(0), corner.y}, {x(0), corner.y + height}, tone::kLine, editor.scale);
-  list.AddLine({x(m.off_db[0]), middle}, {x(m.off_db[4]), middle}, tone, editor.scale);
-  const float half = height * 0.32F, least = editor.px(1);
+  list.AddLine({x(0), corner.y}, {x(0), corner.y + height}, tone::kLine, model.scale);
+  list.AddLine({x(m.off_db[0]), middle}, {x(m.off_db[4]), middle}, tone, model.scale);
+  const float half = height * 0.32F, least = model.px(1);
   list.AddRectFilled({x(m.off_db[1]) - least, middle - half}, {x(m.off_db[3]) + least, middle + half},
                      (tone & 0x00FFFFFFU) | 0x70000000U);
-  list.AddLine({x(m.off_db[2]), middle - half}, {x(m.off_db[2]), middle + half}, tone, 2 * editor.scale);
+  list.AddLine({x(m.off_db[2]), middle - half}, {x(m.off_db[2]), middle + half}, tone, 2 * model.scale);
   ImGui::Dummy({width, height});
 }
 
-void drawMaterial(Editor& editor, const VerifiedMaterial& m, double reach_db) {
-  auto& state = editor.panels.verify;
+void drawMaterial(const Model& model, VerifyState& state, Actions& actions, const VerifiedMaterial& m,
+                  double reach_db) {
   ImGui::PushID(m.material.c_str());
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   if (ImGui::Selectable("###row", state.chosen == m.material, ImGuiSelectableFlags_SpanAllColumns)) {
     state.chosen = m.material;
-    editor.selection.set(m.products);
+    actions.select(m.products);
   }
   ui::tooltip(fmt::format("{}\n{} points\n5 % {:+.1f}, quartiles {:+.1f} and {:+.1f}, 95 % {:+.1f} dB{}", m.material,
                           groupedDigits(m.points), m.off_db[0], m.off_db[1], m.off_db[3], m.off_db[4],
                           m.judged ? "" : "\nnot enough points, ranges or angles to judge by"));
   ImGui::SameLine(0, 0);
-  ui::fitted(labelOf(editor, m.material), ImGui::GetContentRegionAvail().x);
+  ui::fitted(labelOf(model, m.material), ImGui::GetContentRegionAvail().x);
   ImGui::TableNextColumn();
-  drawBox(editor, m, reach_db);
+  drawBox(model, m, reach_db);
   ImGui::TableNextColumn();
   ui::textRightAligned(m.judged ? fmt::format("{:+.1f}", std::round(m.off_db[2] * 10) / 10 + 0.0) : "?");
   ImGui::PopID();
 }
 
-void drawMaterials(Editor& editor, const VerificationView& view) {
-  ui::heading(editor, "Measured minus expected");
+void drawMaterials(const Model& model, VerifyState& state, Actions& actions, const VerificationView& view) {
+  ui::heading(model, "Measured minus expected");
   const auto flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX;
   if (!ImGui::BeginTable("off", 3, flags)) return;
   ImGui::TableSetupColumn("Material", ImGuiTableColumnFlags_WidthStretch, 1.1F);
   ImGui::TableSetupColumn(fmt::format("−{0:.0f} … +{0:.0f} dB", view.reach_db).c_str(),
                           ImGuiTableColumnFlags_WidthStretch, 1);
-  ImGui::TableSetupColumn("dB", ImGuiTableColumnFlags_WidthFixed, editor.px(38));
+  ImGui::TableSetupColumn("dB", ImGuiTableColumnFlags_WidthFixed, model.px(38));
   ImGui::TableHeadersRow();
-  for (const auto& m : view.materials) drawMaterial(editor, m, view.reach_db);
+  for (const auto& m : view.materials) drawMaterial(model, state, actions, m, view.reach_db);
   ImGui::EndTable();
 }
 
-std::string titleOf(Editor& editor, const VerifiedProposal& p) {
+std::string titleOf(const Model& model, const VerifiedProposal& p) {
   const auto count = p.whole_material
                          ? std::string()
                          : fmt::format(" ({} product{})", p.products.size(), p.products.size() == 1 ? "" : "s");
-  return fmt::format("{}{} behaves like {}", labelOf(editor, p.material), count, labelOf(editor, p.behaves_like));
+  return fmt::format("{}{} behaves like {}", labelOf(model, p.material), count, labelOf(model, p.behaves_like));
 }
 
 // What it proposes is among what the user said: nothing is left to press.
@@ -152,30 +155,30 @@ bool isTaken(const Document& document, const VerifiedProposal& p) {
   });
 }
 
-void drawProposal(Editor& editor, const VerifiedProposal& p, int index) {
+void drawProposal(const Model& model, Actions& actions, const VerifiedProposal& p, int index) {
   ImGui::PushID(index);
   ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
   ImGui::SameLine();
-  ui::wrapped(titleOf(editor, p));
+  ui::wrapped(titleOf(model, p));
   ui::dimWrapped(p.evidence);
   std::vector<std::string> alike;
-  for (const auto& id : p.alike) alike.push_back(labelOf(editor, id));
+  for (const auto& id : p.alike) alike.push_back(labelOf(model, id));
   if (!alike.empty()) ui::dimWrapped(fmt::format("As well as: {}", fmt::join(alike, "; ")));
-  const std::string why = isTaken(editor.session.document(), p)
+  const std::string why = isTaken(model.session.document(), p)
                               ? "It is assigned: compare again to see what that changes"
-                              : editor.session.whyNot("materials");
+                              : model.session.whyNot("materials");
   if (ui::button(ICON_PAINT "  Assign###assign", why, {0, 0}, "Assigns it to these products; undo takes it back"))
-    editor.session.start("materials", {{"assign", p.assign}}, "Assign what was measured");
+    actions.start("materials", {{"assign", p.assign}}, "Assign what was measured");
   ImGui::SameLine();
   if (ui::button(ICON_POINTER "  Select###select", {}, {0, 0})) {
-    editor.selection.set(p.products);
-    editor.frameSelection();
+    actions.select(p.products);
+    actions.frameSelection();
   }
-  ui::gap(editor, 4);
+  ui::gap(model, 4);
   ImGui::PopID();
 }
 
-void drawVerdict(Editor& editor, const VerificationView& view) {
+void drawVerdict(const Model& model, Actions& actions, const VerificationView& view) {
   if (!view.current) {
     ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
     ImGui::SameLine();
@@ -190,11 +193,12 @@ void drawVerdict(Editor& editor, const VerificationView& view) {
     ImGui::SameLine();
     ui::wrapped("Nothing that was measured speaks against a material.");
   }
-  for (std::size_t i = 0; i < view.proposals.size(); ++i) drawProposal(editor, view.proposals[i], static_cast<int>(i));
+  for (std::size_t i = 0; i < view.proposals.size(); ++i)
+    drawProposal(model, actions, view.proposals[i], static_cast<int>(i));
 }
 
-void drawBasis(const Editor& editor, const VerificationView& view) {
-  ui::heading(editor, "By");
+void drawBasis(const Model& model, const VerificationView& view) {
+  ui::heading(model, "By");
   if (!ui::beginProperties("basis")) return;
   ui::property("Cloud", view.underlay);
   ui::property("Instrument", view.instrument);
@@ -204,25 +208,21 @@ void drawBasis(const Editor& editor, const VerificationView& view) {
   ui::endProperties();
 }
 
-}  // namespace
-
-void drawVerifyPanel(Editor& editor) {
-  const auto& document = editor.session.document();
-  if (!editor.environment() || document.underlays.empty()) {
+void draw(const Model& model, VerifyState& state, Actions& actions) {
+  const auto& document = model.session.document();
+  if (!model.environment() || document.underlays.empty()) {
     ui::emptyState(
-        editor, ICON_CHECK_CIRCLE, "No measured cloud",
+        model, ICON_CHECK_CIRCLE, "No measured cloud",
         "Drop a real scan of the building here (E57, PTX): its intensities then tell whether the materials are right.");
     return;
   }
-  readCatalogue(editor.panels.catalogue);
-  chooseUnderlay(editor);
-  chooseInstrument(editor);
-  drawVerifyButtons(editor);
-  drawFit(editor);
-  ui::gap(editor, 4);
-  auto& state = editor.panels.verify;
-  if (state.seen_revision != editor.session.revision()) {
-    state.seen_revision = editor.session.revision();
+  chooseUnderlay(model, state);
+  chooseInstrument(model, state);
+  drawVerifyButtons(model, state, actions);
+  drawFit(model);
+  ui::gap(model, 4);
+  if (state.seen_revision != model.session.revision()) {
+    state.seen_revision = model.session.revision();
     state.view = verificationView(document);
   }
   if (!state.view.there) {
@@ -232,10 +232,16 @@ void drawVerifyPanel(Editor& editor) {
     return;
   }
   ImGui::BeginChild("verified");
-  drawVerdict(editor, state.view);
-  drawMaterials(editor, state.view);
-  drawBasis(editor, state.view);
+  drawVerdict(model, actions, state.view);
+  drawMaterials(model, state, actions, state.view);
+  drawBasis(model, state.view);
   ImGui::EndChild();
+}
+
+}  // namespace
+
+void drawVerifyPanel(const Model& model, PanelStates& states, Actions& actions) {
+  draw(model, states.of<VerifyState>(), actions);
 }
 
 }  // namespace standpoint

@@ -6,13 +6,13 @@
 
 #include <imgui.h>
 
-#include "editor/editor.h"
 #include "editor/model/input_queue.h"
 #include "editor/model/interface_scale.h"
 #include "editor/shell/dialogs.h"
-#include "editor/shell/icons.h"
+#include "editor/shell/editor.h"
 #include "editor/shell/import_preview.h"
-#include "editor/shell/widgets.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 
@@ -54,10 +54,8 @@ void selectAll(Editor& e) {
 }
 void walk(Editor& e) {
   if (e.view.tool == Tool::walk) return;  // its key is the one to go ahead
-  const auto& agent = e.panels.collision;
   const auto place = e.view.hover ? e.view.hover->position : e.view.camera.target;
-  if (e.walk.start(e.session.document().collision, {agent.agent_radius_m, agent.agent_height_m}, place, e.view.camera))
-    e.view.tool = Tool::walk;
+  if (e.walk.start(e.session.document().collision, e.walker, place, e.view.camera)) e.view.tool = Tool::walk;
 }
 std::string whyWalkNot(const Editor& e) {
   if (auto why = whyNoCollision(e); !why.empty()) return why;
@@ -83,7 +81,7 @@ void showWorkspace(Editor& e, Workspace w) { e.workspace = w; }
 // The verb and the name of what the survey panel has chosen.
 std::pair<const char*, std::string> chosenInSurvey(const Editor& e) {
   const auto& job = e.session.document().job;
-  const auto& state = e.panels.survey;
+  const auto& state = e.survey;
   if (job && state.station >= 0 && state.station < static_cast<int>(job->stations.size()))
     return {"station", job->stations[static_cast<std::size_t>(state.station)].name};
   if (job && state.target >= 0 && state.target < static_cast<int>(job->targets.size()))
@@ -120,7 +118,7 @@ std::string whyNoMaterials(const Editor& e) {
 }
 std::string whyPaintNot(const Editor& e) {
   if (auto why = whyNoModel(e); !why.empty()) return why;
-  if (e.panels.materials.chosen.empty()) return "Choose a material in the list first";
+  if (e.material.id.empty()) return "Choose a material in the list first";
   return e.session.whyNot("materials");
 }
 

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "editor/editor.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/shell/editor.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 
@@ -22,8 +22,8 @@ const std::vector<SeenFrom>* scansOf(Editor& editor, std::string& why) {
   if (!scene) return why = "One moment: the model is being prepared for rays", nullptr;
   if (!document.job || document.job->stations.empty())
     return why = "There is no station yet: press T and click on the floor", nullptr;
-  const auto& catalogue = readCatalogue(editor.panels.catalogue);
-  const auto& asked = editor.panels.scan.asked;
+  const auto& catalogue = editor.catalogue();
+  const auto& asked = editor.scan_choice;
   const auto* instrument = instrumentIn(catalogue, asked.instrument);
   if (!editor.view.coverage_made && instrument == nullptr) return why = "Choose an instrument under Scan", nullptr;
   const auto& scans = editor.view.coverage_made ? editor.coverage.made(document, scene, catalogue.instruments)
@@ -35,9 +35,8 @@ const std::vector<SeenFrom>* scansOf(Editor& editor, std::string& why) {
 
 SeenWhen wishesOf(const Editor& editor) {
   SeenWhen wanted;
-  if (editor.panels.plan.spacing_mm > 0) wanted.max_spacing_m = editor.panels.plan.spacing_mm / 1000;
-  if (editor.panels.plan.max_incidence_deg < 90)
-    wanted.max_incidence_rad = editor.panels.plan.max_incidence_deg * kRadPerDeg;
+  if (editor.seen.spacing_mm > 0) wanted.max_spacing_m = editor.seen.spacing_mm / 1000;
+  if (editor.seen.max_incidence_deg < 90) wanted.max_incidence_rad = editor.seen.max_incidence_deg * kRadPerDeg;
   return wanted;
 }
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "editor/shell/dialog_states.h"
+#include "editor/model/dialog_states.h"
 
 namespace standpoint {
 

@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "editor/editor.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/shell/editor.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 
@@ -25,7 +25,7 @@ void placeProbe(Editor& editor) {
   auto& probe = editor.view.probe;
   const auto& job = editor.session.document().job;
   if (job && !job->stations.empty()) {
-    const auto chosen = static_cast<std::size_t>(std::max(0, editor.panels.survey.station));
+    const auto chosen = static_cast<std::size_t>(std::max(0, editor.survey.station));
     const auto& station = job->stations[std::min(chosen, job->stations.size() - 1)];
     probe.position = station.true_pose.translation;
     probe.height_m = station.instrument_height_m;
@@ -203,14 +203,14 @@ void drawExpectedLegend(Editor& editor, ImVec2 origin, ImVec2 size) {
 void expectedChips(Editor& editor) {
   if (!expectedQuantity(editor.view.colour)) return;
   auto& probe = editor.view.probe;
-  const auto* instrument = instrumentIn(readCatalogue(editor.panels.catalogue), probe.instrument);
+  const auto* instrument = editor.instrument(probe.instrument);
   ImGui::NewLine();
   ImGui::SetNextItemWidth(editor.px(166));
   if (ImGui::BeginCombo(
           "###probe-instrument",
           fmt::format("{}  {}", ICON_TABLET, instrument != nullptr ? instrument->model : "Instrument").c_str(),
           ImGuiComboFlags_NoArrowButton)) {
-    for (const auto& i : readCatalogue(editor.panels.catalogue).instruments)
+    for (const auto& i : editor.catalogue().instruments)
       if (ImGui::Selectable(fmt::format("{} {}, {:.0f} nm###{}", i.maker, i.model, i.wavelength_nm, i.id).c_str(),
                             i.id == probe.instrument))
         probe.instrument = i.id;

@@ -8,13 +8,13 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "editor/editor.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
-#include "editor/shell/icons.h"
+#include "editor/shell/editor.h"
 #include "editor/shell/import_preview.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 #include "importers/importers.h"
 #include "pointclouds/formats.h"
 

@@ -5,8 +5,8 @@
 
 #include <imgui.h>
 
-#include "editor/editor.h"
 #include "editor/shell/actions.h"
+#include "editor/shell/editor.h"
 #include "pointclouds/formats.h"
 
 namespace standpoint {

@@ -17,7 +17,4 @@ void addPreview(Editor& editor);     // to the open environment
 void closePreview(Editor& editor);
 void runPreviewKeys(Editor& editor);  // Enter, Esc, F
 
-// The panel: what was read, and what to do with it.
-void drawImportPreview(Editor& editor);
-
 }  // namespace standpoint

@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "editor/editor.h"
-#include "editor/shell/icons.h"
+#include "editor/shell/editor.h"
 #include "editor/shell/overlay.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 #include "project/survey_verbs.h"
 
 namespace standpoint {
@@ -75,7 +75,7 @@ void drawStations(Editor& editor, const Pen& pen, const ViewState& state) {
     const auto place = pen.at(centre);
     if (!place) continue;
     const bool seen = editor.picker.sees(editor.view.camera.eye(), centre, state);
-    const bool chosen = editor.panels.survey.station == static_cast<int>(i);
+    const bool chosen = editor.survey.station == static_cast<int>(i);
     const float strength = seen ? 1.0F : 0.45F;
     const ImU32 tone = faded(chosen ? tone::kAccent : tone::kStation, strength);
     drawTripod(pen, centre, station.instrument_height_m, tone, seen ? 2.0F : 1.2F);
@@ -93,7 +93,7 @@ void drawTargets(Editor& editor, const Pen& pen, const ViewState& state) {
     const auto place = pen.at(target.centre);
     if (!place) continue;
     const bool seen = editor.picker.sees(editor.view.camera.eye(), target.centre, state);
-    const bool chosen = editor.panels.survey.target == static_cast<int>(i);
+    const bool chosen = editor.survey.target == static_cast<int>(i);
     const ImU32 tone = faded(chosen ? tone::kAccent : tone::kGood, seen ? 1.0F : 0.45F);
     pen.circle(*place, 5, faded(IM_COL32(245, 245, 245, 255), seen ? 0.9F : 0.35F), tone);
     if (editor.view.labels) pen.label(*place, target.name, faded(tone::kText, seen ? 1.0F : 0.45F));
@@ -153,7 +153,7 @@ void tellTargetHere(Editor& editor, const Pen& pen) {
   const auto scene = editor.picker.scene();
   const auto& job = editor.session.document().job;
   if (!scene || !job) return;
-  const auto settings = plannedSettings(editor);
+  const auto settings = editor.plannedSettings();
   std::string text = article.label;
   for (const auto& station : job->stations) {
     const auto sight = sightFrom(station, *scene, target, kinds->rules, settings);

@@ -11,13 +11,9 @@ namespace standpoint {
 struct Editor;
 
 // Materials are given to surfaces by dragging them there from a list, or by the brush; a menu asks how far that goes.
-void dragMaterial(const PhysicalMaterial& material);    // after the list's item
 void acceptMaterial(Editor& editor, ImVec2 origin);     // after the scene's item
 void paintMaterial(Editor& editor, const RayHit& hit);  // with the chosen one
 void takeMaterial(Editor& editor, const RayHit& hit);   // the eyedropper: chooses what is there
 void drawMaterialMenu(Editor& editor);
-
-// By id: of the user's own, else of the library; null where there is none.
-const PhysicalMaterial* knownMaterial(Editor& editor, const std::string& id);
 
 }  // namespace standpoint

@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "editor/editor.h"
 #include "editor/model/interface_scale.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/shell/editor.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 

@@ -7,13 +7,13 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "editor/editor.h"
-#include "editor/panels.h"
+#include "editor/panels/panels.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/shell/editor.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 

@@ -9,14 +9,16 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include "editor/editor.h"
-#include "editor/panels.h"
+#include "editor/panels/import_preview_panel.h"
+#include "editor/panels/panels.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/dialogs.h"
-#include "editor/shell/icons.h"
+#include "editor/shell/editor.h"
 #include "editor/shell/import_preview.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/shell/panel_actions.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 
@@ -245,7 +247,8 @@ void drawPanelTabs(Editor& editor, Area area, const char* id) {
       ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(editor.px(10), editor.px(6)));
       ImGui::BeginChild(panel.id, {0, 0}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
       ImGui::PopStyleVar();
-      panel.draw(editor);
+      PanelActions actions(editor);
+      panel.draw(editor, editor.panels, actions);
       ImGui::EndChild();
       ImGui::EndTabItem();
     }
@@ -381,7 +384,8 @@ void drawPreviewLayout(Editor& editor, const Box& all) {
   const float panel = std::min(editor.px(400), all.w * 0.5F), gap = editor.px(3);
   beginFixed("###preview", {all.x + all.w - panel, all.y, panel, all.h}, {editor.px(14), editor.px(12)},
              IM_COL32(35, 39, 46, 255));
-  drawImportPreview(editor);
+  PanelActions actions(editor);
+  drawImportPreview(editor, editor.panels.of<ImportPreviewState>(), actions);
   ImGui::End();
   beginFixed("###viewport", {all.x, all.y, all.w - panel - gap, all.h}, {0, 0}, IM_COL32(35, 39, 46, 255));
   drawViewport(editor);

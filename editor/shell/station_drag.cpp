@@ -4,14 +4,14 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "editor/editor.h"
+#include "editor/shell/editor.h"
 #include "project/levelling.h"
 
 namespace standpoint {
 
 namespace {
 
-constexpr float kGrip_pt = 9;
+constexpr float kStationGrip_pt = 9;
 constexpr float kSlack_pt = 4;  // less than this is a click
 
 // The station whose instrument is under the pointer and not behind something.
@@ -24,13 +24,13 @@ int stationAt(Editor& editor, ImVec2 origin) {
     if (!pixel) continue;
     const float away =
         std::hypot(p.x - origin.x - static_cast<float>(pixel->x()), p.y - origin.y - static_cast<float>(pixel->y()));
-    if (away < editor.px(kGrip_pt) && editor.picker.sees(editor.view.camera.eye(), centre, editor.viewState()))
+    if (away < editor.px(kStationGrip_pt) && editor.picker.sees(editor.view.camera.eye(), centre, editor.viewState()))
       return i;
   }
   return -1;
 }
 
-void follow(Editor& editor, ImVec2 origin) {
+void followPointer(Editor& editor, ImVec2 origin) {
   auto& view = editor.view;
   const ImVec2 p = ImGui::GetIO().MousePos;
   view.hover =
@@ -61,7 +61,7 @@ bool dragStation(Editor& editor, ImVec2 origin, bool hovered) {
   if (editor.view.tool != Tool::select || !job || !editor.session.whyNot("station").empty()) dragged = -1;
   if (dragged >= 0 && dragged < static_cast<int>(job->stations.size())) {
     ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
-    follow(editor, origin);
+    followPointer(editor, origin);
     if (ImGui::IsMouseDown(0)) return true;
     const ImVec2 way = ImGui::GetMouseDragDelta(0, 0);
     if (std::hypot(way.x, way.y) > editor.px(kSlack_pt)) drop(editor, job->stations[static_cast<std::size_t>(dragged)]);
@@ -72,8 +72,8 @@ bool dragStation(Editor& editor, ImVec2 origin, bool hovered) {
   if (!hovered || editor.view.dragging || editor.view.tool != Tool::select || !ImGui::IsMouseClicked(0)) return false;
   dragged = stationAt(editor, origin);
   if (dragged < 0) return false;
-  editor.panels.survey.station = dragged;
-  editor.panels.survey.target = -1;
+  editor.survey.station = dragged;
+  editor.survey.target = -1;
   return true;
 }
 

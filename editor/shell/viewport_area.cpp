@@ -5,17 +5,17 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "editor/editor.h"
 #include "editor/shell/actions.h"
 #include "editor/shell/coverage_overlay.h"
+#include "editor/shell/editor.h"
 #include "editor/shell/expected_overlay.h"
-#include "editor/shell/icons.h"
 #include "editor/shell/material_brush.h"
 #include "editor/shell/overlay.h"
 #include "editor/shell/shell.h"
 #include "editor/shell/station_drag.h"
-#include "editor/shell/theme.h"
-#include "editor/shell/widgets.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
+#include "editor/widgets/widgets.h"
 
 namespace standpoint {
 

@@ -11,8 +11,8 @@
 #include <vtk_glew.h>
 
 #include "editor/shell/shell.h"
-#include "editor/shell/theme.h"
 #include "editor/viewport/vtk_scene_view.h"
+#include "editor/widgets/theme.h"
 
 namespace standpoint {
 

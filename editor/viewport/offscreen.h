@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "core/result.h"
-#include "editor/editor.h"
+#include "editor/shell/editor.h"
 
 namespace standpoint {
 

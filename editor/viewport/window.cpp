@@ -18,8 +18,8 @@
 #include "editor/shell/actions.h"
 #include "editor/shell/import_preview.h"
 #include "editor/shell/shell.h"
-#include "editor/shell/theme.h"
 #include "editor/viewport/vtk_scene_view.h"
+#include "editor/widgets/theme.h"
 
 namespace standpoint {
 

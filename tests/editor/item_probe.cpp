@@ -2,7 +2,7 @@
 #include "item_probe.h"
 
 #include "editor/shell/shell.h"
-#include "editor/shell/theme.h"
+#include "editor/widgets/theme.h"
 
 namespace standpoint {
 

@@ -9,7 +9,7 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include "editor/editor.h"
+#include "editor/shell/editor.h"
 
 namespace standpoint {
 

@@ -9,9 +9,12 @@
 #include <gtest/gtest.h>
 
 #include "demo_verbs.h"
-#include "editor/panels.h"
+#include "editor/panels/material_card_panel.h"
+#include "editor/panels/optimise_panel.h"
+#include "editor/panels/outliner_panel.h"
+#include "editor/panels/panels.h"
 #include "editor/shell/actions.h"
-#include "editor/shell/theme.h"
+#include "editor/widgets/theme.h"
 #include "item_probe.h"
 
 namespace standpoint {
@@ -54,7 +57,7 @@ TEST_F(Gui, ShowsEveryPanelInSomeWorkspace) {
 
 TEST_F(Gui, SelectsInTheOutlinerAndShowsItInTheInspector) {
   open();
-  editor.panels.outliner.filter = "Wall east OG";
+  editor.panels.of<OutlinerState>().filter = "Wall east OG";
   gui.frames(2);
   const auto wall = productNamed("Wall east OG");
   const GuiItem* row = nullptr;
@@ -121,8 +124,8 @@ TEST_F(Gui, SetsUpAStationWhereTheFloorIsClickedAndUndoesIt) {
 
 TEST_F(Gui, AssignsAMaterialThroughTheVerb) {
   open();
-  const auto& library = readCatalogue(editor.panels.catalogue).materials;
-  if (library.empty()) GTEST_SKIP() << editor.panels.catalogue.problem;
+  const auto& library = editor.catalogue().materials;
+  if (library.empty()) GTEST_SKIP() << editor.catalogue().problem;
   const auto table = productNamed("Table EG");
   editor.select(table, true);
   gui.frames(3);
@@ -141,19 +144,19 @@ TEST_F(Gui, AssignsAMaterialThroughTheVerb) {
 
 TEST_F(Gui, EditsTheRowsOfAMetalAndUndoTakesItOutAgain) {
   open();
-  const auto& library = readCatalogue(editor.panels.catalogue).materials;
+  const auto& library = editor.catalogue().materials;
   const auto metal = std::find_if(library.begin(), library.end(),
                                   [](const PhysicalMaterial& m) { return m.complex_index.size() > 2; });
-  if (metal == library.end()) GTEST_SKIP() << editor.panels.catalogue.problem;
+  if (metal == library.end()) GTEST_SKIP() << editor.catalogue().problem;
   ASSERT_TRUE(editor.session.start("materials", nlohmann::json::object()));
   gui.settle();
   editor.workspace = Workspace::materials;
-  editor.panels.materials.chosen = metal->id;
+  editor.material.id = metal->id;
   editor.wanted_tab[1] = "material";
   gui.frames(3);
   ASSERT_TRUE(gui.click("###edit-material"));
   gui.frames(2);
-  auto& edit = editor.panels.materials.edit;
+  auto& edit = editor.panels.of<MaterialCardState>().edit;
   ASSERT_TRUE(edit && edit->metal);
   for (const char* button : {"###take0", "###add0"}) {
     const auto rows = edit->complex_index.size();
@@ -254,7 +257,7 @@ TEST_F(Gui, AShortcutThatEditsNoTextWorksFromATextField) {
 
 TEST_F(Gui, DrawsATreeOfThousandsInAMoment) {
   open();
-  editor.panels.outliner.tree.expandAll(true);
+  editor.outliner.tree.expandAll(true);
   gui.frames(2);
   EXPECT_LT(itemProbe().items.size(), 400U) << "rows that are not seen are not drawn";
 }
@@ -315,11 +318,11 @@ TEST_F(Gui, FollowsTheBudgetsSliderAtOnceAndForgetsItWhenOptimised) {
   open();
   editor.workspace = Workspace::model;
   editor.wanted_tab[1] = "optimise";
-  editor.panels.optimise.live = true;
-  editor.panels.optimise.max_deviation_mm = 500;
+  editor.panels.of<OptimiseState>().live = true;
+  editor.panels.of<OptimiseState>().max_deviation_mm = 500;
   const auto whole = sceneTriangleCount(*editor.environment());
   const auto shownAt = [&](double share) -> std::uint64_t {
-    editor.panels.optimise.budget_share = share;
+    editor.panels.of<OptimiseState>().budget_share = share;
     const auto budget = static_cast<std::uint64_t>(std::llround(share * static_cast<double>(whole)));
     for (int i = 0; i < 400; ++i) {
       gui.frame();
@@ -336,7 +339,7 @@ TEST_F(Gui, FollowsTheBudgetsSliderAtOnceAndForgetsItWhenOptimised) {
   EXPECT_EQ(editor.session.document().simplified, nullptr) << "a look changes nothing";
   ASSERT_TRUE(gui.click("###run-optimise"));
   gui.settle();
-  EXPECT_FALSE(editor.panels.optimise.live);
+  EXPECT_FALSE(editor.panels.of<OptimiseState>().live);
   EXPECT_EQ(editor.viewState().environment, editor.session.document().simplified->environment);
 }
 
@@ -432,7 +435,7 @@ TEST_F(Gui, SurvivesEveryItemBeingPressedOnADocument) {
         editor.workspace = static_cast<Workspace>(w);
         editor.wanted_tab[static_cast<std::size_t>(panel.area[static_cast<std::size_t>(w)])] = panel.id;
         editor.select(productNamed("Wall east OG"), true);
-        editor.panels.survey.station = 0;
+        editor.survey.station = 0;
       };
       restore();
       gui.frames(3);

@@ -8,7 +8,7 @@
 #include "demo_verbs.h"
 #include "editor/instrument/desk.h"
 #include "editor/instrument/instrument.h"
-#include "editor/shell/theme.h"
+#include "editor/widgets/theme.h"
 #include "item_probe.h"
 #include "project/project_files.h"
 #include "tests/project/support.h"

@@ -6,6 +6,7 @@
 #include "editor/model/live_cloud.h"
 #include "editor/model/scan_form.h"
 #include "editor/model/scan_outlook.h"
+#include "editor/panels/scan_panel.h"
 #include "item_probe.h"
 #include "project/scan_request.h"
 
@@ -90,7 +91,7 @@ class ScanPanel : public ::testing::Test {
     editor.wanted_tab[1] = "scan";
     gui.frames(3);
   }
-  ScanChoice& asked() { return editor.panels.scan.asked; }
+  ScanChoice& asked() { return editor.scan_choice; }
   Editor editor{verbsWithDemo(), [] {}};
   GuiDriver gui{editor, {1280, 1400}};
 };
@@ -112,7 +113,7 @@ TEST_F(ScanPanel, SwitchesEffectsOneByOneAndAllTogether) {
 }
 
 TEST_F(ScanPanel, RefusesWeatherThatCannotBe) {
-  editor.panels.scan.folder = testing::TempDir();
+  editor.panels.of<ScanState>().folder = testing::TempDir();
   gui.frames(2);
   ASSERT_FALSE(gui.find("###run-scan")->disabled);
   asked().weather.visibility_km = 0;
@@ -121,8 +122,8 @@ TEST_F(ScanPanel, RefusesWeatherThatCannotBe) {
 }
 
 TEST_F(ScanPanel, RefusesSettingsThatDoNotGoTogether) {
-  editor.panels.scan.folder = testing::TempDir();
-  chooseInstrument(asked(), *instrumentIn(readCatalogue(editor.panels.catalogue), "faro-focus-s350"));
+  editor.panels.of<ScanState>().folder = testing::TempDir();
+  chooseInstrument(asked(), *editor.instrument("faro-focus-s350"));
   for (auto& [key, value] : asked().settings)
     if (key == "resolution") value = "1/32";
   gui.frames(2);
@@ -144,10 +145,10 @@ TEST_F(ScanPanel, BeginsWithWhatTheProjectWasScannedWithLast) {
 
 TEST_F(ScanPanel, ScansWithWhatIsSetAndTheDocumentRemembersIt) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "standpoint-scan-panel";
-  editor.panels.scan.folder = folder.string();
-  editor.panels.scan.all_stations = false;
-  editor.panels.survey.station = 0;
-  chooseInstrument(asked(), *instrumentIn(readCatalogue(editor.panels.catalogue), "faro-focus-s350"));
+  editor.panels.of<ScanState>().folder = folder.string();
+  editor.panels.of<ScanState>().all_stations = false;
+  editor.survey.station = 0;
+  chooseInstrument(asked(), *editor.instrument("faro-focus-s350"));
   for (auto& [key, value] : asked().settings)
     if (key == "resolution" || key == "quality") value = key == "quality" ? "4x" : "1/32";
   asked().truth = true;

@@ -44,7 +44,7 @@ TEST_F(Targets, AreListedForEachStationWithWhatIsToBeExpected) {
 
 TEST_F(Targets, AreChosenByAClick) {
   ASSERT_TRUE(gui.click("###target-row"));
-  EXPECT_EQ(editor.panels.survey.target, 0);
+  EXPECT_EQ(editor.survey.target, 0);
 }
 
 TEST_F(Targets, AreMeasuredOnceTheirScanIsThere) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/shell/theme.h"
+#include "editor/widgets/theme.h"
 
 namespace standpoint {
 

@@ -8,8 +8,8 @@
 #include <imgui.h>
 #include <imgui_freetype.h>
 
-#include "editor/editor.h"
-#include "editor/shell/theme.h"
+#include "editor/model/style.h"
+#include "editor/widgets/theme.h"
 
 namespace standpoint {
 

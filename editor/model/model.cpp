@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/editor.h"
+#include "editor/model/model.h"
 
 #include <algorithm>
 #include <utility>
@@ -10,7 +10,7 @@
 
 namespace standpoint {
 
-Editor::Editor(std::vector<Verb> verbs, std::function<void()> wake_up)
+Model::Model(std::vector<Verb> verbs, std::function<void()> wake_up)
     : session(std::move(verbs), wake_up),
       budget_preview(wake_up),
       expected(wake_up),
@@ -18,22 +18,40 @@ Editor::Editor(std::vector<Verb> verbs, std::function<void()> wake_up)
       target_list(wake_up),
       wake(std::move(wake_up)) {}
 
-const Document& Editor::shownDocument() const {
+const Document& Model::shownDocument() const {
   return preview.outcome() != nullptr ? preview.outcome()->document : session.document();
 }
 
-Eigen::Vector3d Editor::shift_m() const {
+Eigen::Vector3d Model::shift_m() const {
   const auto& georeference = shownDocument().georeference;
   return georeference ? georeference->shift_m : Eigen::Vector3d::Zero();
 }
 
-void Editor::showCloud(const std::filesystem::path& file) {
+const std::vector<PhysicalMaterial>& Model::offeredMaterials() const {
+  return standpoint::offeredMaterials(catalogue_, session.document().materials);
+}
+
+const PhysicalMaterial* Model::offeredMaterial(const std::string& id) const {
+  const auto& all = offeredMaterials();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const PhysicalMaterial& m) { return m.id == id; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::optional<ScanSettings> Model::plannedSettings() const {
+  const auto* chosen = instrument(scan_choice.instrument);
+  if (chosen == nullptr) return std::nullopt;
+  auto resolved = resolveSettings(*chosen, scan_choice.settings);
+  if (!resolved) return std::nullopt;
+  return *std::move(resolved);
+}
+
+void Model::showCloud(const std::filesystem::path& file) {
   cloud_.reset();
   live_.reset();
   if (!file.empty()) cloud_loader_.start(file, shift_m(), wake);
 }
 
-bool Editor::startScan(nlohmann::json options, std::string title) {
+bool Model::startScan(nlohmann::json options, std::string title) {
   auto live = std::make_shared<LiveCloud>(shift_m(), wake);
   const ScanSurroundings company{scan_readiness.at_hand(), live};
   const auto work = [company](const Document& document, const nlohmann::json& filled, Progress& progress) {
@@ -47,7 +65,7 @@ bool Editor::startScan(nlohmann::json options, std::string title) {
   return true;
 }
 
-void Editor::followLiveScan() {
+void Model::followLiveScan() {
   if (!live_) return;
   const auto& running = session.running();
   const bool over =
@@ -61,7 +79,7 @@ void Editor::followLiveScan() {
   if (scan == finished.end() || !scan->ok || cloud_->colours.empty()) cloud_.reset();  // back to the model
 }
 
-void Editor::update() {
+void Model::update() {
   session.poll();
   followLiveScan();
   if (auto read = cloud_loader_.take()) {
@@ -97,7 +115,7 @@ void Editor::update() {
 }
 
 // The camera looks at what is previewed, and back where it was when that is given up.
-void Editor::followPreview() {
+void Model::followPreview() {
   const bool came = preview.poll();
   if (came) preview_selection.clear();
   if (came && preview.outcome() != nullptr) {
@@ -113,7 +131,7 @@ void Editor::followPreview() {
   camera_before_preview_.reset();
 }
 
-void Editor::startWaitingCloud() {
+void Model::startWaitingCloud() {
   if (waiting_clouds.empty() || preview.isOpen()) return;
   if (!session.document().imported) {
     if (!session.running().empty()) return;  // perhaps the model
@@ -129,7 +147,7 @@ void Editor::startWaitingCloud() {
   session.start("underlay", {{"add", file.string()}}, "Lay " + file.filename().string() + " under the model");
 }
 
-bool Editor::followModel(const Environment& before, const Environment& after) {
+bool Model::followModel(const Environment& before, const Environment& after) {
   const auto match = matchProducts(before, after);
   if (std::all_of(match.new_of_old.begin(), match.new_of_old.end(), [](std::int32_t p) { return p == kNoProduct; }))
     return false;
@@ -154,12 +172,11 @@ bool Editor::followModel(const Environment& before, const Environment& after) {
   if (before.spatial.size() == after.spatial.size() &&
       std::equal(before.products.begin(), before.products.end(), after.products.begin(), after.products.end(), same))
     return true;
-  panels.outliner = OutlinerPanelState();
-  panels.outliner.tree = Outliner(after);
+  outliner = {Outliner(after), outliner.made + 1, {}};
   return true;
 }
 
-void Editor::adoptDocument() {
+void Model::adoptDocument() {
   const auto& document = session.document();
   picker.follow(document.environment(), wake);
   if (walk.active() && !walk.isIn(document.collision)) {
@@ -178,13 +195,12 @@ void Editor::adoptDocument() {
   view.measured_from.reset();
   view.measured_to.reset();
   view.hover.reset();
-  panels.outliner = OutlinerPanelState();
-  if (imported_) panels.outliner.tree = Outliner(*imported_);
+  outliner = {imported_ ? Outliner(*imported_) : Outliner(), outliner.made + 1, {}};
   if (imported_) look(view.camera, StandardView::corner);
   view.frame_wanted = imported_ != nullptr;
 }
 
-ViewState Editor::viewState() const {
+ViewState Model::viewState() const {
   const auto& document = shownDocument();
   ViewState state;
   state.environment = document.environment();
@@ -216,12 +232,12 @@ ViewState Editor::viewState() const {
   return state;
 }
 
-std::shared_ptr<const Expectation> Editor::expectation() {
-  const auto* chosen = instrumentIn(readCatalogue(panels.catalogue), view.probe.instrument);
+std::shared_ptr<const Expectation> Model::expectation() {
+  const auto* chosen = instrument(view.probe.instrument);
   return chosen == nullptr ? nullptr : kept_expectation_.of(picker.scene(), session.document().materials, *chosen);
 }
 
-ViewState Editor::originalState() const {
+ViewState Model::originalState() const {
   ViewState state = viewState();
   const auto& document = shownDocument();
   if (state.environment == document.imported) return state;
@@ -231,7 +247,7 @@ ViewState Editor::originalState() const {
   return state;
 }
 
-const Treatment* Editor::treatmentOfProduct(std::uint32_t product) const {
+const Treatment* Model::treatmentOfProduct(std::uint32_t product) const {
   const auto& document = session.document();
   if (!document.treatments || !document.imported) return nullptr;
   if (treated_by_ != document.treatments) {
@@ -241,7 +257,7 @@ const Treatment* Editor::treatmentOfProduct(std::uint32_t product) const {
   return product < treatment_of_product_.size() ? treatment_of_product_[product] : nullptr;
 }
 
-void Editor::derive() const {
+void Model::derive() const {
   if (derived_from_ == shown()) return;
   derived_from_ = shown();
   product_bounds_.clear();
@@ -253,22 +269,22 @@ void Editor::derive() const {
   storeys_ = storeyLevels(*derived_from_, shift_m().z());
 }
 
-const std::vector<Bounds>& Editor::boundsOfProducts() const {
+const std::vector<Bounds>& Model::boundsOfProducts() const {
   derive();
   return product_bounds_;
 }
 
-const std::vector<StoreyLevel>& Editor::storeys() const {
+const std::vector<StoreyLevel>& Model::storeys() const {
   derive();
   return storeys_;
 }
 
-std::uint64_t Editor::triangles() const {
+std::uint64_t Model::triangles() const {
   derive();
   return triangles_;
 }
 
-Bounds Editor::visibleBounds() const {
+Bounds Model::visibleBounds() const {
   Bounds all = boundsOfVisible(true);
   const Bounds scan = shownScanBounds();
   if (!scan.empty() && distance_m(all, scan) < kFarFromModel_m) all.extend(scan);
@@ -276,18 +292,18 @@ Bounds Editor::visibleBounds() const {
 }
 
 // A scan of the ground around it does not make a building small; one that reaches farther than the model is fitted too.
-Bounds Editor::buildingBounds() const {
+Bounds Model::buildingBounds() const {
   const Bounds building = boundsOfVisible(false), model = boundsOfVisible(true), scan = shownScanBounds();
   if (building.empty()) return visibleBounds();
   const Eigen::Vector3d beyond = (scan.max - model.max).cwiseMax(model.min - scan.min);
   return scan.empty() || beyond.maxCoeff() < 0.1 * model.diagonal() ? building : visibleBounds();
 }
 
-Bounds Editor::shownScanBounds() const {
+Bounds Model::shownScanBounds() const {
   return preview.outcome() != nullptr ? Bounds() : underlays.visibleBounds(session.document());
 }
 
-Bounds Editor::boundsOfVisible(bool with_terrain) const {
+Bounds Model::boundsOfVisible(bool with_terrain) const {
   Bounds all;
   const auto& each = boundsOfProducts();
   const bool in_preview = preview.outcome() != nullptr;
@@ -303,7 +319,7 @@ Bounds Editor::boundsOfVisible(bool with_terrain) const {
   return all;
 }
 
-Bounds Editor::selectionBounds() const {
+Bounds Model::selectionBounds() const {
   Bounds all;
   const auto& each = boundsOfProducts();
   for (const auto p : (preview.outcome() != nullptr ? preview_selection : selection).products())
@@ -311,17 +327,19 @@ Bounds Editor::selectionBounds() const {
   return all;
 }
 
-void Editor::frameSelection() {
+void Model::frameSelection() {
   Bounds wanted = selectionBounds();
   if (wanted.empty()) wanted = buildingBounds();
-  frame(view.camera, wanted, view.size.x() / std::max(view.size.y(), 1.0));
+  bringIntoView(wanted);
 }
 
-void Editor::select(std::uint32_t product, bool reveal) {
+void Model::bringIntoView(const Bounds& box) { frame(view.camera, box, view.size.x() / std::max(view.size.y(), 1.0)); }
+
+void Model::select(std::uint32_t product, bool reveal) {
   selection.set(product);
   if (!reveal) return;
-  panels.outliner.tree.reveal(product);
-  panels.outliner.scroll_to = static_cast<std::int64_t>(product);
+  outliner.tree.reveal(product);
+  outliner.scroll_to = product;
 }
 
 }  // namespace standpoint

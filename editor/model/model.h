@@ -13,10 +13,12 @@
 
 #include "editor/model/budget_preview.h"
 #include "editor/model/camera.h"
+#include "editor/model/catalogue.h"
 #include "editor/model/cloud.h"
 #include "editor/model/expected_view.h"
 #include "editor/model/import_preview.h"
 #include "editor/model/live_cloud.h"
+#include "editor/model/outliner_rows.h"
 #include "editor/model/picker.h"
 #include "editor/model/placement_view.h"
 #include "editor/model/scan_outlook.h"
@@ -24,25 +26,14 @@
 #include "editor/model/selection.h"
 #include "editor/model/session.h"
 #include "editor/model/settings.h"
+#include "editor/model/style.h"
 #include "editor/model/target_list.h"
 #include "editor/model/underlay_view.h"
 #include "editor/model/view_state.h"
 #include "editor/model/visibility.h"
 #include "editor/model/walk.h"
-#include "editor/panels/panel_states.h"
-#include "editor/shell/dialog_states.h"
-
-struct ImFont;
 
 namespace standpoint {
-
-struct Fonts {
-  ImFont* text = nullptr;
-  ImFont* bold = nullptr;
-  ImFont* small = nullptr;
-  ImFont* mono = nullptr;
-  ImFont* huge = nullptr;  // icons of empty panels
-};
 
 // What the next click in the viewport does.
 enum class Tool { select, placeStation, placeTarget, measure, walk, takeMaterial, paintMaterial, layWay };
@@ -79,14 +70,40 @@ struct ViewportState {
   bool frame_wanted = false;
 };
 
-// Everything the interface works on. The panels get it whole; what belongs to one panel only is in `panels`.
-struct Editor {
-  Editor(std::vector<Verb> verbs, std::function<void()> wake_up);
+// The tree of the products, which the panel draws and a selection elsewhere opens.
+struct OutlinerView {
+  Outliner tree;
+  std::uint64_t made = 0;                  // rises with every other tree
+  std::optional<std::uint32_t> scroll_to;  // product to bring into view
+};
+
+// Chosen in the lists of the survey and in the view: indices into the job, -1 for none.
+struct SurveyChoice {
+  int station = -1;
+  int target = -1;
+};
+
+// Chosen in the lists of materials or with the eyedropper; a remedy and the brush use it.
+struct ChosenMaterial {
+  std::string id;           // "" with `unassigned`, or when none is
+  bool unassigned = false;  // the row of the surfaces that have none
+};
+
+// What counts as seen when scans are planned.
+struct SeenLimits {
+  double spacing_mm = 0;  // 0: any
+  double max_incidence_deg = 90;
+};
+
+// Everything that is looked at and worked on, without a widget: the panels see it, and ask for changes (Actions).
+struct Model : Style {
+  Model(std::vector<Verb> verbs, std::function<void()> wake_up);
 
   Session session;
   Settings settings;
   Selection selection;
   Visibility visibility;
+  OutlinerView outliner;
   ViewportState view;
   Picker picker;
   PlacementView placement;  // of what is picked
@@ -104,33 +121,29 @@ struct Editor {
   TargetList target_list;
   bool wants_deviation = false;                      // a panel shows it
   std::deque<std::filesystem::path> waiting_clouds;  // dropped, each to become an underlay when the document is free
-  PanelStates panels;
-  DialogStates dialogs;
-  Workspace workspace = Workspace::model;
-  std::array<std::string, 3> wanted_tab;  // by Area: the panel to bring to the front in the next frame
 
-  Fonts fonts;
-  float scale = 1;                    // pixels per point
-  SceneView* scene = nullptr;         // null: the viewport stays empty
-  SceneView* scene_beside = nullptr;  // the original's half
+  SurveyChoice survey;
+  ChosenMaterial material;
+  ScanChoice scan_choice{.instrument = "leica-rtc360"};  // what the next scan is set to
+  SeenLimits seen;
+  Body walker;  // who walks through the model, and for whom its surface is computed
+
   std::function<void()> wake;
-  std::function<void(Editor&)> draw_instrument;        // the emulated device; empty: this build has none
-  std::function<void(const Eigen::Vector3d&)> on_way;  // the tool Tool::layWay clicked there, in the file's frame
-  std::vector<Eigen::Vector3d> way;                    // to be drawn, in the file's frame
-  std::function<void(const std::string&)> on_title;
-  bool fine_picture = false;  // the view stands still: smooth edges
-  bool quit = false;          // confirmed
 
-  Eigen::Vector2f overlay_size = {0, 0};  // of the controls over the viewport, as drawn last
-  float overlay_end = 0;                  // where they must end on the right, on the screen
-
-  float px(float points) const { return points * scale; }
   const std::shared_ptr<const Environment>& environment() const { return session.document().environment(); }
   // What the viewport shows: the preview's model while there is one.
   const Document& shownDocument() const;
   const std::shared_ptr<const Environment>& shown() const { return shownDocument().environment(); }
   // Local frame → the file's own, in which every number is shown.
   Eigen::Vector3d shift_m() const;
+
+  // What the program ships with, read when it is first asked for.
+  const Catalogue& catalogue() const { return readCatalogue(catalogue_); }
+  const Instrument* instrument(const std::string& id) const { return instrumentIn(catalogue(), id); }
+  const std::vector<PhysicalMaterial>& offeredMaterials() const;         // with the document's own
+  const PhysicalMaterial* offeredMaterial(const std::string& id) const;  // null where there is no such id
+  // What the next scan is set to; nothing when that cannot be scanned with.
+  std::optional<ScanSettings> plannedSettings() const;
 
   // To be called once a frame before drawing: results of tasks, and what follows from another document.
   void update();
@@ -149,6 +162,7 @@ struct Editor {
   Bounds buildingBounds() const;  // what is visible without the terrain around it
   Bounds selectionBounds() const;
   void frameSelection();  // everything when nothing is selected
+  void bringIntoView(const Bounds& box);
   void select(std::uint32_t product, bool reveal);
 
   const std::vector<Bounds>& boundsOfProducts() const;  // kept until the environment changes
@@ -172,6 +186,7 @@ struct Editor {
   const Task* live_task_ = nullptr;              // that it belongs to, while that runs
   std::shared_ptr<const Environment> imported_;  // whose products selection and visibility speak of
   std::uint64_t seen_revision_ = ~0ULL;
+  mutable Catalogue catalogue_;
   mutable std::shared_ptr<const Environment> derived_from_;
   mutable std::vector<Bounds> product_bounds_;
   mutable std::vector<StoreyLevel> storeys_;
@@ -180,8 +195,5 @@ struct Editor {
   mutable std::vector<const Treatment*> treatment_of_product_;
   void derive() const;
 };
-
-// What the scan panel is set to; nothing when that cannot be scanned with.
-std::optional<ScanSettings> plannedSettings(Editor& editor);
 
 }  // namespace standpoint

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/panels/panel_states.h"
+#include "editor/model/catalogue.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "editor/shell/widgets.h"
+#include "editor/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,15 +8,15 @@
 #include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
-#include "editor/editor.h"
-#include "editor/shell/icons.h"
-#include "editor/shell/theme.h"
+#include "editor/model/style.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/theme.h"
 
 namespace standpoint {
 
 namespace ui {
 
-void filterButton(const Editor& editor, const char* list, const char* icon, const char* name, std::size_t count,
+void filterButton(const Style& style, const char* list, const char* icon, const char* name, std::size_t count,
                   ImU32 shade, bool& shown) {
   ImGui::PushStyleColor(ImGuiCol_Button, shown ? ImVec4(1, 1, 1, 0.07F) : ImVec4(0, 0, 0, 0));
   ImGui::PushStyleColor(ImGuiCol_Text,
@@ -24,7 +24,7 @@ void filterButton(const Editor& editor, const char* list, const char* icon, cons
   if (ImGui::Button(fmt::format("{}  {}###{}-{}", icon, groupedDigits(count), list, name).c_str())) shown = !shown;
   ImGui::PopStyleColor(2);
   ui::tooltip(fmt::format("{} {}", shown ? "Hide" : "Show", name));
-  ImGui::SameLine(0, editor.px(4));
+  ImGui::SameLine(0, style.px(4));
 }
 
 void tooltip(const std::string& text) {
@@ -76,11 +76,11 @@ bool iconButton(const char* label, const char* tip, const std::string& why, bool
   return pressed;
 }
 
-void heading(const Editor& editor, const char* text) {
-  ImGui::Dummy({0, editor.px(3)});
-  if (editor.fonts.bold != nullptr) ImGui::PushFont(editor.fonts.bold);
+void heading(const Style& style, const char* text) {
+  ImGui::Dummy({0, style.px(3)});
+  if (style.fonts.bold != nullptr) ImGui::PushFont(style.fonts.bold);
   ImGui::TextUnformatted(text);
-  if (editor.fonts.bold != nullptr) ImGui::PopFont();
+  if (style.fonts.bold != nullptr) ImGui::PopFont();
 }
 
 void dimText(const std::string& text) { ImGui::TextDisabled("%s", text.c_str()); }
@@ -97,28 +97,28 @@ void dimWrapped(const std::string& text) {
   ImGui::PopStyleColor();
 }
 
-void gap(const Editor& editor, float points) { ImGui::Dummy({0, editor.px(points)}); }
+void gap(const Style& style, float points) { ImGui::Dummy({0, style.px(points)}); }
 
-void emptyState(const Editor& editor, const char* icon, const char* title, const char* text) {
+void emptyState(const Style& style, const char* icon, const char* title, const char* text) {
   const float width = ImGui::GetContentRegionAvail().x;
   const float left = ImGui::GetCursorPosX();
   const auto centred = [&](const char* line) {
     const float own = ImGui::CalcTextSize(line).x;
     ImGui::SetCursorPosX(left + std::max(0.0F, (width - own) / 2));
   };
-  ImGui::Dummy({0, std::min(editor.px(28), ImGui::GetContentRegionAvail().y * 0.12F)});
-  if (editor.fonts.huge != nullptr) ImGui::PushFont(editor.fonts.huge);
+  ImGui::Dummy({0, std::min(style.px(28), ImGui::GetContentRegionAvail().y * 0.12F)});
+  if (style.fonts.huge != nullptr) ImGui::PushFont(style.fonts.huge);
   centred(icon);
   ImGui::TextColored({0.33F, 0.37F, 0.43F, 1}, "%s", icon);
-  if (editor.fonts.huge != nullptr) ImGui::PopFont();
+  if (style.fonts.huge != nullptr) ImGui::PopFont();
   centred(title);
   ImGui::TextUnformatted(title);
-  const float inset = std::min(width * 0.08F, editor.px(40));
+  const float inset = std::min(width * 0.08F, style.px(40));
   ImGui::SetCursorPosX(left + inset);
   ImGui::PushTextWrapPos(left + width - inset);
   ImGui::TextDisabled("%s", text);
   ImGui::PopTextWrapPos();
-  gap(editor, 6);
+  gap(style, 6);
 }
 
 bool beginProperties(const char* id, float label_share) {
@@ -153,9 +153,9 @@ void property(const char* label, const std::string& value) {
 
 void endProperties() { ImGui::EndTable(); }
 
-void meter(const Editor& editor, double fraction, ImU32 fill, float wanted_width) {
+void meter(const Style& style, double fraction, ImU32 fill, float wanted_width) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = wanted_width > 0 ? wanted_width : ImGui::GetContentRegionAvail().x, height = editor.px(6);
+  const float width = wanted_width > 0 ? wanted_width : ImGui::GetContentRegionAvail().x, height = style.px(6);
   auto& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(at, {at.x + width, at.y + height}, IM_COL32(27, 30, 36, 255), height / 2);
   const float filled = width * static_cast<float>(std::clamp(fraction, 0.0, 1.0));
@@ -163,13 +163,13 @@ void meter(const Editor& editor, double fraction, ImU32 fill, float wanted_width
   ImGui::Dummy({width, height});
 }
 
-void swatch(const Editor& editor, const Colour& shown) {
-  const float size = ImGui::GetTextLineHeight() - editor.px(3);
+void swatch(const Style& style, const Colour& shown) {
+  const float size = ImGui::GetTextLineHeight() - style.px(3);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float top = at.y + (ImGui::GetTextLineHeight() - size) / 2;
   ImGui::GetWindowDrawList()->AddRectFilled({at.x, top}, {at.x + size, top + size},
                                             ImGui::ColorConvertFloat4ToU32({shown.r, shown.g, shown.b, 1}),
-                                            editor.px(3));
+                                            style.px(3));
   ImGui::Dummy({size, ImGui::GetTextLineHeight()});
 }
 

@@ -11,7 +11,7 @@
 
 namespace standpoint {
 
-struct Editor;
+struct Style;
 
 // The few widgets that all panels are made of, so that they look and behave alike.
 namespace ui {
@@ -25,17 +25,17 @@ bool wideButton(const char* id, const std::string& text, const std::string& why 
 // An icon without a frame, for rows and bars.
 bool iconButton(const char* label, const char* tooltip, const std::string& why = {}, bool lit = false);
 // Shows or hides rows of one kind, and says how many there are. `list` tells apart those of several lists.
-void filterButton(const Editor& editor, const char* list, const char* icon, const char* name, std::size_t count,
+void filterButton(const Style& style, const char* list, const char* icon, const char* name, std::size_t count,
                   ImU32 shade, bool& shown);
 void tooltip(const std::string& text);  // of the last item, also when it is disabled
 
-void heading(const Editor& editor, const char* text);
+void heading(const Style& style, const char* text);
 void dimText(const std::string& text);
 void wrapped(const std::string& text);
 void dimWrapped(const std::string& text);
 // An empty panel: what would be here, and how to get it.
-void emptyState(const Editor& editor, const char* icon, const char* title, const char* text);
-void gap(const Editor& editor, float points = 4);
+void emptyState(const Style& style, const char* icon, const char* title, const char* text);
+void gap(const Style& style, float points = 4);
 
 // Rows of label and value with aligned columns. Values can be selected by a double click: it copies them.
 bool beginProperties(const char* id, float label_share = 0.40F);
@@ -43,8 +43,8 @@ void property(const char* label, const std::string& value);
 void propertyLabel(const char* label);  // then draw a widget in the value's column
 void endProperties();
 
-void meter(const Editor& editor, double fraction, ImU32 tone, float width = 0);  // 0 = all there is
-void swatch(const Editor& editor, const Colour& colour);
+void meter(const Style& style, double fraction, ImU32 tone, float width = 0);  // 0 = all there is
+void swatch(const Style& style, const Colour& colour);
 bool searchField(const char* id, const char* hint, std::string& text);
 void textRightAligned(const std::string& text);
 // The label of a button of this width: icon and text, or only what of them fits.

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/physical_material.h"
+#include "project/document.h"
+#include "scanners/instruments/instrument.h"
+
+namespace standpoint {
+
+// Read once from the program's data folder.
+struct Catalogue {
+  bool read = false;
+  std::vector<PhysicalMaterial> materials;
+  std::vector<Instrument> instruments;
+  std::string problem;                                // why something could not be read
+  std::vector<PhysicalMaterial> offered;              // with the user's own in place of those that have their id …
+  std::shared_ptr<const MaterialChoice> offered_for;  // … of this document
+};
+
+const Catalogue& readCatalogue(Catalogue& catalogue);
+// Null where there is no such id.
+const Instrument* instrumentIn(const Catalogue& catalogue, const std::string& id);
+// All materials that can be assigned in a document: made anew only when its own have changed.
+const std::vector<PhysicalMaterial>& offeredMaterials(Catalogue& catalogue,
+                                                      const std::shared_ptr<const MaterialChoice>& choice);
+
+}  // namespace standpoint

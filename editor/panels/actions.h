@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "editor/model/dialog_states.h"
+#include "editor/model/import_preview.h"
+#include "editor/model/model.h"
+
+namespace standpoint {
+
+// What a panel may ask for. Each is done at once, so that what the panel draws next shows it; what needs a task has
+// only begun.
+class Actions {
+ public:
+  virtual ~Actions() = default;
+
+  // The document. False when Session::whyNot() says why not.
+  virtual bool start(std::string_view verb, nlohmann::json options, std::string title) = 0;
+  virtual bool startScan(nlohmann::json options, std::string title) = 0;  // its points are shown as they come
+  virtual void report(std::string title, Error error) = 0;
+  virtual void clearLog() = 0;
+
+  // Products, local frame for boxes.
+  virtual void select(std::vector<std::uint32_t> products) = 0;
+  virtual void toggle(std::uint32_t product) = 0;
+  virtual void reveal(std::uint32_t product) = 0;  // selects it, also in the outliner
+  virtual void show(const std::vector<std::uint32_t>& products, bool shown) = 0;
+  virtual void isolate(const std::vector<std::uint32_t>& products) = 0;  // and takes the cut away
+  virtual void showAll() = 0;
+  virtual void expand(std::uint32_t node, bool open) = 0;  // of the outliner
+  virtual void scrolled() = 0;                             // the outliner has brought its product into view
+
+  // The view.
+  virtual void frameSelection() = 0;
+  virtual void bringIntoView(const Bounds& box) = 0;
+  virtual void colourBy(ColourMode colour) = 0;
+  virtual void showSide(ModelSide side) = 0;
+  virtual void showReflectanceAt(double wavelength_nm) = 0;
+  virtual void showWalkable(bool shown) = 0;
+  virtual void showShapes(bool shown) = 0;
+
+  // What several panels and the view share.
+  virtual void choose(const SurveyChoice& choice) = 0;
+  virtual void choose(const ChosenMaterial& material) = 0;
+  virtual void set(const ScanChoice& scan) = 0;
+  virtual void set(const SeenLimits& limits) = 0;
+  virtual void set(const Body& walker) = 0;
+
+  // What is made beside the interface while somebody asks for it, in each frame anew.
+  virtual void wantBudget(SimplificationRequest request) = 0;
+  virtual void wantDeviation() = 0;
+  virtual void wantOutlook(const OutlookRequest& request, const Instrument& instrument) = 0;
+  virtual void wantReadiness() = 0;  // of a scan
+  virtual void wantTargets() = 0;
+
+  // A model that is looked at before it is taken in.
+  virtual void acceptPreview() = 0;
+  virtual void addPreview() = 0;
+  virtual void closePreview() = 0;
+  virtual void setOverrides(const ImportOverrides& overrides, bool read_again) = 0;
+  virtual void selectInPreview(std::uint32_t product) = 0;
+
+  // The shell's own. A file is chosen frames later, when these actions are no longer there.
+  using WhenChosen = std::function<void(Actions& later, const std::filesystem::path& chosen)>;
+  virtual void run(const char* command) = 0;       // of those that menus and keys have
+  virtual void menuItem(const char* command) = 0;  // in an open menu
+  virtual void openForm(const char* verb, const nlohmann::json& filled) = 0;
+  virtual void askForFile(FileDialogState::Purpose purpose, std::string title, std::string accept,
+                          std::vector<std::string> extensions, std::string name, WhenChosen done) = 0;
+  virtual bool drawInstrument() = 0;  // the emulated device; false: this build has none
+};
+
+}  // namespace standpoint

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/panels/panels.h"
+
+#include "editor/widgets/icons.h"
+
+namespace standpoint {
+
+// A new panel is one file, which has its state and its function, and one line here: the function, id, title, icon, and
+// the areas in the workspaces Model, Materials, Survey and Instrument.
+#define STANDPOINT_PANELS(ROW)                                                  \
+  ROW(drawMaterialsPanel, "materials", "Materials", ICON_PAINT, N, L, N, N)     \
+  ROW(drawSurveyPanel, "survey", "Survey", ICON_STATION, N, N, L, L)            \
+  ROW(drawOutlinerPanel, "outliner", "Outliner", ICON_LIST, L, L, L, N)         \
+  ROW(drawScanPanel, "scan", "Scan", ICON_PLAY, N, N, R, N)                     \
+  ROW(drawPlanPanel, "plan", "Plan", ICON_EYE, N, N, R, N)                      \
+  ROW(drawInstrumentPanel, "instrument", "Instrument", ICON_TABLET, N, N, N, R) \
+  ROW(drawMaterialCardPanel, "material", "Material", ICON_PAINT, N, R, N, N)    \
+  ROW(drawVerifyPanel, "verify", "Measured", ICON_CHECK_CIRCLE, N, R, N, N)     \
+  ROW(drawInspectorPanel, "inspector", "Inspector", ICON_INFO, R, R, R, N)      \
+  ROW(drawOptimisePanel, "optimise", "Optimise", ICON_COMPRESS, R, N, N, N)     \
+  ROW(drawCollisionPanel, "collision", "Collision", ICON_WALK, R, N, N, N)      \
+  ROW(drawGeoreferencePanel, "georeference", "Place", ICON_GLOBE, R, N, N, N)   \
+  ROW(drawFindingsPanel, "findings", "Findings", ICON_FLAG, N, B, N, N)         \
+  ROW(drawTargetsPanel, "targets", "Targets", ICON_TARGET, N, N, B, N)          \
+  ROW(drawLogPanel, "log", "Log", ICON_LOG, B, B, B, B)                         \
+  ROW(drawTasksPanel, "tasks", "Tasks", ICON_TASKS, B, B, B, B)
+
+#define DECLARED(function, id, title, icon, ...) void function(const Model&, PanelStates&, Actions&);
+STANDPOINT_PANELS(DECLARED)
+#undef DECLARED
+
+namespace {
+
+constexpr Area L = Area::left, R = Area::right, B = Area::bottom, N = Area::none;
+
+#define LISTED(function, id, title, icon, ...) Panel{id, title, icon, {__VA_ARGS__}, function},
+constexpr Panel kPanels[] = {STANDPOINT_PANELS(LISTED)};
+#undef LISTED
+
+}  // namespace
+
+std::span<const Panel> panels() { return kPanels; }
+
+}  // namespace standpoint

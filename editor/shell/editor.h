@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "editor/model/dialog_states.h"
+#include "editor/model/model.h"
+#include "editor/panels/panel.h"
+
+namespace standpoint {
+
+// The model with what the shell keeps around it: what is open on the screen, and whom it talks to. Panels never see it.
+struct Editor : Model {
+  using Model::Model;
+
+  DialogStates dialogs;
+  PanelStates panels;
+  Workspace workspace = Workspace::model;
+  std::array<std::string, 3> wanted_tab;   // by Area: the panel to bring to the front in the next frame
+  std::pair<RayHit, std::string> painted;  // where a material was dropped, and its id: a menu asks how far it goes
+
+  SceneView* scene = nullptr;                          // null: the viewport stays empty
+  SceneView* scene_beside = nullptr;                   // the original's half
+  std::function<void(Editor&)> draw_instrument;        // the emulated device; empty: this build has none
+  std::function<void(const Eigen::Vector3d&)> on_way;  // the tool Tool::layWay clicked there, in the file's frame
+  std::vector<Eigen::Vector3d> way;                    // to be drawn, in the file's frame
+  std::function<void(const std::string&)> on_title;
+  bool fine_picture = false;  // the view stands still: smooth edges
+  bool quit = false;          // confirmed
+
+  Eigen::Vector2f overlay_size = {0, 0};  // of the controls over the viewport, as drawn last
+  float overlay_end = 0;                  // where they must end on the right, on the screen
+};
+
+}  // namespace standpoint

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "editor/shell/panel_actions.h"
+
+#include <utility>
+
+#include "editor/shell/actions.h"
+#include "editor/shell/dialogs.h"
+#include "editor/shell/editor.h"
+#include "editor/shell/import_preview.h"
+
+namespace standpoint {
+
+bool PanelActions::start(std::string_view verb, nlohmann::json options, std::string title) {
+  return editor_.session.start(verb, std::move(options), std::move(title));
+}
+bool PanelActions::startScan(nlohmann::json options, std::string title) {
+  return editor_.startScan(std::move(options), std::move(title));
+}
+void PanelActions::report(std::string title, Error error) {
+  editor_.session.errors().push_back({std::move(title), std::move(error)});
+}
+void PanelActions::clearLog() { editor_.session.clearLog(); }
+
+void PanelActions::select(std::vector<std::uint32_t> products) { editor_.selection.set(std::move(products)); }
+void PanelActions::toggle(std::uint32_t product) { editor_.selection.toggle(product); }
+void PanelActions::reveal(std::uint32_t product) { editor_.select(product, true); }
+void PanelActions::show(const std::vector<std::uint32_t>& products, bool shown) {
+  editor_.visibility.show(products, shown);
+}
+void PanelActions::isolate(const std::vector<std::uint32_t>& products) {
+  editor_.visibility.isolate(products);
+  editor_.visibility.cut_height_m.reset();  // some of it may stand above
+}
+void PanelActions::showAll() { editor_.visibility.showAll(); }
+void PanelActions::expand(std::uint32_t node, bool open) { editor_.outliner.tree.expand(node, open); }
+void PanelActions::scrolled() { editor_.outliner.scroll_to.reset(); }
+
+void PanelActions::frameSelection() { editor_.frameSelection(); }
+void PanelActions::bringIntoView(const Bounds& box) { editor_.bringIntoView(box); }
+void PanelActions::colourBy(ColourMode colour) { editor_.view.colour = colour; }
+void PanelActions::showSide(ModelSide side) { editor_.view.side = side; }
+void PanelActions::showReflectanceAt(double wavelength_nm) { editor_.view.wavelength_nm = wavelength_nm; }
+void PanelActions::showWalkable(bool shown) { editor_.view.walkable = shown; }
+void PanelActions::showShapes(bool shown) { editor_.view.shapes = shown; }
+
+void PanelActions::choose(const SurveyChoice& choice) { editor_.survey = choice; }
+void PanelActions::choose(const ChosenMaterial& material) { editor_.material = material; }
+void PanelActions::set(const ScanChoice& scan) { editor_.scan_choice = scan; }
+void PanelActions::set(const SeenLimits& limits) { editor_.seen = limits; }
+void PanelActions::set(const Body& walker) { editor_.walker = walker; }
+
+void PanelActions::wantBudget(SimplificationRequest request) { editor_.previewed = std::move(request); }
+void PanelActions::wantDeviation() { editor_.wants_deviation = true; }
+void PanelActions::wantOutlook(const OutlookRequest& request, const Instrument& instrument) {
+  editor_.scan_outlook.want(request, instrument);
+}
+void PanelActions::wantReadiness() {
+  editor_.scan_readiness.follow(editor_.session.document(), editor_.picker.scene(), editor_.wake);
+}
+void PanelActions::wantTargets() {
+  editor_.target_list.follow(editor_.session.document(), editor_.picker.scene(), editor_.plannedSettings());
+}
+
+void PanelActions::acceptPreview() { standpoint::acceptPreview(editor_); }
+void PanelActions::addPreview() { standpoint::addPreview(editor_); }
+void PanelActions::closePreview() { standpoint::closePreview(editor_); }
+void PanelActions::setOverrides(const ImportOverrides& overrides, bool read_again) {
+  editor_.preview.overrides = overrides;
+  if (read_again) editor_.preview.readAgain();
+}
+void PanelActions::selectInPreview(std::uint32_t product) { editor_.preview_selection.set(product); }
+
+void PanelActions::run(const char* command) { invoke(editor_, command); }
+void PanelActions::menuItem(const char* command) { actionMenuItem(editor_, command); }
+void PanelActions::openForm(const char* verb, const nlohmann::json& filled) {
+  openVerbForm(editor_, verb);
+  editor_.dialogs.verb.form.fill(filled);
+}
+void PanelActions::askForFile(FileDialogState::Purpose purpose, std::string title, std::string accept,
+                              std::vector<std::string> extensions, std::string name, WhenChosen done) {
+  standpoint::askForFile(editor_, purpose, std::move(title), std::move(accept), std::move(extensions), std::move(name),
+                         [&editor = editor_, done = std::move(done)](const std::filesystem::path& chosen) {
+                           PanelActions later(editor);
+                           done(later, chosen);
+                         });
+}
+bool PanelActions::drawInstrument() {
+  if (editor_.draw_instrument) editor_.draw_instrument(editor_);
+  return editor_.draw_instrument != nullptr;
+}
+
+}  // namespace standpoint

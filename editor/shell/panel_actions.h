@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "editor/panels/actions.h"
+
+namespace standpoint {
+
+struct Editor;
+
+// Does at once what the panels ask for.
+class PanelActions final : public Actions {
+ public:
+  explicit PanelActions(Editor& editor) : editor_(editor) {}
+
+  bool start(std::string_view verb, nlohmann::json options, std::string title) override;
+  bool startScan(nlohmann::json options, std::string title) override;
+  void report(std::string title, Error error) override;
+  void clearLog() override;
+
+  void select(std::vector<std::uint32_t> products) override;
+  void toggle(std::uint32_t product) override;
+  void reveal(std::uint32_t product) override;
+  void show(const std::vector<std::uint32_t>& products, bool shown) override;
+  void isolate(const std::vector<std::uint32_t>& products) override;
+  void showAll() override;
+  void expand(std::uint32_t node, bool open) override;
+  void scrolled() override;
+
+  void frameSelection() override;
+  void bringIntoView(const Bounds& box) override;
+  void colourBy(ColourMode colour) override;
+  void showSide(ModelSide side) override;
+  void showReflectanceAt(double wavelength_nm) override;
+  void showWalkable(bool shown) override;
+  void showShapes(bool shown) override;
+
+  void choose(const SurveyChoice& choice) override;
+  void choose(const ChosenMaterial& material) override;
+  void set(const ScanChoice& scan) override;
+  void set(const SeenLimits& limits) override;
+  void set(const Body& walker) override;
+
+  void wantBudget(SimplificationRequest request) override;
+  void wantDeviation() override;
+  void wantOutlook(const OutlookRequest& request, const Instrument& instrument) override;
+  void wantReadiness() override;
+  void wantTargets() override;
+
+  void acceptPreview() override;
+  void addPreview() override;
+  void closePreview() override;
+  void setOverrides(const ImportOverrides& overrides, bool read_again) override;
+  void selectInPreview(std::uint32_t product) override;
+
+  void run(const char* command) override;
+  void menuItem(const char* command) override;
+  void openForm(const char* verb, const nlohmann::json& filled) override;
+  void askForFile(FileDialogState::Purpose purpose, std::string title, std::string accept,
+                  std::vector<std::string> extensions, std::string name, WhenChosen done) override;
+  bool drawInstrument() override;
+
+ private:
+  Editor& editor_;
+};
+
+}  // namespace standpoint
