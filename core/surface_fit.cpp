@@ -112,12 +112,12 @@ struct Solution {
   std::vector<FreeMotion> free;
 };
 
-FreeMotion freeMotion(const Vector6& direction, double share) {
+FreeMotion freeMotion(const Vector6& direction, double fraction) {
   FreeMotion motion;
   const Vector3d turn = direction.head<3>(), shift = direction.tail<3>();
   if (turn.norm() > 0.1) motion.axis = turn.normalized();
   if (shift.norm() > 0.1) motion.shift = shift.normalized();
-  motion.held_share = std::max(0.0, share);
+  motion.held_fraction = std::max(0.0, fraction);
   return motion;
 }
 
@@ -126,9 +126,9 @@ Solution solve(const Equations& e) {
   Solution s;
   for (int k = 0; k < 6; ++k) {
     const Vector6 v = eigen.eigenvectors().col(k);
-    const double share = eigen.eigenvalues()[k] / e.weights;
-    if (share < kHeldShare) {
-      s.free.push_back(freeMotion(v, share));
+    const double fraction = eigen.eigenvalues()[k] / e.weights;
+    if (fraction < kHeldFraction) {
+      s.free.push_back(freeMotion(v, fraction));
       continue;
     }
     s.step += v * v.dot(e.right) / eigen.eigenvalues()[k];
@@ -213,7 +213,7 @@ Result<SurfaceFit> fitToSurface(std::span<const Vector3d> points, const Pose& st
     ++fit.iterations;
   }
   fit.rms_m = std::sqrt(equations.squares / equations.weights);
-  fit.used_share = static_cast<double>(equations.used) / static_cast<double>(points.size());
+  fit.used_fraction = static_cast<double>(equations.used) / static_cast<double>(points.size());
   fit.moved_m = movedBy(points, fit.to_from, start);
   fit.free = solution.free;
   const Matrix6 c = covariance(round, solution.inverse, options.block_m);

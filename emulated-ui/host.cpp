@@ -102,8 +102,8 @@ Result<Outcome> copyFiles(const Document& document, const TransferOrder& order, 
     if (auto going = progress.check(); !going) return failure(going.error());
     fs::path to =
         folder / (fs::path(file).parent_path().filename().string() + " - " + fs::path(file).filename().string());
-    const double from_share = static_cast<double>(copied.size()) * each;
-    progress.stage("Copying " + fs::path(file).filename().string(), from_share, from_share + each);
+    const double from_fraction = static_cast<double>(copied.size()) * each;
+    progress.stage("Copying " + fs::path(file).filename().string(), from_fraction, from_fraction + each);
     const auto done = order.extension.empty() ? copyFile(file, to, progress)
                                               : copyAs(file, to.replace_extension(order.extension), report, progress);
     if (!done) return failure(done.error());
@@ -172,11 +172,12 @@ void DeviceHost::startScan(const ScanOrder& order, const Document& document, con
   if (order.panorama) options["panorama"] = true;
   if (!order.compensator) options["compensator"] = "off";
   json field_fault = json::array();
-  if (order.until_share < 1) field_fault.push_back(fmt::format("until={}", order.until_share));
+  if (order.until_fraction < 1) field_fault.push_back(fmt::format("until={}", order.until_fraction));
   if (order.noise_factor > 1) field_fault.push_back(fmt::format("noise={}", order.noise_factor));
-  if (order.bumped_at_share) field_fault.push_back(fmt::format("push={}", *order.bumped_at_share));
-  if (order.walker_at_share) field_fault.push_back(fmt::format("walk={}", *order.walker_at_share));
-  if (order.operator_in_view) field_fault.push_back("stand=0.5");
+  if (order.tripod_moved_at_fraction)
+    field_fault.push_back(fmt::format("tripod_moved={}", *order.tripod_moved_at_fraction));
+  if (order.passer_by_at_fraction) field_fault.push_back(fmt::format("passer_by={}", *order.passer_by_at_fraction));
+  if (order.operator_in_view) field_fault.push_back("operator_in_view=0.5");
   if (!field_fault.empty()) options["field-fault"] = field_fault;
   if (truth) options["truth"] = true;
   notes_ = order.notes;

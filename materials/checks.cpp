@@ -119,9 +119,9 @@ void AssignmentChecks::assigned(const SurfaceOfProduct& pair, const PhysicalMate
   transparency(pair, material);
   implausible(pair, material);
   if (transmits(material)) thickness(pair, material);
-  auto& share = shares_[{pair.surface, &material}];
-  if (share.products.empty() || share.products.back() != pair.product) share.products.push_back(pair.product);
-  share.area_m2 += pair.area_m2;
+  auto& use = uses_[{pair.surface, &material}];
+  if (use.products.empty() || use.products.back() != pair.product) use.products.push_back(pair.product);
+  use.area_m2 += pair.area_m2;
 }
 
 void AssignmentChecks::transparency(const SurfaceOfProduct& pair, const PhysicalMaterial& material) {
@@ -237,17 +237,16 @@ void AssignmentChecks::closeProduct() {
 }
 
 void AssignmentChecks::namesAssignedTwoWays() {
-  std::map<std::string, std::map<std::string, std::vector<const Share*>>>
-      by_name;  // the surface's, then the material's
-  for (const auto& [key, share] : shares_)
+  std::map<std::string, std::map<std::string, std::vector<const Use*>>> by_name;  // the surface's, then the material's
+  for (const auto& [key, use] : uses_)
     if (const auto& name = environment_.surfaces[key.first].name; !name.empty())
-      by_name[name][key.second->id].push_back(&share);
+      by_name[name][key.second->id].push_back(&use);
   for (const auto& [name, materials] : by_name) {
     if (materials.size() < 2) continue;
     std::vector<std::pair<double, std::string>> order;
-    for (const auto& [id, shares] : materials) {
+    for (const auto& [id, uses] : materials) {
       order.emplace_back(0, id);
-      for (const auto* share : shares) order.back().first -= share->area_m2;
+      for (const auto* use : uses) order.back().first -= use->area_m2;
     }
     std::sort(order.begin(), order.end());
     FindingCollector::Cause c;
@@ -262,18 +261,18 @@ void AssignmentChecks::namesAssignedTwoWays() {
     c.why =
         "One name in the model, several materials: rules for a class, a colour or single products decided differently.";
     auto& extent = findings_.of(std::move(c));
-    for (const auto& [id, shares] : materials)
-      for (const auto* share : shares) addShare(extent, *share);
+    for (const auto& [id, uses] : materials)
+      for (const auto* use : uses) addUse(extent, *use);
   }
 }
 
-void AssignmentChecks::addShare(FindingCollector::Extent& extent, const Share& share) {
-  for (const auto product : share.products)
-    FindingCollector::add(extent, product, share.area_m2 / static_cast<double>(share.products.size()));
+void AssignmentChecks::addUse(FindingCollector::Extent& extent, const Use& use) {
+  for (const auto product : use.products)
+    FindingCollector::add(extent, product, use.area_m2 / static_cast<double>(use.products.size()));
 }
 
 void AssignmentChecks::withoutData(const std::vector<double>& wavelengths_nm) {
-  for (const auto& [key, share] : shares_) {
+  for (const auto& [key, use] : uses_) {
     const auto& material = *key.second;
     for (const double wavelength : wavelengths_nm) {
       const auto covers = [&](const Spectrum& table) {
@@ -289,7 +288,7 @@ void AssignmentChecks::withoutData(const std::vector<double>& wavelengths_nm) {
       c.then = fmt::format(", the table runs from {:.0f} to {:.0f} nm", material.reflectance.front().first,
                            material.reflectance.back().first);
       c.why = "The instrument would be given the nearest figure, which may be far off.";
-      addShare(findings_.of(std::move(c)), share);
+      addUse(findings_.of(std::move(c)), use);
     }
   }
 }

@@ -43,11 +43,11 @@ Result<Spectrum> readSpectrum(const nlohmann::json& value, const JsonPlace& at) 
     if (!value[i].is_array() || value[i].size() != 2) return here.unusable("must be [wavelength_nm, share]");
     const auto wavelength = readNumber(value[i][0], here / std::size_t{0}, 200, 20000);
     if (!wavelength) return failure(wavelength.error());
-    const auto share = readNumber(value[i][1], here / std::size_t{1}, 0, 1);
-    if (!share) return failure(share.error());
+    const auto fraction = readNumber(value[i][1], here / std::size_t{1}, 0, 1);
+    if (!fraction) return failure(fraction.error());
     if (!result.empty() && *wavelength <= result.back().first)
       return (here / std::size_t{0}).unusable("wavelengths must rise");
-    result.emplace_back(*wavelength, *share);
+    result.emplace_back(*wavelength, *fraction);
   }
   return result;
 }
@@ -230,7 +230,7 @@ Result<void> readBasis(const nlohmann::json& entry, const JsonPlace& at, Physica
 Spectrum wetted(const Spectrum& dry) {
   constexpr double kFace = 0.02, kInside = 0.47;
   Spectrum wet = dry;
-  for (auto& [wavelength, share] : wet) share = (1 - kFace) * (1 - kInside) * share / (1 - kInside * share);
+  for (auto& [wavelength, fraction] : wet) fraction = (1 - kFace) * (1 - kInside) * fraction / (1 - kInside * fraction);
   return wet;
 }
 

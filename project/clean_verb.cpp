@@ -15,11 +15,11 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 // A share that is not asked of nothing.
-json shareOf(std::uint64_t part, std::uint64_t whole) {
+json fractionOf(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? json(nullptr) : json(static_cast<double>(part) / static_cast<double>(whole));
 }
 
-json takenJson(const Taken& t) { return {{"in", t.in}, {"removed", t.taken}, {"share", shareOf(t.taken, t.in)}}; }
+json takenJson(const Taken& t) { return {{"in", t.in}, {"removed", t.taken}, {"share", fractionOf(t.taken, t.in)}}; }
 
 json figuresJson(const FilterFigures& f) {
   json row = {
@@ -29,8 +29,8 @@ json figuresJson(const FilterFigures& f) {
     for (std::size_t bit = 0; bit < f.flags.size(); ++bit)
       flags[flagNames()[bit]] = {{"in", f.flags[bit].in},
                                  {"removed", f.flags[bit].taken},
-                                 {"recall", shareOf(f.flags[bit].taken, f.flags[bit].in)},
-                                 {"precision", shareOf(f.flags[bit].taken, f.with_truth.taken)}};
+                                 {"recall", fractionOf(f.flags[bit].taken, f.flags[bit].in)},
+                                 {"precision", fractionOf(f.flags[bit].taken, f.with_truth.taken)}};
     row["truth"] = std::move(flags);
     row["mixed_by_over_1cm"] = takenJson(f.plainly_mixed);
     row["good"] = takenJson(f.good);

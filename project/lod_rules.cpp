@@ -156,10 +156,10 @@ bool fitsSize(const LodRule& rule, const Bounds& box) {
 }
 
 // Only where a rule asks for it, as it takes some million rays.
-std::vector<double> skySharesIfAsked(const Environment& environment, const std::vector<LodLevel>& levels) {
+std::vector<double> skyFractionsIfAsked(const Environment& environment, const std::vector<LodLevel>& levels) {
   for (const auto& level : levels)
     for (const auto& rule : level.rules)
-      if (rule.sees_sky_less_than) return skyShares(environment, Progress());
+      if (rule.sees_sky_less_than) return skyFractions(environment, Progress());
   return std::vector<double>(environment.products.size(), 1);
 }
 
@@ -194,20 +194,21 @@ OptimizeOptions allowances(const Environment& environment, const std::vector<Lod
   options.further_budgets = {levels[1].budget};
   options.products.resize(environment.products.size());
   const bool any_around = std::find(around.begin(), around.end(), true) != around.end();
-  const auto sky = any_around ? skySharesIfAsked(environment, levels) : skySharesIfAsked(environment, {levels[0]});
-  for (std::uint32_t share = 0; share < 2; ++share) {
-    const LodLevel& level = levels[share];
+  const auto sky =
+      any_around ? skyFractionsIfAsked(environment, levels) : skyFractionsIfAsked(environment, {levels[0]});
+  for (std::uint32_t budget_group = 0; budget_group < 2; ++budget_group) {
+    const LodLevel& level = levels[budget_group];
     std::vector<bool> decided(environment.products.size(), false);
     for (std::size_t i = 0; i < decided.size(); ++i) {
-      if (around[i] != (share == 1)) continue;
+      if (around[i] != (budget_group == 1)) continue;
       options.products[i].lod = level.level;
-      options.products[i].share = share;
+      options.products[i].budget_group = budget_group;
       options.products[i].max_deviation_m = level.max_deviation_m;
     }
     for (const auto& rule : level.rules) {
       const auto meant = selected(environment, rule.products, true);
       for (std::size_t i = 0; i < decided.size(); ++i) {
-        if (decided[i] || around[i] != (share == 1) || !meant[i] || !fitsSize(rule, boxes[i])) continue;
+        if (decided[i] || around[i] != (budget_group == 1) || !meant[i] || !fitsSize(rule, boxes[i])) continue;
         if (rule.sees_sky_less_than && !(sky[i] < *rule.sees_sky_less_than)) continue;
         decided[i] = true;
         ProductAllowance& allowance = options.products[i];

@@ -14,9 +14,9 @@ constexpr std::size_t kMostClasses = 5;
 constexpr std::size_t kMostProducts = 20;
 
 // 100.0 % is all of it: a rest that rounds away shows as 99.9.
-std::string percent(double share) {
-  const double rounded = share < 1 ? std::min(share * 100, 99.9) : 100.0;
-  return share > 0 && rounded < 0.05 ? "< 0.1 %" : fmt::format("{:.1f} %", rounded);
+std::string percent(double fraction) {
+  const double rounded = fraction < 1 ? std::min(fraction * 100, 99.9) : 100.0;
+  return fraction > 0 && rounded < 0.05 ? "< 0.1 %" : fmt::format("{:.1f} %", rounded);
 }
 
 // As a shell takes it: selectors hold #, & and *.

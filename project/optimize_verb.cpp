@@ -39,16 +39,16 @@ std::string levelsOf(const OptimizeOptions& options) {
 // What the rules said, with the numbers they hold and how many products each decided.
 void reportRules(const SimplificationPlan& plan, Report& report) {
   const auto& products = plan.options.products;
-  for (std::uint32_t share = 0; share < plan.levels.size(); ++share) {
-    const LodLevel& level = plan.levels[share];
+  for (std::uint32_t budget_group = 0; budget_group < plan.levels.size(); ++budget_group) {
+    const LodLevel& level = plan.levels[budget_group];
     const auto count = [&](const std::string& reason) {
       return std::count_if(products.begin(), products.end(),
-                           [&](const auto& a) { return a.share == share && a.reason == reason; });
+                           [&](const auto& a) { return a.budget_group == budget_group && a.reason == reason; });
     };
     const auto members =
-        std::count_if(products.begin(), products.end(), [&](const auto& a) { return a.share == share; });
+        std::count_if(products.begin(), products.end(), [&](const auto& a) { return a.budget_group == budget_group; });
     if (members == 0) continue;
-    const auto budget = share == 0 ? plan.options.budget : plan.options.further_budgets[share - 1];
+    const auto budget = budget_group == 0 ? plan.options.budget : plan.options.further_budgets[budget_group - 1];
     report.note(level.level,
                 fmt::format("{}: {} products, {} triangles, deviations of at most {} m where no rule says otherwise",
                             level.part, members, budget, level.max_deviation_m));

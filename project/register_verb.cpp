@@ -84,9 +84,9 @@ Result<json> byClouds(Job& job, const TargetMeasurements& measured, std::size_t 
       report.warn(station.name,
                   fmt::format("the other scans do not hold it {}: there it stays as it was laid", describe(motion)));
     if (!fit->settled) report.warn(station.name, fmt::format("it still moved after {} iterations", fit->iterations));
-    if (fit->used_share < 0.3)
+    if (fit->used_fraction < 0.3)
       report.warn(station.name, fmt::format("only {:.0f} % of its points lie on the other scans: too little overlap",
-                                            fit->used_share * 100));
+                                            fit->used_fraction * 100));
     json row = stationRow(station, fit->to_from, shift_m);
     row["fit"] = toJson(*fit);
     stations.push_back(std::move(row));

@@ -111,17 +111,17 @@ void tell(const SurfaceFit& fit, const std::string& name, Report& report) {
   report.note(name,
               fmt::format("fitted to the surface in {} iterations: {:.4f} m RMS along its normals over {:.1f} % of the "
                           "points, placed to {:.4f} m (1 σ)",
-                          fit.iterations, fit.rms_m, fit.used_share * 100, fit.sigma_shift_m.norm()));
+                          fit.iterations, fit.rms_m, fit.used_fraction * 100, fit.sigma_shift_m.norm()));
   for (const auto& motion : fit.free)
     report.warn(
         name, fmt::format("the surface does not hold the cloud {}: there it stays as it was placed", describe(motion)));
   if (!fit.settled)
     report.warn(name, fmt::format("it still moved after {} iterations: start nearer, by pairs", fit.iterations));
-  if (fit.used_share < 0.5)
+  if (fit.used_fraction < 0.5)
     report.warn(name,
                 fmt::format("only {:.1f} % of the points lie on the model: it may sit in a wrong place, or the model "
                             "lacks what was scanned",
-                            fit.used_share * 100));
+                            fit.used_fraction * 100));
 }
 
 }  // namespace
@@ -173,11 +173,11 @@ json toJson(const SurfaceFit& fit) {
   for (const auto& motion : fit.free)
     free.push_back({{"along", motion.shift.isZero() ? json(nullptr) : toJson(motion.shift)},
                     {"about", motion.axis.isZero() ? json(nullptr) : toJson(motion.axis)},
-                    {"held_share", motion.held_share}});
+                    {"held_share", motion.held_fraction}});
   return {{"iterations", fit.iterations},
           {"settled", fit.settled},
           {"rms_m", fit.rms_m},
-          {"used_share", fit.used_share},
+          {"used_share", fit.used_fraction},
           {"moved_m", fit.moved_m},
           {"sigma_shift_m", toJson(fit.sigma_shift_m)},
           {"sigma_turn_deg", toJson(Vector3d(fit.sigma_turn_rad / kRadPerDeg))},

@@ -177,10 +177,10 @@ Result<TargetMeasurements> measureTargets(const Document& document, const Measur
     const CloudFormat* const format = readableCloudFormat(file);
     if (format == nullptr || format->read == nullptr)
       return failure(ErrorKind::usage, "no readable point-cloud format has this extension", file.string());
-    const auto share = [&](std::size_t k) {
+    const auto fraction = [&](std::size_t k) {
       return 0.8 * static_cast<double>(k) / static_cast<double>(request.files.size());
     };
-    progress.stage("Reading " + file.filename().string(), share(i), share(i + 1));
+    progress.stage("Reading " + file.filename().string(), fraction(i), fraction(i + 1));
     NearSink sink(*document.job, request, file, all);
     auto read = format->read(file, sink, progress);
     if (!read) return failure(read.error());

@@ -242,9 +242,9 @@ void drawImportPreview(Editor& editor) {
     ImGui::EndDisabled();
     const float row = ImGui::GetTextLineHeightWithSpacing();
     const float free = ImGui::GetContentRegionAvail().y - 4 * row - editor.px(24);
-    const float share = preview.outcome()->report.issues.empty() ? 1 : 0.5F;  // of the room that the two lists have
+    const float fraction = preview.outcome()->report.issues.empty() ? 1 : 0.5F;  // of the room that the two lists have
     const float classes = std::clamp(row * (static_cast<float>(preview.facts().classes.size()) + 0.5F), row,
-                                     std::max(row, free * share - 2 * row));
+                                     std::max(row, free * fraction - 2 * row));
     drawClasses(editor, classes);
     drawIssues(editor);
   }

@@ -79,7 +79,7 @@ std::vector<ImVec2> curve(const Plot& plot, const std::vector<std::pair<double, 
 void drawSpectrum(Editor& editor, const PhysicalMaterial& m) {
   ui::heading(editor, "Spectrum");
   const Plot plot(editor, 120);
-  for (const double share : {0.0, 0.5, 1.0}) plot.level(share, fmt::format("{:.0f} %", share * 100));
+  for (const double fraction : {0.0, 0.5, 1.0}) plot.level(fraction, fmt::format("{:.0f} %", fraction * 100));
   const auto x = [](double wavelength) { return (wavelength - kFirst_nm) / (kLast_nm - kFirst_nm); };
   for (const double wavelength : {532.0, 905.0, 1550.0})
     plot.column(x(wavelength), fmt::format("{:.0f}", wavelength), tone::kLine);
@@ -105,9 +105,9 @@ void drawBodies(Editor& editor, const std::array<float, 81>& response) {
   const float radius = editor.px(34);
   const ImVec2 centre(corner.x + radius, corner.y + radius);
   const auto grey = [&](double degrees) {
-    const double share = std::clamp(
+    const double fraction = std::clamp(
         static_cast<double>(response[static_cast<std::size_t>(std::clamp(degrees, 0.0, 80.0))]) / 100, 0.0, 1.0);
-    const int level = static_cast<int>(std::lround(255 * std::pow(share, 1 / 2.2)));
+    const int level = static_cast<int>(std::lround(255 * std::pow(fraction, 1 / 2.2)));
     return IM_COL32(level, level, level, 255);
   };
   for (int degrees = 90; degrees >= 0; degrees -= 3)
@@ -136,7 +136,7 @@ void drawAngles(Editor& editor, const PhysicalMaterial& m) {
                      : most > 5  ? 20
                                  : 5;
   const Plot plot(editor, 90);
-  for (const double share : {0.0, 0.5, 1.0}) plot.level(share, fmt::format("{:g} %", share * top));
+  for (const double fraction : {0.0, 0.5, 1.0}) plot.level(fraction, fmt::format("{:g} %", fraction * top));
   for (const int degrees : {0, 20, 40, 60, 80}) plot.column(degrees / 80.0, fmt::format("{}°", degrees), tone::kLine);
   std::vector<ImVec2> own, lambert;
   for (int degrees = 0; degrees <= 80; ++degrees) {

@@ -19,13 +19,13 @@ namespace {
 void drawResult(Editor& editor, const SimplifiedModel& light) {
   ui::heading(editor, "Result");
   const auto& all = light.all;
-  const double share = all.triangles_before > 0
-                           ? static_cast<double>(all.triangles_after) / static_cast<double>(all.triangles_before)
-                           : 1;
-  ui::meter(editor, share, tone::kAccent);
+  const double fraction = all.triangles_before > 0
+                              ? static_cast<double>(all.triangles_after) / static_cast<double>(all.triangles_before)
+                              : 1;
+  ui::meter(editor, fraction, tone::kAccent);
   if (ui::beginProperties("result", 0.5F)) {
     ui::property("Triangles before", groupedDigits(all.triangles_before));
-    ui::property("Triangles now", fmt::format("{}  ({:.1f} %)", groupedDigits(all.triangles_after), share * 100));
+    ui::property("Triangles now", fmt::format("{}  ({:.1f} %)", groupedDigits(all.triangles_after), fraction * 100));
     ui::property("Largest deviation", fmt::format("{:.2f} mm", all.max_deviation_m * 1000));
     ui::property("Mean deviation", fmt::format("{:.3f} mm", all.mean_deviation_m * 1000));
     ui::property("Normals turned by", fmt::format("{:.2f}° in the mean", all.mean_turn_rad / kRadPerDeg));
@@ -158,14 +158,14 @@ void drawOptimisePanel(Editor& editor) {
   ui::gap(editor, 2);
   ImGui::Checkbox("Only what costs nothing", &state.only_lossless);
   ui::tooltip("Merges planar regions: no surface moves");
-  const auto budget = static_cast<std::uint64_t>(std::llround(state.budget_share * static_cast<double>(before)));
+  const auto budget = static_cast<std::uint64_t>(std::llround(state.budget_fraction * static_cast<double>(before)));
   ImGui::BeginDisabled(state.only_lossless);
   if (ui::beginProperties("options", 0.42F)) {
     ui::propertyLabel("Budget");
-    auto percent = static_cast<float>(state.budget_share * 100);
+    auto percent = static_cast<float>(state.budget_fraction * 100);
     if (ImGui::SliderFloat("###budget", &percent, 1, 100, fmt::format("%.0f %%  =  {}", groupedDigits(budget)).c_str(),
                            ImGuiSliderFlags_AlwaysClamp))
-      state.budget_share = percent / 100;
+      state.budget_fraction = percent / 100;
     ui::propertyLabel("Deviation at most");
     auto deviation = static_cast<float>(state.max_deviation_mm);
     if (ImGui::SliderFloat("###deviation", &deviation, 0.5F, 100, "%.1f mm",

@@ -63,7 +63,7 @@ struct VerifyPanelState {
 };
 
 struct OptimisePanelState {
-  double budget_share = 0.25;  // of the imported model's triangles
+  double budget_fraction = 0.25;  // of the imported model's triangles
   bool only_lossless = false;
   double max_deviation_mm = 15;
   bool by_view = false;  // what walkers see weighs more

@@ -18,7 +18,7 @@ using nlohmann::json;
 
 constexpr double kLowOverlap = 0.3;
 
-std::string percent(double share) { return fmt::format("{:.0f} %", share * 100); }
+std::string percent(double fraction) { return fmt::format("{:.0f} %", fraction * 100); }
 void start(Editor& editor) {
   const auto& scan = editor.panels.scan;
   const auto& state = editor.panels.plan;
@@ -66,7 +66,7 @@ void drawWishes(Editor& editor) {
   ui::endProperties();
 }
 
-void drawShares(Editor& editor, const json& rows, const char* key, const char* title) {
+void drawCoverage(Editor& editor, const json& rows, const char* key, const char* title) {
   ui::heading(editor, title);
   if (!ui::beginProperties(title, 0.56F)) return;
   for (const auto& row : rows) {
@@ -166,8 +166,8 @@ void drawPlanPanel(Editor& editor) {
   drawProposal(editor, answer.at("proposed"));
   drawStations(editor, answer);
   drawPairs(editor, answer.at("pairs"));
-  drawShares(editor, answer.at("storeys"), "storey", "By storey");
-  drawShares(editor, answer.at("classes"), "class", "By class");
+  drawCoverage(editor, answer.at("storeys"), "storey", "By storey");
+  drawCoverage(editor, answer.at("classes"), "class", "By class");
   drawHoles(editor, answer.at("holes"));
 }
 

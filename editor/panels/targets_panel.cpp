@@ -108,17 +108,17 @@ void drawTable(Editor& editor, const std::vector<TargetRow>& rows) {
   ImGui::TableSetupScrollFreeze(0, 1);
   struct Column {
     const char* title;
-    float share;
+    float fraction;
   };
-  for (const auto& [title, share] : {Column{"Target", 1},
-                                     {"Kind", 1.5F},
-                                     {"From", 0.8F},
-                                     {"Distance", 1.1F},
-                                     {"Points", 1},
-                                     {"Residual", 1.1F},
-                                     {"σ", 1},
-                                     {"State", 3}})
-    ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthStretch, share);
+  for (const auto& [title, fraction] : {Column{"Target", 1},
+                                        {"Kind", 1.5F},
+                                        {"From", 0.8F},
+                                        {"Distance", 1.1F},
+                                        {"Points", 1},
+                                        {"Residual", 1.1F},
+                                        {"σ", 1},
+                                        {"State", 3}})
+    ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthStretch, fraction);
   ImGui::TableHeadersRow();
   const auto& job = *editor.session.document().job;
   int index = 0;

@@ -70,13 +70,13 @@ void drawFit(Editor& editor) {
   const auto* last = editor.session.lastOf("underlay");
   if (last == nullptr || !last->answer.contains("registered") || !last->answer["registered"].contains("icp")) return;
   const auto& icp = last->answer["registered"]["icp"];
-  const double share = icp.at("used_share");
-  const bool good = icp.at("settled") && icp.at("not_held").empty() && share > 0.5;
+  const double fraction = icp.at("used_share");
+  const bool good = icp.at("settled") && icp.at("not_held").empty() && fraction > 0.5;
   ImGui::TextColored(colour(good ? tone::kGood : tone::kWarning), "%s", good ? ICON_CHECK : ICON_WARNING);
   ImGui::SameLine();
   std::string text =
       fmt::format("Fitted: moved by {:.1f} mm; {:.0f} % of its points lie on the model, {:.1f} mm off (RMS)",
-                  icp.at("moved_m").get<double>() * 1000, share * 100, icp.at("rms_m").get<double>() * 1000);
+                  icp.at("moved_m").get<double>() * 1000, fraction * 100, icp.at("rms_m").get<double>() * 1000);
   if (!icp.at("settled")) text += "; it did not come to rest: lay it nearer first";
   if (!icp.at("not_held").empty()) text += "; the model does not hold it in every direction (see Log)";
   ui::wrapped(text);

@@ -284,9 +284,9 @@ Layout layOut(const Editor& editor, const Box& all) {
   float left = anyPanel(editor, Area::left) ? editor.px(sizes.left) : 0;
   float right = anyPanel(editor, Area::right) ? editor.px(sizes.right) : 0;
   if (const float most = all.w * (editor.workspace == Workspace::instrument ? 0.7F : 0.6F); left + right > most) {
-    const float share = most / (left + right);
-    left *= share;
-    right *= share;
+    const float fraction = most / (left + right);
+    left *= fraction;
+    right *= fraction;
   }
   const float bottom = anyPanel(editor, Area::bottom) ? std::min(editor.px(sizes.bottom), all.h * 0.6F) : 0;
   l.left = {all.x, all.y, left, all.h};

@@ -121,10 +121,10 @@ void emptyState(const Editor& editor, const char* icon, const char* title, const
   gap(editor, 6);
 }
 
-bool beginProperties(const char* id, float label_share) {
+bool beginProperties(const char* id, float label_fraction) {
   if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_NoPadOuterX)) return false;
-  ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthStretch, label_share);
-  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 1 - label_share);
+  ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthStretch, label_fraction);
+  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 1 - label_fraction);
   return true;
 }
 

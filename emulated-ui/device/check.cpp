@@ -18,7 +18,7 @@ namespace {
 // What the engine, the host and the hands send by themselves.
 const std::set<std::string> kOwnEvents = {"elapsed",       "data",          "linked",       "targets_measured",
                                           "transferred",   "failed",        "battery_low",  "battery_critical",
-                                          "battery_empty", "card_inserted", "card_removed", "moved",
+                                          "battery_empty", "card_inserted", "card_removed", "tripod_moved",
                                           "blocked",       "temperature",   "tilted",       "tracking_lost",
                                           "wlan_lost",     "set_down",      "sighted",      "not_sighted"};
 // What every device has to know, whatever it answers.

@@ -44,9 +44,9 @@ double phaseProgress(const Device& d) {
 double progress(const Device& d) {
   const auto& s = d.state();
   if (!s.running) return 0;
-  const double share =
+  const double fraction =
       std::clamp(s.scanned_s / std::max(1.0, d.expected().scan_seconds + d.expected().imaging_seconds), 0.0, 1.0);
-  return s.data ? share : std::min(share, s.engine_share);
+  return s.data ? fraction : std::min(fraction, s.engine_fraction);
 }
 
 // By the instrument's clock, which may be ahead of the simulation.
@@ -138,9 +138,9 @@ const std::vector<FactRow>& sharedFacts() {
        "seconds that the phase takes"},
       {"phase.elapsed", Unit::seconds, numbers(0, 1e9), [](const Device& d) { return numberFact(d.state().elapsed_s); },
        "seconds in the phase"},
-      {"phase.progress", Unit::share, numbers(0, 1), [](const Device& d) { return numberFact(phaseProgress(d)); },
+      {"phase.progress", Unit::fraction, numbers(0, 1), [](const Device& d) { return numberFact(phaseProgress(d)); },
        "of the phase's time"},
-      {"battery", Unit::share, numbers(0, 1), [](const Device& d) { return numberFact(around(d).battery); },
+      {"battery", Unit::fraction, numbers(0, 1), [](const Device& d) { return numberFact(around(d).battery); },
        "share that is left"},
       {"battery.state",
        Unit::none,
@@ -202,7 +202,7 @@ const std::vector<FactRow>& sharedFacts() {
       {"tracking", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(around(d).tracking); },
        "the way between setups is followed"},
       {"wlan", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(around(d).wlan); }, "the wireless link works"},
-      {"moved", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(d.state().moved); },
+      {"tripod_moved", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(d.state().moved); },
        "the tripod was pushed during this scan"},
       {"project", Unit::none, anyWord(),
        [](const Device& d) { return wordFact(d.project() == nullptr ? "" : d.project()->name); },
@@ -234,7 +234,7 @@ const std::vector<FactRow>& sharedFacts() {
       {"setups.looked_at", Unit::none, numbers(0, 1e6),
        [](const Device& d) { return numberFact(countAll(d, [](const StoredSetup& s) { return s.looked_at; })); },
        "whose preview was opened"},
-      {"setups.moved", Unit::none, numbers(0, 1e6),
+      {"setups.tripod_moved", Unit::none, numbers(0, 1e6),
        [](const Device& d) { return numberFact(countAll(d, [](const StoredSetup& s) { return s.moved; })); },
        "spoilt by a push"},
       {"setup.next", Unit::none, numbers(0, 1e6), [](const Device& d) { return numberFact(nextNumber(d)); },
@@ -248,7 +248,7 @@ const std::vector<FactRow>& sharedFacts() {
       {"newest.unlevelled", Unit::none, yesOrNo(),
        [](const Device& d) { return yesNo(newest(d, [](const StoredSetup& s) { return s.unlevelled; }) > 0); },
        "stored without levelling"},
-      {"newest.moved", Unit::none, yesOrNo(),
+      {"newest.tripod_moved", Unit::none, yesOrNo(),
        [](const Device& d) { return yesNo(newest(d, [](const StoredSetup& s) { return s.moved; }) > 0); },
        "the tripod was pushed meanwhile"},
       {"newest.targets", Unit::none, numbers(0, 1e4),
@@ -270,7 +270,7 @@ const std::vector<FactRow>& sharedFacts() {
        {{"none", "joined", "failed"}},
        [](const Device& d) { return wordFact(linkState(d.newestSetup())); },
        "of the newest setup to the one before"},
-      {"link.overlap", Unit::share, numbers(0, 1),
+      {"link.overlap", Unit::fraction, numbers(0, 1),
        [](const Device& d) {
          return numberFact(d.newestSetup() != nullptr && d.newestSetup()->link ? d.newestSetup()->link->overlap : 0);
        },
@@ -341,7 +341,7 @@ const std::vector<FactRow>& sharedFacts() {
        "of the laser: two in a double scan"},
       {"imaging", Unit::none, yesOrNo(), [](const Device& d) { return yesNo(d.expected().imaging); },
        "pictures are taken"},
-      {"progress", Unit::share, numbers(0, 1), [](const Device& d) { return numberFact(progress(d)); },
+      {"progress", Unit::fraction, numbers(0, 1), [](const Device& d) { return numberFact(progress(d)); },
        "of the running scan"},
       {"remaining", Unit::seconds, numbers(0, 1e6), [](const Device& d) { return numberFact(remaining(d)); },
        "of the running scan"},

@@ -52,7 +52,7 @@ const DeviceRoles kRoles = {
     .marks = {{"G1",
                "start/card_absent start/card_full start/battery_critical start/temperature_question "
                "start/tilt_question"},
-              {"S10", "moved set_down/moved"},
+              {"S10", "tripod_moved set_down/tripod_moved"},
               {"S18", "tilted/tilt_warning"},
               {"S35", "transferred"}},
 };

@@ -131,7 +131,7 @@ void beginByApp(Device& d) {
 
 void store(Device& d) {
   const bool tracked = d.value("tracking") == "on" && d.state().around.tracking;
-  const bool partial = d.state().running && d.state().running->until_share < 1;
+  const bool partial = d.state().running && d.state().running->until_fraction < 1;
   if (d.state().data) d.change().data->tracked = tracked;
   storeScan(d);
   result(d, partial ? "Aborted" : "Completed", partial ? "Partial" : "Complete");
@@ -379,7 +379,7 @@ std::vector<Transition> transitions() {
       {kBusy, "stop_confirmed", "", "ready", "", "", cancelled, "S11"},
       {kBusy, "key_long", "value.connection == OK", "connected", "", "", cancelled, "P"},
       {kBusy, "key_long", "", "ready", "", "", cancelled, "P"},
-      {kMeasuring, "moved", "", "error", "", "", movedError, "S10"},
+      {kMeasuring, "tripod_moved", "", "error", "", "", movedError, "S10"},
       {"shooting", "set_down", "", "error", "", "", movedError, "P"},
       {kMeasuring, "blocked", "", "error", "", "", blockedError, "S10"},
       {kMeasuring, "battery_low", "generation == g1", "error", "", "", batteryAborts, "S10"},
@@ -486,7 +486,7 @@ const DeviceProgram kProgram = {
       [](const Device& d) { return wordFact(d.newestSetup() == nullptr ? "Unset" : accuracyOf(*d.newestSetup())); },
       "of the newest link [S11]"},
      {"vis.quality",
-      FactUnit::share,
+      FactUnit::fraction,
       {{}, true, 0, 1},
       [](const Device& d) {
         return numberFact(d.newestSetup() != nullptr && d.newestSetup()->link && d.newestSetup()->link->joined

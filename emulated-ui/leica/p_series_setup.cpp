@@ -216,8 +216,8 @@ void addSetupTransitions(std::vector<Transition>& rows) {
       {"searching_target", "battery_empty", "", "off", "", "", dropSight, "P"},
       {"searching_target", "failed", "", "idle", "pick_target", "", nullptr, "P"},
       {"searching_target", "cancel_sight", "", "idle", "pick_target", "", dropSight, "P"},
-      {"searching_target", "moved", "", "idle", "pick_target", "moved", dropSight, "P"},
-      {"searching_target", "set_down", "", "idle", "pick_target", "moved", dropSight, "P"},
+      {"searching_target", "tripod_moved", "", "idle", "pick_target", "tripod_moved", dropSight, "P"},
+      {"searching_target", "set_down", "", "idle", "pick_target", "tripod_moved", dropSight, "P"},
   };
   rows.insert(rows.end(), own.begin(), own.end());
 }

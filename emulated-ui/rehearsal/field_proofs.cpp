@@ -241,8 +241,8 @@ std::optional<double> nearest_m(const WalkedWay& walk, const Exercise& exercise,
     for (std::size_t i = 1; i < walk.size(); ++i) {
       const Eigen::Vector2d a(walk[i - 1][0], walk[i - 1][1]), leg = Eigen::Vector2d(walk[i][0], walk[i][1]) - a;
       const double length2 = leg.squaredNorm();
-      const double share = length2 > 0 ? std::clamp((p - a).dot(leg) / length2, 0.0, 1.0) : 0;
-      least = std::min(least, (a + share * leg - p).norm());
+      const double fraction = length2 > 0 ? std::clamp((p - a).dot(leg) / length2, 0.0, 1.0) : 0;
+      least = std::min(least, (a + fraction * leg - p).norm());
     }
     return least;
   }

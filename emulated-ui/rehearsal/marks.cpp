@@ -74,11 +74,11 @@ std::string unitOf(const Device& device, const std::string& fact) {
   return {};
 }
 
-bool isShare(const Device& device, const std::string& fact) {
+bool isFraction(const Device& device, const std::string& fact) {
   if (const auto* row = proofRow(fact))
     return *row->unit == '\0' && row->domain.minimum == 0 && row->domain.maximum == 1;
   const auto* row = deviceRow(device, fact);
-  return row != nullptr && row->unit == FactUnit::share;
+  return row != nullptr && row->unit == FactUnit::fraction;
 }
 
 // Three significant figures, none of a whole number lost.
@@ -88,7 +88,7 @@ std::string roundedText(double n) {
 
 }  // namespace
 
-std::string percentText(double share) { return roundedText(share * 100) + " %"; }
+std::string percentText(double fraction) { return roundedText(fraction * 100) + " %"; }
 
 namespace {
 
@@ -108,7 +108,7 @@ std::string shownFact(const Rehearsal& rehearsal, const std::string& name, const
     if (name == "answer." + question.id) return answerText(question, fact.text, language);
   if (!fact.number) return fact.text;
   if (name == "time") return clockText(*fact.number);
-  if (isShare(device, name)) return percentText(*fact.number);
+  if (isFraction(device, name)) return percentText(*fact.number);
   const auto* row = deviceRow(device, name);
   if (row != nullptr && row->unit != FactUnit::none) return factText(fact, row->unit);
   const auto unit = unitOf(device, name);

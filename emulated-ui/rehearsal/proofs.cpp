@@ -22,9 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-double percentile(std::vector<float>& values, double share) {
+double percentile(std::vector<float>& values, double fraction) {
   if (values.empty()) return 0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -67,14 +67,14 @@ class TruthReader final : public PointSink {
     return 1.4826 * percentile(range_, 0.5);
   }
   std::map<std::string, double> figures() {
-    const auto share = [&](double n) { return points_ > 0 ? n / points_ : 0; };
+    const auto fraction = [&](double n) { return points_ > 0 ? n / points_ : 0; };
     return {{"data.points", points_},
             {"data.noise", sigma_m() * 1000},
             {"data.error", percentile(place_, 0.95) * 1000},
-            {"data.mixed", share(mixed_)},
-            {"data.mirrored", share(mirrored_)},
-            {"data.weather", share(weather_)},
-            {"data.moving", share(moving_)}};
+            {"data.mixed", fraction(mixed_)},
+            {"data.mirrored", fraction(mirrored_)},
+            {"data.weather", fraction(weather_)},
+            {"data.moving", fraction(moving_)}};
   }
   const Eigen::Vector3d& up() const { return up_; }
 

@@ -36,8 +36,8 @@ std::string spectrumText(const PhysicalMaterial& m) {
   auto table = m.reflectance;
   if (table.front().first > kFirst_nm) table.insert(table.begin(), {kFirst_nm, table.front().second});
   if (table.back().first < kLast_nm) table.emplace_back(kLast_nm, table.back().second);
-  for (const auto& [wavelength_nm, share] : table)
-    text += fmt::format("{:g}\t{:g}\n", wavelength_nm / 1000, share * 100);
+  for (const auto& [wavelength_nm, fraction] : table)
+    text += fmt::format("{:g}\t{:g}\n", wavelength_nm / 1000, fraction * 100);
   return text;
 }
 

@@ -21,7 +21,7 @@ PlyRows::PlyRows(const FileBytes& bytes, const PlyHeader& header, const std::str
       next_piece_(header.bytes),
       line_(header.lines + 1) {}
 
-double PlyRows::share() const {
+double PlyRows::fraction() const {
   const auto left =
       header_.form == PlyForm::text ? bytes_.size() - std::min(next_piece_, bytes_.size()) : stream_.remaining();
   return 1 - static_cast<double>(left) / static_cast<double>(bytes_.size());

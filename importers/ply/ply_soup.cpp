@@ -124,7 +124,7 @@ class SoupReader {
       if (auto ok = rows_.next(element, i, row_); !ok) return ok;
       if (auto ok = use(i); !ok) return ok;
       if ((i & 0xFFFFU) != 0) continue;
-      progress_.advance(0.6 * rows_.share());
+      progress_.advance(0.6 * rows_.fraction());
       if (auto ok = progress_.check(); !ok) return ok;
     }
     return {};

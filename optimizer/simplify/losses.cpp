@@ -121,16 +121,16 @@ void reportLossless(const Environment& before, const std::vector<MeshJob>& jobs,
 }
 
 void checkBudgets(const std::vector<MeshJob>& jobs, const OptimizeOptions& options, OptimizeResult& result) {
-  for (std::uint32_t share = 0; share <= options.further_budgets.size(); ++share) {
+  for (std::uint32_t budget_group = 0; budget_group <= options.further_budgets.size(); ++budget_group) {
     std::uint64_t left = 0;
     for (const auto& work : jobs)
-      if (work.share == share) left += work.lighter.triangles.size() * work.copies;
-    const auto budget = budgetOf(options, share);
+      if (work.budget_group == budget_group) left += work.lighter.triangles.size() * work.copies;
+    const auto budget = budgetOf(options, budget_group);
     if (budget == 0 || left <= budget) continue;
     result.budget_reached = false;
     result.smallest_budget += left;
-    const auto named =
-        std::find_if(options.products.begin(), options.products.end(), [&](const auto& a) { return a.share == share; });
+    const auto named = std::find_if(options.products.begin(), options.products.end(),
+                                    [&](const auto& a) { return a.budget_group == budget_group; });
     const std::string whose = named == options.products.end() ? "" : named->lod + ": ";
     const std::string cap = options.products.empty()
                                 ? fmt::format("deviations of at most {} m", options.max_deviation_m)

@@ -120,7 +120,7 @@ Result<void> checkOptions(const Environment& environment, const OptimizeOptions&
     return failure(ErrorKind::internal, "not one allowance for each product", "products");
   for (const auto& a : options.products)
     if (wrong(a.max_deviation_m) || !(a.weight > 0) || !std::isfinite(a.weight) ||
-        a.share > options.further_budgets.size())
+        a.budget_group > options.further_budgets.size())
       return failure(ErrorKind::usage, "an allowance is out of range", a.lod + " " + a.reason);
   return {};
 }

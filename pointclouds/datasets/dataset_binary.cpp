@@ -34,7 +34,7 @@ class SemanticKitti final : public LabelledFolder {
     return {};
   }
   Result<void> put(const Point& p) override {
-    for (const float v : {p.block.x_m[p.i], p.block.y_m[p.i], p.block.z_m[p.i], share(p)}) points_->put(v);
+    for (const float v : {p.block.x_m[p.i], p.block.y_m[p.i], p.block.z_m[p.i], fraction(p)}) points_->put(v);
     const bool fits = p.instance <= 0xFFFF;
     without_instance_ += !fits;
     labels_->put(map().classes[p.class_index].id | (fits ? p.instance << 16 : 0));
@@ -122,7 +122,7 @@ class Custom3d final : public LabelledFolder {
     for (int axis = 0; axis < 3; ++axis) points_->put(at[axis]);
     points_->put(static_cast<float>(map().classes[p.class_index].id));
     for (const std::uint8_t c : colour(p)) points_->put(static_cast<float>(c));
-    points_->put(share(p));
+    points_->put(fraction(p));
     instances_->put(static_cast<std::int32_t>(p.instance));
     ++rows_;
     if (auto flushed = points_->flushFrom(kBuffered); !flushed) return flushed;

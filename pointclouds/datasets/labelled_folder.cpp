@@ -131,16 +131,16 @@ Eigen::Vector3d LabelledFolder::place(const Point& p) const {
   return stations_.back().set_from_scanner * Eigen::Vector3d(p.block.x_m[p.i], p.block.y_m[p.i], p.block.z_m[p.i]);
 }
 
-float LabelledFolder::share(const Point& p) const {
+float LabelledFolder::fraction(const Point& p) const {
   if (!hasIntensity(*header_)) return 0.5F;
-  const double share =
+  const double fraction =
       (p.block.intensity[p.i] - header_->intensity_min) / (header_->intensity_max - header_->intensity_min);
-  return static_cast<float>(std::clamp(share, 0.0, 1.0));
+  return static_cast<float>(std::clamp(fraction, 0.0, 1.0));
 }
 
 std::array<std::uint8_t, 3> LabelledFolder::colour(const Point& p) const {
   if (header_->has_colour) return {p.block.red[p.i], p.block.green[p.i], p.block.blue[p.i]};
-  const auto grey = static_cast<std::uint8_t>(std::lround(share(p) * 255));
+  const auto grey = static_cast<std::uint8_t>(std::lround(fraction(p) * 255));
   return {grey, grey, grey};
 }
 

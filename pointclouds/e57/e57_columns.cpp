@@ -78,8 +78,8 @@ void ColumnTaker::takeColours(Columns& from, PointBlock& to) {
     } else {
       colours[k]->clear();
       for (const double value : column) {
-        const double share = (value - least) / (most - least);
-        colours[k]->push_back(share > 0 ? static_cast<std::uint8_t>(std::lround(std::min(share, 1.0) * 255)) : 0);
+        const double fraction = (value - least) / (most - least);
+        colours[k]->push_back(fraction > 0 ? static_cast<std::uint8_t>(std::lround(std::min(fraction, 1.0) * 255)) : 0);
       }
     }
     if (roles_.colour_invalid)

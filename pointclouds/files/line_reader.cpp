@@ -7,7 +7,7 @@ constexpr std::size_t kPiece = 1 << 20;
 constexpr std::size_t kLongestLine = 65536;
 }  // namespace
 
-double LineReader::share() const {
+double LineReader::fraction() const {
   return file_.size() == 0 ? 1 : 1 - static_cast<double>(left()) / static_cast<double>(file_.size());
 }
 

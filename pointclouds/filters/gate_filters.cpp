@@ -86,11 +86,11 @@ struct IncidenceJudge {
   bool stays(const PointBlock& b, std::size_t i, std::uint64_t) const { return interval.has(b.truth.incidence_rad[i]); }
 };
 
-struct ShareJudge {
-  double share;
+struct FractionJudge {
+  double fraction;
   std::uint64_t seed;
   bool stays(const PointBlock&, std::size_t, std::uint64_t point) const {
-    return static_cast<double>(mixed(mixed(seed) ^ point) >> 11) * 0x1p-53 < share;
+    return static_cast<double>(mixed(mixed(seed) ^ point) >> 11) * 0x1p-53 < fraction;
   }
 };
 
@@ -152,8 +152,8 @@ MadeFilter makeIncidenceGate(const FilterValues& values) {
   return gate(IncidenceJudge{{interval->from * std::numbers::pi / 180, interval->to * std::numbers::pi / 180}});
 }
 
-MadeFilter makeShareFilter(const FilterValues& values) {
-  return gate(ShareJudge{values.number("keep"), static_cast<std::uint64_t>(values.number("seed"))});
+MadeFilter makeFractionFilter(const FilterValues& values) {
+  return gate(FractionJudge{values.number("keep"), static_cast<std::uint64_t>(values.number("seed"))});
 }
 
 MadeFilter makeEveryFilter(const FilterValues& values) {

@@ -85,7 +85,7 @@ const std::vector<FilterKind>& table() {
          .default_value = "1",
          .minimum = 0,
          .maximum = 9007199254740991.0}},
-       makeShareFilter},
+       makeFractionFilter},
       {"every",
        "every n-th point",
        {{.name = "n", .kind = K::integer, .help = "", .required = true, .minimum = 1, .maximum = 1e15}},

@@ -60,7 +60,7 @@ Result<void> Reading::readText(LocalPoints& local, Progress& progress) {
     }
     if (i % kPointsAtOnce != kPointsAtOnce - 1 && i + 1 != all) continue;
     if (auto written = local.write(found); !written) return written;
-    progress.advance(lines.share());
+    progress.advance(lines.fraction());
     if (auto going = progress.check(); !going) return going;
   }
   return {};

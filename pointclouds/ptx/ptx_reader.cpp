@@ -190,7 +190,7 @@ Result<void> Reader::readCells(const Frame& frame, LocalPoints& local) {
     if (++row_ == frame.rows) row_ = 0, ++column_;
     if (found.size() == kChunk || done == cells || done % kChunk == 0) {
       if (auto written = local.write(found); !written) return written;
-      progress_.advance(lines_.share());
+      progress_.advance(lines_.fraction());
       if (auto going = progress_.check(); !going) return going;
     }
     if (done == cells) return {};

@@ -111,9 +111,9 @@ void Writer::appendPoint(const PointBlock& b, std::size_t i) {
   }
   // A file without intensities says 0.5 for each of them.
   const double range = header_->intensity_max - header_->intensity_min;
-  const double share = hasIntensity(*header_) ? (b.intensity[i] - header_->intensity_min) / range : 0.5;
-  clamped_ += share < 0 || share > 1;
-  appendFloat(text_, static_cast<float>(std::clamp(share, 0.0, 1.0)));
+  const double fraction = hasIntensity(*header_) ? (b.intensity[i] - header_->intensity_min) / range : 0.5;
+  clamped_ += fraction < 0 || fraction > 1;
+  appendFloat(text_, static_cast<float>(std::clamp(fraction, 0.0, 1.0)));
   if (header_->has_colour)
     for (const std::uint8_t colour : {b.red[i], b.green[i], b.blue[i]}) {
       text_ += ' ';

@@ -32,8 +32,8 @@ Distribution distributionOf(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   Moments moments;
   for (const double v : values) moments.add(v);
-  const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
+  const auto at = [&](double fraction) {
+    return values[static_cast<std::size_t>(std::lround(fraction * static_cast<double>(values.size() - 1)))];
   };
   return {moments.n, moments.mean, moments.sigma(), at(0.05), at(0.5), at(0.95)};
 }

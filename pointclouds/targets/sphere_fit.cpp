@@ -20,8 +20,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kSine60 = 0.86602540378443865;
-constexpr double kCaptured = 0.25;   // of the radius: how far a point may be off at first
-constexpr double kLeastShare = 0.7;  // of the beams that meet the sphere, to be used
+constexpr double kCaptured = 0.25;      // of the radius: how far a point may be off at first
+constexpr double kLeastFraction = 0.7;  // of the beams that meet the sphere, to be used
 constexpr int kMostIterations = 50;
 constexpr std::size_t kMostSphereSeeds = 30000;
 constexpr int kMostCandidates = 6;
@@ -172,15 +172,16 @@ Result<TargetFit> fitSphere(std::span<const Vector3d> points, const Vector3d& st
   const Solved loose = solve(points, fixed.fit.centre, radius, true, 2 * kCaptured * radius);
   const double off = loose.fit.radius_m - radius;
   const bool is_ball = loose.settled && emptySectors(points, loose.fit) <= 2 &&
-                       static_cast<double>(loose.fit.points) > kLeastShare * static_cast<double>(loose.met);
+                       static_cast<double>(loose.fit.points) > kLeastFraction * static_cast<double>(loose.met);
   if (is_ball && std::abs(off) > search.radius_tolerance_m + 3 * loose.fit.radius_sigma_m &&
       loose.fit.residual_m < 0.1 * radius)
     return failure(ErrorKind::unusable,
                    "wrong radius: the points make " + mm(loose.fit.radius_m) + ", the target has " + mm(radius));
-  const double share = static_cast<double>(fixed.fit.points) / static_cast<double>(std::max<std::size_t>(1, fixed.met));
-  if (share < kLeastShare)
+  const double fraction =
+      static_cast<double>(fixed.fit.points) / static_cast<double>(std::max<std::size_t>(1, fixed.met));
+  if (fraction < kLeastFraction)
     return failure(ErrorKind::unusable,
-                   "mixed with its background or hidden in part: " + std::to_string(static_cast<int>(share * 100)) +
+                   "mixed with its background or hidden in part: " + std::to_string(static_cast<int>(fraction * 100)) +
                        " % of the beams that should meet it do");
   if (emptySectors(points, fixed.fit) > 2)
     return failure(ErrorKind::unusable, "the points are no ball of that radius: only some sides of one are there");

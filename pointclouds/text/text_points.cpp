@@ -169,7 +169,7 @@ Result<void> Reader::takePoint() {
 
 Result<void> Reader::flush() {
   if (auto written = local_->write(found_); !written) return written;
-  progress_.advance(lines_.share());
+  progress_.advance(lines_.fraction());
   return progress_.check();
 }
 
@@ -225,7 +225,7 @@ Result<void> Reader::measure(IntensityRange& range) {
     if (word == Words::Word::number && std::isfinite(static_cast<float>(value))) range.add(static_cast<float>(value));
     missing_ -= counted_ ? 1 : 0;
     if (lines % kChunk != 0) continue;
-    progress_.advance(lines_.share());
+    progress_.advance(lines_.fraction());
     if (auto going = progress_.check(); !going) return going;
   }
 }

@@ -90,9 +90,9 @@ Result<void> Writer::begin(const ScanHeader& header) {
 // Cyclone's integers in PTS; there and in XYZ intensity stands before the colours, which is how CloudCompare takes it.
 void Writer::appendIntensity(float value) {
   if (kind_ != Kind::pts) return next(value);
-  const double share = (value - header_->intensity_min) / (header_->intensity_max - header_->intensity_min);
-  clamped_ += share < 0 || share > 1;
-  next(std::lround(std::clamp(share, 0.0, 1.0) * 4095) - 2048);
+  const double fraction = (value - header_->intensity_min) / (header_->intensity_max - header_->intensity_min);
+  clamped_ += fraction < 0 || fraction > 1;
+  next(std::lround(std::clamp(fraction, 0.0, 1.0) * 4095) - 2048);
 }
 
 void Writer::appendColumns(const PointBlock& b, std::size_t i) {

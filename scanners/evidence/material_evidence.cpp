@@ -160,25 +160,25 @@ GroupEvidence Comparison::judged(std::uint32_t group) const {
   GroupEvidence e;
   e.group = group;
   std::vector<Weighted> off, about, figures;
-  Eigen::VectorXd share = Eigen::VectorXd::Zero(result_.scale.step_covariance.rows());
+  Eigen::VectorXd fraction = Eigen::VectorXd::Zero(result_.scale.step_covariance.rows());
   double weights = 0;
   for (std::size_t c = first_cell_[group]; c < first_cell_[group + 1]; ++c) {
     const auto& cell = cells_[c];
     e.points += cell.points;
     off.push_back({offDb(cell, opticsOfGroup(group)), cell.weight()});
     figures.push_back({cell.measured, cell.weight()});
-    share += cell.weight() * result_.scale.stepsAt(cell.measured);
+    fraction += cell.weight() * result_.scale.stepsAt(cell.measured);
     weights += cell.weight();
   }
   if (off.empty()) return e;
   e.off_db = weightedMedian(off);
   for (const auto& o : off) about.push_back({std::abs(o.value - e.off_db), o.weight});
   const double scatter = std::max(1.4826 * weightedMedian(about), result_.scale.scatter_db);
-  share /= weights;
+  fraction /= weights;
   // Against the middle of the curve: all that is common goes into the level.
-  Eigen::VectorXd middle = Eigen::VectorXd::Zero(share.size());
-  middle.head(share.size() / 2).setOnes();
-  const double curve = (share - middle).dot(result_.scale.step_covariance * (share - middle));
+  Eigen::VectorXd middle = Eigen::VectorXd::Zero(fraction.size());
+  middle.head(fraction.size() / 2).setOnes();
+  const double curve = (fraction - middle).dot(result_.scale.step_covariance * (fraction - middle));
   e.sigma_db = std::sqrt(scatter * scatter / static_cast<double>(off.size()) + std::max(0.0, curve));
   e.supported = e.points >= options_.fewest_points && off.size() >= options_.fewest_cells &&
                 e.sigma_db < options_.agree_db && result_.scale.covers(weightedMedian(figures));

@@ -199,8 +199,8 @@ class InstrumentReader : FigureReader {
   void readCorrelated(Group& root) {
     Group group = child(root, "correlated_noise");
     auto& noise = instrument_.correlated;
-    noise.column_share = figure(group, "column_share", {0, 1});
-    noise.along_share = figure(group, "along_share", {0, 1});
+    noise.column_fraction = figure(group, "column_share", {0, 1});
+    noise.along_fraction = figure(group, "along_share", {0, 1});
     noise.column_correlation = figure(group, "column_correlation", {0, 0.999});
     noise.hurst = figure(group, "hurst", {0.5, 0.95});
     noise.column_extra_m = figure(group, "column_extra_mm", {0, 1000, 1e-3});
@@ -325,7 +325,7 @@ class InstrumentReader : FigureReader {
       fail("/signal/intensity_high_db", "must be above intensity_low_db");
     if (instrument_.angle_jitter_rad > instrument_.angle_sigma_rad)
       fail("/angles/jitter_arcsec", "must not be above accuracy_arcsec, of which it is a part");
-    checkShares();
+    checkFractions();
     checkRotations();
     if (!error() && !instrument_.moving)
       if (const auto default_value = resolveSettings(instrument_, {}); !default_value)
@@ -343,9 +343,9 @@ class InstrumentReader : FigureReader {
   }
 
   // Parts cannot be more than the whole.
-  void checkShares() {
+  void checkFractions() {
     const auto& noise = instrument_.correlated;
-    if (noise.column_share + noise.along_share > 1)
+    if (noise.column_fraction + noise.along_fraction > 1)
       fail("/correlated_noise/along_share",
            "must not be above 1 together with column_share: they are shares of one variance");
     const double rest = instrument_.angle_sigma_rad * instrument_.angle_sigma_rad -

@@ -263,7 +263,7 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
   if (!area) return failure(area.error());
 
   const double full = (instrument.max_elevation_rad - instrument.min_elevation_rad) / kRadPerDeg;
-  const double share = (area->horizontal_to - area->horizontal_from) / 360;
+  const double fraction = (area->horizontal_to - area->horizontal_from) / 360;
   const double rows = effects.rows > 0 ? effects.rows : effects.columns * full / 360;
   const double mirror_hz = effects.rate_hz / effects.columns;
   // A pattern has a time of its own, unless the laser is too slow for it.
@@ -277,7 +277,7 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
 
   ScanSettings settings;
   settings.values = std::move(*filled);
-  settings.columns = static_cast<std::uint32_t>(std::max(1.0, std::round(effects.columns * share)));
+  settings.columns = static_cast<std::uint32_t>(std::max(1.0, std::round(effects.columns * fraction)));
   settings.rows =
       static_cast<std::uint32_t>(std::max(1.0, std::round(rows * (area->vertical_to - area->vertical_from) / full)));
   settings.azimuth_from_rad = area->horizontal_from * kRadPerDeg;
@@ -298,7 +298,7 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
     return failure(ErrorKind::usage, "must be above nearest_m", "farthest_m");
   settings.camera = effects.camera;
   settings.scan_seconds =
-      effects.laser ? (instrument.overhead_s + turning * effects.seconds_factor * share) * effects.passes : 0;
+      effects.laser ? (instrument.overhead_s + turning * effects.seconds_factor * fraction) * effects.passes : 0;
   settings.imaging_seconds = settings.imaging ? effects.imaging_seconds * effects.imaging_factor : 0;
   return settings;
 }

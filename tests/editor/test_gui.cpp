@@ -318,9 +318,9 @@ TEST_F(Gui, FollowsTheBudgetsSliderAtOnceAndForgetsItWhenOptimised) {
   editor.panels.optimise.live = true;
   editor.panels.optimise.max_deviation_mm = 500;
   const auto whole = sceneTriangleCount(*editor.environment());
-  const auto shownAt = [&](double share) -> std::uint64_t {
-    editor.panels.optimise.budget_share = share;
-    const auto budget = static_cast<std::uint64_t>(std::llround(share * static_cast<double>(whole)));
+  const auto shownAt = [&](double fraction) -> std::uint64_t {
+    editor.panels.optimise.budget_fraction = fraction;
+    const auto budget = static_cast<std::uint64_t>(std::llround(fraction * static_cast<double>(whole)));
     for (int i = 0; i < 400; ++i) {
       gui.frame();
       const auto state = editor.budget_preview.state();

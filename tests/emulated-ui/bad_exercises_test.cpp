@@ -21,7 +21,7 @@ json sound() {
     "area": [0, 0, 0, 6, 4, 2.5], "places": {"door": [4.7, 4.45]},
     "setup": [{"verb": "station", "options": {"add": "S1", "on": [4.3, 1.6, 0]}}],
     "start": [{"press": "power"}, {"wait": 130}],
-    "troubles": ["dust"], "events": [{"when": "progress > 0.5", "trouble": "moved"}],
+    "troubles": ["dust"], "events": [{"when": "progress > 0.5", "trouble": "tripod_moved"}],
     "steps": [{"id": "scan", "text": {"en": "Scan.", "de": "Scannen."}, "widget": "start_scan",
       "done": "setups >= 1", "points": 2}],
     "rules": [{"id": "clean", "text": {"en": "Clean.", "de": "Sauber."}, "when": "each scan_started",

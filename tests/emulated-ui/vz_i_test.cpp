@@ -375,12 +375,12 @@ TEST_F(VzI, TellsThatItWasPushedAndStopsWhenAsked) {
   ASSERT_TRUE(d.press({"start_scan"}));
   d.scanned();
   TestDevice other = d;
-  ASSERT_TRUE(d->trouble("moved"));
+  ASSERT_TRUE(d->trouble("tripod_moved"));
   EXPECT_EQ(d.phase(), "error");
   d.scanned();
   ASSERT_TRUE(d.press({"ok", "keep"}));
   d->tick(10);
-  EXPECT_EQ(d.fact("newest.moved"), "yes");
+  EXPECT_EQ(d.fact("newest.tripod_moved"), "yes");
   ASSERT_TRUE(other.press({"stop", "yes"}));
   EXPECT_EQ(other.phase(), "waiting");
   EXPECT_EQ(other.fact("setups"), "0");

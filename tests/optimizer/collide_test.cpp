@@ -98,8 +98,8 @@ double coveredVolume(const std::vector<CollisionShape>& shapes, const Vector3d& 
   };
   int inside = 0;
   for (int i = 0; i < n * n; ++i) {
-    const Vector3d share((i % n + 0.5) / n, 0.5, (i / n + 0.5) / n);
-    const Vector3d p = low + share.cwiseProduct(high - low);
+    const Vector3d fraction((i % n + 0.5) / n, 0.5, (i / n + 0.5) / n);
+    const Vector3d p = low + fraction.cwiseProduct(high - low);
     inside += std::any_of(shapes.begin(), shapes.end(), [&](const auto& shape) { return isIn(shape, p); });
   }
   return (high - low).prod() * inside / (n * n);

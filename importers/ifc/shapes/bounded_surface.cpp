@@ -67,9 +67,9 @@ int piecesAlong(const ParametricSurface& on, const Eigen::Vector2d& low, const E
                 double tolerance_m) {
   constexpr int kMost = 256, kLines = 4;
   const auto at = [&](double t, int line) {
-    Eigen::Vector2d share = Eigen::Vector2d::Constant(static_cast<double>(line) / kLines);
-    share[axis] = t;
-    return on.at(low + (high - low).cwiseProduct(share));
+    Eigen::Vector2d fraction = Eigen::Vector2d::Constant(static_cast<double>(line) / kLines);
+    fraction[axis] = t;
+    return on.at(low + (high - low).cwiseProduct(fraction));
   };
   for (int n = 1; n < kMost; n *= 2) {
     double off = 0;
