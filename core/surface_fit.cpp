@@ -180,7 +180,7 @@ Result<SurfaceFit> fitToSurface(std::span<const Vector3d> points, const Pose& st
                                 const SurfaceFitOptions& options, Progress& progress) {
   if (points.size() < kFewest)
     return failure(ErrorKind::unusable, "only " + std::to_string(points.size()) +
-                                            " different places are in the cloud; 100 at least are needed");
+                                            " distinct points in the cloud; at least 100 are required");
   Round round{std::vector<Vector3d>(points.size()),
               std::vector<SurfaceTouch>(points.size()),
               std::vector<double>(points.size(), 0),
@@ -198,9 +198,9 @@ Result<SurfaceFit> fitToSurface(std::span<const Vector3d> points, const Pose& st
     progress.advance(static_cast<double>(fit.iterations) / options.max_iterations);
     place(round, points, fit.to_from);
     if (touch(round, search, reach) < kFewest)
-      return failure(
-          ErrorKind::unusable,
-          "fewer than 100 of the points lie near a surface: place the cloud first, by pairs, or search further");
+      return failure(ErrorKind::unusable,
+                     "fewer than 100 points are near a surface: place the cloud with --pairs first, or increase the "
+                     "search distance");
     const bool closed_in = reach <= options.min_reach_m;
     weigh(round, closed_in ? 0 : reach);
     equations = assemble(round);

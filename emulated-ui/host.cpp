@@ -82,8 +82,7 @@ Result<void> copyFile(const fs::path& from, const fs::path& to, Progress& progre
     if (auto going = progress.check(); !going) return failure(going.error());
     const auto read = in->read(out->size(), buffer);
     if (!read) return failure(read.error());
-    if (*read == 0)
-      return failure(ErrorKind::file_system, "the file has become shorter while it was copied", from.string());
+    if (*read == 0) return failure(ErrorKind::file_system, "the file was truncated while copying", from.string());
     if (auto written = out->append({buffer.data(), *read}); !written) return written;
     progress.advance(static_cast<double>(out->size()) / static_cast<double>(in->size()));
   }
@@ -242,7 +241,7 @@ void DeviceHost::startWork(const std::string& title, const Document& document, T
 }
 
 void DeviceHost::start(const Order& order, const Document& document, const fs::path& scans_folder) {
-  if (scans_folder.empty()) return device_.orderFailed("Save the project first: the scan needs a folder.");
+  if (scans_folder.empty()) return device_.orderFailed("Save the project first. Scans are stored in its folder.");
   running_ = order;
   if (const auto* scan = std::get_if<ScanOrder>(&order)) return startScan(*scan, document, scans_folder);
   if (const auto* link = std::get_if<LinkOrder>(&order)) {
@@ -312,7 +311,7 @@ void DeviceHost::takeResult(Outcome outcome, const Document& document) {
 // The accepted set-up as the station's solved pose.
 Result<Outcome> DeviceHost::oriented(const Document& document, const StationOrientation& orientation) const {
   const auto* station = stationOf(document, orientation.station);
-  if (station == nullptr) return failure(ErrorKind::usage, "there is no such station", orientation.station);
+  if (station == nullptr) return failure(ErrorKind::usage, "unknown station", orientation.station);
   const auto level = levelledFromScanner(*station, device_.type().instrument, orientation.compensator, seed);
   if (!level) return failure(level.error());
   Job job = *document.job;

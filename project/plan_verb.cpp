@@ -109,10 +109,10 @@ std::string textOf(const SurveyPlan& plan, const json& answer) {
                         surface.coverage() * 100);
   for (const auto& pair : plan.pairs)
     text += fmt::format("overlap {} - {}: {:.0f} %{}\n", plan.stations[pair.a], plan.stations[pair.b],
-                        pair.overlap() * 100, pair.overlap() < kLowOverlap ? ", little to register by" : "");
+                        pair.overlap() * 100, pair.overlap() < kLowOverlap ? ", low overlap" : "");
   for (const auto& hole : answer["holes"])
-    text += fmt::format("not seen: {:8.2f} m2 of {} {} {}\n", hole["unseen_m2"].get<double>(), hole.value("class", ""),
-                        hole.value("id", ""), hole.value("name", ""));
+    text += fmt::format("not covered: {:8.2f} m2 of {} {} {}\n", hole["unseen_m2"].get<double>(),
+                        hole.value("class", ""), hole.value("id", ""), hole.value("name", ""));
   return text;
 }
 
@@ -151,7 +151,7 @@ Result<json> proposalFor(const Document& document, const RayScene& scene, const 
   const SightLimits limits{std::min(request.wanted.max_range_m, request.settings.max_range_m),
                            std::max(SightLimits{}.min_cosine, std::cos(request.wanted.max_incidence_rad)),
                            request.settings.elevation_from_rad, request.settings.elevation_to_rad};
-  progress.stage("Look for another station", 0.7, 1);
+  progress.stage("Search for next station", 0.7, 1);
   const auto next =
       nextStation(document, placement, plan.samples, seen, limits, request.instrument.tripod_height_m, progress);
   if (auto go_on = progress.check(); !go_on) return failure(go_on.error());
@@ -170,8 +170,9 @@ Result<Outcome> runPlan(const Document& document, const json& options, Progress&
   if (!assignment) return failure(assignment.error());
   const ScanWorld world = scanWorld(document, *assignment);
   if (sceneTriangleCount(*world.environment) == 0)
-    return failure(ErrorKind::unusable,
-                   "there is nothing in the scene to plan for; import a model, or take products back with `treat`");
+    return failure(
+        ErrorKind::unusable,
+        "the scene contains no products to plan for; import a model, or include products again with `treat`");
   auto scene = RayScene::build(world.environment, progress);
   if (!scene) return failure(scene.error());
   auto plan = planSurvey(*document.job, *scene, std::make_shared<const MaterialAssignment>(world.assignment), *request,
@@ -181,7 +182,7 @@ Result<Outcome> runPlan(const Document& document, const json& options, Progress&
   if (!proposal) return failure(proposal.error());
   outcome.answer = answerOf(*plan, *world.environment);
   outcome.answer["proposed"] = *proposal;
-  outcome.description = fmt::format("{} station{} would see {:.1f} % of {:.0f} m2", plan->stations.size(),
+  outcome.description = fmt::format("{} station{} would cover {:.1f} % of {:.0f} m2", plan->stations.size(),
                                     plan->stations.size() == 1 ? "" : "s", plan->all.coverage() * 100,
                                     outcome.answer["exposed_m2"].get<double>());
   outcome.text = textOf(*plan, outcome.answer);

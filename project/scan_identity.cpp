@@ -12,6 +12,8 @@ namespace standpoint {
 
 namespace {
 
+constexpr const char* kFieldFault = "mishap";  // its name in identities since the first file: it stays, so that they do
+
 std::uint64_t mix(std::uint64_t hash, const std::string& text) { return stableHash(text.c_str(), hash); }
 
 std::uint64_t mix(std::uint64_t hash, std::uint64_t word) {
@@ -93,7 +95,7 @@ std::string guidOf(std::uint64_t world_fingerprint, const Station& station, cons
   if (!request.as.empty()) a = mix(a, request.as);  // a run that goes on takes no station that was written otherwise
   if (request.panorama_columns > 0) a = mix(a, std::uint64_t{request.panorama_columns});
   if (const auto& m = request.field_fault; m.any())
-    a = mix(a, fmt::format("mishap {} {} {} {} {}", m.until_fraction, m.noise_factor,
+    a = mix(a, fmt::format("{} {} {} {} {} {}", kFieldFault, m.until_fraction, m.noise_factor,
                            m.tripod_moved_at_fraction.value_or(-1), m.passer_by_at_fraction.value_or(-1),
                            m.operator_at_fraction.value_or(-1)));
   for (const auto& note : request.notes) a = mix(a, note);

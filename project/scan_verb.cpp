@@ -135,7 +135,7 @@ Result<ScanCount> scanStation(const RayScene& scene, const ScanWorld& world, con
                              : request.settings.laser ? (span.from + span.to) / 2
                                                       : span.to;
   if (request.panorama) {
-    progress.stage("Pictures at " + span.name, span.from, pictures_to);
+    progress.stage("Images at " + span.name, span.from, pictures_to);
     auto panorama = takePanorama(scene, request.instrument, station.true_pose, request.options.threads, report,
                                  progress, meteringOf(request.instrument, request.settings.values));
     if (!panorama) return failure(panorama.error());
@@ -197,14 +197,14 @@ class ScanRun {
       if (parts_.hasRecord(job_.stations[index].name)) names.push_back(job_.stations[index].name);
     if (names.empty()) return {};
     return failure(ErrorKind::usage,
-                   fmt::format("an earlier run has finished {}: go on with --resume, or remove that folder first",
+                   fmt::format("an earlier run finished {}: continue with --resume, or remove that folder first",
                                fmt::join(names, ", ")),
                    parts_.folder().string());
   }
 
   tl::unexpected<Error> withHint(Error error) const {
     if (!finished_.empty())
-      error.message += fmt::format("; finished and kept: {}; the same command with --resume goes on from there",
+      error.message += fmt::format("; finished and kept: {}; continue with the same command and --resume",
                                    fmt::join(finished_, ", "));
     return tl::unexpected<Error>(std::move(error));
   }

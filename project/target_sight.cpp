@@ -62,14 +62,14 @@ void look(const RayScene& scene, const Target& t, const Vector3d& from, TargetSi
 std::string whyNot(const TargetSight& s, const Target& t, const TargetRules& rules) {
   if (s.seen_fraction < 1e-9) return "hidden by " + s.hidden_by;
   if (s.seen_fraction < kEnoughSeen)
-    return fmt::format("only {:.0f} % of it is seen past {}", s.seen_fraction * 100, s.hidden_by);
+    return fmt::format("only {:.0f} % visible past {}", s.seen_fraction * 100, s.hidden_by);
   if (t.kind == TargetKind::checkerboard && s.incidence_rad > rules.max_incidence_rad)
-    return fmt::format("seen at {:.0f}°, and a plate is measured up to {:.0f}°", s.incidence_rad / kRadPerDeg,
+    return fmt::format("incidence {:.0f}° exceeds the limit of {:.0f}° for plates", s.incidence_rad / kRadPerDeg,
                        rules.max_incidence_rad / kRadPerDeg);
   if (s.distance_m > s.max_distance_m)
-    return fmt::format("{:.1f} m away, and it is measured up to {:.1f} m", s.distance_m, s.max_distance_m);
+    return fmt::format("distance {:.1f} m exceeds the limit of {:.1f} m", s.distance_m, s.max_distance_m);
   if (s.points && *s.points < rules.min_points)
-    return fmt::format("about {:.0f} points on it, and {} are wanted", *s.points, rules.min_points);
+    return fmt::format("about {:.0f} points on the target, {} required", *s.points, rules.min_points);
   return {};
 }
 
@@ -125,7 +125,7 @@ void tell(const Target& target, const std::vector<TargetSight>& sights, Report& 
       std::all_of(sights.begin(), sights.end(), [](const TargetSight& s) { return s.seen_fraction < 1e-9; });
   const auto good = std::count_if(sights.begin(), sights.end(), [](const TargetSight& s) { return s.why_not.empty(); });
   if (hidden)
-    report.warn(target.name, "it is hidden from every station");
+    report.warn(target.name, "hidden from every station");
   else if (good == 0)
     report.warn(target.name, "no station can measure it");
   for (const auto& s : sights)

@@ -82,7 +82,7 @@ Result<Cloud> sampleCloud(const std::filesystem::path& file, const Eigen::Vector
                           Progress& progress) {
   const CloudFormat* format = cloudFormatFor(file);
   if (format == nullptr || format->read == nullptr)
-    return failure(ErrorKind::unusable, "this kind of cloud cannot be read", file.string());
+    return failure(ErrorKind::unusable, "unsupported point-cloud format", file.string());
   auto info = format->info(file);
   if (!info) return failure(info.error());
   std::uint64_t points = 0;

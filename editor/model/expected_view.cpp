@@ -35,11 +35,11 @@ bool sameLook(const ExpectedRequest& a, const ExpectedRequest& b) {
 
 const char* fateName(ReturnFate fate) {
   switch (fate) {
-    case ReturnFate::returned: return "comes back";
+    case ReturnFate::returned: return "detected";
     case ReturnFate::too_weak: return "too weak";
-    case ReturnFate::seen_through: return "seen through";
-    case ReturnFate::hidden: return "not in sight";
-    case ReturnFate::too_near: return "too near";
+    case ReturnFate::seen_through: return "transparent";
+    case ReturnFate::hidden: return "hidden";
+    case ReturnFate::too_near: return "too close";
     case ReturnFate::too_far: return "too far";
   }
   return "";

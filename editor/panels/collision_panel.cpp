@@ -57,7 +57,7 @@ void drawDoors(Editor& editor, const CollideResult& result) {
     if (state.doors == 2) {
       bool closed = state.closed.contains(id);
       if (ImGui::Checkbox("###closed", &closed)) closed ? void(state.closed.insert(id)) : void(state.closed.erase(id));
-      ui::tooltip("Stands closed when the shapes are computed again");
+      ui::tooltip("Treat as closed when collision shapes are next computed");
       ImGui::SameLine();
     }
     selectable(editor, door.product);
@@ -68,7 +68,7 @@ void drawDoors(Editor& editor, const CollideResult& result) {
                                                                             : tone::kBad;
     const auto text = door.closed                          ? std::string(ICON_STOP "  closed")
                       : !door.floor                        ? std::string(ICON_INFO "  no floor")
-                      : door.passable && !door.led_through ? std::string(ICON_INFO "  not led through")
+                      : door.passable && !door.led_through ? std::string(ICON_INFO "  not connected")
                       : door.passable ? fmt::format("{}  {:.2f} m clear", ICON_CHECK, door.clear_width_m)
                                       : fmt::format("{}  {:.2f} m clear", ICON_BAN, door.clear_width_m);
     ImGui::TextColored(colour(tone), "%s", text.c_str());
@@ -87,7 +87,7 @@ void drawRooms(Editor& editor, const CollideResult& result) {
     selectable(editor, room.product);
     ImGui::TableNextColumn();
     const char* text = room.reached           ? ICON_CHECK "  reached"
-                       : room.walkable_m2 > 0 ? ICON_BAN "  no way in"
+                       : room.walkable_m2 > 0 ? ICON_BAN "  not reachable"
                                               : ICON_INFO "  no floor";
     ImGui::TextColored(colour(room.reached           ? tone::kGood
                               : room.walkable_m2 > 0 ? tone::kBad
@@ -112,15 +112,15 @@ nlohmann::json options(const CollisionPanelState& state) {
 void drawCollisionPanel(Editor& editor) {
   const auto& document = editor.session.document();
   if (!document.imported) {
-    ui::emptyState(editor, ICON_WALK, "Nothing to walk on", "Import a model first.");
+    ui::emptyState(editor, ICON_WALK, "No walkable surface", "Import a model first.");
     return;
   }
   auto& state = editor.panels.collision;
   if (ui::beginProperties("agent", 0.42F)) {
-    numberRow("Walker's radius", "###radius", state.agent_radius_m, 0.05F, 1.0F);
-    numberRow("Walker's height", "###height", state.agent_height_m, 0.3F, 2.5F);
+    numberRow("Agent radius", "###radius", state.agent_radius_m, 0.05F, 1.0F);
+    numberRow("Agent height", "###height", state.agent_height_m, 0.3F, 2.5F);
     ui::propertyLabel("Doors");
-    ImGui::Combo("###doors", &state.doors, "open\0closed\0one by one\0");
+    ImGui::Combo("###doors", &state.doors, "open\0closed\0individual\0");
     ui::endProperties();
   }
   if (ui::primaryButton(ICON_CUBES "  Compute collision shapes###collide", editor.session.whyNot("collide"),
@@ -130,9 +130,8 @@ void drawCollisionPanel(Editor& editor) {
   }
   if (!document.collision) {
     ui::gap(editor);
-    ui::emptyState(
-        editor, ICON_WALK, "Not computed yet",
-        "Shapes that a physics engine can use, the area that a person can reach, and which doors let one through.");
+    ui::emptyState(editor, ICON_WALK, "Not computed yet",
+                   "Compute shapes for physics engines, the area a person can reach, and passable doors.");
     return;
   }
   const auto& result = *document.collision;

@@ -64,9 +64,9 @@ void drawRemedy(Editor& editor, const Remedy& remedy, const std::string& why) {
   const bool open = remedy.material.empty();
   const auto& material = open ? editor.panels.materials.chosen : remedy.material;
   const auto* known = knownMaterial(editor, material);
-  const std::string blocked = !why.empty() ? why : known == nullptr ? "Choose a material in the list first" : "";
+  const std::string blocked = !why.empty() ? why : known == nullptr ? "Select a material in the list first" : "";
   const std::string text =
-      open ? fmt::format("{}: {}", remedy.text, known == nullptr ? "choose a material" : known->label) : remedy.text;
+      open ? fmt::format("{}: {}", remedy.text, known == nullptr ? "Select a material" : known->label) : remedy.text;
   if (ui::button(fmt::format("{}  {}###{}{}", ICON_MAGIC, text, remedy.selector, remedy.material).c_str(), blocked,
                  {-FLT_MIN, 0}))
     editor.session.start("materials", {{"assign", assignWords(remedy, material)}}, remedy.text);
@@ -76,17 +76,17 @@ void drawAcceptance(Editor& editor, const MaterialFinding& finding, const std::s
   auto& state = editor.panels.findings;
   if (!finding.because.empty()) {
     ui::wrapped("Accepted: " + finding.because);
-    if (ui::button(ICON_UNDO "  Open it again###reopen", why, {-FLT_MIN, 0}))
-      editor.session.start("materials", {{"reopen", {finding.id}}}, "Open a finding again");
+    if (ui::button(ICON_UNDO "  Reopen###reopen", why, {-FLT_MIN, 0}))
+      editor.session.start("materials", {{"reopen", {finding.id}}}, "Reopen finding");
     return;
   }
   const float button = editor.px(84);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x);
-  ImGui::InputTextWithHint("###because", "It may stand, because …", &state.because);
+  ImGui::InputTextWithHint("###because", "Reason for accepting", &state.because);
   ImGui::SameLine();
-  const std::string blocked = !why.empty() ? why : state.because.empty() ? "Say why it may stand" : "";
+  const std::string blocked = !why.empty() ? why : state.because.empty() ? "Enter a reason" : "";
   if (ui::button(ICON_CHECK "  Accept###accept", blocked, {button, 0}))
-    editor.session.start("materials", {{"accept", {finding.id}}, {"because", state.because}}, "Accept a finding");
+    editor.session.start("materials", {{"accept", {finding.id}}, {"because", state.because}}, "Accept finding");
 }
 
 void drawFinding(Editor& editor, const MaterialFinding& finding) {
@@ -94,11 +94,11 @@ void drawFinding(Editor& editor, const MaterialFinding& finding) {
   ImGui::PushStyleColor(ImGuiCol_Text, tone::kDim);
   ui::wrapped(finding.why);
   ImGui::PopStyleColor();
-  if (ui::iconButton(ICON_CROSSHAIRS "  Show it alone###look", "Hides the rest and brings it into view",
-                     finding.products.empty() ? "It has no product" : ""))
+  if (ui::iconButton(ICON_CROSSHAIRS "  Isolate###look", "Hides everything else and frames the products",
+                     finding.products.empty() ? "This finding has no products" : ""))
     look(editor, finding);
   ImGui::SameLine();
-  if (ui::iconButton(ICON_EYE "  Show all###show-all", "Everything again")) editor.visibility.showAll();
+  if (ui::iconButton(ICON_EYE "  Show all###show-all", "Shows all products")) editor.visibility.showAll();
   const auto why = editor.session.whyNot("materials");
   for (const auto& remedy : finding.remedies) drawRemedy(editor, remedy, why);
   drawAcceptance(editor, finding, why);
@@ -108,7 +108,7 @@ void drawFinding(Editor& editor, const MaterialFinding& finding) {
 
 void drawFindingsPanel(Editor& editor) {
   const auto& choice = editor.session.document().materials;
-  if (!choice) return ui::dimText("Findings come when materials have been assigned.");
+  if (!choice) return ui::dimText("Assign materials to get findings.");
   auto& state = editor.panels.findings;
   if (state.seen_revision != editor.session.revision()) {
     state.seen_revision = editor.session.revision();
@@ -120,7 +120,7 @@ void drawFindingsPanel(Editor& editor) {
   if (findings.empty()) {
     ImGui::TextColored(colour(tone::kGood), "%s", ICON_CHECK);
     ImGui::SameLine();
-    return ImGui::TextUnformatted("Nothing is doubtful.");
+    return ImGui::TextUnformatted("No findings");
   }
   const auto chosen =
       std::find_if(findings.begin(), findings.end(), [&](const MaterialFinding& f) { return f.id == state.chosen; });

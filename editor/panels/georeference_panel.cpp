@@ -99,12 +99,12 @@ void drawForm(Editor& editor) {
     ImGui::InputDouble("###rotation", &state.rotation_deg, 0, 0, "%.6f°");
     ui::endProperties();
   }
-  if (!ui::primaryButton(ICON_GLOBE "  Set the place###georeference", editor.session.whyNot("georeference"),
+  if (!ui::primaryButton(ICON_GLOBE "  Set georeference###georeference", editor.session.whyNot("georeference"),
                          {-FLT_MIN, 0}))
     return;
   nlohmann::json options = {{"origin", state.origin_m}, {"rotation-deg", state.rotation_deg}};
   if (!state.crs.empty()) options["crs"] = state.crs;
-  editor.session.start("georeference", std::move(options), "Set the place of the model");
+  editor.session.start("georeference", std::move(options), "Set georeference");
 }
 
 }  // namespace
@@ -112,7 +112,7 @@ void drawForm(Editor& editor) {
 void drawGeoreferencePanel(Editor& editor) {
   const auto& georeference = editor.session.document().georeference;
   if (!georeference) {
-    ui::emptyState(editor, ICON_GLOBE, "No place yet", "Where a model stands on Earth is read when it is imported.");
+    ui::emptyState(editor, ICON_GLOBE, "Not georeferenced", "Georeferencing is read when a model is imported.");
     return;
   }
   fill(editor.panels.georeference, *georeference);

@@ -39,7 +39,7 @@ std::string treatmentText(const Editor& editor, const Product& product) {
     case TreatmentKind::kept: return "Never simplified";
     case TreatmentKind::simplified:
       return treatment->max_deviation_m ? fmt::format("Simplified within {:g} mm", *treatment->max_deviation_m * 1000)
-                                        : "Simplified with a weight of its own";
+                                        : "Simplified with custom weight";
     case TreatmentKind::as_rules: break;
   }
   return {};
@@ -89,7 +89,7 @@ void drawGeometry(Editor& editor, std::uint32_t index) {
 
 void drawLayers(const Editor& editor, const Product& product) {
   if (product.layers.empty() && product.materials.empty()) return;
-  ui::heading(editor, "Materials of the model");
+  ui::heading(editor, "Materials in the model");
   if (!ui::beginProperties("layers", 0.68F)) return;
   for (const auto& layer : product.layers)
     ui::property(layer.name.empty() ? "Air" : layer.name.c_str(), fmt::format("{:.4g} mm", layer.thickness_m * 1000));
@@ -115,7 +115,7 @@ void drawSurfaces(const Editor& editor, std::uint32_t product) {
     }
   }
   if (area_of.empty()) return;
-  ui::heading(editor, "Surfaces of the model");
+  ui::heading(editor, "Surfaces in the model");
   for (const auto& [index, area] : area_of) {
     const auto& surface = environment.surfaces[index];
     ui::swatch(editor, surface.colour);
@@ -175,7 +175,7 @@ void drawAssign(Editor& editor, const std::string& current) {
     }
   }
   if (catalogue.materials.empty())
-    ui::wrapped(catalogue.problem.empty() ? "The library of materials is empty." : catalogue.problem);
+    ui::wrapped(catalogue.problem.empty() ? "The material library is empty." : catalogue.problem);
   ImGui::EndChild();
   ImGui::EndCombo();
 }
@@ -196,7 +196,7 @@ void drawPhysicalMaterial(Editor& editor, std::uint32_t index) {
   ui::heading(editor, "Physical material");
   const auto& choice = editor.session.document().materials;
   if (!choice) {
-    drawAssign(editor, "Nothing assigned yet");
+    drawAssign(editor, "No material assigned");
     return;
   }
   const auto& assignment = choice->result.assignment;
@@ -208,14 +208,14 @@ void drawPhysicalMaterial(Editor& editor, std::uint32_t index) {
   drawAssign(editor, current);
   for (const auto& [material, reason] : found) {
     if (material < 0) {
-      ImGui::TextColored(colour(tone::kUnassigned), "%s  No rule fits", ICON_WARNING);
+      ImGui::TextColored(colour(tone::kUnassigned), "%s  No matching rule", ICON_WARNING);
       continue;
     }
     const auto& m = assignment.materials[static_cast<std::size_t>(material)];
     ui::swatch(editor, materialColour(&m));
     ImGui::SameLine();
     ui::wrapped(m.label);
-    if (!reason.empty()) ui::tooltip("Because of: " + reason);
+    if (!reason.empty()) ui::tooltip("Matched by: " + reason);
     drawPhysics(m);
   }
 }
@@ -277,7 +277,7 @@ void drawMany(Editor& editor) {
     ui::endProperties();
   }
   ui::heading(editor, "Physical material");
-  drawAssign(editor, "Assign to all …");
+  drawAssign(editor, "Assign to …");
 }
 
 }  // namespace
@@ -285,9 +285,8 @@ void drawMany(Editor& editor) {
 void drawInspectorPanel(Editor& editor) {
   const auto& environment = editor.environment();
   if (!environment || editor.selection.empty() || editor.selection.primary() >= environment->products.size()) {
-    ui::emptyState(
-        editor, ICON_POINTER, "Nothing selected",
-        "Click something in the view or in the outliner to see what it is, what it is made of, and how it reflects.");
+    ui::emptyState(editor, ICON_POINTER, "Nothing selected",
+                   "Select a product in the view or outliner to see its properties, materials and reflectance.");
     return;
   }
   if (editor.selection.products().size() > 1) {

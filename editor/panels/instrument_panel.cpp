@@ -11,9 +11,8 @@ void drawInstrumentPanel(Editor& editor) {
   if (editor.draw_instrument)
     editor.draw_instrument(editor);
   else
-    ui::emptyState(
-        editor, ICON_TABLET, "No device",
-        "This build has no emulated device. The scanners themselves work without one: see the workspace Survey.");
+    ui::emptyState(editor, ICON_TABLET, "No device",
+                   "This build has no emulated devices. To scan without one, use the Survey workspace.");
 }
 
 }  // namespace standpoint

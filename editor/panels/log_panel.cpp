@@ -38,7 +38,7 @@ void drawHead(Editor& editor) {
     warnings += e.level == LogLevel::warning ? 1 : 0;
     losses += e.level == LogLevel::loss || e.level == LogLevel::error ? 1 : 0;
   }
-  ui::filterButton(editor, "log", ICON_BAN, "losses and errors", losses, tone::kBad, filter.losses);
+  ui::filterButton(editor, "log", ICON_BAN, "Losses and errors", losses, tone::kBad, filter.losses);
   ui::filterButton(editor, "log", ICON_WARNING, "warnings", warnings, tone::kWarning, filter.warnings);
   ui::filterButton(editor, "log", ICON_INFO, "notes", notes, tone::kDim, filter.notes);
   const float clear = ImGui::GetFrameHeight() + editor.px(8);
@@ -49,7 +49,7 @@ void drawHead(Editor& editor) {
   ui::searchField("log-filter", "Text or source", filter.text);
   ImGui::EndChild();
   ImGui::SameLine();
-  if (ui::iconButton(ICON_TRASH "###log-clear", "Empty the log")) editor.session.clearLog();
+  if (ui::iconButton(ICON_TRASH "###log-clear", "Clear log")) editor.session.clearLog();
 }
 
 void drawEntry(Editor& editor, const LogEntry& entry, int i) {
@@ -70,7 +70,7 @@ void drawEntry(Editor& editor, const LogEntry& entry, int i) {
         editor.frameSelection();
       }
       ImGui::PopStyleColor();
-      ui::tooltip("Select it");
+      ui::tooltip("Select product");
     } else {
       ui::fitted(entry.source, ImGui::GetContentRegionAvail().x);
     }

@@ -88,14 +88,15 @@ void drawSpectrum(Editor& editor, const PhysicalMaterial& m) {
   if (!m.reflectance.empty()) plot.line(curve(plot, m.reflectance), tone::kStation);
   if (plot.hovered()) {
     const double wavelength = kFirst_nm + plot.pointer() * (kLast_nm - kFirst_nm);
-    auto text = fmt::format("{:.0f} nm\nreflects {:.1f} %", wavelength, 100 * atWavelength(m.reflectance, wavelength));
+    auto text =
+        fmt::format("{:.0f} nm\nreflectance {:.1f} %", wavelength, 100 * atWavelength(m.reflectance, wavelength));
     if (!m.transmittance.empty())
-      text += fmt::format("\nlets {:.1f} % through", 100 * atWavelength(m.transmittance, wavelength));
+      text += fmt::format("\ntransmittance {:.1f} %", 100 * atWavelength(m.transmittance, wavelength));
     ImGui::SetTooltip("%s", text.c_str());
     if (ImGui::IsMouseClicked(0)) editor.view.wavelength_nm = std::round(wavelength);
   }
-  ui::dimWrapped(m.transmittance.empty() ? "Diffuse reflectance over nm; click to choose a wavelength"
-                                         : "Diffuse reflectance, and transmittance (blue), over nm");
+  ui::dimWrapped(m.transmittance.empty() ? "Diffuse reflectance by wavelength (nm). Click to choose a wavelength."
+                                         : "Diffuse reflectance and transmittance (blue) by wavelength (nm)");
 }
 
 // As a scanner's own light shows them: a ball, and a plane that turns away from it.
@@ -125,7 +126,7 @@ void drawBodies(Editor& editor, const std::array<float, 81>& response) {
 }
 
 void drawAngles(Editor& editor, const PhysicalMaterial& m) {
-  ui::heading(editor, fmt::format("Seen by a scanner at {:.0f} nm", editor.view.wavelength_nm).c_str());
+  ui::heading(editor, fmt::format("Scanner response at {:.0f} nm", editor.view.wavelength_nm).c_str());
   const auto response = angularResponse(m, editor.view.wavelength_nm);
   drawBodies(editor, response);
   const double head_on = 100 * atWavelength(m.reflectance, editor.view.wavelength_nm);
@@ -147,9 +148,10 @@ void drawAngles(Editor& editor, const PhysicalMaterial& m) {
   plot.line(own, tone::kStation);
   if (plot.hovered()) {
     const auto degrees = static_cast<std::size_t>(std::lround(plot.pointer() * 80));
-    ImGui::SetTooltip("%zu°: like a white board of %.1f %% head-on", degrees, static_cast<double>(response[degrees]));
+    ImGui::SetTooltip("%zu°: equals a white target of %.1f %% at normal incidence", degrees,
+                      static_cast<double>(response[degrees]));
   }
-  ui::dimWrapped("Of a white Lambert board head-on; thin: Lambert's cosine");
+  ui::dimWrapped("Relative to a white Lambertian target at normal incidence; thin line: Lambert's cosine law");
 }
 
 std::string reading(const ExpectedReturn& expected) {
@@ -158,10 +160,10 @@ std::string reading(const ExpectedReturn& expected) {
 }
 
 void drawReported(Editor& editor, const PhysicalMaterial& m) {
-  ui::heading(editor, "What scanners report");
+  ui::heading(editor, "Reported by scanners");
   auto& degrees = editor.panels.materials.incidence_deg;
   ImGui::SetNextItemWidth(-1);
-  ImGui::SliderInt("###incidence", &degrees, 0, 80, "%d° off normal");
+  ImGui::SliderInt("###incidence", &degrees, 0, 80, "%d° incidence");
   if (!ImGui::BeginTable("reported", 1 + static_cast<int>(kCardRanges_m.size()), ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupColumn("###instrument", ImGuiTableColumnFlags_WidthStretch, 1.5F);
   for (const double range : kCardRanges_m)
@@ -181,13 +183,13 @@ void drawReported(Editor& editor, const PhysicalMaterial& m) {
     }
   }
   ImGui::EndTable();
-  ui::dimWrapped("Intensity as stored, range noise 1 σ");
+  ui::dimWrapped("Stored intensity, range noise (1 σ)");
 }
 
 void drawGaps(const Editor& editor, const PhysicalMaterial& m) {
   const auto gaps = gapsOf(m);
   if (gaps.empty()) return;
-  ui::heading(editor, "Not known");
+  ui::heading(editor, "Unknown");
   for (const auto& gap : gaps) ui::dimWrapped(gap);
 }
 
@@ -221,9 +223,9 @@ void drawMaterialCardPanel(Editor& editor) {
   if (editor.panels.materials.edit) return drawMaterialForm(editor);
   const auto* material = shownMaterial(editor);
   if (material == nullptr) {
-    ui::emptyState(editor, ICON_PAINT, "No material chosen",
-                   "Choose one in the list of materials, or a surface in the view, to see its spectrum, how it fades "
-                   "when it turns away, and what scanners report of it.");
+    ui::emptyState(editor, ICON_PAINT, "No material selected",
+                   "Select a material in the list or a surface in the view to see its spectrum, angular response and "
+                   "scanner readings.");
     return;
   }
   ImGui::BeginChild("card");

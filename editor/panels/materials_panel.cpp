@@ -26,12 +26,12 @@ const PhysicalMaterial* materialById(const MaterialAssignment& assignment, const
 void drawCoverage(Editor& editor, const MaterialReport& report) {
   const auto tone = report.coverage >= 0.95 ? tone::kGood : tone::kWarning;
   if (editor.fonts.bold != nullptr) ImGui::PushFont(editor.fonts.bold);
-  ImGui::Text("%.1f %% of the area has a material", report.coverage * 100);
+  ImGui::Text("%.1f %% of the area assigned", report.coverage * 100);
   if (editor.fonts.bold != nullptr) ImGui::PopFont();
   ui::meter(editor, report.coverage, tone);
   double weak = 0;
   for (const auto& row : report.by_class) weak += row.weak_m2;
-  ui::dimText(fmt::format("{:.0f} m² in all, {:.0f} m² without, {:.0f} m² guessed", report.area_m2,
+  ui::dimText(fmt::format("{:.0f} m² total, {:.0f} m² unassigned, {:.0f} m² low confidence", report.area_m2,
                           report.area_m2 * (1 - report.coverage), weak));
 }
 
@@ -41,7 +41,7 @@ void drawMaterialButtons(Editor& editor) {
   if (ui::primaryButton(ICON_MAGIC "  Assign by rules###assign-rules", why, {width, 0}))
     editor.session.start("materials", nlohmann::json::object(), "Assign materials by rules");
   ImGui::SameLine();
-  if (ui::button(ICON_FILE "  Rules file…###rules-file", why, {width, 0}, "Use other rules than the default ones"))
+  if (ui::button(ICON_FILE "  Rules file…###rules-file", why, {width, 0}, "Use custom assignment rules"))
     askForFile(editor, FileDialogState::Purpose::openFile, "Assignment rules", "Use", {".json"}, "",
                [&editor](const std::filesystem::path& file) {
                  editor.session.start("materials", {{"rules", file.string()}},
@@ -60,7 +60,7 @@ bool drawMaterial(Editor& editor, const PhysicalMaterial* material, const std::s
     state.chosen_unassigned = unassigned;
   }
   if (material != nullptr) dragMaterial(*material);
-  if (material != nullptr) ui::tooltip(material->id + "\nDrag it onto a surface");
+  if (material != nullptr) ui::tooltip(material->id + "\nDrag onto a surface to assign");
   ImGui::SameLine(0, 0);
   ui::swatch(editor, materialColour(material));
   ImGui::SameLine();
@@ -114,7 +114,7 @@ void drawLibrary(Editor& editor, float height) {
   const float left = height - ImGui::GetFrameHeightWithSpacing();
   const auto& catalogue = readCatalogue(editor.panels.catalogue);
   if (catalogue.materials.empty())
-    return ui::wrapped(catalogue.problem.empty() ? "The library of materials is empty." : catalogue.problem);
+    return ui::wrapped(catalogue.problem.empty() ? "The material library is empty." : catalogue.problem);
   if (!ImGui::BeginTable("library", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX,
                          {0, left}))
     return;
@@ -144,23 +144,23 @@ void drawBulk(Editor& editor) {
   const auto meant = select(*editor.environment(), state.bulk);
   const auto* material = knownMaterial(editor, state.chosen);
   const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
-  const std::string none = meant.empty() ? "It means no product of this model" : "";
+  const std::string none = meant.empty() ? "No products match" : "";
   if (ui::button(fmt::format("{}  Select {}###bulk-select", ICON_POINTER, meant.size()).c_str(), none, {width, 0}))
     editor.selection.set(meant);
   ImGui::SameLine();
   const auto why = !none.empty()         ? none
-                   : material == nullptr ? "Choose a material in the list first"
+                   : material == nullptr ? "Select a material in the list first"
                                          : editor.session.whyNot("materials");
-  if (ui::button(ICON_PAINT "  Assign the chosen###bulk-assign", why, {width, 0}))
+  if (ui::button(ICON_PAINT "  Assign selected###bulk-assign", why, {width, 0}))
     editor.session.start("materials", {{"assign", {state.bulk + "=" + material->id}}},
                          fmt::format("Assign {} to {} products", material->label, meant.size()));
 }
 
 void drawListSwitch(Editor& editor) {
   auto& whole = editor.panels.materials.whole_library;
-  if (ui::iconButton(ICON_LIST "  In use###in-use", "The materials of this model", {}, !whole)) whole = false;
+  if (ui::iconButton(ICON_LIST "  In use###in-use", "Materials used in this model", {}, !whole)) whole = false;
   ImGui::SameLine();
-  if (ui::iconButton(ICON_PAINT "  Library###library", "All materials there are", {}, whole)) whole = true;
+  if (ui::iconButton(ICON_PAINT "  Library###library", "All materials in the library", {}, whole)) whole = true;
 }
 
 }  // namespace
@@ -169,8 +169,8 @@ void drawMaterialsPanel(Editor& editor) {
   const auto& choice = editor.session.document().materials;
   if (!editor.environment() || !choice) {
     ui::emptyState(editor, ICON_PAINT, "No physical materials yet",
-                   "A scan needs to know how each surface reflects. Rules read it from the classes, names and "
-                   "materials of the model; what they miss can be assigned by hand.");
+                   "Scans require a physical material for every surface. Assign materials by rule from classes, names "
+                   "and model materials, then assign the rest by hand.");
     drawMaterialButtons(editor);
     return;
   }

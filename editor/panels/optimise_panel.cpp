@@ -25,14 +25,14 @@ void drawResult(Editor& editor, const SimplifiedModel& light) {
   ui::meter(editor, fraction, tone::kAccent);
   if (ui::beginProperties("result", 0.5F)) {
     ui::property("Triangles before", groupedDigits(all.triangles_before));
-    ui::property("Triangles now", fmt::format("{}  ({:.1f} %)", groupedDigits(all.triangles_after), fraction * 100));
+    ui::property("Triangles after", fmt::format("{}  ({:.1f} %)", groupedDigits(all.triangles_after), fraction * 100));
     ui::property("Largest deviation", fmt::format("{:.2f} mm", all.max_deviation_m * 1000));
     ui::property("Mean deviation", fmt::format("{:.3f} mm", all.mean_deviation_m * 1000));
-    ui::property("Normals turned by", fmt::format("{:.2f}° in the mean", all.mean_turn_rad / kRadPerDeg));
+    ui::property("Normal deviation", fmt::format("{:.2f}° mean", all.mean_turn_rad / kRadPerDeg));
     ui::endProperties();
   }
   if (light.request.budget.value_or(0) > 0 && all.triangles_after > *light.request.budget)
-    ImGui::TextColored(colour(tone::kWarning), "%s  The budget cannot be kept with this deviation", ICON_WARNING);
+    ImGui::TextColored(colour(tone::kWarning), "%s  Budget not reachable within this deviation", ICON_WARNING);
 }
 
 std::string lengthText(double metres) {
@@ -41,11 +41,11 @@ std::string lengthText(double metres) {
 
 // Of the area of both models, how much stands how far from the other one.
 void drawHistogram(Editor& editor) {
-  ui::heading(editor, "Deviation of the surfaces");
+  ui::heading(editor, "Surface deviation");
   editor.wants_deviation = true;
   const auto both = editor.deviation.of(editor.session.document());
   if (!both) {
-    ui::dimText(editor.deviation.busy() ? "Comparing with the original …" : "Not compared yet");
+    ui::dimText(editor.deviation.busy() ? "Comparing with the original …" : "Not compared");
     return;
   }
   const auto& area = both->histogram.area_m2;
@@ -76,8 +76,8 @@ void drawHistogram(Editor& editor) {
   }
   ImGui::EndTable();
   const bool shown = editor.view.colour == ColourMode::deviation && editor.view.side == ModelSide::both;
-  if (ui::button(shown ? ICON_CUBE "  Back to the model's colours###map" : ICON_PAINT "  Show it on both models###map",
-                 "", {-FLT_MIN, 0})) {
+  if (ui::button(shown ? ICON_CUBE "  Show model colours###map" : ICON_PAINT "  Show on both models###map", "",
+                 {-FLT_MIN, 0})) {
     editor.view.colour = shown ? ColourMode::model : ColourMode::deviation;
     editor.view.side = shown ? ModelSide::lighter : ModelSide::both;
   }
@@ -138,10 +138,10 @@ void drawPreview(Editor& editor, std::uint64_t budget) {
   else if (preview.preparing || !preview.shown)
     ui::dimText("Preparing all levels …");
   else if (preview.triangles > budget)
-    ImGui::TextColored(colour(tone::kWarning), "%s  About %s are the least with this deviation", ICON_WARNING,
+    ImGui::TextColored(colour(tone::kWarning), "%s  Minimum about %s at this deviation", ICON_WARNING,
                        groupedDigits(preview.least).c_str());
   else
-    ui::dimText(fmt::format("The view shows {} triangles", groupedDigits(preview.triangles)));
+    ui::dimText(fmt::format("{} triangles in view", groupedDigits(preview.triangles)));
 }
 
 }  // namespace
@@ -154,10 +154,10 @@ void drawOptimisePanel(Editor& editor) {
   }
   auto& state = editor.panels.optimise;
   const auto before = sceneTriangleCount(*document.imported);
-  ui::dimText(fmt::format("The model as imported has {} triangles.", groupedDigits(before)));
+  ui::dimText(fmt::format("The imported model has {} triangles.", groupedDigits(before)));
   ui::gap(editor, 2);
-  ImGui::Checkbox("Only what costs nothing", &state.only_lossless);
-  ui::tooltip("Merges planar regions: no surface moves");
+  ImGui::Checkbox("Lossless only", &state.only_lossless);
+  ui::tooltip("Merges planar regions without moving any surface");
   const auto budget = static_cast<std::uint64_t>(std::llround(state.budget_fraction * static_cast<double>(before)));
   ImGui::BeginDisabled(state.only_lossless);
   if (ui::beginProperties("options", 0.42F)) {
@@ -166,7 +166,7 @@ void drawOptimisePanel(Editor& editor) {
     if (ImGui::SliderFloat("###budget", &percent, 1, 100, fmt::format("%.0f %%  =  {}", groupedDigits(budget)).c_str(),
                            ImGuiSliderFlags_AlwaysClamp))
       state.budget_fraction = percent / 100;
-    ui::propertyLabel("Deviation at most");
+    ui::propertyLabel("Max deviation");
     auto deviation = static_cast<float>(state.max_deviation_mm);
     if (ImGui::SliderFloat("###deviation", &deviation, 0.5F, 100, "%.1f mm",
                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
@@ -174,12 +174,12 @@ void drawOptimisePanel(Editor& editor) {
     ui::endProperties();
   }
   ImGui::BeginDisabled(!document.collision);
-  ImGui::Checkbox("More where walkers look", &state.by_view);
+  ImGui::Checkbox("Prioritise visible surfaces", &state.by_view);
   ImGui::EndDisabled();
-  ui::tooltip(document.collision ? "Errors weigh by what is seen from the walkable surface"
-                                 : "Compute the collision shapes first (panel Collision)");
-  ImGui::Checkbox("Show it at once", &state.live);
-  ui::tooltip("The view follows the sliders; only Optimise measures the result and keeps it");
+  ui::tooltip(document.collision ? "Weights errors by visibility from the walkable surface"
+                                 : "Compute collision shapes first (Collision panel)");
+  ImGui::Checkbox("Live preview", &state.live);
+  ui::tooltip("The view follows the sliders. Choose Optimise to measure and keep the result.");
   if (state.live) drawPreview(editor, budget);
   ImGui::EndDisabled();
   if (ui::primaryButton(ICON_COMPRESS "  Optimise###run-optimise", editor.session.whyNot("optimize"), {-FLT_MIN, 0})) {

@@ -144,16 +144,16 @@ void frameUnderlay(Editor& editor, const Underlay& underlay) {
 
 void underlayMenu(Editor& editor, const Underlay& underlay) {
   if (!ImGui::BeginPopupContextItem("###underlay-menu")) return;
-  if (ImGui::MenuItem(ICON_EXPAND "  Frame it###underlay-frame")) frameUnderlay(editor, underlay);
+  if (ImGui::MenuItem(ICON_EXPAND "  Frame###underlay-frame")) frameUnderlay(editor, underlay);
   const auto why = editor.session.whyNot("underlay");
-  if (ImGui::MenuItem(ICON_MOVE "  Move it…###underlay-move", nullptr, false, why.empty())) {
+  if (ImGui::MenuItem(ICON_MOVE "  Move…###underlay-move", nullptr, false, why.empty())) {
     openVerbForm(editor, "underlay");
     editor.dialogs.verb.form.fill({{"move", underlay.name},
                                    {"at",
                                     {underlay.file_from_cloud.translation.x(), underlay.file_from_cloud.translation.y(),
                                      underlay.file_from_cloud.translation.z()}}});
   }
-  if (ImGui::MenuItem(ICON_TRASH "  Remove it; its file stays###underlay-remove", nullptr, false, why.empty()))
+  if (ImGui::MenuItem(ICON_TRASH "  Remove (keeps the file)###underlay-remove", nullptr, false, why.empty()))
     editor.session.start("underlay", {{"remove", underlay.name}}, "Remove underlay " + underlay.name);
   ImGui::EndPopup();
 }
@@ -171,7 +171,7 @@ void drawUnderlays(Editor& editor) {
     if (pressed && ImGui::IsMouseDoubleClicked(0)) frameUnderlay(editor, u);
     ImGui::SetItemAllowOverlap();
     underlayMenu(editor, u);
-    ui::tooltip(fmt::format("{}\n{} points\nDouble click frames it", u.file, groupedDigits(u.points)));
+    ui::tooltip(fmt::format("{}\n{} points\nDouble-click to frame", u.file, groupedDigits(u.points)));
     ImGui::SameLine(left + editor.px(17));
     ImGui::TextColored(ImVec4(0.45F, 0.62F, 0.85F, 1), "%s", ICON_UNDERLAY);
     ImGui::SameLine(left + editor.px(39));
@@ -206,8 +206,7 @@ void scrollTo(Editor& editor, const std::vector<OutlinerRow>& rows, float row_he
 void drawOutlinerPanel(Editor& editor) {
   const auto& environment = editor.environment();
   if (!environment) {
-    ui::emptyState(editor, ICON_LIST, "Nothing to list",
-                   "The building's structure appears here once a model is imported.");
+    ui::emptyState(editor, ICON_LIST, "Nothing to list", "Import a model to see the building structure.");
     return;
   }
   auto& state = editor.panels.outliner;
@@ -215,8 +214,8 @@ void drawOutlinerPanel(Editor& editor) {
   if (state.filter.empty()) drawUnderlays(editor);
   const auto rows = state.tree.rows(*environment, state.filter);
   if (rows.empty()) {
-    ui::emptyState(editor, ICON_SEARCH, "Nothing fits",
-                   "No product has all these words in its name, class, id, storey or materials.");
+    ui::emptyState(editor, ICON_SEARCH, "No matches",
+                   "No product matches all words in name, class, ID, storey or materials.");
     return;
   }
   ImGui::BeginChild("rows");

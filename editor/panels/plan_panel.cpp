@@ -37,10 +37,9 @@ void drawMapSwitch(Editor& editor) {
     const char* help;
   };
   static constexpr Map kMaps[] = {
-      {"Stations###map-stations", ColourMode::coverage, "How many stations see each surface; holes are magenta"},
-      {"Spacing###map-spacing", ColourMode::coverage_spacing, "How far apart points are, of the densest scan"},
-      {"Incidence###map-incidence", ColourMode::coverage_incidence,
-       "How far off its normal a surface is met, at best"}};
+      {"Stations###map-stations", ColourMode::coverage, "Number of stations that see each surface; gaps are magenta"},
+      {"Spacing###map-spacing", ColourMode::coverage_spacing, "Point spacing of the densest scan"},
+      {"Incidence###map-incidence", ColourMode::coverage_incidence, "Smallest angle of incidence on each surface"}};
   ui::dimText("Show on the model");
   const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
   for (const auto& map : kMaps) {
@@ -58,9 +57,9 @@ void drawWishes(Editor& editor) {
   if (!ui::beginProperties("wishes", 0.46F)) return;
   ui::propertyLabel("Point spacing");
   ImGui::InputDouble("###spacing", &state.spacing_mm, 0, 0, state.spacing_mm > 0 ? "%.1f mm" : "any");
-  ui::tooltip("Seen is what gets a point for each square of this side; 0 = whatever returns a point");
+  ui::tooltip("Maximum point spacing for a surface to count as covered; 0 = any return counts");
   state.spacing_mm = std::max(0.0, state.spacing_mm);
-  ui::propertyLabel("Incidence up to");
+  ui::propertyLabel("Max incidence");
   ImGui::InputDouble("###incidence", &state.max_incidence_deg, 0, 0, "%.0f °");
   state.max_incidence_deg = std::clamp(state.max_incidence_deg, 1.0, 90.0);
   ui::endProperties();
@@ -94,7 +93,7 @@ void drawStations(Editor& editor, const json& answer) {
     row(s.at("station"), fmt::format("{:.0f} m²", s.at("seen_m2").get<double>()), s.at("points"), s.at("bytes"));
   row("all", percent(answer.at("coverage")), answer.at("points"), answer.at("bytes"));
   ImGui::EndTable();
-  ui::dimText("On site: " + durationText(answer.at("instrument_seconds")));
+  ui::dimText("Time on site: " + durationText(answer.at("instrument_seconds")));
 }
 
 void drawPairs(Editor& editor, const json& pairs) {
@@ -104,14 +103,14 @@ void drawPairs(Editor& editor, const json& pairs) {
   for (const auto& pair : pairs) {
     const double overlap = pair.at("overlap");
     ui::property(fmt::format("{} – {}", pair.at("a").get<std::string>(), pair.at("b").get<std::string>()).c_str(),
-                 percent(overlap) + (overlap < kLowOverlap ? "   little to register by" : ""));
+                 percent(overlap) + (overlap < kLowOverlap ? "   low overlap" : ""));
   }
   ui::endProperties();
 }
 
 void drawHoles(Editor& editor, const json& holes) {
   if (holes.empty()) return;
-  ui::heading(editor, "Not seen");
+  ui::heading(editor, "Not covered");
   const auto& products = editor.environment()->products;
   for (std::size_t k = 0; k < holes.size(); ++k) {
     const auto id = holes[k].at("id").get<std::string>();
@@ -128,9 +127,9 @@ void drawHoles(Editor& editor, const json& holes) {
 void drawProposal(Editor& editor, const json& proposed) {
   if (!proposed.is_object()) return;
   const auto text =
-      fmt::format(ICON_STATION "  Another station: +{:.0f} m²###add-proposed", proposed.at("adds_m2").get<double>());
+      fmt::format(ICON_STATION "  Add station: +{:.0f} m²###add-proposed", proposed.at("adds_m2").get<double>());
   if (!ui::button(text.c_str(), editor.session.whyNot("station"), {-FLT_MIN, 0},
-                  "Sets one up where it adds most to what is seen"))
+                  "Adds a station at the place with the largest coverage gain"))
     return;
   const auto& stations = editor.session.document().job->stations;
   for (std::size_t i = stations.size() + 1;; ++i) {
@@ -149,19 +148,20 @@ void drawPlanPanel(Editor& editor) {
     return;
   }
   const auto* instrument = instrumentIn(readCatalogue(editor.panels.catalogue), editor.panels.scan.asked.instrument);
-  ui::dimText(instrument == nullptr ? "Choose an instrument under Scan"
-                                    : fmt::format("{} {}, as set under Scan", instrument->maker, instrument->model));
+  ui::dimText(instrument == nullptr
+                  ? "Choose an instrument in the Scan panel"
+                  : fmt::format("{} {}, as set in the Scan panel", instrument->maker, instrument->model));
   drawWishes(editor);
   const std::string why =
-      instrument == nullptr ? "Choose an instrument under Scan first" : editor.session.whyNot("plan");
-  if (ui::primaryButton(ICON_EYE "  What will they see?###run-plan", why, {-FLT_MIN, editor.px(28)})) start(editor);
+      instrument == nullptr ? "Choose an instrument in the Scan panel first" : editor.session.whyNot("plan");
+  if (ui::primaryButton(ICON_EYE "  Compute coverage###run-plan", why, {-FLT_MIN, editor.px(28)})) start(editor);
   drawMapSwitch(editor);
   const auto* last = editor.session.lastOf("plan");
   if (last == nullptr || !last->answer.contains("coverage")) return;
   const auto& answer = last->answer;
-  if (last->revision != editor.session.revision()) ui::dimWrapped("Something has changed since: ask once more.");
+  if (last->revision != editor.session.revision()) ui::dimWrapped("Coverage is out of date. Compute it again.");
   ui::meter(editor, answer.at("coverage"), tone::kGood);
-  ui::dimText(fmt::format("{} of {:.0f} m² that light reaches", percent(answer.at("coverage")),
+  ui::dimText(fmt::format("{} of {:.0f} m² of exposed surface", percent(answer.at("coverage")),
                           answer.at("exposed_m2").get<double>()));
   drawProposal(editor, answer.at("proposed"));
   drawStations(editor, answer);

@@ -107,11 +107,11 @@ void drawOutput(Editor& editor, const std::vector<const CloudFormat*>& formats) 
   }
   ui::propertyLabel("Folder");
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
-  ImGui::InputTextWithHint("###folder", standardFolder(editor).empty() ? "choose one" : "scans of the project",
+  ImGui::InputTextWithHint("###folder", standardFolder(editor).empty() ? "Choose a folder" : "Project scans",
                            &state.folder);
   ImGui::SameLine();
   if (ui::iconButton(ICON_FOLDER_OPEN "###choose-folder", "Choose…"))
-    askForFile(editor, FileDialogState::Purpose::saveFolder, "Folder for the scans", "Choose", {".none"}, "scans",
+    askForFile(editor, FileDialogState::Purpose::saveFolder, "Scan folder", "Choose", {".none"}, "scans",
                [&editor](const std::filesystem::path& folder) { editor.panels.scan.folder = folder.string(); });
 }
 
@@ -164,13 +164,12 @@ void drawForecast(Editor& editor, const Instrument& instrument, const ScanSettin
   }
   if (!ui::beginProperties("forecast", 0.46F)) return;
   const double seconds = settings.scan_seconds + settings.imaging_seconds;
-  ui::property("Time of the device",
-               wanted.size() > 1
-                   ? fmt::format("{} × {}  =  {}", wanted.size(), durationText(seconds), durationText(count * seconds))
-                   : durationText(seconds));
-  const char* waiting = wanted.empty() ? "no station yet" : "…";
+  ui::property("Instrument time", wanted.size() > 1 ? fmt::format("{} × {}  =  {}", wanted.size(),
+                                                                  durationText(seconds), durationText(count * seconds))
+                                                    : durationText(seconds));
+  const char* waiting = wanted.empty() ? "no stations" : "…";
   ui::property("Points", outlook ? fmt::format("about {:.1f} million", outlook->points / 1e6) : waiting);
-  ui::tooltip("By some thousand rays, in clear air");
+  ui::tooltip("Estimated from some thousand rays in clear air");
   ui::property("As E57", outlook ? "about " + bytesText(outlook->bytes) : waiting);
   ui::property("Pulses per station",
                fmt::format("{:.1f} million,  {} × {}",
@@ -184,8 +183,8 @@ void drawForecast(Editor& editor, const Instrument& instrument, const ScanSettin
 // Why there cannot be a scan now, beyond what the verb itself asks for.
 std::string whyNotScan(const Editor& editor, const ScanSettings& settings, const std::filesystem::path& folder) {
   if (auto why = editor.session.whyNot("scan"); !why.empty()) return why;
-  if (editor.session.document().job->stations.empty()) return "Set up a station first: press T and click on the floor";
-  if (folder.empty()) return "Choose a folder, or save the project: its scans then go there";
+  if (editor.session.document().job->stations.empty()) return "Add a station first: press T and click the floor";
+  if (folder.empty()) return "Choose a folder, or save the project to use its scan folder";
   return whyNotConditions(editor, settings);
 }
 
@@ -220,7 +219,7 @@ void drawLast(Editor& editor) {
 
 void drawScanPanel(Editor& editor) {
   if (!editor.environment() || !editor.session.document().job) {
-    ui::emptyState(editor, ICON_PLAY, "Nothing to scan", "Import a model and set up stations first.");
+    ui::emptyState(editor, ICON_PLAY, "Nothing to scan", "Import a model and add stations first.");
     return;
   }
   followDocument(editor);
@@ -258,9 +257,9 @@ void drawScanPanel(Editor& editor) {
   if (!editor.session.document().materials) {
     ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
     ImGui::SameLine();
-    ui::wrapped("No physical materials were assigned yet: the default rules are used.");
+    ui::wrapped("No physical materials assigned. The default rules will be used.");
   }
-  ui::heading(editor, "What it will take");
+  ui::heading(editor, "Estimate");
   drawForecast(editor, *instrument, *settings);
   drawLast(editor);
 }

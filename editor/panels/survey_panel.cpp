@@ -59,7 +59,7 @@ void drawStationRow(Editor& editor, const Station& station, int i) {
 void drawStations(Editor& editor, const Job& job) {
   ui::heading(editor, fmt::format("Stations  {}", job.stations.size()).c_str());
   if (job.stations.empty()) {
-    ui::dimWrapped("None yet. Press the button, then click on the floor.");
+    ui::dimWrapped("No stations. Choose Add station, then click the floor.");
     return;
   }
   const float height = std::min(
@@ -98,7 +98,7 @@ void drawChosenStation(Editor& editor, const Station& station) {
     ui::property("Above floor", metres(station.instrument_height_m));
     if (station.solved_pose) {
       const Pose& solved = *station.solved_pose;
-      ui::property("Registered", fmt::format("{:.1f} mm and {:.4f}° off",
+      ui::property("Registered", fmt::format("off by {:.1f} mm and {:.4f}°",
                                              (solved.translation - station.true_pose.translation).norm() * 1000,
                                              solved.rotation.angularDistance(station.true_pose.rotation) / kRadPerDeg));
     }
@@ -106,17 +106,17 @@ void drawChosenStation(Editor& editor, const Station& station) {
   }
   const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
   if (ui::button(ui::fittingLabel(ICON_MOVE, "Move", "move-station", width).c_str(), why, {width, 0},
-                 "To these coordinates"))
+                 "Move to these coordinates"))
     editor.session.start("station",
                          {{"move", station.name}, {"at", state.move_to}, {"height", station.instrument_height_m}},
                          "Move station " + station.name);
   ImGui::SameLine();
   if (ui::button(ui::fittingLabel(ICON_CROSSHAIRS, "Look", "look-station", width).c_str(), {}, {width, 0},
-                 "Bring it into view"))
+                 "Frame in view"))
     lookAt(editor, station.true_pose.translation);
   ImGui::SameLine();
   if (ui::button(ui::fittingLabel(ICON_TRASH, "Remove", "remove-station", width).c_str(), why, {width, 0},
-                 "Remove this station"))
+                 "Remove station"))
     remove(editor, "station", station.name);
   for (const auto& scan : station.scans) {
     ImGui::TextColored(colour(tone::kGood), "%s", ICON_CHECK);
@@ -162,7 +162,7 @@ void drawTargets(Editor& editor, const Job& job) {
 void drawSurveyPanel(Editor& editor) {
   const auto& job = editor.session.document().job;
   if (!editor.environment() || !job) {
-    ui::emptyState(editor, ICON_STATION, "No survey yet", "Import a model, then set up stations on its floors.");
+    ui::emptyState(editor, ICON_STATION, "No stations", "Import a model, then place stations on its floors.");
     return;
   }
   // Beside one another where both have room.
@@ -173,7 +173,7 @@ void drawSurveyPanel(Editor& editor) {
   const auto why = editor.session.whyNot("station");
   if (ui::primaryButton(ICON_STATION "  Add station###add-station", why, {width, 0})) invoke(editor, "add-station");
   if (beside) ImGui::SameLine();
-  if (ui::button(ICON_TARGET "  Add target###add-target", why, {width, 0}, "Then click where it shall be"))
+  if (ui::button(ICON_TARGET "  Add target###add-target", why, {width, 0}, "Click in the view to place the target"))
     invoke(editor, "add-target");
   drawStations(editor, *job);
   auto& state = editor.panels.survey;

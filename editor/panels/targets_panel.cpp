@@ -21,23 +21,24 @@ std::string whyNotRegister(const Editor& editor, const std::vector<TargetRow>& r
   for (const auto& row : rows)
     if (row.scanned && std::find(scanned.begin(), scanned.end(), row.station) == scanned.end())
       scanned.push_back(row.station);
-  if (editor.session.document().job->targets.size() < 3) return "Three targets are needed: set them up, then scan";
-  return scanned.size() < 2 ? "Scan from two stations first" : "";
+  if (editor.session.document().job->targets.size() < 3)
+    return "At least three targets are required. Add targets, then scan.";
+  return scanned.size() < 2 ? "Scan from at least two stations first" : "";
 }
 
 void drawRegister(Editor& editor, const std::vector<TargetRow>& rows) {
   auto& copies = editor.panels.survey.copies_of_registered;
   if (ui::button(ICON_TARGET "  Register###register", whyNotRegister(editor, rows), {editor.px(100), 0},
-                 "Solves the stations' poses from these targets")) {
+                 "Solves station poses from the targets")) {
     const auto files = lastScanFiles(*editor.session.document().job);
     nlohmann::json options = {{"files", nlohmann::json::array()}};
     for (const auto& file : files) options["files"].push_back(file.string());
     if (copies) options["output"] = (files.front().parent_path() / "registered").string();
-    editor.session.start("register", std::move(options), "Register the stations");
+    editor.session.start("register", std::move(options), "Register stations");
   }
   ImGui::SameLine();
-  ImGui::Checkbox("with copies of the scans###copies", &copies);
-  ui::tooltip("Writes them with their solved poses into the folder \"registered\" beside the scans");
+  ImGui::Checkbox("Write registered copies of the scans###copies", &copies);
+  ui::tooltip("Writes copies with solved poses to the folder \"registered\" next to the scans");
   if (editor.target_list.busy()) {
     ImGui::SameLine();
     ui::dimText("Measuring …");
@@ -58,7 +59,7 @@ struct State {
 State stateOf(const TargetRow& row) {
   if (row.fit) return {ICON_CHECK, tone::kGood, "found"};
   if (row.scanned) return {ICON_BAN, row.sight.why_not.empty() ? tone::kBad : tone::kDim, row.why_not};
-  if (row.sight.why_not.empty()) return {ICON_CIRCLE, tone::kAccent, "can be measured"};
+  if (row.sight.why_not.empty()) return {ICON_CIRCLE, tone::kAccent, "measurable"};
   return {ICON_EYE_OFF, tone::kDim, row.sight.why_not};
 }
 
@@ -142,14 +143,13 @@ std::optional<ScanSettings> plannedSettings(Editor& editor) {
 void drawTargetsPanel(Editor& editor) {
   const auto& job = editor.session.document().job;
   if (!editor.environment() || !job || job->targets.empty()) {
-    ui::dimWrapped(
-        "No targets yet. Put some where two stations see them: three and more that both see hold them together.");
+    ui::dimWrapped("No targets. Add at least three targets that two stations can see.");
     return;
   }
   editor.target_list.follow(editor.session.document(), editor.picker.scene(), plannedSettings(editor));
   const auto rows = editor.target_list.rows();
   drawRegister(editor, rows);
-  if (job->stations.empty()) return ui::dimText("No station yet: nothing sees them.");
+  if (job->stations.empty()) return ui::dimText("No stations to measure the targets from");
   drawTable(editor, rows);
 }
 

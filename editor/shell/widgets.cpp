@@ -180,7 +180,7 @@ bool searchField(const char* id, const char* hint, std::string& text) {
   bool changed = ImGui::InputTextWithHint("###search", fmt::format("{}  {}", ICON_SEARCH, hint).c_str(), &text);
   if (clear_width > 0) {
     ImGui::SameLine(0, ImGui::GetStyle().ItemSpacing.x / 2);
-    if (iconButton(ICON_CLOSE "###clear", "Clear the search")) {
+    if (iconButton(ICON_CLOSE "###clear", "Clear search")) {
       text.clear();
       changed = true;
     }

@@ -47,10 +47,10 @@ Result<std::shared_ptr<const DeviceType>> makeDeviceType(DeviceDefinition defini
   const auto& drives = definition.instruments;
   const bool any = std::find(drives.begin(), drives.end(), "*") != drives.end();
   if (!any && std::find(drives.begin(), drives.end(), instrument.id) == drives.end())
-    return failure(ErrorKind::usage, fmt::format("it drives {}, not '{}'", fmt::join(drives, ", "), instrument.id),
+    return failure(ErrorKind::usage, fmt::format("drives {}, not '{}'", fmt::join(drives, ", "), instrument.id),
                    definition.id);
   if (instrument.moving)
-    return failure(ErrorKind::usage, "it stands on a tripod; this instrument moves", instrument.id);
+    return failure(ErrorKind::usage, "the device needs a tripod, but this instrument is mobile", instrument.id);
   if (auto default_value = resolveSettings(instrument, {}); !default_value) return failure(default_value.error());
   for (auto& screen : definition.screens) spellOutSettings(screen.widgets, instrument);
   auto type = std::make_shared<DeviceType>();

@@ -101,7 +101,7 @@ Result<void> tiltTo(Device& d, const std::string& value) {
   const double x = std::strtod(value.c_str(), nullptr);
   const double y = comma == std::string::npos ? 0 : std::strtod(value.c_str() + comma + 1, nullptr);
   if (value.empty() || !(std::abs(x) <= 60 && std::abs(y) <= 60))
-    return failure(ErrorKind::usage, "two tilts in degrees are needed: x,y");
+    return failure(ErrorKind::usage, "must be two tilts in degrees: x,y");
   return turnScrews(d, x, y);
 }
 

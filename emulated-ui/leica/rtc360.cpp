@@ -93,7 +93,7 @@ const DeviceProgram kProgram = {
       FactUnit::none,
       {},
       [](const Device& d) { return wordFact(summary(d)); },
-      "of the next scan: resolution, double scan, images"}},
+      "settings of the next scan: resolution, double scan, images"}},
     {},
     prepare,
 };

@@ -260,21 +260,21 @@ std::string brokenDemands(const json& m) {
 }
 
 std::string marksText(const json& m) {
-  std::string text = fmt::format("{} {} with {}: {}, {} of the points ({} are needed), {} of the device's time\n",
+  std::string text = fmt::format("{} {} with {}: {}, score {} ({} required), {} device time\n",
                                  m["exercise"].get<std::string>(), m["title"].get<std::string>(),
                                  m["device"].get<std::string>(), m["passed"].get<bool>() ? "passed" : "not passed",
                                  percentText(m["score"]), percentText(m["pass_mark"]), clockText(m["seconds"]));
-  if (!m["must_broken"].empty()) text += fmt::format("  needed to pass, but broken: {}\n", brokenDemands(m));
-  if (!m["in_time"].get<bool>()) text += fmt::format("  over the time of {}\n", clockText(m["time_limit_s"]));
+  if (!m["must_broken"].empty()) text += fmt::format("  required criterion not met: {}\n", brokenDemands(m));
+  if (!m["in_time"].get<bool>()) text += fmt::format("  over the time limit of {}\n", clockText(m["time_limit_s"]));
   for (const auto& s : m["steps"])
     text += fmt::format("  {} {}{}\n", s["done"].get<bool>() ? "[x]" : "[ ]", s["text"].get<std::string>(),
                         s["hinted"].get<bool>() ? " (with a hint)" : "");
   for (const auto& r : m["rules"]) {
     text += fmt::format("  {} {}{}: {}\n", r["held"].get<bool>() ? "[x]" : "[ ]", r["text"].get<std::string>(),
-                        r["must"].get<bool>() ? " (needed to pass)" : "", r["found_text"].get<std::string>());
+                        r["must"].get<bool>() ? " (required to pass)" : "", r["found_text"].get<std::string>());
     if (r.contains("because")) text += fmt::format("        {}\n", r["because"].get<std::string>());
     if (!r["held"].get<bool>() && r.contains("proof"))
-      text += fmt::format("        your points: {} = {}\n", r["proof"]["fact"].get<std::string>(),
+      text += fmt::format("        measured in the data: {} = {}\n", r["proof"]["fact"].get<std::string>(),
                           r["proof"]["text"].get<std::string>());
   }
   for (const auto& a : m["answers"])
@@ -351,7 +351,8 @@ Result<void> writeMarks(const Rehearsal& rehearsal, const json& marks, const std
     std::ofstream out(folder / name, std::ios::binary);
     out << text;
     out.close();
-    if (!out) return failure(ErrorKind::file_system, "cannot write it: is the disk full?", (folder / name).string());
+    if (!out)
+      return failure(ErrorKind::file_system, "cannot write the file: the disk may be full", (folder / name).string());
   }
   return {};
 }

@@ -70,15 +70,16 @@ void tellLosses(const std::vector<const PhysicalMaterial*>& physical, Report& re
     glossy += m != nullptr && m->transmittance.empty() && m->gloss_slope > 0 ? 1 : 0;
   }
   if (without > 0)
-    report.warn("materials", fmt::format("where none is assigned HELIOS++ takes 50 % ({} surfaces)", without));
+    report.warn("materials", fmt::format("no material assigned: HELIOS++ uses 50 % ({} surfaces)", without));
   if (panes > 0)
     report.warn("materials",
-                fmt::format("panes are opaque in HELIOS++, a beam ends at the first surface ({} materials)", panes));
+                fmt::format("panes are opaque in HELIOS++: beams end at the first surface ({} materials)", panes));
   if (glossy > 0)
     report.note(
         "materials",
-        fmt::format("gloss is left out, as Phong's lobe of HELIOS++ comes back at grazing incidence ({} materials)",
-                    glossy));
+        fmt::format(
+            "gloss was not exported: the Phong lobe of HELIOS++ returns light at grazing incidence ({} materials)",
+            glossy));
 }
 
 }  // namespace

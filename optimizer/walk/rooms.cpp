@@ -181,9 +181,9 @@ std::vector<Room> checkRooms(const Environment& environment, const Walkable& wal
     room.position.z() = space.box.min.z();
     const auto& product = environment.products[space.product];
     if (space.area_m2 <= kLeast)
-      report.warn(product.id, fmt::format("room {} has no floor with room to stand", product.name));
+      report.warn(product.id, fmt::format("room {} has no floor large enough to stand on", product.name));
     else if (!room.reached)
-      report.warn(product.id, fmt::format("room {} cannot be reached: no way leads in", product.name));
+      report.warn(product.id, fmt::format("room {} cannot be reached", product.name));
     rooms.push_back(room);
   }
   return rooms;

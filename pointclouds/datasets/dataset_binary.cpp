@@ -44,8 +44,7 @@ class SemanticKitti final : public LabelledFolder {
   Result<void> endStation() override {
     if (without_instance_ > 0)
       report_.lose(header().name, std::to_string(without_instance_) +
-                                      " points are of products beyond 65535, of which SemanticKITTI "
-                                      "has no instance");
+                                      " points belong to products above 65535, the instance limit of SemanticKITTI");
     if (auto finished = points_->finish(); !finished) return finished;
     return labels_->finish();
   }

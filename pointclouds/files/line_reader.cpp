@@ -33,7 +33,7 @@ Result<std::optional<std::string_view>> LineReader::next() {
   ++line_;
   const std::size_t stop = end == std::string::npos ? text_.size() : end;
   if (stop - from_ >= kLongestLine)
-    return failure(ErrorKind::unusable, "the line is too long: this is no text of points", place());
+    return failure(ErrorKind::unusable, "line too long: not a text point file", place());
   const std::string_view line(text_.data() + from_, stop - from_);
   from_ = end == std::string::npos ? stop : end + 1;
   return line;

@@ -42,7 +42,7 @@ Result<void> RecordPacker::putPlace(const PointBlock& b, std::size_t i, std::uin
     const std::int32_t value = step(p[static_cast<int>(k)], k);
     if (std::abs(static_cast<double>(value)) >= 2147483647.0)
       return failure(ErrorKind::unusable,
-                     "a point lies more than 214 km from the first station, which integers of 0.1 mm do not reach",
+                     "a point is more than 214 km from the first station, out of range for integers of 0.1 mm",
                      "scan " + header_.name);
     low_[k] = points_ == 0 ? value : std::min(low_[k], value);
     high_[k] = points_ == 0 ? value : std::max(high_[k], value);

@@ -131,8 +131,7 @@ struct Measured {
 Result<Measured> measure(const std::filesystem::path& file, const StatisticsOptions& options, Report& report,
                          Progress& progress) {
   const CloudFormat* const format = cloudFormatFor(file);
-  if (!format || !format->read)
-    return failure(ErrorKind::usage, "no readable point-cloud format has this extension", file.string());
+  if (!format || !format->read) return failure(ErrorKind::usage, "unsupported point-cloud format", file.string());
   if (!(options.radius_m > 0) || !(options.cell_m > 0))
     return failure(ErrorKind::usage, "radius and cell must be positive", file.string());
   SurveySink survey(options);

@@ -72,7 +72,7 @@ SurfaceColours::SurfaceColours(const Environment& environment, Report& report) :
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
         known ? stbi_load_from_memory(bytes, size, &width, &height, &channels, 4) : nullptr, stbi_image_free);
     if (!pixels) {
-      report.warn(image->name, "the image cannot be decoded; its surfaces have their plain colour in the picture");
+      report.warn(image->name, "cannot decode the image; its surfaces appear in their plain colour");
       continue;
     }
     picture.width = width, picture.height = height;

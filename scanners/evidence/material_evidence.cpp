@@ -138,18 +138,17 @@ bool Comparison::fitScale() {
   result_.scale.range_compensated = compensated;
   char text[200];
   if (result_.scale.db.empty()) {
-    result_.no_verdict = "too few points on surfaces with a material, or their intensities do not differ";
+    result_.no_verdict = "too few points on surfaces with a material, or all intensities are equal";
     return false;
   }
   if (result_.scale.spread_db < kLeastSpread_db) {
     std::snprintf(text, sizeof text,
-                  "ranges and incidences differ too little within the surfaces to learn the vendor's scale "
-                  "from (%.1f dB)",
+                  "ranges and incidences vary too little to derive the vendor's intensity scale (%.1f dB)",
                   result_.scale.spread_db);
     result_.no_verdict = text;
   } else if (result_.scale.explained < kLeastExplained) {
     std::snprintf(text, sizeof text,
-                  "the intensities do not follow range and incidence: %.0f %% explained, %.1f dB scatter",
+                  "intensities do not follow range and incidence: %.0f %% explained, %.1f dB scatter",
                   result_.scale.explained * 100, result_.scale.scatter_db);
     result_.no_verdict = text;
   }
@@ -245,10 +244,9 @@ void Comparison::findLevel() {
   }
   if (!result_.no_verdict.empty()) return;
   if (agreeing.size() < 2 || most < all / 2)
-    result_.no_verdict =
-        off.size() < 2 ? "points on two materials at least are needed to tell which one is wrong"
-                       : "no two materials, or less than half of what was measured, agree on the scale's constant, so "
-                         "nothing tells which are wrong: check the instrument and the placement";
+    result_.no_verdict = off.size() < 2 ? "points on at least two materials are required to identify the wrong one"
+                                        : "materials do not agree on the intensity scale, so the wrong ones cannot be "
+                                          "identified: check the instrument and the cloud position";
 }
 
 void Comparison::spread() {

@@ -14,7 +14,7 @@
 namespace standpoint {
 namespace {
 
-const char* const kExcuse = "no effect here";  // in the English help
+const char* const kExcuse = "no effect in the emulation";  // in the English help
 
 // --- settings of the scanner: what a scan with them does ---
 

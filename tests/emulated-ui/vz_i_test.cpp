@@ -180,7 +180,7 @@ TEST_F(VzI, PhotographsDuringTheScanOrAfterIt) {
   ASSERT_TRUE(d.press({"images=on", "image_mode=after_scan"}));
   EXPECT_EQ(d.shows("image_time"), "1:00");
   ASSERT_TRUE(d.press({"image_overlap=50"}));
-  EXPECT_EQ(d.shows("image_time"), "1:30") << "0.75 / 0.5 of the pictures";
+  EXPECT_EQ(d.shows("image_time"), "1:30") << "0.75 / 0.5 imaging";
   TestDevice after = d;
   ASSERT_TRUE(after.press({"back", "start_scan"}));
   EXPECT_TRUE(after.scanned().panorama);

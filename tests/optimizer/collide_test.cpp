@@ -411,8 +411,8 @@ TEST(Door, AboveAStepThatNobodyClimbsIsNotLedThrough) {
     EXPECT_TRUE(result.doors[0].passable && result.doors[0].floor);
     EXPECT_FALSE(result.doors[0].led_through);
     EXPECT_FALSE(result.rooms[0].reached && result.rooms[1].reached);
-    EXPECT_THAT(result.report.issues,
-                testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("does not lead through"))));
+    EXPECT_THAT(result.report.issues, testing::Contains(testing::Field(
+                                          &Issue::message, testing::HasSubstr("not connected by walkable surface"))));
   }
 }
 
@@ -489,7 +489,7 @@ TEST(Door, WithoutALeafIsClosedByAPlate) {
   const auto result = collided(e, options);
   EXPECT_FALSE(result.doors[0].passable);
   EXPECT_THAT(result.report.issues,
-              testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("a plate stands across"))));
+              testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("blocked by a plate"))));
 }
 
 TEST(Stair, OfSeventeenByTwentyEightCentimetresIsWalkable) {

@@ -163,7 +163,7 @@ TEST(Vz400i, TakesAPatternOfSixNumbers) {
   EXPECT_EQ(custom.columns, 4500U);           // 90 / 0.02
   EXPECT_EQ(custom.rows, 1000U);              // 50 / 0.05
   EXPECT_DOUBLE_EQ(custom.scan_seconds, 75);  // 18000 · 2000 / 120000, a quarter of the turn
-  EXPECT_THAT(refused("riegl-vz-400i", {{"line_step", "0.1"}}).message, HasSubstr("choose that pattern"));
+  EXPECT_THAT(refused("riegl-vz-400i", {{"line_step", "0.1"}}).message, HasSubstr("require the custom pattern"));
 }
 
 TEST(Vz400i, TakesItsTimeWhenTheLaserIsSlow) {
@@ -307,7 +307,7 @@ TEST(MovingInstruments, ThatAreAskedToScanFromAStationSayWhatTheyNeed) {
     const auto settings = resolveSettings(instrument, {});
     ASSERT_FALSE(settings) << instrument.id;
     EXPECT_EQ(settings.error().kind, ErrorKind::usage);
-    EXPECT_THAT(settings.error().message, HasSubstr("needs a trajectory"));
+    EXPECT_THAT(settings.error().message, HasSubstr("requires a trajectory"));
     EXPECT_EQ(settings.error().source, instrument.id);
   }
   EXPECT_EQ(refused_ones, 9);

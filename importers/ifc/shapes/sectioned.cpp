@@ -193,7 +193,7 @@ Result<geometry::PolyMesh> surfaceAlong(const Entity& entity, const Sections& s,
     if (before->points.size() < 2 || next->points.size() < 2) return fail(entity, "a cross section has no length");
     const auto [from, to] = paired(*before, *next);
     const Position &a = s.positions[i - 1], &b = s.positions[i];
-    if (!(b.at.along > a.at.along)) return fail(entity, "the positions of the cross sections do not follow each other");
+    if (!(b.at.along > a.at.along)) return fail(entity, "the positions of the cross sections are not in order");
     std::vector<double> fractions = fractionsAfter(s.directrix, a, b);
     fractions.insert(fractions.begin(), 0);
     if (!scope.spend(fractions.size() * from.size())) return fail(entity, "too many points");
@@ -222,8 +222,7 @@ Result<geometry::PolyMesh> sectionedSolidHorizontal(const Entity& entity, Scope&
   const auto s = sectionsOf(entity, 1, 2, scope);
   if (!s) return failure(s.error());
   if (s->profiles[0].is("IFCOPENCROSSPROFILEDEF")) {
-    scope.report.warn(entity.place(),
-                      "its cross sections are open, so that it encloses nothing: it is taken as a surface");
+    scope.report.warn(entity.place(), "its cross sections are open: treated as a surface");
     return surfaceAlong(entity, *s, scope);
   }
   std::vector<geometry::Region2> regions;
