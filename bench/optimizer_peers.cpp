@@ -79,11 +79,11 @@ std::vector<Point> samples(const Corners& corners) {
   for (const auto& t : corners) areas.push_back(std::sqrt(t.squared_area()));
   std::mt19937_64 random(5);
   std::discrete_distribution<std::size_t> which(areas.begin(), areas.end());
-  std::uniform_real_distribution<double> share(0, 1);
+  std::uniform_real_distribution<double> fraction(0, 1);
   std::vector<Point> points;
   for (int i = 0; i < 100'000; ++i) {
     const auto& t = corners[which(random)];
-    double u = share(random), v = share(random);
+    double u = fraction(random), v = fraction(random);
     if (u + v > 1) u = 1 - u, v = 1 - v;
     points.push_back(t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]));
   }

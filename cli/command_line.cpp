@@ -55,7 +55,7 @@ std::string helpOf(const Parameter& p) {
 void describeVerb(Words& words) {
   CLI::App& app = *words.app;
   if (words.verb->scope == VerbScope::changes || words.verb->scope == VerbScope::reads)
-    app.add_option("project", words.project, "the project's folder")->required();
+    app.add_option("project", words.project, "project folder")->required();
   for (const auto& p : words.verb->parameters) {
     if (p.kind == ParameterKind::flag) {
       app.add_flag(fmt::format("--{}", p.name), words.flags[p.name], helpOf(p));
@@ -69,8 +69,8 @@ void describeVerb(Words& words) {
     option->type_name(placeholder(p));
     if (p.required) option->required();
   }
-  app.add_flag("--json", words.print_json, "print one JSON object on standard output");
-  app.add_flag("--allow-loss", words.allow_loss, "exit with 0 even when something was lost");
+  app.add_flag("--json", words.print_json, "print the result as one JSON object to standard output");
+  app.add_flag("--allow-loss", words.allow_loss, "exit with code 0 even if data was lost");
 }
 
 Result<json> valueOf(const Parameter& p, const std::string& text) {
@@ -190,11 +190,10 @@ int exitCode(ErrorKind kind) {
 
 int runCommandLine(std::span<const Verb> table, const std::vector<std::string>& words, const Streams& streams,
                    Progress& progress) {
-  CLI::App app("Standpoint turns a building model into an environment that a laser scanner can be rehearsed in.",
-               "standpoint");
+  CLI::App app("Standpoint turns building models into environments for rehearsing laser scanning.", "standpoint");
   app.set_version_flag("--version", "standpoint " STANDPOINT_VERSION);
   app.require_subcommand(1);
-  app.set_help_all_flag("--help-all", "help for every verb");
+  app.set_help_all_flag("--help-all", "list all commands");
   std::vector<Words> all(table.size());
   for (std::size_t i = 0; i < table.size(); ++i) {
     all[i].verb = &table[i];
@@ -202,8 +201,8 @@ int runCommandLine(std::span<const Verb> table, const std::vector<std::string>& 
     describeVerb(all[i]);
   }
   std::string topic;
-  auto* help = app.add_subcommand("help", "Help for a verb");
-  help->add_option("verb", topic, "the verb");
+  auto* help = app.add_subcommand("help", "Show help for a command");
+  help->add_option("verb", topic, "command");
   app.footer("standpoint edit [PROJECT] opens the editor.");
 
   try {
@@ -217,7 +216,7 @@ int runCommandLine(std::span<const Verb> table, const std::vector<std::string>& 
     for (const auto& candidate : all)
       if (topic == candidate.verb->name) asked = candidate.app;
     if (asked == nullptr) {
-      streams.err << fmt::format("standpoint: there is no verb '{}'; `standpoint help` lists them\n", topic);
+      streams.err << fmt::format("standpoint: unknown command '{}'; see `standpoint help`\n", topic);
       return kWrongUsage;
     }
     // App::help() would answer with the help of the subcommand that was parsed: this one.
@@ -229,7 +228,7 @@ int runCommandLine(std::span<const Verb> table, const std::vector<std::string>& 
     if (!parsed.app->parsed()) continue;
     auto options = optionsFrom(parsed);
     if (!options) return finish(parsed, failure(options.error()), streams);
-    Result<Outcome> outcome = failure(ErrorKind::internal, "not run");
+    Result<Outcome> outcome = failure(ErrorKind::internal, "skipped");
     {
       const Bar bar(streams, progress);
       outcome = runOnDisk(*parsed.verb, *options, progress);

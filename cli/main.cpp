@@ -22,7 +22,7 @@ int openEditor(char** arguments) {
   const auto editor = (self.parent_path() / "standpoint-editor").string();
   arguments[0] = const_cast<char*>(editor.c_str());
   execv(editor.c_str(), arguments);
-  std::cerr << "standpoint: cannot start " << editor << "; is it installed?\n";
+  std::cerr << "standpoint: cannot start " << editor << "; check that it is installed\n";
   return standpoint::kFileSystem;
 }
 

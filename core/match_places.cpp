@@ -93,15 +93,16 @@ class Search {
 Result<PlaceMatch> matchPlaces(Places from, Places to, double tolerance_m) {
   if (std::max(from.size(), to.size()) > kMostPlacesToMatch)
     return failure(ErrorKind::unusable,
-                   "more than " + std::to_string(kMostPlacesToMatch) + " places: match them by their names");
+                   "more than " + std::to_string(kMostPlacesToMatch) + " positions: match them by name");
   Search search(from, to, tolerance_m);
   search.run();
   if (search.best.empty())
-    return failure(ErrorKind::unusable, "no three places, beside a line, have the same distances in both");
+    return failure(ErrorKind::unusable, "no three non-collinear positions have matching distances");
   if (search.best.size() > 1)
-    return failure(ErrorKind::unusable, "the arrangement is symmetric: " + std::to_string(search.best.size()) +
-                                            " assignments of " + std::to_string(search.best.front().pairs.size()) +
-                                            " places fit alike; add a target that breaks it, or match by names");
+    return failure(ErrorKind::unusable,
+                   "the arrangement is symmetric: " + std::to_string(search.best.size()) + " assignments of " +
+                       std::to_string(search.best.front().pairs.size()) +
+                       " positions fit equally well; add a target that breaks the symmetry, or match by name");
   return search.best.front();
 }
 

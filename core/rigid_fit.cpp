@@ -42,9 +42,9 @@ double scaleSigma(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b, const Ei
 
 Result<RigidFit> fitRigid(std::span<const Eigen::Vector3d> from, std::span<const Eigen::Vector3d> to) {
   if (from.size() != to.size())
-    return failure(ErrorKind::usage, "places of one frame lack their partners in the other");
+    return failure(ErrorKind::usage, "some positions have no counterpart in the other frame");
   if (from.size() < 3)
-    return failure(ErrorKind::usage, "three pairs at least hold a cloud; given: " + std::to_string(from.size()));
+    return failure(ErrorKind::usage, "at least three pairs are required; given: " + std::to_string(from.size()));
   const auto finite = [](const Eigen::Vector3d& p) { return p.allFinite(); };
   if (!std::all_of(from.begin(), from.end(), finite) || !std::all_of(to.begin(), to.end(), finite))
     return failure(ErrorKind::usage, "a coordinate of a pair is not a finite number");
@@ -54,7 +54,7 @@ Result<RigidFit> fitRigid(std::span<const Eigen::Vector3d> from, std::span<const
   fit.breadth = std::min(breadthOf(a), breadthOf(b));
   if (!(fit.breadth > kOnOneLine))
     return failure(ErrorKind::usage,
-                   "the places lie on one line, so nothing holds the turn about it: add a pair beside it");
+                   "the positions are collinear, so rotation about the line is undetermined: add a pair off the line");
 
   const Eigen::Matrix4d motion = Eigen::umeyama(a, b, false);
   const Eigen::Matrix3d turn = motion.topLeftCorner<3, 3>();

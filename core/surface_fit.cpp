@@ -112,12 +112,12 @@ struct Solution {
   std::vector<FreeMotion> free;
 };
 
-FreeMotion freeMotion(const Vector6& direction, double share) {
+FreeMotion freeMotion(const Vector6& direction, double fraction) {
   FreeMotion motion;
   const Vector3d turn = direction.head<3>(), shift = direction.tail<3>();
   if (turn.norm() > 0.1) motion.axis = turn.normalized();
   if (shift.norm() > 0.1) motion.shift = shift.normalized();
-  motion.held_share = std::max(0.0, share);
+  motion.held_fraction = std::max(0.0, fraction);
   return motion;
 }
 
@@ -126,9 +126,9 @@ Solution solve(const Equations& e) {
   Solution s;
   for (int k = 0; k < 6; ++k) {
     const Vector6 v = eigen.eigenvectors().col(k);
-    const double share = eigen.eigenvalues()[k] / e.weights;
-    if (share < kHeldShare) {
-      s.free.push_back(freeMotion(v, share));
+    const double fraction = eigen.eigenvalues()[k] / e.weights;
+    if (fraction < kHeldFraction) {
+      s.free.push_back(freeMotion(v, fraction));
       continue;
     }
     s.step += v * v.dot(e.right) / eigen.eigenvalues()[k];
@@ -180,7 +180,7 @@ Result<SurfaceFit> fitToSurface(std::span<const Vector3d> points, const Pose& st
                                 const SurfaceFitOptions& options, Progress& progress) {
   if (points.size() < kFewest)
     return failure(ErrorKind::unusable, "only " + std::to_string(points.size()) +
-                                            " different places are in the cloud; 100 at least are needed");
+                                            " distinct points in the cloud; at least 100 are required");
   Round round{std::vector<Vector3d>(points.size()),
               std::vector<SurfaceTouch>(points.size()),
               std::vector<double>(points.size(), 0),
@@ -198,9 +198,9 @@ Result<SurfaceFit> fitToSurface(std::span<const Vector3d> points, const Pose& st
     progress.advance(static_cast<double>(fit.iterations) / options.max_iterations);
     place(round, points, fit.to_from);
     if (touch(round, search, reach) < kFewest)
-      return failure(
-          ErrorKind::unusable,
-          "fewer than 100 of the points lie near a surface: place the cloud first, by pairs, or search further");
+      return failure(ErrorKind::unusable,
+                     "fewer than 100 points are near a surface: place the cloud with --pairs first, or increase the "
+                     "search distance");
     const bool closed_in = reach <= options.min_reach_m;
     weigh(round, closed_in ? 0 : reach);
     equations = assemble(round);
@@ -213,7 +213,7 @@ Result<SurfaceFit> fitToSurface(std::span<const Vector3d> points, const Pose& st
     ++fit.iterations;
   }
   fit.rms_m = std::sqrt(equations.squares / equations.weights);
-  fit.used_share = static_cast<double>(equations.used) / static_cast<double>(points.size());
+  fit.used_fraction = static_cast<double>(equations.used) / static_cast<double>(points.size());
   fit.moved_m = movedBy(points, fit.to_from, start);
   fit.free = solution.free;
   const Matrix6 c = covariance(round, solution.inverse, options.block_m);

@@ -37,17 +37,17 @@ struct SurfaceFitOptions {
 struct FreeMotion {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();  // unit direction in the surface's frame; zero for a mere turn
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();   // unit, of the turn; zero for a mere shift
-  double held_share = 0;                            // of the points that hold it; what is below kHeldShare is not moved
+  double held_fraction = 0;                         // of the points that hold it; what is below kHeldShare is not moved
 };
-constexpr double kHeldShare = 0.003;
+constexpr double kHeldFraction = 0.003;
 
 struct SurfaceFit {
   Pose to_from;
   int iterations = 0;
-  bool settled = false;   // else it stopped at most_iterations
-  double rms_m = 0;       // of the used points, along the normals
-  double used_share = 0;  // of all points: within reach, and not outvoted
-  double moved_m = 0;     // root mean square of what it moved the points by
+  bool settled = false;      // else it stopped at most_iterations
+  double rms_m = 0;          // of the used points, along the normals
+  double used_fraction = 0;  // of all points: within reach, and not outvoted
+  double moved_m = 0;        // root mean square of what it moved the points by
   // 1 σ of the placement at the points' middle, in the surface's axes, and of the turns about them, by the scatter of
   // whole blocks: what neighbours share (a wall that is not where the model has it) does not average out.
   Eigen::Vector3d sigma_shift_m = Eigen::Vector3d::Zero(), sigma_turn_rad = Eigen::Vector3d::Zero();

@@ -12,10 +12,10 @@ Pose at(const Trajectory& trajectory, double time_s) {
   if (trajectory.pose.size() == 1 || time_s <= times.front()) return trajectory.pose.front();
   if (time_s >= times.back()) return trajectory.pose.back();
   const auto next = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time_s) - times.begin());
-  const double share = (time_s - times[next - 1]) / (times[next] - times[next - 1]);
+  const double fraction = (time_s - times[next - 1]) / (times[next] - times[next - 1]);
   const Pose& a = trajectory.pose[next - 1];
   const Pose& b = trajectory.pose[next];
-  return {a.rotation.slerp(share, b.rotation), a.translation + share * (b.translation - a.translation)};
+  return {a.rotation.slerp(fraction, b.rotation), a.translation + fraction * (b.translation - a.translation)};
 }
 
 void PointBlock::clear() {

@@ -65,9 +65,10 @@ Result<Chain> chained(const TargetNetwork& network, NetworkProblem* problem) {
     }
     if (!best) {
       if (problem != nullptr) *problem = worst;
-      return failure(ErrorKind::unusable, "station " + std::to_string(worst.station.value_or(0) + 1) + " shares " +
-                                              std::to_string(worst.shared) + " targets with the others" +
-                                              (worst.on_one_line ? ", which lie on one line" : ", three are needed"));
+      return failure(ErrorKind::unusable,
+                     "station " + std::to_string(worst.station.value_or(0) + 1) + " shares " +
+                         std::to_string(worst.shared) + " targets with the others" +
+                         (worst.on_one_line ? ", which are collinear" : ", but three are required"));
     }
     chain.pose[best->first] = best->second;
     spread(network, best->first, chain);
@@ -159,9 +160,10 @@ bool sound(const TargetNetwork& n) {
 }  // namespace
 
 Result<NetworkFit> fitNetwork(const TargetNetwork& network, NetworkProblem* problem) {
-  if (!sound(network)) return failure(ErrorKind::usage, "a sighting is not finite, without σ, or of what is not there");
+  if (!sound(network))
+    return failure(ErrorKind::usage, "a sighting is not finite, has no σ, or refers to an unknown target");
   if (!network.held && network.known.size() < 3)
-    return failure(ErrorKind::usage, "nothing holds the stations: hold one of them, or give three known places");
+    return failure(ErrorKind::usage, "the network is not fixed: hold one station, or provide three known positions");
   auto chain = chained(network, problem);
   if (!chain) return failure(chain.error());
   const Unknowns unknowns = unknownsOf(network, *chain);
@@ -170,7 +172,7 @@ Result<NetworkFit> fitNetwork(const TargetNetwork& network, NetworkProblem* prob
   Eigen::LDLT<Eigen::MatrixXd> factor(e.normal);
   while (fit.iterations++ < kMostIterations) {
     const Eigen::VectorXd step = factor.solve(e.right);
-    if (!step.allFinite()) return failure(ErrorKind::unusable, "the targets do not hold the stations");
+    if (!step.allFinite()) return failure(ErrorKind::unusable, "the targets do not determine the station poses");
     move(*chain, unknowns, step);
     e = equationsOf(network, *chain, unknowns);
     factor.compute(e.normal);

@@ -22,11 +22,10 @@ namespace {
 using namespace standpoint;
 
 constexpr const char* kUsage =
-    "standpoint-editor [PROJECT or MODEL...]\n"
-    "standpoint-editor --pictures OUTDIR [--size 1280x800] [--scale 1] PROJECT or MODEL\n"
-    "standpoint-editor --devices OUTDIR [--language en] [--scale 1]\n"
-    "  --pictures  draws the editor without a display and saves what it shows as PNG files\n"
-    "  --devices   draws every screen of every emulated device, in a folder each\n";
+    "standpoint-editor [PROJECT or MODEL...]\nstandpoint-editor --pictures OUTDIR [--size 1280x800] [--scale 1] "
+    "PROJECT or MODEL\nstandpoint-editor --devices OUTDIR [--language en] [--scale 1]\n  --pictures  render the editor "
+    "without a display and save screenshots as PNG files\n  --devices   render every screen of every emulated device, "
+    "one folder per device\n";
 
 struct Arguments {
   std::vector<std::string> paths;  // one project, or models that belong together
@@ -42,7 +41,7 @@ Result<Arguments> parse(const std::vector<std::string>& words) {
     const auto& word = words[i];
     const bool takes_value =
         word == "--pictures" || word == "--size" || word == "--scale" || word == "--devices" || word == "--language";
-    if (takes_value && i + 1 >= words.size()) return failure(ErrorKind::usage, "a value is missing", word);
+    if (takes_value && i + 1 >= words.size()) return failure(ErrorKind::usage, "missing value", word);
     if (word == "--help" || word == "-h") {
       result.help = true;
     } else if (word == "--pictures") {
@@ -54,20 +53,20 @@ Result<Arguments> parse(const std::vector<std::string>& words) {
     } else if (word == "--size") {
       const bool read = std::sscanf(words[++i].c_str(), "%dx%d", &result.width, &result.height) == 2;
       if (!read || result.width < 640 || result.height < 400 || result.width > 8192 || result.height > 8192)
-        return failure(ErrorKind::usage, fmt::format("'{}' is not WIDTHxHEIGHT from 640x400 to 8192x8192", words[i]),
-                       word);
+        return failure(ErrorKind::usage,
+                       fmt::format("invalid size '{}': use WIDTHxHEIGHT from 640x400 to 8192x8192", words[i]), word);
     } else if (word == "--scale") {
       result.scale = std::strtof(words[++i].c_str(), nullptr);
       if (!(result.scale >= 0.5F && result.scale <= 4))
-        return failure(ErrorKind::usage, fmt::format("'{}' is not a number from 0.5 to 4", words[i]), word);
+        return failure(ErrorKind::usage, fmt::format("invalid scale '{}': use a number from 0.5 to 4", words[i]), word);
     } else if (!word.empty() && word[0] == '-') {
-      return failure(ErrorKind::usage, fmt::format("there is no option '{}'\n{}", word, kUsage));
+      return failure(ErrorKind::usage, fmt::format("unknown option '{}'\n{}", word, kUsage));
     } else {
       result.paths.push_back(word);
     }
   }
   if (!result.pictures.empty() && result.paths.empty())
-    return failure(ErrorKind::usage, "--pictures needs a project or a model");
+    return failure(ErrorKind::usage, "--pictures requires a project or model");
   return result;
 }
 

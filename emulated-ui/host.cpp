@@ -82,8 +82,7 @@ Result<void> copyFile(const fs::path& from, const fs::path& to, Progress& progre
     if (auto going = progress.check(); !going) return failure(going.error());
     const auto read = in->read(out->size(), buffer);
     if (!read) return failure(read.error());
-    if (*read == 0)
-      return failure(ErrorKind::file_system, "the file has become shorter while it was copied", from.string());
+    if (*read == 0) return failure(ErrorKind::file_system, "the file was truncated while copying", from.string());
     if (auto written = out->append({buffer.data(), *read}); !written) return written;
     progress.advance(static_cast<double>(out->size()) / static_cast<double>(in->size()));
   }
@@ -102,8 +101,8 @@ Result<Outcome> copyFiles(const Document& document, const TransferOrder& order, 
     if (auto going = progress.check(); !going) return failure(going.error());
     fs::path to =
         folder / (fs::path(file).parent_path().filename().string() + " - " + fs::path(file).filename().string());
-    const double from_share = static_cast<double>(copied.size()) * each;
-    progress.stage("Copying " + fs::path(file).filename().string(), from_share, from_share + each);
+    const double from_fraction = static_cast<double>(copied.size()) * each;
+    progress.stage("Copying " + fs::path(file).filename().string(), from_fraction, from_fraction + each);
     const auto done = order.extension.empty() ? copyFile(file, to, progress)
                                               : copyAs(file, to.replace_extension(order.extension), report, progress);
     if (!done) return failure(done.error());
@@ -172,11 +171,12 @@ void DeviceHost::startScan(const ScanOrder& order, const Document& document, con
   if (order.panorama) options["panorama"] = true;
   if (!order.compensator) options["compensator"] = "off";
   json field_fault = json::array();
-  if (order.until_share < 1) field_fault.push_back(fmt::format("until={}", order.until_share));
+  if (order.until_fraction < 1) field_fault.push_back(fmt::format("until={}", order.until_fraction));
   if (order.noise_factor > 1) field_fault.push_back(fmt::format("noise={}", order.noise_factor));
-  if (order.bumped_at_share) field_fault.push_back(fmt::format("push={}", *order.bumped_at_share));
-  if (order.walker_at_share) field_fault.push_back(fmt::format("walk={}", *order.walker_at_share));
-  if (order.operator_in_view) field_fault.push_back("stand=0.5");
+  if (order.tripod_moved_at_fraction)
+    field_fault.push_back(fmt::format("tripod_moved={}", *order.tripod_moved_at_fraction));
+  if (order.passer_by_at_fraction) field_fault.push_back(fmt::format("passer_by={}", *order.passer_by_at_fraction));
+  if (order.operator_in_view) field_fault.push_back("operator_in_view=0.5");
   if (!field_fault.empty()) options["field-fault"] = field_fault;
   if (truth) options["truth"] = true;
   notes_ = order.notes;
@@ -241,7 +241,7 @@ void DeviceHost::startWork(const std::string& title, const Document& document, T
 }
 
 void DeviceHost::start(const Order& order, const Document& document, const fs::path& scans_folder) {
-  if (scans_folder.empty()) return device_.orderFailed("Save the project first: the scan needs a folder.");
+  if (scans_folder.empty()) return device_.orderFailed("Save the project first. Scans are stored in its folder.");
   running_ = order;
   if (const auto* scan = std::get_if<ScanOrder>(&order)) return startScan(*scan, document, scans_folder);
   if (const auto* link = std::get_if<LinkOrder>(&order)) {
@@ -311,7 +311,7 @@ void DeviceHost::takeResult(Outcome outcome, const Document& document) {
 // The accepted set-up as the station's solved pose.
 Result<Outcome> DeviceHost::oriented(const Document& document, const StationOrientation& orientation) const {
   const auto* station = stationOf(document, orientation.station);
-  if (station == nullptr) return failure(ErrorKind::usage, "there is no such station", orientation.station);
+  if (station == nullptr) return failure(ErrorKind::usage, "unknown station", orientation.station);
   const auto level = levelledFromScanner(*station, device_.type().instrument, orientation.compensator, seed);
   if (!level) return failure(level.error());
   Job job = *document.job;

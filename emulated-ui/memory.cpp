@@ -255,7 +255,7 @@ json deviceMemory(const Device& device, const fs::path& scans_folder) {
 Result<void> recallMemory(Device& device, const json& memory, const fs::path& scans_folder) {
   try {
     if (memory.at("version").get<int>() != kMemoryVersion)
-      return failure(ErrorKind::unusable, "it is of another version", "/version");
+      return failure(ErrorKind::unusable, "created by a different version", "/version");
     const auto m = json::parse(replaced(textOf(memory), kScans, inJson(scans_folder)));
     DeviceState recalled = device.state();
     recallState(m, device.type(), recalled);

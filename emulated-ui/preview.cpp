@@ -84,7 +84,7 @@ std::array<std::uint8_t, 3> pixelOf(const ScanPreview& preview, std::size_t cell
 Result<std::shared_ptr<const ScanPreview>> readPreview(const std::filesystem::path& file, Progress& progress) {
   const auto* format = cloudFormatFor(file);
   if (format == nullptr || format->read == nullptr)
-    return failure(ErrorKind::unusable, "the file cannot be read", file.string());
+    return failure(ErrorKind::unusable, "cannot read the file", file.string());
   Thinner thinner;
   if (auto read = format->read(file, thinner, progress); !read) return failure(read.error());
   return thinner.take();

@@ -112,13 +112,16 @@ Result<Outcome> targetsIn(const Document& document, const std::string& file, std
 Result<Outcome> sightTarget(const Document& document, const SightOrder& order, const fs::path& file, std::uint64_t seed,
                             Progress& progress) {
   const auto* station = stationOf(document, order.station);
-  if (station == nullptr) return failure(ErrorKind::usage, "there is no such station", order.station);
+  if (station == nullptr) return failure(ErrorKind::usage, "unknown station", order.station);
   const auto& targets = document.job->targets;
   const auto target =
       std::find_if(targets.begin(), targets.end(), [&](const Target& t) { return t.name == order.target; });
-  if (target == targets.end()) return failure(ErrorKind::usage, "there is no such target", order.target);
-  Outcome missed{
-      document, {{"name", target->name}, {"found", false}, {"why", "another kind of target stands there"}}, {}, {}, {}};
+  if (target == targets.end()) return failure(ErrorKind::usage, "unknown target", order.target);
+  Outcome missed{document,
+                 {{"name", target->name}, {"found", false}, {"why", "a different kind of target is at this position"}},
+                 {},
+                 {},
+                 {}};
   if ((target->kind == TargetKind::sphere) != (order.kind == "sphere")) return missed;
   auto instrument = instrumentById(order.instrument);
   if (!instrument) return failure(instrument.error());
@@ -136,7 +139,7 @@ Result<Outcome> sightTarget(const Document& document, const SightOrder& order, c
     if (row.at("name") != target->name) continue;
     // Whoever aims sees that the target is not there: what was fitted is the wall before it.
     if (row.at("found").get<bool>() && row.at("error_m").get<double>() > target->size_m / 2) {
-      missed.answer["why"] = "it is hidden from here";
+      missed.answer["why"] = "hidden from this station";
       return missed;
     }
     if (row.at("found").get<bool>()) {
@@ -145,7 +148,7 @@ Result<Outcome> sightTarget(const Document& document, const SightOrder& order, c
     }
     return Outcome{document, row, {}, {}, {}};
   }
-  missed.answer["why"] = "no point came back from it";
+  missed.answer["why"] = "no points on the target";
   return missed;
 }
 

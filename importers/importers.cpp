@@ -80,13 +80,12 @@ std::span<const Importer> importers() {
 Result<ImportedModel> importFile(const std::filesystem::path& file, const ImportOptions& options, Progress& progress) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(file, code))
-    return failure(ErrorKind::file_system, code ? code.message() : "is not a file that can be read", file.string());
+    return failure(ErrorKind::file_system, code ? code.message() : "cannot read the file", file.string());
   const Importer* importer = byContent(firstBytes(file));
   if (!importer) importer = byExtension(file);
   if (!importer && hasSizeOfStl(file)) importer = &kStlImporter;
   if (!importer)
-    return failure(ErrorKind::unusable, "no importer knows this format: IFC, glTF, OBJ, PLY and STL are read",
-                   file.string());
+    return failure(ErrorKind::unusable, "unsupported format; use IFC, glTF, OBJ, PLY or STL", file.string());
   auto model = importer->read(file, options, progress);
   if (!model) return model;
   const double stated = model->metres_per_unit > 0 ? model->metres_per_unit : 1;

@@ -70,9 +70,10 @@ class Judge {
       (std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff()) > kEarth_m ? lost : kept).push_back(p);
     }
     if (lost.empty()) return;
-    model_.report.warn(idOf(lost[0]), fmt::format("{} products lie beyond any map ({}): their placements look wrong; "
-                                                  "correct them in the model, or exclude them",
-                                                  lost.size(), names(lost)));
+    model_.report.warn(
+        idOf(lost[0]),
+        fmt::format("{} products are outside any map area ({}): check their placements in the model, or exclude them",
+                    lost.size(), names(lost)));
     if (!kept.empty()) placed_ = std::move(kept);
   }
 
@@ -94,13 +95,15 @@ class Judge {
     if (gap < 5 * std::max(extent(below)[axis], extent(above)[axis])) return;
     if (below.size() < above.size()) std::swap(below, above);
     if (above.size() * 10 <= below.size() || above.size() <= 2)
-      model_.report.warn(idOf(above[0]), fmt::format("{} of {} products lie {} from the rest ({}): their placements "
-                                                     "look wrong; correct them in the model, or exclude them",
-                                                     above.size(), placed_.size(), size(gap), names(above)));
+      model_.report.warn(
+          idOf(above[0]),
+          fmt::format(
+              "{} of {} products are {} from the rest ({}): check their placements in the model, or exclude them",
+              above.size(), placed_.size(), size(gap), names(above)));
     else
       warn(
-          fmt::format("the model falls into two parts {} apart, of {} and {} products (the smaller with {}): if they "
-                      "are two models, import them one by one with --shift",
+          fmt::format("the model consists of two parts {} apart, with {} and {} products (the smaller with {}): if "
+                      "these are two models, import them separately with --shift",
                       size(gap), below.size(), above.size(), names(above)));
     placed_ = std::move(below);
     ++apart_;
@@ -147,7 +150,7 @@ class Judge {
         const std::string finding =
             whole ? fmt::format("the whole model is {} {}", size(large ? all.z() : measured), large ? "high" : "large")
                   : fmt::format("the {} are {} large", usual.what, size(measured));
-        warn(finding + ": the unit looks wrong" + unitRemedy(measured, usual.typical));
+        warn(finding + ": check the unit" + unitRemedy(measured, usual.typical));
       }
       return;
     }
@@ -162,14 +165,14 @@ class Judge {
     for (const auto& [name, metres] : kUnits)
       if (const double off = std::abs(std::log(measured * metres / metres_per_unit_ / typical)); off < best_off)
         best = name, best_off = off;
-    return best ? fmt::format("; if its numbers are meant in {}, import it with --unit {}", best, best)
+    return best ? fmt::format("; if coordinates are in {}, import with --unit {}", best, best)
                 : std::string("; correct it in the model");
   }
 
   void tellLying(const std::string& finding) {
     const char* other = up_ == UpAxis::y ? "z" : "y";
-    warn(fmt::format("{}: the model seems to lie on its side; if its {} axis points up, import it with --up {}",
-                     finding, other, other));
+    warn(fmt::format("{}: the model may be rotated; if its {} axis points up, import with --up {}", finding, other,
+                     other));
   }
 
   void upAxis() {
@@ -181,7 +184,7 @@ class Judge {
         lying += e.z() < 0.4 * std::max(e.x(), e.y()) ? 1 : 0;
       }
       if (lying * 10 >= doors.size() * 8)
-        tellLying(fmt::format("{} of {} doors are wider than high", lying, doors.size()));
+        tellLying(fmt::format("{} of {} doors are wider than tall", lying, doors.size()));
       return;
     }
     // A wall alone looks one way and is no model that lies; an IFC says by its schema what is up.
@@ -195,7 +198,7 @@ class Judge {
       const bool most =
           area[static_cast<std::size_t>(axis)] > 1.5 * std::max(area[2], area[static_cast<std::size_t>(other)]);
       if (most && e[axis] < 0.8 * std::min(e.z(), e[other]) && e.z() > 3 && triangleCount(model_.environment) > 100)
-        return tellLying("most of its area stands upright and looks one way");
+        return tellLying("most of its area is vertical and faces one direction");
     }
   }
 
@@ -231,13 +234,12 @@ class Judge {
     const Eigen::Vector3d nearest =
         (-shift).cwiseMax(all.min).cwiseMin(all.max) + shift;  // point of the bounds next to the file's origin
     if (nearest.norm() < kFar_m) return;
-    std::string text = fmt::format("the geometry begins {} from the file's origin", size(nearest.norm()));
-    if (shift.isZero())
-      return warn(text + " and is not shifted: its coordinates lose precision; import it with --shift auto");
-    text += fmt::format("; it is computed around {:.0f} {:.0f} {:.0f} and leaves where it came in", shift.x(),
-                        shift.y(), shift.z());
+    std::string text = fmt::format("the geometry is {} from the file's origin", size(nearest.norm()));
+    if (shift.isZero()) return warn(text + " and not shifted, so coordinates lose precision; import with --shift auto");
+    text += fmt::format("; a global shift of {:.0f} {:.0f} {:.0f} is applied internally and reversed on export",
+                        shift.x(), shift.y(), shift.z());
     if (!model_.georeference.map_from_file && model_.georeference.crs.empty())
-      text += "; if these are map coordinates, name the map with --crs EPSG:n";
+      text += "; if these are map coordinates, specify --crs EPSG:n";
     model_.report.note("model", text);
   }
 

@@ -114,7 +114,7 @@ class Assigner {
     const auto found = by_id_.find(environment_.surfaces[pair.surface].physical_material);
     if (found == by_id_.end()) return false;
     result.material = found->second;
-    result.reason = "stated by the file";
+    result.reason = "from the file";
     result.confidence = 1;
     return true;
   }
@@ -197,9 +197,9 @@ class Assigner {
       c.kind = "selector";
       c.warning = true;
       c.subject = overrides_[i].selector;
-      c.what = "the selector means no surface of this model";
-      c.why = "What was assigned by it reaches nothing: a name that changed, or a product that is gone.";
-      c.remedies = {{"Take it back", overrides_[i].selector, "rules"}};
+      c.what = "the selector matches no surface";
+      c.why = "Its assignment has no effect: a name has changed, or a product was removed.";
+      c.remedies = {{"Remove assignment", overrides_[i].selector, "rules"}};
       findings_.addAbout(std::move(c), overrides_[i].selector);
     }
     if (rules_.own == 0 || own_decided_ || !asked_rules_) return;
@@ -207,8 +207,8 @@ class Assigner {
     c.kind = "idle-rules";
     c.warning = true;
     c.subject = rules_.rules.front().place;
-    c.what = fmt::format("none of the {} rules of the file decided anything", rules_.own);
-    c.why = "The names, classes or colours that they ask for do not occur in this model.";
+    c.what = fmt::format("none of the {} rules in the file matched", rules_.own);
+    c.why = "The names, classes or colours in the rules do not occur in this model.";
     findings_.addAbout(std::move(c), rules_.rules.front().place);
   }
 

@@ -33,7 +33,7 @@ std::string AssignmentChecks::surfaceText(const SurfaceOfProduct& pair) const {
   if (!surface.name.empty()) return "surface '" + surface.name + "'";
   std::string names;
   for (const auto& name : environment_.products[pair.product].materials) names += (names.empty() ? "" : ", ") + name;
-  return names.empty() ? "the nameless surface" : "material '" + names + "'";
+  return names.empty() ? "the unnamed surface" : "material '" + names + "'";
 }
 
 // Means this surface and those like it, for one click.
@@ -80,9 +80,9 @@ void AssignmentChecks::unassigned(const SurfaceOfProduct& pair) {
   nextProduct(pair.product);
   product_m2_ += pair.area_m2;
   tell("unassigned", true, pair, nullptr, [&](FindingCollector::Cause& c) {
-    c.what = "no rule fits " + surfaceText(pair) + " of";
-    c.why = "A scan then takes the luminance of its colour for its reflectance, which says nothing of the infrared.";
-    c.remedies = {{"Choose a material for these", selectorOf(pair), ""}};
+    c.what = "no rule matches " + surfaceText(pair) + " of";
+    c.why = "Scans will use the luminance of its colour as reflectance, which is unreliable in the infrared.";
+    c.remedies = {{"Assign a material", selectorOf(pair), ""}};
   });
 }
 
@@ -91,9 +91,9 @@ void AssignmentChecks::gap(const SurfaceOfProduct& pair, const PhysicalMaterial&
   product_m2_ += pair.area_m2;
   tell("gap", true, pair, &material, [&](FindingCollector::Cause& c) {
     c.what = surfaceText(pair) + " of";
-    c.then = " would be " + material.label + ", of which there are no figures";
+    c.then = " would be " + material.label + ", for which there is no data";
     c.why = material.gaps.front();
-    c.remedies = {{"Choose a material that comes near", selectorOf(pair), ""}};
+    c.remedies = {{"Assign a similar material", selectorOf(pair), ""}};
   });
 }
 
@@ -101,14 +101,13 @@ void AssignmentChecks::byRule(const SurfaceOfProduct& pair, const PhysicalMateri
                               const RuleMatcher::Decision& decision, const std::string& reason) {
   if (decision.confidence >= kWeakConfidence) return;
   tell("weak-rule", false, pair, &material, [&](FindingCollector::Cause& c) {
-    c.what = (decision.text.empty() ? "only class and colour decided for " : "a weak rule decided for ") +
+    c.what = (decision.text.empty() ? "only class and colour matched: " : "low-confidence rule matched: ") +
              surfaceText(pair) + " of";
     c.then = ": " + material.id + ", " + reason;
-    c.why = fmt::format(
-        "The rule's confidence is {:.2g}: it knows what such things are often made of, not what this one is.",
-        decision.confidence);
+    c.why = fmt::format("Rule confidence {:.2g}: the material is typical for such products, but not confirmed.",
+                        decision.confidence);
     c.remedies = {{"Keep " + material.label, selectorOf(pair), material.id},
-                  {"Choose another material", selectorOf(pair), ""}};
+                  {"Assign another material", selectorOf(pair), ""}};
   });
 }
 
@@ -119,9 +118,9 @@ void AssignmentChecks::assigned(const SurfaceOfProduct& pair, const PhysicalMate
   transparency(pair, material);
   implausible(pair, material);
   if (transmits(material)) thickness(pair, material);
-  auto& share = shares_[{pair.surface, &material}];
-  if (share.products.empty() || share.products.back() != pair.product) share.products.push_back(pair.product);
-  share.area_m2 += pair.area_m2;
+  auto& use = uses_[{pair.surface, &material}];
+  if (use.products.empty() || use.products.back() != pair.product) use.products.push_back(pair.product);
+  use.area_m2 += pair.area_m2;
 }
 
 void AssignmentChecks::transparency(const SurfaceOfProduct& pair, const PhysicalMaterial& material) {
@@ -131,18 +130,18 @@ void AssignmentChecks::transparency(const SurfaceOfProduct& pair, const Physical
     tell("opaque-glass", true, pair, &material, [&](FindingCollector::Cause& c) {
       c.what = "transparent " + surfaceText(pair) + " of";
       c.then = " has the opaque material " + material.id;
-      c.why = "The model draws it as something to look through; a beam would stop at it.";
-      c.remedies = {{"Take these for glass", selectorOf(pair),
-                     isWindow(ifc_class) ? "glass_double_clear_4mm" : "glass_float_clear_6mm"},
-                    {"Choose another material", selectorOf(pair), ""}};
+      c.why = "Transparent in the model, but beams would stop at it.";
+      c.remedies = {
+          {"Assign glass", selectorOf(pair), isWindow(ifc_class) ? "glass_double_clear_4mm" : "glass_float_clear_6mm"},
+          {"Assign another material", selectorOf(pair), ""}};
     });
   }
   if (!isTransparent(surface) && surface.colour != Colour{} && transmits(material)) {
     tell("clear-solid", true, pair, &material, [&](FindingCollector::Cause& c) {
       c.what = "opaque " + surfaceText(pair) + " of";
       c.then = " has the transparent material " + material.id;
-      c.why = "The model draws it as something that one cannot look through; beams would pass it.";
-      c.remedies = {{"Choose an opaque material", selectorOf(pair), ""}};
+      c.why = "Opaque in the model, but beams would pass through it.";
+      c.remedies = {{"Assign an opaque material", selectorOf(pair), ""}};
     });
   }
 }
@@ -162,7 +161,7 @@ void AssignmentChecks::implausible(const SurfaceOfProduct& pair, const PhysicalM
     c.what = surfaceText(pair) + " of";
     c.then = " has the material " + material.id;
     c.why = implausible_[static_cast<std::size_t>(place->second)].why;
-    c.remedies = {{"Choose another material", selectorOf(pair), ""}};
+    c.remedies = {{"Assign another material", selectorOf(pair), ""}};
   });
 }
 
@@ -197,25 +196,29 @@ void AssignmentChecks::thickness(const SurfaceOfProduct& pair, const PhysicalMat
       c.what = surfaceText(pair) + " of";
       c.then = fmt::format(" is a solid {:.0f} mm thick and has the material {}", modelled * 1000, material.id);
       c.why = fmt::format(
-          "Glass is thin; this library's is {:.0f} mm in all. A frame drawn with its pane as one body, or a block?",
+          "Glass in the library is {:.0f} mm thick in total. Check whether frame and pane are modelled as one body.",
           wanted * 1000);
-      c.remedies = {{"Choose another material", selectorOf(pair), ""}};
+      c.remedies = {{"Assign another material", selectorOf(pair), ""}};
     });
   } else if (modelled == 0) {
     tell("flat-glass", false, pair, &material, [&](FindingCollector::Cause& c) {
       c.what = surfaceText(pair) + " of";
-      c.then = fmt::format(" bounds no solid; a beam meets {} of {:.0f} mm at each face", material.id, wanted * 1000);
-      c.why = "A pane without thickness is passed as one pane; two sheets drawn for its two sides count as two.";
+      c.then =
+          fmt::format(" is not a closed solid; beams pass {} of {:.0f} mm at each face", material.id, wanted * 1000);
+      c.why = "A surface without thickness counts as one pane; two parallel surfaces count as two.";
     });
   } else if (std::abs(modelled - wanted) > kThicknessTolerance * std::max(wanted, modelled)) {
     tell("pane-thickness", false, pair, &material, [&](FindingCollector::Cause& c) {
       c.what = surfaceText(pair) + " of";
-      c.then = fmt::format(" is drawn {:.0f} mm thick, {} is {:.0f} mm", modelled * 1000, material.id, wanted * 1000);
-      c.why = "The library's build-up decides what passes, not the thickness in the model: is it the right one?";
+      c.then =
+          fmt::format(" is modelled {:.0f} mm thick, {} is {:.0f} mm", modelled * 1000, material.id, wanted * 1000);
+      c.why =
+          "Transmission follows the library's build-up, not the modelled thickness. Check that the material is "
+          "correct.";
       if (const auto* nearest = paneOf(modelled, material.index_of_refraction);
           nearest != nullptr && nearest->id != material.id)
         c.remedies.push_back({"Take " + nearest->label, selectorOf(pair), nearest->id});
-      c.remedies.push_back({"Choose another material", selectorOf(pair), ""});
+      c.remedies.push_back({"Assign another material", selectorOf(pair), ""});
     });
   }
 }
@@ -227,8 +230,8 @@ void AssignmentChecks::closeProduct() {
     c.kind = "no-pane";
     c.warning = true;
     c.subject = environment_.products[*product_].ifc_class + " / " + environment_.products[*product_].type_name;
-    c.what = "no surface is of glass in";
-    c.why = "A beam would stop at the window, where a real one passes twice through its panes.";
+    c.what = "no glass surface in";
+    c.why = "Beams would stop at the window, but real ones pass through its panes.";
     FindingCollector::add(findings_.of(std::move(c)), *product_, product_m2_);
   }
   has_pane_ = false;
@@ -237,17 +240,16 @@ void AssignmentChecks::closeProduct() {
 }
 
 void AssignmentChecks::namesAssignedTwoWays() {
-  std::map<std::string, std::map<std::string, std::vector<const Share*>>>
-      by_name;  // the surface's, then the material's
-  for (const auto& [key, share] : shares_)
+  std::map<std::string, std::map<std::string, std::vector<const Use*>>> by_name;  // the surface's, then the material's
+  for (const auto& [key, use] : uses_)
     if (const auto& name = environment_.surfaces[key.first].name; !name.empty())
-      by_name[name][key.second->id].push_back(&share);
+      by_name[name][key.second->id].push_back(&use);
   for (const auto& [name, materials] : by_name) {
     if (materials.size() < 2) continue;
     std::vector<std::pair<double, std::string>> order;
-    for (const auto& [id, shares] : materials) {
+    for (const auto& [id, uses] : materials) {
       order.emplace_back(0, id);
-      for (const auto* share : shares) order.back().first -= share->area_m2;
+      for (const auto* use : uses) order.back().first -= use->area_m2;
     }
     std::sort(order.begin(), order.end());
     FindingCollector::Cause c;
@@ -259,21 +261,20 @@ void AssignmentChecks::namesAssignedTwoWays() {
       c.remedies.push_back({"All of them " + id, "material:" + literalPattern(name), id});
     }
     c.what += " of";
-    c.why =
-        "One name in the model, several materials: rules for a class, a colour or single products decided differently.";
+    c.why = "The same name has several materials because rules for classes, colours or products differ.";
     auto& extent = findings_.of(std::move(c));
-    for (const auto& [id, shares] : materials)
-      for (const auto* share : shares) addShare(extent, *share);
+    for (const auto& [id, uses] : materials)
+      for (const auto* use : uses) addUse(extent, *use);
   }
 }
 
-void AssignmentChecks::addShare(FindingCollector::Extent& extent, const Share& share) {
-  for (const auto product : share.products)
-    FindingCollector::add(extent, product, share.area_m2 / static_cast<double>(share.products.size()));
+void AssignmentChecks::addUse(FindingCollector::Extent& extent, const Use& use) {
+  for (const auto product : use.products)
+    FindingCollector::add(extent, product, use.area_m2 / static_cast<double>(use.products.size()));
 }
 
 void AssignmentChecks::withoutData(const std::vector<double>& wavelengths_nm) {
-  for (const auto& [key, share] : shares_) {
+  for (const auto& [key, use] : uses_) {
     const auto& material = *key.second;
     for (const double wavelength : wavelengths_nm) {
       const auto covers = [&](const Spectrum& table) {
@@ -285,11 +286,11 @@ void AssignmentChecks::withoutData(const std::vector<double>& wavelengths_nm) {
       c.kind = "no-data";
       c.warning = true;
       c.subject = fmt::format("{} / {:.0f}", material.id, wavelength);
-      c.what = fmt::format("{} has no figure at {:.0f} nm:", material.id, wavelength);
-      c.then = fmt::format(", the table runs from {:.0f} to {:.0f} nm", material.reflectance.front().first,
+      c.what = fmt::format("{} has no data at {:.0f} nm:", material.id, wavelength);
+      c.then = fmt::format(", its table covers {:.0f} to {:.0f} nm", material.reflectance.front().first,
                            material.reflectance.back().first);
-      c.why = "The instrument would be given the nearest figure, which may be far off.";
-      addShare(findings_.of(std::move(c)), share);
+      c.why = "Scans will use the nearest value, which may be inaccurate.";
+      addUse(findings_.of(std::move(c)), use);
     }
   }
 }

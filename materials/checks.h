@@ -33,7 +33,7 @@ class AssignmentChecks {
   void finish(const std::vector<double>& wavelengths_nm);
 
  private:
-  struct Share {
+  struct Use {
     double area_m2 = 0;
     std::vector<std::uint32_t> products;
   };
@@ -44,7 +44,7 @@ class AssignmentChecks {
   const PhysicalMaterial* paneOf(double thickness_m, double index) const;
   void nextProduct(std::uint32_t product);
   void closeProduct();
-  static void addShare(FindingCollector::Extent& extent, const Share& share);
+  static void addUse(FindingCollector::Extent& extent, const Use& fraction);
   void namesAssignedTwoWays();
   void withoutData(const std::vector<double>& wavelengths_nm);
 
@@ -68,9 +68,9 @@ class AssignmentChecks {
   using Like =
       std::tuple<const char*, std::uint32_t, const PhysicalMaterial*, std::string>;  // kind, surface, material, product
   std::map<Like, FindingCollector::Extent*> told_;
-  std::map<std::pair<std::uint32_t, const PhysicalMaterial*>, Share> shares_;  // of a surface and its material
-  std::map<std::pair<std::uint32_t, std::uint32_t>, double> thickness_;        // of a mesh's surface
-  std::optional<std::uint32_t> product_;                                       // whose surfaces are being looked at
+  std::map<std::pair<std::uint32_t, const PhysicalMaterial*>, Use> uses_;  // of a surface and its material
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> thickness_;    // of a mesh's surface
+  std::optional<std::uint32_t> product_;                                   // whose surfaces are being looked at
   double product_m2_ = 0;
   bool has_pane_ = false;
 };

@@ -24,7 +24,7 @@ class KeyWatch {
     if (event == Event::object_start) levels_.emplace_back();
     if (event == Event::object_end) levels_.pop_back();
     if (event == Event::key && !levels_.back().insert(parsed.get<std::string>()).second)
-      wrong_ = "has the key '" + parsed.get<std::string>() + "' twice in one object";
+      wrong_ = "has the key '" + parsed.get<std::string>() + "' more than once in one object";
     return wrong_.empty();
   }
   const std::string& wrong() const { return wrong_; }
@@ -96,7 +96,7 @@ Result<void> checkKeys(const nlohmann::json& value, const JsonPlace& at,
     if (std::find(known.begin(), known.end(), item.key()) == known.end()) {
       std::string list;
       for (const auto key : known) list += (list.empty() ? "" : ", ") + std::string(key);
-      return (at / item.key()).unusable("is not a known key; known are " + list);
+      return (at / item.key()).unusable("unknown key; valid keys: " + list);
     }
   return {};
 }
@@ -117,7 +117,7 @@ Result<std::string> readText(const nlohmann::json& object, const JsonPlace& at, 
 Result<std::string> readId(const nlohmann::json& object, const JsonPlace& at) {
   auto id = readText(object, at, "id");
   if (id && id->find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != std::string::npos)
-    return (at / "id").unusable("may hold a-z, 0-9 and _ only");
+    return (at / "id").unusable("must contain only a-z, 0-9 and _");
   return id;
 }
 

@@ -26,7 +26,7 @@ Result<std::vector<std::filesystem::path>> jsonFiles(const std::filesystem::path
        !code && entry != std::filesystem::directory_iterator(); entry.increment(code))
     if (entry->path().extension() == ".json") files.push_back(entry->path());
   if (code) return failure(ErrorKind::file_system, "cannot be read: " + code.message(), folder.string());
-  if (files.empty()) return failure(ErrorKind::unusable, "holds no material library (*.json)", folder.string());
+  if (files.empty()) return failure(ErrorKind::unusable, "contains no material library (*.json)", folder.string());
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -55,7 +55,7 @@ Result<void> readSources(const LibraryFile& file, SourceTable& sources) {
     const auto licence = readText(list[i], at, "licence");
     if (!licence) return failure(licence.error());
     if (!sources.try_emplace(*id, FigureSource{*text, *licence}).second)
-      return (at / "id").unusable("the source '" + *id + "' is already there");
+      return (at / "id").unusable("the source '" + *id + "' already exists");
   }
   return {};
 }
@@ -70,7 +70,7 @@ Result<void> readMaterials(const LibraryFile& file, const SourceTable& sources, 
     const auto id = material->id;
     const auto [place, is_new] = entries.try_emplace(id, Entry{std::move(*material), at});
     if (!is_new)
-      return (at / "id").unusable("'" + id + "' is already in " + place->second.at.file + ' ' +
+      return (at / "id").unusable("'" + id + "' is already defined in " + place->second.at.file + ' ' +
                                   place->second.at.pointer);
   }
   return {};
@@ -137,7 +137,7 @@ Result<std::vector<PhysicalMaterial>> readOwnMaterials(const std::filesystem::pa
   if (auto read = readSources(*own, sources); !read) return failure(read.error());
   EntryTable entries;
   if (auto read = readMaterials(*own, sources, entries); !read) return failure(read.error());
-  if (entries.empty()) return JsonPlace{own->name, {}}.unusable("holds no material");
+  if (entries.empty()) return JsonPlace{own->name, {}}.unusable("contains no material");
   return finished(std::move(entries), *shipped);
 }
 
@@ -156,8 +156,8 @@ std::vector<PhysicalMaterial> withOwn(std::vector<PhysicalMaterial> library, con
 std::vector<std::string> gapsOf(const PhysicalMaterial& material) {
   auto gaps = material.gaps;
   if (isGap(material)) return gaps;
-  if (material.variation == 0) gaps.push_back("variation within the class: no figure");
-  if (material.texture_scale_m == 0) gaps.push_back("scale of its texture: no figure");
+  if (material.variation == 0) gaps.push_back("variation within the class: no data");
+  if (material.texture_scale_m == 0) gaps.push_back("texture scale: no data");
   return gaps;
 }
 

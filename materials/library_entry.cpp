@@ -36,18 +36,18 @@ constexpr const char* kSourced[] = {
     "variation",     "texture_scale_m", "retro_gain"};
 
 Result<Spectrum> readSpectrum(const nlohmann::json& value, const JsonPlace& at) {
-  if (!value.is_array() || value.empty()) return at.unusable("must be a list of [wavelength_nm, share]");
+  if (!value.is_array() || value.empty()) return at.unusable("must be a list of [wavelength_nm, fraction]");
   Spectrum result;
   for (std::size_t i = 0; i < value.size(); ++i) {
     const auto here = at / i;
-    if (!value[i].is_array() || value[i].size() != 2) return here.unusable("must be [wavelength_nm, share]");
+    if (!value[i].is_array() || value[i].size() != 2) return here.unusable("must be [wavelength_nm, fraction]");
     const auto wavelength = readNumber(value[i][0], here / std::size_t{0}, 200, 20000);
     if (!wavelength) return failure(wavelength.error());
-    const auto share = readNumber(value[i][1], here / std::size_t{1}, 0, 1);
-    if (!share) return failure(share.error());
+    const auto fraction = readNumber(value[i][1], here / std::size_t{1}, 0, 1);
+    if (!fraction) return failure(fraction.error());
     if (!result.empty() && *wavelength <= result.back().first)
-      return (here / std::size_t{0}).unusable("wavelengths must rise");
-    result.emplace_back(*wavelength, *share);
+      return (here / std::size_t{0}).unusable("wavelengths must increase");
+    result.emplace_back(*wavelength, *fraction);
   }
   return result;
 }
@@ -68,7 +68,7 @@ Result<std::vector<ComplexIndex>> readComplexIndex(const nlohmann::json& value, 
       row.*field = *number;
     }
     if (!result.empty() && row.wavelength_nm <= result.back().wavelength_nm)
-      return (here / std::size_t{0}).unusable("wavelengths must rise");
+      return (here / std::size_t{0}).unusable("wavelengths must increase");
     result.push_back(row);
   }
   return result;
@@ -98,8 +98,7 @@ Result<Citation> readCitation(const std::string& figure, const std::string& text
     from = close + 1;
   }
   if (!refers && !text.starts_with("unsourced"))
-    return at.unusable(
-        "refers to no source: write [id] of one that is listed under \"sources\", or begin with 'unsourced'");
+    return at.unusable("has no source: add the [id] of an entry in \"sources\", or start with 'unsourced'");
   return citation;
 }
 
@@ -108,14 +107,13 @@ Result<void> readCitations(const nlohmann::json& entry, const JsonPlace& at, con
   static const nlohmann::json kNone = nlohmann::json::object();
   const auto here = at / "source";
   const auto found = entry.find("source");
-  if (found == entry.end() && !isGap(material))
-    return here.unusable("is missing: every figure names where it comes from");
+  if (found == entry.end() && !isGap(material)) return here.unusable("is missing: every value requires a source");
   const auto& texts = found == entry.end() ? kNone : *found;
-  if (!texts.is_object()) return here.unusable("must be an object with one text for each figure");
+  if (!texts.is_object()) return here.unusable("must be an object with one text per value");
   for (const auto& item : texts.items())
     if (std::find(std::begin(kSourced), std::end(kSourced), item.key()) == std::end(kSourced) ||
         !entry.contains(item.key()))
-      return (here / item.key()).unusable("is the source of a figure that the entry does not have");
+      return (here / item.key()).unusable("is the source of a value that the entry does not have");
   for (const char* key : kSourced) {
     if (!entry.contains(key)) continue;
     auto text = readText(texts, here, key);
@@ -153,19 +151,19 @@ Result<void> checkEnergy(const PhysicalMaterial& material, const JsonPlace& at) 
 Result<void> checkParts(const PhysicalMaterial& material, const JsonPlace& at) {
   const bool metal = !material.complex_index.empty();
   if (metal && material.index_of_refraction > 0)
-    return (at / "complex_index").unusable("stands for index_of_refraction: give one of them");
+    return (at / "complex_index").unusable("replaces index_of_refraction: specify only one");
   if (metal && material.thickness_m > 0)
-    return (at / "complex_index").unusable("is for opaque bodies; a pane has index_of_refraction");
+    return (at / "complex_index").unusable("applies to opaque bodies; panes use index_of_refraction");
   if (material.gloss_slope > 0 && material.index_of_refraction == 0 && !metal)
-    return (at / "gloss_slope").unusable("needs index_of_refraction or complex_index");
-  if (material.panes > 1 && material.gap_m == 0) return (at / "panes").unusable("needs gap_m");
-  if (material.gap_m > 0 && material.panes == 1) return (at / "gap_m").unusable("needs panes");
+    return (at / "gloss_slope").unusable("requires index_of_refraction or complex_index");
+  if (material.panes > 1 && material.gap_m == 0) return (at / "panes").unusable("requires gap_m");
+  if (material.gap_m > 0 && material.panes == 1) return (at / "gap_m").unusable("requires panes");
   const bool pane = material.thickness_m > 0 || transmits(material);
-  if (!pane && material.panes > 1) return (at / "panes").unusable("needs thickness_m");
+  if (!pane && material.panes > 1) return (at / "panes").unusable("requires thickness_m");
   if (!pane) return {};
-  if (material.thickness_m == 0) return (at / "transmittance").unusable("needs thickness_m");
-  if (!transmits(material)) return (at / "thickness_m").unusable("needs transmittance");
-  if (material.index_of_refraction == 0) return (at / "thickness_m").unusable("needs index_of_refraction");
+  if (material.thickness_m == 0) return (at / "transmittance").unusable("requires thickness_m");
+  if (!transmits(material)) return (at / "thickness_m").unusable("requires transmittance");
+  if (material.index_of_refraction == 0) return (at / "thickness_m").unusable("requires index_of_refraction");
   return {};
 }
 
@@ -216,12 +214,12 @@ Result<void> readBasis(const nlohmann::json& entry, const JsonPlace& at, Physica
   if (entry.contains("wet_of")) {
     auto dry = readText(entry, at, "wet_of");
     if (!dry) return failure(dry.error());
-    if (!isGap(material)) return (at / "wet_of").unusable("gives the reflectance: leave that out");
+    if (!isGap(material)) return (at / "wet_of").unusable("defines the reflectance: leave out other optical values");
     material.wet_of = std::move(*dry);
     return {};
   }
   if (isGap(material) && material.gaps.empty())
-    return (at / "reflectance").unusable("is missing; where nobody measured it, say so under \"gaps\"");
+    return (at / "reflectance").unusable("is missing; if there is no measurement, list it under \"gaps\"");
   return {};
 }
 
@@ -230,7 +228,7 @@ Result<void> readBasis(const nlohmann::json& entry, const JsonPlace& at, Physica
 Spectrum wetted(const Spectrum& dry) {
   constexpr double kFace = 0.02, kInside = 0.47;
   Spectrum wet = dry;
-  for (auto& [wavelength, share] : wet) share = (1 - kFace) * (1 - kInside) * share / (1 - kInside * share);
+  for (auto& [wavelength, fraction] : wet) fraction = (1 - kFace) * (1 - kInside) * fraction / (1 - kInside * fraction);
   return wet;
 }
 
@@ -239,7 +237,7 @@ Spectrum wetted(const Spectrum& dry) {
 Result<void> wet(PhysicalMaterial& material, const PhysicalMaterial* dry, const JsonPlace& at) {
   if (dry == nullptr) return (at / "wet_of").unusable("'" + material.wet_of + "' is not in the library");
   if (isGap(*dry) || !dry->wet_of.empty() || transmits(*dry))
-    return (at / "wet_of").unusable("'" + material.wet_of + "' is no dry opaque material with figures");
+    return (at / "wet_of").unusable("'" + material.wet_of + "' is not a dry opaque material with data");
   material.reflectance = wetted(dry->reflectance);
   return checkEnergy(material, at);
 }

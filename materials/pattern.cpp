@@ -310,11 +310,11 @@ std::string flawOf(std::string_view alternatives, const WordLists& lists) {
       if (text.starts_with('!')) text = trimmed(text.substr(1));
       if (!flaw.empty()) return;
       if (text.empty())
-        flaw = "holds an empty pattern";
+        flaw = "contains an empty pattern";
       else if (isList(text) && !lists.contains(std::string(text.substr(1, text.size() - 2))))
-        flaw = "refers to the list of words " + std::string(text) + ", which is not there";
+        flaw = "refers to word list " + std::string(text) + ", which does not exist";
       else if (!isList(text) && text.find_first_of("{}") != std::string_view::npos)
-        flaw = "holds a brace that belongs to no {list}";
+        flaw = "contains an unmatched brace";
     });
   });
   return flaw;

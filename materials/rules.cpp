@@ -21,7 +21,7 @@ Result<void> checkColours(const std::string& globs, const JsonPlace& at) {
     if (std::find(kColourBands.begin(), kColourBands.end(), colour) == kColourBands.end()) {
       std::string known;
       for (const auto band : kColourBands) known += (known.empty() ? "" : ", ") + std::string(band);
-      return at.unusable("'" + colour + "' is no colour; known are " + known);
+      return at.unusable("'" + colour + "' is not a colour; valid colours: " + known);
     }
     begin = end + 1;
   }
@@ -45,7 +45,7 @@ class RulesReader {
       if (content.contains(key) && !content[key].is_array()) return (root_ / key).unusable("must be a list");
     const auto& list = content["rules"];
     if (list.size() > kMostRules)
-      return (root_ / "rules").unusable("holds more than " + std::to_string(kMostRules) + " rules");
+      return (root_ / "rules").unusable("contains more than " + std::to_string(kMostRules) + " rules");
     for (std::size_t i = 0; i < list.size(); ++i) {
       auto rule = readRule(list[i], root_ / "rules" / i);
       if (!rule) return failure(rule.error());
@@ -70,7 +70,7 @@ class RulesReader {
     for (const auto& [name, list] : found->items()) {
       const auto at = root_ / "words" / name;
       if (name.empty() || name.find_first_of("{}|&!") != std::string::npos)
-        return at.unusable("may not hold { } | & !");
+        return at.unusable("must not contain { } | & !");
       if (!list.is_array() || list.empty()) return at.unusable("must be a list of texts");
       auto& words = words_[name];
       words.clear();
@@ -78,7 +78,7 @@ class RulesReader {
         auto word = textOf(list[i], at / i);
         if (!word) return failure(word.error());
         if (word->find_first_of("{}|&") != std::string::npos)
-          return (at / i).unusable("is one word: { } | & belong into patterns");
+          return (at / i).unusable("must be a single word; use { } | & only in patterns");
         words.push_back(std::move(*word));
       }
     }
@@ -141,13 +141,13 @@ class RulesReader {
       asks = asks || range->has_value();
       rule.*field = *range;
     }
-    if (!asks) return at.unusable("has no pattern, so it would fit everything");
+    if (!asks) return at.unusable("has no pattern and would match everything");
     auto assign = readAssigned(entry, at);
     if (!assign) return failure(assign.error());
     rule.assign = std::move(*assign);
     if (const auto hidden = entry.find("hidden"); hidden != entry.end()) {
       if (!hidden->is_boolean()) return (at / "hidden").unusable("must be true or false");
-      if (rule.material.empty()) return (at / "hidden").unusable("needs a pattern for the material");
+      if (rule.material.empty()) return (at / "hidden").unusable("requires a pattern for the material");
       rule.hidden = hidden->get<bool>();
     }
     if (entry.contains("confidence")) {
@@ -179,7 +179,7 @@ class RulesReader {
 // "then": "default" asks for the default rules after these.
 Result<bool> wantsDefault(const nlohmann::json& content, const JsonPlace& root) {
   if (!content.is_object() || !content.contains("then")) return false;
-  if (content["then"] != "default") return (root / "then").unusable("may be \"default\" only");
+  if (content["then"] != "default") return (root / "then").unusable("must be \"default\"");
   return true;
 }
 
@@ -208,7 +208,7 @@ Result<RuleSet> parseAssignmentRules(const std::string& text, const std::string&
   for (const auto& [name, words] : defaults.words)
     if (set->words.at(name) != words)
       return (JsonPlace{file_name, {}} / "words" / name)
-          .unusable("is a list of the default rules: give yours another name");
+          .unusable("is a list of the default rules: choose another name");
   set->rules.insert(set->rules.end(), defaults.rules.begin(), defaults.rules.end());
   set->implausible.insert(set->implausible.end(), defaults.implausible.begin(), defaults.implausible.end());
   return set;

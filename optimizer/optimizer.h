@@ -14,8 +14,8 @@ namespace standpoint {
 
 // What may be done to one product. A mesh that several products share is treated as the strictest of them asks.
 struct ProductAllowance {
-  std::string lod;          // what the level is called, for reports: "LoD 300"
-  std::uint32_t share = 0;  // the budget that it draws on: 0 = budget, k = further_budgets[k - 1]
+  std::string lod;                 // what the level is called, for reports: "LoD 300"
+  std::uint32_t budget_group = 0;  // the budget that it draws on: 0 = budget, k = further_budgets[k - 1]
   double max_deviation_m = 0.015;
   double weight = 1;   // its error counts this many times against that of the others
   bool keep = false;   // stays as it is; its triangles still count

@@ -140,7 +140,7 @@ Result<CloudExtent> measureCloud(const std::filesystem::path& file, Progress& pr
   const auto format = known(file);
   if (!format) return failure(format.error());
   if (!(*format)->read)
-    return failure(ErrorKind::usage, std::string((*format)->name) + " files are only written", file.string());
+    return failure(ErrorKind::usage, std::string((*format)->name) + " files can only be written", file.string());
   const auto info = (*format)->info(file);
   if (!info) return failure(info.error());
   CloudExtent extent{.format = info->format, .crs = info->crs};
@@ -158,8 +158,9 @@ Result<std::vector<std::filesystem::path>> convertCloud(const std::filesystem::p
   if (!from) return failure(from.error());
   if (!to) return failure(to.error());
   if (!(*from)->read)
-    return failure(ErrorKind::usage, std::string((*from)->name) + " files are only written", in.string());
-  if (!(*to)->writer) return failure(ErrorKind::usage, std::string((*to)->name) + " files are only read", out.string());
+    return failure(ErrorKind::usage, std::string((*from)->name) + " files can only be written", in.string());
+  if (!(*to)->writer)
+    return failure(ErrorKind::usage, std::string((*to)->name) + " files can only be read", out.string());
   const auto writer = writerOf(**to, as);
   if (!writer) return failure(writer.error());
   bool one_each = false;

@@ -80,7 +80,8 @@ Result<json> parseNumbers(const std::string& text) {
     double value = 0;
     const auto [next, error] = std::from_chars(at, end, value);
     if (error != std::errc() || (next != end && *next != ','))
-      return failure(ErrorKind::usage, fmt::format("'{}' is not a list of numbers such as 1.5,2,0", text));
+      return failure(ErrorKind::usage,
+                     fmt::format("'{}' is not a comma-separated list of numbers such as 1.5,2,0", text));
     numbers.push_back(value);
     if (next == end) break;
     at = next + 1;

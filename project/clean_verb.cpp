@@ -15,11 +15,11 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 // A share that is not asked of nothing.
-json shareOf(std::uint64_t part, std::uint64_t whole) {
+json fractionOf(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? json(nullptr) : json(static_cast<double>(part) / static_cast<double>(whole));
 }
 
-json takenJson(const Taken& t) { return {{"in", t.in}, {"removed", t.taken}, {"share", shareOf(t.taken, t.in)}}; }
+json takenJson(const Taken& t) { return {{"in", t.in}, {"removed", t.taken}, {"share", fractionOf(t.taken, t.in)}}; }
 
 json figuresJson(const FilterFigures& f) {
   json row = {
@@ -29,8 +29,8 @@ json figuresJson(const FilterFigures& f) {
     for (std::size_t bit = 0; bit < f.flags.size(); ++bit)
       flags[flagNames()[bit]] = {{"in", f.flags[bit].in},
                                  {"removed", f.flags[bit].taken},
-                                 {"recall", shareOf(f.flags[bit].taken, f.flags[bit].in)},
-                                 {"precision", shareOf(f.flags[bit].taken, f.with_truth.taken)}};
+                                 {"recall", fractionOf(f.flags[bit].taken, f.flags[bit].in)},
+                                 {"precision", fractionOf(f.flags[bit].taken, f.with_truth.taken)}};
     row["truth"] = std::move(flags);
     row["mixed_by_over_1cm"] = takenJson(f.plainly_mixed);
     row["good"] = takenJson(f.good);
@@ -80,7 +80,7 @@ std::string table(const Cleaning& cleaning) {
                         percent(f.points.taken, f.points.in), f.points.in - f.points.taken);
     for (std::size_t bit = 0; f.has_truth && bit < f.flags.size(); ++bit)
       if (f.flags[bit].in > 0)
-        text += fmt::format("  {:<14} {} of {} found ({}), {} of what was removed\n", flagNames()[bit],
+        text += fmt::format("  {:<14} {} of {} found ({}), {} of all removed points\n", flagNames()[bit],
                             f.flags[bit].taken, f.flags[bit].in, percent(f.flags[bit].taken, f.flags[bit].in),
                             percent(f.flags[bit].taken, f.with_truth.taken));
     if (f.plainly_mixed.in > 0)
@@ -100,7 +100,7 @@ Result<void> writeReport(const fs::path& file, const std::string& text) {
   std::ofstream out(file, std::ios::binary);
   out << text;
   out.close();
-  if (!out) return failure(ErrorKind::file_system, "cannot write it", file.string());
+  if (!out) return failure(ErrorKind::file_system, "cannot write the file", file.string());
   return {};
 }
 
@@ -109,10 +109,10 @@ Result<void> writeReport(const fs::path& file, const std::string& text) {
 Result<Outcome> runClean(const Document& document, const json& options, Progress& progress) {
   const fs::path in = options.at("in").get<std::string>();
   std::error_code error;
-  if (!fs::exists(in, error)) return failure(ErrorKind::file_system, "there is no such file", in.string());
+  if (!fs::exists(in, error)) return failure(ErrorKind::file_system, "file not found", in.string());
   const fs::path report = options.value("report", "");
   if (!report.empty() && report.extension() != ".json" && report.extension() != ".csv")
-    return failure(ErrorKind::usage, "a report is a .json or a .csv", "--report");
+    return failure(ErrorKind::usage, "unsupported report format: use .json or .csv", "--report");
   for (const char* option : {"output", "report"})
     if (const fs::path file = options.value(option, ""); !file.empty())
       if (auto there = checkFolderOf(file, option == std::string_view("output") ? "--output" : "--report"); !there)
@@ -137,8 +137,8 @@ Result<Outcome> runClean(const Document& document, const json& options, Progress
         !written)
       return failure(written.error());
   outcome.answer["files"] = std::move(files);
-  outcome.description = fmt::format("Cleaned {}: {} of {} points are left", in.filename().string(),
-                                    cleaning->points_out, cleaning->points_in);
+  outcome.description = fmt::format("Cleaned {}: kept {} of {} points", in.filename().string(), cleaning->points_out,
+                                    cleaning->points_in);
   outcome.text = table(*cleaning);
   return outcome;
 }

@@ -76,7 +76,8 @@ Result<SurfaceFit> fitCloudToClouds(std::span<const Vector3d> points, const Pose
                                     std::span<const PlacedCloud> others, double reach_m, Progress& progress) {
   Mesh mesh;
   for (const auto& cloud : others) addPatches(mesh, cloud);
-  if (mesh.triangles.empty()) return failure(ErrorKind::unusable, "the other scans have no flat surface to fit it to");
+  if (mesh.triangles.empty())
+    return failure(ErrorKind::unusable, "the other scans contain no planar surface to fit to");
   const ModelSurface surface(environmentOf(std::move(mesh)));
   std::vector<Vector3d> all(points.begin(), points.end()), thin;
   for (const auto i : thinned(all, kThinning_m, kPointsOfFit)) thin.push_back(all[i]);

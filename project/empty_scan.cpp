@@ -36,28 +36,27 @@ std::string whyNothing(const RayScene& scene, const Pose& local_from_scanner, co
       too_far += static_cast<int>(hit->range_m > settings.max_range_m);
     }
   if (sceneTriangleCount(scene.environment()) == 0)
-    return "the scan is empty: there is nothing in the scene; import a model, or take products back with `treat`";
+    return "the scan is empty: the scene contains no products; import a model, or include products again with `treat`";
   if (const double away = distanceTo(bounds(scene.environment()), local_from_scanner.translation);
       away > settings.max_range_m) {
     too_far = met;  // and where the model is small from there, no beam of this look round need have met it
     nearest = std::min(nearest, away);
   } else if (met == 0) {
-    return "the scan is empty: no beam meets the model; the station stands outside of everything that its field of "
-           "view covers; move it, or widen the field of view";
+    return "the scan is empty: no beam hits the model; move the station or widen the field of view";
   }
   if (met > 0 && too_near == met)
     return fmt::format(
-        "the scan is empty: all that the beams meet is nearer than {:.2f} m, where the {} {} begins to measure; move "
-        "the station",
+        "the scan is empty: all surfaces hit are closer than {:.2f} m, the minimum range of the {} {}; move the "
+        "station",
         instrument.min_range_m, instrument.maker, instrument.model);
   if (too_far == met)
     return fmt::format(
-        "the scan is empty: the nearest of the model is {:.0f} m away and the {} {} reaches {:.0f} m with these "
-        "settings; move the station nearer",
+        "the scan is empty: the nearest surface is {:.0f} m away, but the maximum range of the {} {} is {:.0f} m with "
+        "these settings; move the station closer",
         nearest, instrument.maker, instrument.model, settings.max_range_m);
   return fmt::format(
-      "the scan is empty: surfaces are met from {:.2f} m on, but what they send back is too weak to be found; see the "
-      "materials, the weather and the range mode",
+      "the scan is empty: beams hit surfaces from {:.2f} m on, but the returns are too weak to detect; check "
+      "materials, weather and range mode",
       nearest);
 }
 

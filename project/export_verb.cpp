@@ -43,13 +43,13 @@ Result<std::vector<std::uint64_t>> budgetsOf(const std::vector<std::string>& tex
     std::uint64_t value = 0;
     const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (wrong != std::errc() || end != text.data() + text.size() || value == 0)
-      return failure(ErrorKind::usage, fmt::format("'{}' is not a number of triangles", text), "--levels");
+      return failure(ErrorKind::usage, fmt::format("'{}' is not a triangle count", text), "--levels");
     const auto before = budgets.empty() ? triangles : budgets.back();
     if (value >= before)
-      return failure(
-          ErrorKind::usage,
-          fmt::format("each level must have fewer triangles than the one before: {} after {}", value, before),
-          "--levels");
+      return failure(ErrorKind::usage,
+                     fmt::format("each level of detail must have fewer triangles than the previous one: {} follows {}",
+                                 value, before),
+                     "--levels");
     budgets.push_back(value);
   }
   return budgets;
@@ -83,8 +83,8 @@ Result<Levels> makeLevels(const Document& document, const std::vector<std::uint6
       level.mean_deviation_m.push_back(loss.mean_deviation_m);
     }
     if (!lighter->budget_reached)
-      report.warn("--levels", fmt::format("{} triangles cannot be reached; the level has {}", budget,
-                                          lighter->all.triangles_after));
+      report.warn("--levels",
+                  fmt::format("cannot reach {} triangles; the level has {}", budget, lighter->all.triangles_after));
     result.answer.push_back({{"triangles", lighter->all.triangles_after},
                              {"max_deviation_m", lighter->all.max_deviation_m},
                              {"mean_deviation_m", lighter->all.mean_deviation_m}});
@@ -129,7 +129,8 @@ Result<void> exportGltf(const Document& document, Environment& scene, const fs::
   Environment shapes;
   if (options.contains("collision")) {
     if (!document.collision)
-      return failure(ErrorKind::usage, "there are no collision shapes yet: `collide` makes them", "--collision");
+      return failure(ErrorKind::usage, "there are no collision shapes; compute them with `collide` first",
+                     "--collision");
     shapes = collisionEnvironment(*document.collision);
     companions.collision = collisionOf(*document.collision, shapes, options.at("collision"));
     outcome.answer["collision_shapes"] = shapes.instances.size();
@@ -141,7 +142,7 @@ Result<void> exportGltf(const Document& document, Environment& scene, const fs::
 Result<void> exportPhysical(const Document& document, Environment& scene, const fs::path& file, bool helios,
                             Report& report, Progress& progress) {
   if (!document.materials)
-    return failure(ErrorKind::usage, "there are no materials yet: `materials` assigns them", file.string());
+    return failure(ErrorKind::usage, "there are no materials; assign them with `materials` first", file.string());
   const std::array all = {&scene};
   const auto physical = physicalSurfaces(document, all, LooksOfSplit::left_out);
   if (helios) return writeHeliosScene(scene, physical, *document.georeference, file, report, progress);
@@ -165,13 +166,15 @@ Result<Outcome> runExport(const Document& document, const json& options, Progres
   const bool physical = options.value("physical", false);
   if (!gltf && !helios && extension != ".obj")
     return failure(ErrorKind::usage,
-                   fmt::format("'{}' cannot be written; there is .glb, .gltf, .obj, and .xml for HELIOS++", extension),
+                   fmt::format("unsupported format '{}'; use .glb, .gltf, .obj, or .xml for HELIOS++", extension),
                    "--output");
   if (physical && extension != ".obj")
-    return failure(ErrorKind::usage, "glTF and HELIOS++ scenes have the physical materials always; it is for .obj",
+    return failure(ErrorKind::usage,
+                   "this option applies to .obj only; glTF and HELIOS++ scenes always contain the physical materials",
                    "--physical");
   if (!gltf && (options.contains("levels") || options.contains("collision")))
-    return failure(ErrorKind::usage, "levels of detail and collision shapes go into .glb or .gltf only", "--output");
+    return failure(ErrorKind::usage, "levels of detail and collision shapes can be exported to .glb or .gltf only",
+                   "--output");
   if (auto there = checkFolderOf(file, "--output"); !there) return failure(there.error());
   Environment scene = sceneOf(*document.environment());
   dropUnusedMeshes(scene);
@@ -182,8 +185,7 @@ Result<Outcome> runExport(const Document& document, const json& options, Progres
   if (!written) return failure(written.error());
   if (const auto left_out = document.environment()->instances.size() - scene.instances.size(); left_out > 0)
     outcome.report.note(
-        "spaces",
-        fmt::format("{} bodies that are not in the scene (spaces, what is excluded) are not exported", left_out));
+        "spaces", fmt::format("{} bodies outside the scene (spaces, excluded products) were not exported", left_out));
   outcome.description = "Exported " + file.filename().string();
   return outcome;
 }

@@ -13,8 +13,8 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kPush_m = 0.004, kPush_rad = 0.05 * kRadPerDeg;
-constexpr double kWalksBy_m = 2, kStandsBeside_m = 0.9;
+constexpr double kTripodMove_m = 0.004, kTripodMove_rad = 0.05 * kRadPerDeg;
+constexpr double kPasserBy_m = 2, kOperator_m = 0.9;
 
 // Passes points on, with their truth moved by `to_from`.
 class TruthMoved final : public PointSink {
@@ -78,8 +78,8 @@ class Person final : public PointSink {
   Eigen::Vector2d towards_;
 };
 
-std::uint32_t columnAt(double share, std::uint32_t columns) {
-  return static_cast<std::uint32_t>(std::clamp(std::llround(share * columns), 0LL, static_cast<long long>(columns)));
+std::uint32_t columnAt(double fraction, std::uint32_t columns) {
+  return static_cast<std::uint32_t>(std::clamp(std::llround(fraction * columns), 0LL, static_cast<long long>(columns)));
 }
 
 Trajectory standing(const Pose& pose) { return {{0}, {pose}}; }
@@ -95,31 +95,31 @@ Result<FieldFault> fieldFaultFrom(const std::vector<std::string>& pairs) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool number = error == std::errc() && end == text.data() + text.size();
-    const bool share = number && value >= 0 && value <= 1;
-    if (key == "until" && share)
-      field_fault.until_share = value;
-    else if (key == "push" && share)
-      field_fault.pushed_at_share = value;
-    else if (key == "walk" && share)
-      field_fault.walked_at_share = value;
-    else if (key == "stand" && share)
-      field_fault.stood_at_share = value;
+    const bool fraction = number && value >= 0 && value <= 1;
+    if (key == "until" && fraction)
+      field_fault.until_fraction = value;
+    else if (key == "tripod_moved" && fraction)
+      field_fault.tripod_moved_at_fraction = value;
+    else if (key == "passer_by" && fraction)
+      field_fault.passer_by_at_fraction = value;
+    else if (key == "operator_in_view" && fraction)
+      field_fault.operator_at_fraction = value;
     else if (key == "noise" && number && value >= 1 && value <= 100)
       field_fault.noise_factor = value;
     else
       return failure(ErrorKind::usage,
-                     fmt::format("'{}' is none of until=SHARE, push=SHARE, walk=SHARE, stand=SHARE (0 to 1), "
-                                 "noise=FACTOR (1 to 100)",
+                     fmt::format("invalid field fault '{}': use until=FRACTION, tripod_moved=FRACTION, "
+                                 "passer_by=FRACTION, operator_in_view=FRACTION (0 to 1) or noise=FACTOR (1 to 100)",
                                  pair),
                      "--field-fault");
   }
   return field_fault;
 }
 
-Pose pushed(const Pose& pose) {
+Pose tripodMoved(const Pose& pose) {
   Pose moved = pose;
-  moved.translation += pose.rotation * Eigen::Vector3d(kPush_m, 0, 0);
-  moved.rotation = pose.rotation * Eigen::AngleAxisd(kPush_rad, Eigen::Vector3d::UnitZ());
+  moved.translation += pose.rotation * Eigen::Vector3d(kTripodMove_m, 0, 0);
+  moved.rotation = pose.rotation * Eigen::AngleAxisd(kTripodMove_rad, Eigen::Vector3d::UnitZ());
   return moved;
 }
 
@@ -127,36 +127,36 @@ Result<ScanCount> scanWithFieldFault(const RayScene& scene, const MaterialAssign
                                      const Instrument& instrument, const ScanSettings& settings, const Pose& pose,
                                      const ScanOptions& options, const FieldFault& field_fault, PointSink& sink,
                                      Progress& progress) {
-  const auto azimuth = [&](double share) {
-    return std::lerp(settings.azimuth_from_rad, settings.azimuth_to_rad, share);
+  const auto azimuth = [&](double fraction) {
+    return std::lerp(settings.azimuth_from_rad, settings.azimuth_to_rad, fraction);
   };
-  if (field_fault.stood_at_share) {
+  if (field_fault.operator_at_fraction) {
     FieldFault others = field_fault;
-    others.stood_at_share.reset();
-    Person beside(sink, kStandsBeside_m, azimuth(*field_fault.stood_at_share));
+    others.operator_at_fraction.reset();
+    Person beside(sink, kOperator_m, azimuth(*field_fault.operator_at_fraction));
     return scanWithFieldFault(scene, assignment, instrument, settings, pose, options, others, beside, progress);
   }
-  if (field_fault.walked_at_share) {
+  if (field_fault.passer_by_at_fraction) {
     FieldFault others = field_fault;
-    others.walked_at_share.reset();
+    others.passer_by_at_fraction.reset();
     if (settings.passes > 1)
       return scanWithFieldFault(scene, assignment, instrument, settings, pose, options, others, sink, progress);
-    Person walked(sink, kWalksBy_m, azimuth(*field_fault.walked_at_share));
-    return scanWithFieldFault(scene, assignment, instrument, settings, pose, options, others, walked, progress);
+    Person passer_by(sink, kPasserBy_m, azimuth(*field_fault.passer_by_at_fraction));
+    return scanWithFieldFault(scene, assignment, instrument, settings, pose, options, others, passer_by, progress);
   }
   if (!field_fault.any()) return scan(scene, assignment, instrument, settings, standing(pose), options, sink, progress);
   ScanSettings noisier = settings;
   noisier.noise_factor *= field_fault.noise_factor;
   ScanOptions part = options;
-  part.end_column = std::min(options.end_column, columnAt(field_fault.until_share, settings.columns));
-  if (!field_fault.pushed_at_share)
+  part.end_column = std::min(options.end_column, columnAt(field_fault.until_fraction, settings.columns));
+  if (!field_fault.tripod_moved_at_fraction)
     return scan(scene, assignment, instrument, noisier, standing(pose), part, sink, progress);
   const auto push =
-      std::clamp(columnAt(*field_fault.pushed_at_share, settings.columns), part.first_column, part.end_column);
+      std::clamp(columnAt(*field_fault.tripod_moved_at_fraction, settings.columns), part.first_column, part.end_column);
   ScanOptions after = part;
   part.end_column = after.first_column = push;
   ScanCount count;
-  const Pose moved = pushed(pose);
+  const Pose moved = tripodMoved(pose);
   const Pose before_after{pose.rotation.conjugate() * moved.rotation,
                           pose.rotation.conjugate() * (moved.translation - pose.translation)};
   TruthMoved truth(sink, before_after);

@@ -12,23 +12,25 @@ namespace standpoint {
 
 // What went wrong in the field, and shows in the points.
 struct FieldFault {
-  double until_share = 1;                 // of the columns: the scan was cut short
-  double noise_factor = 1;                // of the range noise: dust on the optics, an instrument that is not warm
-  std::optional<double> pushed_at_share;  // of the columns: the tripod was pushed there, and nobody told the instrument
-  std::optional<double> walked_at_share;  // of the turn: somebody crosses the laser's way there
-  std::optional<double> stood_at_share;   // of the turn: who scans stays there, beside the instrument
+  double until_fraction = 1;  // of the columns: the scan was cut short
+  double noise_factor = 1;    // of the range noise: dust on the optics, an instrument that is not warm
+  std::optional<double>
+      tripod_moved_at_fraction;  // of the columns: the tripod was pushed there, and nobody told the instrument
+  std::optional<double> passer_by_at_fraction;  // of the turn: somebody crosses the laser's way there
+  std::optional<double> operator_at_fraction;   // of the turn: who scans stays there, beside the instrument
   bool any() const {
-    return until_share < 1 || noise_factor != 1 || pushed_at_share.has_value() || walked_at_share.has_value() ||
-           stood_at_share.has_value();
+    return until_fraction < 1 || noise_factor != 1 || tripod_moved_at_fraction.has_value() ||
+           passer_by_at_fraction.has_value() || operator_at_fraction.has_value();
   }
 };
 
-// From "until=0.5", "noise=2", "push=0.4", "walk=0.5", "stand=0.5"; what is not so, or out of bounds, is an error of
+// From "until=0.5", "noise=2", "tripod_moved=0.4", "passer_by=0.5", "operator_in_view=0.5"; what is not so, or out of
+// bounds, is an error of
 // --field-fault.
 Result<FieldFault> fieldFaultFrom(const std::vector<std::string>& pairs);
 
-// How a push moves the instrument: 4 mm aside and 0.05° about its standing axis; a choice of ours.
-Pose pushed(const Pose& pose);
+// How a bumped tripod moves the instrument: 4 mm aside and 0.05° about its standing axis; a choice of ours.
+Pose tripodMoved(const Pose& pose);
 
 // Who walks by is a cylinder of 0.5 m by 1.75 m, 2 m from the instrument, whose centre is 1.6 m above the floor; what
 // stands nearer hides it. A second pass of the laser shows it as moving, and the device takes it out: then nothing is

@@ -41,17 +41,18 @@ json scanInfo(const ScanInfo& scan) {
 
 Result<void> mustExist(const fs::path& file) {
   std::error_code error;
-  if (!fs::exists(file, error)) return failure(ErrorKind::file_system, "there is no such file", file.string());
+  if (!fs::exists(file, error)) return failure(ErrorKind::file_system, "file not found", file.string());
   return {};
 }
 
 // IN into a labelled set, a folder.
 Result<Outcome> convertTo(const json& options, Outcome outcome, Progress& progress) {
   const fs::path in = options.at("in").get<std::string>(), out = options.at("out").get<std::string>();
-  if (options.contains("as")) return failure(ErrorKind::usage, "--as is for a file, --dataset for a folder", "convert");
+  if (options.contains("as"))
+    return failure(ErrorKind::usage, "use --as for a file, --dataset for a folder", "convert");
   const auto name = options.at("dataset").get<std::string>();
   const auto set = std::find_if(datasets().begin(), datasets().end(), [&](const Dataset& d) { return name == d.name; });
-  if (set == datasets().end()) return failure(ErrorKind::usage, "there is no set '" + name + "'", "--dataset");
+  if (set == datasets().end()) return failure(ErrorKind::usage, "unknown dataset '" + name + "'", "--dataset");
   auto map = readClassMap(options.contains("classes") ? fs::path(options["classes"].get<std::string>())
                                                       : dataFolder() / "pointclouds" / "classes" / (name + ".json"));
   if (!map) return failure(map.error());
@@ -122,24 +123,24 @@ Result<Outcome> runInfo(const Document& document, const json& options, Progress&
 Result<Outcome> runJob(const Document& document, const json& options, Progress& progress) {
   const fs::path file = options.at("job").get<std::string>();
   std::ifstream in(file);
-  if (!in) return failure(ErrorKind::file_system, "cannot read it", file.string());
+  if (!in) return failure(ErrorKind::file_system, "cannot read the file", file.string());
   json steps;
   try {
     steps = json::parse(in);
   } catch (const json::exception& e) {  // also a number beyond double
     return failure(ErrorKind::unusable, e.what(), file.string());
   }
-  if (!steps.is_array()) return failure(ErrorKind::unusable, "a job is a list of {\"verb\": …}", file.string());
+  if (!steps.is_array()) return failure(ErrorKind::unusable, "a job must be a list of {\"verb\": …}", file.string());
   Outcome outcome{document, json::object(), {}, {}};
   json answers = json::array();
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const auto place = fmt::format("{} /{}", file.string(), i);
     if (!steps[i].is_object() || !steps[i].contains("verb") || !steps[i]["verb"].is_string())
-      return failure(ErrorKind::unusable, "a step is an object with a \"verb\"", place);
+      return failure(ErrorKind::unusable, "a step must be an object with a \"verb\"", place);
     const auto verb_name = steps[i]["verb"].get<std::string>();
     const Verb* verb = findVerb(verbs(), verb_name);
     if (verb == nullptr || verb_name == "run")
-      return failure(ErrorKind::unusable, fmt::format("there is no verb '{}' for a job", verb_name), place);
+      return failure(ErrorKind::unusable, fmt::format("unknown job verb '{}'", verb_name), place);
     json step = steps[i];
     step.erase("verb");
     auto done = runOnDisk(*verb, step, progress);

@@ -58,11 +58,12 @@ double metresPerUnit(PJ_CONTEXT* context, const PJ* crs) {
 }
 
 tl::unexpected<Error> unknownCrs(const std::string& code) {
-  return failure(ErrorKind::usage,
-                 fmt::format("'{}' is not a coordinate reference system that PROJ knows; write an EPSG code such as "
-                             "EPSG:25832, or leave it out",
-                             code),
-                 "--crs");
+  return failure(
+      ErrorKind::usage,
+      fmt::format(
+          "unknown coordinate reference system '{}'; enter an EPSG code such as EPSG:25832, or leave the option out",
+          code),
+      "--crs");
 }
 
 }  // namespace
@@ -97,12 +98,14 @@ Result<MapFactors> geographic(const std::string& code, const Eigen::Vector3d& ma
   if (!crs) return unknownCrs(code);
   const Pj wgs84(proj_create(context.get(), "EPSG:4326"));
   const Pj raw(proj_create_crs_to_crs_from_pj(context.get(), crs.get(), wgs84.get(), nullptr, nullptr));
-  if (!raw) return failure(ErrorKind::unusable, fmt::format("there is no way from {} to WGS84", code), "--crs");
+  if (!raw)
+    return failure(ErrorKind::unusable, fmt::format("PROJ has no transformation from {} to WGS84", code), "--crs");
   const Pj to_wgs84(proj_normalize_for_visualization(context.get(), raw.get()));
   const PJ_COORD out = proj_trans(to_wgs84.get(), PJ_FWD, proj_coord(map_m.x(), map_m.y(), 0, 0));
   if (!std::isfinite(out.lp.lam) || !std::isfinite(out.lp.phi) || std::abs(out.lp.phi) > 90)
     return failure(ErrorKind::unusable,
-                   fmt::format("({:.3f}, {:.3f}) lies outside the area of {}", map_m.x(), map_m.y(), code), "--origin");
+                   fmt::format("({:.3f}, {:.3f}) is outside the area of use of {}", map_m.x(), map_m.y(), code),
+                   "--origin");
   MapFactors result;
   result.geographic = {out.lp.phi, out.lp.lam, map_m.z()};
   // Factors are asked of the CRS itself, at its own geographic coordinates (radians).

@@ -43,7 +43,9 @@ Result<void> locate(const Document& document, const Georeference& g, json& answe
   if (!position && g.site) {
     position = g.site;
     answer["geographic"] = geographicAnswer(*position, "site");
-    report.note("IfcSite", "the position is the site's own latitude and longitude, often only the exporter's default");
+    report.note(
+        "IfcSite",
+        "the position comes from the site's latitude and longitude, which is often the exporter's default value");
   }
   if (!position) return {};
   const UtmPosition u = utm(position->latitude_deg, position->longitude_deg);
@@ -70,7 +72,7 @@ Result<Outcome> runGeoreference(const Document& document, const json& options, P
     g.crs = found->code;
   }
   if (options.contains("origin")) {
-    if (options["origin"].size() != 3) return failure(ErrorKind::usage, "--origin takes three numbers E,N,H");
+    if (options["origin"].size() != 3) return failure(ErrorKind::usage, "--origin requires three numbers E,N,H");
     MapConversion c = g.map_from_file.value_or(MapConversion{});
     const Eigen::Vector3d origin = vectorFrom(options["origin"]);
     c.eastings_m = origin.x();

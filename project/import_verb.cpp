@@ -212,7 +212,8 @@ Result<ImportOptions> importOptions(const json& options) {
   } else if (shift != "auto") {
     auto numbers = parseNumbers(shift);
     if (!numbers || numbers->size() != 3)
-      return failure(ErrorKind::usage, fmt::format("'{}' is not auto, none or E,N,H in metres", shift), "--shift");
+      return failure(ErrorKind::usage, fmt::format("invalid shift '{}': use auto, none or E,N,H in metres", shift),
+                     "--shift");
     result.shift = ShiftMode::given;
     result.given_shift_m = vectorFrom(*numbers);
   }
@@ -229,7 +230,7 @@ Result<ImportOptions> importOptions(const json& options) {
 
 Result<Outcome> importModels(const Document& document, const std::vector<std::filesystem::path>& files,
                              const ImportOptions& options, const std::string& crs, Progress& progress) {
-  if (files.empty()) return failure(ErrorKind::usage, "name at least one model file", "import");
+  if (files.empty()) return failure(ErrorKind::usage, "specify at least one model file", "import");
   Outcome outcome;
   outcome.document.name = document.name.empty() ? files.front().stem().string() : document.name;
   Environment environment;
@@ -241,7 +242,8 @@ Result<Outcome> importModels(const Document& document, const std::vector<std::fi
     auto model = importFile(files[i], each, progress);
     if (!model) return failure(model.error());
     if (auto wrong = validate(model->environment); !wrong.empty())
-      return failure(ErrorKind::internal, "the importer made an inconsistent model: " + wrong, files[i].string());
+      return failure(ErrorKind::internal, "internal error: the importer produced an inconsistent model: " + wrong,
+                     files[i].string());
     if (files.size() > 1)
       for (auto& issue : model->report.issues) issue.source = files[i].filename().string() + " " + issue.source;
     outcome.report.append(model->report);
@@ -255,15 +257,14 @@ Result<Outcome> importModels(const Document& document, const std::vector<std::fi
     }
     if (model->georeference.crs != georeference.crs || !sameConversion(model->georeference, georeference))
       outcome.report.warn(files[i].filename().string(),
-                          "its georeference differs from the first file's, which is used");
+                          "georeference differs from the first file; using that of the first file");
     appendEnvironment(environment, std::move(model->environment), model->georeference.shift_m - georeference.shift_m);
   }
   const bool building = std::any_of(environment.spatial.begin(), environment.spatial.end(),
                                     [](const SpatialNode& n) { return n.ifc_class == "IfcBuilding"; });
   if (building && crs.empty() && georeference.crs.empty() && !georeference.map_from_file)
-    outcome.report.warn(
-        "georeference",
-        "the model does not say where on a map it stands; `georeference` sets it (--crs, --origin, --rotation-deg)");
+    outcome.report.warn("georeference",
+                        "the model has no georeference; set it with `georeference` (--crs, --origin, --rotation-deg)");
   if (!crs.empty()) {
     auto found = findCrs(crs);
     if (!found) return failure(found.error());
@@ -301,7 +302,7 @@ Result<Outcome> addImported(const Document& document, Outcome imported, Progress
                                  ? ""
                                  : std::filesystem::path(imported.document.sources.front()).filename().string();
   if (its.crs != mine.crs || !sameConversion(its, mine))
-    outcome.report.warn(source, "its georeference differs from the environment's, which is used");
+    outcome.report.warn(source, "georeference differs from the environment; using that of the environment");
   Report all = *document.import_report;
   all.append(outcome.report);
   auto environment = std::make_shared<Environment>(*document.imported);
@@ -312,8 +313,8 @@ Result<Outcome> addImported(const Document& document, Outcome imported, Progress
   d.import_report = std::make_shared<const Report>(std::move(all));
   d.sources.insert(d.sources.end(), imported.document.sources.begin(), imported.document.sources.end());
   if (d.simplified || d.collision)
-    outcome.report.note(source,
-                        "the lighter model and the collision shapes were of the model as it was: make them again");
+    outcome.report.note(
+        source, "the simplified model and collision shapes are out of date: run `optimize` and `collide` again");
   d.simplified.reset();
   d.collision.reset();
   if (d.materials) {

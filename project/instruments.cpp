@@ -26,17 +26,16 @@ Result<void> addFrom(std::vector<KnownInstrument>& known, const fs::path& folder
   auto instruments = readInstruments(folder);
   if (!instruments) {
     Error error = instruments.error();
-    if (own) error.message += fmt::format(" (in your own instruments, {})", folder.string());
+    if (own) error.message += fmt::format(" (in your custom instruments, {})", folder.string());
     return failure(std::move(error));
   }
   for (auto& i : *instruments) {
     const fs::path file = folder / (i.id + ".json");
     for (const auto& k : known)
       if (k.instrument.id == i.id)
-        return failure(
-            ErrorKind::unusable,
-            fmt::format("the id '{}' is that of {}, too: give one of the files another", i.id, k.file.string()),
-            file.string());
+        return failure(ErrorKind::unusable,
+                       fmt::format("duplicate id '{}', also used by {}: change one of them", i.id, k.file.string()),
+                       file.string());
     known.push_back({std::move(i), file, own});
   }
   return {};
@@ -60,14 +59,14 @@ bool exchangeId(std::string& text, const std::string& id, const std::string& new
 Result<void> writeNew(const fs::path& file, const std::string& text) {
   std::error_code code;
   fs::create_directories(file.parent_path(), code);
-  if (code) return failure(ErrorKind::file_system, "cannot be created: " + code.message(), file.parent_path().string());
-  if (fs::exists(file, code)) return failure(ErrorKind::usage, "there is such a file already", file.string());
+  if (code) return failure(ErrorKind::file_system, "cannot create: " + code.message(), file.parent_path().string());
+  if (fs::exists(file, code)) return failure(ErrorKind::usage, "the file already exists", file.string());
   std::ofstream stream(file, std::ios::binary);
   stream << text;
   stream.close();
   if (stream) return {};
   fs::remove(file, code);
-  return failure(ErrorKind::file_system, "cannot be written", file.string());
+  return failure(ErrorKind::file_system, "cannot write", file.string());
 }
 
 }  // namespace
@@ -111,7 +110,7 @@ Result<Instrument> instrumentById(const std::string& id) {
   if (!all) return failure(all.error());
   for (auto& i : *all)
     if (i.id == id) return std::move(i);
-  return failure(ErrorKind::usage, fmt::format("there is no instrument '{}'; there is {}", id, idsOf(*all)),
+  return failure(ErrorKind::usage, fmt::format("unknown instrument '{}'; available: {}", id, idsOf(*all)),
                  "--instrument");
 }
 
@@ -123,19 +122,20 @@ Result<fs::path> copyInstrument(const std::string& id, const std::string& new_id
     return std::find_if(known->begin(), known->end(), is);
   };
   const auto original = named(id);
-  if (original == known->end())
-    return failure(ErrorKind::usage, fmt::format("there is no instrument '{}'", id), "--copy");
+  if (original == known->end()) return failure(ErrorKind::usage, fmt::format("unknown instrument '{}'", id), "--copy");
   if (!isId(new_id))
-    return failure(ErrorKind::usage, "an id has small letters, digits, - and _, and 64 of them at most", "--as");
+    return failure(ErrorKind::usage, "an id can contain lowercase letters, digits, - and _, up to 64 characters",
+                   "--as");
   if (const auto taken = named(new_id); taken != known->end())
-    return failure(ErrorKind::usage, fmt::format("'{}' is the id of {}", new_id, taken->file.string()), "--as");
+    return failure(ErrorKind::usage, fmt::format("id '{}' is already used by {}", new_id, taken->file.string()),
+                   "--as");
   const fs::path folder = ownInstrumentsFolder();
   if (folder.empty())
-    return failure(ErrorKind::usage, "there is no folder for own instruments: set STANDPOINT_INSTRUMENTS", "--copy");
+    return failure(ErrorKind::usage, "no folder for custom instruments: set STANDPOINT_INSTRUMENTS", "--copy");
   std::ifstream stream(original->file, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(stream), {}};
   if (!exchangeId(text, id, new_id))
-    return failure(ErrorKind::internal, "its id was not found", original->file.string());
+    return failure(ErrorKind::internal, "the id was not found in the file", original->file.string());
   const fs::path file = folder / (new_id + ".json");
   if (auto written = writeNew(file, text); !written) return failure(written.error());
   return file;

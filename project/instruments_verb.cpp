@@ -40,7 +40,7 @@ Result<Outcome> runInstruments(const Document& document, const json& options, Pr
   Outcome outcome{document, json::object(), {}, {}};
   const auto id = options.value("copy", std::string()), new_id = options.value("as", std::string());
   if (id.empty() != new_id.empty())
-    return failure(ErrorKind::usage, "--copy ID and --as NEW belong together", id.empty() ? "--copy" : "--as");
+    return failure(ErrorKind::usage, "--copy ID and --as NEW must be used together", id.empty() ? "--copy" : "--as");
   if (!id.empty()) {
     auto file = copyInstrument(id, new_id);
     if (!file) return failure(file.error());

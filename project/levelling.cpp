@@ -61,7 +61,7 @@ Result<Pose> believedPose(const Station& station, const Instrument& instrument, 
   const double yaw = yawOf(pose.rotation);
   if (!levelling.compensator || !instrument.compensator) {
     report.warn(station.name,
-                fmt::format("it stands {} out of level and {}: its points come tilted", angleText(tilt.angle_rad),
+                fmt::format("the station is {} out of level and {}: points stay tilted", angleText(tilt.angle_rad),
                             instrument.compensator ? "the compensator is off" : "the instrument has no compensator"));
     pose.rotation = rotationOf(yaw, {});
     return pose;
@@ -71,8 +71,8 @@ Result<Pose> believedPose(const Station& station, const Instrument& instrument, 
   if (compensator.range_rad > 0 && tilt.angle_rad > limit_rad)
     return failure(
         ErrorKind::unusable,
-        fmt::format("station {} stands {} out of level, and the compensator of the {} {} works up to {}; level it "
-                    "(station --move {} --tilt-deg 0) or switch the compensator off (--compensator off)",
+        fmt::format("station {} is {} out of level; the compensator of the {} {} works up to {}; level the station "
+                    "(station --move {} --tilt-deg 0) or turn the compensator off (--compensator off)",
                     station.name, angleText(tilt.angle_rad), instrument.maker, instrument.model, angleText(limit_rad),
                     station.name));
   if (levelling.exact) return pose;

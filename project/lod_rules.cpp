@@ -85,8 +85,7 @@ Result<LodLevel> readLevel(const json& entry, const JsonPlace& at, const char* p
     level.*field = *std::move(text);
   }
   if (level.part != part)
-    return (at / "part")
-        .unusable(std::string("must be ") + part + ": the main part comes first, then the surroundings");
+    return (at / "part").unusable(std::string("must be ") + part + ": list the main part first, then the surroundings");
   for (const char* key : {"budget", "max_deviation_m", "rules"})
     if (!entry.contains(key)) return (at / key).unusable("is missing");
   auto budget = readNumber(entry.at("budget"), at / "budget", 0, 1e12);
@@ -98,12 +97,12 @@ Result<LodLevel> readLevel(const json& entry, const JsonPlace& at, const char* p
   if (auto read = readOptional(entry, at, "farther_than_m", level.farther_than_m); !read) return failure(read.error());
   if (auto read = readFlag(entry, at, "hidden_faces", level.hidden_faces); !read) return failure(read.error());
   if (level.hidden_faces && level.part != "main")
-    return (at / "hidden_faces").unusable("belongs to the main part, and is meant for the whole");
+    return (at / "hidden_faces").unusable("is for the whole and belongs in the main part");
   auto selectors = readSelectors(entry, at);
   if (!selectors) return failure(selectors.error());
   level.products = *std::move(selectors);
   if (level.part == "main" && (level.farther_than_m || !level.products.empty()))
-    return at.unusable("the main part is what the surroundings leave; say there what they are");
+    return at.unusable("define it in the surroundings; the main part is everything else");
   if (!entry.at("rules").is_array()) return (at / "rules").unusable("must be a list");
   for (std::size_t i = 0; i < entry.at("rules").size(); ++i) {
     auto rule = readRule(entry.at("rules")[i], at / "rules" / i);
@@ -156,10 +155,10 @@ bool fitsSize(const LodRule& rule, const Bounds& box) {
 }
 
 // Only where a rule asks for it, as it takes some million rays.
-std::vector<double> skySharesIfAsked(const Environment& environment, const std::vector<LodLevel>& levels) {
+std::vector<double> skyFractionsIfAsked(const Environment& environment, const std::vector<LodLevel>& levels) {
   for (const auto& level : levels)
     for (const auto& rule : level.rules)
-      if (rule.sees_sky_less_than) return skyShares(environment, Progress());
+      if (rule.sees_sky_less_than) return skyFractions(environment, Progress());
   return std::vector<double>(environment.products.size(), 1);
 }
 
@@ -169,7 +168,7 @@ Result<std::vector<LodLevel>> readLodRules(const std::filesystem::path& file) {
   const auto entries = readJsonArray(file);
   if (!entries) return failure(entries.error());
   const JsonPlace top{file.filename().string(), {}};
-  if (entries->size() != 2) return top.unusable("must hold two levels: main and surroundings");
+  if (entries->size() != 2) return top.unusable("must contain two levels: main and surroundings");
   std::vector<LodLevel> levels;
   for (std::size_t i = 0; i < 2; ++i) {
     auto level = readLevel((*entries)[i], top / i, std::array{"main", "surroundings"}[i]);
@@ -194,20 +193,21 @@ OptimizeOptions allowances(const Environment& environment, const std::vector<Lod
   options.further_budgets = {levels[1].budget};
   options.products.resize(environment.products.size());
   const bool any_around = std::find(around.begin(), around.end(), true) != around.end();
-  const auto sky = any_around ? skySharesIfAsked(environment, levels) : skySharesIfAsked(environment, {levels[0]});
-  for (std::uint32_t share = 0; share < 2; ++share) {
-    const LodLevel& level = levels[share];
+  const auto sky =
+      any_around ? skyFractionsIfAsked(environment, levels) : skyFractionsIfAsked(environment, {levels[0]});
+  for (std::uint32_t budget_group = 0; budget_group < 2; ++budget_group) {
+    const LodLevel& level = levels[budget_group];
     std::vector<bool> decided(environment.products.size(), false);
     for (std::size_t i = 0; i < decided.size(); ++i) {
-      if (around[i] != (share == 1)) continue;
+      if (around[i] != (budget_group == 1)) continue;
       options.products[i].lod = level.level;
-      options.products[i].share = share;
+      options.products[i].budget_group = budget_group;
       options.products[i].max_deviation_m = level.max_deviation_m;
     }
     for (const auto& rule : level.rules) {
       const auto meant = selected(environment, rule.products, true);
       for (std::size_t i = 0; i < decided.size(); ++i) {
-        if (decided[i] || around[i] != (share == 1) || !meant[i] || !fitsSize(rule, boxes[i])) continue;
+        if (decided[i] || around[i] != (budget_group == 1) || !meant[i] || !fitsSize(rule, boxes[i])) continue;
         if (rule.sees_sky_less_than && !(sky[i] < *rule.sees_sky_less_than)) continue;
         decided[i] = true;
         ProductAllowance& allowance = options.products[i];

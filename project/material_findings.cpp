@@ -61,11 +61,11 @@ FindingCollector::Cause causeOf(const json& proposal, const json& answer, const 
   c.warning = true;
   c.subject =
       fmt::format("{}\n{}\n{}\n{}", underlay, assigned, instead, first.global_id.empty() ? first.id : first.global_id);
-  c.what = assigned.empty() ? std::string("without a material, and measured:")
-                            : fmt::format("'{}' was measured otherwise on", assigned);
-  c.then = fmt::format(": it behaves like '{}'", instead);
+  c.what = assigned.empty() ? std::string("no material assigned; measured:")
+                            : fmt::format("measurements contradict '{}' on", assigned);
+  c.then = fmt::format(": behaves like '{}'", instead);
   c.why = fmt::format("By the cloud '{}': {}.{}", underlay, proposal.at("evidence").get<std::string>(),
-                      alike.empty() ? "" : fmt::format(" As well as it do: {}.", fmt::join(alike, ", ")));
+                      alike.empty() ? "" : fmt::format(" Equally good: {}.", fmt::join(alike, ", ")));
   c.remedies = remediesOf(proposal);
   return c;
 }

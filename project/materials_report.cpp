@@ -37,8 +37,8 @@ std::string spectrumSvg(const PhysicalMaterial& m) {
 
 std::string coverageTable(const char* title, const std::vector<CoverageRow>& rows) {
   std::string text = fmt::format(
-      "<h2>Coverage by {}</h2><table><tr><th>{}<th>Area, m²<th>With a material<th>Of it by a weak rule</tr>\n", title,
-      title);
+      "<h2>Coverage by {}</h2><table><tr><th>{}<th>Area, m²<th>Assigned<th>Assigned by low-confidence rule</tr>\n",
+      title, title);
   for (const auto& r : rows)
     text += fmt::format("<tr><td>{}<td>{:.1f}<td>{:.1f} %<td>{:.1f} %</tr>\n", r.name.empty() ? "–" : htmlText(r.name),
                         r.area_m2, r.area_m2 > 0 ? 100 * r.assigned_m2 / r.area_m2 : 0,
@@ -47,7 +47,7 @@ std::string coverageTable(const char* title, const std::vector<CoverageRow>& row
 }
 
 std::string materialRow(const MaterialUse& use, const PhysicalMaterial* m) {
-  if (m == nullptr) return fmt::format("<tr><td>without a material<td>{:.1f}<td colspan=9></tr>\n", use.area_m2);
+  if (m == nullptr) return fmt::format("<tr><td>no material<td>{:.1f}<td colspan=9></tr>\n", use.area_m2);
   std::string text = fmt::format("<tr><td>{}<br><code>{}</code><td>{:.1f}<td>{}", htmlText(m->label), m->id,
                                  use.area_m2, spectrumSvg(*m));
   for (const double nm : kColumns_nm) text += fmt::format("<td>{:.2f}", atWavelength(m->reflectance, nm));
@@ -121,12 +121,13 @@ std::string csvReport(const Document& document) {
 Result<void> writeMaterialReport(const Document& document, const std::filesystem::path& file) {
   const auto ending = file.extension().string();
   if (ending != ".html" && ending != ".csv")
-    return failure(ErrorKind::usage, "a report ends in .html or .csv", file.string());
+    return failure(ErrorKind::usage, "unsupported report format: use .html or .csv", file.string());
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
   out << (ending == ".html" ? htmlReport(document) : csvReport(document));
   out.flush();
   if (!out)
-    return failure(ErrorKind::file_system, fmt::format("cannot write it ({})", std::strerror(errno)), file.string());
+    return failure(ErrorKind::file_system, fmt::format("cannot write the file ({})", std::strerror(errno)),
+                   file.string());
   return {};
 }
 

@@ -14,9 +14,9 @@ constexpr std::size_t kMostClasses = 5;
 constexpr std::size_t kMostProducts = 20;
 
 // 100.0 % is all of it: a rest that rounds away shows as 99.9.
-std::string percent(double share) {
-  const double rounded = share < 1 ? std::min(share * 100, 99.9) : 100.0;
-  return share > 0 && rounded < 0.05 ? "< 0.1 %" : fmt::format("{:.1f} %", rounded);
+std::string percent(double fraction) {
+  const double rounded = fraction < 1 ? std::min(fraction * 100, 99.9) : 100.0;
+  return fraction > 0 && rounded < 0.05 ? "< 0.1 %" : fmt::format("{:.1f} %", rounded);
 }
 
 // As a shell takes it: selectors hold #, & and *.
@@ -44,10 +44,10 @@ void appendClasses(std::string& text, const MaterialReport& report) {
     return a.area_m2 - a.assigned_m2 > b.area_m2 - b.assigned_m2;
   });
   if (rows.empty()) return;
-  text += "\n  without a material, by class\n";
+  text += "\n  unassigned area by class\n";
   for (std::size_t i = 0; i < std::min(rows.size(), kMostClasses); ++i)
     text += fmt::format("  {:.1f} m² of {:.1f} m² of {}\n", rows[i].area_m2 - rows[i].assigned_m2, rows[i].area_m2,
-                        rows[i].name.empty() ? "what has no class" : rows[i].name);
+                        rows[i].name.empty() ? "no class" : rows[i].name);
   if (rows.size() > kMostClasses) text += fmt::format("  … and of {} more classes\n", rows.size() - kMostClasses);
 }
 
@@ -92,11 +92,11 @@ void appendSteps(std::string& text, const std::vector<Kind>& kinds) {
     const auto& first = *kinds.front().first;
     const Remedy any = first.remedies.empty() ? Remedy{"", "SELECTOR", ""} : first.remedies.front();
     text += fmt::format("  standpoint materials PROJECT {}\n", assignOption(any));
-    text += fmt::format("  standpoint materials PROJECT --accept {} --because 'it is so'\n", first.id);
+    text += fmt::format("  standpoint materials PROJECT --accept {} --because 'REASON'\n", first.id);
   }
   text +=
-      "  standpoint materials PROJECT --report materials.html    every finding and surface, to print; --json has them "
-      "for programs\n";
+      "  standpoint materials PROJECT --report materials.html    printable report of all findings and surfaces; use "
+      "--json for scripts\n";
 }
 
 }  // namespace
@@ -104,11 +104,11 @@ void appendSteps(std::string& text, const std::vector<Kind>& kinds) {
 std::string materialsText(const Environment& environment, const MaterialReport& report) {
   double weak_m2 = 0;
   for (const auto& row : report.by_class) weak_m2 += row.weak_m2;
-  std::string text = fmt::format("  {:.1f} m² of {} products", report.area_m2,
+  std::string text = fmt::format("  {:.1f} m² on {} products", report.area_m2,
                                  std::count_if(environment.products.begin(), environment.products.end(),
                                                [](const Product& p) { return p.inScene(); }));
-  if (report.area_m2 <= 0) return text + ": nothing has a surface\n";
-  text += fmt::format(": {} has a material, {} by a weak rule\n", percent(report.coverage),
+  if (report.area_m2 <= 0) return text + ": no surfaces\n";
+  text += fmt::format(": {} assigned, {} by low-confidence rules\n", percent(report.coverage),
                       percent(weak_m2 / report.area_m2));
   const auto kinds = openKinds(report);
   appendUses(text, report);
@@ -138,7 +138,7 @@ std::string whereText(const nlohmann::json& where) {
     text += fmt::format("  {} {} '{}'\n", products[i].value("id", ""), products[i].value("class", ""),
                         products[i].value("name", ""));
   if (products.size() > kMostProducts)
-    text += fmt::format("  … and {} more: --json lists them\n", products.size() - kMostProducts);
+    text += fmt::format("  … and {} more; use --json for the full list\n", products.size() - kMostProducts);
   return text;
 }
 

@@ -143,7 +143,7 @@ Result<json> takeLibrary(MaterialChoice& choice, const fs::path& file, const std
 Result<void> forget(MaterialChoice& choice, const std::vector<std::string>& ids) {
   for (const auto& id : ids)
     if (std::erase_if(choice.own, [&](const PhysicalMaterial& m) { return m.id == id; }) == 0)
-      return failure(ErrorKind::usage, "it is no material of your own", id);
+      return failure(ErrorKind::usage, "not a custom material", id);
   return {};
 }
 
@@ -153,7 +153,7 @@ Result<void> takeOverrides(MaterialChoice& choice, const std::vector<MaterialOve
       choice.overrides.push_back(o);
     } else if (std::erase_if(choice.overrides,
                              [&](const MaterialOverride& old) { return old.selector == o.selector; }) == 0) {
-      return failure(ErrorKind::usage, "nothing was assigned by this selector that could be taken back", o.selector);
+      return failure(ErrorKind::usage, "this selector has no assignment to remove", o.selector);
     }
   }
   return {};
@@ -184,8 +184,7 @@ Result<std::vector<double>> wavelengths(const Document& document, const std::str
   std::vector<double> result;
   for (const auto& each : *instruments)
     if (std::find(ids.begin(), ids.end(), each.id) != ids.end()) result.push_back(each.wavelength_nm);
-  if (!instrument.empty() && result.empty())
-    return failure(ErrorKind::usage, "there is no such instrument", instrument);
+  if (!instrument.empty() && result.empty()) return failure(ErrorKind::usage, "unknown instrument", instrument);
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
@@ -196,15 +195,15 @@ Result<bool> judge(MaterialChoice& choice, const std::vector<MaterialFinding>& f
                    const MaterialRequest& request) {
   if (request.accept.empty() && request.reopen.empty()) return false;
   if (!request.accept.empty() && request.because.find_first_not_of(" \t\n") == std::string::npos)
-    return failure(ErrorKind::usage, "a finding is accepted because of something: say what", "because");
+    return failure(ErrorKind::usage, "accepting a finding requires a reason", "because");
   for (const auto& id : request.reopen)
     if (std::erase_if(choice.accepted, [&](const AcceptedFinding& a) { return a.finding == id; }) == 0)
-      return failure(ErrorKind::usage, "no such finding was accepted", id);
+      return failure(ErrorKind::usage, "no accepted finding with this id", id);
   for (const auto& id : request.accept) {
     const auto found =
         std::find_if(findings.begin(), findings.end(), [&](const MaterialFinding& f) { return f.id == id; });
     if (found == findings.end())
-      return failure(ErrorKind::usage, "there is no such finding; `materials` lists them", id);
+      return failure(ErrorKind::usage, "unknown finding; `materials` lists all findings", id);
     std::erase_if(choice.accepted, [&](const AcceptedFinding& a) { return a.finding == id; });
     choice.accepted.push_back({id, found->cause, request.because});
   }
@@ -213,11 +212,11 @@ Result<bool> judge(MaterialChoice& choice, const std::vector<MaterialFinding>& f
 
 std::string description(const MaterialRequest& request, const MaterialReport& report) {
   if (!request.accept.empty()) return fmt::format("Accepted {}", fmt::join(request.accept, ", "));
-  if (!request.reopen.empty()) return fmt::format("Opened {} again", fmt::join(request.reopen, ", "));
+  if (!request.reopen.empty()) return fmt::format("Reopened {}", fmt::join(request.reopen, ", "));
   if (!request.assign.empty())
     return fmt::format("Assigned {} to {}", request.assign.back().material, request.assign.back().selector);
   if (!request.libraries.empty())
-    return fmt::format("Took in materials of {}", request.libraries.back().filename().string());
+    return fmt::format("Added materials from {}", request.libraries.back().filename().string());
   return fmt::format("Assigned materials to {:.1f} % of the area", report.coverage * 100);
 }
 
@@ -296,7 +295,7 @@ Result<Outcome> runMaterials(const Document& document, const json& options, Prog
     if (!shipped) return failure(shipped.error());
     const auto library = withOwn(*shipped, choice.own);
     if (std::none_of(library.begin(), library.end(), [&](const PhysicalMaterial& m) { return m.id == id; }))
-      return failure(ErrorKind::usage, "it is not in the library of materials", id);
+      return failure(ErrorKind::usage, "not in the material library", id);
     outcome->answer["where"] = whereAnswer(*document.environment(), choice.result, id);
     outcome->text = whereText(outcome->answer["where"]);
   }

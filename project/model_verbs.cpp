@@ -19,8 +19,7 @@ Result<void> setDoors(const Document& document, const json& options, CollideOpti
   const auto doors = options.at("doors").get<std::string>();
   typed.doors = doors == "closed" ? DoorState::closed : doors == "as-set" ? DoorState::as_set : DoorState::open;
   if (typed.doors != DoorState::as_set) {
-    if (options.contains("closed"))
-      return failure(ErrorKind::usage, "names doors that are set one by one: give --doors as-set as well", "closed");
+    if (options.contains("closed")) return failure(ErrorKind::usage, "requires --doors as-set", "closed");
     return {};
   }
   typed.closed.assign(document.imported->products.size(), false);
@@ -35,7 +34,7 @@ Result<void> setDoors(const Document& document, const json& options, CollideOpti
       typed.closed[product] = true;
       any = any || document.imported->products[product].ifc_class.starts_with("IfcDoor");
     }
-    if (!any) return failure(ErrorKind::usage, fmt::format("{} names no door", selector), "closed");
+    if (!any) return failure(ErrorKind::usage, fmt::format("{} matches no door", selector), "closed");
   }
   return {};
 }
@@ -84,7 +83,7 @@ Result<Outcome> collideDocument(const Document& document, const CollideOptions& 
   outcome.answer = {
       {"products", std::move(rows)}, {"shapes", result->shapes.size()}, {"walkable_area_m2", result->walkable_area_m2},
       {"doors", std::move(doors)},   {"doors_passable", passable},      {"rooms", std::move(rooms)}};
-  outcome.description = fmt::format("Made {} collision shapes; {:.1f} m² walkable, {} of {} doors passable",
+  outcome.description = fmt::format("Created {} collision shapes; {:.1f} m² walkable, {} of {} doors passable",
                                     result->shapes.size(), result->walkable_area_m2, passable, result->doors.size());
   outcome.document.collision = std::make_shared<const CollideResult>(*std::move(result));
   return outcome;

@@ -39,26 +39,25 @@ std::string levelsOf(const OptimizeOptions& options) {
 // What the rules said, with the numbers they hold and how many products each decided.
 void reportRules(const SimplificationPlan& plan, Report& report) {
   const auto& products = plan.options.products;
-  for (std::uint32_t share = 0; share < plan.levels.size(); ++share) {
-    const LodLevel& level = plan.levels[share];
+  for (std::uint32_t budget_group = 0; budget_group < plan.levels.size(); ++budget_group) {
+    const LodLevel& level = plan.levels[budget_group];
     const auto count = [&](const std::string& reason) {
       return std::count_if(products.begin(), products.end(),
-                           [&](const auto& a) { return a.share == share && a.reason == reason; });
+                           [&](const auto& a) { return a.budget_group == budget_group && a.reason == reason; });
     };
     const auto members =
-        std::count_if(products.begin(), products.end(), [&](const auto& a) { return a.share == share; });
+        std::count_if(products.begin(), products.end(), [&](const auto& a) { return a.budget_group == budget_group; });
     if (members == 0) continue;
-    const auto budget = share == 0 ? plan.options.budget : plan.options.further_budgets[share - 1];
-    report.note(level.level,
-                fmt::format("{}: {} products, {} triangles, deviations of at most {} m where no rule says otherwise",
-                            level.part, members, budget, level.max_deviation_m));
+    const auto budget = budget_group == 0 ? plan.options.budget : plan.options.further_budgets[budget_group - 1];
+    report.note(level.level, fmt::format("{}: {} products, {} triangles, max deviation {} m unless a rule overrides it",
+                                         level.part, members, budget, level.max_deviation_m));
     for (const auto& rule : level.rules)
       if (const auto decided = count(rule.reason); decided > 0)
         report.note(
             level.level,
             fmt::format("{}: {} products {}", rule.reason, decided,
                         rule.drop   ? "dropped"
-                        : rule.keep ? "kept as they are"
+                        : rule.keep ? "kept unchanged"
                                     : fmt::format("within {} m, weight {}",
                                                   rule.max_deviation_m.value_or(level.max_deviation_m), rule.weight)));
   }
@@ -76,7 +75,7 @@ Result<SimplificationPlan> planLightening(const Document& document, const Simpli
                                           const Progress& progress) {
   SimplificationPlan plan;
   if (request.by_view && !document.collision)
-    return failure(ErrorKind::usage, "what walkers see is told from the walkable surface: `collide` makes it",
+    return failure(ErrorKind::usage, "visibility is computed from the walkable surface: run `collide` first",
                    "--by-view");
   if (request.lod_rules.empty()) {
     plan.options.budget = request.budget.value_or(0);
@@ -122,8 +121,9 @@ Result<Outcome> optimizeDocument(const Document& document, const SimplificationR
     rows.push_back(std::move(row));
   }
   outcome.answer["products"] = std::move(rows);
-  outcome.description = fmt::format("Optimised {} to {} triangles, at most {:.1f} mm off", result->all.triangles_before,
-                                    result->all.triangles_after, result->all.max_deviation_m * 1000);
+  outcome.description =
+      fmt::format("Optimised {} to {} triangles, max deviation {:.1f} mm", result->all.triangles_before,
+                  result->all.triangles_after, result->all.max_deviation_m * 1000);
   SimplifiedModel simplified{std::make_shared<const Environment>(std::move(result->environment)),
                              std::move(result->products),
                              result->all,
@@ -136,7 +136,7 @@ Result<Outcome> optimizeDocument(const Document& document, const SimplificationR
 
 Result<Outcome> runOptimize(const Document& document, const json& options, Progress& progress) {
   if (options.contains("surroundings") && !options.contains("lod"))
-    return failure(ErrorKind::usage, "tells surroundings apart for level rules: give --lod as well", "surroundings");
+    return failure(ErrorKind::usage, "requires --lod", "surroundings");
   SimplificationRequest request;
   if (options.contains("budget")) request.budget = options.at("budget").get<std::uint64_t>();
   request.max_deviation_m = options.at("max-deviation").get<double>();

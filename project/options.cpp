@@ -78,7 +78,7 @@ Result<json> checkOptions(const Verb& verb, const json& options) {
     if (found == verb.parameters.end()) {
       std::vector<const char*> names;
       for (const auto& p : verb.parameters) names.push_back(p.name);
-      return failure(ErrorKind::usage, fmt::format("there is no option '{}'; there is {}", key, fmt::join(names, ", ")),
+      return failure(ErrorKind::usage, fmt::format("unknown option '{}'; available: {}", key, fmt::join(names, ", ")),
                      verb.name);
     }
     if (!fits(*found, value))
@@ -88,7 +88,7 @@ Result<json> checkOptions(const Verb& verb, const json& options) {
   }
   for (const auto& p : verb.parameters) {
     if (complete.contains(p.name)) continue;
-    if (p.required) return failure(ErrorKind::usage, fmt::format("'{}' is missing: {}", p.name, p.help), verb.name);
+    if (p.required) return failure(ErrorKind::usage, fmt::format("'{}' is required: {}", p.name, p.help), verb.name);
     if (!p.default_value.is_null()) complete[p.name] = p.default_value;
   }
   return complete;
@@ -98,13 +98,13 @@ Result<Outcome> runVerb(const Verb& verb, const Document& document, const json& 
   auto complete = checkOptions(verb, options);
   if (!complete) return failure(complete.error());
   if ((verb.scope == VerbScope::changes || verb.scope == VerbScope::reads) && !document.imported)
-    return failure(ErrorKind::usage, "there is no model yet: import one first", verb.name);
+    return failure(ErrorKind::usage, "there is no model: import one first", verb.name);
   try {
     return verb.run(document, *complete, progress);
   } catch (const std::bad_alloc&) {
-    return failure(ErrorKind::unusable, "not enough memory for this", verb.name);
+    return failure(ErrorKind::unusable, "not enough memory", verb.name);
   } catch (const std::exception& e) {
-    return failure(ErrorKind::internal, fmt::format("unexpected: {}", e.what()), verb.name);
+    return failure(ErrorKind::internal, fmt::format("unexpected error: {}", e.what()), verb.name);
   }
 }
 

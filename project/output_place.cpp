@@ -11,8 +11,8 @@ Result<void> checkFolderOf(const std::filesystem::path& file, const char* option
   if (folder.empty() || std::filesystem::is_directory(folder, code)) return {};
   const bool something = std::filesystem::exists(folder, code);
   return failure(ErrorKind::file_system,
-                 something ? fmt::format("{} is no folder: name another place with {}", folder.string(), option)
-                           : fmt::format("the folder {} is not there: make it first, or name another place with {}",
+                 something ? fmt::format("{} is not a folder: choose another location with {}", folder.string(), option)
+                           : fmt::format("folder {} does not exist: create it, or choose another location with {}",
                                          folder.string(), option),
                  file.string());
 }

@@ -55,9 +55,9 @@ StationPlacement::StationPlacement(const RayScene& scene, const TripodStand& sta
 
 std::optional<Refusal> StationPlacement::badHeight(double height_m) const {
   if (height_m >= lowest_m() - 1e-9 && height_m <= highest_m() + 1e-9) return std::nullopt;
-  return Refusal{fmt::format("a tripod holds the instrument's centre {:.2f} to {:.2f} m above the ground, not {:.2f} m",
-                             lowest_m(), highest_m(), height_m),
-                 "say another --height, or --stand free for what hangs or is held"};
+  return Refusal{fmt::format("a tripod supports instrument heights of {:.2f} to {:.2f} m, not {:.2f} m", lowest_m(),
+                             highest_m(), height_m),
+                 "change --height, or use --stand free for suspended or handheld instruments"};
 }
 
 std::optional<Refusal> StationPlacement::tooNear(const Eigen::Vector3d& centre) const {
@@ -69,10 +69,9 @@ std::optional<Refusal> StationPlacement::tooNear(const Eigen::Vector3d& centre) 
         nearestOf(environment, environment.instances[i], centre, reach))
       nearest = environment.instances[i].product;
   if (!nearest) return std::nullopt;
-  return Refusal{
-      fmt::format("the instrument's centre would be {:.0f} mm from {}; it needs {:.0f} mm all round", reach * 1000,
-                  productText(environment, *nearest), stand_.clearance_m * 1000),
-      fmt::format("move it {:.0f} mm away from there", std::ceil((stand_.clearance_m - reach) * 1000 - 0.01))};
+  return Refusal{fmt::format("the instrument centre would be {:.0f} mm from {}; it needs {:.0f} mm of clearance",
+                             reach * 1000, productText(environment, *nearest), stand_.clearance_m * 1000),
+                 fmt::format("move it {:.0f} mm away", std::ceil((stand_.clearance_m - reach) * 1000 - 0.01))};
 }
 
 bool StationPlacement::worthTrying(const Eigen::Vector3d& centre) const {
@@ -89,7 +88,7 @@ bool StationPlacement::worthTrying(const Eigen::Vector3d& centre) const {
 std::optional<Refusal> StationPlacement::noHeadroom(const Eigen::Vector3d& centre) const {
   const auto above = scene_.intersect(centre, kUp, stand_.headroom_m);
   if (!above) return std::nullopt;
-  return Refusal{fmt::format("{} is {:.2f} m above the instrument's centre; it needs {:.2f} m of headroom",
+  return Refusal{fmt::format("{} is {:.2f} m above the instrument centre; it needs {:.2f} m of headroom",
                              productText(scene_.environment(), above->product), above->range_m, stand_.headroom_m),
                  fmt::format("lower it by {:.2f} m, or choose another place", stand_.headroom_m - above->range_m)};
 }
@@ -104,22 +103,22 @@ std::optional<Ground> StationPlacement::groundBelow(const Eigen::Vector3d& centr
 
 std::optional<Refusal> StationPlacement::badGround(const Eigen::Vector3d& centre) const {
   const auto ground = groundBelow(centre);
-  const char* elsewhere = "say --on X,Y[,Z] with a point of a floor, or --stand free for what hangs or is held";
-  if (!ground) return Refusal{"it would float: the whole model is above it or there is none", elsewhere};
+  const char* elsewhere =
+      "use --on X,Y[,Z] with a point on a floor, or --stand free for suspended or handheld instruments";
+  if (!ground) return Refusal{"no ground below: the whole model is above the station, or there is no model", elsewhere};
   const double height = centre.z() - ground->z;
   if (height > highest_m() + 1e-3)
     return Refusal{
-        fmt::format("it would float: {} is {:.2f} m below the instrument's centre, and a tripod reaches {:.2f} m",
-                    ground->modelled() ? ground->product : "nothing but the model's lowest height", height,
-                    highest_m()),
-        fmt::format("lower it by {:.2f} m at least, or {}", height - highest_m(), elsewhere)};
+        fmt::format("too high: {} is {:.2f} m below the instrument centre, and a tripod supports up to {:.2f} m",
+                    ground->modelled() ? ground->product : "the lowest level of the model", height, highest_m()),
+        fmt::format("lower it by at least {:.2f} m, or {}", height - highest_m(), elsewhere)};
   if (height < lowest_m() - 1e-3)
     return Refusal{
-        fmt::format("{} is only {:.2f} m below the instrument's centre, and a tripod is {:.2f} m high at least",
-                    ground->modelled() ? ground->product : "the model's lowest height", height, lowest_m()),
+        fmt::format("too low: {} is only {:.2f} m below the instrument centre, and a tripod needs at least {:.2f} m",
+                    ground->modelled() ? ground->product : "the lowest level of the model", height, lowest_m()),
         fmt::format("raise it by {:.2f} m, or {}", lowest_m() - height, elsewhere)};
   if (ground->slope_rad > stand_.steepest_rad)
-    return Refusal{fmt::format("below it is {} of {:.0f} degrees, {}; a tripod stands on {:.0f} degrees at most",
+    return Refusal{fmt::format("the ground below is {} of {:.0f} degrees, {}; the limit for a tripod is {:.0f} degrees",
                                ground->slope_rad > stand_.wall_rad ? "a wall" : "a slope",
                                ground->slope_rad / kRadPerDeg, ground->product, stand_.steepest_rad / kRadPerDeg),
                    elsewhere};
@@ -140,20 +139,18 @@ std::optional<Refusal> StationPlacement::noFooting(const Eigen::Vector3d& centre
   }
   for (int k = 0; k < kTurns; ++k)
     if (stands[k] && stands[k + kTurns] && stands[k + 2 * kTurns]) return std::nullopt;
-  return Refusal{
-      fmt::format(
-          "the three feet of a tripod, {:.2f} m from its middle, do not find ground round it: {} is too small there",
-          stand_.foot_radius_m, ground.product),
-      "move it away from the edge, or --stand free for what hangs or is held"};
+  return Refusal{fmt::format("the tripod feet, {:.2f} m from the centre, have no ground: {} is too small here",
+                             stand_.foot_radius_m, ground.product),
+                 "move it away from the edge, or use --stand free for suspended or handheld instruments"};
 }
 
 std::optional<Refusal> StationPlacement::whyNotOn(const RayHit& hit, double height_m) const {
   const double slope = slopeOf(hit);
   if (slope > stand_.steepest_rad)
-    return Refusal{fmt::format("that is {} of {:.0f} degrees, {}; a tripod stands on {:.0f} degrees at most",
+    return Refusal{fmt::format("this is {} of {:.0f} degrees, {}; the limit for a tripod is {:.0f} degrees",
                                slope > stand_.wall_rad ? "a wall" : "a slope", slope / kRadPerDeg,
                                productText(scene_.environment(), hit.product), stand_.steepest_rad / kRadPerDeg),
-                   "point at a floor"};
+                   "choose a point on a floor"};
   return whyNot(hit.position + Eigen::Vector3d(0, 0, height_m));
 }
 
@@ -166,14 +163,14 @@ std::optional<Refusal> StationPlacement::whyNot(const Eigen::Vector3d& centre) c
   auto why = solid ? std::nullopt : noHeadroom(centre);
   if (!why && !solid) why = badGround(centre);
   if (!solid && !(body && why)) return why;
-  return Refusal{fmt::format("it would be inside {}, which is a closed body", productText(environment, *body)),
-                 "move it out of the body; if a room was drawn as one body, say --stand free"};
+  return Refusal{fmt::format("the position is inside {}, a closed body", productText(environment, *body)),
+                 "move it out of the body; if the body models a room, use --stand free"};
 }
 
 std::optional<std::string> StationPlacement::remark(const Eigen::Vector3d& centre) const {
   const auto body = bodyRound(scene_.environment(), instances_, centre);
   if (!body) return std::nullopt;
-  return fmt::format("it is inside {}, a closed body, which is taken for a room drawn as one skin",
+  return fmt::format("inside {}, a closed body, treated as a room modelled as a single shell",
                      productText(scene_.environment(), *body));
 }
 

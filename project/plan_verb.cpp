@@ -21,18 +21,18 @@ using nlohmann::json;
 constexpr std::size_t kHoles = 30;   // that are listed
 constexpr double kLowOverlap = 0.3;  // of what field practice asks for between neighbours
 
-json shareJson(const SurfaceShare& share, double each_m2) {
-  return {{"exposed_m2", each_m2 * static_cast<double>(share.exposed)},
-          {"seen_m2", each_m2 * static_cast<double>(share.seen)},
-          {"twice_m2", each_m2 * static_cast<double>(share.twice)},
-          {"coverage", share.coverage()}};
+json coverageJson(const SurfaceCoverage& surface, double each_m2) {
+  return {{"exposed_m2", each_m2 * static_cast<double>(surface.exposed)},
+          {"seen_m2", each_m2 * static_cast<double>(surface.seen)},
+          {"twice_m2", each_m2 * static_cast<double>(surface.twice)},
+          {"coverage", surface.coverage()}};
 }
 
-json rowsOf(const std::vector<SurfaceShare>& shares, const char* key, double each_m2) {
+json rowsOf(const std::vector<SurfaceCoverage>& surfaces, const char* key, double each_m2) {
   json rows = json::array();
-  for (const auto& share : shares) {
-    rows.push_back(shareJson(share, each_m2));
-    rows.back()[key] = share.name;
+  for (const auto& surface : surfaces) {
+    rows.push_back(coverageJson(surface, each_m2));
+    rows.back()[key] = surface.name;
   }
   return rows;
 }
@@ -41,7 +41,7 @@ json holesOf(const SurveyPlan& plan, const Environment& environment) {
   json rows = json::array();
   for (std::size_t k = 0; k < std::min(kHoles, plan.holes.size()); ++k) {
     json row = identity(environment.products[plan.holes[k].product]);
-    row.update(shareJson(plan.holes[k], plan.samples.each_m2()));
+    row.update(coverageJson(plan.holes[k], plan.samples.each_m2()));
     row["unseen_m2"] = plan.samples.each_m2() * static_cast<double>(plan.holes[k].exposed - plan.holes[k].seen);
     rows.push_back(std::move(row));
   }
@@ -50,12 +50,12 @@ json holesOf(const SurveyPlan& plan, const Environment& environment) {
 
 json answerOf(const SurveyPlan& plan, const Environment& environment) {
   const double each = plan.samples.each_m2();
-  json answer = shareJson(plan.all, each);
+  json answer = coverageJson(plan.all, each);
   answer["area_m2"] = plan.samples.area_m2;
   answer["samples"] = plan.samples.samples.size();
-  const double share = plan.all.coverage();
+  const double fraction = plan.all.coverage();
   answer["coverage_sigma"] =
-      plan.all.exposed == 0 ? 0 : std::sqrt(share * (1 - share) / static_cast<double>(plan.all.exposed));
+      plan.all.exposed == 0 ? 0 : std::sqrt(fraction * (1 - fraction) / static_cast<double>(plan.all.exposed));
   answer["classes"] = rowsOf(plan.classes, "class", each);
   answer["storeys"] = rowsOf(plan.storeys, "storey", each);
   answer["holes"] = holesOf(plan, environment);
@@ -101,16 +101,18 @@ std::string textOf(const SurveyPlan& plan, const json& answer) {
     text += fmt::format("{:12}                     {:7.2f} M points   {:>6} min   {:7.1f} MB\n", "all",
                         answer["points"].get<double>() / 1e6, minutes(answer["instrument_seconds"]),
                         answer["bytes"].get<double>() / 1e6);
-  for (const auto& share : plan.storeys)
-    text += fmt::format("storey {:30} {:5.1f} %\n", share.name.empty() ? "(none)" : share.name, share.coverage() * 100);
-  for (const auto& share : plan.classes)
-    text += fmt::format("class  {:30} {:5.1f} %\n", share.name.empty() ? "(none)" : share.name, share.coverage() * 100);
+  for (const auto& surface : plan.storeys)
+    text += fmt::format("storey {:30} {:5.1f} %\n", surface.name.empty() ? "(none)" : surface.name,
+                        surface.coverage() * 100);
+  for (const auto& surface : plan.classes)
+    text += fmt::format("class  {:30} {:5.1f} %\n", surface.name.empty() ? "(none)" : surface.name,
+                        surface.coverage() * 100);
   for (const auto& pair : plan.pairs)
     text += fmt::format("overlap {} - {}: {:.0f} %{}\n", plan.stations[pair.a], plan.stations[pair.b],
-                        pair.overlap() * 100, pair.overlap() < kLowOverlap ? ", little to register by" : "");
+                        pair.overlap() * 100, pair.overlap() < kLowOverlap ? ", low overlap" : "");
   for (const auto& hole : answer["holes"])
-    text += fmt::format("not seen: {:8.2f} m2 of {} {} {}\n", hole["unseen_m2"].get<double>(), hole.value("class", ""),
-                        hole.value("id", ""), hole.value("name", ""));
+    text += fmt::format("not covered: {:8.2f} m2 of {} {} {}\n", hole["unseen_m2"].get<double>(),
+                        hole.value("class", ""), hole.value("id", ""), hole.value("name", ""));
   return text;
 }
 
@@ -149,7 +151,7 @@ Result<json> proposalFor(const Document& document, const RayScene& scene, const 
   const SightLimits limits{std::min(request.wanted.max_range_m, request.settings.max_range_m),
                            std::max(SightLimits{}.min_cosine, std::cos(request.wanted.max_incidence_rad)),
                            request.settings.elevation_from_rad, request.settings.elevation_to_rad};
-  progress.stage("Look for another station", 0.7, 1);
+  progress.stage("Search for next station", 0.7, 1);
   const auto next =
       nextStation(document, placement, plan.samples, seen, limits, request.instrument.tripod_height_m, progress);
   if (auto go_on = progress.check(); !go_on) return failure(go_on.error());
@@ -168,8 +170,9 @@ Result<Outcome> runPlan(const Document& document, const json& options, Progress&
   if (!assignment) return failure(assignment.error());
   const ScanWorld world = scanWorld(document, *assignment);
   if (sceneTriangleCount(*world.environment) == 0)
-    return failure(ErrorKind::unusable,
-                   "there is nothing in the scene to plan for; import a model, or take products back with `treat`");
+    return failure(
+        ErrorKind::unusable,
+        "the scene contains no products to plan for; import a model, or include products again with `treat`");
   auto scene = RayScene::build(world.environment, progress);
   if (!scene) return failure(scene.error());
   auto plan = planSurvey(*document.job, *scene, std::make_shared<const MaterialAssignment>(world.assignment), *request,
@@ -179,7 +182,7 @@ Result<Outcome> runPlan(const Document& document, const json& options, Progress&
   if (!proposal) return failure(proposal.error());
   outcome.answer = answerOf(*plan, *world.environment);
   outcome.answer["proposed"] = *proposal;
-  outcome.description = fmt::format("{} station{} would see {:.1f} % of {:.0f} m2", plan->stations.size(),
+  outcome.description = fmt::format("{} station{} would cover {:.1f} % of {:.0f} m2", plan->stations.size(),
                                     plan->stations.size() == 1 ? "" : "s", plan->all.coverage() * 100,
                                     outcome.answer["exposed_m2"].get<double>());
   outcome.text = textOf(*plan, outcome.answer);

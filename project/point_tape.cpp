@@ -113,8 +113,7 @@ void visitPicture(Archive& archive, Picture& p, Double* rotation, Double* transl
 }
 
 tl::unexpected<Error> damaged(const fs::path& file) {
-  return failure(ErrorKind::unusable, "is damaged: scan anew without --resume, after removing its folder",
-                 file.string());
+  return failure(ErrorKind::unusable, "is damaged: remove its folder and scan again without --resume", file.string());
 }
 
 }  // namespace

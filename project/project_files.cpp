@@ -26,14 +26,15 @@ constexpr auto kReplace = json::error_handler_t::replace;  // of a name that is 
 
 tl::unexpected<Error> cannotWrite(const fs::path& file) {
   return failure(ErrorKind::file_system,
-                 fmt::format("cannot write it ({}); the project is as it was before", std::strerror(errno)),
+                 fmt::format("cannot write the file ({}); the project is unchanged", std::strerror(errno)),
                  file.string());
 }
 
 Result<std::string> readText(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in)
-    return failure(ErrorKind::file_system, fmt::format("cannot read it ({})", std::strerror(errno)), file.string());
+    return failure(ErrorKind::file_system, fmt::format("cannot read the file ({})", std::strerror(errno)),
+                   file.string());
   return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
@@ -50,8 +51,7 @@ Result<json> readJson(const fs::path& file) {
   if (!text) return failure(text.error());
   json value = json::parse(*text, nullptr, false);
   if (value.is_discarded())
-    return failure(ErrorKind::unusable, "this is not JSON: the file is damaged or not a Standpoint project",
-                   file.string());
+    return failure(ErrorKind::unusable, "invalid JSON: the file is damaged or not a Standpoint project", file.string());
   return value;
 }
 
@@ -63,7 +63,7 @@ Result<std::string> storeUnderContentName(const fs::path& fresh, const std::stri
   const auto name = fmt::format("{}-{:016x}{}", stem, contentHash(*text), fresh.extension().string());
   std::error_code error;
   fs::rename(fresh, fresh.parent_path() / name, error);
-  if (error) return failure(ErrorKind::file_system, "cannot rename it: " + error.message(), fresh.string());
+  if (error) return failure(ErrorKind::file_system, "cannot rename: " + error.message(), fresh.string());
   return name;
 }
 
@@ -155,7 +155,7 @@ std::uint64_t contentHash(const std::string& bytes) {
 }
 
 Result<void> saveProject(const Document& document, const fs::path& folder, Progress& progress) {
-  if (!document.imported) return failure(ErrorKind::usage, "there is nothing to save yet: import a model first");
+  if (!document.imported) return failure(ErrorKind::usage, "nothing to save: import a model first");
   progress.stage("Save " + folder.filename().string());
   const auto geometry = folder / "geometry";
   std::error_code error;
@@ -197,7 +197,8 @@ Result<void> saveProject(const Document& document, const fs::path& folder, Progr
   }
   fs::rename(fresh, folder / kProjectFile, error);
   if (error)
-    return failure(ErrorKind::file_system, "cannot replace it: " + error.message(), (folder / kProjectFile).string());
+    return failure(ErrorKind::file_system, "cannot replace the file: " + error.message(),
+                   (folder / kProjectFile).string());
   removeUnreferenced(geometry, named);
   return {};
 }
@@ -207,8 +208,7 @@ Result<Document> loadProject(const fs::path& folder, Progress& progress) {
   std::error_code ignored;
   if (!fs::exists(file, ignored))
     return failure(ErrorKind::file_system,
-                   "this is not a Standpoint project (there is no project.json in it); make one with "
-                   "`standpoint import FILE -o " +
+                   "not a Standpoint project (no project.json); create one with `standpoint import FILE -o " +
                        folder.string() + "`",
                    folder.string());
   progress.stage("Open " + folder.filename().string());
@@ -217,12 +217,11 @@ Result<Document> loadProject(const fs::path& folder, Progress& progress) {
   try {
     const int version = project->at("version").get<int>();
     if (version > kProjectVersion)
-      return failure(
-          ErrorKind::unusable,
-          fmt::format("it was made by a newer Standpoint (project version {}, this program knows {}); update "
-                      "the program",
-                      version, kProjectVersion),
-          file.string() + " /version");
+      return failure(ErrorKind::unusable,
+                     fmt::format("the project was created by a newer version of Standpoint (project version {}, "
+                                 "supported: {}); update Standpoint",
+                                 version, kProjectVersion),
+                     file.string() + " /version");
     auto document = fromJson(*project, folder, progress);
     if (!document) return document;
     document->name = fs::absolute(folder).filename().string();
@@ -230,8 +229,7 @@ Result<Document> loadProject(const fs::path& folder, Progress& progress) {
       return failure(ErrorKind::unusable, wrong, file.string());
     return document;
   } catch (const json::exception& e) {
-    return failure(ErrorKind::unusable, fmt::format("something is missing or of the wrong kind: {}", e.what()),
-                   file.string());
+    return failure(ErrorKind::unusable, fmt::format("missing or invalid entry: {}", e.what()), file.string());
   }
 }
 

@@ -323,31 +323,32 @@ std::shared_ptr<const CollideResult> collisionFrom(const json& part, const Envir
 std::string inconsistency(const Document& d) {
   const auto products = d.imported->products.size();
   const auto surfaces = d.imported->surfaces.size();
-  if (d.simplified && d.simplified->products.size() != products) return "/lightening has another number of products";
+  if (d.simplified && d.simplified->products.size() != products)
+    return "the simplified model has a different number of products";
   if (d.collision) {
-    if (d.collision->products.size() != products) return "/collision has another number of products";
+    if (d.collision->products.size() != products) return "/collision: product count does not match";
     for (const auto& s : d.collision->shapes)
-      if (s.product >= products) return "/collision names a product that is not there";
+      if (s.product >= products) return "/collision: unknown product";
     for (const auto& door : d.collision->doors)
-      if (door.product >= products) return "/collision/doors names a product that is not there";
+      if (door.product >= products) return "/collision/doors: unknown product";
     for (const auto& room : d.collision->rooms)
-      if (room.product >= products) return "/collision/rooms names a product that is not there";
+      if (room.product >= products) return "/collision/rooms: unknown product";
   }
   if (d.materials) {
     for (const auto& f : d.materials->result.assignment.faces)
       if (f.product >= products || f.surface >= surfaces || f.material < 0 ||
           f.material >= static_cast<std::int32_t>(d.materials->result.assignment.materials.size()))
-        return "/materials/faces has an index out of range";
+        return "/materials/faces: index out of range";
     for (const auto& f : d.materials->result.report.findings)
       for (const auto p : f.products)
-        if (p >= products) return "/materials/report/findings names a product that is not there";
+        if (p >= products) return "/materials/report/findings: unknown product";
     const auto count = static_cast<std::int32_t>(d.materials->result.assignment.materials.size());
     for (const auto& s : d.materials->result.assignment.surfaces)
       if (s.product >= products || s.surface >= surfaces || s.material >= count || s.material < -1)
-        return "/materials/surfaces has an index out of range";
+        return "/materials/surfaces: index out of range";
     for (const auto& use : d.materials->result.report.uses)
       for (const auto p : use.products)
-        if (p >= products) return "/materials/report names a product that is not there";
+        if (p >= products) return "/materials/report: unknown product";
   }
   return {};
 }

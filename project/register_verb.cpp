@@ -40,7 +40,7 @@ Result<Pose> laidByHand(Pose pose, const json& options) {
   const bool whole = std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &x_m, &y_m, &turn_deg, &read) == 3 &&
                      static_cast<std::size_t>(read) == text.size();
   if (!whole || !std::isfinite(x_m + y_m + turn_deg))
-    return failure(ErrorKind::usage, fmt::format("'{}' is not three numbers: x,y,turn in m and degrees", text),
+    return failure(ErrorKind::usage, fmt::format("'{}' must be three numbers: x,y,turn in m and degrees", text),
                    "--start-offset");
   pose.translation += Vector3d(x_m, y_m, 0);
   pose.rotation = Eigen::AngleAxisd(turn_deg * kRadPerDeg, Vector3d::UnitZ()) * pose.rotation;
@@ -52,7 +52,7 @@ Result<std::size_t> heldStation(const Job& job, const TargetMeasurements& measur
   const auto name = options["fix"].get<std::string>();
   for (std::size_t i = 0; i < job.stations.size(); ++i)
     if (job.stations[i].name == name) return i;
-  return failure(ErrorKind::usage, fmt::format("there is no station '{}'", name), "--fix");
+  return failure(ErrorKind::usage, fmt::format("unknown station '{}'", name), "--fix");
 }
 
 // Station by station, each to all that are placed already; the held one first.
@@ -69,7 +69,7 @@ Result<json> byClouds(Job& job, const TargetMeasurements& measured, std::size_t 
     job.stations[held].solved_pose = job.stations[held].true_pose;
   }
   if (placed.empty())
-    return failure(ErrorKind::usage, fmt::format("station {} is in none of these files", job.stations[held].name),
+    return failure(ErrorKind::usage, fmt::format("none of the files contains station {}", job.stations[held].name),
                    "--fix");
   json stations = json::array({stationRow(job.stations[held], job.stations[held].true_pose, shift_m)});
   for (const auto* scan : waiting) {
@@ -82,11 +82,11 @@ Result<json> byClouds(Job& job, const TargetMeasurements& measured, std::size_t 
       return failure(fit.error().kind, fmt::format("station {}: {}", station.name, fit.error().message), scan->file);
     for (const auto& motion : fit->free)
       report.warn(station.name,
-                  fmt::format("the other scans do not hold it {}: there it stays as it was laid", describe(motion)));
-    if (!fit->settled) report.warn(station.name, fmt::format("it still moved after {} iterations", fit->iterations));
-    if (fit->used_share < 0.3)
-      report.warn(station.name, fmt::format("only {:.0f} % of its points lie on the other scans: too little overlap",
-                                            fit->used_share * 100));
+                  fmt::format("the other scans do not constrain it {}: start position kept", describe(motion)));
+    if (!fit->settled) report.warn(station.name, fmt::format("not converged after {} iterations", fit->iterations));
+    if (fit->used_fraction < 0.3)
+      report.warn(station.name, fmt::format("only {:.0f} % of points overlap the other scans: too little overlap",
+                                            fit->used_fraction * 100));
     json row = stationRow(station, fit->to_from, shift_m);
     row["fit"] = toJson(*fit);
     stations.push_back(std::move(row));
@@ -120,13 +120,11 @@ Result<json> byTargets(Job& job, const TargetMeasurements& measured, std::size_t
 Result<Outcome> runRegister(const Document& document, const json& options, Progress& progress) {
   const bool cloud = options.value("cloud", false);
   if (cloud && options.contains("control"))
-    return failure(ErrorKind::usage, "clouds have no control points: leave --cloud or --control out", "--control");
+    return failure(ErrorKind::usage, "--cloud and --control cannot be combined", "--control");
   if (!cloud && document.job->targets.size() < 3)
-    return failure(
-        ErrorKind::usage,
-        fmt::format("the project has {} targets, and three are needed: add them with `target` before scanning, or "
-                    "register with --cloud",
-                    document.job->targets.size()));
+    return failure(ErrorKind::usage, fmt::format("the project has {} targets, at least three are required: add targets "
+                                                 "with `target` before scanning, or register with --cloud",
+                                                 document.job->targets.size()));
   MeasuringRequest request;
   for (const auto& file : options.at("files")) request.files.emplace_back(file.get<std::string>());
   std::vector<std::filesystem::path> written;
@@ -141,8 +139,8 @@ Result<Outcome> runRegister(const Document& document, const json& options, Progr
   const auto measured = measureTargets(document, request, progress);
   if (!measured) return failure(measured.error());
   if (measured->scans.size() < (options.contains("control") ? 1U : 2U))
-    return failure(ErrorKind::usage, "one station alone cannot be registered: give the scans of two, or --control",
-                   "files");
+    return failure(ErrorKind::usage,
+                   "a single station cannot be registered: specify scans of at least two, or use --control", "files");
   Outcome outcome{document, json::object(), measured->report, {}};
   Job job = *document.job;
   const auto held = heldStation(job, *measured, options);

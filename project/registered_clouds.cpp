@@ -74,12 +74,12 @@ Result<std::vector<fs::path>> registeredFiles(const std::vector<fs::path>& files
   std::error_code code;
   const bool is_file = output.has_extension() && !fs::is_directory(output, code);
   if (is_file && files.size() > 1)
-    return failure(ErrorKind::usage, fmt::format("{} scans do not go into one file: name a folder", files.size()),
+    return failure(ErrorKind::usage, fmt::format("cannot write {} scans to one file: specify a folder", files.size()),
                    "--output");
   if (is_file) {
     const auto* format = cloudFormatFor(output);
     if (format == nullptr || format->writer == nullptr)
-      return failure(ErrorKind::usage, fmt::format("'{}' cannot be written", output.extension().string()), "--output");
+      return failure(ErrorKind::usage, fmt::format("unsupported format '{}'", output.extension().string()), "--output");
     if (auto there = checkFolderOf(output, "--output"); !there) return failure(there.error());
     to.push_back(output);
   } else {
@@ -87,11 +87,11 @@ Result<std::vector<fs::path>> registeredFiles(const std::vector<fs::path>& files
   }
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (fs::equivalent(files[i], to[i], code))
-      return failure(ErrorKind::usage, "it would be written over itself: name another folder", files[i].string());
+      return failure(ErrorKind::usage, "output would overwrite the input: specify another folder", files[i].string());
     for (std::size_t k = 0; k < i; ++k)
       if (to[k] == to[i])
         return failure(ErrorKind::usage,
-                       fmt::format("{} has the same name: register them one folder at a time", files[k].string()),
+                       fmt::format("{} has the same file name: register one folder at a time", files[k].string()),
                        files[i].string());
   }
   return to;

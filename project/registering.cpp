@@ -57,7 +57,7 @@ Result<PlacePair> placePairFrom(const std::string& text) {
   const auto cloud = parseNumbers(text.substr(0, equals));
   const auto model = parseNumbers(equals == std::string::npos ? "" : text.substr(equals + 1));
   if (!cloud || !model || cloud->size() != 3 || model->size() != 3)
-    return failure(ErrorKind::usage, fmt::format("'{}' is not X,Y,Z in the cloud = X,Y,Z in the model", text),
+    return failure(ErrorKind::usage, fmt::format("'{}' must be X,Y,Z in the cloud = X,Y,Z in the model", text),
                    "--pairs");
   return PlacePair{vectorFrom(*cloud), vectorFrom(*model)};
 }
@@ -70,7 +70,7 @@ std::string unitFor(double scale) {
   constexpr std::array units = {Unit{0.001, "millimetres"}, Unit{0.01, "centimetres"}, Unit{0.3048, "feet"},
                                 Unit{0.0254, "inches"}};
   for (const auto& unit : units)
-    if (std::abs(scale / unit.scale - 1) < 0.01) return fmt::format(": the cloud seems to be in {}", unit.what);
+    if (std::abs(scale / unit.scale - 1) < 0.01) return fmt::format(": the cloud unit seems to be {}", unit.what);
   return {};
 }
 
@@ -95,33 +95,33 @@ Result<Pose> byPairs(const std::vector<PlacePair>& pairs, const std::string& nam
   answer["scale"] = fit->scale;
   answer["scale_sigma"] = fit->scale_sigma;
   if (scaleDiffers(*fit, pairs))
-    report.warn(name, fmt::format("the pairs fit best with a scale of {:.6f} ± {:.6f}, which is not applied{}",
+    report.warn(name, fmt::format("best fit of the pairs has scale {:.6f} ± {:.6f}; the scale is not applied{}",
                                   fit->scale, fit->scale_sigma, unitFor(fit->scale)));
   if (fit->breadth < 0.02)
-    report.warn(name, "the pairs lie nearly on one line, which hardly holds the turn about it: add a pair beside it");
-  if (pairs.size() == 3)
-    report.note(name, "three pairs leave little to judge them by: a fourth would show a wrong one");
+    report.warn(name,
+                "the pairs are nearly collinear, so the rotation about the line is weak: add a pair off the line");
+  if (pairs.size() == 3) report.note(name, "only three pairs: add a fourth to detect errors");
   const auto worst = std::max_element(fit->residual_m.begin(), fit->residual_m.end());
-  report.note(name, fmt::format("the pairs fit to {:.4f} m, the worst is pair {} with {:.4f} m", fit->rms_m,
+  report.note(name, fmt::format("pairs fit to {:.4f} m; largest residual: pair {} with {:.4f} m", fit->rms_m,
                                 worst - fit->residual_m.begin() + 1, *worst));
   return fit->to_from;
 }
 
 void tell(const SurfaceFit& fit, const std::string& name, Report& report) {
-  report.note(name,
-              fmt::format("fitted to the surface in {} iterations: {:.4f} m RMS along its normals over {:.1f} % of the "
-                          "points, placed to {:.4f} m (1 σ)",
-                          fit.iterations, fit.rms_m, fit.used_share * 100, fit.sigma_shift_m.norm()));
+  report.note(name, fmt::format("surface fit in {} iterations: {:.4f} m RMS along the normals over {:.1f} % of the "
+                                "points, position {:.4f} m (1 σ)",
+                                fit.iterations, fit.rms_m, fit.used_fraction * 100, fit.sigma_shift_m.norm()));
   for (const auto& motion : fit.free)
-    report.warn(
-        name, fmt::format("the surface does not hold the cloud {}: there it stays as it was placed", describe(motion)));
-  if (!fit.settled)
-    report.warn(name, fmt::format("it still moved after {} iterations: start nearer, by pairs", fit.iterations));
-  if (fit.used_share < 0.5)
     report.warn(name,
-                fmt::format("only {:.1f} % of the points lie on the model: it may sit in a wrong place, or the model "
-                            "lacks what was scanned",
-                            fit.used_share * 100));
+                fmt::format("the surface does not constrain the cloud {}: start position kept", describe(motion)));
+  if (!fit.settled)
+    report.warn(name, fmt::format("not converged after {} iterations: place the cloud closer first, using --pairs",
+                                  fit.iterations));
+  if (fit.used_fraction < 0.5)
+    report.warn(
+        name,
+        fmt::format("only {:.1f} % of the points are on the model: the position may be wrong, or the model incomplete",
+                    fit.used_fraction * 100));
 }
 
 }  // namespace
@@ -139,7 +139,7 @@ Result<std::vector<PlacePair>> placePairsFrom(const json& texts) {
 Result<SurfaceFit> fitCloudToModel(const Document& document, const CloudSample& sample, const Pose& file_from_cloud,
                                    double reach_m, Progress& progress) {
   const ModelSurface surface(*document.environment());
-  if (surface.empty()) return failure(ErrorKind::unusable, "the model has no surface");
+  if (surface.empty()) return failure(ErrorKind::unusable, "the model has no surfaces");
   const Points points = pointsOfFit(sample);
   Pose local_from_cloud = file_from_cloud;
   local_from_cloud.translation -= document.georeference->shift_m;
@@ -165,7 +165,7 @@ std::string describe(const FreeMotion& motion) {
   const auto text = [](const Vector3d& v) { return fmt::format("({:.2f}, {:.2f}, {:.2f})", v.x(), v.y(), v.z()); };
   if (motion.axis.isZero()) return "along " + text(motion.shift);
   if (motion.shift.isZero()) return "about " + text(motion.axis);
-  return "along " + text(motion.shift) + " with a turn about " + text(motion.axis);
+  return "along " + text(motion.shift) + " combined with rotation about " + text(motion.axis);
 }
 
 json toJson(const SurfaceFit& fit) {
@@ -173,11 +173,11 @@ json toJson(const SurfaceFit& fit) {
   for (const auto& motion : fit.free)
     free.push_back({{"along", motion.shift.isZero() ? json(nullptr) : toJson(motion.shift)},
                     {"about", motion.axis.isZero() ? json(nullptr) : toJson(motion.axis)},
-                    {"held_share", motion.held_share}});
+                    {"held_share", motion.held_fraction}});
   return {{"iterations", fit.iterations},
           {"settled", fit.settled},
           {"rms_m", fit.rms_m},
-          {"used_share", fit.used_share},
+          {"used_share", fit.used_fraction},
           {"moved_m", fit.moved_m},
           {"sigma_shift_m", toJson(fit.sigma_shift_m)},
           {"sigma_turn_deg", toJson(Vector3d(fit.sigma_turn_rad / kRadPerDeg))},
@@ -188,8 +188,7 @@ Result<Underlay> registered(const Document& document, const Underlay& underlay, 
                             json& answer, Report& report, Progress& progress) {
   Underlay result = underlay;
   if (request.pairs.empty() && !request.to_surface)
-    return failure(ErrorKind::usage, "say by what: --pairs x,y,z=X,Y,Z … (three or more), --icp, or both",
-                   "--register");
+    return failure(ErrorKind::usage, "specify --pairs x,y,z=X,Y,Z … (three or more), --icp, or both", "--register");
   if (!request.pairs.empty()) {
     auto pose = byPairs(request.pairs, underlay.name, answer, report);
     if (!pose) return failure(pose.error());

@@ -62,7 +62,7 @@ class Numbering {
     for (const auto& c : request.control) {
       const auto at = std::find(r_.target_names.begin(), r_.target_names.end(), c.name);
       if (at == r_.target_names.end())
-        report.note(c.name, "this control point is no target of the project");
+        report.note(c.name, "control point is not a target of the project");
       else
         r_.network.known.push_back({static_cast<std::size_t>(at - r_.target_names.begin()), c.position, c.sigma_m});
     }
@@ -111,7 +111,7 @@ class Numbering {
       else if (!best || match->pairs.size() > best->second.pairs.size())
         best = {s, *std::move(match)};
     }
-    if (!best) return failure(ErrorKind::unusable, "the targets cannot be told apart by their distances: " + why);
+    if (!best) return failure(ErrorKind::unusable, "target distances are ambiguous: " + why);
     const auto& [s, match] = *best;
     done[s] = true;
     std::vector<std::optional<std::size_t>> number(all[s].found.size());
@@ -140,20 +140,19 @@ void judge(const Job& job, const TargetRegistration& r, Report& report) {
   for (const auto& link : r.links) {
     const auto name =
         fmt::format("{}-{}", job.stations[r.station_of[link.from]].name, job.stations[r.station_of[link.to]].name);
-    if (link.rows.size() == 3)
-      report.note(name, "three targets leave little to judge the link by: a fourth would show a wrong one");
+    if (link.rows.size() == 3) report.note(name, "only three targets: add a fourth to detect errors");
     if (link.mean_m <= kOfficeWarning_m) continue;
     const auto worst = std::max_element(link.rows.begin(), link.rows.end(), [](const LinkRow& a, const LinkRow& b) {
       return a.difference_m.norm() < b.difference_m.norm();
     });
-    report.warn(name,
-                fmt::format("the targets disagree by {:.1f} mm on average, where office software warns from 5 mm; the "
-                            "worst is {} with {:.1f} mm",
-                            link.mean_m * 1000, r.target_names[worst->target], worst->difference_m.norm() * 1000));
+    report.warn(
+        name,
+        fmt::format("mean target residual {:.1f} mm exceeds 5 mm, the usual warning limit; largest: {} with {:.1f} mm",
+                    link.mean_m * 1000, r.target_names[worst->target], worst->difference_m.norm() * 1000));
   }
   if (r.wrong_matches > 0)
-    report.warn("geometry", fmt::format("{} sightings were matched to another target than they are of: match by names",
-                                        r.wrong_matches));
+    report.warn("geometry",
+                fmt::format("{} sightings were matched to the wrong target: match by names", r.wrong_matches));
 }
 
 }  // namespace
@@ -166,9 +165,8 @@ Result<TargetRegistration> registerByTargets(const Job& job, const TargetMeasure
     const auto& name = job.stations[all[s].station].name;
     if (all[s].found.size() < 3)
       return failure(ErrorKind::unusable,
-                     fmt::format("{} targets were measured from station {}, and three are needed; add targets that it "
-                                 "sees, scan finer, or "
-                                 "register with --cloud{}",
+                     fmt::format("{} targets were measured from station {}, at least three are required; add visible "
+                                 "targets, scan finer, or register with --cloud{}",
                                  all[s].found.size(), name, whyMissed(job, measured, all[s].station)),
                      measured.scans[s].file);
     r.station_of.push_back(all[s].station);
@@ -177,7 +175,7 @@ Result<TargetRegistration> registerByTargets(const Job& job, const TargetMeasure
   }
   if (request.control.empty() && !r.network.held)
     return failure(ErrorKind::usage,
-                   fmt::format("station {} is in none of these files", job.stations[request.held].name), "--fix");
+                   fmt::format("none of the files contains station {}", job.stations[request.held].name), "--fix");
   Numbering numbering(job, measured, r);
   if (request.matching == TargetMatching::by_names)
     numbering.byNames(all, request, report);
@@ -192,8 +190,8 @@ Result<TargetRegistration> registerByTargets(const Job& job, const TargetMeasure
     return failure(
         ErrorKind::unusable,
         fmt::format("station {} shares {} targets with the others{}; {}{}", job.stations[station].name, problem.shared,
-                    problem.on_one_line ? ", and they lie on one line" : ", and three are needed",
-                    problem.on_one_line ? "add a target beside the line" : "add targets that both see",
+                    problem.on_one_line ? ", all on one line" : ", at least three are required",
+                    problem.on_one_line ? "add a target off the line" : "add targets visible from both",
                     whyMissed(job, measured, station)),
         measured.scans[*problem.station].file);
   }
@@ -207,9 +205,9 @@ Result<TargetRegistration> registerByTargets(const Job& job, const TargetMeasure
 Result<std::vector<ControlPoint>> readControlPoints(const std::filesystem::path& file, const Vector3d& shift_m) {
   std::error_code code;
   const auto size = std::filesystem::file_size(file, code);
-  if (code) return failure(ErrorKind::file_system, "cannot be read: " + code.message(), file.string());
+  if (code) return failure(ErrorKind::file_system, "cannot read: " + code.message(), file.string());
   if (size > kLargestControlFile)
-    return failure(ErrorKind::unusable, "is too large for a list of control points", file.string());
+    return failure(ErrorKind::unusable, "file is too large for a control-point list", file.string());
   std::ifstream in(file);
   std::vector<ControlPoint> points;
   std::set<std::string> names;
@@ -224,20 +222,21 @@ Result<std::vector<ControlPoint>> readControlPoints(const std::filesystem::path&
     const bool whole = words.eof() && (numbers.size() == 3 || numbers.size() == 4);
     const double sigma_mm = numbers.size() == 4 ? numbers[3] : 1;
     if (!whole || !(sigma_mm > 0 && sigma_mm < 1e4))
-      return failure(ErrorKind::unusable, "is not: name X Y Z [sigma in mm]",
+      return failure(ErrorKind::unusable, "must be: name X Y Z [sigma in mm]",
                      fmt::format("{} line {}", file.string(), number));
     p.position = {numbers[0], numbers[1], numbers[2]};
     if (!p.position.allFinite())
       return failure(ErrorKind::unusable, "is not finite", fmt::format("{} line {}", file.string(), number));
     if (!names.insert(p.name).second)
-      return failure(ErrorKind::unusable, fmt::format("control point {} is there twice", p.name),
+      return failure(ErrorKind::unusable, fmt::format("duplicate control point {}", p.name),
                      fmt::format("{} line {}", file.string(), number));
     p.position -= shift_m;
     p.sigma_m = sigma_mm / 1000;
     points.push_back(std::move(p));
   }
   if (points.size() < 3)
-    return failure(ErrorKind::unusable, fmt::format("holds {} control points, and three are needed", points.size()),
+    return failure(ErrorKind::unusable,
+                   fmt::format("contains {} control points, at least three are required", points.size()),
                    file.string());
   return points;
 }

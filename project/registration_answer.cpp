@@ -121,15 +121,15 @@ std::string textOf(const json& answer) {
     return metres.is_null() ? std::string("–") : fmt::format("{:.2f}", metres.get<double>() * 1000);
   };
   for (const auto& link : answer.value("links", json::array())) {
-    text += fmt::format("{} – {}: {} targets, {} mm RMS, mean {} mm, without the fit's freedom {} mm\n",
-                        link["from"].get<std::string>(), link["to"].get<std::string>(), link["targets"].get<int>(),
-                        mm(link["rms_m"]), mm(link["mean_m"]), mm(link["unbiased_m"]));
+    text += fmt::format("{} – {}: {} targets, {} mm RMS, mean {} mm, unbiased {} mm\n", link["from"].get<std::string>(),
+                        link["to"].get<std::string>(), link["targets"].get<int>(), mm(link["rms_m"]),
+                        mm(link["mean_m"]), mm(link["unbiased_m"]));
     for (const auto& d : link["differences"])
       text += fmt::format("    {:12}  dx {:>7}  dy {:>7}  dz {:>7}  3D {:>7} mm\n", d["target"].get<std::string>(),
                           mm(d["dx_m"]), mm(d["dy_m"]), mm(d["dz_m"]), mm(d["d3_m"]));
   }
   for (const auto& s : answer.at("stations"))
-    text += fmt::format("{}: off the truth by {} mm and {:.4f}°\n", s["name"].get<std::string>(), mm(s["true_error_m"]),
+    text += fmt::format("{}: true error {} mm and {:.4f}°\n", s["name"].get<std::string>(), mm(s["true_error_m"]),
                         s["true_turn_error_deg"].get<double>());
   return text;
 }

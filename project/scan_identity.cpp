@@ -12,6 +12,8 @@ namespace standpoint {
 
 namespace {
 
+constexpr const char* kFieldFault = "mishap";  // its name in identities since the first file: it stays, so that they do
+
 std::uint64_t mix(std::uint64_t hash, const std::string& text) { return stableHash(text.c_str(), hash); }
 
 std::uint64_t mix(std::uint64_t hash, std::uint64_t word) {
@@ -37,7 +39,7 @@ std::uint64_t mix(std::uint64_t hash, const Pose& pose) {
 }
 
 std::uint64_t mix(std::uint64_t hash, const Spectrum& spectrum) {
-  for (const auto& [wavelength, share] : spectrum) hash = mix(hash, fmt::format("{} {}", wavelength, share));
+  for (const auto& [wavelength, fraction] : spectrum) hash = mix(hash, fmt::format("{} {}", wavelength, fraction));
   return mix(hash, static_cast<std::uint64_t>(spectrum.size()));
 }
 
@@ -93,8 +95,9 @@ std::string guidOf(std::uint64_t world_fingerprint, const Station& station, cons
   if (!request.as.empty()) a = mix(a, request.as);  // a run that goes on takes no station that was written otherwise
   if (request.panorama_columns > 0) a = mix(a, std::uint64_t{request.panorama_columns});
   if (const auto& m = request.field_fault; m.any())
-    a = mix(a, fmt::format("mishap {} {} {} {} {}", m.until_share, m.noise_factor, m.pushed_at_share.value_or(-1),
-                           m.walked_at_share.value_or(-1), m.stood_at_share.value_or(-1)));
+    a = mix(a, fmt::format("{} {} {} {} {} {}", kFieldFault, m.until_fraction, m.noise_factor,
+                           m.tripod_moved_at_fraction.value_or(-1), m.passer_by_at_fraction.value_or(-1),
+                           m.operator_at_fraction.value_or(-1)));
   for (const auto& note : request.notes) a = mix(a, note);
   std::uint64_t b = mix(mix(a, world_fingerprint), station.true_pose);
   b = mix(b, believed);

@@ -24,7 +24,7 @@ Result<void> shard(std::vector<std::size_t>& stations, const std::string& text) 
   unsigned i = 0;
   unsigned n = 0;
   if (std::sscanf(text.c_str(), "%u/%u", &i, &n) != 2 || n == 0 || i == 0 || i > n)
-    return failure(ErrorKind::usage, fmt::format("'{}' is not i/n with 1 <= i <= n", text), "--shard");
+    return failure(ErrorKind::usage, fmt::format("'{}' must be i/n with 1 <= i <= n", text), "--shard");
   std::vector<std::size_t> kept;
   for (std::size_t k = i - 1; k < stations.size(); k += n) kept.push_back(stations[k]);
   stations = std::move(kept);
@@ -40,7 +40,7 @@ Result<void> chooseOutput(ScanRequest& request, const fs::path& output) {
       for (const auto& f : cloudFormats())
         if (f.writer != nullptr) names.emplace_back(f.extension);
       return failure(ErrorKind::usage,
-                     fmt::format("'{}' cannot be written; there is {}, or name a folder", output.extension().string(),
+                     fmt::format("unsupported format '{}'; use {}, or specify a folder", output.extension().string(),
                                  fmt::join(names, ", ")),
                      "--output");
     }
@@ -57,7 +57,7 @@ Result<void> chooseOutput(ScanRequest& request, const fs::path& output) {
 Result<Effects> effectsFrom(const json& options) {
   if (options.value("ideal", false)) {
     if (options.contains("without"))
-      return failure(ErrorKind::usage, "an ideal scan is without all effects already", "--without");
+      return failure(ErrorKind::usage, "an ideal scan already excludes all effects", "--without");
     return Effects::none();
   }
   return options.contains("without") ? effectsWithout(options["without"].get<std::string>())
@@ -89,8 +89,7 @@ Result<std::vector<std::size_t>> stationsFrom(const Job& job, const std::string&
   std::vector<std::size_t> result;
   if (job.stations.empty())
     return failure(ErrorKind::usage,
-                   "there is no station yet: add one with `standpoint station PROJECT --add S1 --on X,Y`",
-                   "--stations");
+                   "there are no stations: add one with `standpoint station PROJECT --add S1 --on X,Y`", "--stations");
   if (wanted == "all") {
     for (std::size_t i = 0; i < job.stations.size(); ++i) result.push_back(i);
     return result;
@@ -101,7 +100,7 @@ Result<std::vector<std::size_t>> stationsFrom(const Job& job, const std::string&
     const auto at =
         std::find_if(job.stations.begin(), job.stations.end(), [&](const Station& s) { return s.name == name; });
     if (at == job.stations.end())
-      return failure(ErrorKind::usage, fmt::format("there is no station '{}'", name), "--stations");
+      return failure(ErrorKind::usage, fmt::format("unknown station '{}'", name), "--stations");
     result.push_back(static_cast<std::size_t>(at - job.stations.begin()));
     from = comma + 1;
   }
@@ -163,15 +162,16 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const json& option
                        .seed = request.options.seed};
   request.panorama = options.value("panorama", false);
   if (request.panorama && !request.settings.imaging)
-    return failure(ErrorKind::usage, "these settings take no images: a panorama needs them", "--panorama");
+    return failure(ErrorKind::usage, "a panorama requires settings that take images", "--panorama");
   if (!request.panorama && !request.settings.laser)
-    return failure(ErrorKind::usage, "these settings measure no points: without a panorama nothing is left", "--set");
+    return failure(ErrorKind::usage, "these settings measure no points and no panorama is requested", "--set");
   if (options.contains("panorama-size")) {
     const auto columns = options["panorama-size"].get<std::uint32_t>();
-    if (!request.panorama)
-      return failure(ErrorKind::usage, "there is no panorama to have a size: add --panorama", "--panorama-size");
+    if (!request.panorama) return failure(ErrorKind::usage, "requires --panorama", "--panorama-size");
     if (columns % 2 != 0)
-      return failure(ErrorKind::usage, fmt::format("{} is odd: the height is half of it", columns), "--panorama-size");
+      return failure(ErrorKind::usage,
+                     fmt::format("{} is odd: use an even width, since the height is half the width", columns),
+                     "--panorama-size");
     request.instrument.camera.columns = columns;
     request.panorama_columns = columns;
   }
@@ -194,8 +194,7 @@ Result<ScanRequest> scanRequestFrom(const Document& document, const json& option
 }
 
 void noteDefaultRules(const Document& document, Report& report) {
-  if (!document.materials)
-    report.note("materials", "no materials were assigned yet; the default rules were used for this scan");
+  if (!document.materials) report.note("materials", "no materials assigned; this scan used the default rules");
 }
 
 Result<MaterialAssignment> scanAssignment(const Document& document, Progress& progress) {

@@ -121,7 +121,7 @@ class WatchedSink : public PointSink {
 };
 
 // What one station is of the whole, and how that is called.
-struct StationShare {
+struct ProgressSpan {
   std::string name;
   double from = 0, to = 1;
 };
@@ -129,19 +129,19 @@ struct StationShare {
 // One station into an open sink. Its pictures are taken to be half of it: how long they take depends on both sizes.
 Result<ScanCount> scanStation(const RayScene& scene, const ScanWorld& world, const Station& station,
                               const ScanHeader& header, const ScanRequest& request, PointSink& file, Report& report,
-                              const StationShare& share, Progress& progress) {
+                              const ProgressSpan& span, Progress& progress) {
   std::unique_ptr<PointSink> coloured;
-  const double pictures_to = !request.panorama        ? share.from
-                             : request.settings.laser ? (share.from + share.to) / 2
-                                                      : share.to;
+  const double pictures_to = !request.panorama        ? span.from
+                             : request.settings.laser ? (span.from + span.to) / 2
+                                                      : span.to;
   if (request.panorama) {
-    progress.stage("Pictures at " + share.name, share.from, pictures_to);
+    progress.stage("Images at " + span.name, span.from, pictures_to);
     auto panorama = takePanorama(scene, request.instrument, station.true_pose, request.options.threads, report,
                                  progress, meteringOf(request.instrument, request.settings.values));
     if (!panorama) return failure(panorama.error());
     coloured = colouring(file, std::make_shared<const Panorama>(*std::move(panorama)));
   }
-  progress.stage("Scan " + share.name, pictures_to, share.to);
+  progress.stage("Scan " + span.name, pictures_to, span.to);
   PointSink& sink = coloured ? *coloured : file;
   if (auto ok = sink.begin(header); !ok) return failure(ok.error());
   if (!request.settings.laser) {  // pictures only
@@ -197,14 +197,14 @@ class ScanRun {
       if (parts_.hasRecord(job_.stations[index].name)) names.push_back(job_.stations[index].name);
     if (names.empty()) return {};
     return failure(ErrorKind::usage,
-                   fmt::format("an earlier run has finished {}: go on with --resume, or remove that folder first",
+                   fmt::format("an earlier run finished {}: continue with --resume, or remove that folder first",
                                fmt::join(names, ", ")),
                    parts_.folder().string());
   }
 
   tl::unexpected<Error> withHint(Error error) const {
     if (!finished_.empty())
-      error.message += fmt::format("; finished and kept: {}; the same command with --resume goes on from there",
+      error.message += fmt::format("; finished and kept: {}; continue with the same command and --resume",
                                    fmt::join(finished_, ", "));
     return tl::unexpected<Error>(std::move(error));
   }
@@ -214,8 +214,8 @@ class ScanRun {
     Station& station = job_.stations[request_.stations[k]];
     const auto file = fileOf(request_, station);
     const auto guid = guidOf(fingerprint_, station, believed_[k], request_);
-    const auto share = shareOf(k);
-    progress.stage("Scan " + share.name, share.from, share.to);
+    const auto span = spanOf(k);
+    progress.stage("Scan " + span.name, span.from, span.to);
     const auto earlier = request_.resume && isBatch() ? parts_.finished(station.name, guid) : std::nullopt;
     const bool is_there = earlier && isWhole(station.name, file, earlier->bytes);
     auto count = is_there ? taken(k, file, guid, *earlier, progress) : scanned(k, file, guid, progress);
@@ -230,7 +230,7 @@ class ScanRun {
     return {};
   }
 
-  StationShare shareOf(std::size_t k) const {
+  ProgressSpan spanOf(std::size_t k) const {
     const double each = 1.0 / static_cast<double>(request_.stations.size());
     const std::string place = isBatch() ? fmt::format(" ({} of {})", k + 1, request_.stations.size()) : "";
     return {job_.stations[request_.stations[k]].name + place, static_cast<double>(k) * each,
@@ -275,7 +275,7 @@ class ScanRun {
     PointSink& file_sink = tape ? static_cast<PointSink&>(*tape) : *sink_;
     const auto watched = watchedOr(file_sink);
     PointSink& sink = watched ? *watched : file_sink;
-    auto count = scanStation(scene_, world_, station, header(k, guid), request_, sink, report, shareOf(k), progress);
+    auto count = scanStation(scene_, world_, station, header(k, guid), request_, sink, report, spanOf(k), progress);
     if (!count) return count;
     if (tape)
       if (auto ok = tape->close(); !ok) return failure(ok.error());

@@ -17,7 +17,7 @@ Result<std::filesystem::path> projectFolder(const Verb& verb, const json& option
   if (!options.contains(key) || !options[key].is_string() || options[key].get<std::string>().empty())
     return failure(
         ErrorKind::usage,
-        verb.scope == VerbScope::creates ? "say where the project goes: -o PROJECT" : "name the project's folder",
+        verb.scope == VerbScope::creates ? "specify the project folder: -o PROJECT" : "specify the project folder",
         verb.name);
   return std::filesystem::path(options[key].get<std::string>());
 }
@@ -32,12 +32,11 @@ Result<Outcome> runOnProject(const Verb& verb, const json& options, Progress& pr
   std::error_code ignored;
   const bool update = options.value("update", false);
   if (update && options.value("replace", false))
-    return failure(ErrorKind::usage, "--update keeps what is in the project and --replace does not; say one of them",
-                   "--update");
+    return failure(ErrorKind::usage, "--update and --replace cannot be combined", "--update");
   const bool creates = verb.scope == VerbScope::creates && !update;
   if (creates && std::filesystem::exists(*folder, ignored) && !std::filesystem::is_empty(*folder, ignored) &&
       !options.value("replace", false))
-    return failure(ErrorKind::usage, "there is something here already; choose another folder, or say --replace",
+    return failure(ErrorKind::usage, "the folder is not empty; choose another folder, or use --replace",
                    folder->string());
   Document document;
   if (!creates) {

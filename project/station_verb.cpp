@@ -38,9 +38,10 @@ Result<Setup> setupFrom(const json& options) {
     const auto instrument = instrumentById(options["instrument"].get<std::string>());
     if (!instrument) return failure(instrument.error());
     if (instrument->moving)
-      return failure(ErrorKind::usage,
-                     fmt::format("the {} {} is carried and stands on no tripod", instrument->maker, instrument->model),
-                     "--instrument");
+      return failure(
+          ErrorKind::usage,
+          fmt::format("the {} {} is carried and cannot be placed on a tripod", instrument->maker, instrument->model),
+          "--instrument");
     setup.trunnion_m = instrument->trunnion_height_m;
     setup.height_m = instrument->tripod_height_m;
   }
@@ -119,19 +120,18 @@ Result<Eigen::Vector3d> bestPlace(const Document& document, const StationPlaceme
           bestOf(floorsToTry(document, scene, height_m), *document.job, placement, height_m, worth, progress))
     return *chosen;
   if (const auto beside = bestOf(groundBeside(scene), *document.job, placement, height_m, worth, progress)) {
-    report.warn("station",
-                "the model has no free floor for it: the tripod stands beside the model, on its lowest height");
+    report.warn("station", "no free floor in the model: the tripod was placed next to the model at its lowest level");
     return *beside;
   }
   if (auto go_on = progress.check(); !go_on) return failure(go_on.error());
   return failure(ErrorKind::unusable,
-                 "no free place was found for the tripod; say where with --at X,Y,Z or --on X,Y[,Z]");
+                 "no free place found for the tripod; specify one with --at X,Y,Z or --on X,Y[,Z]");
 }
 
 // The instrument's centre in the local frame, from --at or --on.
 Result<Eigen::Vector3d> centreFrom(const RayScene& scene, const Georeference& g, const json& options, double height) {
   if (options.contains("at")) {
-    if (options["at"].size() != 3) return failure(ErrorKind::usage, "--at takes three numbers X,Y,Z in metres");
+    if (options["at"].size() != 3) return failure(ErrorKind::usage, "--at requires three numbers X,Y,Z in metres");
     return vectorFrom(options["at"]) - g.shift_m;
   }
   const auto& on = options.at("on");
@@ -139,33 +139,29 @@ Result<Eigen::Vector3d> centreFrom(const RayScene& scene, const Georeference& g,
   const double y = on[1].get<double>() - g.shift_m.y();
   const auto floors = floorsAt(scene, x, y, height);
   if (floors.empty())
-    return failure(
-        ErrorKind::unusable,
-        fmt::format("there is no floor at ({}, {}) with {:.2f} m of room for the tripod; choose another place, "
-                    "or give the instrument's centre with --at X,Y,Z",
-                    on[0].get<double>(), on[1].get<double>(), height + kRoomAbove_m));
+    return failure(ErrorKind::unusable,
+                   fmt::format("no floor at ({}, {}) with {:.2f} m of free height for the tripod; choose another "
+                               "place, or specify the instrument centre with --at X,Y,Z",
+                               on[0].get<double>(), on[1].get<double>(), height + kRoomAbove_m));
   if (on.size() == 2) return Eigen::Vector3d(x, y, floors.front() + height);
   const double z = on[2].get<double>() - g.shift_m.z();
   const auto nearest = *std::min_element(floors.begin(), floors.end(),
                                          [z](double a, double b) { return std::abs(a - z) < std::abs(b - z); });
   if (std::abs(nearest - z) > kFloorSearch_m)
-    return failure(
-        ErrorKind::unusable,
-        fmt::format("there is no floor within {} m of height {} (a wall, or the open); the nearest is at {:.3f}",
-                    kFloorSearch_m, on[2].get<double>(), nearest + g.shift_m.z()));
+    return failure(ErrorKind::unusable, fmt::format("no floor within {} m of height {}; the nearest floor is at {:.3f}",
+                                                    kFloorSearch_m, on[2].get<double>(), nearest + g.shift_m.z()));
   return Eigen::Vector3d(x, y, nearest + height);
 }
 
 tl::unexpected<Error> refused(const std::string& name, const Refusal& why) {
-  return failure(ErrorKind::unusable, fmt::format("station {} is refused: {}; {}", name, why.reason, why.remedy));
+  return failure(ErrorKind::unusable, fmt::format("cannot place station {}: {}; {}", name, why.reason, why.remedy));
 }
 
 // `before` is what moves: where no place is said but a tilt is, it stays where it is.
 Result<Station> place(const Document& document, const std::string& name, const json& options, const Station* before,
                       Report& report, Progress& progress) {
   if (options.contains("at") && options.contains("on"))
-    return failure(ErrorKind::usage,
-                   "say where with either --at X,Y,Z (the instrument's centre) or --on X,Y[,Z] (the floor)");
+    return failure(ErrorKind::usage, "specify either --at X,Y,Z (instrument centre) or --on X,Y[,Z] (floor)");
   const auto setup = setupFrom(options);
   if (!setup) return failure(setup.error());
   auto scene = RayScene::build(document.environment(), progress);
@@ -187,7 +183,7 @@ Result<Station> place(const Document& document, const std::string& name, const j
   if (const auto ground = placement.groundBelow(*centre)) {
     station.instrument_height_m = centre->z() - ground->z;
     if (!ground->modelled() && !setup->free && somewhere)
-      report.warn(name, "the model ends there: the tripod is taken to stand on ground at the model's lowest height");
+      report.warn(name, "outside the model: the tripod is placed on ground at the model's lowest level");
   }
   station.true_pose.translation = *centre;
   station.true_pose.rotation = standingRotation(options, name);
@@ -201,7 +197,7 @@ std::vector<Station>::iterator find(Job& job, const std::string& name) {
 tl::unexpected<Error> noStation(const Job& job, const std::string& name) {
   std::vector<std::string> names;
   for (const auto& s : job.stations) names.push_back(s.name);
-  return failure(ErrorKind::usage, fmt::format("there is no station '{}'; there is {}", name,
+  return failure(ErrorKind::usage, fmt::format("unknown station '{}'; available: {}", name,
                                                names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
 }
 
@@ -220,19 +216,19 @@ Result<Outcome> runStation(const Document& document, const json& options, Progre
   progress.stage("Station");
   const int asked = static_cast<int>(options.contains("add")) + static_cast<int>(options.contains("move")) +
                     static_cast<int>(options.contains("remove"));
-  if (asked > 1) return failure(ErrorKind::usage, "say one of --add NAME, --move NAME, --remove NAME");
+  if (asked > 1) return failure(ErrorKind::usage, "specify one of --add NAME, --move NAME, --remove NAME");
   if (options.contains("tilt-deg") && options.contains("levelling-error-deg"))
-    return failure(ErrorKind::usage, "say the tilt with --tilt-deg, or let one be drawn with --levelling-error-deg");
+    return failure(ErrorKind::usage, "use either --tilt-deg, or --levelling-error-deg for a random tilt");
   Outcome outcome{document, json::object(), {}, {}};
   Job job = *document.job;
   const auto& g = *document.georeference;
   if (options.contains("add")) {
     const auto name = options["add"].get<std::string>();
     if (name.empty() || name.find_first_of(",/\\") != std::string::npos)
-      return failure(ErrorKind::usage, fmt::format("'{}' cannot be a station's name: no comma or slash, please", name));
-    if (find(job, name) != job.stations.end())
       return failure(ErrorKind::usage,
-                     fmt::format("there is a station '{}' already; use --move, or another name", name));
+                     fmt::format("invalid station name '{}': commas and slashes are not allowed", name));
+    if (find(job, name) != job.stations.end())
+      return failure(ErrorKind::usage, fmt::format("station '{}' already exists; use --move, or another name", name));
     auto station = place(document, name, options, nullptr, outcome.report, progress);
     if (!station) return failure(station.error());
     outcome.answer["placed"] = stationRow(*station, g);

@@ -26,26 +26,26 @@ double bytesPerPoint(const ScanSettings& settings, const ScanChannels& channels,
   return bits / 8 * 1024 / 1020;
 }
 
-void count(SurfaceShare& share, const SurfaceSample& sample, int times) {
+void count(SurfaceCoverage& surface, const SurfaceSample& sample, int times) {
   if (!sample.exposed) return;
-  share.exposed += 1;
-  share.seen += static_cast<std::uint64_t>(times > 0);
-  share.twice += static_cast<std::uint64_t>(times > 1);
+  surface.exposed += 1;
+  surface.seen += static_cast<std::uint64_t>(times > 0);
+  surface.twice += static_cast<std::uint64_t>(times > 1);
 }
 
-std::vector<SurfaceShare> sorted(const std::map<std::string, SurfaceShare>& by_name) {
-  std::vector<SurfaceShare> shares;
-  for (const auto& [name, share] : by_name)
-    if (share.exposed > 0) {
-      shares.push_back(share);
-      shares.back().name = name;
+std::vector<SurfaceCoverage> sorted(const std::map<std::string, SurfaceCoverage>& by_name) {
+  std::vector<SurfaceCoverage> surfaces;
+  for (const auto& [name, surface] : by_name)
+    if (surface.exposed > 0) {
+      surfaces.push_back(surface);
+      surfaces.back().name = name;
     }
-  return shares;
+  return surfaces;
 }
 
-void countShares(SurveyPlan& plan, const Environment& environment) {
-  std::map<std::string, SurfaceShare> classes, storeys;
-  std::vector<SurfaceShare> products(environment.products.size());
+void countCoverage(SurveyPlan& plan, const Environment& environment) {
+  std::map<std::string, SurfaceCoverage> classes, storeys;
+  std::vector<SurfaceCoverage> products(environment.products.size());
   for (std::size_t k = 0; k < plan.samples.samples.size(); ++k) {
     const auto& sample = plan.samples.samples[k];
     int times = 0;
@@ -78,8 +78,8 @@ void countPairs(SurveyPlan& plan) {
       for (std::size_t k = 0; k < plan.samples.samples.size(); ++k)
         common += plan.forecasts[a].seen[k] & plan.forecasts[b].seen[k];
       const double area = each * static_cast<double>(common);
-      const auto share = [area](double of) { return of > 0 ? area / of : 0; };
-      plan.pairs.push_back({a, b, area, share(plan.seen_m2[a]), share(plan.seen_m2[b])});
+      const auto fraction = [area](double of) { return of > 0 ? area / of : 0; };
+      plan.pairs.push_back({a, b, area, fraction(plan.seen_m2[a]), fraction(plan.seen_m2[b])});
     }
 }
 
@@ -106,7 +106,7 @@ Result<SurveyPlan> planSurvey(const Job& job, std::shared_ptr<const RayScene> sc
     plan.bytes.push_back(plan.forecasts.back().points * bytes_per_point);
     progress.advance(static_cast<double>(plan.forecasts.size()) / static_cast<double>(request.stations.size()));
   }
-  countShares(plan, environment);
+  countCoverage(plan, environment);
   countPairs(plan);
   return plan;
 }

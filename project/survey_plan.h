@@ -13,7 +13,7 @@
 namespace standpoint {
 
 // A part of the scene's surface, counted in samples.
-struct SurfaceShare {
+struct SurfaceCoverage {
   std::string name;                                // a class, a storey, or a product's id
   std::uint32_t product = 0;                       // of a product's share
   std::uint64_t exposed = 0, seen = 0, twice = 0;  // twice: from two stations or more
@@ -33,8 +33,8 @@ struct SurveyPlan {
   std::vector<std::string> stations;
   std::vector<ScanForecast> forecasts;  // of each station
   std::vector<double> seen_m2, bytes;   // of each station
-  SurfaceShare all;
-  std::vector<SurfaceShare> classes, storeys, holes;  // holes: products, by what of them is not seen
+  SurfaceCoverage all;
+  std::vector<SurfaceCoverage> classes, storeys, holes;  // holes: products, by what of them is not seen
   std::vector<StationPair> pairs;
 };
 

@@ -79,10 +79,10 @@ class NearSink final : public PointSink {
     if (!station) return failure(station.error());
     for (const auto& s : all_)
       if (s.scan.station == *station)
-        return failure(
-            ErrorKind::usage,
-            fmt::format("station {} is in {}, too: give one scan of each", job_.stations[*station].name, s.scan.file),
-            file_.string());
+        return failure(ErrorKind::usage,
+                       fmt::format("station {} is also in {}: specify one scan per station",
+                                   job_.stations[*station].name, s.scan.file),
+                       file_.string());
     StationPoints points;
     points.scan = {*station, file_.string(), header.intensity_max > header.intensity_min, {}};
     for (std::size_t t = 0; request_.targets && t < job_.targets.size(); ++t)
@@ -152,20 +152,22 @@ StationsOfFile::StationsOfFile(const Job& job, fs::path file) : job_(job), file_
 Result<std::size_t> StationsOfFile::next(const ScanHeader& header) {
   const std::size_t number = scans_++;
   if (header.rows == 0 || header.columns == 0)
-    return failure(ErrorKind::unusable,
-                   fmt::format("scan '{}' has no grid of a scanner, so nothing says from where its points were seen: "
-                               "give an E57 or a PTX as it was scanned",
-                               header.name),
-                   file_.string());
+    return failure(
+        ErrorKind::unusable,
+        fmt::format(
+            "scan '{}' has no scanner grid, so the viewpoint of its points is unknown: use the original E57 or PTX",
+            header.name),
+        file_.string());
   for (std::size_t i = 0; i < job_.stations.size(); ++i)
     if (job_.stations[i].name == header.name) return i;
   if (number < in_file_.size()) return in_file_[number];
   std::vector<std::string> names;
   for (const auto& s : job_.stations) names.push_back(s.name);
-  return failure(ErrorKind::usage,
-                 fmt::format("scan '{}' is of no station of this project ({}): scan it here, or name a station so",
-                             header.name, names.empty() ? "there is none" : fmt::format("{}", fmt::join(names, ", "))),
-                 file_.string());
+  return failure(
+      ErrorKind::usage,
+      fmt::format("scan '{}' matches no station of this project ({}): scan it here, or rename a station to match",
+                  header.name, names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))),
+      file_.string());
 }
 
 Result<TargetMeasurements> measureTargets(const Document& document, const MeasuringRequest& request,
@@ -176,11 +178,11 @@ Result<TargetMeasurements> measureTargets(const Document& document, const Measur
     const auto& file = request.files[i];
     const CloudFormat* const format = readableCloudFormat(file);
     if (format == nullptr || format->read == nullptr)
-      return failure(ErrorKind::usage, "no readable point-cloud format has this extension", file.string());
-    const auto share = [&](std::size_t k) {
+      return failure(ErrorKind::usage, "unsupported point-cloud format", file.string());
+    const auto fraction = [&](std::size_t k) {
       return 0.8 * static_cast<double>(k) / static_cast<double>(request.files.size());
     };
-    progress.stage("Reading " + file.filename().string(), share(i), share(i + 1));
+    progress.stage("Reading " + file.filename().string(), fraction(i), fraction(i + 1));
     NearSink sink(*document.job, request, file, all);
     auto read = format->read(file, sink, progress);
     if (!read) return failure(read.error());

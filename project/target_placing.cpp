@@ -74,33 +74,29 @@ Result<void> fits(const Document& document, const RayScene& scene, const Target&
   if (const auto solid = bodyRound(scene.environment(), instanceBounds(scene.environment()), t.centre);
       solid && !stationSees(document, scene, t.centre))
     return failure(ErrorKind::unusable,
-                   fmt::format("target {} is refused: it would be inside of {}; choose a place in the open", t.name,
+                   fmt::format("cannot place target {}: the position is inside {}; choose a free position", t.name,
                                nameOf(products[*solid])));
   if (const auto hit = whatCuts(scene, t))
-    return failure(
-        ErrorKind::unusable,
-        fmt::format("target {} is refused: {} is {:.0f} mm from its centre and it needs {:.0f} mm; choose a place "
-                    "further off, or stick it to the surface with --on-surface",
-                    t.name, nameOf(products[hit->product]), hit->range_m * 1000, t.size_m * 500));
+    return failure(ErrorKind::unusable,
+                   fmt::format("cannot place target {}: {} is {:.0f} mm from its centre, {:.0f} mm required; choose a "
+                               "position farther away, or attach it with --on-surface",
+                               t.name, nameOf(products[hit->product]), hit->range_m * 1000, t.size_m * 500));
   return {};
 }
 
 Result<double> floorFor(const RayScene& scene, const json& on, const Vector3d& shift, double height) {
   const auto floors = floorsAt(scene, on[0].get<double>() - shift.x(), on[1].get<double>() - shift.y(), height);
   if (floors.empty())
-    return failure(
-        ErrorKind::unusable,
-        fmt::format("there is nothing to stand on at ({}, {}) with {:.2f} m of room for the target's tripod; choose "
-                    "another place or a smaller --height",
-                    on[0].get<double>(), on[1].get<double>(), height));
+    return failure(ErrorKind::unusable, fmt::format("no floor at ({}, {}) with {:.2f} m of free height for the target "
+                                                    "tripod; choose another place or a smaller --height",
+                                                    on[0].get<double>(), on[1].get<double>(), height));
   if (on.size() == 2) return floors.front();
   const double z = on[2].get<double>() - shift.z();
   const double nearest = *std::min_element(floors.begin(), floors.end(),
                                            [z](double a, double b) { return std::abs(a - z) < std::abs(b - z); });
   if (std::abs(nearest - z) <= kFloorSearch_m) return nearest;
-  return failure(ErrorKind::unusable,
-                 fmt::format("there is nothing to stand on within {} m of height {}; the nearest floor is at {:.3f}",
-                             kFloorSearch_m, on[2].get<double>(), nearest + shift.z()));
+  return failure(ErrorKind::unusable, fmt::format("no floor within {} m of height {}; the nearest floor is at {:.3f}",
+                                                  kFloorSearch_m, on[2].get<double>(), nearest + shift.z()));
 }
 
 // A plate on a tripod is turned and tilted to the nearest station.
@@ -120,8 +116,7 @@ Result<void> stick(const Document& document, const RayScene& scene, const Vector
   const SurfaceTouch touch = surface.empty() ? SurfaceTouch{} : surface.nearest(place, kSurfaceSearch_m);
   if (touch.normal.isZero())
     return failure(ErrorKind::unusable,
-                   fmt::format("target {} is refused: there is no surface within {} m of that place; put it "
-                               "on a tripod with --on",
+                   fmt::format("cannot place target {}: no surface within {} m; use --on to place it on a tripod",
                                t.name, kSurfaceSearch_m));
   const Vector3d out = freeSide(document, scene, place, touch);
   t.normal = out;
@@ -133,7 +128,7 @@ Result<void> stick(const Document& document, const RayScene& scene, const Vector
   const double deep = stand_off_m + kPlate_m + 0.005;
   for (const auto& [a, b] : std::array{std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}})
     if (!scene.intersect(t.centre + 0.5 * kTouch * t.size_m * (a * u + b * v), -out, deep)) {
-      report.warn(t.name, "its plate reaches over an edge or lies on a bent surface: it is taken as flat");
+      report.warn(t.name, "the plate crosses an edge or a curved surface: treated as flat");
       break;
     }
   return {};
@@ -160,7 +155,7 @@ Result<Target> targetArticleFrom(const TargetKinds& kinds, const json& options) 
   t.name = options.at("add").get<std::string>();
   if (t.name.empty() || t.name.find_first_of(",= \t") != std::string::npos)
     return failure(ErrorKind::usage,
-                   fmt::format("'{}' cannot be a target's name: no space, comma or equals sign, please", t.name));
+                   fmt::format("invalid target name '{}': spaces, commas and equals signs are not allowed", t.name));
   const auto type = options.value("type", std::string()), kind = options.value("kind", std::string());
   const auto found = std::find_if(kinds.articles.begin(), kinds.articles.end(), [&](const TargetArticle& a) {
     if (!type.empty()) return a.id == type;
@@ -169,11 +164,11 @@ Result<Target> targetArticleFrom(const TargetKinds& kinds, const json& options) 
   if (found == kinds.articles.end()) {
     std::vector<std::string> ids;
     for (const auto& a : kinds.articles) ids.push_back(a.id);
-    return failure(ErrorKind::usage, fmt::format("there is no target '{}'; there is {}", type, fmt::join(ids, ", ")),
+    return failure(ErrorKind::usage, fmt::format("unknown target '{}'; available: {}", type, fmt::join(ids, ", ")),
                    "--type");
   }
   if (!type.empty() && !kind.empty() && (kind == "sphere") != (found->shape == TargetKind::sphere))
-    return failure(ErrorKind::usage, fmt::format("'{}' is no {}: leave --kind out", type, kind), "--kind");
+    return failure(ErrorKind::usage, fmt::format("'{}' is not a {}: leave out --kind", type, kind), "--kind");
   t.kind = found->shape;
   t.size_m = options.value("size", found->size_m);
   return t;
@@ -186,8 +181,8 @@ Result<Target> placedTarget(const Document& document, const RayScene& scene, Tar
                    static_cast<int>(options.contains("on-surface"));
   if (ways != 1)
     return failure(ErrorKind::usage,
-                   "say where it is by one of --at X,Y,Z (its centre), --on X,Y[,Z] (a floor for its tripod), "
-                   "--on-surface X,Y,Z (stuck to what is nearest)");
+                   "specify one of --at X,Y,Z (target centre), --on X,Y[,Z] (floor below its tripod), --on-surface "
+                   "X,Y,Z (attach to the nearest surface)");
   if (options.contains("on")) {
     const auto& on = options["on"];
     const double height = options.at("height").get<double>();
@@ -199,7 +194,7 @@ Result<Target> placedTarget(const Document& document, const RayScene& scene, Tar
   } else {
     const char* way = options.contains("at") ? "at" : "on-surface";
     if (options[way].size() != 3)
-      return failure(ErrorKind::usage, fmt::format("--{} takes three numbers X,Y,Z in metres", way));
+      return failure(ErrorKind::usage, fmt::format("--{} requires three numbers X,Y,Z in metres", way));
     t.centre = vectorFrom(options[way]) - shift;
   }
   if (options.contains("on-surface")) {
@@ -208,13 +203,12 @@ Result<Target> placedTarget(const Document& document, const RayScene& scene, Tar
       return failure(ok.error());
   } else if (options.contains("normal")) {
     if (options["normal"].size() != 3 || vectorFrom(options["normal"]).norm() < 1e-9)
-      return failure(ErrorKind::usage, "--normal takes three numbers, not all zero");
+      return failure(ErrorKind::usage, "--normal requires three numbers, not all zero");
     t.normal = vectorFrom(options["normal"]).normalized();
   }
   if (auto ok = fits(document, scene, t); !ok) return failure(ok.error());
   if (options.contains("at") && !isHeld(scene, t))
-    report.warn(t.name, fmt::format("it hangs in the air: nothing beside it, and no floor within {} m beneath",
-                                    kTallestPole_m));
+    report.warn(t.name, fmt::format("floating: no adjacent surface, and no floor within {} m below", kTallestPole_m));
   return t;
 }
 

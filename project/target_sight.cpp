@@ -39,9 +39,9 @@ std::vector<Vector3d> facePlaces(const Target& t, const Vector3d& from) {
   constexpr int kPlaces = 64;
   for (int i = 0; i < kPlaces; ++i) {
     const double azimuth = i * std::numbers::pi * (3 - std::sqrt(5.0));
-    const double share = 0.9 * std::sqrt((i + 0.5) / kPlaces);
-    Vector3d p = t.centre + t.size_m / 2 * share * (std::cos(azimuth) * u + std::sin(azimuth) * v);
-    if (sphere) p += t.size_m / 2 * std::sqrt(1 - share * share) * axis;
+    const double fraction = 0.9 * std::sqrt((i + 0.5) / kPlaces);
+    Vector3d p = t.centre + t.size_m / 2 * fraction * (std::cos(azimuth) * u + std::sin(azimuth) * v);
+    if (sphere) p += t.size_m / 2 * std::sqrt(1 - fraction * fraction) * axis;
     places.push_back(p);
   }
   return places;
@@ -53,23 +53,23 @@ void look(const RayScene& scene, const Target& t, const Vector3d& from, TargetSi
     const Vector3d way = place - from;
     const auto hit = scene.intersect(from, way.normalized(), way.norm() - 1e-4);
     if (!hit)
-      sight.seen_share += 1.0 / static_cast<double>(places.size());
+      sight.seen_fraction += 1.0 / static_cast<double>(places.size());
     else if (sight.hidden_by.empty())
       sight.hidden_by = nameOf(scene.environment().products[hit->product]);
   }
 }
 
 std::string whyNot(const TargetSight& s, const Target& t, const TargetRules& rules) {
-  if (s.seen_share < 1e-9) return "hidden by " + s.hidden_by;
-  if (s.seen_share < kEnoughSeen)
-    return fmt::format("only {:.0f} % of it is seen past {}", s.seen_share * 100, s.hidden_by);
+  if (s.seen_fraction < 1e-9) return "hidden by " + s.hidden_by;
+  if (s.seen_fraction < kEnoughSeen)
+    return fmt::format("only {:.0f} % visible past {}", s.seen_fraction * 100, s.hidden_by);
   if (t.kind == TargetKind::checkerboard && s.incidence_rad > rules.max_incidence_rad)
-    return fmt::format("seen at {:.0f}°, and a plate is measured up to {:.0f}°", s.incidence_rad / kRadPerDeg,
+    return fmt::format("incidence {:.0f}° exceeds the limit of {:.0f}° for plates", s.incidence_rad / kRadPerDeg,
                        rules.max_incidence_rad / kRadPerDeg);
   if (s.distance_m > s.max_distance_m)
-    return fmt::format("{:.1f} m away, and it is measured up to {:.1f} m", s.distance_m, s.max_distance_m);
+    return fmt::format("distance {:.1f} m exceeds the limit of {:.1f} m", s.distance_m, s.max_distance_m);
   if (s.points && *s.points < rules.min_points)
-    return fmt::format("about {:.0f} points on it, and {} are wanted", *s.points, rules.min_points);
+    return fmt::format("about {:.0f} points on the target, {} required", *s.points, rules.min_points);
   return {};
 }
 
@@ -112,7 +112,7 @@ json toJson(const std::vector<TargetSight>& sights) {
     rows.push_back({{"station", s.station},
                     {"distance_m", s.distance_m},
                     {"incidence_deg", s.incidence_rad / kRadPerDeg},
-                    {"seen_share", s.seen_share},
+                    {"seen_share", s.seen_fraction},
                     {"points", s.points ? json(std::round(*s.points)) : json(nullptr)},
                     {"most_distance_m", s.max_distance_m},
                     {"why_not", s.why_not.empty() ? json(nullptr) : json(s.why_not)}});
@@ -122,10 +122,10 @@ json toJson(const std::vector<TargetSight>& sights) {
 void tell(const Target& target, const std::vector<TargetSight>& sights, Report& report) {
   if (sights.empty()) return;
   const bool hidden =
-      std::all_of(sights.begin(), sights.end(), [](const TargetSight& s) { return s.seen_share < 1e-9; });
+      std::all_of(sights.begin(), sights.end(), [](const TargetSight& s) { return s.seen_fraction < 1e-9; });
   const auto good = std::count_if(sights.begin(), sights.end(), [](const TargetSight& s) { return s.why_not.empty(); });
   if (hidden)
-    report.warn(target.name, "it is hidden from every station");
+    report.warn(target.name, "hidden from every station");
   else if (good == 0)
     report.warn(target.name, "no station can measure it");
   for (const auto& s : sights)

@@ -15,7 +15,7 @@ namespace standpoint {
 struct TargetSight {
   std::string station;
   double distance_m = 0, incidence_rad = 0;
-  double seen_share = 0;         // of its face
+  double seen_fraction = 0;      // of its face
   std::string hidden_by;         // where not all is seen
   std::optional<double> points;  // that the instrument lays on it, hidden or not; nothing where none is known
   double max_distance_m = 0;     // at which this instrument's grid, or the rule, still does

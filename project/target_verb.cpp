@@ -53,7 +53,7 @@ Result<Target> addedTarget(const Document& document, const json& options, Outcom
   const auto& targets = document.job->targets;
   if (std::any_of(targets.begin(), targets.end(), [&](const Target& t) { return t.name == article->name; }))
     return failure(ErrorKind::usage,
-                   fmt::format("there is a target '{}' already; remove it, or take another name", article->name));
+                   fmt::format("target '{}' already exists; remove it, or use another name", article->name));
   auto scene = RayScene::build(document.environment(), progress);
   if (!scene) return failure(scene.error());
   std::string stands;
@@ -136,7 +136,7 @@ PhysicalMaterial paint(const char* id, const char* label, double reflectance) {
 Result<Outcome> runTarget(const Document& document, const json& options, Progress& progress) {
   progress.stage("Target");
   if (options.contains("add") && options.contains("remove"))
-    return failure(ErrorKind::usage, "say one of --add NAME, --remove NAME");
+    return failure(ErrorKind::usage, "specify one of --add NAME, --remove NAME");
   Outcome outcome{document, json::object(), {}, {}};
   Job job = *document.job;
   const auto& g = *document.georeference;
@@ -151,7 +151,7 @@ Result<Outcome> runTarget(const Document& document, const json& options, Progres
   } else if (options.contains("remove")) {
     const auto at = find(options["remove"].get<std::string>());
     if (at == job.targets.end())
-      return failure(ErrorKind::usage, fmt::format("there is no target '{}'", options["remove"].get<std::string>()));
+      return failure(ErrorKind::usage, fmt::format("unknown target '{}'", options["remove"].get<std::string>()));
     outcome.description = "Removed target " + at->name;
     job.targets.erase(at);
   } else if (options.value("sight", false)) {

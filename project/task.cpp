@@ -12,7 +12,7 @@ Result<Outcome> guarded(const Task::Work& work, const Document& snapshot, Progre
   try {
     return work(snapshot, progress);
   } catch (const std::exception& e) {
-    return failure(ErrorKind::unusable, std::string("not enough memory, or a defect: ") + e.what());
+    return failure(ErrorKind::unusable, std::string("not enough memory, or an internal error: ") + e.what());
   }
 }
 

@@ -52,7 +52,7 @@ Result<void> follow(Document& document, Report& report, Progress& progress) {
   }
   if (document.collision) {
     document.collision = nullptr;
-    report.note("collide", "the collision shapes were those of the scene before; compute them again");
+    report.note("collide", "collision shapes are out of date; compute them again");
   }
   if (!document.materials) return {};
   auto assigned = assignDocumentMaterials(document, {}, progress);
@@ -70,18 +70,18 @@ Result<Outcome> runTreat(const Document& document, const json& options, Progress
   const auto now = document.treatments ? *document.treatments : std::vector<Treatment>{};
   if (selectors.empty()) {
     if (options.contains("as"))
-      return failure(ErrorKind::usage,
-                     "say which products: #id, a GlobalId, class:IfcFurniture, name:*chair*, storey:…", "products");
+      return failure(ErrorKind::usage, "specify products: #id, a GlobalId, class:IfcFurniture, name:*chair*, storey:…",
+                     "products");
     return Outcome{document, answerOf(*document.imported, now), {}, {}};
   }
   if (!options.contains("as"))
-    return failure(ErrorKind::usage, "say how they are treated: excluded, kept, simplified or rules", "--as");
+    return failure(ErrorKind::usage, "specify a treatment: excluded, kept, simplified or rules", "--as");
   const auto kind = treatmentKind(options.at("as"));
   Treatment treatment{{}, kind, {}, {}};
   if (options.contains("max-deviation")) treatment.max_deviation_m = options.at("max-deviation").get<double>();
   if (options.contains("weight")) treatment.weight = options.at("weight").get<double>();
   if (kind != TreatmentKind::simplified && (treatment.max_deviation_m || treatment.weight))
-    return failure(ErrorKind::usage, "limits are for products that are simplified: --as simplified",
+    return failure(ErrorKind::usage, "limits require --as simplified",
                    treatment.weight ? "--weight" : "--max-deviation");
   auto treatments = now;
   std::size_t count = 0;
@@ -90,8 +90,7 @@ Result<Outcome> runTreat(const Document& document, const json& options, Progress
     const auto meant = select(*document.imported, selector);
     if (meant.empty())
       return failure(ErrorKind::usage,
-                     "no product is meant by it; #id, a GlobalId, class:IfcFurniture, name:*chair* and storey:… select",
-                     selector);
+                     "no products match; use #id, a GlobalId, class:IfcFurniture, name:*chair* or storey:…", selector);
     count += meant.size();
     last = &document.imported->products[meant.back()];
     treatment.selector = selector;
@@ -105,12 +104,12 @@ Result<Outcome> runTreat(const Document& document, const json& options, Progress
   if (after.imported != document.imported)
     if (auto done = follow(after, outcome.report, progress); !done) return failure(done.error());
   if (document.simplified && kind != TreatmentKind::excluded)
-    outcome.report.note("optimize", "the lighter model follows when it is optimised again");
+    outcome.report.note("optimize", "the simplified model is out of date; run `optimize` again");
   outcome.answer = answerOf(*after.imported, *after.treatments);
   const char* done = kind == TreatmentKind::excluded     ? "Excluded"
-                     : kind == TreatmentKind::kept       ? "Keep as it is:"
-                     : kind == TreatmentKind::simplified ? "Simplify within own limits:"
-                                                         : "By the rules again:";
+                     : kind == TreatmentKind::kept       ? "Keep unchanged:"
+                     : kind == TreatmentKind::simplified ? "Simplify within custom limits:"
+                                                         : "Reset to rules:";
   outcome.description = fmt::format("{} {}", done, count == 1 ? nameOf(last) : fmt::format("{} products", count));
   return outcome;
 }

@@ -50,7 +50,7 @@ void applyTreatments(const Environment& environment, const std::vector<Treatment
     allowance.keep = decided[i]->kind == TreatmentKind::kept;
     allowance.max_deviation_m = decided[i]->max_deviation_m.value_or(allowance.max_deviation_m);
     allowance.weight = decided[i]->weight.value_or(allowance.weight);
-    allowance.reason = "the author's treatment of " + decided[i]->selector;
+    allowance.reason = "user treatment of " + decided[i]->selector;
   }
 }
 

@@ -25,7 +25,7 @@ Pose poseFromMap(const MapConversion& conversion, const CloudPlace& cloud, Repor
   const double off_m = std::abs(1 / conversion.scale - 1) * b.diagonal() / 2;
   if (off_m > 0.001)
     report.warn(cloud.name,
-                fmt::format("the map conversion's scale {} is not applied to the cloud: {:.3f} m at its rim",
+                fmt::format("map conversion scale {} is not applied to the cloud: {:.3f} m error at its edge",
                             conversion.scale, off_m));
   return pose;
 }
@@ -65,39 +65,35 @@ Pose placeCloud(const CloudPlace& cloud, const Georeference& model, const Bounds
   const bool model_in_map = model.map_from_file && model.map_from_file->scale > 0;
   const bool same = !cloud.crs.empty() && !model.crs.empty() && sameCrs(cloud.crs, model.crs);
   if (const auto found = findCrs(cloud.crs); !cloud.crs.empty() && found && std::abs(found->metres_per_unit - 1) > 1e-9)
-    report.warn(cloud.name,
-                fmt::format("its CRS {} counts in units of {:.6g} m, which are taken as metres, so it is {:.3g} "
-                            "times too large: write the cloud in a CRS of metres",
-                            shownCrs(cloud.crs), found->metres_per_unit, 1 / found->metres_per_unit));
+    report.warn(cloud.name, fmt::format("CRS {} has a unit of {:.6g} m, which is read as metres, so the cloud is "
+                                        "{:.3g} times too large: convert it to a metric CRS",
+                                        shownCrs(cloud.crs), found->metres_per_unit, 1 / found->metres_per_unit));
   if (!cloud.crs.empty() && !model.crs.empty() && !same)
-    report.warn(cloud.name,
-                fmt::format("the cloud's CRS is {}, the model's {}: coordinates are not transformed; convert "
-                            "the cloud to the model's CRS first, or say where it lies with --at",
-                            shownCrs(cloud.crs), shownCrs(model.crs)));
+    report.warn(cloud.name, fmt::format("the cloud's CRS is {}, the model's is {}: coordinates are not transformed; "
+                                        "convert the cloud to the model's CRS first, or specify its origin with --at",
+                                        shownCrs(cloud.crs), shownCrs(model.crs)));
   if (model_in_map) {
     Report of_map;
     const Pose by_map = poseFromMap(*model.map_from_file, cloud, of_map);
     const double by_map_m = distance_m(moved(by_map, cloud.bounds_cloud_m), model_file_m);
     if (same || (cloud.crs.empty() && as_is_m > kFarFromModel_m && by_map_m <= kFarFromModel_m)) {
       report.append(of_map);
-      report.note(cloud.name,
-                  same ? "placed by the model's map conversion: both state the same CRS"
-                       : "placed by the model's map conversion: the cloud states no CRS, but only so it lies "
-                         "near the model");
+      report.note(cloud.name, same ? "placed using the model's map conversion (same CRS)"
+                                   : "placed using the model's map conversion: the cloud specifies no CRS, but this "
+                                     "places it near the model");
       if (by_map_m > kFarFromModel_m)
-        report.warn(cloud.name, fmt::format("lies {:.1f} km from the model: check the model's map conversion "
-                                            "(`standpoint georeference`), or say where the cloud lies with --at",
+        report.warn(cloud.name, fmt::format("the cloud is {:.1f} km from the model: check the model's map conversion "
+                                            "(`standpoint georeference`), or specify the cloud's origin with --at",
                                             by_map_m / 1000));
       return by_map;
     }
   }
-  report.note(cloud.name, "placed as its coordinates are, in the model's own frame");
+  report.note(cloud.name, "placed by its coordinates in the model's file frame");
   if (as_is_m > kFarFromModel_m)
-    report.warn(
-        cloud.name,
-        fmt::format("lies {:.1f} km from the model: say where its origin lies with --at X,Y,Z, or give the model "
-                    "its map conversion (`standpoint georeference --origin`) and add the cloud again",
-                    as_is_m / 1000));
+    report.warn(cloud.name,
+                fmt::format("the cloud is {:.1f} km from the model: specify its origin with --at X,Y,Z, or set the "
+                            "model's map conversion (`standpoint georeference --origin`) and add the cloud again",
+                            as_is_m / 1000));
   return {};
 }
 

@@ -40,7 +40,8 @@ bool posed(const json& options) { return options.contains("at") || options.conta
 // What is not said stays as it is.
 Result<Pose> posedBy(const json& options, Pose pose) {
   if (options.contains("at")) {
-    if (options["at"].size() != 3) return failure(ErrorKind::usage, "--at takes X,Y,Z of the cloud's origin in metres");
+    if (options["at"].size() != 3)
+      return failure(ErrorKind::usage, "--at requires X,Y,Z of the cloud's origin in metres");
     pose.translation = vectorFrom(options["at"]);
   }
   if (options.contains("yaw-deg"))
@@ -62,10 +63,10 @@ Result<Underlay> addedUnderlay(const Document& document, const json& options, Re
   const fs::path file = fs::absolute(options["add"].get<std::string>()).lexically_normal();
   progress.stage("Reading " + file.filename().string());
   std::error_code ignored;
-  if (!fs::exists(file, ignored)) return failure(ErrorKind::file_system, "there is no such file", file.string());
+  if (!fs::exists(file, ignored)) return failure(ErrorKind::file_system, "file not found", file.string());
   const auto extent = measureCloud(file, progress);
   if (!extent) return failure(extent.error());
-  if (extent->points == 0) return failure(ErrorKind::unusable, "the cloud holds no points", file.string());
+  if (extent->points == 0) return failure(ErrorKind::unusable, "the point cloud is empty", file.string());
   // Nothing is lost to the project: the points stay in their file.
   for (const auto& issue : extent->report.issues)
     report.issues.push_back({std::min(issue.severity, Severity::warning), issue.source, issue.message});
@@ -110,7 +111,7 @@ Result<void> change(Outcome& outcome, const char* action, const json& options, P
   if (at == underlays.end()) {
     std::vector<std::string> names;
     for (const auto& u : underlays) names.push_back(u->name);
-    return failure(ErrorKind::usage, fmt::format("there is no underlay '{}'; there is {}", name,
+    return failure(ErrorKind::usage, fmt::format("unknown underlay '{}'; available: {}", name,
                                                  names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
   }
   const std::string_view what = action;
@@ -121,7 +122,7 @@ Result<void> change(Outcome& outcome, const char* action, const json& options, P
   }
   Underlay changed = **at;
   if (what == "move") {
-    if (!posed(options)) return failure(ErrorKind::usage, "say where to: --at X,Y,Z, --yaw-deg A");
+    if (!posed(options)) return failure(ErrorKind::usage, "specify the new position: --at X,Y,Z, --yaw-deg A");
     auto pose = posedBy(options, changed.file_from_cloud);
     if (!pose) return failure(pose.error());
     const double by_m = (pose->translation - changed.file_from_cloud.translation).norm();
@@ -151,11 +152,11 @@ Result<Outcome> runUnderlay(const Document& document, const json& options, Progr
   const char* action = nullptr;
   for (const char* each : kActions) {
     if (!options.contains(each)) continue;
-    if (action) return failure(ErrorKind::usage, fmt::format("say one of --{}", fmt::join(kActions, ", --")));
+    if (action) return failure(ErrorKind::usage, fmt::format("specify one of --{}", fmt::join(kActions, ", --")));
     action = each;
   }
   if (!(action && std::string_view(action) == "register") && (options.contains("pairs") || options.value("icp", false)))
-    return failure(ErrorKind::usage, "--pairs and --icp belong to --register NAME");
+    return failure(ErrorKind::usage, "--pairs and --icp require --register NAME");
   Outcome outcome{document, json::object(), {}, {}};
   auto& underlays = outcome.document.underlays;
   if (action && std::string_view(action) == "add") {

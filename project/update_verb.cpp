@@ -30,16 +30,16 @@ Result<std::vector<fs::path>> sourcesAfter(const Document& document, const std::
     const auto old =
         std::find_if(all.begin(), all.end(), [&](const fs::path& p) { return p.filename() == file.filename(); });
     if (old == all.end())
-      return failure(ErrorKind::usage,
-                     fmt::format("the project was made from {} models and none of them is called so; name all of them",
-                                 all.size()),
-                     file.string());
+      return failure(
+          ErrorKind::usage,
+          fmt::format("the project was created from {} models, none with this name; specify all of them", all.size()),
+          file.string());
     *old = file;
   }
   for (const auto& file : all) {
     std::error_code ignored;
     if (!fs::exists(file, ignored))
-      return failure(ErrorKind::usage, "one of the project's models is no longer there; name all of them",
+      return failure(ErrorKind::usage, "one of the project's model files no longer exists; specify all of them",
                      file.string());
   }
   return all;
@@ -94,7 +94,7 @@ struct Update {
     if (product == nullptr) return selector;
     if (selectors.gone(id)) {
       kept.push_back({{"what", what}, {"selector", selector}, {what, value}, {"product", identity(*product)}});
-      outcome.report.warn(selector, fmt::format("the product '{}' is gone; its {} {} is kept for when it comes back",
+      outcome.report.warn(selector, fmt::format("product '{}' no longer exists; its {} {} is kept in case it returns",
                                                 product->name, what, value));
     }
     return selectors.followed(id) + selector.substr(id.size());
@@ -127,7 +127,7 @@ struct Update {
     if (!before.simplified) return {};
     auto request = before.simplified->request;
     if (std::exchange(request.by_view, false))
-      outcome.report.note("optimize", "what walkers see of the changed model is not known yet: it does not weigh");
+      outcome.report.note("optimize", "visibility in the changed model is unknown: visibility weights are not applied");
     auto light = optimizeDocument(outcome.document, request, progress);
     if (!light) return failure(light.error());
     outcome.document.simplified = light->document.simplified;
@@ -140,9 +140,8 @@ struct Update {
     outcome.document.underlays = before.underlays;
     std::size_t scans = 0;
     for (const Station& s : before.job->stations) scans += s.scans.size();
-    if (scans > 0) outcome.report.note("scan", fmt::format("{} scans show the model as it was before", scans));
-    if (before.collision)
-      outcome.report.note("collide", "the collision shapes were those of the model before; compute them again");
+    if (scans > 0) outcome.report.note("scan", fmt::format("{} scans show the previous model", scans));
+    if (before.collision) outcome.report.note("collide", "collision shapes are out of date; compute them again");
   }
 
   // The project's own position stays: a map position may be the user's work.
@@ -157,7 +156,7 @@ struct Update {
     if (other_crs || other_map)
       outcome.report.warn(
           "georeference",
-          "the changed model states another place on the map; the project's own is kept, `georeference` changes it");
+          "the changed model has a different georeference; the project's is kept. Change it with `georeference`");
     if (old.map_from_file) now.map_from_file = old.map_from_file;
     if (!old.crs.empty() && crs.empty()) now.crs = old.crs;
     outcome.document.georeference = std::make_shared<const Georeference>(std::move(now));
@@ -202,11 +201,9 @@ json changesAnswer(const Environment& before, const Environment& after, const Pr
 
 Result<Outcome> updateModels(const Document& document, std::vector<fs::path> files, const ImportOptions& options,
                              const std::string& crs, Progress& progress) {
-  if (!document.imported)
-    return failure(ErrorKind::usage, "there is no model yet that could be updated; import it first", "--update");
+  if (!document.imported) return failure(ErrorKind::usage, "there is no model to update; import one first", "--update");
   if (options.shift != ShiftMode::automatic)
-    return failure(ErrorKind::usage,
-                   "an update keeps the project's shift, for the sake of its stations; leave --shift out", "--shift");
+    return failure(ErrorKind::usage, "an update keeps the project's shift; leave out --shift", "--shift");
   auto all = sourcesAfter(document, files);
   if (!all) return failure(all.error());
   ImportOptions same_frame = options;

@@ -106,8 +106,8 @@ json assignWords(const VerifyFound& found, const MaterialProposal& p) {
 
 std::string evidenceOf(const VerifyFound& found, const MaterialProposal& p) {
   return fmt::format(
-      "{} points at {:.1f}–{:.1f} m and {:.0f}–{:.0f}° are {:+.1f} dB off; as '{}' they fit to {:.1f} dB instead of "
-      "{:.1f}",
+      "{} points at {:.1f}–{:.1f} m and {:.0f}–{:.0f}° deviate by {:+.1f} dB; '{}' fits to {:.1f} dB instead of {:.1f} "
+      "dB",
       p.points, p.range_from_m, p.range_to_m, p.incidence_from_deg, p.incidence_to_deg, p.off_db,
       idOf(found, p.instead), p.misfit_instead_db, p.misfit_db);
 }
@@ -194,24 +194,23 @@ void tellVerified(const VerifyFound& found, Report& report) {
   const auto& c = found.comparison;
   if (!c.scale.db.empty())
     report.note(found.underlay,
-                fmt::format("the vendor's scale reads as {}{}; it explains {:.1f} % of what range and incidence do, "
-                            "to {:.2f} dB",
-                            c.scale.describe(), c.scale.range_compensated ? ", without the range" : "",
+                fmt::format("vendor scale: {}{}; explains {:.1f} % of range and incidence effects, to {:.2f} dB",
+                            c.scale.describe(), c.scale.range_compensated ? ", without range" : "",
                             c.scale.explained * 100, c.scale.scatter_db));
   for (const auto& m : c.materials)
     report.note(idOf(found, m.material),
                 fmt::format("{} points: {:+.1f} dB (quartiles {:+.1f}, {:+.1f}){}", m.points, tenths(m.off_db.median),
                             tenths(m.off_db.lower), tenths(m.off_db.upper),
-                            !m.supported ? ", which is not enough to judge by"
+                            !m.supported ? ", too few for a verdict"
                             : m.agrees   ? ""
                                          : ", does not agree"));
   for (const auto& p : c.proposals)
     report.warn(idOf(found, p.material),
                 fmt::format("behaves like '{1}' ({0}): {2}",
-                            p.whole_material ? "all that can be judged of it"
+                            p.whole_material ? "all testable products"
                                              : fmt::format("{} of its products", productIds(found, p.groups).size()),
                             idOf(found, p.instead), evidenceOf(found, p)));
-  if (!c.no_verdict.empty()) report.warn(found.underlay, "nothing is proposed: " + c.no_verdict);
+  if (!c.no_verdict.empty()) report.warn(found.underlay, "no proposals: " + c.no_verdict);
 }
 
 }  // namespace standpoint

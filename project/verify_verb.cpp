@@ -31,8 +31,8 @@ std::string lower(std::string text) {
 Result<std::shared_ptr<const Underlay>> underlayFor(const Document& document, const json& options) {
   const auto& all = document.underlays;
   if (all.empty())
-    return failure(ErrorKind::usage,
-                   "no cloud lies under the model: add one with `standpoint underlay PROJECT --add FILE`", "verify");
+    return failure(ErrorKind::usage, "there is no underlay: add one with `standpoint underlay PROJECT --add FILE`",
+                   "verify");
   if (!options.contains("underlay") && all.size() == 1) return all.front();
   const auto name = options.value("underlay", std::string());
   std::vector<std::string> names;
@@ -41,8 +41,8 @@ Result<std::shared_ptr<const Underlay>> underlayFor(const Document& document, co
     names.push_back(u->name);
   }
   return failure(ErrorKind::usage,
-                 name.empty() ? fmt::format("say which cloud: {}", fmt::join(names, ", "))
-                              : fmt::format("there is no underlay '{}'; there is {}", name, fmt::join(names, ", ")),
+                 name.empty() ? fmt::format("specify an underlay: {}", fmt::join(names, ", "))
+                              : fmt::format("unknown underlay '{}'; available: {}", name, fmt::join(names, ", ")),
                  "verify");
 }
 
@@ -62,12 +62,12 @@ Result<Instrument> instrumentFor(const json& options, const CloudSample& sample,
   }
   if (best == nullptr)
     return failure(ErrorKind::usage,
-                   fmt::format("the cloud does not say which instrument measured it: name the one whose wavelength "
-                               "is nearest with --instrument; there is {}",
+                   fmt::format("the point cloud does not identify its instrument: specify the one with the closest "
+                               "wavelength with --instrument; available: {}",
                                idsOf(*all)),
                    "--instrument");
   report.note("instrument",
-              fmt::format("{} {} at {:.0f} nm, as the cloud says", best->maker, best->model, best->wavelength_nm));
+              fmt::format("{} {} at {:.0f} nm, from the point cloud", best->maker, best->model, best->wavelength_nm));
   return *best;
 }
 
@@ -76,16 +76,19 @@ Result<CloudSample> usableSample(const Underlay& underlay, const json& options, 
   if (!sample) return failure(sample.error());
   if (sample->intensity.empty())
     return failure(ErrorKind::unusable,
-                   "the cloud has no intensity: export it with intensity from the scanner's software", underlay.name);
-  if (!(sample->max_intensity > sample->min_intensity))
-    return failure(ErrorKind::unusable,
-                   fmt::format("every point has the same intensity, {}: it was lost on the way; export the cloud again",
-                               sample->min_intensity),
+                   "the point cloud has no intensity: export it with intensity from the scanner software",
                    underlay.name);
+  if (!(sample->max_intensity > sample->min_intensity))
+    return failure(
+        ErrorKind::unusable,
+        fmt::format(
+            "all points have the same intensity, {}: intensity was lost during export; export the point cloud again",
+            sample->min_intensity),
+        underlay.name);
   std::size_t without = 0;
   for (auto& scan : sample->scans) {
     if (options.contains("from")) {
-      if (options["from"].size() != 3) return failure(ErrorKind::usage, "it takes X,Y,Z in metres", "--from");
+      if (options["from"].size() != 3) return failure(ErrorKind::usage, "must be X,Y,Z in metres", "--from");
       const Pose& pose = underlay.file_from_cloud;
       if (!scan.station) scan.station = pose.rotation.conjugate() * (vectorFrom(options["from"]) - pose.translation);
     }
@@ -93,8 +96,8 @@ Result<CloudSample> usableSample(const Underlay& underlay, const json& options, 
   }
   if (without == sample->scans.size())
     return failure(ErrorKind::unusable,
-                   "the cloud does not say where its scanner stood: import the single scans with their poses (E57 or "
-                   "PTX with grid), or say it with --from X,Y,Z",
+                   "the point cloud has no scanner position: import single scans with poses (E57 or PTX with grid), or "
+                   "specify it with --from X,Y,Z",
                    underlay.name);
   return sample;
 }
@@ -130,19 +133,17 @@ Result<VerifyFound> found(const Document& document, const Underlay& underlay, co
   const auto near = of(BeamMeeting::met) + of(BeamMeeting::near) + of(BeamMeeting::edge) + of(BeamMeeting::shared);
   constexpr std::uint64_t kFewest = 100;  // fewer say nothing of any material
   if (with_station < kFewest)
-    return failure(
-        ErrorKind::unusable,
-        fmt::format("it has {} point{} seen from a known place, and fewer than {} are no evidence of a material: "
-                    "lay a fuller export of the scan under the model, `standpoint underlay PROJECT --add FILE`",
-                    with_station, with_station == 1 ? "" : "s", kFewest),
-        underlay.name);
+    return failure(ErrorKind::unusable,
+                   fmt::format("only {} point{} with a known scanner position, at least {} required: add a more "
+                               "complete export of the scan with `standpoint underlay PROJECT --add FILE`",
+                               with_station, with_station == 1 ? "" : "s", kFewest),
+                   underlay.name);
   if (near < kFewest || static_cast<double>(near) < kFewOnModel * static_cast<double>(with_station))
-    return failure(
-        ErrorKind::unusable,
-        fmt::format("{} of {} points lie on the model: register the cloud first, `standpoint underlay PROJECT "
-                    "--register {} --pairs … --icp`",
-                    near, with_station, underlay.name),
-        underlay.name);
+    return failure(ErrorKind::unusable,
+                   fmt::format("only {} of {} points are on the model: register the cloud first with `standpoint "
+                               "underlay PROJECT --register {} --pairs … --icp`",
+                               near, with_station, underlay.name),
+                   underlay.name);
   progress.stage("Placement of the cloud", 0.6, 0.85);
   f.placement = fitCloudToModel(document, sample, underlay.file_from_cloud, kPlacementReach_m, progress);
   if (!f.placement && f.placement.error().kind == ErrorKind::cancelled) return failure(f.placement.error());
@@ -157,12 +158,12 @@ Result<VerifyFound> found(const Document& document, const Underlay& underlay, co
 void judgePlacement(VerifyFound& f) {
   std::string wrong;
   if (!f.placement)
-    wrong = "its placement cannot be checked: " + f.placement.error().message;
+    wrong = "cannot check the position of the cloud: " + f.placement.error().message;
   else if (f.placement->moved_m > kMisplaced_m && !f.placement->settled)
-    wrong = "its placement cannot be checked: a fit to the model's surface does not come to rest";
+    wrong = "cannot check the position of the cloud: the fit to the model surface does not converge";
   else if (f.placement->moved_m > kMisplaced_m)
     wrong = fmt::format(
-        "the cloud lies {:.3f} m off the model: register it first, `standpoint underlay PROJECT --register {} --icp`",
+        "the cloud is {:.3f} m off the model: register it first with `standpoint underlay PROJECT --register {} --icp`",
         f.placement->moved_m, f.underlay);
   if (wrong.empty()) return;
   f.comparison.no_verdict = wrong;
@@ -176,7 +177,7 @@ Result<Outcome> runVerify(const Document& document, const json& options, Progres
   auto underlay = underlayFor(document, options);
   if (!underlay) return failure(underlay.error());
   if (!document.materials)
-    return failure(ErrorKind::usage, "no materials are assigned yet: `standpoint materials PROJECT` does it", "verify");
+    return failure(ErrorKind::usage, "no materials assigned: run `standpoint materials PROJECT` first", "verify");
   auto library = readMaterialLibrary(dataFolder() / "materials" / "library");
   if (!library) return failure(library.error());
   Outcome outcome{document, json::object(), {}, {}};
@@ -192,10 +193,10 @@ Result<Outcome> runVerify(const Document& document, const json& options, Progres
   outcome.answer = verifyAnswer(*f);
   tellVerified(*f, outcome.report);
   const auto proposals = f->comparison.proposals.size();
-  outcome.description = f->comparison.no_verdict.empty()
-                            ? fmt::format("Held the materials against {}: {} proposal{}", f->underlay, proposals,
-                                          proposals == 1 ? "" : "s")
-                            : fmt::format("Held the materials against {}: no verdict", f->underlay);
+  outcome.description =
+      f->comparison.no_verdict.empty()
+          ? fmt::format("Verified materials with {}: {} proposal{}", f->underlay, proposals, proposals == 1 ? "" : "s")
+          : fmt::format("Verified materials with {}: no verdict", f->underlay);
   outcome.document.verification = std::make_shared<const Verification>(verificationOf(document, outcome.answer));
   return outcome;
 }

@@ -74,7 +74,7 @@ void act(InstrumentDesk& desk, const RehearsalAction& action) {
   Progress quiet;
   Result<void> done;
   if (desk.ended())
-    done = failure(ErrorKind::usage, "The exercise has ended: leave it, or do it once more.");
+    done = failure(ErrorKind::usage, "The exercise has ended. Leave it or restart it.");
   else if (desk.rehearsal)
     done = desk.rehearsal->act(action, quiet);
   else if (action.kind == Kind::press)
@@ -100,7 +100,7 @@ void chooseDevice(InstrumentDesk& desk, Editor& editor, const EmulatedDevice& de
   desk.scanners = scannersOf(**type);
   desk.host = std::make_unique<DeviceHost>(*std::move(type), editor.session.document(), editor.wake);
   if (auto recalled = desk.host->remember(scansFolder(editor)); !recalled)
-    desk.refused = "The device has lost its memory: " + describe(recalled.error());
+    desk.refused = "The device memory was lost: " + describe(recalled.error());
   desk.last = std::chrono::steady_clock::now();
 }
 
@@ -156,10 +156,11 @@ namespace {
 
 std::string whyForbidden(const InstrumentDesk& desk, const Session& session, std::string_view verb) {
   if (!desk.rehearsal || desk.ended()) return {};
-  if (isFieldVerb(verb)) return desk.rehearsal->host().busy() ? "The instrument is at work: wait until it rests" : "";
+  if (isFieldVerb(verb))
+    return desk.rehearsal->host().busy() ? "The instrument is busy. Wait until it has finished." : "";
   const auto* row = session.verb(verb);
   const bool reads = row != nullptr && (row->scope == VerbScope::reads || row->scope == VerbScope::files);
-  return reads ? "" : fmt::format("Exercise {} is running: finish or leave it first", desk.rehearsal->exercise().id);
+  return reads ? "" : fmt::format("Exercise {} is running. Finish or leave it first.", desk.rehearsal->exercise().id);
 }
 
 void takeFieldWork(InstrumentDesk& desk, const Session& session, std::string_view verb, const nlohmann::json& options) {

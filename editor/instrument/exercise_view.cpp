@@ -23,10 +23,10 @@ struct GuidanceRow {
   const char *name, *text;
 };
 constexpr std::array kGuidance = {
-    GuidanceRow{"Step by step", "Each step is shown, and what will be marked. A hint costs half of its step's points."},
-    GuidanceRow{"One step", "Only the step that is next is shown. A hint costs half of its points."},
-    GuidanceRow{"Watch", "The solution is carried out while you look on."},
-    GuidanceRow{"Test", "No steps, no hints, and what is marked is told at the end."}};
+    GuidanceRow{"Guided", "Shows all steps and marking criteria. A hint costs half of the step's points."},
+    GuidanceRow{"Current step only", "Shows only the next step. A hint costs half of the step's points."},
+    GuidanceRow{"Watch", "Plays the sample solution."},
+    GuidanceRow{"Test", "Hides steps and hints. Marking criteria are shown at the end."}};
 
 void readExercises(InstrumentDesk& desk) {
   if (desk.exercises_read) return;
@@ -58,7 +58,7 @@ void list(InstrumentDesk& desk, Editor& editor) {
   const bool unsaved = editor.session.modified();
   if (unsaved) {
     const auto folder = editor.session.folder();
-    ui::wrapped(std::string("An exercise opens an environment of its own, so save your project first") +
+    ui::wrapped(std::string("Exercises open their own environment. Save your project first") +
                 (folder.empty() ? ": Ctrl S." : "."));
     if (!folder.empty() && ui::button("Save the project###save-first", {}, {-1, 0})) editor.session.save(folder);
     ui::gap(editor);
@@ -73,17 +73,18 @@ void list(InstrumentDesk& desk, Editor& editor) {
                        known.exercise.goal.in(language).c_str()))
       return startExercise(desk, editor, known.exercise);
   }
-  if (!any) ui::dimWrapped("There is no exercise for this device yet.");
+  if (!any) ui::dimWrapped("No exercises for this device");
   if (desk.exercises_refused.empty()) return;
   ui::gap(editor);
-  ui::dimText("Files that are no exercise");
+  ui::dimText("Invalid exercise files");
   for (const auto& refused : desk.exercises_refused) ui::wrapped(refused);
 }
 
 void record(InstrumentDesk& desk, Editor& editor) {
   ui::gap(editor);
   if (!ImGui::CollapsingHeader("Record an exercise")) return;
-  ui::dimWrapped("Do it once; what you do becomes the solution of a new exercise, and what you mark counts.");
+  ui::dimWrapped(
+      "Perform the task once. Your actions become the solution of a new exercise; tick the criteria to mark.");
   if (ui::button(desk.recording ? "Stop###record" : "Record###record")) {
     desk.recording = !desk.recording;
     if (desk.recording) desk.recorded.clear();
@@ -91,8 +92,8 @@ void record(InstrumentDesk& desk, Editor& editor) {
   if (desk.recorded.empty()) return;
   ImGui::SameLine();
   ui::dimText(fmt::format("{} actions", desk.recorded.size()));
-  if (ui::button("Write it to a file",
-                 editor.session.folder().empty() ? "Save the project first: the file goes beside it." : "")) {
+  if (ui::button("Save as exercise",
+                 editor.session.folder().empty() ? "Save the project first. The file is stored next to it." : "")) {
     const auto file = editor.session.folder() / "recorded-exercise.json";
     std::ofstream out(file);
     out << recordedExercise(*desk.shown(), desk.recorded).dump(2) << '\n';
@@ -152,9 +153,9 @@ void questions(InstrumentDesk& desk, const std::string& language) {
 // What will be marked besides the steps; in a test that is told at the end.
 void demands(const InstrumentDesk& desk, const std::string& language) {
   const auto& rules = desk.rehearsal->exercise().rules;
-  if (rules.empty() || !ImGui::CollapsingHeader("What is marked besides###demands")) return;
+  if (rules.empty() || !ImGui::CollapsingHeader("Other marking criteria###demands")) return;
   const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
-  for (const auto& rule : rules) marked("·", rule.text.in(language) + (rule.must ? "  (needed to pass)" : ""), dim);
+  for (const auto& rule : rules) marked("·", rule.text.in(language) + (rule.must ? "  (required to pass)" : ""), dim);
 }
 
 void certificate(InstrumentDesk& desk, Editor& editor) {
@@ -169,9 +170,9 @@ void certificate(InstrumentDesk& desk, Editor& editor) {
 
 void marks(InstrumentDesk& desk, Editor& editor) {
   const auto& m = desk.marks;
-  ui::wrapped(fmt::format("{}: {} of the points, {} are needed", m["passed"].get<bool>() ? "Passed" : "Not passed",
+  ui::wrapped(fmt::format("{}: score {}, {} required", m["passed"].get<bool>() ? "Passed" : "Not passed",
                           percentText(m["score"]), percentText(m["pass_mark"])));
-  if (const auto broken = brokenDemands(m); !broken.empty()) ui::wrapped("Needed to pass, but broken: " + broken);
+  if (const auto broken = brokenDemands(m); !broken.empty()) ui::wrapped("Required criterion not met: " + broken);
   certificate(desk, editor);
   for (const auto& rule : m["rules"]) {
     const bool held = rule["held"].get<bool>();
@@ -182,7 +183,9 @@ void marks(InstrumentDesk& desk, Editor& editor) {
     if (rule.contains("because")) marked("", rule["because"].get<std::string>(), dim);
     if (!rule.contains("proof") || rule["proof"]["value"] == "") continue;
     const auto& proof = rule["proof"];
-    marked("", fmt::format("in the data: {} = {}", proof["fact"].get<std::string>(), proof["text"].get<std::string>()),
+    marked("",
+           fmt::format("Measured in the data: {} = {}", proof["fact"].get<std::string>(),
+                       proof["text"].get<std::string>()),
            dim);
   }
   ui::gap(editor);
@@ -224,9 +227,9 @@ void running(InstrumentDesk& desk, Editor& editor) {
   bool again = false;
   if (desk.ended()) {
     const bool unsaved = editor.session.modified();
-    const auto why = unsaved ? "Its environment is not saved yet." : editor.session.whyNot("open-project");
-    again = ui::button("Once more###again", why);
-  } else if (ui::primaryButton("Finish and mark###finish")) {
+    const auto why = unsaved ? "The environment has not been saved yet." : editor.session.whyNot("open-project");
+    again = ui::button("Restart###again", why);
+  } else if (ui::primaryButton("Finish and grade###finish")) {
     finishExercise(desk, editor);
   }
   ImGui::SameLine();

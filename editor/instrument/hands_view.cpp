@@ -27,7 +27,7 @@ bool flowing(const std::string& label, bool first) {
 
 void stationChoice(InstrumentDesk& desk, const Document& document) {
   const auto& now = desk.shown()->state().around.station;
-  ui::propertyLabel("Stands at");
+  ui::propertyLabel("Station");
   ImGui::SetNextItemWidth(-1);
   if (ImGui::BeginCombo("##station", now.empty() ? "nowhere" : now.c_str())) {
     if (document.job)

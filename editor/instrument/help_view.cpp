@@ -29,9 +29,9 @@ void entry(const Device& device, const WidgetRow& row) {
 // The widget that was asked about, or all whose name or help holds what is searched.
 void drawHelp(InstrumentDesk& desk, Editor& editor) {
   const Device& device = *desk.shown();
-  if (ui::button(desk.view.asking ? "Explain: tap a widget###asking" : "Explain a widget###asking"))
+  if (ui::button(desk.view.asking ? "Select a control to explain###asking" : "Explain a control###asking"))
     desk.view.asking = !desk.view.asking;
-  (void)ui::searchField("##help", "Search all widgets", desk.search);
+  (void)ui::searchField("##help", "Search controls", desk.search);
   ui::gap(editor);
   if (!desk.search.empty()) {
     std::set<std::string> seen;
@@ -40,18 +40,16 @@ void drawHelp(InstrumentDesk& desk, Editor& editor) {
         if ((holds(device.word(row.words), desk.search) || holds(device.word(row.words + "?"), desk.search)) &&
             seen.insert(screen.id + row.id).second)
           entry(device, row);
-    if (seen.empty()) ui::dimWrapped("No widget of this device has that in its name or help.");
+    if (seen.empty()) ui::dimWrapped("No matching controls on this device");
     return;
   }
   if (desk.view.explained.empty())
-    return ui::dimWrapped(
-        "Press Explain, then tap what you want to know about. "
-        "Nothing happens to the scan meanwhile.");
+    return ui::dimWrapped("Choose Explain, then select a control on the device. The scan is not affected.");
   const auto& id = desk.view.explained;
   const auto screen = device.screen();
   if (const auto* widget = findWidget(screen, id)) ui::wrapped(widget->label);
   const auto help = device.help(id);
-  ui::wrapped(help.empty() ? "It answers the question on the screen." : help);
+  ui::wrapped(help.empty() ? "Answers the question on the screen." : help);
 }
 
 }  // namespace standpoint

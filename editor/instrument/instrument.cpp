@@ -27,7 +27,7 @@ class InstrumentPanel {
   void draw(Editor& editor) {
     followProject(desk_, editor);
     if (desk_.shown() == nullptr)
-      return ui::emptyState(editor, ICON_TABLET, "The device cannot start", desk_.problem.c_str());
+      return ui::emptyState(editor, ICON_TABLET, "Cannot start the device", desk_.problem.c_str());
     standSomewhere(editor);
     advance(desk_, editor);  // before drawing: the last state of a clock that then stops is on the screen
     controls();
@@ -67,7 +67,7 @@ class InstrumentPanel {
       if (!moved.empty()) editor.session.say(LogLevel::note, device.type().definition.title, moved);
     }
     if (desk_.refused.empty())
-      ui::dimWrapped("Screens are ours; not affiliated with or endorsed by the makers.");
+      ui::dimWrapped("Screens drawn by Standpoint; not affiliated with or endorsed by the manufacturers.");
     else
       ui::wrapped(desk_.refused);
   }
@@ -108,8 +108,8 @@ class InstrumentPanel {
 
   // Why device and scanner cannot be changed now.
   std::string whyFixed() {
-    if (desk_.rehearsal) return "The exercise is for this device. Leave the exercise to take another one.";
-    return desk_.running()->busy() ? "It is at work: wait until it rests, or switch it off." : "";
+    if (desk_.rehearsal) return "The current exercise uses this device. Leave the exercise to choose another device.";
+    return desk_.running()->busy() ? "The instrument is busy. Wait until it has finished, or switch it off." : "";
   }
 
   template <class Rows>
@@ -160,7 +160,7 @@ class InstrumentPanel {
 
  private:
   static std::string clockName(double factor) {
-    return factor == 1 ? "real time" : fmt::format("{:.0f} times faster", factor);
+    return factor == 1 ? "real time" : fmt::format("{:.0f}× speed", factor);
   }
 
   Ticker ticker_;

@@ -43,7 +43,7 @@ int places(std::vector<WayPoint>& way) {
     else if (number("###speed", way[i].speed_m_s, "%.2f"))
       way[i].speed_m_s = std::clamp(way[i].speed_m_s, kSlowest_m_s, kFastest_m_s);
     ImGui::TableNextColumn();
-    if (ui::iconButton(ICON_TRASH "###remove", "Take this place out")) removed = static_cast<int>(i);
+    if (ui::iconButton(ICON_TRASH "###remove", "Remove waypoint")) removed = static_cast<int>(i);
     ImGui::PopID();
   }
   ImGui::EndTable();
@@ -52,10 +52,10 @@ int places(std::vector<WayPoint>& way) {
 
 // Two places at one spot have no way between them, and no time.
 std::string whyNoWay(const std::vector<WayPoint>& way) {
-  if (way.size() < 2) return "A way has two places at least.";
+  if (way.size() < 2) return "A path needs at least two waypoints.";
   for (std::size_t i = 1; i < way.size(); ++i)
     if (std::hypot(way[i].x_m - way[i - 1].x_m, way[i].y_m - way[i - 1].y_m) < 1e-3)
-      return fmt::format("Place {} is where place {} is: take one of them out.", i + 1, i);
+      return fmt::format("Waypoints {} and {} coincide. Remove one of them.", i + 1, i);
   return {};
 }
 
@@ -64,18 +64,18 @@ std::string whyNoWay(const std::vector<WayPoint>& way) {
 // The way of a handheld scanner: laid by clicks into the view, or typed.
 void drawWay(InstrumentDesk& desk, Editor& editor) {
   ui::gap(editor);
-  ui::dimText("The way");
+  ui::dimText("Path");
   if (!desk.way.empty())
     if (const int removed = places(desk.way); removed >= 0) desk.way.erase(desk.way.begin() + removed);
   const auto timed = timedWay(desk.way);
   if (!timed.empty()) ui::dimText("Takes " + clockText(timed.back()[2].get<double>()));
   const bool laying = editor.view.tool == Tool::layWay;
-  if (ui::button(laying ? "Done###lay-way" : "Lay it in the view###lay-way"))
+  if (ui::button(laying ? "Done###lay-way" : "Draw in the view###lay-way"))
     editor.view.tool = laying ? Tool::select : Tool::layWay;
   ImGui::SameLine();
   if (ui::button(ICON_ADD "###add-place")) desk.way.push_back(desk.way.empty() ? WayPoint() : desk.way.back());
-  ui::tooltip("Add a place to type in");
-  if (ui::primaryButton("Plan this way###plan-way", whyNoWay(desk.way))) act(desk, {Kind::walk, "", "", 0, timed});
+  ui::tooltip("Add a waypoint by coordinates");
+  if (ui::primaryButton("Apply path###plan-way", whyNoWay(desk.way))) act(desk, {Kind::walk, "", "", 0, timed});
   editor.on_way = [&way = desk.way](const Eigen::Vector3d& place) {
     auto next = way.empty() ? WayPoint() : way.back();
     next.x_m = place.x(), next.y_m = place.y(), next.z_m = place.z();

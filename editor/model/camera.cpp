@@ -68,8 +68,8 @@ void pan(Camera& camera, const Eigen::Vector2d& drag_px, const Eigen::Vector2d& 
 void zoom(Camera& camera, double steps, const Eigen::Vector3d& anchor) {
   const double wanted = camera.distance_m * std::pow(0.85, steps);
   const double distance = std::clamp(wanted, kNearestDistance_m, kFarthestDistance_m);
-  const double share = distance / camera.distance_m;
-  camera.target = anchor + (camera.target - anchor) * share;
+  const double fraction = distance / camera.distance_m;
+  camera.target = anchor + (camera.target - anchor) * fraction;
   camera.distance_m = distance;
 }
 

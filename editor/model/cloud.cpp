@@ -31,7 +31,7 @@ Result<void> CloudSampler::write(const PointBlock& block) {
   for (std::uint64_t i = (step_ - seen_ % step_) % step_; i < block.size(); i += step_) {
     const Eigen::Vector3d p = pose_ * Eigen::Vector3d(block.x_m[i], block.y_m[i], block.z_m[i]);
     for (int k = 0; k < 3; ++k) positions_.push_back(static_cast<float>(p[k]));
-    shares_.push_back(span_ > 0 ? static_cast<float>((block.intensity[i] - low_) / span_) : NAN);
+    fractions_.push_back(span_ > 0 ? static_cast<float>((block.intensity[i] - low_) / span_) : NAN);
     if (coloured_)
       colours_.push_back({block.red[i], block.green[i], block.blue[i], 255});
     else
@@ -47,32 +47,32 @@ void CloudSampler::halve() {
   for (std::size_t i = 0; i < kept; ++i) {
     std::copy_n(positions_.begin() + static_cast<std::ptrdiff_t>(6 * i), 3,
                 positions_.begin() + static_cast<std::ptrdiff_t>(3 * i));
-    shares_[i] = shares_[2 * i];
+    fractions_[i] = fractions_[2 * i];
     colours_[i] = colours_[2 * i];
   }
   positions_.resize(3 * kept);
-  shares_.resize(kept);
+  fractions_.resize(kept);
   colours_.resize(kept);
   step_ *= 2;
 }
 
 Cloud CloudSampler::shaded() const {
   Cloud cloud{{}, positions_, colours_, seen_};
-  auto shares = shares_;
-  if (std::all_of(shares.begin(), shares.end(), [](float s) { return std::isnan(s); }))
-    for (std::size_t i = 0; i < shares.size(); ++i) shares[i] = positions_[3 * i + 2];
+  auto fractions = fractions_;
+  if (std::all_of(fractions.begin(), fractions.end(), [](float s) { return std::isnan(s); }))
+    for (std::size_t i = 0; i < fractions.size(); ++i) fractions[i] = positions_[3 * i + 2];
   std::vector<float> sorted;
-  std::copy_if(shares.begin(), shares.end(), std::back_inserter(sorted), [](float s) { return !std::isnan(s); });
+  std::copy_if(fractions.begin(), fractions.end(), std::back_inserter(sorted), [](float s) { return !std::isnan(s); });
   if (sorted.empty()) return cloud;
-  const auto at = [&](double share) {
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sorted.size() - 1));
+  const auto at = [&](double fraction) {
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(sorted.size() - 1));
     std::nth_element(sorted.begin(), middle, sorted.end());
     return *middle;
   };
   const float low = at(0.02), high = at(0.98), span = std::max(high - low, 1e-12F);
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    const float share = std::isnan(shares[i]) ? 0.5F : std::clamp((shares[i] - low) / span, 0.0F, 1.0F);
-    const auto grey = static_cast<std::uint8_t>(std::lround(40 + 215 * share));
+  for (std::size_t i = 0; i < fractions.size(); ++i) {
+    const float fraction = std::isnan(fractions[i]) ? 0.5F : std::clamp((fractions[i] - low) / span, 0.0F, 1.0F);
+    const auto grey = static_cast<std::uint8_t>(std::lround(40 + 215 * fraction));
     for (std::size_t k = 0; k < 3; ++k) cloud.colours[i][k] = greyed(cloud.colours[i][k], grey);
   }
   return cloud;
@@ -82,7 +82,7 @@ Result<Cloud> sampleCloud(const std::filesystem::path& file, const Eigen::Vector
                           Progress& progress) {
   const CloudFormat* format = cloudFormatFor(file);
   if (format == nullptr || format->read == nullptr)
-    return failure(ErrorKind::unusable, "this kind of cloud cannot be read", file.string());
+    return failure(ErrorKind::unusable, "unsupported point-cloud format", file.string());
   auto info = format->info(file);
   if (!info) return failure(info.error());
   std::uint64_t points = 0;

@@ -53,7 +53,7 @@ class CloudSampler : public PointSink {
   Pose pose_;
   double low_ = 0, span_ = 1;
   bool coloured_ = false;
-  std::vector<float> positions_, shares_;
+  std::vector<float> positions_, fractions_;
   std::vector<std::array<std::uint8_t, 4>> colours_;  // not shaded
 };
 

@@ -57,8 +57,8 @@ Rgba countColour(int stations) {
   return stations <= 0 ? kHoleColour : kCounts[static_cast<std::size_t>(std::min(stations, kMostCounted) - 1)];
 }
 
-Rgba coverageScale(double share) {
-  const double at = std::clamp(share, 0.0, 1.0) * (kScale.size() - 1);
+Rgba coverageScale(double fraction) {
+  const double at = std::clamp(fraction, 0.0, 1.0) * (kScale.size() - 1);
   const auto stop = std::min(static_cast<std::size_t>(at), kScale.size() - 2);
   Rgba colour = {0, 0, 0, 255};
   for (std::size_t k = 0; k < 3; ++k)

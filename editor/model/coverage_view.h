@@ -38,7 +38,7 @@ constexpr int kMostCounted = 4;                                           // sta
 constexpr double kFinestSpacing_m = 0.001, kCoarsestSpacing_m = 0.1;      // of the scale, which is logarithmic
 std::array<std::uint8_t, 4> countColour(int stations);
 // 0..1 of the scale of spacing or incidence, good to bad.
-std::array<std::uint8_t, 4> coverageScale(double share);
+std::array<std::uint8_t, 4> coverageScale(double fraction);
 std::array<std::uint8_t, 4> coverageColour(CoverageQuantity quantity, const PlaceCoverage& coverage);
 
 // The scans that a document's stations stand for; made anew only when something that they depend on is another one.

@@ -19,14 +19,14 @@ void DesktopOpener::open(const std::filesystem::path& path, std::function<void()
   ended_ = {};
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
-    problem_ = fmt::format("There is no {}", path.string());
+    problem_ = fmt::format("{} does not exist", path.string());
     return;
   }
   std::string program = program_, argument = std::filesystem::absolute(path, error).string();
   char* const words[] = {program.data(), argument.data(), nullptr};  // no shell reads them
   pid_t child = 0;
   if (const int failed = posix_spawnp(&child, program_.c_str(), nullptr, nullptr, words, environ); failed != 0) {
-    problem_ = fmt::format("'{}' does not start ({}). The file is {}", program_, std::strerror(failed), path.string());
+    problem_ = fmt::format("Cannot start '{}' ({}). File: {}", program_, std::strerror(failed), path.string());
     return;
   }
   std::promise<int> promise;
@@ -42,7 +42,7 @@ void DesktopOpener::open(const std::filesystem::path& path, std::function<void()
 const std::string& DesktopOpener::problem() {
   if (ended_.valid() && ended_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
     if (const int status = ended_.get(); status != 0)
-      problem_ = fmt::format("'{}' could not open it (code {}). The file is {}", program_, status, path_.string());
+      problem_ = fmt::format("'{}' could not open the file (exit code {}). File: {}", program_, status, path_.string());
   return problem_;
 }
 

@@ -21,8 +21,8 @@ constexpr std::array<std::array<double, 3>, 5> kIntensityStops = {
 constexpr std::array<std::array<double, 3>, 5> kNoiseStops = {
     {{222, 235, 247}, {158, 202, 225}, {253, 208, 120}, {240, 120, 70}, {150, 20, 60}}};
 
-Rgba shaded(const Rgba& colour, float share) {
-  const auto of = [&](std::uint8_t c) { return static_cast<std::uint8_t>(static_cast<float>(c) * share + 0.5F); };
+Rgba shaded(const Rgba& colour, float fraction) {
+  const auto of = [&](std::uint8_t c) { return static_cast<std::uint8_t>(static_cast<float>(c) * fraction + 0.5F); };
   return {of(colour[0]), of(colour[1]), of(colour[2]), colour[3]};
 }
 
@@ -35,11 +35,11 @@ bool sameLook(const ExpectedRequest& a, const ExpectedRequest& b) {
 
 const char* fateName(ReturnFate fate) {
   switch (fate) {
-    case ReturnFate::returned: return "comes back";
+    case ReturnFate::returned: return "detected";
     case ReturnFate::too_weak: return "too weak";
-    case ReturnFate::seen_through: return "seen through";
-    case ReturnFate::hidden: return "not in sight";
-    case ReturnFate::too_near: return "too near";
+    case ReturnFate::seen_through: return "transparent";
+    case ReturnFate::hidden: return "hidden";
+    case ReturnFate::too_near: return "too close";
     case ReturnFate::too_far: return "too far";
   }
   return "";
@@ -57,9 +57,9 @@ Rgba fateColour(ReturnFate fate) {
   return {};
 }
 
-Rgba scaleColour(ExpectedQuantity quantity, double share) {
+Rgba scaleColour(ExpectedQuantity quantity, double fraction) {
   const auto& stops = quantity == ExpectedQuantity::noise ? kNoiseStops : kIntensityStops;
-  const double at = std::clamp(share, 0.0, 1.0) * (stops.size() - 1);
+  const double at = std::clamp(fraction, 0.0, 1.0) * (stops.size() - 1);
   const auto stop = std::min(static_cast<std::size_t>(at), stops.size() - 2);
   Rgba colour = {0, 0, 0, 255};
   for (std::size_t k = 0; k < 3; ++k)

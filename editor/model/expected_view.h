@@ -23,7 +23,7 @@ constexpr double kNoiseFullScale_m = 0.005;  // what has the last colour
 std::array<std::uint8_t, 4> fateColour(ReturnFate fate);
 const char* fateName(ReturnFate fate);
 // Of a legend: 0..1 of the scale.
-std::array<std::uint8_t, 4> scaleColour(ExpectedQuantity quantity, double share);
+std::array<std::uint8_t, 4> scaleColour(ExpectedQuantity quantity, double fraction);
 // What does not come back has the colour of its reason, whatever is asked for.
 std::array<std::uint8_t, 4> expectedColour(ExpectedQuantity quantity, const ExpectedReturn& expected);
 

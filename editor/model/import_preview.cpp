@@ -17,12 +17,12 @@ using nlohmann::json;
 
 std::string doubtOf(const Eigen::Vector3d& size_m) {
   const double largest = size_m.maxCoeff();
-  if (largest <= 0) return "Nothing in it has a shape";
-  if (size_m.z() > 1000) return "Higher than any building: is the unit mm or in?";
-  if (largest > 20000) return "Larger than a town: is the unit mm or in, or does something lie far away?";
-  if (largest < 0.2) return "Smaller than a hand: is the unit m, though the file means mm or in?";
+  if (largest <= 0) return "The file contains no geometry";
+  if (size_m.z() > 1000) return "Taller than any building. Check the unit: mm or in?";
+  if (largest > 20000) return "Larger than a town. Check the unit (mm or in?) and look for misplaced products.";
+  if (largest < 0.2) return "Smaller than a hand. Check the unit: is the file in m?";
   if (size_m.z() > 3 * std::max(size_m.x(), size_m.y()) && size_m.z() > 30)
-    return "Much higher than wide: does another axis point up?";
+    return "Much taller than wide. Check the up axis.";
   return {};
 }
 

@@ -15,7 +15,7 @@ std::vector<CardRow> reportedOf(const PhysicalMaterial& material, const std::vec
     const auto found =
         std::find_if(instruments.begin(), instruments.end(), [&](const Instrument& i) { return i.id == id; });
     const auto settings = found == instruments.end()
-                              ? Result<ScanSettings>(failure(ErrorKind::usage, "no such instrument"))
+                              ? Result<ScanSettings>(failure(ErrorKind::usage, "unknown instrument"))
                               : resolveSettings(*found, {});
     if (!settings) continue;
     const ReturnLaw law(*found, *settings);

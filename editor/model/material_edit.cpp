@@ -37,15 +37,15 @@ json rowsOf(const std::vector<ComplexIndex>& index) {
 
 // The reader's own ranges, said before the file is written.
 std::string flawOfIndex(const std::vector<ComplexIndex>& index) {
-  if (index.empty()) return "A metal needs n and k at one wavelength or more";
+  if (index.empty()) return "A metal requires n and k for at least one wavelength";
   for (std::size_t i = 0; i < index.size(); ++i) {
     const auto& [wavelength, n, k] = index[i];
     if (!(wavelength >= 200 && wavelength <= 20000))
-      return fmt::format("Row {}: a wavelength is from 200 to 20 000 nm", i + 1);
+      return fmt::format("Row {}: wavelength must be from 200 to 20 000 nm", i + 1);
     if (i > 0 && !(wavelength > index[i - 1].wavelength_nm))
-      return fmt::format("Row {}: wavelengths must rise from row to row", i + 1);
-    if (!(n >= 0.001 && n <= 1000)) return fmt::format("Row {}: n is from 0.001 to 1000", i + 1);
-    if (!(k >= 0 && k <= 1000)) return fmt::format("Row {}: k is from 0 to 1000", i + 1);
+      return fmt::format("Row {}: wavelengths must increase from row to row", i + 1);
+    if (!(n >= 0.001 && n <= 1000)) return fmt::format("Row {}: n must be from 0.001 to 1000", i + 1);
+    if (!(k >= 0 && k <= 1000)) return fmt::format("Row {}: k must be from 0 to 1000", i + 1);
   }
   return {};
 }
@@ -120,13 +120,13 @@ void takeIndexRow(MaterialEdit& edit, std::size_t row) {
 std::string flawOf(const MaterialEdit& edit) {
   const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
   if (edit.id.empty() || !std::all_of(edit.id.begin(), edit.id.end(), allowed))
-    return "The id is made of a-z, 0-9 and _";
-  if (edit.label.find_first_not_of(' ') == std::string::npos) return "It needs a name";
+    return "Use only a-z, 0-9 and _ in the ID";
+  if (edit.label.find_first_not_of(' ') == std::string::npos) return "Enter a name";
   if (edit.metal) return flawOfIndex(edit.complex_index);
-  if (edit.gloss_slope > 0 && !(edit.index_of_refraction > 1)) return "Gloss needs an index of refraction above 1";
-  if (edit.pane && !(edit.index_of_refraction > 1)) return "A pane needs an index of refraction above 1";
-  if (edit.pane && !(edit.thickness_mm > 0)) return "A pane needs a thickness";
-  if (edit.pane && edit.panes > 1 && !(edit.gap_mm >= 1)) return "Panes need a gap of 1 mm or more";
+  if (edit.gloss_slope > 0 && !(edit.index_of_refraction > 1)) return "Gloss requires an index of refraction above 1";
+  if (edit.pane && !(edit.index_of_refraction > 1)) return "A pane requires an index of refraction above 1";
+  if (edit.pane && !(edit.thickness_mm > 0)) return "Enter the thickness of the pane";
+  if (edit.pane && edit.panes > 1 && !(edit.gap_mm >= 1)) return "Enter a gap between panes of at least 1 mm";
   return {};
 }
 

@@ -32,7 +32,7 @@ std::vector<MaterialScope> materialScopes(const Environment& environment, const 
   std::vector<MaterialScope> scopes = {
       {fmt::format("This face of '{}'", label),
        fmt::format("{}@{:.4f},{:.4f},{:.4f}", looking, point.x(), point.y(), point.z()), 1},
-      {fmt::format("The faces of '{}' that look this way", label), looking, 1},
+      {fmt::format("Faces of '{}' with this orientation", label), looking, 1},
       {fmt::format("All of '{}'", label), own, 1}};
   const auto add = [&](std::string title, std::string selector) {
     const auto products = select(environment, selector).size();
@@ -42,7 +42,7 @@ std::vector<MaterialScope> materialScopes(const Environment& environment, const 
   if (!product.type_name.empty())
     add(fmt::format("All of type '{}'", product.type_name), "type:" + literalPattern(product.type_name));
   if (!product.ifc_class.empty() && !product.storey.empty())
-    add(fmt::format("All {} of storey '{}'", product.ifc_class, product.storey),
+    add(fmt::format("All {} on storey '{}'", product.ifc_class, product.storey),
         in_class + "&storey:" + literalPattern(product.storey));
   if (!product.ifc_class.empty()) add(fmt::format("All {}", product.ifc_class), in_class);
   // a layer may hold fewer products than a class, and others

@@ -86,7 +86,7 @@ void Model::update() {
     if (*read)
       cloud_ = std::make_shared<const Cloud>(**std::move(read));
     else if (read->error().kind != ErrorKind::cancelled)
-      session.errors().push_back({"The scan cannot be shown", read->error()});
+      session.errors().push_back({"Cannot display the scan", read->error()});
   }
   if (session.revision() != seen_revision_) {
     seen_revision_ = session.revision();
@@ -111,7 +111,7 @@ void Model::update() {
     deviation.follow(session.document(), wake);
   for (auto& error : underlays.takeErrors())
     session.errors().push_back(
-        {"An underlay cannot be shown: put its file back, or remove it in the outliner", std::move(error)});
+        {"Cannot display an underlay: restore its file, or remove the underlay in the outliner", std::move(error)});
 }
 
 // The camera looks at what is previewed, and back where it was when that is given up.
@@ -135,8 +135,8 @@ void Model::startWaitingCloud() {
   if (waiting_clouds.empty() || preview.isOpen()) return;
   if (!session.document().imported) {
     if (!session.running().empty()) return;  // perhaps the model
-    session.errors().push_back({"A point cloud lies under a model",
-                                {ErrorKind::usage, "there is no model yet: import one first, then drop the cloud again",
+    session.errors().push_back({"A point cloud is shown as an underlay of a model",
+                                {ErrorKind::usage, "Import a model first, then drop the point cloud again",
                                  waiting_clouds.front().filename().string()}});
     waiting_clouds.clear();
     return;

@@ -70,7 +70,7 @@ std::string problemOf(const OptionField& field) {
   if (p.kind == ParameterKind::pairs)
     for (const auto& line : linesOf(field.text))
       if (line.get_ref<const std::string&>().find('=') == std::string::npos)
-        return fmt::format("{}: '{}' is not key=value", name, line.get<std::string>());
+        return fmt::format("{}: '{}' is not in the form key=value", name, line.get<std::string>());
   return {};
 }
 

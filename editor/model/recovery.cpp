@@ -44,7 +44,7 @@ Result<void> writeRecoveryOwner(const std::filesystem::path& folder, const std::
   std::ofstream out(folder / "owner.json");
   out << nlohmann::json{{"name", name}, {"saved_in", saved_in}}.dump(2) << '\n';
   out.close();
-  if (!out) return failure(ErrorKind::file_system, "the recovery copy cannot be written", folder.string());
+  if (!out) return failure(ErrorKind::file_system, "cannot write the recovery copy", folder.string());
   return {};
 }
 

@@ -39,17 +39,13 @@ Result<Outcome> runOpen(const Document&, const json& options, Progress& progress
 
 // Saving, opening and keeping a recovery copy run as tasks like every verb; only the editor has a use for them.
 std::vector<Verb> fileVerbs() {
-  const std::vector<Parameter> folder = {{.name = "folder",
-                                          .kind = ParameterKind::path,
-                                          .help = "Folder of the project",
-                                          .positional = true,
-                                          .required = true}};
+  const std::vector<Parameter> folder = {
+      {.name = "folder", .kind = ParameterKind::path, .help = "Project folder", .positional = true, .required = true}};
   auto with_owner = folder;
-  with_owner.push_back({.name = "name", .kind = ParameterKind::text, .help = "of the project"});
-  with_owner.push_back(
-      {.name = "saved-in", .kind = ParameterKind::text, .help = "Folder of the project that it is a copy of"});
+  with_owner.push_back({.name = "name", .kind = ParameterKind::text, .help = "Project name"});
+  with_owner.push_back({.name = "saved-in", .kind = ParameterKind::text, .help = "Folder of the original project"});
   return {{"save-project", "Save the project", VerbScope::reads, folder, runSave},
-          {"save-recovery", "Keep a recovery copy", VerbScope::reads, folder, runSave},
+          {"save-recovery", "Save recovery copy", VerbScope::reads, folder, runSave},
           {"open-project", "Open a project", VerbScope::creates, folder, runOpen},
           {"open-recovery", "Open a recovery copy", VerbScope::creates, with_owner, runOpen}};
 }
@@ -75,9 +71,9 @@ std::string Session::name() const {
 
 std::string Session::whyNot(std::string_view name) const {
   const Verb* wanted = verb(name);
-  if (wanted == nullptr) return fmt::format("This build has no '{}'", name);
+  if (wanted == nullptr) return fmt::format("'{}' is not available in this build", name);
   const bool needs_model = wanted->scope == VerbScope::changes || wanted->scope == VerbScope::reads;
-  if (needs_model && !document().imported) return "There is no model yet: import one first (Ctrl+I)";
+  if (needs_model && !document().imported) return "Import a model first (Ctrl+I)";
   if (auto why = whyForbidden(name); !why.empty()) return why;
   return holdsDocument(*wanted) ? whyHeld() : std::string();
 }
@@ -86,18 +82,18 @@ std::string Session::whyForbidden(std::string_view name) const { return forbids 
 
 std::string Session::whyHeld() const {
   for (const auto& task : running_)
-    if (holdsDocument(task->verb())) return fmt::format("Wait until '{}' is done, or cancel it", task->title());
+    if (holdsDocument(task->verb())) return fmt::format("Wait for '{}' to finish, or cancel it", task->title());
   return {};
 }
 
 std::string Session::whyNotUndo() const {
-  if (!history_.canUndo()) return "There is nothing to undo";
+  if (!history_.canUndo()) return "Nothing to undo";
   const auto why = whyForbidden("undo");
   return why.empty() ? whyHeld() : why;
 }
 
 std::string Session::whyNotRedo() const {
-  if (!history_.canRedo()) return "There is nothing to redo";
+  if (!history_.canRedo()) return "Nothing to redo";
   const auto why = whyForbidden("redo");
   return why.empty() ? whyHeld() : why;
 }
@@ -265,7 +261,7 @@ void Session::fail(const Task& task, const Error& error) {
   finished_.push_front({task.title(), task.verb().name, false, cancelled, cancelled ? "Cancelled" : describe(error),
                         timeOfDay(), task.seconds(), nlohmann::json::object()});
   if (cancelled) {
-    say(LogLevel::note, "", task.title() + " was cancelled");
+    say(LogLevel::note, "", task.title() + " cancelled");
     return;
   }
   say(LogLevel::error, error.source, error.message);

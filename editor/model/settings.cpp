@@ -85,7 +85,7 @@ Result<void> writeSettings(const Settings& settings, const std::filesystem::path
   std::ofstream out(part);
   out << toJson(settings).dump(2) << '\n';
   out.close();
-  if (!out) return failure(ErrorKind::file_system, "the editor's settings cannot be written", part);
+  if (!out) return failure(ErrorKind::file_system, "cannot save the editor settings", part);
   std::filesystem::rename(part, file, error);
   if (error) return failure(ErrorKind::file_system, error.message(), file.string());
   return {};

@@ -33,8 +33,8 @@ Colour confidenceColour(double confidence) {
   if (confidence < 0) return materialColour(nullptr);
   // Stops at 0, kWeakConfidence and 1.
   if (confidence < kWeakConfidence) return {0.84F, static_cast<float>(0.33 + 0.4 * confidence), 0.25F, 1};
-  const auto share = static_cast<float>(std::min(1.0, (confidence - kWeakConfidence) / (1 - kWeakConfidence)));
-  return {std::lerp(0.90F, 0.42F, share), std::lerp(0.72F, 0.70F, share), std::lerp(0.30F, 0.46F, share), 1};
+  const auto fraction = static_cast<float>(std::min(1.0, (confidence - kWeakConfidence) / (1 - kWeakConfidence)));
+  return {std::lerp(0.90F, 0.42F, fraction), std::lerp(0.72F, 0.70F, fraction), std::lerp(0.30F, 0.46F, fraction), 1};
 }
 
 }  // namespace standpoint

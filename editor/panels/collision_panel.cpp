@@ -64,7 +64,7 @@ void drawDoors(const Model& model, CollisionState& state, Actions& actions, cons
     if (state.doors == 2) {
       bool closed = state.closed.contains(id);
       if (ImGui::Checkbox("###closed", &closed)) closed ? void(state.closed.insert(id)) : void(state.closed.erase(id));
-      ui::tooltip("Stands closed when the shapes are computed again");
+      ui::tooltip("Treat as closed when collision shapes are next computed");
       ImGui::SameLine();
     }
     selectable(model, actions, door.product);
@@ -75,7 +75,7 @@ void drawDoors(const Model& model, CollisionState& state, Actions& actions, cons
                                                                             : tone::kBad;
     const auto text = door.closed                          ? std::string(ICON_STOP "  closed")
                       : !door.floor                        ? std::string(ICON_INFO "  no floor")
-                      : door.passable && !door.led_through ? std::string(ICON_INFO "  not led through")
+                      : door.passable && !door.led_through ? std::string(ICON_INFO "  not connected")
                       : door.passable ? fmt::format("{}  {:.2f} m clear", ICON_CHECK, door.clear_width_m)
                                       : fmt::format("{}  {:.2f} m clear", ICON_BAN, door.clear_width_m);
     ImGui::TextColored(colour(tone), "%s", text.c_str());
@@ -94,7 +94,7 @@ void drawRooms(const Model& model, Actions& actions, const CollideResult& result
     selectable(model, actions, room.product);
     ImGui::TableNextColumn();
     const char* text = room.reached           ? ICON_CHECK "  reached"
-                       : room.walkable_m2 > 0 ? ICON_BAN "  no way in"
+                       : room.walkable_m2 > 0 ? ICON_BAN "  not reachable"
                                               : ICON_INFO "  no floor";
     ImGui::TextColored(colour(room.reached           ? tone::kGood
                               : room.walkable_m2 > 0 ? tone::kBad
@@ -117,16 +117,16 @@ nlohmann::json options(const Model& model, const CollisionState& state) {
 void draw(const Model& model, CollisionState& state, Actions& actions) {
   const auto& document = model.session.document();
   if (!document.imported) {
-    ui::emptyState(model, ICON_WALK, "Nothing to walk on", "Import a model first.");
+    ui::emptyState(model, ICON_WALK, "No walkable surface", "Import a model first.");
     return;
   }
   if (ui::beginProperties("agent", 0.42F)) {
     Body walker = model.walker;
-    numberRow("Walker's radius", "###radius", walker.radius_m, 0.05F, 1.0F);
-    numberRow("Walker's height", "###height", walker.height_m, 0.3F, 2.5F);
+    numberRow("Agent radius", "###radius", walker.radius_m, 0.05F, 1.0F);
+    numberRow("Agent height", "###height", walker.height_m, 0.3F, 2.5F);
     actions.set(walker);
     ui::propertyLabel("Doors");
-    ImGui::Combo("###doors", &state.doors, "open\0closed\0one by one\0");
+    ImGui::Combo("###doors", &state.doors, "open\0closed\0individual\0");
     ui::endProperties();
   }
   if (ui::primaryButton(ICON_CUBES "  Compute collision shapes###collide", model.session.whyNot("collide"),
@@ -136,9 +136,8 @@ void draw(const Model& model, CollisionState& state, Actions& actions) {
   }
   if (!document.collision) {
     ui::gap(model);
-    ui::emptyState(
-        model, ICON_WALK, "Not computed yet",
-        "Shapes that a physics engine can use, the area that a person can reach, and which doors let one through.");
+    ui::emptyState(model, ICON_WALK, "Not computed yet",
+                   "Compute shapes for physics engines, the area a person can reach, and passable doors.");
     return;
   }
   const auto& result = *document.collision;

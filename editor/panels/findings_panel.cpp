@@ -68,9 +68,9 @@ void drawRemedy(const Model& model, Actions& actions, const Remedy& remedy, cons
   const bool open = remedy.material.empty();
   const auto& material = open ? model.material.id : remedy.material;
   const auto* known = model.offeredMaterial(material);
-  const std::string blocked = !why.empty() ? why : known == nullptr ? "Choose a material in the list first" : "";
+  const std::string blocked = !why.empty() ? why : known == nullptr ? "Select a material in the list first" : "";
   const std::string text =
-      open ? fmt::format("{}: {}", remedy.text, known == nullptr ? "choose a material" : known->label) : remedy.text;
+      open ? fmt::format("{}: {}", remedy.text, known == nullptr ? "Select a material" : known->label) : remedy.text;
   if (ui::button(fmt::format("{}  {}###{}{}", ICON_MAGIC, text, remedy.selector, remedy.material).c_str(), blocked,
                  {-FLT_MIN, 0}))
     actions.start("materials", {{"assign", assignWords(remedy, material)}}, remedy.text);
@@ -80,17 +80,17 @@ void drawAcceptance(const Model& model, FindingsState& state, Actions& actions, 
                     const std::string& why) {
   if (!finding.because.empty()) {
     ui::wrapped("Accepted: " + finding.because);
-    if (ui::button(ICON_UNDO "  Open it again###reopen", why, {-FLT_MIN, 0}))
-      actions.start("materials", {{"reopen", {finding.id}}}, "Open a finding again");
+    if (ui::button(ICON_UNDO "  Reopen###reopen", why, {-FLT_MIN, 0}))
+      actions.start("materials", {{"reopen", {finding.id}}}, "Reopen finding");
     return;
   }
   const float button = model.px(84);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x);
-  ImGui::InputTextWithHint("###because", "It may stand, because …", &state.because);
+  ImGui::InputTextWithHint("###because", "Reason for accepting", &state.because);
   ImGui::SameLine();
-  const std::string blocked = !why.empty() ? why : state.because.empty() ? "Say why it may stand" : "";
+  const std::string blocked = !why.empty() ? why : state.because.empty() ? "Enter a reason" : "";
   if (ui::button(ICON_CHECK "  Accept###accept", blocked, {button, 0}))
-    actions.start("materials", {{"accept", {finding.id}}, {"because", state.because}}, "Accept a finding");
+    actions.start("materials", {{"accept", {finding.id}}, {"because", state.because}}, "Accept finding");
 }
 
 void drawFinding(const Model& model, FindingsState& state, Actions& actions, const MaterialFinding& finding) {
@@ -98,11 +98,11 @@ void drawFinding(const Model& model, FindingsState& state, Actions& actions, con
   ImGui::PushStyleColor(ImGuiCol_Text, tone::kDim);
   ui::wrapped(finding.why);
   ImGui::PopStyleColor();
-  if (ui::iconButton(ICON_CROSSHAIRS "  Show it alone###look", "Hides the rest and brings it into view",
-                     finding.products.empty() ? "It has no product" : ""))
+  if (ui::iconButton(ICON_CROSSHAIRS "  Isolate###look", "Hides everything else and frames the products",
+                     finding.products.empty() ? "This finding has no products" : ""))
     look(actions, finding);
   ImGui::SameLine();
-  if (ui::iconButton(ICON_EYE "  Show all###show-all", "Everything again")) actions.showAll();
+  if (ui::iconButton(ICON_EYE "  Show all###show-all", "Shows all products")) actions.showAll();
   const auto why = model.session.whyNot("materials");
   for (const auto& remedy : finding.remedies) drawRemedy(model, actions, remedy, why);
   drawAcceptance(model, state, actions, finding, why);
@@ -110,7 +110,7 @@ void drawFinding(const Model& model, FindingsState& state, Actions& actions, con
 
 void draw(const Model& model, FindingsState& state, Actions& actions) {
   const auto& choice = model.session.document().materials;
-  if (!choice) return ui::dimText("Findings come when materials have been assigned.");
+  if (!choice) return ui::dimText("Assign materials to get findings.");
   if (state.seen_revision != model.session.revision()) {
     state.seen_revision = model.session.revision();
     state.all = materialFindings(model.session.document());
@@ -121,7 +121,7 @@ void draw(const Model& model, FindingsState& state, Actions& actions) {
   if (findings.empty()) {
     ImGui::TextColored(colour(tone::kGood), "%s", ICON_CHECK);
     ImGui::SameLine();
-    return ImGui::TextUnformatted("Nothing is doubtful.");
+    return ImGui::TextUnformatted("No findings");
   }
   const auto chosen =
       std::find_if(findings.begin(), findings.end(), [&](const MaterialFinding& f) { return f.id == state.chosen; });

@@ -107,18 +107,18 @@ void drawForm(const Model& model, GeoreferenceState& state, Actions& actions) {
     ImGui::InputDouble("###rotation", &state.rotation_deg, 0, 0, "%.6f°");
     ui::endProperties();
   }
-  if (!ui::primaryButton(ICON_GLOBE "  Set the place###georeference", model.session.whyNot("georeference"),
+  if (!ui::primaryButton(ICON_GLOBE "  Set georeference###georeference", model.session.whyNot("georeference"),
                          {-FLT_MIN, 0}))
     return;
   nlohmann::json options = {{"origin", state.origin_m}, {"rotation-deg", state.rotation_deg}};
   if (!state.crs.empty()) options["crs"] = state.crs;
-  actions.start("georeference", std::move(options), "Set the place of the model");
+  actions.start("georeference", std::move(options), "Set georeference");
 }
 
 void draw(const Model& model, GeoreferenceState& state, Actions& actions) {
   const auto& georeference = model.session.document().georeference;
   if (!georeference) {
-    ui::emptyState(model, ICON_GLOBE, "No place yet", "Where a model stands on Earth is read when it is imported.");
+    ui::emptyState(model, ICON_GLOBE, "Not georeferenced", "Georeferencing is read when a model is imported.");
     return;
   }
   fill(state, *georeference);

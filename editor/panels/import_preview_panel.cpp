@@ -22,9 +22,9 @@ struct Choice {
   const char* value;
   const char* label;
 };
-constexpr std::array kUnits = {Choice{"", "As the file says"}, Choice{"m", "Metre"}, Choice{"cm", "Centimetre"},
-                               Choice{"mm", "Millimetre"},     Choice{"in", "Inch"}, Choice{"ft", "Foot"}};
-constexpr std::array kUps = {Choice{"", "As the file says"}, Choice{"y", "Y points up"}, Choice{"z", "Z points up"}};
+constexpr std::array kUnits = {Choice{"", "As in the file"}, Choice{"m", "Metre"}, Choice{"cm", "Centimetre"},
+                               Choice{"mm", "Millimetre"},   Choice{"in", "Inch"}, Choice{"ft", "Foot"}};
+constexpr std::array kUps = {Choice{"", "As in the file"}, Choice{"y", "Y points up"}, Choice{"z", "Z points up"}};
 
 template <std::size_t N>
 bool choose(const char* id, const std::array<Choice, N>& choices, std::string& value) {
@@ -63,10 +63,11 @@ void drawPlace(const Model& model, Actions& actions) {
   const auto& georeference = *model.shownDocument().georeference;
   ui::propertyLabel("Shift");
   changed |= textField("###preview-shift", "auto, none or E,N,H", chosen.shift);
-  ui::tooltip(fmt::format("Taken off all coordinates while working, put back on export. Now {:.0f}, {:.0f}, {:.0f} m",
-                          georeference.shift_m.x(), georeference.shift_m.y(), georeference.shift_m.z()));
+  ui::tooltip(fmt::format(
+      "Subtracted from all coordinates on import and restored on export. Currently {:.0f}, {:.0f}, {:.0f} m",
+      georeference.shift_m.x(), georeference.shift_m.y(), georeference.shift_m.z()));
   ui::propertyLabel("CRS");
-  changed |= textField("###preview-crs", georeference.crs.empty() ? "not stated; EPSG:n" : georeference.crs.c_str(),
+  changed |= textField("###preview-crs", georeference.crs.empty() ? "not specified; EPSG:n" : georeference.crs.c_str(),
                        chosen.crs);
   if (!facts.bounds_file_m.empty()) {
     const auto& b = facts.bounds_file_m;
@@ -145,7 +146,7 @@ void drawIssues(const Model& model, ImportPreviewState& state, Actions& actions)
   ImGui::NewLine();
   const auto& issues = model.preview.outcome()->report.issues;
   if (issues.empty()) {
-    ImGui::TextColored(colour(tone::kGood), "%s  Nothing was lost or guessed", ICON_CHECK);
+    ImGui::TextColored(colour(tone::kGood), "%s  No issues", ICON_CHECK);
     return;
   }
   std::vector<int> shown;
@@ -183,16 +184,15 @@ void drawReading(const Model& model) {
 void drawFailure(const Model& model) {
   const Error& error = model.preview.error();
   ui::gap(model, 6);
-  ImGui::TextColored(colour(tone::kBad), "%s  It cannot be read", ICON_WARNING);
+  ImGui::TextColored(colour(tone::kBad), "%s  Cannot read the file", ICON_WARNING);
   ui::gap(model, 2);
   ui::wrapped(error.message);
   if (!error.source.empty()) ui::dimWrapped("in " + error.source);
 }
 
 std::string whyNotAccept(const Model& model, const char* verb) {
-  if (model.preview.stage() == ImportPreview::Stage::failed) return "There is nothing to take in";
-  if (model.preview.stage() != ImportPreview::Stage::ready || model.preview.reading())
-    return "The file is still being read";
+  if (model.preview.stage() == ImportPreview::Stage::failed) return "Nothing to import";
+  if (model.preview.stage() != ImportPreview::Stage::ready || model.preview.reading()) return "Reading file …";
   return model.session.whyNot(verb);
 }
 
@@ -205,7 +205,7 @@ void drawPreviewButtons(const Model& model, Actions& actions) {
   ImGui::SameLine();
   if (can_add) {
     if (ui::button("Add to the environment###preview-add", whyNotAccept(model, "add"), {2 * each, model.px(28)},
-                   "Keeps the model, stations and scans that are open"))
+                   "Keeps the current model, stations and scans"))
       actions.addPreview();
     ImGui::SameLine();
   }
@@ -243,9 +243,9 @@ void drawImportPreview(const Model& model, ImportPreviewState& state, Actions& a
     ImGui::EndDisabled();
     const float row = ImGui::GetTextLineHeightWithSpacing();
     const float free = ImGui::GetContentRegionAvail().y - 4 * row - model.px(24);
-    const float share = preview.outcome()->report.issues.empty() ? 1 : 0.5F;  // of the room that the two lists have
+    const float fraction = preview.outcome()->report.issues.empty() ? 1 : 0.5F;  // of the room that the two lists have
     const float classes = std::clamp(row * (static_cast<float>(preview.facts().classes.size()) + 0.5F), row,
-                                     std::max(row, free * share - 2 * row));
+                                     std::max(row, free * fraction - 2 * row));
     drawClasses(model, classes);
     drawIssues(model, state, actions);
   }

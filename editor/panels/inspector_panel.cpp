@@ -43,7 +43,7 @@ std::string treatmentText(const Model& model, const Product& product) {
     case TreatmentKind::kept: return "Never simplified";
     case TreatmentKind::simplified:
       return treatment->max_deviation_m ? fmt::format("Simplified within {:g} mm", *treatment->max_deviation_m * 1000)
-                                        : "Simplified with a weight of its own";
+                                        : "Simplified with custom weight";
     case TreatmentKind::as_rules: break;
   }
   return {};
@@ -93,7 +93,7 @@ void drawGeometry(const Model& model, std::uint32_t index) {
 
 void drawLayers(const Model& model, const Product& product) {
   if (product.layers.empty() && product.materials.empty()) return;
-  ui::heading(model, "Materials of the model");
+  ui::heading(model, "Materials in the model");
   if (!ui::beginProperties("layers", 0.68F)) return;
   for (const auto& layer : product.layers)
     ui::property(layer.name.empty() ? "Air" : layer.name.c_str(), fmt::format("{:.4g} mm", layer.thickness_m * 1000));
@@ -119,7 +119,7 @@ void drawSurfaces(const Model& model, std::uint32_t product) {
     }
   }
   if (area_of.empty()) return;
-  ui::heading(model, "Surfaces of the model");
+  ui::heading(model, "Surfaces in the model");
   for (const auto& [index, area] : area_of) {
     const auto& surface = environment.surfaces[index];
     ui::swatch(model, surface.colour);
@@ -179,7 +179,7 @@ void drawAssign(const Model& model, InspectorState& state, Actions& actions, con
     }
   }
   if (catalogue.materials.empty())
-    ui::wrapped(catalogue.problem.empty() ? "The library of materials is empty." : catalogue.problem);
+    ui::wrapped(catalogue.problem.empty() ? "The material library is empty." : catalogue.problem);
   ImGui::EndChild();
   ImGui::EndCombo();
 }
@@ -200,7 +200,7 @@ void drawPhysicalMaterial(const Model& model, InspectorState& state, Actions& ac
   ui::heading(model, "Physical material");
   const auto& choice = model.session.document().materials;
   if (!choice) {
-    drawAssign(model, state, actions, "Nothing assigned yet");
+    drawAssign(model, state, actions, "No material assigned");
     return;
   }
   const auto& assignment = choice->result.assignment;
@@ -212,14 +212,14 @@ void drawPhysicalMaterial(const Model& model, InspectorState& state, Actions& ac
   drawAssign(model, state, actions, current);
   for (const auto& [material, reason] : found) {
     if (material < 0) {
-      ImGui::TextColored(colour(tone::kUnassigned), "%s  No rule fits", ICON_WARNING);
+      ImGui::TextColored(colour(tone::kUnassigned), "%s  No matching rule", ICON_WARNING);
       continue;
     }
     const auto& m = assignment.materials[static_cast<std::size_t>(material)];
     ui::swatch(model, materialColour(&m));
     ImGui::SameLine();
     ui::wrapped(m.label);
-    if (!reason.empty()) ui::tooltip("Because of: " + reason);
+    if (!reason.empty()) ui::tooltip("Matched by: " + reason);
     drawPhysics(m);
   }
 }
@@ -281,15 +281,14 @@ void drawMany(const Model& model, InspectorState& state, Actions& actions) {
     ui::endProperties();
   }
   ui::heading(model, "Physical material");
-  drawAssign(model, state, actions, "Assign to all …");
+  drawAssign(model, state, actions, "Assign to …");
 }
 
 void draw(const Model& model, InspectorState& state, Actions& actions) {
   const auto& environment = model.environment();
   if (!environment || model.selection.empty() || model.selection.primary() >= environment->products.size()) {
-    ui::emptyState(
-        model, ICON_POINTER, "Nothing selected",
-        "Click something in the view or in the outliner to see what it is, what it is made of, and how it reflects.");
+    ui::emptyState(model, ICON_POINTER, "Nothing selected",
+                   "Select a product in the view or outliner to see its properties, materials and reflectance.");
     return;
   }
   if (model.selection.products().size() > 1) {

@@ -9,9 +9,8 @@ namespace standpoint {
 // The emulated device draws itself; whoever starts the editor says which.
 void drawInstrumentPanel(const Model& model, PanelStates&, Actions& actions) {
   if (!actions.drawInstrument())
-    ui::emptyState(
-        model, ICON_TABLET, "No device",
-        "This build has no emulated device. The scanners themselves work without one: see the workspace Survey.");
+    ui::emptyState(model, ICON_TABLET, "No device",
+                   "This build has no emulated devices. To scan without one, use the Survey workspace.");
 }
 
 }  // namespace standpoint

@@ -44,7 +44,7 @@ void drawHead(const Model& model, LogState& state, Actions& actions) {
     warnings += e.level == LogLevel::warning ? 1 : 0;
     losses += e.level == LogLevel::loss || e.level == LogLevel::error ? 1 : 0;
   }
-  ui::filterButton(model, "log", ICON_BAN, "losses and errors", losses, tone::kBad, filter.losses);
+  ui::filterButton(model, "log", ICON_BAN, "Losses and errors", losses, tone::kBad, filter.losses);
   ui::filterButton(model, "log", ICON_WARNING, "warnings", warnings, tone::kWarning, filter.warnings);
   ui::filterButton(model, "log", ICON_INFO, "notes", notes, tone::kDim, filter.notes);
   const float clear = ImGui::GetFrameHeight() + model.px(8);
@@ -55,7 +55,7 @@ void drawHead(const Model& model, LogState& state, Actions& actions) {
   ui::searchField("log-filter", "Text or source", filter.text);
   ImGui::EndChild();
   ImGui::SameLine();
-  if (ui::iconButton(ICON_TRASH "###log-clear", "Empty the log")) actions.clearLog();
+  if (ui::iconButton(ICON_TRASH "###log-clear", "Clear log")) actions.clearLog();
 }
 
 void drawEntry(const Model& model, Actions& actions, const LogEntry& entry, int i) {
@@ -76,7 +76,7 @@ void drawEntry(const Model& model, Actions& actions, const LogEntry& entry, int 
         actions.frameSelection();
       }
       ImGui::PopStyleColor();
-      ui::tooltip("Select it");
+      ui::tooltip("Select product");
     } else {
       ui::fitted(entry.source, ImGui::GetContentRegionAvail().x);
     }

@@ -80,7 +80,7 @@ std::vector<ImVec2> curve(const Plot& plot, const std::vector<std::pair<double, 
 void drawSpectrum(const Model& model, Actions& actions, const PhysicalMaterial& m) {
   ui::heading(model, "Spectrum");
   const Plot plot(model, 120);
-  for (const double share : {0.0, 0.5, 1.0}) plot.level(share, fmt::format("{:.0f} %", share * 100));
+  for (const double fraction : {0.0, 0.5, 1.0}) plot.level(fraction, fmt::format("{:.0f} %", fraction * 100));
   const auto x = [](double wavelength) { return (wavelength - kFirst_nm) / (kLast_nm - kFirst_nm); };
   for (const double wavelength : {532.0, 905.0, 1550.0})
     plot.column(x(wavelength), fmt::format("{:.0f}", wavelength), tone::kLine);
@@ -89,14 +89,15 @@ void drawSpectrum(const Model& model, Actions& actions, const PhysicalMaterial& 
   if (!m.reflectance.empty()) plot.line(curve(plot, m.reflectance), tone::kStation);
   if (plot.hovered()) {
     const double wavelength = kFirst_nm + plot.pointer() * (kLast_nm - kFirst_nm);
-    auto text = fmt::format("{:.0f} nm\nreflects {:.1f} %", wavelength, 100 * atWavelength(m.reflectance, wavelength));
+    auto text =
+        fmt::format("{:.0f} nm\nreflectance {:.1f} %", wavelength, 100 * atWavelength(m.reflectance, wavelength));
     if (!m.transmittance.empty())
-      text += fmt::format("\nlets {:.1f} % through", 100 * atWavelength(m.transmittance, wavelength));
+      text += fmt::format("\ntransmittance {:.1f} %", 100 * atWavelength(m.transmittance, wavelength));
     ImGui::SetTooltip("%s", text.c_str());
     if (ImGui::IsMouseClicked(0)) actions.showReflectanceAt(std::round(wavelength));
   }
-  ui::dimWrapped(m.transmittance.empty() ? "Diffuse reflectance over nm; click to choose a wavelength"
-                                         : "Diffuse reflectance, and transmittance (blue), over nm");
+  ui::dimWrapped(m.transmittance.empty() ? "Diffuse reflectance by wavelength (nm). Click to choose a wavelength."
+                                         : "Diffuse reflectance and transmittance (blue) by wavelength (nm)");
 }
 
 // As a scanner's own light shows them: a ball, and a plane that turns away from it.
@@ -106,9 +107,9 @@ void drawBodies(const Model& model, const std::array<float, 81>& response) {
   const float radius = model.px(34);
   const ImVec2 centre(corner.x + radius, corner.y + radius);
   const auto grey = [&](double degrees) {
-    const double share = std::clamp(
+    const double fraction = std::clamp(
         static_cast<double>(response[static_cast<std::size_t>(std::clamp(degrees, 0.0, 80.0))]) / 100, 0.0, 1.0);
-    const int level = static_cast<int>(std::lround(255 * std::pow(share, 1 / 2.2)));
+    const int level = static_cast<int>(std::lround(255 * std::pow(fraction, 1 / 2.2)));
     return IM_COL32(level, level, level, 255);
   };
   for (int degrees = 90; degrees >= 0; degrees -= 3)
@@ -126,7 +127,7 @@ void drawBodies(const Model& model, const std::array<float, 81>& response) {
 }
 
 void drawAngles(const Model& model, const PhysicalMaterial& m) {
-  ui::heading(model, fmt::format("Seen by a scanner at {:.0f} nm", model.view.wavelength_nm).c_str());
+  ui::heading(model, fmt::format("Scanner response at {:.0f} nm", model.view.wavelength_nm).c_str());
   const auto response = angularResponse(m, model.view.wavelength_nm);
   drawBodies(model, response);
   const double head_on = 100 * atWavelength(m.reflectance, model.view.wavelength_nm);
@@ -137,7 +138,7 @@ void drawAngles(const Model& model, const PhysicalMaterial& m) {
                      : most > 5  ? 20
                                  : 5;
   const Plot plot(model, 90);
-  for (const double share : {0.0, 0.5, 1.0}) plot.level(share, fmt::format("{:g} %", share * top));
+  for (const double fraction : {0.0, 0.5, 1.0}) plot.level(fraction, fmt::format("{:g} %", fraction * top));
   for (const int degrees : {0, 20, 40, 60, 80}) plot.column(degrees / 80.0, fmt::format("{}°", degrees), tone::kLine);
   std::vector<ImVec2> own, lambert;
   for (int degrees = 0; degrees <= 80; ++degrees) {
@@ -148,9 +149,10 @@ void drawAngles(const Model& model, const PhysicalMaterial& m) {
   plot.line(own, tone::kStation);
   if (plot.hovered()) {
     const auto degrees = static_cast<std::size_t>(std::lround(plot.pointer() * 80));
-    ImGui::SetTooltip("%zu°: like a white board of %.1f %% head-on", degrees, static_cast<double>(response[degrees]));
+    ImGui::SetTooltip("%zu°: equals a white target of %.1f %% at normal incidence", degrees,
+                      static_cast<double>(response[degrees]));
   }
-  ui::dimWrapped("Of a white Lambert board head-on; thin: Lambert's cosine");
+  ui::dimWrapped("Relative to a white Lambertian target at normal incidence; thin line: Lambert's cosine law");
 }
 
 std::string reading(const ExpectedReturn& expected) {
@@ -159,10 +161,10 @@ std::string reading(const ExpectedReturn& expected) {
 }
 
 void drawReported(const Model& model, MaterialCardState& state, const PhysicalMaterial& m) {
-  ui::heading(model, "What scanners report");
+  ui::heading(model, "Reported by scanners");
   auto& degrees = state.incidence_deg;
   ImGui::SetNextItemWidth(-1);
-  ImGui::SliderInt("###incidence", &degrees, 0, 80, "%d° off normal");
+  ImGui::SliderInt("###incidence", &degrees, 0, 80, "%d° incidence");
   if (!ImGui::BeginTable("reported", 1 + static_cast<int>(kCardRanges_m.size()), ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupColumn("###instrument", ImGuiTableColumnFlags_WidthStretch, 1.5F);
   for (const double range : kCardRanges_m)
@@ -182,13 +184,13 @@ void drawReported(const Model& model, MaterialCardState& state, const PhysicalMa
     }
   }
   ImGui::EndTable();
-  ui::dimWrapped("Intensity as stored, range noise 1 σ");
+  ui::dimWrapped("Stored intensity, range noise (1 σ)");
 }
 
 void drawGaps(const Model& model, const PhysicalMaterial& m) {
   const auto gaps = gapsOf(m);
   if (gaps.empty()) return;
-  ui::heading(model, "Not known");
+  ui::heading(model, "Unknown");
   for (const auto& gap : gaps) ui::dimWrapped(gap);
 }
 
@@ -220,9 +222,9 @@ void draw(const Model& model, MaterialCardState& state, Actions& actions) {
   if (state.edit) return drawMaterialForm(model, state, actions);
   const auto* material = shownMaterial(model);
   if (material == nullptr) {
-    ui::emptyState(model, ICON_PAINT, "No material chosen",
-                   "Choose one in the list of materials, or a surface in the view, to see its spectrum, how it fades "
-                   "when it turns away, and what scanners report of it.");
+    ui::emptyState(model, ICON_PAINT, "No material selected",
+                   "Select a material in the list or a surface in the view to see its spectrum, angular response and "
+                   "scanner readings.");
     return;
   }
   ImGui::BeginChild("card");

@@ -57,9 +57,9 @@ void drawComplexIndex(MaterialEdit& edit) {
       cell(fmt::format("###n{}", i).c_str(), n, "%.3f");
       cell(fmt::format("###k{}", i).c_str(), k, "%.3f");
       ImGui::TableNextColumn();
-      if (ui::iconButton(fmt::format("{}###add{}", ICON_ADD, i).c_str(), "A row below this one")) add = i;
+      if (ui::iconButton(fmt::format("{}###add{}", ICON_ADD, i).c_str(), "Insert row below")) add = i;
       ImGui::SameLine(0, 0);
-      if (ui::iconButton(fmt::format("{}###take{}", ICON_TRASH, i).c_str(), "Take this row away")) take = i;
+      if (ui::iconButton(fmt::format("{}###take{}", ICON_TRASH, i).c_str(), "Remove row")) take = i;
     }
     ImGui::EndTable();
   }
@@ -69,28 +69,28 @@ void drawComplexIndex(MaterialEdit& edit) {
 
 void drawFields(MaterialEdit& edit) {
   if (!ui::beginProperties("material-fields", 0.42F)) return;
-  text("Name", "###label", "Plaster of the hall", edit.label);
+  text("Name", "###label", "Hall plaster", edit.label);
   text("Id", "###id", "plaster_of_the_hall", edit.id);
   spectrum("Reflects, ", "reflectance", edit.reflectance_percent);
   number("Roughness σ", "###roughness", edit.roughness_deg, 60, "%.1f°");
   number("Gloss slope", "###gloss", edit.gloss_slope, 1, "%.3f");
   ui::propertyLabel("Metal");
   ImGui::Checkbox("###metal", &edit.metal);
-  ui::tooltip("With n and k at wavelengths, instead of one index of refraction");
+  ui::tooltip("Use n and k by wavelength instead of a single index of refraction");
   if (!edit.metal) {
     number("Index n", "###index", edit.index_of_refraction, 3, "%.3f");
-    ui::propertyLabel("Lets light through");
+    ui::propertyLabel("Transparent");
     ImGui::Checkbox("###pane", &edit.pane);
   }
   if (edit.pane && !edit.metal) {
-    spectrum("Lets through, ", "transmittance", edit.transmittance_percent);
+    spectrum("Transmittance, ", "transmittance", edit.transmittance_percent);
     number("Thickness", "###thickness", edit.thickness_mm, 50, "%.1f mm");
     ui::propertyLabel("Panes");
     ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::SliderInt("###panes", &edit.panes, 1, 4);
     if (edit.panes > 1) number("Gap", "###gap", edit.gap_mm, 100, "%.0f mm");
   }
-  text("Source", "###source", "who measured it; empty: unsourced", edit.source);
+  text("Source", "###source", "Source of the measurement; leave empty if unknown", edit.source);
   ui::endProperties();
   if (edit.metal) drawComplexIndex(edit);
 }
@@ -102,10 +102,10 @@ void keep(MaterialCardState& state, Actions& actions, const MaterialEdit& edit) 
   out << libraryFileOf(edit).dump(1);
   out.close();
   if (!out) {
-    actions.report("The material cannot be kept", {ErrorKind::file_system, "cannot write", file.string()});
+    actions.report("Cannot save the material", {ErrorKind::file_system, "cannot write", file.string()});
     return;
   }
-  if (!actions.start("materials", {{"library", {file.string()}}}, "Keep the material " + edit.label)) return;
+  if (!actions.start("materials", {{"library", {file.string()}}}, "Save material " + edit.label)) return;
   actions.choose(ChosenMaterial{edit.id});
   state.edit.reset();
 }

@@ -31,12 +31,12 @@ const PhysicalMaterial* materialById(const MaterialAssignment& assignment, const
 void drawCoverage(const Model& model, const MaterialReport& report) {
   const auto tone = report.coverage >= 0.95 ? tone::kGood : tone::kWarning;
   if (model.fonts.bold != nullptr) ImGui::PushFont(model.fonts.bold);
-  ImGui::Text("%.1f %% of the area has a material", report.coverage * 100);
+  ImGui::Text("%.1f %% of the area assigned", report.coverage * 100);
   if (model.fonts.bold != nullptr) ImGui::PopFont();
   ui::meter(model, report.coverage, tone);
   double weak = 0;
   for (const auto& row : report.by_class) weak += row.weak_m2;
-  ui::dimText(fmt::format("{:.0f} m² in all, {:.0f} m² without, {:.0f} m² guessed", report.area_m2,
+  ui::dimText(fmt::format("{:.0f} m² total, {:.0f} m² unassigned, {:.0f} m² low confidence", report.area_m2,
                           report.area_m2 * (1 - report.coverage), weak));
 }
 
@@ -46,7 +46,7 @@ void drawMaterialButtons(const Model& model, Actions& actions) {
   if (ui::primaryButton(ICON_MAGIC "  Assign by rules###assign-rules", why, {width, 0}))
     actions.start("materials", nlohmann::json::object(), "Assign materials by rules");
   ImGui::SameLine();
-  if (ui::button(ICON_FILE "  Rules file…###rules-file", why, {width, 0}, "Use other rules than the default ones"))
+  if (ui::button(ICON_FILE "  Rules file…###rules-file", why, {width, 0}, "Use custom assignment rules"))
     actions.askForFile(
         FileDialogState::Purpose::openFile, "Assignment rules", "Use", {".json"}, "",
         [](Actions& later, const std::filesystem::path& file) {
@@ -63,7 +63,7 @@ bool drawMaterial(const Model& model, Actions& actions, const PhysicalMaterial* 
     actions.choose(ChosenMaterial{id, unassigned});
   }
   if (material != nullptr) dragMaterial(*material);
-  if (material != nullptr) ui::tooltip(material->id + "\nDrag it onto a surface");
+  if (material != nullptr) ui::tooltip(material->id + "\nDrag onto a surface to assign");
   ImGui::SameLine(0, 0);
   ui::swatch(model, materialColour(material));
   ImGui::SameLine();
@@ -116,7 +116,7 @@ void drawLibrary(const Model& model, MaterialsState& state, Actions& actions, fl
   const float left = height - ImGui::GetFrameHeightWithSpacing();
   const auto& catalogue = model.catalogue();
   if (catalogue.materials.empty())
-    return ui::wrapped(catalogue.problem.empty() ? "The library of materials is empty." : catalogue.problem);
+    return ui::wrapped(catalogue.problem.empty() ? "The material library is empty." : catalogue.problem);
   if (!ImGui::BeginTable("library", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX,
                          {0, left}))
     return;
@@ -145,31 +145,31 @@ void drawBulk(const Model& model, MaterialsState& state, Actions& actions) {
   const auto meant = select(*model.environment(), state.bulk);
   const auto* material = model.offeredMaterial(model.material.id);
   const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
-  const std::string none = meant.empty() ? "It means no product of this model" : "";
+  const std::string none = meant.empty() ? "No products match" : "";
   if (ui::button(fmt::format("{}  Select {}###bulk-select", ICON_POINTER, meant.size()).c_str(), none, {width, 0}))
     actions.select(meant);
   ImGui::SameLine();
   const auto why = !none.empty()         ? none
-                   : material == nullptr ? "Choose a material in the list first"
+                   : material == nullptr ? "Select a material in the list first"
                                          : model.session.whyNot("materials");
-  if (ui::button(ICON_PAINT "  Assign the chosen###bulk-assign", why, {width, 0}))
+  if (ui::button(ICON_PAINT "  Assign selected###bulk-assign", why, {width, 0}))
     actions.start("materials", {{"assign", {state.bulk + "=" + material->id}}},
                   fmt::format("Assign {} to {} products", material->label, meant.size()));
 }
 
 void drawListSwitch(MaterialsState& state) {
   auto& whole = state.whole_library;
-  if (ui::iconButton(ICON_LIST "  In use###in-use", "The materials of this model", {}, !whole)) whole = false;
+  if (ui::iconButton(ICON_LIST "  In use###in-use", "Materials used in this model", {}, !whole)) whole = false;
   ImGui::SameLine();
-  if (ui::iconButton(ICON_PAINT "  Library###library", "All materials there are", {}, whole)) whole = true;
+  if (ui::iconButton(ICON_PAINT "  Library###library", "All materials in the library", {}, whole)) whole = true;
 }
 
 void draw(const Model& model, MaterialsState& state, Actions& actions) {
   const auto& choice = model.session.document().materials;
   if (!model.environment() || !choice) {
     ui::emptyState(model, ICON_PAINT, "No physical materials yet",
-                   "A scan needs to know how each surface reflects. Rules read it from the classes, names and "
-                   "materials of the model; what they miss can be assigned by hand.");
+                   "Scans require a physical material for every surface. Assign materials by rule from classes, names "
+                   "and model materials, then assign the rest by hand.");
     drawMaterialButtons(model, actions);
     return;
   }

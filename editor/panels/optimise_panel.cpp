@@ -21,20 +21,20 @@ namespace {
 void drawResult(const Model& model, const SimplifiedModel& light) {
   ui::heading(model, "Result");
   const auto& all = light.all;
-  const double share = all.triangles_before > 0
-                           ? static_cast<double>(all.triangles_after) / static_cast<double>(all.triangles_before)
-                           : 1;
-  ui::meter(model, share, tone::kAccent);
+  const double fraction = all.triangles_before > 0
+                              ? static_cast<double>(all.triangles_after) / static_cast<double>(all.triangles_before)
+                              : 1;
+  ui::meter(model, fraction, tone::kAccent);
   if (ui::beginProperties("result", 0.5F)) {
     ui::property("Triangles before", groupedDigits(all.triangles_before));
-    ui::property("Triangles now", fmt::format("{}  ({:.1f} %)", groupedDigits(all.triangles_after), share * 100));
+    ui::property("Triangles after", fmt::format("{}  ({:.1f} %)", groupedDigits(all.triangles_after), fraction * 100));
     ui::property("Largest deviation", fmt::format("{:.2f} mm", all.max_deviation_m * 1000));
     ui::property("Mean deviation", fmt::format("{:.3f} mm", all.mean_deviation_m * 1000));
-    ui::property("Normals turned by", fmt::format("{:.2f}° in the mean", all.mean_turn_rad / kRadPerDeg));
+    ui::property("Normal deviation", fmt::format("{:.2f}° mean", all.mean_turn_rad / kRadPerDeg));
     ui::endProperties();
   }
   if (light.request.budget.value_or(0) > 0 && all.triangles_after > *light.request.budget)
-    ImGui::TextColored(colour(tone::kWarning), "%s  The budget cannot be kept with this deviation", ICON_WARNING);
+    ImGui::TextColored(colour(tone::kWarning), "%s  Budget not reachable within this deviation", ICON_WARNING);
 }
 
 std::string lengthText(double metres) {
@@ -43,11 +43,11 @@ std::string lengthText(double metres) {
 
 // Of the area of both models, how much stands how far from the other one.
 void drawHistogram(const Model& model, Actions& actions) {
-  ui::heading(model, "Deviation of the surfaces");
+  ui::heading(model, "Surface deviation");
   actions.wantDeviation();
   const auto both = model.deviation.of(model.session.document());
   if (!both) {
-    ui::dimText(model.deviation.busy() ? "Comparing with the original …" : "Not compared yet");
+    ui::dimText(model.deviation.busy() ? "Comparing with the original …" : "Not compared");
     return;
   }
   const auto& area = both->histogram.area_m2;
@@ -78,8 +78,8 @@ void drawHistogram(const Model& model, Actions& actions) {
   }
   ImGui::EndTable();
   const bool shown = model.view.colour == ColourMode::deviation && model.view.side == ModelSide::both;
-  if (ui::button(shown ? ICON_CUBE "  Back to the model's colours###map" : ICON_PAINT "  Show it on both models###map",
-                 "", {-FLT_MIN, 0})) {
+  if (ui::button(shown ? ICON_CUBE "  Show model colours###map" : ICON_PAINT "  Show on both models###map", "",
+                 {-FLT_MIN, 0})) {
     actions.colourBy(shown ? ColourMode::model : ColourMode::deviation);
     actions.showSide(shown ? ModelSide::lighter : ModelSide::both);
   }
@@ -139,10 +139,10 @@ void drawPreview(const Model& model, const OptimiseState& state, Actions& action
   else if (preview.preparing || !preview.shown)
     ui::dimText("Preparing all levels …");
   else if (preview.triangles > budget)
-    ImGui::TextColored(colour(tone::kWarning), "%s  About %s are the least with this deviation", ICON_WARNING,
+    ImGui::TextColored(colour(tone::kWarning), "%s  Minimum about %s at this deviation", ICON_WARNING,
                        groupedDigits(preview.least).c_str());
   else
-    ui::dimText(fmt::format("The view shows {} triangles", groupedDigits(preview.triangles)));
+    ui::dimText(fmt::format("{} triangles in view", groupedDigits(preview.triangles)));
 }
 
 void draw(const Model& model, OptimiseState& state, Actions& actions) {
@@ -152,19 +152,19 @@ void draw(const Model& model, OptimiseState& state, Actions& actions) {
     return;
   }
   const auto before = sceneTriangleCount(*document.imported);
-  ui::dimText(fmt::format("The model as imported has {} triangles.", groupedDigits(before)));
+  ui::dimText(fmt::format("The imported model has {} triangles.", groupedDigits(before)));
   ui::gap(model, 2);
-  ImGui::Checkbox("Only what costs nothing", &state.only_lossless);
-  ui::tooltip("Merges planar regions: no surface moves");
-  const auto budget = static_cast<std::uint64_t>(std::llround(state.budget_share * static_cast<double>(before)));
+  ImGui::Checkbox("Lossless only", &state.only_lossless);
+  ui::tooltip("Merges planar regions without moving any surface");
+  const auto budget = static_cast<std::uint64_t>(std::llround(state.budget_fraction * static_cast<double>(before)));
   ImGui::BeginDisabled(state.only_lossless);
   if (ui::beginProperties("options", 0.42F)) {
     ui::propertyLabel("Budget");
-    auto percent = static_cast<float>(state.budget_share * 100);
+    auto percent = static_cast<float>(state.budget_fraction * 100);
     if (ImGui::SliderFloat("###budget", &percent, 1, 100, fmt::format("%.0f %%  =  {}", groupedDigits(budget)).c_str(),
                            ImGuiSliderFlags_AlwaysClamp))
-      state.budget_share = percent / 100;
-    ui::propertyLabel("Deviation at most");
+      state.budget_fraction = percent / 100;
+    ui::propertyLabel("Max deviation");
     auto deviation = static_cast<float>(state.max_deviation_mm);
     if (ImGui::SliderFloat("###deviation", &deviation, 0.5F, 100, "%.1f mm",
                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
@@ -172,12 +172,12 @@ void draw(const Model& model, OptimiseState& state, Actions& actions) {
     ui::endProperties();
   }
   ImGui::BeginDisabled(!document.collision);
-  ImGui::Checkbox("More where walkers look", &state.by_view);
+  ImGui::Checkbox("Prioritise visible surfaces", &state.by_view);
   ImGui::EndDisabled();
-  ui::tooltip(document.collision ? "Errors weigh by what is seen from the walkable surface"
-                                 : "Compute the collision shapes first (panel Collision)");
-  ImGui::Checkbox("Show it at once", &state.live);
-  ui::tooltip("The view follows the sliders; only Optimise measures the result and keeps it");
+  ui::tooltip(document.collision ? "Weights errors by visibility from the walkable surface"
+                                 : "Compute collision shapes first (Collision panel)");
+  ImGui::Checkbox("Live preview", &state.live);
+  ui::tooltip("The view follows the sliders. Choose Optimise to measure and keep the result.");
   if (state.live) drawPreview(model, state, actions, budget);
   ImGui::EndDisabled();
   if (ui::primaryButton(ICON_COMPRESS "  Optimise###run-optimise", model.session.whyNot("optimize"), {-FLT_MIN, 0})) {

@@ -4,7 +4,7 @@
 namespace standpoint {
 
 struct OptimiseState {
-  double budget_share = 0.25;  // of the imported model's triangles
+  double budget_fraction = 0.25;  // of the imported model's triangles
   bool only_lossless = false;
   double max_deviation_mm = 15;
   bool by_view = false;  // what walkers see weighs more

@@ -146,15 +146,15 @@ void frameUnderlay(const Model& model, Actions& actions, const Underlay& underla
 
 void underlayMenu(const Model& model, Actions& actions, const Underlay& underlay) {
   if (!ImGui::BeginPopupContextItem("###underlay-menu")) return;
-  if (ImGui::MenuItem(ICON_EXPAND "  Frame it###underlay-frame")) frameUnderlay(model, actions, underlay);
+  if (ImGui::MenuItem(ICON_EXPAND "  Frame###underlay-frame")) frameUnderlay(model, actions, underlay);
   const auto why = model.session.whyNot("underlay");
-  if (ImGui::MenuItem(ICON_MOVE "  Move it…###underlay-move", nullptr, false, why.empty())) {
+  if (ImGui::MenuItem(ICON_MOVE "  Move…###underlay-move", nullptr, false, why.empty())) {
     actions.openForm("underlay", {{"move", underlay.name},
                                   {"at",
                                    {underlay.file_from_cloud.translation.x(), underlay.file_from_cloud.translation.y(),
                                     underlay.file_from_cloud.translation.z()}}});
   }
-  if (ImGui::MenuItem(ICON_TRASH "  Remove it; its file stays###underlay-remove", nullptr, false, why.empty()))
+  if (ImGui::MenuItem(ICON_TRASH "  Remove (keeps the file)###underlay-remove", nullptr, false, why.empty()))
     actions.start("underlay", {{"remove", underlay.name}}, "Remove underlay " + underlay.name);
   ImGui::EndPopup();
 }
@@ -172,7 +172,7 @@ void drawUnderlays(const Model& model, Actions& actions) {
     if (pressed && ImGui::IsMouseDoubleClicked(0)) frameUnderlay(model, actions, u);
     ImGui::SetItemAllowOverlap();
     underlayMenu(model, actions, u);
-    ui::tooltip(fmt::format("{}\n{} points\nDouble click frames it", u.file, groupedDigits(u.points)));
+    ui::tooltip(fmt::format("{}\n{} points\nDouble-click to frame", u.file, groupedDigits(u.points)));
     ImGui::SameLine(left + model.px(17));
     ImGui::TextColored(ImVec4(0.45F, 0.62F, 0.85F, 1), "%s", ICON_UNDERLAY);
     ImGui::SameLine(left + model.px(39));
@@ -204,8 +204,7 @@ void scrollTo(const Model& model, Actions& actions, const std::vector<OutlinerRo
 void draw(const Model& model, OutlinerState& state, Actions& actions) {
   const auto& environment = model.environment();
   if (!environment) {
-    ui::emptyState(model, ICON_LIST, "Nothing to list",
-                   "The building's structure appears here once a model is imported.");
+    ui::emptyState(model, ICON_LIST, "Nothing to list", "Import a model to see the building structure.");
     return;
   }
   if (state.made != model.outliner.made) state = {.made = model.outliner.made};
@@ -213,8 +212,8 @@ void draw(const Model& model, OutlinerState& state, Actions& actions) {
   if (state.filter.empty()) drawUnderlays(model, actions);
   const auto rows = model.outliner.tree.rows(*environment, state.filter);
   if (rows.empty()) {
-    ui::emptyState(model, ICON_SEARCH, "Nothing fits",
-                   "No product has all these words in its name, class, id, storey or materials.");
+    ui::emptyState(model, ICON_SEARCH, "No matches",
+                   "No product matches all words in name, class, ID, storey or materials.");
     return;
   }
   ImGui::BeginChild("rows");

@@ -18,7 +18,7 @@ using nlohmann::json;
 
 constexpr double kLowOverlap = 0.3;
 
-std::string percent(double share) { return fmt::format("{:.0f} %", share * 100); }
+std::string percent(double fraction) { return fmt::format("{:.0f} %", fraction * 100); }
 void start(const Model& model, Actions& actions) {
   const auto& [spacing_mm, max_incidence_deg] = model.seen;
   json options = {{"instrument", model.scan_choice.instrument}, {"set", json::array()}};
@@ -36,10 +36,9 @@ void drawMapSwitch(const Model& model, Actions& actions) {
     const char* help;
   };
   static constexpr Map kMaps[] = {
-      {"Stations###map-stations", ColourMode::coverage, "How many stations see each surface; holes are magenta"},
-      {"Spacing###map-spacing", ColourMode::coverage_spacing, "How far apart points are, of the densest scan"},
-      {"Incidence###map-incidence", ColourMode::coverage_incidence,
-       "How far off its normal a surface is met, at best"}};
+      {"Stations###map-stations", ColourMode::coverage, "Number of stations that see each surface; gaps are magenta"},
+      {"Spacing###map-spacing", ColourMode::coverage_spacing, "Point spacing of the densest scan"},
+      {"Incidence###map-incidence", ColourMode::coverage_incidence, "Smallest angle of incidence on each surface"}};
   ui::dimText("Show on the model");
   const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
   for (const auto& map : kMaps) {
@@ -57,16 +56,16 @@ void drawWishes(const Model& model, Actions& actions) {
   SeenLimits limits = model.seen;
   ui::propertyLabel("Point spacing");
   ImGui::InputDouble("###spacing", &limits.spacing_mm, 0, 0, limits.spacing_mm > 0 ? "%.1f mm" : "any");
-  ui::tooltip("Seen is what gets a point for each square of this side; 0 = whatever returns a point");
+  ui::tooltip("Maximum point spacing for a surface to count as covered; 0 = any return counts");
   limits.spacing_mm = std::max(0.0, limits.spacing_mm);
-  ui::propertyLabel("Incidence up to");
+  ui::propertyLabel("Max incidence");
   ImGui::InputDouble("###incidence", &limits.max_incidence_deg, 0, 0, "%.0f °");
   limits.max_incidence_deg = std::clamp(limits.max_incidence_deg, 1.0, 90.0);
   actions.set(limits);
   ui::endProperties();
 }
 
-void drawShares(const Model& model, const json& rows, const char* key, const char* title) {
+void drawCoverage(const Model& model, const json& rows, const char* key, const char* title) {
   ui::heading(model, title);
   if (!ui::beginProperties(title, 0.56F)) return;
   for (const auto& row : rows) {
@@ -94,7 +93,7 @@ void drawStations(const Model& model, const json& answer) {
     row(s.at("station"), fmt::format("{:.0f} m²", s.at("seen_m2").get<double>()), s.at("points"), s.at("bytes"));
   row("all", percent(answer.at("coverage")), answer.at("points"), answer.at("bytes"));
   ImGui::EndTable();
-  ui::dimText("On site: " + durationText(answer.at("instrument_seconds")));
+  ui::dimText("Time on site: " + durationText(answer.at("instrument_seconds")));
 }
 
 void drawPairs(const Model& model, const json& pairs) {
@@ -104,14 +103,14 @@ void drawPairs(const Model& model, const json& pairs) {
   for (const auto& pair : pairs) {
     const double overlap = pair.at("overlap");
     ui::property(fmt::format("{} – {}", pair.at("a").get<std::string>(), pair.at("b").get<std::string>()).c_str(),
-                 percent(overlap) + (overlap < kLowOverlap ? "   little to register by" : ""));
+                 percent(overlap) + (overlap < kLowOverlap ? "   low overlap" : ""));
   }
   ui::endProperties();
 }
 
 void drawHoles(const Model& model, Actions& actions, const json& holes) {
   if (holes.empty()) return;
-  ui::heading(model, "Not seen");
+  ui::heading(model, "Not covered");
   const auto& products = model.environment()->products;
   for (std::size_t k = 0; k < holes.size(); ++k) {
     const auto id = holes[k].at("id").get<std::string>();
@@ -128,9 +127,9 @@ void drawHoles(const Model& model, Actions& actions, const json& holes) {
 void drawProposal(const Model& model, Actions& actions, const json& proposed) {
   if (!proposed.is_object()) return;
   const auto text =
-      fmt::format(ICON_STATION "  Another station: +{:.0f} m²###add-proposed", proposed.at("adds_m2").get<double>());
+      fmt::format(ICON_STATION "  Add station: +{:.0f} m²###add-proposed", proposed.at("adds_m2").get<double>());
   if (!ui::button(text.c_str(), model.session.whyNot("station"), {-FLT_MIN, 0},
-                  "Sets one up where it adds most to what is seen"))
+                  "Adds a station at the place with the largest coverage gain"))
     return;
   const auto& stations = model.session.document().job->stations;
   for (std::size_t i = stations.size() + 1;; ++i) {
@@ -149,26 +148,26 @@ void drawPlanPanel(const Model& model, PanelStates&, Actions& actions) {
     return;
   }
   const auto* instrument = model.instrument(model.scan_choice.instrument);
-  ui::dimText(instrument == nullptr ? "Choose an instrument under Scan"
-                                    : fmt::format("{} {}, as set under Scan", instrument->maker, instrument->model));
+  ui::dimText(instrument == nullptr
+                  ? "Choose an instrument in the Scan panel"
+                  : fmt::format("{} {}, as set in the Scan panel", instrument->maker, instrument->model));
   drawWishes(model, actions);
   const std::string why =
-      instrument == nullptr ? "Choose an instrument under Scan first" : model.session.whyNot("plan");
-  if (ui::primaryButton(ICON_EYE "  What will they see?###run-plan", why, {-FLT_MIN, model.px(28)}))
-    start(model, actions);
+      instrument == nullptr ? "Choose an instrument in the Scan panel first" : model.session.whyNot("plan");
+  if (ui::primaryButton(ICON_EYE "  Compute coverage###run-plan", why, {-FLT_MIN, model.px(28)})) start(model, actions);
   drawMapSwitch(model, actions);
   const auto* last = model.session.lastOf("plan");
   if (last == nullptr || !last->answer.contains("coverage")) return;
   const auto& answer = last->answer;
-  if (last->revision != model.session.revision()) ui::dimWrapped("Something has changed since: ask once more.");
+  if (last->revision != model.session.revision()) ui::dimWrapped("Coverage is out of date. Compute it again.");
   ui::meter(model, answer.at("coverage"), tone::kGood);
-  ui::dimText(fmt::format("{} of {:.0f} m² that light reaches", percent(answer.at("coverage")),
+  ui::dimText(fmt::format("{} of {:.0f} m² of exposed surface", percent(answer.at("coverage")),
                           answer.at("exposed_m2").get<double>()));
   drawProposal(model, actions, answer.at("proposed"));
   drawStations(model, answer);
   drawPairs(model, answer.at("pairs"));
-  drawShares(model, answer.at("storeys"), "storey", "By storey");
-  drawShares(model, answer.at("classes"), "class", "By class");
+  drawCoverage(model, answer.at("storeys"), "storey", "By storey");
+  drawCoverage(model, answer.at("classes"), "class", "By class");
   drawHoles(model, actions, answer.at("holes"));
 }
 

@@ -27,8 +27,8 @@ bool folded(const char* title, const std::string& summary, const char* id) {
 void drawEffects(const Model& model, ScanChoice& asked) {
   if (!folded("Effects", effectsSummary(asked.effects), "effects")) return;
   bool ideal = asked.effects == Effects::none();
-  if (ImGui::Checkbox("Ideal: without any###ideal", &ideal)) asked.effects = ideal ? Effects::none() : Effects();
-  ui::tooltip("Each pulse gives the first surface on its axis, exactly: the truth to compare with");
+  if (ImGui::Checkbox("Ideal (no effects)###ideal", &ideal)) asked.effects = ideal ? Effects::none() : Effects();
+  ui::tooltip("Each pulse returns the exact first surface on its axis: reference data without errors");
   if (!ImGui::BeginTable("effects", 2, ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupColumn("effect", ImGuiTableColumnFlags_WidthFixed, model.px(118));
   ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
@@ -59,13 +59,13 @@ void drawWeather(const Model& model, ScanChoice& asked) {
   if (!folded("Weather", weatherSummary(asked.weather), "weather")) return;
   static constexpr std::array kFields = {
       WeatherField{"Visibility", "visibility", &Weather::visibility_km, "%.4g km",
-                   "Of the air itself: 23 km is a clear day, 5 km light haze"},
+                   "Visibility of the air: 23 km is a clear day, 5 km light haze"},
       WeatherField{"Rain", "rain", &Weather::rain_mm_h, "%.4g mm/h",
-                   "0 = none; 2 is light, 10 is heavy. Drops give points of their own and take light"},
+                   "Rain rate. 0 = none, 2 light, 10 heavy. Drops attenuate the beam and cause false points."},
       WeatherField{"Snow", "snow", &Weather::snow_mm_h, "%.4g mm/h",
-                   "0 = none; of melted water: 1 is moderate snowfall"},
-      WeatherField{"Fog", "fog", &Weather::fog_mor_m, "%.4g m", "How far one sees in it; 0 = no fog, 200 is thick"},
-      WeatherField{"Dust", "dust", &Weather::dust_mor_m, "%.4g m", "How far one sees in it; 0 = none"}};
+                   "Snowfall as water equivalent. 0 = none, 1 moderate."},
+      WeatherField{"Fog", "fog", &Weather::fog_mor_m, "%.4g m", "Visibility in fog. 0 = no fog, 200 dense."},
+      WeatherField{"Dust", "dust", &Weather::dust_mor_m, "%.4g m", "Visibility in dust. 0 = none."}};
   if (ui::beginProperties("weather", 0.36F)) {
     for (const auto& f : kFields) {
       ui::propertyLabel(f.label);
@@ -83,8 +83,9 @@ void drawWeather(const Model& model, ScanChoice& asked) {
     ui::wrapped(describe(checked.error()));
   }
   if (!asked.effects.has(Effect::weather) || !asked.effects.has(Effect::atmosphere))
-    ui::dimText("The effects weather and atmosphere are not both on");
-  if (ui::button("Clear air###clear-air", asked.weather == Weather() ? "It is clear" : "", {model.px(90), 0}))
+    ui::dimText("Enable both the weather and the atmosphere effect first");
+  if (ui::button("Clear air###clear-air", asked.weather == Weather() ? "The air is already clear" : "",
+                 {model.px(90), 0}))
     asked.weather = Weather();
 }
 
@@ -95,13 +96,13 @@ void drawPanorama(ScanChoice& asked, const Instrument& instrument, const ScanSet
   ImGui::BeginDisabled(!settings.imaging && !asked.panorama);
   ImGui::Checkbox("###panorama", &asked.panorama);
   ImGui::EndDisabled();
-  ui::tooltip(settings.imaging ? "A picture all around from each station, and the points coloured from it: it takes "
-                                 "its time before the first point"
-                               : "These settings take no images: choose others above");
+  ui::tooltip(settings.imaging
+                  ? "Takes a panorama at each station and colours the points from it. Delays the first point."
+                  : "The current settings take no images. Choose other settings above.");
   if (!asked.panorama) return;
-  ui::propertyLabel("Its size");
+  ui::propertyLabel("Panorama size");
   const auto own = instrument.camera.columns;
-  const std::string as_delivered = fmt::format("{}, as delivered", sizeText(own));
+  const std::string as_delivered = fmt::format("{}, native", sizeText(own));
   if (ImGui::BeginCombo("###panorama-size", asked.panorama_columns == 0 ? as_delivered.c_str()
                                                                         : sizeText(asked.panorama_columns).c_str())) {
     if (ImGui::Selectable(as_delivered.c_str(), asked.panorama_columns == 0)) asked.panorama_columns = 0;
@@ -110,7 +111,7 @@ void drawPanorama(ScanChoice& asked, const Instrument& instrument, const ScanSet
         asked.panorama_columns = columns;
     ImGui::EndCombo();
   }
-  ui::tooltip("A quarter of the pixels takes a quarter of the time");
+  ui::tooltip("A quarter of the pixels, a quarter of the time");
 }
 
 std::string extrasSummary(const ScanChoice& asked, bool resume) {
@@ -121,34 +122,34 @@ std::string extrasSummary(const ScanChoice& asked, bool resume) {
   add(asked.truth, "truth");
   add(asked.panorama, "panorama");
   add(!asked.compensator, "no compensator");
-  add(!resume, "from the start");
-  return text.empty() ? "points alone" : text;
+  add(!resume, "restart");
+  return text.empty() ? "points only" : text;
 }
 
 void drawExtras(ScanState& state, ScanChoice& asked, const Instrument& instrument, const ScanSettings& settings) {
-  if (!folded("With it", extrasSummary(asked, state.resume), "extras")) return;
+  if (!folded("Extra output", extrasSummary(asked, state.resume), "extras")) return;
   if (!ui::beginProperties("extras", 0.36F)) return;
   ui::propertyLabel("Truth");
   ImGui::Checkbox("###truth", &asked.truth);
   ui::tooltip(
-      "With each point what is known of it: time, return, true place, range, incidence, power, and how it came about. "
-      "The file is about three times as large.");
+      "Stores ground truth per point: time, return number, true position, range, incidence, power and cause. Files are "
+      "about three times larger.");
   drawPanorama(asked, instrument, settings);
   ui::propertyLabel("Compensator");
   ImGui::BeginDisabled(!instrument.compensator);
   ImGui::Checkbox("###compensator", &asked.compensator);
   ImGui::EndDisabled();
-  ui::tooltip(instrument.compensator ? "Off: the points of a station that leans come tilted"
-                                     : "This instrument has none: the points of a station that leans come tilted");
+  ui::tooltip(instrument.compensator ? "Off: points of a tilted station stay tilted"
+                                     : "This instrument has no compensator: points of a tilted station stay tilted");
   ui::propertyLabel("Resume");
   ImGui::Checkbox("###resume", &state.resume);
   ui::tooltip(
-      "Takes the stations that a cancelled or crashed run has finished as they are. Off: all are scanned again, and "
-      "what such a run left is in the way");
-  ui::propertyLabel("Seed of the noise");
+      "Keeps stations finished by a cancelled or crashed run. Off: scans all stations; remove the files of the earlier "
+      "run first.");
+  ui::propertyLabel("Noise seed");
   auto seed = static_cast<std::int64_t>(asked.seed);
   ImGui::InputScalar("###seed", ImGuiDataType_S64, &seed);
-  ui::tooltip("The same seed gives the same noise");
+  ui::tooltip("The same seed reproduces the same noise");
   asked.seed = static_cast<std::uint64_t>(std::clamp<std::int64_t>(seed, 0, 9007199254740991));
   ui::endProperties();
 }
@@ -165,7 +166,7 @@ void drawScanConditions(const Model& model, ScanState& state, ScanChoice& asked,
 std::string whyNotConditions(const ScanChoice& asked, const ScanSettings& settings) {
   if (const auto checked = check(asked.weather); !checked) return "Weather: " + describe(checked.error());
   if (asked.panorama && !settings.imaging)
-    return "These settings take no images: choose others, or leave the panorama out";
+    return "The current settings take no images. Choose other settings, or turn the panorama off.";
   return {};
 }
 

@@ -106,11 +106,11 @@ void drawOutput(const Model& model, ScanState& state, Actions& actions,
   }
   ui::propertyLabel("Folder");
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
-  ImGui::InputTextWithHint("###folder", standardFolder(model).empty() ? "choose one" : "scans of the project",
+  ImGui::InputTextWithHint("###folder", standardFolder(model).empty() ? "Choose a folder" : "Project scans",
                            &state.folder);
   ImGui::SameLine();
   if (ui::iconButton(ICON_FOLDER_OPEN "###choose-folder", "Choose…"))
-    actions.askForFile(FileDialogState::Purpose::saveFolder, "Folder for the scans", "Choose", {".none"}, "scans",
+    actions.askForFile(FileDialogState::Purpose::saveFolder, "Scan folder", "Choose", {".none"}, "scans",
                        [&state](Actions&, const std::filesystem::path& folder) { state.folder = folder.string(); });
 }
 
@@ -164,13 +164,12 @@ void drawForecast(const Model& model, const ScanState& state, const ScanChoice& 
   }
   if (!ui::beginProperties("forecast", 0.46F)) return;
   const double seconds = settings.scan_seconds + settings.imaging_seconds;
-  ui::property("Time of the device",
-               wanted.size() > 1
-                   ? fmt::format("{} × {}  =  {}", wanted.size(), durationText(seconds), durationText(count * seconds))
-                   : durationText(seconds));
-  const char* waiting = wanted.empty() ? "no station yet" : "…";
+  ui::property("Instrument time", wanted.size() > 1 ? fmt::format("{} × {}  =  {}", wanted.size(),
+                                                                  durationText(seconds), durationText(count * seconds))
+                                                    : durationText(seconds));
+  const char* waiting = wanted.empty() ? "no stations" : "…";
   ui::property("Points", outlook ? fmt::format("about {:.1f} million", outlook->points / 1e6) : waiting);
-  ui::tooltip("By some thousand rays, in clear air");
+  ui::tooltip("Estimated from some thousand rays in clear air");
   ui::property("As E57", outlook ? "about " + bytesText(outlook->bytes) : waiting);
   ui::property("Pulses per station",
                fmt::format("{:.1f} million,  {} × {}",
@@ -185,8 +184,8 @@ void drawForecast(const Model& model, const ScanState& state, const ScanChoice& 
 std::string whyNotScan(const Model& model, const ScanChoice& asked, const ScanSettings& settings,
                        const std::filesystem::path& folder) {
   if (auto why = model.session.whyNot("scan"); !why.empty()) return why;
-  if (model.session.document().job->stations.empty()) return "Set up a station first: press T and click on the floor";
-  if (folder.empty()) return "Choose a folder, or save the project: its scans then go there";
+  if (model.session.document().job->stations.empty()) return "Add a station first: press T and click the floor";
+  if (folder.empty()) return "Choose a folder, or save the project to use its scan folder";
   return whyNotConditions(asked, settings);
 }
 
@@ -250,16 +249,16 @@ void drawForm(const Model& model, ScanState& state, ScanChoice& asked, Actions& 
   if (!model.session.document().materials) {
     ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
     ImGui::SameLine();
-    ui::wrapped("No physical materials were assigned yet: the default rules are used.");
+    ui::wrapped("No physical materials assigned. The default rules will be used.");
   }
-  ui::heading(model, "What it will take");
+  ui::heading(model, "Estimate");
   drawForecast(model, state, asked, actions, *instrument, *settings);
   drawLast(model);
 }
 
 void draw(const Model& model, ScanState& state, Actions& actions) {
   if (!model.environment() || !model.session.document().job) {
-    ui::emptyState(model, ICON_PLAY, "Nothing to scan", "Import a model and set up stations first.");
+    ui::emptyState(model, ICON_PLAY, "Nothing to scan", "Import a model and add stations first.");
     return;
   }
   ScanChoice asked = model.scan_choice;

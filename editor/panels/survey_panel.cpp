@@ -59,7 +59,7 @@ void drawStationRow(const Model& model, Actions& actions, const Station& station
 void drawStations(const Model& model, Actions& actions, const Job& job) {
   ui::heading(model, fmt::format("Stations  {}", job.stations.size()).c_str());
   if (job.stations.empty()) {
-    ui::dimWrapped("None yet. Press the button, then click on the floor.");
+    ui::dimWrapped("No stations. Choose Add station, then click the floor.");
     return;
   }
   const float height = std::min(
@@ -96,7 +96,7 @@ void drawChosenStation(const Model& model, SurveyState& state, Actions& actions,
     ui::property("Above floor", metres(station.instrument_height_m));
     if (station.solved_pose) {
       const Pose& solved = *station.solved_pose;
-      ui::property("Registered", fmt::format("{:.1f} mm and {:.4f}° off",
+      ui::property("Registered", fmt::format("off by {:.1f} mm and {:.4f}°",
                                              (solved.translation - station.true_pose.translation).norm() * 1000,
                                              solved.rotation.angularDistance(station.true_pose.rotation) / kRadPerDeg));
     }
@@ -104,16 +104,16 @@ void drawChosenStation(const Model& model, SurveyState& state, Actions& actions,
   }
   const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
   if (ui::button(ui::fittingLabel(ICON_MOVE, "Move", "move-station", width).c_str(), why, {width, 0},
-                 "To these coordinates"))
+                 "Move to these coordinates"))
     actions.start("station", {{"move", station.name}, {"at", state.move_to}, {"height", station.instrument_height_m}},
                   "Move station " + station.name);
   ImGui::SameLine();
   if (ui::button(ui::fittingLabel(ICON_CROSSHAIRS, "Look", "look-station", width).c_str(), {}, {width, 0},
-                 "Bring it into view"))
+                 "Frame in view"))
     lookAt(actions, station.true_pose.translation);
   ImGui::SameLine();
   if (ui::button(ui::fittingLabel(ICON_TRASH, "Remove", "remove-station", width).c_str(), why, {width, 0},
-                 "Remove this station"))
+                 "Remove station"))
     remove(actions, "station", station.name);
   for (const auto& scan : station.scans) {
     ImGui::TextColored(colour(tone::kGood), "%s", ICON_CHECK);
@@ -155,7 +155,7 @@ void drawTargets(const Model& model, Actions& actions, const Job& job) {
 void draw(const Model& model, SurveyState& state, Actions& actions) {
   const auto& job = model.session.document().job;
   if (!model.environment() || !job) {
-    ui::emptyState(model, ICON_STATION, "No survey yet", "Import a model, then set up stations on its floors.");
+    ui::emptyState(model, ICON_STATION, "No stations", "Import a model, then place stations on its floors.");
     return;
   }
   // Beside one another where both have room.
@@ -166,7 +166,7 @@ void draw(const Model& model, SurveyState& state, Actions& actions) {
   const auto why = model.session.whyNot("station");
   if (ui::primaryButton(ICON_STATION "  Add station###add-station", why, {width, 0})) actions.run("add-station");
   if (beside) ImGui::SameLine();
-  if (ui::button(ICON_TARGET "  Add target###add-target", why, {width, 0}, "Then click where it shall be"))
+  if (ui::button(ICON_TARGET "  Add target###add-target", why, {width, 0}, "Click in the view to place the target"))
     actions.run("add-target");
   drawStations(model, actions, *job);
   if (model.survey.station >= static_cast<int>(job->stations.size()))

@@ -24,23 +24,24 @@ std::string whyNotRegister(const Model& model, const std::vector<TargetRow>& row
   for (const auto& row : rows)
     if (row.scanned && std::find(scanned.begin(), scanned.end(), row.station) == scanned.end())
       scanned.push_back(row.station);
-  if (model.session.document().job->targets.size() < 3) return "Three targets are needed: set them up, then scan";
-  return scanned.size() < 2 ? "Scan from two stations first" : "";
+  if (model.session.document().job->targets.size() < 3)
+    return "At least three targets are required. Add targets, then scan.";
+  return scanned.size() < 2 ? "Scan from at least two stations first" : "";
 }
 
 void drawRegister(const Model& model, TargetsState& state, Actions& actions, const std::vector<TargetRow>& rows) {
   auto& copies = state.copies_of_registered;
   if (ui::button(ICON_TARGET "  Register###register", whyNotRegister(model, rows), {model.px(100), 0},
-                 "Solves the stations' poses from these targets")) {
+                 "Solves station poses from the targets")) {
     const auto files = lastScanFiles(*model.session.document().job);
     nlohmann::json options = {{"files", nlohmann::json::array()}};
     for (const auto& file : files) options["files"].push_back(file.string());
     if (copies) options["output"] = (files.front().parent_path() / "registered").string();
-    actions.start("register", std::move(options), "Register the stations");
+    actions.start("register", std::move(options), "Register stations");
   }
   ImGui::SameLine();
-  ImGui::Checkbox("with copies of the scans###copies", &copies);
-  ui::tooltip("Writes them with their solved poses into the folder \"registered\" beside the scans");
+  ImGui::Checkbox("Write registered copies of the scans###copies", &copies);
+  ui::tooltip("Writes copies with solved poses to the folder \"registered\" next to the scans");
   if (model.target_list.busy()) {
     ImGui::SameLine();
     ui::dimText("Measuring …");
@@ -61,7 +62,7 @@ struct Standing {
 Standing standingOf(const TargetRow& row) {
   if (row.fit) return {ICON_CHECK, tone::kGood, "found"};
   if (row.scanned) return {ICON_BAN, row.sight.why_not.empty() ? tone::kBad : tone::kDim, row.why_not};
-  if (row.sight.why_not.empty()) return {ICON_CIRCLE, tone::kAccent, "can be measured"};
+  if (row.sight.why_not.empty()) return {ICON_CIRCLE, tone::kAccent, "measurable"};
   return {ICON_EYE_OFF, tone::kDim, row.sight.why_not};
 }
 
@@ -110,17 +111,17 @@ void drawTable(const Model& model, Actions& actions, const std::vector<TargetRow
   ImGui::TableSetupScrollFreeze(0, 1);
   struct Column {
     const char* title;
-    float share;
+    float fraction;
   };
-  for (const auto& [title, share] : {Column{"Target", 1},
-                                     {"Kind", 1.5F},
-                                     {"From", 0.8F},
-                                     {"Distance", 1.1F},
-                                     {"Points", 1},
-                                     {"Residual", 1.1F},
-                                     {"σ", 1},
-                                     {"State", 3}})
-    ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthStretch, share);
+  for (const auto& [title, fraction] : {Column{"Target", 1},
+                                        {"Kind", 1.5F},
+                                        {"From", 0.8F},
+                                        {"Distance", 1.1F},
+                                        {"Points", 1},
+                                        {"Residual", 1.1F},
+                                        {"σ", 1},
+                                        {"State", 3}})
+    ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthStretch, fraction);
   ImGui::TableHeadersRow();
   const auto& job = *model.session.document().job;
   int index = 0;
@@ -133,14 +134,13 @@ void drawTable(const Model& model, Actions& actions, const std::vector<TargetRow
 void draw(const Model& model, TargetsState& state, Actions& actions) {
   const auto& job = model.session.document().job;
   if (!model.environment() || !job || job->targets.empty()) {
-    ui::dimWrapped(
-        "No targets yet. Put some where two stations see them: three and more that both see hold them together.");
+    ui::dimWrapped("No targets. Add at least three targets that two stations can see.");
     return;
   }
   actions.wantTargets();
   const auto rows = model.target_list.rows();
   drawRegister(model, state, actions, rows);
-  if (job->stations.empty()) return ui::dimText("No station yet: nothing sees them.");
+  if (job->stations.empty()) return ui::dimText("No stations to measure the targets from");
   drawTable(model, actions, rows);
 }
 

@@ -31,7 +31,7 @@ void drawRunning(const Model& model, Task& task, int i) {
   ImGui::ProgressBar(static_cast<float>(progress.fraction()), {ImGui::GetContentRegionAvail().x - model.px(76), 0},
                      text.c_str());
   ImGui::SameLine();
-  if (ui::button("Cancel", progress.cancelled() ? "It stops at the next safe place" : "", {model.px(66), 0}))
+  if (ui::button("Cancel", progress.cancelled() ? "Stops at the next safe point" : "", {model.px(66), 0}))
     progress.cancel();
   ImGui::TableNextColumn();
   ui::dimText(duration(task.seconds()));
@@ -56,9 +56,7 @@ void drawFinished(const FinishedTask& task) {
 
 void drawTasksPanel(const Model& model, PanelStates&, Actions&) {
   if (model.session.running().empty() && model.session.finished().empty()) {
-    ui::dimText(
-        "Nothing was run yet. What takes longer than a moment appears here, with its progress and a button to stop "
-        "it.");
+    ui::dimText("No tasks. Running tasks appear here with progress and a cancel button.");
     return;
   }
   if (!ImGui::BeginTable("tasks", 4, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;

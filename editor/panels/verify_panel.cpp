@@ -42,7 +42,7 @@ void chooseUnderlay(const Model& model, VerifyState& state) {
 }
 
 void chooseInstrument(const Model& model, VerifyState& state) {
-  const char* as_said = "Instrument as the cloud says";
+  const char* as_said = "Instrument from the point cloud";
   ImGui::SetNextItemWidth(-1);
   if (!ImGui::BeginCombo("###instrument", state.instrument.empty() ? as_said : state.instrument.c_str())) return;
   if (ImGui::Selectable(as_said, state.instrument.empty())) state.instrument.clear();
@@ -60,11 +60,11 @@ void drawVerifyButtons(const Model& model, VerifyState& state, Actions& actions)
   if (ui::primaryButton(ICON_CHECK "  Compare###verify", why, {width, 0})) {
     nlohmann::json options = {{"underlay", state.underlay}};
     if (!state.instrument.empty()) options["instrument"] = state.instrument;
-    actions.start("verify", options, "Hold the materials against " + state.underlay);
+    actions.start("verify", options, "Verify materials with " + state.underlay);
   }
   ImGui::SameLine();
   if (ui::button(ICON_MOVE "  Fit to model###fit", model.session.whyNot("underlay"), {width, 0},
-                 "Moves the cloud onto the model's surface, from where it lies (ICP)"))
+                 "Aligns the point cloud to the model surface, starting from its current position (ICP)"))
     actions.start("underlay", {{"register", state.underlay}, {"icp", true}}, "Fit " + state.underlay + " to the model");
 }
 
@@ -73,15 +73,15 @@ void drawFit(const Model& model) {
   const auto* last = model.session.lastOf("underlay");
   if (last == nullptr || !last->answer.contains("registered") || !last->answer["registered"].contains("icp")) return;
   const auto& icp = last->answer["registered"]["icp"];
-  const double share = icp.at("used_share");
-  const bool good = icp.at("settled") && icp.at("not_held").empty() && share > 0.5;
+  const double fraction = icp.at("used_share");
+  const bool good = icp.at("settled") && icp.at("not_held").empty() && fraction > 0.5;
   ImGui::TextColored(colour(good ? tone::kGood : tone::kWarning), "%s", good ? ICON_CHECK : ICON_WARNING);
   ImGui::SameLine();
   std::string text =
-      fmt::format("Fitted: moved by {:.1f} mm; {:.0f} % of its points lie on the model, {:.1f} mm off (RMS)",
-                  icp.at("moved_m").get<double>() * 1000, share * 100, icp.at("rms_m").get<double>() * 1000);
-  if (!icp.at("settled")) text += "; it did not come to rest: lay it nearer first";
-  if (!icp.at("not_held").empty()) text += "; the model does not hold it in every direction (see Log)";
+      fmt::format("Fitted: moved by {:.1f} mm; {:.0f} % of points on the model, RMS {:.1f} mm",
+                  icp.at("moved_m").get<double>() * 1000, fraction * 100, icp.at("rms_m").get<double>() * 1000);
+  if (!icp.at("settled")) text += "; the fit did not converge: place the cloud closer first";
+  if (!icp.at("not_held").empty()) text += "; not constrained in every direction (see Log)";
   ui::wrapped(text);
 }
 
@@ -115,7 +115,7 @@ void drawMaterial(const Model& model, VerifyState& state, Actions& actions, cons
   }
   ui::tooltip(fmt::format("{}\n{} points\n5 % {:+.1f}, quartiles {:+.1f} and {:+.1f}, 95 % {:+.1f} dB{}", m.material,
                           groupedDigits(m.points), m.off_db[0], m.off_db[1], m.off_db[3], m.off_db[4],
-                          m.judged ? "" : "\nnot enough points, ranges or angles to judge by"));
+                          m.judged ? "" : "\ntoo few points, ranges or angles for a verdict"));
   ImGui::SameLine(0, 0);
   ui::fitted(labelOf(model, m.material), ImGui::GetContentRegionAvail().x);
   ImGui::TableNextColumn();
@@ -164,11 +164,10 @@ void drawProposal(const Model& model, Actions& actions, const VerifiedProposal& 
   std::vector<std::string> alike;
   for (const auto& id : p.alike) alike.push_back(labelOf(model, id));
   if (!alike.empty()) ui::dimWrapped(fmt::format("As well as: {}", fmt::join(alike, "; ")));
-  const std::string why = isTaken(model.session.document(), p)
-                              ? "It is assigned: compare again to see what that changes"
-                              : model.session.whyNot("materials");
-  if (ui::button(ICON_PAINT "  Assign###assign", why, {0, 0}, "Assigns it to these products; undo takes it back"))
-    actions.start("materials", {{"assign", p.assign}}, "Assign what was measured");
+  const std::string why = isTaken(model.session.document(), p) ? "Assigned. Compare again to see the effect."
+                                                               : model.session.whyNot("materials");
+  if (ui::button(ICON_PAINT "  Assign###assign", why, {0, 0}, "Assigns the material to these products (can be undone)"))
+    actions.start("materials", {{"assign", p.assign}}, "Assign measured materials");
   ImGui::SameLine();
   if (ui::button(ICON_POINTER "  Select###select", {}, {0, 0})) {
     actions.select(p.products);
@@ -182,7 +181,7 @@ void drawVerdict(const Model& model, Actions& actions, const VerificationView& v
   if (!view.current) {
     ImGui::TextColored(colour(tone::kWarning), "%s", ICON_WARNING);
     ImGui::SameLine();
-    ui::wrapped("The materials, or the cloud's placement, have changed since: compare again.");
+    ui::wrapped("Materials or cloud position have changed. Compare again.");
   }
   if (!view.no_verdict.empty()) {
     ImGui::TextColored(colour(tone::kBad), "%s", ICON_WARNING);
@@ -191,7 +190,7 @@ void drawVerdict(const Model& model, Actions& actions, const VerificationView& v
   } else if (view.proposals.empty()) {
     ImGui::TextColored(colour(tone::kGood), "%s", ICON_CHECK);
     ImGui::SameLine();
-    ui::wrapped("Nothing that was measured speaks against a material.");
+    ui::wrapped("The measurements contradict no assigned material.");
   }
   for (std::size_t i = 0; i < view.proposals.size(); ++i)
     drawProposal(model, actions, view.proposals[i], static_cast<int>(i));
@@ -211,9 +210,8 @@ void drawBasis(const Model& model, const VerificationView& view) {
 void draw(const Model& model, VerifyState& state, Actions& actions) {
   const auto& document = model.session.document();
   if (!model.environment() || document.underlays.empty()) {
-    ui::emptyState(
-        model, ICON_CHECK_CIRCLE, "No measured cloud",
-        "Drop a real scan of the building here (E57, PTX): its intensities then tell whether the materials are right.");
+    ui::emptyState(model, ICON_CHECK_CIRCLE, "No measured cloud",
+                   "Drop a real scan of the building here (E57, PTX) to verify materials by intensity.");
     return;
   }
   chooseUnderlay(model, state);
@@ -227,8 +225,7 @@ void draw(const Model& model, VerifyState& state, Actions& actions) {
   }
   if (!state.view.there) {
     ui::dimWrapped(
-        "Compares what each surface sent back with what its material should, and proposes a better one where they "
-        "disagree.");
+        "Compares measured with expected intensity per surface and proposes better materials where they disagree.");
     return;
   }
   ImGui::BeginChild("verified");

@@ -18,16 +18,14 @@ namespace standpoint {
 
 namespace {
 
-std::string whyNoModel(const Editor& e) {
-  return e.environment() ? "" : "There is no model yet: import one first (Ctrl+I)";
-}
+std::string whyNoModel(const Editor& e) { return e.environment() ? "" : "Import a model first (Ctrl+I)"; }
 std::string whyNoSelection(const Editor& e) { return e.selection.empty() ? "Select something first" : ""; }
 std::string whyNoCollision(const Editor& e) {
-  return e.session.document().collision ? "" : "Compute the collision shapes first (panel Collision)";
+  return e.session.document().collision ? "" : "Compute collision shapes first (Collision panel)";
 }
 
 std::string whyNotOptimised(const Editor& e) {
-  return e.session.document().simplified ? "" : "Optimise the model first (panel Optimise)";
+  return e.session.document().simplified ? "" : "Optimise the model first (Optimise panel)";
 }
 
 void newProject(Editor& e) {
@@ -59,7 +57,7 @@ void walk(Editor& e) {
 }
 std::string whyWalkNot(const Editor& e) {
   if (auto why = whyNoCollision(e); !why.empty()) return why;
-  return e.session.document().collision->walkable.triangles.empty() ? "There is nothing to walk on" : "";
+  return e.session.document().collision->walkable.triangles.empty() ? "There is no walkable surface" : "";
 }
 void escape(Editor& e) {
   if (e.view.tool != Tool::select) {
@@ -95,7 +93,7 @@ void removeChosen(Editor& e) {
 std::string whyRemoveNot(const Editor& e) {
   const auto [verb, name] = chosenInSurvey(e);
   if (auto why = e.session.whyNot(verb); !why.empty()) return why;
-  return name.empty() ? "Choose a station or target in the panel Survey first" : "";
+  return name.empty() ? "Select a station or target in the Survey panel first" : "";
 }
 
 // What is said of the selection, each product by what it keeps through an update of the model.
@@ -114,19 +112,19 @@ std::string whyTreatNot(const Editor& e) {
 
 std::string whyNoMaterials(const Editor& e) {
   if (auto why = whyNoModel(e); !why.empty()) return why;
-  return e.session.document().materials ? std::string() : "No materials have been assigned yet";
+  return e.session.document().materials ? std::string() : "Assign materials first";
 }
 std::string whyPaintNot(const Editor& e) {
   if (auto why = whyNoModel(e); !why.empty()) return why;
-  if (e.material.id.empty()) return "Choose a material in the list first";
+  if (e.material.id.empty()) return "Select a material in the list first";
   return e.session.whyNot("materials");
 }
 
 std::string whyNoLarger(const Editor& e) {
-  return e.settings.user_scale >= kUserScales.back() ? "It is as large as it gets" : "";
+  return e.settings.user_scale >= kUserScales.back() ? "Already at maximum size" : "";
 }
 std::string whyNoSmaller(const Editor& e) {
-  return e.settings.user_scale <= kUserScales.front() ? "It is as small as it gets" : "";
+  return e.settings.user_scale <= kUserScales.front() ? "Already at minimum size" : "";
 }
 
 std::string whySaveNot(const Editor& e) { return e.session.whyNotSave(); }
@@ -152,35 +150,15 @@ const std::array kActions = {
     Action{"undo", "Undo", ICON_UNDO, {'Z', true}, [](Editor& e) { e.session.undo(); }, whyUndoNot},
     Action{"redo", "Redo", ICON_REDO, {'Y', true}, [](Editor& e) { e.session.redo(); }, whyRedoNot},
     Action{"select-all", "Select all", "", {'A', true}, selectAll, whyNoModel},
-    Action{"select-none", "Select nothing, leave the tool", "", {kKeyEscape}, escape, nullptr},
+    Action{"select-none", "Clear selection, leave tool", "", {kKeyEscape}, escape, nullptr},
     Action{"frame", "Frame selection", ICON_EXPAND, {'F'}, [](Editor& e) { e.frameSelection(); }, whyNoModel},
-    Action{"view-front",
-           "View from the front",
-           "",
-           {'1'},
-           [](Editor& e) { lookFrom(e, StandardView::front); },
-           whyNoModel},
-    Action{"view-back",
-           "View from the back",
-           "",
-           {'1', true},
-           [](Editor& e) { lookFrom(e, StandardView::back); },
-           whyNoModel},
-    Action{"view-right",
-           "View from the right",
-           "",
-           {'3'},
-           [](Editor& e) { lookFrom(e, StandardView::right); },
-           whyNoModel},
-    Action{"view-left",
-           "View from the left",
-           "",
-           {'3', true},
-           [](Editor& e) { lookFrom(e, StandardView::left); },
-           whyNoModel},
-    Action{"view-top", "View from above", "", {'7'}, [](Editor& e) { lookFrom(e, StandardView::top); }, whyNoModel},
+    Action{"view-front", "Front view", "", {'1'}, [](Editor& e) { lookFrom(e, StandardView::front); }, whyNoModel},
+    Action{"view-back", "Back view", "", {'1', true}, [](Editor& e) { lookFrom(e, StandardView::back); }, whyNoModel},
+    Action{"view-right", "Right view", "", {'3'}, [](Editor& e) { lookFrom(e, StandardView::right); }, whyNoModel},
+    Action{"view-left", "Left view", "", {'3', true}, [](Editor& e) { lookFrom(e, StandardView::left); }, whyNoModel},
+    Action{"view-top", "Top view", "", {'7'}, [](Editor& e) { lookFrom(e, StandardView::top); }, whyNoModel},
     Action{"view-corner",
-           "View from the corner",
+           "Isometric view",
            ICON_HOME,
            {'0'},
            [](Editor& e) { lookFrom(e, StandardView::corner); },
@@ -201,13 +179,13 @@ const std::array kActions = {
            },
            whyNoSelection},
     Action{"isolate",
-           "Show only the selection",
+           "Isolate selection",
            ICON_CROSSHAIRS,
            {'H', false, true},
            [](Editor& e) { e.visibility.isolate(e.selection.products()); },
            whyNoSelection},
     Action{"show-all",
-           "Show everything",
+           "Show all",
            ICON_EYE,
            {'H', true},
            [](Editor& e) {
@@ -228,10 +206,10 @@ const std::array kActions = {
            [](Editor& e) { treat(e, "kept", "Never simplify"); },
            whyTreatNot},
     Action{"by-rules",
-           "Treat by the rules again",
+           "Reset to rules",
            ICON_UNDO,
            {'X', false, true},
-           [](Editor& e) { treat(e, "rules", "Treat by the rules again"); },
+           [](Editor& e) { treat(e, "rules", "Reset to rules"); },
            whyTreatNot},
     Action{"edges", "Edges", "", {'L'}, [](Editor& e) { e.view.edges = !e.view.edges; }, nullptr},
     Action{"grid", "Ground grid", "", {'G'}, [](Editor& e) { e.view.grid = !e.view.grid; }, nullptr},
@@ -242,17 +220,16 @@ const std::array kActions = {
            {},
            [](Editor& e) { e.view.walkable = !e.view.walkable; },
            whyNoCollision},
-    Action{"walk", "Walk in the model with W A S D", ICON_WALK, {'W'}, walk, whyWalkNot},
+    Action{"walk", "Walk mode (W A S D)", ICON_WALK, {'W'}, walk, whyWalkNot},
     Action{"shapes",
            "Collision shapes",
            ICON_CUBES,
            {},
            [](Editor& e) { e.view.shapes = !e.view.shapes; },
            whyNoCollision},
-    Action{
-        "colour-model", "Colours of the model", "", {}, [](Editor& e) { e.view.colour = ColourMode::model; }, nullptr},
+    Action{"colour-model", "Model colours", "", {}, [](Editor& e) { e.view.colour = ColourMode::model; }, nullptr},
     Action{"colour-material",
-           "Colours by physical material",
+           "Physical material colours",
            "",
            {},
            [](Editor& e) { e.view.colour = ColourMode::material; },
@@ -264,43 +241,43 @@ const std::array kActions = {
            [](Editor& e) { e.view.colour = ColourMode::reflectance; },
            whyNoModel},
     Action{"colour-confidence",
-           "Confidence of the assignment",
+           "Assignment confidence",
            "",
            {},
            [](Editor& e) { e.view.colour = ColourMode::confidence; },
            whyNoModel},
     Action{"colour-intensity",
-           "Intensity expected from a station",
+           "Expected intensity from a station",
            "",
            {},
            [](Editor& e) { e.view.colour = ColourMode::expected_intensity; },
            whyNoModel},
     Action{"colour-noise",
-           "Range noise expected from a station",
+           "Expected range noise from a station",
            "",
            {},
            [](Editor& e) { e.view.colour = ColourMode::expected_noise; },
            whyNoModel},
     Action{"colour-fate",
-           "What comes back to a station",
+           "Expected detections from a station",
            "",
            {},
            [](Editor& e) { e.view.colour = ColourMode::expected_fate; },
            whyNoModel},
     Action{"colour-coverage",
-           "Coverage: how many stations see it",
+           "Coverage: number of stations",
            "",
            {},
            [](Editor& e) { e.view.colour = ColourMode::coverage; },
            whyNoModel},
     Action{"colour-spacing",
-           "Coverage: how far points are apart",
+           "Coverage: point spacing",
            "",
            {},
            [](Editor& e) { e.view.colour = ColourMode::coverage_spacing; },
            whyNoModel},
     Action{"colour-incidence",
-           "Coverage: how steeply it is met",
+           "Coverage: incidence",
            "",
            {},
            [](Editor& e) { e.view.colour = ColourMode::coverage_incidence; },
@@ -312,13 +289,13 @@ const std::array kActions = {
            [](Editor& e) { e.view.colour = ColourMode::deviation; },
            whyNotOptimised},
     Action{"both-models",
-           "Original and lighter model side by side",
+           "Original and simplified model side by side",
            ICON_COMPRESS,
            {'B'},
            [](Editor& e) { e.view.side = e.view.side == ModelSide::both ? ModelSide::lighter : ModelSide::both; },
            whyNotOptimised},
     Action{"add-station",
-           "Add station by a click on the floor",
+           "Add station by clicking the floor",
            ICON_STATION,
            {'T'},
            [](Editor& e) {
@@ -327,7 +304,7 @@ const std::array kActions = {
            },
            whyStationNot},
     Action{"add-target",
-           "Add target by a click",
+           "Add target by clicking",
            ICON_TARGET,
            {},
            [](Editor& e) {
@@ -335,9 +312,9 @@ const std::array kActions = {
              showWorkspace(e, Workspace::survey);
            },
            whyTargetNot},
-    Action{"remove", "Remove the chosen station or target", ICON_TRASH, {kKeyDelete}, removeChosen, whyRemoveNot},
+    Action{"remove", "Remove selected station or target", ICON_TRASH, {kKeyDelete}, removeChosen, whyRemoveNot},
     Action{"take-material",
-           "Choose the material of a surface by a click",
+           "Pick material from a surface",
            ICON_DROP,
            {'E'},
            [](Editor& e) {
@@ -346,7 +323,7 @@ const std::array kActions = {
            },
            whyNoMaterials},
     Action{"paint-material",
-           "Give the chosen material to surfaces by clicks",
+           "Assign selected material by clicking surfaces",
            ICON_PAINT,
            {'P'},
            [](Editor& e) {
@@ -354,12 +331,8 @@ const std::array kActions = {
              showWorkspace(e, Workspace::materials);
            },
            whyPaintNot},
-    Action{"measure",
-           "Measure a distance",
-           ICON_MEASURE,
-           {'M'},
-           [](Editor& e) { e.view.tool = Tool::measure; },
-           whyNoModel},
+    Action{
+        "measure", "Measure distance", ICON_MEASURE, {'M'}, [](Editor& e) { e.view.tool = Tool::measure; }, whyNoModel},
     Action{"scan",
            "Scan…",
            ICON_PLAY,
@@ -370,43 +343,43 @@ const std::array kActions = {
            },
            whyScanNot},
     Action{"workspace-model",
-           "Workspace Model",
+           "Model workspace",
            ICON_CUBE,
            {},
            [](Editor& e) { showWorkspace(e, Workspace::model); },
            nullptr},
     Action{"workspace-materials",
-           "Workspace Materials",
+           "Materials workspace",
            ICON_PAINT,
            {},
            [](Editor& e) { showWorkspace(e, Workspace::materials); },
            nullptr},
     Action{"workspace-survey",
-           "Workspace Survey",
+           "Survey workspace",
            ICON_STATION,
            {},
            [](Editor& e) { showWorkspace(e, Workspace::survey); },
            nullptr},
     Action{"workspace-instrument",
-           "Workspace Instrument",
+           "Instrument workspace",
            ICON_TABLET,
            {},
            [](Editor& e) { showWorkspace(e, Workspace::instrument); },
            nullptr},
     Action{"interface-larger",
-           "Larger interface",
+           "Increase interface size",
            "",
            {kKeyPlus, true},
            [](Editor& e) { e.settings.user_scale = neighbourScale(e.settings.user_scale, 1); },
            whyNoLarger},
     Action{"interface-smaller",
-           "Smaller interface",
+           "Decrease interface size",
            "",
            {kKeyMinus, true},
            [](Editor& e) { e.settings.user_scale = neighbourScale(e.settings.user_scale, -1); },
            whyNoSmaller},
     Action{"interface-usual",
-           "Interface of the usual size",
+           "Reset interface size",
            "",
            {'0', true},
            [](Editor& e) { e.settings.user_scale = 1; },

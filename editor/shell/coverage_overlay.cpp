@@ -19,17 +19,17 @@ namespace {
 const std::vector<SeenFrom>* scansOf(Editor& editor, std::string& why) {
   const auto& document = editor.session.document();
   const auto scene = editor.picker.scene();
-  if (!scene) return why = "One moment: the model is being prepared for rays", nullptr;
+  if (!scene) return why = "Preparing the model for ray tracing …", nullptr;
   if (!document.job || document.job->stations.empty())
-    return why = "There is no station yet: press T and click on the floor", nullptr;
+    return why = "Add a station first: press T and click the floor", nullptr;
   const auto& catalogue = editor.catalogue();
   const auto& asked = editor.scan_choice;
   const auto* instrument = instrumentIn(catalogue, asked.instrument);
-  if (!editor.view.coverage_made && instrument == nullptr) return why = "Choose an instrument under Scan", nullptr;
+  if (!editor.view.coverage_made && instrument == nullptr)
+    return why = "Choose an instrument in the Scan panel", nullptr;
   const auto& scans = editor.view.coverage_made ? editor.coverage.made(document, scene, catalogue.instruments)
                                                 : editor.coverage.planned(document, scene, *instrument, asked.settings);
-  if (scans.empty())
-    why = editor.view.coverage_made ? "No station has scanned yet" : "These settings cannot be scanned with";
+  if (scans.empty()) why = editor.view.coverage_made ? "No scans yet" : "These settings do not allow scanning";
   return scans.empty() ? nullptr : &scans;
 }
 
@@ -44,10 +44,10 @@ void drawReading(Editor& editor, const std::vector<SeenFrom>& scans) {
   const auto& hit = editor.view.hover;
   if (!hit || editor.view.dragging) return;
   const auto coverage = coverageAt(scans, {hit->position, hit->normal, hit->instance, hit->triangle}, wishesOf(editor));
-  if (coverage.stations == 0) return ImGui::SetTooltip("Seen from no station");
+  if (coverage.stations == 0) return ImGui::SetTooltip("Not visible from any station");
   std::string names;
   for (const auto i : coverage.from) names += (names.empty() ? "" : ", ") + scans[i].station;
-  ImGui::SetTooltip("Seen from %s\npoints %.1f mm apart at best\n%.0f° off the normal at best", names.c_str(),
+  ImGui::SetTooltip("Visible from %s\nsmallest point spacing %.1f mm\nsmallest incidence %.0f°", names.c_str(),
                     coverage.spacing_m * 1000, coverage.incidence_rad / kRadPerDeg);
 }
 
@@ -128,16 +128,16 @@ void drawCoverageLegend(Editor& editor, ImVec2 origin, ImVec2 size) {
     return;
   }
   const bool counts = *quantity == CoverageQuantity::stations;
-  const char* title = counts                                   ? "Seen from so many stations"
-                      : *quantity == CoverageQuantity::spacing ? "Points apart, of the densest scan"
-                                                               : "Incidence, of the steepest scan";
+  const char* title = counts                                   ? "Number of stations"
+                      : *quantity == CoverageQuantity::spacing ? "Point spacing of the densest scan"
+                                                               : "Smallest incidence";
   const float high = counts ? 2 * line + editor.px(16) : 3 * line + editor.px(26);
   const float top = origin.y + size.y - high - editor.px(4);
   list.AddRectFilled({x - editor.px(6), top}, {x + editor.px(346), origin.y + size.y - editor.px(4)}, tone::kOverlay,
                      editor.px(4));
   list.AddText({x, top + editor.px(4)}, tone::kText, title);
   ImVec2 at(x, bottom);
-  at.x += swatch(editor, at, kHoleColour, "not seen");
+  at.x += swatch(editor, at, kHoleColour, "not covered");
   if (counts) {
     for (int n = 1; n <= kMostCounted; ++n)
       at.x += swatch(editor, at, countColour(n), (std::to_string(n) + (n < kMostCounted ? "" : " and more")).c_str());
@@ -152,15 +152,15 @@ void coverageChips(Editor& editor) {
   ImGui::NewLine();
   ImGui::SetNextItemWidth(editor.px(166));
   const char* planned = "Stations as planned";
-  const char* made = "Scans that were made";
+  const char* made = "Completed scans";
   if (!ImGui::BeginCombo("###coverage-of",
                          fmt::format("{}  {}", ICON_STATION, editor.view.coverage_made ? made : planned).c_str(),
                          ImGuiComboFlags_NoArrowButton))
     return;
   if (ImGui::Selectable(planned, !editor.view.coverage_made)) editor.view.coverage_made = false;
-  ui::tooltip("From every station, with the instrument and settings under Scan");
+  ui::tooltip("All stations, with the instrument and settings of the Scan panel");
   if (ImGui::Selectable(made, editor.view.coverage_made)) editor.view.coverage_made = true;
-  ui::tooltip("From the stations that have scanned, with the last scan's instrument and settings");
+  ui::tooltip("Stations that have been scanned, with the instrument and settings of the last scan");
   ImGui::EndCombo();
 }
 

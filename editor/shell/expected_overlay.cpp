@@ -88,11 +88,11 @@ void drawScale(Editor& editor, const Legend& legend, ExpectedQuantity quantity, 
     list.AddText({x, legend.at.y + height + editor.px(2)}, tone::kText, words.c_str());
   };
   const bool noise = quantity == ExpectedQuantity::noise;
-  const auto most = noise ? fmt::format("{:.0f} mm and more", kNoiseFullScale_m * 1000)
+  const auto most = noise ? fmt::format("{:.0f} mm or more", kNoiseFullScale_m * 1000)
                           : fmt::format("1 ({:.0f} dB)", instrument.intensity_high_db);
   text(legend.at.x, noise ? "0" : fmt::format("0 ({:.0f} dB)", instrument.intensity_low_db));
   text(legend.at.x + legend.width - ImGui::CalcTextSize(most.c_str()).x, most);
-  const char* title = noise ? "Range noise expected, 1 σ" : "Intensity expected";
+  const char* title = noise ? "Expected range noise (1 σ)" : "Expected intensity";
   list.AddText({legend.at.x, legend.at.y - ImGui::GetTextLineHeight() - editor.px(2)}, tone::kText, title);
 }
 
@@ -117,11 +117,11 @@ void drawReading(Editor& editor, const Expectation& expectation) {
   const auto& choice = editor.session.document().materials;
   const std::int32_t material = choice ? expectation.materialAt(hit->instance, hit->triangle) : -1;
   auto text = fmt::format(
-      "{}\n{:.2f} m, {:.0f}° off normal",
+      "{}\n{:.2f} m, {:.0f}° incidence",
       material < 0 ? "No material" : choice->result.assignment.materials[static_cast<std::size_t>(material)].label,
       expected.range_m, expected.incidence_rad / kRadPerDeg);
   if (expected.fate == ReturnFate::returned)
-    text += fmt::format("\nintensity {:.3f}, σ {:.2f} mm, {:.0f} % come back", expected.intensity,
+    text += fmt::format("\nintensity {:.3f}, σ {:.2f} mm, {:.0f} % detected", expected.intensity,
                         expected.sigma_m * 1000, expected.probability * 100);
   else
     text += fmt::format("\n{}", fateName(expected.fate));
@@ -183,7 +183,7 @@ void drawExpectedLegend(Editor& editor, ImVec2 origin, ImVec2 size) {
   const auto expectation = editor.expectation();
   if (!expectation || !editor.view.probe.position) {
     ImGui::GetWindowDrawList()->AddText({origin.x + editor.px(10), origin.y + size.y - editor.px(24)}, tone::kDim,
-                                        "One moment: the model is being prepared for rays");
+                                        "Preparing the model for ray tracing …");
     return;
   }
   drawProbe(editor, origin);
@@ -219,7 +219,7 @@ void expectedChips(Editor& editor) {
   ImGui::SameLine();
   if (ImGui::GetCursorScreenPos().x + editor.px(128) > editor.overlay_end) ImGui::NewLine();
   const auto& job = editor.session.document().job;
-  if (!job || job->stations.empty()) return ImGui::TextUnformatted("Drag the white dot: there the scanner stands");
+  if (!job || job->stations.empty()) return ImGui::TextUnformatted("Drag the white dot to move the scanner");
   ImGui::SetNextItemWidth(editor.px(128));
   const auto standing = std::find_if(job->stations.begin(), job->stations.end(),
                                      [&](const Station& s) { return probe.position == s.true_pose.translation; });

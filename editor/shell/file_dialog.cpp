@@ -46,13 +46,12 @@ std::string whyNotAccept(const FileDialogState& state) {
   switch (state.purpose) {
     case Purpose::openFile:
       if (state.name.empty()) return "Choose a file";
-      return std::filesystem::is_regular_file(path, ignored) ? "" : "There is no such file";
-    case Purpose::openFolder:
-      return isProjectFolder(path) ? "" : "Choose the folder of a project: it holds project.json";
+      return std::filesystem::is_regular_file(path, ignored) ? "" : "File not found";
+    case Purpose::openFolder: return isProjectFolder(path) ? "" : "Choose a project folder (containing project.json)";
     case Purpose::saveFile:
     case Purpose::saveFolder:
-      if (state.name.empty()) return "Give it a name";
-      return state.name.find('/') == std::string::npos ? "" : "A name has no '/'";
+      if (state.name.empty()) return "Enter a name";
+      return state.name.find('/') == std::string::npos ? "" : "A name cannot contain '/'";
   }
   return {};
 }
@@ -82,7 +81,7 @@ std::filesystem::path homeFolder() {
 }
 
 void drawPathLine(FileDialogState& state) {
-  if (ui::iconButton(ICON_ARROW_UP "###up", "To the folder above") && state.folder.has_parent_path())
+  if (ui::iconButton(ICON_ARROW_UP "###up", "Parent folder") && state.folder.has_parent_path())
     enter(state, state.folder.parent_path());
   ImGui::SameLine();
   if (ui::iconButton(ICON_HOME "###home", "Home folder")) enter(state, homeFolder());
@@ -175,7 +174,7 @@ void drawFooter(Editor& editor) {
   const bool entered = ImGui::InputText("###name", &state.name, ImGuiInputTextFlags_EnterReturnsTrue);
   if (ImGui::IsItemEdited()) state.confirm_overwrite = false;
   ImGui::SameLine();
-  const std::string label = state.confirm_overwrite ? "Replace it" : state.accept;
+  const std::string label = state.confirm_overwrite ? "Replace" : state.accept;
   const auto why = whyNotAccept(state);
   if (ui::primaryButton((label + "###accept").c_str(), why, {button, 0}) || (entered && why.empty())) accept(editor);
   ImGui::SameLine();
@@ -184,7 +183,7 @@ void drawFooter(Editor& editor) {
     ImGui::CloseCurrentPopup();
   }
   if (state.confirm_overwrite && state.open)
-    ImGui::TextColored(colour(tone::kWarning), "%s  '%s' exists already. Press again to replace it.", ICON_WARNING,
+    ImGui::TextColored(colour(tone::kWarning), "%s  '%s' already exists. Press again to replace it.", ICON_WARNING,
                        state.name.c_str());
 }
 
@@ -233,8 +232,8 @@ void askForProject(Editor& editor) {
 }
 
 void askForModel(Editor& editor) {
-  askForFile(editor, Purpose::openFile, "Import a model, or lay a cloud under it", "Open", modelAndCloudExtensions(),
-             "", [&editor](const std::filesystem::path& file) { openFiles(editor, {file}); });
+  askForFile(editor, Purpose::openFile, "Import model or point-cloud underlay", "Open", modelAndCloudExtensions(), "",
+             [&editor](const std::filesystem::path& file) { openFiles(editor, {file}); });
 }
 
 void askForChangedModel(Editor& editor) {
@@ -249,7 +248,7 @@ void askForExport(Editor& editor) { openVerbForm(editor, "export"); }
 
 void askWhereToSave(Editor& editor) {
   const auto& folder = editor.session.folder();
-  askForFile(editor, Purpose::saveFolder, "Save the project as a folder", "Save", {".none"},
+  askForFile(editor, Purpose::saveFolder, "Save project folder", "Save", {".none"},
              folder.empty() ? editor.session.name() : folder.filename().string(),
              [&editor](const std::filesystem::path& chosen) {
                if (editor.session.save(chosen)) editor.settings.remember(chosen);

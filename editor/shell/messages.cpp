@@ -36,12 +36,12 @@ bool escapePressed() { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Es
 
 const char* remedy(ErrorKind kind) {
   switch (kind) {
-    case ErrorKind::usage: return "Change what was filled in and try again.";
-    case ErrorKind::unusable: return "Nothing was changed. Repair the file, or leave out what is named above.";
+    case ErrorKind::usage: return "Correct the input and try again.";
+    case ErrorKind::unusable: return "No changes were made. Repair the file, or exclude the item named above.";
     case ErrorKind::file_system:
-      return "Nothing was changed. Check that the place exists, may be written to, and has room.";
+      return "No changes were made. Check that the location exists, is writable and has free space.";
     case ErrorKind::internal:
-      return "Nothing was changed. This is a defect of the program: please report it with the file.";
+      return "No changes were made. This is a program error. Please report it and include the file.";
     case ErrorKind::cancelled: return "";
   }
   return "";
@@ -49,7 +49,7 @@ const char* remedy(ErrorKind kind) {
 
 void drawError(Editor& editor) {
   auto& errors = editor.session.errors();
-  if (!beginModal(editor, "That did not work###error", !errors.empty(), 520)) return;
+  if (!beginModal(editor, "Error###error", !errors.empty(), 520)) return;
   const ShownError shown = errors.front();
   ImGui::TextColored(colour(tone::kBad), "%s", ICON_WARNING);
   ImGui::SameLine();
@@ -83,7 +83,7 @@ void leave(Editor& editor) {
 
 void drawUnsaved(Editor& editor) {
   if (!beginModal(editor, "Unsaved changes###unsaved", editor.dialogs.unsaved, 460)) return;
-  ui::wrapped(fmt::format("'{}' has changes that are not saved. The last one: {}.", editor.session.name(),
+  ui::wrapped(fmt::format("'{}' has unsaved changes. Last change: {}.", editor.session.name(),
                           editor.session.history().undoDescription()));
   ui::gap(editor, 6);
   const auto why = editor.session.whyNotSave();
@@ -114,9 +114,9 @@ void continueAfterSave(Editor& editor) {
 
 void drawRecovery(Editor& editor) {
   auto& copies = editor.dialogs.recovery;
-  if (!beginModal(editor, "Unsaved work was found###recovery", !copies.empty(), 500)) return;
+  if (!beginModal(editor, "Recover unsaved work###recovery", !copies.empty(), 500)) return;
   const RecoveryCopy copy = copies.front();
-  ui::wrapped(fmt::format("The editor did not end in the usual way. There is a copy of '{}'.", copy.name));
+  ui::wrapped(fmt::format("The editor closed unexpectedly. A recovery copy of '{}' is available.", copy.name));
   if (!copy.saved_in.empty()) ui::dimText("Saved in " + copy.saved_in);
   ui::gap(editor, 6);
   const auto close = [&] {
@@ -140,13 +140,13 @@ struct Hint {
   const char* meaning;
 };
 constexpr std::array kMouse = {
-    Hint{"Click", "Select; with Ctrl add or remove"},
-    Hint{"Double click", "Frame what is under the pointer"},
-    Hint{"Left drag", "Turn around the point under the pointer"},
-    Hint{"Middle or right drag, Shift+left", "Move sideways"},
-    Hint{"Wheel", "Closer or farther, towards the pointer"},
-    Hint{"W A S D", "Walk, once W has put you into the model; with Shift faster; Esc leaves"},
-    Hint{"Right click", "Menu of what is under the pointer"},
+    Hint{"Click", "Select; Ctrl: add or remove"},
+    Hint{"Double click", "Frame object under pointer"},
+    Hint{"Left drag", "Orbit around the point under the pointer"},
+    Hint{"Middle or right drag, Shift+left", "Pan"},
+    Hint{"Wheel", "Zoom to pointer"},
+    Hint{"W A S D", "Walk (W to start, Shift to run, Esc to leave)"},
+    Hint{"Right click", "Context menu"},
 };
 
 void hintRow(const char* keys, const char* meaning) {
@@ -175,14 +175,14 @@ void drawShortcuts(Editor& editor) {
 void drawPreferences(Editor& editor) {
   if (!beginModal(editor, "Preferences###preferences", editor.dialogs.preferences, 460)) return;
   if (ui::beginProperties("preferences", 0.5F)) {
-    ui::propertyLabel("Size of the interface");
+    ui::propertyLabel("Interface size");
     if (ImGui::BeginCombo("###scale", fmt::format("{:.0f} %", editor.settings.user_scale * 100).c_str())) {
       for (const double size : kUserScales)
         if (ImGui::Selectable(fmt::format("{:.0f} %", size * 100).c_str(), editor.settings.user_scale == size))
           editor.settings.user_scale = size;
       ImGui::EndCombo();
     }
-    ui::propertyLabel("Recovery copy every");
+    ui::propertyLabel("Recovery copy interval");
     ImGui::SliderInt("###recovery", &editor.settings.recovery_minutes, 0, 30,
                      editor.settings.recovery_minutes == 0 ? "never" : "%d min");
     ui::endProperties();
@@ -194,8 +194,7 @@ void drawPreferences(Editor& editor) {
 
 void drawAbout(Editor& editor) {
   if (!beginModal(editor, "About Standpoint###about", editor.dialogs.about, 440)) return;
-  ui::wrapped(
-      "Standpoint turns a building model into an environment in which terrestrial laser scanning can be rehearsed.");
+  ui::wrapped("Standpoint turns building models into environments for rehearsing terrestrial laser scanning.");
   ui::gap(editor);
   ui::dimText("Free software under the GNU General Public License, version 3 or later.");
   ui::gap(editor, 6);

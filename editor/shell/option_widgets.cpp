@@ -82,7 +82,7 @@ void drawOptionForm(Editor& editor, OptionForm& form) {
     const bool optional = !p.required && p.default_value.is_null() && p.kind != ParameterKind::flag;
     if (optional) {
       ImGui::Checkbox("###given", &field.given);
-      ui::tooltip("Not ticked: left to the program");
+      ui::tooltip("Unticked: chosen automatically");
       ImGui::SameLine();
       ImGui::SetNextItemWidth(-FLT_MIN);
     }

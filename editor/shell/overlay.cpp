@@ -42,8 +42,8 @@ const char* colourName(ColourMode mode) {
     case ColourMode::deviation: return "Deviation";
     case ColourMode::expected_intensity: return "Expected intensity";
     case ColourMode::expected_noise: return "Expected noise";
-    case ColourMode::expected_fate: return "What comes back";
-    case ColourMode::coverage: return "Stations that see it";
+    case ColourMode::expected_fate: return "Detection";
+    case ColourMode::coverage: return "Stations";
     case ColourMode::coverage_spacing: return "Point spacing";
     case ColourMode::coverage_incidence: return "Incidence";
   }
@@ -79,7 +79,7 @@ void wavelengthChip(Editor& editor) {
 
 const char* sideName(ModelSide side) {
   switch (side) {
-    case ModelSide::lighter: return "Lighter model";
+    case ModelSide::lighter: return "Simplified model";
     case ModelSide::original: return "Original";
     case ModelSide::both: return "Side by side";
   }
@@ -117,7 +117,7 @@ void cutChip(Editor& editor) {
     const auto& storeys = editor.storeys();
     for (std::size_t i = storeys.size(); i-- > 0;) {
       const double height = storeys[i].elevation_m + kCutAboveFloor_m;
-      if (ImGui::Selectable(fmt::format("Into {}   {:+.2f} m###storey{}", storeyName(editor, storeys[i]),
+      if (ImGui::Selectable(fmt::format("{}   {:+.2f} m###storey{}", storeyName(editor, storeys[i]),
                                         storeys[i].elevation_m + shift, i)
                                 .c_str(),
                             cut && std::abs(*cut - height) < 1e-6))
@@ -125,7 +125,7 @@ void cutChip(Editor& editor) {
     }
     if (storeys.empty()) {
       const Bounds all = editor.visibleBounds();
-      if (!all.empty() && ImGui::Selectable("Half way up")) cut = (all.min.z() + all.max.z()) / 2;
+      if (!all.empty() && ImGui::Selectable("Half height")) cut = (all.min.z() + all.max.z()) / 2;
     }
     ImGui::EndCombo();
   }
@@ -154,34 +154,34 @@ void cloudChip(Editor& editor) {
   if (!editor.cloud()) return;
   const auto& cloud = *editor.cloud();
   beside(editor, 150);
-  if (ImGui::Button(fmt::format("{}  Back to the model###cloud", ICON_CUBE).c_str())) {
+  if (ImGui::Button(fmt::format("{}  Return to model###cloud", ICON_CUBE).c_str())) {
     editor.showCloud({});
     return;
   }
-  const std::string name = cloud.file.empty() ? "The scan" : cloud.file.filename().string();
-  ui::tooltip(fmt::format("{}: {} of {} points are shown", name, groupedDigits(cloud.colours.size()),
+  const std::string name = cloud.file.empty() ? "Scan" : cloud.file.filename().string();
+  ui::tooltip(fmt::format("{}: {} of {} points shown", name, groupedDigits(cloud.colours.size()),
                           groupedDigits(cloud.points_in_file)));
   if (!editor.showsLiveScan()) return;
   beside(editor, 180);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(
-      fmt::format("{:.1f} million points so far", static_cast<double>(cloud.points_in_file) / 1e6).c_str());
+      fmt::format("{:.1f} million points loaded", static_cast<double>(cloud.points_in_file) / 1e6).c_str());
 }
 
 void drawToolHint(const Editor& editor, ImVec2 origin, ImVec2 size) {
   const char* hint = nullptr;
   switch (editor.view.tool) {
-    case Tool::placeStation: hint = "Click on the floor to set up a station.   Esc to leave"; break;
-    case Tool::placeTarget: hint = "Click where a target shall be.   Esc to leave"; break;
-    case Tool::measure: hint = "Click two points.   Esc to leave"; break;
-    case Tool::takeMaterial: hint = "Click on a surface to choose its material.   Esc to leave"; break;
-    case Tool::paintMaterial: hint = "Click on what shall get the chosen material.   Esc to leave"; break;
-    case Tool::layWay: hint = "Click on the floor where the way goes next.   Esc to leave"; break;
-    case Tool::walk: hint = "W A S D to walk, Shift to hurry, drag to look around.   Esc to leave"; break;
+    case Tool::placeStation: hint = "Click the floor to add a station   Esc to leave"; break;
+    case Tool::placeTarget: hint = "Click to place a target   Esc to leave"; break;
+    case Tool::measure: hint = "Click two points to measure   Esc to leave"; break;
+    case Tool::takeMaterial: hint = "Click a surface to pick its material   Esc to leave"; break;
+    case Tool::paintMaterial: hint = "Click surfaces to assign the selected material   Esc to leave"; break;
+    case Tool::layWay: hint = "Click the floor to add a waypoint   Esc to leave"; break;
+    case Tool::walk: hint = "W A S D to walk, Shift to run, drag to look around   Esc to leave"; break;
     case Tool::select: break;
   }
   if (editor.environment() && !editor.picker.ready() && hint != nullptr && editor.view.tool != Tool::walk)
-    hint = "One moment: the model is being prepared for picking";
+    hint = "Preparing the model for picking …";
   if (hint == nullptr) return;
   const ImVec2 text = ImGui::CalcTextSize(hint);
   const float pad = editor.px(8);
@@ -256,10 +256,8 @@ void drawConfidenceLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
   auto& list = *ImGui::GetWindowDrawList();
   float x = origin.x + editor.px(kMargin);
   const float y = origin.y + size.y - editor.px(24), swatch = editor.px(10);
-  for (const auto& [confidence, text] : {std::pair{1.0, "named"},
-                                         {0.65, "by a general word"},
-                                         {0.2, "a guess by class or colour"},
-                                         {-1.0, "no material"}}) {
+  for (const auto& [confidence, text] :
+       {std::pair{1.0, "named"}, {0.65, "general keyword"}, {0.2, "class or colour only"}, {-1.0, "no material"}}) {
     const Colour c = confidenceColour(confidence);
     list.AddRectFilled({x, y + editor.px(2)}, {x + swatch, y + editor.px(2) + swatch},
                        ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1}));
@@ -286,7 +284,7 @@ void drawDeviationLegend(const Editor& editor, ImVec2 origin, ImVec2 size) {
                        {x + width * static_cast<float>(i + 1) / kSteps, y + height}, IM_COL32(c[0], c[1], c[2], 255));
   }
   list.AddText({x, y + height + editor.px(2)}, tone::kDim, "0");
-  const auto most = fmt::format("{:.3g} mm and more", both->lighter->full_scale_m * 1000);
+  const auto most = fmt::format("{:.3g} mm or more", both->lighter->full_scale_m * 1000);
   list.AddText({x + width - ImGui::CalcTextSize(most.c_str()).x, y + height + editor.px(2)}, tone::kDim, most.c_str());
 }
 

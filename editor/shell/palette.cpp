@@ -97,7 +97,7 @@ void drawPalette(Editor& editor) {
   }
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-FLT_MIN);
-  if (ImGui::InputTextWithHint("###query", "What do you want to do?", &state.query)) state.chosen = 0;
+  if (ImGui::InputTextWithHint("###query", "Search commands", &state.query)) state.chosen = 0;
   const bool enter = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
   std::vector<Entry> shown;
   for (auto& entry : entries(editor))
@@ -119,7 +119,7 @@ void drawPalette(Editor& editor) {
       entry.run();
     }
   }
-  if (shown.empty()) ui::dimText("Nothing is called so.");
+  if (shown.empty()) ui::dimText("No matching commands");
   ImGui::EndChild();
   if (done) {
     state.open = false;

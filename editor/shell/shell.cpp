@@ -287,9 +287,9 @@ Layout layOut(const Editor& editor, const Box& all) {
   float left = anyPanel(editor, Area::left) ? editor.px(sizes.left) : 0;
   float right = anyPanel(editor, Area::right) ? editor.px(sizes.right) : 0;
   if (const float most = all.w * (editor.workspace == Workspace::instrument ? 0.7F : 0.6F); left + right > most) {
-    const float share = most / (left + right);
-    left *= share;
-    right *= share;
+    const float fraction = most / (left + right);
+    left *= fraction;
+    right *= fraction;
   }
   const float bottom = anyPanel(editor, Area::bottom) ? std::min(editor.px(sizes.bottom), all.h * 0.6F) : 0;
   l.left = {all.x, all.y, left, all.h};
@@ -356,7 +356,7 @@ void drawRunningTask(Editor& editor) {
   ImGui::SetCursorScreenPos({at.x, at.y + (ImGui::GetFrameHeight() - editor.px(6)) / 2});
   ui::meter(editor, progress.fraction(), tone::kAccent, bar);
   ImGui::SetCursorScreenPos({at.x + bar + editor.px(10), at.y});
-  if (ui::button("Cancel###cancel-task", progress.cancelled() ? "It stops at the next safe place" : "", {cancel, 0}))
+  if (ui::button("Cancel###cancel-task", progress.cancelled() ? "Stops at the next safe point" : "", {cancel, 0}))
     progress.cancel();
 }
 
@@ -397,9 +397,9 @@ void drawPreviewShell(Editor& editor) {
   const float head = ImGui::GetFrameHeight() + editor.px(12);
   beginFixed("###preview-head", {0, 0, display.x, head}, {editor.px(14), editor.px(6)}, IM_COL32(35, 39, 46, 255));
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(ICON_IMPORT "  Before it is taken in");
+  ImGui::TextUnformatted(ICON_IMPORT "  Import preview");
   ImGui::SameLine(0, editor.px(16));
-  ui::dimText("Enter imports   Esc gives it up   F frames");
+  ui::dimText("Enter: import   Esc: cancel   F: frame");
   ImGui::End();
   drawPreviewLayout(editor, {0, head, display.x, display.y - head});
   drawFileDialog(editor);  // where to save what is open, before it gives way

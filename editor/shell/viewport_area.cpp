@@ -129,13 +129,13 @@ void contextMenu(Editor& editor) {
   ImGui::Separator();
   for (const char* id : {"exclude", "keep", "by-rules"}) actionMenuItem(editor, id);
   ImGui::Separator();
-  const auto why = hit ? editor.session.whyNot("station") : "There is nothing under the pointer";
-  if (ImGui::MenuItem(ICON_STATION "  Set up a station here###station-here", nullptr, false, why.empty()))
+  const auto why = hit ? editor.session.whyNot("station") : "No surface under the pointer";
+  if (ImGui::MenuItem(ICON_STATION "  Add station here###station-here", nullptr, false, why.empty()))
     placeStation(editor, *hit);
   ui::tooltip(why);
-  if (hit && expectedQuantity(editor.view.colour) && ImGui::MenuItem(ICON_EYE "  Look from here###probe-here"))
+  if (hit && expectedQuantity(editor.view.colour) && ImGui::MenuItem(ICON_EYE "  Probe from here###probe-here"))
     putProbeOn(editor, hit->position);
-  if (ImGui::MenuItem(ICON_TARGET "  Put a target here###target-here", nullptr, false, why.empty()))
+  if (ImGui::MenuItem(ICON_TARGET "  Add target here###target-here", nullptr, false, why.empty()))
     placeTarget(editor, *hit);
   ImGui::EndPopup();
 }
@@ -183,9 +183,8 @@ void drawWelcome(Editor& editor, ImVec2 origin, ImVec2 size) {
   const float width = std::min(editor.px(420), size.x * 0.9F);
   ImGui::SetCursorScreenPos({origin.x + (size.x - width) / 2, origin.y + size.y * 0.26F});
   ImGui::BeginChild("welcome", {width, editor.px(330)}, false, ImGuiWindowFlags_NoBackground);
-  ui::emptyState(
-      editor, ICON_CUBE, "No model yet",
-      "Import an IFC, glTF, OBJ, PLY or STL file, or drop one here. A project is a folder: open it, or drop it, too.");
+  ui::emptyState(editor, ICON_CUBE, "No model yet",
+                 "Import or drop an IFC, glTF, OBJ, PLY or STL file, or open a project folder.");
   const float button = std::min(editor.px(150), (width - editor.px(8)) / 2);
   ImGui::SetCursorPosX((width - 2 * button - editor.px(8)) / 2);
   if (ui::primaryButton(ICON_IMPORT "  Import model…###welcome-import", editor.session.whyNot("import"),
@@ -232,7 +231,7 @@ void drawBothModels(Editor& editor, ImVec2 origin, ImVec2 half) {
   drawCaption(editor, origin, half,
               fmt::format("Original  {} triangles", groupedDigits(document.simplified->all.triangles_before)));
   drawCaption(editor, right, half,
-              fmt::format("Lighter  {} triangles", groupedDigits(document.simplified->all.triangles_after)));
+              fmt::format("Simplified  {} triangles", groupedDigits(document.simplified->all.triangles_after)));
 }
 
 }  // namespace

@@ -35,11 +35,11 @@ struct EglContext {
   const char* make() {
     const auto platform =
         reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
-    if (platform == nullptr) return "EGL cannot make a display without a window";
+    if (platform == nullptr) return "EGL cannot create an off-screen display";
     display = platform(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
     if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE)
-      return "EGL has no surfaceless display";
-    if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) return "EGL has no OpenGL";
+      return "EGL does not support surfaceless displays";
+    if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) return "EGL does not support OpenGL";
     const EGLint config_wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
     EGLConfig config = nullptr;
     EGLint found = 0;
@@ -51,7 +51,7 @@ struct EglContext {
     if (context == EGL_NO_CONTEXT) return "OpenGL 3.2 is not available";
     return eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_TRUE
                ? ""
-               : "the OpenGL context cannot be used";
+               : "cannot activate the OpenGL context";
   }
 };
 
@@ -117,7 +117,7 @@ class EglOffscreen : public Offscreen {
     glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
     stbi_flip_vertically_on_write(1);
     if (stbi_write_png(png.c_str(), width_, height_, 3, pixels.data(), width_ * 3) == 0)
-      return failure(ErrorKind::file_system, "the picture cannot be written", png.string());
+      return failure(ErrorKind::file_system, "cannot write the image", png.string());
     return {};
   }
 
@@ -159,7 +159,8 @@ class EglOffscreen : public Offscreen {
 Result<std::unique_ptr<Offscreen>> Offscreen::create(int width, int height, float scale) {
   auto egl = std::make_unique<EglContext>();
   if (const char* failed = egl->make(); *failed != 0)
-    return failure(ErrorKind::unusable, std::string(failed) + "; is a Mesa driver (libgl1-mesa-dri) installed?", "EGL");
+    return failure(ErrorKind::unusable,
+                   std::string(failed) + "; check that a Mesa driver (libgl1-mesa-dri) is installed", "EGL");
   return std::make_unique<EglOffscreen>(std::move(egl), width, height, scale);
 }
 

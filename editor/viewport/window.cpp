@@ -323,7 +323,7 @@ Result<void> runWindow(Editor& editor, int width, int height) {
   static std::string last_glfw_error;
   glfwSetErrorCallback([](int, const char* text) { last_glfw_error = text; });
   if (glfwInit() == GLFW_FALSE)
-    return failure(ErrorKind::unusable, last_glfw_error + "; without a display use --pictures OUTDIR PROJECT",
+    return failure(ErrorKind::unusable, last_glfw_error + "; to run without a display, use --pictures OUTDIR PROJECT",
                    "window");
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 2);
@@ -333,7 +333,7 @@ Result<void> runWindow(Editor& editor, int width, int height) {
   GLFWwindow* handle = glfwCreateWindow(width, height, "Standpoint", nullptr, nullptr);
   if (handle == nullptr) {
     glfwTerminate();
-    return failure(ErrorKind::unusable, last_glfw_error + "; the editor needs OpenGL 3.2", "window");
+    return failure(ErrorKind::unusable, last_glfw_error + "; the editor requires OpenGL 3.2", "window");
   }
   glfwSetWindowSizeLimits(handle, 800, 500, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwMakeContextCurrent(handle);

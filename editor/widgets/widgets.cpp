@@ -121,10 +121,10 @@ void emptyState(const Style& style, const char* icon, const char* title, const c
   gap(style, 6);
 }
 
-bool beginProperties(const char* id, float label_share) {
+bool beginProperties(const char* id, float label_fraction) {
   if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_NoPadOuterX)) return false;
-  ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthStretch, label_share);
-  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 1 - label_share);
+  ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthStretch, label_fraction);
+  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 1 - label_fraction);
   return true;
 }
 
@@ -180,7 +180,7 @@ bool searchField(const char* id, const char* hint, std::string& text) {
   bool changed = ImGui::InputTextWithHint("###search", fmt::format("{}  {}", ICON_SEARCH, hint).c_str(), &text);
   if (clear_width > 0) {
     ImGui::SameLine(0, ImGui::GetStyle().ItemSpacing.x / 2);
-    if (iconButton(ICON_CLOSE "###clear", "Clear the search")) {
+    if (iconButton(ICON_CLOSE "###clear", "Clear search")) {
       text.clear();
       changed = true;
     }

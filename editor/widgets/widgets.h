@@ -38,7 +38,7 @@ void emptyState(const Style& style, const char* icon, const char* title, const c
 void gap(const Style& style, float points = 4);
 
 // Rows of label and value with aligned columns. Values can be selected by a double click: it copies them.
-bool beginProperties(const char* id, float label_share = 0.40F);
+bool beginProperties(const char* id, float label_fraction = 0.40F);
 void property(const char* label, const std::string& value);
 void propertyLabel(const char* label);  // then draw a widget in the value's column
 void endProperties();

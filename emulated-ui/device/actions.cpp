@@ -78,8 +78,7 @@ Result<void> createProject(Device& device, const std::string&) {
 Result<void> openProject(Device& device, const std::string& row) {
   auto& s = device.change();
   const auto at = wholeNumber(row);
-  if (!at || *at < 0 || *at >= static_cast<int>(s.projects.size()))
-    return failure(ErrorKind::usage, "there is no such row");
+  if (!at || *at < 0 || *at >= static_cast<int>(s.projects.size())) return failure(ErrorKind::usage, "no such row");
   s.project = *at;
   s.shown = -1;
   device.note("project_opened", s.projects[s.project].name);
@@ -117,7 +116,7 @@ Result<void> showSetup(Device& device, const std::string& row) {
   const auto* project = device.project();
   const auto at = wholeNumber(row);
   if (project == nullptr || !at || *at < 0 || *at >= static_cast<int>(project->setups.size()))
-    return failure(ErrorKind::usage, "there is no such row");
+    return failure(ErrorKind::usage, "no such row");
   device.change().shown = *at;
   forgetMeasured(device);
   device.change().entries.erase("measured_from");
@@ -152,9 +151,9 @@ Result<void> measure(Device& device, const std::string& at) {
   if (setup == nullptr || !setup->preview) return failure(ErrorKind::usage, device.word("no_preview"));
   const auto comma = at.find(',');
   if (comma == std::string::npos)
-    return failure(ErrorKind::usage, "u,v is needed: shares of the picture from its upper left");
+    return failure(ErrorKind::usage, "u,v required: fractions of the image from its upper left corner");
   const double u = std::strtod(at.c_str(), nullptr), v = std::strtod(at.c_str() + comma + 1, nullptr);
-  if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return failure(ErrorKind::usage, "the point is beside the picture");
+  if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return failure(ErrorKind::usage, "the point is outside the image");
   const auto& p = *setup->preview;
   const auto column = static_cast<std::size_t>(u * p.columns), row = static_cast<std::size_t>((1 - v) * p.rows);
   const std::size_t cell = std::min<std::size_t>(row, p.rows - 1) * p.columns + column;

@@ -18,7 +18,7 @@ namespace {
 // What the engine, the host and the hands send by themselves.
 const std::set<std::string> kOwnEvents = {"elapsed",       "data",          "linked",       "targets_measured",
                                           "transferred",   "failed",        "battery_low",  "battery_critical",
-                                          "battery_empty", "card_inserted", "card_removed", "moved",
+                                          "battery_empty", "card_inserted", "card_removed", "tripod_moved",
                                           "blocked",       "temperature",   "tilted",       "tracking_lost",
                                           "wlan_lost",     "set_down",      "sighted",      "not_sighted"};
 // What every device has to know, whatever it answers.
@@ -120,27 +120,27 @@ class Checker {
     if (!w.setting.empty() &&
         std::none_of(settings.begin(), settings.end(), [&](const auto& s) { return s.key == w.setting; }) &&
         d().instruments.size() == 1)
-      fault(place + "/setting", fmt::format("the scanner has no setting '{}'", w.setting));
+      fault(place + "/setting", fmt::format("unknown scanner setting '{}'", w.setting));
     if (!w.value.empty() && findValue(d(), w.value) == nullptr)
-      fault(place + "/value", fmt::format("there is no value '{}'", w.value));
+      fault(place + "/value", fmt::format("unknown value '{}'", w.value));
     if (!w.list.empty() && !hasName(type_.program.lists, w.list) && !hasName(sharedLists(), w.list))
-      fault(place + "/list", fmt::format("there is no list '{}'", w.list));
+      fault(place + "/list", fmt::format("unknown list '{}'", w.list));
     if (!w.does.empty() && !hasName(type_.program.actions, w.does) && !hasName(sharedActions(), w.does))
-      fault(place + "/does", fmt::format("there is no action '{}'", w.does));
+      fault(place + "/does", fmt::format("unknown action '{}'", w.does));
     if (!w.event.empty() && !known_.contains(w.event))
-      fault(place + "/event", fmt::format("no phase knows the event '{}'", w.event));
+      fault(place + "/event", fmt::format("no phase handles the event '{}'", w.event));
     if (!w.go.empty() && w.go != "back" && findScreen(d(), w.go) == nullptr)
-      fault(place + "/go", fmt::format("there is no screen '{}'", w.go));
+      fault(place + "/go", fmt::format("unknown screen '{}'", w.go));
     if (w.shows.find('{') == std::string::npos && !w.shows.empty() && !device_.domain(w.shows))
-      fault(place + "/shows", fmt::format("there is no fact '{}'", w.shows));
+      fault(place + "/shows", fmt::format("unknown fact '{}'", w.shows));
     for (auto open = w.shows.find('{'); open != std::string::npos; open = w.shows.find('{', open + 1)) {
       const auto name = w.shows.substr(open + 1, w.shows.find('}', open) - open - 1);
-      if (!device_.domain(name)) fault(place + "/shows", fmt::format("there is no fact '{}'", name));
+      if (!device_.domain(name)) fault(place + "/shows", fmt::format("unknown fact '{}'", name));
     }
     const bool can_be_grey = !w.enabled.empty() || !w.warns.empty();
-    if (can_be_grey && w.why_not.empty()) fault(place + "/why_not", "it can be grey or warn without saying why");
+    if (can_be_grey && w.why_not.empty()) fault(place + "/why_not", "can be disabled or warn without giving a reason");
     const bool acts = !w.does.empty() || !w.event.empty() || !w.go.empty();
-    if ((w.kind == WidgetKind::button || w.kind == WidgetKind::key) && !acts) fault(place, "it does nothing");
+    if ((w.kind == WidgetKind::button || w.kind == WidgetKind::key) && !acts) fault(place, "has no effect");
   }
 
   void checkScreen(const ScreenRow& screen) {
@@ -153,13 +153,12 @@ class Checker {
       const std::string place = fmt::format("transition {} of '{}'", t.event, t.from);
       checkCondition(type_.guards[i], place);
       for (const auto& from : split(t.from))
-        if (from != "*" && findPhase(d(), from) == nullptr) fault(place, fmt::format("there is no phase '{}'", from));
-      if (*t.to != '\0' && findPhase(d(), t.to) == nullptr) fault(place, fmt::format("there is no phase '{}'", t.to));
+        if (from != "*" && findPhase(d(), from) == nullptr) fault(place, fmt::format("unknown phase '{}'", from));
+      if (*t.to != '\0' && findPhase(d(), t.to) == nullptr) fault(place, fmt::format("unknown phase '{}'", t.to));
       if (*t.show != '\0' && findScreen(d(), t.show) == nullptr)
-        fault(place, fmt::format("there is no screen '{}'", t.show));
-      if (*t.ask != '\0' && findDialog(d(), t.ask) == nullptr)
-        fault(place, fmt::format("there is no dialogue '{}'", t.ask));
-      if (!sent_.contains(t.event) && !kOwnEvents.contains(t.event)) fault(place, "nobody sends this event");
+        fault(place, fmt::format("unknown screen '{}'", t.show));
+      if (*t.ask != '\0' && findDialog(d(), t.ask) == nullptr) fault(place, fmt::format("unknown dialog '{}'", t.ask));
+      if (!sent_.contains(t.event) && !kOwnEvents.contains(t.event)) fault(place, "this event is never sent");
     }
   }
 
@@ -187,33 +186,32 @@ class Checker {
     const auto forth = reached(graph, {first});
     const auto back = reached(turned(graph), {first});
     for (const auto& phase : d().phases) {
-      if (!forth.contains(phase.id)) fault("/phases/" + phase.id, "no way leads to this phase");
+      if (!forth.contains(phase.id)) fault("/phases/" + phase.id, "this phase cannot be reached");
       if (!back.contains(phase.id))
-        fault("/phases/" + phase.id, fmt::format("no way leads from this phase back to '{}'", first));
+        fault("/phases/" + phase.id, fmt::format("'{}' cannot be reached from this phase", first));
       if (!phase.screen.empty() && findScreen(d(), phase.screen) == nullptr)
-        fault("/phases/" + phase.id + "/screen", fmt::format("there is no screen '{}'", phase.screen));
+        fault("/phases/" + phase.id + "/screen", fmt::format("unknown screen '{}'", phase.screen));
       if (!phase.lasts.empty() && !isTime(phase.lasts))
-        fault("/phases/" + phase.id + "/lasts", fmt::format("'{}' is no number of seconds", phase.lasts));
+        fault("/phases/" + phase.id + "/lasts", fmt::format("'{}' is not a duration in seconds", phase.lasts));
       const bool ends =
           std::any_of(type_.program.transitions.begin(), type_.program.transitions.end(), [&](const Transition& t) {
             const auto froms = split(t.from);
             return std::string(t.event) == "elapsed" && std::find(froms.begin(), froms.end(), phase.id) != froms.end();
           });
-      if (!phase.lasts.empty() && !ends)
-        fault("/phases/" + phase.id, "it takes a time, but nothing happens when that is over");
+      if (!phase.lasts.empty() && !ends) fault("/phases/" + phase.id, "has a duration, but no transition when it ends");
     }
   }
 
   void checkDialogs() {
     for (const auto& id : kOwnDialogs)
-      if (findDialog(d(), id) == nullptr) fault("/dialogs", fmt::format("the dialogue '{}' is missing", id));
+      if (findDialog(d(), id) == nullptr) fault("/dialogs", fmt::format("missing dialog '{}'", id));
     std::set<std::string> asked = kOwnDialogs;
     for (const auto& t : type_.program.transitions) asked.insert(t.ask);
     for (const auto& dialog : d().dialogs) {
-      if (!asked.contains(dialog.id)) fault("/dialogs/" + dialog.id, "nothing asks this");
+      if (!asked.contains(dialog.id)) fault("/dialogs/" + dialog.id, "this dialog is never opened");
       for (const auto& b : dialog.buttons)
         if (!b.event.empty() && !known_.contains(b.event))
-          fault("/dialogs/" + dialog.id + "/" + b.id, fmt::format("no phase knows the event '{}'", b.event));
+          fault("/dialogs/" + dialog.id + "/" + b.id, fmt::format("no phase handles the event '{}'", b.event));
     }
   }
 
@@ -232,17 +230,17 @@ class Checker {
         can_leave = can_leave || !w.go.empty() || !w.event.empty();
         if (!w.go.empty() && w.go != "back") graph[screen.id].insert(w.go);
       }
-      if (!can_leave) fault("/screens/" + screen.id, "no way leads out of this screen");
+      if (!can_leave) fault("/screens/" + screen.id, "this screen has no exit");
     }
     const auto seen = reached(graph, from);
     for (const auto& screen : d().screens)
-      if (!seen.contains(screen.id)) fault("/screens/" + screen.id, "no way leads to this screen");
+      if (!seen.contains(screen.id)) fault("/screens/" + screen.id, "this screen cannot be reached");
   }
 
   void needWord(const std::string& key, const std::string& place) {
     for (const auto& language : type_.words->languages())
       if (!type_.words->has(d().id, key, language))
-        fault(place, fmt::format("'{}' has no word in '{}'", key, language));
+        fault(place, fmt::format("'{}' has no text in '{}'", key, language));
   }
 
   void checkWidgetWords(const WidgetRow& w, const std::string& place) {

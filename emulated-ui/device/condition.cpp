@@ -50,7 +50,7 @@ Result<std::vector<Token>> tokens(std::string_view text) {
     } else if (c == '\'') {
       const auto end = text.find('\'', i + 1);
       if (end == std::string_view::npos)
-        return failure(ErrorKind::unusable, fmt::format("column {}: the quote is not closed", i + 1));
+        return failure(ErrorKind::unusable, fmt::format("column {}: unclosed quote", i + 1));
       found.push_back({Token::Kind::quoted, std::string(text.substr(i + 1, end - i - 1)), from + 1});
       i = end + 1;
     } else if (partOfWord(c)) {
@@ -60,7 +60,7 @@ Result<std::vector<Token>> tokens(std::string_view text) {
       const std::string_view two = text.substr(i, 2);
       const bool pair = two == "==" || two == "!=" || two == "<=" || two == ">=";
       if (!pair && std::string_view("<>(){},").find(c) == std::string_view::npos)
-        return failure(ErrorKind::unusable, fmt::format("column {}: '{}' has no meaning here", i + 1, c));
+        return failure(ErrorKind::unusable, fmt::format("column {}: unexpected '{}'", i + 1, c));
       i += pair ? 2 : 1;
       found.push_back({Token::Kind::sign, std::string(text.substr(from, i - from)), from + 1});
     }
@@ -93,7 +93,7 @@ class Parser {
   }
   tl::unexpected<Error> wrong(const char* wanted) const {
     return failure(ErrorKind::unusable,
-                   fmt::format("column {}: '{}' where {} should be", next().column, next().text, wanted));
+                   fmt::format("column {}: '{}' found, expected {}", next().column, next().text, wanted));
   }
 
   Result<NodePointer> series(const char* between, Node::Kind kind, int depth,
@@ -301,15 +301,16 @@ class Possible {
 
 Result<void> checkComparison(const Comparison& c, const DomainLookup& lookup) {
   const auto domain = lookup(c.fact);
-  if (!domain) return failure(ErrorKind::unusable, fmt::format("there is no fact '{}'", c.fact));
+  if (!domain) return failure(ErrorKind::unusable, fmt::format("unknown fact '{}'", c.fact));
   if (c.of_fact) {
-    if (!lookup(c.words[0])) return failure(ErrorKind::unusable, fmt::format("there is no fact '{}'", c.words[0]));
+    if (!lookup(c.words[0])) return failure(ErrorKind::unusable, fmt::format("unknown fact '{}'", c.words[0]));
     return {};
   }
   for (const auto& word : c.words) {
     const auto number = numberIn(word);
     if (c.sign != Sign::equal && c.sign != Sign::unequal && !number)
-      return failure(ErrorKind::unusable, fmt::format("'{}' is compared with '{}', which is no number", c.fact, word));
+      return failure(ErrorKind::unusable,
+                     fmt::format("'{}' is compared with '{}', which is not a number", c.fact, word));
     if (domain->is_number && !number)
       return failure(ErrorKind::unusable, fmt::format("'{}' is a number, '{}' is not", c.fact, word));
     if (!domain->is_number && c.sign != Sign::equal && c.sign != Sign::unequal)
@@ -383,7 +384,7 @@ Result<void> Condition::check(const DomainLookup& domain) const {
   const auto cases = casesOf(*root_, false);
   if (!cases) return failure(cases.error());
   if (std::none_of(cases->begin(), cases->end(), [&](const Case& one) { return canHold(one, domain); }))
-    return failure(ErrorKind::unusable, fmt::format("'{}' can never hold", text_));
+    return failure(ErrorKind::unusable, fmt::format("'{}' can never be true", text_));
   return {};
 }
 

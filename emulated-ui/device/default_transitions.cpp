@@ -62,8 +62,8 @@ Rows troubles(const DeviceRoles& r) {
   return {
       {r.working, "stop", "", "", "", "stop_question"},
       {r.holding, "stop_confirmed", "", r.ready, r.home, "", dropScan},
-      {r.working, "moved", "", "error", "", "moved", markMoved},
-      {r.camera, "set_down", "", "error", "", "moved", markMoved},
+      {r.working, "tripod_moved", "", "error", "", "tripod_moved", markMoved},
+      {r.camera, "set_down", "", "error", "", "tripod_moved", markMoved},
       {r.laser, "blocked", "", "error", "", "blocked"},
       {"error", "keep", "", r.kept},
       {r.holding, "card_removed", r.card_needed, r.ready, r.home, "card_lost", dropScan},
@@ -101,7 +101,7 @@ Rows adjusting(const DeviceRoles& r) {
       {r.idle, "adjust", "level == good and warm == yes", "adjusting"},
       {r.idle, "adjust", "", "", "", "adjust_refused"},
       {"adjusting", "elapsed", "", r.ready, r.tools, "adjusted"},
-      {"adjusting", "moved", "", r.ready, r.tools, "adjust_refused"},
+      {"adjusting", "tripod_moved", "", r.ready, r.tools, "adjust_refused"},
   };
 }
 

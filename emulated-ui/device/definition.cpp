@@ -43,14 +43,14 @@ WidgetRow widgetRow(JsonFields& f) {
   w.source = f.text("source");
   const int bound =
       static_cast<int>(!w.setting.empty()) + static_cast<int>(!w.value.empty()) + static_cast<int>(!w.list.empty());
-  if (bound > 1) f.wrong("id", "a widget has one of setting, value and list");
-  if (w.kind == WidgetKind::list && w.list.empty()) f.wrong("list", "a list needs to know of what");
+  if (bound > 1) f.wrong("id", "a widget must have exactly one of setting, value and list");
+  if (w.kind == WidgetKind::list && w.list.empty()) f.wrong("list", "specify what the list contains");
   return w;
 }
 
 void readBody(JsonFields& root, BodyRow& body) {
   const auto* raw = root.raw("body");
-  if (raw == nullptr) return root.wrong("body", "it is missing");
+  if (raw == nullptr) return root.wrong("body", "missing");
   JsonFields f(root.fault(), *raw, root.pointer() + "/body");
   body.battery_s = f.number("battery_s", 60, 1e6);
   body.battery_warning = f.numberOr("battery_warning", 0.1, 0, 1);
@@ -103,14 +103,14 @@ ValueRow valueRow(JsonFields& f) {
     v.maximum = f.number("maximum", v.minimum, 1e9);
     const auto default_value = numberIn(v.default_value);
     if (!default_value || *default_value < v.minimum || *default_value > v.maximum)
-      f.wrong("standard", fmt::format("a number from {} to {} is needed, in quotes", v.minimum, v.maximum));
+      f.wrong("standard", fmt::format("must be a number from {} to {}, in quotes", v.minimum, v.maximum));
   } else if (v.kind != WidgetKind::text &&
              std::find(v.choices.begin(), v.choices.end(), v.default_value) == v.choices.end()) {
     f.wrong("standard", fmt::format("'{}' is not one of the choices", v.default_value));
   }
   if (v.kind != WidgetKind::choice && v.kind != WidgetKind::toggle && v.kind != WidgetKind::text &&
       v.kind != WidgetKind::number)
-    f.wrong("kind", "a value is a choice, toggle, text or number");
+    f.wrong("kind", "a value must be a choice, toggle, text or number");
   return v;
 }
 
@@ -127,7 +127,7 @@ template <class Row>
 void refuseTwins(JsonFault& fault, const std::vector<Row>& rows, const std::string& pointer) {
   std::set<std::string> ids;
   for (const auto& row : rows)
-    if (!ids.insert(row.id).second) fault.say(pointer, fmt::format("'{}' is there twice", row.id));
+    if (!ids.insert(row.id).second) fault.say(pointer, fmt::format("duplicate '{}'", row.id));
 }
 
 template <class Row>
@@ -168,8 +168,8 @@ Result<DeviceDefinition> readDefinition(const std::filesystem::path& file) {
     d.dialogs.push_back(std::move(dialog));
   });
   root.close();
-  if (d.phases.empty()) fault.say("/phases", "a device has at least one phase");
-  if (d.instruments.empty()) fault.say("/instruments", "a device drives at least one scanner");
+  if (d.phases.empty()) fault.say("/phases", "a device must have at least one phase");
+  if (d.instruments.empty()) fault.say("/instruments", "a device must drive at least one scanner");
   refuseTwins(fault, d.phases, "/phases");
   refuseTwins(fault, d.values, "/values");
   refuseTwins(fault, d.screens, "/screens");

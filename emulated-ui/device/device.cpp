@@ -47,10 +47,10 @@ Result<std::shared_ptr<const DeviceType>> makeDeviceType(DeviceDefinition defini
   const auto& drives = definition.instruments;
   const bool any = std::find(drives.begin(), drives.end(), "*") != drives.end();
   if (!any && std::find(drives.begin(), drives.end(), instrument.id) == drives.end())
-    return failure(ErrorKind::usage, fmt::format("it drives {}, not '{}'", fmt::join(drives, ", "), instrument.id),
+    return failure(ErrorKind::usage, fmt::format("drives {}, not '{}'", fmt::join(drives, ", "), instrument.id),
                    definition.id);
   if (instrument.moving)
-    return failure(ErrorKind::usage, "it stands on a tripod; this instrument moves", instrument.id);
+    return failure(ErrorKind::usage, "the device needs a tripod, but this instrument is mobile", instrument.id);
   if (auto default_value = resolveSettings(instrument, {}); !default_value) return failure(default_value.error());
   for (auto& screen : definition.screens) spellOutSettings(screen.widgets, instrument);
   auto type = std::make_shared<DeviceType>();
@@ -287,7 +287,7 @@ void Device::tick(double seconds) {
 void Device::give(Order order) {
   if (const auto* link = std::get_if<LinkOrder>(&order)) state_.linking = link->from_file;
   order_ = std::move(order);
-  state_.engine_share = 0;
+  state_.engine_fraction = 0;
 }
 
 std::optional<Order> Device::takeOrder() { return std::exchange(order_, std::nullopt); }
@@ -305,8 +305,8 @@ void Device::takeBack() {
 
 void Device::scanDone(StoredSetup setup) {
   if (!state_.running) return;  // it was taken back meanwhile
-  setup.moved = state_.running->bumped_at_share.has_value();
-  setup.partial = state_.running->until_share < 1;
+  setup.moved = state_.running->tripod_moved_at_fraction.has_value();
+  setup.partial = state_.running->until_fraction < 1;
   setup.tracked = state_.around.tracking;
   setup.unlevelled = !state_.running->compensator || tilt() > type_->definition.body.tilt_limit_deg;
   setup.stood_x_deg = state_.running->tilt_x_deg;

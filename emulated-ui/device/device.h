@@ -67,7 +67,7 @@ class Device {
   // The host takes an order once, runs it, and reports back. An order that was taken back is told by takeCancel.
   std::optional<Order> takeOrder();
   bool takeCancel();
-  void orderMoved(double share) { state_.engine_share = share; }
+  void orderMoved(double fraction) { state_.engine_fraction = fraction; }
   void scanDone(StoredSetup setup);
   void linkDone(const LinkResult& link);
   void targetsDone(std::vector<FittedTarget> targets);

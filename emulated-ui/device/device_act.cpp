@@ -31,10 +31,10 @@ bool pressable(WidgetKind kind) {
 
 Result<void> checkEntry(const std::string& text, const std::string& id) {
   if (text.size() > kLongestEntry)
-    return failure(ErrorKind::usage, fmt::format("at most {} bytes fit", kLongestEntry), id);
+    return failure(ErrorKind::usage, fmt::format("maximum length is {} bytes", kLongestEntry), id);
   for (const char c : text)
     if (static_cast<unsigned char>(c) < 0x20)
-      return failure(ErrorKind::usage, "control characters cannot be typed", id);
+      return failure(ErrorKind::usage, "control characters are not allowed", id);
   return {};
 }
 
@@ -75,13 +75,13 @@ Result<void> Device::act(const std::string& id, const std::string& value) {
   const Widget* shown = findWidget(now, id);
   const WidgetRow* row = rowOf(id);
   if ((shown == nullptr || row == nullptr) && !on())
-    return failure(ErrorKind::usage, fmt::format("the device is off: '{}' cannot be pressed", id), id);
+    return failure(ErrorKind::usage, fmt::format("the device is off: cannot press '{}'", id), id);
   if (shown == nullptr || row == nullptr || !pressable(shown->kind))
     return failure(ErrorKind::usage,
-                   fmt::format("screen '{}' has no '{}' to press", now.has_dialog ? now.dialog.id : now.id, id), id);
+                   fmt::format("screen '{}' has no control '{}'", now.has_dialog ? now.dialog.id : now.id, id), id);
   if (!shown->enabled) {
     note("refused", id);
-    return failure(ErrorKind::usage, shown->why_not.empty() ? "it is grey" : shown->why_not, id);
+    return failure(ErrorKind::usage, shown->why_not.empty() ? "disabled" : shown->why_not, id);
   }
   return press(*row, *shown, value);
 }
@@ -102,7 +102,7 @@ Result<void> Device::bind(const WidgetRow& row, const Widget& widget, const std:
   } else if (widget.kind == WidgetKind::number) {
     const auto number = numberIn(value);
     if (!number || *number < widget.minimum || *number > widget.maximum)
-      return failure(ErrorKind::usage, fmt::format("a number from {} to {} is needed", widget.minimum, widget.maximum),
+      return failure(ErrorKind::usage, fmt::format("must be a number from {} to {}", widget.minimum, widget.maximum),
                      row.id);
     if (widget.unit == "ft") value = fmt::format("{:.6g}", *number * kMetresPerFoot);
     if (widget.unit == "°F") value = fmt::format("{:.6g}", (*number - 32) / 1.8);
@@ -136,7 +136,7 @@ Result<SettingValues> areaSettings(const SettingValues& now, const std::string& 
   for (const char* key : kKeys) {
     const auto end = value.find(',', at);
     const auto number = numberIn(value.substr(at, end == std::string::npos ? std::string::npos : end - at));
-    if (!number) return failure(ErrorKind::usage, "four angles in degrees are needed: from_h,to_h,from_v,to_v");
+    if (!number) return failure(ErrorKind::usage, "must be four angles in degrees: from_h,to_h,from_v,to_v");
     wanted = withSetting(wanted, key, fmt::format("{:g}", *number));
     at = end == std::string::npos ? value.size() : end + 1;
   }
@@ -185,7 +185,7 @@ Result<void> Device::hand(const std::string& id, const std::string& value) {
     if (done) note("hand", value.empty() ? id : id + "=" + value);
     return done;
   }
-  return failure(ErrorKind::usage, fmt::format("hands know no '{}'", id), id);
+  return failure(ErrorKind::usage, fmt::format("unknown hand action '{}'", id), id);
 }
 
 Result<void> Device::trouble(const std::string& id) {
@@ -195,7 +195,7 @@ Result<void> Device::trouble(const std::string& id) {
     row.happens(*this);
     return {};
   }
-  return failure(ErrorKind::usage, fmt::format("there is no trouble '{}'", id), id);
+  return failure(ErrorKind::usage, fmt::format("unknown trouble '{}'", id), id);
 }
 
 }  // namespace standpoint

@@ -66,8 +66,8 @@ void beginScan(Device& device) {
   order.tilt_y_deg = s.around.tilt_y_deg;
   order.sensors = sensorsOn(device);
   order.notes = notesOf(device);
-  if (s.around.somebody_walks) order.walker_at_share = 0.5;
-  s.around.somebody_walks = false;
+  if (s.around.passer_by) order.passer_by_at_fraction = 0.5;
+  s.around.passer_by = false;
   order.operator_in_view = s.around.operator_in_view;
   if (type.program.prepare != nullptr) type.program.prepare(device, order);
   s.moved = false;
@@ -102,7 +102,7 @@ void markMoved(Device& device) {
   s.moved = true;
   if (!s.running) return;
   ScanOrder order = *s.running;
-  order.bumped_at_share = std::clamp(s.laser_s / std::max(1.0, device.expected().scan_seconds), 0.0, 1.0);
+  order.tripod_moved_at_fraction = std::clamp(s.laser_s / std::max(1.0, device.expected().scan_seconds), 0.0, 1.0);
   device.takeBack();  // what was simulated so far did not know of the push
   s.running = order;
   device.give(order);
@@ -112,7 +112,7 @@ void keepPartial(Device& device) {
   auto& s = device.change();
   if (!s.running) return;
   ScanOrder order = *s.running;
-  order.until_share = std::clamp(s.laser_s / std::max(1.0, device.expected().scan_seconds), 0.01, 1.0);
+  order.until_fraction = std::clamp(s.laser_s / std::max(1.0, device.expected().scan_seconds), 0.01, 1.0);
   order.panorama = false;
   device.takeBack();
   s.running = order;

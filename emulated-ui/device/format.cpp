@@ -37,7 +37,7 @@ std::string factText(const Fact& fact, FactUnit unit, bool feet) {
   const double n = *fact.number;
   switch (unit) {
     case FactUnit::none: return fmt::format("{:g}", n);
-    case FactUnit::share: return fmt::format("{:.0f} %", n * 100);
+    case FactUnit::fraction: return fmt::format("{:.0f} %", n * 100);
     case FactUnit::seconds: return clockText(n);
     case FactUnit::bytes: return bytesText(n);
     case FactUnit::points: return pointsText(n);

@@ -89,7 +89,7 @@ Result<void> turnScrews(Device& d, double x_deg, double y_deg) {
   auto& a = d.change().around;
   a.tilt_x_deg = x_deg;
   a.tilt_y_deg = y_deg;
-  if (laserTurns(d)) d.fire("moved");
+  if (laserTurns(d)) d.fire("tripod_moved");
   return {};
 }
 
@@ -101,7 +101,7 @@ Result<void> tiltTo(Device& d, const std::string& value) {
   const double x = std::strtod(value.c_str(), nullptr);
   const double y = comma == std::string::npos ? 0 : std::strtod(value.c_str() + comma + 1, nullptr);
   if (value.empty() || !(std::abs(x) <= 60 && std::abs(y) <= 60))
-    return failure(ErrorKind::usage, "two tilts in degrees are needed: x,y");
+    return failure(ErrorKind::usage, "must be two tilts in degrees: x,y");
   return turnScrews(d, x, y);
 }
 
@@ -115,7 +115,7 @@ Result<void> standAt(Device& d, const std::string& station) {
   auto& a = d.change().around;
   if (a.station == station) return {};
   if (laserTurns(d)) {
-    d.fire("moved");
+    d.fire("tripod_moved");
     return failure(ErrorKind::usage, d.word("moved_while_scanning"));
   }
   a.station = station;
@@ -153,8 +153,8 @@ Result<void> closeCover(Device& d, const std::string&) {
   return {};
 }
 
-Result<void> push(Device& d, const std::string&) {
-  d.fire("moved");
+Result<void> moveTripod(Device& d, const std::string&) {
+  d.fire("tripod_moved");
   return {};
 }
 
@@ -176,7 +176,7 @@ const std::vector<HandRow>& handRows() {
       {"stand_at", "tripod", "station", standAt},
       {"tilt", "tripod", "x,y in degrees", tiltTo},
       {"level", "tripod", "", level},
-      {"push", "tripod", "", push},
+      {"tripod_moved", "tripod", "", moveTripod},
       {"wipe_optics", "around", "", wipeOptics},
       {"close_cover", "around", "", closeCover},
       {"clear_view", "around", "", clearView},
@@ -208,7 +208,7 @@ const std::vector<TroubleRow>& troubleRows() {
        }},
       {"card_locked", [](Device& d) { d.change().around.card_locked = true; }},
       {"dust", [](Device& d) { d.change().around.dust = true; }},
-      {"moved", [](Device& d) { d.fire("moved"); }},
+      {"tripod_moved", [](Device& d) { d.fire("tripod_moved"); }},
       {"blocked", [](Device& d) { d.fire("blocked"); }},
       {"too_hot",
        [](Device& d) {
@@ -246,7 +246,7 @@ const std::vector<TroubleRow>& troubleRows() {
       {"target_hidden", [](Device& d) { d.change().around.targets_visible = false; }},
       {"symmetrical_room", [](Device& d) { d.change().values["false_start"] = "180"; }},  // degrees
       {"registration_fails", [](Device& d) { d.change().around.registration_fails = true; }},
-      {"somebody_walks", [](Device& d) { d.change().around.somebody_walks = true; }},
+      {"passer_by", [](Device& d) { d.change().around.passer_by = true; }},
       {"cover_open", [](Device& d) { d.change().around.cover_open = true; }},
       {"too_near", [](Device& d) { d.change().around.nearest_m = 0.3; }},
   };

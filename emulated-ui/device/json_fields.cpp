@@ -39,8 +39,7 @@ void JsonFault::say(const std::string& pointer, const std::string& message) {
 
 JsonFields::JsonFields(JsonFault& fault, const nlohmann::json& object, std::string pointer)
     : fault_(fault), object_(object.is_object() ? object : kNothing), pointer_(std::move(pointer)) {
-  if (!object.is_object())
-    fault_.say(pointer_, fmt::format("an object is needed here, in {{ }}, not {}", described(object)));
+  if (!object.is_object()) fault_.say(pointer_, fmt::format("must be an object, in {{ }}, not {}", described(object)));
 }
 
 bool JsonFields::has(const char* key) const { return object_.contains(key); }
@@ -50,7 +49,7 @@ void JsonFields::wrong(const char* key, const std::string& message) {
 }
 
 void JsonFields::needs(const char* key, const nlohmann::json& found, const std::string& needed) {
-  wrong(key, fmt::format("{} is needed here, not {}", needed, described(found)));
+  wrong(key, fmt::format("must be {}, not {}", needed, described(found)));
 }
 
 const nlohmann::json* JsonFields::find(const char* key, bool required) {
@@ -72,9 +71,9 @@ std::string JsonFields::text(const char* key, const char* example) {
   const auto such = bare ? shortened(value->dump()) : std::string(example);
   const auto hint = such.empty() ? std::string() : fmt::format("; write {}\"{}\"", bare ? "" : "it like ", such);
   if (value->is_string())
-    wrong(key, "a text is needed here, not an empty one" + hint);
+    wrong(key, "must not be empty" + hint);
   else
-    wrong(key, fmt::format("a text is needed here, in quotes, not {}{}", described(*value), hint));
+    wrong(key, fmt::format("must be a text, in quotes, not {}{}", described(*value), hint));
   return {};
 }
 
@@ -132,7 +131,7 @@ std::vector<std::string> JsonFields::texts(const char* key) {
       if (text.is_string())
         found.push_back(text.get<std::string>());
       else
-        wrong(key, fmt::format("a list of texts is needed here; {} stands in it", described(text)));
+        wrong(key, fmt::format("must be a list of texts, but contains {}", described(text)));
     }
   return found;
 }
@@ -169,7 +168,7 @@ void JsonFields::everyText(const std::function<void(const std::string&, const st
 void JsonFields::close() {
   for (const auto& [name, value] : object_.items())
     if (!known_.contains(name))
-      wrong(name.c_str(), "an unknown key; " + knownInstead(name, {known_.begin(), known_.end()}));
+      wrong(name.c_str(), "unknown key; " + knownInstead(name, {known_.begin(), known_.end()}));
 }
 
 }  // namespace standpoint

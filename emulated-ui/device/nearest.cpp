@@ -37,7 +37,7 @@ int unlike(const std::string& written, const std::string& name) {
 }  // namespace
 
 std::string knownInstead(const std::string& wanted, std::vector<std::string> known, std::size_t most) {
-  if (known.empty()) return "there are none";
+  if (known.empty()) return "none";
   const auto written = wanted.substr(0, kLongestName);
   std::stable_sort(known.begin(), known.end(),
                    [&](const std::string& a, const std::string& b) { return unlike(written, a) < unlike(written, b); });
@@ -45,7 +45,8 @@ std::string knownInstead(const std::string& wanted, std::vector<std::string> kno
   std::string text = alike ? fmt::format("did you mean '{}'? ", known.front()) : std::string();
   const bool all = known.size() <= most;
   if (!all) known.resize(most);
-  return text + fmt::format("{} {}{}", all ? "Known are" : "The nearest are", fmt::join(known, ", "), all ? "" : ", …");
+  return text +
+         fmt::format("{} {}{}", all ? "available:" : "closest matches:", fmt::join(known, ", "), all ? "" : ", …");
 }
 
 }  // namespace standpoint

@@ -26,15 +26,15 @@ struct ScanOrder {
   SettingValues settings;
   bool panorama = false;  // pictures are taken
   bool compensator = true;
-  double until_share = 1;                 // of the columns: a scan that was cut short and kept
-  double noise_factor = 1;                // of the range noise: dust on the optics, an instrument that is not warm
-  std::vector<std::string> filters;       // of the verb `clean`: what the device itself leaves out
-  std::optional<double> bumped_at_share;  // the tripod was pushed then
-  std::optional<double> walker_at_share;  // somebody walks by then
-  bool operator_in_view = false;          // who scans stays beside the scanner
-  double tilt_x_deg = 0, tilt_y_deg = 0;  // of the standing axis when it began
-  std::vector<std::string> sensors;       // ids of the definition's that are on and leave a reading
-  SettingValues notes;                    // key and text: what goes into the file's record, such as who measured
+  double until_fraction = 1;         // of the columns: a scan that was cut short and kept
+  double noise_factor = 1;           // of the range noise: dust on the optics, an instrument that is not warm
+  std::vector<std::string> filters;  // of the verb `clean`: what the device itself leaves out
+  std::optional<double> tripod_moved_at_fraction;  // the tripod was pushed then
+  std::optional<double> passer_by_at_fraction;     // somebody walks by then
+  bool operator_in_view = false;                   // who scans stays beside the scanner
+  double tilt_x_deg = 0, tilt_y_deg = 0;           // of the standing axis when it began
+  std::vector<std::string> sensors;                // ids of the definition's that are on and leave a reading
+  SettingValues notes;  // key and text: what goes into the file's record, such as who measured
 };
 
 // How a setup joins an earlier one: cloud to cloud.

@@ -33,7 +33,7 @@ struct DeviceAction {
 };
 
 // How a fact is shown to people.
-enum class FactUnit { none, share, seconds, bytes, points, metres, degrees, celsius, millimetres };
+enum class FactUnit { none, fraction, seconds, bytes, points, metres, degrees, celsius, millimetres };
 
 // A fact that screens, guards and exercises may ask for.
 struct FactRow {

@@ -28,7 +28,7 @@ struct Surroundings {
   bool tracking = true;  // the way between setups is followed
   bool wlan = true;
   bool targets_visible = true;
-  bool somebody_walks = false;      // will cross the next scan
+  bool passer_by = false;           // will cross the next scan
   bool operator_in_view = false;    // who scans does not step behind the scanner
   bool registration_fails = false;  // the next link finds nothing in common
   bool cover_open = false;          // of the compartment for battery and memory
@@ -71,7 +71,7 @@ struct DeviceState {
   int shown = -1;    // setup on view
   std::optional<ScanOrder> running;
   double scanned_s = 0, laser_s = 0;              // of the running scan: in all its phases, and with the laser on
-  double engine_share = 0;                        // of the simulation behind it
+  double engine_fraction = 0;                     // of the simulation behind it
   std::string linking;                            // file of the setup whose link was ordered last
   std::optional<StoredSetup> data;                // the simulation is done before the device's clock is
   bool moved = false;                             // since the scan began

@@ -34,9 +34,9 @@ Result<Words> Words::read(const std::filesystem::path& folder) {
       JsonFields fields(fault, by_language, at);
       fields.everyText([&](const std::string& language, const std::string& text) {
         if (text.empty() || text.size() > kLongestWord)
-          fault.say(at + "/" + language, "a word of 1 to 2000 bytes is needed");
+          fault.say(at + "/" + language, "must be a text of 1 to 2000 bytes");
         if (!words.texts_[of.empty() ? key : of + "/" + key].emplace(language, text).second)
-          fault.say(at + "/" + language, "another file has said this before");
+          fault.say(at + "/" + language, "already defined in another file");
       });
     });
     root.close();

@@ -188,9 +188,9 @@ void overlay(const Pen& pen, ImVec2 at, ImVec2 size) {
 void workingLine(const Pen& pen, ImVec2 at, float width) {
   if (!pen.view.working) return;
   ImDrawList* list = ImGui::GetWindowDrawList();
-  const float height = 0.3F * pen.unit, share = std::clamp(static_cast<float>(*pen.view.working), 0.02F, 1.0F);
+  const float height = 0.3F * pen.unit, fraction = std::clamp(static_cast<float>(*pen.view.working), 0.02F, 1.0F);
   list->AddRectFilled(at, {at.x + width, at.y + height}, pen.skin.line);
-  list->AddRectFilled(at, {at.x + share * width, at.y + height}, pen.skin.accent);
+  list->AddRectFilled(at, {at.x + fraction * width, at.y + height}, pen.skin.accent);
 }
 
 }  // namespace

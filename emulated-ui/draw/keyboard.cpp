@@ -31,7 +31,7 @@ const std::vector<KeyRow>& rowsOf(KeyPage page) {
 }
 
 // In tenths of the keyboard; of figures, which are large, in quarters.
-float shareOf(const std::string& key, KeyPage page) {
+float fractionOf(const std::string& key, KeyPage page) {
   if (page == KeyPage::figures) return 2.5F;
   if (key == " ") return 3.5F;
   if (key == "ok") return 2;
@@ -93,11 +93,11 @@ std::vector<KeyCap> keyCaps(KeyPage page, float width, float height, float gap) 
   std::vector<KeyCap> caps;
   float y = gap;
   for (const auto& row : rows) {
-    float shares = 0;
-    for (const char* key : row) shares += shareOf(key, page);
-    float x = gap + (page == KeyPage::figures ? 0 : (10 - shares) / 2 * tenth);
+    float fractions = 0;
+    for (const char* key : row) fractions += fractionOf(key, page);
+    float x = gap + (page == KeyPage::figures ? 0 : (10 - fractions) / 2 * tenth);
     for (const char* key : row) {
-      const float own = shareOf(key, page) * tenth;
+      const float own = fractionOf(key, page) * tenth;
       caps.push_back({key, x, y, own - gap, row_height - gap});
       x += own;
     }

@@ -198,9 +198,10 @@ void progress(Pen& pen, const Widget& w) {
   const ImVec2 at = screenAt(pen);
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddRectFilled(at, {at.x + pen.width, at.y + height}, pen.skin.line, height / 2);
-  const float share = std::clamp(static_cast<float>(w.number), 0.0F, 1.0F);
-  if (share > 0)
-    list->AddRectFilled(at, {at.x + std::max(height, share * pen.width), at.y + height}, pen.skin.accent, height / 2);
+  const float fraction = std::clamp(static_cast<float>(w.number), 0.0F, 1.0F);
+  if (fraction > 0)
+    list->AddRectFilled(at, {at.x + std::max(height, fraction * pen.width), at.y + height}, pen.skin.accent,
+                        height / 2);
   const float width = ImGui::CalcTextSize(w.value.c_str()).x;
   list->AddText({at.x + pen.width - width, at.y + height + 0.2F * pen.unit}, pen.skin.text, w.value.c_str());
   ImGui::Dummy({0, height + ImGui::GetTextLineHeight() + 0.4F * pen.unit});

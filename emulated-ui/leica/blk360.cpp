@@ -131,7 +131,7 @@ void beginByApp(Device& d) {
 
 void store(Device& d) {
   const bool tracked = d.value("tracking") == "on" && d.state().around.tracking;
-  const bool partial = d.state().running && d.state().running->until_share < 1;
+  const bool partial = d.state().running && d.state().running->until_fraction < 1;
   if (d.state().data) d.change().data->tracked = tracked;
   storeScan(d);
   result(d, partial ? "Aborted" : "Completed", partial ? "Partial" : "Complete");
@@ -379,7 +379,7 @@ std::vector<Transition> transitions() {
       {kBusy, "stop_confirmed", "", "ready", "", "", cancelled, "S11"},
       {kBusy, "key_long", "value.connection == OK", "connected", "", "", cancelled, "P"},
       {kBusy, "key_long", "", "ready", "", "", cancelled, "P"},
-      {kMeasuring, "moved", "", "error", "", "", movedError, "S10"},
+      {kMeasuring, "tripod_moved", "", "error", "", "", movedError, "S10"},
       {"shooting", "set_down", "", "error", "", "", movedError, "P"},
       {kMeasuring, "blocked", "", "error", "", "", blockedError, "S10"},
       {kMeasuring, "battery_low", "generation == g1", "error", "", "", batteryAborts, "S10"},
@@ -437,12 +437,12 @@ const DeviceProgram kProgram = {
       FactUnit::none,
       {{"Invalid", "Idle", "Busy", "Error", "FatalError", "ShuttingDown"}},
       [](const Device& d) { return wordFact(deviceState(d)); },
-      "as the maker's programming interface names it [S10]"},
+      "name in the manufacturer's programming interface [S10]"},
      {"operation",
       FactUnit::none,
       {{"None", "Standalone", "PanoramaShoot", "PointCloudScan", "FormattingStorage"}},
       [](const Device& d) { return wordFact(operation(d)); },
-      "as the maker's programming interface names it [S10]"},
+      "name in the manufacturer's programming interface [S10]"},
      {"data.state",
       FactUnit::none,
       {{"none", "InProgress", "Partial", "Complete"}},
@@ -457,17 +457,17 @@ const DeviceProgram kProgram = {
       FactUnit::none,
       {},
       [](const Device& d) { return entryFact(d, "error", "none"); },
-      "that is shown, in the maker's name for it"},
+      "displayed error, by the manufacturer's name"},
      {"error.action",
       FactUnit::none,
       {{"none", "Acknowledge", "Reboot", "SoftwareUpdate", "Service"}},
       [](const Device& d) { return wordFact(errorAction(d)); },
-      "what helps [S11]"},
+      "remedy [S11]"},
      {"temperature.level",
       FactUnit::none,
       {{"Ok", "Temp_Low", "Temp_High", "Temp_Critical", "WarnLow", "WarnHigh", "ErrHigh", "CritHigh"}},
       [](const Device& d) { return wordFact(temperatureLevel(d)); },
-      "in the generation's names"},
+      "by the generation's names"},
      {"temperature.critical", FactUnit::none, kYesNo,
       [](const Device& d) {
         return yesNo(d.state().around.temperature_c > d.type().definition.body.hottest_c + kFatal_c);
@@ -479,14 +479,14 @@ const DeviceProgram kProgram = {
       [](const Device& d) { return wordFact(storageState(d)); },
       "Crit: the next scan does not fit [S11]"},
      {"partial", FactUnit::none, kYesNo, [](const Device& d) { return yesNo(d.state().running.has_value()); },
-      "a part of the scan waits to be stored"},
+      "part of the scan is waiting to be stored"},
      {"vis.accuracy",
       FactUnit::none,
       {{"Unset", "Inaccurate", "Accurate"}},
       [](const Device& d) { return wordFact(d.newestSetup() == nullptr ? "Unset" : accuracyOf(*d.newestSetup())); },
       "of the newest link [S11]"},
      {"vis.quality",
-      FactUnit::share,
+      FactUnit::fraction,
       {{}, true, 0, 1},
       [](const Device& d) {
         return numberFact(d.newestSetup() != nullptr && d.newestSetup()->link && d.newestSetup()->link->joined
@@ -499,18 +499,18 @@ const DeviceProgram kProgram = {
         const auto s = buttonSettings(d);
         return numberFact(static_cast<double>(s.columns) * s.rows * d.type().definition.body.bytes_per_point);
       },
-      "of a scan that the key starts"},
+      "scan started by the key"},
      {"button.seconds", FactUnit::seconds, kNumber,
       [](const Device& d) {
         const auto s = buttonSettings(d);
         return numberFact(s.scan_seconds + s.imaging_seconds);
       },
-      "of a scan that the key starts"},
+      "scan started by the key"},
      {"button.imaging", FactUnit::none, kYesNo, [](const Device& d) { return yesNo(buttonSettings(d).imaging); },
-      "the key's scan takes pictures"},
+      "whether a scan started by the key takes images"},
      {"bundle", FactUnit::none, kYesNo,
       [](const Device& d) { return yesNo(d.project() != nullptr && entry(d, "bundle") == d.project()->name); },
-      "the links of the job were optimised"}},
+      "whether the links of the job are optimised"}},
     {{"tags", tagRows}, {"links", linkRows}},
     prepare,
 };

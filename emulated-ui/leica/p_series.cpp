@@ -139,7 +139,7 @@ std::vector<FactRow> facts() {
                  FactUnit::none,
                  {{}, true, 0, 1e6},
                  [](const Device& d) { return numberFact(flagged(d)); },
-                 "setups without a copy whose lines are not levelled"});
+                 "setups without a copy that contain unlevelled lines"});
   return all;
 }
 

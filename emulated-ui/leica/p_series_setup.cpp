@@ -216,8 +216,8 @@ void addSetupTransitions(std::vector<Transition>& rows) {
       {"searching_target", "battery_empty", "", "off", "", "", dropSight, "P"},
       {"searching_target", "failed", "", "idle", "pick_target", "", nullptr, "P"},
       {"searching_target", "cancel_sight", "", "idle", "pick_target", "", dropSight, "P"},
-      {"searching_target", "moved", "", "idle", "pick_target", "moved", dropSight, "P"},
-      {"searching_target", "set_down", "", "idle", "pick_target", "moved", dropSight, "P"},
+      {"searching_target", "tripod_moved", "", "idle", "pick_target", "tripod_moved", dropSight, "P"},
+      {"searching_target", "set_down", "", "idle", "pick_target", "tripod_moved", dropSight, "P"},
   };
   rows.insert(rows.end(), own.begin(), own.end());
 }
@@ -235,7 +235,7 @@ const std::vector<FactRow>& setupFacts() {
       {"targets.sighted", FactUnit::none, kCount,
        [](const Device& d) { return numberFact(static_cast<double>(d.state().sighted.size())); }, "measured from here"},
       {"targets.usable", FactUnit::none, kCount, [](const Device& d) { return numberFact(targetsUsable(taskOf(d))); },
-       "of them in use, that the method can use"},
+       "targets in use that the method accepts"},
       {"targets.needed",
        FactUnit::none,
        {{}, true, 0, 4},
@@ -243,9 +243,9 @@ const std::vector<FactRow>& setupFacts() {
        "by the method"},
       {"targets.left", FactUnit::none, kCount,
        [](const Device& d) { return numberFact(nextTarget(d) == nullptr ? 0 : 1); },
-       "1: some were not measured from here"},
+       "1: some were not measured from this station"},
       {"targets_visible", FactUnit::none, kYesNo,
-       [](const Device& d) { return yesNo(d.state().around.targets_visible); }, "nothing stands before them"},
+       [](const Device& d) { return yesNo(d.state().around.targets_visible); }, "not occluded"},
       {"orientation.method",
        FactUnit::none,
        {},
@@ -254,9 +254,9 @@ const std::vector<FactRow>& setupFacts() {
       {"orientation.accepted", FactUnit::none, kYesNo,
        [](const Device& d) { return yesNo(here(d) != nullptr && here(d)->accepted); }, "the station has coordinates"},
       {"orientation.solved", FactUnit::none, kYesNo, [](const Device& d) { return yesNo(here(d) != nullptr); },
-       "a result waits to be accepted, or was"},
+       "a result is pending or accepted"},
       {"orientation.local", FactUnit::none, kYesNo,
-       [](const Device& d) { return yesNo(here(d) != nullptr && here(d)->local); }, "the station is its own origin"},
+       [](const Device& d) { return yesNo(here(d) != nullptr && here(d)->local); }, "the station is the local origin"},
       {"orientation.targets", FactUnit::none, kCount,
        [](const Device& d) {
          return numberFact(here(d) == nullptr ? 0 : static_cast<double>(here(d)->targets.size()));

@@ -60,7 +60,7 @@ const DeviceRoles kRoles = {
     .begin = beginScan,
     .marks = {{"G1",
                "power_key elapsed shut_down start start/card_absent start/card_full start/battery_critical "
-               "start/temperature_question start/tilt_question moved blocked temperature/temperature_warning "
+               "start/temperature_question start/tilt_question tripod_moved blocked temperature/temperature_warning "
                "battery_low linked/link_joined linked/link_failed delete/delete_question delete_confirmed "
                "format/format_question format_confirmed adjust"},
               {"S19", "targets_measured"},
@@ -93,7 +93,7 @@ const DeviceProgram kProgram = {
       FactUnit::none,
       {},
       [](const Device& d) { return wordFact(summary(d)); },
-      "of the next scan: resolution, double scan, images"}},
+      "settings of the next scan: resolution, double scan, images"}},
     {},
     prepare,
 };

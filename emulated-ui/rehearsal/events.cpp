@@ -65,56 +65,56 @@ std::optional<std::vector<std::string>> details(Detail detail, const Device& dev
 
 const std::vector<EventRow>& eventRows() {
   static const std::vector<EventRow> rows = {
-      {"pressed", Detail::press, "a widget or key: screen/widget"},
-      {"answered", Detail::answer, "a dialogue: dialogue/button"},
-      {"refused", Detail::text, "a press that the device does not allow: the widget"},
-      {"setting", Detail::text, "a setting was chosen: its key"},
-      {"value", Detail::text, "one of the device's own values was chosen: its id"},
-      {"hand", Detail::hand, "something was done by hand"},
-      {"trouble", Detail::trouble, "a trouble came"},
-      {"phase", Detail::phase, "the device entered it"},
-      {"screen", Detail::screen, "it was opened"},
-      {"dialog", Detail::dialog, "it was asked"},
+      {"pressed", Detail::press, "control or key: screen/widget"},
+      {"answered", Detail::answer, "dialog: dialog/button"},
+      {"refused", Detail::text, "rejected input: the control"},
+      {"setting", Detail::text, "setting changed: its key"},
+      {"value", Detail::text, "device value changed: its id"},
+      {"hand", Detail::hand, "hand action"},
+      {"trouble", Detail::trouble, "trouble occurred"},
+      {"phase", Detail::phase, "phase entered"},
+      {"screen", Detail::screen, "screen opened"},
+      {"dialog", Detail::dialog, "dialog opened"},
       {"event", Detail::text, "of the device's state machine"},
-      {"woken", Detail::none, "the dark display was touched"},
+      {"woken", Detail::none, "dark display touched"},
       {"project_created", Detail::text, "its name"},
       {"project_opened", Detail::text, "its name"},
       {"project_renamed", Detail::text, "its new name"},
       {"project_deleted", Detail::text, "its name"},
-      {"cluster", Detail::text, "a folder for the next scans was chosen: its name"},
-      {"position_base", Detail::text, "the base of the positions' names was set (VZ-i)"},
+      {"cluster", Detail::text, "folder for the next scans selected: its name"},
+      {"position_base", Detail::text, "base name of positions set (VZ-i)"},
       {"profile_saved", Detail::text, "its name (Focus)"},
       {"profile_deleted", Detail::text, "its name (Focus)"},
       {"scan_started", Detail::text, "the setup's name"},
       {"scan_stored", Detail::text, "the setup's name"},
       {"scan_dropped", Detail::text, "the setup's name"},
-      {"unlevelled", Detail::text, "a scan was started without the compensator: the setup's name (P-series)"},
-      {"failed", Detail::text, "what the device was asked for could not be done: the reason"},
-      {"error", Detail::text, "the device stopped with an error (BLK360)"},
-      {"looked_at", Detail::text, "a setup's picture was seen: its name"},
-      {"measured", Detail::text, "a distance in the preview"},
+      {"unlevelled", Detail::text, "scan started without compensator: the setup's name (P-series)"},
+      {"failed", Detail::text, "request failed: the reason"},
+      {"error", Detail::text, "device stopped with an error (BLK360)"},
+      {"looked_at", Detail::text, "preview opened: the setup's name"},
+      {"measured", Detail::text, "distance measured in the preview"},
       {"setup_deleted", Detail::text, "its name"},
-      {"targets", Detail::text, "targets were searched: how many were found"},
-      {"sighted", Detail::text, "one target was picked and measured: its name (P-series)"},
-      {"target_used", Detail::text, "taken into or out of the set-up: its id (P-series)"},
+      {"targets", Detail::text, "targets searched: number found"},
+      {"sighted", Detail::text, "target measured: its name (P-series)"},
+      {"target_used", Detail::text, "target included in or excluded from the set-up: its id (P-series)"},
       {"station_solved", Detail::text, "the method (P-series)"},
-      {"station_id", Detail::text, "the name that was typed (P-series)"},
-      {"oriented", Detail::text, "a station set-up was accepted: the method (P-series)"},
-      {"import", Detail::text, "how unlevelled setups were taken over (P-series)"},
-      {"linked", Detail::text, "a link was tried: joined or refused"},
-      {"registration", Detail::text, "how a link stands (X7, VZ-i)"},
-      {"optimised", Detail::text, "all links together: how many setups (BLK360)"},
-      {"georeferenced", Detail::text, "how many control points were seen (VZ-i)"},
-      {"control_point", Detail::text, "one was typed in: its name (VZ-i)"},
+      {"station_id", Detail::text, "entered name (P-series)"},
+      {"oriented", Detail::text, "station set-up accepted: the method (P-series)"},
+      {"import", Detail::text, "how unlevelled setups were imported (P-series)"},
+      {"linked", Detail::text, "link attempted: joined or refused"},
+      {"registration", Detail::text, "link state (X7, VZ-i)"},
+      {"optimised", Detail::text, "links optimised: number of setups (BLK360)"},
+      {"georeferenced", Detail::text, "number of control points found (VZ-i)"},
+      {"control_point", Detail::text, "control point entered: its name (VZ-i)"},
       {"annotation", Detail::text, "its text (X7)"},
-      {"pointed", Detail::text, "the laser pointer was aimed (X7)"},
+      {"pointed", Detail::text, "laser pointer aimed (X7)"},
       {"tagged", Detail::text, "its text (BLK360)"},
-      {"button_stored", Detail::text, "what the device's own button does was set (BLK360)"},
-      {"standalone", Detail::text, "a scan without the tablet (BLK360)"},
-      {"transferred", Detail::text, "files were copied to the office: how many"},
-      {"card_formatted", Detail::text, "how many setups without a copy were lost"},
-      {"field", Detail::field_verb, "what was done in the environment", false},
-      {"targets_moved", Detail::none, "targets that were not where an earlier scan saw them", false},
+      {"button_stored", Detail::text, "device button configured (BLK360)"},
+      {"standalone", Detail::text, "scan without the tablet (BLK360)"},
+      {"transferred", Detail::text, "files copied to the office: number"},
+      {"card_formatted", Detail::text, "number of setups lost without a copy"},
+      {"field", Detail::field_verb, "action in the environment", false},
+      {"targets_moved", Detail::none, "targets that moved since an earlier scan", false},
   };
   return rows;
 }
@@ -126,18 +126,18 @@ std::optional<std::string> wrongCounter(const std::string& name, const Device& d
   const auto& rows = eventRows();
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const EventRow& r) { return event == r.name; });
   if (row == rows.end())
-    return fmt::format("there is no event '{}' to count; {}", event, knownInstead(event, eventNames(true)));
+    return fmt::format("no countable event '{}'; {}", event, knownInstead(event, eventNames(true)));
   if (dot == std::string::npos) return std::nullopt;
   const auto detail = counter.substr(dot + 1);
   const auto known = details(row->detail, device);
   if (!known || std::find(known->begin(), known->end(), detail) != known->end()) return std::nullopt;
-  return fmt::format("'{}' never happens with '{}'; {}", event, detail, knownInstead(detail, *known, 12));
+  return fmt::format("'{}' never occurs with '{}'; {}", event, detail, knownInstead(detail, *known, 12));
 }
 
 std::optional<std::string> wrongEvent(const std::string& name) {
   const auto known = eventNames(false);
   if (std::find(known.begin(), known.end(), name) != known.end()) return std::nullopt;
-  return fmt::format("there is no event '{}'; {}", name, knownInstead(name, known));
+  return fmt::format("unknown event '{}'; {}", name, knownInstead(name, known));
 }
 
 }  // namespace standpoint

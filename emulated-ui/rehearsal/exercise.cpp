@@ -23,7 +23,7 @@ Spoken spoken(JsonFields& f, const char* key, bool required) {
   Spoken s;
   const auto* raw = f.raw(key);
   if (raw == nullptr) {
-    if (required) f.wrong(key, "it is missing");
+    if (required) f.wrong(key, "missing");
     return s;
   }
   if (!raw->is_object()) {
@@ -34,7 +34,7 @@ Spoken spoken(JsonFields& f, const char* key, bool required) {
   texts.everyText([&](const std::string& language, const std::string& text) {
     if (text.find_first_not_of(" \t\r\n") != std::string::npos) s.texts[language] = text;  // a blank is no translation
   });
-  if (!s.texts.contains("en")) f.wrong(key, "it has no text in 'en'");
+  if (!s.texts.contains("en")) f.wrong(key, "missing text in 'en'");
   return s;
 }
 
@@ -54,12 +54,12 @@ constexpr std::size_t kMostPlaces = 2000;  // of a walk
 
 void checkWalk(JsonFields& f, const nlohmann::json& way) {
   if (!way.is_array() || way.size() < 2 || way.size() > kMostPlaces)
-    return f.wrong("walk", fmt::format("2 to {} places are needed: x, y, seconds", kMostPlaces));
+    return f.wrong("walk", fmt::format("must be a list of 2 to {} waypoints: x, y, seconds", kMostPlaces));
   double before = -1;
   for (std::size_t i = 0; i < way.size(); ++i) {
     const auto at =
-        numbersIn(f.fault(), way[i], fmt::format("{}/walk/{}", f.pointer(), i), 3, "x, y and seconds are needed");
-    if (at[2] <= before) f.wrong("walk", fmt::format("place {}: its seconds do not go on", i));
+        numbersIn(f.fault(), way[i], fmt::format("{}/walk/{}", f.pointer(), i), 3, "must be x, y and seconds");
+    if (at[2] <= before) f.wrong("walk", fmt::format("waypoint {}: time must increase", i));
     before = at[2];
   }
 }
@@ -82,9 +82,8 @@ RehearsalAction action(JsonFields& f, bool prepares = false) {
     if (!a.options.is_object())
       f.needs("options", a.options, "an object, such as {\"add\": \"S1\", \"on\": [4.3, 1.6, 0]},");
     if (!field && !(prepares && a.name == "treat"))
-      f.wrong("verb", fmt::format("'{}' cannot be done here: only {}", a.name,
-                                  prepares ? "station, target, plan and treat can prepare the environment"
-                                           : "station, target and plan can be done in the field"));
+      f.wrong("verb", fmt::format("'{}' is not allowed here; allowed: {}", a.name,
+                                  prepares ? "station, target, plan, treat" : "station, target and plan"));
   } else if (named("hint", Kind::hint)) {
   } else if (const auto* way = f.raw("walk")) {
     a.kind = Kind::walk;
@@ -97,7 +96,7 @@ RehearsalAction action(JsonFields& f, bool prepares = false) {
     a.kind = Kind::finish;
     (void)f.flagOr("finish", true);
   } else {
-    f.wrong("", "an action is one of press, hand, wait, finish, verb, answer, hint, walk");
+    f.wrong("", "an action must be one of press, hand, wait, finish, verb, answer, hint, walk");
   }
   return a;
 }
@@ -116,16 +115,14 @@ ExerciseRule rule(JsonFields& f) {
   r.when = when.substr(0, when.find(' '));
   if (when.find(' ') != std::string::npos) r.event = when.substr(when.find(' ') + 1);
   if (r.when != "end" && r.when != "once" && r.when != "always" && r.when != "each")
-    f.wrong(
-        "when",
-        fmt::format("'{}' is no time to ask: it is one of end, once, always, each EVENT, such as \"each scan_started\"",
-                    when));
+    f.wrong("when",
+            fmt::format("'{}' is not a valid time: use end, once, always or each EVENT, such as \"each scan_started\"",
+                        when));
   if (r.when == "each" && !r.event.empty())
     if (const auto wrong = wrongEvent(r.event)) f.wrong("when", *wrong);
-  if ((r.when == "each") == r.event.empty())
-    f.wrong("when", "only 'each' has an event, and it needs one, such as \"each scan_started\"");
+  if ((r.when == "each") == r.event.empty()) f.wrong("when", "'each' requires an event, such as \"each scan_started\"");
   r.holds = f.condition("holds");
-  if (r.holds.empty()) f.wrong("holds", "a condition is needed");
+  if (r.holds.empty()) f.wrong("holds", "condition required");
   r.points = f.number("points", 0, 1000);
   r.must = f.flagOr("must", false);
   r.mistake = f.textOr("mistake", "", "M08");
@@ -206,33 +203,32 @@ Result<Exercise> readExercise(const fs::path& file) {
   e.id = f.text("id", "E99");
   // It names a folder, too.
   if (e.id.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_") != std::string::npos)
-    f.wrong("id", fmt::format("'{}' may hold letters from A to Z, digits, - and _ only", e.id));
+    f.wrong("id", fmt::format("'{}' can contain only letters A to Z, digits, - and _", e.id));
   e.tutorial = f.flagOr("tutorial", false);
   e.title = spoken(f, "title", true);
   e.goal = spoken(f, "goal", true);
   e.source = f.textOr("source", "", "our lecture of May");
   e.devices = f.texts("devices");
-  if (e.devices.empty()) f.wrong("devices", "an exercise is for at least one device");
+  if (e.devices.empty()) f.wrong("devices", "specify at least one device");
   e.instrument = f.textOr("instrument", "", "faro-focus-s350");
   e.model = f.text("model", "house");
   if (const auto* area = f.raw("area"))
-    e.area = numbersIn(fault, *area, "/area", 6, "six numbers are needed: the least and the greatest x, y, z");
+    e.area = numbersIn(fault, *area, "/area", 6, "must be six numbers: minimum and maximum x, y, z");
   f.each("places", [&](const std::string& name, const nlohmann::json& at, const std::string& pointer) {
-    e.places[name] = numbersIn(fault, at, pointer, 2, "x and y are needed");
+    e.places[name] = numbersIn(fault, at, pointer, 2, "must be x and y");
   });
   f.list("setup", [&](JsonFields& one) {
     const auto a = action(one, true);
     if (a.kind != Kind::verb)
-      one.wrong("",
-                "the environment is prepared by verbs, such as {\"verb\": \"station\", \"options\": {\"add\": \"S1\", "
-                "\"on\": [4.3, 1.6, 0]}}");
+      one.wrong(
+          "", "must be a verb, such as {\"verb\": \"station\", \"options\": {\"add\": \"S1\", \"on\": [4.3, 1.6, 0]}}");
     e.setup.push_back(toJson(a));
   });
   e.start = actions(f, "start");
   e.troubles = f.texts("troubles");
   f.list("events", [&](JsonFields& one) {
     ExerciseEvent event{one.condition("when"), one.text("trouble", "battery_low")};
-    if (event.when.empty()) one.wrong("when", "a condition is needed");
+    if (event.when.empty()) one.wrong("when", "condition required");
     e.events.push_back(std::move(event));
   });
   e.in_order = f.flagOr("in_order", true);
@@ -243,7 +239,7 @@ Result<Exercise> readExercise(const fs::path& file) {
     s.hint = spoken(one, "hint", false);
     s.widget = one.textOr("widget", "", "start_scan");
     s.done = one.condition("done");
-    if (s.done.empty()) one.wrong("done", "a condition is needed");
+    if (s.done.empty()) one.wrong("done", "condition required");
     s.points = one.numberOr("points", 1, 0, 1000);
     e.steps.push_back(std::move(s));
   });
@@ -262,8 +258,7 @@ Result<Exercise> readExercise(const fs::path& file) {
   e.pass_mark = f.numberOr("pass_mark", 0.7, 0, 1);
   e.solution = actions(f, "solution");
   f.close();
-  if (e.steps.empty() && e.rules.empty())
-    fault.say("/steps", "an exercise has steps or rules: without them nothing can be marked");
+  if (e.steps.empty() && e.rules.empty()) fault.say("/steps", "an exercise requires steps or rules");
   if (fault.error()) return failure(*fault.error());
   return e;
 }
@@ -290,7 +285,7 @@ KnownExercises knownExercises() {
       else
         known.refused.push_back(
             {ErrorKind::unusable,
-             fmt::format("'{}' is the id of {}, too: give it another one", exercise->id, other->file.string()),
+             fmt::format("id '{}' is also used by {}: choose another id", exercise->id, other->file.string()),
              file.string() + " /id"});
     }
   }
@@ -313,7 +308,7 @@ Result<KnownExercise> findExercise(const std::string& name) {
     ids.push_back(one.exercise.id);
   }
   return failure(ErrorKind::usage,
-                 fmt::format("there is no exercise '{}'; known are {}, or give a file", name, fmt::join(ids, ", ")),
+                 fmt::format("unknown exercise '{}'; available: {}; or specify a file", name, fmt::join(ids, ", ")),
                  "exercise");
 }
 

@@ -61,13 +61,13 @@ class Checker {
     checkDevices();
     if (devices_.empty()) return std::move(faults_);
     if (const auto known = samples(); !among(known, e_.model))
-      fault("/model", fmt::format("there is no sample '{}'; {}", e_.model, knownInstead(e_.model, known)));
+      fault("/model", fmt::format("unknown sample '{}'; {}", e_.model, knownInstead(e_.model, known)));
     checkTexts();
     checkQuestions();
     const auto points = [](double sum, const auto& one) { return sum + one.points; };
     if (std::accumulate(e_.rules.begin(), e_.rules.end(),
                         std::accumulate(e_.steps.begin(), e_.steps.end(), 0.0, points), points) <= 0)
-      fault("", "nothing counts: give a step or a rule its points, so that there is something to mark");
+      fault("", "no points to award: give at least one step or rule points");
     checkIds(e_.steps, "steps");
     checkIds(e_.rules, "rules");
     checkIds(e_.questions, "questions");
@@ -112,7 +112,7 @@ class Checker {
       if (const auto* device = findDevice(e_.devices[i]))
         load(*device, place);
       else
-        fault(place, fmt::format("there is no device '{}'; {}", e_.devices[i],
+        fault(place, fmt::format("unknown device '{}'; {}", e_.devices[i],
                                  knownInstead(e_.devices[i], idsOf(emulatedDevices()))));
     }
   }
@@ -137,7 +137,7 @@ class Checker {
     }
     if (domain(name, device)) return true;
     const auto& id = device.type().definition.id;
-    fault(place, fmt::format("{}: there is no fact '{}'; {} (all: standpoint rehearse --names --device {})", id, name,
+    fault(place, fmt::format("{}: unknown fact '{}'; {} (full list: standpoint rehearse --names --device {})", id, name,
                              knownInstead(name, factNames(e_, device), kMostFacts), id));
     return false;
   }
@@ -155,7 +155,7 @@ class Checker {
   void checkWidget(const std::string& id, const std::string& place) {
     for (const auto& device : devices_)
       if (const auto known = widgetsOf(device); !among(known, id))
-        return fault(place, fmt::format("{} has no widget '{}'; {}", device.type().definition.id, id,
+        return fault(place, fmt::format("{} has no control '{}'; {}", device.type().definition.id, id,
                                         knownInstead(id, known, 2 * kMostFacts)));
   }
 
@@ -173,8 +173,7 @@ class Checker {
   void checkPrepares(const std::string& verb, const nlohmann::json& options, const std::string& place) {
     const auto lacks = [&](const char* key, const char* example) {
       if (options.is_object() && !options.contains(key))
-        fault(place + "/options",
-              fmt::format("'{}' is missing: without it '{}' prepares nothing; write it like {}", key, verb, example));
+        fault(place + "/options", fmt::format("'{}' is required by '{}'; example: {}", key, verb, example));
     };
     if (verb == "station") lacks("add", R"({"add": "S1", "on": [4.3, 1.6, 0]})");
     if (verb == "target") lacks("add", R"({"add": "T1", "type": "sphere-145", "on": [1.2, 1, 0], "height": 1.2})");
@@ -184,11 +183,11 @@ class Checker {
   void checkHand(const RehearsalAction& action, const std::string& place) {
     if (const auto known = idsOf(handRows()); !among(known, action.name))
       return fault(place + "/hand",
-                   fmt::format("hands know no '{}'; {}", action.name, knownInstead(action.name, known)));
+                   fmt::format("unknown hand action '{}'; {}", action.name, knownInstead(action.name, known)));
     if (action.name == "stand_at" && !among(stations_, action.value))
       fault(place + "/value",
-            fmt::format("there is no station '{}' to stand at; {}", action.value,
-                        stations_.empty() ? "put one up in /setup first" : knownInstead(action.value, stations_)));
+            fmt::format("unknown station '{}'; {}", action.value,
+                        stations_.empty() ? "add one in /setup first" : knownInstead(action.value, stations_)));
   }
 
   // A choice must be one that the device offers.
@@ -206,7 +205,7 @@ class Checker {
         known.insert(known.end(), values->words.begin(), values->words.end());
       }
     if (!known.empty() && !among(known, action.value) && !isLabel(device, action.value))
-      fault(place + "/value", fmt::format("'{}' cannot be chosen at '{}'; {}", action.value, action.name,
+      fault(place + "/value", fmt::format("'{}' is not a valid choice for '{}'; {}", action.value, action.name,
                                           knownInstead(action.value, known)));
   }
   // A choice may be pressed by its label, too.
@@ -225,14 +224,14 @@ class Checker {
     std::set<std::string> seen;
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (!seen.insert(rows[i].id).second)
-        fault(fmt::format("/{}/{}", list, i), fmt::format("'{}' is there before", rows[i].id));
+        fault(fmt::format("/{}/{}", list, i), fmt::format("duplicate '{}'", rows[i].id));
   }
 
   void checkAnswer(const RehearsalAction& action, const std::string& place) {
     const auto question = std::find_if(e_.questions.begin(), e_.questions.end(),
                                        [&](const ExerciseQuestion& q) { return q.id == action.name; });
     if (question == e_.questions.end())
-      return fault(place + "/answer", fmt::format("there is no question '{}'; {}", action.name,
+      return fault(place + "/answer", fmt::format("unknown question '{}'; {}", action.name,
                                                   knownInstead(action.name, idsOf(e_.questions))));
     if (!among(question->choices, action.value))
       fault(place + "/value", fmt::format("'{}' is not one of the choices; {}", action.value,
@@ -241,7 +240,7 @@ class Checker {
 
   void checkTrouble(const std::string& id, const std::string& place) {
     if (const auto known = idsOf(troubleRows()); !among(known, id))
-      fault(place, fmt::format("there is no trouble '{}'; {}", id, knownInstead(id, known)));
+      fault(place, fmt::format("unknown trouble '{}'; {}", id, knownInstead(id, known)));
   }
 
   void checkActions(const std::vector<RehearsalAction>& actions, const std::string& place) {
@@ -253,23 +252,23 @@ class Checker {
       if (a.kind == Kind::hand) checkHand(a, at);
       if (a.kind == Kind::verb) checkVerb(a.name, a.options, at);
       if (a.kind == Kind::hint && !among(idsOf(e_.steps), a.name))
-        fault(at + "/hint", fmt::format("there is no step '{}'; {}", a.name, knownInstead(a.name, idsOf(e_.steps))));
+        fault(at + "/hint", fmt::format("unknown step '{}'; {}", a.name, knownInstead(a.name, idsOf(e_.steps))));
     }
   }
 
   void checkSpoken(const Spoken& text, const std::string& place) {
     if (text.texts.empty()) return;
     for (const auto& [language, other] : e_.title.texts)
-      if (!text.texts.contains(language)) fault(place, fmt::format("it has no text in '{}'", language));
+      if (!text.texts.contains(language)) fault(place, fmt::format("missing text in '{}'", language));
   }
 
   void checkQuestions() {
     for (std::size_t i = 0; i < e_.questions.size(); ++i) {
       const auto& choices = e_.questions[i].choices;
-      if (choices.empty()) fault(fmt::format("/questions/{}/choices", i), "a question needs choices to answer with");
+      if (choices.empty()) fault(fmt::format("/questions/{}/choices", i), "a question requires choices");
       for (std::size_t k = 0; k < choices.size(); ++k)
         if (std::count(choices.begin(), choices.begin() + static_cast<std::ptrdiff_t>(k), choices[k]) > 0)
-          fault(fmt::format("/questions/{}/choices/{}/value", i, k), fmt::format("'{}' is there before", choices[k]));
+          fault(fmt::format("/questions/{}/choices/{}/value", i, k), fmt::format("duplicate '{}'", choices[k]));
     }
   }
 
@@ -302,7 +301,7 @@ class ScratchFolder {
   static Result<ScratchFolder> make() {
     auto pattern = (std::filesystem::temp_directory_path() / "standpoint-check-XXXXXX").string();
     if (mkdtemp(pattern.data()) == nullptr)
-      return failure(ErrorKind::file_system, "cannot create a folder for the check", pattern);
+      return failure(ErrorKind::file_system, "cannot create a temporary folder for the check", pattern);
     return ScratchFolder(pattern);
   }
   ~ScratchFolder() {
@@ -344,8 +343,7 @@ Result<void> checkStart(const Exercise& exercise, Report& report, Progress& prog
         report.warn(
             fmt::format("{} /steps/{}/done", exercise.file, i),
             fmt::format(
-                "{}: '{}' holds at the start already: unless a step before it changes that, it is done as soon as "
-                "that one is, and nobody sees it being done",
+                "{}: '{}' is already true at the start: the step completes at once unless an earlier step changes it",
                 device, exercise.steps[i].done.text()));
   }
   return {};

@@ -241,8 +241,8 @@ std::optional<double> nearest_m(const WalkedWay& walk, const Exercise& exercise,
     for (std::size_t i = 1; i < walk.size(); ++i) {
       const Eigen::Vector2d a(walk[i - 1][0], walk[i - 1][1]), leg = Eigen::Vector2d(walk[i][0], walk[i][1]) - a;
       const double length2 = leg.squaredNorm();
-      const double share = length2 > 0 ? std::clamp((p - a).dot(leg) / length2, 0.0, 1.0) : 0;
-      least = std::min(least, (a + share * leg - p).norm());
+      const double fraction = length2 > 0 ? std::clamp((p - a).dot(leg) / length2, 0.0, 1.0) : 0;
+      least = std::min(least, (a + fraction * leg - p).norm());
     }
     return least;
   }
@@ -295,37 +295,35 @@ const std::vector<double>* placeOf(const std::string& name, const Exercise& exer
 
 const std::vector<ProofRow>& fieldProofRows() {
   static const std::vector<ProofRow> rows = {
-      {"links.closure", "mm", numbers(0, 1e7),
-       "how far the chain of the links puts the newest setup from where it stands"},
-      {"links.wrong", "", numbers(0, 1e4), "accepted links that are more than 0.5 m or 5° from the truth"},
-      {"targets.distances", "mm", numbers(0, 1e6),
-       "worst difference of a distance between two fitted centres to the known one"},
+      {"links.closure", "mm", numbers(0, 1e7), "position error of the newest setup along the chain of links"},
+      {"links.wrong", "", numbers(0, 1e4), "accepted links with a true error over 0.5 m or 5°"},
+      {"targets.distances", "mm", numbers(0, 1e6), "largest error of the distance between two fitted centres"},
       {"control.targets", "", numbers(0, 1e4), "targets with known coordinates in the newest setup"},
-      {"control.spread", "°", numbers(0, 360), "directions that they cover, seen from the newest setup"},
-      {"control.residual", "mm", numbers(0, 1e6), "worst residual of the newest setup laid onto them"},
-      {"control.error", "mm", numbers(0, 1e6), "how far the newest setup then is from where it stands"},
-      {"sights.named", "", numbers(0, 1e4), "targets that were picked from here under a known name"},
-      {"sights.distances", "mm", numbers(0, 1e7), "worst difference of a distance between them to the known one"},
-      {"sights.residual", "mm", numbers(0, 1e6), "worst residual of their fits"},
-      {"sights.spread", "°", numbers(0, 360), "directions that those in use cover"},
-      {"orientation.error", "mm", numbers(0, 1e7), "how far the solved station is from where it stands"},
-      {"repeats.least", "", numbers(0, 1e4), "setups at the place with the fewest"},
-      {"repeats.places", "", numbers(0, 1e4), "places that were scanned from"},
-      {"repeats.spread", "mm", numbers(0, 1e6), "worst spread of a distance between two targets over the repeats"},
+      {"control.spread", "°", numbers(0, 360), "angle covered by the targets, seen from the newest setup"},
+      {"control.residual", "mm", numbers(0, 1e6), "largest residual after fitting the newest setup to them"},
+      {"control.error", "mm", numbers(0, 1e6), "resulting position error of the newest setup"},
+      {"sights.named", "", numbers(0, 1e4), "targets measured from this station under a known name"},
+      {"sights.distances", "mm", numbers(0, 1e7), "largest error of the distance between them"},
+      {"sights.residual", "mm", numbers(0, 1e6), "largest residual of their fits"},
+      {"sights.spread", "°", numbers(0, 360), "angle covered by the targets in use"},
+      {"orientation.error", "mm", numbers(0, 1e7), "position error of the solved station"},
+      {"repeats.least", "", numbers(0, 1e4), "lowest number of setups at any station"},
+      {"repeats.places", "", numbers(0, 1e4), "stations with scans"},
+      {"repeats.spread", "mm", numbers(0, 1e6), "largest spread of a target distance over the repeats"},
   };
   return rows;
 }
 
 const std::vector<ProofRow>& walkProofRows() {
   static const std::vector<ProofRow> rows = {
-      {"walk.length", "m", numbers(0, 1e6), "of the planned walk"},
-      {"walk.closure", "m", numbers(0, 1e6), "between its start and its end"},
-      {"walk.stretch", "m", numbers(0, 1e6), "longest way without coming back to within 1 m of where it was before"},
-      {"walk.speed", "m/s", numbers(0, 1e6), "greatest between two of its places"},
+      {"walk.length", "m", numbers(0, 1e6), "length of the planned path"},
+      {"walk.closure", "m", numbers(0, 1e6), "gap between start and end"},
+      {"walk.stretch", "m", numbers(0, 1e6), "longest stretch without returning within 1 m of the earlier path"},
+      {"walk.speed", "m/s", numbers(0, 1e6), "highest speed between two waypoints"},
       {"walk.door_speed", "m/s", numbers(0, 1e6),
-       "the same of each leg that begins or ends within 1.5 m of a place whose name begins with door"},
+       "highest speed on legs that begin or end within 1.5 m of a place whose name begins with door"},
       {"walk.drift", "mm", numbers(0, 1e6),
-       "to be expected at the end of the longest stretch: 0.3 mm each metre, half where it closes"},
+       "expected drift at the end of the longest stretch: 0.3 mm per metre, half if the path closes"},
   };
   return rows;
 }

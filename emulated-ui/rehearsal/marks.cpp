@@ -74,11 +74,11 @@ std::string unitOf(const Device& device, const std::string& fact) {
   return {};
 }
 
-bool isShare(const Device& device, const std::string& fact) {
+bool isFraction(const Device& device, const std::string& fact) {
   if (const auto* row = proofRow(fact))
     return *row->unit == '\0' && row->domain.minimum == 0 && row->domain.maximum == 1;
   const auto* row = deviceRow(device, fact);
-  return row != nullptr && row->unit == FactUnit::share;
+  return row != nullptr && row->unit == FactUnit::fraction;
 }
 
 // Three significant figures, none of a whole number lost.
@@ -88,7 +88,7 @@ std::string roundedText(double n) {
 
 }  // namespace
 
-std::string percentText(double share) { return roundedText(share * 100) + " %"; }
+std::string percentText(double fraction) { return roundedText(fraction * 100) + " %"; }
 
 namespace {
 
@@ -108,7 +108,7 @@ std::string shownFact(const Rehearsal& rehearsal, const std::string& name, const
     if (name == "answer." + question.id) return answerText(question, fact.text, language);
   if (!fact.number) return fact.text;
   if (name == "time") return clockText(*fact.number);
-  if (isShare(device, name)) return percentText(*fact.number);
+  if (isFraction(device, name)) return percentText(*fact.number);
   const auto* row = deviceRow(device, name);
   if (row != nullptr && row->unit != FactUnit::none) return factText(fact, row->unit);
   const auto unit = unitOf(device, name);
@@ -260,21 +260,21 @@ std::string brokenDemands(const json& m) {
 }
 
 std::string marksText(const json& m) {
-  std::string text = fmt::format("{} {} with {}: {}, {} of the points ({} are needed), {} of the device's time\n",
+  std::string text = fmt::format("{} {} with {}: {}, score {} ({} required), {} device time\n",
                                  m["exercise"].get<std::string>(), m["title"].get<std::string>(),
                                  m["device"].get<std::string>(), m["passed"].get<bool>() ? "passed" : "not passed",
                                  percentText(m["score"]), percentText(m["pass_mark"]), clockText(m["seconds"]));
-  if (!m["must_broken"].empty()) text += fmt::format("  needed to pass, but broken: {}\n", brokenDemands(m));
-  if (!m["in_time"].get<bool>()) text += fmt::format("  over the time of {}\n", clockText(m["time_limit_s"]));
+  if (!m["must_broken"].empty()) text += fmt::format("  required criterion not met: {}\n", brokenDemands(m));
+  if (!m["in_time"].get<bool>()) text += fmt::format("  over the time limit of {}\n", clockText(m["time_limit_s"]));
   for (const auto& s : m["steps"])
     text += fmt::format("  {} {}{}\n", s["done"].get<bool>() ? "[x]" : "[ ]", s["text"].get<std::string>(),
                         s["hinted"].get<bool>() ? " (with a hint)" : "");
   for (const auto& r : m["rules"]) {
     text += fmt::format("  {} {}{}: {}\n", r["held"].get<bool>() ? "[x]" : "[ ]", r["text"].get<std::string>(),
-                        r["must"].get<bool>() ? " (needed to pass)" : "", r["found_text"].get<std::string>());
+                        r["must"].get<bool>() ? " (required to pass)" : "", r["found_text"].get<std::string>());
     if (r.contains("because")) text += fmt::format("        {}\n", r["because"].get<std::string>());
     if (!r["held"].get<bool>() && r.contains("proof"))
-      text += fmt::format("        your points: {} = {}\n", r["proof"]["fact"].get<std::string>(),
+      text += fmt::format("        measured in the data: {} = {}\n", r["proof"]["fact"].get<std::string>(),
                           r["proof"]["text"].get<std::string>());
   }
   for (const auto& a : m["answers"])
@@ -351,7 +351,8 @@ Result<void> writeMarks(const Rehearsal& rehearsal, const json& marks, const std
     std::ofstream out(folder / name, std::ios::binary);
     out << text;
     out.close();
-    if (!out) return failure(ErrorKind::file_system, "cannot write it: is the disk full?", (folder / name).string());
+    if (!out)
+      return failure(ErrorKind::file_system, "cannot write the file: the disk may be full", (folder / name).string());
   }
   return {};
 }

@@ -25,7 +25,7 @@ std::string marksCsv(const nlohmann::json& marks);
 std::string marksHtml(const nlohmann::json& marks, const Rehearsal& rehearsal, const std::string& date);
 // What people read of the marks: the rules that had to hold and did not, and a share of 0 to 1 as "87.3 %".
 std::string brokenDemands(const nlohmann::json& marks);
-std::string percentText(double share);
+std::string percentText(double fraction);
 
 // Writes result.json, result.csv and result.html, the latter with the date of today.
 Result<void> writeMarks(const Rehearsal& rehearsal, const nlohmann::json& marks, const std::filesystem::path& folder);

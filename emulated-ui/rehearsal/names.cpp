@@ -97,7 +97,7 @@ Result<json> namesOf(const std::string& id) {
   if (found == nullptr) {
     std::vector<std::string> ids;
     for (const auto& device : emulatedDevices()) ids.emplace_back(device.id);
-    return failure(ErrorKind::usage, fmt::format("there is no device '{}'; {}", id, knownInstead(id, ids)), "--device");
+    return failure(ErrorKind::usage, fmt::format("unknown device '{}'; {}", id, knownInstead(id, ids)), "--device");
   }
   const auto type = loadDevice(*found);
   if (!type) return failure(type.error());
@@ -147,27 +147,27 @@ Result<json> namesOf(const std::string& id) {
 std::string deviceNamesText(const json& devices) {
   std::string text;
   for (const auto& row : devices)
-    text += fmt::format("{:15} {:3.0f} s after '{}' it shows '{}'  ({})\n", row["id"].get<std::string>(),
+    text += fmt::format("{:15} {:3.0f} s after '{}': shows '{}'  ({})\n", row["id"].get<std::string>(),
                         row["start"]["seconds"].get<double>(), row["start"]["key"].get<std::string>(),
                         row["start"]["screen"].get<std::string>(), listed(row["instruments"]));
-  return text + "standpoint rehearse --names --device ID lists all names of one\n";
+  return text + "use standpoint rehearse --names --device ID to list all names of a device\n";
 }
 
 std::string namesText(const json& n) {
-  std::string text = fmt::format("{}: {:.0f} s after '{}' it shows '{}'\n", n["title"].get<std::string>(),
+  std::string text = fmt::format("{}: {:.0f} s after '{}': shows '{}'\n", n["title"].get<std::string>(),
                                  n["start"]["seconds"].get<double>(), n["start"]["key"].get<std::string>(),
                                  n["start"]["screen"].get<std::string>());
   for (const auto& [instrument, rows] : n["settings"].items()) {
-    text += fmt::format("\nsetting.KEY of {} (* is the standard)\n", instrument);
+    text += fmt::format("\nsetting.KEY of {} (* is the default value)\n", instrument);
     for (const auto& [key, row] : rows.items())
       text += fmt::format("  {:20} {}  *{}\n", key, spread(row), row["standard"].get<std::string>());
   }
   text += "\nvalue.ID\n";
   for (const auto& [id, row] : n["values"].items())
     text += fmt::format("  {:20} {}  *{}\n", id, spread(row), row["standard"].get<std::string>());
-  text += fmt::format("\nkeys: {}\n\nscreens and their widgets\n", listed(n["keys"]));
+  text += fmt::format("\nkeys: {}\n\nscreens and their controls\n", listed(n["keys"]));
   for (const auto& [id, widgets] : n["screens"].items()) text += fmt::format("  {:20} {}\n", id, listed(widgets));
-  text += "\ndialogues and their buttons\n";
+  text += "\ndialogs and their buttons\n";
   for (const auto& [id, buttons] : n["dialogs"].items()) text += fmt::format("  {:20} {}\n", id, listed(buttons));
   text += fmt::format(
       "\nphases: {}\n\nfacts, beside phase, screen, dialog, setting.KEY, value.ID, time, hints, answer.QUESTION, "

@@ -22,9 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-double percentile(std::vector<float>& values, double share) {
+double percentile(std::vector<float>& values, double fraction) {
   if (values.empty()) return 0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -67,14 +67,14 @@ class TruthReader final : public PointSink {
     return 1.4826 * percentile(range_, 0.5);
   }
   std::map<std::string, double> figures() {
-    const auto share = [&](double n) { return points_ > 0 ? n / points_ : 0; };
+    const auto fraction = [&](double n) { return points_ > 0 ? n / points_ : 0; };
     return {{"data.points", points_},
             {"data.noise", sigma_m() * 1000},
             {"data.error", percentile(place_, 0.95) * 1000},
-            {"data.mixed", share(mixed_)},
-            {"data.mirrored", share(mirrored_)},
-            {"data.weather", share(weather_)},
-            {"data.moving", share(moving_)}};
+            {"data.mixed", fraction(mixed_)},
+            {"data.mirrored", fraction(mirrored_)},
+            {"data.weather", fraction(weather_)},
+            {"data.moving", fraction(moving_)}};
   }
   const Eigen::Vector3d& up() const { return up_; }
 
@@ -216,33 +216,32 @@ const std::vector<ProofRow>& proofRows() {
   static const std::vector<ProofRow> kRows = {
       {"data.points", "", numbers(0, 1e12), "points of the newest scan"},
       {"data.noise", "mm", numbers(0, 1e6), "σ of the range against the truth in the newest scan"},
-      {"data.error", "mm", numbers(0, 1e6), "of 95 % of its points the distance to where they belong is less"},
-      {"data.tilt", "°", numbers(0, 90), "how far the delivered cloud leans"},
-      {"data.mixed", "", numbers(0, 1), "share of points between two surfaces"},
-      {"data.mirrored", "", numbers(0, 1), "share of points seen in a mirror or a pane"},
-      {"data.weather", "", numbers(0, 1), "share of points on drops, flakes or fog"},
-      {"data.moving", "", numbers(0, 1), "share of points on what moved"},
-      {"plan.coverage", "", numbers(0, 1), "share of the surfaces that the scans see"},
-      {"plan.overlap", "", numbers(0, 1), "the least overlap of a setup with its best neighbour"},
-      {"targets.count", "", numbers(0, 1e4), "targets that were put up"},
-      {"targets.spread", "m", numbers(0, 1e4), "of their places along the longest direction (σ)"},
-      {"targets.width", "m", numbers(0, 1e4), "of their places across it (σ): near zero, they stand in one line"},
-      {"targets.heights", "m", numbers(0, 1e4), "between the highest and the lowest"},
-      {"targets.common", "", numbers(0, 1e4), "least number that two setups after another both found"},
-      {"targets.points", "", numbers(0, 1e9), "fewest points on a found target"},
-      {"targets.residual", "mm", numbers(0, 1e6), "worst residual of a fit"},
-      {"targets.error", "mm", numbers(0, 1e6), "worst distance of a fitted centre to where it is"},
-      {"links.joined", "", numbers(0, 1e4), "links that were accepted"},
-      {"links.failed", "", numbers(0, 1e4), "links that were not found"},
-      {"links.overlap", "", numbers(0, 1), "the least overlap of a joined link"},
-      {"links.error", "mm", numbers(0, 1e6), "worst true error of a joined link"},
-      {"office.copies", "", numbers(0, 1e4),
-       "copies in the office: as large as their source, or whole in another format"},
-      {"survey.walls", "", numbers(0, 1), "share of the area's walls that a station meets at 60° or steeper"},
-      {"survey.coverage", "", numbers(0, 1), "share of the area's surfaces that a station sees"},
-      {"survey.reached", "", numbers(0, 1), "share of what can be seen from anywhere in the area that a station sees"},
-      {"survey.overlap", "", numbers(0, 1), "the least overlap of a station with its best neighbour"},
-      {"survey.stations", "", numbers(0, 1e4), "stations that are put up"},
+      {"data.error", "mm", numbers(0, 1e6), "95th percentile of the point position errors"},
+      {"data.tilt", "°", numbers(0, 90), "tilt of the delivered cloud"},
+      {"data.mixed", "", numbers(0, 1), "fraction of points between two surfaces"},
+      {"data.mirrored", "", numbers(0, 1), "fraction of points seen in a mirror or pane"},
+      {"data.weather", "", numbers(0, 1), "fraction of points on drops, flakes or fog"},
+      {"data.moving", "", numbers(0, 1), "fraction of points on moving objects"},
+      {"plan.coverage", "", numbers(0, 1), "fraction of surfaces covered by the scans"},
+      {"plan.overlap", "", numbers(0, 1), "smallest overlap of a setup with its best neighbour"},
+      {"targets.count", "", numbers(0, 1e4), "targets in place"},
+      {"targets.spread", "m", numbers(0, 1e4), "spread of the targets along their longest direction (σ)"},
+      {"targets.width", "m", numbers(0, 1e4), "spread across it (σ); near zero if collinear"},
+      {"targets.heights", "m", numbers(0, 1e4), "height difference between highest and lowest target"},
+      {"targets.common", "", numbers(0, 1e4), "smallest number of targets common to two consecutive setups"},
+      {"targets.points", "", numbers(0, 1e9), "lowest number of points on a found target"},
+      {"targets.residual", "mm", numbers(0, 1e6), "largest fit residual"},
+      {"targets.error", "mm", numbers(0, 1e6), "largest error of a fitted centre"},
+      {"links.joined", "", numbers(0, 1e4), "accepted links"},
+      {"links.failed", "", numbers(0, 1e4), "links not found"},
+      {"links.overlap", "", numbers(0, 1), "smallest overlap of a joined link"},
+      {"links.error", "mm", numbers(0, 1e6), "largest true error of a joined link"},
+      {"office.copies", "", numbers(0, 1e4), "complete copies in the office (same size, or converted in full)"},
+      {"survey.walls", "", numbers(0, 1), "fraction of the area's walls seen at 60° incidence or less"},
+      {"survey.coverage", "", numbers(0, 1), "fraction of the area's surfaces covered by a station"},
+      {"survey.reached", "", numbers(0, 1), "fraction of all surfaces visible from the area that a station covers"},
+      {"survey.overlap", "", numbers(0, 1), "smallest overlap of a station with its best neighbour"},
+      {"survey.stations", "", numbers(0, 1e4), "stations in place"},
   };
   static const std::vector<ProofRow> rows = [] {
     auto all = kRows;

@@ -53,7 +53,7 @@ json recordedExercise(const Device& device, const std::vector<RehearsalAction>& 
         {{"id", "on"}, {"text", spoken(device, "Switch the instrument on")}, {"done", "power == on"}, {"points", 1}});
   return {{"id", "NEW"},
           {"title", spoken(device, "A recorded exercise")},
-          {"goal", spoken(device, "Say here what is to be reached.")},
+          {"goal", spoken(device, "Describe the goal here.")},
           {"devices", {device.type().definition.id}},
           {"instrument", device.type().instrument.id},
           {"model", "house"},

@@ -74,7 +74,7 @@ Result<void> Rehearsal::prepare(const std::string& wanted, std::function<void()>
     return failure(ErrorKind::usage, fmt::format("the exercise is for {}, not '{}'", fmt::join(e.devices, ", "), id),
                    e.id);
   const auto* device = findDevice(id == "*" ? emulatedDevices().front().id : id);
-  if (device == nullptr) return failure(ErrorKind::usage, fmt::format("there is no device '{}'", id), e.id);
+  if (device == nullptr) return failure(ErrorKind::usage, fmt::format("unknown device '{}'", id), e.id);
   auto type = loadDevice(*device, e.instrument);
   if (!type) return failure(type.error());
   if (auto ok = prepareModel(progress); !ok) return ok;
@@ -91,7 +91,7 @@ Result<void> Rehearsal::prepare(const std::string& wanted, std::function<void()>
     for (std::size_t k = logged; ok && k < log.size(); ++k)
       if (log[k].what == "failed") ok = failure(ErrorKind::unusable, log[k].detail);
     if (!ok)
-      return failure(preparing(ok.error()), "the exercise cannot be prepared: " + ok.error().message,
+      return failure(preparing(ok.error()), "cannot prepare the exercise: " + ok.error().message,
                      fmt::format("{} /start/{}", e.file, i));
   }
   for (const auto& trouble : e.troubles)
@@ -103,9 +103,7 @@ Result<void> Rehearsal::prepare(const std::string& wanted, std::function<void()>
   for (std::size_t i = 0; i < steps_.size(); ++i)
     if (steps_[i].done)
       return failure(ErrorKind::unusable,
-                     fmt::format("the step '{}' is done before the student comes: '{}' holds at the start, so nobody "
-                                 "can be seen doing it; "
-                                 "change the condition, or /start",
+                     fmt::format("step '{}' is already done at the start: '{}' is true; change the condition or /start",
                                  e.steps[i].id, e.steps[i].done.text()),
                      fmt::format("{} /steps/{}/done", e.file, i));
   return {};
@@ -121,7 +119,7 @@ Result<void> Rehearsal::prepareModel(Progress& progress) {
     const auto& step = exercise_.setup[i];
     document = done(document_, step.at("verb").get<std::string>(), step.at("options"), progress);
     if (!document)
-      return failure(preparing(document.error()), "the environment cannot be prepared: " + document.error().message,
+      return failure(preparing(document.error()), "cannot prepare the environment: " + document.error().message,
                      fmt::format("{} /setup/{}/options", exercise_.file, i));
     document_ = *std::move(document);
   }
@@ -129,7 +127,7 @@ Result<void> Rehearsal::prepareModel(Progress& progress) {
 }
 
 Result<void> Rehearsal::runFieldVerb(const RehearsalAction& action, Progress& progress) {
-  if (host_->busy()) return failure(ErrorKind::usage, "wait until the instrument rests", action.name);
+  if (host_->busy()) return failure(ErrorKind::usage, "wait until the instrument has finished", action.name);
   auto document = done(document_, action.name, action.options, progress);
   if (!document) return failure(document.error());
   document_ = *std::move(document);
@@ -142,10 +140,10 @@ Result<void> Rehearsal::apply(const RehearsalAction& action, Progress& progress)
     case Kind::press: return device().act(action.name, action.value);
     case Kind::hand:
       if (action.name == "stand_at" && stationOf(document_, action.value) == nullptr)
-        return failure(ErrorKind::usage,
-                       fmt::format("there is no station '{}' to stand at; {}", action.value,
-                                   knownInstead(action.value, stationNames(document_))),
-                       action.name);
+        return failure(
+            ErrorKind::usage,
+            fmt::format("unknown station '{}'; {}", action.value, knownInstead(action.value, stationNames(document_))),
+            action.name);
       return device().hand(action.name, action.value);
     case Kind::wait: return passVirtually(action.seconds, progress);
     case Kind::finish: return finish(progress);
@@ -154,7 +152,7 @@ Result<void> Rehearsal::apply(const RehearsalAction& action, Progress& progress)
       const auto question = std::find_if(exercise_.questions.begin(), exercise_.questions.end(),
                                          [&](const ExerciseQuestion& q) { return q.id == action.name; });
       if (question == exercise_.questions.end())
-        return failure(ErrorKind::usage, fmt::format("there is no question '{}'", action.name), exercise_.id);
+        return failure(ErrorKind::usage, fmt::format("unknown question '{}'", action.name), exercise_.id);
       if (std::find(question->choices.begin(), question->choices.end(), action.value) == question->choices.end())
         return failure(ErrorKind::usage,
                        fmt::format("'{}' is not one of {}", action.value, fmt::join(question->choices, ", ")),
@@ -175,7 +173,7 @@ Result<void> Rehearsal::apply(const RehearsalAction& action, Progress& progress)
           steps_[i].hinted = true;
           return {};
         }
-      return failure(ErrorKind::usage, fmt::format("there is no step '{}'", action.name), exercise_.id);
+      return failure(ErrorKind::usage, fmt::format("unknown step '{}'", action.name), exercise_.id);
     }
   }
   return {};

@@ -80,9 +80,9 @@ Result<Outcome> checkFiles(const Document& document, const json& files, Progress
                                   issue.source, issue.message);
   }
   if (sound < rows.size())
-    outcome.report.lose("--check", fmt::format("{} of {} files cannot be used", rows.size() - sound, rows.size()));
+    outcome.report.lose("--check", fmt::format("{} of {} files are invalid", rows.size() - sound, rows.size()));
   outcome.answer = {{"sound", sound == rows.size()}, {"files", std::move(rows)}};
-  outcome.description = fmt::format("{} of {} exercises are sound", sound, files.size());
+  outcome.description = fmt::format("{} of {} exercises are valid", sound, files.size());
   return outcome;
 }
 
@@ -104,10 +104,10 @@ Result<Outcome> listNames(const Document& document, const json& options) {
 
 // Why it is not passed, in one line.
 std::string whyNotPassed(const json& marks) {
-  std::string why = fmt::format("not passed: {:.0f} % of the points, {:.0f} % are needed",
-                                marks["score"].get<double>() * 100, marks["pass_mark"].get<double>() * 100);
-  for (const auto& id : marks["must_broken"]) why += fmt::format("; '{}' must hold", id.get<std::string>());
-  return why + (marks["in_time"].get<bool>() ? "" : "; over time");
+  std::string why = fmt::format("not passed: score {:.0f} %, {:.0f} % required", marks["score"].get<double>() * 100,
+                                marks["pass_mark"].get<double>() * 100);
+  for (const auto& id : marks["must_broken"]) why += fmt::format("; required: '{}'", id.get<std::string>());
+  return why + (marks["in_time"].get<bool>() ? "" : "; over the time limit");
 }
 
 Result<Outcome> runRehearse(const Document& document, const json& options, Progress& progress) {
@@ -116,8 +116,7 @@ Result<Outcome> runRehearse(const Document& document, const json& options, Progr
   if (static_cast<int>(options.contains("exercise")) + static_cast<int>(options.contains("check")) +
           static_cast<int>(names) >
       1)
-    return failure(ErrorKind::usage,
-                   "an exercise is carried out, files are checked, or names are listed: one at a time", "--check");
+    return failure(ErrorKind::usage, "--check, --names and carrying out an exercise cannot be combined", "--check");
   if (options.contains("check")) return checkFiles(document, options["check"], progress);
   if (names) return listNames(document, options);
   if (!options.contains("exercise")) return listExercises(document, language);
@@ -126,7 +125,7 @@ Result<Outcome> runRehearse(const Document& document, const json& options, Progr
   std::vector<RehearsalAction> actions;
   const bool solution = options.value("solution", false);
   if (solution == options.contains("actions"))
-    return failure(ErrorKind::usage, "say what is done: --actions FILE, or --solution for the exercise's own",
+    return failure(ErrorKind::usage, "specify the actions: --actions FILE, or --solution for the sample solution",
                    "--actions");
   if (solution) {
     actions = known->exercise.solution;
@@ -157,24 +156,23 @@ Result<Outcome> runRehearse(const Document& document, const json& options, Progr
 const std::vector<Verb>& table() {
   static const std::vector<Verb> verbs = {
       {"rehearse",
-       "Carries out an exercise on an emulated instrument from a list of actions, and marks it (exit code 3: not "
-       "passed); without one it lists them",
+       "Run an exercise on an emulated instrument from a list of actions and grade it (exit code 3: not passed); "
+       "without an exercise, list all",
        VerbScope::files,
-       {{.name = "exercise", .kind = K::text, .help = "its file, or its id such as E03", .positional = true},
+       {{.name = "exercise", .kind = K::text, .help = "exercise file, or id such as E03", .positional = true},
         {.name = "actions",
          .kind = K::path,
-         .help = "what is done, as a list of actions; a result that was exported replays"},
-        {.name = "solution", .kind = K::flag, .help = "does what the exercise itself gives as a way to do it"},
+         .help = "JSON file with the list of actions; an exported result replays its actions"},
+        {.name = "solution", .kind = K::flag, .help = "perform the sample solution"},
         {.name = "check",
          .kind = K::list,
-         .help = "files of exercises: tells all that is wrong with them, and starts them; nothing else is done (exit "
-                 "code 3: one is refused)"},
+         .help = "exercise files to validate, including a trial start (exit code 3: at least one is invalid)"},
         {.name = "names",
          .kind = K::flag,
-         .help = "lists the devices, or with --device all names and choices that an exercise for it may use"},
-        {.name = "device", .kind = K::text, .help = "id of the device, where the exercise is for several"},
+         .help = "list devices, or with --device all names and choices available to exercises"},
+        {.name = "device", .kind = K::text, .help = "device id, if the exercise supports several devices"},
         {.name = "student", .kind = K::text, .help = "name on the certificate"},
-        {.name = "language", .kind = K::text, .help = "of the texts", .default_value = "en"},
+        {.name = "language", .kind = K::text, .help = "language of texts", .default_value = "en"},
         {.name = "output",
          .kind = K::path,
          .help = "folder for the scans and the result (JSON, CSV, HTML)",

@@ -93,9 +93,9 @@ static bool stepIsOff(const Device& device, std::string_view step) {
 
 double stepProgress(const Device& device) {
   const double lasts = device.number("phase.lasts");
-  const double share = lasts > 0 ? std::clamp(device.state().elapsed_s / lasts, 0.0, 1.0) : 0;
+  const double fraction = lasts > 0 ? std::clamp(device.state().elapsed_s / lasts, 0.0, 1.0) : 0;
   const bool simulated = device.state().phase == "scanning" && !device.state().data;
-  return simulated ? std::min(share, device.state().engine_share) : share;
+  return simulated ? std::min(fraction, device.state().engine_fraction) : fraction;
 }
 
 std::vector<WidgetOption> stepRows(const Device& device) {

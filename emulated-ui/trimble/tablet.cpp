@@ -25,7 +25,7 @@ Result<void> create(Device& device) {
 Result<void> sharedAction(Device& device, std::string_view name, const std::string& value) {
   for (const auto& action : sharedActions())
     if (name == action.name) return action.act(device, value);
-  return failure(ErrorKind::internal, "there is no such action");
+  return failure(ErrorKind::internal, "unknown action");
 }
 
 Result<void> proposeNew(Device& device, const std::string&) {

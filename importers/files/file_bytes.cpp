@@ -19,7 +19,7 @@ Result<FileBytes> FileBytes::open(const std::filesystem::path& file) {
     return failure(ErrorKind::file_system, std::string("cannot read: ") + std::strerror(errno), file.string());
   struct stat status {};
   if (::fstat(bytes.descriptor_, &status) != 0 || !S_ISREG(status.st_mode))
-    return failure(ErrorKind::file_system, "is not a regular file", file.string());
+    return failure(ErrorKind::file_system, "not a regular file", file.string());
   bytes.size_ = static_cast<std::uint64_t>(status.st_size);
   return bytes;
 }
@@ -51,10 +51,9 @@ Result<void> FileBytes::read(std::uint64_t offset, char* to, std::size_t count) 
     const auto got = ::pread(descriptor_, to, count, static_cast<off_t>(offset));
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0)
-      return failure(
-          ErrorKind::file_system,
-          got == 0 ? "became shorter while it was read" : std::string("cannot read: ") + std::strerror(errno),
-          path_.string());
+      return failure(ErrorKind::file_system,
+                     got == 0 ? "truncated while reading" : std::string("cannot read: ") + std::strerror(errno),
+                     path_.string());
     to += got;
     offset += static_cast<std::uint64_t>(got);
     count -= static_cast<std::size_t>(got);
@@ -65,8 +64,7 @@ Result<void> FileBytes::read(std::uint64_t offset, char* to, std::size_t count) 
 Result<std::string> FileBytes::all(std::uint64_t at_most) const {
   if (size_ > at_most)
     return failure(ErrorKind::unusable,
-                   "has " + std::to_string(size_) + " bytes; at most " + std::to_string(at_most) + " are read",
-                   path_.string());
+                   "has " + std::to_string(size_) + " bytes; the limit is " + std::to_string(at_most), path_.string());
   std::string text(static_cast<std::size_t>(size_), '\0');
   if (auto ok = read(0, text.data(), text.size()); !ok) return failure(ok.error());
   return text;

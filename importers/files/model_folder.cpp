@@ -75,7 +75,7 @@ Result<ModelFolder::Found> ModelFolder::find(const std::string& name, const fs::
   std::replace(plain.begin(), plain.end(), '\\', '/');
   if (plain.size() > 1 && plain.front() == '"' && plain.back() == '"') plain = plain.substr(1, plain.size() - 2);
   if (plain.empty() || plain.find('\0') != std::string::npos || plain.size() > 4096)
-    return failure(ErrorKind::unusable, "is not the name of a file", name.substr(0, 60));
+    return failure(ErrorKind::unusable, "is not a valid file name", name.substr(0, 60));
   const auto path = fs::path(plain).lexically_normal();
   const bool elsewhere = path.is_absolute() || *path.begin() == ".." || (plain.size() > 1 && plain[1] == ':');
   bool outside = elsewhere;
@@ -92,7 +92,7 @@ Result<ModelFolder::Found> ModelFolder::find(const std::string& name, const fs::
       return *found;
     }
   }
-  return failure(ErrorKind::unusable, outside ? "lies outside the model's folder and is not read" : "is missing",
+  return failure(ErrorKind::unusable, outside ? "is outside the model's folder and was not read" : "is missing",
                  name.substr(0, 200));
 }
 
@@ -109,7 +109,7 @@ Result<std::int32_t> ImageFiles::add(const fs::path& file) {
   else if (text->starts_with("\xFF\xD8\xFF"))
     image.media_type = "image/jpeg";
   else
-    return failure(ErrorKind::unusable, "is neither PNG nor JPEG, which are what is read; convert it", image.name);
+    return failure(ErrorKind::unusable, "is neither PNG nor JPEG; convert it to one of these formats", image.name);
   image.bytes.resize(text->size());
   std::memcpy(image.bytes.data(), text->data(), text->size());
   images_.push_back(std::make_shared<const Image>(std::move(image)));

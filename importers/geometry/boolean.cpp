@@ -34,7 +34,7 @@ Result<PolyMesh> checked(Result<PolyMesh> result, const Limits& range, const cha
   if (!isFinite(*result)) return failure(ErrorKind::unusable, std::string(way) + ": a point is not a number");
   const double v = volume(*result);
   if (range.reachedBeyond(*result))
-    return failure(ErrorKind::unusable, std::string(way) + ": the result reaches beyond the body");
+    return failure(ErrorKind::unusable, std::string(way) + ": the result extends beyond the body");
   if (range.holds(v)) return result;
   return failure(ErrorKind::unusable, std::string(way) + ": the result's volume " + std::to_string(v) +
                                           " m3 is not between " + std::to_string(range.low) + " and " +
@@ -42,7 +42,7 @@ Result<PolyMesh> checked(Result<PolyMesh> result, const Limits& range, const cha
 }
 
 std::optional<Error> unusable(const PolyMesh& mesh) {
-  if (!isFinite(mesh)) return Error{ErrorKind::unusable, "Boolean: a coordinate or index is not usable", {}};
+  if (!isFinite(mesh)) return Error{ErrorKind::unusable, "Boolean: invalid coordinate or index", {}};
   if (mesh.faces.size() > kMaxFaces) return Error{ErrorKind::unusable, "Boolean: a body has too many faces", {}};
   return std::nullopt;
 }
@@ -54,7 +54,7 @@ PolyMesh outward(const PolyMesh& mesh) {
 }
 
 Error joined(const std::vector<Error>& errors) {
-  Error all{ErrorKind::unusable, "no way worked", {}};
+  Error all{ErrorKind::unusable, "all methods failed", {}};
   for (const Error& error : errors) all.message += "; " + error.message;
   return all;
 }
@@ -147,7 +147,7 @@ Result<PolyMesh> combineTwo(const PolyMesh& a, const PolyMesh& b, Operation oper
     result = checked(std::move(result), range, way);
     if (result && solids && !result->faces.empty() && !isClosed(*result)) {
       if (!torn) torn = std::move(*result);
-      result = failure(ErrorKind::unusable, std::string(way) + ": the result is torn open");
+      result = failure(ErrorKind::unusable, std::string(way) + ": the result is not closed");
     }
     if (!result) errors.push_back(result.error());
     return result;

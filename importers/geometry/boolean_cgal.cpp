@@ -100,7 +100,7 @@ Result<PolyMesh> combineWithCgal(const PolyMesh& a, std::span<const PolyMesh> b,
       }
       Surface joined;
       if (!combine(*tools, *next, Operation::unite, joined))
-        return failure(ErrorKind::unusable, "CGAL: the tools do not join");
+        return failure(ErrorKind::unusable, "CGAL: cannot unite the tools");
       tools = std::move(joined);
     }
     if (!tools) return a;

@@ -276,7 +276,7 @@ void dropUnusedPoints(PolyMesh& mesh) {
 Result<PolyMesh> clip(const PolyMesh& mesh, const Eigen::Vector3d& normal_unit, double offset_m) {
   if (!isFinite(mesh) || !normal_unit.allFinite() || !std::isfinite(offset_m) ||
       std::abs(normal_unit.norm() - 1) > 1e-6) {
-    return failure(ErrorKind::unusable, "clip: a coordinate or the plane is not usable");
+    return failure(ErrorKind::unusable, "clip: invalid coordinate or plane");
   }
   PolyMesh result;
   result.points = mesh.points;
@@ -287,13 +287,13 @@ Result<PolyMesh> clip(const PolyMesh& mesh, const Eigen::Vector3d& normal_unit, 
     if (!clipFace(result, cutter, face, normal_unit, kept)) {
       kept.clear();
       if (!clipTriangles(result, cutter, face, normal_unit, kept)) {
-        return failure(ErrorKind::unusable, "clip: a face with an outline that crosses itself");
+        return failure(ErrorKind::unusable, "clip: self-intersecting face outline");
       }
     }
     result.faces.insert(result.faces.end(), kept.begin(), kept.end());
   }
   const bool capped = closeCut(result, cutter, normal_unit);
-  if (!capped && isClosed(mesh)) return failure(ErrorKind::unusable, "clip: the cut could not be closed");
+  if (!capped && isClosed(mesh)) return failure(ErrorKind::unusable, "clip: cannot close the cut");
   dropUnusedPoints(result);
   return result;
 }

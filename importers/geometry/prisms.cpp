@@ -353,10 +353,10 @@ Result<PolyMesh> combinePrisms(const PolyMesh& a, std::span<const PolyMesh> b, c
     }
   }
   const auto arrangement = arrange(outlines.points, outlines.segments, std::size_t{2} * slabs, kSnap_m);
-  if (!arrangement) return failure(ErrorKind::unusable, "in the plane: the outlines are too many or do not settle");
+  if (!arrangement) return failure(ErrorKind::unusable, "in the plane: too many outlines, or no convergence");
   PolyMesh result;
   if (!Stack(*arrangement, std::move(levels), operation).build(frame, result)) {
-    return failure(ErrorKind::unusable, "in the plane: the outlines do not close");
+    return failure(ErrorKind::unusable, "in the plane: open outline");
   }
   return result;
 }

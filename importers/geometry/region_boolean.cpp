@@ -45,9 +45,9 @@ Loop2 corners(const Arrangement& arrangement, const BoundaryLoop& loop) {
 
 Result<std::vector<Region2>> combine(const Soup& soup, const Inside& inside) {
   const auto arrangement = arrange(soup.points, soup.segments, 2, kSnap_m);
-  if (!arrangement) return failure(ErrorKind::unusable, "polygon Boolean: the outlines are too many or do not settle");
+  if (!arrangement) return failure(ErrorKind::unusable, "polygon Boolean: too many outlines, or no convergence");
   const auto loops = boundary(*arrangement, inside);
-  if (!loops) return failure(ErrorKind::unusable, "polygon Boolean: the result's outline does not close");
+  if (!loops) return failure(ErrorKind::unusable, "polygon Boolean: the outline of the result is open");
   std::vector<Loop2> flat;
   for (const BoundaryLoop& loop : *loops) {
     Loop2 points = corners(*arrangement, loop);

@@ -118,13 +118,13 @@ PolyMesh extrudeTapered(const Region2& from, const Region2& to, const Eigen::Vec
 Result<PolyMesh> loft(std::span<const Region2> profiles, std::span<const Eigen::Isometry3d> frames, bool closed) {
   if (profiles.size() != frames.size() || profiles.size() < (closed ? 3u : 2u)) {
     return failure(ErrorKind::unusable,
-                   "a loft needs a frame for each of its profiles, and at least two (closed: three)");
+                   "a loft requires one frame per profile and at least two profiles (closed: three)");
   }
   Sections s;
   for (std::size_t k = 0; k < profiles.size(); ++k) {
     if (profiles[k].outer.size() < 3) return failure(ErrorKind::unusable, "a profile has fewer than three points");
     if (!sameShape(profiles[k], profiles[0])) {
-      return failure(ErrorKind::unusable, "the profiles of a loft differ in their number of points");
+      return failure(ErrorKind::unusable, "the profiles of a loft have different numbers of points");
     }
     Region2 turned = profiles[k];
     turnLoops(turned);

@@ -50,9 +50,8 @@ class GltfImport {
     listGltfRest(file_, seen, model_.report);
     if (collision_shapes_ > 0)
       model_.report.note("/nodes", std::to_string(collision_shapes_) +
-                                       " collision shapes for game engines (UCX_, -colonly) are left out");
-    if (triangleCount(environment()) == 0)
-      model_.report.warn("/nodes", "no node has a surface: there is nothing to scan");
+                                       " collision shapes for game engines (UCX_, -colonly) were skipped");
+    if (triangleCount(environment()) == 0) model_.report.warn("/nodes", "no node has surfaces: nothing to scan");
     georeference(stored);
     if (auto wrong = validate(environment()); !wrong.empty()) file_.fail("", wrong);
     if (file_.failed()) return failure(file_.error());
@@ -102,7 +101,8 @@ class GltfImport {
     for (std::size_t i = 0; i < places && !file_.failed(); ++i) {
       const bool stated = i < values.size() && values[i] >= 0 && values[i] < 4e9F;
       if (!ids.attribute.empty() && !stated)
-        file_.fail(node.place + "/extensions/EXT_instance_features", "names no attribute with an id for each instance");
+        file_.fail(node.place + "/extensions/EXT_instance_features",
+                   "does not name an attribute with an id per instance");
       rows.push_back({ids.table, stated ? static_cast<std::size_t>(values[i]) : i});
     }
     return rows;
@@ -113,8 +113,7 @@ class GltfImport {
     constexpr std::size_t kMostPlacedVertices = 1'000'000'000;
     placed_vertices_ += places * (mesh.positions.size() + 1);
     if (!file_.spend(places * sizeof(Instance), place)) return false;
-    if (placed_vertices_ > kMostPlacedVertices)
-      file_.fail(place, "with it the file places more than 1 000 000 000 vertices");
+    if (placed_vertices_ > kMostPlacedVertices) file_.fail(place, "exceeds the limit of 1 000 000 000 placed vertices");
     return !file_.failed();
   }
 
@@ -215,9 +214,8 @@ class GltfImport {
     const Eigen::Vector3d c(centre[0], centre[1], centre[2]);
     constexpr double kLeastRadiusOfEarth_m = 6.3e6, kMost_m = 6.5e6;
     if (c.norm() > kLeastRadiusOfEarth_m && c.norm() < kMost_m)
-      model_.report.warn(place,
-                         "the coordinates are earth-centred, so that up is not along Z here; turn the model in the "
-                         "program that made it");
+      model_.report.warn(
+          place, "the coordinates are earth-centred, so up is not along Z; re-export the model in a local frame");
     return c;
   }
 

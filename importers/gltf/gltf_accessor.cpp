@@ -81,7 +81,7 @@ std::span<const std::uint8_t> GltfFile::slice(const nlohmann::json& object, cons
   const auto length = natural(object, "byteLength", 0, place);
   const auto& bytes = buffers_[*buffer];
   if (offset > bytes.size() || length > bytes.size() - offset) {
-    fail(place, "reaches to byte " + std::to_string(offset + length) + " of /buffers/" + std::to_string(*buffer) +
+    fail(place, "extends to byte " + std::to_string(offset + length) + " of /buffers/" + std::to_string(*buffer) +
                     ", which has " + std::to_string(bytes.size()));
     return {};
   }
@@ -113,7 +113,7 @@ void GltfFile::decodeMeshopt(std::size_t buffer_view, const nlohmann::json& exte
   const bool attributes = mode == "ATTRIBUTES" && stride > 0 && stride <= 256 && stride % 4 == 0;
   const bool triangles = mode == "TRIANGLES" && (stride == 2 || stride == 4) && count % 3 == 0;
   const bool sequence = mode == "INDICES" && (stride == 2 || stride == 4);
-  if (!attributes && !triangles && !sequence) return fail(place, "mode, byteStride and count do not fit together");
+  if (!attributes && !triangles && !sequence) return fail(place, "mode, byteStride and count are inconsistent");
   if (!spend(count * stride, place)) return;
 
   std::vector<std::uint8_t> out(count * stride);
@@ -131,7 +131,7 @@ void GltfFile::decodeMeshopt(std::size_t buffer_view, const nlohmann::json& exte
   else if (filter == "QUATERNION" && attributes && stride == 8)
     meshopt_decodeFilterQuat(out.data(), count, stride);
   else if (!filter.empty() && filter != "NONE")
-    return fail(place + "/filter", "'" + filter + "' does not fit the data");
+    return fail(place + "/filter", "'" + filter + "' does not match the data");
   decoded_views_[buffer_view] = std::move(out);
 }
 
@@ -145,7 +145,7 @@ GltfFile::Packed GltfFile::packed(std::size_t accessor, const std::string& asked
   const auto& normalized = memberOf(json, "normalized");
   out.normalized = normalized.is_boolean() && normalized.get<bool>();
   const std::size_t size = componentSize(out.component_type) * out.components;
-  if (size == 0) fail(place, "componentType or type is not one that geometry can have");
+  if (size == 0) fail(place, "componentType or type is not allowed for geometry");
   if (failed()) return {};
   takeDense(json, place, size, out);
   const auto& sparse = memberOf(json, "sparse");
@@ -166,7 +166,7 @@ void GltfFile::takeDense(const nlohmann::json& json, const std::string& place, s
   const auto& view_json = element("bufferViews", *buffer_view, place);
   const auto stride = natural(view_json, "byteStride", size, "/bufferViews/" + std::to_string(*buffer_view));
   const auto offset = natural(json, "byteOffset", 0, place);
-  if (stride < size) return fail(place, "the stride of its buffer view is shorter than an element");
+  if (stride < size) return fail(place, "buffer view stride is smaller than an element");
   if (out.count == 0 || failed()) return;
   if (offset > bytes.size() || (out.count - 1) * stride + size > bytes.size() - offset)
     return fail(place, "needs " + std::to_string(offset + (out.count - 1) * stride + size) + " bytes of /bufferViews/" +
@@ -195,9 +195,9 @@ void GltfFile::applySparse(const nlohmann::json& sparse, const std::string& plac
   const auto values = view(*what_view, place + "/values");
   if (failed()) return;
   if (where_offset > places.size() || count * componentSize(type) > places.size() - where_offset)
-    return fail(place + "/indices", "reaches beyond its buffer view");
+    return fail(place + "/indices", "extends beyond its buffer view");
   if (what_offset > values.size() || count * size > values.size() - what_offset)
-    return fail(place + "/values", "reaches beyond its buffer view");
+    return fail(place + "/values", "extends beyond its buffer view");
   if (out.own.empty() && spend(out.bytes.size(), place)) out.own.assign(out.bytes.begin(), out.bytes.end());
   out.bytes = out.own;
   for (std::size_t i = 0; i < count && !failed(); ++i) {
@@ -254,7 +254,7 @@ std::vector<std::uint32_t> GltfFile::indices(std::size_t accessor, const std::st
   const bool right = in.components == 1 && (in.component_type == kUnsignedByte || in.component_type == kUnsignedShort ||
                                             in.component_type == kUnsignedInt);
   if (!failed() && !right)
-    fail("/accessors/" + std::to_string(accessor), "is not one of unsigned integers, as indices are");
+    fail("/accessors/" + std::to_string(accessor), "is not an unsigned integer type, as required for indices");
   if (failed() || !spend(in.count * sizeof(std::uint32_t), asked_by)) return {};
   std::vector<std::uint32_t> out(in.count);
   if (in.component_type == kUnsignedInt) {

@@ -13,7 +13,8 @@ namespace {
 void readMeshes(GltfFile& file, const nlohmann::json& meshes, const GltfMaterials& materials, Environment& environment,
                 Progress& progress) {
   const std::string place = "/asset/extras/standpoint/meshes";
-  if (!meshes.is_array()) return file.fail(place, "is missing: this GLB is not one of ours, import it instead");
+  if (!meshes.is_array())
+    return file.fail(place, "is missing: this GLB was not written by Standpoint; import it instead");
   Report ignored;  // names points and nothing else: we wrote the file
   const auto no_material = static_cast<std::uint32_t>(environment.surfaces.size());
   for (const auto& index : meshes) {
@@ -23,7 +24,7 @@ void readMeshes(GltfFile& file, const nlohmann::json& meshes, const GltfMaterial
       mesh = readGltfMesh(file, index.get<std::size_t>(), materials, no_material, {}, ignored).mesh;
       if (!file.failed() && mesh.triangles.empty()) mesh = readGltfPoints(file, index.get<std::size_t>());
     } else if (!index.is_null()) {
-      file.fail(place, "holds something that is not an index");
+      file.fail(place, "contains an invalid index");
     }
     environment.meshes.push_back(std::make_shared<const Mesh>(std::move(mesh)));
     progress.advance(static_cast<double>(environment.meshes.size()) / static_cast<double>(meshes.size()));
@@ -34,8 +35,7 @@ void readMeshes(GltfFile& file, const nlohmann::json& meshes, const GltfMaterial
 void readInstances(GltfFile& file, Environment& environment) {
   const auto& children = memberOf(file.element("nodes", 0, ""), "children");
   for (std::size_t i = 0; !file.failed() && children.is_array() && i < children.size(); ++i) {
-    if (!children[i].is_number_unsigned())
-      return file.fail("/nodes/0/children", "holds something that is not an index");
+    if (!children[i].is_number_unsigned()) return file.fail("/nodes/0/children", "contains an invalid index");
     const std::string place = "/nodes/" + std::to_string(children[i].get<std::size_t>());
     const auto& node = file.element("nodes", children[i].get<std::size_t>(), "/nodes/0/children");
     const auto& ours = memberOf(memberOf(node, "extras"), "standpoint");

@@ -57,7 +57,7 @@ void variants(GltfFile& file, Report& report) {
   }
   report.note("/extensions/KHR_materials_variants", std::to_string(list.size()) + " variants of the materials (" +
                                                         names + (list.size() > 8 ? ", …" : "") +
-                                                        ") are not read; those of the default are used");
+                                                        ") were not read; the default variant is used");
 }
 
 // Marks what stands outside of the scene on purpose, with all below it: simpler levels of nodes, meshes of colliders.
@@ -97,11 +97,11 @@ void checkGltfExtensions(GltfFile& file, Report& report) {
   for (std::size_t i = 0; required.is_array() && i < required.size(); ++i)
     if (const auto name = nameAt(required, i); !required[i].is_string() || !understood(name))
       file.fail("/extensionsRequired/" + std::to_string(i),
-                "'" + name + "' is required and not understood; export the model without it");
+                "'" + name + "' is required but not supported; export the model without it");
   const auto& used = memberOf(file.json(), "extensionsUsed");
   for (std::size_t i = 0; used.is_array() && i < used.size(); ++i)
     if (const auto name = nameAt(used, i); !understood(name))
-      report.note("/extensionsUsed/" + std::to_string(i), "'" + name + "' is not understood; what it adds is left out");
+      report.note("/extensionsUsed/" + std::to_string(i), "'" + name + "' is not supported; its data was skipped");
   variants(file, report);
 }
 
@@ -109,20 +109,19 @@ void listGltfRest(GltfFile& file, const std::vector<bool>& in_scene, Report& rep
   auto seen = in_scene;
   if (const auto levels = seeCompanions(file, seen); levels > 0)
     report.note("/nodes",
-                std::to_string(levels) + " nodes have simpler levels of detail (MSFT_lod); the finest is read");
+                std::to_string(levels) + " nodes have several levels of detail (MSFT_lod); the finest is used");
   std::size_t elsewhere = 0;
   for (std::size_t i = 0; i < seen.size(); ++i)
     elsewhere += !seen[i] && memberOf(file.element("nodes", i, ""), "mesh").is_number() ? 1 : 0;
   if (elsewhere > 0)
-    report.lose("/scenes",
-                std::to_string(elsewhere) + " nodes with a mesh are not in the scene that the file shows by default");
+    report.lose("/scenes", std::to_string(elsewhere) + " nodes with meshes are not in the default scene");
   for (const char* array : {"animations", "cameras"})
     if (const auto n = file.count(array); n > 0)
-      report.note(std::string("/") + array, std::to_string(n) + " not read: a building at rest is scanned");
+      report.note(std::string("/") + array, std::to_string(n) + " skipped: the model is imported as static");
   const auto& lights = memberOf(memberOf(memberOf(file.json(), "extensions"), "KHR_lights_punctual"), "lights");
   if (lights.is_array() && !lights.empty())
     report.note("/extensions/KHR_lights_punctual",
-                std::to_string(lights.size()) + " lights not read: a scanner brings its own");
+                std::to_string(lights.size()) + " lights skipped: not needed for scanning");
 }
 
 }  // namespace standpoint

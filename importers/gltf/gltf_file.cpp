@@ -126,11 +126,12 @@ void GltfFile::load() {
 
 void GltfFile::splitBinary(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < 20)
-    return fail("byte 0", "a GLB needs a header of 12 bytes and a JSON chunk; the file is cut off");
-  if (word(bytes, 4) != 2) return fail("byte 4", "GLB version " + std::to_string(word(bytes, 4)) + ", only 2 is read");
+    return fail("byte 0", "a GLB requires a 12-byte header and a JSON chunk; the file is truncated");
+  if (word(bytes, 4) != 2)
+    return fail("byte 4", "GLB version " + std::to_string(word(bytes, 4)) + "; only version 2 is supported");
   if (word(bytes, 8) > bytes.size())
     return fail("byte 8", "the header states " + std::to_string(word(bytes, 8)) + " bytes, the file has " +
-                              std::to_string(bytes.size()) + ": it is cut off");
+                              std::to_string(bytes.size()) + ": the file is truncated");
   const std::size_t total = word(bytes, 8);
   std::span<const std::uint8_t> binary;
   std::size_t at = 12;
@@ -138,7 +139,7 @@ void GltfFile::splitBinary(std::span<const std::uint8_t> bytes) {
     const std::size_t length = word(bytes, at);
     const std::uint32_t kind = word(bytes, at + 4);
     if (length > total - at - 8)
-      return fail("byte " + std::to_string(at), "a chunk reaches beyond the end of the file");
+      return fail("byte " + std::to_string(at), "a chunk extends beyond the end of the file");
     const auto content = bytes.subspan(at + 8, length);
     if (chunk == 0 && kind != kJsonChunk) return fail("byte 12", "the first chunk is not JSON");
     if (chunk == 0) parse(content);
@@ -157,7 +158,7 @@ void GltfFile::parse(std::span<const std::uint8_t> bytes) {
     std::string why = e.what();  // which quotes the bytes that it does not like
     std::replace_if(
         why.begin(), why.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
-    return fail("byte " + std::to_string(e.byte), "not JSON: " + why);
+    return fail("byte " + std::to_string(e.byte), "invalid JSON: " + why);
   } catch (
       const nlohmann::json::exception& e) {  // a number beyond double: the message quotes it, but does not say where
     const std::string why = e.what();
@@ -170,9 +171,9 @@ void GltfFile::parse(std::span<const std::uint8_t> bytes) {
   const auto& asset = memberOf(json_, "asset");
   const std::string version = text(asset, "version");
   if (version.empty()) return fail("/asset/version", "is missing: not a glTF 2.0 file");
-  if (!version.starts_with("2.")) return fail("/asset/version", "is " + version + ", only glTF 2 is read");
+  if (!version.starts_with("2.")) return fail("/asset/version", "is " + version + "; only glTF 2 is supported");
   const std::string least = text(asset, "minVersion");
-  if (!least.empty() && least != "2.0") return fail("/asset/minVersion", "is " + least + ", glTF 2.0 is read");
+  if (!least.empty() && least != "2.0") return fail("/asset/minVersion", "is " + least + "; glTF 2.0 is supported");
 }
 
 namespace {
@@ -228,7 +229,7 @@ Result<GltfFile::Block> GltfFile::blockOf(const std::string& uri, const std::str
   const auto file = std::filesystem::weakly_canonical(folder / relative, code);
   const auto inside = file.lexically_relative(folder);
   if (uri.find("://") != std::string::npos || relative.is_absolute() || inside.empty() || *inside.begin() == "..")
-    return failure(ErrorKind::unusable, shown + " does not lie in the model's folder; put it there", place + "/uri");
+    return failure(ErrorKind::unusable, shown + " is not in the model's folder; move it there", place + "/uri");
   if (!std::filesystem::is_regular_file(file, code))
     return failure(ErrorKind::unusable, shown + " does not exist in the model's folder", place + "/uri");
   return readAll(file, place, at_most);
@@ -319,7 +320,7 @@ const nlohmann::json& GltfFile::element(const char* array, std::size_t index, co
 
 bool GltfFile::spend(std::size_t bytes, const std::string& place) {
   if (bytes > allowance_ - spent_) {
-    fail(place, "unpacks to more than 64 times the size of the file");
+    fail(place, "decompresses to more than 64 times the file size");
     return false;
   }
   spent_ += bytes;

@@ -52,12 +52,12 @@ std::int32_t GltfImages::ofTexture(std::size_t texture, const std::string& asked
     if (memberOf(memberOf(json, "extensions"), extension).is_object()) other = format;
   if (source) {
     if (other != nullptr && !known_.contains(*source))
-      report_.note(place,
-                   std::string("its ") + other + " image is not read, the " + "texture's other image stands for it");
+      report_.note(
+          place, std::string("its ") + other + " image is not supported; the " + "texture's alternative image is used");
     return ofImage(*source, place, asked_by);
   }
   report_.lose(asked_by, other != nullptr ? std::string("its image (") + place + ") is " + other +
-                                                ", which is not read and has no PNG or JPEG beside it"
+                                                ", which is not supported and has no PNG or JPEG alternative"
                                           : "its texture (" + place + ") names no image");
   return -1;
 }
@@ -70,7 +70,7 @@ std::int32_t GltfImages::ofImage(std::size_t index, const std::string& texture_p
   auto bytes = bytesOf(json, place);
   if (file_.failed()) return -1;
   if (!bytes) {
-    report_.lose(asked_by, "its image is lost: " + describe(bytes.error()));
+    report_.lose(asked_by, "cannot read its image: " + describe(bytes.error()));
     return -1;
   }
   Image image;
@@ -78,7 +78,7 @@ std::int32_t GltfImages::ofImage(std::size_t index, const std::string& texture_p
   if (!bytes->empty()) std::memcpy(image.bytes.data(), bytes->data(), bytes->size());
   image.media_type = gltfMediaType(image.bytes);
   if (image.media_type.empty()) {
-    report_.lose(asked_by, "its image (" + place + ") is " + formatOf(image.bytes) + "; PNG and JPEG are read");
+    report_.lose(asked_by, "its image (" + place + ") is " + formatOf(image.bytes) + "; PNG and JPEG are supported");
     return -1;
   }
   const std::string uri = file_.text(json, "uri");

@@ -44,8 +44,8 @@ class NotKept {
   void report(Report& report) const {
     for (const auto& [what, entry] : kinds_)
       report.note(entry.first,
-                  what + " is not kept" +
-                      (entry.count > 1 ? ", here and of " + std::to_string(entry.count - 1) + " more materials" : ""));
+                  what + " is not supported" +
+                      (entry.count > 1 ? ", here and in " + std::to_string(entry.count - 1) + " more materials" : ""));
   }
 
  private:
@@ -123,15 +123,14 @@ class MaterialReader {
     if (mode == "BLEND") return factor;
     if (mode != "MASK") return 1;
     const bool textured = memberOf(memberOf(json, "pbrMetallicRoughness"), "baseColorTexture").is_object();
-    if (textured)
-      report_.warn(place_ + "/alphaMode", "the holes that its image masks are not cut: a beam meets the whole face");
+    if (textured) report_.warn(place_ + "/alphaMode", "alpha-mask cutouts are not applied: beams hit the whole face");
     return factor >= floatOr(json, "alphaCutoff", 0.5) ? 1.0F : 0.0F;
   }
 
   void image(const Json& texture, const std::string& where, Surface& surface, GltfTextureUse& use) {
     const auto index = file_.index(texture, "index", where);
     if (file_.failed()) return;
-    if (!index) return file_.fail(where, "has no index of a texture");
+    if (!index) return file_.fail(where, "has no texture index");
     use.set = file_.natural(texture, "texCoord", 0, where);
     const auto& transform = memberOf(memberOf(texture, "extensions"), "KHR_texture_transform");
     if (transform.is_object()) use = transformed(transform, where + "/extensions/KHR_texture_transform", use);
@@ -164,7 +163,7 @@ class MaterialReader {
     const auto& json = file_.element("samplers", *sampler, place + "/sampler");
     if (file_.natural(json, "wrapS", kRepeat, where) != kRepeat ||
         file_.natural(json, "wrapT", kRepeat, where) != kRepeat)
-      not_kept_.add("that its image does not repeat beyond its edges (" + where + ")", place_);
+      not_kept_.add("the texture wrap mode (" + where + ")", place_);
   }
 
   void optics(const Json& extensions, Surface& surface) {
@@ -190,7 +189,7 @@ class MaterialReader {
     if (emissive.is_array() && emissive != Json{0, 0, 0} &&
         std::any_of(emissive.begin(), emissive.end(),
                     [](const Json& c) { return c.is_number() && c.get<double>() > 0; }))
-      not_kept_.add("the light that it emits", place_);
+      not_kept_.add("its emitted light", place_);
     const auto& extensions = memberOf(json, "extensions");
     if (!extensions.is_object()) return;
     for (const auto& [name, extension] : extensions.items()) {

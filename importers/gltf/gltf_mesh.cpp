@@ -27,7 +27,7 @@ class MeshReader {
       file_.fail(place + "/material", "does not exist");
     if (file_.failed()) return;
     if (!primitive.isSurface())
-      return report_.lose(place, "holds " + primitive.whatItIs() + ", which are not a surface");
+      return report_.lose(place, "holds " + primitive.whatItIs() + ", which are not surfaces");
     const auto surface = material ? materials_.surface_of_material[*material] : no_material_;
     const auto [base, count] =
         vertices(primitive, material ? materials_.texture_of_material[*material] : materials_.without_material);
@@ -108,7 +108,7 @@ class MeshReader {
     const auto values = primitive.floats(attribute, components);
     const bool plain = use.image_from_set.matrix().isIdentity(0);
     if (components != 2 && !file_.failed())
-      file_.fail(primitive.place() + "/attributes/" + attribute, "is not of pairs");
+      file_.fail(primitive.place() + "/attributes/" + attribute, "must consist of pairs");
     if (file_.failed() || !fits(primitive, attribute, values.size() / 2, range.count)) return;
     for (std::size_t i = 0; i < range.count; ++i) {
       auto& t = all[range.base + i] = {values[2 * i], values[2 * i + 1]};
@@ -129,7 +129,7 @@ class MeshReader {
     std::size_t n = 0;
     const auto values = primitive.floats("COLOR_0", n);
     if (n != 3 && n != 4 && !file_.failed())
-      file_.fail(primitive.place() + "/attributes/COLOR_0", "is not of three or four numbers");
+      file_.fail(primitive.place() + "/attributes/COLOR_0", "must consist of three or four numbers");
     if (file_.failed() || !fits(primitive, "COLOR_0", values.size() / n, range.count)) return;
     for (std::size_t i = 0; i < range.count; ++i) {
       auto& c = all[range.base + i];
@@ -157,7 +157,7 @@ class MeshReader {
     for (std::size_t i = 0; i < range.count; ++i) {
       if (!(values[i] >= 0 && values[i] < 4e9F))
         return file_.fail(primitive.place() + "/attributes/" + ids.attribute,
-                          "element " + std::to_string(i) + " is not a number of a feature");
+                          "element " + std::to_string(i) + " is not a feature id");
       const auto row = static_cast<std::size_t>(values[i]);
       if (row == ids.null) continue;
       const auto [found, fresh] =

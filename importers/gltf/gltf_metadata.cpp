@@ -133,7 +133,7 @@ class Column {
   }
 
   std::string tooShort() {
-    file_.fail(place_, "its buffer views are shorter than the table");
+    file_.fail(place_, "its buffer views are smaller than the table");
     return {};
   }
 
@@ -172,7 +172,7 @@ void addFeature(GltfFile& file, const GltfFeature& feature, Product& product) {
   if (!tables.is_array() || feature.table >= tables.size()) return file.fail(place, "does not exist");
   const auto& table = tables[feature.table];
   if (feature.row >= file.natural(table, "count", 0, place))
-    return file.fail(place, "has no row " + std::to_string(feature.row) + ", which a feature id names");
+    return file.fail(place, "has no row " + std::to_string(feature.row) + ", which a feature id refers to");
   const auto& schema = memberOf(metadata, "schema");
   const std::string set = file.text(table, "class");
   const auto& definitions = memberOf(memberOf(memberOf(schema, "classes"), set.c_str()), "properties");

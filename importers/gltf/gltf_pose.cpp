@@ -19,7 +19,7 @@ void morph(GltfFile& file, GltfPrimitive& primitive, const std::vector<double>& 
     if (!accessor) continue;  // it moves normals or colours only
     const auto moves = file.vectors3(*accessor, place + "/POSITION");
     if (!file.failed() && moves.size() != positions.size())
-      file.fail(place + "/POSITION", "differs in count from the mesh's positions");
+      file.fail(place + "/POSITION", "count differs from the mesh's positions");
     if (file.failed()) return;
     for (std::size_t i = 0; i < positions.size(); ++i)
       positions[i] = (positions[i].cast<double>() + weights[t] * moves[i].cast<double>()).cast<float>();
@@ -40,7 +40,7 @@ std::vector<Influences> influences(GltfFile& file, GltfPrimitive& primitive, std
         of_joints == 4 && of_weights == 4 && set.joints.size() == 4 * count && set.weights.size() == 4 * count;
     if (!right)
       file.fail(primitive.place() + "/attributes/JOINTS_" + std::to_string(n),
-                "needs four joints and four weights for each vertex");
+                "requires four joints and four weights per vertex");
     sets.push_back(std::move(set));
   }
   return sets;
@@ -57,9 +57,9 @@ void skin(GltfFile& file, GltfPrimitive& primitive, const std::vector<Eigen::Aff
         const double weight = set.weights[k];
         if (weight == 0) continue;
         if (!(set.joints[k] >= 0 && set.joints[k] < static_cast<float>(joints.size())))
-          return file.fail(primitive.place() + "/attributes", "vertex " + std::to_string(i) + " names joint " +
-                                                                  std::to_string(set.joints[k]) + ", the skin has " +
-                                                                  std::to_string(joints.size()));
+          return file.fail(primitive.place() + "/attributes",
+                           "vertex " + std::to_string(i) + " refers to joint " + std::to_string(set.joints[k]) +
+                               ", but the skin has " + std::to_string(joints.size()));
         sum += weight * (joints[static_cast<std::size_t>(set.joints[k])] * positions[i].cast<double>());
         total += weight;
       }

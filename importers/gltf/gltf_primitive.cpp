@@ -29,9 +29,9 @@ std::vector<Triangle> trianglesOf(std::size_t mode, const std::vector<std::uint3
 GltfPrimitive::GltfPrimitive(GltfFile& file, const nlohmann::json& json, std::string place)
     : file_(file), json_(json), place_(std::move(place)) {
   mode_ = file_.natural(json_, "mode", kTriangles, place_);
-  if (mode_ > kFan) file_.fail(place_ + "/mode", "is " + std::to_string(mode_) + ", known are 0 to 6");
+  if (mode_ > kFan) file_.fail(place_ + "/mode", "is " + std::to_string(mode_) + "; valid modes are 0 to 6");
   // The specification lets a client skip such a primitive; a surface without a place cannot be scanned.
-  if (!accessor("POSITION")) file_.fail(place_ + "/attributes", "has no POSITION: there is nothing to scan");
+  if (!accessor("POSITION")) file_.fail(place_ + "/attributes", "has no POSITION: nothing to scan");
   const auto& draco = memberOf(memberOf(json_, "extensions"), "KHR_draco_mesh_compression");
   if (!file_.failed() && isSurface() && draco.is_object())
     draco_ =
@@ -94,11 +94,11 @@ std::vector<Triangle> GltfPrimitive::triangles(std::size_t vertices, Report& rep
   const auto largest = std::max_element(corners.begin(), corners.end());
   if (largest != corners.end() && *largest >= vertices)
     file_.fail(place_ + "/indices", "index " + std::to_string(largest - corners.begin()) + " is " +
-                                        std::to_string(*largest) + ", there are " + std::to_string(vertices) +
+                                        std::to_string(*largest) + ", but there are " + std::to_string(vertices) +
                                         " vertices");
   if (file_.failed()) return {};
   if (mode_ == kTriangles && corners.size() % 3 != 0)
-    report.warn(place_, std::to_string(corners.size()) + " indices are not a multiple of 3; the rest is left out");
+    report.warn(place_, std::to_string(corners.size()) + " indices are not a multiple of 3; the remainder was skipped");
   if (!file_.spend(mode_ == kTriangles ? 0 : corners.size() * sizeof(Triangle), place_)) return {};
   return trianglesOf(mode_, corners);
 }

@@ -39,7 +39,7 @@ std::vector<std::size_t> reversed(GltfFile& file, const nlohmann::json& object, 
   if (!list.is_array()) return result;
   for (auto it = list.rbegin(); it != list.rend(); ++it) {
     if (!it->is_number_unsigned()) {
-      file.fail(place + "/" + key, "holds something that is not an index");
+      file.fail(place + "/" + key, "contains an invalid index");
       return {};
     }
     result.push_back(it->get<std::size_t>());
@@ -86,7 +86,7 @@ std::vector<bool> walk(GltfFile& file, const std::vector<std::size_t>& roots, co
     node.json = &file.element("nodes", entry.index, entry.asked_by);
     if (file.failed()) break;
     if (seen[entry.index]) {
-      file.fail(node.place, "is reached twice: node hierarchies are trees");
+      file.fail(node.place, "has two parents: node hierarchies must be trees");
       break;
     }
     seen[entry.index] = true;
@@ -157,7 +157,7 @@ std::vector<Eigen::Affine3d> instancesOf(GltfFile& file, const GltfNode& node) {
   const auto fits = [&](const std::vector<float>& values, std::size_t n) {
     return values.empty() || values.size() == n * count;
   };
-  if (!fits(t, 3) || !fits(r, 4) || !fits(s, 3)) file.fail(place, "its accessors differ in count");
+  if (!fits(t, 3) || !fits(r, 4) || !fits(s, 3)) file.fail(place, "its accessors have different counts");
   if (file.failed() || !file.spend(count * sizeof(Eigen::Affine3d), place)) return {};
   std::vector<Eigen::Affine3d> result;
   for (std::size_t i = 0; i < count; ++i) {

@@ -84,8 +84,7 @@ class GlbWriter {
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const std::size_t total = 12 + 8 + text.size() + (size_ > 0 ? 8 + size_ : 0);
     if (total > 0xFFFFFFFFU)
-      return failure(ErrorKind::unusable, "the environment needs more than the 4 GiB that a GLB can hold",
-                     file.string());
+      return failure(ErrorKind::unusable, "the environment exceeds the 4 GiB limit of GLB files", file.string());
     std::ofstream out(file, std::ios::binary);
     const auto word = [&](std::size_t value) {
       const auto v = static_cast<std::uint32_t>(value);

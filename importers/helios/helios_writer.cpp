@@ -36,8 +36,8 @@ std::string spectrumText(const PhysicalMaterial& m) {
   auto table = m.reflectance;
   if (table.front().first > kFirst_nm) table.insert(table.begin(), {kFirst_nm, table.front().second});
   if (table.back().first < kLast_nm) table.emplace_back(kLast_nm, table.back().second);
-  for (const auto& [wavelength_nm, share] : table)
-    text += fmt::format("{:g}\t{:g}\n", wavelength_nm / 1000, share * 100);
+  for (const auto& [wavelength_nm, fraction] : table)
+    text += fmt::format("{:g}\t{:g}\n", wavelength_nm / 1000, fraction * 100);
   return text;
 }
 
@@ -70,15 +70,16 @@ void tellLosses(const std::vector<const PhysicalMaterial*>& physical, Report& re
     glossy += m != nullptr && m->transmittance.empty() && m->gloss_slope > 0 ? 1 : 0;
   }
   if (without > 0)
-    report.warn("materials", fmt::format("where none is assigned HELIOS++ takes 50 % ({} surfaces)", without));
+    report.warn("materials", fmt::format("no material assigned: HELIOS++ uses 50 % ({} surfaces)", without));
   if (panes > 0)
     report.warn("materials",
-                fmt::format("panes are opaque in HELIOS++, a beam ends at the first surface ({} materials)", panes));
+                fmt::format("panes are opaque in HELIOS++: beams end at the first surface ({} materials)", panes));
   if (glossy > 0)
     report.note(
         "materials",
-        fmt::format("gloss is left out, as Phong's lobe of HELIOS++ comes back at grazing incidence ({} materials)",
-                    glossy));
+        fmt::format(
+            "gloss was not exported: the Phong lobe of HELIOS++ returns light at grazing incidence ({} materials)",
+            glossy));
 }
 
 }  // namespace

@@ -158,7 +158,7 @@ void Assembly::placePictures(Mesh& mesh, const PlacedBody& placed_body) {
         on = *listed;
       else if (const Id item = model_.textures.source(body.tags[k]).item; lost.insert(item).second)
         report_.lose("#" + std::to_string(item),
-                     "some faces do not fit the coordinates of their texture; the picture is not placed there");
+                     "some faces do not match their texture coordinates and stay untextured");
     } else if (const Entity texture = pool_.generatedTexture(body.tags[k], placed_body.style)) {
       on = generatedCorners(body, k, texture);
     }

@@ -76,8 +76,7 @@ class Builder {
     auto parts = shape ? partsOfShape(shape, scope) : Result<std::vector<Part>>(std::vector<Part>());
     if (!shape && relations_.partsOf(e).empty() && e.ref(5)) {
       parts = partsOfType(model_.file.entity(relations_.typeOf(e)), scope);
-      if (parts && !parts->empty())
-        result_.report.warn(e.place(), "has no representation of its own; its type's is used");
+      if (parts && !parts->empty()) result_.report.warn(e.place(), "has no representation; using that of its type");
     }
     if (parts)
       p.parts = std::move(*parts);
@@ -197,13 +196,12 @@ class Builder {
       std::size_t Repairs::*count;
       const char* what;
     };
-    constexpr std::array kKinds{
-        Kind{&Repairs::inverted, "shells inside out, turned"},
-        Kind{&Repairs::disagreeing, "shells with faces that ran against each other, turned to agree"},
-        Kind{&Repairs::degenerate, "faces without area, dropped"},
-        Kind{&Repairs::duplicate, "faces that were there twice, one of each dropped"},
-        Kind{&Repairs::open, "shells said to be closed that are not, left open"},
-        Kind{&Repairs::branching, "edges of more than two faces, left so"}};
+    constexpr std::array kKinds{Kind{&Repairs::inverted, "inverted shells corrected"},
+                                Kind{&Repairs::disagreeing, "shells with inconsistent face orientation corrected"},
+                                Kind{&Repairs::degenerate, "zero-area faces removed"},
+                                Kind{&Repairs::duplicate, "duplicate faces removed"},
+                                Kind{&Repairs::open, "shells declared closed but open; left open"},
+                                Kind{&Repairs::branching, "non-manifold edges (more than two faces); kept"}};
     constexpr std::size_t kListed = 20;
     for (const Kind& kind : kKinds) {
       std::vector<std::pair<std::size_t, std::size_t>> found;  // product, how many
@@ -234,7 +232,7 @@ class Builder {
     if (plans_[i].parts.empty())
       result_.report.warn(e.place(), what + " has a representation but none with a body");
     else
-      result_.report.lose(e.place(), what + " gave no geometry");
+      result_.report.lose(e.place(), what + " produced no geometry");
   }
 
   const std::vector<Entity>& products_;
@@ -313,9 +311,9 @@ std::shared_ptr<const Body> Builder::triangulated(const std::vector<geometry::Po
   for (const auto& mesh : meshes) appendMesh(*body, mesh, problems);
   const std::string where = "#" + std::to_string(place);
   if (problems.fanned > 0)
-    report.warn(where, std::to_string(problems.fanned) + " faces cross themselves and are drawn as fans");
+    report.warn(where, std::to_string(problems.fanned) + " self-intersecting faces triangulated as fans");
   if (problems.infinite > 0)
-    report.lose(where, std::to_string(problems.infinite) + " faces have coordinates that are no finite numbers");
+    report.lose(where, std::to_string(problems.infinite) + " faces have non-finite coordinates");
   return body->triangles.empty() ? nullptr : body;
 }
 

@@ -49,9 +49,8 @@ void readSite(Georeference& geo, const Model& model, Report& report) {
     const auto latitude = compoundAngle(site[9]), longitude = compoundAngle(site[10]);
     if (!latitude || !longitude) continue;
     if (std::abs(*latitude) > 90 || std::abs(*longitude) > 360) {
-      report.warn(site.place(),
-                  fmt::format("the site's latitude {} and longitude {} are nowhere on Earth; they are not used",
-                              *latitude, *longitude));
+      report.warn(site.place(), fmt::format("the site's latitude {} and longitude {} are out of range and were ignored",
+                                            *latitude, *longitude));
       continue;
     }
     geo.site = GeographicPosition{*latitude, *longitude, site[11].number(0) * model.units.length_m};
@@ -82,7 +81,7 @@ void checkDatum(const Entity& crs, std::size_t index, const char* what, Report& 
   if (!lower(name).starts_with("epsg")) return;
   const std::string digits = epsgDigits(name);
   if (digits.empty() || !isEpsgReference(digits, index == 3))
-    report.warn(crs.place(), fmt::format("the {} '{}' is none in the EPSG dataset", what, name));
+    report.warn(crs.place(), fmt::format("{} '{}' is not in the EPSG dataset", what, name));
 }
 
 // A CRS that has no usable name gives coordinates that nobody can place: its fault is named.
@@ -93,19 +92,18 @@ void readCrs(Georeference& geo, const Entity& crs, const Model& model, Report& r
   for (const Entity& text : model.file.all("IFCWELLKNOWNTEXT"))
     if (text.ref(1) == crs) wkt = text[0].text();
   if (geo.crs.empty()) geo.crs = !digits.empty() || wkt.empty() ? crsName(name) : crsOfWkt(wkt);
-  const char* remedy = "; name it with --crs EPSG:n";
+  const char* remedy = "; specify it with --crs EPSG:n";
   if (name.empty() && wkt.empty())
     report.warn(crs.place(),
-                std::string("the coordinate reference system has no name, an EPSG code is needed") + remedy);
+                std::string("the coordinate reference system has no name; an EPSG code is required") + remedy);
   else if (digits.empty() && lower(name).starts_with("epsg"))
-    report.warn(crs.place(), "'" + name + "' is no EPSG code" + remedy);
+    report.warn(crs.place(), "'" + name + "' is not an EPSG code" + remedy);
   else if (digits.empty() && wkt.empty())
-    report.warn(crs.place(),
-                "'" + name + "' is no EPSG code; which coordinate reference system is meant is unknown" + remedy);
+    report.warn(crs.place(), "'" + name + "' is not an EPSG code; unknown coordinate reference system" + remedy);
   if (!digits.empty()) {
     const EpsgAnswer known = epsgCrs(digits);
     if (known.asked && !known.crs)
-      report.warn(crs.place(), "EPSG:" + digits + " is no coordinate reference system of the EPSG dataset" + remedy);
+      report.warn(crs.place(), "EPSG:" + digits + " is not a coordinate reference system in the EPSG dataset" + remedy);
     else if (known.crs && projected && !known.crs->projected)
       report.warn(crs.place(), "EPSG:" + digits + " is not a projected coordinate reference system" + remedy);
   }
@@ -129,14 +127,13 @@ void checkContexts(const std::vector<Entity>& operations, const Model& model, Re
   };
   for (const Entity& e : operations)
     if (!same(e, operations[0]))
-      report.warn(e.place(),
-                  "places its context on the map otherwise than " + operations[0].place() + " does; that one is used");
+      report.warn(e.place(), "conflicts with the map position from " + operations[0].place() + "; the latter is used");
   for (const Entity& context : model.file.all("IFCGEOMETRICREPRESENTATIONCONTEXT")) {
     if (context[1].text() != "Model") continue;
     if (std::none_of(operations.begin(), operations.end(),
                      [&](const Entity& e) { return e.ref(0) == context || e.ref(0).is("IFCPROJECT"); }))
-      report.warn(context.place(), "the context is not placed on the map, while " + operations[0].ref(0).place() +
-                                       " is; its shapes are placed like those");
+      report.warn(context.place(), "the context has no map position, but " + operations[0].ref(0).place() +
+                                       " has one; it is used for both");
   }
 }
 
@@ -144,9 +141,11 @@ void checkRigid(const Entity& e, Report& report) {
   const std::string first(e[2].typeName()), second(e[3].typeName());
   const auto fine = [](const std::string& t) { return t == "IFCLENGTHMEASURE" || t == "IFCPLANEANGLEMEASURE"; };
   if (first == second && fine(first)) return;
-  report.warn(e.place(), fmt::format("the first coordinate is an {} and the second an {}; both have to be "
-                                     "IFCLENGTHMEASURE or both IFCPLANEANGLEMEASURE",
-                                     first, second));
+  report.warn(
+      e.place(),
+      fmt::format(
+          "the first coordinate is {}, the second {}; both must be IFCLENGTHMEASURE or both IFCPLANEANGLEMEASURE",
+          first, second));
 }
 
 // Of a geographic CRS: longitude first, as buildingSMART's own example writes it, unless only the other way is on
@@ -157,10 +156,9 @@ void readGeographicRigid(Georeference& geo, const Entity& e, const Model& model,
   double longitude = e[2].number(0) * degrees, latitude = e[3].number(0) * degrees;
   if (std::abs(latitude) > 90) std::swap(latitude, longitude);
   if (std::abs(latitude) > 90 || std::abs(longitude) > 360)
-    return report.warn(e.place(), "the coordinates are nowhere on Earth; they are not used");
+    return report.warn(e.place(), "the coordinates are out of range and were ignored");
   geo.site = GeographicPosition{latitude, longitude, e[4].number(0) * model.units.length_m};
-  report.note(e.place(),
-              fmt::format("the origin is taken at latitude {:.6f}° and longitude {:.6f}°", latitude, longitude));
+  report.note(e.place(), fmt::format("origin set to latitude {:.6f}° and longitude {:.6f}°", latitude, longitude));
 }
 
 void readOperations(Georeference& geo, const Model& model, Report& report) {
@@ -176,7 +174,7 @@ void readOperations(Georeference& geo, const Model& model, Report& report) {
   if (const Entity crs = all[0].ref(1))
     readCrs(geo, crs, model, report);
   else
-    report.warn(all[0].place(), "the map conversion names no coordinate reference system; name it with --crs EPSG:n");
+    report.warn(all[0].place(), "the map conversion has no coordinate reference system; specify it with --crs EPSG:n");
 }
 
 // Some exporters write the place into the world coordinate system of the context.
@@ -190,13 +188,13 @@ void readWorldCoordinates(Georeference& geo, const Model& model, Report& report)
     if (at.norm() < 1e-6 && world.linear().isIdentity(1e-9)) continue;
     const bool upright = world.linear().col(2).isApprox(Eigen::Vector3d::UnitZ(), 1e-6);
     if (geo.map_from_file || !upright || at.head<2>().norm() < kFar_m)
-      return report.note(context.place(),
-                         fmt::format("the world coordinate system lies at {:.3f} {:.3f} {:.3f} m and is not applied",
-                                     at.x(), at.y(), at.z()));
+      return report.note(
+          context.place(),
+          fmt::format("the world coordinate system at {:.3f} {:.3f} {:.3f} m was not applied", at.x(), at.y(), at.z()));
     geo.map_from_file = MapConversion{at.x(), at.y(), at.z(), world.linear()(0, 0), world.linear()(1, 0), 1};
-    return report.warn(
-        context.place(),
-        "the world coordinate system is taken for the model's place on the map; name the map with --crs EPSG:n");
+    return report.warn(context.place(),
+                       "the world coordinate system is used as map position; specify the coordinate reference system "
+                       "with --crs EPSG:n");
   }
 }
 
@@ -283,7 +281,7 @@ void readPropertySets(Georeference& geo, const Model& model, const Relations& re
   geo.map_from_file = conversionInMetres(sets.conversion, model, report);
   if (geo.crs.empty())
     report.warn(sets.conversion.place,
-                "the map conversion names no coordinate reference system; name it with --crs EPSG:n");
+                "the map conversion has no coordinate reference system; specify it with --crs EPSG:n");
 }
 
 }  // namespace

@@ -52,13 +52,13 @@ std::vector<Product> describeAll(const std::vector<Entity>& entities, const Rela
     for (std::size_t i = begin; i < end; ++i) {
       properties += products[i].properties.size();
       if (products[i].properties.size() >= kMostProperties)
-        report.lose(entities[i].place(), "has more than 10 000 properties; the others are left out");
+        report.lose(entities[i].place(), "has more than 10 000 properties; the rest were skipped");
     }
     if (full) bare += end - begin;
   }
   if (bare > 0)
     report.lose("model",
-                "more than 5 000 000 properties in all; those of " + std::to_string(bare) + " products are left out");
+                "more than 5 000 000 properties in total; those of " + std::to_string(bare) + " products were skipped");
   return products;
 }
 

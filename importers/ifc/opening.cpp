@@ -46,7 +46,7 @@ void cutAway(geometry::PolyMesh& body, const std::vector<geometry::PolyMesh>& to
     body = std::move(*cut);
   else
     report.lose(element.place(), std::to_string(touching.size()) +
-                                     " openings were not cut, the body stays as it was: " + describe(cut.error()));
+                                     " openings were not cut; the body is unchanged: " + describe(cut.error()));
   move(body, shift);
 }
 

@@ -168,7 +168,7 @@ std::vector<SpatialNode> spatialTree(const Model& model, const Relations& relati
       if (properties < kMostPropertiesInAll)
         nodes.back().properties = propertiesOf(e, relations, model);
       else if (properties != SIZE_MAX)
-        report.lose(e.place(), "more than 5 000 000 properties of places in all; those from here on are left out");
+        report.lose(e.place(), "more than 5 000 000 spatial properties in total; the rest were skipped");
       properties = properties < kMostPropertiesInAll ? properties + nodes.back().properties.size() : SIZE_MAX;
       if (const std::string type = placeType(e); !type.empty())
         nodes.back().properties.insert(nodes.back().properties.begin(), {"Attributes", "PredefinedType", type});
@@ -180,7 +180,7 @@ std::vector<SpatialNode> spatialTree(const Model& model, const Relations& relati
   for (const Id root : roots) visit(root);
   for (const Id id : all)
     if (!index.contains(id)) {
-      report.warn("#" + std::to_string(id), "the spatial structure refers to itself in a circle; it is cut here");
+      report.warn("#" + std::to_string(id), "circular reference in the spatial structure; cut here");
       visit(id);
     }
   return nodes;

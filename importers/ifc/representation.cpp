@@ -58,7 +58,7 @@ struct Walk {
   std::vector<Part> parts;
 
   Result<void> representation(const Entity& r, const Eigen::Affine3d& placed, std::uint32_t style, int depth) {
-    if (depth > 24) return fail(r, "mapped items nest too deeply, or in a circle");
+    if (depth > 24) return fail(r, "mapped items nest too deeply or form a cycle");
     bool direct = false;
     for (const Entity& e : r.refs(3)) {
       if (!e.is("IFCMAPPEDITEM")) {
@@ -77,8 +77,8 @@ struct Walk {
       if (auto done = representation(map.ref(1), next, own ? own : style, depth + 1); !done) return done;
     }
     if (direct) parts.push_back({r.id(), placed, style});
-    if (parts.size() > kMostParts) return fail(r, "mapped items multiply beyond any building");
-    return scope.spend(1) ? Result<void>{} : fail(r, "mapped items multiply beyond any building");
+    if (parts.size() > kMostParts) return fail(r, "mapped items produce too many instances");
+    return scope.spend(1) ? Result<void>{} : fail(r, "mapped items produce too many instances");
   }
 };
 
@@ -89,8 +89,7 @@ void appendItem(Items& items, const Entity& e, Scope& scope) {
   if (!mesh) {
     // Curves and points beside a body are drawing, not body.
     if (flat)
-      items.report.note(e.place(),
-                        std::string(e.typeName()) + " is no solid or surface that is known here; it was left out");
+      items.report.note(e.place(), std::string(e.typeName()) + " is not a supported solid or surface and was skipped");
     else
       items.report.lose(mesh.error().source.empty() ? e.place() : mesh.error().source,
                         e.place() + " has no geometry: " + mesh.error().message);

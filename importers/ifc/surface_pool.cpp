@@ -43,7 +43,7 @@ SurfacePool::Look SurfacePool::lookOf(std::uint32_t tag, bool has_coordinates) {
       placePicture(look, model_.file.entity(look.style->texture));
     else if (look.style && look.style->texture && told_.insert(look.style->texture).second)
       report_.note("#" + std::to_string(look.style->texture),
-                   "the texture has no coordinates on some of the faces that have it; they are plain");
+                   "some textured faces have no texture coordinates and stay untextured");
     return look;
   }
   const Entity item = model_.file.entity(model_.textures.source(tag).item);

@@ -86,7 +86,8 @@ class MtlParser {
   void begin(const std::string& name) {
     has_d_ = false;
     const bool is_new = names_.insert(name).second;
-    if (!is_new) report_.warn(place(), "material " + inQuotes(name) + " is defined again; the first definition holds");
+    if (!is_new)
+      report_.warn(place(), "material " + inQuotes(name) + " is defined more than once; the first definition is used");
     if (!is_new) {
       ignored_ = {};
       current_ = &ignored_;
@@ -124,7 +125,7 @@ class MtlParser {
   void number(const std::string& rest, const Use& use) {
     const auto n = numbers(rest);
     if (n.empty() || !std::isfinite(n[0]))
-      return report_.warn(place(), inQuotes(rest) + " is not a number and is not used");
+      return report_.warn(place(), inQuotes(rest) + " is not a number and was ignored");
     use(n[0]);
   }
 
@@ -134,7 +135,7 @@ class MtlParser {
     if (n.size() == 1) n = {n[0], n[0], n[0]};
     if (n.size() >= 3 && std::isfinite(n[0]) && std::isfinite(n[1]) && std::isfinite(n[2]))
       return std::array{unit(n[0]), unit(n[1]), unit(n[2])};
-    report_.warn(place(), inQuotes(rest) + " is not a colour of three numbers and is not used");
+    report_.warn(place(), inQuotes(rest) + " is not a colour of three numbers and was ignored");
     return std::nullopt;
   }
 
@@ -151,7 +152,7 @@ class MtlParser {
   void other(const std::string& key, const std::string& rest) {
     static constexpr std::array<std::string_view, 10> kLooks = {"ka",  "ns",    "ke",     "tf",        "ps",
                                                                 "pcr", "aniso", "anisor", "sharpness", "km"};
-    if (std::find(kLooks.begin(), kLooks.end(), key) == kLooks.end()) return count("statements of unknown kinds");
+    if (std::find(kLooks.begin(), kLooks.end(), key) == kLooks.end()) return count("unknown statements");
     const auto n = numbers(rest);
     if (std::any_of(n.begin(), n.end(), [](double v) { return v != 0; })) looks_.insert(key);
   }
@@ -164,7 +165,7 @@ class MtlParser {
   void map(const std::string& key, const std::string& rest) {
     Eigen::Vector2f scale(1, 1), offset(0, 0);
     const auto file = withoutOptions(rest, scale, offset);
-    if (file.empty()) return report_.warn(place(), key + " names no file");
+    if (file.empty()) return report_.warn(place(), key + " does not name a file");
     if (key == "map_kd")
       current_->texture = file, current_->texture_scale = scale, current_->texture_offset = offset;
     else if (key == "map_d")
@@ -219,9 +220,9 @@ class MtlParser {
   void sayWhatIsNotKept() {
     for (const auto& [what, found] : odd_)
       report_.warn(name_ + " line " + std::to_string(found.first),
-                   std::to_string(found.second) + " " + what + " are not read");
-    if (!looks_.empty()) report_.note(name_, "not kept, since it says how a lamp would light it: " + joined(looks_));
-    if (!options_.empty()) report_.note(name_, "options of textures that are not kept: " + joined(options_));
+                   std::to_string(found.second) + " " + what + " were skipped");
+    if (!looks_.empty()) report_.note(name_, "skipped lighting properties: " + joined(looks_));
+    if (!options_.empty()) report_.note(name_, "skipped texture options: " + joined(options_));
   }
 
   TextCursor text_;

@@ -22,29 +22,29 @@ struct Lost {
   const char* what;
 };
 constexpr std::array kLost = {
-    Lost{"p", "point statement(s) are not a surface"},
-    Lost{"l", "line statement(s) are not a surface"},
-    Lost{"curv", "free-form curve statement(s) (curv) are not read"},
-    Lost{"curv2", "free-form trimming curve statement(s) (curv2) are not read"},
-    Lost{"scrv", "free-form special curve statement(s) (scrv) are not read"},
-    Lost{"surf", "free-form surface statement(s) (surf) are not read; export the model as polygons"},
-    Lost{"trim", "free-form trimming statement(s) (trim) are not read"},
-    Lost{"hole", "free-form hole statement(s) (hole) are not read"},
-    Lost{"bzp", "Bézier patch statement(s) (bzp) are not read"},
-    Lost{"bsp", "B-spline patch statement(s) (bsp) are not read"},
-    Lost{"cdc", "Cardinal curve statement(s) (cdc) are not read"},
-    Lost{"cdp", "Cardinal patch statement(s) (cdp) are not read"},
-    Lost{"res", "statement(s) of a free-form resolution (res) are not read"},
-    Lost{"call", "other file(s) that the model calls are not read"},
-    Lost{"csh", "command(s) that the model wants to run are not run"},
+    Lost{"p", "point statement(s) skipped: not a surface"},
+    Lost{"l", "line statement(s) skipped: not a surface"},
+    Lost{"curv", "free-form curve statement(s) (curv) skipped"},
+    Lost{"curv2", "free-form trimming curve statement(s) (curv2) skipped"},
+    Lost{"scrv", "free-form special curve statement(s) (scrv) skipped"},
+    Lost{"surf", "free-form surface statement(s) (surf) skipped; export the model as polygons"},
+    Lost{"trim", "free-form trimming statement(s) (trim) skipped"},
+    Lost{"hole", "free-form hole statement(s) (hole) skipped"},
+    Lost{"bzp", "Bézier patch statement(s) (bzp) skipped"},
+    Lost{"bsp", "B-spline patch statement(s) (bsp) skipped"},
+    Lost{"cdc", "Cardinal curve statement(s) (cdc) skipped"},
+    Lost{"cdp", "Cardinal patch statement(s) (cdp) skipped"},
+    Lost{"res", "free-form resolution statement(s) (res) skipped"},
+    Lost{"call", "file(s) called by the model were not read"},
+    Lost{"csh", "command(s) in the model were not executed"},
     Lost{kShortFaces, "face(s) have fewer than three corners"},
-    Lost{kWrongTexture, "texture coordinate(s) are not numbers or not there"},
+    Lost{kWrongTexture, "texture coordinate(s) missing or not numbers"},
 };
 constexpr std::array kOdd = {
-    Lost{kBadVertices, "vertices cannot be read as three numbers; no face uses them"},
-    Lost{kWeights, "vertices have a weight (w) other than 1, which only free-form geometry uses"},
-    Lost{kOddColours, "vertices have five numbers, or more than seven: what follows x y z is not used"},
-    Lost{kUnknown, "statement(s) of kinds that OBJ does not have are not read"},
+    Lost{kBadVertices, "invalid vertices; not used by any face"},
+    Lost{kWeights, "vertices have a weight (w) other than 1, used only by free-form geometry"},
+    Lost{kOddColours, "vertices have five or more than seven numbers: values after x y z ignored"},
+    Lost{kUnknown, "unknown statement(s) skipped"},
 };
 
 void sayWhatIsLost(const ObjFile& file, Report& report) {
@@ -57,7 +57,7 @@ void sayWhatIsLost(const ObjFile& file, Report& report) {
     say(lost, [&](std::string where, std::string what) { report.lose(std::move(where), std::move(what)); });
   for (const Lost& odd : kOdd)
     say(odd, [&](std::string where, std::string what) { report.warn(std::move(where), std::move(what)); });
-  if (file.colours_were_bytes) report.warn("", "vertex colours go above 1 and are taken as 0 to 255");
+  if (file.colours_were_bytes) report.warn("", "vertex colours exceed 1; read as 0 to 255");
 }
 
 Result<FileBytes> openText(const std::filesystem::path& path) {
@@ -75,7 +75,7 @@ Result<ImportedModel> read(const std::filesystem::path& path, const ImportOption
   auto file = readObjFile(*bytes, name, progress);
   if (!file) return failure(file.error());
   if (file->known_statements == 0 && file->tallies.contains(kUnknown))
-    return failure(ErrorKind::unusable, "holds no statement of an OBJ",
+    return failure(ErrorKind::unusable, "contains no OBJ statements",
                    name + " line " + std::to_string(file->tallies.find(kUnknown)->second.first_line));
   Report report;
   auto groups = groupObjFaces(*file, path.stem().string());
@@ -100,7 +100,7 @@ Result<ImportedModel> readObj(const std::filesystem::path& path, const ImportOpt
   try {
     return read(path, options, progress);
   } catch (const std::bad_alloc&) {
-    return failure(ErrorKind::unusable, "there is not enough memory for it", path.filename().string());
+    return failure(ErrorKind::unusable, "not enough memory", path.filename().string());
   }
 }
 

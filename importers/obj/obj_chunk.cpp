@@ -81,13 +81,13 @@ class ChunkParser {
 
   static const char* whyNotVertex(const double* n, int count) {
     if (count < 0) return "a coordinate is not a number";
-    if (count < 3) return "a vertex needs three numbers";
+    if (count < 3) return "a vertex requires three numbers";
     double largest = 0;
     for (int i = 0; i < 3; ++i) {
       if (!std::isfinite(n[i])) return "a coordinate is not a finite number";
       largest = std::max(largest, std::abs(n[i]));
     }
-    return largest > kLargest ? "a coordinate is beyond 1e13" : nullptr;
+    return largest > kLargest ? "a coordinate exceeds 1e13" : nullptr;
   }
 
   void badVertex(const char* why) {
@@ -145,8 +145,8 @@ class ChunkParser {
       }
     }
     if (!text_.atWordEnd() && text_.peek() != '\\' && text_.peek() != '#')
-      return fault(number() + "is not v, v/t, v//n or v/t/n"), false;
-    if (v == 0) return fault(number() + "has the vertex number 0; they begin at 1"), false;
+      return fault(number() + "must be v, v/t, v//n or v/t/n"), false;
+    if (v == 0) return fault(number() + "has vertex number 0; vertex numbers start at 1"), false;
     const auto index = position(v);
     if (textured) {
       out_.texture_corners.resize(out_.corners.size(), kNoObjIndex);
@@ -188,7 +188,7 @@ class ChunkParser {
   void seldom() {
     const auto key = text_.word();
     if (key == "f" || key == "fo") return face(0);  // `fo` is what version 2 called it
-    if (key == "v") return text_.finishStatement(), badVertex("a vertex needs three numbers");
+    if (key == "v") return text_.finishStatement(), badVertex("a vertex requires three numbers");
     if (key == "o")
       event(ObjChange::object);
     else if (key == "g")

@@ -76,12 +76,12 @@ class Joiner {
       const auto& [largest, lowest] = std::pair(chunks_[i].largest, chunks_[i].lowest);
       const auto before = static_cast<std::int64_t>(bases_[i].position);
       if (lowest.value + before < 0)
-        return failure(error(bases_[i].line + lowest.line, "refers to vertex " + std::to_string(lowest.written) +
-                                                               ", only " + std::to_string(lowest.preceding + before) +
-                                                               " precede it"));
+        return failure(
+            error(bases_[i].line + lowest.line, "refers to vertex " + std::to_string(lowest.written) + ", but only " +
+                                                    std::to_string(lowest.preceding + before) + " precede it"));
       if (largest.value > count)
         return failure(error(bases_[i].line + largest.line, "refers to vertex " + std::to_string(largest.written) +
-                                                                ", there are " + std::to_string(count)));
+                                                                ", but there are " + std::to_string(count)));
     }
     return {};
   }

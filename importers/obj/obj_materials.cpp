@@ -43,7 +43,7 @@ class Materials {
   void load(const ObjGroups::Library& library) {
     const std::string place = "line " + std::to_string(library.line);
     const auto names = fileNames(library.names);
-    if (names.empty()) return report_.warn(place, "mtllib names no file");
+    if (names.empty()) return report_.warn(place, "mtllib does not name a file");
     if (names.size() > 1)
       if (const auto whole = folder_.find(library.names, folder_.root()); whole)
         return loadFile(library.names, *whole, place);
@@ -52,8 +52,8 @@ class Materials {
       if (const auto found = folder_.find(name, folder_.root()); found)
         loadFile(name, *found, place);
       else if (!loadNamesake(name, found.error().message, place))
-        report_.warn(place,
-                     "material file '" + name + "' " + found.error().message + "; its materials keep their names only");
+        report_.warn(place, "material file '" + name + "' " + found.error().message +
+                                "; only the names of its materials are known");
     }
   }
 
@@ -68,7 +68,8 @@ class Materials {
                      "material '" + s.name + "' is not defined; only its name is known");
     }
     for (const auto& [key, tally] : unread_maps_)
-      report_.note(tally.second, std::to_string(tally.first) + " material(s) have a " + key + ", which is not read");
+      report_.note(tally.second,
+                   std::to_string(tally.first) + " material(s) have a " + key + ", which is not supported");
     soup_.images = std::move(images_).images();
   }
 
@@ -96,7 +97,7 @@ class Materials {
     const auto found = folder_.find(obj_.stem().string() + ".mtl", folder_.root());
     if (!found || read_.contains(found->file)) return false;
     report_.warn(place,
-                 "material file '" + name + "' " + why + "; " + found->file.filename().string() + " stands for it");
+                 "material file '" + name + "' " + why + "; " + found->file.filename().string() + " is used instead");
     loadFile(name, {found->file, true}, place);
     return true;
   }
@@ -111,8 +112,7 @@ class Materials {
         moveTexture(index, m.texture_scale, m.texture_offset);
     }
     if (!m.cutout.empty() && m.cutout != m.texture)
-      report_.lose(s.source,
-                   "has a map_d '" + m.cutout + "', which is not read: where it cuts holes the surface is whole");
+      report_.lose(s.source, "has a map_d '" + m.cutout + "', which is not supported: cutouts are not applied");
     for (const auto& [key, file] : m.other_maps)
       if (auto& tally = unread_maps_[key]; tally.first++ == 0) tally.second = s.source;
   }
@@ -122,7 +122,7 @@ class Materials {
     const auto index = found ? images_.add(found->file) : Result<std::int32_t>(failure(found.error()));
     if (!index) {
       report_.lose(place,
-                   "colour texture '" + name + "' " + index.error().message + "; its diffuse colour stands for it");
+                   "colour texture '" + name + "' " + index.error().message + "; using the diffuse colour instead");
       return -1;
     }
     if (!found->as_named)

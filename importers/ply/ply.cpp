@@ -21,8 +21,7 @@ void addSurfaces(const std::filesystem::path& path, const PlyHeader& header, boo
   plain.source = "PLY";
   if (!soup.colours.empty()) plain.colour = {1, 1, 1, 1};  // the vertices have the colour
   soup.surfaces.push_back(plain);
-  if (!textured && !header.texture_files.empty())
-    report.note(place(0), "is not used: no corner has texture coordinates");
+  if (!textured && !header.texture_files.empty()) report.note(place(0), "not used: no texture coordinates");
   if (!textured) return;
   const ModelFolder folder(path);
   ImageFiles images;
@@ -61,7 +60,7 @@ Result<ImportedModel> read(const std::filesystem::path& path, const ImportOption
     if (plain && read->soup.colours.empty())
       paintFaces(read->soup, read->colour_of_face);
     else
-      report.note("", "faces have colours of their own, which are not used: vertices or textures have the colour");
+      report.note("", "face colours ignored: vertices or textures define the colour");
   }
   Product product;
   product.name = path.stem().string();
@@ -79,7 +78,7 @@ Result<ImportedModel> readPly(const std::filesystem::path& path, const ImportOpt
   try {
     return read(path, options, progress);
   } catch (const std::bad_alloc&) {
-    return failure(ErrorKind::unusable, "there is not enough memory for it", path.filename().string());
+    return failure(ErrorKind::unusable, "not enough memory", path.filename().string());
   }
 }
 

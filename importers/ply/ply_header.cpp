@@ -44,8 +44,8 @@ class HeaderReader {
       const auto least = e.leastBytes(out_.form == PlyForm::text), there = file_size - out_.bytes;
       if (least > 0 && e.count > (there + 1) / least)
         return failure(ErrorKind::unusable,
-                       "says " + std::to_string(e.count) + " of " + e.name + ", the file has bytes for at most " +
-                           std::to_string((there + 1) / least) + ": it was cut off",
+                       "says " + std::to_string(e.count) + " of " + e.name + ", but the file has data for at most " +
+                           std::to_string((there + 1) / least) + ": the file is truncated",
                        name_ + " line " + std::to_string(e.line));
     }
     return std::move(out_);
@@ -77,7 +77,7 @@ class HeaderReader {
       out_.texture_files.emplace_back(line.substr(first, line.find_last_not_of(" \t") - first + 1));
     }
     if (w[0] == "comment" || w[0] == "obj_info") return {};
-    return fault(inQuotes(w[0]) + " is no word of a PLY header");
+    return fault(inQuotes(w[0]) + " is not a PLY header keyword");
   }
 
   Result<void> format(const std::vector<std::string>& w) {
@@ -89,33 +89,33 @@ class HeaderReader {
     else if (w.size() > 1 && w[1] == "binary_big_endian")
       out_.form = PlyForm::big_endian;
     else
-      return fault("the format is none of ascii, binary_little_endian, binary_big_endian");
+      return fault("format must be ascii, binary_little_endian or binary_big_endian");
     return {};
   }
 
   Result<void> element(const std::vector<std::string>& w) {
     PlyElement e;
-    if (w.size() != 3) return fault("an element needs a name and a count");
+    if (w.size() != 3) return fault("an element requires a name and a count");
     const auto [end, error] = std::from_chars(w[2].data(), w[2].data() + w[2].size(), e.count);
     if (error != std::errc() || end != w[2].data() + w[2].size()) return fault(inQuotes(w[2]) + " is not a count");
     e.name = w[1];
     e.line = lines_;
     if (std::any_of(out_.elements.begin(), out_.elements.end(),
                     [&](const PlyElement& other) { return other.name == e.name; }))
-      return fault("there is a second element " + e.name.substr(0, 40));
+      return fault("duplicate element " + e.name.substr(0, 40));
     out_.elements.push_back(std::move(e));
     return {};
   }
 
   Result<void> property(const std::vector<std::string>& w) {
-    if (out_.elements.empty()) return fault("a property stands before the first element");
+    if (out_.elements.empty()) return fault("property before the first element");
     const bool list = w.size() == 5 && w[1] == "list";
-    if (!list && w.size() != 3) return fault("a property needs a type and a name");
+    if (!list && w.size() != 3) return fault("a property requires a type and a name");
     const auto type = plyType(w[list ? 3 : 1]);
     const auto count_type = list ? plyType(w[2]) : std::nullopt;
-    if (!type || (list && !count_type)) return fault("the type of a property is none of PLY's");
+    if (!type || (list && !count_type)) return fault("unknown property type");
     if (count_type == PlyType::float32 || count_type == PlyType::float64)
-      return fault("a list is counted by a floating-point number");
+      return fault("list count must not be a floating-point type");
     if (++properties_ > kMaxProperties) return fault("more than 1000 properties");
     out_.elements.back().properties.push_back({w.back(), *type, count_type});
     return {};

@@ -21,7 +21,7 @@ PlyRows::PlyRows(const FileBytes& bytes, const PlyHeader& header, const std::str
       next_piece_(header.bytes),
       line_(header.lines + 1) {}
 
-double PlyRows::share() const {
+double PlyRows::fraction() const {
   const auto left =
       header_.form == PlyForm::text ? bytes_.size() - std::min(next_piece_, bytes_.size()) : stream_.remaining();
   return 1 - static_cast<double>(left) / static_cast<double>(bytes_.size());
@@ -46,7 +46,7 @@ Result<void> PlyRows::next(const PlyElement& element, std::uint64_t row, PlyRow&
 
 tl::unexpected<Error> PlyRows::ended() const {
   if (stream_.error()) return failure(*stream_.error());
-  return failure(ErrorKind::unusable, "the file ends here: it was cut off");
+  return failure(ErrorKind::unusable, "the file is truncated here");
 }
 
 Result<void> PlyRows::binaryRow(const PlyElement& element, PlyRow& out) {
@@ -76,7 +76,7 @@ Result<void> PlyRows::textRow(const PlyElement& element, PlyRow& out) {
     if (property.count_type) {
       if (auto ok = textValue(count); !ok) return ok;
       if (!(count >= 0 && count <= 4294967295.0) || count != std::floor(count))
-        return failure(ErrorKind::unusable, "a list has a count that is none");
+        return failure(ErrorKind::unusable, "a list has an invalid count");
     }
     out.begin.push_back(out.values.size());
     out.sizes.push_back(static_cast<std::size_t>(count));

@@ -28,7 +28,7 @@ class PlyRows {
   // "line 12", or "face 7" in a binary file.
   std::string place(const PlyElement& element, std::uint64_t row) const;
   std::size_t line() const { return line_; }
-  double share() const;
+  double fraction() const;
 
  private:
   Result<void> binaryRow(const PlyElement& element, PlyRow& out);

@@ -112,7 +112,7 @@ class SoupReader {
       if (const auto* e = element(kind); e != nullptr && e->count > 0) return {};
     return failure(ErrorKind::unusable,
                    "holds " + std::to_string(vertex->count) +
-                       " points and no faces: it is a point cloud, not a model; take it in as an underlay",
+                       " points and no faces: this is a point cloud, not a model; add it as an underlay",
                    name_ + " line " + std::to_string(vertex->line));
   }
 
@@ -124,7 +124,7 @@ class SoupReader {
       if (auto ok = rows_.next(element, i, row_); !ok) return ok;
       if (auto ok = use(i); !ok) return ok;
       if ((i & 0xFFFFU) != 0) continue;
-      progress_.advance(0.6 * rows_.share());
+      progress_.advance(0.6 * rows_.fraction());
       if (auto ok = progress_.check(); !ok) return ok;
     }
     return {};
@@ -140,13 +140,14 @@ class SoupReader {
     }
     if (!unread.empty())
       report_.note("line " + std::to_string(element.line),
-                   "properties of " + element.name + " that are not read: " + unread.substr(0, 400));
+                   "properties of " + element.name + " not read: " + unread.substr(0, 400));
   }
 
   Result<void> vertices(const PlyElement& element) {
     const std::vector<int> xyz = {propertyOf(element, {"x"}), propertyOf(element, {"y"}), propertyOf(element, {"z"})};
     if (*std::min_element(xyz.begin(), xyz.end()) < 0)
-      return failure(ErrorKind::unusable, "vertices need x, y and z", name_ + " line " + std::to_string(element.line));
+      return failure(ErrorKind::unusable, "vertices require x, y and z",
+                     name_ + " line " + std::to_string(element.line));
     const int u = propertyOf(element, kU), v = propertyOf(element, kV);
     const ColourColumns colour(element);
     sayUnread(element, {xyz[0], xyz[1], xyz[2], u, v}, colour);
@@ -186,7 +187,7 @@ class SoupReader {
   Result<void> faces(const PlyElement& element) {
     const int indices = propertyOf(element, {"vertex_indices", "vertex_index"}, true);
     if (indices < 0)
-      return failure(ErrorKind::unusable, "faces need a list vertex_indices",
+      return failure(ErrorKind::unusable, "faces require a list vertex_indices",
                      name_ + " line " + std::to_string(element.line));
     const int wedges = propertyOf(element, {"texcoord"}, true), number = propertyOf(element, {"texnumber"});
     const ColourColumns colour(element);
@@ -229,7 +230,7 @@ class SoupReader {
     const auto* vertex = this->element("vertex");
     if (!(index >= 0 && index < static_cast<double>(vertex->count)) || index != std::floor(index))
       return failure(ErrorKind::unusable,
-                     "refers to a vertex that is not there; there are " + std::to_string(vertex->count),
+                     "refers to a missing vertex; vertex count is " + std::to_string(vertex->count),
                      name_ + " " + rows_.place(element, row));
     out_.soup.corners.push_back(static_cast<std::uint32_t>(index));
     return {};
@@ -258,7 +259,7 @@ class SoupReader {
   Result<void> strips(const PlyElement& element) {
     const int indices = propertyOf(element, {"vertex_indices", "vertex_index"}, true);
     if (indices < 0)
-      return failure(ErrorKind::unusable, "strips need a list vertex_indices",
+      return failure(ErrorKind::unusable, "strips require a list vertex_indices",
                      name_ + " line " + std::to_string(element.line));
     return eachRow(element, [&](std::uint64_t i) -> Result<void> {
       const auto from = row_.begin[static_cast<std::size_t>(indices)],
@@ -282,7 +283,7 @@ class SoupReader {
   Result<void> skip(const PlyElement& element) {
     if (element.count > 0)
       report_.lose("line " + std::to_string(element.line),
-                   std::to_string(element.count) + " of the element " + element.name.substr(0, 40) + " are not read");
+                   std::to_string(element.count) + " of the element " + element.name.substr(0, 40) + " were skipped");
     return eachRow(element, [](std::uint64_t) { return Result<void>(); });
   }
 
@@ -295,7 +296,7 @@ class SoupReader {
       return failure(ErrorKind::unusable, "a coordinate is not a finite number below 1e13",
                      name_ + " " + (known == bad_.end() ? "vertex " + std::to_string(c) : known->second));
     }
-    report_.warn(bad_.front().second, "vertices have coordinates that are no finite numbers; no face uses them");
+    report_.warn(bad_.front().second, "vertices have non-finite coordinates; not used by any face");
     return {};
   }
 

@@ -16,8 +16,8 @@ Surface surfaceOf(std::uint32_t colour) {
   char name[16];
   std::snprintf(name, sizeof name, "#%06x", colour);
   s.name = s.source = name;
-  const auto share = [&](unsigned shift) { return static_cast<float>(colour >> shift & 0xFFU) / 255; };
-  s.colour = {share(16), share(8), share(0), 1};
+  const auto fraction = [&](unsigned shift) { return static_cast<float>(colour >> shift & 0xFFU) / 255; };
+  s.colour = {fraction(16), fraction(8), fraction(0), 1};
   return s;
 }
 

@@ -130,24 +130,20 @@ class SoupModel {
     const auto warn = [&](const FaceTally& tally, const char* what) {
       if (tally.count > 0) report_.warn(place(tally), std::to_string(tally.count) + what);
     };
-    warn(f.unclean,
-         " polygon(s) cross themselves, have no area or more corners than can be told apart; a fan of triangles stands "
-         "for each");
-    warn(f.collapsed, " triangle(s) have two corners in one place and are left out");
-    warn(f.twice, " triangle(s) stand there twice; one is kept");
-    warn(f.repainted, " triangle(s) stand there twice with different materials; the first is kept");
+    warn(f.unclean, " polygon(s) self-intersecting, without area or too complex; triangulated as fans");
+    warn(f.collapsed, " degenerate triangle(s) skipped");
+    warn(f.twice, " duplicate triangle(s) removed");
+    warn(f.repainted, " duplicate triangle(s) with different materials; the first was kept");
     if (f.unpainted.count > 0)
       report_.warn("",
                    std::to_string(f.unpainted.count) + " vertices of textured surfaces have no texture coordinates");
     if (f.flat.count > 0)
-      report_.note(place(f.flat), std::to_string(f.flat.count) +
-                                      " triangle(s) have no area; they are kept, since their edges may close a solid");
+      report_.note(place(f.flat),
+                   std::to_string(f.flat.count) + " zero-area triangle(s) kept, since their edges may close a solid");
     if (f.inside_out.count > 0)
-      report_.note(
-          place(f.inside_out),
-          std::to_string(f.inside_out.count) +
-              " product(s) are closed and face inward: rooms seen from within, or turned inside out; they are kept so");
-    if (soup_.runs.empty()) report_.warn("", "no faces: there is nothing to scan");
+      report_.note(place(f.inside_out), std::to_string(f.inside_out.count) +
+                                            " closed product(s) face inward (interior shells or inverted); kept as is");
+    if (soup_.runs.empty()) report_.warn("", "no faces: nothing to scan");
   }
 
   FaceSoup& soup_;

@@ -61,13 +61,13 @@ Result<void> readBinary(const FileBytes& bytes, const std::string& name, StlSoup
   if (auto ok = bytes.read(0, header, kHeaderBytes); !ok) return ok;
   const std::uint64_t count = littleEndian32(header + 80), there = (bytes.size() - kHeaderBytes) / kFacetBytes;
   if (count > there)
-    return failure(
-        ErrorKind::unusable,
-        "says " + std::to_string(count) + " triangles and has bytes for " + std::to_string(there) + ": it was cut off",
-        name + " byte 80");
+    return failure(ErrorKind::unusable,
+                   "says " + std::to_string(count) + " triangles, but has data for " + std::to_string(there) +
+                       ": the file is truncated",
+                   name + " byte 80");
   if (const auto rest = bytes.size() - kHeaderBytes - count * kFacetBytes; rest > 0)
     report.warn("byte " + std::to_string(bytes.size() - rest),
-                std::to_string(rest) + " bytes after the last triangle are not read");
+                std::to_string(rest) + " bytes after the last triangle were skipped");
   const AttributeColours colours(std::string_view(header, 80));
   out.begin(name.substr(0, name.rfind('.')), count);
   ByteStream stream(bytes, kHeaderBytes);
@@ -117,7 +117,7 @@ Result<ImportedModel> readStl(const std::filesystem::path& path, const ImportOpt
   try {
     return read(path, options, progress);
   } catch (const std::bad_alloc&) {
-    return failure(ErrorKind::unusable, "there is not enough memory for it", path.filename().string());
+    return failure(ErrorKind::unusable, "not enough memory", path.filename().string());
   }
 }
 

@@ -44,8 +44,8 @@ class TextReader {
 
   Result<void> finish(std::size_t line) const {
     if (!seen_solid_)
-      return failure(ErrorKind::unusable, "is neither a text that begins with 'solid' nor a binary STL", name_);
-    if (in_facet_) return fault(line, "ends within a facet: it was cut off");
+      return failure(ErrorKind::unusable, "neither a text STL starting with 'solid' nor a binary STL", name_);
+    if (in_facet_) return fault(line, "ends inside a facet: the file is truncated");
     return {};
   }
 
@@ -68,36 +68,36 @@ class TextReader {
     const std::string word = lower(cursor.word());
     if (word == "vertex") return vertex(cursor, line);
     if (word == "facet") {
-      if (in_facet_) return fault(line, "a facet begins within a facet");
-      if (!in_solid_) return fault(line, "a facet stands outside a solid");
+      if (in_facet_) return fault(line, "facet inside a facet");
+      if (!in_solid_) return fault(line, "facet outside a solid");
       in_facet_ = true;
       facet_line_ = line;
     } else if (word == "endfacet") {
-      if (!in_facet_ || out_.cornersOfFacet() < 3) return fault(line, "a facet ends without three vertices");
+      if (!in_facet_ || out_.cornersOfFacet() < 3) return fault(line, "facet without three vertices");
       out_.endFacet(facet_line_);
       in_facet_ = false;
     } else if (word == "solid") {
-      if (in_facet_) return fault(line, "a solid begins within a facet");
+      if (in_facet_) return fault(line, "solid starts inside a facet");
       in_solid_ = seen_solid_ = true;
       const std::string solid = cursor.rest();
       out_.begin(solid.empty() ? name_.substr(0, name_.rfind('.')) : solid);
       return {};
     } else if (word == "endsolid") {
-      if (in_facet_) return fault(line, "a solid ends within a facet");
+      if (in_facet_) return fault(line, "solid ends inside a facet");
       in_solid_ = false;
     } else if (word != "outer" && word != "endloop" && word != "color") {
-      return fault(line, inQuotes(word) + " is no word of an STL");
+      return fault(line, inQuotes(word) + " is not an STL keyword");
     }
     cursor.skipComment();
     return {};
   }
 
   Result<void> vertex(TextCursor& cursor, std::size_t line) {
-    if (!in_facet_) return fault(line, "a vertex stands outside a facet");
+    if (!in_facet_) return fault(line, "vertex outside a facet");
     Eigen::Vector3d p;
     for (int i = 0; i < 3; ++i) {
       cursor.skipSpaces();
-      if (!cursor.number(p[i])) return fault(line, "a vertex needs three numbers");
+      if (!cursor.number(p[i])) return fault(line, "a vertex requires three numbers");
       if (!(std::abs(p[i]) <= kLargestInText)) return fault(line, "a coordinate is not a finite number below 1e13");
     }
     out_.corner(p);
@@ -182,8 +182,7 @@ Result<void> readStlText(const FileBytes& bytes, const std::string& name, StlSou
     if (auto ok = progress.check(); !ok) return ok;
   }
   if (auto ok = reader.finish(line); !ok) return ok;
-  if (reader.in_solid())
-    report.warn("line " + std::to_string(line), "ends without 'endsolid': something may be missing");
+  if (reader.in_solid()) report.warn("line " + std::to_string(line), "missing 'endsolid': the file may be incomplete");
   return {};
 }
 

@@ -28,9 +28,9 @@ constexpr double kThin = 1e-6;                  // m of volume for each m² of a
 constexpr double kCovered = 1e-4;               // m; a point this near to a piece is covered by it
 constexpr double kSliver = 1e-4;                // m; a triangle lower than this
 constexpr std::size_t kManyTriangles = 300;     // of a part that is flattened before it is cut
-constexpr double kCutShare = 0.4;               // of the largest deviation
-constexpr double kSectionShare = 0.85;          // …
-constexpr double kFlattenShares[] = {0.4, 0.1, 0.05, 0.025};
+constexpr double kCutFraction = 0.4;            // of the largest deviation
+constexpr double kSectionFraction = 0.85;       // …
+constexpr double kFlattenFractions[] = {0.4, 0.1, 0.05, 0.025};
 constexpr std::uint32_t kSamples = 2000, kLeastSamples = 150;  // of a part, and of each of its pieces
 
 // The sets of triangles that `root` calls one, in the order of their first triangles; one set where there would be too
@@ -235,15 +235,15 @@ Attempt takeApart(Shape part, double max_deviation_m, bool cheaply, const Progre
   if (closed && (best.pieces.empty() || best.pieces.size() > kFew)) {
     take(prismPieces(part, volume, 0));
     if (best.pieces.empty() || best.pieces.size() > kFew)
-      take(prismPieces(part, volume, kSectionShare * max_deviation_m));
+      take(prismPieces(part, volume, kSectionFraction * max_deviation_m));
   }
   if (cheaply || (!best.pieces.empty() && best.pieces.size() <= kFew)) return best;
-  if (part.triangles.size() <= kManyTriangles) take(cutPieces(part, kCutShare * max_deviation_m));
+  if (part.triangles.size() <= kManyTriangles) take(cutPieces(part, kCutFraction * max_deviation_m));
   // Rounded parts have more planes than are worth a cut: these are cut as they look after a little flattening.
-  for (const double share : kFlattenShares) {
+  for (const double fraction : kFlattenFractions) {
     if (!best.pieces.empty() || progress.cancelled()) break;
-    const Shape light = flattened(part, share * max_deviation_m, progress);
-    if (light.triangles.size() >= 4) take(cutPieces(light, kCutShare * max_deviation_m));
+    const Shape light = flattened(part, fraction * max_deviation_m, progress);
+    if (light.triangles.size() >= 4) take(cutPieces(light, kCutFraction * max_deviation_m));
   }
   return best;
 }

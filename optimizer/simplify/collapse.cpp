@@ -23,7 +23,7 @@ constexpr double kAllButLast = 1.1;        // times what shall be left is left t
 constexpr std::size_t kChunk = 16'384;     // triangles that one task looks at
 constexpr double kWorthwhile = 0.9;        // a round that leaves more was the last one
 
-constexpr double kShareOfRound = 0.25, kShareOfRefining = 0.6;
+constexpr double kFractionOfRound = 0.25, kFractionOfRefining = 0.6;
 
 void appendNamed(const std::vector<Step>& steps, const std::vector<std::uint32_t>& names, std::vector<Collapse>& log) {
   log.reserve(log.size() + steps.size());
@@ -34,10 +34,10 @@ void appendNamed(const std::vector<Step>& steps, const std::vector<std::uint32_t
   }
 }
 
-void runRounds(Region& region, std::size_t floor, double share, const CollapseOptions& options, const Shape& shape,
+void runRounds(Region& region, std::size_t floor, double fraction, const CollapseOptions& options, const Shape& shape,
                std::vector<Collapse>& log, const Progress& progress) {
   const auto enough = static_cast<std::size_t>(kAllButLast * static_cast<double>(floor));
-  Round round{0.5, share, enough};
+  Round round{0.5, fraction, enough};
   for (std::size_t before = 0; region.patch.triangles.size() > std::max(kOneQueue, enough) && !progress.cancelled();) {
     before = region.patch.triangles.size();
     runRound(region, round, options, shape, log, progress);
@@ -54,7 +54,8 @@ std::vector<Collapse> recordCollapses(const Shape& shape, const CollapseOptions&
   if (options.lossless) limited.max_deviation_m = 2 * shape.rounding();
   Region region = wholeRegion(patchOf(shape, limited));
   std::vector<Collapse> log;
-  if (shape.triangles.size() > kSplit) runRounds(region, options.floor, kShareOfRound, limited, shape, log, progress);
+  if (shape.triangles.size() > kSplit)
+    runRounds(region, options.floor, kFractionOfRound, limited, shape, log, progress);
   if (region.patch.triangles.empty()) return log;
   Collapser last(std::move(region.patch), limited, shape);
   appendNamed(last.run(options.floor, progress), region.names, log);
@@ -71,7 +72,7 @@ std::vector<Collapse> refined(const Shape& shape, std::size_t triangles, const P
   options.max_deviation_m = std::numeric_limits<double>::max();
   Region region = wholeRegion(patchOf(shape, options));
   std::vector<Collapse> log;
-  runRounds(region, triangles, kShareOfRefining, options, shape, log, progress);
+  runRounds(region, triangles, kFractionOfRefining, options, shape, log, progress);
   if (region.patch.triangles.size() > triangles)
     appendNamed(Collapser(std::move(region.patch), options, shape).run(triangles, progress), region.names, log);
   return log;

@@ -70,7 +70,7 @@ void addDropped(const Environment& environment, const OptimizeOptions& options, 
     if (dropped[i].empty()) continue;
     result.products[i] = lossOfDropped(environment, dropped[i]);
     const auto& product = environment.products[i];
-    result.report.lose(product.id, fmt::format("{} {} is dropped by the rule \"{}\" of {}",
+    result.report.lose(product.id, fmt::format("{} {} dropped by rule \"{}\" of {}",
                                                product.ifc_class.empty() ? "product" : product.ifc_class, product.name,
                                                options.products[i].reason, options.products[i].lod));
   }
@@ -91,7 +91,7 @@ void reportDropped(const Environment& before, const std::vector<MeshJob>& jobs, 
     const Eigen::Vector3d centre = 0.5 * (gone[i].min + gone[i].max);
     report.lose(
         product.id,
-        fmt::format("{} of {} parts of {} {} dropped to reach the budget: {:.3f} m across, at {:.2f} {:.2f} {:.2f}",
+        fmt::format("{} of {} parts of {} {} dropped to reach the budget: size {:.3f} m, at {:.2f} {:.2f} {:.2f}",
                     parts[i].first, parts[i].second, product.ifc_class.empty() ? "product" : product.ifc_class,
                     product.name, gone[i].diagonal(), centre.x(), centre.y(), centre.z()));
   }
@@ -111,32 +111,31 @@ void reportLossless(const Environment& before, const std::vector<MeshJob>& jobs,
     for (const auto& step : jobs[i].steps) flat += step.flat ? step.triangles : 0;
   }
   if (repeated > 0)
-    report.note("lossless", fmt::format("{} of {} meshes repeat the shape of another and share it: {} triangles",
-                                        repeated, meshes, repeated_triangles));
-  if (positions > 0) report.note("lossless", fmt::format("{} positions were welded to equal ones", positions));
+    report.note("lossless", fmt::format("{} of {} meshes are duplicates and share one shape: {} triangles", repeated,
+                                        meshes, repeated_triangles));
+  if (positions > 0) report.note("lossless", fmt::format("{} duplicate positions merged", positions));
   if (degenerate + again > 0)
-    report.note("lossless",
-                fmt::format("{} triangles without area and {} repeated ones were left out", degenerate, again));
-  if (flat > 0) report.note("lossless", fmt::format("{} triangles went by merging plane regions", flat));
+    report.note("lossless", fmt::format("{} zero-area and {} duplicate triangles removed", degenerate, again));
+  if (flat > 0) report.note("lossless", fmt::format("{} triangles removed by merging planar regions", flat));
 }
 
 void checkBudgets(const std::vector<MeshJob>& jobs, const OptimizeOptions& options, OptimizeResult& result) {
-  for (std::uint32_t share = 0; share <= options.further_budgets.size(); ++share) {
+  for (std::uint32_t budget_group = 0; budget_group <= options.further_budgets.size(); ++budget_group) {
     std::uint64_t left = 0;
     for (const auto& work : jobs)
-      if (work.share == share) left += work.lighter.triangles.size() * work.copies;
-    const auto budget = budgetOf(options, share);
+      if (work.budget_group == budget_group) left += work.lighter.triangles.size() * work.copies;
+    const auto budget = budgetOf(options, budget_group);
     if (budget == 0 || left <= budget) continue;
     result.budget_reached = false;
     result.smallest_budget += left;
-    const auto named =
-        std::find_if(options.products.begin(), options.products.end(), [&](const auto& a) { return a.share == share; });
+    const auto named = std::find_if(options.products.begin(), options.products.end(),
+                                    [&](const auto& a) { return a.budget_group == budget_group; });
     const std::string whose = named == options.products.end() ? "" : named->lod + ": ";
     const std::string cap = options.products.empty()
-                                ? fmt::format("deviations of at most {} m", options.max_deviation_m)
-                                : "the deviations allowed";
-    result.report.warn(
-        "budget", fmt::format("{}{} triangles cannot be reached with {}; the least is {}", whose, budget, cap, left));
+                                ? fmt::format("a maximum deviation of {} m", options.max_deviation_m)
+                                : "the allowed deviations";
+    result.report.warn("budget",
+                       fmt::format("{}cannot reach {} triangles with {}; the minimum is {}", whose, budget, cap, left));
   }
 }
 

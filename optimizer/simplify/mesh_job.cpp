@@ -19,17 +19,17 @@ constexpr double kFewestSamples = 2000, kMostSamples = kDeviationSamples;  // of
 void allow(MeshJob& work, const ProductAllowance& allowance, double stretch) {
   if (stretch > 0) work.cap_m = std::min(work.cap_m, allowance.max_deviation_m / stretch);
   work.weight = std::max(work.weight, allowance.weight);
-  work.share = work.copies == 0 ? allowance.share : std::min(work.share, allowance.share);
+  work.budget_group = work.copies == 0 ? allowance.budget_group : std::min(work.budget_group, allowance.budget_group);
   work.keep = work.keep || allowance.keep;
 }
 
 // A share that asks for nothing, or for no less than it has, is only rid of what costs nothing.
 void decideLossless(std::vector<MeshJob>& jobs, const OptimizeOptions& options) {
   std::vector<std::uint64_t> triangles(1 + options.further_budgets.size(), 0);
-  for (const auto& work : jobs) triangles[work.share] += work.shape.triangles.size() * work.copies;
+  for (const auto& work : jobs) triangles[work.budget_group] += work.shape.triangles.size() * work.copies;
   for (auto& work : jobs) {
-    const auto budget = budgetOf(options, work.share);
-    work.lossless = budget == 0 || budget >= triangles[work.share];
+    const auto budget = budgetOf(options, work.budget_group);
+    work.lossless = budget == 0 || budget >= triangles[work.budget_group];
   }
 }
 
@@ -41,7 +41,7 @@ std::vector<std::uint32_t> kindsOf(const Environment& environment, const Optimiz
   for (const auto& instance : environment.instances) {
     const auto a = allowanceOf(options, instance.product);
     auto& all = asked[instance.mesh];
-    all.emplace_back(a.share, a.max_deviation_m, a.weight, a.keep);
+    all.emplace_back(a.budget_group, a.max_deviation_m, a.weight, a.keep);
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
   }
@@ -85,8 +85,8 @@ ProductAllowance allowanceOf(const OptimizeOptions& options, std::uint32_t produ
   return same;
 }
 
-std::uint64_t budgetOf(const OptimizeOptions& options, std::uint32_t share) {
-  return share == 0 ? options.budget : options.further_budgets[share - 1];
+std::uint64_t budgetOf(const OptimizeOptions& options, std::uint32_t budget_group) {
+  return budget_group == 0 ? options.budget : options.further_budgets[budget_group - 1];
 }
 
 std::vector<MeshJob> prepareMeshJobs(Environment& environment, const OptimizeOptions& options,

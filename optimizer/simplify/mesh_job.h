@@ -28,7 +28,7 @@ struct MeshJob {
   double placed_area_m2 = 0;
   double cap_m = std::numeric_limits<double>::infinity();  // on the deviation, in the mesh's own frame
   double weight = 0;
-  std::uint32_t share = 0;
+  std::uint32_t budget_group = 0;
   bool keep = false;
   bool lossless = false;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  // of the first copy, in the mesh's frame
@@ -45,7 +45,7 @@ inline double meanStretch(const Eigen::Affine3d& transform) {
 }
 
 ProductAllowance allowanceOf(const OptimizeOptions& options, std::uint32_t product);
-std::uint64_t budgetOf(const OptimizeOptions& options, std::uint32_t share);
+std::uint64_t budgetOf(const OptimizeOptions& options, std::uint32_t budget_group);
 
 // Errors: usage where an option is out of range, unusable where the environment is.
 Result<void> checkOptions(const Environment& environment, const OptimizeOptions& options);

@@ -53,10 +53,8 @@ void takeHidden(Environment& environment, const OptimizeOptions& options, Report
     gone += copies[m] * count;
   }
   if (gone > 0)
-    report.note(
-        "hidden faces",
-        fmt::format("{} triangles that cannot be seen from anywhere were left out; deviations count from what is left",
-                    gone));
+    report.note("hidden faces",
+                fmt::format("{} hidden triangles removed; deviations refer to the remaining geometry", gone));
 }
 
 // `shared` with its meshes as light as they became. What is not placed any more is not held any more.
@@ -113,21 +111,21 @@ Environment withoutDropped(const Environment& environment, const OptimizeOptions
 Result<void> checkOptions(const Environment& environment, const OptimizeOptions& options) {
   const auto wrong = [](double deviation_m) { return !std::isfinite(deviation_m) || deviation_m < 0; };
   if (wrong(options.max_deviation_m))
-    return failure(ErrorKind::usage, "the largest deviation must be zero or more metres", "max_deviation_m");
+    return failure(ErrorKind::usage, "the maximum deviation must be zero or more metres", "max_deviation_m");
   if (auto invalid = validate(environment); !invalid.empty())
     return failure(ErrorKind::unusable, invalid, "environment");
   if (!options.products.empty() && options.products.size() != environment.products.size())
-    return failure(ErrorKind::internal, "not one allowance for each product", "products");
+    return failure(ErrorKind::internal, "allowances do not match the products", "products");
   for (const auto& a : options.products)
     if (wrong(a.max_deviation_m) || !(a.weight > 0) || !std::isfinite(a.weight) ||
-        a.share > options.further_budgets.size())
+        a.budget_group > options.further_budgets.size())
       return failure(ErrorKind::usage, "an allowance is out of range", a.lod + " " + a.reason);
   return {};
 }
 
 Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOptions& options, Progress& progress) {
   if (auto checked = checkOptions(environment, options); !checked) return failure(checked.error());
-  progress.stage("Find repetitions", 0, 0.1);
+  progress.stage("Find duplicate shapes", 0, 0.1);
   const Environment tangible = sceneOf(environment);
   const Environment rest = withoutDropped(tangible, options);
   OptimizeResult result;
@@ -142,7 +140,7 @@ Result<OptimizeResult> optimize(const Environment& environment, const OptimizeOp
   countTriangles(tangible, result);
   reportLossless(rest, jobs, result.report);
   reportDropped(shared, jobs, result.report);
-  progress.stage("Measure the whole", 0.9, 1);
+  progress.stage("Measure the whole model", 0.9, 1);
   // Of an empty one the products' own figures, to their centres, are all there is; of one mesh they are those of the
   // whole.
   if (result.all.triangles_after > 0 && tangible.instances.size() > 1) {

@@ -164,7 +164,7 @@ void runRound(Region& region, const Round& round, const CollapseOptions& options
   auto& patch = region.patch;
   const auto parts = partition(patch.positions, patch.triangles, kCell, round.cut);
   const auto before = static_cast<double>(patch.triangles.size());
-  const auto enough = std::max(round.enough, parts.any_shared ? static_cast<std::size_t>(round.share * before) : 0);
+  const auto enough = std::max(round.enough, parts.any_shared ? static_cast<std::size_t>(round.fraction * before) : 0);
   const auto logs = runCells(patch, parts, parts.any_shared ? kDeeper * static_cast<double>(enough) / before : 0,
                              options, shape, progress);
   const CheapestSteps choice(logs, patch.triangles.size(), enough);

@@ -22,7 +22,7 @@ Region wholeRegion(Patch patch);
 // depends on the region and `cut` only.
 struct Round {
   double cut = 0.5;        // where cells meet (partition.h): another one than in the round before
-  double share = 0.25;     // of the triangles, that is left; all but nothing where the cells are parts of their own …
+  double fraction = 0.25;  // of the triangles, that is left; all but nothing where the cells are parts of their own …
   std::size_t enough = 0;  // … but no less than these
 };
 

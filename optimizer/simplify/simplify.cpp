@@ -107,13 +107,13 @@ void shrinkToDeviation(MeshJob& work, const DeviationMeter& meter) {
   work.measured = false;
 }
 
-void shareOne(std::vector<MeshJob>& jobs, std::uint32_t share, std::uint64_t budget) {
+void shareOne(std::vector<MeshJob>& jobs, std::uint32_t budget_group, std::uint64_t budget) {
   std::vector<Bidder> bidders;
   std::vector<std::uint32_t> work_of_bidder;
   bool lossless = false;
   for (std::uint32_t i = 0; i < jobs.size(); ++i) {
     const MeshJob& work = jobs[i];
-    if (work.share != share) continue;
+    if (work.budget_group != budget_group) continue;
     lossless = work.lossless;
     bidders.push_back(
         {&work.levels.levels, work.limit, work.shape.triangles.size(), work.copies, work.scale, work.weight});
@@ -130,11 +130,11 @@ void shareOne(std::vector<MeshJob>& jobs, std::uint32_t share, std::uint64_t bud
 // A shape that has most of what its share has keeps at least what the budget leaves when all others stay as they are.
 void findFloors(std::vector<MeshJob>& jobs, const OptimizeOptions& options) {
   std::vector<std::uint64_t> all(1 + options.further_budgets.size(), 0);
-  for (const auto& work : jobs) all[work.share] += work.shape.triangles.size() * work.copies;
+  for (const auto& work : jobs) all[work.budget_group] += work.shape.triangles.size() * work.copies;
   for (auto& work : jobs) {
     if (work.copies == 0 || work.lossless) continue;
-    const auto others = all[work.share] - work.shape.triangles.size() * work.copies,
-               budget = budgetOf(options, work.share);
+    const auto others = all[work.budget_group] - work.shape.triangles.size() * work.copies,
+               budget = budgetOf(options, work.budget_group);
     work.floor = budget > others ? (budget - others) / work.copies : 0;
   }
 }
@@ -142,8 +142,8 @@ void findFloors(std::vector<MeshJob>& jobs, const OptimizeOptions& options) {
 }  // namespace
 
 void shareAll(std::vector<MeshJob>& jobs, const OptimizeOptions& options) {
-  for (std::uint32_t share = 0; share <= options.further_budgets.size(); ++share)
-    shareOne(jobs, share, budgetOf(options, share));
+  for (std::uint32_t budget_group = 0; budget_group <= options.further_budgets.size(); ++budget_group)
+    shareOne(jobs, budget_group, budgetOf(options, budget_group));
 }
 
 Result<void> makeAllLevels(std::vector<MeshJob>& jobs, Progress& progress) {

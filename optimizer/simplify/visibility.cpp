@@ -37,12 +37,12 @@ Vector3d direction(const std::array<std::uint32_t, 4>& block, double lowest_sine
 
 }  // namespace
 
-std::vector<double> skyShares(const Environment& environment, const Progress& progress) {
+std::vector<double> skyFractions(const Environment& environment, const Progress& progress) {
   const Environment tangible = sceneOf(environment);
-  std::vector<double> shares(environment.products.size(), 1);
-  if (tangible.instances.empty()) return shares;
+  std::vector<double> fractions(environment.products.size(), 1);
+  if (tangible.instances.empty()) return fractions;
   const PlacedSurfaces surfaces(tangible);
-  std::vector<double> areas(shares.size(), 0);
+  std::vector<double> areas(fractions.size(), 0);
   for (std::size_t i = 0; i < tangible.instances.size(); ++i) areas[tangible.instances[i].product] += surfaces.area(i);
   std::vector<std::array<std::uint32_t, 2>> counts(tangible.instances.size());  // rays, and those that reach the sky
   tbb::parallel_for(std::size_t{0}, counts.size(), [&](std::size_t i) {
@@ -56,12 +56,12 @@ std::vector<double> skyShares(const Environment& environment, const Progress& pr
         counts[i][1] += surfaces.firstHit(points[k] + kOff * d, d, kFar).distance < kFar ? 0 : 1;
       }
   });
-  std::vector<std::array<std::uint64_t, 2>> sums(shares.size());
+  std::vector<std::array<std::uint64_t, 2>> sums(fractions.size());
   for (std::size_t i = 0; i < counts.size(); ++i)
     for (int k = 0; k < 2; ++k) sums[tangible.instances[i].product][k] += counts[i][k];
-  for (std::size_t p = 0; p < shares.size(); ++p)
-    if (sums[p][0] > 0) shares[p] = static_cast<double>(sums[p][1]) / static_cast<double>(sums[p][0]);
-  return shares;
+  for (std::size_t p = 0; p < fractions.size(); ++p)
+    if (sums[p][0] > 0) fractions[p] = static_cast<double>(sums[p][1]) / static_cast<double>(sums[p][0]);
+  return fractions;
 }
 
 std::vector<double> walkersView(const Environment& environment, const Mesh& walkable, const Progress& progress) {

@@ -15,7 +15,7 @@ namespace standpoint {
 
 // For each product the share of rays from points on its surface towards the sky that get there, 0..1. What no beam
 // meets, and what has no surface, has 1: nothing is said against it.
-std::vector<double> skyShares(const Environment& environment, const Progress& progress);
+std::vector<double> skyFractions(const Environment& environment, const Progress& progress);
 
 // For each product how much more than on average one sees of it from the walkable surface, per area: hits of rays in
 // all directions from eye height, 1.6 m. 0 is never seen, 1 as much as the average.

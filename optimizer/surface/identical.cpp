@@ -19,11 +19,11 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kSame = 5e-5, kSameShare = 1e-4;  // m, and of the diagonal
-constexpr int kMostTries = 200;                    // of alignments, for shapes whose vertices all look alike
-constexpr double kAreaStep = 1e-3;                 // relative; neighbours are looked at, too
+constexpr double kSame = 5e-5, kSameFraction = 1e-4;  // m, and of the diagonal
+constexpr int kMostTries = 200;                       // of alignments, for shapes whose vertices all look alike
+constexpr double kAreaStep = 1e-3;                    // relative; neighbours are looked at, too
 
-double tolerance(const Shape& shape) { return std::min(kSame, kSameShare * shape.diagonal()) + shape.rounding(); }
+double tolerance(const Shape& shape) { return std::min(kSame, kSameFraction * shape.diagonal()) + shape.rounding(); }
 
 // What does not change when a shape is moved.
 struct Signature {

@@ -90,8 +90,8 @@ std::vector<float> areas(const Mesh& mesh, const Affine3d& world_from_mesh) {
                            (mesh.positions[b].cast<double>() - mesh.positions[a].cast<double>()));
   };
   for (const auto& t : mesh.triangles) {
-    const double share = edge(t[0], t[1]).cross(edge(t[0], t[2])).norm() / 6;
-    for (const auto v : t) sums[v] += share;
+    const double fraction = edge(t[0], t[1]).cross(edge(t[0], t[2])).norm() / 6;
+    for (const auto v : t) sums[v] += fraction;
   }
   return {sums.begin(), sums.end()};
 }

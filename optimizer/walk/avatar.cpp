@@ -49,8 +49,8 @@ void Avatar::stride(Vector2d way_m) {
   for (int i = 0; i < kMostSlides && way_m.norm() > 1e-6; ++i) {
     const Vector3d from = feet_ + kStepUp, way(way_m.x(), way_m.y(), 0);
     const auto hit = obstacles_->sweep(upper(), from, from + way);
-    const double share = hit ? hit->share : 1;
-    if (share > 0 && !moveTo(feet_ + share * way)) {
+    const double fraction = hit ? hit->fraction : 1;
+    if (fraction > 0 && !moveTo(feet_ + fraction * way)) {
       const Vector3d over = way + kCrack * way.normalized();
       if (!hit && !obstacles_->sweep(upper(), from, from + over)) moveTo(feet_ + over);
       return;
@@ -58,7 +58,7 @@ void Avatar::stride(Vector2d way_m) {
     if (!hit) return;
     const Vector2d across = hit->normal.head<2>();
     if (across.norm() < 1e-3) return;
-    way_m *= 1 - share;
+    way_m *= 1 - fraction;
     way_m -= across.normalized() * std::min(0.0, way_m.dot(across.normalized()));
   }
 }

@@ -106,7 +106,7 @@ void placeShapes(const Environment& environment, const std::vector<bool>& stops,
     if (fell_back[i])
       result.report.note(
           environment.products[i].id,
-          fmt::format("collides as its triangles, or a part of it does: no convex pieces come within {:.0f} mm",
+          fmt::format("uses its triangles for collision, at least in part: no convex decomposition within {:.0f} mm",
                       kMaxDeviation * 1000));
 }
 
@@ -114,16 +114,16 @@ void placeShapes(const Environment& environment, const std::vector<bool>& stops,
 
 Result<CollideResult> collide(const Environment& environment, const CollideOptions& options, Progress& progress) {
   if (!(options.agent_radius_m >= 0.05) || !(options.agent_radius_m <= 5))
-    return failure(ErrorKind::usage, "the agent's radius must be 0.05 to 5 m", "agent_radius_m");
+    return failure(ErrorKind::usage, "agent radius must be 0.05 to 5 m", "agent_radius_m");
   if (!(options.agent_height_m >= 2 * options.agent_radius_m) || !(options.agent_height_m <= 20))
-    return failure(ErrorKind::usage, "the agent's height must be at least twice its radius, and at most 20 m",
+    return failure(ErrorKind::usage, "agent height must be at least twice the radius and at most 20 m",
                    "agent_height_m");
   if (auto wrong = validate(environment); !wrong.empty()) return failure(ErrorKind::unusable, wrong, "environment");
   const auto stops = stopping(environment, options);
   if (const auto product = productTooFar(environment, stops))
     return failure(ErrorKind::unusable,
-                   fmt::format("product {} reaches more than {:.0f} km away from the model's origin: leave it out with "
-                               "`treat`, or mend its placement",
+                   fmt::format("product {} extends more than {:.0f} km from the model's origin: exclude it with "
+                               "`treat`, or correct its placement",
                                environment.products[*product].id, kFarthest / 1000),
                    "collide");
   auto jobs = makePieces(environment, stops, progress);
@@ -139,10 +139,11 @@ Result<CollideResult> collide(const Environment& environment, const CollideOptio
   auto walkable = walkableSurface(result.shapes, options, progress);
   if (!walkable) return failure(walkable.error());
   if (walkable->cell_m > options.agent_radius_m / 10 + 1e-6)
-    result.report.note("walkable",
-                       fmt::format("found on a grid of {:.3f} m, as the model is large: narrow passages may be missing",
-                                   walkable->cell_m));
-  progress.stage("Pass through the doors", 0.9, 1);
+    result.report.note(
+        "walkable",
+        fmt::format("computed on a grid of {:.3f} m because of the model size: narrow passages may be missing",
+                    walkable->cell_m));
+  progress.stage("Check doors", 0.9, 1);
   if (auto going = progress.check(); !going) return failure(going.error());
   result.doors = checkDoors(environment, result.shapes, options, result.report);
   joinThroughDoors(environment, result.shapes, options, result.doors, *walkable, result.report);

@@ -192,8 +192,8 @@ void joinThroughDoors(const Environment& environment, const std::vector<Collisio
         leadsThrough(walkable, *passage, options.agent_radius_m) || join(obstacles, *passage, options, walkable);
     const auto& product = environment.products[door.product];
     if (!door.led_through)
-      report.warn(product.id, fmt::format("door {} is passable, but the walkable surface does not lead through it: "
-                                          "there is a step, a hole or too little room before or behind it",
+      report.warn(product.id, fmt::format("door {} is passable, but not connected by walkable surface: check for a "
+                                          "step, a gap or insufficient space on either side",
                                           product.name));
   }
 }

@@ -113,13 +113,12 @@ std::vector<std::uint32_t> doorsOf(const Environment& environment) {
 void reportDoor(const Environment& environment, const Verdict& verdict, Report& report) {
   const auto& product = environment.products[verdict.door.product];
   if (verdict.shapeless)
-    return report.warn(product.id,
-                       fmt::format("door {} has no geometry: whether one can pass is unknown", product.name));
+    return report.warn(product.id, fmt::format("door {} has no geometry: passability unknown", product.name));
   if (!verdict.door.floor) report.warn(product.id, fmt::format("door {} has no floor on both sides", product.name));
   if (!verdict.blocked_by || verdict.door.closed) return;
   const auto& other = environment.products[*verdict.blocked_by];
   report.warn(product.id, verdict.door.clear_width_m > 0
-                              ? fmt::format("door {} lets nobody pass: {:.2f} m are clear beside {} {}", product.name,
+                              ? fmt::format("door {} is impassable: {:.2f} m clear width next to {} {}", product.name,
                                             verdict.door.clear_width_m, other.ifc_class, other.id)
                               : fmt::format("door {} is blocked by {} {}", product.name, other.ifc_class, other.id));
 }
@@ -221,7 +220,7 @@ void closeWhatIsOpen(const Environment& environment, const CollideOptions& optio
     shape.mesh.triangles = plate.triangles;
     shape.mesh.surface_of_triangle.assign(plate.triangles.size(), 0);
     plates.push_back(std::move(shape));
-    report.note(environment.products[door].id, "has no leaf that closes it: a plate stands across it");
+    report.note(environment.products[door].id, "has no closing leaf: blocked by a plate");
   }
   shapes.insert(shapes.end(), std::make_move_iterator(plates.begin()), std::make_move_iterator(plates.end()));
   std::stable_sort(shapes.begin(), shapes.end(), [](const auto& a, const auto& b) { return a.product < b.product; });

@@ -177,14 +177,15 @@ std::optional<Contact> Obstacles::sweep(const Body& body, const Vector3d& from, 
   world_->inBox(from.cwiseMin(to) - side, from.cwiseMax(to) + side + up, [&](const Item& item) {
     Contact contact{0, from, -way.normalized(), item.shape, world_->shapes[item.shape].product};
     for (int i = 0; i < kMostAdvances; ++i) {
-      const double gap = world_->gap(body, Core(body, from + contact.share * way), item, contact);
+      const double gap = world_->gap(body, Core(body, from + contact.fraction * way), item, contact);
       const double approach = -contact.normal.dot(way);
       if (gap > -kDeepest && approach <= kSliding * way.norm()) return;
       if (gap <= kContact) break;
-      contact.share += gap / approach;
-      if (contact.share >= 1 || (first && contact.share > first->share)) return;
+      contact.fraction += gap / approach;
+      if (contact.fraction >= 1 || (first && contact.fraction > first->fraction)) return;
     }
-    if (!first || contact.share < first->share || (contact.share == first->share && item.shape < first->shape))
+    if (!first || contact.fraction < first->fraction ||
+        (contact.fraction == first->fraction && item.shape < first->shape))
       first = contact;
   });
   return first;
@@ -223,13 +224,13 @@ std::optional<Contact> Obstacles::ray(const Vector3d& from, const Vector3d& to) 
       const Vector3d normal = ab.cross(ac);
       const double along = way.dot(normal);
       if (along == 0) return;
-      const double share = (a - from).dot(normal) / along;
-      if (!(share >= 0 && share <= 1) || (first && share >= first->share)) return;
-      const Vector3d p = from + share * way - a;
+      const double fraction = (a - from).dot(normal) / along;
+      if (!(fraction >= 0 && fraction <= 1) || (first && fraction >= first->fraction)) return;
+      const Vector3d p = from + fraction * way - a;
       const double u = p.cross(ac).dot(normal) / normal.squaredNorm(),
                    v = ab.cross(p).dot(normal) / normal.squaredNorm();
       if (u < -1e-9 || v < -1e-9 || u + v > 1 + 1e-9) return;
-      first = Contact{share, p + a, (along > 0 ? -1 : 1) * normal.normalized(), item.shape, shape.product};
+      first = Contact{fraction, p + a, (along > 0 ? -1 : 1) * normal.normalized(), item.shape, shape.product};
     };
     if (item.triangle >= 0)
       meet(shape.triangles[static_cast<std::size_t>(item.triangle)]);

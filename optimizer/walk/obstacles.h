@@ -21,7 +21,7 @@ struct Body {
 };
 
 struct Contact {
-  double share = 0;  // of the way that is free; 0 also where the body starts in something
+  double fraction = 0;  // of the way that is free; 0 also where the body starts in something
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // away from the obstacle
   std::uint32_t shape = 0;                            // index into the shapes

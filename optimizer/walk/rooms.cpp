@@ -87,16 +87,16 @@ void measure(const Walkable& walkable, Space& space) {
       continue;
     const int columns = std::max(1, static_cast<int>(std::ceil((high.x() - low.x()) / kStep))),
               rows = std::max(1, static_cast<int>(std::ceil((high.y() - low.y()) / kStep)));
-    const double share = (high.x() - low.x()) * (high.y() - low.y()) / (static_cast<double>(columns) * rows);
+    const double fraction = (high.x() - low.x()) * (high.y() - low.y()) / (static_cast<double>(columns) * rows);
     for (int column = 0; column < columns; ++column)
       for (int row = 0; row < rows; ++row) {
         const Vector3d p(low.x() + (column + 0.5) * (high.x() - low.x()) / columns,
                          low.y() + (row + 0.5) * (high.y() - low.y()) / rows, z);
         if (!isInside(space, p)) continue;
         auto& patch = space.patches[walkable.island_of_triangle[i]];
-        patch.area_m2 += share;
+        patch.area_m2 += fraction;
         patch.lowest = std::min(patch.lowest, low.z());
-        space.area_m2 += share;
+        space.area_m2 += fraction;
       }
   }
 }
@@ -181,9 +181,9 @@ std::vector<Room> checkRooms(const Environment& environment, const Walkable& wal
     room.position.z() = space.box.min.z();
     const auto& product = environment.products[space.product];
     if (space.area_m2 <= kLeast)
-      report.warn(product.id, fmt::format("room {} has no floor with room to stand", product.name));
+      report.warn(product.id, fmt::format("room {} has no floor large enough to stand on", product.name));
     else if (!room.reached)
-      report.warn(product.id, fmt::format("room {} cannot be reached: no way leads in", product.name));
+      report.warn(product.id, fmt::format("room {} cannot be reached", product.name));
     rooms.push_back(room);
   }
   return rooms;

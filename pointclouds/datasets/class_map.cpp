@@ -30,18 +30,18 @@ class MapReader {
 };
 
 Result<std::size_t> MapReader::classNamed(const json& value, const std::string& place) const {
-  if (!value.is_string()) return broken(place, "is the name of a class");
+  if (!value.is_string()) return broken(place, "must be the name of a class");
   const auto name = value.get<std::string>();
   for (std::size_t i = 0; i < map_.classes.size(); ++i)
     if (map_.classes[i].name == name) return i;
-  return broken(place, "'" + name + "' is none of the classes");
+  return broken(place, "'" + name + "' is not one of the classes");
 }
 
 Result<void> MapReader::takeClasses(const json& classes) {
-  if (!classes.is_object() || classes.empty()) return broken("classes", "is an object of names and ids");
+  if (!classes.is_object() || classes.empty()) return broken("classes", "must be an object of names and ids");
   for (const auto& [name, id] : classes.items()) {
     if (!id.is_number_unsigned() || id.get<std::uint64_t>() > 65535)
-      return broken("classes/" + name, "is an id from 0 to 65535");
+      return broken("classes/" + name, "must be an id from 0 to 65535");
     map_.classes.push_back({name, id.get<std::uint32_t>()});
   }
   std::stable_sort(map_.classes.begin(), map_.classes.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
@@ -49,7 +49,7 @@ Result<void> MapReader::takeClasses(const json& classes) {
 }
 
 Result<void> MapReader::takeRules(const json& rules) {
-  if (!rules.is_object()) return broken("ifc", "is an object of IFC classes");
+  if (!rules.is_object()) return broken("ifc", "must be an object of IFC classes");
   for (const auto& [ifc_class, value] : rules.items()) {
     const std::string place = "ifc/" + ifc_class;
     const bool pair = value.is_array() && value.size() == 2;
@@ -62,13 +62,13 @@ Result<void> MapReader::takeRules(const json& rules) {
 }
 
 Result<ClassMap> MapReader::read(const json& root) {
-  if (!root.is_object()) return broken("", "a class map is an object");
+  if (!root.is_object()) return broken("", "a class map must be an object");
   for (const auto& [key, value] : root.items())
     if (key != "name" && key != "source" && key != "unknown" && key != "noise" && key != "classes" && key != "ifc")
-      return broken(key, "there is no such key");
+      return broken(key, "unknown key");
   for (const char* key : {"name", "unknown", "noise", "classes", "ifc"})
     if (!root.contains(key)) return broken(key, "is missing");
-  if (!root["name"].is_string()) return broken("name", "is a text");
+  if (!root["name"].is_string()) return broken("name", "must be a text");
   map_.name = root["name"].get<std::string>();
   if (auto taken = takeClasses(root["classes"]); !taken) return failure(taken.error());
   for (const auto& [key, member] : {std::pair("unknown", &ClassMap::unknown), std::pair("noise", &ClassMap::noise)}) {
@@ -92,7 +92,7 @@ std::array<std::size_t, 2> ClassMap::classesOf(std::string_view ifc_class) const
 
 Result<ClassMap> readClassMap(const std::filesystem::path& file) {
   std::ifstream in(file);
-  if (!in) return failure(ErrorKind::file_system, "cannot read it", file.string());
+  if (!in) return failure(ErrorKind::file_system, "cannot read the file", file.string());
   try {
     return MapReader(file).read(json::parse(in));
   } catch (const json::exception& e) {

@@ -34,7 +34,7 @@ class SemanticKitti final : public LabelledFolder {
     return {};
   }
   Result<void> put(const Point& p) override {
-    for (const float v : {p.block.x_m[p.i], p.block.y_m[p.i], p.block.z_m[p.i], share(p)}) points_->put(v);
+    for (const float v : {p.block.x_m[p.i], p.block.y_m[p.i], p.block.z_m[p.i], fraction(p)}) points_->put(v);
     const bool fits = p.instance <= 0xFFFF;
     without_instance_ += !fits;
     labels_->put(map().classes[p.class_index].id | (fits ? p.instance << 16 : 0));
@@ -44,8 +44,7 @@ class SemanticKitti final : public LabelledFolder {
   Result<void> endStation() override {
     if (without_instance_ > 0)
       report_.lose(header().name, std::to_string(without_instance_) +
-                                      " points are of products beyond 65535, of which SemanticKITTI "
-                                      "has no instance");
+                                      " points belong to products above 65535, the instance limit of SemanticKITTI");
     if (auto finished = points_->finish(); !finished) return finished;
     return labels_->finish();
   }
@@ -122,7 +121,7 @@ class Custom3d final : public LabelledFolder {
     for (int axis = 0; axis < 3; ++axis) points_->put(at[axis]);
     points_->put(static_cast<float>(map().classes[p.class_index].id));
     for (const std::uint8_t c : colour(p)) points_->put(static_cast<float>(c));
-    points_->put(share(p));
+    points_->put(fraction(p));
     instances_->put(static_cast<std::int32_t>(p.instance));
     ++rows_;
     if (auto flushed = points_->flushFrom(kBuffered); !flushed) return flushed;

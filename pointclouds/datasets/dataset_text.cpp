@@ -95,7 +95,7 @@ class Semantic3d final : public LabelledFolder {
   Result<void> put(const Point& p) override {
     std::string& text = files_[0]->text();
     appendPlace(text, place(p));
-    appendNumber(text, std::lround(share(p) * 4095) - 2048);
+    appendNumber(text, std::lround(fraction(p) * 4095) - 2048);
     text += ' ';
     appendColour(text, colour(p));
     appendNumber(files_[1]->text(), map().classes[p.class_index].id);

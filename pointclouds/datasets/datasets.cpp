@@ -17,7 +17,7 @@ std::span<const Dataset> datasets() {
 Result<Report> convertToDataset(const std::filesystem::path& in, const std::filesystem::path& folder,
                                 const Dataset& set, ClassMap map, Progress& progress) {
   const CloudFormat* const format = cloudFormatFor(in);
-  if (!format || !format->read) return failure(ErrorKind::usage, "is no point cloud that can be read", in.string());
+  if (!format || !format->read) return failure(ErrorKind::usage, "unsupported point-cloud format", in.string());
   const auto writer = set.writer(folder, std::move(map));
   if (auto started = static_cast<LabelledFolder&>(*writer).start(); !started) return failure(started.error());
   auto report = format->read(in, *writer, progress);

@@ -62,7 +62,7 @@ LabelledFolder::~LabelledFolder() {
 Result<void> LabelledFolder::start() {
   std::error_code error;
   if (fs::exists(folder_, error) && !(fs::is_directory(folder_, error) && fs::is_empty(folder_, error)))
-    return failure(ErrorKind::usage, "there is something already: name a new folder", folder_.string());
+    return failure(ErrorKind::usage, "the folder is not empty: specify a new folder", folder_.string());
   fs::remove_all(part_, error);
   fs::create_directories(part_, error);
   if (error) return failure(ErrorKind::file_system, "cannot create the folder: " + error.message(), folder_.string());
@@ -87,10 +87,10 @@ std::string LabelledFolder::uniqueName(const std::string& name) const {
 }
 
 Result<void> LabelledFolder::begin(const ScanHeader& header) {
-  if (header_) return failure(ErrorKind::internal, "a scan begins before the last one has ended", header.name);
+  if (header_) return failure(ErrorKind::internal, "a scan starts before the previous one has ended", header.name);
   if (auto checked = checkHeader(header); !checked) return checked;
   if (!header.has_labels)
-    return failure(ErrorKind::unusable, "its points have no labels: a labelled set is made of simulated scans",
+    return failure(ErrorKind::unusable, "points have no labels: a labelled dataset requires simulated scans",
                    "scan " + header.name);
   header_ = header;
   first_product_ = table_.add(header).product;
@@ -121,7 +121,7 @@ Result<void> LabelledFolder::write(const PointBlock& block) {
 }
 
 Result<void> LabelledFolder::end() {
-  if (!header_) return failure(ErrorKind::internal, "a scan ends that did not begin", folder_.string());
+  if (!header_) return failure(ErrorKind::internal, "a scan ends that was not started", folder_.string());
   auto ended = endStation();
   header_.reset();
   return ended;
@@ -131,16 +131,16 @@ Eigen::Vector3d LabelledFolder::place(const Point& p) const {
   return stations_.back().set_from_scanner * Eigen::Vector3d(p.block.x_m[p.i], p.block.y_m[p.i], p.block.z_m[p.i]);
 }
 
-float LabelledFolder::share(const Point& p) const {
+float LabelledFolder::fraction(const Point& p) const {
   if (!hasIntensity(*header_)) return 0.5F;
-  const double share =
+  const double fraction =
       (p.block.intensity[p.i] - header_->intensity_min) / (header_->intensity_max - header_->intensity_min);
-  return static_cast<float>(std::clamp(share, 0.0, 1.0));
+  return static_cast<float>(std::clamp(fraction, 0.0, 1.0));
 }
 
 std::array<std::uint8_t, 3> LabelledFolder::colour(const Point& p) const {
   if (header_->has_colour) return {p.block.red[p.i], p.block.green[p.i], p.block.blue[p.i]};
-  const auto grey = static_cast<std::uint8_t>(std::lround(share(p) * 255));
+  const auto grey = static_cast<std::uint8_t>(std::lround(fraction(p) * 255));
   return {grey, grey, grey};
 }
 
@@ -170,8 +170,8 @@ std::string LabelledFolder::description() const {
 }
 
 Result<void> LabelledFolder::close() {
-  if (header_) return failure(ErrorKind::internal, "the set is closed inside a scan", folder_.string());
-  if (stations_.empty()) return failure(ErrorKind::unusable, "there is no whole scan to write", folder_.string());
+  if (header_) return failure(ErrorKind::internal, "the dataset is closed inside a scan", folder_.string());
+  if (stations_.empty()) return failure(ErrorKind::unusable, "no complete scan to write", folder_.string());
   if (auto finished = finishSet(); !finished) return finished;
   std::string instances = "instance,id,global_id,ifc_class,name\n";
   for (std::size_t i = 0; i < table_.products.size(); ++i) {

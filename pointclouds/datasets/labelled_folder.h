@@ -73,7 +73,7 @@ class LabelledFolder : public CloudWriter {
   // Makes the folders on the way.
   Result<BufferedFile> create(const std::string& inside) const;
   Eigen::Vector3d place(const Point& p) const;               // in the set's frame
-  float share(const Point& p) const;                         // of the sensor's range of intensity; 0.5 without one
+  float fraction(const Point& p) const;                      // of the sensor's range of intensity; 0.5 without one
   std::array<std::uint8_t, 3> colour(const Point& p) const;  // grey by intensity where there is none
 
  private:

@@ -50,8 +50,8 @@ Result<Report> read(const std::filesystem::path& file, PointSink& sink, Progress
   for (std::size_t i = 0; i < scans; ++i) {
     auto found = findScan(*document, i, report);
     if (!found) return failure(found.error());
-    const auto share = [&](std::size_t n) { return static_cast<double>(n) / static_cast<double>(scans); };
-    progress.stage("Reading " + found->plan.header.name, share(i), share(i + 1));
+    const auto fraction = [&](std::size_t n) { return static_cast<double>(n) / static_cast<double>(scans); };
+    progress.stage("Reading " + found->plan.header.name, fraction(i), fraction(i + 1));
     if (auto done =
             readScan(document->file, *found->points, std::move(found->plan), pictures[i], sink, report, progress);
         !done)

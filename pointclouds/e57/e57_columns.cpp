@@ -78,8 +78,8 @@ void ColumnTaker::takeColours(Columns& from, PointBlock& to) {
     } else {
       colours[k]->clear();
       for (const double value : column) {
-        const double share = (value - least) / (most - least);
-        colours[k]->push_back(share > 0 ? static_cast<std::uint8_t>(std::lround(std::min(share, 1.0) * 255)) : 0);
+        const double fraction = (value - least) / (most - least);
+        colours[k]->push_back(fraction > 0 ? static_cast<std::uint8_t>(std::lround(std::min(fraction, 1.0) * 255)) : 0);
       }
     }
     if (roles_.colour_invalid)
@@ -94,7 +94,7 @@ Result<void> ColumnTaker::takeLabels(const Columns& from, PointBlock& to) const 
   bool inside = true;
   for (const double v : from[*roles_.product]) inside &= v >= 0 && v < products;
   for (const double v : from[*roles_.material]) inside &= v >= 0 && v < materials;
-  if (!inside) return failure(ErrorKind::unusable, "a point's label lies outside the label table", plan_.source);
+  if (!inside) return failure(ErrorKind::unusable, "a point's label is outside the label table", plan_.source);
   convert(from[*roles_.product], 0, to.product);
   convert(from[*roles_.material], 0, to.material);
   return {};
@@ -159,20 +159,16 @@ Result<void> ColumnTaker::take(Columns& from, std::size_t records, FoundPoints& 
 
 void ColumnTaker::list(const std::string& source, Report& report) const {
   const auto count = [](std::uint64_t n) { return std::to_string(n); };
-  if (tally_.invalid > 0)
-    report.note(source, count(tally_.invalid) + " points that the file marks as invalid are left out");
+  if (tally_.invalid > 0) report.note(source, count(tally_.invalid) + " points marked as invalid were skipped");
   if (tally_.no_intensity > 0)
-    report.note(source, count(tally_.no_intensity) + " intensities are marked as invalid: 0 stands for them");
+    report.note(source, count(tally_.no_intensity) + " intensities marked as invalid were set to 0");
   if (tally_.no_colour > 0)
-    report.note(source, count(tally_.no_colour) + " colours are marked as invalid: black stands for them");
-  if (tally_.no_time > 0)
-    report.note(source, count(tally_.no_time) + " times are marked as invalid: 0 stands for them");
-  if (tally_.no_return > 0)
-    report.warn(source, count(tally_.no_return) + " return numbers are none of their pulse: 1 of 1 stands for them");
-  if (tally_.no_truth > 0)
-    report.lose(source, count(tally_.no_truth) + " true values are no numbers: 0 stands for them");
+    report.note(source, count(tally_.no_colour) + " colours marked as invalid were set to black");
+  if (tally_.no_time > 0) report.note(source, count(tally_.no_time) + " times marked as invalid were set to 0");
+  if (tally_.no_return > 0) report.warn(source, count(tally_.no_return) + " invalid return numbers were set to 1 of 1");
+  if (tally_.no_truth > 0) report.lose(source, count(tally_.no_truth) + " non-numeric truth values were set to 0");
   if (tally_.outside_grid > 0)
-    report.lose(source, count(tally_.outside_grid) + " points lie outside the file's indexBounds");
+    report.lose(source, count(tally_.outside_grid) + " points are outside the file's indexBounds");
 }
 
 }  // namespace standpoint::e57

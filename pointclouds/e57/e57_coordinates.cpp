@@ -56,8 +56,8 @@ Result<void> StoredPlaces::takeSteps(const ScanHeader& header, const PointBlock&
     const double low = std::round(extent.low[k] * kStepsPerMetre), high = std::round(extent.high[k] * kStepsPerMetre);
     if (low < -kFarthestStep || high >= kFarthestStep)
       return failure(ErrorKind::unusable,
-                     "a point lies more than " + numberText(std::floor(kFarthestStep / kStepsPerMetre)) +
-                         " m from the scanner, which integers of 0.1 mm do not reach here: write floats",
+                     "a point is more than " + numberText(std::floor(kFarthestStep / kStepsPerMetre)) +
+                         " m from the scanner, out of range for integers of 0.1 mm: write floats instead",
                      "scan " + header.name);
     bounds.low[k] = any_ ? std::min(bounds.low[k], low / kStepsPerMetre) : low / kStepsPerMetre;
     bounds.high[k] = any_ ? std::max(bounds.high[k], high / kStepsPerMetre) : high / kStepsPerMetre;

@@ -24,7 +24,8 @@ Result<XmlPlace> readHeader(PagedReader& file) {
   if (std::memcmp(header.data(), "ASTM-E57", 8) != 0) return failure(ErrorKind::unusable, "is not an E57 file", source);
   if (load<std::uint32_t>(header.data() + 8) != 1)
     return failure(ErrorKind::unusable,
-                   "E57 version " + std::to_string(load<std::uint32_t>(header.data() + 8)) + " is not known, only 1",
+                   "E57 version " + std::to_string(load<std::uint32_t>(header.data() + 8)) +
+                       " is not supported; only version 1 is",
                    source);
   if (load<std::uint64_t>(header.data() + 40) != kPageBytes)
     return failure(ErrorKind::unusable, "pages are not 1024 bytes long", source);
@@ -37,7 +38,7 @@ Result<XmlPlace> readHeader(PagedReader& file) {
   const auto offset = load<std::uint64_t>(header.data() + 24), xml_length = load<std::uint64_t>(header.data() + 32);
   if (offset >= file.physicalSize() || offset % kPageBytes >= kPayloadBytes ||
       xml_length > file.logicalSize() - logicalFrom(offset) || xml_length > kLongestXml)
-    return failure(ErrorKind::unusable, "the XML section lies outside the file or is larger than 64 MiB", source);
+    return failure(ErrorKind::unusable, "the XML section is outside the file or larger than 64 MiB", source);
   return XmlPlace{logicalFrom(offset), xml_length};
 }
 

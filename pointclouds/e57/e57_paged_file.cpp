@@ -103,7 +103,7 @@ Result<void> PagedReader::load(std::uint64_t page) {
   const auto n = file_.read(page * kPageBytes, pages_);
   if (!n) return failure(n.error());
   if (*n < kPageBytes)
-    return failure(ErrorKind::unusable, "the file ends here: it is truncated, or it points outside itself",
+    return failure(ErrorKind::unusable, "unexpected end of file: truncated file or invalid offset",
                    name() + " page " + std::to_string(page));
   first_page_ = page;
   loaded_pages_ = *n / kPageBytes;

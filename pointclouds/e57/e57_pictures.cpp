@@ -20,13 +20,13 @@ constexpr const char* kPng = "image/png";
 Result<std::vector<std::uint8_t>> readBlob(PagedReader& file, const Element& blob, const std::string& source) {
   const auto offset = numberFrom<std::uint64_t>(blob.attribute("fileOffset"));
   const auto length = numberFrom<std::uint64_t>(blob.attribute("length"));
-  if (!offset || !length) return failure(ErrorKind::unusable, "the picture has no fileOffset or length", source);
+  if (!offset || !length) return failure(ErrorKind::unusable, "the image has no fileOffset or length", source);
   if (*offset % kPageBytes >= kPayloadBytes || *offset >= file.physicalSize() || *length > kLargestPicture ||
       logicalFrom(*offset) + kBlobHeader + *length > file.logicalSize())
-    return failure(ErrorKind::unusable, "the picture lies outside the file", source);
+    return failure(ErrorKind::unusable, "the image is outside the file", source);
   std::array<std::uint8_t, kBlobHeader> header;
   if (auto read = file.read(logicalFrom(*offset), header); !read) return failure(read.error());
-  if (header[0] != 0) return failure(ErrorKind::unusable, "no blob section starts at the picture's fileOffset", source);
+  if (header[0] != 0) return failure(ErrorKind::unusable, "no blob section at the image's fileOffset", source);
   std::vector<std::uint8_t> bytes(*length);
   if (auto read = file.read(logicalFrom(*offset) + kBlobHeader, bytes); !read) return failure(read.error());
   return bytes;
@@ -97,7 +97,7 @@ std::vector<std::vector<ListedPicture>> picturesOfScans(const Document& document
       of_scan[only ? 0 : found->second].push_back({&image, document.file.name() + " images2D/" + std::to_string(i)});
   }
   if (homeless > 0)
-    report.lose(document.file.name(), std::to_string(homeless) + " pictures belong to no scan of the file");
+    report.lose(document.file.name(), std::to_string(homeless) + " images belong to no scan in the file");
   return of_scan;
 }
 
@@ -109,10 +109,10 @@ Result<StationPicture> readPicture(PagedReader& file, const ListedPicture& liste
     shape = image.child("pinholeRepresentation");
     picture.projection = StationPicture::Projection::pinhole;
   }
-  if (!shape) return failure(ErrorKind::unusable, "only spherical and pinhole pictures are read", listed.source);
+  if (!shape) return failure(ErrorKind::unusable, "only spherical and pinhole images are supported", listed.source);
   const Element* const jpeg = shape->child("jpegImage");
   const Element* const blob = jpeg ? jpeg : shape->child("pngImage");
-  if (!blob) return failure(ErrorKind::unusable, "the picture has neither a jpegImage nor a pngImage", listed.source);
+  if (!blob) return failure(ErrorKind::unusable, "the image has neither jpegImage nor pngImage", listed.source);
   auto bytes = readBlob(file, *blob, listed.source);
   if (!bytes) return failure(bytes.error());
   picture.bytes = *std::move(bytes);
@@ -128,7 +128,7 @@ Result<StationPicture> readPicture(PagedReader& file, const ListedPicture& liste
   picture.file_from_camera = readPose(image, listed.source, report);
   if (const Element* const time = image.child("acquisitionDateTime"))
     picture.acquired_gps_s = real(time->child("dateTimeValue"), 0);
-  if (shape->child("imageMask")) report.warn(listed.source, "the picture's mask is not read");
+  if (shape->child("imageMask")) report.warn(listed.source, "the image mask was skipped");
   return picture;
 }
 

@@ -21,18 +21,18 @@ Pose readPose(const Element& holder, const std::string& source, Report& report) 
   const Element* const pose = holder.child("pose");
   const Element* const q = childOf(pose, "rotation");
   const Element* const t = childOf(pose, "translation");
-  if (pose && (!q || !t)) report.warn(source, "the pose is not whole: the missing half is taken as none");
+  if (pose && (!q || !t)) report.warn(source, "incomplete pose: the missing part is set to identity");
   Pose result;
   if (q)
     result.rotation = {real(q->child("w"), 1), real(q->child("x"), 0), real(q->child("y"), 0), real(q->child("z"), 0)};
   if (t) result.translation = {real(t->child("x"), 0), real(t->child("y"), 0), real(t->child("z"), 0)};
   const double norm = result.rotation.norm();
   if (!(norm > 1e-9) || !std::isfinite(norm)) {
-    report.warn(source, "the pose's quaternion has no length: no rotation is taken");
+    report.warn(source, "the pose quaternion has zero length: no rotation applied");
     result.rotation.setIdentity();
   } else if (std::abs(norm - 1) > 1e-15) {
     if (std::abs(norm - 1) > 1e-6)
-      report.warn(source, "the pose's quaternion has length " + numberText(norm) + ", not 1");
+      report.warn(source, "the pose quaternion has length " + numberText(norm) + ", not 1");
     result.rotation.normalize();
   }
   if (result.rotation.w() < 0) result.rotation.coeffs() *= -1;
@@ -82,7 +82,7 @@ void readGrid(const Element& scan, const std::vector<StoredField>& fields, ScanP
   const double columns = side("columnMinimum", "columnMaximum", plan.first_column);
   plan.has_index_bounds = rows >= 1 && columns >= 1 && rows <= kLargestGridSide && columns <= kLargestGridSide;
   if (!plan.has_index_bounds) {
-    report.warn(plan.source, "indexBounds are missing or senseless: the grid is measured from the points");
+    report.warn(plan.source, "indexBounds missing or invalid: grid derived from the points");
     return;
   }
   plan.header.rows = static_cast<std::uint32_t>(rows);
@@ -103,7 +103,7 @@ void readLabels(const Element& root, const Element& scan, const std::vector<Stor
   const Element* const tables = root.child(prefix + "labelTables");
   const double index = real(scan.child(prefix + "labelTable"), -1);
   if (!tables || !(index >= 0) || index >= static_cast<double>(tables->children.size())) {
-    report.lose(plan.source, "the table of its labels is missing");
+    report.lose(plan.source, "the label table is missing");
     return;
   }
   const Element& table = *tables->children[static_cast<std::size_t>(index)];
@@ -125,7 +125,7 @@ void readChannels(const Element& root, const std::vector<StoredField>& fields, S
         return fieldNamed(fields, prefix + f).has_value();
       }));
   header.has_truth = there == kTruthFields.size();
-  if (there > 0 && !header.has_truth) report.lose(plan.source, "the true values of its points are not complete");
+  if (there > 0 && !header.has_truth) report.lose(plan.source, "truth values are incomplete");
 }
 
 double time(const Element& scan, const char* name) { return real(childOf(scan.child(name), "dateTimeValue"), 0); }
@@ -155,7 +155,7 @@ void listUnread(const std::vector<StoredField>& fields, const ScanPlan& plan, Re
         !(plan.header.has_returns && (field.name == "returnIndex" || field.name == "returnCount")) &&
         (plan.prefix.empty() || !field.name.starts_with(plan.prefix)))
       unread += (unread.empty() ? "" : ", ") + field.name;
-  if (!unread.empty()) report.lose(plan.source, "fields that are not read: " + unread);
+  if (!unread.empty()) report.lose(plan.source, "skipped fields: " + unread);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ Result<StoredField> integerFrom(const Element& e, const std::string& source) {
   using Limits = std::numeric_limits<std::int64_t>;
   const auto least = attributeOr<std::int64_t>(e, "minimum", Limits::min());
   const auto most = attributeOr<std::int64_t>(e, "maximum", Limits::max());
-  if (!least || !most || *least > *most) return badField(source, e, "minimum and maximum are no range of integers");
+  if (!least || !most || *least > *most) return badField(source, e, "minimum and maximum are not an integer range");
   StoredField field{.name = e.name, .kind = Kind::integer, .minimum = *least};
   field.bits =
       static_cast<unsigned>(std::bit_width(static_cast<std::uint64_t>(*most) - static_cast<std::uint64_t>(*least)));
@@ -112,13 +112,13 @@ Result<void> VectorReader::openSection(std::uint64_t physical) {
   const auto points_outside = [&](std::uint64_t offset) {
     return offset % kPageBytes >= kPayloadBytes || offset >= file_->physicalSize();
   };
-  if (points_outside(physical)) return broken("fileOffset lies outside the file");
+  if (points_outside(physical)) return broken("fileOffset is outside the file");
   cursor_ = logicalFrom(physical);
   std::array<std::uint8_t, 32> header;
   if (auto read = file_->read(cursor_, header); !read) return read;
-  if (header[0] != 1) return broken("no CompressedVector section starts here");
+  if (header[0] != 1) return broken("no CompressedVector section at this offset");
   const auto length = load<std::uint64_t>(header.data() + 8), data = load<std::uint64_t>(header.data() + 16);
-  if (points_outside(data)) return broken("the section's data offset lies outside the file");
+  if (points_outside(data)) return broken("the section's data offset is outside the file");
   section_end_ = length > file_->logicalSize() - cursor_ ? file_->logicalSize() : cursor_ + length;
   cursor_ = logicalFrom(data);
   return {};
@@ -157,7 +157,7 @@ Result<void> VectorReader::takeStreams(const std::vector<std::uint8_t>& packet) 
     const std::size_t n = load<std::uint16_t>(packet.data() + 6 + 2 * stream++);
     if (n > packet.size() - at) return broken("a packet's streams are longer than the packet");
     if (Stream& s = streams_[f]; s.wanted) {
-      if (s.filled > kLongestStream) return broken("the streams of the fields are of very unequal length");
+      if (s.filled > kLongestStream) return broken("field streams differ too much in length");
       s.bytes.resize(s.filled + n + kBehind);
       std::copy_n(packet.begin() + static_cast<std::ptrdiff_t>(at), n,
                   s.bytes.begin() + static_cast<std::ptrdiff_t>(s.filled));

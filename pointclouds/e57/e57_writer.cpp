@@ -82,7 +82,7 @@ std::size_t Writer::labelTable(const ScanHeader& header) {
 }
 
 Result<void> Writer::begin(const ScanHeader& header) {
-  if (open_) return failure(ErrorKind::internal, "a scan begins before the last one has ended", header.name);
+  if (open_) return failure(ErrorKind::internal, "a scan starts before the previous one has ended", header.name);
   if (auto checked = checkHeader(header); !checked) return checked;
   WrittenScan scan;
   scan.header = header;
@@ -95,7 +95,7 @@ Result<void> Writer::begin(const ScanHeader& header) {
   if (coordinate_metadata_.empty())
     coordinate_metadata_ = header.coordinate_metadata;
   else if (!header.coordinate_metadata.empty() && header.coordinate_metadata != coordinate_metadata_)
-    report_.lose(scan.header.name, "its coordinate reference system differs from the file's, of which E57 has one");
+    report_.lose(scan.header.name, "coordinate reference system differs from the file's; E57 supports only one");
   if (header.acquisition_start_gps_s > 0)
     created_gps_s_ = std::max(created_gps_s_, header.acquisition_start_gps_s + header.acquisition_seconds);
   ScanRecords records(scan.header, kind_);
@@ -112,8 +112,7 @@ Result<void> Writer::write(const PointBlock& block) {
 Result<void> Writer::picture(const StationPicture& picture) {
   if (!open_) return failure(ErrorKind::internal, "a picture outside a scan", out_.file().string());
   if (picture.media_type != "image/jpeg" && picture.media_type != "image/png")
-    return failure(ErrorKind::internal, "an E57 holds pictures as JPEG or PNG, not " + picture.media_type,
-                   picture.name);
+    return failure(ErrorKind::internal, "E57 supports JPEG and PNG images, not " + picture.media_type, picture.name);
   open_->pictures.push_back(picture);
   return {};
 }
@@ -128,14 +127,13 @@ Result<void> Writer::writePictures() {
 }
 
 Result<void> Writer::end() {
-  if (!open_) return failure(ErrorKind::internal, "a scan ends that did not begin", out_.file().string());
+  if (!open_) return failure(ErrorKind::internal, "a scan ends that was not started", out_.file().string());
   WrittenScan& scan = open_->scan;
   if (auto finished = open_->records.finish(out_, scan); !finished) return finished;
   appendScan(scans_, scan);
   if (auto written = writePictures(); !written) return written;
   if (const auto clamped = open_->records.clamped(); clamped > 0)
-    report_.lose(scan.header.name,
-                 std::to_string(clamped) + " intensities lay outside the sensor's range and were clamped");
+    report_.lose(scan.header.name, std::to_string(clamped) + " intensities outside the sensor's range were clamped");
   if (kind_ != Coordinates::cartesian)
     report_.note(scan.header.name, kind_ == Coordinates::scaled ? "coordinates were rounded to 0.1 mm"
                                                                 : "coordinates were rounded to 1e-7 of the range");

@@ -78,7 +78,7 @@ const char* faultOfChannels(const PointBlock& b) {
   for (const auto* column : {&t.x_m, &t.y_m, &t.z_m, &t.range_m, &t.incidence_rad, &t.received_db})
     if (!allFinite(*column)) return "a true value is not finite";
   for (std::size_t i = 0; i < b.return_number.size(); ++i)
-    if (b.return_number[i] < 1 || b.return_number[i] > b.return_count[i]) return "a return is not one of its pulse";
+    if (b.return_number[i] < 1 || b.return_number[i] > b.return_count[i]) return "invalid return number";
   return nullptr;
 }
 
@@ -92,7 +92,7 @@ Result<void> checkHeader(const ScanHeader& header) {
   const Pose& pose = header.file_from_scanner;
   const bool pose_known =
       pose.translation.allFinite() && pose.rotation.coeffs().allFinite() && pose.rotation.norm() > 0;
-  if (!pose_known) return broken(header, "the pose is no rotation and translation");
+  if (!pose_known) return broken(header, "the pose is not a rotation and translation");
   for (const double v :
        {header.intensity_min, header.intensity_max, header.acquisition_start_gps_s, header.acquisition_seconds})
     if (!std::isfinite(v)) return broken(header, "an intensity limit or a time is not finite");
@@ -101,7 +101,7 @@ Result<void> checkHeader(const ScanHeader& header) {
 
 Result<BlockExtent> checkBlock(const ScanHeader& header, const PointBlock& block) {
   if (!columnsFit(header, block))
-    return broken(header, "a block's columns are not of one size, or not those of the header");
+    return broken(header, "the columns of a block differ in size or do not match the header");
   BlockExtent extent;
   const std::array<const std::vector<float>*, 3> axes = {&block.x_m, &block.y_m, &block.z_m};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -116,12 +116,12 @@ Result<BlockExtent> checkBlock(const ScanHeader& header, const PointBlock& block
     extent.column = largest(block.column);
     if (extent.row >= header.rows || extent.column >= header.columns)
       return broken(header, "row " + std::to_string(extent.row) + " or column " + std::to_string(extent.column) +
-                                " lies outside the grid of " + std::to_string(header.rows) + " rows and " +
+                                " is outside the grid of " + std::to_string(header.rows) + " rows and " +
                                 std::to_string(header.columns) + " columns");
   }
   if (header.has_labels &&
       (largest(block.product) >= header.products.size() || largest(block.material) >= header.materials.size()))
-    return broken(header, "a label lies outside the header's table");
+    return broken(header, "a label is outside the header's table");
   if (const char* fault = faultOfChannels(block)) return broken(header, fault);
   return extent;
 }
@@ -132,12 +132,12 @@ void listUnheld(const ScanHeader& header, const char* format, const Channels& he
       {header.has_labels && !held.labels, "product and material labels"},
       {header.has_time && !held.time, "the points' times"},
       {header.has_returns && !held.returns, "return numbers"},
-      {header.has_truth && !held.truth, "true places and flags"},
+      {header.has_truth && !held.truth, "true positions and flags"},
       {!header.coordinate_metadata.empty() && !held.crs, "the coordinate reference system"}};
   std::string names;
   for (const auto& [unheld, name] : all)
     if (unheld) names += (names.empty() ? "" : ", ") + std::string(name);
-  if (!names.empty()) report.warn(header.name, std::string(format) + " has no place for " + names);
+  if (!names.empty()) report.warn(header.name, std::string(format) + " cannot store " + names);
 }
 
 }  // namespace standpoint

@@ -34,7 +34,7 @@ class CloudWriter : public PointSink {
  public:
   const Report& report() const { return report_; }  // what the format could not hold; complete after close()
   Result<void> picture(const StationPicture& picture) override {  // of most formats
-    report_.warn(picture.name, "the format has no place for a station's picture");
+    report_.warn(picture.name, "the format cannot store images");
     return {};
   }
 

@@ -109,8 +109,7 @@ Result<InputFile> InputFile::open(const std::filesystem::path& file) {
   struct stat status {};
   const bool known = ::fstat(descriptor, &status) == 0;
   InputFile opened(file, descriptor, known ? static_cast<std::uint64_t>(status.st_size) : 0);
-  if (!known || !S_ISREG(status.st_mode))
-    return failure(ErrorKind::file_system, "is not a regular file", file.string());
+  if (!known || !S_ISREG(status.st_mode)) return failure(ErrorKind::file_system, "not a regular file", file.string());
   return opened;
 }
 

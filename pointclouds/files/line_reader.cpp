@@ -7,7 +7,7 @@ constexpr std::size_t kPiece = 1 << 20;
 constexpr std::size_t kLongestLine = 65536;
 }  // namespace
 
-double LineReader::share() const {
+double LineReader::fraction() const {
   return file_.size() == 0 ? 1 : 1 - static_cast<double>(left()) / static_cast<double>(file_.size());
 }
 
@@ -33,7 +33,7 @@ Result<std::optional<std::string_view>> LineReader::next() {
   ++line_;
   const std::size_t stop = end == std::string::npos ? text_.size() : end;
   if (stop - from_ >= kLongestLine)
-    return failure(ErrorKind::unusable, "the line is too long: this is no text of points", place());
+    return failure(ErrorKind::unusable, "line too long: not a text point file", place());
   const std::string_view line(text_.data() + from_, stop - from_);
   from_ = end == std::string::npos ? stop : end + 1;
   return line;

@@ -21,7 +21,7 @@ class LineReader {
   std::uint64_t line() const { return line_; }  // number of the last line, from 1
   std::uint64_t left() const { return file_.size() - std::min(file_.size(), at_ - (text_.size() - from_)); }  // bytes
   std::uint64_t at() const { return at_ - (text_.size() - from_); }  // in the file, of the next line
-  double share() const;                                              // of the file that was read
+  double fraction() const;                                           // of the file that was read
   std::string place() const { return file_.name() + " line " + std::to_string(line_); }
   std::string name() const { return file_.name(); }
 

@@ -114,11 +114,10 @@ Result<void> LocalPoints::finish(Report& report) {
     if (auto begun = begin(nullptr); !begun) return begun;
   if (not_finite_ > 0) report.lose(header_.name, std::to_string(not_finite_) + " points are not finite numbers");
   if (!move_.isZero())
-    report.note(header_.name, "coordinates are far from the scanner's origin: the pose moved by " +
-                                  numberText(move_.x()) + ", " + numberText(move_.y()) + ", " + numberText(move_.z()) +
-                                  " m");
+    report.note(header_.name, "coordinates are far from the scanner origin: pose moved by " + numberText(move_.x()) +
+                                  ", " + numberText(move_.y()) + ", " + numberText(move_.z()) + " m");
   const std::string rounding =
-      "coordinates became single floats, moved by up to " + numberText(worst_rounding_m_) + " m";
+      "coordinates were rounded to single precision, by up to " + numberText(worst_rounding_m_) + " m";
   if (worst_rounding_m_ > std::max(kLoss_m, fineness_m_))
     report.lose(header_.name, rounding);
   else if (worst_rounding_m_ > kWorthListing_m)

@@ -103,13 +103,13 @@ void FieldTaker::takeTruth(const std::vector<double>& numbers, FoundPoints& to) 
 Result<void> FieldTaker::takeIndices(const std::vector<double>& numbers, PointBlock& block) const {
   const double row = grid_ ? number(numbers, F::row) : 0, column = grid_ ? number(numbers, F::column) : 0;
   if (grid_ && !(row >= 0 && row < rows_ && column >= 0 && column < columns_))
-    return failure(ErrorKind::unusable, "a point's row or column lies outside the grid");
+    return failure(ErrorKind::unusable, "a point's row or column is outside the grid");
   block.row.push_back(static_cast<std::uint32_t>(row));
   block.column.push_back(static_cast<std::uint32_t>(column));
   if (!labels_) return {};
   const double product = number(numbers, F::product), material = number(numbers, F::label);
   if (!(product >= 0 && product < products_ && material >= 0 && material < materials_))
-    return failure(ErrorKind::unusable, "a point's label lies outside the label table");
+    return failure(ErrorKind::unusable, "a point's label is outside the label table");
   block.product.push_back(static_cast<std::uint32_t>(product));
   block.material.push_back(static_cast<std::uint32_t>(material));
   return {};
@@ -133,10 +133,9 @@ Result<void> FieldTaker::take(const std::vector<double>& numbers, FoundPoints& t
 
 void FieldTaker::list(const std::string& source, Report& report) const {
   if (senseless_returns_ > 0)
-    report.warn(source,
-                std::to_string(senseless_returns_) + " return numbers are none of their pulse: 1 of 1 stands for them");
+    report.warn(source, std::to_string(senseless_returns_) + " invalid return numbers were set to 1 of 1");
   if (senseless_values_ > 0)
-    report.lose(source, std::to_string(senseless_values_) + " times or true values are no numbers: 0 stands for them");
+    report.lose(source, std::to_string(senseless_values_) + " non-numeric times or truth values were set to 0");
 }
 
 }  // namespace standpoint

@@ -40,8 +40,7 @@ Result<void> readRecordPoints(const std::filesystem::path& path, const PointReco
     bytes.resize(count * records.bytes);
     const auto n = file->read(records.at + done * records.bytes, bytes);
     if (!n) return failure(n.error());
-    if (*n < bytes.size())
-      return failure(ErrorKind::unusable, "the file became shorter while it was read", place(done));
+    if (*n < bytes.size()) return failure(ErrorKind::unusable, "the file was truncated while reading", place(done));
     for (std::uint64_t i = 0; i < count; ++i)
       if (auto taken = take(done + i, bytes.data() + i * records.bytes, found); !taken)
         return failure(ErrorKind::unusable, taken.error().message, place(done + i));

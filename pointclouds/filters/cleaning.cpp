@@ -172,14 +172,12 @@ const std::array<const char*, 8>& flagNames() {
 Result<Cleaning> cleanCloud(const std::filesystem::path& in, const std::filesystem::path& out,
                             std::span<const ChosenFilter> filters, Progress& progress) {
   if (filters.empty() || filters.size() > 255)
-    return failure(ErrorKind::usage, "name from 1 to 255 filters: " + filterList(), "--filters");
+    return failure(ErrorKind::usage, "specify 1 to 255 filters: " + filterList(), "--filters");
   const CloudFormat* const format = cloudFormatFor(in);
-  if (!format || !format->read)
-    return failure(ErrorKind::usage, "no readable point-cloud format has this extension", in.string());
+  if (!format || !format->read) return failure(ErrorKind::usage, "unsupported point-cloud format", in.string());
   // A wrong option shows before anything is read.
   const CloudFormat* const to = cloudFormatFor(out);
-  if (!to || !to->writer)
-    return failure(ErrorKind::usage, "no writable point-cloud format has this extension", out.string());
+  if (!to || !to->writer) return failure(ErrorKind::usage, "unsupported point-cloud format for writing", out.string());
   for (const ChosenFilter& chosen : filters)
     if (auto made = chosen.kind->make(chosen.values); !made)
       return failure(ErrorKind::usage, made.error().message, "--filters " + chosen.text);

@@ -13,7 +13,7 @@ using MadeFilter = Result<std::unique_ptr<PointFilter>>;
 MadeFilter makeRangeGate(const FilterValues& values);
 MadeFilter makeIntensityGate(const FilterValues& values);
 MadeFilter makeIncidenceGate(const FilterValues& values);
-MadeFilter makeShareFilter(const FilterValues& values);
+MadeFilter makeFractionFilter(const FilterValues& values);
 MadeFilter makeEveryFilter(const FilterValues& values);
 MadeFilter makeBoxFilter(const FilterValues& values);
 MadeFilter makeSphereFilter(const FilterValues& values);

@@ -50,8 +50,9 @@ Result<Interval> intervalFrom(const FilterValues& values) {
   Interval interval;
   if (values.has("from")) interval.from = values.number("from");
   if (values.has("to")) interval.to = values.number("to");
-  if (!values.has("from") && !values.has("to")) return failure(ErrorKind::usage, "a gate needs 'from' or 'to'");
-  if (interval.from > interval.to) return failure(ErrorKind::usage, "'from' is larger than 'to': nothing would stay");
+  if (!values.has("from") && !values.has("to")) return failure(ErrorKind::usage, "a gate requires 'from' or 'to'");
+  if (interval.from > interval.to)
+    return failure(ErrorKind::usage, "'from' is larger than 'to': no points would remain");
   return interval;
 }
 
@@ -59,8 +60,7 @@ struct RangeJudge {
   Interval interval;
   Result<void> begin(const ScanHeader& header) {
     if (stationOf(header)) return {};
-    return failure(ErrorKind::unusable, "it does not say where its scanner stood, so its points have no range",
-                   header.name);
+    return failure(ErrorKind::unusable, "no scanner position: range is unknown", header.name);
   }
   bool stays(const PointBlock& b, std::size_t i, std::uint64_t) const {
     return interval.has(Eigen::Vector3d(b.x_m[i], b.y_m[i], b.z_m[i]).norm());
@@ -71,7 +71,7 @@ struct IntensityJudge {
   Interval interval;
   Result<void> begin(const ScanHeader& header) {
     if (header.intensity_max > header.intensity_min) return {};
-    return failure(ErrorKind::unusable, "its points have no intensity", header.name);
+    return failure(ErrorKind::unusable, "points have no intensity", header.name);
   }
   bool stays(const PointBlock& b, std::size_t i, std::uint64_t) const { return interval.has(b.intensity[i]); }
 };
@@ -80,17 +80,16 @@ struct IncidenceJudge {
   Interval interval;  // rad
   Result<void> begin(const ScanHeader& header) {
     if (header.has_truth) return {};
-    return failure(ErrorKind::unusable,
-                   "it has no truth, so the incidence of its points is not known: scan with --truth", header.name);
+    return failure(ErrorKind::unusable, "no ground truth: incidence is unknown; scan with --truth", header.name);
   }
   bool stays(const PointBlock& b, std::size_t i, std::uint64_t) const { return interval.has(b.truth.incidence_rad[i]); }
 };
 
-struct ShareJudge {
-  double share;
+struct FractionJudge {
+  double fraction;
   std::uint64_t seed;
   bool stays(const PointBlock&, std::size_t, std::uint64_t point) const {
-    return static_cast<double>(mixed(mixed(seed) ^ point) >> 11) * 0x1p-53 < share;
+    return static_cast<double>(mixed(mixed(seed) ^ point) >> 11) * 0x1p-53 < fraction;
   }
 };
 
@@ -124,7 +123,7 @@ struct SphereJudge {
       if (scan.station) names += (names.empty() ? "" : ", ") + scan.name;
     }
     return failure(ErrorKind::usage,
-                   "the file has no station '" + station + "'; it has " + (names.empty() ? "none" : names));
+                   "unknown station '" + station + "'; available: " + (names.empty() ? "none" : names));
   }
   Result<void> begin(const ScanHeader& header) { return pose = header.file_from_scanner, Result<void>{}; }
   bool stays(const PointBlock& b, std::size_t i, std::uint64_t) const {
@@ -152,8 +151,8 @@ MadeFilter makeIncidenceGate(const FilterValues& values) {
   return gate(IncidenceJudge{{interval->from * std::numbers::pi / 180, interval->to * std::numbers::pi / 180}});
 }
 
-MadeFilter makeShareFilter(const FilterValues& values) {
-  return gate(ShareJudge{values.number("keep"), static_cast<std::uint64_t>(values.number("seed"))});
+MadeFilter makeFractionFilter(const FilterValues& values) {
+  return gate(FractionJudge{values.number("keep"), static_cast<std::uint64_t>(values.number("seed"))});
 }
 
 MadeFilter makeEveryFilter(const FilterValues& values) {
@@ -163,13 +162,13 @@ MadeFilter makeEveryFilter(const FilterValues& values) {
 MadeFilter makeBoxFilter(const FilterValues& values) {
   const Bounds box{values.triple("from"), values.triple("to")};
   if ((box.min.array() > box.max.array()).any())
-    return failure(ErrorKind::usage, "'from' lies beyond 'to': the box is empty");
+    return failure(ErrorKind::usage, "'from' exceeds 'to': the box is empty");
   return gate(BoxJudge{box, values.word("keep") == "inside"});
 }
 
 MadeFilter makeSphereFilter(const FilterValues& values) {
   if (values.has("at") == values.has("station"))
-    return failure(ErrorKind::usage, "a sphere is about a 'station' or 'at' a place");
+    return failure(ErrorKind::usage, "a sphere requires 'station' or 'at'");
   SphereJudge judge{values.number("radius"), values.word("keep") == "inside", {}, {}};
   if (values.has("at"))
     judge.centre = values.triple("at");

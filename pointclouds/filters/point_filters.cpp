@@ -14,11 +14,11 @@ constexpr double kFar = 1e9;
 const std::vector<FilterKind>& table() {
   static const std::vector<FilterKind> kinds = {
       {"duplicates",
-       "points nearer to one that stays than a distance, in all scans together; the one with the smaller range stays",
+       "points closer than a distance to a kept point, across all scans; keeps the point with the smaller range",
        {{.name = "distance", .kind = K::number, .help = "m", .default_value = "0.002", .minimum = 1e-5, .maximum = 10}},
        makeDuplicateFilter},
       {"outliers",
-       "points whose neighbours of the same scan are farther off than those of others at their range",
+       "points whose neighbours in the same scan are farther away than usual at their range",
        {{.name = "neighbours",
          .kind = K::integer,
          .help = "of each point",
@@ -33,7 +33,7 @@ const std::vector<FilterKind>& table() {
          .maximum = 100}},
        makeOutlierFilter},
       {"mixed",
-       "points between two surfaces: the range jumps to either side, and the surface that they make lies along the "
+       "points between two surfaces, where the range jumps on both sides and the apparent surface is parallel to the "
        "beam",
        {{.name = "angle",
          .kind = K::number,
@@ -43,7 +43,7 @@ const std::vector<FilterKind>& table() {
          .maximum = 60},
         {.name = "jump",
          .kind = K::number,
-         .help = "m of range, at least",
+         .help = "minimum, in m of range",
          .default_value = "0.01",
          .minimum = 0,
          .maximum = 100},
@@ -55,59 +55,59 @@ const std::vector<FilterKind>& table() {
          .maximum = 256},
         {.name = "by",
          .kind = K::word,
-         .help = "how neighbours are found (default: as the scan allows)",
+         .help = "neighbour search (default: chosen by scan)",
          .words = {"grid", "distance"}}},
        makeMixedFilter},
       {"range",
-       "a gate of distances from the scanner",
+       "keep a range of distances from the scanner",
        {{.name = "from", .kind = K::number, .help = "m", .minimum = 0, .maximum = kFar},
         {.name = "to", .kind = K::number, .help = "m", .minimum = 0, .maximum = kFar}},
        makeRangeGate},
       {"intensity",
-       "a gate of intensities, as the file has them",
+       "keep a range of intensities, as stored in the file",
        {{.name = "from", .kind = K::number, .help = ""}, {.name = "to", .kind = K::number, .help = ""}},
        makeIntensityGate},
       {"incidence",
-       "a gate of angles between beam and surface normal, of a scan with truth",
+       "keep a range of angles of incidence; requires scans with ground truth",
        {{.name = "from", .kind = K::number, .help = "deg", .minimum = 0, .maximum = 90},
         {.name = "to", .kind = K::number, .help = "deg", .minimum = 0, .maximum = 90}},
        makeIncidenceGate},
       {"voxel",
-       "one point for each cell of a grid in the file's frame, the nearest to its centre",
+       "one point per cell of a grid in the file frame, closest to the cell centre",
        {{.name = "cell", .kind = K::number, .help = "m", .required = true, .minimum = 1e-4, .maximum = 1e6}},
        makeVoxelFilter},
       {"share",
-       "a share of the points, by chance",
+       "a random fraction of the points",
        {{.name = "keep", .kind = K::number, .help = "0..1", .required = true, .minimum = 0, .maximum = 1},
         {.name = "seed",
          .kind = K::integer,
-         .help = "of the chance",
+         .help = "random seed",
          .default_value = "1",
          .minimum = 0,
          .maximum = 9007199254740991.0}},
-       makeShareFilter},
+       makeFractionFilter},
       {"every",
        "every n-th point",
        {{.name = "n", .kind = K::integer, .help = "", .required = true, .minimum = 1, .maximum = 1e15}},
        makeEveryFilter},
       {"box",
-       "a box along the axes of the file's frame",
+       "an axis-aligned box in the file frame",
        {{.name = "from", .kind = K::triple, .help = "X/Y/Z, m", .required = true},
         {.name = "to", .kind = K::triple, .help = "X/Y/Z, m", .required = true},
         {.name = "keep",
          .kind = K::word,
-         .help = "which side stays",
+         .help = "side to keep",
          .default_value = "inside",
          .words = {"inside", "outside"}}},
        makeBoxFilter},
       {"sphere",
-       "a sphere about a station or a place",
+       "a sphere around a station or position",
        {{.name = "radius", .kind = K::number, .help = "m", .required = true, .minimum = 0, .maximum = kFar},
-        {.name = "station", .kind = K::word, .help = "name of one of the file's scans"},
-        {.name = "at", .kind = K::triple, .help = "X/Y/Z in the file's frame, m"},
+        {.name = "station", .kind = K::word, .help = "name of a scan in the file"},
+        {.name = "at", .kind = K::triple, .help = "X/Y/Z in the file frame, m"},
         {.name = "keep",
          .kind = K::word,
-         .help = "which side stays",
+         .help = "side to keep",
          .default_value = "inside",
          .words = {"inside", "outside"}}},
        makeSphereFilter},
@@ -178,7 +178,7 @@ Result<ChosenFilter> filterFrom(const std::string& text) {
   const auto kind =
       std::find_if(filterKinds().begin(), filterKinds().end(), [&](const auto& k) { return name == k.name; });
   if (kind == filterKinds().end())
-    return failure(ErrorKind::usage, "there is no filter '" + name + "'; there are " + filterList(), "--filters");
+    return failure(ErrorKind::usage, "unknown filter '" + name + "'; available: " + filterList(), "--filters");
   ChosenFilter chosen{text, &*kind, {}};
   for (std::size_t from = colon + 1; from <= text.size() && colon < text.size();) {
     const std::size_t comma = std::min(text.find(',', from), text.size());
@@ -188,7 +188,7 @@ Result<ChosenFilter> filterFrom(const std::string& text) {
       return equals != std::string::npos && word.substr(0, equals) == k.name;
     });
     if (key == kind->keys.end())
-      return failure(ErrorKind::usage, "'" + word + "' is none of KEY=VALUE; the keys are " + keyList(*kind),
+      return failure(ErrorKind::usage, "'" + word + "' must be KEY=VALUE; valid keys: " + keyList(*kind),
                      "--filters " + text);
     if (chosen.values.has(key->name))
       return failure(ErrorKind::usage, std::string("'") + key->name + "' is given twice", "--filters " + text);

@@ -99,11 +99,9 @@ class MixedFilter final : public ScanFilter {
 
   Result<void> beginScan(const ScanHeader& header) override {
     if (auto begun = ScanFilter::beginScan(header); !begun) return begun;
-    if (!has_station_)
-      return failure(ErrorKind::unusable, "it does not say where its scanner stood, so its points have no beams",
-                     header.name);
+    if (!has_station_) return failure(ErrorKind::unusable, "no scanner position: beams are unknown", header.name);
     if (by_ == "grid" && !grid_)
-      return failure(ErrorKind::unusable, "it has no grid of rows and columns; leave 'by' out, or use by=distance",
+      return failure(ErrorKind::unusable, "no grid of rows and columns; leave out 'by', or use by=distance",
                      header.name);
     return {};
   }

@@ -91,11 +91,11 @@ Result<void> HeaderReader::readFormat() {
   const auto raw = block_[104];
   if (raw >= 0x40)
     return broken(
-        "the points are compressed (LAZ), which cannot be read: write them as LAS first, for instance with "
-        "`laszip -i FILE.laz -o FILE.las`, `pdal translate` or CloudCompare");
+        "compressed points (LAZ) are not supported: convert to LAS first, for instance with `laszip -i FILE.laz -o "
+        "FILE.las`, `pdal translate` or CloudCompare");
   header_.point_format = raw;
   if (header_.point_format >= static_cast<int>(kFormats.size()))
-    return broken("point format " + std::to_string(raw) + " is not known, only 0 to 10");
+    return broken("point format " + std::to_string(raw) + " is not supported; supported: 0 to 10");
   header_.record_bytes = loadAt<std::uint16_t>(block_, 105);
   const auto least = pointFormat(header_).bytes;
   if (header_.record_bytes < least)
@@ -112,7 +112,7 @@ Result<void> HeaderReader::readScale() {
     header_.high[k] = loadAt<double>(block_, 179 + 16 * k);
     header_.low[k] = loadAt<double>(block_, 187 + 16 * k);
     if (!std::isfinite(header_.scale[k]) || header_.scale[k] == 0 || !std::isfinite(header_.offset[k]))
-      return broken(std::string("the scale or offset of ") + "xyz"[k] + " is no number to multiply with");
+      return broken(std::string("the scale or offset of ") + "xyz"[k] + " is not a valid number");
   }
   return {};
 }
@@ -123,7 +123,7 @@ Result<void> HeaderReader::readCount() {
     if (const auto points = loadAt<std::uint64_t>(block_, 247); points > 0) header_.points = points;
   const std::uint64_t room = (file_.size() - header_.points_at) / header_.record_bytes;
   if (header_.points > room)
-    return broken("the file is truncated: it has room for " + std::to_string(room) + " of " +
+    return broken("the file is truncated: it has space for " + std::to_string(room) + " of " +
                   std::to_string(header_.points) + " points");
   return {};
 }
@@ -143,7 +143,7 @@ void HeaderReader::takeGeoKeys(std::span<const std::uint8_t> keys) {
   if (code >= 1024 && code < kUserDefined)
     header_.epsg = "EPSG:" + std::to_string(code);
   else
-    report_.warn(place_, "its GeoTIFF keys name no EPSG code: the coordinate system is not known");
+    report_.warn(place_, "GeoTIFF keys contain no EPSG code: unknown coordinate reference system");
 }
 
 // Only what is called and stored as ours; the rest is counted.
@@ -198,8 +198,7 @@ void HeaderReader::checkScans() {
   // Each scan has the tables: what they come to is bounded, too.
   fits &= header_.scans.size() * (header_.products.size() + header_.materials.size()) <= kMostEntries;
   if (fits && points == header_.points) return;
-  if (!header_.scans.empty())
-    report_.warn(place_, "its stations do not have the points that are there: it is read as one scan");
+  if (!header_.scans.empty()) report_.warn(place_, "station point counts do not match: read as a single scan");
   header_.scans.clear();
 }
 
@@ -209,7 +208,7 @@ Result<void> HeaderReader::take(const std::string& user, std::uint16_t id, std::
   const bool ours = user == kOurRecord && id == kOurRecordId;
   if (!system && !extras && !ours) return {};
   if (length > (ours ? kLongestText : kLongestRecord)) {
-    report_.warn(place_, "a record '" + user + "' of " + std::to_string(length) + " bytes is not read");
+    report_.warn(place_, "a record '" + user + "' of " + std::to_string(length) + " bytes was skipped");
     return {};
   }
   std::vector<std::uint8_t> bytes(length);
@@ -241,7 +240,7 @@ Result<void> HeaderReader::readList(const RecordList& list) {
                                  : list.extended ? loadAt<std::uint64_t>(head, 20)
                                                  : loadAt<std::uint16_t>(head, 20);
     if (!whole || length > list.ends_at - at - head.size()) {
-      report_.warn(place_, "it states " + std::to_string(list.records) + (list.extended ? " extended" : "") +
+      report_.warn(place_, "header specifies " + std::to_string(list.records) + (list.extended ? " extended" : "") +
                                " variable-length records, of which " + std::to_string(i) + " lie " +
                                (list.extended ? "in the file" : "before the points"));
       return {};
@@ -271,12 +270,12 @@ Result<Header> HeaderReader::read() {
   const auto n = file_.read(0, block_);
   if (!n) return failure(n.error());
   if (*n < 4 || std::memcmp(block_.data(), "LASF", 4) != 0) return broken("is not a LAS file");
-  if (*n < kOldest) return broken("the file is truncated: it ends inside its header");
+  if (*n < kOldest) return broken("the file is truncated inside its header");
   header_.minor = block_[25];
   header_.adjusted_time = (loadAt<std::uint16_t>(block_, 6) & 1) != 0;
   if (block_[24] != 1 || header_.minor > 4)
     return broken("LAS " + std::to_string(block_[24]) + "." + std::to_string(header_.minor) +
-                  " is not known, only 1.0 to 1.4");
+                  " is not supported; supported: 1.0 to 1.4");
   const auto header_bytes = loadAt<std::uint16_t>(block_, 94);
   const std::size_t least = header_.minor == 4 ? kNewest : kOldest;
   if (header_bytes < least || *n < least)
@@ -284,7 +283,7 @@ Result<Header> HeaderReader::read() {
                   " bytes, this one " + std::to_string(header_bytes));
   header_.points_at = loadAt<std::uint32_t>(block_, 96);
   if (header_.points_at < header_bytes || header_.points_at > file_.size())
-    return broken("the points are said to begin at byte " + std::to_string(header_.points_at) + " of " +
+    return broken("point data offset is byte " + std::to_string(header_.points_at) + " of " +
                   std::to_string(file_.size()));
   for (const auto step : {&HeaderReader::readFormat, &HeaderReader::readScale, &HeaderReader::readCount,
                           &HeaderReader::readRecords, &HeaderReader::readExtendedRecords})

@@ -42,7 +42,7 @@ Result<void> RecordPacker::putPlace(const PointBlock& b, std::size_t i, std::uin
     const std::int32_t value = step(p[static_cast<int>(k)], k);
     if (std::abs(static_cast<double>(value)) >= 2147483647.0)
       return failure(ErrorKind::unusable,
-                     "a point lies more than 214 km from the first station, which integers of 0.1 mm do not reach",
+                     "a point is more than 214 km from the first station, out of range for integers of 0.1 mm",
                      "scan " + header_.name);
     low_[k] = points_ == 0 ? value : std::min(low_[k], value);
     high_[k] = points_ == 0 ? value : std::max(high_[k], value);
@@ -91,9 +91,9 @@ void RecordPacker::putExtras(const PointBlock& b, std::size_t i, std::uint8_t* r
 Result<void> RecordPacker::put(const PointBlock& b, std::size_t i, std::uint8_t* record) {
   if (auto placed = putPlace(b, i, record); !placed) return placed;
   if (hasIntensity(header_)) {
-    const double share = (b.intensity[i] - header_.intensity_min) / (header_.intensity_max - header_.intensity_min);
-    clamped += share < 0 || share > 1;
-    store(record + 12, static_cast<std::uint16_t>(std::lround(std::clamp(share, 0.0, 1.0) * 65535)));
+    const double fraction = (b.intensity[i] - header_.intensity_min) / (header_.intensity_max - header_.intensity_min);
+    clamped += fraction < 0 || fraction > 1;
+    store(record + 12, static_cast<std::uint16_t>(std::lround(std::clamp(fraction, 0.0, 1.0) * 65535)));
   }
   putReturn(b, i, record);
   const bool surfaceless = header_.has_truth && (b.truth.flags[i] & (point_flag::kNoise | point_flag::kWeather)) != 0;

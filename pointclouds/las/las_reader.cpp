@@ -15,7 +15,7 @@ template <bool near_infrared>
 Result<std::unique_ptr<CloudWriter>> writer(const std::filesystem::path& file) {
   return createWriter(file, near_infrared);
 }
-constexpr CloudVariant kVariants[] = {{"pdrf8", "point format 8: near infrared has a place, and is 0", writer<true>}};
+constexpr CloudVariant kVariants[] = {{"pdrf8", "point format 8: near infrared is stored as 0", writer<true>}};
 }  // namespace
 }  // namespace las
 
@@ -48,7 +48,7 @@ class Records {
     const auto n = file_.read(header_.points_at + first * header_.record_bytes, bytes_);
     if (!n) return failure(n.error());
     if (*n < bytes_.size())
-      return failure(ErrorKind::unusable, "the file became shorter while it was read",
+      return failure(ErrorKind::unusable, "the file was truncated while reading",
                      file_.name() + " point " + std::to_string(first));
     return bytes_.data();
   }
@@ -135,14 +135,14 @@ Result<void> RecordTaker::takeIndices(const std::uint8_t* record, PointBlock& bl
   const auto row = grid ? load<std::uint32_t>(record + *h_.extras[Extra::row]) : 0;
   const auto column = grid ? load<std::uint32_t>(record + *h_.extras[Extra::column]) : 0;
   if (grid && (row >= scan.rows || column >= scan.columns))
-    return failure(ErrorKind::unusable, "a point's row or column lies outside the scan's grid", scan.name);
+    return failure(ErrorKind::unusable, "a point's row or column is outside the scan's grid", scan.name);
   block.row.push_back(row);
   block.column.push_back(column);
   if (!scan.has_labels) return {};
   const auto product = load<std::uint32_t>(record + *h_.extras[Extra::product]);
   const auto material = load<std::uint32_t>(record + *h_.extras[Extra::material]);
   if (product >= scan.products.size() || material >= scan.materials.size())
-    return failure(ErrorKind::unusable, "a point's label lies outside the label table", scan.name);
+    return failure(ErrorKind::unusable, "a point's label is outside the label table", scan.name);
   block.product.push_back(product);
   block.material.push_back(material);
   return {};
@@ -240,10 +240,9 @@ void listUnread(const Header& header, const std::string& source, Report& report)
   std::string fields = pointFormat(header).not_read;
   if (const auto extra = header.unread_extra_bytes; extra > 0) fields += ", " + std::to_string(extra) + " extra bytes";
   // Of a file of ours nothing is lost: class and point source follow from the labels and the stations.
-  if (header.scans.empty()) report.lose(source, "fields that are not read: " + fields);
+  if (header.scans.empty()) report.lose(source, "skipped fields: " + fields);
   if (header.wkt.empty() && !header.epsg.empty())
-    report.warn(source,
-                "GeoTIFF keys say " + header.epsg + ": an underlay is placed by it, a converted file has it not");
+    report.warn(source, "GeoTIFF keys say " + header.epsg + ": used to place underlays, not stored in converted files");
 }
 
 Result<void> readPart(const InputFile& file, const Header& header, const Part& part, int colour_shift, PointSink& sink,
@@ -268,12 +267,11 @@ Result<void> readPart(const InputFile& file, const Header& header, const Part& p
   }
   const auto number = [](std::uint64_t n) { return std::to_string(n); };
   if (taker.senseless_returns > 0)
-    report.warn(file.name(),
-                number(taker.senseless_returns) + " return numbers are none of their pulse: 1 of 1 stands for them");
+    report.warn(file.name(), number(taker.senseless_returns) + " invalid return numbers were set to 1 of 1");
   if (taker.senseless_times > 0)
-    report.lose(file.name(), number(taker.senseless_times) + " times are no numbers: 0 stands for them");
+    report.lose(file.name(), number(taker.senseless_times) + " non-numeric times were set to 0");
   if (taker.senseless_truth > 0)
-    report.lose(file.name(), number(taker.senseless_truth) + " true values are no numbers: 0 stands for them");
+    report.lose(file.name(), number(taker.senseless_truth) + " non-numeric truth values were set to 0");
   return local.finish(report);
 }
 
@@ -291,7 +289,7 @@ Result<Report> read(const std::filesystem::path& path, PointSink& sink, Progress
   if (pointFormat(*header).colour_at != 0) {
     const auto bytes = coloursAreBytes(*file, *header);
     if (!bytes) return failure(bytes.error());
-    if (*bytes) report.warn(file->name(), "colours are at most 255: they are taken as 8 bits, though LAS has 16");
+    if (*bytes) report.warn(file->name(), "colours do not exceed 255: read as 8 bits instead of 16");
     if (*bytes) colour_shift = 0;
   }
   const auto parts = partsOf(path, *file, *header);

@@ -68,7 +68,7 @@ Result<void> Writer::start(const ScanHeader& header) {
     ++written_.records;
   }
   if (near_infrared_)
-    report_.warn(header.name, std::string("point format 8 has places that no scan here fills: near infrared") +
+    report_.warn(header.name, std::string("point format 8 has unused fields: near infrared") +
                                   (layout_.colour ? " is 0" : " and colours are 0"));
   written_.points_at = bytes.size();
   return file_.append(bytes);
@@ -83,16 +83,16 @@ void Writer::listDifferences(const ScanHeader& header) {
   lose(header.has_labels && !layout_.labels, "labels");
   lose(hasGrid(header) && !layout_.grid, "row and column");
   lose(header.has_truth && !layout_.truth, "true values");
-  if (!lost.empty()) report_.lose(header.name, "the first scan decides what a LAS record holds, and has no " + lost);
+  if (!lost.empty()) report_.lose(header.name, "the LAS record follows the first scan, which has no " + lost);
   if (!header.coordinate_metadata.empty() && header.coordinate_metadata != wkt_)
-    report_.lose(header.name, "its coordinate reference system differs from the file's, of which LAS has one");
+    report_.lose(header.name, "coordinate reference system differs from the file's; LAS supports only one");
 }
 
 Result<void> Writer::begin(const ScanHeader& header) {
-  if (header_) return failure(ErrorKind::internal, "a scan begins before the last one has ended", header.name);
+  if (header_) return failure(ErrorKind::internal, "a scan starts before the previous one has ended", header.name);
   if (auto checked = checkHeader(header); !checked) return checked;
   if (station_ == std::numeric_limits<std::uint16_t>::max())
-    return failure(ErrorKind::unusable, "a LAS file holds at most 65535 stations", "scan " + header.name);
+    return failure(ErrorKind::unusable, "a LAS file supports up to 65535 stations", "scan " + header.name);
   if (station_++ == 0)
     if (auto started = start(header); !started) return started;
   listDifferences(header);
@@ -121,7 +121,7 @@ Result<void> Writer::write(const PointBlock& block) {
 }
 
 Result<void> Writer::end() {
-  if (!header_) return failure(ErrorKind::internal, "a scan ends that did not begin", file_.file().string());
+  if (!header_) return failure(ErrorKind::internal, "a scan ends that was not started", file_.file().string());
   lines_.push_back("scan\t" + std::to_string(scan_points_) + (header_->has_time ? "\ttime" : ""));
   ScanHeader own = *header_;
   own.coordinate_metadata.clear();
@@ -129,16 +129,16 @@ Result<void> Writer::end() {
   const auto lose = [&](std::uint64_t n, const char* what) {
     if (n > 0) report_.lose(header_->name, std::to_string(n) + what);
   };
-  lose(packer_.clamped, " intensities lay outside the sensor's range and were clamped");
-  lose(packer_.beyond_returns, " points are of pulses with more than 15 returns, which LAS cannot say");
-  lose(packer_.beyond_truth, " true coordinates lie beyond 214 km and were clamped");
+  lose(packer_.clamped, " intensities outside the sensor's range were clamped");
+  lose(packer_.beyond_returns, " points belong to pulses with more than 15 returns, the limit of LAS");
+  lose(packer_.beyond_truth, " true coordinates beyond 214 km were clamped");
   header_.reset();
   return {};
 }
 
 Result<void> Writer::close() {
   if (header_) return failure(ErrorKind::internal, "the file is closed inside a scan", file_.file().string());
-  if (station_ == 0) return failure(ErrorKind::unusable, "there is no whole scan to write", file_.file().string());
+  if (station_ == 0) return failure(ErrorKind::unusable, "no complete scan to write", file_.file().string());
   std::string text;
   for (const std::string& line : lines_) text += line + "\n";
   for (const std::string& line : tableLines(table_.products, table_.materials)) text += line + "\n";

@@ -84,7 +84,7 @@ Result<void> HeaderReader::takeList(const Words& parts) {
 Result<void> HeaderReader::takeNumber(const Words& parts) {
   const auto number = parts.size() == 2 ? numberFrom<std::uint64_t>(parts[1]) : std::nullopt;
   constexpr std::uint64_t kMost = std::uint64_t{1} << 40;
-  if (!number || *number > kMost) return broken(std::string(parts[0]) + " is no number of points");
+  if (!number || *number > kMost) return broken(std::string(parts[0]) + " is not a point count");
   (parts[0] == "WIDTH" ? header_.width : parts[0] == "HEIGHT" ? header_.height : header_.points) = *number;
   has_points_ |= parts[0] == "POINTS";
   return {};
@@ -93,7 +93,7 @@ Result<void> HeaderReader::takeNumber(const Words& parts) {
 Result<void> HeaderReader::takeViewpoint(const Words& parts) {
   std::string line = "pose";
   for (std::size_t i = 1; i < parts.size(); ++i) line.append(1, '\t').append(parts[i]);
-  if (!takeScanLine(line, header_.scan)) return broken("VIEWPOINT is a place and a quaternion: x y z w x y z");
+  if (!takeScanLine(line, header_.scan)) return broken("VIEWPOINT must be a position and a quaternion: x y z w x y z");
   return {};
 }
 
@@ -102,8 +102,8 @@ Result<void> HeaderReader::takeData(const Words& parts) {
   header_.binary = how == "binary";
   if (how == "binary_compressed")
     return broken(
-        "the points are compressed, which is not read: write them as binary first, for instance with "
-        "`pcl_convert_pcd_ascii_binary IN OUT 1`");
+        "compressed points are not supported: convert to binary first, for instance with `pcl_convert_pcd_ascii_binary "
+        "IN OUT 1`");
   if (how != "ascii" && how != "binary") return broken("DATA is neither ascii nor binary");
   return {};
 }
@@ -120,7 +120,7 @@ Result<bool> HeaderReader::takeLine(std::string_view line) {
   if (key == "WIDTH" || key == "HEIGHT" || key == "POINTS") return more(takeNumber(parts));
   if (key == "VIEWPOINT") return more(takeViewpoint(parts));
   if (key == "DATA") return takeData(parts).map([] { return false; });
-  return broken("a PCD header has no '" + std::string(key.substr(0, 40)) + "'");
+  return broken("unknown PCD header entry '" + std::string(key.substr(0, 40)) + "'");
 }
 
 Result<void> HeaderReader::layOut() {
@@ -146,7 +146,7 @@ Result<void> HeaderReader::layOut() {
   const std::uint64_t each =
       header_.binary ? header_.point_bytes : 2 * header_.words;  // the last line may lack its end
   if (header_.points > (lines_.left() + (header_.binary ? 0 : 1)) / each)
-    return broken("the file is truncated: it has no room for " + std::to_string(header_.points) + " points");
+    return broken("the file is truncated: it has no space for " + std::to_string(header_.points) + " points");
   header_.points_at = lines_.at();
   return {};
 }
@@ -183,7 +183,7 @@ Result<Header> HeaderReader::read() {
   for (;;) {
     const auto line = lines_.next();
     if (!line) return failure(line.error());
-    if (!*line) return broken("the file ends inside its header");
+    if (!*line) return broken("the file is truncated inside its header");
     const auto more = takeLine(**line);
     if (!more) return failure(more.error());
     if (!*more) break;

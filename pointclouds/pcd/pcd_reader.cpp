@@ -84,8 +84,7 @@ Result<void> Reading::readText(LocalPoints& local, Progress& progress) {
   for (std::uint64_t i = 0; i < header_.points; ++i) {
     const auto line = lines.next();
     if (!line) return failure(line.error());
-    if (!*line)
-      return failure(ErrorKind::unusable, "the file ends before its last point: it is truncated", lines.place());
+    if (!*line) return failure(ErrorKind::unusable, "the file is truncated before its last point", lines.place());
     if (!numbersOf(**line, header_.words, numbers) || numbers.size() != header_.words)
       return failure(ErrorKind::unusable, "a point has " + std::to_string(header_.words) + " numbers here",
                      lines.place());
@@ -142,7 +141,7 @@ Result<Opened> open(const std::filesystem::path& path) {
 }
 
 void listUnread(const Opened& opened, const std::string& source, Report& report) {
-  if (!opened.unread.empty()) report.lose(source, "fields that are not read: " + opened.unread);
+  if (!opened.unread.empty()) report.lose(source, "skipped fields: " + opened.unread);
 }
 
 }  // namespace

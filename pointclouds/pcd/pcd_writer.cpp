@@ -100,13 +100,12 @@ void Writer::putPoint(const PointBlock& b, std::size_t i) {
 }
 
 Result<void> Writer::begin(const ScanHeader& header) {
-  if (header_) return failure(ErrorKind::internal, "a PCD file holds one scan", file_.file().string());
+  if (header_) return failure(ErrorKind::internal, "a PCD file can hold only one scan", file_.file().string());
   if (auto checked = checkHeader(header); !checked) return checked;
   header_ = header;
   organised_ = wants_grid_ && hasGrid(header);
   if (organised_ && std::uint64_t{header.rows} * header.columns > kMostCells)
-    return failure(ErrorKind::unusable,
-                   "the grid has more cells than a PCD file can sensibly hold: write it `--as points`",
+    return failure(ErrorKind::unusable, "the grid has too many cells for a PCD file: use `--as points`",
                    "scan " + header.name);
   missing_.resize(std::size_t{12} + (hasIntensity(header) ? 4 : 0) + (header.has_colour ? 4 : 0) +
                   (header.has_labels ? 8 : 0) + (header.has_time ? 8 : 0) + (header.has_returns ? 2 : 0) +
@@ -127,7 +126,7 @@ Result<void> Writer::flushFrom(std::size_t enough) {
 Result<void> Writer::fillTo(std::uint64_t cell) {
   if (cell > kManyCells && points_ < cell / 1000)
     return failure(ErrorKind::unusable,
-                   "the grid is all but empty: PCD would hold gigabytes of missing points; write it `--as points`",
+                   "the grid is almost empty, so a PCD file would store gigabytes of missing points: use `--as points`",
                    "scan " + header_->name);
   for (; next_cell_ < cell; ++next_cell_) {
     bytes_.insert(bytes_.end(), missing_.begin(), missing_.end());
@@ -148,8 +147,7 @@ Result<void> Writer::write(const PointBlock& block) {
     }
     if (cell < next_cell_)
       return failure(ErrorKind::unusable,
-                     "an organised PCD needs the points column by column, each from the bottom to the top; write it "
-                     "`--as points`",
+                     "an organised PCD requires points column by column from bottom to top: use `--as points`",
                      "scan " + header_->name);
     if (auto filled = fillTo(cell); !filled) return filled;
     putPoint(block, i);
@@ -161,21 +159,23 @@ Result<void> Writer::write(const PointBlock& block) {
 }
 
 Result<void> Writer::end() {
-  if (!header_ || ended_) return failure(ErrorKind::internal, "a scan ends that did not begin", file_.file().string());
+  if (!header_ || ended_)
+    return failure(ErrorKind::internal, "a scan ends that was not started", file_.file().string());
   ended_ = true;
   if (organised_)
     if (auto filled = fillTo(std::uint64_t{header_->rows} * header_->columns); !filled) return filled;
   if (auto flushed = flushFrom(0); !flushed) return flushed;
   if (crowded_ > 0)
-    report_.lose(header_->name, std::to_string(crowded_) +
-                                    " further returns of a pulse: a cell of an organised PCD holds "
-                                    "one point; `--as points` holds them all");
+    report_.lose(
+        header_->name,
+        std::to_string(crowded_) +
+            " additional returns dropped: a cell of an organised PCD holds one point; use `--as points` to keep all");
   const std::string text = headerText();
   return file_.overwrite(0, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
 Result<void> Writer::close() {
-  if (!ended_) return failure(ErrorKind::unusable, "there is no whole scan to write", file_.file().string());
+  if (!ended_) return failure(ErrorKind::unusable, "no complete scan to write", file_.file().string());
   return file_.commit();
 }
 

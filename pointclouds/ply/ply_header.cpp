@@ -72,16 +72,16 @@ Result<void> HeaderReader::takeFormat(const std::vector<std::string_view>& parts
   if (name == "ascii") return header_.encoding = Encoding::ascii, Result<void>{};
   if (name == "binary_little_endian") return header_.encoding = Encoding::little_endian, Result<void>{};
   if (name == "binary_big_endian") return header_.encoding = Encoding::big_endian, Result<void>{};
-  return broken("the format is none of ascii, binary_little_endian, binary_big_endian");
+  return broken("format must be ascii, binary_little_endian or binary_big_endian");
 }
 
 Result<void> HeaderReader::takeProperty(const std::vector<std::string_view>& parts) {
   if (elements_.empty()) return broken("a property without an element");
   Element& element = elements_.back();
   if (parts.size() >= 5 && parts[1] == "list") return element.has_list = true, Result<void>{};
-  if (parts.size() < 3) return broken("a property has a type and a name");
+  if (parts.size() < 3) return broken("a property requires a type and a name");
   const auto type = plyType(parts[1]);
-  if (!type) return broken(std::string(parts[1]) + " is no type of a property");
+  if (!type) return broken(std::string(parts[1]) + " is not a property type");
   if (element.properties.size() == kMostProperties) return broken("an element has too many properties");
   element.properties.push_back({std::string(parts[2]), *type, element.bytes});
   element.bytes += sizeOf(*type);
@@ -96,9 +96,9 @@ Result<bool> HeaderReader::takeLine(std::string_view line) {
   if (parts[0] == "end_header") return false;
   if (parts[0] == "format") return takeFormat(parts).map([] { return true; });
   if (parts[0] == "property") return takeProperty(parts).map([] { return true; });
-  if (parts[0] != "element") return broken("a PLY header has no '" + std::string(parts[0].substr(0, 40)) + "'");
+  if (parts[0] != "element") return broken("unknown PLY header entry '" + std::string(parts[0].substr(0, 40)) + "'");
   const auto count = parts.size() == 3 ? numberFrom<std::uint64_t>(parts[2]) : std::nullopt;
-  if (!count) return broken("an element has a name and a count");
+  if (!count) return broken("an element requires a name and a count");
   if (elements_.size() == kMostElements) return broken("there are too many elements");
   elements_.push_back({std::string(parts[1]), *count, {}, false, 0});
   return true;
@@ -109,13 +109,13 @@ Result<void> HeaderReader::place() {
   std::uint64_t left = lines_.left();
   for (const Element& element : elements_) {
     const bool ascii = header_.encoding == Encoding::ascii, wanted = element.name == "vertex";
-    if (element.has_list && wanted) return broken("a vertex has a list among its properties, which is not read");
+    if (element.has_list && wanted) return broken("vertices with list properties are not supported");
     const std::uint64_t each = ascii ? (wanted ? kShortestVertex : 1) : element.bytes;
     if (!wanted && element.has_list && !ascii && element.count > 0)
-      return broken("lists of '" + element.name + "' stand before the vertices, which is not read");
+      return broken("lists of '" + element.name + "' before the vertices are not supported");
     // The last line may lack its end.
     if (each > 0 && element.count > (left + (ascii ? 1 : 0)) / each)
-      return broken("the file is truncated: it has no room for " + std::to_string(element.count) + " elements '" +
+      return broken("the file is truncated: it has no space for " + std::to_string(element.count) + " elements '" +
                     element.name + "'");
     if (wanted) {
       header_.vertices = element.count;
@@ -127,7 +127,7 @@ Result<void> HeaderReader::place() {
     left -= std::min(left, each * element.count);
     if (!ascii) header_.vertices_at += each * element.count;
   }
-  return broken("there are no vertices in it");
+  return broken("the file contains no vertices");
 }
 
 Result<void> HeaderReader::assignRoles() {
@@ -178,12 +178,12 @@ Result<Header> HeaderReader::read() {
   for (;;) {
     const auto line = lines_.next();
     if (!line) return failure(line.error());
-    if (!*line) return broken("the file ends inside its header");
+    if (!*line) return broken("the file is truncated inside its header");
     const auto more = takeLine(**line);
     if (!more) return failure(more.error());
     if (!*more) break;
   }
-  if (!has_format_) return broken("the header states no format");
+  if (!has_format_) return broken("the header has no format");
   for (const Element& element : elements_)
     if (element.name == "face" || element.name == "tristrips")
       header_.faces += std::min<std::uint64_t>(element.count, 1ULL << 60);

@@ -49,8 +49,7 @@ Result<void> Reading::readText(LocalPoints& local, Progress& progress) {
   for (std::uint64_t i = 0; i < all; ++i) {
     const auto line = lines.next();
     if (!line) return failure(line.error());
-    if (!*line)
-      return failure(ErrorKind::unusable, "the file ends before its last vertex: it is truncated", lines.place());
+    if (!*line) return failure(ErrorKind::unusable, "the file is truncated before its last vertex", lines.place());
     if (i >= header_.skipped_lines) {
       if (!numbersOf(**line, header_.properties.size(), values) || values.size() != header_.properties.size())
         return failure(ErrorKind::unusable,
@@ -60,7 +59,7 @@ Result<void> Reading::readText(LocalPoints& local, Progress& progress) {
     }
     if (i % kPointsAtOnce != kPointsAtOnce - 1 && i + 1 != all) continue;
     if (auto written = local.write(found); !written) return written;
-    progress.advance(lines.share());
+    progress.advance(lines.fraction());
     if (auto going = progress.check(); !going) return going;
   }
   return {};
@@ -101,10 +100,9 @@ Result<Opened> open(const std::filesystem::path& path) {
 }
 
 void listUnread(const Opened& opened, Report& report) {
-  if (!opened.unread.empty())
-    report.lose(opened.name, "properties of the vertices that are not read: " + opened.unread);
+  if (!opened.unread.empty()) report.lose(opened.name, "skipped vertex properties: " + opened.unread);
   if (opened.header.faces > 0)
-    report.lose(opened.name, std::to_string(opened.header.faces) + " faces are not read: the vertices are the points");
+    report.lose(opened.name, std::to_string(opened.header.faces) + " faces skipped: vertices are read as points");
 }
 
 // What the type says; real numbers have to be looked at.

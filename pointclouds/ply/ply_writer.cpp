@@ -62,7 +62,7 @@ std::string Writer::headerText() const {
 }
 
 Result<void> Writer::begin(const ScanHeader& header) {
-  if (header_) return failure(ErrorKind::internal, "a PLY file holds one scan", file_.file().string());
+  if (header_) return failure(ErrorKind::internal, "a PLY file can hold only one scan", file_.file().string());
   if (auto checked = checkHeader(header); !checked) return checked;
   header_ = header;
   const std::string text = headerText();
@@ -99,14 +99,15 @@ Result<void> Writer::write(const PointBlock& block) {
 }
 
 Result<void> Writer::end() {
-  if (!header_ || ended_) return failure(ErrorKind::internal, "a scan ends that did not begin", file_.file().string());
+  if (!header_ || ended_)
+    return failure(ErrorKind::internal, "a scan ends that was not started", file_.file().string());
   ended_ = true;
   const std::string text = headerText();
   return file_.overwrite(0, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
 Result<void> Writer::close() {
-  if (!ended_) return failure(ErrorKind::unusable, "there is no whole scan to write", file_.file().string());
+  if (!ended_) return failure(ErrorKind::unusable, "no complete scan to write", file_.file().string());
   return file_.commit();
 }
 

@@ -91,7 +91,7 @@ Result<std::optional<std::string_view>> Reader::firstLine() {
 Result<Numbers> Reader::headerLine(std::size_t count) {
   const auto line = lines_.next();
   if (!line) return failure(line.error());
-  if (!*line) return broken("the file ends inside a scan's header");
+  if (!*line) return broken("the file is truncated inside a scan header");
   Numbers numbers;
   if (!numbersOf(**line, numbers) || numbers.count != count)
     return broken("a PTX header has " + std::to_string(count) + " numbers here");
@@ -107,12 +107,13 @@ void Reader::setPose(const Eigen::Matrix4d& matrix, Frame& frame) {
   const double skew = (linear * linear.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(skew < 1e-3) || linear.determinant() < 0) {
     frame.stretch = linear;
-    report_.warn(lines_.place(), "the matrix is no rotation: it is applied to the points, the pose keeps the position");
+    report_.warn(lines_.place(),
+                 "the matrix is not a rotation: applied to the points; the pose keeps only the position");
     return;
   }
   if (skew > 1e-9)
     report_.note(lines_.place(), "the matrix is a rotation to " + numberText(static_cast<float>(skew)) +
-                                     " only: the nearest one is taken");
+                                     " only: using the nearest rotation");
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Matrix3d nearest = skew > 1e-9 ? Eigen::Matrix3d(svd.matrixU() * svd.matrixV().transpose()) : linear;
   frame.pose.rotation = Eigen::Quaterniond(nearest).normalized();
@@ -122,11 +123,11 @@ void Reader::setPose(const Eigen::Matrix4d& matrix, Frame& frame) {
 Result<Frame> Reader::readFrame(std::string_view columns_line) {
   Numbers columns;
   if (!numbersOf(columns_line, columns) || columns.count != 1)
-    return broken("a PTX scan begins with its number of columns");
+    return broken("a PTX scan must start with its number of columns");
   const auto rows = headerLine(1);
   if (!rows) return failure(rows.error());
   const auto side = [](double n) { return n >= 0 && n <= kLargestSide && n == std::floor(n); };
-  if (!side(columns.value[0]) || !side(rows->value[0])) return broken("columns and rows are no counts");
+  if (!side(columns.value[0]) || !side(rows->value[0])) return broken("columns and rows are not valid counts");
   Frame frame{static_cast<std::uint32_t>(columns.value[0]), static_cast<std::uint32_t>(rows->value[0])};
   if (std::uint64_t{frame.columns} * frame.rows > lines_.left() / kShortestCell)
     return broken("the file is too short for " + std::to_string(frame.columns) + " columns of " +
@@ -147,9 +148,9 @@ Result<Frame> Reader::readFrame(std::string_view columns_line) {
 Result<void> Reader::nextCell() {
   const auto line = lines_.next();
   if (!line) return failure(line.error());
-  if (!*line) return broken("the file ends inside a scan: it is truncated");
+  if (!*line) return broken("the file is truncated inside a scan");
   if (!numbersOf(**line, cell_) || (cell_.count != 4 && cell_.count != 7))
-    return broken("a PTX point has 4 or 7 numbers: x y z intensity [red green blue]");
+    return broken("a PTX point must have 4 or 7 numbers: x y z intensity [red green blue]");
   return {};
 }
 
@@ -174,7 +175,7 @@ Result<void> Reader::takeCell(const Frame& frame, FoundPoints& to) {
   std::vector<std::uint8_t>* const colours[3] = {&block.red, &block.green, &block.blue};
   for (std::size_t k = 0; k < 3; ++k) {
     const double value = coloured ? v[4 + k] : 0;
-    if (!(value >= 0 && value <= 255)) return broken("a colour lies outside 0 to 255");
+    if (!(value >= 0 && value <= 255)) return broken("a colour is outside 0 to 255");
     colours[k]->push_back(static_cast<std::uint8_t>(value + 0.5));
   }
   return {};
@@ -190,7 +191,7 @@ Result<void> Reader::readCells(const Frame& frame, LocalPoints& local) {
     if (++row_ == frame.rows) row_ = 0, ++column_;
     if (found.size() == kChunk || done == cells || done % kChunk == 0) {
       if (auto written = local.write(found); !written) return written;
-      progress_.advance(lines_.share());
+      progress_.advance(lines_.fraction());
       if (auto going = progress_.check(); !going) return going;
     }
     if (done == cells) return {};
@@ -214,9 +215,9 @@ Result<void> Reader::readScan(const Frame& frame) {
   if (any)
     if (auto read = readCells(frame, local); !read) return read;
   if (colours_lost_ > 0)
-    report_.lose(scan_name_, std::to_string(colours_lost_) + " points have a colour though the first cell has none");
+    report_.lose(scan_name_, std::to_string(colours_lost_) + " points have a colour, but the first cell has none");
   if (colours_missing_ > 0)
-    report_.warn(scan_name_, std::to_string(colours_missing_) + " points have no colour: black stands for it");
+    report_.warn(scan_name_, std::to_string(colours_missing_) + " points without colour were set to black");
   return local.finish(report_);
 }
 
@@ -231,7 +232,7 @@ Result<Report> Reader::read() {
     scan_name_ = "Scan " + std::to_string(++scans_);
     if (auto scan = readScan(*frame); !scan) return failure(scan.error());
   }
-  if (scans_ == 0) return broken("the file holds no scan");
+  if (scans_ == 0) return broken("the file contains no scan");
   return report_;
 }
 

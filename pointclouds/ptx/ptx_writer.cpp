@@ -71,11 +71,10 @@ void Writer::appendHeader() {
 }
 
 Result<void> Writer::begin(const ScanHeader& header) {
-  if (header_) return failure(ErrorKind::internal, "a scan begins before the last one has ended", header.name);
+  if (header_) return failure(ErrorKind::internal, "a scan starts before the previous one has ended", header.name);
   if (auto checked = checkHeader(header); !checked) return checked;
   if (std::uint64_t{header.rows} * header.columns > kMostCells)
-    return failure(ErrorKind::unusable, "the grid has more cells than a PTX file can sensibly hold",
-                   "scan " + header.name);
+    return failure(ErrorKind::unusable, "the grid has too many cells for a PTX file", "scan " + header.name);
   if (auto flushed = flushFrom(0); !flushed) return flushed;
   start_ = file_.size();
   header_ = header;
@@ -94,7 +93,8 @@ Result<void> Writer::flushFrom(std::size_t enough) {
 
 Result<void> Writer::fillTo(std::uint64_t cell) {
   if (cell > kManyCells && points_ < cell / 1000)
-    return failure(ErrorKind::unusable, "the grid is all but empty: PTX would hold gigabytes of missing points",
+    return failure(ErrorKind::unusable,
+                   "the grid is almost empty, so a PTX file would store gigabytes of missing points",
                    "scan " + header_->name);
   const char* missing = header_->has_colour ? "0 0 0 0.5 0 0 0\n" : "0 0 0 0.5\n";
   for (; next_cell_ < cell; ++next_cell_) {
@@ -111,9 +111,9 @@ void Writer::appendPoint(const PointBlock& b, std::size_t i) {
   }
   // A file without intensities says 0.5 for each of them.
   const double range = header_->intensity_max - header_->intensity_min;
-  const double share = hasIntensity(*header_) ? (b.intensity[i] - header_->intensity_min) / range : 0.5;
-  clamped_ += share < 0 || share > 1;
-  appendFloat(text_, static_cast<float>(std::clamp(share, 0.0, 1.0)));
+  const double fraction = hasIntensity(*header_) ? (b.intensity[i] - header_->intensity_min) / range : 0.5;
+  clamped_ += fraction < 0 || fraction > 1;
+  appendFloat(text_, static_cast<float>(std::clamp(fraction, 0.0, 1.0)));
   if (header_->has_colour)
     for (const std::uint8_t colour : {b.red[i], b.green[i], b.blue[i]}) {
       text_ += ' ';
@@ -134,7 +134,7 @@ Result<void> Writer::write(const PointBlock& block) {
       continue;
     }
     if (cell < next_cell_)
-      return failure(ErrorKind::unusable, "PTX needs the points column by column, each from the bottom to the top",
+      return failure(ErrorKind::unusable, "PTX requires points column by column from bottom to top",
                      "scan " + header_->name + " column " + std::to_string(block.column[i]) + " row " +
                          std::to_string(block.row[i]));
     if (auto filled = fillTo(cell); !filled) return filled;
@@ -147,17 +147,16 @@ Result<void> Writer::write(const PointBlock& block) {
 }
 
 Result<void> Writer::end() {
-  if (!header_) return failure(ErrorKind::internal, "a scan ends that did not begin", file_.file().string());
+  if (!header_) return failure(ErrorKind::internal, "a scan ends that was not started", file_.file().string());
   if (hasGrid(*header_))
     if (auto filled = fillTo(std::uint64_t{header_->rows} * header_->columns); !filled) return filled;
   if (auto flushed = flushFrom(0); !flushed) return flushed;
   if (!hasGrid(*header_))
     if (auto counted = file_.overwrite(start_, bytesOf(countLine(next_cell_))); !counted) return counted;
   if (crowded_ > 0)
-    report_.lose(header_->name, std::to_string(crowded_) + " further returns of a pulse: a PTX cell holds one point");
+    report_.lose(header_->name, std::to_string(crowded_) + " additional returns dropped: a PTX cell holds one point");
   if (clamped_ > 0)
-    report_.lose(header_->name,
-                 std::to_string(clamped_) + " intensities lay outside the sensor's range and were clamped");
+    report_.lose(header_->name, std::to_string(clamped_) + " intensities outside the sensor's range were clamped");
   header_.reset();
   return {};
 }

@@ -83,14 +83,14 @@ class SampleSink final : public PointSink {
 Result<CloudSample> sampleCloud(const std::filesystem::path& file, std::size_t most, Progress& progress) {
   const CloudFormat* const format = readableCloudFormat(file);
   if (format == nullptr || format->read == nullptr)
-    return failure(ErrorKind::usage, "no readable point-cloud format has this extension", file.string());
+    return failure(ErrorKind::usage, "unsupported point-cloud format", file.string());
   CloudSample sample;
   SampleSink sink(sample, most);
   auto read = format->read(file, sink, progress);
   if (!read) return failure(read.error());
   sink.finish();
   sample.report = *std::move(read);
-  if (sample.points == 0) return failure(ErrorKind::unusable, "the cloud holds no points", file.string());
+  if (sample.points == 0) return failure(ErrorKind::unusable, "the point cloud is empty", file.string());
   return sample;
 }
 

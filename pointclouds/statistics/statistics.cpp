@@ -32,8 +32,8 @@ Distribution distributionOf(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   Moments moments;
   for (const double v : values) moments.add(v);
-  const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
+  const auto at = [&](double fraction) {
+    return values[static_cast<std::size_t>(std::lround(fraction * static_cast<double>(values.size() - 1)))];
   };
   return {moments.n, moments.mean, moments.sigma(), at(0.05), at(0.5), at(0.95)};
 }
@@ -131,8 +131,7 @@ struct Measured {
 Result<Measured> measure(const std::filesystem::path& file, const StatisticsOptions& options, Report& report,
                          Progress& progress) {
   const CloudFormat* const format = cloudFormatFor(file);
-  if (!format || !format->read)
-    return failure(ErrorKind::usage, "no readable point-cloud format has this extension", file.string());
+  if (!format || !format->read) return failure(ErrorKind::usage, "unsupported point-cloud format", file.string());
   if (!(options.radius_m > 0) || !(options.cell_m > 0))
     return failure(ErrorKind::usage, "radius and cell must be positive", file.string());
   SurveySink survey(options);

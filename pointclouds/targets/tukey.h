@@ -9,8 +9,8 @@ namespace standpoint {
 inline constexpr double kTukey = 4.685;  // 95 % efficiency for normal noise
 
 // Tukey's biweight of a residual as a share of where it ends.
-inline double tukeyWeight(double share) {
-  const double rest = 1 - share * share;
+inline double tukeyWeight(double fraction) {
+  const double rest = 1 - fraction * fraction;
   return rest > 0 ? rest * rest : 0;
 }
 

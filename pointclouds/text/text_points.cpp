@@ -80,15 +80,15 @@ Result<bool> Reader::takeHead(std::string_view line) {
   if (counted_ && missing_ == 0) {
     if (numbers && width_ > 0 && numbers_.size() == width_) return ++surplus_, true;
     if (!numbers || numbers_.size() != 1 || !(numbers_[0] >= 0) || numbers_[0] != std::floor(numbers_[0]))
-      return broken("a block of PTS points begins with their number");
+      return broken("a PTS block must start with its point count");
     if (numbers_[0] > static_cast<double>(lines_.left() / kShortestPoint + 1))
-      return broken("the file is truncated: it has no room for " + std::string(trimmed(line)) + " points");
+      return broken("the file is truncated: it has no space for " + std::string(trimmed(line)) + " points");
     missing_ = static_cast<std::uint64_t>(numbers_[0]);
     return true;
   }
   if (numbers) return false;
   if (!counted_ && width_ == 0 && lines_.line() <= kHeadLines) return takeNames(line), true;
-  return broken("a point is a line of numbers");
+  return broken("a point must be a line of numbers");
 }
 
 // "//X Y Z R G B Intensity", "x,y,z" and their like; other words are no names of columns.
@@ -138,7 +138,7 @@ void Reader::takeNames(std::string_view line) {
 Result<void> Reader::beginPoints() {
   using F = PointField;
   width_ = numbers_.size();
-  if (width_ < 3) return broken("a point has at least x y z");
+  if (width_ < 3) return broken("a point must have at least x y z");
   if (names_.size() != width_) {
     names_.clear();
     places_ = {};
@@ -157,19 +157,19 @@ Result<void> Reader::takePoint() {
   if (width_ == 0)
     if (auto begun = beginPoints(); !begun) return begun;
   if (numbers_.size() != width_)
-    return broken("this point has " + std::to_string(numbers_.size()) + " numbers, those before it " +
+    return broken("this point has " + std::to_string(numbers_.size()) + " numbers, previous points have " +
                   std::to_string(width_));
   if (scan_.has_colour)
     for (std::size_t k = 0; k < 3; ++k) {
       const double value = numbers_[*places_.at[static_cast<std::size_t>(PointField::red) + k]];
-      if (!(value >= 0 && value <= 255)) return broken("a colour lies outside 0 to 255");
+      if (!(value >= 0 && value <= 255)) return broken("a colour is outside 0 to 255");
     }
   return taker_->take(numbers_, found_);
 }
 
 Result<void> Reader::flush() {
   if (auto written = local_->write(found_); !written) return written;
-  progress_.advance(lines_.share());
+  progress_.advance(lines_.fraction());
   return progress_.check();
 }
 
@@ -186,20 +186,19 @@ Result<void> Reader::run(Report& report) {
     if (found_.size() == kChunk)
       if (auto flushed = flush(); !flushed) return flushed;
   }
-  if (missing_ > 0) return broken("the file ends " + std::to_string(missing_) + " points too early: it is truncated");
-  if (!local_) return broken("the file holds no point");
+  if (missing_ > 0) return broken("the file is truncated: " + std::to_string(missing_) + " points are missing");
+  if (!local_) return broken("the file contains no points");
   if (auto flushed = flush(); !flushed) return flushed;
   std::string unread;
   for (std::size_t i = 0; i < names_.size(); ++i)
     if (!taker_->isRead(i)) unread += (unread.empty() ? "" : ", ") + names_[i];
-  if (!unread.empty()) report.lose(lines_.name(), "columns that are not read: " + unread);
+  if (!unread.empty()) report.lose(lines_.name(), "skipped columns: " + unread);
   taker_->list(lines_.name(), report);
   if (names_.empty() && width_ != 3 && width_ != 4 && width_ != 6 && width_ != 7)
-    report.lose(lines_.name(), "points have " + std::to_string(width_) +
-                                   " numbers, of which x y z and the fourth, as "
-                                   "intensity, are read: what the others are is not stated");
-  if (surplus_ > 0)
-    report.lose(lines_.name(), std::to_string(surplus_) + " points stand behind the number that is stated");
+    report.lose(lines_.name(),
+                "points have " + std::to_string(width_) +
+                    " numbers; only x y z and intensity (fourth) were read, since the others are not named");
+  if (surplus_ > 0) report.lose(lines_.name(), std::to_string(surplus_) + " points exceed the specified count");
   return local_->finish(report);
 }
 
@@ -225,7 +224,7 @@ Result<void> Reader::measure(IntensityRange& range) {
     if (word == Words::Word::number && std::isfinite(static_cast<float>(value))) range.add(static_cast<float>(value));
     missing_ -= counted_ ? 1 : 0;
     if (lines % kChunk != 0) continue;
-    progress_.advance(lines_.share());
+    progress_.advance(lines_.fraction());
     if (auto going = progress_.check(); !going) return going;
   }
 }

@@ -71,7 +71,7 @@ std::string Writer::columnNames() const {
 }
 
 Result<void> Writer::begin(const ScanHeader& header) {
-  if (header_) return failure(ErrorKind::internal, "a file of text holds one scan", file_.file().string());
+  if (header_) return failure(ErrorKind::internal, "a text file can hold only one scan", file_.file().string());
   if (auto checked = checkHeader(header); !checked) return checked;
   header_ = header;
   const bool all = kind_ == Kind::csv;
@@ -80,8 +80,7 @@ Result<void> Writer::begin(const ScanHeader& header) {
              : kind_ == Kind::xyz ? "XYZ"
                                   : "CSV",
              {.labels = all, .time = all, .returns = all, .truth = all}, report_);
-  if (all && header.has_labels)
-    report_.warn(header.name, "CSV has the labels' numbers, and no place for what they are called");
+  if (all && header.has_labels) report_.warn(header.name, "CSV stores label numbers without names");
   if (kind_ == Kind::pts) text_ += countLine();
   if (kind_ == Kind::csv) text_ += columnNames();
   return {};
@@ -90,9 +89,9 @@ Result<void> Writer::begin(const ScanHeader& header) {
 // Cyclone's integers in PTS; there and in XYZ intensity stands before the colours, which is how CloudCompare takes it.
 void Writer::appendIntensity(float value) {
   if (kind_ != Kind::pts) return next(value);
-  const double share = (value - header_->intensity_min) / (header_->intensity_max - header_->intensity_min);
-  clamped_ += share < 0 || share > 1;
-  next(std::lround(std::clamp(share, 0.0, 1.0) * 4095) - 2048);
+  const double fraction = (value - header_->intensity_min) / (header_->intensity_max - header_->intensity_min);
+  clamped_ += fraction < 0 || fraction > 1;
+  next(std::lround(std::clamp(fraction, 0.0, 1.0) * 4095) - 2048);
 }
 
 void Writer::appendColumns(const PointBlock& b, std::size_t i) {
@@ -144,18 +143,18 @@ Result<void> Writer::write(const PointBlock& block) {
 }
 
 Result<void> Writer::end() {
-  if (!header_ || ended_) return failure(ErrorKind::internal, "a scan ends that did not begin", file_.file().string());
+  if (!header_ || ended_)
+    return failure(ErrorKind::internal, "a scan ends that was not started", file_.file().string());
   ended_ = true;
   if (clamped_ > 0)
-    report_.lose(header_->name,
-                 std::to_string(clamped_) + " intensities lay outside the sensor's range and were clamped");
+    report_.lose(header_->name, std::to_string(clamped_) + " intensities outside the sensor's range were clamped");
   if (auto flushed = flushFrom(0); !flushed || kind_ != Kind::pts) return flushed;
   const std::string count = countLine();
   return file_.overwrite(0, {reinterpret_cast<const std::uint8_t*>(count.data()), count.size()});
 }
 
 Result<void> Writer::close() {
-  if (!ended_) return failure(ErrorKind::unusable, "there is no whole scan to write", file_.file().string());
+  if (!ended_) return failure(ErrorKind::unusable, "no complete scan to write", file_.file().string());
   return file_.commit();
 }
 

@@ -65,8 +65,8 @@ std::vector<float> exposures(const std::vector<Light>& pixels, std::uint32_t wid
     const std::size_t shot = std::min(count - 1, static_cast<std::size_t>(x / shot_wide));
     const double from = x + 0.5 - static_cast<double>(shot) * shot_wide, to = shot_wide - from;
     const std::size_t other = from < to ? (shot + count - 1) % count : (shot + 1) % count;
-    const auto share = static_cast<float>(std::max(0.0, 0.5 - std::min(from, to) / blend));  // half at the seam
-    of_column[x] = (1 - share) * gain[shot] + share * gain[other];
+    const auto fraction = static_cast<float>(std::max(0.0, 0.5 - std::min(from, to) / blend));  // half at the seam
+    of_column[x] = (1 - fraction) * gain[shot] + fraction * gain[other];
   }
   return of_column;
 }

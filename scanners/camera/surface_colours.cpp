@@ -25,7 +25,7 @@ const std::array<float, 256>& linearOfByte() {
 }
 
 // Shares of a triangle's corners at a point of its plane; the first corner alone where it has no area.
-Eigen::Array3d sharesOf(const std::array<Eigen::Vector3d, 3>& corner, const Eigen::Vector3d& p) {
+Eigen::Array3d weightsOf(const std::array<Eigen::Vector3d, 3>& corner, const Eigen::Vector3d& p) {
   const Eigen::Vector3d u = corner[1] - corner[0], v = corner[2] - corner[0], w = p - corner[0];
   const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), wu = w.dot(u), wv = w.dot(v), d = uu * vv - uv * uv;
   if (!(d > 0)) return {1, 0, 0};
@@ -72,7 +72,7 @@ SurfaceColours::SurfaceColours(const Environment& environment, Report& report) :
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
         known ? stbi_load_from_memory(bytes, size, &width, &height, &channels, 4) : nullptr, stbi_image_free);
     if (!pixels) {
-      report.warn(image->name, "the image cannot be decoded; its surfaces have their plain colour in the picture");
+      report.warn(image->name, "cannot decode the image; its surfaces appear in their plain colour");
       continue;
     }
     picture.width = width, picture.height = height;
@@ -88,13 +88,13 @@ Eigen::Array4f SurfaceColours::Picture::at(const Eigen::Vector2f& uv) const {
   Eigen::Array4f sum = Eigen::Array4f::Zero();
   for (int k = 0; k < 4; ++k) {
     const int column = left + k % 2, row = top + k / 2;
-    const float share = (k % 2 == 0 ? 1 - (x - static_cast<float>(left)) : x - static_cast<float>(left)) *
-                        (k / 2 == 0 ? 1 - (y - static_cast<float>(top)) : y - static_cast<float>(top));
+    const float fraction = (k % 2 == 0 ? 1 - (x - static_cast<float>(left)) : x - static_cast<float>(left)) *
+                           (k / 2 == 0 ? 1 - (y - static_cast<float>(top)) : y - static_cast<float>(top));
     const std::uint8_t* p =
         &rgba[4 * (static_cast<std::size_t>((row + height) % height) * static_cast<std::size_t>(width) +
                    static_cast<std::size_t>((column + width) % width))];
     const auto& linear = linearOfByte();
-    sum += share * Eigen::Array4f(linear[p[0]], linear[p[1]], linear[p[2]], static_cast<float>(p[3]) / 255);
+    sum += fraction * Eigen::Array4f(linear[p[0]], linear[p[1]], linear[p[2]], static_cast<float>(p[3]) / 255);
   }
   return sum;
 }
@@ -111,12 +111,12 @@ SurfaceColours::Look SurfaceColours::at(const RayHit& hit) const {
   const Triangle& triangle = mesh.triangles[hit.triangle];
   std::array<Eigen::Vector3d, 3> corner;
   for (std::size_t k = 0; k < 3; ++k) corner[k] = instance.world_from_mesh * mesh.positions[triangle[k]].cast<double>();
-  const Eigen::Array3f share = sharesOf(corner, hit.position).cast<float>();
+  const Eigen::Array3f fraction = weightsOf(corner, hit.position).cast<float>();
   Eigen::Array4f paint = Eigen::Array4f::Ones();
   if (painted) {
     Eigen::Vector2f uv = Eigen::Vector2f::Zero();
     for (std::size_t k = 0; k < 3; ++k)
-      uv += share[static_cast<Eigen::Index>(k)] * mesh.texture_coordinates[triangle[k]];
+      uv += fraction[static_cast<Eigen::Index>(k)] * mesh.texture_coordinates[triangle[k]];
     paint *= pictures_[static_cast<std::size_t>(surface.image)].at(uv);
   }
   if (!mesh.colours.empty()) {
@@ -124,7 +124,7 @@ SurfaceColours::Look SurfaceColours::at(const RayHit& hit) const {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& c = mesh.colours[triangle[k]];
       const auto& linear = linearOfByte();
-      sum += share[static_cast<Eigen::Index>(k)] *
+      sum += fraction[static_cast<Eigen::Index>(k)] *
              Eigen::Array4f(linear[c[0]], linear[c[1]], linear[c[2]], static_cast<float>(c[3]) / 255);
     }
     paint *= sum.max(0);

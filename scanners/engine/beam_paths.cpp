@@ -17,8 +17,8 @@ constexpr double kShortestImage_m = 0.05;
 }  // namespace
 
 void BeamPaths::follow(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit, const NearestHit& first,
-                       float share, std::vector<PathEnd>& ends) {
-  follow({.origin = origin, .direction = direction_unit, .gain = share}, first, ends);
+                       float fraction, std::vector<PathEnd>& ends) {
+  follow({.origin = origin, .direction = direction_unit, .gain = fraction}, first, ends);
 }
 
 void BeamPaths::follow(const Ray& ray, NearestHit hit, std::vector<PathEnd>& ends) {
@@ -87,8 +87,8 @@ void BeamPaths::reflect(const Ray& ray, const MetFacet& met, double range_m, dou
   const NearestHit hit = plan_.scene.nearest(image.origin, image.direction, kBehindFace_m, left);
   if (hit.facet == kNoFacet) return;
   if (!met.optics->smooth)
-    image.gain *= roughMirrorShare(met.optics->lobe_slope, beam, image.travelled_m,
-                                   std::max(1e-3, static_cast<double>(hit.range_m)));
+    image.gain *= roughMirrorFraction(met.optics->lobe_slope, beam, image.travelled_m,
+                                      std::max(1e-3, static_cast<double>(hit.range_m)));
   follow(image, hit, ends);
 }
 

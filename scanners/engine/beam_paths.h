@@ -30,7 +30,7 @@ class BeamPaths {
   BeamPaths(const ScanPlan& plan, FacetCache& facets) : plan_(plan), facets_(facets) {}
   // `first` is what the ray meets first; ends are appended.
   void follow(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction_unit, const NearestHit& first,
-              float share, std::vector<PathEnd>& ends);
+              float fraction, std::vector<PathEnd>& ends);
 
  private:
   struct Ray {

@@ -201,12 +201,12 @@ void ColumnTracer::gatherStray(std::uint32_t row, std::size_t from) {
 // What the beam's wings find of retroreflectors.
 void ColumnTracer::gatherWings(const Beam& beam) {
   const std::size_t before = ends_.size();
-  const auto share = static_cast<float>(plan_.instrument.saturation.pedestal);
+  const auto fraction = static_cast<float>(plan_.instrument.saturation.pedestal);
   for (const SubRay& ray : wingRays()) {
     const RayLine line = lineOf(beam, ray, plan_.instrument);
     const NearestHit hit = plan_.scene.nearest(line.origin, line.direction, 0, plan_.farthest_m);
     if (hit.facet != kNoFacet && facets_.of(hit.facet).optics->retro_gain > 0)
-      paths_.follow(line.origin, line.direction, hit, share * ray.weight, ends_);
+      paths_.follow(line.origin, line.direction, hit, fraction * ray.weight, ends_);
   }
   for (std::size_t i = before; i < ends_.size(); ++i) ends_[i].flags |= point_flag::kMirrored;
 }

@@ -24,8 +24,8 @@ constexpr double kFarthest_m = 1e6;
 Error noSun(std::string_view text) {
   return {ErrorKind::usage,
           "\"" + std::string(text) +
-              "\" is no sun: AZIMUTH,ELEVATION[,W/m2] in degrees, clockwise from the file's Y and above "
-              "the horizon, 0 to 1500 W/m2 or a number of lux such as 80000lux",
+              "\" must be AZIMUTH,ELEVATION[,W/m2]: degrees clockwise from the file's Y and above the horizon; 0 to "
+              "1500 W/m2, or lux such as 80000lux",
           "--sun"};
 }
 

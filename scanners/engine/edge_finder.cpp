@@ -59,7 +59,7 @@ std::uint32_t EdgeFinder::find(std::uint32_t first_row) {
 EdgeFinder::Reach EdgeFinder::reachAt(double range_m, std::uint32_t row) const {
   const double start = plan_.instrument.exit_diameter_m / range_m, spread = plan_.instrument.divergence_rad;
   const double square =
-      0.25 * kOuterShare * kOuterShare * (start * start + spread * spread);  // of the beam's edge, in rad
+      0.25 * kOuterFraction * kOuterFraction * (start * start + spread * spread);  // of the beam's edge, in rad
   const auto pulses = [&](double step) {
     std::uint32_t n = 1;
     while (n < plan_.reach() && n * step * n * step < square) ++n;

@@ -7,18 +7,18 @@ namespace standpoint {
 
 namespace {
 
-SubRay onRing(double share, int place, int places, float weight) {
+SubRay onRing(double fraction, int place, int places, float weight) {
   float sine, cosine;
   portable::sinCosTurn(static_cast<float>(place) / static_cast<float>(places), sine, cosine);
-  return {cosine, sine, share, weight};
+  return {cosine, sine, fraction, weight};
 }
 
 std::array<SubRay, kSubRays> pattern() {
   constexpr float kOuter = 0.0339F, kInner = 0.0841F;
   std::array<SubRay, kSubRays> rays{};
   for (int k = 0; k < 6; ++k) {
-    rays[k] = onRing(kOuterShare, 2 * k, 12, kOuter);
-    rays[6 + k] = onRing(kOuterShare, 2 * k + 1, 12, kOuter);
+    rays[k] = onRing(kOuterFraction, 2 * k, 12, kOuter);
+    rays[6 + k] = onRing(kOuterFraction, 2 * k + 1, 12, kOuter);
     rays[12 + k] = onRing(0.4, k, 6, kInner);
   }
   return rays;

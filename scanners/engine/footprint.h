@@ -16,10 +16,10 @@ namespace standpoint {
 // is.
 struct SubRay {
   double cosine, sine;  // of its place on the ring
-  double share;         // of w
+  double fraction;      // of w
   float weight;         // of the beam's power
 };
-constexpr double kOuterShare = 0.8;
+constexpr double kOuterFraction = 0.8;
 constexpr float kAxisWeight = 0.0889F;
 constexpr int kProbes = 6;  // the first ones, on the outer ring, tell whether the beam meets anything but one surface
 constexpr int kSubRays = 18;
@@ -44,8 +44,8 @@ struct RayLine {
   Eigen::Vector3d origin, direction;
 };
 inline RayLine lineOf(const Beam& beam, const SubRay& ray, const Instrument& instrument) {
-  const double offset = 0.5 * instrument.exit_diameter_m * ray.share;
-  const double lean = 0.5 * instrument.divergence_rad * ray.share;
+  const double offset = 0.5 * instrument.exit_diameter_m * ray.fraction;
+  const double lean = 0.5 * instrument.divergence_rad * ray.fraction;
   return {beam.origin + offset * (ray.cosine * beam.across + ray.sine * beam.upward),
           beam.direction + lean * (ray.cosine * beam.upward - ray.sine * beam.across)};
 }

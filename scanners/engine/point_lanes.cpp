@@ -31,8 +31,8 @@ STANDPOINT_CLONES void place(const PointLanes::Figures& f, const double* cyclic_
                               f.lift_cosine2_rad * (1 - 2 * sine * sine) + f.lift_sine2_rad * 2 * sine * cosine;
     const double lift =
         f.jitter_rad * static_cast<double>(r.noise.elevation[k]) + systematic + f.lift_by_wobble_rad * wobble;
-    const double noise = f.white_share * static_cast<double>(r.noise.range[k]) +
-                         f.along_share * static_cast<double>(r.along[k]) + f.common;
+    const double noise = f.white_fraction * static_cast<double>(r.noise.range[k]) +
+                         f.along_fraction * static_cast<double>(r.along[k]) + f.common;
     const double over = static_cast<double>(portable::log2(r.signal.x[k] / f.saturation));
     const double walk = r.signal.x[k] > f.saturation ? f.walk_m_per_octave * over : 0;
     const double range = r.range_m[k] * f.scale + f.bias_m + f.bias_sine_m * sine + cyclic_m[k] +
@@ -78,11 +78,11 @@ PointLanes::PointLanes(const ScanPlan& plan) : plan_(plan), start_(at(plan.traje
   figures_.lift_cosine_rad = errors.elevation_rad[0], figures_.lift_sine_rad = errors.elevation_rad[1];
   figures_.lift_cosine2_rad = errors.elevation_rad[2], figures_.lift_sine2_rad = errors.elevation_rad[3];
   figures_.noise_scale = plan.noise_scale;
-  figures_.white_share = plan.white_share;
+  figures_.white_fraction = plan.white_fraction;
   figures_.saturation = plan.saturation;
   figures_.walk_m_per_octave = plan.instrument.saturation.walk_m_per_decade * std::numbers::ln2 / std::numbers::ln10;
   if (!plan.column_noise) return;
-  figures_.along_share = static_cast<double>(plan.column_noise->along());
+  figures_.along_fraction = static_cast<double>(plan.column_noise->along());
   figures_.lift_by_wobble_rad = plan.instrument.correlated.elevation_wobble_rad;
   figures_.wobble_m = plan.instrument.correlated.wobble_m;
 }
@@ -176,8 +176,8 @@ void PointLanes::foldBack(ReturnLanes& returns) const {
     const double range = std::sqrt(static_cast<double>(returns.x_m[k]) * static_cast<double>(returns.x_m[k]) +
                                    static_cast<double>(returns.y_m[k]) * static_cast<double>(returns.y_m[k]) +
                                    static_cast<double>(returns.z_m[k]) * static_cast<double>(returns.z_m[k]));
-    const auto share = static_cast<float>(plan_.folded(range) / range);
-    returns.x_m[k] *= share, returns.y_m[k] *= share, returns.z_m[k] *= share;
+    const auto fraction = static_cast<float>(plan_.folded(range) / range);
+    returns.x_m[k] *= fraction, returns.y_m[k] *= fraction, returns.z_m[k] *= fraction;
   }
 }
 

@@ -27,7 +27,7 @@ class PointLanes {
     double lift_rad = 0, lift_by_wobble_rad = 0;
     double lift_cosine_rad = 0, lift_sine_rad = 0, lift_cosine2_rad = 0, lift_sine2_rad = 0;  // of v and 2v
     double scale = 1, bias_m = 0, bias_sine_m = 0;
-    double noise_scale = 0, white_share = 0, along_share = 0, common = 0;
+    double noise_scale = 0, white_fraction = 0, along_fraction = 0, common = 0;
     double extra_m = 0, wobble_m = 0;
     float saturation = 0;
     double walk_m_per_octave = 0;

@@ -15,9 +15,9 @@ namespace {
 // spares each ray the change of frame.
 constexpr std::size_t kSmallMesh = 64;
 
-bool onProgress(void* progress, double share) {
+bool onProgress(void* progress, double fraction) {
   auto& handle = *static_cast<Progress*>(progress);
-  handle.advance(share);
+  handle.advance(fraction);
   return !handle.cancelled();
 }
 

@@ -72,8 +72,8 @@ void ReflectorHalo::add(const ScanPlan& plan, const std::array<Eigen::Vector3d, 
   const double first = std::atan2(-corners[0].y(), corners[0].x());  // clockwise seen from above
   for (int step = 0; step < 3 * kOnEdge; ++step) {  // an edge rises above its ends as a great circle does
     const auto from = static_cast<std::size_t>(step / kOnEdge);
-    const double share = static_cast<double>(step % kOnEdge) / kOnEdge;
-    const Eigen::Vector3d place = (1 - share) * corners[from] + share * corners[(from + 1) % 3];
+    const double fraction = static_cast<double>(step % kOnEdge) / kOnEdge;
+    const Eigen::Vector3d place = (1 - fraction) * corners[from] + fraction * corners[(from + 1) % 3];
     nearest = std::min(nearest, place.norm());
     const double elevation = std::atan2(place.z(), std::hypot(place.x(), place.y()));
     low = std::min(low, elevation), high = std::max(high, elevation);

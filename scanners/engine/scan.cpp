@@ -26,12 +26,12 @@ Result<void> checkArguments(const ScanSettings& settings, const Trajectory& traj
   if (settings.columns == 0 || settings.rows == 0)
     return failure(ErrorKind::usage, "the grid has no columns or no rows", "settings");
   if (trajectory.pose.empty() || trajectory.pose.size() != trajectory.time_s.size())
-    return failure(ErrorKind::usage, "a trajectory needs a pose for each of its times", "trajectory");
+    return failure(ErrorKind::usage, "a trajectory requires one pose per time", "trajectory");
   for (const auto& pose : trajectory.pose)
     if (!pose.translation.allFinite() || !pose.rotation.coeffs().allFinite())
       return failure(ErrorKind::usage, "a pose of the trajectory is not finite", "trajectory");
   if (!std::is_sorted(trajectory.time_s.begin(), trajectory.time_s.end()))
-    return failure(ErrorKind::usage, "the times of a trajectory must rise", "trajectory");
+    return failure(ErrorKind::usage, "trajectory times must increase", "trajectory");
   return {};
 }
 

@@ -14,7 +14,7 @@ namespace standpoint {
 
 namespace {
 
-std::uint8_t byte(float share) { return static_cast<std::uint8_t>(std::clamp(share, 0.0F, 1.0F) * 255 + 0.5F); }
+std::uint8_t byte(float fraction) { return static_cast<std::uint8_t>(std::clamp(fraction, 0.0F, 1.0F) * 255 + 0.5F); }
 
 }  // namespace
 
@@ -42,7 +42,7 @@ double ScanPlan::elevation_rad(std::uint32_t row) const {
 // At the shortest range a beam is wide beside the steps between pulses.
 std::uint32_t ScanPlan::mostReach() const {
   const double nearest = std::max(0.3, instrument.min_range_m);
-  const double radius = kOuterShare * beamRadius(instrument, nearest) / nearest;
+  const double radius = kOuterFraction * beamRadius(instrument, nearest) / nearest;
   return static_cast<std::uint32_t>(
       std::clamp(std::ceil(radius / std::min(rowStep_rad(), columnStep_rad())), 1.0, static_cast<double>(kMostReach)));
 }
@@ -94,7 +94,7 @@ ScanPlan::ScanPlan(const EmbreeScene& scene_, const MaterialAssignment& assignme
   for (std::uint32_t row = 0; row < settings.rows; ++row) elevations.push_back(elevation_rad(row));
   const RandomKey key{options.seed, options.station_key};
   if (effects.has(Effect::striping)) column_noise.emplace(instrument, settings.columns, elevations, key);
-  if (effects.has(Effect::range_noise)) white_share = column_noise ? static_cast<double>(column_noise->white()) : 1;
+  if (effects.has(Effect::range_noise)) white_fraction = column_noise ? static_cast<double>(column_noise->white()) : 1;
   if (weather.rain_mm_h > 0 || weather.snow_mm_h > 0 || weather.fog_mor_m > 0 || weather.dust_mor_m > 0)
     scatterers.emplace(instrument, weather, drop_threshold, settings.max_range_m, key);
   for (std::uint32_t row = 0; row < settings.rows + kPacket; ++row) {

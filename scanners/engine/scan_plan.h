@@ -54,7 +54,7 @@ struct ScanPlan {
   double drop_threshold = 0;  // of what the air sends back
   double softness = 0;        // σ of the threshold, absolute
   float saturation = 0;       // x from which the receiver saturates
-  double white_share = 0;     // of σ, of the noise that is each pulse's own
+  double white_fraction = 0;  // of σ, of the noise that is each pulse's own
   std::optional<ColumnNoise> column_noise;
   std::optional<Scatterers> scatterers;
   std::optional<Daylight> daylight;

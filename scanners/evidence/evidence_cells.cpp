@@ -107,9 +107,9 @@ Spread spreadOf(std::vector<float>& values) {
   Spread s;
   if (values.empty()) return s;
   std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
+  const auto at = [&](double fraction) {
     return static_cast<double>(
-        values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))]);
+        values[static_cast<std::size_t>(std::lround(fraction * static_cast<double>(values.size() - 1)))]);
   };
   return {values.size(), at(0.05), at(0.25), at(0.5), at(0.75), at(0.95)};
 }

@@ -138,18 +138,17 @@ bool Comparison::fitScale() {
   result_.scale.range_compensated = compensated;
   char text[200];
   if (result_.scale.db.empty()) {
-    result_.no_verdict = "too few points on surfaces with a material, or their intensities do not differ";
+    result_.no_verdict = "too few points on surfaces with a material, or all intensities are equal";
     return false;
   }
   if (result_.scale.spread_db < kLeastSpread_db) {
     std::snprintf(text, sizeof text,
-                  "ranges and incidences differ too little within the surfaces to learn the vendor's scale "
-                  "from (%.1f dB)",
+                  "ranges and incidences vary too little to derive the vendor's intensity scale (%.1f dB)",
                   result_.scale.spread_db);
     result_.no_verdict = text;
   } else if (result_.scale.explained < kLeastExplained) {
     std::snprintf(text, sizeof text,
-                  "the intensities do not follow range and incidence: %.0f %% explained, %.1f dB scatter",
+                  "intensities do not follow range and incidence: %.0f %% explained, %.1f dB scatter",
                   result_.scale.explained * 100, result_.scale.scatter_db);
     result_.no_verdict = text;
   }
@@ -160,25 +159,25 @@ GroupEvidence Comparison::judged(std::uint32_t group) const {
   GroupEvidence e;
   e.group = group;
   std::vector<Weighted> off, about, figures;
-  Eigen::VectorXd share = Eigen::VectorXd::Zero(result_.scale.step_covariance.rows());
+  Eigen::VectorXd fraction = Eigen::VectorXd::Zero(result_.scale.step_covariance.rows());
   double weights = 0;
   for (std::size_t c = first_cell_[group]; c < first_cell_[group + 1]; ++c) {
     const auto& cell = cells_[c];
     e.points += cell.points;
     off.push_back({offDb(cell, opticsOfGroup(group)), cell.weight()});
     figures.push_back({cell.measured, cell.weight()});
-    share += cell.weight() * result_.scale.stepsAt(cell.measured);
+    fraction += cell.weight() * result_.scale.stepsAt(cell.measured);
     weights += cell.weight();
   }
   if (off.empty()) return e;
   e.off_db = weightedMedian(off);
   for (const auto& o : off) about.push_back({std::abs(o.value - e.off_db), o.weight});
   const double scatter = std::max(1.4826 * weightedMedian(about), result_.scale.scatter_db);
-  share /= weights;
+  fraction /= weights;
   // Against the middle of the curve: all that is common goes into the level.
-  Eigen::VectorXd middle = Eigen::VectorXd::Zero(share.size());
-  middle.head(share.size() / 2).setOnes();
-  const double curve = (share - middle).dot(result_.scale.step_covariance * (share - middle));
+  Eigen::VectorXd middle = Eigen::VectorXd::Zero(fraction.size());
+  middle.head(fraction.size() / 2).setOnes();
+  const double curve = (fraction - middle).dot(result_.scale.step_covariance * (fraction - middle));
   e.sigma_db = std::sqrt(scatter * scatter / static_cast<double>(off.size()) + std::max(0.0, curve));
   e.supported = e.points >= options_.fewest_points && off.size() >= options_.fewest_cells &&
                 e.sigma_db < options_.agree_db && result_.scale.covers(weightedMedian(figures));
@@ -245,10 +244,9 @@ void Comparison::findLevel() {
   }
   if (!result_.no_verdict.empty()) return;
   if (agreeing.size() < 2 || most < all / 2)
-    result_.no_verdict =
-        off.size() < 2 ? "points on two materials at least are needed to tell which one is wrong"
-                       : "no two materials, or less than half of what was measured, agree on the scale's constant, so "
-                         "nothing tells which are wrong: check the instrument and the placement";
+    result_.no_verdict = off.size() < 2 ? "points on at least two materials are required to identify the wrong one"
+                                        : "materials do not agree on the intensity scale, so the wrong ones cannot be "
+                                          "identified: check the instrument and the cloud position";
 }
 
 void Comparison::spread() {

@@ -34,9 +34,9 @@ ExpectedReturn ReturnLaw::of(const Optics& optics, double range_m, double cosine
   const double near = static_cast<double>(nearRangeFactor(instrument_, static_cast<float>(range_m)));
   const double air = std::exp(-2 * clear_air_per_m_ * range_m);
   expected.power = std::max(1e-30, equivalent * gain * near * air / (range_m * range_m));
-  const double share = (10 * std::log10(expected.power) - instrument_.intensity_low_db) /
-                       (instrument_.intensity_high_db - instrument_.intensity_low_db);
-  expected.intensity = std::clamp(share, 0.0, 1.0);
+  const double fraction = (10 * std::log10(expected.power) - instrument_.intensity_low_db) /
+                          (instrument_.intensity_high_db - instrument_.intensity_low_db);
+  expected.intensity = std::clamp(fraction, 0.0, 1.0);
   expected.sigma_m = std::hypot(noise_scale_ * noise_law_.sigma(expected.power, std::max(equivalent, 1e-6)),
                                 instrument_.correlated.column_extra_m);
   const double margin = expected.power - threshold_;

@@ -53,8 +53,8 @@ struct Waveform {
 // How the sheet's noise is spread over columns and rows (§3.5). The shares are of the sheet's variance, so that its σ
 // stays: what they leave is white. column_extra and the wobble come on top of the sheet.
 struct CorrelatedNoise {
-  double column_share = 0;          // common to all pulses of a column
-  double along_share = 0;           // with long memory along a column
+  double column_fraction = 0;       // common to all pulses of a column
+  double along_fraction = 0;        // with long memory along a column
   double column_correlation = 0;    // ρ of one column to the next: AR(1)
   double hurst = 0.5;               // H of the part along a column; 0.5 = no memory
   double column_extra_m = 0;        // σ of another part common to a column, with the same ρ

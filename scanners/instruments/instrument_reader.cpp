@@ -199,8 +199,8 @@ class InstrumentReader : FigureReader {
   void readCorrelated(Group& root) {
     Group group = child(root, "correlated_noise");
     auto& noise = instrument_.correlated;
-    noise.column_share = figure(group, "column_share", {0, 1});
-    noise.along_share = figure(group, "along_share", {0, 1});
+    noise.column_fraction = figure(group, "column_share", {0, 1});
+    noise.along_fraction = figure(group, "along_share", {0, 1});
     noise.column_correlation = figure(group, "column_correlation", {0, 0.999});
     noise.hurst = figure(group, "hurst", {0.5, 0.95});
     noise.column_extra_m = figure(group, "column_extra_mm", {0, 1000, 1e-3});
@@ -234,7 +234,7 @@ class InstrumentReader : FigureReader {
     setting.default_value = text(group, "standard");
     cite(group.pointer, group.source, group.note);
     for (const auto& other : instrument_.settings)
-      if (other.key == setting.key) fail(group.pointer + "/key", "\"" + setting.key + "\" is there twice");
+      if (other.key == setting.key) fail(group.pointer + "/key", "\"" + setting.key + "\" is duplicated");
     if (group.object->contains("choices"))
       readChoices(group, setting);
     else
@@ -247,9 +247,8 @@ class InstrumentReader : FigureReader {
     static const std::set<std::string> kKnown = {"horizontal_from", "horizontal_to", "vertical_from", "vertical_to",
                                                  "nearest_m",       "farthest_m",    "line_step",     "frame_step"};
     if (!kKnown.contains(setting.key))
-      return fail(
-          group.pointer + "/key",
-          "only the edges of an area and of the range and the steps of a pattern are numbers; a setting needs choices");
+      return fail(group.pointer + "/key",
+                  "only area edges, range limits and pattern steps can be numbers; other settings require choices");
     const Domain domain = setting.key.ends_with("_m") ? Domain{0, 10000} : Domain{-360, 360};
     setting.minimum = figure(group, "minimum", domain);
     setting.maximum = figure(group, "maximum", domain);
@@ -268,9 +267,9 @@ class InstrumentReader : FigureReader {
       setting.choices.push_back(readChoice(entry));
       has_standard = has_standard || setting.choices.back().value == setting.default_value;
       for (std::size_t k = 0; k < i; ++k)
-        if (setting.choices[k].value == setting.choices[i].value) fail(entry.pointer + "/value", "is there twice");
+        if (setting.choices[k].value == setting.choices[i].value) fail(entry.pointer + "/value", "is duplicated");
     }
-    if (!has_standard) fail(group.pointer + "/standard", "is none of the choices");
+    if (!has_standard) fail(group.pointer + "/standard", "is not one of the choices");
   }
 
   SettingChoice readChoice(Group& entry) {
@@ -324,12 +323,12 @@ class InstrumentReader : FigureReader {
     if (instrument_.intensity_low_db >= instrument_.intensity_high_db)
       fail("/signal/intensity_high_db", "must be above intensity_low_db");
     if (instrument_.angle_jitter_rad > instrument_.angle_sigma_rad)
-      fail("/angles/jitter_arcsec", "must not be above accuracy_arcsec, of which it is a part");
-    checkShares();
+      fail("/angles/jitter_arcsec", "must not exceed accuracy_arcsec, which includes it");
+    checkFractions();
     checkRotations();
     if (!error() && !instrument_.moving)
       if (const auto default_value = resolveSettings(instrument_, {}); !default_value)
-        fail("/settings", "the standard values are not a valid scan: " + default_value.error().message);
+        fail("/settings", "the default values are not a valid scan: " + default_value.error().message);
   }
 
   void checkRotations() {
@@ -339,23 +338,22 @@ class InstrumentReader : FigureReader {
           if (!instrument_.moving || rotation->second < instrument_.moving->min_rotation_hz ||
               rotation->second > instrument_.moving->max_rotation_hz)
             fail("/settings",
-                 "\"" + choice.value + "\" of " + setting.key + " turns the head as /moving does not allow");
+                 "\"" + choice.value + "\" of " + setting.key + " rotates the head beyond the limits in /moving");
   }
 
   // Parts cannot be more than the whole.
-  void checkShares() {
+  void checkFractions() {
     const auto& noise = instrument_.correlated;
-    if (noise.column_share + noise.along_share > 1)
+    if (noise.column_fraction + noise.along_fraction > 1)
       fail("/correlated_noise/along_share",
-           "must not be above 1 together with column_share: they are shares of one variance");
+           "must not exceed 1 together with column_share: both are fractions of one variance");
     const double rest = instrument_.angle_sigma_rad * instrument_.angle_sigma_rad -
                         instrument_.angle_jitter_rad * instrument_.angle_jitter_rad;
     if (noise.azimuth_flicker_rad * noise.azimuth_flicker_rad > rest)
-      fail("/correlated_noise/azimuth_flicker_arcsec", "must not be above accuracy_arcsec together with jitter_arcsec");
+      fail("/correlated_noise/azimuth_flicker_arcsec", "must not exceed accuracy_arcsec together with jitter_arcsec");
     if (noise.elevation_wobble_rad * noise.elevation_wobble_rad / 2 >
         rest)  // the variance of a sine is half its amplitude squared
-      fail("/correlated_noise/elevation_wobble_arcsec",
-           "must not be above accuracy_arcsec together with jitter_arcsec");
+      fail("/correlated_noise/elevation_wobble_arcsec", "must not exceed accuracy_arcsec together with jitter_arcsec");
   }
 
   const Json& document_;
@@ -370,14 +368,13 @@ Result<Instrument> readInstrument(const std::filesystem::path& file) {
   const auto size = std::filesystem::file_size(file, code);
   std::ifstream stream(file, std::ios::binary);
   if (code || !stream) return failure(ErrorKind::file_system, "cannot be read", file.string());
-  if (size > kLargestFile)
-    return failure(ErrorKind::unusable, "is larger than an instrument file can be (1 MiB)", name);
+  if (size > kLargestFile) return failure(ErrorKind::unusable, "exceeds the limit for instrument files (1 MiB)", name);
   const std::string content{std::istreambuf_iterator<char>(stream), {}};
   try {
     const Json document = Json::parse(content);
     auto instrument = InstrumentReader(name, document).read();
     if (instrument && instrument->id != file.stem().string())
-      return failure(ErrorKind::unusable, "must be the file's name, \"" + file.stem().string() + "\"", name + " /id");
+      return failure(ErrorKind::unusable, "must match the file name, " + file.stem().string() + "\"", name + " /id");
     return instrument;
   } catch (const Json::exception& exception) {
     return failure(ErrorKind::unusable, exception.what(), name);

@@ -51,7 +51,8 @@ Result<SettingValues> complete(const Instrument& instrument, const SettingValues
     if (found == instrument.settings.end()) {
       std::vector<std::string> keys;
       for (const auto& setting : instrument.settings) keys.push_back(setting.key);
-      return failure(ErrorKind::usage, "the " + instrument.model + " has no such setting; it has " + list(keys), key);
+      return failure(ErrorKind::usage, "the " + instrument.model + " has no such setting; available: " + list(keys),
+                     key);
     }
     const auto index = static_cast<std::size_t>(found - instrument.settings.begin());
     if (given[index]) return failure(ErrorKind::usage, "is given twice", key);
@@ -159,7 +160,7 @@ Result<void> checkGrid(const Instrument& instrument, const SettingValues& values
   const bool turns = limits.turns(effects.rate_hz);
   if (turns && limits.compresses(effects.compression)) return {};
   const std::string why =
-      turns ? "for its noise compression needs a finer grid than the finest"
+      turns ? "for its noise compression requires a finer grid than available"
             : "for the mirror would exceed " + std::to_string(static_cast<int>(instrument.mirror_max_hz)) + " Hz";
   for (std::size_t i = 0; i < values.size(); ++i) {
     std::vector<std::string> words;
@@ -186,8 +187,7 @@ Result<void> checkMode(const Instrument& instrument, const SettingValues& values
     std::vector<std::string> words;
     for (const auto& other : setting.choices)
       if (belongs(other)) words.push_back(other.value);
-    return failure(ErrorKind::usage,
-                   "\"" + values[i].second + "\" belongs to another mode; allowed here: " + list(words),
+    return failure(ErrorKind::usage, "\"" + values[i].second + "\" belongs to another mode; allowed: " + list(words),
                    values[i].first);
   }
   return {};
@@ -215,7 +215,7 @@ Result<Area> areaOf(const Instrument& instrument, const SettingValues& values, b
     if (!instrument.settings[i].choices.empty() || isGate(key) || isStep(key)) continue;
     const double angle = *number(value);
     if (!allowed_here && angle != *number(instrument.settings[i].default_value))
-      return failure(ErrorKind::usage, "an edge belongs to an area: choose that field of view as well", key);
+      return failure(ErrorKind::usage, "area edges require the matching field of view", key);
     if (key == "horizontal_from") area.horizontal_from = angle;
     if (key == "horizontal_to") area.horizontal_to = angle;
     if (key == "vertical_from") area.vertical_from = angle;
@@ -235,7 +235,7 @@ Result<void> applySteps(const Instrument& instrument, const SettingValues& value
     if (!isStep(key)) continue;
     const double step = *number(value);
     if (!effects.stepped && step != *number(instrument.settings[i].default_value))
-      return failure(ErrorKind::usage, "a step belongs to a pattern of one's own: choose that pattern as well", key);
+      return failure(ErrorKind::usage, "steps require the custom pattern", key);
     if (effects.stepped)
       (key == "frame_step" ? effects.columns : effects.rows) = std::round((key == "frame_step" ? 360 : full) / step);
   }
@@ -248,22 +248,21 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
   if (instrument.moving)
     return failure(ErrorKind::usage,
                    "the " + instrument.maker + " " + instrument.model +
-                       " scans while it moves: it needs a "
-                       "trajectory, and a station has none; choose an instrument for a tripod",
+                       " is a mobile scanner and requires a trajectory; choose a tripod instrument for stations",
                    instrument.id);
   auto filled = complete(instrument, values);
   if (!filled) return failure(filled.error());
   Effects effects = gather(instrument, *filled);
   if (auto steps = applySteps(instrument, *filled, effects); !steps) return failure(steps.error());
   if (effects.columns < 2)
-    return failure(ErrorKind::unusable, "no choice states the columns", instrument.id + " /settings");
+    return failure(ErrorKind::unusable, "no setting defines the columns", instrument.id + " /settings");
   if (auto belongs = checkMode(instrument, *filled, effects); !belongs) return failure(belongs.error());
   if (auto fits = checkGrid(instrument, *filled, effects); !fits) return failure(fits.error());
   auto area = areaOf(instrument, *filled, effects.area);
   if (!area) return failure(area.error());
 
   const double full = (instrument.max_elevation_rad - instrument.min_elevation_rad) / kRadPerDeg;
-  const double share = (area->horizontal_to - area->horizontal_from) / 360;
+  const double fraction = (area->horizontal_to - area->horizontal_from) / 360;
   const double rows = effects.rows > 0 ? effects.rows : effects.columns * full / 360;
   const double mirror_hz = effects.rate_hz / effects.columns;
   // A pattern has a time of its own, unless the laser is too slow for it.
@@ -273,11 +272,11 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
                          : mirror_hz > 0     ? effects.columns / 2 * instrument.column_factor / mirror_hz
                                              : 0;
   if (turning <= 0)
-    return failure(ErrorKind::unusable, "no choice states the time or the rate", instrument.id + " /settings");
+    return failure(ErrorKind::unusable, "no setting defines the time or rate", instrument.id + " /settings");
 
   ScanSettings settings;
   settings.values = std::move(*filled);
-  settings.columns = static_cast<std::uint32_t>(std::max(1.0, std::round(effects.columns * share)));
+  settings.columns = static_cast<std::uint32_t>(std::max(1.0, std::round(effects.columns * fraction)));
   settings.rows =
       static_cast<std::uint32_t>(std::max(1.0, std::round(rows * (area->vertical_to - area->vertical_from) / full)));
   settings.azimuth_from_rad = area->horizontal_from * kRadPerDeg;
@@ -298,7 +297,7 @@ Result<ScanSettings> resolveSettings(const Instrument& instrument, const Setting
     return failure(ErrorKind::usage, "must be above nearest_m", "farthest_m");
   settings.camera = effects.camera;
   settings.scan_seconds =
-      effects.laser ? (instrument.overhead_s + turning * effects.seconds_factor * share) * effects.passes : 0;
+      effects.laser ? (instrument.overhead_s + turning * effects.seconds_factor * fraction) * effects.passes : 0;
   settings.imaging_seconds = settings.imaging ? effects.imaging_seconds * effects.imaging_factor : 0;
   return settings;
 }

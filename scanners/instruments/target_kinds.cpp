@@ -41,7 +41,7 @@ TargetKinds readKinds(FigureReader& in, const FigureReader::Json& json) {
     kinds.articles.push_back(readArticle(in, list[i], "/kinds/" + std::to_string(i)));
     for (std::size_t k = 0; k < i; ++k)
       if (kinds.articles[k].id == kinds.articles[i].id)
-        in.fail("/kinds/" + std::to_string(i) + "/id", "\"" + kinds.articles[i].id + "\" is there twice");
+        in.fail("/kinds/" + std::to_string(i) + "/id", "\"" + kinds.articles[i].id + "\" is duplicated");
   }
   in.close(root);
   kinds.evidence = in.evidence();
@@ -63,7 +63,7 @@ Result<TargetKinds> readTargetKinds(const std::filesystem::path& file) {
   std::error_code code;
   const auto size = std::filesystem::file_size(file, code);
   if (code) return failure(ErrorKind::file_system, "cannot be read: " + code.message(), file.string());
-  if (size > kLargestFile) return failure(ErrorKind::unusable, "is too large for a list of targets", file.string());
+  if (size > kLargestFile) return failure(ErrorKind::unusable, "file is too large for a target list", file.string());
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   const auto json = nlohmann::json::parse(text, nullptr, false);

@@ -55,7 +55,7 @@ ColumnNoise::ColumnNoise(const Instrument& instrument, std::uint32_t columns, co
                          const RandomKey& key)
     : key_(key), rows_(static_cast<std::uint32_t>(elevation_rad.size())), half_((columns + 1) / 2) {
   const auto& noise = instrument.correlated;
-  common_ = static_cast<float>(std::sqrt(noise.column_share));
+  common_ = static_cast<float>(std::sqrt(noise.column_fraction));
   drawColumns(key, columns, noise.column_correlation, noise.azimuth_flicker_rad);
   buildOctaves(noise);
   wobble_sine_.assign((elevation_rad.size() + kNoiseLanes - 1) / kNoiseLanes * kNoiseLanes, 0);
@@ -99,9 +99,9 @@ void ColumnNoise::buildOctaves(const CorrelatedNoise& noise) {
     variance.push_back(last == 1 ? own / (1 - portable::pow(4, -gamma)) : own);
     sum += variance.back();
   }
-  const double long_memory = noise.along_share * (1 - row_to_row / sum);
+  const double long_memory = noise.along_fraction * (1 - row_to_row / sum);
   along_ = static_cast<float>(std::sqrt(long_memory));
-  white_ = static_cast<float>(std::sqrt(std::max(0.0, 1 - noise.column_share - long_memory)));
+  white_ = static_cast<float>(std::sqrt(std::max(0.0, 1 - noise.column_fraction - long_memory)));
   std::uint32_t length = 4;
   for (const double own : variance) {
     octaves_.push_back(octaveOf(length, own / (sum - row_to_row)));
@@ -113,9 +113,9 @@ ColumnNoise::Octave ColumnNoise::octaveOf(std::uint32_t length, double variance)
   Octave octave{length, {}, {}};
   const std::uint32_t steps = length <= kTabulated ? length : length / kNoiseLanes;
   for (std::uint32_t s = 0; s < steps; ++s) {
-    const double share = static_cast<double>(s) / steps;
-    octave.falling.push_back(static_cast<float>(std::sqrt(variance * (1 - share))));
-    octave.rising.push_back(static_cast<float>(std::sqrt(variance * share)));
+    const double fraction = static_cast<double>(s) / steps;
+    octave.falling.push_back(static_cast<float>(std::sqrt(variance * (1 - fraction))));
+    octave.rising.push_back(static_cast<float>(std::sqrt(variance * fraction)));
   }
   return octave;
 }

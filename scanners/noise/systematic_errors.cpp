@@ -10,7 +10,7 @@ namespace standpoint {
 
 namespace {
 
-constexpr double kFurtherShare = 1.0 / 3;  // of a0
+constexpr double kFurtherFraction = 1.0 / 3;  // of a0
 
 }  // namespace
 
@@ -19,9 +19,9 @@ SystematicErrors SystematicErrors::drawn(const Instrument& instrument, const Ran
   pulseNoise(key, 0, 0, NoiseChannel::scan, draw);
   SystematicErrors errors;
   const bool cyclic = instrument.waveform.fine_wavelength_m > 0;
-  const double further = kFurtherShare * instrument.range_bias_m;
+  const double further = kFurtherFraction * instrument.range_bias_m;
   const double offset =
-      cyclic ? std::sqrt(1 - kFurtherShare * kFurtherShare) * instrument.range_bias_m : instrument.range_bias_m;
+      cyclic ? std::sqrt(1 - kFurtherFraction * kFurtherFraction) * instrument.range_bias_m : instrument.range_bias_m;
   errors.offset_m = offset * static_cast<double>(draw.range[0]);
   errors.scale = 1 + 1e-6 * instrument.range_bias_ppm * static_cast<double>(draw.detection[0]);
   errors.lift_m = further * static_cast<double>(draw.range[1]);

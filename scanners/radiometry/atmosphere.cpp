@@ -66,12 +66,12 @@ Result<void> take(Weather& weather, std::string_view word, std::array<bool, kQua
     const auto number = equals == word.npos ? std::string_view() : word.substr(equals + 1);
     const auto [end, code] = std::from_chars(number.data(), number.data() + number.size(), weather.*q.value);
     if (code != std::errc() || end != number.data() + number.size())
-      return failure(ErrorKind::usage, quoted(number) + " is no number: " + bounds(q), q.key);
+      return failure(ErrorKind::usage, quoted(number) + " is not a number: " + bounds(q), q.key);
     return {};
   }
   std::string keys;
   for (const auto& q : kQuantities) keys += (keys.empty() ? "" : "; ") + bounds(q);
-  return failure(ErrorKind::usage, quoted(key) + " is no weather: " + keys, "weather");
+  return failure(ErrorKind::usage, quoted(key) + " is not a weather setting: " + keys, "weather");
 }
 
 }  // namespace

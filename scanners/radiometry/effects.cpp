@@ -8,29 +8,29 @@ namespace standpoint {
 
 const std::array<EffectName, 23>& effectNames() {
   static constexpr std::array<EffectName, 23> kNames = {{
-      {Effect::range_noise, "range-noise", "white noise of the range"},
-      {Effect::angle_noise, "angle-noise", "jitter of the angles"},
-      {Effect::bias, "bias", "systematic errors of range and angles"},
+      {Effect::range_noise, "range-noise", "white range noise"},
+      {Effect::angle_noise, "angle-noise", "angular jitter"},
+      {Effect::bias, "bias", "systematic range and angle errors"},
       {Effect::striping, "striping", "noise along and between columns"},
-      {Effect::detection, "detection", "the loss of weak returns"},
-      {Effect::chance, "chance", "chance at the detection threshold"},
-      {Effect::near_range, "near-range", "the blindness at close range"},
-      {Effect::atmosphere, "atmosphere", "extinction by the air"},
-      {Effect::weather, "weather", "returns from drops, flakes, fog and dust"},
-      {Effect::footprint, "footprint", "the beam's width: mixed points"},
-      {Effect::panes, "panes", "the transparency of glass"},
+      {Effect::detection, "detection", "loss of weak returns"},
+      {Effect::chance, "chance", "randomness at the detection threshold"},
+      {Effect::near_range, "near-range", "low sensitivity at close range"},
+      {Effect::atmosphere, "atmosphere", "atmospheric extinction"},
+      {Effect::weather, "weather", "returns from rain, snow, fog and dust"},
+      {Effect::footprint, "footprint", "beam width: mixed points"},
+      {Effect::panes, "panes", "transparency of glass"},
       {Effect::mirrors, "mirrors", "mirror images"},
-      {Effect::variation, "variation", "the variation of a material from place to place"},
-      {Effect::saturation, "saturation", "range errors by too much light"},
-      {Effect::quantisation, "quantisation", "the steps of the intensity"},
-      {Effect::levelling, "levelling", "the error of the compensator where a station leans"},
-      {Effect::amplitude_noise, "amplitude-noise", "the noise of the intensity"},
-      {Effect::filters, "filters", "what the instrument's own filters flag and drop"},
-      {Effect::ambiguity, "ambiguity", "the folding of far ranges by a phase-shift instrument"},
+      {Effect::variation, "variation", "spatial variation of a material"},
+      {Effect::saturation, "saturation", "range errors from saturation"},
+      {Effect::quantisation, "quantisation", "intensity quantisation"},
+      {Effect::levelling, "levelling", "compensator error at tilted stations"},
+      {Effect::amplitude_noise, "amplitude-noise", "intensity noise"},
+      {Effect::filters, "filters", "filters built into the instrument"},
+      {Effect::ambiguity, "ambiguity", "range ambiguity of phase-shift instruments"},
       {Effect::halo, "halo", "false points around retroreflectors"},
       {Effect::sun, "sun", "daylight in the receiver"},
-      {Effect::interference, "interference", "returns of another instrument's light"},
-      {Effect::rough_mirrors, "rough-mirrors", "mirror images in what is wet or glossy but not smooth"},
+      {Effect::interference, "interference", "interference from another instrument"},
+      {Effect::rough_mirrors, "rough-mirrors", "mirror images in wet or glossy rough surfaces"},
   }};
   return kNames;
 }
@@ -49,7 +49,7 @@ Result<Effects> effectsWithout(std::string_view names) {
     const auto& known = effectNames();
     const auto found = std::find_if(known.begin(), known.end(), [&](const EffectName& e) { return e.name == name; });
     if (found == known.end())
-      return failure(ErrorKind::usage, "there is no effect '" + std::string(name) + "'; there are " + effectList(),
+      return failure(ErrorKind::usage, "unknown effect '" + std::string(name) + "'; available: " + effectList(),
                      "--without");
     effects = effects.without(found->effect);
     from = comma + 1;

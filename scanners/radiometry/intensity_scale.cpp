@@ -124,15 +124,15 @@ double offLine(const std::vector<double>& x, const std::vector<double>& y, doubl
 
 Eigen::VectorXd IntensityScale::stepsAt(double figure) const {
   const auto steps = static_cast<Eigen::Index>(measured.size()) - 1;
-  Eigen::VectorXd share(steps);
+  Eigen::VectorXd fraction(steps);
   for (Eigen::Index k = 0; k < steps; ++k) {
     const double from = axis(*this, measured[static_cast<std::size_t>(k)]);
     const double to = axis(*this, measured[static_cast<std::size_t>(k) + 1]);
     // The first and the last go on beyond their knots, but not far: nothing was learned there.
-    share[k] = std::clamp((axis(*this, figure) - from) / (to - from), k == 0 ? -kBeyondSteps : 0.0,
-                          k + 1 == steps ? 1 + kBeyondSteps : 1.0);
+    fraction[k] = std::clamp((axis(*this, figure) - from) / (to - from), k == 0 ? -kBeyondSteps : 0.0,
+                             k + 1 == steps ? 1 + kBeyondSteps : 1.0);
   }
-  return share;
+  return fraction;
 }
 
 bool IntensityScale::covers(double figure) const {
@@ -141,10 +141,10 @@ bool IntensityScale::covers(double figure) const {
 }
 
 double IntensityScale::dbAt(double figure) const {
-  const auto share = stepsAt(figure);
+  const auto fraction = stepsAt(figure);
   double result = db.front();
-  for (Eigen::Index k = 0; k < share.size(); ++k)
-    result += share[k] * (db[static_cast<std::size_t>(k) + 1] - db[static_cast<std::size_t>(k)]);
+  for (Eigen::Index k = 0; k < fraction.size(); ++k)
+    result += fraction[k] * (db[static_cast<std::size_t>(k) + 1] - db[static_cast<std::size_t>(k)]);
   return result;
 }
 

@@ -70,7 +70,7 @@ double mirrorReflectance(const Optics& optics, double cosine) {
   return f0 + (1 - f0) * away * away * away * away * away;
 }
 
-double roughMirrorShare(double lobe_slope, double beam_radius_m, double to_mirror_m, double from_mirror_m) {
+double roughMirrorFraction(double lobe_slope, double beam_radius_m, double to_mirror_m, double from_mirror_m) {
   const double way = (to_mirror_m + from_mirror_m) * beam_radius_m / (to_mirror_m * from_mirror_m * lobe_slope);
   return std::min(1.0, way * way / 8);
 }
@@ -165,8 +165,8 @@ double RangeNoiseLaw::sigma(double x, double lambert_equivalent) const {
   const double place = std::log2(lambert_equivalent);
   for (std::size_t i = 1; i < curves_.size(); ++i) {
     const double from = curves_[i - 1].log2_reflectivity;
-    const double share = std::clamp((place - from) / (curves_[i].log2_reflectivity - from), 0.0, 1.0);
-    sigma += share * (of(curves_[i]) - sigma);
+    const double fraction = std::clamp((place - from) / (curves_[i].log2_reflectivity - from), 0.0, 1.0);
+    sigma += fraction * (of(curves_[i]) - sigma);
   }
   return sigma;
 }

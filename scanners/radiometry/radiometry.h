@@ -75,7 +75,7 @@ inline float nearRangeFactor(const Instrument& instrument, float range_m) {
 // What of a mirror image is left where the mirror's lobe is wider than the beam: it lights Ω = 8π m² and not one
 // direction, and of what comes back the receiver sees the spot that its beam lit, A: A (R1 + R2)² / (R1² R2² Ω), at
 // most 1.
-double roughMirrorShare(double lobe_slope, double beam_radius_m, double to_mirror_m, double from_mirror_m);
+double roughMirrorFraction(double lobe_slope, double beam_radius_m, double to_mirror_m, double from_mirror_m);
 
 // x_min = ρ_ref / R_max² · air of the data sheet (§2.7): its range holds in clear air.
 double detectionThreshold(const ScanSettings& settings, double clear_air_extinction_per_m);

@@ -52,9 +52,9 @@ double Scatterers::white(double range_m) const {
 
 // x = F white(r) min(D / beam, 1)²: the smallest D that reaches the least x.
 double Scatterers::leastDiameter(const Population& population, double range_m, double white_x) const {
-  const double share = min_x_ / (population.backscatter * white_x);
-  if (share > 1) return std::numeric_limits<double>::infinity();
-  return std::max(beamDiameter(range_m) * std::sqrt(share), kSmallest_m);
+  const double fraction = min_x_ / (population.backscatter * white_x);
+  if (fraction > 1) return std::numeric_limits<double>::infinity();
+  return std::max(beamDiameter(range_m) * std::sqrt(fraction), kSmallest_m);
 }
 
 // N(> D) of an exponential distribution is n0/Λ e^(-ΛD); the beam sweeps its cross-section.
@@ -81,15 +81,16 @@ std::size_t Scatterers::nodeBefore(double range_m) const {
 
 double Scatterers::numberBefore(const Population& population, double range_m) const {
   const std::size_t i = nodeBefore(range_m);
-  const double share = std::clamp((range_m - nodes_m_[i]) / (nodes_m_[i + 1] - nodes_m_[i]), 0.0, 1.0);
-  return population.number[i] + share * (population.number[i + 1] - population.number[i]);
+  const double fraction = std::clamp((range_m - nodes_m_[i]) / (nodes_m_[i + 1] - nodes_m_[i]), 0.0, 1.0);
+  return population.number[i] + fraction * (population.number[i + 1] - population.number[i]);
 }
 
 double Scatterers::rangeOf(const Population& population, double number) const {
   const auto after = std::upper_bound(population.number.begin() + 1, population.number.end() - 1, number);
   const auto index = static_cast<std::size_t>(after - population.number.begin()) - 1;
-  const double share = (number - population.number[index]) / (population.number[index + 1] - population.number[index]);
-  return nodes_m_[index] + std::clamp(share, 0.0, 1.0) * (nodes_m_[index + 1] - nodes_m_[index]);
+  const double fraction =
+      (number - population.number[index]) / (population.number[index + 1] - population.number[index]);
+  return nodes_m_[index] + std::clamp(fraction, 0.0, 1.0) * (nodes_m_[index + 1] - nodes_m_[index]);
 }
 
 double Scatterers::expected(double max_range_m) const {
@@ -116,8 +117,8 @@ void Scatterers::drops(const Population& population, std::uint32_t column, std::
       const double above_m = -1e-3 / population.sizes.lambda_per_mm * portable::log(uniform(block[k + 1]));
       const double white_x = white(range_m);
       const double diameter = leastDiameter(population, range_m, white_x) + above_m;
-      const double share = std::min(diameter / beamDiameter(range_m), 1.0);
-      const double x = population.backscatter * white_x * share * share;
+      const double fraction = std::min(diameter / beamDiameter(range_m), 1.0);
+      const double x = population.backscatter * white_x * fraction * fraction;
       if (x > best.x) best = {population.kind, range_m, x};
     }
   }

@@ -103,8 +103,8 @@ STANDPOINT_INLINE void fluctuate(const SignalLanes& lanes, const Fluctuation& f,
 STANDPOINT_INLINE void store(SignalLanes& lanes, const float* measured, float low_db, float high_db, float steps) {
   const float scale = 1 / (high_db - low_db);
   for (int k = 0; k < kSignalLanes; ++k) {
-    const float share = (3.0102999566398120F * portable::log2(measured[k]) - low_db) * scale;
-    const float least = share < 0 ? 0 : share;
+    const float fraction = (3.0102999566398120F * portable::log2(measured[k]) - low_db) * scale;
+    const float least = fraction < 0 ? 0 : fraction;
     lanes.intensity[k] = least > 1 ? 1 : least;
   }
   if (steps > 0)
@@ -125,8 +125,8 @@ STANDPOINT_INLINE void noise(SignalLanes& lanes, const RangeNoiseLaw::Curve* cur
     const float scale = i > 0 ? 1 / (curves[i].log2_reflectivity - from) : 0;
     for (int k = 0; k < kSignalLanes; ++k) {
       const float sigma = std::sqrt(floor + slope * (1 + lanes.background[k]) * inverse_x2[k]);
-      const float share = (place[k] - from) * scale;
-      const float least = share < 0 ? 0 : share;
+      const float fraction = (place[k] - from) * scale;
+      const float least = fraction < 0 ? 0 : fraction;
       const float weight = i == 0 || least > 1 ? 1 : least;
       lanes.sigma_m[k] = i == 0 ? sigma : lanes.sigma_m[k] + weight * (sigma - lanes.sigma_m[k]);
     }

@@ -78,7 +78,7 @@ TEST(SurfaceFit, BringsARoomBackToWhereItWas) {
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_TRUE(result->settled);
   EXPECT_LT(worst(result->to_from, kTruth, points), 1e-6);
-  EXPECT_NEAR(result->used_share, 1, 1e-12);
+  EXPECT_NEAR(result->used_fraction, 1, 1e-12);
   EXPECT_NEAR(result->moved_m, 0.2, 0.05);
   EXPECT_TRUE(result->free.empty());
 }
@@ -116,7 +116,7 @@ TEST(SurfaceFit, IsNotDrawnAsideByWhatTheModelLacks) {
   const auto result = fit(kRoom, points);
   ASSERT_TRUE(result);
   EXPECT_LT(worst(result->to_from, kTruth, points), 0.001);
-  EXPECT_NEAR(result->used_share, 0.75, 0.03);
+  EXPECT_NEAR(result->used_fraction, 0.75, 0.03);
 }
 
 TEST(SurfaceFit, TellsThatACorridorSlidesAndLeavesItThere) {
@@ -146,7 +146,7 @@ TEST(SurfaceFit, RefusesTooFewPointsAndPointsFarFromAnySurface) {
   for (auto& p : far) p += Vector3d(100, 100, 100);
   const auto result = fit(kRoom, far);
   ASSERT_FALSE(result);
-  EXPECT_NE(result.error().message.find("place the cloud first"), std::string::npos);
+  EXPECT_NE(result.error().message.find("place the cloud with --pairs first"), std::string::npos);
   Progress cancelled;
   cancelled.cancel();
   EXPECT_EQ(fitToSurface(pointsOn(kRoom, 0), {}, kRoom.search(), {}, cancelled).error().kind, ErrorKind::cancelled);

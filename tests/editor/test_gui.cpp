@@ -321,9 +321,9 @@ TEST_F(Gui, FollowsTheBudgetsSliderAtOnceAndForgetsItWhenOptimised) {
   editor.panels.of<OptimiseState>().live = true;
   editor.panels.of<OptimiseState>().max_deviation_mm = 500;
   const auto whole = sceneTriangleCount(*editor.environment());
-  const auto shownAt = [&](double share) -> std::uint64_t {
-    editor.panels.of<OptimiseState>().budget_share = share;
-    const auto budget = static_cast<std::uint64_t>(std::llround(share * static_cast<double>(whole)));
+  const auto shownAt = [&](double fraction) -> std::uint64_t {
+    editor.panels.of<OptimiseState>().budget_fraction = fraction;
+    const auto budget = static_cast<std::uint64_t>(std::llround(fraction * static_cast<double>(whole)));
     for (int i = 0; i < 400; ++i) {
       gui.frame();
       const auto state = editor.budget_preview.state();

@@ -215,7 +215,7 @@ TEST_F(Preview, OfACloudWithoutAnyModelSaysWhatToDo) {
   openFiles(editor, {file});
   gui.frames(1);
   ASSERT_EQ(editor.session.errors().size(), 1u);
-  EXPECT_NE(editor.session.errors()[0].error.message.find("import one first"), std::string::npos);
+  EXPECT_NE(editor.session.errors()[0].error.message.find("Import a model first"), std::string::npos);
   std::filesystem::remove(file);
 }
 

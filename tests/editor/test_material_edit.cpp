@@ -93,12 +93,12 @@ TEST(MaterialEdit, OfAMetalSaysWhichRowIsWrong) {
     return said;
   };
   EXPECT_EQ(flaw({{532, 1, 1}, {905, 1, 1}}), "");
-  EXPECT_NE(flaw({{905, 1, 1}, {532, 1, 1}}).find("Row 2: wavelengths must rise"), std::string::npos);
+  EXPECT_NE(flaw({{905, 1, 1}, {532, 1, 1}}).find("Row 2: wavelengths must increase"), std::string::npos);
   EXPECT_NE(flaw({{905, 1, 1}, {905, 1, 1}}).find("Row 2"), std::string::npos);
   EXPECT_NE(flaw({{100, 1, 1}}).find("Row 1: a wavelength"), std::string::npos);
-  EXPECT_NE(flaw({{905, 0, 1}}).find("n is from"), std::string::npos);
-  EXPECT_NE(flaw({{905, 1, -1}}).find("k is from"), std::string::npos);
-  EXPECT_NE(flaw({{905, 1, std::nan("")}}).find("k is from"), std::string::npos);
+  EXPECT_NE(flaw({{905, 0, 1}}).find("n must be from"), std::string::npos);
+  EXPECT_NE(flaw({{905, 1, -1}}).find("k must be from"), std::string::npos);
+  EXPECT_NE(flaw({{905, 1, std::nan("")}}).find("k must be from"), std::string::npos);
 }
 
 TEST(MaterialEdit, SaysWhatIsWrongBeforeItIsKept) {

@@ -59,7 +59,7 @@ TEST_F(Targets, AreMeasuredOnceTheirScanIsThere) {
   // The demo's S2 claims a scan whose file is nowhere.
   editor.target_list.wait();
   gui.frames(2);
-  EXPECT_NE(editor.target_list.problem().find("S2.e57"), std::string::npos) << "what cannot be read is said";
+  EXPECT_NE(editor.target_list.problem().find("S2.e57"), std::string::npos) << "what could not be read is said";
   Document document = editor.session.document();
   Job job = *document.job;
   job.stations[1].scans.clear();

@@ -134,12 +134,12 @@ TEST(Blk360, MovedWhileItMeasuresIsAnErrorAndTheFirstGenerationKeepsAPart) {
   ASSERT_TRUE(d.press({"settings", "images=off", "back", "scan"}));
   ASSERT_TRUE(d->takeOrder());
   d->tick(27.5);
-  ASSERT_TRUE(d->hand("push"));
+  ASSERT_TRUE(d->hand("tripod_moved"));
   EXPECT_EQ(d.fact("device.state"), "Error");
   EXPECT_EQ(d.shows("error_name"), "Device_Moved");
   EXPECT_EQ(d.fact("data.state"), "Partial");
   EXPECT_EQ(d.shows("lamp"), "red blinking");
-  EXPECT_NEAR(d.scanned().until_share, 0.5, 0.01);
+  EXPECT_NEAR(d.scanned().until_fraction, 0.5, 0.01);
   ASSERT_TRUE(d.press({"acknowledge"}));
   d->tick(5);
   EXPECT_EQ(d.fact("device.state"), "Idle");
@@ -150,7 +150,7 @@ TEST(Blk360, MovedWhileItMeasuresAbortsTheSecondGenerationsCapture) {
   TestDevice d = ready(kG2);
   ASSERT_TRUE(d.press({"scan"}));
   d->tick(22);
-  ASSERT_TRUE(d->trouble("moved"));
+  ASSERT_TRUE(d->trouble("tripod_moved"));
   EXPECT_EQ(d.fact("capture"), "Aborted");
   EXPECT_EQ(d.shows("error_action"), "Acknowledge");
   EXPECT_TRUE(d->takeCancel());

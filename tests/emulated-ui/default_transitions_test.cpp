@@ -31,8 +31,8 @@ DeviceRoles everything() {
 }
 
 TEST(DefaultTransitions, StandBehindTheDevicesOwn) {
-  const auto rows = withDefaults({{"scanning", "moved", "tilt > 1", "idle"}}, everything());
-  const auto moved = of(rows, "moved");
+  const auto rows = withDefaults({{"scanning", "tripod_moved", "tilt > 1", "idle"}}, everything());
+  const auto moved = of(rows, "tripod_moved");
   ASSERT_EQ(moved.size(), 3U);  // its own, that of a scan, and that of adjusting
   EXPECT_STREQ(moved[0].guard, "tilt > 1");
   EXPECT_STREQ(moved[1].to, "error");
@@ -81,9 +81,9 @@ TEST(DefaultTransitions, RefuseBeforeTheyAskAndAskBeforeTheyStart) {
 
 TEST(DefaultTransitions, CarryTheDevicesMarks) {
   auto roles = everything();
-  roles.marks = {{"S1", "moved start/card_full"}};
+  roles.marks = {{"S1", "tripod_moved start/card_full"}};
   for (const auto& row : withDefaults({}, roles)) {
-    const bool marked = rowName(row) == "moved" || rowName(row) == "start/card_full";
+    const bool marked = rowName(row) == "tripod_moved" || rowName(row) == "start/card_full";
     EXPECT_STREQ(row.source, marked ? "S1" : "P") << rowName(row);
   }
 }

@@ -168,7 +168,7 @@ TEST_F(Focus, KeepsOrDropsThePartOfAStoppedScan) {
   TestDevice dropped = d;
   ASSERT_TRUE(d.press({"stop", "keep_partial"}));
   const auto order = d.scanned();
-  EXPECT_LT(order.until_share, 0.6);
+  EXPECT_LT(order.until_fraction, 0.6);
   d.settle();
   EXPECT_EQ(d.fact("newest.partial"), "yes");
   ASSERT_TRUE(dropped.press({"stop", "discard"}));
@@ -213,11 +213,11 @@ TEST_F(Focus, CarriedAwayWhileItPhotographsIsTheSameTroubleAsWhileItScans) {
   ASSERT_EQ(d.phase(), "photographing");
   ASSERT_TRUE(d->hand("stand_at", "S2"));
   EXPECT_EQ(d.phase(), "error");
-  EXPECT_EQ(d.dialog(), "moved");
+  EXPECT_EQ(d.dialog(), "tripod_moved");
   ASSERT_TRUE(d.press({"ok", "keep"}));
-  EXPECT_TRUE(d.scanned().bumped_at_share.has_value());
+  EXPECT_TRUE(d.scanned().tripod_moved_at_fraction.has_value());
   d.settle();
-  EXPECT_EQ(d.fact("newest.moved"), "yes");
+  EXPECT_EQ(d.fact("newest.tripod_moved"), "yes");
   EXPECT_EQ(d->newestSetup()->station, "S1");
 }
 

@@ -180,7 +180,7 @@ TEST_F(Generic, KeepsAPartWhenStopped) {
   d->tick(d->fact("expected.scan")->number.value() / 2);
   ASSERT_TRUE(d.press({"stop", "keep_partial"}));
   const auto order = d.scanned();
-  EXPECT_NEAR(order.until_share, 0.5, 0.01);
+  EXPECT_NEAR(order.until_fraction, 0.5, 0.01);
   d->tick(10);
   EXPECT_EQ(d.fact("newest.partial"), "yes");
 }

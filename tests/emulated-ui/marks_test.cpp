@@ -97,11 +97,11 @@ TEST_F(MarksTest, NameTheDemandsThatWereNeededToPassAndDidNotHold) {
   EXPECT_FALSE(m["passed"].get<bool>());
   EXPECT_GT(m["score"], m["pass_mark"]) << "the points alone would do";
   EXPECT_EQ(m["must_broken"], json::array({"fine"}));
-  EXPECT_THAT(marksText(m), HasSubstr("needed to pass, but broken: Low noise\n"));
-  EXPECT_THAT(page(), HasSubstr("Needed to pass, but broken: Low noise</p>"));
+  EXPECT_THAT(marksText(m), HasSubstr("required criterion not met: Low noise\n"));
+  EXPECT_THAT(page(), HasSubstr("Required criterion not met: Low noise</p>"));
   for (const char* needed : {"Low noise", "Stay on"}) {
-    EXPECT_THAT(marksText(m), HasSubstr(std::string(needed) + " (needed to pass): "));
-    EXPECT_THAT(page(), HasSubstr(std::string(needed) + "<br><small>needed to pass</small>"));
+    EXPECT_THAT(marksText(m), HasSubstr(std::string(needed) + " (required to pass): "));
+    EXPECT_THAT(page(), HasSubstr(std::string(needed) + "<br><small>required to pass</small>"));
   }
   EXPECT_THAT(page(), HasSubstr("Warm up</td>"));
 }
@@ -127,10 +127,10 @@ TEST_F(MarksTest, AreRoundedForPeopleAndNotForMachines) {
   const auto shown_sigma = fmt::format("expected.sigma.25.10 = {:.3g} mm", sigma);
   ASSERT_NE(fmt::format("{:.3g}", sigma), fmt::format("{}", sigma)) << "it has something to round";
   const auto shown = shown_sigma + fmt::format(", battery = {:.3g} %", battery * 100);
-  EXPECT_THAT(marksText(m), HasSubstr("(needed to pass): " + shown + "\n"));
-  EXPECT_THAT(marksText(m), HasSubstr("your points: " + shown_sigma + "\n"));
+  EXPECT_THAT(marksText(m), HasSubstr("(required to pass): " + shown + "\n"));
+  EXPECT_THAT(marksText(m), HasSubstr("measured in the data: " + shown_sigma + "\n"));
   EXPECT_THAT(page(), HasSubstr("<td>" + shown + "<br>"));
-  EXPECT_THAT(page(), HasSubstr("in the points: " + shown_sigma + "</small>"));
+  EXPECT_THAT(page(), HasSubstr("measured in the data: " + shown_sigma + "</small>"));
   EXPECT_THAT(page(), HasSubstr("<td>time = 1:40</td>"));
   EXPECT_EQ(rowsOf(marksCsv(m))[1].at("value"), fmt::format("{}", sigma));
 }
@@ -186,12 +186,13 @@ TEST_F(MarksTest, AreFramedInTheLanguageOfThePage) {
   const auto english = page();
   const std::pair<const char*, std::vector<const char*>> kFrames[] = {
       {"de",
-       {"Nicht bestanden", "14.3 % der Punkte (20 % sind nötig)", "Zum Bestehen nötig, aber verletzt",
+       {"Nicht bestanden", "14.3 % der Punkte (20 % erforderlich)", "Pflichtkriterium nicht erfüllt",
         "Schritt oder Forderung", "Erwartet", "Gefunden", "Benutzte Hinweise", "Bewertet am", "nicht beantwortet",
         "in den Messpunkten", "Standpoint bildet"}},
       {"uk",
-       {"Не складено", "14.3 % балів (потрібно 20 %)", "Обов’язкове, але порушено", "Крок або вимога", "Очікувалося",
-        "Виявлено", "Використано підказок", "Оцінено", "без відповіді", "у точках скану", "Прилад відтворено"}}};
+       {"Не складено", "14.3 % балів (потрібно 20 %)", "Обов’язковий критерій не виконано", "Крок або вимога",
+        "Очікувалося", "Виявлено", "Використано підказок", "Оцінено", "без відповіді", "у точках скану",
+        "Прилад відтворено"}}};
   for (const auto& [language, frame] : kFrames) {
     const auto text = page(language);
     for (const char* said : frame) EXPECT_THAT(text, HasSubstr(said));
@@ -199,7 +200,7 @@ TEST_F(MarksTest, AreFramedInTheLanguageOfThePage) {
          {"assed", "Expected", "ound<", "Points", "Hints", "Marked", "answered", "emulated", "marks."})
       EXPECT_THAT(text, Not(HasSubstr(foreign))) << language;
   }
-  EXPECT_THAT(english, HasSubstr("<b>Not passed</b>, 14.3 % of the points (20 % are needed)"));
+  EXPECT_THAT(english, HasSubstr("<b>Not passed</b>, score 14.3 % (20 % required)"));
 }
 
 }  // namespace

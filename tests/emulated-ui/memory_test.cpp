@@ -181,7 +181,7 @@ TEST(Memory, AHostReadsItOnceAndWritesItAfterEachPress) {
   ASSERT_TRUE(third.device().act("power"));
   (void)third.update(document, scans, 1);
   std::ifstream in(file);
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "{") << "what cannot be read is not written over";
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "{") << "what could not be read is not written over";
 }
 
 }  // namespace

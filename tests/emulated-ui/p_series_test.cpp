@@ -406,7 +406,7 @@ TEST_F(PSeries, AStoppedScanIsDiscardedOrKeptInPart) {
   d->tick(54.5);
   TestDevice dropped = d;
   ASSERT_TRUE(d.press({"stop", "keep_partial"}));
-  EXPECT_NEAR(d.scanned().until_share, 0.5, 0.01);
+  EXPECT_NEAR(d.scanned().until_fraction, 0.5, 0.01);
   d->tick(5);
   EXPECT_EQ(d.fact("newest.partial"), "yes");
   ASSERT_TRUE(dropped.press({"stop", "discard"}));
@@ -417,8 +417,8 @@ TEST_F(PSeries, APushWhileItMeasuresATargetSpoilsThatTarget) {
   ready();
   ASSERT_TRUE(d.press({"targets", "measure_target", "view_list=T1", "pick"}));
   ASSERT_TRUE(d->takeOrder());
-  ASSERT_TRUE(d->hand("push"));
-  EXPECT_EQ(d.dialog(), "moved");
+  ASSERT_TRUE(d->hand("tripod_moved"));
+  EXPECT_EQ(d.dialog(), "tripod_moved");
   EXPECT_EQ(d.screen(), "pick_target");
   EXPECT_TRUE(d->takeCancel());
   EXPECT_EQ(d.fact("targets.sighted"), "0");
@@ -429,13 +429,13 @@ TEST_F(PSeries, TellsThatItWasPushedAndKeepsOrDiscardsTheScan) {
   scanWithoutSetup();
   ASSERT_TRUE(d->takeOrder());
   d->tick(54.5);
-  ASSERT_TRUE(d->trouble("moved"));
+  ASSERT_TRUE(d->trouble("tripod_moved"));
   EXPECT_EQ(d.phase(), "error");
   TestDevice other = d;
   ASSERT_TRUE(d.press({"ok", "keep"}));
-  EXPECT_NEAR(d.scanned().bumped_at_share.value_or(0), 0.5, 0.01);
+  EXPECT_NEAR(d.scanned().tripod_moved_at_fraction.value_or(0), 0.5, 0.01);
   d->tick(5);
-  EXPECT_EQ(d.fact("newest.moved"), "yes");
+  EXPECT_EQ(d.fact("newest.tripod_moved"), "yes");
   ASSERT_TRUE(other.press({"ok", "discard"}));
   EXPECT_EQ(other.fact("setups"), "0");
 }

@@ -138,8 +138,8 @@ bool isListed(Device& d) { return d.project()->setups.size() == 3 && d.state().s
 bool isDropped(Device& d) { return !d.state().running && d.project()->setups.size() == 2; }
 bool isUnlevelled(Device& d) { return d.state().running && !d.state().running->compensator; }
 bool isReserved(Device& d) { return d.state().running && d.state().running->number == 3; }
-bool isCut(Device& d) { return d.state().running && d.state().running->until_share < 1; }
-bool wasPushed(Device& d) { return d.state().moved && d.state().running->bumped_at_share; }
+bool isCut(Device& d) { return d.state().running && d.state().running->until_fraction < 1; }
+bool wasPushed(Device& d) { return d.state().moved && d.state().running->tripod_moved_at_fraction; }
 bool isLinking(Device& d) {
   const auto order = d.takeOrder();
   return order && std::holds_alternative<LinkOrder>(*order);
@@ -221,9 +221,11 @@ const std::vector<ReferenceRow>& referenceRows() {
        then("stop_confirmed", "idle", says("discarded", isDropped))},
       {"2.2/12", kRtc, "", "photographing", "stop", runs, "photographing", "stop_question",
        then("stop_confirmed", "idle", says("discarded", isDropped))},
-      {"2.2/13", kRtc, "", "scanning_pass_1", "moved", runs, "error", "moved", says("flagged", wasPushed)},
-      {"2.2/13", kRtc, "", "scanning_pass_2", "moved", runs, "error", "moved", says("flagged", wasPushed)},
-      {"2.2/13", kRtc, "", "photographing", "moved", runs, "error", "moved", says("flagged", wasPushed)},
+      {"2.2/13", kRtc, "", "scanning_pass_1", "tripod_moved", runs, "error", "tripod_moved",
+       says("flagged", wasPushed)},
+      {"2.2/13", kRtc, "", "scanning_pass_2", "tripod_moved", runs, "error", "tripod_moved",
+       says("flagged", wasPushed)},
+      {"2.2/13", kRtc, "", "photographing", "tripod_moved", runs, "error", "tripod_moved", says("flagged", wasPushed)},
 
       {"2.3/1", kBlk, kFirstBlk, "ready", "key", nothing, "self_timer", "",
        then("elapsed", "shooting", fact("operation", "Standalone"))},
@@ -231,7 +233,7 @@ const std::vector<ReferenceRow>& referenceRows() {
        both(fact("operation", "PanoramaShoot"), then("elapsed", "scanning", fact("operation", "PointCloudScan")))},
       {"2.3/3", kBlk, kFirstBlk, "scanning", "elapsed", measured, "storing", "",
        then("elapsed", "ready", both(fact("device.state", "Idle"), fact("data.state", "Complete")))},
-      {"2.3/4", kBlk, kFirstBlk, "scanning", "moved", runs, "error", "", partial("Device_Moved")},
+      {"2.3/4", kBlk, kFirstBlk, "scanning", "tripod_moved", runs, "error", "", partial("Device_Moved")},
       {"2.3/5", kBlk, kFirstBlk, "scanning", "blocked", runs, "error", "", partial("Device_Blocked")},
       {"2.3/6", kBlk, kFirstBlk, "ready", "battery_low", nothing, "error", "", fact("error", "Low_Battery")},
       {"2.3/6", kBlk, kFirstBlk, "self_timer", "battery_low", nothing, "error", "", fact("error", "Low_Battery")},

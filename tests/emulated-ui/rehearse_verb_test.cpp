@@ -101,7 +101,7 @@ TEST(Rehearse, ThatIsNotPassedIsALossWithTheReasonAndOneThatIsPassedIsNone) {
   EXPECT_FALSE(failed->answer["passed"].get<bool>());
   ASSERT_EQ(failed->report.losses(), 1U);
   EXPECT_THAT(failed->report.issues.back().message, HasSubstr("not passed: "));
-  EXPECT_THAT(failed->report.issues.back().message, HasSubstr("'fine_enough' must hold"));
+  EXPECT_THAT(failed->report.issues.back().message, HasSubstr("required: 'fine_enough'"));
   const auto passed = rehearseVerb({{"exercise", "E03-X7"}, {"solution", true}, {"output", out}});
   ASSERT_TRUE(passed) << describe(passed.error());
   EXPECT_TRUE(passed->answer["passed"].get<bool>());

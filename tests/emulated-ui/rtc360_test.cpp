@@ -296,17 +296,18 @@ TEST_F(Rtc360, TellsThatItWasPushedAndKeepsOrDiscardsTheScan) {
   ASSERT_TRUE(d.press({"settings", "resolution=12mm", "images=off", "back", "scan"}));
   ASSERT_TRUE(d->takeOrder());
   d->tick(13);
-  ASSERT_TRUE(d->trouble("moved"));
+  ASSERT_TRUE(d->trouble("tripod_moved"));
   EXPECT_EQ(d.phase(), "error");
   EXPECT_TRUE(d->takeCancel());
   const auto order = d->takeOrder();
   ASSERT_TRUE(order);
-  EXPECT_NEAR(std::get<ScanOrder>(*order).bumped_at_share.value_or(0), 0.5, 0.01) << "the rest stands elsewhere";
+  EXPECT_NEAR(std::get<ScanOrder>(*order).tripod_moved_at_fraction.value_or(0), 0.5, 0.01)
+      << "the rest stands elsewhere";
   TestDevice other = d;
   ASSERT_TRUE(d.press({"ok", "keep"}));
   d.finish(std::get<ScanOrder>(*order));
   d.settle();
-  EXPECT_EQ(d.fact("newest.moved"), "yes");
+  EXPECT_EQ(d.fact("newest.tripod_moved"), "yes");
   ASSERT_TRUE(other.press({"ok", "discard"}));
   EXPECT_EQ(other.phase(), "idle");
   EXPECT_EQ(other.fact("setups"), "0");
@@ -391,7 +392,7 @@ TEST_F(Rtc360, CarriedAwayWhileItPhotographsIsTheSameTroubleAsWhileItScans) {
   ASSERT_EQ(d.phase(), "photographing");
   ASSERT_TRUE(d->hand("stand_at", "S2"));
   EXPECT_EQ(d.phase(), "error");
-  EXPECT_EQ(d.dialog(), "moved");
+  EXPECT_EQ(d.dialog(), "tripod_moved");
   ASSERT_TRUE(d.press({"ok", "discard"}));
   EXPECT_EQ(d.fact("setups"), "0");
 }

@@ -14,7 +14,7 @@
 namespace standpoint {
 namespace {
 
-const char* const kExcuse = "no effect here";  // in the English help
+const char* const kExcuse = "no effect in the emulation";  // in the English help
 
 // --- settings of the scanner: what a scan with them does ---
 
@@ -47,8 +47,8 @@ bool changesTheScan(const Instrument& instrument, const InstrumentSetting& setti
   std::vector<std::string> values;
   for (const auto& choice : setting.choices) values.push_back(choice.value);
   if (setting.choices.empty())
-    for (const double share : {0.0, 0.3, 0.7, 1.0})
-      values.push_back(fmt::format("{:g}", setting.minimum + share * (setting.maximum - setting.minimum)));
+    for (const double fraction : {0.0, 0.3, 0.7, 1.0})
+      values.push_back(fmt::format("{:g}", setting.minimum + fraction * (setting.maximum - setting.minimum)));
   for (const auto& ground : grounds) {
     std::set<std::string> scans;
     for (const auto& value : values) {

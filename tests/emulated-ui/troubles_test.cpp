@@ -24,10 +24,11 @@ TEST(Troubles, WhoTurnsTheFootScrewsUnderAScanMovesTheInstrument) {
     ASSERT_TRUE(type);
     for (const auto& phase : (*type)->definition.phases) {
       if (!phase.laser) continue;
-      for (const auto& [hand, value] : {std::pair{"level", ""}, std::pair{"tilt", "0.01,0"}, std::pair{"push", ""}}) {
+      for (const auto& [hand, value] :
+           {std::pair{"level", ""}, std::pair{"tilt", "0.01,0"}, std::pair{"tripod_moved", ""}}) {
         Device d = working(*type, phase, phase.screen);
         ASSERT_TRUE(d.hand(hand, value));
-        EXPECT_TRUE(d.state().dialog == "moved" || d.state().phase != phase.id)
+        EXPECT_TRUE(d.state().dialog == "tripod_moved" || d.state().phase != phase.id)
             << row.id << ", " << phase.id << ", " << hand;
       }
     }

@@ -180,7 +180,7 @@ TEST_F(VzI, PhotographsDuringTheScanOrAfterIt) {
   ASSERT_TRUE(d.press({"images=on", "image_mode=after_scan"}));
   EXPECT_EQ(d.shows("image_time"), "1:00");
   ASSERT_TRUE(d.press({"image_overlap=50"}));
-  EXPECT_EQ(d.shows("image_time"), "1:30") << "0.75 / 0.5 of the pictures";
+  EXPECT_EQ(d.shows("image_time"), "1:30") << "0.75 / 0.5 imaging";
   TestDevice after = d;
   ASSERT_TRUE(after.press({"back", "start_scan"}));
   EXPECT_TRUE(after.scanned().panorama);
@@ -375,12 +375,12 @@ TEST_F(VzI, TellsThatItWasPushedAndStopsWhenAsked) {
   ASSERT_TRUE(d.press({"start_scan"}));
   d.scanned();
   TestDevice other = d;
-  ASSERT_TRUE(d->trouble("moved"));
+  ASSERT_TRUE(d->trouble("tripod_moved"));
   EXPECT_EQ(d.phase(), "error");
   d.scanned();
   ASSERT_TRUE(d.press({"ok", "keep"}));
   d->tick(10);
-  EXPECT_EQ(d.fact("newest.moved"), "yes");
+  EXPECT_EQ(d.fact("newest.tripod_moved"), "yes");
   ASSERT_TRUE(other.press({"stop", "yes"}));
   EXPECT_EQ(other.phase(), "waiting");
   EXPECT_EQ(other.fact("setups"), "0");

@@ -200,7 +200,7 @@ TEST_F(X7, MustStartAgainWhenItIsMovedBeforeTheLaser) {
   ready();
   ASSERT_TRUE(d.press({"start_scan"}));
   d->tick(18);
-  ASSERT_TRUE(d->hand("push"));
+  ASSERT_TRUE(d->hand("tripod_moved"));
   EXPECT_EQ(d.dialog(), "moved_early");
   EXPECT_EQ(d.phase(), "idle");
 }

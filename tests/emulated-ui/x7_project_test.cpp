@@ -87,7 +87,7 @@ TEST_F(X7, ListsProjectsThatHaveAPicture) {
   const auto screen = d->screen();
   const auto* list = findWidget(screen, "project_list");
   ASSERT_NE(list, nullptr);
-  EXPECT_EQ(list->options[0].label, "A  (0)  (with a picture)");
+  EXPECT_EQ(list->options[0].label, "A  (0)  (with image)");
   EXPECT_EQ(list->options[1].label, "B  (0)");
 }
 

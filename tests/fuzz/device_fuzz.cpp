@@ -117,7 +117,7 @@ void play(Device& device, FuzzedDataProvider& data) {
       case 0: device.tick(data.ConsumeIntegralInRange(1, 4000)); break;
       case 1:
         (void)device.trouble(
-            data.PickValueInArray({"battery_low", "card_missing", "moved", "too_hot", "tilted", "wlan_lost"}));
+            data.PickValueInArray({"battery_low", "card_missing", "tripod_moved", "too_hot", "tilted", "wlan_lost"}));
         break;
       case 2: (void)device.hand("stand_at", "S1"); break;
       case 3:

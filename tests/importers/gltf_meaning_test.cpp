@@ -97,7 +97,7 @@ TEST(GltfTextures, InOtherFormatsAreNamedAndTheFallbackIsTaken) {
   EXPECT_EQ(model->environment.surfaces.at(1).image, -1);
   EXPECT_EQ(model->environment.surfaces.at(2).image, -1);
   ASSERT_EQ(model->report.losses(), 2U);
-  EXPECT_THAT(model->report.issues.at(1).message, HasSubstr("is KTX2, which is not read and has no PNG or JPEG"));
+  EXPECT_THAT(model->report.issues.at(1).message, HasSubstr("is KTX2, which is not supported and has no PNG or JPEG"));
   EXPECT_THAT(model->report.issues.at(2).message, HasSubstr("is WebP"));
 }
 
@@ -121,7 +121,7 @@ TEST(GltfTextures, OutsideTheFolderOfTheModelAreNotRead) {
     ASSERT_TRUE(model) << outside;
     EXPECT_TRUE(model->environment.images.empty()) << outside;
     EXPECT_EQ(model->report.losses(), 1U) << outside;
-    EXPECT_THAT(model->report.issues.at(0).message, HasSubstr("does not lie in the model's folder")) << outside;
+    EXPECT_THAT(model->report.issues.at(0).message, HasSubstr("is not in the model's folder")) << outside;
   }
 }
 
@@ -181,10 +181,10 @@ TEST(GltfMaterials, KeepTheOpticsAndNameTheRest) {
   EXPECT_EQ(model->environment.surfaces.at(2).colour, (Colour{0, 1, 0, 1}));
   std::vector<std::string> messages;
   for (const auto& issue : model->report.issues) messages.push_back(issue.message);
-  EXPECT_THAT(
-      messages,
-      ElementsAre("2 variants of the materials (summer, winter) are not read; those of the default are used",
-                  "KHR_materials_sheen is not kept, here and of 1 more materials", "normalTexture is not kept"));
+  EXPECT_THAT(messages,
+              ElementsAre("2 variants of the materials (summer, winter) were not read; the default variant is used",
+                          "KHR_materials_sheen is not supported, here and in 1 more materials",
+                          "normalTexture is not supported"));
 }
 
 TEST(GltfPose, MorphTargetsAreAddedByTheWeightsOfTheNodeElseOfTheMesh) {
@@ -236,9 +236,8 @@ TEST(GltfScenes, OnlyTheDefaultOneIsReadAndTheOthersAreCounted) {
   EXPECT_EQ(model->environment.products.at(0).id, "/nodes/1");
   EXPECT_LT(model->environment.instances.at(0).world_from_mesh.linear().determinant(), 0);
   ASSERT_EQ(model->report.losses(), 2U);
-  EXPECT_EQ(model->report.issues.at(0).message, "holds 3 points, which are not a surface");
-  EXPECT_EQ(model->report.issues.at(1).message,
-            "1 nodes with a mesh are not in the scene that the file shows by default");
+  EXPECT_EQ(model->report.issues.at(0).message, "holds 3 points, which are not surfaces");
+  EXPECT_EQ(model->report.issues.at(1).message, "1 nodes with meshes are not in the default scene");
 }
 
 TEST(GltfScenes, CesiumRtcMovesTheModelInAFrameThatIsZUp) {
@@ -308,7 +307,7 @@ TEST(GltfRefusesWithARemedy, WhatItDoesNotUnderstand) {
   ASSERT_FALSE(model);
   EXPECT_THAT(
       describe(model.error()),
-      HasSubstr("/extensionsRequired/0: 'NEW_geometry' is required and not understood; export the model without it"));
+      HasSubstr("/extensionsRequired/0: 'NEW_geometry' is required but not supported; export the model without it"));
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ TEST_F(HeliosScene, TellsWhatHeliosHasNoWordsFor) {
   std::string all;
   for (const auto& issue : report.issues) all += issue.message + "\n";
   EXPECT_NE(all.find("panes are opaque"), std::string::npos);
-  EXPECT_NE(all.find("none is assigned"), std::string::npos);
+  EXPECT_NE(all.find("no material assigned"), std::string::npos);
 }
 
 TEST_F(HeliosScene, ThatCannotBeWrittenIsAnErrorWithItsFile) {

@@ -25,7 +25,7 @@ TEST(IfcConstruct, AnOutlineThatCrossesItselfIsFilledOnBothSides) {
               "#102=IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$,#101);\n#103=IFCEXTRUDEDAREASOLID(#102,$,#4,1.);\n" +
               product(110, "IFCSLAB", "#103")));
   EXPECT_NEAR(volumeOf(model, "#110"), 0.5, 1e-6);  // two triangles of base 1 and height 1/2
-  EXPECT_TRUE(tells(model, "#102", "crosses itself")) << issuesOf(model);
+  EXPECT_TRUE(tells(model, "#102", "intersects itself")) << issuesOf(model);
 }
 
 TEST(IfcConstruct, ATaperedRevolutionFollowsPappus) {
@@ -101,7 +101,7 @@ TEST(IfcConstruct, WhatWasMendedIsSaidForTheProduct) {
                          "IFCTRIANGULATEDFACESET(#100,$,.T.,((1,2,3),(1,4,2),(1,3,4),(2,4,3),(2,4,3)),$);\n" +
                          product(110, "IFCFURNISHINGELEMENT", "#101", "Tessellation")));
   EXPECT_NEAR(volumeOf(model, "#110"), 1.0 / 6, 1e-6);
-  EXPECT_TRUE(tells(model, "#110", "inside out")) << issuesOf(model);
+  EXPECT_TRUE(tells(model, "#110", "inverted shells")) << issuesOf(model);
   EXPECT_TRUE(tells(model, "#110", "twice")) << issuesOf(model);
 }
 
@@ -135,7 +135,7 @@ TEST(IfcConstruct, AShellThatIsSaidToBeClosedAndIsNotIsPointedOut) {
       importText(ifcText("#100=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(1.,0.,0.),(0.,1.,0.),(0.,0.,1.)));\n#101="
                          "IFCTRIANGULATEDFACESET(#100,$,.T.,((1,3,2),(1,2,4),(1,4,3)),$);\n" +
                          product(110, "IFCFURNISHINGELEMENT", "#101", "Tessellation")));
-  EXPECT_TRUE(tells(model, "#110", "said to be closed")) << issuesOf(model);
+  EXPECT_TRUE(tells(model, "#110", "declared closed")) << issuesOf(model);
 }
 
 TEST(IfcConstruct, ATurnThatRoundingCarriedBeyondItselfIsAWholeOne) {
@@ -180,7 +180,7 @@ TEST(IfcConstruct, ArcsBeyondATurnOfRadiansAreInDegreesWhereNoUnitIsStated) {
   text.replace(text.find("(#10,#13)"), 9, "(#10)");
   const ImportedModel model = importText(text);
   EXPECT_NEAR(volumeOf(model, "#110"), std::numbers::pi, 0.01);
-  EXPECT_TRUE(tells(model, "#11", "degrees are assumed")) << issuesOf(model);
+  EXPECT_TRUE(tells(model, "#11", "degrees assumed")) << issuesOf(model);
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ TEST(IfcGeoreference, AScaleBetweenUnitsTellsTheMapsUnitWhereNothingElseDoes) {
                          kMetre));
   EXPECT_NEAR(conversion(foot).eastings_m, 316131.64 * 1200 / 3937, 1e-6);
   EXPECT_EQ(conversion(foot).scale, 1);
-  EXPECT_TRUE(says(foot, "not back as the schema has it"));
+  EXPECT_TRUE(says(foot, "inverted compared to the schema"));
 }
 
 TEST(IfcGeoreference, MetresWithoutAStatedUnitAreSeenInAProjectOfMillimetres) {
@@ -104,7 +104,7 @@ TEST(IfcGeoreference, TheCodeInAWellKnownTextNamesTheMap) {
               "#62=IFCWELLKNOWNTEXT('PROJCRS[\"x\",BASEGEOGCRS[\"y\",ID[\"EPSG\",4258]],ID[\"EPSG\",25833]]',#60);\n",
               kMetre, "IFC4X3_ADD2"));
   EXPECT_EQ(model.georeference.crs, "EPSG:25833");
-  EXPECT_FALSE(says(model, "is no EPSG code"));
+  EXPECT_FALSE(says(model, "is not an EPSG code"));
 }
 
 TEST(IfcGeoreference, AWorldCoordinateSystemFarAwayIsThePlaceOnTheMap) {
@@ -122,13 +122,13 @@ TEST(IfcGeoreference, FaultsAreNamed) {
                               ",$,$,#10);\n#61=IFCMAPCONVERSION(#12,#60,1.,2.,3.,1.,0.,1.);\n"));
   };
   EXPECT_TRUE(says(with("", "$", "$"), "warning #60: the coordinate reference system has no name"));
-  EXPECT_TRUE(says(with("EPSG:12invalid", "$", "$"), "warning #60: 'EPSG:12invalid' is no EPSG code"));
+  EXPECT_TRUE(says(with("EPSG:12invalid", "$", "$"), "warning #60: 'EPSG:12invalid' is not an EPSG code"));
   EXPECT_TRUE(says(with("EPSG:99999", "$", "$"), "warning #60: EPSG:99999 is no coordinate reference system"));
   EXPECT_TRUE(says(with("EPSG:4326", "$", "$"), "warning #60: EPSG:4326 is not a projected"));
   EXPECT_TRUE(says(with("EPSG:25832", "'EPSG:0000'", "$"),
-                   "warning #60: the geodetic datum 'EPSG:0000' is none in the EPSG dataset"));
+                   "warning #60: geodetic datum 'EPSG:0000' is not in the EPSG dataset"));
   EXPECT_TRUE(says(with("EPSG:25832", "$", "'EPSG:1234'"),
-                   "warning #60: the vertical datum 'EPSG:1234' is none in the EPSG dataset"));
+                   "warning #60: vertical datum 'EPSG:1234' is not in the EPSG dataset"));
   EXPECT_EQ(issuesOf(with("EPSG:25832", "'EPSG:6258'", "'EPSG:5703'")), "");
 }
 
@@ -138,7 +138,7 @@ TEST(IfcGeoreference, ContextsThatDisagreeAreTold) {
       "IFCGEOMETRICREPRESENTATIONCONTEXT($,'Model',3,1.E-5,#2,$);\n";
   EXPECT_TRUE(says(importText(ifcText(crs)), "warning #62: the context is not placed on the map"));
   EXPECT_TRUE(says(importText(ifcText(crs + "#63=IFCMAPCONVERSION(#62,#60,9.,2.,3.,1.,0.,1.);\n")),
-                   "warning #63: places its context on the map otherwise than #61"));
+                   "warning #63: conflicts with the map position from #61"));
   EXPECT_EQ(issuesOf(importText(ifcText(crs + "#63=IFCMAPCONVERSION(#62,#60,1.,2.,3.,1.,0.,1.);\n"))), "");
 }
 

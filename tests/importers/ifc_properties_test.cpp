@@ -158,7 +158,7 @@ TEST(IfcProperties, PropertiesThatMultiplyAreCutWithALoss) {
   const ImportedModel model =
       importText(ifcText(withSet(bomb + "#128=IFCPROPERTYSINGLEVALUE('V',$,IFCREAL(1.),$);\n", "#120,#121")));
   EXPECT_EQ(productOf(model, "#110").properties.size(), 10000U);
-  EXPECT_EQ(issuesOf(model), "loss #110: has more than 10 000 properties; the others are left out\n");
+  EXPECT_EQ(issuesOf(model), "loss #110: has more than 10 000 properties; the rest were skipped\n");
 }
 
 TEST(IfcProperties, OldOpticalPropertiesOfAMaterialAreTold) {

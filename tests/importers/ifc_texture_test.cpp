@@ -55,7 +55,7 @@ TEST(IfcTexture, PointsInTheModelBecomeAPng) {
 
 TEST(IfcTexture, AClaimOfMorePointsThanThereAreIsALoss) {
   const ImportedModel model = importText(ifcText(square("IFCPIXELTEXTURE(.T.,.T.,$,$,$,16384,16384,3,(\"0FF0000\"))")));
-  EXPECT_EQ(issuesOf(model), "loss #120: the pixel texture has another number of points than its size says\n");
+  EXPECT_EQ(issuesOf(model), "loss #120: the pixel count of the pixel texture does not match its size\n");
   EXPECT_EQ(model.environment.images.size(), 0U);
   EXPECT_EQ(model.environment.meshes.size(), 1U);
 }
@@ -72,10 +72,10 @@ TEST(IfcTexture, APictureBesideTheModelComesAsItIs) {
 
 TEST(IfcTexture, AMissingPictureIsALossWithItsNameAndOneOutsideTheFolderIsNotRead) {
   EXPECT_EQ(issuesOf(importText(ifcText(square("IFCIMAGETEXTURE(.T.,.T.,$,$,$,'brick.png')")))),
-            "loss #120: the picture 'brick.png' is not there; put it beside the model\n");
+            "loss #120: the image 'brick.png' does not exist; place it next to the model\n");
   for (const char* name : {"../secret.png", "/etc/hostname", "https://example.org/brick.png", "a/../../secret.png"})
     EXPECT_EQ(issuesOf(importText(ifcText(square(std::string("IFCIMAGETEXTURE(.T.,.T.,$,$,$,'") + name + "')")))),
-              std::string("loss #120: the picture '") + name + "' does not lie beside the model and is not read\n");
+              std::string("loss #120: the image '") + name + "' is not in the model's folder and was not read\n");
 }
 
 TEST(IfcTexture, TheTexturesTransformationIsAppliedToTheCoordinates) {

@@ -17,9 +17,9 @@ TEST(ObjHostile, WrongNumbersOfAVertexThatAFaceUsesAreRefusedWithTheirLine) {
   EXPECT_THAT(refusedObj("# a\nv nan 0 0\n" + face), HasSubstr("a.obj line 2: a coordinate is not a finite number"));
   EXPECT_THAT(refusedObj("v 1 -inf 0\n" + face), HasSubstr("line 1"));
   EXPECT_THAT(refusedObj("v 0 0 1e999\n" + face), HasSubstr("line 1: a coordinate is not a finite number"));
-  EXPECT_THAT(refusedObj("v 0 0 1e300\n" + face), HasSubstr("line 1: a coordinate is beyond 1e13"));
-  EXPECT_THAT(refusedObj("v 0 0\n" + face), HasSubstr("line 1: a vertex needs three numbers"));
-  EXPECT_THAT(refusedObj("v\n" + face), HasSubstr("line 1: a vertex needs three numbers"));
+  EXPECT_THAT(refusedObj("v 0 0 1e300\n" + face), HasSubstr("line 1: a coordinate exceeds 1e13"));
+  EXPECT_THAT(refusedObj("v 0 0\n" + face), HasSubstr("line 1: a vertex requires three numbers"));
+  EXPECT_THAT(refusedObj("v\n" + face), HasSubstr("line 1: a vertex requires three numbers"));
   EXPECT_THAT(refusedObj("v 1,5 0 0\n" + face), HasSubstr("line 1: a coordinate is not a number"));
   EXPECT_THAT(refusedObj("v 1.#IND 0 0\n" + face), HasSubstr("line 1"));
 }
@@ -41,7 +41,7 @@ TEST(ObjHostile, WrongIndicesAreRefusedWithTheirLine) {
   EXPECT_THAT(refusedObj("v 0 0 0\nf 1 1 -99999999999999999999\n"), HasSubstr("line 2"));
   EXPECT_THAT(refusedObj("v 0 0 0\nf a b c\n"), HasSubstr("line 2: corner 1 of the face has no vertex number"));
   EXPECT_THAT(refusedObj("v 0 0 0\nf 1 1 1.5\n"),
-              HasSubstr("line 2: corner 3 of the face is not v, v/t, v//n or v/t/n"));
+              HasSubstr("line 2: corner 3 of the face must be v, v/t, v//n or v/t/n"));
   EXPECT_THAT(refusedObj(kThree + "f 1/1/1/1 2 3\n"), HasSubstr("line 4"));
 }
 
@@ -71,7 +71,7 @@ TEST(ObjHostile, ATextureCoordinateThatIsNotThereCostsItsCornerOnly) {
 
 TEST(ObjHostile, SomethingElseOfThatNameIsRefused) {
   EXPECT_THAT(refusedObj("\x64\x86\x07 .text code of a compiler\n"),
-              HasSubstr("a.obj line 1: holds no statement of an OBJ"));
+              HasSubstr("a.obj line 1: contains no OBJ statements"));
   EXPECT_TRUE(hostileObj("# nothing\n"));
   EXPECT_TRUE(hostileObj(""));
 }
@@ -93,7 +93,7 @@ TEST(ObjHostile, AnOutlineThatCrossesItselfAThousandTimesIsSaid) {
   }
   const auto model = hostileObj(text + face);
   ASSERT_TRUE(model);
-  EXPECT_THAT(model->report.issues.at(0).message, HasSubstr("cross themselves"));
+  EXPECT_THAT(model->report.issues.at(0).message, HasSubstr("self-intersecting"));
 }
 
 TEST(ObjHostile, CutOffAnywhereItIsAModelOrAnErrorWithItsLine) {

@@ -94,15 +94,15 @@ TEST(Obj, OnePositionWithThousandsOfTextureCoordinatesIsAsManyVertices) {
 
 TEST(Obj, ColoursOfVerticesAreReadInBothPlacesAndBothScales) {
   const std::string rest = "v 1 0 0\nv 0 1 0\nf 1 2 3\n";
-  const auto shares = objModel("v 0 0 0 1 0.5 0\n" + rest), weighted = objModel("v 0 0 0 1 1 0.5 0\n" + rest),
+  const auto fractions = objModel("v 0 0 0 1 0.5 0\n" + rest), weighted = objModel("v 0 0 0 1 1 0.5 0\n" + rest),
              bytes = objModel("v 0 0 0 255 128 0\n" + rest);
   using Rgba = std::array<std::uint8_t, 4>;
-  for (const auto* model : {&shares, &weighted, &bytes}) {
+  for (const auto* model : {&fractions, &weighted, &bytes}) {
     ASSERT_TRUE(*model);
     EXPECT_THAT((*model)->environment.meshes.at(0)->colours,
                 ElementsAre(Rgba{255, 128, 0, 255}, Rgba{255, 255, 255, 255}, Rgba{255, 255, 255, 255}));
   }
-  EXPECT_EQ(shares->environment.surfaces.at(0).colour, (Colour{1, 1, 1, 1}));
+  EXPECT_EQ(fractions->environment.surfaces.at(0).colour, (Colour{1, 1, 1, 1}));
   EXPECT_EQ(bytes->report.issues.at(0).severity, Severity::warning);
 }
 

@@ -178,7 +178,7 @@ TEST(ObjMaterials, ARenamedModelFindsTheMtlThatWasRenamedWithIt) {
   const auto model = import(write(folder / "new.obj", "mtllib old.mtl\n" + kOneTriangle + "usemtl a\nf 1 2 3\n"));
   ASSERT_TRUE(model);
   EXPECT_EQ(model->environment.surfaces.at(0).colour, (Colour{1, 0, 0, 1}));
-  EXPECT_THAT(model->report.issues, saysOnce(Severity::warning, "new.mtl stands for it"));
+  EXPECT_THAT(model->report.issues, saysOnce(Severity::warning, "new.mtl is used instead"));
 }
 
 }  // namespace

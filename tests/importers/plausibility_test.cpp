@@ -27,26 +27,26 @@ TEST(Plausibility, AUsualHouseGivesNoFinding) { EXPECT_EQ(issuesOf(importText(if
 TEST(Plausibility, DoorsOfTwoKilometresAreMillimetresTakenForMetres) {
   const std::string text = ifcText(house(1000));
   EXPECT_EQ(issuesOf(importText(text)),
-            "warning model: the doors are 2.1 km large: the unit looks wrong; if its numbers are meant in mm, import "
-            "it with --unit mm\n");
+            "warning model: the doors are 2.1 km large: check the unit; if coordinates are in mm, import with "
+            "--unit mm\n");
   ImportOptions mended;
   mended.metres_per_unit = 0.001;
   const ImportedModel model = importText(text, mended);
   EXPECT_NEAR(boundsOf(model, "#110").max.z(), 2.1, 1e-6);
-  EXPECT_EQ(issuesOf(model), "note #11: the length unit that the file states is overruled by the one that was given\n");
+  EXPECT_EQ(issuesOf(model), "note #11: the length unit of the file was overridden by the specified unit\n");
 }
 
 TEST(Plausibility, DoorsOfTwoMillimetresAreMetresTakenForMillimetres) {
   EXPECT_EQ(issuesOf(importText(ifcText(house(1), "IFCSIUNIT(*,.LENGTHUNIT.,.MILLI.,.METRE.)"))),
-            "warning model: the doors are 2.1 mm large: the unit looks wrong; if its numbers are meant in m, import it "
-            "with --unit m\n");
+            "warning model: the doors are 2.1 mm large: check the unit; if coordinates are in m, import with "
+            "--unit m\n");
 }
 
 TEST(Plausibility, DoorsThatLieTellThatTheModelLies) {
   const std::string text = ifcText(house(1, true));
   EXPECT_EQ(issuesOf(importText(text)),
-            "warning model: 2 of 2 doors are wider than high: the model seems to lie on its side; if its y axis points "
-            "up, import it with --up y\n");
+            "warning model: 2 of 2 doors are wider than tall: the model may be rotated; if its y axis points "
+            "up, import with --up y\n");
   ImportOptions mended;
   mended.up = UpAxis::y;
   const ImportedModel model = importText(text, mended);
@@ -63,8 +63,8 @@ TEST(Plausibility, AnObjOfMillimetresIsSeenByItsHeight) {
   Progress progress;
   const auto model = importFile(file.path(), {}, progress);
   ASSERT_TRUE(model.has_value());
-  EXPECT_NE(issuesOf(*model).find("the whole model is 6 km high: the unit looks wrong; if its numbers are meant in mm, "
-                                  "import it with --unit mm"),
+  EXPECT_NE(issuesOf(*model).find(
+                "the whole model is 6 km high: check the unit; if coordinates are in mm, import with --unit mm"),
             std::string::npos)
       << issuesOf(*model);
 }
@@ -79,7 +79,7 @@ TEST(Plausibility, AProductFarFromTheRestIsNamed) {
 TEST(Plausibility, AProductBeyondTheEarthIsNamed) {
   const ImportedModel model =
       importText(ifcText(house(1) + far("1.E12", 60) + product(140, "IFCSLAB", "#105", "SweptSolid", "#62")));
-  EXPECT_NE(issuesOf(model).find("warning #140: 1 products lie beyond any map (#140)"), std::string::npos)
+  EXPECT_NE(issuesOf(model).find("warning #140: 1 products are outside any map area (#140)"), std::string::npos)
       << issuesOf(model);
 }
 
@@ -87,7 +87,7 @@ TEST(Plausibility, TwoBuildingsFarApartAreTwoParts) {
   std::string text = house(1) + far("5000.", 60);
   for (int i = 0; i < 3; ++i) text += product(200 + 10 * i, "IFCSLAB", "#105", "SweptSolid", "#62");
   EXPECT_NE(
-      issuesOf(importText(ifcText(text))).find("the model falls into two parts 4.99 km apart, of 3 and 3 products"),
+      issuesOf(importText(ifcText(text))).find("the model consists of two parts 4.99 km apart, with 3 and 3 products"),
       std::string::npos)
       << issuesOf(importText(ifcText(text)));
 }
@@ -95,23 +95,23 @@ TEST(Plausibility, TwoBuildingsFarApartAreTwoParts) {
 TEST(Plausibility, GeometryFarFromTheOriginIsToldWithWhatWasDone) {
   std::string text =
       far("500000.", 60) + boxSolid(103, "10.", "8.", "3.") + product(130, "IFCSLAB", "#105", "SweptSolid", "#62");
-  EXPECT_NE(issuesOf(importText(ifcText(text)))
-                .find("note model: the geometry begins 500 km from the file's origin; it is computed around 500000 0 2 "
-                      "and leaves where it came in; if these are map coordinates, name the map with --crs EPSG:n"),
-            std::string::npos)
+  EXPECT_NE(
+      issuesOf(importText(ifcText(text)))
+          .find("note model: the geometry is 500 km from the file's origin; a global shift of 500000 0 2 "
+                "is applied internally and reversed on export; if these are map coordinates, specify --crs EPSG:n"),
+      std::string::npos)
       << issuesOf(importText(ifcText(text)));
   ImportOptions none;
   none.shift = ShiftMode::none;
   EXPECT_NE(issuesOf(importText(ifcText(text), none))
-                .find("warning model: the geometry begins 500 km from the file's origin and is not shifted"),
+                .find("warning model: the geometry is 500 km from the file's origin and is not shifted"),
             std::string::npos);
 }
 
 TEST(Plausibility, AMissingUnitIsToldWithItsRemedy) {
   const ImportedModel model = importText(ifcText(house(1), "IFCSIUNIT(*,.MASSUNIT.,$,.GRAM.)"));
   EXPECT_EQ(issuesOf(model),
-            "warning #11: the file states no usable length unit; metres are assumed; if it is another, import it with "
-            "--unit\n");
+            "warning #11: the file has no valid length unit; metres assumed. Use --unit to specify another\n");
 }
 
 }  // namespace

@@ -118,7 +118,7 @@ TEST(Ply, StripsTurnEveryOtherTriangleAndBeginAnew) {
 
 TEST(Ply, ACloudIsRefusedWithWhatToDoInstead) {
   EXPECT_THAT(refusedPly(kHead + "end_header\n" + kSquare),
-              HasSubstr("a point cloud, not a model; take it in as an underlay"));
+              HasSubstr("a point cloud, not a model; add it as an underlay"));
   EXPECT_THAT(refusedPly(kHead + "element face 0\nproperty list uchar int vertex_indices\nend_header\n" + kSquare),
               HasSubstr("point cloud"));
 }
@@ -152,8 +152,8 @@ TEST(PlyHostile, CountsThatTheFileCannotHoldAreRefused) {
   EXPECT_THAT(refusedPly("ply\nformat binary_little_endian 1.0\nelement vertex 0\n" + vertices +
                          "element face 1\nproperty list uint int vertex_indices\nend_header\n" +
                          std::string("\xFF\xFF\xFF\xFF", 4)),
-              HasSubstr("a.ply face 0: the file ends here"));
-  EXPECT_THAT(refusedPly(kHead + kFaces + kSquare + "1000000000 0 1 2\n"), HasSubstr("the file ends here"));
+              HasSubstr("a.ply face 0: the file is truncated here"));
+  EXPECT_THAT(refusedPly(kHead + kFaces + kSquare + "1000000000 0 1 2\n"), HasSubstr("the file is truncated here"));
 }
 
 TEST(PlyHostile, WrongIndicesAndNumbersAreRefusedWithTheirPlace) {

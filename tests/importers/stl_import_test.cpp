@@ -112,17 +112,17 @@ TEST(StlHostile, WhatIsWrongIsRefusedWithItsPlace) {
   auto nan = kTetrahedron;
   nan[1].corners[4] = NAN;
   EXPECT_THAT(refusedStl(binary("x", nan)), HasSubstr("a.stl triangle 2: a coordinate is not a finite number"));
-  EXPECT_THAT(refusedStl(binary("x", kTetrahedron).substr(0, 200)), HasSubstr("says 4 triangles and has bytes for 2"));
+  EXPECT_THAT(refusedStl(binary("x", kTetrahedron).substr(0, 200)), HasSubstr("says 4 triangles, but has data for 2"));
   EXPECT_THAT(refusedStl(std::string(80, 'x') + "\xFF\xFF\xFF\xFF"), HasSubstr("says 4294967295 triangles"));
   EXPECT_THAT(refusedStl("solid a\nfacet\nouter loop\nvertex 0 0\n"),
-              HasSubstr("line 4: a vertex needs three numbers"));
+              HasSubstr("line 4: a vertex requires three numbers"));
   EXPECT_THAT(refusedStl("solid a\nfacet\nouter loop\nvertex 0 0 inf\n"),
               HasSubstr("line 4: a coordinate is not a finite number"));
   EXPECT_THAT(refusedStl("solid a\nfacet\nvertex 0 0 0\nendfacet\n"),
-              HasSubstr("line 4: a facet ends without three vertices"));
+              HasSubstr("line 4: facet without three vertices"));
   EXPECT_THAT(refusedStl("solid a\nvertex 0 0 0\n"), HasSubstr("line 2"));
-  EXPECT_THAT(refusedStl("solid a\nfacet\nvertex 0 0 0\n"), HasSubstr("ends within a facet"));
-  EXPECT_THAT(refusedStl("solid a\nhello\n"), HasSubstr("line 2: 'hello' is no word of an STL"));
+  EXPECT_THAT(refusedStl("solid a\nfacet\nvertex 0 0 0\n"), HasSubstr("ends inside a facet"));
+  EXPECT_THAT(refusedStl("solid a\nhello\n"), HasSubstr("line 2: 'hello' is not an STL keyword"));
   EXPECT_THAT(refusedStl("short"), HasSubstr("a.stl line 1"));
 }
 

@@ -103,7 +103,7 @@ TEST(Findings, SayWhatNothingFitsOnceForEachCause) {
   ASSERT_EQ(result.report.findings.size(), 1U);
   EXPECT_THAT(
       result.report.findings[0],
-      finding("warning", "#100", "no rule fits surface 'Unobtainium' of IfcChimney 'Schlot' and 2 more (3.00 m²)"));
+      finding("warning", "#100", "no rule matches surface 'Unobtainium' of IfcChimney 'Schlot' and 2 more (3.00 m²)"));
 }
 
 TEST(Assignment, OfASurfaceThatTransmitsLightIsGlassAndSaysWhy) {
@@ -127,7 +127,7 @@ TEST(Findings, NoteWhatOnlyClassOrColourDecided) {
   const auto result = b.assign();
   ASSERT_EQ(result.report.findings.size(), 1U);
   EXPECT_THAT(result.report.findings[0],
-              finding("note", "#100", "only class and colour decided for surface 'Style 17' of IfcWall 'W'"));
+              finding("note", "#100", "only class and colour matched: surface 'Style 17' of IfcWall 'W'"));
   EXPECT_THAT(result.report.findings[0].message, HasSubstr("plaster_render"));
 }
 
@@ -149,7 +149,7 @@ TEST(Findings, NameWindowsWithoutAPane) {
   b.product("IfcWindow", "seeing", {frame, b.surface("Glas", {0.5F, 0.7F, 0.9F, 0.2F})});
   b.product("IfcWindow", "blind too", {frame});
   EXPECT_THAT(warningsOf(b.assign()),
-              ElementsAre(finding("warning", "#100", "no surface is of glass in IfcWindow 'blind' and 1 more")));
+              ElementsAre(finding("warning", "#100", "no glass surface in IfcWindow 'blind' and 1 more")));
 }
 
 TEST(Overrides, WinOverRulesAndLaterOverEarlier) {
@@ -177,9 +177,9 @@ TEST(Overrides, ThatMeanNothingAreNamed) {
   b.product("IfcWall", "", {b.surface("Beton")});
   const auto result =
       b.assignBy(shippedRules(), {{"class:IfcRoof", "bark"}, {"material:*zink*", "bark"}, {"colour:red", "bark"}});
-  EXPECT_THAT(result.report.findings, UnorderedElementsAre(finding("warning", "class:IfcRoof", "means no surface"),
-                                                           finding("warning", "material:*zink*", "means no surface"),
-                                                           finding("warning", "colour:red", "means no surface")));
+  EXPECT_THAT(result.report.findings, UnorderedElementsAre(finding("warning", "class:IfcRoof", "matches no surface"),
+                                                           finding("warning", "material:*zink*", "matches no surface"),
+                                                           finding("warning", "colour:red", "matches no surface")));
 }
 
 TEST(Overrides, WithAnUnknownMaterialAreRefused) {

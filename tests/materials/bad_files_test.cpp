@@ -40,10 +40,10 @@ TEST(BadLibraries, OfSourcesThatAreWrongAreRefusedWithTheirPlace) {
   for (const auto& [text, source, message] :
        {std::tuple{
             R"({"sources": [{"id": "a", "text": "A", "licence": "own"}, {"id": "a", "text": "B", "licence": "own"}]})",
-            "s.json /sources/1/id", "already there"},
+            "s.json /sources/1/id", "already exists"},
         {R"({"sources": [{"id": "a", "text": "A"}]})", "s.json /sources/0/licence", "missing"},
         {R"({"sources": {}})", "s.json /sources", "list"},
-        {R"({"material": []})", "s.json /material", "not a known key"}}) {
+        {R"({"material": []})", "s.json /material", "unknown key"}}) {
     folder.write("s.json", text);
     const auto library = readMaterialLibrary(folder.path());
     ASSERT_FALSE(library.has_value()) << text;
@@ -117,15 +117,16 @@ TEST(BadRules, AreRefusedWithTheirPlace) {
   for (const auto& [text, source, message] :
        {BadRule{R"({"material": "x", "assign": "adamantium"})", "r.json /rules/1/assign", "not in the library"},
         BadRule{R"({"material": "x"})", "r.json /rules/1/assign", "missing"},
-        BadRule{R"({"assign": "bark"})", "r.json /rules/1", "fit everything"},
+        BadRule{R"({"assign": "bark"})", "r.json /rules/1", "match everything"},
         BadRule{R"({"material": "a||b", "assign": "bark"})", "r.json /rules/1/material", "empty pattern"},
         BadRule{R"({"material": "", "assign": "bark"})", "r.json /rules/1/material", "empty"},
         BadRule{R"({"material": 3, "assign": "bark"})", "r.json /rules/1/material", "text"},
         BadRule{R"({"colour": "red|mauve", "assign": "bark"})", "r.json /rules/1/colour", "'mauve' is no colour"},
         BadRule{R"({"material": "x", "assign": "bark", "hidden": 1})", "r.json /rules/1/hidden", "true or false"},
-        BadRule{R"({"ifc_class": "x", "assign": "bark", "hidden": true})", "r.json /rules/1/hidden", "needs a pattern"},
+        BadRule{R"({"ifc_class": "x", "assign": "bark", "hidden": true})", "r.json /rules/1/hidden",
+                "requires a pattern"},
         BadRule{R"({"material": "{stone}", "assign": "bark"})", "r.json /rules/1/material",
-                "{stone}, which is not there"},
+                "{stone}, which does not exist"},
         BadRule{R"({"material": "{stone", "assign": "bark"})", "r.json /rules/1/material", "brace"},
         BadRule{R"({"material": "a&&b", "assign": "bark"})", "r.json /rules/1/material", "empty pattern"},
         BadRule{R"({"material": "!", "assign": "bark"})", "r.json /rules/1/material", "empty pattern"},
@@ -133,7 +134,7 @@ TEST(BadRules, AreRefusedWithTheirPlace) {
         BadRule{R"({"metallic": 1, "assign": "bark"})", "r.json /rules/1/metallic", "[from, to]"},
         BadRule{R"({"material": "x", "assign": "bark", "confidence": 2})", "r.json /rules/1/confidence",
                 "between 0.0 and 1.0"},
-        BadRule{R"({"class": "IfcWall", "assign": "bark"})", "r.json /rules/1/class", "not a known key"}}) {
+        BadRule{R"({"class": "IfcWall", "assign": "bark"})", "r.json /rules/1/class", "unknown key"}}) {
     const auto rules = readAssignmentRules(folder.write("r.json", good + text + "]}"), shippedLibrary());
     ASSERT_FALSE(rules.has_value()) << text;
     EXPECT_EQ(rules.error().kind, ErrorKind::unusable);
@@ -152,7 +153,7 @@ TEST(BadRules, InTheRestOfTheFileAreRefusedWithTheirPlace) {
         BadRule{R"({"rules": [], "then": "others"})", "r.json /then", "default"},
         BadRule{R"({"rules": [], "words": []})", "r.json /words", "object"},
         BadRule{R"({"rules": [], "words": {"a": []}})", "r.json /words/a", "list of texts"},
-        BadRule{R"({"rules": [], "words": {"a": ["x|y"]}})", "r.json /words/a/0", "one word"},
+        BadRule{R"({"rules": [], "words": {"a": ["x|y"]}})", "r.json /words/a/0", "a single word"},
         BadRule{R"({"rules": [], "implausible": [{"assigned": "bark"}]})", "r.json /implausible/0/why", "missing"},
         BadRule{R"({"rules": [], "words": {"glass": ["tumbler"]}, "then": "default"})", "r.json /words/glass",
                 "another name"}}) {

@@ -91,7 +91,7 @@ TEST(Allowance, WithMoreWeightGetsMoreOfTheBudget) {
 TEST(Allowance, KeepsEachShareToItsOwnBudgetAndNamesTheLeastThatCanBeReached) {
   const auto environment = spheres();
   auto options = alike(environment, 500, 0.5);
-  options.products[1].share = 1;
+  options.products[1].budget_group = 1;
   options.further_budgets = {200};
   const auto result = optimized(environment, options);
   EXPECT_LE(result.products[0].triangles_after + result.products[2].triangles_after, 500U);
@@ -108,7 +108,7 @@ TEST(Allowance, OutOfRangeIsRefused) {
   const auto environment = spheres();
   Progress progress;
   auto options = alike(environment, 500, 0.5);
-  options.products[1].share = 1;
+  options.products[1].budget_group = 1;
   EXPECT_FALSE(optimize(environment, options, progress));
   options = alike(environment, 500, 0.5);
   options.products[1].weight = 0;

@@ -98,8 +98,8 @@ double coveredVolume(const std::vector<CollisionShape>& shapes, const Vector3d& 
   };
   int inside = 0;
   for (int i = 0; i < n * n; ++i) {
-    const Vector3d share((i % n + 0.5) / n, 0.5, (i / n + 0.5) / n);
-    const Vector3d p = low + share.cwiseProduct(high - low);
+    const Vector3d fraction((i % n + 0.5) / n, 0.5, (i / n + 0.5) / n);
+    const Vector3d p = low + fraction.cwiseProduct(high - low);
     inside += std::any_of(shapes.begin(), shapes.end(), [&](const auto& shape) { return isIn(shape, p); });
   }
   return (high - low).prod() * inside / (n * n);
@@ -411,8 +411,8 @@ TEST(Door, AboveAStepThatNobodyClimbsIsNotLedThrough) {
     EXPECT_TRUE(result.doors[0].passable && result.doors[0].floor);
     EXPECT_FALSE(result.doors[0].led_through);
     EXPECT_FALSE(result.rooms[0].reached && result.rooms[1].reached);
-    EXPECT_THAT(result.report.issues,
-                testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("does not lead through"))));
+    EXPECT_THAT(result.report.issues, testing::Contains(testing::Field(
+                                          &Issue::message, testing::HasSubstr("not connected by walkable surface"))));
   }
 }
 
@@ -489,7 +489,7 @@ TEST(Door, WithoutALeafIsClosedByAPlate) {
   const auto result = collided(e, options);
   EXPECT_FALSE(result.doors[0].passable);
   EXPECT_THAT(result.report.issues,
-              testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("a plate stands across"))));
+              testing::Contains(testing::Field(&Issue::message, testing::HasSubstr("blocked by a plate"))));
 }
 
 TEST(Stair, OfSeventeenByTwentyEightCentimetresIsWalkable) {

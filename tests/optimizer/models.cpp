@@ -63,11 +63,11 @@ std::vector<Vector3d> pointsByArea(const Mesh& mesh, int count) {
         (mesh.positions[t[1]] - mesh.positions[t[0]]).cross(mesh.positions[t[2]] - mesh.positions[t[0]]).norm());
   std::mt19937 random(7);
   std::discrete_distribution<std::size_t> which(areas.begin(), areas.end());
-  std::uniform_real_distribution<double> share(0, 1);
+  std::uniform_real_distribution<double> fraction(0, 1);
   std::vector<Vector3d> points;
   for (int i = 0; i < count; ++i) {
     const auto& t = mesh.triangles[which(random)];
-    double u = share(random), v = share(random);
+    double u = fraction(random), v = fraction(random);
     if (u + v > 1) u = 1 - u, v = 1 - v;
     const Vector3d a = mesh.positions[t[0]].cast<double>();
     points.push_back(a + u * (mesh.positions[t[1]].cast<double>() - a) + v * (mesh.positions[t[2]].cast<double>() - a));

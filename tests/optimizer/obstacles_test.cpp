@@ -29,14 +29,14 @@ TEST(Sweep, StopsWhereTheBodyTouches) {
     const auto obstacles = cube(kind);
     const auto hit = obstacles.sweep({0.3, 1.8}, {0, 0.5, 0.1}, {4, 0.5, 0.1});
     ASSERT_TRUE(hit);
-    EXPECT_NEAR(hit->share * 4, 1.7, 1e-4);
+    EXPECT_NEAR(hit->fraction * 4, 1.7, 1e-4);
     EXPECT_NEAR((hit->normal - Vector3d(-1, 0, 0)).norm(), 0, 1e-4);
     EXPECT_NEAR(hit->point.x(), 2, 1e-4);
     EXPECT_EQ(hit->product, 5);
     // A ball that comes down on an upper edge: it meets it where its middle is a radius away.
     const auto edge = obstacles.sweep({0.5, 1}, {1.7, 0.5, 3}, {1.7, 0.5, -1});
     ASSERT_TRUE(edge);
-    EXPECT_NEAR(3 - 4 * edge->share, 1 + std::sqrt(0.25 - 0.09) - 0.5, 1e-4);
+    EXPECT_NEAR(3 - 4 * edge->fraction, 1 + std::sqrt(0.25 - 0.09) - 0.5, 1e-4);
   }
 }
 
@@ -51,7 +51,7 @@ TEST(Sweep, PassesBesideAndSlidesAlong) {
 TEST(Sweep, ThatStartsInsideIsStoppedAtOnce) {
   const auto hit = cube(CollisionShapeKind::box).sweep({0.05, 0.1}, {2.5, 0.5, 0.5}, {9, 0.5, 0.5});
   ASSERT_TRUE(hit);
-  EXPECT_EQ(hit->share, 0);
+  EXPECT_EQ(hit->fraction, 0);
 }
 
 // Against the triangle that holds it: every way from outside through its inside must be stopped, however thin it is.

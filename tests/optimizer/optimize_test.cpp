@@ -136,8 +136,8 @@ TEST(Surfaces, KeepTheirAreasWhenNothingIsLost) {
 TEST(Budget, IsMetWithinOnePercentOnSpheresToriAndSoups) {
   for (const auto& environment :
        {only(models::sphere(1, 60, 90)), only(models::torus(2, 0.6, 90, 50)), only(soup(500, 1))})
-    for (const double share : {0.5, 0.1, 0.02}) {
-      const auto budget = static_cast<std::uint64_t>(share * static_cast<double>(triangleCount(environment)));
+    for (const double fraction : {0.5, 0.1, 0.02}) {
+      const auto budget = static_cast<std::uint64_t>(fraction * static_cast<double>(triangleCount(environment)));
       const auto result = optimizedTo(environment, budget, 100);
       EXPECT_TRUE(result.budget_reached);
       EXPECT_LE(result.all.triangles_after, budget);

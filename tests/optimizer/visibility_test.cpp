@@ -30,16 +30,16 @@ Environment house() {
 }
 
 TEST(Visibility, OfTheSkyIsNoneInAClosedRoomAndMuchOnItsRoof) {
-  const auto shares = skyShares(house(), Progress());
-  EXPECT_EQ(shares[6], 0);
-  EXPECT_GT(shares[7], 0.4);
-  for (const int wall : {1, 2, 3, 4, 5}) EXPECT_GT(shares[wall], 0.1);
+  const auto fractions = skyFractions(house(), Progress());
+  EXPECT_EQ(fractions[6], 0);
+  EXPECT_GT(fractions[7], 0.4);
+  for (const int wall : {1, 2, 3, 4, 5}) EXPECT_GT(fractions[wall], 0.1);
 }
 
 TEST(Visibility, OfTheSkyIsHalfForAPlateWithBothSidesFree) {
   Environment e;  // its upper side sees all of it, its lower side none
   models::add(e, slab(4, 4, 0.001));
-  EXPECT_NEAR(skyShares(e, Progress())[0], 0.5, 0.05);
+  EXPECT_NEAR(skyFractions(e, Progress())[0], 0.5, 0.05);
 }
 
 TEST(Visibility, FromTheFloorIsOfWhatIsInTheRoomOnly) {
@@ -86,7 +86,7 @@ TEST(Visibility, IsTheSameForAnyNumberOfThreads) {
   std::vector<double> first;
   for (const std::size_t threads : {1, 2, 7}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    const auto now = skyShares(e, Progress());
+    const auto now = skyFractions(e, Progress());
     if (first.empty()) first = now;
     EXPECT_EQ(first, now);
   }

@@ -334,7 +334,7 @@ TEST(CloudWriters, ListTheChannelsThatTheyHaveNoPlaceFor) {
   ASSERT_OK((*writer)->begin(header));
   ASSERT_OK((*writer)->picture(madeUpPicture(Projection::spherical)));
   const std::string said = testing::said((*writer)->report());
-  for (const char* word : {"labels", "times", "return numbers", "true places", "picture"})
+  for (const char* word : {"labels", "times", "return numbers", "true positions", "images"})
     EXPECT_THAT(said, ::testing::HasSubstr(word));
 }
 

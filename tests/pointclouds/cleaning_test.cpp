@@ -156,7 +156,7 @@ TEST(Cleaning, FindsMixedPointsWithoutAGridByWhatLiesAroundThem) {
   EXPECT_LT(done->filters[0].good.taken, 20u);
   const auto refused = clean(folder / "in.e57", folder / "out.e57", {"mixed:by=grid"});
   ASSERT_FALSE(refused);
-  EXPECT_NE(describe(refused.error()).find("has no grid"), std::string::npos) << describe(refused.error());
+  EXPECT_NE(describe(refused.error()).find("no grid of rows"), std::string::npos) << describe(refused.error());
 }
 
 TEST(Cleaning, KeepsOfDuplicatesTheOneWithTheSmallerRange) {
@@ -298,8 +298,8 @@ TEST(Cleaning, SaysWhatCannotBe) {
   const TemporaryFolder folder;
   writeMade(folder / "in.e57", {wall("S1", 0.5)});
   testing::putBytes(folder / "plain.xyz", "1 2 3\n2 3 4\n3 4 5\n");
-  const std::vector<std::pair<std::string, std::string>> words = {{"polish", "there is no filter 'polish'"},
-                                                                  {"range", "needs 'from' or 'to'"},
+  const std::vector<std::pair<std::string, std::string>> words = {{"polish", "unknown filter 'polish'"},
+                                                                  {"range", "requires 'from' or 'to'"},
                                                                   {"range:from=3,to=2", "larger than 'to'"},
                                                                   {"range:from=-1", "must be from 0"},
                                                                   {"range:from=nan", "must be a number"},
@@ -312,7 +312,7 @@ TEST(Cleaning, SaysWhatCannotBe) {
                                                                   {"share:keep=2", "must be from 0 to 1"},
                                                                   {"box:from=1/2,to=3/4/5", "three numbers"},
                                                                   {"box:from=3/0/0,to=1/1/1", "the box is empty"},
-                                                                  {"sphere:radius=1", "a 'station' or 'at'"},
+                                                                  {"sphere:radius=1", "requires 'station' or 'at'"},
                                                                   {"sphere:radius=1,station=S9", "it has S1"},
                                                                   {"mixed:by=eye", "grid or distance"},
                                                                   {"duplicates:distance=", "must be a number"}};

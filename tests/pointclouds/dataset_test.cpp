@@ -146,7 +146,7 @@ TEST(Datasets, AreThereWholeOrNotAtAll) {
 TEST(ClassMaps, NameWhatIsWrongWithThem) {
   const TemporaryFolder folder;
   const std::pair<const char*, const char*> faults[] = {
-      {"[1]", "is an object"},
+      {"[1]", "must be an object"},
       {"{\"name\":\"a\",\"unknown\":\"x\",\"noise\":\"x\",\"classes\":{\"x\":1},\"ifc\":{},\"more\":1}", "/more"},
       {"{\"name\":\"a\",\"unknown\":\"x\",\"classes\":{\"x\":1},\"ifc\":{}}", "/noise"},
       {"{\"name\":\"a\",\"unknown\":\"x\",\"noise\":\"x\",\"classes\":{\"x\":70000},\"ifc\":{}}", "/classes/x"},

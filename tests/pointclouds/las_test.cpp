@@ -102,7 +102,7 @@ TEST(Las, WithEightBitColoursIsTakenAsSuchAndSaysSo) {
   const auto report = readAll(folder / "a.las", kept);
   ASSERT_OK(report);
   EXPECT_EQ(kept.scans[0].points.red[0], 200);
-  EXPECT_THAT(testing::said(*report), HasSubstr("taken as 8 bits"));
+  EXPECT_THAT(testing::said(*report), HasSubstr("read as 8 bits"));
 }
 
 TEST(Las, NamesTheCoordinateSystemOfItsKeysAndOfItsText) {
@@ -164,7 +164,7 @@ TEST(HostileLas, IsRefusedAtOnceWithTheReason) {
   const Fault faults[] = {
       {"is not a LAS file", [](std::string& b) { b[0] = 'X'; }},
       {"LAS 2.4 is not known", [](std::string& b) { b[24] = 2; }},
-      {"compressed (LAZ)", [](std::string& b) { b[104] = static_cast<char>(b[104] | 0x80); }},
+      {"compressed points (LAZ)", [](std::string& b) { b[104] = static_cast<char>(b[104] | 0x80); }},
       {"point format 11", [](std::string& b) { b[104] = 11; }},
       {"a point record has 0 bytes", [](std::string& b) { put<std::uint16_t>(b, 105, 0); }},
       {"room for 3 of 1000000000000 points", [](std::string& b) { put<std::uint64_t>(b, 247, 1000000000000); }},
@@ -174,7 +174,7 @@ TEST(HostileLas, IsRefusedAtOnceWithTheReason) {
       {"scale or offset of y", [](std::string& b) { put<double>(b, 139, 0); }},
       {"scale or offset of x", [](std::string& b) { put<double>(b, 131, NAN); }},
       {"scale or offset of z", [](std::string& b) { put<double>(b, 171, INFINITY); }},
-      {"ends inside its header", [](std::string& b) { b.resize(200); }}};
+      {"truncated inside its header", [](std::string& b) { b.resize(200); }}};
   const TemporaryFolder folder;
   for (const Fault& fault : faults) {
     std::string bytes = las({});

@@ -104,15 +104,15 @@ TEST(HostilePlyCloud, IsRefusedAtOnceWithLineAndReason) {
   const std::pair<std::string, const char*> bad[] = {
       {"plyx\n", "is not a PLY file"},
       {"ply\nformat ascii 1.0\nelement vertex 1000000000000\n" + xyz + "end_header\n1 2 3\n",
-       "no room for 1000000000000"},
+       "no space for 1000000000000"},
       {"ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\n" + xyz + "end_header\nabc",
-       "no room"},
+       "no space"},
       {"ply\nformat binary_little_endian 1.0\nelement edge 9999999999\nproperty int a\nelement vertex 1\n" + xyz +
            "end_header\nabc",
-       "no room for 9999999999 elements 'edge'"},
+       "no space for 9999999999 elements 'edge'"},
       {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1      \n", "no property 'y'"},
-      {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float128 x\nend_header\n1\n", "no type of a property"},
-      {"ply\nformat ascii 1.0\nelement vertex 1\n" + xyz, "ends inside its header"},
+      {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float128 x\nend_header\n1\n", "not a property type"},
+      {"ply\nformat ascii 1.0\nelement vertex 1\n" + xyz, "truncated inside its header"},
       {"ply\nformat ascii 1.0\nelement vertex 2\n" + xyz + "end_header\n1 2 3\n11111111 2\n", "3 numbers here"},
       {"ply\nformat ascii 1.0\nelement vertex 2\n" + xyz + "end_header\n1 2 3         \n", "truncated"}};
   const TemporaryFolder folder;

@@ -144,7 +144,7 @@ TEST(E57, RefusesPointsThatBreakThePromisesOfTheHeader) {
       {"label", [](PointBlock& b) { b.material[5] = 5; }},
       {"not finite", [](PointBlock& b) { b.y_m[5] = NAN; }},
       {"not finite", [](PointBlock& b) { b.intensity[5] = INFINITY; }},
-      {"one size", [](PointBlock& b) { b.red.pop_back(); }}};
+      {"differ in size", [](PointBlock& b) { b.red.pop_back(); }}};
   for (const auto& [word, spoil] : faults) {
     PointBlock bad = good;
     spoil(bad);

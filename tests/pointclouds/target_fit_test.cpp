@@ -178,14 +178,15 @@ TEST(SphereFit, IsRefusedWithTheReason) {
   bench.wall_x = 8.6;
   EXPECT_NE(refused(bench, {8, 0, 0}), "found") << "a bare wall";
   bench.balls = {{{8, 0, 0}, 0.1}};
-  EXPECT_THAT(refused(bench, {8, 0.2, 0}), HasSubstr("wrong radius: the points make 9"));
+  EXPECT_THAT(refused(bench, {8, 0.2, 0}), HasSubstr("wrong radius: fitted 9"));
   bench.balls = {{{8, 0, 0}, 0.0725}, {{8, 0.4, 0}, 0.0725}};
   EXPECT_THAT(refused(bench, {8, 0.2, 0}), HasSubstr("two candidates 400"));
   SphereSearch near;
   near.search_m = 0.15;
   EXPECT_EQ(refused(bench, {8, 0, 0}, near), "found");
   bench.balls = {{{8, 0, 0}, 0.0725}};
-  EXPECT_THAT(fitSphere(bench.scan(5, 0.1).points, {8, 0, 0}, {}).error().message, HasSubstr("too few points on it"));
+  EXPECT_THAT(fitSphere(bench.scan(5, 0.1).points, {8, 0, 0}, {}).error().message,
+              HasSubstr("too few points on the target"));
   bench.balls.clear();
   EXPECT_THAT(refused({}, {8, 0, 0}), HasSubstr("too few points near"));
   bench.pipe = {8, 0, 0};

@@ -230,7 +230,7 @@ TEST(EmptyScan, SaysWhyNothingCameBack) {
     EXPECT_EQ(done->answer["stations"][0]["points"].get<int>(), 0);
     return said(done->report);
   };
-  EXPECT_THAT(scanAt({500003, 5600002, 200}, json::object()), HasSubstr("no beam meets the model"))
+  EXPECT_THAT(scanAt({500003, 5600002, 200}, json::object()), HasSubstr("no beam hits the model"))
       << "above the scene, which lies in its blind cone";
   EXPECT_THAT(scanAt({501500, 5600002, 1.6}, json::object()), AllOf(HasSubstr("1494 m away"), HasSubstr("350 m")));
   EXPECT_TRUE(cloudFormatFor("s.e57")->info(folder.path() / "s.e57")) << "an honest empty file";
@@ -265,12 +265,12 @@ TEST(EmptyScan, OfASceneWithNothingInItIsRefusedOrEmptyInClearWords) {
   EXPECT_THAT(station.error().message, HasSubstr("float"));
   const auto planned = run("plan", d, {{"instrument", "leica-rtc360"}});
   ASSERT_FALSE(planned);
-  EXPECT_THAT(planned.error().message, HasSubstr("nothing in the scene"));
+  EXPECT_THAT(planned.error().message, HasSubstr("the scene contains no products"));
   const auto free = run("station", d, {{"add", "S"}, {"at", {500002, 5600002, 1.6}}, {"stand", "free"}});
   ASSERT_TRUE(free) << describe(free.error());
   const auto done = run("scan", free->document, options(folder.path() / "s.e57"));
   ASSERT_TRUE(done) << describe(done.error());
-  EXPECT_THAT(said(done->report), HasSubstr("nothing in the scene"));
+  EXPECT_THAT(said(done->report), HasSubstr("the scene contains no products"));
 }
 
 }  // namespace

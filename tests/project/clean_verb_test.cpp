@@ -75,7 +75,7 @@ TEST_F(CleanVerb, AnswersWhatEachFilterTookOfTheTruth) {
   EXPECT_EQ(row.at("good"), (json{{"in", 5}, {"removed", 1}, {"share", 0.2}}));
   EXPECT_EQ(row.at("classes"), (json{{"IfcWall", {{"in", 5}, {"removed", 1}, {"share", 0.2}}}}));
   EXPECT_THAT(done->text, AllOf(HasSubstr("10 points in, 4 removed (40.00 %), 6 out\n"),
-                                HasSubstr("2 of 4 found (50.00 %), 50.00 % of what was removed\n"),
+                                HasSubstr("2 of 4 found (50.00 %), 50.00 % of all removed points\n"),
                                 HasSubstr("1 of 5 lost (20.00 %)\n"), HasSubstr("1 of 5 (20.00 %)\n")));
   EXPECT_EQ(cloudFormatFor(in())->info(folder_.path() / "out.e57")->scans[0].points, 6U);
 }
@@ -113,12 +113,12 @@ TEST_F(CleanVerb, NamesAFolderThatIsNotThereBeforeItBegins) {
     const auto refused = clean({{"filters", kGate}, {option, (nowhere / "x.csv").string()}});
     ASSERT_FALSE(refused);
     EXPECT_THAT(describe(refused.error()),
-                AllOf(HasSubstr(nowhere.string() + " is not there"), HasSubstr(std::string("--") + option)));
+                AllOf(HasSubstr(nowhere.string() + " does not exist"), HasSubstr(std::string("--") + option)));
     EXPECT_FALSE(fs::exists(folder_.path() / "out.e57"));
   }
   const auto exported = run("export", twoStoreyDocument(), {{"output", (nowhere / "x.glb").string()}});
   ASSERT_FALSE(exported);
-  EXPECT_THAT(describe(exported.error()), HasSubstr("the folder " + nowhere.string() + " is not there: make it first"));
+  EXPECT_THAT(describe(exported.error()), HasSubstr("folder " + nowhere.string() + " does not exist: create it"));
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ TEST(ExportPhysical, ComesBackWithAGltfThatIsImported) {
   std::size_t slabs = 0;
   const auto& assignment = outcome->document.materials->result.assignment;
   for (const auto& s : assignment.surfaces) {
-    EXPECT_EQ(s.reason, "stated by the file");
+    EXPECT_EQ(s.reason, "from the file");
     slabs += assignment.materials[static_cast<std::size_t>(s.material)].id == "granite_grey" ? 1 : 0;
   }
   EXPECT_EQ(slabs, 3U);

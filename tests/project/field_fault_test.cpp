@@ -60,7 +60,7 @@ class AWalkerInTheScan : public testing::Test {
 };
 
 TEST_F(AWalkerInTheScan, StandsTwoMetresAwayWhereTheLaserLooksAtThatShareOfTheTurn) {
-  const auto empty = scanned({}), walked = scanned({{"field-fault", {"walk=0.5"}}});
+  const auto empty = scanned({}), walked = scanned({{"field-fault", {"passer_by=0.5"}}});
   ASSERT_EQ(empty.all.size(), walked.all.size()) << "what it hides comes back from it";
   std::size_t moving = 0;
   double lowest = 1e9, highest = -1e9, widest = 0;
@@ -88,14 +88,14 @@ TEST_F(AWalkerInTheScan, StandsTwoMetresAwayWhereTheLaserLooksAtThatShareOfTheTu
 TEST_F(AWalkerInTheScan, IsNotSeenWhereAWallIsNearer) {
   document_ = run("station", twoStoreyDocument(), {{"add", "S1"}, {"at", {500001.0, 5600002, 1.6}}})
                   ->document;  // the wall is 1 m away
-  const auto walked = scanned({{"field-fault", {"walk=0.5"}}});
+  const auto walked = scanned({{"field-fault", {"passer_by=0.5"}}});
   EXPECT_EQ(std::count_if(walked.all.truth.flags.begin(), walked.all.truth.flags.end(),
                           [](std::uint8_t f) { return (f & point_flag::kMoving) != 0; }),
             0);
 }
 
 TEST_F(AWalkerInTheScan, IsTakenOutByASecondPassOfTheLaser) {
-  const auto twice = scanned({{"field-fault", {"walk=0.5"}}},
+  const auto twice = scanned({{"field-fault", {"passer_by=0.5"}}},
                              {"resolution=12mm", "double_scan=on", "images=off", "field_of_view=target_area",
                               "horizontal_from=176", "horizontal_to=184", "vertical_from=-20", "vertical_to=0"},
                              "leica-rtc360");
@@ -104,7 +104,7 @@ TEST_F(AWalkerInTheScan, IsTakenOutByASecondPassOfTheLaser) {
 }
 
 TEST_F(AWalkerInTheScan, IsStillThereInASecondPassWhenHeStaysBesideTheScanner) {
-  const auto twice = scanned({{"field-fault", {"stand=0.5"}}},
+  const auto twice = scanned({{"field-fault", {"operator_in_view=0.5"}}},
                              {"resolution=12mm", "double_scan=on", "images=off", "field_of_view=target_area",
                               "horizontal_from=176", "horizontal_to=184", "vertical_from=-20", "vertical_to=0"},
                              "leica-rtc360");
@@ -118,9 +118,9 @@ TEST_F(AWalkerInTheScan, IsStillThereInASecondPassWhenHeStaysBesideTheScanner) {
 TEST_F(AWalkerInTheScan, MakesAnotherScanOfIt) {
   const auto guid = [&](const json& more) { return scanned(more).guid; };
   EXPECT_EQ(guid({}), guid({}));
-  EXPECT_NE(guid({}), guid({{"field-fault", {"walk=0.5"}}}));
-  EXPECT_NE(guid({{"field-fault", {"stand=0.5"}}}), guid({{"field-fault", {"walk=0.5"}}}));
-  EXPECT_NE(guid({{"field-fault", {"walk=0.4"}}}), guid({{"field-fault", {"walk=0.5"}}}));
+  EXPECT_NE(guid({}), guid({{"field-fault", {"passer_by=0.5"}}}));
+  EXPECT_NE(guid({{"field-fault", {"operator_in_view=0.5"}}}), guid({{"field-fault", {"passer_by=0.5"}}}));
+  EXPECT_NE(guid({{"field-fault", {"passer_by=0.4"}}}), guid({{"field-fault", {"passer_by=0.5"}}}));
 }
 
 TEST_F(AWalkerInTheScan, NotesGoIntoTheFilesRecord) {
@@ -131,15 +131,16 @@ TEST_F(AWalkerInTheScan, NotesGoIntoTheFilesRecord) {
 }
 
 TEST(FieldFault, IsReadAndWhatItIsNotIsRefused) {
-  const auto read = fieldFaultFrom({"walk=0.25", "stand=0.75", "until=0.5", "push=0", "noise=2"});
+  const auto read =
+      fieldFaultFrom({"passer_by=0.25", "operator_in_view=0.75", "until=0.5", "tripod_moved=0", "noise=2"});
   ASSERT_TRUE(read);
-  EXPECT_EQ(read->walked_at_share, 0.25);
-  EXPECT_EQ(read->stood_at_share, 0.75);
-  EXPECT_EQ(read->until_share, 0.5);
-  EXPECT_EQ(read->pushed_at_share, 0);
+  EXPECT_EQ(read->passer_by_at_fraction, 0.25);
+  EXPECT_EQ(read->operator_at_fraction, 0.75);
+  EXPECT_EQ(read->until_fraction, 0.5);
+  EXPECT_EQ(read->tripod_moved_at_fraction, 0);
   EXPECT_EQ(read->noise_factor, 2);
-  for (const char* wrong :
-       {"walk=1.1", "walk=-0.1", "walk=", "walk", "walk=x", "walk=0.5s", "run=0.5", "noise=0.5", "push=nan"})
+  for (const char* wrong : {"passer_by=1.1", "passer_by=-0.1", "passer_by=", "passer_by", "passer_by=x",
+                            "passer_by=0.5s", "run=0.5", "noise=0.5", "tripod_moved=nan"})
     EXPECT_FALSE(fieldFaultFrom({wrong})) << wrong;
 }
 

@@ -77,7 +77,7 @@ TEST(Levelling, IsRefusedBeyondTheCompensatorsRangeAndTiltedWithoutIt) {
   ASSERT_TRUE(off);
   EXPECT_EQ(tiltOf(off->rotation).angle_rad, 0);
   EXPECT_NEAR(yawOf(off->rotation), 0.7, 1e-12);
-  EXPECT_THAT(said(report), HasSubstr("points come tilted"));
+  EXPECT_THAT(said(report), HasSubstr("points stay tilted"));
 }
 
 TEST(Levelling, DrawsATiltWithinTheLimitByNameAndSeed) {

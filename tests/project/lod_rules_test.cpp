@@ -63,9 +63,9 @@ TEST(LodRules, TellSurroundingsByTheAuthorsSelectors) {
   EXPECT_EQ(options.budget, 12000U);
   EXPECT_EQ(options.further_budgets, std::vector<std::uint64_t>{3000});
   EXPECT_EQ(options.products[4].lod, "LoD 200");
-  EXPECT_EQ(options.products[4].share, 1U);
+  EXPECT_EQ(options.products[4].budget_group, 1U);
   EXPECT_EQ(options.products[4].max_deviation_m, 0.15);
-  EXPECT_EQ(options.products[0].share, 0U);
+  EXPECT_EQ(options.products[0].budget_group, 0U);
 }
 
 TEST(LodRules, DropOfTheSurroundingsWhatNeverSeesTheSky) {
@@ -88,9 +88,9 @@ TEST(LodRules, TellSurroundingsByTheGapBetweenBuildings) {
   auto levels = shipped();
   levels[1].farther_than_m = 20;
   const auto options = allowances(street(), levels, {});
-  EXPECT_EQ(options.products[0].share, 0U);
-  EXPECT_EQ(options.products[1].share, 0U);
-  EXPECT_EQ(options.products[4].share, 1U);
+  EXPECT_EQ(options.products[0].budget_group, 0U);
+  EXPECT_EQ(options.products[1].budget_group, 0U);
+  EXPECT_EQ(options.products[4].budget_group, 1U);
 }
 
 class LodFile : public ::testing::Test {

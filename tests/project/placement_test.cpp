@@ -77,17 +77,17 @@ TEST(Placement, RefusesToFloatAndToStandTooLow) {
   const auto d = ground();
   EXPECT_THAT(refusal(d, {{"at", {0, 0, 5.0}}}),
               AllOf(HasSubstr("float"), HasSubstr("5.00 m below"), HasSubstr("lower it by 2.80 m")));
-  EXPECT_THAT(refusal(d, {{"at", {0, 0, 0.5}}}), HasSubstr("0.80 m high at least"));
-  EXPECT_THAT(refusal(d, {{"at", {30, 0, 5.0}}}), HasSubstr("float")) << "beside the model";
+  EXPECT_THAT(refusal(d, {{"at", {0, 0, 0.5}}}), HasSubstr("needs at least 0.80 m"));
+  EXPECT_THAT(refusal(d, {{"at", {30, 0, 5.0}}}), HasSubstr("float")) << "next to the model";
   EXPECT_THAT(refusal(d, {{"at", {0, 0, -5.0}}}), HasSubstr("float")) << "below the model";
   EXPECT_THAT(refusal(d, {{"on", {0, 0}}, {"height", 3}}), HasSubstr("0.80 to 2.20 m"));
-  EXPECT_TRUE(run("station", d, {{"add", "S"}, {"at", {0, 0, 5.0}}, {"stand", "free"}})) << "it hangs";
+  EXPECT_TRUE(run("station", d, {{"add", "S"}, {"at", {0, 0, 5.0}}, {"stand", "free"}})) << "floating";
 }
 
 TEST(Placement, BesideAModelStandsOnItsLowestHeightAndSaysSo) {
   const auto done = run("station", ground(), {{"add", "S"}, {"at", {30, 0, 1.2}}});
   ASSERT_TRUE(done) << describe(done.error());
-  EXPECT_THAT(said(done->report), HasSubstr("lowest height"));
+  EXPECT_THAT(said(done->report), HasSubstr("lowest level"));
   EXPECT_NEAR(done->document.job->stations[0].instrument_height_m, 1.7, 1e-6);
 }
 
@@ -108,7 +108,7 @@ TEST(Placement, RefusesTheInsideOfABodyAndNotThatOfARoomDrawnFromInside) {
       << "nothing to stand on in there";
   const auto skin = run("station", block("", false), {{"add", "S"}, {"at", {0, 0, 1.6}}});
   ASSERT_TRUE(skin) << describe(skin.error());
-  EXPECT_THAT(said(skin->report), HasSubstr("taken for a room drawn as one skin"));
+  EXPECT_THAT(said(skin->report), HasSubstr("treated as a room modelled as a single shell"));
   EXPECT_TRUE(run("station", block("", true), {{"add", "S"}, {"at", {0, 0, 1.6}}})) << "a room";
 }
 

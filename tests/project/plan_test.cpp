@@ -197,7 +197,7 @@ TEST(Plan, ProposesThePlaceThatAddsMostAndSoDoesAddingAStation) {
   ASSERT_TRUE(added) << describe(added.error());
   EXPECT_NEAR(added->answer["placed"]["at"][2].get<double>(), 4.6, 0.01);
   const auto none = plan(twoStoreyDocument());
-  EXPECT_EQ(none["coverage"], 0) << "no station yet: only a place to begin";
+  EXPECT_EQ(none["coverage"], 0) << "no stations: only a place to begin";
   EXPECT_TRUE(none["proposed"].is_object());
 }
 

@@ -91,7 +91,7 @@ TEST_F(Registered, TellsAScaleAndGuessesItsUnit) {
           {{"register", "mm"},
            {"pairs", {"0,0,0=500000,5600000,0", "6000,0,0=500006,5600000,0", "0,4000,0=500000,5600004,0"}}});
   ASSERT_TRUE(done) << describe(done.error());
-  EXPECT_THAT(said(done->report), HasSubstr("not applied: the cloud seems to be in millimetres"));
+  EXPECT_THAT(said(done->report), HasSubstr("not applied: the cloud unit seems to be millimetres"));
 }
 
 TEST_F(Registered, SaysWhatIsWrongWithItsOptions) {
@@ -105,7 +105,7 @@ TEST_F(Registered, SaysWhatIsWrongWithItsOptions) {
   EXPECT_THAT(message({{"icp", true}}), HasSubstr("--register"));
   EXPECT_THAT(message({{"register", "cloud"}, {"pairs", {"0,0,0=1,1"}}}), HasSubstr("'0,0,0=1,1' is not"));
   EXPECT_THAT(message({{"register", "cloud"}, {"pairs", {"0,0,0=0,0,0", "1,1,1=1,1,1", "2,2,2=2,2,2"}}}),
-              HasSubstr("on one line"));
+              HasSubstr("collinear"));
   EXPECT_THAT(message({{"register", "cloud"}, {"icp", true}}), HasSubstr("only 2 different places"));
   EXPECT_THAT(message({{"register", "clod"}, {"icp", true}}), HasSubstr("there is cloud"));
 }

@@ -132,9 +132,10 @@ TEST_F(Registration, WritesCopiesOfTheScansWithTheirSolvedPoses) {
              registered.headers[1].file_from_scanner.translation)
                 .norm(),
             1e-5);
-  EXPECT_THAT(refused(*noisy_, {{"files", {path("noisy.e57")}}, {"output", path("")}}), HasSubstr("over itself"));
+  EXPECT_THAT(refused(*noisy_, {{"files", {path("noisy.e57")}}, {"output", path("")}}),
+              HasSubstr("overwrite the input"));
   EXPECT_THAT(refused(*noisy_, {{"files", {path("noisy.e57")}}, {"output", path("nowhere/x.e57")}}),
-              AllOf(HasSubstr("nowhere"), HasSubstr("make it first")));
+              AllOf(HasSubstr("nowhere"), HasSubstr("create it")));
   EXPECT_EQ(readBack(path("noisy.e57")).headers[1].guid, as_scanned.headers[1].guid) << "the input is as it was";
 }
 
@@ -190,7 +191,7 @@ TEST_F(Registration, SaysWhatIsWrong) {
   few = run("target", few, {{"remove", "K4"}})->document;
   EXPECT_TRUE(run("register", few, {{"files", file}}));
   few = run("target", few, {{"remove", "K3"}})->document;
-  EXPECT_THAT(refused(few, {{"files", file}}), HasSubstr("2 targets, and three are needed"));
+  EXPECT_THAT(refused(few, {{"files", file}}), HasSubstr("2 targets, at least three are required"));
   // A target that was not there when it was scanned: nothing near its place.
   few = run("target", few, {{"add", "late"}, {"on", {500005.3, 5600000.8}}, {"height", 1.2}})->document;
   const auto late = refused(few, {{"files", file}});
@@ -202,7 +203,7 @@ TEST_F(Registration, SaysWhatIsWrong) {
   other.job = std::make_shared<const Job>(Job{"", {}, scanned_->job->targets, {}});
   EXPECT_THAT(refused(other, {{"files", file}}), HasSubstr("'S1' is of no station"));
   std::ofstream(path("list.xyz")) << "0 0 0\n1 0 0\n";
-  EXPECT_THAT(refused(*scanned_, {{"files", {path("list.xyz")}}}), HasSubstr("has no grid of a scanner"));
+  EXPECT_THAT(refused(*scanned_, {{"files", {path("list.xyz")}}}), HasSubstr("has no scanner grid"));
   EXPECT_THAT(refused(*scanned_, {{"files", {path("none.e57")}}}), HasSubstr("none.e57"));
 }
 

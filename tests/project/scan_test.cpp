@@ -86,10 +86,9 @@ TEST(Scan, SaysWhatIsWrongWithItsOptions) {
   EXPECT_NE(with("stations", "S1,S7").find("S7"), std::string::npos);
   EXPECT_NE(with("output", (folder.path() / "x.xyz9").string()).find(".e57"), std::string::npos);
   EXPECT_NE(with("shard", "3/2").find("i/n"), std::string::npos);
-  EXPECT_NE(
-      with("output", "/nonexistent/folder/x.e57").find("the folder /nonexistent/folder is not there: make it first"),
-      std::string::npos);
-  EXPECT_NE(with("panorama-size", 1024).find("add --panorama"), std::string::npos);
+  EXPECT_NE(with("output", "/nonexistent/folder/x.e57").find("folder /nonexistent/folder does not exist: create it"),
+            std::string::npos);
+  EXPECT_NE(with("panorama-size", 1024).find("requires --panorama"), std::string::npos);
   EXPECT_FALSE(run("scan", twoStoreyDocument(), scanOptions(folder.path() / "x.e57"))) << "no station";
   EXPECT_TRUE(fs::is_empty(folder.path())) << "a refused scan leaves no file";
 }

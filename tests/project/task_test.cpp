@@ -17,7 +17,7 @@ const Verb kEndless{"endless",
                     VerbScope::files,
                     {},
                     [](const Document& d, const nlohmann::json&, Progress& progress) -> Result<Outcome> {
-                      for (double share = 0; progress.check(); share += 0.001) progress.advance(share);
+                      for (double fraction = 0; progress.check(); fraction += 0.001) progress.advance(fraction);
                       if (auto ok = progress.check(); !ok) return failure(ok.error());
                       return Outcome{d, {}, {}, {}};
                     }};

@@ -45,7 +45,7 @@ TEST(Underlay, InTheModelsOwnCoordinatesStaysWhereItIs) {
   EXPECT_EQ(u.bounds_cloud_m.min, Eigen::Vector3d(500001, 5600002, 1));
   EXPECT_EQ(u.bounds_cloud_m.max, Eigen::Vector3d(500002, 5600003, 2));
   EXPECT_TRUE(u.file_from_cloud.translation.isZero());
-  EXPECT_THAT(said(done->report), HasSubstr("as its coordinates are"));
+  EXPECT_THAT(said(done->report), HasSubstr("by its coordinates"));
 }
 
 TEST(Underlay, InMapCoordinatesIsPlacedByTheModelsMapConversion) {
@@ -57,7 +57,7 @@ TEST(Underlay, InMapCoordinatesIsPlacedByTheModelsMapConversion) {
   const Bounds b = boundsInFile(*done->document.underlays[0]);
   EXPECT_LT((b.min - Eigen::Vector3d(500001, 5600001, 1)).norm(), 1e-6);
   EXPECT_LT((b.max - Eigen::Vector3d(500002, 5600002, 2)).norm(), 1e-6);
-  EXPECT_THAT(said(done->report), HasSubstr("placed by the model's map conversion"));
+  EXPECT_THAT(said(done->report), HasSubstr("placed using the model's map conversion"));
 }
 
 TEST(Underlay, FarFromTheModelIsAFindingWithARemedy) {
@@ -65,7 +65,7 @@ TEST(Underlay, FarFromTheModelIsAFindingWithARemedy) {
   const auto file = cloudFile(folder.path() / "far.xyz", {0, 0, 0});
   const auto done = run("underlay", twoStoreyDocument(), {{"add", file.string()}});
   ASSERT_TRUE(done) << describe(done.error());
-  EXPECT_THAT(said(done->report), HasSubstr("km from the model: say where its origin lies with --at"));
+  EXPECT_THAT(said(done->report), HasSubstr("km from the model: specify its origin with --at"));
   const auto placed = run("underlay", twoStoreyDocument(), {{"add", file.string()}, {"at", {500000, 5600000, 0}}});
   ASSERT_TRUE(placed) << describe(placed.error());
   EXPECT_THAT(said(placed->report), ::testing::Not(HasSubstr("km from")));
@@ -148,7 +148,7 @@ TEST(Underlay, WithoutPointsOrFileIsRefused) {
       << "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
          "property float z\nend_header\n";
   EXPECT_THAT(run("underlay", twoStoreyDocument(), {{"add", (folder.path() / "empty.ply").string()}}).error().message,
-              HasSubstr("no points"));
+              HasSubstr("is empty"));
 }
 
 }  // namespace

@@ -155,7 +155,7 @@ TEST_F(Verify, OfACloudThatLiesWrongSaysThatInsteadOfProposing) {
   const auto done = verified(swapped(laid(path("scan.ptx"), {0.03, 0.04, 0}), "east0=rubber_black"));
   ASSERT_TRUE(done) << describe(done.error());
   EXPECT_TRUE(done->answer.at("proposals").empty());
-  EXPECT_THAT(done->answer.at("no_verdict").get<std::string>(), HasSubstr("the cloud lies 0.050 m off the model"));
+  EXPECT_THAT(done->answer.at("no_verdict").get<std::string>(), HasSubstr("the cloud is 0.050 m off the model"));
 }
 
 TEST_F(Verify, IsKeptInTheProjectUntilSomethingElseIsTrue) {
@@ -194,7 +194,7 @@ TEST_F(Verify, PutsItsProposalsAmongTheFindingsWithARemedyOfOneClick) {
   const json f = findings[0];
   EXPECT_EQ(f.at("products"), json({"east0"}));
   EXPECT_EQ(f.at("severity"), "warning");
-  EXPECT_THAT(f.at("message").get<std::string>(), HasSubstr("'rubber_black' was measured otherwise on IfcWall"));
+  EXPECT_THAT(f.at("message").get<std::string>(), HasSubstr("measurements contradict 'rubber_black' on IfcWall"));
   EXPECT_THAT(f.at("why").get<std::string>(), HasSubstr("By the cloud 'cloud': "));
   for (const auto& use : done->document.materials->result.report.uses)
     if (use.material == "rubber_black") {
@@ -242,18 +242,18 @@ TEST_F(Verify, OfAListOfPointsAsksForTheStation) {
 }
 
 TEST_F(Verify, SaysWhatIsMissing) {
-  EXPECT_THAT(refusal(scanned_), HasSubstr("no cloud lies under the model"));
+  EXPECT_THAT(refusal(scanned_), HasSubstr("there is no underlay"));
   const auto constant =
       rewritten("constant.ptx", true, [](double x, double y, double z, double) { return text(x, y, z, 0.5); });
-  EXPECT_THAT(refusal(laid(constant)), HasSubstr("every point has the same intensity"));
+  EXPECT_THAT(refusal(laid(constant)), HasSubstr("all points have the same intensity"));
   const auto bare = rewritten("bare.xyz", false, [](double x, double y, double z, double) {
     return std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z);
   });
-  EXPECT_THAT(refusal(laid(bare)), HasSubstr("the cloud has no intensity"));
+  EXPECT_THAT(refusal(laid(bare)), HasSubstr("the point cloud has no intensity"));
   EXPECT_THAT(refusal(laid(path("scan.ptx"), {100, 0, 0})), HasSubstr("register the cloud first"));
   Document none = laid(path("scan.ptx"));
   none.materials = nullptr;
-  EXPECT_THAT(refusal(none), HasSubstr("no materials are assigned yet"));
+  EXPECT_THAT(refusal(none), HasSubstr("no materials assigned"));
   EXPECT_THAT(refusal(laid(path("scan.ptx")), {{"underlay", "clod"}}), HasSubstr("there is cloud"));
   const auto unsaid = run("verify", laid(path("scan.ptx")), json::object());
   ASSERT_FALSE(unsaid);

@@ -74,8 +74,8 @@ std::vector<float> withWhite(const ColumnNoise& noise, std::uint32_t column) {
 TEST(NoiseAlongAColumn, HasItsHurstExponentByTheVarianceOfMeans) {
   for (const double hurst : {0.5, 0.6, 0.75, 0.9}) {
     auto instrument = withHurst(hurst);
-    instrument.correlated.column_share = 0;
-    instrument.correlated.along_share = 1;
+    instrument.correlated.column_fraction = 0;
+    instrument.correlated.along_fraction = 1;
     const ColumnNoise noise(instrument, 10, smallDome(8333), {1, 1});
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
     for (std::size_t m = 1; m <= 1024; m *= 4) {
@@ -183,13 +183,13 @@ TEST(NoiseOfColumns, ShowsInTheMeansOfColumnsWhatTheSharesSay) {
   auto instrument = testing::instrument("faro-focus-s350");
   auto& noise = instrument.correlated;
   noise.wobble_m = 0;
-  for (const double share : {0.0, 0.1, 0.4}) {
-    noise.column_share = share;
+  for (const double fraction : {0.0, 0.1, 0.4}) {
+    noise.column_fraction = fraction;
     const auto grid = gridOf(instrument, 1, 4000, 1024);
     EXPECT_NEAR(grid.variance, 1, 0.03);
-    const double from_along = noise.along_share * std::pow(1024, 2 * noise.hurst - 2);
-    const double from_white = (1 - share - noise.along_share) / 1024;
-    EXPECT_NEAR(grid.variance_of_columns, share + from_along + from_white, 0.1 * (share + from_along));
+    const double from_along = noise.along_fraction * std::pow(1024, 2 * noise.hurst - 2);
+    const double from_white = (1 - fraction - noise.along_fraction) / 1024;
+    EXPECT_NEAR(grid.variance_of_columns, fraction + from_along + from_white, 0.1 * (fraction + from_along));
   }
 }
 

@@ -163,7 +163,7 @@ TEST(Vz400i, TakesAPatternOfSixNumbers) {
   EXPECT_EQ(custom.columns, 4500U);           // 90 / 0.02
   EXPECT_EQ(custom.rows, 1000U);              // 50 / 0.05
   EXPECT_DOUBLE_EQ(custom.scan_seconds, 75);  // 18000 · 2000 / 120000, a quarter of the turn
-  EXPECT_THAT(refused("riegl-vz-400i", {{"line_step", "0.1"}}).message, HasSubstr("choose that pattern"));
+  EXPECT_THAT(refused("riegl-vz-400i", {{"line_step", "0.1"}}).message, HasSubstr("require the custom pattern"));
 }
 
 TEST(Vz400i, TakesItsTimeWhenTheLaserIsSlow) {
@@ -263,8 +263,8 @@ TEST(Instruments, EachHaveASourceForEveryFigure) {
 TEST(Instruments, SpreadTheirNoiseWithoutAddingToTheSheet) {
   for (const auto& instrument : testing::instruments()) {
     const auto& noise = instrument.correlated;
-    EXPECT_LE(noise.column_share + noise.along_share, 1) << instrument.id;
-    EXPECT_GT(noise.column_share + noise.column_extra_m, 0) << instrument.id << " has no stripes";
+    EXPECT_LE(noise.column_fraction + noise.along_fraction, 1) << instrument.id;
+    EXPECT_GT(noise.column_fraction + noise.column_extra_m, 0) << instrument.id << " has no stripes";
     for (const auto& figure : instrument.range_noise)
       EXPECT_LT(noise.wobble_m * noise.wobble_m / 2, 0.02 * figure.sigma_m * figure.sigma_m) << instrument.id;
   }
@@ -307,7 +307,7 @@ TEST(MovingInstruments, ThatAreAskedToScanFromAStationSayWhatTheyNeed) {
     const auto settings = resolveSettings(instrument, {});
     ASSERT_FALSE(settings) << instrument.id;
     EXPECT_EQ(settings.error().kind, ErrorKind::usage);
-    EXPECT_THAT(settings.error().message, HasSubstr("needs a trajectory"));
+    EXPECT_THAT(settings.error().message, HasSubstr("requires a trajectory"));
     EXPECT_EQ(settings.error().source, instrument.id);
   }
   EXPECT_EQ(refused_ones, 9);
@@ -317,7 +317,7 @@ TEST(MovingInstruments, ThatAreAskedToScanFromAStationSayWhatTheyNeed) {
 TEST(Blk360, HasTheNoiseThatWasSimulatedAndTheStripesThatWereMissing) {
   const auto instrument = testing::instrument("leica-blk360-g1");
   const auto& noise = instrument.correlated;
-  EXPECT_EQ(noise.column_share, 0);
+  EXPECT_EQ(noise.column_fraction, 0);
   EXPECT_NEAR(std::hypot(instrument.range_noise[0].sigma_m, noise.column_extra_m), 0.00229, 5e-6);
   const double accuracy_mm[] = {4, 7};
   for (std::size_t i = 0; i < 2; ++i) {

@@ -64,16 +64,16 @@ TEST(MixedPointFilter, FlagsWhatItWouldTakeAndTakesItWhenItIsSwitchedOn) {
 TEST(WeakPointFilter, TakesWhatIsNearTheThreshold) {
   auto instrument = testing::instrument("faro-focus-s350");
   instrument.near_range_m = 0;
-  for (const double share : {0.8, 0.83}) {  // 1/√1.5 = 0.816
-    const double distance = share * instrument.max_range_m;
+  for (const double fraction : {0.8, 0.83}) {  // 1/√1.5 = 0.816
+    const double distance = fraction * instrument.max_range_m;
     SceneBuilder scene;
     scene.quad({distance, -10, -10}, {0, 20, 0}, {0, 0, 20});
     const auto assignment = allOf(*scene.environment(), instrument.reference_reflectivity);
     const auto settings = window(instrument, -0.05, 0.05, -0.05, 0.05, 10, 10);
     const Effects effects = kLaw.with(Effect::filters);
-    EXPECT_EQ(counted(scene, assignment, instrument, settings, {}, effects).filtered, share < 0.816 ? 0U : 100U);
+    EXPECT_EQ(counted(scene, assignment, instrument, settings, {}, effects).filtered, fraction < 0.816 ? 0U : 100U);
     EXPECT_EQ(counted(scene, assignment, instrument, settings, {{"clear_sky", "on"}}, effects).points,
-              share < 0.816 ? 100U : 0U);
+              fraction < 0.816 ? 100U : 0U);
   }
 }
 

@@ -69,9 +69,9 @@ TEST(RayScene, LosesNoRayInTheSeamsOfARoom) {
   scene.box({-4, -3, 0}, {5, 6, 3}, true);
   const auto rays = scene.build();
   for (int k = 0; k < 20000; ++k) {  // towards the edges, where two faces meet
-    const double share = k / 20000.0;
-    for (const Eigen::Vector3d& edge : {Eigen::Vector3d(5, -3 + 9 * share, 3), Eigen::Vector3d(-4 + 9 * share, 6, 0),
-                                        Eigen::Vector3d(5, 6, 3 * share)})
+    const double fraction = k / 20000.0;
+    for (const Eigen::Vector3d& edge : {Eigen::Vector3d(5, -3 + 9 * fraction, 3),
+                                        Eigen::Vector3d(-4 + 9 * fraction, 6, 0), Eigen::Vector3d(5, 6, 3 * fraction)})
       ASSERT_TRUE(rays->intersect({0.3, 0.2, 1.7}, (edge - Eigen::Vector3d(0.3, 0.2, 1.7)).normalized(), 100))
           << edge.transpose();
   }

@@ -127,12 +127,12 @@ TEST(MaximumRange, FollowsTheRootOfTheReflectivity) {
       if (instrument.id == "leica-rtc360") {
         EXPECT_NEAR(limit, reflectivity == 0.2 ? 61.3 : 43.3, 0.05);
       }
-      for (const double share : {0.99, 1.01}) {
-        const auto scene = wallAt(share * limit);
+      for (const double fraction : {0.99, 1.01}) {
+        const auto scene = wallAt(fraction * limit);
         const auto settings = window(instrument, -0.05, 0.05, -0.05, 0.05, 20, 20);
         const auto result =
             scanned(*scene.build(), allOf(*scene.environment(), reflectivity), instrument, settings, {1, kPhysicsLaw});
-        EXPECT_EQ(result.points.size(), share < 1 ? 400U : 0U) << instrument.id << " " << reflectivity;
+        EXPECT_EQ(result.points.size(), fraction < 1 ? 400U : 0U) << instrument.id << " " << reflectivity;
       }
     }
   }
@@ -142,7 +142,7 @@ TEST(MaximumRange, FadesRatherThanStops) {
   auto instrument = testing::instrument("leica-rtc360");
   instrument.near_range_m = 0;
   const double limit = instrument.max_range_m * std::sqrt(0.2 / instrument.reference_reflectivity);
-  const auto share = [&](double range) {
+  const auto fraction = [&](double range) {
     const auto scene = wallAt(range);
     return scanned(*scene.build(), allOf(*scene.environment(), 0.2), instrument, straightAhead(instrument, 100),
                    {1, Effects().without(Effect::atmosphere)})
@@ -151,7 +151,7 @@ TEST(MaximumRange, FadesRatherThanStops) {
   };
   // P_d = ½ erfc((x_min - x) / √2 σ), σ = 0.1 x_min.
   for (const double relative : {0.95, 1.0, 1.05})
-    EXPECT_NEAR(share(relative * limit), 0.5 * std::erfc((1 - 1 / (relative * relative)) / (std::sqrt(2.0) * 0.1)),
+    EXPECT_NEAR(fraction(relative * limit), 0.5 * std::erfc((1 - 1 / (relative * relative)) / (std::sqrt(2.0) * 0.1)),
                 0.02)
         << relative;
 }
@@ -171,12 +171,12 @@ TEST(MaximumRange, OnTheGroundIsCutByIncidence) {
 
 TEST(MinimumRange, IsKept) {
   for (const auto& instrument : instruments())
-    for (const double share : {0.95, 1.05}) {
-      const auto scene = wallAt(share * instrument.min_range_m);
+    for (const double fraction : {0.95, 1.05}) {
+      const auto scene = wallAt(fraction * instrument.min_range_m);
       const auto settings = window(instrument, -0.5, 0.5, -0.5, 0.5, 10, 10);
       EXPECT_EQ(scanned(*scene.build(), allOf(*scene.environment(), 0.5), instrument, settings, {1, Effects::none()})
                     .points.size(),
-                share > 1 ? 100U : 0U);
+                fraction > 1 ? 100U : 0U);
     }
 }
 

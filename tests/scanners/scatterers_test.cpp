@@ -31,7 +31,7 @@ double power(const Instrument& instrument, double alpha, double r, double diamet
 
 // The moments that two ways of making drops are compared by.
 struct Seen {
-  double share = 0, range_m = 0, log_x = 0, log_x_deviation = 0;
+  double fraction = 0, range_m = 0, log_x = 0, log_x_deviation = 0;
 };
 
 Seen summary(const std::vector<Scatterer>& found) {
@@ -40,7 +40,7 @@ Seen summary(const std::vector<Scatterer>& found) {
   for (const auto& s : found) seen.range_m += s.range_m / n, seen.log_x += std::log(s.x) / n;
   for (const auto& s : found) seen.log_x_deviation += std::pow(std::log(s.x) - seen.log_x, 2) / n;
   seen.log_x_deviation = std::sqrt(seen.log_x_deviation);
-  seen.share = n / kPulses;
+  seen.fraction = n / kPulses;
   return seen;
 }
 
@@ -78,8 +78,8 @@ Seen simulated(const Instrument& instrument, double mm_h, double far_m, double m
 }
 
 void expectAlike(const Seen& a, const Seen& b) {
-  const double n = kPulses * b.share;
-  EXPECT_NEAR(a.share, b.share, 5 * std::sqrt(2 * b.share / kPulses));
+  const double n = kPulses * b.fraction;
+  EXPECT_NEAR(a.fraction, b.fraction, 5 * std::sqrt(2 * b.fraction / kPulses));
   EXPECT_NEAR(a.log_x, b.log_x, 5 * b.log_x_deviation * std::sqrt(2 / n));
   EXPECT_NEAR(a.log_x_deviation / b.log_x_deviation, 1, 5 / std::sqrt(n));
   EXPECT_NEAR(a.range_m / b.range_m, 1, 0.03);
@@ -98,16 +98,16 @@ TEST(Drops, AreAsManyAsTheirDistributionSays) {
   const double lambda = 4.1 * std::pow(50, -0.21);
   double number = 0;
   for (double r = instrument.min_range_m + 5e-4; r < kFar_m; r += 1e-3) {
-    const double share = kLeast / power(instrument, alpha, r, 1);  // of a drop as wide as the beam
-    if (share > 1) continue;
-    const double diameter_mm = std::max(1e3 * beam(instrument, r) * std::sqrt(share), 0.05);
+    const double fraction = kLeast / power(instrument, alpha, r, 1);  // of a drop as wide as the beam
+    if (fraction > 1) continue;
+    const double diameter_mm = std::max(1e3 * beam(instrument, r) * std::sqrt(fraction), 0.05);
     const double cross_section = std::numbers::pi / 4 * std::pow(beam(instrument, r), 2);
     number += 8000 / lambda * std::exp(-lambda * diameter_mm) * cross_section * 1e-3;
   }
   const Scatterers air(instrument, rain(50), kLeast, 100, {1, 1});
   EXPECT_NEAR(air.expected(kFar_m) / number, 1, 2e-3);
-  const double share = 1 - std::exp(-number);
-  EXPECT_NEAR(drawn(instrument, rain(50), kFar_m, kLeast).share, share, 5 * std::sqrt(share / kPulses));
+  const double fraction = 1 - std::exp(-number);
+  EXPECT_NEAR(drawn(instrument, rain(50), kFar_m, kLeast).fraction, fraction, 5 * std::sqrt(fraction / kPulses));
 }
 
 TEST(Drops, LieBeforeTheTargetAndAboveTheThreshold) {

@@ -50,16 +50,16 @@ TEST(Sun, TakesRangeFromWhatItLights) {
   const double beta = instrument.sun_noise * 0.34 * std::sqrt(0.5);
   const double limit = 270 / std::pow(1 + beta, 0.25);
   for (const bool shaded : {false, true})
-    for (const double share : {0.99, 1.01}) {
+    for (const double fraction : {0.99, 1.01}) {
       SceneBuilder scene;
-      scene.quad({share * limit, -5, -5}, {0, 10, 0}, {0, 0, 10});
-      if (shaded) scene.quad({share * limit - 40, -20, 30}, {0, 40, 0}, {30, 0, 0});
+      scene.quad({fraction * limit, -5, -5}, {0, 10, 0}, {0, 0, 10});
+      if (shaded) scene.quad({fraction * limit - 40, -20, 30}, {0, 40, 0}, {30, 0, 0});
       ScanOptions options{1, kStrayLaw.with(Effect::sun)};
       options.sun = Sun{-90 * kRadPerDeg, 45 * kRadPerDeg, 1000};  // from -X
       const auto settings = window(instrument, -0.02, 0.02, -0.02, 0.02, 8, 8);
       const auto assignment = allOf(*scene.environment(), 0.34);
-      EXPECT_EQ(lit(scene, assignment, instrument, settings, options).size(), shaded || share < 1 ? 64U : 0U)
-          << shaded << share;
+      EXPECT_EQ(lit(scene, assignment, instrument, settings, options).size(), shaded || fraction < 1 ? 64U : 0U)
+          << shaded << fraction;
       options.effects = options.effects.without(Effect::sun);
       EXPECT_EQ(lit(scene, assignment, instrument, settings, options).size(), 64U);
     }
@@ -179,9 +179,9 @@ TEST(Halo, HasTheWholePedestalInItsRays) {
 }
 
 TEST(RoughMirror, IsTheMirrorWhereItsLobeIsNarrowerThanTheBeam) {
-  EXPECT_EQ(roughMirrorShare(1e-4, 3e-3, 5, 5), 1);
+  EXPECT_EQ(roughMirrorFraction(1e-4, 3e-3, 5, 5), 1);
   // A (R1 + R2)² / (R1² R2² 8π m²) with A = π w².
-  EXPECT_NEAR(roughMirrorShare(0.05, 3e-3, 5, 0.5),
+  EXPECT_NEAR(roughMirrorFraction(0.05, 3e-3, 5, 0.5),
               std::numbers::pi * 9e-6 * 5.5 * 5.5 / (25 * 0.25 * 8 * std::numbers::pi * 0.0025), 1e-9);
 }
 

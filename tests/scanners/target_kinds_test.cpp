@@ -58,7 +58,7 @@ TEST(TargetKinds, SayWhatIsWrongWithTheirFileAndWhere) {
   };
   const std::string one = R"({"id": "a", "label": "A", "shape": "sphere", "size_mm": {"value": 145, "source": "S1"}})";
   EXPECT_EQ(refused("[" + one + "]"), "read");
-  EXPECT_THAT(refused("[" + one + "," + one + "]"), HasSubstr("/kinds/1/id: \"a\" is there twice"));
+  EXPECT_THAT(refused("[" + one + "," + one + "]"), HasSubstr("/kinds/1/id: \"a\" is duplicated"));
   EXPECT_THAT(refused(R"([{"id": "a", "label": "A", "shape": "cube", "size_mm": {"value": 145, "source": "S1"}}])"),
               HasSubstr("/kinds/0/shape"));
   EXPECT_THAT(refused(R"([{"id": "a", "label": "A", "shape": "sphere", "size_mm": {"value": 145, "source": "S9"}}])"),

@@ -63,12 +63,12 @@ TEST(Footprint, V9_SharesItsPowerAtAnEdgeAsAGaussianBeam) {
     constexpr int kDirections = 720;
     for (int d = 0; d < kDirections; ++d) {
       const double angle = (d + 0.5) * 2 * std::numbers::pi / kDirections;
-      double share = place < 0 ? static_cast<double>(kAxisWeight) : 0;
-      if (place == 0) share = static_cast<double>(kAxisWeight) / 2;
+      double fraction = place < 0 ? static_cast<double>(kAxisWeight) : 0;
+      if (place == 0) fraction = static_cast<double>(kAxisWeight) / 2;
       for (const auto& ray : subRays())
-        if (ray.share * (std::cos(angle) * ray.cosine + std::sin(angle) * ray.sine) > place)
-          share += static_cast<double>(ray.weight);
-      beyond += share / kDirections;
+        if (ray.fraction * (std::cos(angle) * ray.cosine + std::sin(angle) * ray.sine) > place)
+          fraction += static_cast<double>(ray.weight);
+      beyond += fraction / kDirections;
     }
     EXPECT_NEAR(beyond, 0.5 * std::erfc(std::numbers::sqrt2 * place), 0.045) << place;
   }

@@ -80,14 +80,14 @@ TEST(PhaseReceiver, V10_AddsThePhasorsOfItsFineTone) {
   EXPECT_NEAR(near[0].range_m, 10.1, 1e-3);
   EXPECT_NEAR(near[0].x, std::cos(std::numbers::pi * 0.2 / 1.2), 1e-5);
   EXPECT_NEAR(echoes({.fine_wavelength_m = 1.2}, {{10.0, 0.5F}, {10.7, 0.5F}})[0].range_m, 9.75, 1e-3);
-  for (const double share : {0.2, 0.4, 0.6, 0.9})
+  for (const double fraction : {0.2, 0.4, 0.6, 0.9})
     for (const double step : {0.05, 0.2, 0.4}) {
       const double delta = 2 * std::numbers::pi * step / 1.2;
       const double expected = 1.2 / (2 * std::numbers::pi) *
-                              std::atan2((1 - share) * std::sin(delta), share + (1 - share) * std::cos(delta));
+                              std::atan2((1 - fraction) * std::sin(delta), fraction + (1 - fraction) * std::cos(delta));
       const auto found = echoes({.fine_wavelength_m = 1.2},
-                                {{7.0, static_cast<float>(share)}, {7.0 + step, static_cast<float>(1 - share)}});
-      EXPECT_NEAR(found[0].range_m - 7, expected, 1e-5) << share << " " << step;
+                                {{7.0, static_cast<float>(fraction)}, {7.0 + step, static_cast<float>(1 - fraction)}});
+      EXPECT_NEAR(found[0].range_m - 7, expected, 1e-5) << fraction << " " << step;
     }
 }
 

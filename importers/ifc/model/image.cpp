@@ -70,21 +70,21 @@ Result<Image> pixels(const Entity& texture) {
   const std::size_t at = firstOwn(texture, 4);
   const auto width = texture[at].integer(), height = texture[at + 1].integer(), components = texture[at + 2].integer();
   if (width < 1 || height < 1 || width > 16384 || height > 16384 || components < 1 || components > 4)
-    return fail(texture, "the pixel texture has no usable size");
+    return fail(texture, "the pixel texture has no valid size");
   const Value list = texture[at + 3];
   // Counted before anything is allocated for it: a claim of 16384 × 16384 may have no points at all.
   if (list.size() != static_cast<std::size_t>(width * height))
-    return fail(texture, "the pixel texture has another number of points than its size says");
+    return fail(texture, "the pixel count of the pixel texture does not match its size");
   std::vector<std::byte> raw;
   for (const Value v : list) {
     const auto point = binary(v);
     if (point.size() != static_cast<std::size_t>(components))
-      return fail(texture, "a point of the pixel texture has another number of colours than it says");
+      return fail(texture, "a pixel of the pixel texture has the wrong number of components");
     raw.insert(raw.end(), point.begin(), point.end());
   }
   auto png = pngFromPixels(raw, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
                            static_cast<std::size_t>(components));
-  if (png.empty()) return fail(texture, "the pixel texture could not be written as PNG");
+  if (png.empty()) return fail(texture, "cannot convert the pixel texture to PNG");
   return Image{"IfcPixelTexture " + texture.place(), "image/png", std::move(png)};
 }
 
@@ -92,8 +92,8 @@ Result<Image> blob(const Entity& texture) {
   const std::size_t at = firstOwn(texture, 2);
   Image image{"IfcBlobTexture " + texture.place(), {}, binary(texture[at + 1])};
   image.media_type = mediaType(image.bytes);
-  if (image.bytes.empty()) return fail(texture, "the picture in the file has no bytes");
-  if (image.media_type.empty()) return fail(texture, "the picture in the file is neither PNG, JPEG, GIF, BMP nor WebP");
+  if (image.bytes.empty()) return fail(texture, "the embedded image is empty");
+  if (image.media_type.empty()) return fail(texture, "the embedded image is not PNG, JPEG, GIF, BMP or WebP");
   return image;
 }
 
@@ -101,7 +101,7 @@ Result<Image> blob(const Entity& texture) {
 
 Result<Image> Images::beside(const Entity& texture) const {
   const std::string name = texture[firstOwn(texture, 1)].text();
-  const std::string shown = "the picture '" + name.substr(0, 200) + "'";
+  const std::string shown = "the image '" + name.substr(0, 200) + "'";
   const std::filesystem::path relative(name);
   std::error_code code;
   const auto root = std::filesystem::weakly_canonical(folder_.empty() ? "." : folder_, code);
@@ -109,17 +109,17 @@ Result<Image> Images::beside(const Entity& texture) const {
   const auto inside = file.lexically_relative(root);
   if (name.empty() || name.find("://") != std::string::npos || relative.is_absolute() || inside.empty() ||
       *inside.begin() == "..")
-    return fail(texture, shown + " does not lie beside the model and is not read");
+    return fail(texture, shown + " is not in the model's folder and was not read");
   const auto size = std::filesystem::file_size(file, code);
-  if (code) return fail(texture, shown + " is not there; put it beside the model");
+  if (code) return fail(texture, shown + " does not exist; place it next to the model");
   if (size > kMostBytes) return fail(texture, shown + " is larger than 256 MB");
   std::ifstream in(file, std::ios::binary);
   Image image{name, {}, {}};
   image.bytes.resize(static_cast<std::size_t>(size));
   if (!in.read(reinterpret_cast<char*>(image.bytes.data()), static_cast<std::streamsize>(size)))
-    return fail(texture, shown + " cannot be read");
+    return fail(texture, shown + " could not be read");
   image.media_type = mediaType(image.bytes);
-  if (image.media_type.empty()) return fail(texture, shown + " is neither PNG, JPEG, GIF, BMP nor WebP");
+  if (image.media_type.empty()) return fail(texture, shown + " is not PNG, JPEG, GIF, BMP or WebP");
   return image;
 }
 
@@ -127,7 +127,7 @@ Result<Image> Images::read(const Entity& texture) const {
   if (texture.is("IFCIMAGETEXTURE")) return beside(texture);
   if (texture.is("IFCBLOBTEXTURE")) return blob(texture);
   if (texture.is("IFCPIXELTEXTURE")) return pixels(texture);
-  return fail(texture, std::string(texture.typeName()) + " is no texture that is known here");
+  return fail(texture, std::string(texture.typeName()) + " is not a supported texture");
 }
 
 std::int32_t Images::image(const Entity& texture) {
@@ -141,7 +141,7 @@ std::int32_t Images::image(const Entity& texture) {
   for (const std::size_t repeat : {0U, 1U})
     if (texture[repeat].symbol() == "F") {
       report_.note(texture.place(),
-                   "the texture '" + found->name + "' is not to be repeated; it is, where the coordinates leave it");
+                   "the texture '" + found->name + "' must not repeat, but repeats where coordinates leave it");
       break;
     }
   it->second = static_cast<std::int32_t>(environment_.images.size());

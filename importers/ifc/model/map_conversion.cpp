@@ -34,9 +34,11 @@ MapUnit mapUnit(const StatedConversion& stated, double project_m, Report& report
   if (scale > 0 && scale != 1) {
     if (const double u = knownUnit(project_m / scale); u > 0) return {u};
     if (const double u = knownUnit(project_m * scale); u > 0) {
-      report.warn(stated.place, fmt::format("the scale {} leads from the map's unit to the project's, not back as the "
-                                            "schema has it; the map's unit is taken as {} m",
-                                            scale, u));
+      report.warn(
+          stated.place,
+          fmt::format(
+              "scale {} is inverted compared to the schema (map unit to project unit); map unit assumed to be {} m",
+              scale, u));
       return {u, true};
     }
   }
@@ -47,11 +49,11 @@ MapUnit mapUnit(const StatedConversion& stated, double project_m, Report& report
     if (std::abs(stated.northings) * project_m < kFarFromEquator_m &&
         std::abs(stated.northings) * known.crs->unit >= kFarFromEquator_m) {
       report.warn(stated.place,
-                  fmt::format("the map's unit is not stated; eastings and northings are taken in that of EPSG:{}, {} m",
+                  fmt::format("map unit not specified; using the unit of EPSG:{} ({} m) for eastings and northings",
                               stated.crs_digits, known.crs->unit));
       return {known.crs->unit};
     }
-    report.note(stated.place, "the map's unit is not stated; eastings and northings are taken in the project's");
+    report.note(stated.place, "map unit not specified; using the project unit for eastings and northings");
   }
   return {project_m};
 }
@@ -87,26 +89,26 @@ MapConversion conversionInMetres(const StatedConversion& stated, const Model& mo
     if (length > 1e-12)
       c.x_axis_abscissa = x / length, c.x_axis_ordinate = y / length;
     else
-      report.warn(stated.place, "the map conversion's x axis has no direction; no rotation is assumed");
+      report.warn(stated.place, "the map conversion's x axis has zero length; no rotation assumed");
   }
   // Scale leads from project units to map units; our model is in metres. Left out, or 1 between different units, it
   // cannot mean what it says.
   const double ratio = unit.metres / project_m, scale = stated.scale.value_or(1);
   if (stated.scale && scale == 1 && ratio != 1)
-    report.note(stated.place, "a scale of 1 between different units is taken as: no scale");
-  if (!(scale > 0)) report.warn(stated.place, fmt::format("a scale of {} is none; 1 is taken", scale));
+    report.note(stated.place, "scale 1 between different units is treated as not specified");
+  if (!(scale > 0)) report.warn(stated.place, fmt::format("invalid scale {}; using 1", scale));
   c.scale = unit.scale_is_unit || !(scale > 0) || scale == 1 ? 1 : scale * ratio;
   if (near(c.scale, 1, 1e-9)) c.scale = 1;  // a ratio of units that was written with a few digits less
   if (std::abs(c.scale - 1) > 0.01)
     report.warn(
         stated.place,
-        fmt::format("a scale of {} from the model to the map is no projection's; check the units (--unit)", c.scale));
+        fmt::format("scale {} from model to map is implausible for a projection; check the units (--unit)", c.scale));
   if ((stated.factors.array() > 0).all() && stated.factors.allFinite())
     c.factors = stated.factors;
   else
-    report.warn(stated.place, "a factor of the map conversion is not positive; the factors are not used");
+    report.warn(stated.place, "a factor of the map conversion is not positive; factors ignored");
   if (c.factors.maxCoeff() > 1.01 * c.factors.minCoeff() && c.factors.x() != c.factors.y())
-    report.warn(stated.place, fmt::format("the factors {} {} {} bend the model on the map", c.factors.x(),
+    report.warn(stated.place, fmt::format("the factors {} {} {} distort the model on the map", c.factors.x(),
                                           c.factors.y(), c.factors.z()));
   return c;
 }

@@ -17,10 +17,9 @@ constexpr std::size_t kLargestText = std::size_t{4} << 30;  // unpacked; a large
 Result<std::string> slurp(const std::filesystem::path& file) {
   std::error_code code;
   const auto size = std::filesystem::file_size(file, code);
-  if (code) return failure(ErrorKind::file_system, "cannot be read: " + code.message(), file.string());
+  if (code) return failure(ErrorKind::file_system, "cannot read: " + code.message(), file.string());
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"), &std::fclose);
-  if (!in)
-    return failure(ErrorKind::file_system, std::string("cannot be opened: ") + std::strerror(errno), file.string());
+  if (!in) return failure(ErrorKind::file_system, std::string("cannot open: ") + std::strerror(errno), file.string());
   std::string bytes(size, '\0');
   bytes.resize(std::fread(bytes.data(), 1, bytes.size(), in.get()));
   return bytes;
@@ -29,7 +28,7 @@ Result<std::string> slurp(const std::filesystem::path& file) {
 // zlib's window_bits: 31 for gzip, -15 for the raw stream in a zip archive.
 Result<std::string> inflateAll(std::string_view packed, int window_bits, const std::string& name) {
   z_stream stream{};
-  if (inflateInit2(&stream, window_bits) != Z_OK) return failure(ErrorKind::internal, "zlib does not start", name);
+  if (inflateInit2(&stream, window_bits) != Z_OK) return failure(ErrorKind::internal, "cannot initialise zlib", name);
   const std::unique_ptr<z_stream, int (*)(z_stream*)> guard(&stream, &inflateEnd);
   std::string text;
   std::size_t fed = 0;
@@ -75,11 +74,11 @@ Result<std::string> unzip(std::string_view zip, const std::string& name) {
       if (data > zip.size() || size > zip.size() - data) break;
       if (method == 0) return std::string(zip.substr(data, size));
       if (method == 8) return inflateAll(zip.substr(data, size), -15, name);
-      return failure(ErrorKind::unusable, "the zip archive uses a method other than deflate", name);
+      return failure(ErrorKind::unusable, "the zip archive uses a compression method other than deflate", name);
     }
     at += 46 + name_size + little(zip, at + 30, 2) + little(zip, at + 32, 2);
   }
-  return failure(ErrorKind::unusable, "the zip archive holds no readable .ifc", name);
+  return failure(ErrorKind::unusable, "the zip archive contains no readable .ifc file", name);
 }
 
 }  // namespace

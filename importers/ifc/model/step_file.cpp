@@ -249,14 +249,13 @@ class Scanner {
     file_.type_names_.emplace_back();
     if (std::string_view(p_, static_cast<std::size_t>(end_ - p_)).starts_with("\xEF\xBB\xBF")) p_ += 3;
     if (!std::string_view(skipSpace(p_, end_), end_).starts_with("ISO-10303-21"))
-      report_.warn("line 1", "the file does not begin with ISO-10303-21");
+      report_.warn("line 1", "missing header ISO-10303-21");
     for (p_ = skipSpace(p_, end_); p_ < end_; p_ = skipSpace(p_, end_)) {
       const auto done = *p_ == '#' ? record() : statement();
       if (!done) return done;
     }
-    if (!data_)
-      return failure(ErrorKind::unusable, "no DATA section: this is not a STEP physical file", name_ + " line 1");
-    if (!ended_) report_.lose(line(end_), "the file ends inside its DATA section: what followed is missing");
+    if (!data_) return failure(ErrorKind::unusable, "no DATA section: not a STEP physical file", name_ + " line 1");
+    if (!ended_) report_.lose(line(end_), "the file ends inside its DATA section: the rest is missing");
     sortRecords();
     return {};
   }
@@ -283,13 +282,13 @@ class Scanner {
   // What was complete before the cut is kept: half a building, said aloud, serves better than none.
   Result<void> cut(const char* begin, const std::string& what) {
     if (!file_.records_.empty()) {
-      report_.lose(line(begin), "the file ends inside " + what +
-                                    ": it was cut short or a string is not closed; what followed is missing");
+      report_.lose(line(begin),
+                   "the file ends inside " + what + ": truncated file or unclosed string; the rest is missing");
       p_ = end_;
       ended_ = true;
       return {};
     }
-    return failure(ErrorKind::unusable, "the file ends inside " + what + ": it was cut short or a string is not closed",
+    return failure(ErrorKind::unusable, "the file ends inside " + what + ": truncated file or unclosed string",
                    name_ + " " + line(begin));
   }
 
@@ -306,7 +305,7 @@ class Scanner {
       p_ = end_;
       return {};
     }
-    if (name.empty() && data_) tolerate(begin, "text that is no record was skipped");
+    if (name.empty() && data_) tolerate(begin, "skipped text that is not a record");
     p_ = stop + 1;
     return {};
   }
@@ -328,12 +327,13 @@ class Scanner {
     if (!stop) return cut(begin, "record #" + std::to_string(id));
     p_ = stop + 1;
     if (error != std::errc() || id == 0 || p >= stop || *p != '=')
-      return tolerate(begin, "a record without a usable number was skipped"), Result<void>{};
+      return tolerate(begin, "skipped a record without a valid number"), Result<void>{};
     p = skipSpace(p + 1, end_);
     const std::string_view name = nameAt(p, end_);
     p = skipSpace(p + name.size(), end_);
     if (name.empty() || p >= stop || *p != '(')
-      return tolerate(begin, "record #" + std::to_string(id) + " is no simple entity and was skipped"), Result<void>{};
+      return tolerate(begin, "record #" + std::to_string(id) + " is not a simple entity and was skipped"),
+             Result<void>{};
     data_ = true;  // records without a header: fragments are read, too
     file_.records_.push_back({id, intern(name), static_cast<std::uint64_t>(p - file_.text_.data())});
     return {};
@@ -356,7 +356,7 @@ class Scanner {
   void tolerate(const char* at, const std::string& what) {
     constexpr int kTold = 20;  // a hostile file would fill the memory with complaints
     if (++tolerated_ <= kTold) report_.lose(line(at), what);
-    if (tolerated_ == kTold) report_.lose(line(at), "more of the same is not listed");
+    if (tolerated_ == kTold) report_.lose(line(at), "further occurrences not listed");
   }
 
   void sortRecords() {
@@ -366,8 +366,7 @@ class Scanner {
     const auto same_id = [](const Record& a, const Record& b) { return a.id == b.id; };
     const auto twice = std::adjacent_find(records.begin(), records.end(), same_id);
     if (twice != records.end()) {
-      report_.warn("#" + std::to_string(twice->id),
-                   "numbers are used more than once; the first record of each number counts");
+      report_.warn("#" + std::to_string(twice->id), "duplicate record numbers; the first record of each is used");
       records.erase(std::unique(twice, records.end(), same_id), records.end());
     }
     file_.positions_of_type_.resize(file_.type_names_.size());

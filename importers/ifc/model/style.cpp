@@ -7,8 +7,8 @@
 namespace standpoint::ifc {
 namespace {
 
-std::uint32_t byteOf(double share) {
-  return static_cast<std::uint32_t>(std::lround(std::clamp(share, 0.0, 1.0) * 255));
+std::uint32_t byteOf(double fraction) {
+  return static_cast<std::uint32_t>(std::lround(std::clamp(fraction, 0.0, 1.0) * 255));
 }
 
 // 24 bits of colour and 5 of opacity above kFirstColour: two map entries of one colour are one surface.
@@ -18,8 +18,8 @@ std::uint32_t packColour(double r, double g, double b, double opacity) {
 }
 
 Colour unpackColour(std::uint32_t tag) {
-  const auto share = [&](int shift) { return static_cast<float>((tag >> shift) & 255U) / 255.0F; };
-  return {share(16), share(8), share(0), static_cast<float>((tag >> 24) & 31U) / 31.0F};
+  const auto fraction = [&](int shift) { return static_cast<float>((tag >> shift) & 255U) / 255.0F; };
+  return {fraction(16), fraction(8), fraction(0), static_cast<float>((tag >> 24) & 31U) / 31.0F};
 }
 
 Id firstSurfaceStyle(const Entity& from, std::size_t list_index, int depth) {

@@ -10,10 +10,10 @@ TextureGenerators::TextureGenerators(const StepFile& file, Report& report) {
     const bool coord = mode == "COORD", sphere = mode == "SPHERE" || mode == "SPHERE-LOCAL";
     if (textures.empty())
       report.lose(generator.place(),
-                  "texture coordinates by the rule " + mode + " name no texture, as in IFC2X3; they are not placed");
+                  "texture coordinates by the rule " + mode + " do not name a texture (IFC2X3) and were ignored");
     else if (!coord && !sphere)
       report.lose(generator.place(),
-                  "texture coordinates by the rule " + mode + " are not supported; what has them is plain");
+                  "texture coordinates by the rule " + mode + " are not supported; affected surfaces are untextured");
     else
       for (const Entity& texture : textures) rules_.emplace(texture.id(), coord ? Rule::coord : Rule::sphere);
   }

@@ -147,17 +147,16 @@ Units readUnits(const StepFile& file, double given_m, Report& report) {
   }
   if (!angle && arcsCountDegrees(file)) {
     units.angle_rad = std::numbers::pi / 180;
-    report.warn(
-        assignment ? assignment.place() : "header",
-        "the file states no unit of angles, and its arcs go beyond a whole turn of radians: degrees are assumed");
+    report.warn(assignment ? assignment.place() : "header",
+                "angle unit not specified and arcs exceed a full turn in radians; degrees assumed");
   }
   if (given_m > 0) {
     if (length && units.length_m != given_m)
-      report.note(assignment.place(), "the length unit that the file states is overruled by the one that was given");
+      report.note(assignment.place(), "the length unit of the file was overridden by the specified unit");
     units.length_m = given_m;
   } else if (!length) {
     report.warn(assignment ? assignment.place() : "header",
-                "the file states no usable length unit; metres are assumed; if it is another, import it with --unit");
+                "the file has no valid length unit; metres assumed. Use --unit to specify another");
   }
   return units;
 }

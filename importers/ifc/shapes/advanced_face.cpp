@@ -289,21 +289,21 @@ Result<void> appendOnSurface(geometry::PolyMesh& mesh, const ParametricSurface& 
   for (const auto& points : outlines)
     if (points.size() >= 3) loops.push_back(toParameters(points, on));
   if (loops.empty()) return {};  // a face without area is no loss
-  if (!liesOn(loops, on)) return fail(face, "the bounds of the face do not lie on its surface");
+  if (!liesOn(loops, on)) return fail(face, "the bounds of the face are not on its surface");
   if (!joinRings(loops, on.period().maxCoeff()))
-    return fail(face, "a face whose bound runs around its surface is not supported here");
+    return fail(face, "a face whose bound encloses its whole surface is not supported");
   std::stable_sort(loops.begin(), loops.end(),
                    [](const UvLoop& a, const UvLoop& b) { return std::abs(area2(a.uv)) > std::abs(area2(b.uv)); });
   Patch patch;
   if (!triangulateLoops(loops, on, scope.tessellation.chord_error_m, patch))
-    return fail(face, "the face could not be triangulated");
+    return fail(face, "cannot triangulate the face");
   constexpr std::size_t kMostTriangles = 20000;
   bool fine = false;
   for (int round = 0; !fine && round < 10 && patch.triangles.size() < kMostTriangles; ++round)
     fine = !split(patch, on, scope.tessellation.chord_error_m);
   if (!fine)
     scope.report.note(face.place(), "the face has " + std::to_string(patch.triangles.size()) +
-                                        " triangles and is still coarser than the chord error");
+                                        " triangles and still exceeds the chord error");
   if (!scope.spend(patch.points.size())) return fail(face, "too many points");
   const auto base = static_cast<std::uint32_t>(mesh.points.size());
   mesh.points.insert(mesh.points.end(), patch.points.begin(), patch.points.end());

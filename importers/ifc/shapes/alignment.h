@@ -33,7 +33,7 @@ Result<Eigen::Isometry3d> placeAlong(const Entity& position, const Path& directr
 
 // How far the curvature of an IfcCurveSegment has gone from its start to its end, by the share of its length (0 to 1
 // for 0 to 1); in step with the length where the curvature does not change.
-std::function<double(double)> curvatureShare(const Entity& segment, const Scope& scope);
+std::function<double(double)> curvatureFraction(const Entity& segment, const Scope& scope);
 
 // IfcLinearPlacement relative to its parent: along its curve, else where its CartesianPosition says.
 Result<Eigen::Isometry3d> linearPlacement(const Entity& placement, Scope& scope);

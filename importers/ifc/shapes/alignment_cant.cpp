@@ -24,8 +24,8 @@ Cant cantOf(const Entity& placement, const Scope& scope) {
   return {at.x(), at.y(), placement.is("IFCAXIS2PLACEMENT3D") ? std::atan2(axis.y(), axis.z()) : 0};
 }
 
-Cant between(const Cant& a, const Cant& b, double share, double along_m) {
-  return {along_m, a.lift_m + (b.lift_m - a.lift_m) * share, a.roll_rad + (b.roll_rad - a.roll_rad) * share};
+Cant between(const Cant& a, const Cant& b, double fraction, double along_m) {
+  return {along_m, a.lift_m + (b.lift_m - a.lift_m) * fraction, a.roll_rad + (b.roll_rad - a.roll_rad) * fraction};
 }
 
 // Into how many pieces a change is cut: 16 leave a cosine off by 0.5 % of it, and what is as wide as a track (3 m)
@@ -50,10 +50,10 @@ std::vector<Cant> cantAlong(const Entity& entity, Scope& scope) {
     if (i + 1 >= stated.size() || stated[i + 1].along_m <= from.along_m) continue;
     const Cant& to = stated[i + 1];
     const int pieces = scope.spend(1024) ? piecesFor(from, to) : 1;
-    const auto share = curvatureShare(segments[i], scope);
+    const auto fraction = curvatureFraction(segments[i], scope);
     for (int k = 1; k <= pieces; ++k) {
       const double t = static_cast<double>(k) / pieces;
-      cant.push_back(between(from, to, k == pieces ? 1 : share(t), from.along_m + (to.along_m - from.along_m) * t));
+      cant.push_back(between(from, to, k == pieces ? 1 : fraction(t), from.along_m + (to.along_m - from.along_m) * t));
     }
   }
   return cant;

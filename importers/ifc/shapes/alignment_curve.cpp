@@ -174,7 +174,7 @@ Result<Path> segmentsPath(const Entity& entity, Scope& scope) {
 
 }  // namespace
 
-std::function<double(double)> curvatureShare(const Entity& segment, const Scope& scope) {
+std::function<double(double)> curvatureFraction(const Entity& segment, const Scope& scope) {
   const Entity parent_entity = segment.ref(4);
   const double start = segmentMeasure(segment[2], parent_entity, scope),
                length_m = segmentMeasure(segment[3], parent_entity, scope);

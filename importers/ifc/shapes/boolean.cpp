@@ -25,7 +25,7 @@ Result<HalfSpace> halfSpace(const Entity& entity, const Scope& scope) {
   const Entity plane = entity.ref(0);
   if (!plane.is("IFCPLANE"))
     return fail(entity,
-                "a half-space whose surface is no plane (" + std::string(plane.typeName()) + ") is not supported");
+                "a half-space with a non-planar surface (" + std::string(plane.typeName()) + ") is not supported");
   const Eigen::Isometry3d f = axisPlacement(plane.ref(0), scope);
   const double side = entity[1].symbol() == "F" ? -1 : 1;
   const Eigen::Vector3d n = f.linear().col(2) * side;
@@ -60,7 +60,7 @@ Result<geometry::Region2> boundary(const Entity& entity, Scope& scope) {
   if (!path) return failure(path.error());
   geometry::Region2 region{loop2(*path), {}};
   geometry::normalise(region);
-  if (region.outer.size() < 3) return fail(entity, "the boundary of the half-space encloses nothing");
+  if (region.outer.size() < 3) return fail(entity, "the boundary of the half-space encloses no area");
   return region;
 }
 
@@ -109,7 +109,7 @@ Result<geometry::PolyMesh> withoutTriangles(const geometry::PolyMesh& host, cons
                                             const Eigen::Isometry3d& position, const PlanBox& box,
                                             const HalfSpace& half) {
   const Regions triangles = trianglesOf(region);
-  if (triangles.empty()) return failure(ErrorKind::unusable, "the boundary could not be triangulated");
+  if (triangles.empty()) return failure(ErrorKind::unusable, "cannot triangulate the boundary");
   geometry::PolyMesh left = host;
   for (const auto& triangle : triangles) {
     const auto tool = prismTool(triangle, position, box, half);
@@ -181,7 +181,7 @@ Result<geometry::PolyMesh> booleanResult(const Entity& entity, Scope& scope) {
   std::vector<Step> chain;
   Entity base = entity;
   while (base.is("IFCBOOLEANRESULT") || base.is("IFCBOOLEANCLIPPINGRESULT")) {
-    if (chain.size() > 5000) return fail(entity, "the Boolean operands refer to each other in a circle");
+    if (chain.size() > 5000) return fail(entity, "circular reference between Boolean operands");
     chain.push_back({base, base[0].symbol(), base.ref(2)});
     base = base.ref(1);
   }
@@ -193,7 +193,7 @@ Result<geometry::PolyMesh> booleanResult(const Entity& entity, Scope& scope) {
       *mesh = std::move(*next);
     else
       scope.report.lose(step->result.place(),
-                        "the Boolean operation was not done, the body stays as it was: " + describe(next.error()));
+                        "the Boolean operation failed; the body is unchanged: " + describe(next.error()));
   }
   return mesh;
 }

@@ -22,10 +22,10 @@ void appendLoop(geometry::PolyMesh& mesh, const Path& path, std::vector<std::uin
 
 Result<geometry::PolyMesh> curveBoundedPlane(const Entity& entity, Scope& scope) {
   const Entity plane = entity.ref(0);
-  if (!plane.is("IFCPLANE")) return fail(entity, "its basis surface is no plane");
+  if (!plane.is("IFCPLANE")) return fail(entity, "its basis surface is not planar");
   const auto outer = curve(entity.ref(1), scope);
   if (!outer) return failure(outer.error());
-  if (outer->points.size() < 3) return fail(entity, "its outline encloses nothing");
+  if (outer->points.size() < 3) return fail(entity, "its outline encloses no area");
   geometry::PolyMesh mesh;
   geometry::Face face;
   appendLoop(mesh, *outer, face.outer);
@@ -67,9 +67,9 @@ int piecesAlong(const ParametricSurface& on, const Eigen::Vector2d& low, const E
                 double tolerance_m) {
   constexpr int kMost = 256, kLines = 4;
   const auto at = [&](double t, int line) {
-    Eigen::Vector2d share = Eigen::Vector2d::Constant(static_cast<double>(line) / kLines);
-    share[axis] = t;
-    return on.at(low + (high - low).cwiseProduct(share));
+    Eigen::Vector2d fraction = Eigen::Vector2d::Constant(static_cast<double>(line) / kLines);
+    fraction[axis] = t;
+    return on.at(low + (high - low).cwiseProduct(fraction));
   };
   for (int n = 1; n < kMost; n *= 2) {
     double off = 0;
@@ -156,7 +156,7 @@ Result<geometry::PolyMesh> geometricSet(const Entity& entity, Scope& scope) {
     else
       scope.report.lose(element.place(), "has no geometry: " + part.error().message);
   }
-  if (mesh.faces.empty()) return fail(entity, "the set holds no surface");
+  if (mesh.faces.empty()) return fail(entity, "the set contains no surface");
   return mesh;
 }
 

@@ -100,7 +100,7 @@ Result<Path> bSplineCurve(const Entity& entity, Scope& scope) {
       if (const double x = w.number(1); i < control.size() && x > 0) control[i++] *= x;
   }
   if (degree < 1 || degree > 30 || control.size() < static_cast<std::size_t>(degree) + 1)
-    return fail(entity, "the degree does not fit the number of control points");
+    return fail(entity, "the degree does not match the number of control points");
   const KnotVector knots = bezier && (control.size() - 1) % static_cast<std::size_t>(degree) == 0
                                ? bezierKnots(degree, control.size())
                                : knotVector(degree, control.size(), entity[5], entity[6]);

@@ -152,7 +152,7 @@ Result<geometry::PolyMesh> subtractConvex(geometry::PolyMesh host, const std::ve
   mendSeams(kept);
   const double before = geometry::volume(host), expected = before - geometry::volume(core);
   if (std::abs(geometry::volume(kept) - expected) > 1e-6 + 1e-4 * std::abs(before))
-    return failure(ErrorKind::unusable, "by planes: the volume does not come out");
+    return failure(ErrorKind::unusable, "by planes: volume check failed");
   return kept;
 }
 
@@ -215,9 +215,9 @@ Result<geometry::PolyMesh> byKernel(const geometry::PolyMesh& host, std::span<co
   auto cut = geometry::subtract(host, tools);
   if (!cut) return cut;
   mendSeams(*cut);
-  if (tore(host, *cut)) return failure(ErrorKind::unusable, "the Boolean tore the body open");
+  if (tore(host, *cut)) return failure(ErrorKind::unusable, "the Boolean operation left the body open");
   if (cut->faces.empty() && !holdAll(tools, host))
-    return failure(ErrorKind::unusable, "the Boolean left nothing of a body that reaches beyond its tools");
+    return failure(ErrorKind::unusable, "the Boolean operation removed a body that extends beyond its tools");
   return cut;
 }
 

@@ -148,7 +148,7 @@ Result<Path> indexedPolyCurve(const Entity& entity, Scope& scope) {
     for (const Value index : indices) {
       const auto i = index.integer();
       if (i < 1 || i > static_cast<std::int64_t>(points.size()))
-        return fail(entity, "a segment refers to point " + std::to_string(i) + " which the list does not have");
+        return fail(entity, "a segment refers to point " + std::to_string(i) + " which is not in the list");
       corners.push_back(points[static_cast<std::size_t>(i - 1)]);
     }
     const bool first = path.points.empty();

@@ -34,7 +34,7 @@ Result<Path> compositeCurve(const Entity& entity, Scope& scope) {
     if (segment[1].symbol() == "F") reverse(*part);
     segments.push_back(std::move(*part));
   }
-  if (segments.empty()) return fail(entity, "the composite curve has no usable segment");
+  if (segments.empty()) return fail(entity, "the composite curve has no valid segment");
   orientToNeighbours(segments);
   Path path;
   for (Path& segment : segments) {

@@ -92,7 +92,7 @@ Result<Path> trimmedOther(const Entity& entity, const Entity& basis, Scope& scop
   double start = from.point ? measure(*whole, *from.point) : 0,
          end = to.point ? measure(*whole, *to.point) : whole_length;
   if (from.parameter && !from.point)
-    scope.report.warn(entity.place(), "trimmed by parameters on a curve where only points are understood: kept whole");
+    scope.report.warn(entity.place(), "parameter trimming is not supported on this curve: kept untrimmed");
   const bool backward = entity[3].symbol() == "F";
   if (backward) std::swap(start, end);
   if (end <= start) end = whole_length;
@@ -113,7 +113,7 @@ Result<Conic> conic(const Entity& entity, Scope& scope) {
   c.frame = axisPlacement(entity.ref(0), scope);
   c.a = scope.metres(entity[1].number(0));
   c.b = entity.is("IFCELLIPSE") ? scope.metres(entity[2].number(0)) : c.a;
-  if (!(c.a > 0 && c.b > 0)) return fail(entity, "a circle or ellipse needs a positive radius");
+  if (!(c.a > 0 && c.b > 0)) return fail(entity, "a circle or ellipse requires a positive radius");
   return c;
 }
 

@@ -27,7 +27,7 @@ Path movedLeft(const Path& basis, const Eigen::Vector3d& up, double distance_m) 
 Result<Path> offsetByDistances(const Entity& entity, const Path& basis, Scope& scope) {
   std::vector<Offsets> stated;
   for (const Entity& position : entity.refs(1)) stated.push_back(offsetsAt(position, scope));
-  if (stated.empty()) return fail(entity, "no offset is stated");
+  if (stated.empty()) return fail(entity, "no offset specified");
   std::vector<double> places{stated.front().along};
   for (std::size_t i = 1; i < stated.size(); ++i) {
     const auto between = distancesBetween(basis, stated[i - 1].along, stated[i].along);

@@ -58,7 +58,7 @@ Result<Path> compositePortion(const Entity& composite, const Path& whole, double
         segment.is("IFCREPARAMETRISEDCOMPOSITECURVESEGMENT") ? segment[3].number() : span(parent, *path, scope);
     if (!stated || !(*stated > 0)) {
       scope.report.warn(composite.place(),
-                        "is kept whole: its parameters on " + std::string(parent.typeName()) + " are not known");
+                        "kept untrimmed: its parameters on " + std::string(parent.typeName()) + " are not known");
       return whole;
     }
     if (path->closed) path->points.push_back(path->points.front()), path->closed = false;

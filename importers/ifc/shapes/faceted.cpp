@@ -177,7 +177,7 @@ Result<void> appendShell(geometry::PolyMesh& mesh, const Entity& shell, Scope& s
     const auto done = isCurved(face) ? appendCurvedFace(mesh, face, scope) : appendFace(mesh, face, pool, scope);
     if (!done && failed++ == 0) why = describe(done.error());
   }
-  if (failed > 0) scope.report.lose(shell.place(), std::to_string(failed) + " faces were left out; the first: " + why);
+  if (failed > 0) scope.report.lose(shell.place(), std::to_string(failed) + " faces were skipped; the first: " + why);
   return {};
 }
 
@@ -193,7 +193,7 @@ Result<geometry::PolyMesh> facetedBrep(const Entity& entity, Scope& scope) {
       flip(cavity);
       geometry::append(mesh, cavity);
     }
-  if (mesh.faces.empty()) return fail(entity, "the shell has no usable face");
+  if (mesh.faces.empty()) return fail(entity, "the shell has no valid face");
   return mesh;
 }
 
@@ -205,7 +205,7 @@ Result<geometry::PolyMesh> surfaceModel(const Entity& entity, Scope& scope) {
     orient(part, shell.is("IFCCLOSEDSHELL"), scope);
     geometry::append(mesh, part);
   }
-  if (mesh.faces.empty()) return fail(entity, "the surface model has no usable face");
+  if (mesh.faces.empty()) return fail(entity, "the surface model has no valid face");
   return mesh;
 }
 
@@ -222,7 +222,7 @@ Result<geometry::PolyMesh> faceSetItem(const Entity& entity, Scope& scope) {
   geometry::PolyMesh mesh;
   if (auto done = appendShell(mesh, entity, scope); !done) return failure(done.error());
   orient(mesh, entity.is("IFCCLOSEDSHELL"), scope);
-  if (mesh.faces.empty()) return fail(entity, "the shell has no usable face");
+  if (mesh.faces.empty()) return fail(entity, "the shell has no valid face");
   return mesh;
 }
 

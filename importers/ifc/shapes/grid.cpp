@@ -43,7 +43,7 @@ Result<geometry::Loop2> axisLine(const Entity& axis, double offset, Scope& scope
 
 Result<Eigen::Vector3d> crossing(const Entity& intersection, Scope& scope) {
   const auto axes = intersection.refs(0);
-  if (axes.size() < 2) return fail(intersection, "two grid axes are needed");
+  if (axes.size() < 2) return fail(intersection, "two grid axes are required");
   double offsets[3] = {0, 0, 0};
   int i = 0;
   const Value list = intersection[1];
@@ -60,7 +60,7 @@ Result<Eigen::Vector3d> crossing(const Entity& intersection, Scope& scope) {
       const auto p = meet((*a)[k - 1], (*a)[k], (*b)[l - 1], (*b)[l], outside);
       if (p && outside < best_outside) best = Eigen::Vector3d(p->x(), p->y(), offsets[2]), best_outside = outside;
     }
-  if (!best) return fail(intersection, "the grid axes do not cross");
+  if (!best) return fail(intersection, "the grid axes do not intersect");
   return *best;
 }
 

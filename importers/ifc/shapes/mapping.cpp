@@ -139,8 +139,8 @@ template <class T>
 Result<T> guarded(Result<T> (*function)(const Entity&, Scope&), const Entity& entity, Scope& scope, const char* kind) {
   if (!entity) return failure(ErrorKind::unusable, std::string("a ") + kind + " is missing", entity.place());
   if (!function) return fail(entity, std::string(entity.typeName()) + " is not supported as a " + kind);
-  if (scope.depth >= Scope::kDeepest) return fail(entity, "nested too deeply, or in a circle");
-  if (!scope.spend(1)) return fail(entity, "too much work for one representation");
+  if (scope.depth >= Scope::kDeepest) return fail(entity, "nested too deeply or circular");
+  if (!scope.spend(1)) return fail(entity, "the representation is too complex");
   ++scope.depth;
   auto result = function(entity, scope);
   --scope.depth;

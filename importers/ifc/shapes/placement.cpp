@@ -89,13 +89,14 @@ Eigen::Isometry3d Placements::own(const Entity& placement, Report& report) const
   Scope scope(model_);
   if (placement.is("IFCLOCALPLACEMENT")) return axisPlacement(placement.ref(1), scope);
   if (!placement.is("IFCLINEARPLACEMENT") && !placement.is("IFCGRIDPLACEMENT"))
-    return report.lose(placement.place(), std::string(placement.typeName()) +
-                                              " is not supported: its products stand at the origin of their parent"),
+    return report.lose(placement.place(),
+                       std::string(placement.typeName()) +
+                           " is not supported: its products are placed at the origin of their parent"),
            Eigen::Isometry3d::Identity();
   const auto found =
       placement.is("IFCGRIDPLACEMENT") ? gridPlacement(placement, scope) : linearPlacement(placement, scope);
   if (found) return *found;
-  report.lose(found.error().source, found.error().message + "; what stands there is put at the origin of its parent");
+  report.lose(found.error().source, found.error().message + "; its products are placed at the origin of their parent");
   return Eigen::Isometry3d::Identity();
 }
 
@@ -109,7 +110,7 @@ Eigen::Isometry3d Placements::world(const Entity& object_placement, Report& repo
       break;
     }
     if (std::find(seen.begin(), seen.end(), e.id()) != seen.end() || chain.size() > 1000) {
-      report.warn(e.place(), "the placements refer to each other in a circle; it is cut here");
+      report.warn(e.place(), "circular reference between placements; cut here");
       break;
     }
     seen.push_back(e.id());

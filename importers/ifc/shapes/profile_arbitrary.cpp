@@ -11,7 +11,7 @@ namespace {
 Result<geometry::Loop2> outline(const Entity& curve_entity, Scope& scope) {
   const auto path = curve(curve_entity, scope);
   if (!path) return failure(path.error());
-  if (path->points.size() < 3) return fail(curve_entity, "an outline needs three different points");
+  if (path->points.size() < 3) return fail(curve_entity, "an outline requires three distinct points");
   return loop2(*path);
 }
 
@@ -82,13 +82,13 @@ Result<Regions> arbitraryClosedProfile(const Entity& entity, Scope& scope) {
       if (hole)
         region.holes.push_back(std::move(*hole));
       else
-        scope.report.warn(hole.error().source, "a hole of the profile was left out: " + hole.error().message);
+        scope.report.warn(hole.error().source, "a hole of the profile was skipped: " + hole.error().message);
     }
   geometry::normalise(region);
   if (region.outer.size() >= 3) return Regions{std::move(region)};
   Regions parts = outer->size() <= 1000 ? partsOfCrossing(*outer) : Regions();
-  if (parts.empty()) return fail(entity, "the outline of the profile encloses nothing");
-  scope.report.warn(entity.place(), "the outline of the profile crosses itself; each of its " +
+  if (parts.empty()) return fail(entity, "the outline of the profile encloses no area");
+  scope.report.warn(entity.place(), "the outline of the profile intersects itself; each of its " +
                                         std::to_string(parts.size()) + " parts is filled");
   return parts;
 }

@@ -19,7 +19,7 @@ Result<Path> openCrossProfile(const Entity& entity, Scope& scope) {
     const double angle = (*slope).number(0) * scope.model.units.angle_rad, run = scope.metres(width.number(0));
     ++slope;
     if (horizontal && std::abs(std::cos(angle)) < 1e-6)
-      return fail(entity, "a piece stands upright, and its width is measured horizontally");
+      return fail(entity, "a segment is vertical, but its width is measured horizontally");
     const double along = horizontal ? run / std::abs(std::cos(angle)) : run;
     path.points.push_back(path.points.back() + along * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0));
     if (!scope.spend(1)) return fail(entity, "too many points");

@@ -70,12 +70,12 @@ Eigen::Isometry3d sectionFrame(const Path& directrix, const Position& p) {
 }
 
 // The shares of the way at which the directrix bends between two positions, after the first of them.
-std::vector<double> sharesAfter(const Path& directrix, const Position& a, const Position& b) {
-  std::vector<double> shares;
+std::vector<double> fractionsAfter(const Path& directrix, const Position& a, const Position& b) {
+  std::vector<double> fractions;
   for (const double d : distancesBetween(directrix, a.at.along, b.at.along))
-    shares.push_back((d - a.at.along) / (b.at.along - a.at.along));
-  shares.push_back(1);
-  return shares;
+    fractions.push_back((d - a.at.along) / (b.at.along - a.at.along));
+  fractions.push_back(1);
+  return fractions;
 }
 
 struct Sections {
@@ -132,20 +132,20 @@ std::vector<std::pair<std::size_t, std::size_t>> anchors(const Chain& a, const C
 }
 
 // The shares of the length at which a part of a chain has its points.
-std::vector<double> sharesOf(const Chain& c, std::size_t from, std::size_t to) {
+std::vector<double> weightsOf(const Chain& c, std::size_t from, std::size_t to) {
   std::vector<double> at{0};
   for (std::size_t i = from; i < to; ++i) at.push_back(at.back() + (c.points[i + 1] - c.points[i]).norm());
   const double whole = at.back();
-  for (double& share : at) share = whole > 0 ? share / whole : 0;
+  for (double& fraction : at) fraction = whole > 0 ? fraction / whole : 0;
   return at;
 }
 
-Eigen::Vector2d pointAt(const Chain& c, std::size_t from, const std::vector<double>& shares, double share) {
-  for (std::size_t i = 1; i < shares.size(); ++i)
-    if (share <= shares[i] && shares[i] > shares[i - 1])
-      return c.points[from + i - 1] +
-             (c.points[from + i] - c.points[from + i - 1]) * ((share - shares[i - 1]) / (shares[i] - shares[i - 1]));
-  return c.points[from + shares.size() - 1];
+Eigen::Vector2d pointAt(const Chain& c, std::size_t from, const std::vector<double>& fractions, double fraction) {
+  for (std::size_t i = 1; i < fractions.size(); ++i)
+    if (fraction <= fractions[i] && fractions[i] > fractions[i - 1])
+      return c.points[from + i - 1] + (c.points[from + i] - c.points[from + i - 1]) *
+                                          ((fraction - fractions[i - 1]) / (fractions[i] - fractions[i - 1]));
+  return c.points[from + fractions.size() - 1];
 }
 
 // Both chains with as many points as the other: between two anchors each has the points of both.
@@ -155,15 +155,15 @@ std::pair<geometry::Loop2, geometry::Loop2> paired(const Chain& a, const Chain& 
   for (std::size_t k = 1; k < bound.size(); ++k) {
     const auto [i0, j0] = bound[k - 1];
     const auto [i1, j1] = bound[k];
-    const auto of_a = sharesOf(a, i0, i1), of_b = sharesOf(b, j0, j1);
-    std::vector<double> shares;
-    std::merge(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), std::back_inserter(shares));
+    const auto of_a = weightsOf(a, i0, i1), of_b = weightsOf(b, j0, j1);
+    std::vector<double> fractions;
+    std::merge(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), std::back_inserter(fractions));
     double last = 0;
-    for (const double share : shares) {
-      if (share - last < 1e-9) continue;
-      last = share;
-      both.first.push_back(pointAt(a, i0, of_a, share));
-      both.second.push_back(pointAt(b, j0, of_b, share));
+    for (const double fraction : fractions) {
+      if (fraction - last < 1e-9) continue;
+      last = fraction;
+      both.first.push_back(pointAt(a, i0, of_a, fraction));
+      both.second.push_back(pointAt(b, j0, of_b, fraction));
     }
   }
   return both;
@@ -193,11 +193,11 @@ Result<geometry::PolyMesh> surfaceAlong(const Entity& entity, const Sections& s,
     if (before->points.size() < 2 || next->points.size() < 2) return fail(entity, "a cross section has no length");
     const auto [from, to] = paired(*before, *next);
     const Position &a = s.positions[i - 1], &b = s.positions[i];
-    if (!(b.at.along > a.at.along)) return fail(entity, "the positions of the cross sections do not follow each other");
-    std::vector<double> shares = sharesAfter(s.directrix, a, b);
-    shares.insert(shares.begin(), 0);
-    if (!scope.spend(shares.size() * from.size())) return fail(entity, "too many points");
-    for (const double t : shares) {
+    if (!(b.at.along > a.at.along)) return fail(entity, "the positions of the cross sections are not in order");
+    std::vector<double> fractions = fractionsAfter(s.directrix, a, b);
+    fractions.insert(fractions.begin(), 0);
+    if (!scope.spend(fractions.size() * from.size())) return fail(entity, "too many points");
+    for (const double t : fractions) {
       const Eigen::Isometry3d frame_here = sectionFrame(s.directrix, between(a, b, t));
       for (std::size_t k = 0; k < from.size(); ++k) {
         const Eigen::Vector2d p = from[k] + (to[k] - from[k]) * t;
@@ -222,8 +222,7 @@ Result<geometry::PolyMesh> sectionedSolidHorizontal(const Entity& entity, Scope&
   const auto s = sectionsOf(entity, 1, 2, scope);
   if (!s) return failure(s.error());
   if (s->profiles[0].is("IFCOPENCROSSPROFILEDEF")) {
-    scope.report.warn(entity.place(),
-                      "its cross sections are open, so that it encloses nothing: it is taken as a surface");
+    scope.report.warn(entity.place(), "its cross sections are open: treated as a surface");
     return surfaceAlong(entity, *s, scope);
   }
   std::vector<geometry::Region2> regions;
@@ -235,7 +234,7 @@ Result<geometry::PolyMesh> sectionedSolidHorizontal(const Entity& entity, Scope&
     if (i > 0) {
       if (!alike(regions.back(), next)) return fail(entity, "the cross sections have different numbers of points");
       const geometry::Region2 from = regions.back();
-      for (const double t : sharesAfter(s->directrix, s->positions[i - 1], s->positions[i])) {
+      for (const double t : fractionsAfter(s->directrix, s->positions[i - 1], s->positions[i])) {
         regions.push_back(blend(from, next, t));
         frames.push_back(sectionFrame(s->directrix, between(s->positions[i - 1], s->positions[i], t)));
         if (!scope.spend(next.outer.size())) return fail(entity, "too many points");

@@ -277,7 +277,7 @@ Result<SurfacePtr> bSplineSurface(const Entity& e, Scope& s) {
   spline.u = knotVector(degree(0), spline.control.size(), e[7], e[9]);
   spline.v = knotVector(degree(1), spline.control[0].size(), e[8], e[10]);
   if (spline.u.knots.empty() || spline.v.knots.empty())
-    return fail(e, "the degree does not fit the number of control points");
+    return fail(e, "the degree does not match the number of control points");
   return std::make_shared<Spline>(std::move(spline));
 }
 

@@ -130,9 +130,9 @@ Result<geometry::PolyMesh> curveSweptAreaSolid(const Entity& entity, Scope& scop
                 "a reference surface of this kind (" + std::string(reference.typeName()) + ") is not supported");
   const bool across = reference.is("IFCSURFACEOFLINEAREXTRUSION") && liesOn(*path, reference, scope);
   if (reference.is("IFCSURFACEOFLINEAREXTRUSION") && !across) {
-    scope.report.note(entity.place(),
-                      "its directrix does not lie on its reference surface, as in old exports of Revit; the profile's "
-                      "x is taken against the surface's direction");
+    scope.report.note(
+        entity.place(),
+        "its directrix is not on its reference surface, as in old Revit exports; the profile's x axis is reversed");
     x = -x;
   }
   // A derived reference follows the cant of its directrix, a fixed one does not.

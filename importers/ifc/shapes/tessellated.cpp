@@ -35,9 +35,8 @@ class Indices {
 };
 
 Result<geometry::PolyMesh> finished(const Entity& entity, geometry::PolyMesh mesh, std::size_t bad, Scope& scope) {
-  if (bad > 0)
-    scope.report.lose(entity.place(), std::to_string(bad) + " faces refer to points that the list does not have");
-  if (mesh.faces.empty()) return fail(entity, "the face set has no usable face");
+  if (bad > 0) scope.report.lose(entity.place(), std::to_string(bad) + " faces refer to points outside the list");
+  if (mesh.faces.empty()) return fail(entity, "the face set has no valid face");
   orient(mesh, entity[entity.is("IFCPOLYGONALFACESET") ? 1 : 2].symbol() == "T", scope);
   return mesh;
 }
